@@ -1,1 +1,15 @@
 """What many tests share."""
+
+import pytest
+
+
+@pytest.fixture(scope="module")
+def in_this_process():
+    """Solves of a module in this process, where what it tests is no worker: to start one takes seconds."""
+    from stand import Here
+
+    from compare.solving import runner
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(runner, "_workers", lambda *_: Here())
+        yield

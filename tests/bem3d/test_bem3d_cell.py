@@ -1,7 +1,5 @@
 """Surfaces that repeat: waves against closed forms at rest and in full contact, and the wake that comes round."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -132,16 +130,6 @@ def test_friction_of_a_rough_plane_converges_and_its_disagreement_says_how_far()
     assert fine.measures["friction_disagreement"] < 0.3 * middle.measures["friction_disagreement"]
 
 
-@pytest.mark.parametrize("axis", [0, 1])
-def test_a_shift_by_whole_pixels_shifts_the_answer(axis):
-    surface = RoughSurface.of(ROUGH, ROUGH.q_max(0.0))
-    points = 64
-    along = np.arange(points) * ROUGH.longest / points
-    heights = surface.heights(along, along)
-    x, y = (along + 5 * ROUGH.longest / points if a == axis else along for a in (1, 0))
-    np.testing.assert_allclose(surface.heights(x, y), np.roll(heights, -5, axis), atol=1e-12 * ROUGH.rms_height)
-
-
 def test_one_transform_over_a_period_is_the_sum_of_its_waves():
     surface = RoughSurface.of(ROUGH, ROUGH.q_max(0.0))
     x, y = np.arange(65) * ROUGH.longest / 65 + 1.3e-4, np.arange(64) * ROUGH.longest / 64 - 2e-5
@@ -162,10 +150,3 @@ def test_one_transform_over_a_period_is_the_sum_of_its_waves():
 def test_a_gap_too_wide_or_too_narrow_and_a_touch_on_next_to_no_pixels_are_errors(motion, error, said):
     with pytest.raises(error, match=said):
         BEM(points=64, tolerance=1e-2).solve(pressed(ROUGH, motion))
-
-
-def test_without_a_shortest_wave_the_grid_cuts_off():
-    rough = replace(ROUGH, shortest=None)
-    result = BEM(points=64).solve(pressed(rough, Indent(pressure=1e4)))
-    assert result.settings["cutoff"] == "nyquist"
-    assert result.settings["extent"] == rough.longest

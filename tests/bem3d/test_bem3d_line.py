@@ -1,7 +1,5 @@
 """Line contacts against Hertz, Hunter's closed form and the pressures of a published program."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -11,7 +9,7 @@ from scene import Cylinder, Elastic, Indent, Kelvin, Scene, Slide, StandardLinea
 from scene.scales import elastic_contact
 
 R, MODULUS, TAU, LOAD = 10e-3, 4e6, 1e-3, 10.0
-HALF_WIDTH, PEAK = line_contact.hertz(R, MODULUS, LOAD)
+HALF_WIDTH, _ = line_contact.hertz(R, MODULUS, LOAD)
 ACCURACY = 1e-3  # with 100 points across; measured: 7e-4 at worst
 
 
@@ -57,14 +55,6 @@ def test_sliding_is_hunters(stiffening, ratio):
     assert result.measures["contact_area"] / 2 == pytest.approx(exact.half_width, abs=2 * result.measures["pixel"])
 
 
-@pytest.mark.parametrize(("memory", "peak"), [(0.0, 60.32e6), (9e-3, 78.74e6), (2.0, 85.31e6)])
-def test_peak_pressures_of_the_published_program(memory, peak):
-    # combined radius 50 mm, E_g = 1905 MPa, E_g/E_r = 2, 600 N/mm; memory is v tau_c
-    elastomer = StandardLinearSolid(rubbery_modulus=1905e6 / 8, glassy_modulus=1905e6 / 4, relaxation_time=TAU / 2)
-    scene = Scene(Cylinder(50e-3), elastomer, Slide(speed=memory / TAU, line_load=600e3))
-    assert BEM(points=512).solve(scene).fields["pressure"].max() == pytest.approx(peak, rel=2e-4)
-
-
 def test_friction_converges_with_the_pixel():
     scene = sliding(9.0, 1.0)
     exact = line_contact.sliding(R, MODULUS, 10 * MODULUS, TAU, scene.motion.speed, LOAD).friction_coefficient
@@ -79,18 +69,6 @@ def test_the_three_estimates_of_friction_agree():
     assert one == pytest.approx(two, rel=1e-3)
     assert two == pytest.approx(three, rel=1e-3)
     assert one != two != three
-
-
-def test_answers_scale_exactly_with_the_units():
-    scene, length, force = sliding(9.0, 1.0), 1e-6, 1e9
-    soft, stiff = (getattr(scene.elastomer, f"{name}_modulus") for name in ("rubbery", "glassy"))
-    scale = force / length**2
-    scaled = replace(scene.elastomer, rubbery_modulus=soft * scale, glassy_modulus=stiff * scale)
-    motion = replace(scene.motion, speed=scene.motion.speed * length, line_load=LOAD * force / length)
-    other = BEM(points=64).solve(Scene(Cylinder(R * length), scaled, motion))
-    one = BEM(points=64).solve(scene)
-    assert other.friction_coefficient == pytest.approx(one.friction_coefficient, rel=1e-9)
-    assert other.depth / length == pytest.approx(one.depth, rel=1e-9)
 
 
 def test_a_line_is_solved_in_double_whatever_the_precision_asked_for():

@@ -5,8 +5,10 @@ from functools import cache
 
 import changing_motion as motions
 import numpy as np
+import programs
 import pytest
 from changing_motion import harmonic
+from programs import mirrored, program
 
 import bem3d.timeline
 from bem3d import BEM, marching, upstream
@@ -24,14 +26,12 @@ from scene import (
     Elastic,
     Kelvin,
     Plane,
-    Program,
     Prony,
     Scene,
     SelfAffine,
     Slide,
     SolveError,
     Sphere,
-    Stage,
     StandardLinearSolid,
     Wave,
 )
@@ -46,24 +46,16 @@ WAVE = Wave(amplitude=1e-6, wavelength=1e-3)
 FULL = 5 * full_contact.wave_closure(1e-6, 1e-3, Elastic(5 * G), 0.0)  # far above what closes the wave
 
 
-def program(*stages):
-    return Program(stages=tuple(Stage(**stage) for stage in stages))
+def slid(path, speed=SPEED, **given):
+    return programs.slid(path, speed, **given)
 
 
 def pressed(by="depth", value=DEPTH):
     return {"duration": TAU, by: value}
 
 
-def slid(path, speed=SPEED, **given):
-    return {"duration": abs(path / speed), "speed": np.copysign(speed, path), **given}
-
-
 def solved(motion, elastomer=SOLID, roughness=None, indenter=SPHERE, **settings):
     return BEM(**{"points": 36, "steps": 20} | settings).solve(Scene(indenter, elastomer, motion, roughness))
-
-
-def mirrored(motion):
-    return replace(motion, stages=tuple(replace(stage, speed=-stage.speed) for stage in motion.stages))
 
 
 # Out of the window and back into it, past where it began, and on again; turned within pixels.

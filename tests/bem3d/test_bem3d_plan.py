@@ -1,11 +1,11 @@
 """What a plan says is what a solve builds: kernels counted as they are made, memory as it is held."""
 
-import tracemalloc
 from collections import Counter
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from planned import FACTOR, KELVIN, LOAD, PRONY, SPHERE, STAGES, STANDARD, all_of_a_scene, held_by
 
 from bem3d import BEM, marching
 from bem3d.arrays import as_drawn, of_roughness
@@ -23,7 +23,6 @@ from scene import (
     Cylinder,
     Elastic,
     Indent,
-    Kelvin,
     Layer,
     Measured,
     Plane,
@@ -35,22 +34,15 @@ from scene import (
     Shear,
     Slide,
     SolveError,
-    Sphere,
     Stage,
-    StandardLinearSolid,
     Topography,
     Wave,
 )
 from scene.costs import multiples
-from scene.plan import Kernel
 
-KELVIN = Kelvin(1e6, 1e-3)
-STANDARD = StandardLinearSolid(rubbery_modulus=1e6, glassy_modulus=10e6, relaxation_time=1e-3)
-PRONY = Prony(1e6, (1e6, 2e6, 3e6), (1e-4, 1e-3, 1e-2))
-SPHERE, LOAD, EXTENT = Sphere(radius=10e-3), 0.5, 3e-3
+EXTENT = 3e-3
 ROUGH = SelfAffine(hurst=0.8, rms_height=5e-6, longest=2e-3, shortest=0.25e-3, seed=1)
 CELL = SelfAffine(hurst=0.8, rms_height=2e-6, longest=1e-3, shortest=1.25e-4, seed=1)
-STAGES = Program(stages=(Stage(duration=1e-3, load=LOAD), Stage(duration=1e-3, speed=0.2)))
 MANY = Prony(1e6, (1e6,) * 40, tuple(1e-4 * 1.3**k for k in range(40)))
 FAR = Program(stages=tuple(Stage(duration=1e-2, load=LOAD, speed=way) for way in (1.0, -1.0)))
 BACK = Program(stages=(Stage(duration=1e-3, load=LOAD, speed=1.0), Stage(duration=1e-3, speed=-1.0)))
@@ -102,8 +94,6 @@ SCENES |= {
     ),
 }
 PLANES = SCENES["plane"], SCENES["plane-slide"], SCENES["layer-plane"], SCENES["plane-program"]
-# The arrays that a plan counts are those of its formulas; contacts, and thereby vectors, are of any size.
-FACTOR = 1.5
 
 
 def solver(scene, points=64, **settings):
@@ -189,15 +179,6 @@ def test_a_plan_that_leaves_a_kernel_out_is_found_out(built):
     assert planned(fewer) != of_the_finest(built, plan)
 
 
-def held_by(of, scene):
-    """What it returns, and the most memory that was held meanwhile."""
-    tracemalloc.start()
-    try:
-        return of(scene), tracemalloc.get_traced_memory()[1]
-    finally:
-        tracemalloc.stop()
-
-
 @pytest.mark.parametrize(
     ("name", "points"),
     [
@@ -238,9 +219,7 @@ def test_a_plan_draws_no_surface_and_holds_next_to_nothing(monkeypatch):
 def test_what_is_simulated_and_what_is_left_out_are_all_of_a_scene(name):
     scene = SCENES[name]
     plan = solver(scene).plan(scene)
-    assert list(plan.terms) == list(scene.parts)
-    assert {"roughness", "layer", "temperature", "heating", "interface"} - set(scene.parts) <= set(plan.left_out)
-    assert not set(plan.terms) & set(plan.left_out)
+    assert all_of_a_scene(plan, scene)
     assert ("measured surface" in plan.left_out) == (name not in ("topography", "measured"))
 
 
@@ -326,24 +305,6 @@ def test_a_march_evaluates_heights_once_at_each_place_within_a_pixel(monkeypatch
     assert len(evaluated) <= kept + 4  # the last two steps are out of line
     monkeypatch.setattr(marching, "KEPT", 0)
     assert marching.places(program, Grid(32, EXTENT), 40) == 2
-
-
-def test_a_program_of_many_stages_is_said_in_one_line():
-    stages = [Stage(duration=1e-3, load=LOAD, speed=0.1 * (-1) ** k) for k in range(50)]
-    plan = BEM(points=64, extent=EXTENT).plan(Scene(SPHERE, STANDARD, Program(stages=tuple(stages))))
-    assert plan.terms["motion"] == (
-        "Program(50 stages, 0.05 s, path 0.005 m, speed -0.1 to 0.1 m/s, load up to 0.5 N)"
-    )
-    assert "reversal" not in plan.left_out
-    assert "oscillation" in plan.left_out
-    said = solver(SCENES["program"]).plan(SCENES["program"]).left_out
-    assert said["reversal"] == "nothing is kept of what is left behind"
-
-
-def test_columns_of_a_printed_plan_stay_apart_however_long_the_names():
-    plan = solver(SCENES["rest"]).plan(SCENES["rest"])
-    long = replace(plan, kernels=(Kernel("a name that is as long as it may be, and longer", "kernel", (1,)),))
-    assert "longer kernel, 1" in str(long)
 
 
 @pytest.mark.parametrize(

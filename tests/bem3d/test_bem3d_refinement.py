@@ -104,7 +104,14 @@ ANSWERED = {
 COUNTS = ("operator_applications", "rounds", "transform_pairs", "seconds", "residual")  # the price, not the answer
 
 
-@pytest.mark.parametrize("name", ANSWERED)
+# Effects of which another one of the kind is quick.
+LONG = {"heating that acts back", "arrhenius", "shear, by a displacement", "shear, uncoupled", "measured line"}
+LONG |= {"rough, slow", "layer, frictionless"}
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=pytest.mark.slow if name in LONG else ()) for name in ANSWERED]
+)
 def test_whatever_a_scene_is_made_of_refined_answers_as_a_grid_of_as_many_points(name):
     scene = ANSWERED[name]
     given, whole = COARSE.solve(scene), FINE.solve(scene)

@@ -132,20 +132,6 @@ def test_rough_sphere_settles_as_the_pixel_shrinks(speed):
     assert mu[1] == pytest.approx(mu[2], rel=0.02)
 
 
-def test_answers_scale_exactly_with_the_units():
-    length, force = 1e-6, 1e9
-    scene = Scene(Sphere(R), Kelvin(G, TAU), Slide(speed=1.0, load=1.0), ROUGH)
-    other = Scene(
-        Sphere(R * length),
-        Kelvin(G * force / length**2, TAU),
-        Slide(speed=length, load=force),
-        replace(ROUGH, rms_height=5e-5 * length, longest=1e-2 * length, shortest=1e-3 * length),
-    )
-    a, b = BEM(points=48).solve(scene), BEM(points=48).solve(other)
-    assert b.friction_coefficient == pytest.approx(a.friction_coefficient, rel=1e-6)
-    assert b.depth / length == pytest.approx(a.depth, rel=1e-6)
-
-
 def test_roughness_of_no_height_is_no_roughness():
     smooth = BEM(points=48).solve(sphere_at(1.0))
     flat = BEM(points=48).solve(sphere_at(1.0, roughness=replace(ROUGH, rms_height=0.0)))

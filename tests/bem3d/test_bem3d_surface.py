@@ -109,11 +109,6 @@ def test_a_higher_cut_off_adds_detail_to_the_same_surface(amplitudes):
     )
 
 
-def test_another_seed_is_another_surface():
-    x = np.linspace(0, L, 5)
-    assert not np.allclose(draw(rough(seed=1)).heights(x, x), draw(rough(seed=2)).heights(x, x))
-
-
 def test_heights_over_many_gaussian_surfaces_are_gaussian():
     x = np.arange(4) * L / 4
     surfaces = [draw(rough(seed=s, amplitudes="gaussian", shortest=L / 6)) for s in range(600)]

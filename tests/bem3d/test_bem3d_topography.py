@@ -5,6 +5,7 @@ from math import pi
 
 import numpy as np
 import pytest
+from maps import sampled
 
 import scene.topography
 from bem3d import BEM
@@ -41,14 +42,6 @@ ROUNDING = 1e-12  # of heights that differ by rounding, through a solve of the s
 BALL = Sphere(1e-2)
 PRESSED = Scene(Plane(), SOLID, Slide(speed=0.1, pressure=2e4), ROUGH)
 SLIDING = Scene(BALL, SOLID, Slide(speed=0.1, load=0.1), replace(ROUGH, longest=4 * L, shortest=L / 2))
-
-
-def sampled(rough, points, **other):
-    """A map of one period as an instrument might give it: heights at the pixels of a grid."""
-    grid = Grid(points, rough.longest)
-    heights = RoughSurface.of(rough, rough.q_max(0.0)).heights(grid.x, grid.y)
-    stated = {"pixel": grid.pixel, "peaks": "down", "level": "mean", "repeat": "periodic"}
-    return Topography(heights=heights, **(stated | other))
 
 
 def same(one, other, rel):

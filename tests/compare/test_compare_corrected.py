@@ -8,6 +8,7 @@ import pytest
 
 from bem3d import BEM
 from compare import CorrectedMDR
+from compare.solving import vocabulary
 from compare.solving.task import SceneTask, draws_of
 from compare.statistics.intervals import student
 from compare.trustmap import corrected

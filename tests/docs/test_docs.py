@@ -4,7 +4,6 @@ import inspect
 import re
 import shutil
 import sys
-from itertools import pairwise
 from pathlib import Path
 
 import matplotlib
@@ -116,15 +115,6 @@ def test_shifts_bring_1d_together_and_are_not_known_in_3d(shown):
     assert "overlap" in names["found"]["BEM"].horizontal.reason
 
 
-def test_every_page_of_the_gallery_is_shown_and_tested():
-    pages = {page.stem for page in GALLERY.glob("*.md")} - {"index"}
-    listed = re.findall(r"```\{(?:thumbnails|toctree)\}\n(.*?)```", (GALLERY / "index.md").read_text(), re.DOTALL)
-    tested = set(re.findall(r'shown\("(\w+)"\)', Path(__file__).read_text(encoding="utf-8")))
-    for each in listed:
-        assert {line for line in each.split() if not line.startswith(":")} == pages
-    assert tested == pages
-
-
 @pytest.mark.slow
 def test_the_examples_in_python_print_what_they_say(capsys, tmp_path, monkeypatch):
     whole, second, third, first, others = PYTHON.findall(
@@ -206,12 +196,6 @@ def test_the_page_on_the_command_has_every_command_and_function():
     assert {function for _, function in table} == functions - {"solve", "friction_plot"}
 
 
-def test_the_readme_lists_every_command():
-    page = (ROOT / "README.md").read_text(encoding="utf-8")
-    table = re.search(r"^\| Command .*?\n\n", page, re.DOTALL | re.MULTILINE)
-    assert {each.title for each in COMMANDS} <= set(re.findall(r"`(\w+)[^`]*`", table[0]))
-
-
 def test_the_example_of_the_page_on_figures_draws_in_the_style_it_states(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     Path("mine.mplstyle").write_text("lines.linewidth: 3.5", encoding="utf-8")
@@ -231,27 +215,6 @@ def test_the_example_of_the_page_on_figures_draws_in_the_style_it_states(tmp_pat
     assert [line.get_linewidth() for line in lines] == [3.5, 3.5]
     assert [line.get_color() for line in lines] == ["#117733", "#AA4499"]
     assert Path("friction.pdf").stat().st_size > 1000
-
-
-def test_no_caption_of_the_pages_has_more_than_sixty_words():
-    captions = {}
-    for path in DOCS.rglob("*.md"):
-        blocks = path.read_text(encoding="utf-8").split("\n\n")
-        for figure, caption in pairwise(blocks):
-            if figure.startswith("!["):
-                captions[path.name, figure] = re.sub(r" Data: \[.*", "", caption, flags=re.DOTALL)
-    assert len(captions) > 30
-    assert [name for name, caption in captions.items() if len(caption.split()) > 60] == []
-
-
-def test_no_example_of_the_pages_is_left_out():
-    """Pages whose examples no test above or elsewhere runs have none."""
-    run_here = {"command.md", "figures.md", "index.md", "promises.md", "python.md", "scenes.md"}
-    # test_effects_example.py, test_compare_regression.py, test_compare_models.py, test_verify_peers.py
-    elsewhere = {"extending.md", "regression.md", "models.md", "verify.md"}
-    assert {page.name for page in DOCS.rglob("*.md") if PYTHON.search(page.read_text(encoding="utf-8"))} <= (
-        run_here | elsewhere
-    )
 
 
 def test_numbers_of_equations_in_the_text_are_equations():

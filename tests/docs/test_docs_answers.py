@@ -28,7 +28,6 @@ from scene import (
 )
 
 ROOT = Path(__file__).parents[2]
-MOST_WORDS = 900
 ROUGH = SelfAffine(hurst=0.7, rms_height=2e-5, longest=1e-2, shortest=2e-3)
 LINE = 1e-6 * np.random.default_rng(2).normal(size=300).cumsum()
 HEIGHTS = [[1e-6 * (k * m % 5) for k in range(16)] for m in range(16)]
@@ -80,13 +79,6 @@ def test_errors_are_told_as_measured_and_those_without_the_scatter_of_the_truth_
     for text, errors in ((told, used.errors), (beside, used.own)):
         found = [float(each) for each in re.findall(r"([\d.]+) %", text)]
         assert found == pytest.approx(100 * np.quantile(np.abs(errors), (0.5, 0.9)), abs=0.05)
-
-
-def test_the_readme_is_short():
-    """Words, those of code and tables included: where a letter or a digit stands between blanks."""
-    text = (ROOT / "README.md").read_text(encoding="utf-8")
-    shown = re.sub(r"<!--.*?-->|\]\([^)]*\)", "", text)
-    assert len([word for word in shown.split() if re.search(r"\w", word)]) <= MOST_WORDS
 
 
 @pytest.mark.parametrize("row", OF_ROW)

@@ -30,13 +30,6 @@ def test_commands_print_what_the_page_shows(page):
         assert MEASURED.sub("", block[2]).strip() == MEASURED.sub("", output).strip()
 
 
-def test_every_page_shows_a_command_and_every_file_is_shown():
-    texts = {page.stem: page.read_text(encoding="utf-8") for page in PAGES}
-    index = texts.pop("index")
-    assert all(f"]({name}.md)" in index and "```sh\ncrosscheck " in text for name, text in texts.items())
-    assert all(any(f"`{name}`" in text for text in texts.values()) for name in yourdata.FILES)
-
-
 REFERENCE = yourdata.FOLDER.parents[1] / "reference"
 COLUMNS = {"rubber": modulinames.COLUMNS, "friction": measuredfriction.COLUMNS}
 ROW = re.compile(r"^\| [^|]+ \| (`.*`) \| ([^`|]*)\|$", re.MULTILINE)

@@ -38,11 +38,6 @@ def test_every_part_that_a_scene_may_lack_is_asked_for():
     assert Program in {type(effect.scene.motion) for effect in effects()}
 
 
-def test_an_effect_comes_on_top_of_one_before_it():
-    for place, effect in enumerate(effects()):
-        assert effect.over is None or effect.over in TITLES[:place]
-
-
 def test_plans_know_the_costs_of_every_part_that_the_solver_has():
     known = {
         BEM: (bem3d.plan.PRICED, bem3d.plan.EFFECTS),
@@ -57,16 +52,6 @@ def test_plans_know_the_costs_of_every_part_that_the_solver_has():
                 continue
             found = multiples(table)[kind.__name__]
             assert all(found[cost] > 0 for cost in COSTS), kind
-
-
-def test_a_temperature_alone_costs_next_to_nothing_and_feedback_is_no_part_of_the_table():
-    # a shift changes how fast the contact slides for its solid, and with that how many applications it takes
-    for table in (bem3d.plan.EFFECTS, mdr1d.plan.EFFECTS):
-        with table.open(encoding="utf-8") as file:
-            names = [row["part"] for row in csv.DictReader(file)]
-        assert len(names) == len(set(names))
-        for name in ("WLF", "Heating", "Coulomb"):
-            assert 0.5 < multiples(table)[name]["operator_applications"] < 1.5
 
 
 @pytest.mark.parametrize(("dimension", "table"), [("3D", bem3d.plan.EFFECTS), ("1D", mdr1d.plan.EFFECTS)])

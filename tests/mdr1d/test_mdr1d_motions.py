@@ -1,42 +1,35 @@
 """An indenter that turns back, changes its speed, comes in at an angle and oscillates over a foundation."""
 
-from dataclasses import replace
 from decimal import Decimal
 
 import changing_motion as motions
 import numpy as np
+import programs
 import pytest
 from changing_motion import harmonic
+from programs import mirrored, program
 from solids import BALL, CYCLES, KELVIN, ROUGH, ROUNDING, SOLID, SOLIDS
 
 import mdr1d.timeline
 from mdr1d import MDR, marching
 from mdr1d.timeline import timeline
-from scene import Elastic, Kelvin, Program, Prony, Scene, Slide, SolveError, Stage, StandardLinearSolid
+from scene import Elastic, Kelvin, Prony, Scene, Slide, SolveError, StandardLinearSolid
 
 DEPTH, SPEED = 0.1, 0.3
 A = np.sqrt(DEPTH)  # of the contact
 
 
-def program(*stages):
-    return Program(stages=tuple(Stage(**stage) for stage in stages))
+def slid(path, speed=SPEED, **given):
+    return programs.slid(path, speed, **given)
 
 
 def pressed(by="depth"):
     return {"duration": 1.0, by: DEPTH}
 
 
-def slid(path, speed=SPEED, **given):
-    return {"duration": abs(path / speed), "speed": np.copysign(speed, path), **given}
-
-
 def solved(motion, elastomer=SOLID, roughness=None, **settings):
     settings = {"points": 200, "extent": 1.0, "steps": 50} | settings
     return MDR(**settings).solve(Scene(BALL, elastomer, motion, roughness))
-
-
-def mirrored(motion):
-    return replace(motion, stages=tuple(replace(stage, speed=-stage.speed) for stage in motion.stages))
 
 
 # Out of the grid and back into it, past where it began, and on again; turned within pixels, which are 0.005.

@@ -1,10 +1,10 @@
 """What a plan of one dimension says: sweeps and steps along a foundation, and nothing that a scene lacks."""
 
-import tracemalloc
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from planned import FACTOR, KELVIN, LOAD, PRONY, SPHERE, STAGES, STANDARD, all_of_a_scene, held_by
 
 from bem3d.surface import RoughSurface
 from mdr1d import MDR
@@ -15,7 +15,6 @@ from scene import (
     Elastic,
     Heating,
     Indent,
-    Kelvin,
     Layer,
     Plane,
     Program,
@@ -25,20 +24,13 @@ from scene import (
     SelfAffine,
     Shear,
     Slide,
-    Sphere,
     Stage,
-    StandardLinearSolid,
     Topography,
 )
 from scene.costs import multiples
 
-KELVIN = Kelvin(1e6, 1e-3)
-STANDARD = StandardLinearSolid(rubbery_modulus=1e6, glassy_modulus=10e6, relaxation_time=1e-3)
-PRONY = Prony(1e6, (1e6, 2e6, 3e6), (1e-4, 1e-3, 1e-2))
 MANY = Prony(1e6, (1e6,) * 16, tuple(1e-5 * 2.0**k for k in range(16)))
-SPHERE, LOAD = Sphere(radius=10e-3), 0.5
 ROUGH = SelfAffine(hurst=0.2, rms_height=5e-6, longest=10e-3, shortest=0.5e-3, seed=1)
-STAGES = Program(stages=(Stage(duration=1e-3, load=LOAD), Stage(duration=1e-3, speed=0.2)))
 DEPTHS = Program(stages=(Stage(duration=1e-3, depth=1e-4), Stage(duration=1e-3, speed=0.2)))
 BACK = Program(stages=tuple(Stage(duration=1e-2, depth=1e-4, speed=way) for way in (1.0, -1.0)))
 MAXWELL = Prony(1e6, (1e6,) * 40, tuple(1e-5 * 1.3**k for k in range(40)))
@@ -64,7 +56,6 @@ SCENES |= {
     "shear": replace(SCENES["rest"], motion=Shear(load=LOAD, displacement=1e-5), interface=Coulomb(0.3)),
     "topography": replace(SCENES["rough"], roughness=MAP),
 }
-FACTOR = 1.5  # the formulas count arrays; copies within an expression come and go
 
 
 @pytest.mark.parametrize("name", SCENES)
@@ -100,12 +91,7 @@ def test_the_memory_of_a_plan_is_what_a_solve_holds_at_most(name, points):
     MDR(points=500, steps=5).solve(scene)  # what is loaded once is no part of it
     if scene.roughness is not None:
         scene = replace(scene, roughness=replace(scene.roughness, seed=2))  # a line is kept once drawn
-    tracemalloc.start()
-    try:
-        asked.solve(scene)
-        _, most = tracemalloc.get_traced_memory()
-    finally:
-        tracemalloc.stop()
+    _, most = held_by(asked.solve, scene)
     assert most / FACTOR < asked.plan(scene).memory < most * FACTOR
 
 
@@ -113,9 +99,7 @@ def test_the_memory_of_a_plan_is_what_a_solve_holds_at_most(name, points):
 def test_what_is_simulated_and_what_is_left_out_are_all_of_a_scene(name):
     scene = SCENES[name]
     plan = MDR().plan(scene)
-    assert list(plan.terms) == list(scene.parts)
-    assert {"roughness", "layer", "temperature", "heating", "interface"} - set(scene.parts) <= set(plan.left_out)
-    assert not set(plan.terms) & set(plan.left_out)
+    assert all_of_a_scene(plan, scene)
     assert ("measured surface" in plan.left_out) == (name != "topography")
 
 

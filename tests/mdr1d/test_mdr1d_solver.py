@@ -28,36 +28,6 @@ from scene import (
     Wave,
 )
 
-ROUNDING = 1e-11
-
-
-def test_a_result_says_what_it_was_solved_with():
-    result = MDR(points=500).solve(PAPER)
-    assert result.solver == MDR().name == "MDR"
-    assert result.scene is PAPER
-    grid = {"points": 500, "extent": 4e-3, "pixel": 8e-6, "cutoff": "nyquist"}
-    assert result.settings == grid | {"shape": "mapped", "spectrum": "mapped"}
-    assert result.residual <= 1e-10
-    assert result.normal_force == pytest.approx(1.0, rel=1e-10)
-    assert 1 <= result.operator_applications <= 20
-    assert result.seconds >= 0
-    measures = result.measures
-    assert measures["pixel"] == 8e-6
-    assert measures["points_per_shortest_wave"] == pytest.approx(2.0)
-    assert measures["rms_height"] == pytest.approx(5e-6)
-    assert measures["rms_slope"] < measures["rms_slope_spectral"]
-    assert 0 < measures["contact_fraction"] <= 1
-    assert measures["contact_length"] <= measures["points_across_contact"] * 8e-6 * (1 + ROUNDING)
-    assert all(isinstance(value, float) for value in measures.values())
-    fields = result.fields
-    assert set(fields) == {"x", "profile", "displacement", "contact", "line_force"}
-    assert {field.shape for field in fields.values()} == {(501,)}
-    assert fields["x"][250] == 0
-    contact = fields["contact"]
-    np.testing.assert_allclose(
-        fields["displacement"][contact], result.depth - fields["profile"][contact], atol=1e-15
-    )
-
 
 def test_smooth_and_resolved_scenes_say_so():
     smooth, resolved = MDR().solve(SMOOTH), MDR().solve(ROUGH)

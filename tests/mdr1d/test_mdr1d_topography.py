@@ -2,13 +2,13 @@
 
 from dataclasses import replace
 
+import maps
 import numpy as np
 import pytest
 
 import mdr1d.topography
 import scene.topography
 from bem3d.grid import Grid
-from bem3d.surface import RoughSurface
 from mdr1d import MDR, draw
 from mdr1d.surface import band_of
 from mdr1d.topography import amplitudes
@@ -22,10 +22,7 @@ SLIDING = Scene(Sphere(1e-2), Kelvin(1e6, 1e-3), Slide(speed=0.1, load=1.0))
 
 
 def sampled(rough=ROUGH, points=64, **other):
-    grid = Grid(points, rough.longest)
-    heights = RoughSurface.of(rough, rough.q_max(0.0)).heights(grid.x, grid.y)
-    stated = {"pixel": grid.pixel, "peaks": "down", "level": "mean", "repeat": "periodic"}
-    return Topography(heights=heights, **(stated | other))
+    return maps.sampled(rough, points, **other)
 
 
 def noise(shape, **other):

@@ -1,40 +1,55 @@
 """Mutations: small wrong changes of the solvers and statistics, each of which a test has to notice.
 
-`python tests/mutation/mutations.py draw` writes the sixty of the seed to sixty.json. `run [--slow] [NUMBER ...]`
-applies each to a copy of the tree and runs the tests there: those about what is changed first, then all.
+`python tests/mutation/mutations.py [--seed SEED] [--slow] [NUMBER ...]` draws sixty from the code as it stands.
+The same seed and code give the same sixty. Each is applied to a copy of the tree, whose tests run: those about
+what is changed first, then all.
 """
 
 import argparse
 import ast
 import copy
-import json
 import os
 import random
 import shutil
 import subprocess
 import sys
 import tempfile
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 PLACES = ("scene", "mdr1d", "bem3d", "compare/statistics")
 KINDS = ("sign", "factor", "index", "boundary", "off by one", "dropped term")
 SEED, EACH = 20261123, 10
-DRAWN = Path(__file__).with_name("sixty.json")
 SIGNS = {ast.Add: ast.Sub, ast.Sub: ast.Add}
 FACTORS = {ast.Mult: ast.Div, ast.Div: ast.Mult}
 BOUNDS = {ast.Lt: ast.LtE, ast.LtE: ast.Lt, ast.Gt: ast.GtE, ast.GtE: ast.Gt}
 
-# Those of the sixty that no test can see, and why.
+# Changes that no test can see, by their file, what stood there and what stands there then; and why.
 EQUIVALENT = {
-    16: "an overlap below rounding of the heights, 1e-12 or 2e-12 of them, is none",
-    18: "rounds the bracket of a root outwards or inwards by the last digit; Newton's steps end inside either",
-    31: "at u = 0 both branches carry no displacement",
-    35: "at the tie both branches return the same instant",
-    36: "the loop around it runs only where the way is not 0",
-    39: "the bracket closes off the load only where a dashpot makes the force jump",
-    49: "the last node is a margin that no contact reaches",
+    ("bem3d/marching.py", "1e-12", "(2e-12)"): "an overlap below rounding of the heights is none",
+    (
+        "scene/interconversion.py",
+        "low * (1 + _ROUNDING)",
+        "(low / (1 + _ROUNDING))",
+    ): "rounds the bracket of a root by the last digit; Newton's steps end inside either",
+    ("mdr1d/maxwell.py", "u > 0.0", "(u >= 0.0)"): "at u = 0 both branches carry no displacement",
+    (
+        "mdr1d/foundation.py",
+        "t + step >= closest",
+        "(t + step > closest)",
+    ): "at the tie both branches return the same instant",
+    ("bem3d/upstream.py", "way > 0", "(way >= 0)"): "the loop around it runs only where the way is not 0",
+    (
+        "mdr1d/elements.py",
+        "solid.drag > 0.0",
+        "(solid.drag >= 0.0)",
+    ): "the bracket closes off the load only where a dashpot makes the force jump",
+    (
+        "mdr1d/foundation.py",
+        "2 * half[s] + 1",
+        "(2 * half[s])",
+    ): "the last node is a margin that no contact reaches",
 }
 
 
@@ -114,7 +129,7 @@ def mutations(path):
             yield Mutation(kind, path.relative_to(ROOT).as_posix(), node.lineno, before, text)
 
 
-def draw(seed=SEED, each=EACH):
+def draw(seed, each=EACH):
     """So many changes of each kind, the places in turn, no two of them on one line."""
     chance = random.Random(seed)
     every = [each for place in PLACES for path in sorted((ROOT / place).rglob("*.py")) for each in mutations(path)]
@@ -136,7 +151,7 @@ def near(mutation):
     """Test files about the place of a change."""
     package = mutation.path.partition("/")[0]
     word = Path(mutation.path).stem if package == "compare" else package
-    files = sorted((ROOT / "tests").glob("test_*.py"))
+    files = sorted((ROOT / "tests").rglob("test_*.py"))
     if package == "compare":
         return [str(path) for path in files if f"statistics.{word}" in path.read_text() or word in path.name]
     return [str(path) for path in files if word in path.name]
@@ -164,18 +179,16 @@ def caught(mutation, slow):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("what", choices=("draw", "run"))
-    parser.add_argument("numbers", type=int, nargs="*")
+    parser.add_argument("numbers", type=int, nargs="*", help="which of the sixty, from 0; all without any")
+    parser.add_argument("--seed", type=int, default=SEED)
     parser.add_argument("--slow", action="store_true", help="with the tests that are marked slow")
     given = parser.parse_args()
-    if given.what == "draw":
-        DRAWN.write_text(json.dumps([asdict(each) for each in draw()], indent=1) + "\n", encoding="utf-8")
-        return
-    chosen = [Mutation(**each) for each in json.loads(DRAWN.read_text(encoding="utf-8"))]
+    chosen = draw(given.seed)
     for number in given.numbers or range(len(chosen)):
         one = chosen[number]
         print(f"{number:2d} {one.kind:12s} {one.path}:{one.line}: {one.before!r} -> {one.text!r}", flush=True)
-        print(f"   {caught(one, given.slow) or 'survives: ' + EQUIVALENT.get(number, 'WHY?')}", flush=True)
+        why = EQUIVALENT.get((one.path, one.before, one.text), "WHY?")
+        print(f"   {caught(one, given.slow) or f'survives: {why}'}", flush=True)
 
 
 if __name__ == "__main__":

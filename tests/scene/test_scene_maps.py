@@ -12,6 +12,7 @@ import pytest
 import xarray
 from hypothesis import given
 from hypothesis import strategies as st
+from maps import noise, says
 from pydantic import TypeAdapter, ValidationError
 from scipy.io import savemat
 from strategies import examples
@@ -24,14 +25,6 @@ from scene.reading import InvalidInput, read
 
 DIGITS = 1e-12  # what layouts with 15 digits keep
 NAN = np.nan
-
-
-def drawn(shape, seed=0):
-    return np.random.default_rng(seed).normal(size=shape)
-
-
-def says(error):
-    return " ".join(str(error.value).split())
 
 
 def text(numbers, separator=";", decimal="."):
@@ -70,11 +63,7 @@ UM = {"unit": "um"}
 # A text of heights and a pixel in um, and what it does not state.
 LAYOUTS = {
     "rows": (lambda h, p: text(h), ROWS),
-    "rows parted by commas, a separator at each end": (lambda h, p: text(h, ",").replace("\n", ",\n"), ROWS),
-    "rows parted by blanks": (lambda h, p: text(h, "  "), ROWS),
-    "decimal commas": (lambda h, p: text(h, ";", ","), ROWS),
     "decimal commas and tabs": (lambda h, p: text(h, "\t", ","), ROWS),
-    "a blank line after each row": (lambda h, p: text(h).replace("\n", "\n\n"), ROWS),
     "Gwyddion": (gwyddion, {}),
     "Gwyddion in German": (
         lambda h, p: (
@@ -113,9 +102,7 @@ LAYOUTS = {
         {"pixel": "stated"},
     ),
     "axes": (with_axes, UM),
-    "axes with a word": (lambda h, p: with_axes(h, p, "y \\ x"), UM),
     "axes with a unit": (lambda h, p: with_axes(h * 1e3, p, "y [um]"), {"unit": "nm"}),
-    "axes with nothing but a unit": (lambda h, p: with_axes(h * 1e3, p, "um"), {"unit": "nm"}),
     "axes with two words": (lambda h, p: with_axes(h, p, "y/x"), UM),
     "falling axes": (lambda h, p: with_axes(h[::-1, ::-1], (-p[0], -p[1])), UM),
     "points": (lambda h, p: text(points(h, p)), UM),
@@ -136,7 +123,7 @@ LAYOUTS = {
 @given(seed=st.integers(0, 10**6), rows=st.integers(4, 12), columns=st.integers(4, 12))
 @examples(5)
 def test_a_map_is_the_same_in_every_layout(tmp_path_factory, layout, seed, rows, columns):
-    heights, (write, stated) = drawn((rows, columns), seed), LAYOUTS[layout]
+    heights, (write, stated) = noise((rows, columns), seed), LAYOUTS[layout]
     pixel = tuple(np.random.default_rng(seed).uniform(0.1, 3.0, 2).round(3))
     path = tmp_path_factory.getbasetemp() / "map.txt"
     path.write_text(write(heights, pixel))
@@ -186,7 +173,7 @@ ARRAYS = {
 
 @pytest.mark.parametrize("kind", ARRAYS)
 def test_a_map_is_the_same_in_every_library(kind):
-    heights = 1e-6 * drawn((5, 7))
+    heights = 1e-6 * noise((5, 7))
     found = Topography(**ARRAYS[kind](heights))
     np.testing.assert_allclose(found.heights.heights, heights, rtol=DIGITS)
     np.testing.assert_allclose(found.pixel, PIXEL, rtol=1e-9)
@@ -202,7 +189,7 @@ def written(tmp_path, content, name="map.txt"):
 
 
 def test_channels_are_never_joined(tmp_path):
-    height, phase = drawn((5, 6)), drawn((5, 6), seed=1)
+    height, phase = noise((5, 6)), noise((5, 6), seed=1)
     file = written(
         tmp_path,
         gwyddion(height, (1, 1)) + "\n" + gwyddion(phase, (1, 1), "Phase").replace("units: um", "units: deg"),
@@ -233,7 +220,7 @@ def test_channels_are_never_joined(tmp_path):
 
 
 def test_what_a_file_states_may_be_stated_again_and_not_otherwise(tmp_path):
-    file = written(tmp_path, gwyddion(drawn((4, 5)), (2.0, 3.0)))
+    file = written(tmp_path, gwyddion(noise((4, 5)), (2.0, 3.0)))
     found, again = Topography(file=file), Topography(file=file, pixel=("2 um", "3 um"), unit="um")
     assert again.heights == found.heights
     assert again.pixel == pytest.approx(found.pixel, rel=1e-12)
@@ -247,74 +234,64 @@ def test_what_a_file_states_may_be_stated_again_and_not_otherwise(tmp_path):
 
 WRONG = {
     "a profile": ("1\n2\n3\n4\n5\n", 'line 1: 1 column of numbers, .* the type = "profile"'),
-    "a profile of x and z": (text(drawn((9, 2))), 'type = "profile"'),
+    "a profile of x and z": (text(noise((9, 2))), 'type = "profile"'),
     "points on a line": (
-        text(np.column_stack([np.arange(9), np.ones(9), drawn(9)])),
+        text(np.column_stack([np.arange(9), np.ones(9), noise(9)])),
         'all y are 1.*type = "profile"',
     ),
-    "scattered points": (text(drawn((200, 3))), "is on no lattice"),
+    "scattered points": (text(noise((200, 3))), "is on no lattice"),
     "a point off its place": (
-        text(points(drawn((5, 5)), (1, 1)) + np.where(np.arange(75) == 33, 0.2, 0).reshape(25, 3)),
+        text(points(noise((5, 5)), (1, 1)) + np.where(np.arange(75) == 33, 0.2, 0).reshape(25, 3)),
         "line 12: x = 2.2",
     ),
     "points on a diagonal": (text(np.repeat(np.arange(30.0), 3).reshape(30, 3)), "30 points on 30 x 30 places"),
     "a place twice": (
-        text(np.vstack([points(drawn((5, 5)), (1, 1)), [2, 3, 0.5]])),
+        text(np.vstack([points(noise((5, 5)), (1, 1)), [2, 3, 0.5]])),
         "line 26: a second height at x = 2, y = 3",
     ),
-    "no place": ("x;y;z\n" + text([[1, NAN, 2], *points(drawn((5, 5)), (1, 1))]), "line 2: a point needs x and y"),
-    "another width": ("1 2 3\n" + text(drawn((5, 5)), " "), "line 1: 3 columns, and other rows have 5"),
-    "a longer row": (text(drawn((5, 5))) + "1;2;3;4;5;6\n", "line 6: 6 columns, and other rows have 5"),
+    "no place": ("x;y;z\n" + text([[1, NAN, 2], *points(noise((5, 5)), (1, 1))]), "line 2: a point needs x and y"),
     "a first row of numbers that count": (
-        text(np.vstack([np.arange(8), drawn((6, 8))])),
+        text(np.vstack([np.arange(8), noise((6, 8))])),
         "line 1: the first row, 0, 1, 2 .* as coordinates",
     ),
     "a first column of numbers that count": (
-        text(np.column_stack([np.arange(8), drawn((8, 6))])),
+        text(np.column_stack([np.arange(8), noise((8, 6))])),
         "the first column, 0, 1, 2",
     ),
     "axes beside a number": (
-        with_axes(drawn((8, 8)), (1, 2), "0"),
+        with_axes(noise((8, 8)), (1, 2), "0"),
         "the first row, 0, 3, 4 and so on, is evenly spaced",
     ),
     "points with a number each and no heading": (
-        text(np.column_stack([points(drawn((6, 5)), (1, 2)), drawn(30)])),
+        text(np.column_stack([points(noise((6, 5)), (1, 2)), noise(30)])),
         "columns 1 and 2 are places on a lattice: write a heading",
     ),
     "points that are counted, and no heading": (
-        text(np.column_stack([np.arange(30), points(drawn((6, 5)), (1, 2))])),
+        text(np.column_stack([np.arange(30), points(noise((6, 5)), (1, 2))])),
         "columns 2 and 3 are places on a lattice: write a heading",
     ),
     "a side twice": (
-        "X axis\nSpacing: 1 um\nY axis\nSpacing: 2 um\n\n" + text(drawn((5, 5))),
+        "X axis\nSpacing: 1 um\nY axis\nSpacing: 2 um\n\n" + text(noise((5, 5))),
         "'Spacing: 2 um' is another spacing than above",
     ),
-    "units in a sentence": ("data in mm\n" + text(drawn((5, 5))), "unit = 'um': .*map.txt speaks of mm above"),
-    "a unit of another language": (
-        "# Einheit: m\n" + text(drawn((5, 5))),
-        "unit = 'um': .*map.txt speaks of m ab",
-    ),
-    "units of points in a sentence": (
-        "# places in mm, z in um\n" + text(points(drawn((5, 5)), (1, 1))),
-        "unit = 'um': .* speaks of mm above",
-    ),
+    "units in a sentence": ("data in mm\n" + text(noise((5, 5))), "unit = 'um': .*map.txt speaks of mm above"),
     "a line that is neither": (
-        with_axes(drawn((5, 5)), (1, 1), "[um]"),
+        with_axes(noise((5, 5)), (1, 1), "[um]"),
         r"line 1: '\[um\];3.*is neither a row of",
     ),
     "uneven axes": (
-        with_axes(drawn((5, 5)), (1, 1), "y").replace("5.0000", "5.3000", 1),
+        with_axes(noise((5, 5)), (1, 1), "y").replace("5.0000", "5.3000", 1),
         "first row .*: coordinates = 5.3 is on no lattice",
     ),
     "sides that contradict": (
-        "Width: 10 um\nPixel size: 3 um\n\n" + text(drawn((5, 5))),
+        "Width: 10 um\nPixel size: 3 um\n\n" + text(noise((5, 5))),
         "pixels of 3e-06 m and a size of 1e-05 m",
     ),
     "axes that contradict": (
-        "Width: 10 um\n" + with_axes(drawn((5, 5)), (1, 1), "y [um]"),
+        "Width: 10 um\n" + with_axes(noise((5, 5)), (1, 1), "y [um]"),
         "states pixels of 2e-06 m, and its axes lie 1e-06 m",
     ),
-    "a unit of nothing": ("Width: 10 ell\n\n" + text(drawn((5, 5))), "'Width: 10 ell'"),
+    "a unit of nothing": ("Width: 10 ell\n\n" + text(noise((5, 5))), "'Width: 10 ell'"),
 }
 
 
@@ -337,7 +314,7 @@ def test_a_plane_is_heights_and_no_axes(tmp_path):
 
 
 def test_axes_that_count_state_no_pixel(tmp_path):
-    heights, frame = drawn((5, 6)), StringIO()
+    heights, frame = noise((5, 6)), StringIO()
     pandas.DataFrame(heights).to_csv(frame)
     file = written(tmp_path, frame.getvalue(), "map.csv")
     with pytest.raises(ValidationError, match=r"does not state the side of a pixel"):
@@ -347,7 +324,7 @@ def test_axes_that_count_state_no_pixel(tmp_path):
 
 
 def test_a_point_that_is_missing_is_a_missing_height(tmp_path):
-    heights = drawn((9, 9))
+    heights = noise((9, 9))
     file = written(tmp_path, text(points(heights, (1, 1), keep=np.arange(81) != 40)))
     with pytest.raises(ValidationError, match=r"heights\[4\]\[4\] = nan.* 1 pixel has no height, 1.23 % of 81"):
         Topography(file=file, unit="m")
@@ -358,7 +335,7 @@ def test_a_point_that_is_missing_is_a_missing_height(tmp_path):
 
 def test_matrices_of_other_programs_have_their_rows_along_y(tmp_path):
     pytest.importorskip("SurfaceTopography")
-    heights = drawn((5, 6))
+    heights = noise((5, 6))
     savemat(tmp_path / "map.mat", {"z": heights})
     found = Topography(file=tmp_path / "map.mat", unit="um", pixel=("1 um", "2 um"))
     np.testing.assert_allclose(found.heights.heights, 1e-6 * heights)
@@ -367,7 +344,7 @@ def test_matrices_of_other_programs_have_their_rows_along_y(tmp_path):
 @pytest.mark.parametrize("name", ["map.asc", "map.dat", "map.prn"])
 def test_a_text_of_another_ending_is_read_as_a_text(tmp_path, name):
     pytest.importorskip("SurfaceTopography")
-    heights = drawn((5, 6))
+    heights = noise((5, 6))
     for content, stated in (
         (gwyddion(heights, (1, 2)), {}),
         (text(heights, ";", ","), {"unit": "um", "pixel": 1e-6}),
@@ -378,7 +355,7 @@ def test_a_text_of_another_ending_is_read_as_a_text(tmp_path, name):
 
 @pytest.mark.parametrize("mark", ["***", "-nan(ind)", "masked", "Missing", "#N/A"])
 def test_what_instruments_write_for_no_height_is_missing(tmp_path, mark):
-    heights = drawn((6, 7))
+    heights = noise((6, 7))
     rows = text(heights).split(";")
     rows[9] = mark
     file = written(tmp_path, ";".join(rows))
@@ -401,7 +378,7 @@ HOLES = {
 @pytest.mark.parametrize("kind", HOLES)
 @pytest.mark.parametrize("part", [Topography, Measured])
 def test_missing_heights_are_refused_with_count_and_share_or_filled_in_and_told(kind, part):
-    heights, at = drawn((20, 20)), np.zeros((20, 20), bool)
+    heights, at = noise((20, 20)), np.zeros((20, 20), bool)
     at[3:5, 7], at[0, 0] = True, True
     stated = {"heights": HOLES[kind](heights, at), "pixel": 1e-6}
     with pytest.raises(ValidationError, match=r'3 pixels (hold|have).*0.75 % of 400.*missing = "fill"'):
@@ -444,7 +421,7 @@ class Reader:
 
 
 def test_channels_and_holes_of_other_files_are_those_of_their_reader(tmp_path, monkeypatch):
-    peer, heights = pytest.importorskip("SurfaceTopography"), drawn((5, 6))
+    peer, heights = pytest.importorskip("SurfaceTopography"), noise((5, 6))
     monkeypatch.setattr(peer, "open_topography", lambda _: Reader(peer, heights))
     file = written(tmp_path, "0", "map.sur")
     front = Topography(file=file, channel="Front")
@@ -462,7 +439,7 @@ def test_channels_and_holes_of_other_files_are_those_of_their_reader(tmp_path, m
 
 
 def test_no_more_than_a_twentieth_is_filled_in():
-    heights = drawn((20, 20))
+    heights = noise((20, 20))
     heights.ravel()[:20] = NAN
     assert (
         Topography(heights=heights, pixel=1.0, missing="fill").notes[0].startswith("20 pixels had no height, 5 %")
@@ -480,13 +457,13 @@ def test_no_more_than_a_twentieth_is_filled_in():
 @pytest.mark.parametrize("height", [1e-9, 1.0, 1e40])
 def test_what_is_far_off_nothing_is_no_missing_height(height):
     # peaks and pits that are rare and high, beside heights that are all alike, or few
-    spike, binary, steps = np.zeros((9, 9)), np.indices((9, 9)).sum(axis=0) % 2, np.floor(drawn((9, 9)))
+    spike, binary, steps = np.zeros((9, 9)), np.indices((9, 9)).sum(axis=0) % 2, np.floor(noise((9, 9)))
     spike[3, 3] = 1.0
     bump = np.exp(-(np.hypot(*(np.indices((40, 40)) - 20.0)) ** 2) / 8)
-    for heights in (spike, binary, steps, bump, 50 * bump + 0.3 * drawn((40, 40)), np.exp(3 * drawn((40, 40)))):
+    for heights in (spike, binary, steps, bump, 50 * bump + 0.3 * noise((40, 40)), np.exp(3 * noise((40, 40)))):
         assert sentinels(height * heights) == []
     # pixels of which one is missing at either end
-    both = drawn((9, 9))
+    both = noise((9, 9))
     both[2, 2], both[3, 3] = -9999, 9999
     assert sentinels(both) == [-9999, 9999]
 
@@ -514,7 +491,7 @@ def test_a_hole_in_a_harmonic_surface_is_filled_in_with_it():
 @given(seed=st.integers(0, 10**6), share=st.floats(0.001, MOST_FILLED), scale=st.sampled_from([1e-45, 1.0, 1e45]))
 @examples(20)
 def test_filling_in_changes_no_measured_pixel_and_goes_beyond_none(seed, share, scale):
-    heights = scale * drawn((13, 17), seed)
+    heights = scale * noise((13, 17), seed)
     holes = np.random.default_rng(seed).random(heights.shape) < share
     found = filled(np.where(holes, NAN, heights), (1e-6, 3e-6))
     assert np.array_equal(found[~holes], heights[~holes])
@@ -523,7 +500,7 @@ def test_filling_in_changes_no_measured_pixel_and_goes_beyond_none(seed, share, 
 
 def test_outliers_are_found_on_request_and_counted():
     y, x = np.mgrid[0:30, 0:40]
-    smooth = np.sin(x / 8) + np.cos(y / 6) + 0.02 * drawn((30, 40))
+    smooth = np.sin(x / 8) + np.cos(y / 6) + 0.02 * noise((30, 40))
     spikes = np.zeros((30, 40), bool)
     spikes[[3, 14, 0], [5, 20, 39]] = True
     heights = smooth + np.where(spikes, 1.0, 0.0)
@@ -535,8 +512,8 @@ def test_outliers_are_found_on_request_and_counted():
     assert np.abs(found.heights.heights - smooth).max() < 0.1
     assert np.array_equal(found.heights.heights[~spikes], heights[~spikes])
     # of normal noise 0.27 % lie beyond three deviations, up to twice that as the median has noise of its own
-    noise = drawn((300, 300))
-    beyond = outliers(noise, 3.0).mean()
+    normal = noise((300, 300))
+    beyond = outliers(normal, 3.0).mean()
     assert 0.0027 < beyond < 0.0054
     with pytest.raises(
         ValidationError, match=rf"more than half of the heights are the median of the {NEIGHBOURS} x"
@@ -552,7 +529,7 @@ def test_outliers_are_found_on_request_and_counted():
 
 
 def test_a_crop_is_the_map_of_what_it_keeps():
-    heights = drawn((20, 30))
+    heights = noise((20, 30))
     whole = {"heights": heights, "pixel": (2e-6, 3e-6)}
     kept = {"heights": heights[3:13, 5:20], "pixel": (2e-6, 3e-6)}
     crop = ["10 um", "40 um", "9 um", "39 um"]
@@ -585,9 +562,9 @@ def test_a_crop_is_the_map_of_what_it_keeps():
 @given(seed=st.integers(0, 10**6), rows=st.integers(4, 30), columns=st.integers(4, 30))
 @examples(20)
 def test_a_level_takes_off_all_forms_of_its_degree_and_nothing_else(seed, rows, columns):
-    coefficients = drawn((4, 4), seed)
+    coefficients = noise((4, 4), seed)
     y, x = np.linspace(-1, 2, rows)[:, None], np.linspace(0, 3, columns)
-    rest = levelled(drawn((rows, columns), seed), "cubic")
+    rest = levelled(noise((rows, columns), seed), "cubic")
     for level, degree in DEGREES.items():
         terms = [(i, j) for i in range(degree + 1) for j in range(degree + 1 - i)]
         form = sum(coefficients[i, j] * y**i * x**j for i, j in terms) + 0 * x * y
@@ -610,7 +587,7 @@ unit = "um"
 
 def test_a_scene_file_states_what_is_done_to_a_map(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    heights = drawn((30, 30))
+    heights = noise((30, 30))
     heights[2, 2] = NAN
     np.savetxt("map.csv", heights, delimiter=";")
     more = 'file = "map.csv"\nmissing = "fill"\noutliers = 6\nlevel = "cubic"\n'
@@ -647,7 +624,7 @@ def test_a_file_that_is_not_there_is_named_with_the_folder_in_which_it_was_sough
 
 
 def test_a_page_tells_what_was_done_to_a_map():
-    heights = np.ma.masked_array(drawn((30, 30)), np.arange(900).reshape(30, 30) == 77)
+    heights = np.ma.masked_array(noise((30, 30)), np.arange(900).reshape(30, 30) == 77)
     stated = {"pixel": "1 um", "unit": "um", "missing": "fill", "crop": ["0 um", "20 um", "0 um", "20 um"]}
     study = Map.of(heights, shortest_kept="4 um", **stated)
     filled_in = "1 pixel had no height, 0.25 % of 400, and was filled in"

@@ -4,18 +4,15 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from programs import program
 from pydantic import ValidationError
 
-from scene import Program, Scene, Stage
+from scene import Scene, Stage
 from scene.oscillation import Oscillation
 from scene.reading import read
 
 # Sums of a few terms in double precision.
 ROUNDING = 1e-12
-
-
-def program(*stages):
-    return Program(stages=tuple(Stage(**stage) for stage in stages))
 
 
 FRETTING = program(

@@ -3,7 +3,6 @@
 import difflib
 import tomllib
 from dataclasses import FrozenInstanceError, dataclass, replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -278,14 +277,6 @@ def test_what_may_stand_in_place_of_a_missing_name_is_said(tmp_path, stated, mis
     lines = lines_of(tmp_path, f"{INDENTER}[elastomer]\n{stated}\n[motion]\ntype = 'indent'\nload = 1")
     (line,) = [line for line in lines if line.startswith(f"{missing}: missing, ")]
     assert line.split("; or ")[1:] == instead
-
-
-def test_the_page_about_scenes_shows_what_is_said(tmp_path):
-    text = SCENE.replace('"sphere"\nradius = 1e-2', '"spher"\nradius = "5 N"').replace("modulus =", "modlus =")
-    page = (Path(__file__).parents[2] / "docs" / "reference" / "scenes.md").read_text(encoding="utf-8")
-    shown = page.partition("```text\n")[2].partition("```")[0]
-    said = lines_of(tmp_path, text.replace("speed = 0.1\n", ""))
-    assert shown.splitlines() == [f"scene.toml: {line}" for line in said]
 
 
 # Whatever stands where

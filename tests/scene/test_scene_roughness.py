@@ -6,7 +6,7 @@ from math import gamma
 
 import numpy as np
 import pytest
-from pydantic import TypeAdapter, ValidationError
+from pydantic import ValidationError
 
 from scene import CrossedWaves, SelfAffine, Wave
 from scene.selfaffine import power_integral
@@ -80,12 +80,6 @@ def test_a_slope_that_states_no_surface_is_refused_with_the_reason(message, stat
     content = {"hurst": 0.5, "rms_slope": 0.1, "longest": 1e-2, "shortest": 1e-4} | stated
     with pytest.raises(ValidationError, match=message):
         SelfAffine(**{name: value for name, value in content.items() if value is not None})
-
-
-def test_the_schema_of_a_scene_knows_the_slope():
-    schema = TypeAdapter(SelfAffine).json_schema()
-    assert "rms_slope" in schema["properties"]
-    assert {"required": ["rms_slope", "shortest"]} in schema["oneOf"]
 
 
 @pytest.mark.parametrize("hurst", HURSTS)

@@ -56,20 +56,18 @@ def outcomes(path, draw, read, seeds):
 
 # So many tables and maps in random dialects can be read: others have decimal commas between commas, cells that
 # are empty between blanks, or names of several words parted by one blank.
-@pytest.mark.parametrize(("draw", "read", "share"), [(draw_table, read_table, 0.7), (draw_map, read_map, 0.75)])
-def test_a_file_in_any_dialect_is_read_as_it_was_written_or_refused(tmp_path, draw, read, share):
-    sound, damaged = outcomes(tmp_path / "file.txt", draw, read, range(200))
-    assert sound > share * 200
-    assert damaged == 0
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("draw", "read", "share", "count"), [(draw_table, read_table, 0.7, 5000), (draw_map, read_map, 0.75, 1000)]
+DIALECTS = (
+    (draw_table, read_table, 0.7, range(200)),
+    (draw_map, read_map, 0.75, range(200)),
+    pytest.param(draw_table, read_table, 0.7, range(1000, 6000), marks=pytest.mark.slow),
+    pytest.param(draw_map, read_map, 0.75, range(1000, 2000), marks=pytest.mark.slow),
 )
-def test_thousands_of_files_in_any_dialect_are_read_as_written_or_refused(tmp_path, draw, read, share, count):
-    sound, damaged = outcomes(tmp_path / "file.txt", draw, read, range(1000, 1000 + count))
-    assert sound > share * count
+
+
+@pytest.mark.parametrize(("draw", "read", "share", "seeds"), DIALECTS)
+def test_a_file_in_any_dialect_is_read_as_it_was_written_or_refused(tmp_path, draw, read, share, seeds):
+    sound, damaged = outcomes(tmp_path / "file.txt", draw, read, seeds)
+    assert sound > share * len(seeds)
     assert damaged == 0
 
 
@@ -119,16 +117,12 @@ def test_units_are_those_of_the_heading_wherever_it_stands(tmp_path, above):
         (["f;G'", "1;2", "2;3"], "no column for loss"),
         (["# storage modulus and loss modulus in MPa", *ROWS], "above the numbers is no heading"),
         (["# all moduli in MPa", *ROWS], "speaks of MPa"),
-        ([*ROWS, "# all moduli in MPa"], "speaks of MPa"),
-        (["f;G';G''", *ROWS, "", "all moduli in MPa"], "speaks of MPa"),
         (["f;G';G''", "1;2;3", ";;", "2;3;4"], "line 3: a row without a number"),
         (["f,G',G''", '1.5,"1,003,935","65,230"', '2.5,"1,003,936","65,231"'], "column 2.*between thousands"),
         (["f;G';G''", "0.5;1,5;2", "2;3,5;3"], "column 1: '0.5' is not a number: the other numbers have commas"),
         ([HEADED, "1;2;3", "2;x;4", "3;4;5"], r"line 3, column 2: 'x' is not a number"),
-        ([HEADED, "1;x;3", "2;3;4", "3;4;5"], r"line 2, column 2: 'x' is not a number"),
         (["f;G';G''", "Hz;MPa;kPa", "x;2,5;3,5", "2,5;3,5;4,5"], "no column for"),
         ([HEADED, "1;2;3", "2;3", "3;4;5"], "line 3: 2 columns, and other rows have 3"),
-        ([HEADED, "1;2;3", "2;3;4;5", "3;4;5"], "line 3: 4 columns, and other rows have 3"),
         ([HEADED, *ROWS, "the end"], "line 5"),
         ([HEADED, *ROWS, "", "f [Hz];G' [Pa];G'' [Pa]", *ROWS], "two tables, from line 2 and from line 7"),
         (["1,234;2,345;3,456", "4,567;5,678;6,789"], "between thousands"),
@@ -136,7 +130,6 @@ def test_units_are_those_of_the_heading_wherever_it_stands(tmp_path, above):
         (["1,5", "2,5", "3,5"], "can be read as 1 and 5 and as 1.5"),
         (["1,5,2,5,3,5", "4,5,5,5,6,5"], "commas may part columns or decimals"),
         (["1 2;3", "2 3;4"], "is not a number"),
-        (["only words"], "no row of numbers"),
         ([""], "no row of numbers"),
     ],
 )

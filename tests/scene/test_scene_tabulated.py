@@ -247,27 +247,6 @@ ROWS = "\n".join(f"{f:.17g},{s:.17g},{loss:.17g}" for f, s, loss in zip(*columns
 
 
 @pytest.mark.parametrize(
-    "text",
-    [
-        ROWS,
-        "frequency (rad/s), G' (Pa), G'' (Pa)\n" + ROWS,
-        "omega, storage modulus, loss modulus\nrad/s,Pa,Pa\n" + ROWS,
-        "# rubber\n\n" + ROWS.replace("\n", "  # again\n\n") + "\n\n",
-        ROWS.replace(",", "; "),
-        ROWS.replace(",", "\t"),
-        "  " + ROWS.replace(",", "   ").replace("\n", "\r\n  "),
-        "\ufeff" + ROWS,
-    ],
-    ids=["csv", "headings", "units", "comments", "semicolons", "tabs", "blanks", "byte order mark"],
-)
-def test_text_in_any_usual_form_is_the_same_table(tmp_path, text):
-    path = tmp_path / "rubber.csv"
-    path.write_bytes(text.encode())
-    assert read_table(path) == table()
-    assert fitted(str(path)) == fitted(path) == fitted()
-
-
-@pytest.mark.parametrize(
     ("text", "said"),
     [
         ("1,2,3\n4,five,6", r"line 2, column 2: 'five' is not a number"),

@@ -31,7 +31,7 @@ from scene import (
     Topography,
 )
 from scene import quantities as q
-from scene.quantities import Unit, unit_of
+from scene.quantities import Unit
 from scene.units import KNOWN, Unreadable, in_si
 
 PREFIXES = {
@@ -72,19 +72,15 @@ def test_a_value_written_with_any_prefix_is_the_same_float(value, prefix, unit, 
         ("  5   mm ", "m", 5e-3),
         (".5 mm", "m", 5e-4),
         ("−5 mm", "m", -5e-3),
-        ("5 in", "m", 0.127),
         ("4e308 mm", "m", 4e305),
         ("0e999999999 m", "m", 0.0),
         ("1 N mm⁻²", "Pa", 1e6),
         ("1 kg/(m s^2)", "Pa", 1.0),
-        ("2 1/MPa", "1/Pa", 2e-6),
         ("2 MPa^-1", "1/Pa", 2e-6),
         ("36 km/h", "m/s", 10.0),
         ("10 mN·m/m^2", "N/m", 0.01),
         ("30°", "rad", pi / 6),
-        ("60 rpm", "rad/s", 2 * pi),
         ("20 W/m/K", "W/(m K)", 20.0),
-        ("20 W/(m·degC)", "W/(m K)", 20.0),
         ("10 kcal/mol", "J/mol", 41840.0),
         ("5 delta_degC", "K", 5.0),
     ],
@@ -116,28 +112,19 @@ def test_a_difference_of_temperatures_has_none_and_a_temperature_is_no_differenc
         ("5", "no unit"),
         ("inf m", "no number"),
         ("1e999 m", "range"),
-        ("1e-999 m", "range"),
         ("1e9999999999999999999999999 m", "range"),
         ("1,5 mm", "decimal points"),
         ("5e mm", "no unit is called 'e'"),
         ("5 __import__('os')", "no unit"),
         ("5 m**10**10", "powers"),
-        ("5 m^999999999", "powers"),
         ("5 m/", "no unit"),
-        ("5 / /m", "no unit"),
-        ("5 (m", "no unit"),
-        ("5 m)", "no unit"),
         ("5 " + "m" * 1000, "letters"),
         ("1 000 mm", "nothing parts the digits"),
-        ("1'000 mm", "nothing parts the digits"),
         ("1,000 mm", "nothing parts their thousands"),
         ("1 ± 0.1 mm", "without its uncertainty"),
         ("1*10^3 mm", "powers of ten are written as 1e6"),
-        ("10^3 mm", "powers of ten are written as 1e6"),
         ("5 mm10", "no unit"),
-        ("5 mm1", "no unit"),
         ("5 mm2.5", "no unit"),
-        ("5 mm2^2", "no unit"),
         ("5 m2K", "no unit"),
     ],
 )
@@ -152,23 +139,14 @@ def test_what_is_no_length_is_refused_with_a_reason(text, said):
     [
         ("3 N/mm2", "3 MPa", "Pa"),
         ("3 N mm-2", "3 MPa", "Pa"),
-        ("3e5 N/m2", "3e5 Pa", "Pa"),
         ("2 kgf/cm2", "2*98066.5 Pa", "Pa"),
         ("2 lbf/in2", "2 psi", "Pa"),
-        ("2 ksi", "2000 psi", "Pa"),
-        ("20 dyn/cm2", "2 Pa", "Pa"),
         ("2 Pa-1", "2 1/Pa", "1/Pa"),
         ("2 mil", "50.8 um", "m"),
-        ("20 uin", "508 nm", "m"),
         ("5 mm/sec", "5 mm/s", "m/s"),
-        ("5 m s-1", "5 m/s", "m/s"),
         ("6 m/min", "0.1 m/s", "m/s"),
         ("36 kmh", "36 km/h", "m/s"),
-        ("36 kmph", "36 km/h", "m/s"),
-        ("10 mph", "4.4704 m/s", "m/s"),
         ("500 gf", "0.5 kgf", "N"),
-        ("2 hr", "120 min", "s"),
-        ("2 rad s-1", "2 rad/s", "rad/s"),
         ("5 s-1", "5 Hz", "Hz"),
     ],
 )
@@ -187,12 +165,9 @@ def test_degrees_are_read_as_people_write_them(degrees):
     ("text", "unit", "said"),
     [
         ("1 mpa", "Pa", "did you mean 'MPa' (1e+06 Pa) or 'mPa' (0.001 Pa)?"),
-        ("3 Mpa", "Pa", "did you mean 'MPa' (1e+06 Pa) or 'mPa' (0.001 Pa)?"),
         ("1 1/mpa", "1/Pa", "did you mean '1/MPa' (1e-06 1/Pa) or '1/mPa' (1000 1/Pa)?"),
-        ("1 Mn/m2", "Pa", "did you mean 'mN/m2' (0.001 Pa) or 'MN/m2' (1e+06 Pa)?"),
         ("5 mhz", "Hz", "did you mean 'MHz' (1e+06 Hz) or 'mHz' (0.001 Hz)?"),
         ("10 MM", "m", "did you mean 'mm' (0.001 m)?"),
-        ("10 MS", "s", "did you mean 'ms' (0.001 s)?"),
         ("5 MM/s", "m/s", "did you mean 'mm/s' (0.001 m/s)?"),
         ("5 lb/in2", "Pa", "did you mean 'lbf/in2' (6894.76 Pa)?"),
         ("5 NEWTON", "N", "did you mean 'newton'?"),
@@ -298,15 +273,6 @@ def test_units_that_depend_on_others_are_those_of_the_others():
             Shear(force=force, **pressed)
     with pytest.raises(ValidationError, match=r"a number \(in m\^\(1-exponent\)\)"):
         PowerLaw("3 1/m", 2.0)
-
-
-def test_the_unit_of_a_field_can_be_asked():
-    asked = [(Sphere, "radius"), (Prony, "moduli"), (Slide, "load"), (Topography, "pixel"), (WLF, "c2")]
-    assert [unit_of(*each) for each in asked] == ["m", "Pa", "N", "m", "K"]
-    assert unit_of(PowerLaw, "coefficient") == "m^(1-exponent)"
-    assert unit_of(SelfAffine, "hurst") is None
-    with pytest.raises(KeyError):
-        unit_of(Sphere, "diameter")
 
 
 def test_numbers_alone_load_no_units():

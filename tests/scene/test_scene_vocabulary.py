@@ -136,12 +136,3 @@ def _follows(scene, entry, first, second):
     expected = np.asarray(first, float) * LENGTH**i * MODULUS**j * TIME**k
     least = TOLERANCE * np.nanmax(np.abs(expected))
     return np.allclose(second, expected, rtol=TOLERANCE, atol=least, equal_nan=True)
-
-
-def test_entries_are_sentences_with_units_that_are_known():
-    for entry in [*NUMBERS.values(), *MEASURES.values(), *FIELDS.values()]:
-        assert entry.text[0].isupper()
-        assert entry.text.endswith(".")
-        assert entry.unit in {*UNITS, "K"}
-        assert entry.along_line is None or entry.along_line in UNITS
-        assert set(entry.axes) <= {name for name, field in FIELDS.items() if name in field.axes}

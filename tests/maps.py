@@ -1,0 +1,24 @@
+"""Heights to measure: noise, and one period of a rough surface as an instrument might give it."""
+
+import numpy as np
+
+from bem3d.grid import Grid
+from bem3d.surface import RoughSurface
+from scene import Topography
+
+
+def noise(shape, seed=0):
+    return np.random.default_rng(seed).normal(size=shape)
+
+
+def sampled(rough, points, piece=None, **other):
+    """One period of a surface as a map, or a piece of it: heights at the pixels of a grid."""
+    grid = Grid(points, rough.longest)
+    heights = RoughSurface.of(rough, rough.q_max(0.0)).heights(grid.x, grid.y)[:piece, :piece]
+    stated = {"pixel": grid.pixel, "peaks": "down", "level": "mean", "repeat": "periodic"}
+    return Topography(heights=heights, **(stated | other))
+
+
+def says(error):
+    """What is said by an error that was raised, on one line."""
+    return " ".join(str(error.value).split())
