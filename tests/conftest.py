@@ -6,7 +6,7 @@ import pytest
 @pytest.fixture(scope="module")
 def in_this_process():
     """Solves of a module in this process, where what it tests is no worker: to start one takes seconds."""
-    from stand import Here
+    from stand_in_solver import Here
 
     from compare.solving import runner
 

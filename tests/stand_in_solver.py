@@ -3,6 +3,7 @@
 import os
 import signal
 import time
+from concurrent.futures import Future
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,7 +11,7 @@ from pydantic.dataclasses import dataclass
 
 from compare.solving.runner import SweepProgress
 from compare.solving.task import SceneTask as Task
-from compare.solving.workers import ONE_THREAD
+from compare.solving.workers import ONE_THREAD, answered
 from scene import Indent, Kelvin, Result, Scene, SolveError, Sphere
 
 SCENE = Scene(Sphere(radius=1e-2), Kelvin(modulus=1e6, relaxation_time=1e-3), Indent(load=1.0))
@@ -75,3 +76,26 @@ class Heard(SweepProgress):
 
     def interrupted(self):
         self.heard.append(("interrupted", None))
+
+
+class Here:
+    """Workers in this process, for laws that no process of another has a part in."""
+
+    died, tries = (), 3
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        pass
+
+    def room(self, out):
+        return 1 - out
+
+    def submit(self, packed):
+        future = Future()
+        future.set_result(answered(packed))
+        return future
+
+    def call_back(self):
+        pass

@@ -33,6 +33,8 @@ from scene import (
     Stage,
 )
 
+pytestmark = pytest.mark.usefixtures("in_this_process")
+
 RUN = Program(stages=(Stage(duration=2 * TAU, load=LOAD), Stage(duration=4 * TAU, speed=0.2)))
 LINE, SPACE = MDR(points=200, steps=20), BEM(points=32, steps=20)
 RUNNING = Scene(Sphere(R), KELVIN, RUN, ROUGH)

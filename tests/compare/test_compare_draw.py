@@ -31,6 +31,8 @@ from scene import (
 )
 from scene.reading import InvalidInput
 
+pytestmark = pytest.mark.usefixtures("in_this_process")
+
 REST = Case(
     indenter=Sphere(R),
     elastomer=KELVIN,

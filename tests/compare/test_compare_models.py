@@ -20,6 +20,8 @@ from scene import Doubtful, Kelvin, Refused, Result, Scene, SelfAffine, Slide, S
 from scene.reading import InvalidInput
 from scene.scales import elastic_contact
 
+pytestmark = pytest.mark.usefixtures("in_this_process")
+
 PAGE = Path(__file__).parents[2] / "docs" / "howto" / "models.md"
 SCENE = Scene(Sphere(radius=1e-2), Kelvin(1e6, 1e-3), Slide(speed=0.1, load=1.0))
 SMOOTH = compare.Case(

@@ -7,7 +7,6 @@ import signal
 import subprocess
 import sys
 import time
-from concurrent.futures import Future
 from dataclasses import replace
 from itertools import pairwise
 
@@ -15,7 +14,7 @@ import numpy as np
 import pytest
 from pydantic.dataclasses import dataclass
 from rich.console import Console
-from stand_in_solver import SCENE, Heard, Stand, loads
+from stand_in_solver import SCENE, Heard, Here, Stand, loads
 
 from compare.solving import runner
 from compare.solving.outcome import Outcome, Row
@@ -23,31 +22,8 @@ from compare.solving.runner import sweep
 from compare.solving.store import Store
 from compare.solving.task import SceneTask as Task
 from compare.solving.terminal import SweepBar
-from compare.solving.workers import ONE_THREAD, STILLBORN, Processes, answered
+from compare.solving.workers import ONE_THREAD, STILLBORN, Processes
 from scene import EmptyContact, Indent
-
-
-class Here:
-    """Workers in this process, for laws that no process of another has a part in."""
-
-    died, tries = (), 3
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        pass
-
-    def room(self, out):
-        return 1 - out
-
-    def submit(self, packed):
-        future = Future()
-        future.set_result(answered(packed))
-        return future
-
-    def call_back(self):
-        pass
 
 
 @pytest.fixture
@@ -216,7 +192,7 @@ def test_a_fresh_process_solves_each_task_where_that_is_asked_for(tmp_path):
 TWIN = """
 import sys
 from pathlib import Path
-from stand_in_solver import Stand, loads
+from stand_in_solver import Here, Stand, loads
 from compare.solving.store import Store
 from compare.solving.runner import sweep
 

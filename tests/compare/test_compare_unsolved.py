@@ -13,6 +13,8 @@ from compare.solving.task import SceneTask
 from compare.solving.unsolved import Unsolved
 from scene import Doubtful, Indent, Kelvin, Scene, Sphere
 
+pytestmark = pytest.mark.usefixtures("in_this_process")
+
 SOLVED, EMPTY = Row(1.0, 1.0, 0.0), Row(0.0, 1.0, 0.0)
 WHY = "the contact covers {} of 32 points: take more points"
 
