@@ -12,7 +12,7 @@ SHORTEST = np.pi * (1 - 1e-9)  # wave number [rad/pixel]; those of other waves a
 
 
 class FreeConvolution:
-    """Zero-padded convolution with a kernel, on ny x nx points of a free surface. `applications` counts."""
+    """Zero-padded convolution with a kernel, on ny x nx points of a free surface; counts operator_applications."""
 
     def __init__(self, kernel, engine=PLAIN):
         """kernel: (ny, 2 nx), symmetric in y; column nx + i acts i pixels downstream (see `influence`)."""
@@ -35,7 +35,7 @@ class FreeConvolution:
 class FreePair:
     """Zero-padded convolution of two planes with a symmetric matrix of kernels, ny x nx points of a free surface.
 
-    `applications` counts two of a single plane each time.
+    `operator_applications` counts two of a single plane each time.
     """
 
     def __init__(self, kernels, engine=PLAIN):
@@ -55,7 +55,7 @@ class FreePair:
 
 
 class PeriodicFilter:
-    """Multiplication of every wave by its symbol, on ny x nx points that repeat. `applications` counts."""
+    """Multiplication of every wave by its symbol, on ny x nx points that repeat; counts operator_applications."""
 
     def __init__(self, shape, symbol, engine=PLAIN):
         """symbol: function of the wave numbers (q_y, q_x) in rad/pixel, even in q_y, broadcast, to an array."""
@@ -71,7 +71,7 @@ class PeriodicFilter:
 class PeriodicPair:
     """Multiplication of two planes, wave by wave, by a symmetric matrix of symbols, on ny x nx points that repeat.
 
-    `applications` counts two of a single plane each time.
+    `operator_applications` counts two of a single plane each time.
     """
 
     def __init__(self, shape, symbols, engine=PLAIN):

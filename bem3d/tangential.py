@@ -290,7 +290,7 @@ def _carried_over(other, coarse, grid, limits):
 
 
 class Counted:
-    """A product of vectors (components, m); `applications` counts one for each component."""
+    """A product of vectors (components, m); `operator_applications` counts one for each component."""
 
     def __init__(self, product):
         self._product, self.operator_applications = product, 0

@@ -137,7 +137,7 @@ def interval(dataset: xarray.Dataset, above: str, below: str | None = None, size
     found = {name: _estimated(dataset.sel(grid=name), above, below) for name in dataset["grid"].values.tolist()}
     fine = found[FINE]
     # A model without points has no error of a grid.
-    unknown = nan if dataset["points"].values.any() else 0.0
+    unknown = 0.0 if "points" in dataset.coords and not dataset["points"].values.any() else nan
     grid = np.abs(fine.value - found[COARSE].value) if COARSE in found else unknown
     return Interval.of(fine, grid, size)
 

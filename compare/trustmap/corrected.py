@@ -40,8 +40,8 @@ class CorrectedMDR:
     Result.measures, of friction, depth [m] and force [N] as far as they are corrected: friction_ratio, 1D over
     3D; friction_low and friction_high, interval of 95 % of the mean over surfaces, from the map and from the
     scatter of the profiles, NaN of one rough profile; friction_surface_low and friction_surface_high, that of one
-    surface, NaN too where one surface says nothing. Result.residual is the largest of the profiles; applications
-    and seconds are of all of them, the seconds with the map. There are no fields.
+    surface, NaN too where one surface says nothing. Result.residual is the largest of the profiles;
+    operator_applications and seconds are of all of them, the seconds with the map. There are no fields.
     """
 
     label: ClassVar[str] = "1D corrected"

@@ -101,7 +101,7 @@ ANSWERED = {
         motion=Shear(load=5e-4, force=1e-4),
     ),
 }
-COUNTS = ("operator_applications", "rounds", "transform_pairs", "seconds", "residual")  # the price, not the answer
+COUNTS = ("applications", "rounds", "transform_pairs", "seconds", "residual")  # the price, not the answer
 
 
 # Effects of which another one of the kind is quick.

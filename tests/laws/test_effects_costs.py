@@ -116,7 +116,7 @@ def test_a_program_is_told_by_the_step_and_only_where_steps_are_not_counted():
 
 def test_multiples_of_parts_are_multiplied_and_unknown_ones_are_named(tmp_path):
     table = tmp_path / "table.csv"
-    table.write_text("part,applications,seconds\nLayer,2.0,3.0\n", encoding="utf-8")
+    table.write_text("part,operator_applications,seconds\nLayer,2.0,3.0\n", encoding="utf-8")
     found = expected(
         lambda: {"operator_applications": 10.0, "seconds": 1.0}, "plain", [Layer(thickness=1.0)], table
     )

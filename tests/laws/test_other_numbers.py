@@ -142,6 +142,7 @@ UNITS = {
 }
 # What solvers make and hand over, and what holds no numbers itself.
 MADE = {
+    "Heights",
     "Doubt",
     "Plan",
     "Regime",
@@ -423,7 +424,12 @@ def test_every_class_has_an_example_of_each_number():
 
 
 def test_every_argument_is_known():
-    known = {place.name.partition("(")[0].rpartition(".")[2] for place in CALLED} | {"animate", "topography"}
+    known = {place.name.partition("(")[0].rpartition(".")[2] for place in CALLED} | {
+        "animate",
+        "heights",
+        "verify",
+        "topography",
+    }
     for package in (mdr1d, bem3d, compare):
         for name in package.__all__:
             function = getattr(package, name)
