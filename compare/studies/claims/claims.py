@@ -1,4 +1,4 @@
-"""Claims that studies judge, each by its id, and what measures them: powers, geometric means, places along xi."""
+"""Claims on one scene and on series, each by its id, and what measures them: powers, means, places along xi."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -66,6 +66,10 @@ _TEXTS: dict[tuple[float, float], dict[str, tuple[str, str]]] = {
         ),
     },
     (1.0, TOLERANCE): {
+        "friction.ratio.own": (
+            "Friction of the scene as it stands is the same in 1D and 3D",
+            "Friction in 1D over 3D, ratio of the means over surfaces.",
+        ),
         "eq17.level": (
             "Eq. 17: friction at low speed has the level of the law",
             "mu over the law at the slowest speed, geometric mean over the loads or depths, with the rms slope as "
@@ -103,6 +107,10 @@ _TEXTS: dict[tuple[float, float], dict[str, tuple[str, str]]] = {
         ),
     },
     (2.0, 2 * TOLERANCE): {
+        "friction.ratio.smooth-slow": (
+            "Slow friction of the smooth body is twice as high in 1D as in 3D",
+            "Friction in 1D over 3D at the lowest speed; as the speed tends to zero it tends to 2.",
+        ),
         "eq17.slope-exponent": (
             "Eq. 17: friction at the slowest speed goes as the rms slope to the power 2",
             "d ln mu / d ln of the rms slope, least squares over several rms heights, mean of the loads or depths "
@@ -110,6 +118,14 @@ _TEXTS: dict[tuple[float, float], dict[str, tuple[str, str]]] = {
         ),
     },
     (0.0, TOLERANCE): {
+        "force.ratio.rough": (
+            "The force on the rough body at the same depth is the same in 1D and 3D",
+            "Force in 1D over 3D less one, at rest; ratio of the means over surfaces, at every depth.",
+        ),
+        "force.ratio.smooth": (
+            "The force on the smooth body at the same depth is the same in 1D and 3D",
+            "Force in 1D over 3D less one, at rest, at every depth.",
+        ),
         "eq14.load-exponent": (
             "Eq. 14: at high speed friction does not depend on the load",
             "d ln mu / d ln F_N at the fastest speed, less that of Eq. 19 there, least squares over the loads or "
@@ -149,6 +165,23 @@ _TEXTS: dict[tuple[float, float], dict[str, tuple[str, str]]] = {
         "smooth.pressed-in": (
             "Smooth bodies pressed into a viscoelastic solid have the force of Lee and Radok",
             "rms over rates and depths of the relative deviation from the closed form at the depth reached.",
+        ),
+    },
+    (nan, nan): {  # reported, and not claimed
+        "friction.ratio.speed": ("Friction in 1D over 3D", "Ratio of the means at each speed."),
+        "friction.spread": (
+            "Spread of both estimates of 3D friction",
+            "Friction by traction less friction by energy lost, over friction: an indicator of the error of "
+            "discretisation, no bound.",
+        ),
+        "force.closed-form": (
+            "Force on the smooth body over the closed form, less one",
+            "At rest, where the closed form is the truth.",
+        ),
+        "grid.change": (
+            "Change of the scene's own answer from half the points to all",
+            "Relative, of friction, else of the depth under a load or the force at a depth. The change on halving "
+            "understates the error by 1 / (1 - 2^-p) at order p: twice at first order.",
         ),
     },
 }

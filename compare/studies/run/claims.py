@@ -19,6 +19,7 @@ from ...statistics.finding import HALVED, UNKNOWN, Claim, Finding, said_of
 from ...statistics.frictioncurves import SimulatedCurves
 from ...statistics.jackknife import DrawSet, mean
 from ...statistics.means import FRICTION, Compared, compared
+from ..claims.claims import CLAIMS, TOLERANCE
 from ..claims.points import stacked
 from .curves import (
     CURVES,
@@ -32,56 +33,11 @@ from .curves import (
     scaled_speed,
 )
 
-TOLERANCE = 0.05
-AS_HALVED = "The change on halving understates the error by 1 / (1 - 2^-p) at order p: twice at first order."
-
-SLOW = Claim(
-    "friction.ratio.smooth-slow",
-    "Slow friction of the smooth body is twice as high in 1D as in 3D",
-    2.0,
-    2 * TOLERANCE,
-    "Friction in 1D over 3D at the lowest speed; as the speed tends to zero it tends to 2.",
-)
-OWN_FRICTION = Claim(
-    "friction.ratio.own",
-    "Friction of the scene as it stands is the same in 1D and 3D",
-    1.0,
-    TOLERANCE,
-    "Friction in 1D over 3D, ratio of the means over surfaces.",
-)
-ROUGH_FORCE = Claim(
-    "force.ratio.rough",
-    "The force on the rough body at the same depth is the same in 1D and 3D",
-    0.0,
-    TOLERANCE,
-    "Force in 1D over 3D less one, at rest; ratio of the means over surfaces, at every depth.",
-)
-SMOOTH_FORCE = Claim(
-    "force.ratio.smooth",
-    "The force on the smooth body at the same depth is the same in 1D and 3D",
-    0.0,
-    TOLERANCE,
-    "Force in 1D over 3D less one, at rest, at every depth.",
-)
+SLOW, OWN_FRICTION = CLAIMS["friction.ratio.smooth-slow"], CLAIMS["friction.ratio.own"]
+ROUGH_FORCE, SMOOTH_FORCE = CLAIMS["force.ratio.rough"], CLAIMS["force.ratio.smooth"]
 # Numbers that tell how far those above can be trusted.
-AT_SPEEDS = Claim("friction.ratio.speed", "Friction in 1D over 3D", meaning="Ratio of the means at each speed.")
-CLOSED_FORM = Claim(
-    "force.closed-form",
-    "Force on the smooth body over the closed form, less one",
-    meaning="At rest, where the closed form is the truth.",
-)
-GRID = Claim(
-    "grid.change",
-    "Change of the scene's own answer from half the points to all",
-    meaning=f"Relative, of friction, else of the depth under a load or the force at a depth. {AS_HALVED}",
-)
-SPREAD = Claim(
-    "friction.spread",
-    "Spread of both estimates of 3D friction",
-    meaning="Friction by traction less friction by energy lost, over friction: an indicator of the error of "
-    "discretisation, no bound.",
-    dimension="3D",
-)
+AT_SPEEDS, SPREAD = CLAIMS["friction.ratio.speed"], CLAIMS["friction.spread"]
+CLOSED_FORM, GRID = CLAIMS["force.closed-form"], CLAIMS["grid.change"]
 
 
 def _slow(model: Model, reference: Model) -> Claim:
