@@ -203,7 +203,7 @@ profiles = 4
 indenter = {type = "sphere", radius = "10 mm"}
 elastomer = {type = "kelvin", modulus = "1 MPa", relaxation_time = "1 ms"}
 roughness = {type = "self-affine", hurst = 0.5, rms_height = "5 um", longest = "2 mm", shortest = "0.5 mm"}
-bem = {points = 48}
+bem = {points = 64}
 mdr = {points = 500}
 [[series]]
 name = "sphere"

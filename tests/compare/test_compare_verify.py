@@ -319,4 +319,4 @@ def test_a_model_of_a_script_is_judged(tmp_path):
 @pytest.mark.slow
 def test_bem_holds_all_of_its_laws(tmp_path):
     report = compare.verify(BEM(points=128), tmp_path, report=False)
-    assert set(report.findings["verdict"]) == {"holds"}
+    assert set(report.table["verdict"]) == {"holds"}
