@@ -21,7 +21,7 @@ from scene.quantities import SPEED, WHOLE, argument
 from scene.scales import elastic_contact
 
 from .continuation import Continuation, by_contact, joined
-from .cost import Cost
+from .cost import MOST_DRAWS, Cost
 from .outcome import Outcome, Row
 from .task import SceneTask, Task, draws_of
 from .vocabulary import attributes
@@ -33,8 +33,10 @@ FINE, COARSE = "fine", "coarse"
 # Status of a contact: solved, without a contact at the prescribed depth, without an answer, or never asked for.
 SOLVED, EMPTY, FAILED, NOT_ASKED = ("solved", "no contact", "failed", "not asked")
 NO_DRAWS = "none"  # of a model that answers for all surfaces at once
+UNASKED = Row()  # of a draw that is not solved on a grid
 ROOM = 1.5  # times the points that a line takes at least: then others of its family do not need more
 MOST_ASKED = 1000  # lines drawn, whether each fits its grid
+TOGETHER = 8  # profiles of a stratum that are one task, so that more of them leave those before as they are
 # What a solver gives of every contact, by the names of a Dataset: there `depth` is one that is prescribed, which a
 # march answers half a step before.
 NUMBERS = {
@@ -57,7 +59,9 @@ class ParameterGrid:
     speeds : of sliding, or rates of pressing in [m/s]; 0 is rest
     values : loads [N] or depths [m] that are prescribed
     grids : settings of a solver by the name of the grid, by the name of the solver
-    draws : number of rough surfaces by the name of the solver; 1 if absent
+    draws : number of rough surfaces by the name of the solver, which are solved on all grids; 1 if absent.
+        Several numbers are those of strata, one for each grid, from fine to coarse: surfaces of each are solved on
+        that grid and on the next coarser one, see `statistics.levels`
     keeps_fields : whether the fields of the first draw on the fine grid are kept, for pictures
     """
 
@@ -65,13 +69,16 @@ class ParameterGrid:
     speeds: tuple[float, ...]
     values: tuple[float, ...]
     grids: Mapping[str, Mapping[str, Solver]]
-    draws: Mapping[str, int]
+    draws: Mapping[str, int | tuple[int, ...]]
     keeps_fields: bool = False
 
     def __post_init__(self):
         for name, unit in (("speeds", SPEED), ("values", PRESSES[self.prescribed])):
             object.__setattr__(self, name, argument(name, getattr(self, name), unit.row))
-        draws = {solver: argument("draws", count, WHOLE.value) for solver, count in self.draws.items()}
+        draws = {
+            solver: argument("draws", count, WHOLE.row if isinstance(count, tuple) else WHOLE.value)
+            for solver, count in self.draws.items()
+        }
         object.__setattr__(self, "draws", draws)
 
     @property
@@ -82,11 +89,11 @@ class ParameterGrid:
     @property
     def cost(self) -> Cost:
         """Cost of all contacts, by counting."""
-        points, draws = len(self.speeds) * len(self.values), self.draws if self.random else {}
+        points = len(self.speeds) * len(self.values)
         costs = [
-            Cost(points * draws.get(name, 1), points * draws.get(name, 1) * work_of(solver, self.scene))
+            Cost(points * drawn, points * drawn * work_of(solver, self.scene))
             for name, grids in self.grids.items()
-            for solver in grids.values()
+            for solver, drawn in zip(grids.values(), self._asked(name).sum(axis=1).tolist(), strict=True)
         ]
         fine = (each for grids in self.grids.values() for name, each in grids.items() if name == FINE)
         planes = (each.points**2 for each in fine if self.keeps_fields and isinstance(each, BEM))
@@ -97,6 +104,25 @@ class ParameterGrid:
     def random(self) -> bool:
         """Whether the body has draws: rough surfaces that differ by their seed."""
         return hasattr(self.scene.roughness, "seed")
+
+    def strata(self, name: str) -> tuple[range, ...]:
+        """Seeds of a solver's draws by stratum, less that of the scene; however many, each has its own."""
+        counts = self.draws.get(name, 1) if self.random else 1
+        counts = counts if isinstance(counts, tuple) else (counts,)
+        return tuple(range(k * MOST_DRAWS, k * MOST_DRAWS + count) for k, count in enumerate(counts))
+
+    def _asked(self, name):
+        """Whether each draw is solved on each grid (grids, draws)."""
+        stratum = np.repeat(*np.array([(k, len(each)) for k, each in enumerate(self.strata(name))]).T)
+        on = np.arange(len(self.grids[name]))[:, None]
+        return (
+            (stratum == on) | (stratum == on - 1)
+            if self._stratified(name)
+            else np.tile(stratum == 0, (on.size, 1))
+        )
+
+    def _stratified(self, name):
+        return self.random and isinstance(self.draws.get(name), tuple)
 
     def at(self, value: float, speed: float = 0.0) -> Scene:
         """The scene under one load or depth, at rest or at a speed."""
@@ -143,14 +169,20 @@ class ParameterGrid:
     def contacts(self) -> tuple[tuple[str, tuple[SceneTask, ...]], ...]:
         """Solver's name and contacts of every point, by grid, speed and value. Cached: building scenes is slow.
 
-        All profiles of a 1D contact are one, each surface in 3D is one.
+        All profiles of a 1D contact are one, of strata some of them; each surface in 3D is one.
         """
         found = []
         own = self.speeds[0], self.values[0]
         for name, grids in self.grids.items():
-            for (grid, solver), speed, value in product(grids.items(), self.speeds, self.values):
-                scenes = draws_of(self.at(value, speed), self.draws.get(name, 1))
-                together = (scenes,) if isinstance(solver, MDR) else tuple((each,) for each in scenes)
+            strata, few = self.strata(name), self._stratified(name)
+            for (k, (grid, solver)), speed, value in product(enumerate(grids.items()), self.speeds, self.values):
+                seeds = strata[max(k - 1, 0) : k + 1] if few else strata
+                alike = 1 if not isinstance(solver, MDR) else TOGETHER if few else MOST_DRAWS
+                together = [
+                    draws_of(self.at(value, speed), each[start : start + alike])
+                    for each in seeds
+                    for start in range(0, len(each), alike)
+                ]
                 first = self.keeps_fields and grid == FINE and (speed, value) == own
                 contacts = tuple(
                     SceneTask(
@@ -164,14 +196,26 @@ class ParameterGrid:
     def _dataset(self, name, rows):
         import xarray
 
-        grids = self.grids[name]
+        grids, asked = self.grids[name], self._asked(name)
         shape = len(grids), len(self.speeds), len(self.values), -1
+        left = iter(rows)
+        points = len(self.speeds) * len(self.values)
+        rows = [next(left) if each else UNASKED for on in asked for each in np.tile(on, points).tolist()]
 
         def array(number, kind=float):
             return np.array([number(row) for row in rows], kind).reshape(shape)
 
         status = array(
-            lambda row: FAILED if row.reason is not None else EMPTY if row.normal_force == 0 else SOLVED, object
+            lambda row: (
+                NOT_ASKED
+                if row is UNASKED
+                else FAILED
+                if row.reason is not None
+                else EMPTY
+                if row.normal_force == 0
+                else SOLVED
+            ),
+            object,
         )
         touched = status == SOLVED
         values = {own: array(lambda row, of=of: getattr(row, of)) for own, of in NUMBERS.items()}
@@ -190,7 +234,10 @@ class ParameterGrid:
         }
         if random:
             first = self.scene.roughness.seed
-            coordinates["seed"] = list(range(first, first + status.shape[-1]))
+            strata = self.strata(name)
+            coordinates["seed"] = [first + seed for each in strata for seed in each]
+            if self._stratified(name):
+                coordinates["stratum"] = "seed", [k for k, each in enumerate(strata) for _ in each]
         else:
             dims = dims[:3]
 
@@ -245,7 +292,7 @@ def _reason(solver, one):
         return _against(solver, widest, why)
     draws: tuple[Scene, ...] = ()
     if isinstance(solver, MDR) and replace(solver, points=max(8, int(solver.points / ROOM))).refusals(widest):
-        draws = draws_of(widest, min(one.draws.get(solver.name, 1), MOST_ASKED))
+        draws = draws_of(widest, [seed for each in one.strata(solver.name) for seed in each][:MOST_ASKED])
     for scene in (*others, *draws[1:]):
         if why := lacking(solver, scene):
             return _against(solver, scene, why)

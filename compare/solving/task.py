@@ -1,6 +1,6 @@
 """Task: what one worker solves in one go, and the scenes of one solver as such a task."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from importlib import import_module
 from inspect import getsource
@@ -160,13 +160,14 @@ def _source(kind) -> str:
     return "\n".join(told)
 
 
-def draws_of(scene: Scene, count: int) -> tuple[Scene, ...]:
-    """The scene with the seeds seed, seed + 1, ...; a body that is smooth or has plain waves has one draw."""
+def draws_of(scene: Scene, seeds: int | Iterable[int]) -> tuple[Scene, ...]:
+    """The scene with its seed plus each of some, or of so many; smooth bodies and plain waves have one draw."""
 
     rough: Any = scene.roughness
     if not hasattr(rough, "seed"):
         return (scene,)
-    return tuple(replace(scene, roughness=replace(rough, seed=rough.seed + k)) for k in range(count))
+    added = range(seeds) if isinstance(seeds, int) else seeds
+    return tuple(replace(scene, roughness=replace(rough, seed=rough.seed + each)) for each in added)
 
 
 def _pressed(motion):

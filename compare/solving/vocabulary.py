@@ -26,6 +26,7 @@ points : Points of the grid along a side. [1]
 speed : Speed of sliding that was prescribed, or rate of pressing in; 0 is rest. [m/s]
 depth : Depth that was prescribed, above zero into the elastomer. [m]
 seed : Seed of the rough surface. [1]
+stratum : Finest grid on which a rough surface is solved, by its number; the next coarser one has it too. [1]
 status : Whether a contact was solved, has no contact, failed, or was not asked for.
 reason : Why a solve failed; empty where it did not.
 

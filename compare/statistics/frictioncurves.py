@@ -8,7 +8,7 @@ from typing import Any, Self, TypeAlias
 import numpy as np
 import xarray
 
-from .jackknife import Replicates, groups, resample
+from .jackknife import Group, Replicates, groups, resample, strata_of
 
 Statistic = Callable[[Any], Mapping[str, float | np.ndarray]]
 
@@ -31,20 +31,22 @@ class SimulatedCurves:
 
     speeds : (S,) [m/s]
     load, friction_force : (S, P, surfaces) [N], or (S, P) of a body without random surfaces
+    strata : (surfaces,) number of the stratum of each surface; None where all are one
     """
 
     speeds: np.ndarray
     load: np.ndarray
     friction_force: np.ndarray
+    strata: np.ndarray | None = None
 
     @classmethod
     def of(cls, dataset: xarray.Dataset) -> Self:
         """Curves of a Dataset of one grid: dimensions speed, load or depth, and draw if the body has any."""
         (pressed,) = {"load", "depth"} & set(dataset.dims)
-        forces = (
+        load, friction = (
             dataset[name].transpose("speed", pressed, ...).values for name in ("normal_force", "friction_force")
         )
-        return cls(dataset["speed"].values, *forces)
+        return cls(dataset["speed"].values, load, friction, strata_of(dataset) if "seed" in dataset.dims else None)
 
     @property
     def points(self) -> int:
@@ -62,17 +64,22 @@ class SimulatedCurves:
         return np.any(np.atleast_3d(np.isfinite(self.load) & np.isfinite(self.friction_force)), axis=2)
 
     @property
-    def groups(self) -> list[np.ndarray]:
+    def groups(self) -> list[Group]:
         """Surfaces that are left out together."""
-        return groups(self.surfaces) if self.load.ndim == 3 else []
+        return groups(self._strata) if self.load.ndim == 3 else []
 
-    def without(self, group: np.ndarray) -> Self:
+    def without(self, group: Group) -> Self:
         """Curves without some surfaces."""
-        return replace(
-            self,
-            load=np.delete(self.load, group, axis=2),
-            friction_force=np.delete(self.friction_force, group, axis=2),
-        )
+        return self._of(np.setdiff1d(np.arange(self.surfaces), group.surfaces))
+
+    def _of(self, surfaces):
+        """Curves of some surfaces."""
+        strata = self._strata[surfaces]
+        return type(self)(self.speeds, self.load[..., surfaces], self.friction_force[..., surfaces], strata)
+
+    @property
+    def _strata(self):
+        return np.zeros(self.surfaces, int) if self.strata is None else self.strata
 
     def complete(self) -> Self:
         """Points that have an answer on every surface left, speeds ascending; all else is NaN or gone.
@@ -88,8 +95,8 @@ class SimulatedCurves:
         surfaces = solved[points].all(axis=0)
         if not points.any() or not surfaces.any():
             raise ValueError("no surface has an answer at every point")
-        load, friction = load[..., surfaces], friction[..., surfaces]
-        left = [np.delete(np.arange(surfaces.sum()), group) for group in groups(surfaces.sum())]
+        load, friction, strata = load[..., surfaces], friction[..., surfaces], self._strata[surfaces]
+        left = [np.delete(np.arange(strata.size), group.surfaces) for group in groups(strata)]
         parts: list[slice | np.ndarray] = [slice(None), *(part for part in left if part.size)]
         for part in parts:
             for force in (load, friction):
@@ -97,8 +104,8 @@ class SimulatedCurves:
         speeds = points.sum(axis=1) > 1
         kept = np.where(points[..., None], [load, friction], nan)[:, speeds]
         if self.load.ndim == 2:
-            kept = kept[..., 0]
-        return type(self)(self.speeds[order][speeds], *kept)
+            return type(self)(self.speeds[order][speeds], kept[0, ..., 0], kept[1, ..., 0])
+        return type(self)(self.speeds[order][speeds], kept[0], kept[1], strata)
 
     @property
     def curves(self) -> tuple[Curve, ...]:
@@ -123,7 +130,7 @@ class SimulatedCurves:
 
     def replicates(self, value: float | np.ndarray, deviations: np.ndarray) -> Replicates:
         """Numbers whose deviations follow from those of the surfaces."""
-        return Replicates.first_order(value, deviations)
+        return Replicates.first_order(value, deviations, self._strata[: len(deviations)])
 
 
 @dataclass(frozen=True)

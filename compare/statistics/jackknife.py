@@ -7,7 +7,7 @@ the scatter of a number and its skewness; percentiles of resampled surfaces are 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from math import inf, nan, sqrt
-from typing import Any, Protocol, Self
+from typing import Any, NamedTuple, Protocol, Self
 
 import numpy as np
 import xarray
@@ -15,18 +15,31 @@ import xarray
 from .finding import HALVED, UNKNOWN, Claim, Finding
 from .intervals import Estimated, RmsMisfit, skewness
 
-# Statistics are found this often at most: above that, surfaces are left out in groups.
+# Statistics are found this often at most for each stratum: above that, surfaces are left out in groups.
 MOST_GROUPS = 20
+
+
+class Group(NamedTuple):
+    """Surfaces that are left out together.
+
+    surfaces : their indices
+    stratum : those on the same grids, whose scatter is one; of others it is independent
+    solver : whose surfaces they are; those of others are independent
+    """
+
+    surfaces: np.ndarray
+    stratum: int = 0
+    solver: str = ""
 
 
 class Grouped(Protocol):
     """Something averaged over surfaces."""
 
     @property
-    def groups(self) -> Sequence[np.ndarray]:
-        """Indices of the surfaces that are left out together; none of a body that has no random surface."""
+    def groups(self) -> Sequence[Group]:
+        """Surfaces that are left out together; none of a body that has no random surface."""
 
-    def without(self, group: np.ndarray) -> "Grouped":
+    def without(self, group: Group) -> "Grouped":
         """DrawSet without some surfaces."""
 
 
@@ -44,29 +57,29 @@ class Replicates:
 
     deviations : (groups, ...), of which the mean of products estimates the covariance of the statistic
     pooled : degrees of freedom of one scatter that is common to all; None where it is that of the groups
+    strata : number of each group, in their order, of those whose scatter is one; None where all are one
     """
 
     value: float | np.ndarray
     deviations: np.ndarray
     pooled: float | None = None
+    strata: np.ndarray | None = None
 
     @classmethod
-    def first_order(cls, value: float | np.ndarray, changes: np.ndarray) -> Self:
+    def first_order(cls, value: float | np.ndarray, changes: np.ndarray, strata: np.ndarray | None = None) -> Self:
         """changes : (surfaces, ...), with the deviation of each surface from the mean; none of an exact value."""
         count = len(changes)
-        return cls(value, changes / sqrt(count - 1) if count > 1 else _unseen(count, value))
+        return cls(value, changes / sqrt(count - 1) if count > 1 else _unseen(count, value), strata=strata)
 
     @classmethod
     def without_one(cls, value: float | np.ndarray, without: np.ndarray) -> Self:
         """without : (surfaces, ...), the statistic found without each of them."""
-        return cls(value, _deviations(without, np.ones(len(without))))
+        ones = np.ones(len(without))
+        return cls(value, _deviations(without, ones, ones))
 
-    @property
-    def dof(self) -> float:
-        """Degrees of freedom of the errors."""
-        if self.pooled is not None:
-            return self.pooled
-        return len(self.deviations) - 1 if len(self.deviations) else inf
+    def dof(self, squares: np.ndarray) -> float | np.ndarray:
+        """Degrees of freedom of a sum of squares (groups, ...); of Welch where strata scatter by themselves."""
+        return inf if not len(squares) else welch(squares, self.strata) if self.pooled is None else self.pooled
 
     @property
     def estimated(self) -> Estimated:
@@ -76,7 +89,7 @@ class Replicates:
         error = np.sqrt(np.mean(np.square(self.deviations), axis=0))
         # One scatter common to all is taken for normal: what few measurements of it show is not skewness.
         skewed = skewness(self.deviations) if self.pooled is None else 0.0
-        return Estimated(self.value, error, self.dof, skewed)
+        return Estimated(self.value, error, self.dof(np.square(self.deviations)), skewed)
 
     @property
     def rms(self) -> RmsMisfit:
@@ -95,12 +108,38 @@ class Replicates:
         modes = noise**2 / float(np.sum(np.square(products))) if noise else 1.0
         count, pooled = value.size, self.pooled is not None
         skewed = 0.0 if pooled else float(skewness(longer))
-        return RmsMisfit(square - noise / count, noise / count, along / count, modes, self.dof, pooled, skewed)
+        dof = float(self.dof(np.diag(products)))
+        return RmsMisfit(square - noise / count, noise / count, along / count, modes, dof, pooled, skewed)
 
 
-def groups(count: int) -> list[np.ndarray]:
-    """Surfaces that are left out together: each alone, or as many as give the most groups."""
-    return np.array_split(np.arange(count), min(count, MOST_GROUPS))
+def welch(squares: np.ndarray, strata: np.ndarray | None = None) -> float | np.ndarray:
+    """Degrees of freedom of a sum of squares (groups, ...), by those of its strata.
+
+    Each stratum has one less than groups (Welch 1947); where nothing scatters all of them together.
+    """
+    numbers = np.zeros(len(squares), int) if strata is None else strata
+    known = [squares[numbers == each] for each in dict.fromkeys(numbers.tolist())]
+    if len(known) == 1:
+        return len(squares) - 1
+    parts = np.array([each.sum(axis=0) for each in known])
+    dofs = np.array([len(each) - 1 for each in known], float).reshape(-1, *(1,) * (parts.ndim - 1))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        shares = parts / parts.sum(axis=0)
+        found = 1 / np.sum(np.where(shares > 0, np.square(shares) / dofs, 0.0), axis=0)
+    return np.where(np.isfinite(found), found, dofs.sum())[()]
+
+
+def groups(strata: np.ndarray, solver: str = "") -> list[Group]:
+    """Surfaces that are left out together: each alone, or as many as give the most groups of each stratum.
+
+    strata : (surfaces,) number of the stratum of each
+    """
+    found = []
+    for stratum in dict.fromkeys(strata.tolist()):
+        surfaces = np.flatnonzero(strata == stratum)
+        parts = np.array_split(surfaces, min(surfaces.size, MOST_GROUPS))
+        found += [Group(each, stratum, solver) for each in parts]
+    return found
 
 
 def resample(
@@ -108,16 +147,29 @@ def resample(
 ) -> dict[str, Replicates]:
     """Find statistics of all surfaces, and again without each group of them.
 
-    Groups need not be equal (Busing, Meijer and van der Leeden, Stat. Comput. 9, 3, 1999). One group alone leaves
-    the deviations NaN.
+    Groups need not be equal (Busing, Meijer and van der Leeden, Stat. Comput. 9, 3, 1999). One group alone of any
+    solver leaves the deviations NaN.
     """
-    whole = statistic(samples)
-    sizes = np.array([group.size for group in samples.groups])
-    if sizes.size < 2:
-        return {name: Replicates(value, _unseen(sizes.size, value)) for name, value in whole.items()}
-    found = [statistic(samples.without(group)) for group in samples.groups]
+    whole, left_out = statistic(samples), list(samples.groups)
+    found = [statistic(samples.without(group)) for group in left_out] if len(left_out) > 1 else []
+    solvers = [group.solver for group in left_out]
+    own = [np.array([each == solver for each in solvers], bool) for solver in dict.fromkeys(solvers)]
+    if not all(each.sum() > 1 for each in own):
+        return {name: Replicates(value, _unseen(len(left_out), value)) for name, value in whole.items()}
+    kinds = list(dict.fromkeys((group.solver, group.stratum) for group in left_out))
+    strata = np.array([kinds.index((group.solver, group.stratum)) for group in left_out], int)
+    sizes = np.array([group.surfaces.size for group in left_out])
+
+    def deviations(without):
+        made = np.empty_like(without, float)
+        for each in own:  # independent of each other: their squares add up
+            made[each] = sqrt(len(made) / each.sum()) * _deviations(without[each], sizes[each], strata[each])
+        return made
+
     return {
-        name: Replicates(value, _deviations(np.array([each[name] for each in found]), sizes))
+        name: Replicates(value, deviations(np.array([each[name] for each in found])), strata=strata)
+        if found
+        else Replicates(value, _unseen(0, value))
         for name, value in whole.items()
     }
 
@@ -126,16 +178,29 @@ def _unseen(count, value):
     return np.full((count, *np.shape(value)), nan)
 
 
-def _deviations(without, sizes):
-    """Deviations of a statistic, from its values without groups of so many surfaces."""
+def _deviations(without, sizes, strata):
+    """Deviations of a statistic, from its values without groups of so many surfaces of a stratum each."""
     share = sizes / sizes.sum()
     middle = np.tensordot(1 - share, without, axes=1) / (sizes.size - 1)
     weight = np.sqrt(1 / share - 1)
+    for stratum in np.unique(strata):
+        own = strata == stratum
+        part, surfaces, count = share[own].sum(), sizes[own].sum(), sizes.sum()
+        if own.all():
+            break
+        # As by the groups of the stratum alone, whose surfaces are scaled for a mean over all.
+        bessel = (surfaces - 1) * count / (surfaces * (count - 1))
+        apart = part * np.sqrt(share[own] / (part - share[own]) * sizes.size / own.sum() * bessel)
+        weight[own] = (1 / share[own] - 1) * apart
     return weight.reshape(-1, *(1,) * (without.ndim - 1)) * (middle - without)
 
 
-def mean_ratio(above: np.ndarray, below: np.ndarray | float = 1.0) -> Estimated[np.ndarray]:
+def mean_ratio(
+    above: np.ndarray, below: np.ndarray | float = 1.0, strata: np.ndarray | None = None
+) -> Estimated[np.ndarray]:
     """Ratio of the means over the surfaces of both, the last axis, which share them; errors to first order.
+
+    strata : (surfaces,) number of the stratum of each; None where all are one
 
     Surfaces with a NaN are left out where they have it. Errors are NaN with fewer than two surfaces; where none is
     left so is the ratio.
@@ -147,8 +212,10 @@ def mean_ratio(above: np.ndarray, below: np.ndarray | float = 1.0) -> Estimated[
         top, bottom = (np.where(known, each, 0.0).sum(axis=-1) / count for each in (above, below))
         value = top / bottom
         left = np.where(known, above - value[..., None] * below, 0.0) / bottom[..., None]
-        error = np.sqrt(np.sum(np.square(left), axis=-1) / np.where(count > 1, count * (count - 1.0), nan))
-        return Estimated(value, error, np.maximum(count - 1, 0), skewness(left, axis=-1))
+        squares = np.square(left)
+        error = np.sqrt(np.sum(squares, axis=-1) / np.where(count > 1, count * (count - 1.0), nan))
+        dof = np.maximum(count - 1, 0) if strata is None else welch(np.moveaxis(squares, -1, 0), strata)
+        return Estimated(value, error, dof, skewness(left, axis=-1))
 
 
 def left_out(samples: np.ndarray) -> np.ndarray:
@@ -166,12 +233,14 @@ DIMENSIONS = {"1D": ("MDR",), "3D": ("BEM",), "1D/3D": ("MDR", "BEM")}
 class DrawSet(Mapping[str, xarray.Dataset]):
     """Datasets of one grid by "name/solver", from which draws can be left out.
 
-    Draws of different solvers are independent: a share of each is left out together, which counts both errors with
-    the degrees of freedom of the fewer.
+    Draws of different solvers are independent, and are left out by themselves. Where the Datasets of one solver
+    differ in their number, shares of each are left out together.
     """
 
     datasets: Mapping[str, xarray.Dataset]
-    _left: dict[tuple[int, ...], "DrawSet"] = field(default_factory=dict, init=False, repr=False, compare=False)
+    _left: dict[tuple[str, tuple[int, ...]], "DrawSet"] = field(
+        default_factory=dict, init=False, repr=False, compare=False
+    )
 
     @classmethod
     def of(cls, answers: xarray.DataTree, names: Iterable[str], grid: str) -> Self:
@@ -189,31 +258,54 @@ class DrawSet(Mapping[str, xarray.Dataset]):
         return len(self.datasets)
 
     @property
-    def _counts(self) -> set[int]:
-        return {each.sizes["seed"] for each in self.values() if "seed" in each.dims}
+    def _strata(self) -> dict[str, list[np.ndarray]]:
+        """Strata of the draws of every Dataset that has any, by the solver."""
+        found: dict[str, list[np.ndarray]] = {}
+        for name, each in self.items():
+            if "seed" in each.dims:
+                found.setdefault(_solver(name, each), []).append(strata_of(each))
+        return found
 
     @property
     def draws(self) -> int:
         """Number of surfaces of the solver with the fewest; 0 of smooth bodies."""
-        return min(self._counts, default=0)
+        return min((each.size for found in self._strata.values() for each in found), default=0)
 
     @property
-    def groups(self) -> Sequence[np.ndarray]:
-        """Draws that are left out together; where solvers differ in their number, the numbers of equal shares."""
-        if len(self._counts) > 1:
-            return [np.array([k]) for k in range(min(self.draws, MOST_GROUPS))]
-        return groups(self.draws) if self.draws else []
+    def groups(self) -> Sequence[Group]:
+        """Draws that are left out together; where Datasets of a solver differ in number, those of equal shares."""
+        found = []
+        for solver, (first, *others) in self._strata.items():
+            if all(np.array_equal(first, each) for each in others):
+                found += groups(first, solver)
+            else:
+                fewest = min(each.size for each in (first, *others))
+                found += [Group(np.array([k]), 0, solver) for k in range(min(fewest, MOST_GROUPS))]
+        return found
 
-    def without(self, group: np.ndarray) -> "DrawSet":
-        """The sample without one group of draws, or without one share of the draws of each solver.
+    def without(self, group: Group) -> "DrawSet":
+        """The sample without one group of draws of a solver.
 
         It is kept, as every claim on the same Datasets asks for the same ones.
         """
-        key = tuple(group.tolist())
+        key = group.solver, tuple(group.surfaces.tolist())
         if key not in self._left:
-            shares = len(self.groups) if len(self._counts) > 1 else 0
-            self._left[key] = DrawSet({name: _without(each, group, shares) for name, each in self.items()})
+            own = [name for name, each in self.items() if _solver(name, each) == group.solver]
+            alike = len({self[name].sizes.get("seed") for name in own} - {None}) < 2
+            shares = 0 if alike else sum(each.solver == group.solver for each in self.groups)
+            parted = {name: _without(self[name], group.surfaces, shares) for name in own}
+            self._left[key] = DrawSet({**self.datasets, **parted})
         return self._left[key]
+
+
+def strata_of(dataset: xarray.Dataset) -> np.ndarray:
+    """Number of the stratum of each draw."""
+    named = "stratum" in dataset.coords
+    return dataset["stratum"].values if named else np.zeros(dataset.sizes["seed"], int)
+
+
+def _solver(name, dataset):
+    return str(dataset.attrs.get("solver", name))
 
 
 def _without(dataset, group, shares):

@@ -11,7 +11,7 @@ from pandas import DataFrame
 
 from ..solving.parameter_grid import COARSE, EMPTY, FAILED, FINE
 from .intervals import Estimated
-from .jackknife import DrawSet, mean_ratio, resample
+from .jackknife import DrawSet, mean_ratio, resample, strata_of
 
 # Means of friction: the two forces whose means are divided.
 FRICTION = ("friction_force", "normal_force")
@@ -147,7 +147,7 @@ def _estimated(dataset, above, below):
     over = dataset[above].transpose(*order).values
     under = np.ones_like(over) if below is None else dataset[below].transpose(*order).values
     if "seed" in dataset.dims:
-        return mean_ratio(over, under)
+        return mean_ratio(over, under, strata_of(dataset))
     with np.errstate(invalid="ignore", divide="ignore"):
         value = over / under
     return Estimated.exact(value)

@@ -13,6 +13,7 @@ from compare.statistics.finding import FAILS, HOLDS, UNDECIDED
 from compare.statistics.finding import verdict as decided
 from compare.statistics.frictioncurves import Curve, MeasuredCurves, SimulatedCurves
 from compare.statistics.intervals import RmsMisfit
+from compare.statistics.jackknife import Group
 from mdr1d.equations import interpolation
 
 SPEEDS = 0.1 * 2.0 ** np.arange(5)
@@ -205,7 +206,7 @@ def test_points_and_surfaces_that_failed_are_left_out_and_counted():
 
 def test_where_scatter_is_not_known_there_are_values_and_no_verdict():
     given = simulated(np.random.default_rng(7), friction(knee), 2)
-    two, one = collapse(given), collapse(given.without(np.array([1])))
+    two, one = collapse(given), collapse(given.without(Group(np.array([1]))))
     assert two.horizontal.exponent.dof == 1
     assert np.isfinite(two.horizontal.exponent.error)
     for found in (one, collapse(measured(np.random.default_rng(7), friction(knee), known=False))):

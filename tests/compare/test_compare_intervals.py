@@ -10,7 +10,7 @@ from compare.solving.parameter_grid import FINE
 from compare.statistics.finding import Claim, Finding
 from compare.statistics.frictioncurves import SimulatedCurves
 from compare.statistics.intervals import Estimated, student
-from compare.statistics.jackknife import DrawSet, Replicates, mean_ratio, resample
+from compare.statistics.jackknife import DrawSet, Replicates, groups, mean_ratio, resample
 from compare.statistics.means import compared, interval
 from compare.statistics.sampling import Bias
 
@@ -75,10 +75,10 @@ def test_what_leaving_surfaces_out_gives_holds_as_often(count):
     class Draws:
         def __init__(self, above, below):
             self.above, self.below = above, below
-            self.groups = np.array_split(np.arange(count), 20)
+            self.groups = groups(np.zeros(count, int))
 
         def without(self, group):
-            return Draws(*(np.delete(each, group, axis=1) for each in (self.above, self.below)))
+            return Draws(*(np.delete(each, group.surfaces, axis=1) for each in (self.above, self.below)))
 
     def numbers(part):
         ratio = part.above.mean(axis=1) / part.below.mean(axis=1)

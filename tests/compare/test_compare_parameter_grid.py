@@ -55,6 +55,27 @@ def test_each_solver_has_a_dataset_and_smooth_bodies_have_no_draw(answers):
     assert answers["rough/BEM"].seed.values.tolist() == [5, 6]
 
 
+COARSER = {"fine": MDR(points=400), "coarse": MDR(points=200), "coarser": MDR(points=100)}
+
+
+def test_draws_of_a_stratum_are_solved_on_their_grid_and_on_the_next_coarser_one():
+    few = replace(ROUGH, grids={"MDR": COARSER}, draws={"MDR": (1, 2, 9)})
+    found = few.datasets({task: outcome_of(task) for task in few.tasks()})["MDR"]
+    assert found["stratum"].values.tolist() == [0] + [1] * 2 + [2] * 9
+    asked = (found["status"] != "not asked").sel(speed=0.1, load=1.0)
+    assert {name: asked.sel(grid=name).sum().item() for name in COARSER} == {"fine": 1, "coarse": 3, "coarser": 11}
+    assert (found["seed_seen"] == found["seed"]).where(asked, True).all()
+    assert found["normal_force"].where(~asked).isnull().all()
+    assert few.cost.contacts == asked.sum() * 6
+    assert few.refuse() is None
+
+
+def test_more_draws_leave_the_tasks_of_those_before_as_they_are():
+    few = replace(ROUGH, grids={"MDR": COARSER}, draws={"MDR": (8, 8, 16)})
+    more = replace(few, draws={"MDR": (8, 16, 24)})
+    assert set(few.tasks()) < set(more.tasks())
+
+
 def test_every_number_stands_where_it_was_asked_for(answers):
     rough = answers["rough/MDR"].to_dataset()
     assert (rough.normal_force == rough["load"]).all()
@@ -137,13 +158,13 @@ def test_what_a_solver_lacks_is_refused_before_anything_is_solved():
         replace(SMOOTH, scene=layered).refuse()
 
 
-def test_draws_of_solvers_are_left_out_in_equal_shares(answers):
+def test_draws_of_each_solver_are_left_out_by_themselves(answers):
     sample = DrawSet.of(answers, ["rough/MDR", "rough/BEM", "smooth/MDR", "gone/MDR"], "fine")
     assert set(sample) == {"rough/MDR", "rough/BEM", "smooth/MDR"}
-    assert (sample.draws, len(sample.groups)) == (2, 2)
-    less = sample.without(sample.groups[1])
-    assert (less["rough/MDR"].sizes["seed"], less["rough/BEM"].seed.values.tolist()) == (2, [5])
-    assert less["smooth/MDR"] is sample["smooth/MDR"]
+    assert (sample.draws, [each.solver for each in sample.groups]) == (2, ["MDR"] * 4 + ["BEM"] * 2)
+    less = sample.without(sample.groups[-1])
+    assert less["rough/BEM"].seed.values.tolist() == [5]
+    assert all(less[name] is sample[name] for name in ("rough/MDR", "smooth/MDR"))
 
 
 def test_a_claim_is_measured_with_scatter_and_with_the_change_on_halving(answers):

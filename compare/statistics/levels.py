@@ -1,0 +1,64 @@
+"""Means over many surfaces on coarse grids and few on finer ones, as draws of one grid (multilevel Monte Carlo).
+
+The mean on the finest grid is that on the coarsest plus that of each difference between neighbouring grids, each
+over surfaces of its own (Giles, Oper. Res. 56, 607, 2008), whatever the coarser grids answer. Statistics ask for
+draws of one grid: each surface is one that lies off this mean by as much as it moves it, so that mean, scatter and
+skewness of these draws are those of the sum. A stratum holds the surfaces of one difference, for Welch's degrees
+of freedom.
+"""
+
+import numpy as np
+import xarray
+
+from ..solving.parameter_grid import COARSE, FINE
+
+
+def pooled(dataset: xarray.Dataset) -> xarray.Dataset:
+    """Draws of the fine and of the coarse grid from those of all grids; one without a stratum is returned.
+
+    dataset : grids from fine to coarse; draws of stratum k have answers on the grids k and k + 1, if there is one
+    """
+    if "stratum" not in dataset.coords:
+        return dataset
+    numbers = [name for name, each in dataset.data_vars.items() if "seed" in each.dims and each.dtype.kind == "f"]
+    strata = dataset["stratum"].values
+    made = {}
+    for name in numbers:
+        values = dataset[name].transpose("grid", ..., "seed").values
+        made[name] = np.stack([_draws(values, strata, first) for first in range(2)])
+    both = dataset.sel(grid=[FINE, COARSE])
+    dims = {name: [each for each in dataset[name].dims if each not in ("grid", "seed")] for name in numbers}
+    return both.assign(
+        {name: (("grid", *dims[name], "seed"), each, dataset[name].attrs) for name, each in made.items()}
+    )
+
+
+def _draws(values, strata, first):
+    """Draws (..., seeds) whose mean is that on one grid: a surface for each, NaN where it has no answer.
+
+    NaN too where a stratum has fewer than two, which tell no scatter.
+
+    values : (grids, ..., seeds); first : number of the grid
+    """
+    mean, changes = 0.0, np.zeros(values.shape[1:])
+    known = np.zeros(values.shape[1:], bool)
+    for stratum in range(len(values)):
+        rows = np.flatnonzero(strata == stratum)
+        if stratum < first:  # of finer grids nothing is seen
+            known[..., rows] = np.isfinite(values[stratum + 1][..., rows])
+            continue
+        part = values[stratum][..., rows]
+        if stratum + 1 < len(values):
+            part = part - values[stratum + 1][..., rows]
+        here = np.isfinite(part)
+        count = here.sum(axis=-1, keepdims=True)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            middle = np.where(here, part, 0.0).sum(axis=-1, keepdims=True) / count
+            # Fewer surfaces move the mean by more each.
+            weight = 1 / np.sqrt(count * (count - 1.0))
+        middle = np.where(count > 1, middle, np.nan)
+        changes[..., rows] = np.where(here, weight * (part - middle), 0.0)
+        known[..., rows] = here
+        mean = mean + middle[..., 0]
+    total = known.sum(axis=-1, keepdims=True)
+    return np.where(known, np.expand_dims(mean, -1) + np.sqrt(total * (total - 1.0)) * changes, np.nan)

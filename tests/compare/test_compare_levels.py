@@ -1,0 +1,100 @@
+"""Many surfaces on coarse grids and few on finer ones have the mean of the finest, in intervals that hold it."""
+
+from math import sqrt
+
+import numpy as np
+import pytest
+import xarray
+
+from compare.statistics.intervals import student
+from compare.statistics.jackknife import DrawSet, friction, mean_ratio, resample, strata_of, welch
+from compare.statistics.levels import pooled
+
+STUDIES = 2000
+COUNTS = 4, 8, 60
+
+
+def answers(rng, counts=COUNTS, variation=0.2, shape=(2,)):
+    """Friction and load of surfaces that share their scatter between points, of mean 1 on the fine grid."""
+    stratum = np.repeat(range(len(counts)), counts)
+    spread = sqrt(np.log1p(variation**2))
+    shared = rng.normal(size=stratum.size)
+    surface = np.exp(spread * (0.8 * shared + 0.6 * rng.normal(size=(*shape, stratum.size))) - spread**2 / 2)
+    force = np.exp(0.05 * shared - 0.05**2 / 2) * np.ones((len(counts), *shape, 1))
+    grids = [
+        surface * (1 - 0.03 * k) * (1 + 0.02 * k * rng.normal(size=surface.shape)) for k in range(len(counts))
+    ]
+    on = np.arange(len(counts))[:, None]
+    asked = ((stratum == on) | (stratum == on - 1))[:, None]
+    dims = "grid", "load", "seed"
+    coordinates = {
+        "grid": ["fine", "coarse", "coarser"],
+        "seed": range(stratum.size),
+        "stratum": ("seed", stratum),
+    }
+    return xarray.Dataset(
+        {
+            "friction_force": (dims, np.where(asked, grids, np.nan)),
+            "normal_force": (dims, np.where(asked, force, np.nan)),
+        },
+        coordinates,
+        {"solver": "BEM"},
+    )
+
+
+def test_draws_of_one_grid_are_the_sum_of_the_differences_of_all_grids():
+    given = answers(np.random.default_rng(0))
+    values, stratum = given["friction_force"].values, given["stratum"].values
+    coarse = values[2][:, stratum == 2], (values[1] - values[2])[:, stratum == 1]
+    parts = *coarse, (values[0] - values[1])[:, stratum == 0]
+    found = pooled(given)["friction_force"]
+    for grid, some in (("coarse", coarse), ("fine", parts)):
+        here = mean_ratio(found.sel(grid=grid).values, 1.0, stratum)
+        np.testing.assert_allclose(here.value, sum(each.mean(axis=1) for each in some), rtol=1e-12)
+        variance = sum(each.var(axis=1, ddof=1) / each.shape[1] for each in some)
+        np.testing.assert_allclose(here.error, np.sqrt(variance), rtol=1e-12)
+
+
+def test_draws_without_strata_stay_as_they_are():
+    given = answers(np.random.default_rng(0)).drop_vars("stratum")
+    assert pooled(given) is given
+
+
+def test_one_difference_alone_tells_no_interval():
+    found = pooled(answers(np.random.default_rng(1), (1, 4, 9))).sel(grid="fine")
+    assert np.isnan(found["friction_force"]).all()
+
+
+@pytest.mark.parametrize(
+    ("variation", "least", "most"), [(0.15, 0.94, 0.96), (0.5, 0.94, 0.96), (1.0, 0.93, 0.96)]
+)
+def test_intervals_of_means_hold_as_often_as_stated(variation, least, most):
+    rng = np.random.default_rng(3)
+    held, close = 0, 3 * sqrt(0.95 * 0.05 / STUDIES / 2)
+    for _ in range(STUDIES):
+        given = pooled(answers(rng, variation=variation)).sel(grid="fine")
+        low, high = mean_ratio(given["friction_force"].values, 1.0, strata_of(given)).interval()
+        held += np.mean((low <= 1) & (high >= 1)) / STUDIES
+    assert least - close <= held <= most + close
+
+
+def test_leaving_surfaces_out_of_all_grids_has_the_error_of_the_mean():
+    """Of a ratio of means, by groups of each stratum; the mean of its squares is that to first order."""
+    rng = np.random.default_rng(4)
+    squares = []
+    for _ in range(100):
+        given = pooled(answers(rng)).sel(grid="fine")
+        found = resample(lambda sample: {"": friction(sample["BEM"])}, DrawSet({"BEM": given}))[""].estimated
+        told = mean_ratio(given["friction_force"].values, given["normal_force"].values, strata_of(given))
+        np.testing.assert_allclose(found.value, told.value, rtol=1e-12)
+        squares.append(np.square(found.error / told.error))
+    assert np.mean(squares) == pytest.approx(1.0, abs=0.05)
+
+
+def test_degrees_of_freedom_are_those_of_welch():
+    strata = np.array([0] * 4 + [1] * 8)
+    even = welch(np.repeat([[1.0], [0.5]], [4, 8], axis=0), strata)
+    assert even == pytest.approx(1 / (0.25 / 3 + 0.25 / 7))
+    assert welch(np.repeat([[1.0], [0.0]], [4, 8], axis=0), strata) == pytest.approx(3)
+    assert welch(np.zeros((12, 1)), strata) == pytest.approx(10)
+    assert student(0.95, even)[0] > student(0.95, 10)
