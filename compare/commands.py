@@ -333,10 +333,11 @@ def sweep(
     speed: Sequence[float],
     load: Sequence[float] | None = None,
     depth: Sequence[float] | None = None,
-    draws: int = 8,
+    draws: int | None = None,
     output: str | Path = "crosscheck-sweep",
     models: Sequence[ModelLike] | None = None,
     reference: str | None = None,
+    interval: float | str | None = None,
     **options: Unpack[Options],
 ) -> xarray.Dataset:
     """Solve a scene at every speed and every load or depth in both dimensionalities, or by other models.
@@ -350,12 +351,15 @@ def sweep(
 
     speed : [m/s]; 0 is rest
     load, depth : [N], [m]; those of the scene if both are absent
-    draws : rough surfaces, and as many profiles
+    draws : rough surfaces, and as many profiles; 8 if absent
+    interval : in place of draws, the half-width that is wanted of the interval of 95 % of each mean, relative:
+        0.02 or "2%". Many surfaces are then solved on coarse grids and few on finer ones, until every interval is
+        so narrow; `stratum` tells on which grids. An error of the grid above half of it keeps an interval wider
     """
     from .statistics import griderror
     from .studies.sweep.study import Sweep
 
-    asked = Sweep.of(scene, speed, load, depth, draws, models, reference)
+    asked = Sweep.of(scene, speed, load, depth, draws, models, reference, interval)
     answers = solve(asked, output, **options).answers
     griderror.warn(answers)
     return asked.dataset(answers)

@@ -1,6 +1,9 @@
 """Times, errors and settings in words."""
 
-from math import isfinite
+from math import isfinite, nan
+
+from scene.printable import brief
+from scene.reading import InvalidInput
 
 HOUR = 3600.0
 
@@ -62,3 +65,18 @@ def short(value: float) -> str:
     """Two digits, without powers of ten where there need be none."""
     rounded = float(f"{value:.2g}")
     return f"{rounded:.0f}" if 10 <= rounded < 1e6 else f"{rounded:g}"
+
+
+def share_of(name: str, given: float | str) -> float:
+    """Share between 0 and 1, of a number or a text such as 2%. Raises InvalidInput.
+
+    name : of the argument, for the error
+    """
+    try:
+        percent = isinstance(given, str) and given.strip().endswith("%")
+        found = float(str(given).strip().removesuffix("%")) / (100 if percent else 1)
+    except ValueError:
+        found = nan
+    if isinstance(given, bool) or not 0 < found < 1:
+        raise InvalidInput(f"{name} = {brief(repr(given))}: a share above 0 and below 1, as 2% or 0.02")
+    return found

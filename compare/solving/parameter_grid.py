@@ -30,6 +30,8 @@ if TYPE_CHECKING:
     import xarray
 
 FINE, COARSE = "fine", "coarse"
+LEVELS = FINE, COARSE, "coarser", "coarsest"
+LEAST = {"BEM": 32, "MDR": 512}  # points of the coarsest, below which a surface costs hardly less
 # Status of a contact: solved, without a contact at the prescribed depth, without an answer, or never asked for.
 SOLVED, EMPTY, FAILED, NOT_ASKED = ("solved", "no contact", "failed", "not asked")
 NO_DRAWS = "none"  # of a model that answers for all surfaces at once
@@ -85,6 +87,16 @@ class ParameterGrid:
     def prescribed(self) -> str:
         """Name of what is prescribed: "load" or "depth"."""
         return self.scene.motion.pressed_by
+
+    @property
+    def costs(self) -> Mapping[str, tuple[float, ...]]:
+        """Planned work of one surface of each stratum, on its grid and on the next coarser one, by the solver."""
+        points = len(self.speeds) * len(self.values)
+        found = {}
+        for name, grids in self.grids.items():
+            each = [points * work_of(solver, self.scene) for solver in grids.values()]
+            found[name] = tuple(map(sum, zip(each, [*each[1:], 0.0], strict=True)))
+        return found
 
     @property
     def cost(self) -> Cost:
@@ -256,6 +268,24 @@ def on_two_grids(*solvers: Solver) -> dict[str, dict[str, Solver]]:
     """Settings of solvers on their own grid and on one of half the points, if they have points."""
     both = {each.name: {FINE: each, COARSE: halved(each)} for each in solvers}
     return {name: {grid: each for grid, each in grids.items() if each is not None} for name, grids in both.items()}
+
+
+def on_levels(solver: Solver, scenes: Iterable[Scene]) -> dict[str, Solver]:
+    """Settings of a solver on its own grid and on coarser ones, halved as long as these solve some scenes.
+
+    scenes : the widest contact first; a grid on which a solver lacks what one of them takes is left out
+    """
+    first, *others = scenes
+    found = [solver]
+    with trusted():
+        while len(found) < len(LEVELS):
+            coarser = halved(found[-1])
+            if coarser is None or coarser.points < LEAST.get(solver.name, 1):
+                break
+            if why_not(coarser, first) or any(lacking(coarser, each) for each in others):
+                break
+            found.append(coarser)
+    return dict(zip(LEVELS, found, strict=False))
 
 
 def halved(solver: Solver) -> Any:

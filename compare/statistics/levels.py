@@ -10,8 +10,6 @@ of freedom.
 import numpy as np
 import xarray
 
-from ..solving.parameter_grid import COARSE, FINE
-
 
 def pooled(dataset: xarray.Dataset) -> xarray.Dataset:
     """Draws of the fine and of the coarse grid from those of all grids; one without a stratum is returned.
@@ -25,8 +23,8 @@ def pooled(dataset: xarray.Dataset) -> xarray.Dataset:
     made = {}
     for name in numbers:
         values = dataset[name].transpose("grid", ..., "seed").values
-        made[name] = np.stack([_draws(values, strata, first) for first in range(2)])
-    both = dataset.sel(grid=[FINE, COARSE])
+        made[name] = np.stack([_draws(values, strata, first) for first in range(len(values))[:2]])
+    both = dataset.isel(grid=slice(2))
     dims = {name: [each for each in dataset[name].dims if each not in ("grid", "seed")] for name in numbers}
     return both.assign(
         {name: (("grid", *dims[name], "seed"), each, dataset[name].attrs) for name, each in made.items()}

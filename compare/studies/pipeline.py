@@ -61,9 +61,14 @@ def run(
     _make_folders(output, [SOLVED] if cost.contacts else [], study.place)
     if cost.contacts:
         progress.told(str(cost))
-    swept = _solve(study.batches(), output, workers, scheduler, progress)
+    swept = SweepResult({}, 0, 0, 0.0)
+    more: Study | None = study
     try:
-        answers = study.answers(swept.outcomes)
+        while more is not None:
+            study, swept = more, swept.joined(_solve(more, swept, output, workers, scheduler, progress))
+            answers = study.answers(swept.outcomes)
+            # What breaks with few surfaces breaks with more.
+            more = None if swept.faults else study.more(answers)
         judged = study.judge(answers)
         findings, page = judged.findings, judged.page(study.title, answers)
         unsolved = study.unsolved(_whole(swept))
@@ -98,10 +103,11 @@ def _whole(swept):
     return {task: outcome for task, outcome in swept.outcomes.items() if task not in swept.faults}
 
 
-def _solve(batches, output, workers, scheduler, progress) -> SweepResult:
-    """Solve what the folder does not have. Timed tasks are solved here, one by one, whatever the scheduler."""
+def _solve(study, had, output, workers, scheduler, progress) -> SweepResult:
+    """Solve what neither a sweep had nor the folder has. Timed tasks are solved here, whatever the scheduler."""
     swept = SweepResult({}, 0, 0, 0.0)
-    for batch in batches:
+    for batch in study.batches():
+        batch = batch._replace(tasks=[task for task in batch.tasks if task not in had.outcomes])
         if not batch.tasks:
             continue
         store = Store(output / SOLVED)

@@ -113,6 +113,10 @@ class Study:
         """Everything that was solved, labelled."""
         return parameter_grid.tree(self.grids(), outcomes)
 
+    def more(self, answers: xarray.DataTree) -> "Study | None":
+        """The study with more surfaces, as its answers ask for; None where they say enough."""
+        return None
+
     def judge(self, answers: xarray.DataTree) -> Judgement:
         """What the answers come to: once for the same answers, and all of it."""
         return Judgement([judge(claim, answers) for claim in self.claims()], setting=self.setting)

@@ -22,7 +22,7 @@ def answers(rng, counts=COUNTS, variation=0.2, shape=(2,)):
     surface = np.exp(spread * (0.8 * shared + 0.6 * rng.normal(size=(*shape, stratum.size))) - spread**2 / 2)
     force = np.exp(0.05 * shared - 0.05**2 / 2) * np.ones((len(counts), *shape, 1))
     grids = [
-        surface * (1 - 0.03 * k) * (1 + 0.02 * k * rng.normal(size=surface.shape)) for k in range(len(counts))
+        surface * (1 - 0.003 * k) * (1 + 0.02 * k * rng.normal(size=surface.shape)) for k in range(len(counts))
     ]
     on = np.arange(len(counts))[:, None]
     asked = ((stratum == on) | (stratum == on - 1))[:, None]

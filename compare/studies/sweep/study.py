@@ -1,7 +1,7 @@
 """A parameter grid of a scene of one's own in both dimensionalities: `compare.sweep`."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import islice, product
 from math import isfinite
 from typing import Any
@@ -19,18 +19,22 @@ from scene.reading import InvalidInput, whole
 
 from ...library.case import Case, doubted
 from ...library.lookup import SceneLike, case_of
-from ...models.table import ModelLike, Models
+from ...models.table import NONE, ModelLike, Models
 from ...report.page import Findings, Table
+from ...solving.amounts import share_of
 from ...solving.cost import MOST_DRAWS, MOST_VALUES
-from ...solving.parameter_grid import COARSE, FINE, ParameterGrid, on_two_grids
+from ...solving.parameter_grid import COARSE, FINE, LEVELS, ParameterGrid, on_levels, on_two_grids
 from ...solving.vocabulary import attributes
+from ...statistics.allocation import needed, pilot
 from ...statistics.finding import Claim, said_of
 from ...statistics.jackknife import DrawSet, mean, measured
+from ...statistics.levels import pooled
 from ...statistics.means import interval
 from ..run.curves import models_of
 from ..study import Judgement, Study
 from . import figure as plots
 
+FEW = 8  # draws where nothing is asked
 # Means over draws: of a variable, or of one over another.
 MEANS = {
     "friction_coefficient": ("friction_force", "normal_force"),
@@ -49,6 +53,8 @@ class Sweep(Study):
     speeds, values : [m/s]; [N] or [m]
     draws : rough surfaces, and as many profiles
     models : of which each but the reference is compared with that
+    interval : half-width of the intervals of 95 % that is wanted of each mean, relative; None of fixed draws
+    strata : then numbers of surfaces on each grid by model, see `ParameterGrid`
     """
 
     case: Case
@@ -56,6 +62,8 @@ class Sweep(Study):
     values: tuple[float, ...]
     draws: int
     models: Models
+    interval: float | None = None
+    strata: Mapping[str, tuple[int, ...]] = field(default_factory=dict)
 
     command, title = "sweep", "A sweep in one and in three dimensions"
 
@@ -66,9 +74,10 @@ class Sweep(Study):
         speed: Sequence[float],
         load: Sequence[float] | None = None,
         depth: Sequence[float] | None = None,
-        draws: int = 8,
+        draws: int | None = None,
         models: Sequence[ModelLike] | None = None,
         reference: str | None = None,
+        interval: float | str | None = None,
     ) -> "Sweep":
         """The sweep of a scene, a case, a file or a ready scene. Raises InvalidInput, Refused."""
         case = case_of(scene)
@@ -79,18 +88,22 @@ class Sweep(Study):
             name, values = case.motion.pressed_by, [case.motion.greatest]
         speeds = _numbers("speed", speed, least=0.0)
         prescribed = _numbers(name, values)
-        draws = whole("draws", draws, MOST_DRAWS)
+        if draws is not None and interval is not None:
+            raise InvalidInput("draws, interval: both given, give one of them")
+        drawn = whole("draws", FEW if draws is None else draws, MOST_DRAWS)
         pressed: dict[str, Any] = {name: prescribed[0]}
         moving = max(speeds)
         motion = Slide(speed=moving, **pressed) if moving else Indent(**pressed)
         compared = models_of(case, models, reference)
-        asked = cls(replace(case, motion=motion), speeds, prescribed, draws, compared)
+        wanted = None if interval is None else share_of("interval", interval)
+        asked = cls(replace(case, motion=motion), speeds, prescribed, drawn, compared, wanted)
         asked.grids()["contacts"].refuse()
         return asked
 
     @property
     def inputs(self) -> Mapping[str, Any]:
-        return {"speed": self.speeds, self.case.motion.pressed_by: self.values, "draws": self.draws}
+        wanted = {"draws": self.draws} if self.interval is None else {"interval": self.interval}
+        return {"speed": self.speeds, self.case.motion.pressed_by: self.values, **wanted}
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -104,15 +117,37 @@ class Sweep(Study):
 
     def grids(self) -> Mapping[str, ParameterGrid]:
         scene: Scene = self.case.scene
-        return {
-            "contacts": ParameterGrid(
-                scene=scene,
-                speeds=self.speeds,
-                values=self.values,
-                grids=on_two_grids(*(each.solver for each in self.models)),
-                draws={each.name: each.count(self.draws, self.draws) for each in self.models},
-            )
-        }
+        fixed = ParameterGrid(
+            scene=scene,
+            speeds=self.speeds,
+            values=self.values,
+            grids=on_two_grids(*(each.solver for each in self.models)),
+            draws={each.name: each.count(self.draws, self.draws) for each in self.models},
+        )
+        if self.interval is None or not fixed.random:
+            return {"contacts": fixed}
+        levels = {each.name: on_levels(each.solver, fixed.corners) for each in self.models}
+        drawn = {each.name: pilot(len(levels[each.name])) for each in self.models if each.draws != NONE}
+        return {"contacts": replace(fixed, grids=levels, draws=drawn | dict(self.strata))}
+
+    def more(self, answers: xarray.DataTree) -> "Sweep | None":
+        """The sweep with the surfaces that the wanted interval asks for; None once it is reached."""
+        grid = self.grids()["contacts"]
+        had = {name: each for name, each in grid.draws.items() if isinstance(each, tuple)}
+        asked = {}
+        if self.interval is None:
+            return None
+        for name in had:
+            dataset = answers["contacts"].children[name].to_dataset(inherit=False)
+            numbers = [pair for pair in MEANS.values() if self._is_free(*pair)]
+            asked[name] = needed(dataset, numbers, grid.costs[name], self.interval).counts
+        return None if asked == had else replace(self, strata=asked)
+
+    def _is_free(self, above, below):
+        """Whether a mean is one that the contacts answer: friction of what slides, else what is not prescribed."""
+        if below is not None:
+            return min(self.speeds) > 0
+        return above == ("normal_force" if self.case.motion.pressed_by == "depth" else "depth_reached")
 
     def judge(self, answers: xarray.DataTree) -> Judgement:
         """Friction, else force or depth, of each model over the reference at every contact, without a claim."""
@@ -159,7 +194,7 @@ class Sweep(Study):
     def _draws(answers, grid, solvers):
         nodes = {each: answers["contacts"].children[each].to_dataset(inherit=False) for each in solvers}
         return DrawSet(
-            {name: each.sel(grid=grid if grid in each["grid"] else FINE) for name, each in nodes.items()}
+            {name: pooled(each).sel(grid=grid if grid in each["grid"] else FINE) for name, each in nodes.items()}
         )
 
     def dataset(self, answers: xarray.DataTree) -> xarray.Dataset:
@@ -174,12 +209,13 @@ class Sweep(Study):
             data_vars="all",
             join="outer",
         )
-        return joined.assign_attrs(prescribed=self.case.motion.pressed_by)
+        grids = [grid for grid in LEVELS if grid in joined["grid"]]  # which joining may have sorted
+        return joined.sel(grid=grids).assign_attrs(prescribed=self.case.motion.pressed_by)
 
     def _with_means(self, dataset):
         """One solver with its means; the points of a grid, which differ between solvers, as a variable."""
         for name, (above, below) in MEANS.items():
-            for end, values in interval(dataset, above, below)._asdict().items():
+            for end, values in interval(pooled(dataset), above, below)._asdict().items():
                 label = f"{name}_{'mean' if end == 'value' else end}"
                 dataset[label] = ("speed", self.case.motion.pressed_by), values, attributes(label)
         return dataset.reset_coords("points").drop_attrs(deep=False)

@@ -1,0 +1,138 @@
+"""Who asks for an interval gets one as narrow, of as few surfaces as scatter and cost ask for."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import xarray
+from small_cases import SLIDING
+from test_compare_levels import answers
+
+import compare
+from bem3d import BEM
+from compare.library.case import Case
+from compare.statistics.allocation import DIFFERENCES, GROWTH, PILOT, needed, pilot
+from compare.statistics.jackknife import mean_ratio
+from compare.statistics.levels import pooled
+from mdr1d import MDR
+from scene.reading import InvalidInput
+
+COSTS = 10.0, 3.0, 1.0
+FRICTION = [("friction_force", None)]
+
+
+def grown(rng, had, counts, variation):
+    """Answers of so many surfaces, those that are known among them."""
+    new = answers(rng, counts, variation)
+    if had is None:
+        return new
+    parts = []
+    for stratum in range(len(counts)):
+        old, more = (each.isel(seed=np.flatnonzero(each["stratum"] == stratum)) for each in (had, new))
+        parts += [old, more.isel(seed=slice(old.sizes["seed"], None))]
+    return xarray.concat(parts, "seed")
+
+
+def sampled(rng, variation, interval):
+    """Answers once the interval is reached, and the number of looks."""
+    had, counts, found, looks = None, pilot(3), None, 0
+    while counts != had:
+        had, looks = counts, looks + 1
+        found = grown(rng, found, counts, variation)
+        counts = needed(found, FRICTION, COSTS, interval).counts
+    return found, looks
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("variation", "interval", "least"), [(0.15, 0.02, 0.94), (0.5, 0.05, 0.94), (1.0, 0.1, 0.93), (1.0, 0.3, 0.93)]
+)
+def test_intervals_hold_as_often_although_sampling_stops_by_them(variation, interval, least):
+    """Five hundred synthetic studies of two points that share their surfaces."""
+    rng, studies, held = np.random.default_rng(7), 500, []
+    for _ in range(studies):
+        found = pooled(sampled(rng, variation, interval)[0]).sel(grid="fine")
+        low, high = mean_ratio(found["friction_force"].values, 1.0, found["stratum"].values).interval()
+        held.append(np.mean((low <= 1) & (high >= 1)))
+    close = 2 * np.std(held) / studies**0.5
+    assert least - close <= np.mean(held) <= 0.96 + close
+
+
+def test_sampling_stops_with_intervals_as_narrow_as_wanted():
+    rng = np.random.default_rng(0)
+    for interval in (0.1, 0.05):
+        found, looks = sampled(rng, 0.3, interval)
+        assert needed(found, FRICTION, COSTS, interval).widest <= interval
+        assert looks <= 5
+
+
+def test_costly_strata_get_fewer_surfaces():
+    found = answers(np.random.default_rng(1), pilot(3), 0.3)
+    cheap, costly = (needed(found, FRICTION, (fine, 3.0, 1.0), 0.03).counts for fine in (4.0, 400.0))
+    assert costly[0] <= cheap[0]
+    assert costly[2] >= cheap[2]
+    assert all(count <= GROWTH * had for count, had in zip(cheap, pilot(3), strict=True))
+
+
+def test_what_is_narrow_enough_asks_for_nothing_more():
+    found = answers(np.random.default_rng(2), pilot(3), 0.1)
+    assert needed(found, FRICTION, COSTS, 0.5).counts == pilot(3) == (DIFFERENCES, DIFFERENCES, PILOT)
+
+
+CASE = Case(
+    indenter=SLIDING.indenter,
+    elastomer=SLIDING.elastomer,
+    motion=SLIDING.motion,
+    roughness=SLIDING.roughness,
+    bem=BEM(points=64),
+    mdr=MDR(points=1024),
+)
+
+
+def friction(dataset, end):
+    return dataset[f"friction_coefficient_{end}"].sel(speed=[0.1, 1.0]).values
+
+
+@pytest.mark.usefixtures("in_this_process")
+def test_a_sweep_reaches_the_interval_resumes_and_agrees_with_fixed_draws(tmp_path):
+    asked = {"scene": CASE, "speed": [0.1, 1.0], "report": False}
+    found = compare.sweep(**asked, interval="12%", output=tmp_path / "few")
+    half = (friction(found, "high") - friction(found, "low")) / 2
+    assert np.all(half <= 0.12 * friction(found, "mean"))
+    again = compare.sweep(**asked, interval=0.12, output=tmp_path / "few")
+    xarray.testing.assert_identical(found, again)
+    fixed = compare.sweep(**asked, draws=24, output=tmp_path / "many")
+    apart = abs(friction(found, "mean") - friction(fixed, "mean"))
+    assert np.all(apart <= half + (friction(fixed, "high") - friction(fixed, "low")) / 2)
+    status = found["status"].sel(solver="BEM", speed=0.1)
+    solved = [(status.sel(grid=grid) == "solved").sum().item() for grid in ("fine", "coarse")]
+    assert solved[0] == DIFFERENCES
+    assert solved[1] >= DIFFERENCES + PILOT
+
+
+@pytest.mark.slow
+def test_digits_do_not_depend_on_the_number_of_workers(tmp_path):
+    one, two = (
+        compare.sweep(CASE, [0.1, 1.0], interval="15%", output=tmp_path / str(count), workers=count, report=False)
+        for count in (1, 2)
+    )
+    xarray.testing.assert_identical(one.drop_vars("seconds"), two.drop_vars("seconds"))
+
+
+@pytest.mark.usefixtures("in_this_process")
+def test_a_smooth_body_has_no_surfaces_to_average(tmp_path):
+    smooth = replace(CASE, roughness=None)
+    found = compare.sweep(smooth, [0.1], interval="1%", output=tmp_path, report=False)
+    assert "seed" not in found.dims
+
+
+@pytest.mark.parametrize("interval", [0, 1, "2 mm", "200%", True, float("nan"), "-1%"])
+def test_an_interval_is_a_share(interval, tmp_path):
+    with pytest.raises(InvalidInput, match=r"interval = .*: a share above 0 and below 1, as 2% or 0\.02"):
+        compare.sweep(CASE, [0.1], interval=interval, output=tmp_path / "none")
+    assert not (tmp_path / "none").exists()
+
+
+def test_draws_and_an_interval_are_not_both_given(tmp_path):
+    with pytest.raises(InvalidInput, match="draws, interval: both given"):
+        compare.sweep(CASE, [0.1], draws=3, interval="2%", output=tmp_path / "none")
