@@ -151,10 +151,8 @@ class Grid:
 
     def rim(self, chosen: np.ndarray) -> int:
         """Sides of the chosen pixels beyond which there is none of them; of a row only those at its ends."""
-        along = np.count_nonzero(np.diff(np.pad(chosen, ((0, 0), (1, 1))), axis=1))
-        if self.rows == 1:
-            return int(along)
-        return int(along + np.count_nonzero(np.diff(np.pad(chosen, ((1, 1), (0, 0))), axis=0)))
+        ways = (chosen,) if self.rows == 1 else (chosen, chosen.T)
+        return sum(int(np.count_nonzero(lines[:, 1:] != lines[:, :-1]) + lines[:, [0, -1]].sum()) for lines in ways)
 
     def on_rim(self, chosen: np.ndarray) -> bool:
         """Whether any chosen pixel lies on the rim; a single row ends at its first and last pixel only."""

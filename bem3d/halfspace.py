@@ -47,7 +47,8 @@ class HalfSpace:
         difference quotient. Of its kernel only the part even in x does work on the pressure, the sum of the loss
         compliance over the spectrum of the pressure; of that of the displacement only the part odd in x.
         """
-        pairs = np.pad(autocorrelation(pressure, self.engine), ((0, 0), (0, 2)))
+        pairs = np.zeros((grid.rows, grid.points + 2))
+        pairs[:, :-2] = autocorrelation(pressure, self.engine)
         even, at_once, odd = self._losing(grid)
         loss = np.sum(even * pairs[:, 1:-1]) + at_once @ pairs[:, 0]
         return float(loss), float(np.sum(odd * (pairs[:, :-2] - pairs[:, 2:])) / 2)
