@@ -65,7 +65,7 @@ class HalfSpace:
         slope, moved = self._flowing(wider, np.array([rates.sum(), 0.0]), np.array([-rates, shares]), lengths, 0.0)
         even = slope[:, middle + 1 :] + slope[:, middle - 1 : 0 : -1]
         odd = moved[:, middle + 1 :] - moved[:, middle - 1 : 0 : -1]
-        return even, slope[:, middle], odd
+        return even, slope[:, middle].copy(), odd
 
     def _seen(self, grid):
         """Shares and lengths [pixel] of the modes, none shorter than leaves digits to the even part of a kernel.

@@ -6,7 +6,7 @@ from functools import lru_cache, wraps
 from math import prod
 from typing import TypeVar
 
-SMALL, KEPT = 2**14, 128  # points of a grid, and grids: no more than 40 MB of what is kept of each
+SMALL, KEPT = 2**14, 128  # points of a grid, and grids: 35 MB at most by each method, 4 MB on 32 x 32 points
 
 _T = TypeVar("_T")
 
