@@ -14,6 +14,7 @@ from .engine import Engine
 from .foundation import Foundation
 from .grid import Grid
 from .ground import HALF_SPACE, Ground
+from .kept import kept
 from .sliding import Flow
 
 
@@ -43,6 +44,7 @@ class Cell:
 
         return PeriodicFilter(grid.shape, elastic, self.engine)
 
+    @kept
     def foundation(self, grid: Grid) -> Foundation | None:
         """Part of the operator that the elastic half-space does not have; None at rest."""
         return Foundation.of(self.flow, grid, wraps=True)

@@ -14,22 +14,30 @@ SHORTEST = np.pi * (1 - 1e-9)  # wave number [rad/pixel]; those of other waves a
 class FreeConvolution:
     """Zero-padded convolution with a kernel, on ny x nx points of a free surface; counts operator_applications."""
 
-    def __init__(self, kernel, engine=PLAIN):
-        """kernel: (ny, 2 nx), symmetric in y; column nx + i acts i pixels downstream (see `influence`)."""
-        ny, nx = kernel.shape[0], kernel.shape[1] // 2
-        padded = _padded((ny, nx), engine)
-        downstream, upstream = kernel[:, nx:], kernel[:, 1:nx]
-        if np.array_equal(downstream[:, 1:], upstream[:, ::-1]):
-            symbol = engine.symmetric(downstream, padded)
-        else:
-            symbol = engine.transformed(_laid_out(downstream, upstream, padded), padded)
-        self.shape, self.operator_applications = (ny, nx), 0
-        self._product = engine.product(symbol, self.shape, padded)
+    def __init__(self, shape, symbol, engine=PLAIN):
+        """symbol: see `free_symbol`."""
+        self.shape, self.operator_applications = shape, 0
+        self._product = engine.product(symbol, shape, _padded(shape, engine))
+
+    @classmethod
+    def of(cls, kernel, engine=PLAIN):
+        """The convolution with a kernel, see `free_symbol`."""
+        return cls((len(kernel), kernel.shape[1] // 2), free_symbol(kernel, engine), engine)
 
     def __call__(self, pressure, out=None):
         """Displacement (ny, nx) of a pressure (ny, nx)."""
         self.operator_applications += 1
         return self._product(pressure, out)
+
+
+def free_symbol(kernel, engine=PLAIN):
+    """Symbol of a kernel (ny, 2 nx), symmetric in y; column nx + i acts i pixels downstream (see `influence`)."""
+    ny, nx = kernel.shape[0], kernel.shape[1] // 2
+    padded = _padded((ny, nx), engine)
+    downstream, upstream = kernel[:, nx:], kernel[:, 1:nx]
+    if np.array_equal(downstream[:, 1:], upstream[:, ::-1]):
+        return engine.symmetric(downstream, padded)
+    return engine.transformed(_laid_out(downstream, upstream, padded), padded)
 
 
 class FreePair:

@@ -214,19 +214,19 @@ class SmallPlane:
         rows = np.minimum(np.arange(padded[0]), padded[0] - np.arange(padded[0]))
         kind = engine.real if np.isrealobj(symbol) else engine.complex
         self._symbol = (symbol[rows] / prod(padded)).astype(kind)
-        self._points = np.zeros(padded, engine.real)
+        self._points, self._image = np.zeros(padded, engine.real), np.empty(padded, engine.real)
         self._waves = np.empty((padded[0], padded[1] // 2 + 1), engine.complex)
 
     def __call__(self, plane, out=None):
         """The product (ny, nx)."""
-        (ny, nx), points, waves = self.shape, self._points, self._waves
-        points[:ny, :nx], points[ny:], points[:, nx:] = plane, 0, 0
-        self._fft.r2c(points, axes=(0, 1), out=waves)
+        (ny, nx), waves, image = self.shape, self._waves, self._image
+        self._points[:ny, :nx] = plane
+        self._fft.r2c(self._points, axes=(0, 1), out=waves)
         waves *= self._symbol
-        self._fft.c2r(waves, axes=(0, 1), lastsize=self._padded[1], forward=False, out=points)
+        self._fft.c2r(waves, axes=(0, 1), lastsize=self._padded[1], forward=False, out=image)
         if out is None:
-            return points[:ny, :nx].astype(float)
-        out[:] = points[:ny, :nx]
+            return image[:ny, :nx].astype(float)
+        out[:] = image[:ny, :nx]
         return out
 
 

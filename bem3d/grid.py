@@ -125,12 +125,17 @@ class Grid:
 
         So the contact does not grow by a rim.
         """
-        contact = np.pad(pressure > 0, 1)
+        return self.resample(pressure, given) * self.nearest(pressure > 0, given)
+
+    def nearest(self, chosen: np.ndarray, given: "Grid") -> np.ndarray:
+        """Whether the nearest pixel of another grid is a chosen one (rows, points); False beyond its outermost."""
+        found = np.zeros((given.rows + 2, given.points + 2), bool)
+        found[1:-1, 1:-1] = chosen
         for axis, position in enumerate(self._positions(given)):
             # Halfway between two, the later one, whatever rounding says.
             nearest = np.clip(np.floor(position + (0.5 + 1e-6)).astype(int), -1, given.shape[axis])
-            contact = contact.take(nearest + 1, axis)
-        return self.resample(pressure, given) * contact
+            found = found.take(nearest + 1, axis)
+        return found
 
     def _positions(self, given):
         """Positions of the rows, then of the columns, of this grid among those of another, in its pixels."""
@@ -151,10 +156,9 @@ class Grid:
 
     def rim(self, chosen: np.ndarray) -> int:
         """Sides of the chosen pixels beyond which there is none of them; of a row only those at its ends."""
-        along = np.count_nonzero(np.diff(np.pad(chosen, ((0, 0), (1, 1))), axis=1))
-        if self.rows == 1:
-            return int(along)
-        return int(along + np.count_nonzero(np.diff(np.pad(chosen, ((1, 1), (0, 0))), axis=0)))
+        ways = (chosen,) if self.rows == 1 else (chosen, chosen.T)
+        inner = sum(np.count_nonzero(lines[:, 1:] != lines[:, :-1]) for lines in ways)
+        return int(inner + sum(np.count_nonzero(lines[:, [0, -1]]) for lines in ways))
 
     def on_rim(self, chosen: np.ndarray) -> bool:
         """Whether any chosen pixel lies on the rim; a single row ends at its first and last pixel only."""

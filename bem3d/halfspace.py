@@ -7,11 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .convolution import FreeConvolution, PeriodicFilter, autocorrelation
+from .convolution import FreeConvolution, PeriodicFilter, autocorrelation, free_symbol
 from .engine import Engine
 from .foundation import Foundation
 from .grid import Grid, Piece
 from .ground import HALF_SPACE, Ground
+from .kept import kept
 from .sliding import Flow
 
 LEAST_DIFFERENCE = 1e-3  # memory [pixel] down to which losses are taken from differences of kernels
@@ -27,11 +28,16 @@ class HalfSpace:
 
     def operator(self, grid: Grid) -> FreeConvolution:
         """Pressure -> displacement at the points of collocation."""
+        return FreeConvolution(grid.shape, self._symbol(grid), self.engine)
+
+    @kept
+    def _symbol(self, grid):
         flow = self.flow
         if flow.at_rest:
-            return self._convolution(self._elastic(grid))
+            return free_symbol(self._elastic(grid), self.engine)
         shift = flow.collocation(grid) / grid.pixel
-        return self._convolution(self._flowing(grid, flow.instantaneous, flow.shares, flow.in_pixels(grid), shift))
+        kernel = self._flowing(grid, flow.instantaneous, flow.shares, flow.in_pixels(grid), shift)
+        return free_symbol(kernel, self.engine)
 
     def lost(self, grid: Grid, pressure: np.ndarray) -> tuple[float, float]:
         """sum p dw/dx over a pressure (rows, points), the energy lost per pixel slid: by the slope of the
@@ -41,7 +47,17 @@ class HalfSpace:
         difference quotient. Of its kernel only the part even in x does work on the pressure, the sum of the loss
         compliance over the spectrum of the pressure; of that of the displacement only the part odd in x.
         """
-        pairs = np.pad(autocorrelation(pressure, self.engine), ((0, 0), (0, 2)))
+        pairs = np.zeros((grid.rows, grid.points + 2))
+        pairs[:, :-2] = autocorrelation(pressure, self.engine)
+        even, at_once, odd = self._losing(grid)
+        loss = np.sum(even * pairs[:, 1:-1]) + at_once @ pairs[:, 0]
+        return float(loss), float(np.sum(odd * (pairs[:, :-2] - pairs[:, 2:])) / 2)
+
+    @kept
+    def _losing(self, grid):
+        """Slope of the displacement by a pixel: its even part from one pixel on (rows, points), and at the pixel
+        (rows,); odd part of the displacement (rows, points).
+        """
         middle = grid.points + 1
         wider = Piece(middle, middle * grid.pixel, width=grid.width, lines=grid.rows)
         shares, lengths = self._seen(grid)
@@ -49,8 +65,7 @@ class HalfSpace:
         slope, moved = self._flowing(wider, np.array([rates.sum(), 0.0]), np.array([-rates, shares]), lengths, 0.0)
         even = slope[:, middle + 1 :] + slope[:, middle - 1 : 0 : -1]
         odd = moved[:, middle + 1 :] - moved[:, middle - 1 : 0 : -1]
-        loss = np.sum(even * pairs[:, 1:-1]) + slope[:, middle] @ pairs[:, 0]
-        return float(loss), float(np.sum(odd * (pairs[:, :-2] - pairs[:, 2:])) / 2)
+        return even, slope[:, middle].copy(), odd
 
     def _seen(self, grid):
         """Shares and lengths [pixel] of the modes, none shorter than leaves digits to the even part of a kernel.
@@ -71,12 +86,10 @@ class HalfSpace:
 
         return PeriodicFilter(grid.shape, elastic, self.engine)
 
+    @kept
     def foundation(self, grid: Grid) -> Foundation | None:
         """Part of the operator that the elastic half-space does not have; None at rest."""
         return Foundation.of(self.flow, grid)
-
-    def _convolution(self, kernel):
-        return FreeConvolution(kernel, self.engine)
 
     def _elastic(self, grid):
         return self.ground.elastic(grid)

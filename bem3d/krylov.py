@@ -62,7 +62,7 @@ def gmres(on_set, b, reduction, tolerance, iterations):
             break
         # The residual is what of the right side is along the one direction across all columns.
         across[k + 1] = -(across[: k + 1] @ hessenberg[: k + 1, k]) / hessenberg[k + 1, k]
-        if reduction * np.linalg.norm(across) >= 1:
+        if reduction * sqrt(across @ across) >= 1:
             break
         basis.append(v / hessenberg[k + 1, k])
     square, rhs = hessenberg[: k + 2, : k + 1], np.zeros(k + 2)

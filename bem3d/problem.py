@@ -73,7 +73,7 @@ class Start:
         sums, sunk = kernels.Fused(), self.pressure.copy()
         if self.foundation is not None:
             sums.sink(sunk, self.foundation)
-        contact = grid.resampled_contact(self.pressure, self.grid) > 0
+        contact = grid.nearest(self.pressure > 0, self.grid)
         taken = grid.resample(sunk, self.grid)
         if foundation is None:
             return taken * contact

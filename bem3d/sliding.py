@@ -17,7 +17,7 @@ from .grid import Grid
 SHORTEST = 1e-9  # memory [pixel]: what is shorter changes nothing that is solved
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Flow:
     """The elastomer as it flows past.
 
@@ -39,6 +39,16 @@ class Flow:
             return cls(elastomer.indentation_modulus, 1.0, np.empty(0), np.empty(0))
         relaxed = instantaneous + compliances.sum()
         return cls(elastomer.indentation_modulus, instantaneous / relaxed, compliances / relaxed, speed * times)
+
+    def __eq__(self, other):
+        return isinstance(other, Flow) and self._numbers == other._numbers
+
+    def __hash__(self):
+        return hash(self._numbers)
+
+    @property
+    def _numbers(self):
+        return self.modulus, self.instantaneous, self.shares.tobytes(), self.lengths.tobytes()
 
     @property
     def at_rest(self) -> bool:

@@ -1,6 +1,7 @@
 """Rough surfaces in two dimensions: one draw from the spectrum of a scene, evaluated wherever a grid asks."""
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from math import isqrt
 
 import numpy as np
@@ -11,6 +12,7 @@ from scene.waves import MOST_WAVES, Waves
 
 CORE = 16  # shells in which the density varies much across the cell of a wave vector
 CORE_SAMPLES, OUTER_SAMPLES = 8, 2  # per axis, in the cell
+SMALL, KEPT = 128, 16  # waves along x, and spectra of so few that are kept: 9 MB
 # Spawn keys keep a surface apart from a line drawn with the same seed, and the moduli of waves from the phases.
 PHASES, MODULI = (2,), (2, 0)
 
@@ -53,19 +55,15 @@ class RoughSurface:
                 f"the surface has {top:.15g} waves of its cut-off on longest = {roughness.longest:g} m, "
                 f"{MOST_WAVES} fit in memory; take a longer shortest or a shorter longest wave"
             )
-        k_y, k_x = np.mgrid[-top : top + 1, 0 : top + 1]
-        k = np.hypot(k_x, k_y)
-        drawn = (k >= 1) & (k <= q_max / roughness.q_min * (1 + 1e-12)) & ((k_x > 0) | (k_y > 0))
         # At unit height, as the square of a tiny one would vanish.
-        power = np.where(drawn, _cell_means(replace(roughness, rms_height=1.0), top, q_max), 0.0)
-        power /= power.sum()
-        order = np.lexsort((k_x.ravel(), k_y.ravel(), np.maximum(k_x, np.abs(k_y)).ravel()))
-        phases, moduli = np.empty(k.size), np.ones(k.size)
-        phases[order] = 2 * np.pi * _stream(roughness.seed, PHASES).random(k.size)
+        shared = replace(roughness, rms_height=1.0, seed=1)
+        amplitudes, order = (_kept if top <= SMALL else _spectrum)(shared, top, q_max)
+        phases, moduli = np.empty(order.size), np.ones(order.size)
+        phases[order] = 2 * np.pi * _stream(roughness.seed, PHASES).random(order.size)
         if roughness.amplitudes == "gaussian":
-            moduli[order] = np.sqrt(_stream(roughness.seed, MODULI).standard_exponential(k.size))
-        waves = roughness.rms_height * np.sqrt(2 * power) * np.exp(1j * phases.reshape(k.shape))
-        return cls(Waves(roughness.q_min, roughness.q_min, waves * moduli.reshape(k.shape)))
+            moduli[order] = np.sqrt(_stream(roughness.seed, MODULI).standard_exponential(order.size))
+        waves = roughness.rms_height * amplitudes * np.exp(1j * phases.reshape(amplitudes.shape))
+        return cls(Waves(roughness.q_min, roughness.q_min, waves * moduli.reshape(amplitudes.shape)))
 
     @property
     def amplitudes(self) -> np.ndarray:
@@ -85,20 +83,13 @@ class RoughSurface:
         return self._sum(-(self.waves.along_x**2) * self.amplitudes, x, y)
 
     def _sum(self, amplitudes, x, y):
-        if self._spans_a_period(x, y):
+        if _span_a_period(x, self.waves.step_x) and _span_a_period(y, self.waves.step_y):
             return self._on_a_period(amplitudes, x, y)
         top = len(amplitudes) // 2
         even, odd = amplitudes[top:] + amplitudes[top::-1], amplitudes[top:] - amplitudes[top::-1]  # in y
         even[0] /= 2
-        shares = np.block([[even.real, -even.imag], [-odd.imag, -odd.real]])
+        shares = np.vstack([np.hstack([even.real, -even.imag]), np.hstack([-odd.imag, -odd.real])])
         return _cosines(y, self.waves.step_y, len(even)) @ shares @ _cosines(x, self.waves.step_x, even.shape[1]).T
-
-    def _spans_a_period(self, x, y):
-        """Whether the points divide a period evenly, so that one transform suffices."""
-        counts = np.array([len(y), len(x)])
-        pixels = 2 * np.pi / (np.array([self.waves.step_y, self.waves.step_x]) * counts)
-        given = np.array([np.ptp(y) / max(len(y) - 1, 1), np.ptp(x) / max(len(x) - 1, 1)])
-        return bool((np.abs(given - pixels) <= 1e-9 * pixels).all())
 
     def _on_a_period(self, amplitudes, x, y):
         top, highest = len(amplitudes) // 2, amplitudes.shape[1] - 1
@@ -124,6 +115,13 @@ class RoughSurface:
         return self.waves.rms_slope
 
 
+def _span_a_period(places, step):
+    """Whether places (n,) divide the period of a wave number evenly, so that a transform suffices."""
+    pixel = 2 * np.pi / (step * len(places))
+    given = abs(places[-1] - places[0]) / max(len(places) - 1, 1)
+    return abs(given - pixel) <= 1e-9 * pixel
+
+
 def _cosines(places, step, count):
     """Cosines, then sines, of `count` multiples of a wave number at the places (n,): (n, 2 count)."""
     side = isqrt(count - 1) + 1  # a wave is the product of two, of far fewer
@@ -134,6 +132,20 @@ def _cosines(places, step, count):
 
 def _stream(seed, key):
     return np.random.default_rng(np.random.SeedSequence(seed, spawn_key=key))
+
+
+def _spectrum(roughness, top, q_max):
+    """Amplitudes (2 top + 1, top + 1) that all surfaces of a spectrum have, and the order of drawing their waves."""
+    k_y, k_x = np.mgrid[-top : top + 1, 0 : top + 1]
+    k = np.hypot(k_x, k_y)
+    drawn = (k >= 1) & (k <= q_max / roughness.q_min * (1 + 1e-12)) & ((k_x > 0) | (k_y > 0))
+    power = np.where(drawn, _cell_means(roughness, top, q_max), 0.0)
+    power /= power.sum()
+    order = np.lexsort((k_x.ravel(), k_y.ravel(), np.maximum(k_x, np.abs(k_y)).ravel()))
+    return np.sqrt(2 * power), order
+
+
+_kept = lru_cache(KEPT)(_spectrum)
 
 
 def _cell_means(roughness, top, q_max):

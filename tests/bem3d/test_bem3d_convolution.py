@@ -24,7 +24,7 @@ def test_product_equals_the_direct_sum_without_wrapping_around(ny, nx, even):
             for j in range(ny):
                 for i in range(nx):
                     expected[row, column] += kernel[abs(row - j), nx + column - i] * pressure[j, i]
-    convolution = FreeConvolution(kernel)
+    convolution = FreeConvolution.of(kernel)
     np.testing.assert_allclose(convolution(pressure), expected, rtol=ROUNDING)
     np.testing.assert_allclose(convolution(2 * pressure), 2 * expected, rtol=ROUNDING)
     assert convolution.operator_applications == 2

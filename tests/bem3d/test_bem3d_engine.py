@@ -21,7 +21,7 @@ BODY = Scene(Sphere(1e-2), Kelvin(1e6, 1e-3), Slide(speed=0.1, load=0.1))
 def products(engine):
     """A convolution in flow and a filter, on sides that are even, odd and prime."""
     for ny, nx in ((16, 16), (17, 12), (1, 31)):
-        yield (ny, nx), FreeConvolution(influence.retarded(nx, ny, 3.0, 0.25), engine)
+        yield (ny, nx), FreeConvolution.of(influence.retarded(nx, ny, 3.0, 0.25), engine)
         yield (ny, nx), PeriodicFilter((ny, nx), lambda q_y, q_x: (1 + q_y**2) / (1 + 1j * q_x), engine)
 
 

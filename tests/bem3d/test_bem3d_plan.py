@@ -116,7 +116,7 @@ def built(monkeypatch):
 
         monkeypatch.setattr(kind, "__init__", noted)
 
-    noting(FreeConvolution, "kernel", lambda kernel: kernel.shape)
+    noting(FreeConvolution, "kernel", lambda shape: (shape[0], 2 * shape[1]))
     noting(PeriodicFilter, "symbol", lambda shape: shape)
     noting(FreePair, "kernel", lambda kernels: kernels[0].shape)
     noting(PeriodicPair, "symbol", lambda shape: shape)

@@ -229,10 +229,10 @@ def test_what_a_pressure_loses_is_its_work_on_the_slope_of_its_displacement(inde
     else:
         medium = HalfSpace(flow, Engine())
         shares, lengths = flow.shares, flow.in_pixels(grid)
-        moved = FreeConvolution(flowing(18, 16, 0.0, shares, lengths, 0.0))(
+        moved = FreeConvolution.of(flowing(18, 16, 0.0, shares, lengths, 0.0))(
             np.pad(pressure, ((0, 0), (1, 1)))[:, :]
         )
         rates = shares / lengths
-        slope = FreeConvolution(flowing(16, 16, rates.sum(), -rates, lengths, 0.0))(pressure)
+        slope = FreeConvolution.of(flowing(16, 16, rates.sum(), -rates, lengths, 0.0))(pressure)
         expected = [np.sum(pressure * slope), np.sum(pressure * (moved[:, 2:] - moved[:, :-2]) / 2)]
     np.testing.assert_allclose(medium.lost(grid, pressure), expected, rtol=1e-10)
