@@ -6,7 +6,9 @@ from functools import lru_cache, wraps
 from math import prod
 from typing import TypeVar
 
-SMALL, KEPT = 2**14, 128  # points of a grid, and grids: 35 MB at most by each method, 4 MB on 32 x 32 points
+# Points of a grid up to which values are kept, by each method the last ones of as many grids as have KEPT points
+# together: at 17 bytes a point 18 MB of each size, and 54 MB at most.
+SIZES, KEPT = (2**10, 2**12, 2**14), 2**20
 
 _T = TypeVar("_T")
 
@@ -17,11 +19,11 @@ def kept(evaluate: Callable[..., _T]) -> Callable[..., _T]:
     They are found by all that they depend on, to the last digit: an answer is the same whatever was solved before.
     Nothing may be written into them.
     """
-    remembered = lru_cache(KEPT)(evaluate)
+    remembered = {size: lru_cache(KEPT // size)(evaluate) for size in SIZES}
 
     @wraps(evaluate)
     def of(medium, grid):
-        found = remembered if prod(grid.shape) <= SMALL else evaluate
+        found = next((remembered[size] for size in SIZES if prod(grid.shape) <= size), evaluate)
         return found(medium, replace(grid, centre=(0.0, 0.0)))
 
     return of

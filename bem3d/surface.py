@@ -135,7 +135,7 @@ def _stream(seed, key):
 
 
 def _spectrum(roughness, top, q_max):
-    """Amplitudes (2 top + 1, top + 1) that all surfaces of a spectrum have, and the order of drawing their waves."""
+    """Amplitudes (2 top + 1, top + 1) that all surfaces of a spectrum have, and the order of their phases."""
     k_y, k_x = np.mgrid[-top : top + 1, 0 : top + 1]
     k = np.hypot(k_x, k_y)
     drawn = (k >= 1) & (k <= q_max / roughness.q_min * (1 + 1e-12)) & ((k_x > 0) | (k_y > 0))

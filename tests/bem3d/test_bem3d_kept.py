@@ -9,7 +9,7 @@ from bem3d import BEM, influence, surface
 from bem3d.engine import Engine
 from bem3d.grid import Grid
 from bem3d.halfspace import HalfSpace
-from bem3d.kept import KEPT, SMALL, kept
+from bem3d.kept import KEPT, SIZES, kept
 from bem3d.sliding import Flow
 from scene import Cone, Elastic, Indent, Kelvin, Plane, Scene, SelfAffine, Slide, Sphere
 
@@ -108,10 +108,10 @@ def test_what_is_kept_is_told_apart_by_all_but_the_place_and_is_bounded():
         found(*other)
     assert len(asked.calls) == 1 + len(others)
     for _ in range(2):  # too many points to be kept
-        found(medium, Grid(SMALL, 1.0))
+        found(medium, Grid(SIZES[-1] + 1, 1.0, width=1.0))
     assert len(asked.calls) == 3 + len(others)
-    for points in range(16, 16 + KEPT):
-        found(medium, Grid(points if points < 128 else 127, float(points)))
+    for k in range(KEPT // SIZES[0]):
+        found(medium, replace(grid, extent=1.0 + k))
     before = len(asked.calls)
     found(medium, grid)
     assert len(asked.calls) == before + 1  # the last ones took its place

@@ -102,6 +102,12 @@ def solver(scene, points=64, **settings):
     return BEM(points=points, extent=extent, steps=10, **settings)
 
 
+def forget_kernels(monkeypatch):
+    """Build kernels anew, whatever other solves have left."""
+    for name in ("_symbol", "_losing"):
+        monkeypatch.setattr(HalfSpace, name, getattr(HalfSpace, name).__wrapped__)
+
+
 @pytest.fixture
 def built(monkeypatch):
     """Kernels and symbols as they are made: form and shape."""
@@ -129,6 +135,7 @@ def built(monkeypatch):
 
     monkeypatch.setattr(HalfSpace, "lost", noted)
     taking.cache_clear()  # what is kept from another solve is built as well
+    forget_kernels(monkeypatch)
     return found
 
 
@@ -187,12 +194,13 @@ def test_a_plan_that_leaves_a_kernel_out_is_found_out(built):
         pytest.param("far-and-back", 64, marks=pytest.mark.slow),
     ],
 )
-def test_the_memory_of_a_plan_is_what_a_solve_holds_at_most(name, points):
+def test_the_memory_of_a_plan_is_what_a_solve_holds_at_most(name, points, monkeypatch):
     scene = SCENES[name]
     # Not by ducc0: a table in its bindings grows with the calls of all tests before, by megabytes at a time.
     asked = solver(scene, points=points, transforms="fftw")
     replace(asked, points=64).solve(scene)  # what is loaded once is no part of it
     taking.cache_clear()  # a layer's table is, and samples of a kernel are
+    forget_kernels(monkeypatch)
     _kept.cache_clear()
     _, most = held_by(asked.solve, scene)
     assert most / FACTOR < asked.plan(scene).memory < most * FACTOR
