@@ -134,7 +134,9 @@ def built(monkeypatch):
         return lost(self, grid, pressure)
 
     monkeypatch.setattr(HalfSpace, "lost", noted)
-    taking.cache_clear()  # what is kept from another solve is built as well
+    # What is kept from another solve is built as well.
+    taking.cache_clear()
+    monkeypatch.setattr("bem3d.kept.SIZES", ())
     forget_kernels(monkeypatch)
     return found
 
