@@ -16,6 +16,7 @@ from bem3d import BEM
 from mdr1d import MDR
 from scene import Indent, Program, Refused, Scene, Slide, Solver, Stage
 from scene.motion import PRESSES, UNITS, Motion
+from scene.printable import brief
 from scene.protocol import lacking, trusted, why_not
 from scene.quantities import SPEED, WHOLE, argument
 from scene.scales import elastic_contact
@@ -81,6 +82,13 @@ class ParameterGrid:
             solver: argument("draws", count, WHOLE.row if isinstance(count, tuple) else WHOLE.value)
             for solver, count in self.draws.items()
         }
+        for name, counts in draws.items():
+            grids = len(self.grids.get(name, ()))
+            if isinstance(counts, tuple) and not (
+                len(counts) == grids and 0 < min(counts) <= max(counts) <= MOST_DRAWS
+            ):
+                allowed = f"{grids} whole numbers, one for each grid, from 1 to {MOST_DRAWS:,}"
+                raise ValueError(f"draws = {brief(repr(counts))} of {name}: {allowed}")
         object.__setattr__(self, "draws", draws)
 
     @property
@@ -125,13 +133,9 @@ class ParameterGrid:
 
     def _asked(self, name):
         """Whether each draw is solved on each grid (grids, draws)."""
-        stratum = np.repeat(*np.array([(k, len(each)) for k, each in enumerate(self.strata(name))]).T)
+        stratum = np.array([k for k, each in enumerate(self.strata(name)) for _ in each])
         on = np.arange(len(self.grids[name]))[:, None]
-        return (
-            (stratum == on) | (stratum == on - 1)
-            if self._stratified(name)
-            else np.tile(stratum == 0, (on.size, 1))
-        )
+        return (stratum == on) | (stratum == on - 1) | (not self._stratified(name))
 
     def _stratified(self, name):
         return self.random and isinstance(self.draws.get(name), tuple)
@@ -186,10 +190,10 @@ class ParameterGrid:
         found = []
         own = self.speeds[0], self.values[0]
         for name, grids in self.grids.items():
-            strata, few = self.strata(name), self._stratified(name)
+            strata, stratified = self.strata(name), self._stratified(name)
             for (k, (grid, solver)), speed, value in product(enumerate(grids.items()), self.speeds, self.values):
-                seeds = strata[max(k - 1, 0) : k + 1] if few else strata
-                alike = 1 if not isinstance(solver, MDR) else TOGETHER if few else MOST_DRAWS
+                seeds = strata[max(k - 1, 0) : k + 1] if stratified else strata
+                alike = 1 if not isinstance(solver, MDR) else TOGETHER if stratified else MOST_DRAWS
                 together = [
                     draws_of(self.at(value, speed), each[start : start + alike])
                     for each in seeds
@@ -271,18 +275,19 @@ def on_two_grids(*solvers: Solver) -> dict[str, dict[str, Solver]]:
 
 
 def on_levels(solver: Solver, scenes: Iterable[Scene]) -> dict[str, Solver]:
-    """Settings of a solver on its own grid and on coarser ones, halved as long as these solve some scenes.
+    """Settings of a solver on its own grid and on coarser ones, halved as long as they can solve some scenes.
 
-    scenes : the widest contact first; a grid on which a solver lacks what one of them takes is left out
+    scenes : the widest contact first; a grid that lacks what one of them takes is left out, with all coarser ones
     """
     first, *others = scenes
-    found = [solver]
+    found: list[Any] = [solver]
     with trusted():
         while len(found) < len(LEVELS):
-            coarser = halved(found[-1])
-            if coarser is None or coarser.points < LEAST.get(solver.name, 1):
+            # Half the points tell the error of the grid, however few they are.
+            if len(found) > 1 and found[-1].points < 2 * LEAST.get(solver.name, 1):
                 break
-            if why_not(coarser, first) or any(lacking(coarser, each) for each in others):
+            coarser = halved(found[-1])
+            if coarser is None or why_not(coarser, first) or any(lacking(coarser, each) for each in others):
                 break
             found.append(coarser)
     return dict(zip(LEVELS, found, strict=False))

@@ -21,7 +21,7 @@ class Term(Entry):
 # Words of the judge: a line is "name : text [unit] | formula | source", without what is not there.
 _WORDS = r"""
 Of Datasets: coordinates, and what scene.vocabulary has under another name.
-grid : Which grid of the solver: fine, as the settings say, or coarse, with half the points a side.
+grid : Which grid of the solver: fine, as the settings say, coarse, with half the points a side, or coarser still.
 points : Points of the grid along a side. [1]
 speed : Speed of sliding that was prescribed, or rate of pressing in; 0 is rest. [m/s]
 depth : Depth that was prescribed, above zero into the elastomer. [m]

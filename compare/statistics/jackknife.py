@@ -205,17 +205,23 @@ def mean_ratio(
     Surfaces with a NaN are left out where they have it. Errors are NaN with fewer than two surfaces; where none is
     left so is the ratio.
     """
+    value, deviations, count = off_the_ratio(above, below)
+    squares = np.square(deviations)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        error = np.sqrt(np.sum(squares, axis=-1) / np.where(count > 1, count * (count - 1.0), nan))
+        dof = np.maximum(count - 1, 0) if strata is None else welch(np.moveaxis(squares, -1, 0), strata)
+        return Estimated(value, error, dof, skewness(deviations, axis=-1))
+
+
+def off_the_ratio(above: np.ndarray, below: np.ndarray | float = 1.0) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Ratio of the means, how far each surface lies off it, nil of one with a NaN, and the number of others."""
     above, below = np.broadcast_arrays(above, below)
     known = np.isfinite(above) & np.isfinite(below)
     count = known.sum(axis=-1)
     with np.errstate(invalid="ignore", divide="ignore"):
         top, bottom = (np.where(known, each, 0.0).sum(axis=-1) / count for each in (above, below))
         value = top / bottom
-        left = np.where(known, above - value[..., None] * below, 0.0) / bottom[..., None]
-        squares = np.square(left)
-        error = np.sqrt(np.sum(squares, axis=-1) / np.where(count > 1, count * (count - 1.0), nan))
-        dof = np.maximum(count - 1, 0) if strata is None else welch(np.moveaxis(squares, -1, 0), strata)
-        return Estimated(value, error, dof, skewness(left, axis=-1))
+        return value, np.where(known, above - value[..., None] * below, 0.0) / bottom[..., None], count
 
 
 def left_out(samples: np.ndarray) -> np.ndarray:

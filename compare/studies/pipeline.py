@@ -65,6 +65,7 @@ def run(
     more: Study | None = study
     try:
         while more is not None:
+            more.cost().refuse(count, yes)
             study, swept = more, swept.joined(_solve(more, swept, output, workers, scheduler, progress))
             answers = study.answers(swept.outcomes)
             # What breaks with few surfaces breaks with more.

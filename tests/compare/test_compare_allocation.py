@@ -11,14 +11,16 @@ from test_compare_levels import answers
 import compare
 from bem3d import BEM
 from compare.library.case import Case
+from compare.solving.cost import MOST_DRAWS
 from compare.statistics.allocation import DIFFERENCES, GROWTH, PILOT, needed, pilot
 from compare.statistics.jackknife import mean_ratio
 from compare.statistics.levels import pooled
 from mdr1d import MDR
+from scene import Refused
 from scene.reading import InvalidInput
 
 COSTS = 10.0, 3.0, 1.0
-FRICTION = [("friction_force", None)]
+FRICTION = "friction_force", None
 
 
 def grown(rng, had, counts, variation):
@@ -39,7 +41,7 @@ def sampled(rng, variation, interval):
     while counts != had:
         had, looks = counts, looks + 1
         found = grown(rng, found, counts, variation)
-        counts = needed(found, FRICTION, COSTS, interval).counts
+        counts = needed(found, *FRICTION, COSTS, interval)
     return found, looks
 
 
@@ -62,21 +64,43 @@ def test_sampling_stops_with_intervals_as_narrow_as_wanted():
     rng = np.random.default_rng(0)
     for interval in (0.1, 0.05):
         found, looks = sampled(rng, 0.3, interval)
-        assert needed(found, FRICTION, COSTS, interval).widest <= interval
+        fine, coarse = (pooled(found).sel(grid=grid) for grid in ("fine", "coarse"))
+        told = mean_ratio(fine["friction_force"].values, 1.0, fine["stratum"].values)
+        grid = abs(told.value - coarse["friction_force"].mean("seed").values)
+        low, high = told.interval()
+        assert np.all((high - low) / 2 + grid <= interval * told.value)
         assert looks <= 5
 
 
 def test_costly_strata_get_fewer_surfaces():
     found = answers(np.random.default_rng(1), pilot(3), 0.3)
-    cheap, costly = (needed(found, FRICTION, (fine, 3.0, 1.0), 0.03).counts for fine in (4.0, 400.0))
-    assert costly[0] <= cheap[0]
-    assert costly[2] >= cheap[2]
+    cheap, costly = (needed(found, *FRICTION, (fine, 3.0, 1.0), 0.03) for fine in (4.0, 400.0))
+    assert costly[0] < cheap[0]
     assert all(count <= GROWTH * had for count, had in zip(cheap, pilot(3), strict=True))
 
 
 def test_what_is_narrow_enough_asks_for_nothing_more():
     found = answers(np.random.default_rng(2), pilot(3), 0.1)
-    assert needed(found, FRICTION, COSTS, 0.5).counts == pilot(3) == (DIFFERENCES, DIFFERENCES, PILOT)
+    assert needed(found, *FRICTION, COSTS, 0.5) == pilot(3) == (DIFFERENCES, DIFFERENCES, PILOT)
+
+
+def test_one_contact_without_an_answer_does_not_stop_the_others():
+    found = answers(np.random.default_rng(1), pilot(3), 0.3)
+    known = (found["seed"] != 3) | (found["grid"] != "fine")
+    failed = found.assign(friction_force=found["friction_force"].where(known))
+    assert needed(failed, *FRICTION, COSTS, 0.03)[2] > PILOT
+
+
+def test_no_stratum_takes_seeds_of_another():
+    found = answers(np.random.default_rng(1), pilot(3), 0.3)
+    for _ in range(8):
+        counts = needed(found, *FRICTION, COSTS, 1e-6)
+        assert max(counts) <= MOST_DRAWS
+        if max(counts) == MOST_DRAWS:
+            break
+        found = grown(np.random.default_rng(1), found, counts, 0.3)
+    else:
+        pytest.fail("the bound was not reached")
 
 
 CASE = Case(
@@ -108,6 +132,21 @@ def test_a_sweep_reaches_the_interval_resumes_and_agrees_with_fixed_draws(tmp_pa
     solved = [(status.sel(grid=grid) == "solved").sum().item() for grid in ("fine", "coarse")]
     assert solved[0] == DIFFERENCES
     assert solved[1] >= DIFFERENCES + PILOT
+
+
+@pytest.mark.usefixtures("in_this_process")
+def test_rest_among_the_speeds_does_not_hide_friction_of_those_that_slide(tmp_path):
+    found = compare.sweep(CASE, [0.0, 1.0], interval="12%", output=tmp_path, report=False).sel(speed=1.0)
+    low, mean, high = (found[f"friction_coefficient_{end}"].values for end in ("low", "mean", "high"))
+    assert np.all((high - low) / 2 <= 0.12 * mean)
+
+
+@pytest.mark.usefixtures("in_this_process")
+def test_more_than_a_day_is_refused_where_a_look_asks_for_it(tmp_path, monkeypatch):
+    monkeypatch.setattr("compare.solving.cost.DAY", 0.6)  # the pilot takes 0.5 s as it is planned
+    with pytest.raises(Refused, match="--yes"):
+        compare.sweep(CASE, [0.1], interval="0.5%", output=tmp_path, workers=1, report=False)
+    assert (tmp_path / "solved" / "answers.txt").exists()
 
 
 @pytest.mark.slow

@@ -7,7 +7,7 @@ import pytest
 import xarray
 
 from compare.statistics.intervals import student
-from compare.statistics.jackknife import DrawSet, friction, mean_ratio, resample, strata_of, welch
+from compare.statistics.jackknife import DrawSet, friction, mean, mean_ratio, resample, strata_of, welch
 from compare.statistics.levels import pooled
 
 STUDIES = 2000
@@ -98,3 +98,21 @@ def test_degrees_of_freedom_are_those_of_welch():
     assert welch(np.repeat([[1.0], [0.0]], [4, 8], axis=0), strata) == pytest.approx(3)
     assert welch(np.zeros((12, 1)), strata) == pytest.approx(10)
     assert student(0.95, even)[0] > student(0.95, 10)
+
+
+@pytest.mark.parametrize("counts", [(12, 50), (4, 50), (8, 8)])
+def test_a_ratio_of_two_models_of_unequal_numbers_of_draws_holds_as_often(counts):
+    rng, studies, held = np.random.default_rng(5), 400, 0
+
+    def drawn(solver, count, spread):
+        values = np.exp(spread * rng.normal(size=(1, count)) - spread**2 / 2)
+        return xarray.Dataset({"normal_force": (("load", "seed"), values)}, attrs={"solver": solver})
+
+    def ratio(sample):
+        return {"": mean(sample["BEM"], "normal_force") / mean(sample["MDR"], "normal_force")}
+
+    for _ in range(studies):
+        sample = DrawSet({"BEM": drawn("BEM", counts[0], 0.2), "MDR": drawn("MDR", counts[1], 0.4)})
+        low, high = resample(ratio, sample)[""].estimated.interval()
+        held += (low[0] <= 1 <= high[0]) / studies
+    assert abs(held - 0.95) <= 0.01 + 3 * sqrt(0.95 * 0.05 / studies)

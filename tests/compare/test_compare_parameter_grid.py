@@ -11,7 +11,7 @@ from small_cases import SLIDING
 from bem3d import BEM
 from compare.solving import netcdf
 from compare.solving.outcome import Outcome, Row
-from compare.solving.parameter_grid import ParameterGrid, contacts_of, on_two_grids, tasks_of, tree
+from compare.solving.parameter_grid import ParameterGrid, contacts_of, on_levels, on_two_grids, tasks_of, tree
 from compare.statistics.finding import Claim
 from compare.statistics.jackknife import DrawSet, friction, judge, mean
 from mdr1d import MDR
@@ -62,12 +62,24 @@ def test_draws_of_a_stratum_are_solved_on_their_grid_and_on_the_next_coarser_one
     few = replace(ROUGH, grids={"MDR": COARSER}, draws={"MDR": (1, 2, 9)})
     found = few.datasets({task: outcome_of(task) for task in few.tasks()})["MDR"]
     assert found["stratum"].values.tolist() == [0] + [1] * 2 + [2] * 9
+    assert np.unique(found["seed"]).size == found.sizes["seed"]
     asked = (found["status"] != "not asked").sel(speed=0.1, load=1.0)
     assert {name: asked.sel(grid=name).sum().item() for name in COARSER} == {"fine": 1, "coarse": 3, "coarser": 11}
     assert (found["seed_seen"] == found["seed"]).where(asked, True).all()
     assert found["normal_force"].where(~asked).isnull().all()
     assert few.cost.contacts == asked.sum() * 6
     assert few.refuse() is None
+
+
+@pytest.mark.parametrize("counts", [(8, 8), (8, 8, 0), (8, 8, 10_001)])
+def test_strata_are_one_number_for_each_grid(counts):
+    with pytest.raises(ValueError, match=r"draws = .* of MDR: 3 whole numbers, one for each grid, .* 10,000"):
+        replace(ROUGH, grids={"MDR": COARSER}, draws={"MDR": counts})
+
+
+def test_coarser_grids_end_where_they_pay_no_more_but_half_the_points_are_kept():
+    assert [each.points for each in on_levels(BEM(points=128), [SLIDING]).values()] == [128, 64, 32]
+    assert [each.points for each in on_levels(BEM(points=32), [SLIDING]).values()] == [32, 16]
 
 
 def test_more_draws_leave_the_tasks_of_those_before_as_they_are():

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from itertools import islice, product
 from math import isfinite
 from typing import Any
@@ -10,7 +11,7 @@ import xarray
 from matplotlib.figure import Figure
 from pandas import DataFrame
 
-from scene import Indent, Scene, Slide, notes
+from scene import Indent, Slide, notes
 from scene.motion import PRESSES, UNITS
 from scene.plain import one_by_one
 from scene.printable import brief
@@ -97,7 +98,7 @@ class Sweep(Study):
         compared = models_of(case, models, reference)
         wanted = None if interval is None else share_of("interval", interval)
         asked = cls(replace(case, motion=motion), speeds, prescribed, drawn, compared, wanted)
-        asked.grids()["contacts"].refuse()
+        asked._grid.refuse()
         return asked
 
     @property
@@ -116,38 +117,43 @@ class Sweep(Study):
         return doubted(*(replace(self.case, motion=each.motion) for each in scenes))
 
     def grids(self) -> Mapping[str, ParameterGrid]:
-        scene: Scene = self.case.scene
+        return {"contacts": self._grid}
+
+    @cached_property
+    def _grid(self) -> ParameterGrid:
         fixed = ParameterGrid(
-            scene=scene,
+            scene=self.case.scene,
             speeds=self.speeds,
             values=self.values,
             grids=on_two_grids(*(each.solver for each in self.models)),
             draws={each.name: each.count(self.draws, self.draws) for each in self.models},
         )
         if self.interval is None or not fixed.random:
-            return {"contacts": fixed}
+            return fixed
         levels = {each.name: on_levels(each.solver, fixed.corners) for each in self.models}
         drawn = {each.name: pilot(len(levels[each.name])) for each in self.models if each.draws != NONE}
-        return {"contacts": replace(fixed, grids=levels, draws=drawn | dict(self.strata))}
+        return replace(fixed, grids=levels, draws=drawn | dict(self.strata))
 
     def more(self, answers: xarray.DataTree) -> "Sweep | None":
         """The sweep with the surfaces that the wanted interval asks for; None once it is reached."""
-        grid = self.grids()["contacts"]
-        had = {name: each for name, each in grid.draws.items() if isinstance(each, tuple)}
-        asked = {}
         if self.interval is None:
             return None
+        had = {name: each for name, each in self._grid.draws.items() if isinstance(each, tuple)}
+        asked = {}
         for name in had:
             dataset = answers["contacts"].children[name].to_dataset(inherit=False)
-            numbers = [pair for pair in MEANS.values() if self._is_free(*pair)]
-            asked[name] = needed(dataset, numbers, grid.costs[name], self.interval).counts
+            counts = [
+                needed(points, *MEANS[mean], self._grid.costs[name], self.interval)
+                for mean, points in self._wanted(dataset)
+            ]
+            asked[name] = tuple(map(max, zip(*counts, strict=True)))
         return None if asked == had else replace(self, strata=asked)
 
-    def _is_free(self, above, below):
-        """Whether a mean is one that the contacts answer: friction of what slides, else what is not prescribed."""
-        if below is not None:
-            return min(self.speeds) > 0
-        return above == ("normal_force" if self.case.motion.pressed_by == "depth" else "depth_reached")
+    def _wanted(self, dataset):
+        """Names of the means that are asked for, with their points: what is not prescribed, and friction."""
+        yield "normal_force" if self.case.motion.pressed_by == "depth" else "depth_reached", dataset
+        if self.case.slides:
+            yield "friction_coefficient", dataset.sel(speed=[speed for speed in self.speeds if speed > 0])
 
     def judge(self, answers: xarray.DataTree) -> Judgement:
         """Friction, else force or depth, of each model over the reference at every contact, without a claim."""
