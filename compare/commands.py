@@ -102,17 +102,19 @@ def solve(
     figure_format: FigureFormat = "png",
     report: bool = True,
     yes: bool = False,
+    budget: str | float | None = None,
     progress: bool | str | Preparing = False,
 ) -> Report:
     """Do a study, one of your own too: solve what the folder has not, judge, and write the page.
 
     study : an object of a class derived from `compare.Study`
+    budget : time after which no more surfaces are asked for, of a study that asks for them: in seconds, or "10min"
     """
     from .studies import pipeline
 
     _warn(study.doubts)
     with _shown(progress) as told:
-        found = pipeline.run(study, output, workers, scheduler, format, figure_format, report, yes, told)
+        found = pipeline.run(study, output, workers, scheduler, format, figure_format, report, yes, budget, told)
     _warn([" ".join(found.unsolved.sentences)] if found.unsolved.failed else [])
     return found
 
@@ -146,6 +148,8 @@ def run(
     output: str | Path = "crosscheck-report",
     models: Sequence[ModelLike] | None = None,
     reference: str | None = None,
+    interval: str | float | None = None,
+    budget: str | float | None = None,
     **options: Unpack[Options],
 ) -> Report:
     """Solve a scene in 1D and in 3D, compare, and write a report.
@@ -155,10 +159,15 @@ def run(
     models : names of the models, separated by commas: mdr, bem, those of installed packages, MODULE:NAME; mdr,bem
         if absent. From Python also objects, see `scene.Solver`
     reference : name of the model against which the others are judged; bem, or the last, if absent
+    interval : wanted half-width of the intervals of 95 %, relative, as 2%. It takes the place of the numbers of
+        surfaces and profiles: many are solved on coarse grids, few on finer ones, until every claim is decided or
+        its interval is so narrow, and so are those of the scene's own friction, depth or force
+    budget : time after which no more surfaces are asked for, as 10min. It alone makes results depend on the
+        speed of the machine
     """
     from .studies.run.study import Run
 
-    return solve(Run.of(scene, models, reference), output, **options)
+    return solve(Run.of(scene, models, reference, interval), output, budget=budget, **options)
 
 
 def study(
@@ -167,13 +176,15 @@ def study(
     output: str | Path = "crosscheck-study",
     models: Sequence[ModelLike] | None = None,
     reference: str | None = None,
+    interval: str | float | None = None,
+    budget: str | float | None = None,
     **options: Unpack[Options],
 ) -> Report | Listing:
     """Test the paper's claims on many contacts in 1D and 3D.
 
     name : name of a study, or file of your own study (TOML); if absent, a table of the studies is printed
     size : how much is solved: quick (minutes), standard (up to an hour) or full (up to a day)
-    models, reference : like those of `run`; the study `trust` takes none
+    models, reference, interval, budget : like those of `run`; the study `trust` takes none
     """
     if name is None:
         from .library.ready import studies
@@ -184,7 +195,7 @@ def study(
 
     if name == TrustStudy.name:
         return solve(TrustStudy.of(size), output, **options)
-    return solve(ClaimStudy.of(str(name), size, models, reference), output, **options)
+    return solve(ClaimStudy.of(str(name), size, models, reference, interval), output, budget=budget, **options)
 
 
 def paper(size: Size = "full", output: str | Path = "crosscheck-paper", **options: Unpack[Options]) -> Report:
@@ -337,7 +348,8 @@ def sweep(
     output: str | Path = "crosscheck-sweep",
     models: Sequence[ModelLike] | None = None,
     reference: str | None = None,
-    interval: float | str | None = None,
+    interval: str | float | None = None,
+    budget: str | float | None = None,
     **options: Unpack[Options],
 ) -> xarray.Dataset:
     """Solve a scene at every speed and every load or depth in both dimensionalities, or by other models.
@@ -355,12 +367,13 @@ def sweep(
     interval : in place of draws, the half-width that is wanted of the interval of 95 % of each mean, relative:
         0.02 or "2%". Many surfaces are then solved on coarse grids and few on finer ones, until every interval is
         so narrow; `stratum` tells on which grids. An error of the grid above half of it keeps an interval wider
+    budget : time after which no more surfaces are asked for [s], or as "10min"
     """
     from .statistics import griderror
     from .studies.sweep.study import Sweep
 
     asked = Sweep.of(scene, speed, load, depth, draws, models, reference, interval)
-    answers = solve(asked, output, **options).answers
+    answers = solve(asked, output, budget=budget, **options).answers
     griderror.warn(answers)
     return asked.dataset(answers)
 

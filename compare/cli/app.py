@@ -36,7 +36,7 @@ PYTHON_ONLY = {"quantities", "progress", "options"}
 SHARED = {
     name: each
     for name, each in inspect.signature(commands.solve).parameters.items()
-    if name not in {"study", "output", *PYTHON_ONLY}
+    if name in commands.Options.__annotations__ and name not in PYTHON_ONLY
 }
 Quiet = Annotated[bool, typer.Option("-q", "--quiet", help="Print mistakes only.")]
 Verbose = Annotated[bool, typer.Option("-v", "--verbose", help="Print a line for each solve and each figure.")]

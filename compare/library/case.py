@@ -1,13 +1,14 @@
 """A case: one scene, how it departs from the paper, what is varied around it, and the settings of both solvers."""
 
 from dataclasses import fields
+from functools import partial
 from importlib.resources import as_file, files
 from math import sqrt
 from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
-from pydantic import AfterValidator, Field, TypeAdapter, model_validator
+from pydantic import AfterValidator, BeforeValidator, Field, TypeAdapter, model_validator
 from pydantic.dataclasses import dataclass
 
 from bem3d import BEM
@@ -27,9 +28,11 @@ from scene.signatures import readable
 from scene.temperature import Temperature
 from scene.terms import terms_of
 
+from ..solving.amounts import share_of
 from ..solving.cost import MOST_DRAWS, MOST_VALUES
 
 Draws = Annotated[Whole, Field(ge=1, le=MOST_DRAWS)]
+Share = Annotated[float, BeforeValidator(partial(share_of, "interval"))]
 Factors = Annotated[tuple[Positive, ...], ROW, Field(min_length=1, max_length=MOST_VALUES)]
 MOST_MODELS = 8  # compared at once
 Speeds = Annotated[tuple[Speed, ...], ROW, Field(min_length=1, max_length=MOST_VALUES)]
@@ -47,6 +50,14 @@ def _distinct(study):
     return study
 
 
+def _either(study):
+    if study.interval is not None and (study.surfaces, study.profiles) != (None, None):
+        raise ValueError(
+            f"interval = {study.interval:g}: it takes the place of surfaces and profiles, leave them out"
+        )
+    return study
+
+
 def _rough(roughness):
     """Roughness of no height is none."""
     return None if roughness is None or roughness.flat else roughness
@@ -60,18 +71,22 @@ class Variations:
     pressing : factors on the scene's load (or depth) for the curves of friction against load
     load_speeds : speeds of those curves [m/s]
     depths : of the force-depth curve, factors on the smooth elastic depth of the scene
-    surfaces : rough surfaces averaged in three dimensions, 1 to 10,000
-    profiles : rough profiles averaged in one dimension, 1 to 10,000
+    surfaces : rough surfaces averaged in three dimensions, 1 to 10,000; 3 if absent
+    profiles : rough profiles averaged in one dimension, 1 to 10,000; 50 if absent
+    interval : in place of both, the half-width of intervals of 95 % that is wanted, relative, as "3%"; see
+        `compare.run`
     """
 
     speeds: Speeds | None = None
     pressing: Factors | None = None
     load_speeds: Speeds | None = None
     depths: Factors | None = None
-    surfaces: Draws = 3
-    profiles: Draws = 50
+    surfaces: Draws | None = None
+    profiles: Draws | None = None
+    interval: Share | None = None
 
     _no_value_twice = model_validator(mode="after")(_distinct)
+    _one_way_to_draw = model_validator(mode="after")(_either)
 
 
 @dataclass(frozen=True)
@@ -173,7 +188,7 @@ class Case:
         given, contact = self.study, elastic_contact(self.scene)
         depths = given.depths or (0.25, 0.5, 1.0, 1.5, 2.0)
         pressing = given.pressing or self._pressing()
-        surfaces, profiles = (given.surfaces, given.profiles) if self.roughness else (1, 1)
+        surfaces, profiles = (given.surfaces or 3, given.profiles or 50) if self.roughness else (1, 1)
         if not self.slides:
             return SamplePoints((), (), (), depths, (), surfaces, profiles)
         times = self.scene.solid.retardation()[2]

@@ -153,6 +153,11 @@ class Models:
         """All but the reference."""
         return [each for each in self.models if each.name != self.reference]
 
+    @property
+    def drawn(self) -> list[Model]:
+        """All that draw surfaces or profiles."""
+        return [each for each in self.models if each.draws != NONE]
+
     def beside(self, name: str) -> str:
         """Dimension of a number of one model over the reference, as findings have it: 1D/3D."""
         return f"{self[name].label}/{self[self.reference].label}"

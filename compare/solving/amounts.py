@@ -1,8 +1,9 @@
 """Times, errors and settings in words."""
 
-from math import isfinite, nan
+from math import inf, isfinite, nan
 
 from scene.printable import brief
+from scene.quantities import SECOND
 from scene.reading import InvalidInput
 
 HOUR = 3600.0
@@ -79,4 +80,18 @@ def share_of(name: str, given: float | str) -> float:
         found = nan
     if isinstance(given, bool) or not 0 < found < 1:
         raise InvalidInput(f"{name} = {brief(repr(given))}: a share above 0 and below 1, as 2% or 0.02")
+    return found
+
+
+def seconds_of(name: str, given: float | str) -> float:
+    """Seconds above zero, of a number or a text with a unit such as 10min. Raises InvalidInput.
+
+    name : of the argument, for the error
+    """
+    try:
+        found = float(SECOND.value(given))
+    except ValueError:
+        found = nan
+    if not 0 < found < inf:
+        raise InvalidInput(f"{name} = {brief(repr(given))}: a time above zero, as 10min or 600 s")
     return found

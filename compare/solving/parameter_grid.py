@@ -39,6 +39,7 @@ NO_DRAWS = "none"  # of a model that answers for all surfaces at once
 UNASKED = Row()  # of a draw that is not solved on a grid
 ROOM = 1.5  # times the points that a line takes at least: then others of its family do not need more
 MOST_ASKED = 1000  # lines drawn, whether each fits its grid
+PILOT, DIFFERENCES = 32, 8  # surfaces on the coarsest grid, and of each difference, before anything is decided
 TOGETHER = 8  # profiles of a stratum that are one task, so that more of them leave those before as they are
 # What a solver gives of every contact, by the names of a Dataset: there `depth` is one that is prescribed, which a
 # march answers half a step before.
@@ -98,12 +99,13 @@ class ParameterGrid:
 
     @property
     def costs(self) -> Mapping[str, tuple[float, ...]]:
-        """Planned work of one surface of each stratum, on its grid and on the next coarser one, by the solver."""
+        """Planned work of one surface of each stratum, on all of its grids, by the solver."""
         points = len(self.speeds) * len(self.values)
         found = {}
         for name, grids in self.grids.items():
             each = [points * work_of(solver, self.scene) for solver in grids.values()]
-            found[name] = tuple(map(sum, zip(each, [*each[1:], 0.0], strict=True)))
+            both = tuple(map(sum, zip(each, [*each[1:], 0.0], strict=True)))
+            found[name] = both if self._stratified(name) else (sum(each),)
         return found
 
     @property
@@ -130,6 +132,18 @@ class ParameterGrid:
         counts = self.draws.get(name, 1) if self.random else 1
         counts = counts if isinstance(counts, tuple) else (counts,)
         return tuple(range(k * MOST_DRAWS, k * MOST_DRAWS + count) for k, count in enumerate(counts))
+
+    def told(self, name: str, word: str) -> str:
+        """Numbers of a model's draws in words, with the points of their grids where these differ.
+
+        word : what they are called, in the plural
+        """
+        counts = [len(each) for each in self.strata(name)]
+        if not self._stratified(name):
+            return f"{counts[0]} {word}"
+        points = [str(getattr(solver, "points", "")) for solver in self.grids[name].values()]
+        on = [" and ".join(points[k : k + 2]) for k in range(len(counts))]
+        return ", ".join(f"{count:,} {word} on {grids} points" for count, grids in zip(counts, on, strict=True))
 
     def _asked(self, name):
         """Whether each draw is solved on each grid (grids, draws)."""
@@ -268,21 +282,27 @@ class ParameterGrid:
         return dataset
 
 
+def pilot(grids: int) -> tuple[int, ...]:
+    """Numbers of surfaces of each stratum before anything is known of their scatter."""
+    return (DIFFERENCES,) * (grids - 1) + (PILOT,)
+
+
 def on_two_grids(*solvers: Solver) -> dict[str, dict[str, Solver]]:
     """Settings of solvers on their own grid and on one of half the points, if they have points."""
     both = {each.name: {FINE: each, COARSE: halved(each)} for each in solvers}
     return {name: {grid: each for grid, each in grids.items() if each is not None} for name, grids in both.items()}
 
 
-def on_levels(solver: Solver, scenes: Iterable[Scene]) -> dict[str, Solver]:
+def on_levels(solver: Solver, scenes: Iterable[Scene], most: int = len(LEVELS)) -> dict[str, Solver]:
     """Settings of a solver on its own grid and on coarser ones, halved as long as they can solve some scenes.
 
     scenes : the widest contact first; a grid that lacks what one of them takes is left out, with all coarser ones
+    most : grids
     """
     first, *others = scenes
     found: list[Any] = [solver]
     with trusted():
-        while len(found) < len(LEVELS):
+        while len(found) < most:
             # Half the points tell the error of the grid, however few they are.
             if len(found) > 1 and found[-1].points < 2 * LEAST.get(solver.name, 1):
                 break
@@ -294,11 +314,14 @@ def on_levels(solver: Solver, scenes: Iterable[Scene]) -> dict[str, Solver]:
 
 
 def halved(solver: Solver) -> Any:
-    """The solver on half the points, and half the steps in time; None of one without `points`."""
+    """The solver on half the points, and half the steps in time; None of one without, or that takes no fewer."""
     if not hasattr(solver, "points"):
         return None
     steps = {"steps": max(1, solver.steps // 2)} if hasattr(solver, "steps") else {}
-    return replace(solver, points=solver.points // 2, **steps)
+    try:
+        return replace(solver, points=solver.points // 2, **steps)
+    except ValueError:
+        return None
 
 
 def refuse(parameter_grids: Iterable[ParameterGrid]) -> None:
@@ -309,7 +332,7 @@ def refuse(parameter_grids: Iterable[ParameterGrid]) -> None:
     what is foreseen of its solve, and, where one line hardly fits its grid, whether every other does.
     """
     asked = [(each, grids) for each in parameter_grids for grids in each.grids.values()]
-    asked.sort(key=lambda pair: -_width(pair[0].corners[0]))
+    asked.sort(key=lambda pair: -width(pair[0].corners[0]))
     told: dict[str, str] = {}
     with trusted():
         for one, grids in asked:
@@ -342,7 +365,7 @@ def _against(solver, scene, why):
     return f"{solver.name} cannot solve this scene with {place}: {'; '.join(why)}"
 
 
-def _width(scene):
+def width(scene):
     """Radius of the smooth relaxed contact [m]; infinite beyond the range of numbers."""
     motion = scene.motion
     try:

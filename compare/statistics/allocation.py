@@ -7,30 +7,33 @@ Math. Stat. 36, 457, 1965). A pilot large enough to show the scatter, and few lo
 the last one asked for, keep the level; the tests measure it.
 """
 
-from collections.abc import Sequence
-from math import ceil
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from math import ceil, isfinite
+from typing import Self
 
 import numpy as np
 import xarray
 
-from ..solving.cost import MOST_DRAWS
-from ..solving.parameter_grid import TOGETHER
-from .jackknife import mean_ratio, off_the_ratio
-from .levels import pooled
+from ..solving.amounts import duration
+from ..solving.cost import MOST_DRAWS, SECONDS
+from ..solving.parameter_grid import PILOT, TOGETHER, ParameterGrid
+from .finding import UNDECIDED, Finding
+from .jackknife import Source, mean_ratio, off_the_ratio
+from .levels import holding, pooled
 
-PILOT, DIFFERENCES = 32, 8  # surfaces on the coarsest grid, and of each difference, before anything is decided
-GROWTH = 4  # times the surfaces at most from one look to the next: the scatter of few is known roughly
+GROWTH = 4.0  # times the surfaces at most from one look to the next: the scatter of few is known roughly
 MARGIN = 1.1  # surfaces beyond those that just suffice: they spare most of the second looks
 OWN_SHARE = 0.5  # of the wanted width that is left to the scatter at least, however much the grid takes
 
 
-def pilot(grids: int) -> tuple[int, ...]:
-    """Numbers of surfaces before anything is known of their scatter."""
-    return (DIFFERENCES,) * (grids - 1) + (PILOT,)
-
-
 def needed(
-    dataset: xarray.Dataset, above: str, below: str | None, costs: Sequence[float], interval: float
+    dataset: xarray.Dataset,
+    above: str,
+    below: str | None,
+    costs: Sequence[float],
+    interval: float,
+    growth: float = GROWTH,
 ) -> tuple[int, ...]:
     """Surfaces of each stratum for intervals of 95 % of a half-width, relative; as many as now once it is reached.
 
@@ -39,6 +42,7 @@ def needed(
     dataset : like that of `levels.pooled`
     above, below : variable whose mean is wanted at every point, over the mean of another if that is named
     costs : planned of one surface of each stratum, on all of its grids
+    growth : times the surfaces at most
     """
     strata, both = dataset["stratum"].values, pooled(dataset)
     now = np.bincount(strata, minlength=len(costs))
@@ -47,19 +51,135 @@ def needed(
     found, other = (mean_ratio(over, under, strata) for over, under in (fine, coarse))
     low, high = found.interval()
     size, squares = np.abs(found.value), np.square(off_the_ratio(*fine)[1])
-    by_cost, drawn = (np.reshape(each, (-1, *(1,) * size.ndim)) for each in (np.sqrt(costs), now))
     with np.errstate(invalid="ignore", divide="ignore"):
         scatter, grid = (high - low) / 2 / size, np.abs(other.value - found.value) / size
         parts = np.array([squares[..., strata == k].sum(axis=-1) for k in range(now.size)])
-        # Standard deviation of one surface of each stratum, over that of the mean.
-        share = np.sqrt(parts / parts.sum(axis=0) * drawn)
         least = np.maximum(interval - grid, OWN_SHARE * interval)
-        needs = share / by_cost * np.sum(share * by_cost, axis=0) * np.square(scatter / least)
+        needs = _least_cost(parts / parts.sum(axis=0), now, np.array(costs), scatter / least)
     asked = np.where((scatter + grid > interval) & np.isfinite(needs), needs, 0.0)
-    return tuple(
-        min(max(had, min(TOGETHER * ceil(MARGIN * more / TOGETHER), GROWTH * had)), MOST_DRAWS)
-        for had, more in zip(now.tolist(), asked.reshape(now.size, -1).max(axis=1).tolist(), strict=True)
-    )
+    return tuple(map(_more, now.tolist(), asked.reshape(now.size, -1).max(axis=1).tolist(), [growth] * now.size))
+
+
+def held(counts: tuple[int, ...], datasets: Sequence[xarray.Dataset]) -> tuple[int, ...]:
+    """Numbers of surfaces without the grids that do not hold every surface: which they hold is no chance.
+
+    datasets : of the contacts whose draws these are
+    """
+    kept = holding(datasets)
+    return counts if kept >= len(counts) else (*counts[: kept - 1], max(counts[kept - 1], PILOT))
+
+
+@dataclass(frozen=True)
+class DrawnSurfaces:
+    """DrawnSurfaces of some parameter grids that share them.
+
+    counts : of each model, by stratum
+    costs : planned work of one of them on all of its grids, in units of `Task.work`, likewise
+    """
+
+    counts: Mapping[str, tuple[int, ...]]
+    costs: Mapping[str, tuple[float, ...]]
+
+    @classmethod
+    def of(cls, grids: Iterable[ParameterGrid]) -> Self:
+        """DrawnSurfaces of grids that have as many."""
+        first, *others = grids
+        costs = {
+            name: tuple(map(sum, zip(each, *(other.costs[name] for other in others), strict=True)))
+            for name, each in first.costs.items()
+        }
+        return cls({name: tuple(map(len, first.strata(name))) for name in costs}, costs)
+
+    def deciding(self, finding: Finding, interval: float | None = None) -> Mapping[Source, float]:
+        """Numbers of draws at least cost that decide a finding if its number stays; none if nothing does.
+
+        interval : half-width of an interval that is enough without a verdict, relative where more than one is
+            expected; None if only a verdict is
+        """
+        (low, high), claim, value = finding.scatter, finding.claim, finding.value
+        if finding.verdict != UNDECIDED or finding.undecidable or not finding.parts:
+            return {}
+        edges = [claim.expected - claim.tolerance, claim.expected + claim.tolerance]
+        edge = min(edges, key=lambda each: abs(each - value))
+        scatter = high - value if edge > value else value - low
+        left = abs(edge - value) - finding.grid
+        if interval is not None:
+            wanted = interval * max(1.0, abs(claim.expected))
+            if (high - low) / 2 + finding.grid <= wanted:
+                return {}
+            left = max(left, wanted - finding.grid, OWN_SHARE * wanted)
+        sources = [each for each in finding.parts if each[0] in self.counts]
+        if not (left > 0 and sources):
+            return {}
+        parts, counts, costs = (
+            np.array([of(*each) for each in sources], float)
+            for of in (
+                lambda solver, k: finding.parts[solver, k],
+                lambda solver, k: self.counts[solver][k],
+                lambda solver, k: self.costs[solver][k],
+            )
+        )
+        return dict(zip(sources, _least_cost(parts, counts, costs, scatter / left).tolist(), strict=True))
+
+    def more(
+        self, findings: Iterable[Finding], interval: float, growth: float = GROWTH
+    ) -> dict[str, tuple[int, ...]]:
+        """Numbers of draws that decide findings, or make their intervals narrow enough; no fewer than now."""
+        most: dict[Source, float] = {}
+        for each in findings:
+            for source, count in self.deciding(each, interval).items():
+                most[source] = max(most.get(source, 0.0), count)
+        return {
+            name: tuple(_more(had, most.get((name, k), 0.0), growth) for k, had in enumerate(counts))
+            for name, counts in self.counts.items()
+        }
+
+    def told(self, finding: Finding, words: Mapping[str, str]) -> Finding:
+        """The finding with what would decide it. words : what a draw of each model is called, in the plural"""
+        if finding.verdict != UNDECIDED or finding.undecidable or not finding.parts:
+            return finding
+        asked = self.deciding(finding)
+        if not asked:
+            return replace(finding, remedy="its grid leaves too much open: a finer one would have to decide it")
+        more = {source: count - self.counts[source[0]][source[1]] for source, count in asked.items()}
+        more = {source: max(1.0, count) for source, count in more.items() if count > 0}
+        if not all(map(isfinite, more.values())) or max(asked.values()) > MOST_DRAWS:
+            return replace(finding, remedy=f"more than {MOST_DRAWS:,} {' or '.join(_words(asked, words))} would")
+        seconds = SECONDS * sum(count * self.costs[solver][k] for (solver, k), count in more.items())
+        totals = {
+            word: sum(count for (solver, _), count in more.items() if words.get(solver) == word)
+            for word in _words(more, words)
+        }
+        said = " and ".join(f"{_some(count)} more {word}" for word, count in totals.items())
+        return replace(
+            finding, remedy=f"some {said}, {duration(max(seconds, 1.0))} of processor time, would decide it"
+        )
+
+
+def _least_cost(parts, drawn, costs, times):
+    """Numbers of surfaces (K, ...) for a standard error that is so many times smaller, at least cost.
+
+    parts : (K, ...) share of each stratum in the variance; drawn, costs : (K,) of each
+    """
+    drawn, root = (np.reshape(each, (-1, *(1,) * (parts.ndim - 1))) for each in (drawn, np.sqrt(costs)))
+    # Standard deviation of one surface of each stratum, over that of the mean.
+    share = np.sqrt(parts * drawn)
+    return share / root * np.sum(share * root, axis=0) * np.square(times)
+
+
+def _more(had, asked, growth):
+    """Number of surfaces of a stratum, of which so many are asked for."""
+    most = int(growth * had)
+    return min(max(had, min(TOGETHER * ceil(min(MARGIN * asked, most) / TOGETHER), most)), MOST_DRAWS)
+
+
+def _words(sources, words):
+    return list(dict.fromkeys(words[solver] for solver, _ in sources))
+
+
+def _some(count):
+    """A number that is roughly known, rounded."""
+    return f"{ceil(float(f'{count:.1g}' if count < 100 else f'{count:.2g}')):,}"
 
 
 def _columns(dataset, above, below):

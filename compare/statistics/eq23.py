@@ -215,6 +215,7 @@ def finding(claim: Claim, fine: _Number, coarse: _Number | None = None, reason: 
         grid_method=method,
         reason=reason or ("" if known else _UNKNOWN),
         size=isinstance(fine, RmsMisfit),
+        parts={source: float(each) for source, each in fine.parts.items()},
     )
 
 

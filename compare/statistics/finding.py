@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from math import isfinite, nan
 from typing import Any
 
@@ -85,6 +85,8 @@ class Finding:
     plot : name of the plot that shows it
     dimension : "1D", "3D", "1D/3D"; that of the claim if none is given
     size : whether the number is one that is never negative, such as an rms
+    parts : share in the scatter by solver and stratum of the surfaces; empty where not told apart
+    remedy : what would decide it, in words, where it is undecided; empty where nothing is known that would
     """
 
     claim: Claim
@@ -100,6 +102,8 @@ class Finding:
     plot: str = ""
     dimension: str = ""
     size: bool = False
+    parts: Mapping[tuple[str, int], float] = field(default_factory=dict, repr=False, compare=False)
+    remedy: str = ""
 
     def __post_init__(self):
         object.__setattr__(self, "dimension", self.dimension or self.claim.dimension)
@@ -142,8 +146,8 @@ class Finding:
 
     @property
     def why(self) -> str:
-        """Reason why there is no verdict, or a remark on a stated verdict; else empty."""
-        return self.reason or (self.undecidable if self.verdict == UNDECIDED else "")
+        """Reason why there is no verdict and what would give one, or a remark on a stated verdict; else empty."""
+        return self.reason or (self.undecidable or self.remedy if self.verdict == UNDECIDED else "")
 
     @property
     def place(self) -> str:

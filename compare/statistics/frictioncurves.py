@@ -32,12 +32,14 @@ class SimulatedCurves:
     speeds : (S,) [m/s]
     load, friction_force : (S, P, surfaces) [N], or (S, P) of a body without random surfaces
     strata : (surfaces,) number of the stratum of each surface; None where all are one
+    solver : name of what solved them
     """
 
     speeds: np.ndarray
     load: np.ndarray
     friction_force: np.ndarray
     strata: np.ndarray | None = None
+    solver: str = ""
 
     @classmethod
     def of(cls, dataset: xarray.Dataset) -> Self:
@@ -46,7 +48,8 @@ class SimulatedCurves:
         load, friction = (
             dataset[name].transpose("speed", pressed, ...).values for name in ("normal_force", "friction_force")
         )
-        return cls(dataset["speed"].values, load, friction, strata_of(dataset) if "seed" in dataset.dims else None)
+        strata = strata_of(dataset) if "seed" in dataset.dims else None
+        return cls(dataset["speed"].values, load, friction, strata, str(dataset.attrs.get("solver", "")))
 
     @property
     def points(self) -> int:
@@ -66,7 +69,7 @@ class SimulatedCurves:
     @property
     def groups(self) -> list[Group]:
         """Surfaces that are left out together."""
-        return groups(self._strata) if self.load.ndim == 3 else []
+        return groups(self._strata, self.solver) if self.load.ndim == 3 else []
 
     def without(self, group: Group) -> Self:
         """Curves without some surfaces."""
@@ -74,8 +77,8 @@ class SimulatedCurves:
 
     def _of(self, surfaces):
         """Curves of some surfaces."""
-        strata = self._strata[surfaces]
-        return type(self)(self.speeds, self.load[..., surfaces], self.friction_force[..., surfaces], strata)
+        load, friction = self.load[..., surfaces], self.friction_force[..., surfaces]
+        return replace(self, load=load, friction_force=friction, strata=self._strata[surfaces])
 
     @property
     def _strata(self):
@@ -105,7 +108,7 @@ class SimulatedCurves:
         kept = np.where(points[..., None], [load, friction], nan)[:, speeds]
         if self.load.ndim == 2:
             return type(self)(self.speeds[order][speeds], kept[0, ..., 0], kept[1, ..., 0])
-        return type(self)(self.speeds[order][speeds], kept[0], kept[1], strata)
+        return type(self)(self.speeds[order][speeds], kept[0], kept[1], strata, self.solver)
 
     @property
     def curves(self) -> tuple[Curve, ...]:

@@ -5,9 +5,10 @@ Stat. Soc. B 54, 221, 1992) moves the ends by what the skewness of the sample sa
 symmetric draws nearly as Student has it.
 """
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from math import hypot, inf, nan, sqrt
-from typing import Generic, Self, TypeVar
+from typing import Any, Generic, Self, TypeVar
 
 import numpy as np
 from scipy import special
@@ -63,6 +64,7 @@ class Estimated(Generic[Value]):
     dof : degrees of freedom of the error
     skewness : third moment of what the number is off by, over the cube of its error
     bias : what it may be off by beside its scatter, at most, to either side
+    parts : share in the square of the error by solver and stratum of the surfaces; empty where not told apart
     """
 
     value: Value
@@ -70,6 +72,7 @@ class Estimated(Generic[Value]):
     dof: float | np.ndarray
     skewness: float | np.ndarray = 0.0
     bias: float | np.ndarray = 0.0
+    parts: Mapping[tuple[str, int], Any] = field(default_factory=dict)
 
     @classmethod
     def exact(cls, value: Value) -> Self:
@@ -115,6 +118,7 @@ class RmsMisfit:
     dof : degrees of freedom of the noise
     pooled : whether one scatter, common to all numbers, is known with that dof, and not that of each mode
     skewness : of what changes the size to first order
+    parts : share in the noise by solver and stratum of the surfaces; empty where not told apart
     """
 
     square: float
@@ -124,6 +128,7 @@ class RmsMisfit:
     dof: float
     pooled: bool = False
     skewness: float = 0.0
+    parts: Mapping[tuple[str, int], Any] = field(default_factory=dict)
 
     @classmethod
     def unknown(cls) -> Self:

@@ -7,7 +7,7 @@ the scatter of a number and its skewness; percentiles of resampled surfaces are 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from math import inf, nan, sqrt
-from typing import Any, NamedTuple, Protocol, Self
+from typing import Any, NamedTuple, Protocol, Self, TypeAlias
 
 import numpy as np
 import xarray
@@ -15,6 +15,7 @@ import xarray
 from .finding import HALVED, UNKNOWN, Claim, Finding
 from .intervals import Estimated, RmsMisfit, skewness
 
+Source: TypeAlias = tuple[str, int]  # solver and stratum of some surfaces, whose scatter is one
 # Statistics are found this often at most for each stratum: above that, surfaces are left out in groups.
 MOST_GROUPS = 20
 
@@ -58,12 +59,14 @@ class Replicates:
     deviations : (groups, ...), of which the mean of products estimates the covariance of the statistic
     pooled : degrees of freedom of one scatter that is common to all; None where it is that of the groups
     strata : number of each group, in their order, of those whose scatter is one; None where all are one
+    sources : solver and stratum behind each of these numbers; empty where they are not told apart
     """
 
     value: float | np.ndarray
     deviations: np.ndarray
     pooled: float | None = None
     strata: np.ndarray | None = None
+    sources: tuple[Source, ...] = ()
 
     @classmethod
     def first_order(cls, value: float | np.ndarray, changes: np.ndarray, strata: np.ndarray | None = None) -> Self:
@@ -81,6 +84,13 @@ class Replicates:
         """Degrees of freedom of a sum of squares (groups, ...); of Welch where strata scatter by themselves."""
         return inf if not len(squares) else welch(squares, self.strata) if self.pooled is None else self.pooled
 
+    def parts(self, squares: np.ndarray) -> Mapping[Source, np.ndarray]:
+        """Share of each source in a sum of squares (groups, ...)."""
+        with np.errstate(invalid="ignore", divide="ignore"):
+            whole = squares.sum(axis=0)
+            sums = {each: squares[self.strata == number] for number, each in enumerate(self.sources)}
+            return {each: own.sum(axis=0) / whole for each, own in sums.items()}
+
     @property
     def estimated(self) -> Estimated:
         """Each number with its own error."""
@@ -89,7 +99,8 @@ class Replicates:
         error = np.sqrt(np.mean(np.square(self.deviations), axis=0))
         # One scatter common to all is taken for normal: what few measurements of it show is not skewness.
         skewed = skewness(self.deviations) if self.pooled is None else 0.0
-        return Estimated(self.value, error, self.dof(np.square(self.deviations)), skewed)
+        squares = np.square(self.deviations)
+        return Estimated(self.value, error, self.dof(squares), skewed, parts=self.parts(squares))
 
     @property
     def rms(self) -> RmsMisfit:
@@ -109,7 +120,8 @@ class Replicates:
         count, pooled = value.size, self.pooled is not None
         skewed = 0.0 if pooled else float(skewness(longer))
         dof = float(self.dof(np.diag(products)))
-        return RmsMisfit(square - noise / count, noise / count, along / count, modes, dof, pooled, skewed)
+        parts = self.parts(np.diag(products))
+        return RmsMisfit(square - noise / count, noise / count, along / count, modes, dof, pooled, skewed, parts)
 
 
 def welch(squares: np.ndarray, strata: np.ndarray | None = None) -> float | np.ndarray:
@@ -167,7 +179,7 @@ def resample(
         return made
 
     return {
-        name: Replicates(value, deviations(np.array([each[name] for each in found])), strata=strata)
+        name: Replicates(value, deviations(np.array([each[name] for each in found])), None, strata, tuple(kinds))
         if found
         else Replicates(value, _unseen(0, value))
         for name, value in whole.items()
@@ -323,13 +335,17 @@ def _without(dataset, group, shares):
 
 def mean(dataset: xarray.Dataset, name: str, below: str | None = None) -> np.ndarray:
     """Mean over draws of a variable, or ratio of two means, NaN where fewer than half of the draws have it."""
-    values = dataset[name]
-    if "seed" not in values.dims:
-        return values.values / (1.0 if below is None else dataset[below].values)
-    over = values.transpose(..., "seed").values
-    under = 1.0 if below is None else dataset[below].transpose(..., "seed").values
+    over, under = (np.ones(()) if each is None else _over_draws(dataset.variables[each]) for each in (name, below))
+    if "seed" not in dataset.variables[name].dims:
+        return over / under
     enough = 2 * np.isfinite(over).sum(axis=-1) >= over.shape[-1]
     return np.where(enough, mean_ratio(over, under).value, nan)
+
+
+def _over_draws(variable):
+    """Values with the draws last."""
+    drawn = "seed" in variable.dims and variable.dims[-1] != "seed"
+    return variable.transpose(..., "seed").values if drawn else variable.values
 
 
 def friction(dataset: xarray.Dataset) -> np.ndarray:
@@ -373,6 +389,7 @@ def measured(
         reason=_unknown(fine.draws, (found.value, low, high, grid)),
         plot=plot,
         size=isinstance(found, RmsMisfit),
+        parts={source: float(each) for source, each in found.parts.items()},
     )
 
 

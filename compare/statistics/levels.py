@@ -7,8 +7,15 @@ skewness of these draws are those of the sum. A stratum holds the surfaces of on
 of freedom.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 import xarray
+
+from ..solving.parameter_grid import EMPTY, FAILED
+
+# What is spent or left over on a grid, and is no number of the contact.
+SPENT = "seconds", "operator_applications", "residual"
 
 
 def pooled(dataset: xarray.Dataset) -> xarray.Dataset:
@@ -18,17 +25,33 @@ def pooled(dataset: xarray.Dataset) -> xarray.Dataset:
     """
     if "stratum" not in dataset.coords:
         return dataset
-    numbers = [name for name, each in dataset.data_vars.items() if "seed" in each.dims and each.dtype.kind == "f"]
+    drawn = {name: each for name, each in dataset.data_vars.items() if "seed" in each.dims and name not in SPENT}
+    numbers = [name for name, each in drawn.items() if each.dtype.kind == "f"]
     strata = dataset["stratum"].values
     made = {}
     for name in numbers:
         values = dataset[name].transpose("grid", ..., "seed").values
         made[name] = np.stack([_draws(values, strata, first) for first in range(len(values))[:2]])
+    if "status" in dataset and "friction_force" in dataset:
+        # What does not touch adds nothing to either force.
+        dataset = dataset.assign(friction_force=dataset["friction_force"].where(dataset["status"] != EMPTY, 0.0))
     both = dataset.isel(grid=slice(2))
     dims = {name: [each for each in dataset[name].dims if each not in ("grid", "seed")] for name in numbers}
     return both.assign(
         {name: (("grid", *dims[name], "seed"), each, dataset[name].attrs) for name, each in made.items()}
     )
+
+
+def holding(datasets: Sequence[xarray.Dataset]) -> int:
+    """Number of grids on which every surface has an answer, the finest first; of two at least the second tells how
+    far the first errs, whatever it lacks.
+    """
+    failed = [
+        np.flatnonzero((each["status"] == FAILED).any([name for name in each["status"].dims if name != "grid"]))
+        for each in datasets
+    ]
+    most = max(each.sizes["grid"] for each in datasets)
+    return min([most, *(int(grid) for each in failed for grid in each if grid > 1)])
 
 
 def _draws(values, strata, first):

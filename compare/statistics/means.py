@@ -1,7 +1,7 @@
 """Means over draws at every point of a Dataset, and numbers of several Datasets, with intervals of 95 %."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import nan
 from typing import NamedTuple
 
@@ -11,7 +11,8 @@ from pandas import DataFrame
 
 from ..solving.parameter_grid import COARSE, EMPTY, FAILED, FINE
 from .intervals import Estimated
-from .jackknife import DrawSet, mean_ratio, resample, strata_of
+from .jackknife import DrawSet, Source, mean_ratio, resample, strata_of
+from .levels import pooled
 
 # Means of friction: the two forces whose means are divided.
 FRICTION = ("friction_force", "normal_force")
@@ -55,9 +56,11 @@ def with_spread(dataset: xarray.Dataset) -> xarray.Dataset:
 def means(dataset: xarray.Dataset) -> DataFrame:
     """A row for each speed, and load or depth, on the fine grid.
 
-    Each mean has the standard deviation of one draw and an interval of 95 % that counts scatter and grid.
+    Each mean has the standard deviation of one draw and an interval of 95 % that counts scatter and grid. Of draws
+    in strata that is the deviation on the coarsest grid, which has the most of them.
     """
-    dataset = with_spread(dataset)
+    every = with_spread(dataset)
+    drawn, dataset = _most_drawn(every), pooled(every)
     fine, prescribed = dataset.sel(grid=FINE), pressed(dataset)
     speed, value = np.meshgrid(dataset["speed"].values, dataset[prescribed].values, indexing="ij")
     columns = {"points": np.full(speed.size, int(fine["points"])), "speed": speed, prescribed: value}
@@ -66,7 +69,7 @@ def means(dataset: xarray.Dataset) -> DataFrame:
         if above not in fine:
             continue
         found = interval(dataset, above, below, name in SIZES)
-        one = fine[above] if below is None else fine[above] / fine[below].where(fine[below] != 0)
+        one = drawn[above] if below is None else drawn[above] / drawn[below].where(drawn[below] != 0)
         deviation = one.std("seed", ddof=1) if "seed" in one.dims else xarray.full_like(one, nan)
         columns |= {
             f"{name}_mean": found.value,
@@ -90,6 +93,7 @@ class Compared:
     value, low, high : numbers, and the ends of their intervals of 95 % from the scatter of draws alone
     grid : change from half the points to all; NaN if not solved there
     draws : of the solver with the fewest; 0 of smooth bodies
+    parts : like those of `Estimated`
     """
 
     value: np.ndarray
@@ -97,6 +101,7 @@ class Compared:
     high: np.ndarray
     grid: np.ndarray
     draws: int
+    parts: Mapping[Source, np.ndarray] = field(default_factory=dict)
 
     @property
     def interval(self) -> Interval:
@@ -115,7 +120,7 @@ def compared(
         found = resample(lambda sample: {"": statistic(sample)}, fine)[""].estimated
         grid = np.full(np.shape(found.value), nan) if coarse is None else np.abs(statistic(coarse) - found.value)
     low, high = found.size_interval() if size else found.interval()
-    return Compared(found.value, low, high, grid, fine.draws)
+    return Compared(found.value, low, high, grid, fine.draws, found.parts)
 
 
 def failures(dataset: xarray.Dataset) -> DataFrame:
@@ -151,6 +156,13 @@ def _estimated(dataset, above, below):
     with np.errstate(invalid="ignore", divide="ignore"):
         value = over / under
     return Estimated.exact(value)
+
+
+def _most_drawn(dataset):
+    """Draws of one grid: all of them, or those of the stratum that is solved on the coarsest grid alone."""
+    if "stratum" not in dataset.coords:
+        return dataset.sel(grid=FINE)
+    return dataset.isel(grid=-1, seed=np.flatnonzero(dataset["stratum"] == dataset.sizes["grid"] - 1))
 
 
 def _over_draws(array, how):

@@ -3,7 +3,9 @@
 import errno
 import os
 from dataclasses import replace
+from math import inf
 from pathlib import Path
+from time import monotonic
 
 from scene import SolveError
 from scene.reading import InvalidInput
@@ -11,12 +13,16 @@ from scene.reading import InvalidInput
 from ..report import manifest, render
 from ..report.page import Plot
 from ..solving import netcdf, runner
+from ..solving.amounts import seconds_of
 from ..solving.runner import Progress, SweepResult
 from ..solving.store import Store, Unwritable, make
 from ..solving.suggest import known
 from ..solving.workers import counted
+from ..statistics.allocation import GROWTH
 from .report import SOLVED, Report, faults
 from .study import Study
+
+GROWTHS = GROWTH, 2.0, 1.4  # times the surfaces that are tried in turn where time is limited
 
 
 class Broken(SolveError):
@@ -32,6 +38,7 @@ def run(
     figure_format: str = "png",
     report: bool = True,
     yes: bool = False,
+    budget: str | float | None = None,
     progress: Progress | None = None,
 ) -> Report:
     """Do a study from its tasks to its page; what the folder has is not solved again.
@@ -43,6 +50,7 @@ def run(
     figure_format : forms of the figures, "png", "pdf" and "svg", separated by commas; a PNG is always written
     report : whether the page and its figures are written; findings and results always are
     yes : agree to what takes more than a day
+    budget : time after which no more surfaces are asked for [s], or as "10min"; None without a limit
     progress : told how far it is
 
     Raises Refused, before a task is built, for more than a day without a yes; Unwritable, before anything is
@@ -53,6 +61,7 @@ def run(
     known("format", format, render.FORMATS)
     for form in forms:
         known("figure_format", form, render.FORMS)
+    limit = inf if budget is None else seconds_of("budget", budget)
     cost, count = study.cost(), counted(workers)
     cost.refuse(count, yes)
     below = manifest.inside(output, study.place) if study.place else output
@@ -61,7 +70,7 @@ def run(
     _make_folders(output, [SOLVED] if cost.contacts else [], study.place)
     if cost.contacts:
         progress.told(str(cost))
-    swept = SweepResult({}, 0, 0, 0.0)
+    swept, clock = SweepResult({}, 0, 0, 0.0), Clock(limit)
     more: Study | None = study
     try:
         while more is not None:
@@ -69,7 +78,7 @@ def run(
             study, swept = more, swept.joined(_solve(more, swept, output, workers, scheduler, progress))
             answers = study.answers(swept.outcomes)
             # What breaks with few surfaces breaks with more.
-            more = None if swept.faults else study.more(answers)
+            more = None if swept.faults else _more(study, answers, clock)
         judged = study.judge(answers)
         findings, page = judged.findings, judged.page(study.title, answers)
         unsolved = study.unsolved(_whole(swept))
@@ -97,6 +106,33 @@ def run(
         render.write_tables(page, findings, below)
     manifest.stamp(below, study, page, swept, os.path.relpath(output / SOLVED, below))
     return Report(study, answers, findings, page, swept, output, path, unsolved)
+
+
+class Clock:
+    """Time that a study has left, by a clock: what it lets through differs from one machine to another.
+
+    limit : seconds from now on
+    """
+
+    def __init__(self, limit: float):
+        self.limit, self._start = limit, monotonic()
+
+    def lets(self, had: float, more: float) -> bool:
+        """Whether so much more work fits, if it takes as long as what was done so far."""
+        spent = monotonic() - self._start
+        return self.limit == inf or spent * more <= (self.limit - spent) * had
+
+
+def _more(study, answers, clock):
+    """The study with more surfaces, of which as many as fit into the time that is left; None where none do."""
+    for growth in GROWTHS:
+        more = study.more(answers, growth)
+        if more is None:
+            return None
+        done = study.cost().work
+        if clock.lets(done, more.cost().work - done):
+            return more
+    return None
 
 
 def _whole(swept):

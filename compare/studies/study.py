@@ -16,6 +16,7 @@ from ..solving.parameter_grid import ParameterGrid
 from ..solving.task import Batch, SceneTask, Task
 from ..solving.unsolved import Unsolved
 from ..statistics import finding, griderror
+from ..statistics.allocation import GROWTH
 from ..statistics.finding import FAILS, Claim, Finding
 from ..statistics.jackknife import judge
 
@@ -113,8 +114,11 @@ class Study:
         """Everything that was solved, labelled."""
         return parameter_grid.tree(self.grids(), outcomes)
 
-    def more(self, answers: xarray.DataTree) -> "Study | None":
-        """The study with more surfaces, as its answers ask for; None where they say enough."""
+    def more(self, answers: xarray.DataTree, growth: float = GROWTH) -> "Study | None":
+        """The study with more surfaces, as its answers ask for; None where they say enough.
+
+        growth : times the surfaces at most
+        """
         return None
 
     def judge(self, answers: xarray.DataTree) -> Judgement:

@@ -12,7 +12,8 @@ import compare
 from bem3d import BEM
 from compare.library.case import Case
 from compare.solving.cost import MOST_DRAWS
-from compare.statistics.allocation import DIFFERENCES, GROWTH, PILOT, needed, pilot
+from compare.solving.parameter_grid import DIFFERENCES, PILOT, pilot
+from compare.statistics.allocation import GROWTH, needed
 from compare.statistics.jackknife import mean_ratio
 from compare.statistics.levels import pooled
 from mdr1d import MDR

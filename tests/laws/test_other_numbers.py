@@ -158,7 +158,7 @@ MADE = {
 }
 WITHOUT = {"Scene", "Case", "Program", "Plane"}
 # Tested below, with what they need beside them.
-APART = {"Shear.force", "Stage.amplitude", "Stage.frequency", "ParameterGrid.draws"}
+APART = {"Shear.force", "Stage.amplitude", "Stage.frequency", "ParameterGrid.draws", "Finding.parts"}
 
 
 @dataclass(frozen=True)
@@ -434,7 +434,7 @@ def test_every_argument_is_known():
         for name in package.__all__:
             function = getattr(package, name)
             if inspect.isfunction(function) and name not in known:
-                assert set(inspect.signature(function).parameters) <= NOT_NUMBERS | {"workers"}, name
+                assert set(inspect.signature(function).parameters) <= NOT_NUMBERS | {"workers", "interval", "budget"}, name
 
 
 @everywhere

@@ -7,6 +7,7 @@ from math import nan
 
 import numpy as np
 
+from ...models import exact
 from ...models.table import PROFILES
 from ...solving.parameter_grid import COARSE, FINE
 from ...statistics import eq23
@@ -15,8 +16,8 @@ from ...statistics.finding import UNDECIDED, Claim, Finding, said_of
 from ...statistics.frictioncurves import SimulatedCurves
 from ...statistics.jackknife import friction, mean, mean_ratio, measured
 from .claims import at_xi, claim, geometric, power
-from .laws import Laws, slow_drag
-from .series import CONTACT, ROUGH, SMOOTH, Contacts, sliding
+from .laws import Laws
+from .series import CONTACT, ROUGH, SLOW_DRAG, SMOOTH, Contacts, sliding
 
 # Slow: the loss tangent of the shortest wave, v times the longest time over it, and xi, below which friction is
 # off its limit by less than the tolerance. Above FAST Eq. 19 is within 12 % of its plateau.
@@ -109,7 +110,7 @@ def _one_sided(series, solver, laws) -> Iterator[tuple[str, Callable, np.ndarray
     def over_limit(answers):
         rest = answers.isel(speed=0)
         force = rest["normal_force"].transpose(..., "seed").values
-        drag = slow_drag(series.scene.solid, series.models[solver].draws, rest)
+        drag = exact.mean_lag(series.scene.solid) * rest[SLOW_DRAG].transpose(..., "seed").values
         limit = series.speeds[0] * mean_ratio(drag, force).value
         return geometric(mu(answers)[0] / limit)
 

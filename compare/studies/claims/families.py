@@ -6,16 +6,16 @@ from dataclasses import replace
 import numpy as np
 
 from ...solving.parameter_grid import COARSE, FINE
-from ...statistics import eq23
+from ...statistics import eq23, jackknife
 from ...statistics.collapse import collapse
 from ...statistics.finding import Finding
 from ...statistics.frictioncurves import SimulatedCurves
 from ...statistics.intervals import RmsMisfit
-from ...statistics.jackknife import DrawSet, friction, mean_ratio, measured
+from ...statistics.jackknife import DrawSet, mean_ratio, measured, strata_of
 from .claims import CLAIMS, at_xi, claim, geometric, power
 from .claims_friction import FAST, SLOW
 from .judgement import JudgedSeries
-from .series import FAMILIES, ROUGH, sliding
+from .series import FAMILIES, ROUGH, Series, sliding
 
 PLOT = "family"
 
@@ -25,14 +25,31 @@ def families(series: Sequence[JudgedSeries]) -> dict[str, list[JudgedSeries]]:
 
     All of a family have as many surfaces; of several such families of one shape it is the largest.
     """
-    found: dict[tuple[str, int, int], list[JudgedSeries]] = {}
+    found: dict[tuple[str, str], list[JudgedSeries]] = {}
     for judged in series:
         each = judged.series
         if judged.laws and FAMILIES in each.claims:
-            draws = type(each.scene.indenter).__name__.lower(), each.surfaces, each.profiles
-            found.setdefault(draws, []).append(judged)
+            found.setdefault((_shape(each), str(each.drawn.counts)), []).append(judged)
     rising = sorted(found.items(), key=lambda family: len(family[1]))
-    return {shape: members for (shape, *_), members in rising if _differ(members)}
+    return {shape: members for (shape, _), members in rising if _differ(members)}
+
+
+def alike(series: Sequence[Series]) -> list[list[str]]:
+    """Names of series that slide, by their shape, which are to have as many surfaces as each other."""
+    found: dict[str, list[str]] = {}
+    for each in series:
+        if each.slides and FAMILIES in each.claims:
+            found.setdefault(_shape(each), []).append(each.name)
+    return list(found.values())
+
+
+def every(series: Series) -> str:
+    """Place of findings on all series of its shape."""
+    return f"every {_shape(series)}"
+
+
+def _shape(series):
+    return type(series.scene.indenter).__name__.lower()
 
 
 def reduced(members: Sequence[JudgedSeries], solver: str, grid: str = FINE) -> SimulatedCurves:
@@ -46,8 +63,9 @@ def reduced(members: Sequence[JudgedSeries], solver: str, grid: str = FINE) -> S
         loads.append((force * unit).reshape(-1, force.shape[2]))
         frictions.append((drag * unit / laws.plateau).reshape(loads[-1].shape))
     most = max(map(len, loads))
-    filled = (np.array([_filled(each, most) for each in stack]) for stack in (loads, frictions))
-    return SimulatedCurves(np.arange(1.0, len(members) + 1), *filled)
+    load, friction = (np.array([_filled(each, most) for each in stack]) for stack in (loads, frictions))
+    strata = strata_of(members[0].contacts(solver))
+    return SimulatedCurves(np.arange(1.0, len(members) + 1), load, friction, strata, solver)
 
 
 def family_findings(series: Sequence[JudgedSeries]) -> Iterator[Finding]:
@@ -65,7 +83,7 @@ def _one_curve(members, solver, shape):
     return replace(
         found,
         dimension=members[0].contacts.labels[solver],
-        where=f"every {shape}",
+        where=every(members[0].series),
         draws=members[0].series.draws[solver],
         regime=_words(members, solver),
         plot=PLOT,
@@ -105,13 +123,12 @@ def _slope_exponents(members, solver, shape):
 
         def exponent(sample, place=place, values=values, lacking=lacking):
             pairs = zip(sample.values(), lacking, strict=True)
-            levels = [geometric((friction(each)[1:][place] / less)[values]) for each, less in pairs]
+            levels = [geometric((jackknife.friction(each)[1:][place] / less)[values]) for each, less in pairs]
             return power(plateaus, np.array(levels))
 
         words = at_xi(np.array([each.xi[place][values] for each in laws]), _words(alike, solver))
-        yield measured(
-            claim(name, exponent, members[0].contacts.labels[solver]), fine, coarse, f"every {shape}", words, PLOT
-        )
+        asked = claim(name, exponent, members[0].contacts.labels[solver])
+        yield measured(asked, fine, coarse, every(members[0].series), words, PLOT)
 
 
 def _apart_by_height(members):

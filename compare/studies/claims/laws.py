@@ -9,8 +9,6 @@ import xarray
 
 from mdr1d import equations
 
-from ...models import exact
-from ...models.table import PROFILES
 from ...statistics.jackknife import mean_ratio
 from .regime import SYMBOLS, ratios, words
 from .series import Contacts, Series, sliding
@@ -133,16 +131,6 @@ def regimes(series: Series, answers: xarray.Dataset) -> dict[str, np.ndarray]:
                 for name, ratio in ratios(series.at(value, speed), here).items():
                     found[name][i, j] = ratio
     return found
-
-
-def slow_drag(elastomer, draws: str, rest: xarray.Dataset) -> np.ndarray:
-    """Friction force over speed as that tends to zero [N s/m], (values, draws), from the contact at rest."""
-    lag = exact.mean_lag(elastomer)
-    if draws != PROFILES:
-        load, curvature = (_draws(rest, name) for name in ("normal_force", "curvature_by_pressure"))
-        return exact.slow_friction_by_curvature(1.0, lag, load, curvature)
-    slope, length = (_draws(rest, name) for name in ("rms_slope_contact", "contact_length"))
-    return exact.slow_friction_by_slope(1.0, lag, elastomer.indentation_modulus, slope, length)
 
 
 def _draws(answers, name):

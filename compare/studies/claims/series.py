@@ -13,9 +13,13 @@ from scene import Program, Scene
 from scene.reading import InvalidInput
 
 from ...library.describe import slug
-from ...models.table import ModelLike, Models
+from ...models import exact
+from ...models.table import PROFILES, ModelLike, Models
 from ...solving.parameter_grid import FINE, ParameterGrid, on_two_grids
+from ...statistics.allocation import DrawnSurfaces
 from ...statistics.jackknife import DrawSet
+from ...statistics.levels import pooled
+from ..sampling import in_strata
 
 ROUGH, SMOOTH = BODIES = "rough", "smooth"
 # Kinds of claims: shifts of curves (Eq. 23), friction in each dimensionality (Eqs. 14 to 19), depth and force in
@@ -25,7 +29,8 @@ SOLVERS = {"MDR": "1D", "BEM": "3D"}
 CONTACT = {"profiles": "contact_length", "surfaces": "contact_area", "none": "contact_area"}  # [m], [m²]
 # Variables that claims are measured on; others are not copied for every draw that is left out.
 MEASURED = ("normal_force", "friction_force", "depth_reached")
-AT_REST = ("curvature_by_pressure", "rms_slope_contact", "contact_length", "contact_area")
+SLOW_DRAG = "slow_drag"
+AT_REST = (SLOW_DRAG, "curvature_by_pressure", "rms_slope_contact", "contact_length", "contact_area")
 
 
 @dataclass(frozen=True)
@@ -42,6 +47,10 @@ class Series:
     note : what is to be said of it on the page
     claims : which kinds of claims are judged, out of KINDS
     asked, reference : models and the reference among them, see `Models.of`; MDR and BEM if none is asked for
+    interval : in place of surfaces and profiles, the half-width that is wanted of intervals of 95 % of claims that
+        are not decided, relative; None of fixed numbers
+    strata : then numbers of draws on each grid by model, those of a pilot if absent; fewer numbers than grids
+        leave out the coarsest
     """
 
     name: str
@@ -57,6 +66,8 @@ class Series:
     claims: tuple[str, ...] = KINDS
     asked: tuple[ModelLike, ...] = ()
     reference: str = ""
+    interval: float | None = None
+    strata: Mapping[str, tuple[int, ...]] | None = None
 
     @property
     def folder(self) -> str:
@@ -71,7 +82,13 @@ class Series:
     @property
     def draws(self) -> dict[str, int]:
         """Number of profiles or surfaces by the name of the model."""
-        return {each.name: each.count(self.profiles, self.surfaces) for each in self.models}
+        rough = self.grids[f"{self.name}/{ROUGH}"]
+        return {each.name: sum(map(len, rough.strata(each.name))) for each in self.models}
+
+    @property
+    def drawn(self) -> DrawnSurfaces:
+        """Draws of the rough body, by stratum."""
+        return DrawnSurfaces.of([self.grids[f"{self.name}/{ROUGH}"]])
 
     @cached_property
     def models(self) -> Models:
@@ -101,9 +118,11 @@ class Series:
             speeds=(0.0, *self.speeds),
             values=self.values,
             grids=on_two_grids(*(each.solver for each in self.models)),
-            draws=self.draws,
+            draws={each.name: each.count(self.profiles, self.surfaces) for each in self.models},
         )
         smooth = replace(rough, scene=replace(self.scene, roughness=None))
+        if self.interval is not None:
+            rough = in_strata([rough], self.models, self.strata or {})[0]
         return {f"{self.name}/{ROUGH}": rough, f"{self.name}/{SMOOTH}": smooth}
 
     def at(self, value: float, speed: float = 0.0) -> Scene:
@@ -119,8 +138,8 @@ class Contacts:
     answers: xarray.DataTree
 
     def __call__(self, solver: str, body: str = ROUGH, grid: str = FINE) -> xarray.Dataset:
-        """Dataset on one grid, rest first; a model without another grid has no error of it."""
-        found = self.datasets[solver, body]
+        """Draws of one grid, rest first; a model without another grid has no error of it."""
+        found = self._pooled[solver, body]
         return found.sel(grid=grid if grid in found["grid"] else FINE)
 
     @property
@@ -135,12 +154,27 @@ class Contacts:
 
     @cached_property
     def datasets(self) -> Mapping[tuple[str, str], xarray.Dataset]:
-        """Datasets on both grids, by solver and body."""
+        """Datasets on all grids, by solver and body."""
         places = {
             (solver, body): f"{self.series.name}/{body}/{solver}" for solver in self.labels for body in BODIES
         }
         nodes = {place: cast(xarray.DataTree, self.answers[path]) for place, path in places.items()}
         return {place: node.to_dataset(inherit=False) for place, node in nodes.items()}
+
+    @cached_property
+    def _pooled(self):
+        return {place: pooled(each.assign(self._drag(*place, each))) for place, each in self.datasets.items()}
+
+    def _drag(self, solver, body, dataset):
+        """Friction force over speed and mean lag, as the speed tends to zero, from the contact at rest [N/m]."""
+        force, by_curvature = dataset["normal_force"], "curvature_by_pressure" in dataset
+        if self.series.models[solver].draws != PROFILES and by_curvature:
+            return {SLOW_DRAG: exact.slow_friction_by_curvature(1.0, 1.0, force, dataset["curvature_by_pressure"])}
+        if "rms_slope_contact" in dataset and "contact_length" in dataset:
+            slope, length = dataset["rms_slope_contact"], dataset["contact_length"]
+            modulus = self.series.scene.elastomer.indentation_modulus
+            return {SLOW_DRAG: exact.slow_friction_by_slope(1.0, 1.0, modulus, slope, length)}
+        return {}
 
     def sample(self, grid: str, body: str, *solvers: str) -> DrawSet:
         """Datasets by the name of the solver, of which draws can be left out; always the same object."""

@@ -1,7 +1,7 @@
 """Claims of the paper judged on series of contacts: `crosscheck study`."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from os.path import lexists
 from pathlib import Path
@@ -18,19 +18,21 @@ from ...library.lookup import located
 from ...library.ready import ready, studies
 from ...models.table import ModelLike, listed
 from ...report.page import Block, Findings, Section, Table, Text
+from ...solving.amounts import share_of
 from ...solving.outcome import Outcome
 from ...solving.parameter_grid import ParameterGrid, refuse
 from ...solving.suggest import known
 from ...solving.task import Task
 from ...statistics import eq23
+from ...statistics.allocation import GROWTH, held
 from ...statistics.finding import REPORTED, VERDICTS, Finding, claimed, sentences
 from ..study import Judgement, Study
 from .catalogue import SIZES, STUDIES, ReadyStudy
-from .families import family_findings
+from .families import alike, every, family_findings
 from .figures import tables as study_plots
 from .judgement import JudgedSeries, judge_series
 from .points import failures, points
-from .series import Contacts, Series
+from .series import ROUGH, Contacts, Series
 from .study_file import study_of
 
 ALL = "all"
@@ -63,6 +65,8 @@ class ClaimStudy(Study):
     size : a name of SIZES
     source : text of the file of a study that does not come with the package
     models, reference : in place of those that its file names, see `Models.of`
+    interval : in place of that of the study, see `Series`
+    strata : numbers of draws on each grid by model, of each series where they are not fixed
     """
 
     name: str
@@ -71,6 +75,8 @@ class ClaimStudy(Study):
     source: str | None = None
     models: tuple[ModelLike, ...] = ()
     reference: str = ""
+    interval: float | None = None
+    strata: Mapping[str, Mapping[str, tuple[int, ...]]] = field(default_factory=dict)
 
     command = "study"
 
@@ -81,6 +87,7 @@ class ClaimStudy(Study):
         size: str = "quick",
         models: Sequence[ModelLike] | None = None,
         reference: str | None = None,
+        interval: float | str | None = None,
     ) -> "ClaimStudy | AllStudies":
         """The study of a name that comes with the package, all of them, or that of a file.
 
@@ -88,7 +95,7 @@ class ClaimStudy(Study):
         """
         known("size", size, SIZES)
         found: ClaimStudy | AllStudies
-        chosen = listed(models), reference or ""
+        chosen = listed(models), reference or "", None if interval is None else share_of("interval", interval)
         if name == ALL:
             found = AllStudies(tuple(cls(each, study, size, None, *chosen) for each, study in STUDIES.items()))
         elif name in STUDIES:
@@ -115,17 +122,21 @@ class ClaimStudy(Study):
     @property
     def inputs(self) -> Mapping[str, Any]:
         own = {} if self.source is None else {"source": self.source}
-        return {"name": self.name, "size": self.size} | own
+        wanted = {} if self.interval is None else {"interval": self.interval}
+        return {"name": self.name, "size": self.size} | wanted | own
 
     @cached_property
     def series(self) -> tuple[Series, ...]:
         """Series that are solved at this size."""
-        found = tuple(self.study.series(SIZES[self.size]))
-        if not (self.models or self.reference):
-            return found
         return tuple(
-            replace(each, asked=self.models or each.asked, reference=self.reference or each.reference)
-            for each in found
+            replace(
+                each,
+                asked=self.models or each.asked,
+                reference=self.reference or each.reference,
+                interval=self.interval or each.interval,
+                strata=self.strata.get(each.name),
+            )
+            for each in self.study.series(SIZES[self.size])
         )
 
     def grids(self) -> Mapping[str, ParameterGrid]:
@@ -143,6 +154,24 @@ class ClaimStudy(Study):
         """Every series, and all together."""
         series = tuple(judge_series(Contacts(each, answers)) for each in self.series)
         return JudgedStudy(series, tuple(family_findings(series)))
+
+    def more(self, answers: xarray.DataTree, growth: float = GROWTH) -> "ClaimStudy | None":
+        """The study with the draws that undecided claims ask for; None where none does."""
+        judged = self.judged(answers)
+        sampled = {each.series.name: each for each in judged.series if each.series.interval is not None}
+        asked = {}
+        for name, each in sampled.items():
+            series, own = each.series, each.contacts.datasets
+            together = [found for found in judged.together if found.where == every(series)]
+            assert series.interval is not None
+            counts = series.drawn.more([*each.findings, *together], series.interval, growth)
+            drawn = {model.name for model in series.models.drawn}
+            asked[name] = {model: held(counts[model], [own[model, ROUGH]]) for model in counts if model in drawn}
+        for names in alike([each.series for each in sampled.values()]):
+            asked |= dict.fromkeys(names, _most([asked[name] for name in names]))
+        every_count = {name: each.series.drawn.counts for name, each in sampled.items()}
+        had = {name: {model: counts[model] for model in asked[name]} for name, counts in every_count.items()}
+        return None if asked == had else replace(self, strata=asked)
 
     def judge(self, answers: xarray.DataTree) -> Judgement:
         """An overview of the verdicts, and findings on several series; then each series.
@@ -224,6 +253,14 @@ class AllStudies(Study):
         return [Text(self.about), Text(UNMATCHED), Text("\n".join(questions))]
 
 
+def _most(counts: Sequence[Mapping[str, tuple[int, ...]]]) -> dict[str, tuple[int, ...]]:
+    """Numbers of draws that are enough for all of some series, on the grids that all of them have."""
+    return {
+        model: tuple(max(grid) for grid in zip(*(each[model] for each in counts), strict=False))
+        for model in counts[0]
+    }
+
+
 def _named(one: Finding, study: str) -> Finding:
     """A finding with the study in front of its place and its plot."""
     return replace(one, where=f"{study}, {one.where}", plot=f"{study}/{one.plot}")
@@ -285,10 +322,10 @@ def _asked(judged: JudgedSeries) -> Iterator[str]:
     unit = {"load": "N", "depth": "m"}[series.prescribed]
     least, greatest = series.values[0], series.values[-1]
     yield f"{moved}; {len(series.values)} {series.prescribed}s, {least:.3g} to {greatest:.3g} {unit}"
-    yield (
-        f"{series.profiles} profiles of {series.mdr.points} points in 1D, {series.surfaces} surfaces of "
-        f"{series.bem.points}² in 3D, each also on half the points a side"
-    )
+    rough = series.grids[f"{series.name}/{ROUGH}"]
+    for model in series.models:
+        points = f" of {getattr(model.solver, 'points', 0)} points, also on half of them" if model.has_grid else ""
+        yield f"{model.label}: {rough.told(model.name, model.draws)}{points if series.interval is None else ''}"
     for solver, dimension in judged.contacts.labels.items():
         answers = judged.contacts(solver)
         known = answers["rms_slope"].values if "rms_slope" in answers else np.array(np.nan)

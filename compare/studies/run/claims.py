@@ -14,10 +14,12 @@ from ...library.case import Case
 from ...models.table import Model, Models
 from ...solving.parameter_grid import COARSE, FINE
 from ...statistics import eq23, means
+from ...statistics.allocation import DrawnSurfaces
 from ...statistics.collapse import Collapse, collapse
 from ...statistics.finding import HALVED, UNKNOWN, Claim, Finding, said_of
 from ...statistics.frictioncurves import SimulatedCurves
 from ...statistics.jackknife import DrawSet, mean
+from ...statistics.levels import pooled
 from ...statistics.means import FRICTION, Compared, compared
 from ..claims.claims import CLAIMS, TOLERANCE
 from ..claims.points import stacked
@@ -25,7 +27,9 @@ from .curves import (
     CURVES,
     LOAD,
     OWN,
+    REST,
     ROUGH_DEPTH,
+    SLIDING,
     SMOOTH_DEPTH,
     SMOOTH_SPEED,
     SPEED,
@@ -72,18 +76,40 @@ class CaseFindings:
     """Findings, curves and points of one case.
 
     name : of the case; folder : of its figures
-    datasets : by "curve/model"
+    answers : by "curve/model"
+    draws : of the curves that share them, REST and SLIDING
     """
 
     name: str
     folder: str
     case: Case
     models: Models
-    datasets: Mapping[str, xarray.Dataset]
+    answers: Mapping[str, xarray.Dataset]
+    draws: Mapping[str, DrawnSurfaces]
 
     @cached_property
     def findings(self) -> list[Finding]:
         """Findings on claims, then numbers that tell how far these can be trusted."""
+        words = {each.name: each.draws for each in self.models}
+        return [self.draws[shared].told(each, words) for shared, each in self._shared]
+
+    @property
+    def by_draws(self) -> dict[str, list[Finding]]:
+        """Findings by the draws that they stand on."""
+        return {name: [each for shared, each in self._shared if shared == name] for name in self.draws}
+
+    @cached_property
+    def _shared(self):
+        """Findings, each behind the name of its draws."""
+        return [(REST if each.claim.id == ROUGH_FORCE.id else SLIDING, each) for each in self._found]
+
+    @cached_property
+    def datasets(self) -> Mapping[str, xarray.Dataset]:
+        """DrawnSurfaces of two grids, by "curve/model"."""
+        return {place: pooled(each) for place, each in self.answers.items()}
+
+    @property
+    def _found(self):
         return [
             *self._slow(),
             *self._own(),
@@ -211,7 +237,7 @@ class CaseFindings:
         """Every point of every curve on the fine grid, a row each."""
         frames = {}
         for curve, solver in product(CURVES, dict.fromkeys((*self._labels, "exact"))):
-            if (dataset := self.datasets.get(f"{curve}/{solver}")) is not None:
+            if (dataset := self.answers.get(f"{curve}/{solver}")) is not None:
                 rough = "seed" in dataset.dims or (self.case.roughness and "smooth" not in curve)
                 frames[curve, solver, "rough" if rough else "smooth"] = means.means(dataset)
         every = stacked(frames, "curve", "solver", "body")
@@ -221,7 +247,7 @@ class CaseFindings:
     @cached_property
     def failures(self) -> DataFrame:
         """Every solve that failed, with its reason."""
-        found = {tuple(place.split("/")): means.failures(dataset) for place, dataset in self.datasets.items()}
+        found = {tuple(place.split("/")): means.failures(dataset) for place, dataset in self.answers.items()}
         return stacked(found, "curve", "solver")
 
     def _speeds(self, curve):
@@ -273,6 +299,7 @@ class CaseFindings:
 
     def _finding(self, claim, found, at, place="", plot="", less=0.0, regime="", dimension="") -> Finding:
         value, low, high, grid = (float(each[at]) for each in (found.value, found.low, found.high, found.grid))
+        parts = {source: float(each[at]) for source, each in found.parts.items()}
         return Finding(
             claim=claim,
             value=value - less,
@@ -284,6 +311,7 @@ class CaseFindings:
             regime=regime,
             plot=f"{self.folder}/{plot}" if plot else "",
             dimension=dimension,
+            parts=parts,
         )
 
     def _collapse(self, solver, grid) -> Collapse | None:

@@ -2,18 +2,19 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import TypeAlias
 
 from pydantic import ValidationError
 
 from mdr1d import equations
 from scene import Indent, Refused, Scene, SolveError, Solver
-from scene.protocol import lacking, trusted, why_not
 from scene.scales import elastic_contact
 
 from ...library.case import Case
 from ...models import exact
 from ...models.table import PROFILES, ModelLike, Models
-from ...solving.parameter_grid import COARSE, FINE, ParameterGrid, on_two_grids, refuse
+from ...solving.parameter_grid import COARSE, FINE, LEVELS, ParameterGrid, refuse
+from ..sampling import in_strata, levels
 
 OWN, SPEED, LOAD = "own", "friction-speed", "friction-load"
 ROUGH_DEPTH, SMOOTH_DEPTH, SMOOTH_SPEED = "force-depth-rough", "force-depth-smooth", "smooth-speed"
@@ -33,13 +34,24 @@ def models_of(case: Case, asked: Sequence[ModelLike] | None = None, reference: s
     return Models.of(asked or case.models or None, reference or case.reference or None, own)
 
 
-def curves(case: Case, models: Models) -> dict[str, ParameterGrid]:
+# Rough curves whose contacts share their surfaces: those of one are as many as those of the others.
+REST, SLIDING = "rest", "sliding"
+SHARED = {REST: (ROUGH_DEPTH,), SLIDING: (OWN, SPEED, LOAD)}
+Strata: TypeAlias = Mapping[str, Mapping[str, tuple[int, ...]]]
+
+
+def curves(case: Case, models: Models, strata: Strata | None = None) -> dict[str, ParameterGrid]:
     """Parameter grids of a case by name, all of which every model can solve, as far as that is known beforehand.
+
+    strata : numbers of surfaces on each grid by model, of REST and SLIDING, where these are not fixed; those of a
+        pilot where one of them is not stated. Fewer numbers than grids leave out the coarsest
 
     Raises Refused, also where what follows from the numbers of the case is beyond the range of numbers.
     """
     try:
         found = _curves(case, models)
+        if strata is not None and case.roughness:
+            found |= _in_strata(found, models, strata)
         refuse(found.values())
     except (ArithmeticError, SolveError, ValidationError) as error:
         # The case is valid; what follows from it is not.
@@ -68,6 +80,17 @@ def _curves(case, models):
     if plan.smooth_speeds:
         found[SMOOTH_SPEED] = _grid(case, models, smooth, plan.smooth_speeds, (motion.greatest,))
     return found
+
+
+def _in_strata(found, models, strata):
+    """The rough curves on all grids that hold them, with so many surfaces on each."""
+    made = {}
+    for shared, names in SHARED.items():
+        own = {name: found[name] for name in names if name in found}
+        if own:
+            sampled = in_strata(list(own.values()), models, strata.get(shared, {}), _most_grids(found[OWN].scene))
+            made |= dict(zip(own, sampled, strict=True))
+    return made
 
 
 def predicted_exponent(case: Case) -> float:
@@ -124,20 +147,9 @@ def _grid(case: Case, models: Models, scene: Scene, speeds, values, keeps_fields
         draws={each.name: each.count(plan.profiles, plan.surfaces) for each in models},
         keeps_fields=keeps_fields,
     )
-    # A grid that cuts the roughness off has another surface on half the points.
-    if scene.roughness is not None and scene.roughness.shortest is None:
-        return found
-    return replace(found, grids={each.name: _halved(each.solver, found.corners) for each in models})
+    return replace(found, grids=levels(models, [found], min(2, _most_grids(scene))))
 
 
-def _halved(solver, scenes) -> dict[str, Solver]:
-    """A solver on its grid, and on half the points if it then solves all of some scenes, the widest first."""
-    try:
-        grids = on_two_grids(solver)[solver.name]
-    except ValidationError:
-        return {FINE: solver}
-    if (coarse := grids.get(COARSE)) is None:
-        return grids
-    with trusted():
-        refused = any(lacking(coarse, each) for each in scenes) or why_not(coarse, scenes[0])
-    return {FINE: solver} if refused else grids
+def _most_grids(scene):
+    """A grid that cuts the roughness off has another surface on half the points."""
+    return 1 if scene.roughness is not None and scene.roughness.shortest is None else len(LEVELS)

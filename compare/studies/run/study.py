@@ -1,7 +1,7 @@
 """Scenes in one and in three dimensions: `crosscheck run`."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
@@ -21,20 +21,25 @@ from ...report.page import Block, Findings, Plot, Section, Table, Text
 from ...report.plots import contact_maps, shifted_curves
 from ...report.views import view
 from ...solving import parameter_grid
+from ...solving.amounts import share_of
 from ...solving.continuation import by_contact
 from ...solving.outcome import Outcome
 from ...solving.parameter_grid import ParameterGrid
 from ...solving.task import SceneTask, Task
 from ...solving.vocabulary import attributes
 from ...statistics import eq23, finding
+from ...statistics.allocation import GROWTH, DrawnSurfaces, held, needed
 from ...statistics.finding import Finding
-from ...statistics.means import with_spread
+from ...statistics.means import FRICTION, with_spread
 from ...trustmap.verdict import Advice, trust
 from ..study import Judgement, Study
 from .claims import ROUGH_FORCE, SMOOTH_FORCE, SMOOTH_SPEED, CaseFindings
 from .curves import (
     CURVES,
     OWN,
+    SHARED,
+    SLIDING,
+    Strata,
     curves,
     edge_slope,
     friction_law,
@@ -54,11 +59,16 @@ class Run(Study):
 
     cases : by name
     asked, reference : models and the reference among them, in place of those that the cases name, see `Models.of`
+    interval : half-width that is wanted of intervals of 95 %, in place of those of the cases: relative, of the
+        scene's own friction, depth or force, and of claims that are not decided; None where the cases say
+    strata : then numbers of surfaces on each grid, by case; see `curves.curves`
     """
 
     cases: Mapping[str, Case]
     asked: tuple[ModelLike, ...] = ()
     reference: str | None = None
+    interval: float | None = None
+    strata: Mapping[str, Strata] = field(default_factory=dict)
 
     command, title = "run", "One dimension against three"
 
@@ -68,11 +78,13 @@ class Run(Study):
         scene: SceneLike | Mapping[str, SceneLike] | None = None,
         models: Sequence[ModelLike] | None = None,
         reference: str | None = None,
+        interval: float | str | None = None,
     ) -> "Run":
         """Run of a scene, of several by name, or of the paper's sphere and cone. Raises InvalidInput, Refused."""
         asked = scene if isinstance(scene, str | Path) else "scene"
+        wanted = None if interval is None else share_of("interval", interval)
         try:
-            run = cls(named_cases(scene), listed(models), reference)
+            run = cls(named_cases(scene), listed(models), reference, wanted)
             run.grids()
         except NotCompared as error:
             if not isinstance(scene, str | Path):
@@ -87,8 +99,9 @@ class Run(Study):
 
     @property
     def inputs(self) -> Mapping[str, Any]:
-        told = {"cases": {name: case.inputs for name, case in self.cases.items()}}
+        told: dict[str, Any] = {"cases": {name: case.inputs for name, case in self.cases.items()}}
         names = sorted({each.name for models in self.models.values() for each in models})
+        told |= {} if self.interval is None else {"interval": self.interval}
         return told if names == ["BEM", "MDR"] else told | {"models": names}
 
     @cached_property
@@ -121,7 +134,20 @@ class Run(Study):
 
     @cached_property
     def _curves(self) -> Mapping[str, Mapping[str, ParameterGrid]]:
-        return {name: curves(case, self.models[name]) for name, case in self.cases.items()}
+        strata = {name: None if self._wanted(name) is None else self.strata.get(name, {}) for name in self.cases}
+        return {name: curves(case, self.models[name], strata[name]) for name, case in self.cases.items()}
+
+    def _wanted(self, name):
+        """Half-width that is wanted of intervals of a case; None of fixed draws."""
+        return self.cases[name].study.interval if self.interval is None else self.interval
+
+    def _draws(self, name):
+        """DrawnSurfaces of the rough curves of a case that share them."""
+        own = {
+            shared: [each for curve, each in self._curves[name].items() if curve in names]
+            for shared, names in SHARED.items()
+        }
+        return {shared: DrawnSurfaces.of(grids) for shared, grids in own.items() if grids}
 
     def grids(self) -> Mapping[str, ParameterGrid]:
         """Every curve of every case, by "case/curve"."""
@@ -151,7 +177,31 @@ class Run(Study):
             for node in below.subtree
             if node.parent is not None and node.parent.name in CURVES
         }
-        return CaseFindings(name, self.folders[name], self.cases[name], self.models[name], datasets)
+        return CaseFindings(
+            name, self.folders[name], self.cases[name], self.models[name], datasets, self._draws(name)
+        )
+
+    def more(self, answers: xarray.DataTree, growth: float = GROWTH) -> "Run | None":
+        """The run with the surfaces that undecided claims and wide intervals ask for; None where none does."""
+        sampled = [name for name, case in self.cases.items() if self._wanted(name) is not None and case.roughness]
+        asked = {name: self._more(self._judged(name, answers), growth) for name in sampled}
+        had = {name: {shared: dict(each.counts) for shared, each in self._draws(name).items()} for name in sampled}
+        return None if asked == had else replace(self, strata=asked)
+
+    def _more(self, found, growth):
+        """Numbers of surfaces of each model on each grid, of REST and SLIDING."""
+        case, wanted, made = found.case, self._wanted(found.name), {}
+        for shared, draws in found.draws.items():
+            counts = draws.more(found.by_draws[shared], wanted, growth)
+            for model in self.models[found.name].drawn:
+                places = (f"{curve}/{model.name}" for curve in SHARED[shared])
+                own = [found.answers[place] for place in places if place in found.answers]
+                for over, under in _means(case) if shared == SLIDING else ():
+                    more = needed(own[0], over, under, draws.costs[model.name], wanted, growth)
+                    counts[model.name] = tuple(map(max, counts[model.name], more))
+                counts[model.name] = held(counts[model.name], own)
+            made[shared] = counts
+        return made
 
     @cached_property
     def trusts(self) -> Mapping[str, Advice]:
@@ -182,8 +232,15 @@ class Run(Study):
         return [
             block
             for name, case in self.cases.items()
-            for block in _setting(case.title or name, case, self.models[name])
+            for block in _setting(case.title or name, case, self.models[name], self._curves[name])
         ]
+
+
+def _means(case: Case) -> Iterator[tuple[str, str | None]]:
+    """Means of the scene's own contact that tell what it is: what is not prescribed, and friction."""
+    yield "normal_force" if case.motion.load is None else "depth_reached", None
+    if case.slides and case.motion.speed > 0:
+        yield FRICTION
 
 
 def _blocks(found: CaseFindings, answers, trusted: Advice) -> list[Block]:
@@ -233,19 +290,27 @@ def _cell(found: Sequence[Finding]) -> str:
     return ", ".join(f"{name} {count} of {len(found)}" for name, count in counts.items() if count)
 
 
-def _setting(title: str, case: Case, models: Models) -> Iterator[Block]:
+def _setting(title: str, case: Case, models: Models, curves: Mapping[str, ParameterGrid]) -> Iterator[Block]:
     """Scene in words, averages, grids and notes of a case; departures only of a case of the paper."""
-    plan = case.plan()
     parts = [(each.name, getattr(case, each.name)) for each in fields(Scene)]
     lines = [f"{name}: {described(part)}" for name, part in parts if part is not None]
-    counts = (
-        f"{plan.surfaces} surfaces in 3D, {plan.profiles} profiles in 1D" if case.roughness else "one smooth body"
-    )
-    lines.append(f"averaged: {counts}")
+    lines.append(f"averaged: {_averaged(curves, models) if case.roughness else 'one smooth body'}")
     lines.append(f"grids: {_grids_of(models)}")
     yield Section(f"Scene: {title}", [_list([*lines, *case.notes])])
     if case.departures:
         yield Section(f"How this departs from the paper: {title}", [_list(case.departures)])
+
+
+def _averaged(curves: Mapping[str, ParameterGrid], models: Models) -> str:
+    """Numbers of draws of each model in words, by the grids that they are solved on."""
+    found = {}
+    for shared, names in SHARED.items():
+        for own in [each for name, each in curves.items() if name in names][:1]:
+            told = [f"{own.told(each.name, each.draws)} in {each.label}" for each in models.drawn]
+            found[shared] = ", ".join(told)
+    if len(set(found.values())) == 1:
+        return found.popitem()[1]
+    return "; ".join(f"{shared}: {told}" for shared, told in found.items())
 
 
 def _grids_of(models: Models) -> str:

@@ -20,18 +20,19 @@ from scene.reading import InvalidInput, whole
 
 from ...library.case import Case, doubted
 from ...library.lookup import SceneLike, case_of
-from ...models.table import NONE, ModelLike, Models
+from ...models.table import ModelLike, Models
 from ...report.page import Findings, Table
 from ...solving.amounts import share_of
 from ...solving.cost import MOST_DRAWS, MOST_VALUES
-from ...solving.parameter_grid import COARSE, FINE, LEVELS, ParameterGrid, on_levels, on_two_grids
+from ...solving.parameter_grid import COARSE, FINE, LEVELS, ParameterGrid, on_two_grids
 from ...solving.vocabulary import attributes
-from ...statistics.allocation import needed, pilot
+from ...statistics.allocation import GROWTH, held, needed
 from ...statistics.finding import Claim, said_of
 from ...statistics.jackknife import DrawSet, mean, measured
 from ...statistics.levels import pooled
 from ...statistics.means import interval
 from ..run.curves import models_of
+from ..sampling import in_strata
 from ..study import Judgement, Study
 from . import figure as plots
 
@@ -130,11 +131,9 @@ class Sweep(Study):
         )
         if self.interval is None or not fixed.random:
             return fixed
-        levels = {each.name: on_levels(each.solver, fixed.corners) for each in self.models}
-        drawn = {each.name: pilot(len(levels[each.name])) for each in self.models if each.draws != NONE}
-        return replace(fixed, grids=levels, draws=drawn | dict(self.strata))
+        return in_strata([fixed], self.models, self.strata)[0]
 
-    def more(self, answers: xarray.DataTree) -> "Sweep | None":
+    def more(self, answers: xarray.DataTree, growth: float = GROWTH) -> "Sweep | None":
         """The sweep with the surfaces that the wanted interval asks for; None once it is reached."""
         if self.interval is None:
             return None
@@ -143,10 +142,10 @@ class Sweep(Study):
         for name in had:
             dataset = answers["contacts"].children[name].to_dataset(inherit=False)
             counts = [
-                needed(points, *MEANS[mean], self._grid.costs[name], self.interval)
+                needed(points, *MEANS[mean], self._grid.costs[name], self.interval, growth)
                 for mean, points in self._wanted(dataset)
             ]
-            asked[name] = tuple(map(max, zip(*counts, strict=True)))
+            asked[name] = held(tuple(map(max, zip(*counts, strict=True))), [dataset])
         return None if asked == had else replace(self, strata=asked)
 
     def _wanted(self, dataset):
