@@ -335,7 +335,8 @@ def _without(dataset, group, shares):
 
 def mean(dataset: xarray.Dataset, name: str, below: str | None = None) -> np.ndarray:
     """Mean over draws of a variable, or ratio of two means, NaN where fewer than half of the draws have it."""
-    over, under = (np.ones(()) if each is None else _over_draws(dataset.variables[each]) for each in (name, below))
+    over = _over_draws(dataset.variables[name])
+    under = np.ones(()) if below is None else _over_draws(dataset.variables[below])
     if "seed" not in dataset.variables[name].dims:
         return over / under
     enough = 2 * np.isfinite(over).sum(axis=-1) >= over.shape[-1]

@@ -25,6 +25,9 @@ def pooled(dataset: xarray.Dataset) -> xarray.Dataset:
     """
     if "stratum" not in dataset.coords:
         return dataset
+    if "status" in dataset and "friction_force" in dataset:
+        # What does not touch adds nothing to either force.
+        dataset = dataset.assign(friction_force=dataset["friction_force"].where(dataset["status"] != EMPTY, 0.0))
     drawn = {name: each for name, each in dataset.data_vars.items() if "seed" in each.dims and name not in SPENT}
     numbers = [name for name, each in drawn.items() if each.dtype.kind == "f"]
     strata = dataset["stratum"].values
@@ -32,9 +35,6 @@ def pooled(dataset: xarray.Dataset) -> xarray.Dataset:
     for name in numbers:
         values = dataset[name].transpose("grid", ..., "seed").values
         made[name] = np.stack([_draws(values, strata, first) for first in range(len(values))[:2]])
-    if "status" in dataset and "friction_force" in dataset:
-        # What does not touch adds nothing to either force.
-        dataset = dataset.assign(friction_force=dataset["friction_force"].where(dataset["status"] != EMPTY, 0.0))
     both = dataset.isel(grid=slice(2))
     dims = {name: [each for each in dataset[name].dims if each not in ("grid", "seed")] for name in numbers}
     return both.assign(

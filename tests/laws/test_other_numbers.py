@@ -434,7 +434,8 @@ def test_every_argument_is_known():
         for name in package.__all__:
             function = getattr(package, name)
             if inspect.isfunction(function) and name not in known:
-                assert set(inspect.signature(function).parameters) <= NOT_NUMBERS | {"workers", "interval", "budget"}, name
+                taken = set(inspect.signature(function).parameters)
+                assert taken <= NOT_NUMBERS | {"workers", "interval", "budget"}, name
 
 
 @everywhere

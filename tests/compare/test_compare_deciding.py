@@ -1,0 +1,188 @@
+"""Claims that are not decided ask for surfaces, and say how many would decide them."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from small_cases import SLIDING
+from test_compare_allocation import COSTS, grown
+from test_compare_levels import answers
+
+import compare
+from bem3d import BEM
+from compare.library.case import Case, Variations
+from compare.solving.parameter_grid import FAILED, PILOT, pilot
+from compare.statistics.allocation import GROWTH, DrawnSurfaces, held
+from compare.statistics.finding import FAILS, HOLDS, UNDECIDED, Claim, Finding
+from compare.statistics.jackknife import DrawSet, friction, measured
+from compare.statistics.levels import holding, pooled
+from mdr1d import MDR
+from scene.reading import InvalidInput
+
+RATIO = Claim("ratio", "The ratio is one", 1.0, 0.05, measure=lambda sample: float(friction(sample["BEM"])[0]))
+DRAWN = DrawnSurfaces({"BEM": (8, 32), "MDR": (100,)}, {"BEM": (1e8, 1e7), "MDR": (1e5,)})
+PARTS = {("BEM", 0): 0.1, ("BEM", 1): 0.6, ("MDR", 0): 0.3}
+WORDS = {"BEM": "surfaces", "MDR": "profiles"}
+
+
+def found(value=0.9, half=0.1, grid=0.002, parts=PARTS, **changed):
+    """A finding of three strata; undecided by default."""
+    return Finding(RATIO, value, (value - half, value + half), grid, parts=parts, **changed)
+
+
+def variance(counts):
+    """Variance of the finding with so many draws, over that now."""
+    return sum(share * DRAWN.counts[name][k] / counts[name, k] for (name, k), share in PARTS.items())
+
+
+def test_draws_that_are_asked_for_decide_at_least_cost():
+    counts = DRAWN.deciding(found())
+    left = 0.05 - 0.002
+    assert 0.1 * variance(counts) ** 0.5 == pytest.approx(left, rel=1e-12)
+
+    def cost(numbers):
+        return sum(count * DRAWN.costs[name][k] for (name, k), count in numbers.items())
+
+    for source in counts:
+        other = counts | {source: 1.2 * counts[source]}
+        scaled = {each: count * variance(other) / variance(counts) for each, count in other.items()}
+        assert cost(scaled) > cost(counts)
+
+
+def test_what_is_decided_unknown_or_without_surfaces_asks_for_none():
+    for each in (
+        found(0.7, 0.05),
+        found(reason="none"),
+        found(float("nan")),
+        found(parts={}),
+        replace(found(), claim=replace(RATIO, tolerance=float("nan"))),
+    ):
+        assert DRAWN.deciding(each, 0.01) == {}
+        assert DRAWN.told(each, WORDS).remedy == ""
+
+
+def test_an_interval_that_is_narrow_enough_needs_no_verdict():
+    near = found(0.951, 0.03)
+    assert near.verdict == UNDECIDED
+    assert DRAWN.deciding(near, 0.04) == {}
+    half = 0.03 * variance(DRAWN.deciding(near, 0.01)) ** 0.5
+    assert half == pytest.approx(0.01 - 0.002, rel=1e-12)
+
+
+def test_more_draws_are_bounded_and_never_fewer():
+    counts = DRAWN.more([found(0.951, 0.3)], 0.001)
+    assert counts == {"BEM": (32, 128), "MDR": (400,)}
+    assert GROWTH == 4
+    assert DRAWN.more([found(0.7, 0.05)], 0.001) == DRAWN.counts
+    assert DRAWN.more([found(0.951, 0.3)], 0.001, 2.0) == {"BEM": (16, 64), "MDR": (200,)}
+
+
+def test_a_finding_says_what_would_decide_it():
+    told = DRAWN.told(found(), WORDS)
+    asked = DRAWN.deciding(found())
+    surfaces = sum(asked["BEM", k] - had for k, had in enumerate(DRAWN.counts["BEM"]) if asked["BEM", k] > had)
+    number = float(told.remedy.split()[1].replace(",", ""))
+    assert number == pytest.approx(surfaces, rel=0.1)
+    assert told.remedy.endswith("s of processor time, would decide it")
+    assert told.why == told.remedy
+    assert DRAWN.told(found(0.951, 0.3, 0.0), WORDS).remedy == "more than 10,000 surfaces or profiles would"
+    assert "finer one" in DRAWN.told(found(0.951, 0.3, 0.01), WORDS).remedy
+
+
+def sampled(rng, claim, variation, interval):
+    """Verdict on a claim once sampling stops, and the numbers of surfaces."""
+    had, counts, known = None, pilot(3), None
+    while counts != had:
+        had = counts
+        known = grown(rng, known, counts, variation)
+        fine, coarse = (DrawSet({"BEM": pooled(known).sel(grid=grid)}) for grid in ("fine", "coarse"))
+        each = measured(claim, fine, coarse)
+        counts = DrawnSurfaces({"BEM": counts}, {"BEM": COSTS}).more([each], interval)["BEM"]
+    return each.verdict, had
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("variation", [0.15, 0.5, 1.0])
+def test_verdicts_contradict_the_truth_in_one_study_of_twenty_at_most(variation):
+    """Truth a quarter of the tolerance inside the edge, and outside of it: 250 synthetic studies of each."""
+    rng, tolerance, wrong, studies = np.random.default_rng(11), 0.4 * variation, 0, 250
+    truth = 1.0  # of friction; the load is 1 too
+    for shift, right in ((0.75, HOLDS), (1.25, FAILS)):
+        claim = replace(RATIO, expected=truth + shift * tolerance, tolerance=tolerance)
+        verdicts = [sampled(rng, claim, variation, tolerance / 8)[0] for _ in range(studies)]
+        wrong += sum(each not in (right, UNDECIDED) for each in verdicts)
+        assert sum(each == right for each in verdicts) > 0.8 * studies
+    share = wrong / (2 * studies)
+    assert share <= 0.05 + 2 * (0.05 * 0.95 / (2 * studies)) ** 0.5
+
+
+def test_a_grid_that_does_not_hold_every_surface_is_left_out():
+    given = answers(np.random.default_rng(0), (8, 8, 40))
+    status = np.full(given["friction_force"].shape, "solved", object)
+    status[2, 0, -1] = FAILED
+    failed = given.assign(status=(given["friction_force"].dims, status))
+    assert holding([failed]) == 2
+    assert held((8, 8, 40), [failed]) == (8, PILOT)
+    status[2, 0, -1], status[1, 0, -1] = "solved", FAILED
+    # Without the second grid the error of the first is not known.
+    assert held((8, 8, 40), [failed.assign(status=(given["friction_force"].dims, status))]) == (8, 8, 40)
+
+
+def test_what_does_not_touch_adds_nothing_to_either_force():
+    given = answers(np.random.default_rng(0), (8, 8, 40))
+    dims, status = given["friction_force"].dims, np.full(given["friction_force"].shape, "solved", object)
+    status[2, :, -1] = "no contact"  # which is asked for there alone
+    empty = given.assign(
+        status=(dims, status),
+        friction_force=given["friction_force"].where(given["seed"] != 55),
+        normal_force=given["normal_force"].where(given["seed"] != 55, 0.0).where(given["normal_force"].notnull()),
+    )
+    nothing = empty.drop_vars("status").assign(friction_force=empty["friction_force"].fillna(0.0))
+    nothing = nothing.assign(friction_force=nothing["friction_force"].where(given["normal_force"].notnull()))
+    np.testing.assert_allclose(
+        friction(pooled(empty).sel(grid="fine")), friction(pooled(nothing).sel(grid="fine")), rtol=1e-12
+    )
+
+
+CASE = Case(
+    indenter=SLIDING.indenter,
+    elastomer=SLIDING.elastomer,
+    motion=SLIDING.motion,
+    roughness=replace(SLIDING.roughness, rms_height=1e-5),
+    study=Variations(speeds=(0.1, 1.0), pressing=(0.5, 1.0, 2.0), load_speeds=(0.1, 0.2), depths=(1.0, 2.0)),
+    bem=BEM(points=64),
+    mdr=MDR(points=1024),
+)
+
+
+@pytest.mark.usefixtures("in_this_process")
+def test_a_run_stops_with_every_claim_decided_or_narrow_and_resumes(tmp_path):
+    asked = {"scene": CASE, "interval": "15%", "report": False, "output": tmp_path}
+    report = compare.run(**asked)
+    for each in report.findings:
+        if each.verdict == UNDECIDED and not each.undecidable:
+            low, high = each.interval
+            assert (high - low) / 2 <= 0.15 * max(1.0, abs(each.claim.expected))
+    again = compare.run(**asked)
+    assert (again.swept.solved, again.swept.reused) == (0, report.swept.solved)
+    assert again.findings == report.findings
+
+
+@pytest.mark.usefixtures("in_this_process")
+def test_a_budget_that_is_spent_asks_for_no_more(tmp_path):
+    report = compare.run(CASE, interval="1%", budget="1 ms", report=False, output=tmp_path)
+    drawn = {name: each.strata("BEM") for name, each in report.study.grids().items() if each.random}
+    assert {sum(map(len, each)) for each in drawn.values()} == {PILOT + 8}
+    assert report.study.more(report.answers) is not None
+
+
+def test_an_interval_and_numbers_of_surfaces_are_not_both_stated():
+    with pytest.raises(ValueError, match=r"interval = 0\.02: it takes the place of surfaces and profiles"):
+        Variations(interval="2%", surfaces=3)
+
+
+@pytest.mark.parametrize("budget", ["0 s", "-1 s", "3 m", "soon", float("inf")])
+def test_a_budget_is_a_time(budget, tmp_path):
+    with pytest.raises(InvalidInput, match=r"budget = .*: a time above zero, as 10min or 600 s"):
+        compare.run(CASE, interval="5%", budget=budget, output=tmp_path / "none")
+    assert not (tmp_path / "none").exists()
