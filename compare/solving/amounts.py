@@ -1,7 +1,9 @@
 """Times, errors and settings in words."""
 
 from math import isfinite, nan
+from typing import Any
 
+from scene.plain import bare, number
 from scene.printable import brief
 from scene.reading import InvalidInput
 
@@ -67,16 +69,23 @@ def short(value: float) -> str:
     return f"{rounded:.0f}" if 10 <= rounded < 1e6 else f"{rounded:g}"
 
 
-def share_of(name: str, given: float | str) -> float:
-    """Share between 0 and 1, of a number or a text such as 2%. Raises InvalidInput.
+def share_of(name: str, given: Any) -> float:
+    """Share between 0 and 1, of a number, one of another library too, or a text as 2%. Raises InvalidInput.
 
     name : of the argument, for the error
     """
     try:
-        percent = isinstance(given, str) and given.strip().endswith("%")
-        found = float(str(given).strip().removesuffix("%")) / (100 if percent else 1)
-    except ValueError:
+        found = _share(given)
+    except (ValueError, OverflowError):
         found = nan
-    if isinstance(given, bool) or not 0 < found < 1:
+    if not 0 < found < 1:
         raise InvalidInput(f"{name} = {brief(repr(given))}: a share above 0 and below 1, as 2% or 0.02")
     return found
+
+
+def _share(given):
+    if isinstance(given, str):
+        text = given.strip()
+        return float(text.removesuffix("%")) / (100 if text.endswith("%") else 1)
+    held, unit = bare(given)
+    return float(number(held, None)) / 100 if unit == "%" else float(number(given, None))

@@ -9,6 +9,7 @@ the last one asked for, keep the level; the tests measure it.
 
 from collections.abc import Sequence
 from math import ceil
+from typing import NamedTuple
 
 import numpy as np
 import xarray
@@ -22,6 +23,19 @@ PILOT, DIFFERENCES = 32, 8  # surfaces on the coarsest grid, and of each differe
 GROWTH = 4  # times the surfaces at most from one look to the next: the scatter of few is known roughly
 MARGIN = 1.1  # surfaces beyond those that just suffice: they spare most of the second looks
 OWN_SHARE = 0.5  # of the wanted width that is left to the scatter at least, however much the grid takes
+
+
+class Enough(NamedTuple):
+    """Surfaces that just suffice at every point (...), NaN where that is not known.
+
+    surfaces : of each stratum (K, ...)
+    scatter : half-width of the interval of 95 % with those that are there, relative
+    grid : what half the points change, relative, which adds to it
+    """
+
+    surfaces: np.ndarray
+    scatter: np.ndarray
+    grid: np.ndarray
 
 
 def pilot(grids: int) -> tuple[int, ...]:
@@ -40,6 +54,24 @@ def needed(
     above, below : variable whose mean is wanted at every point, over the mean of another if that is named
     costs : planned of one surface of each stratum, on all of its grids
     """
+    now = np.bincount(dataset["stratum"].values, minlength=len(costs))
+    needs, scatter, grid = enough(dataset, above, below, costs, interval)
+    asked = np.where((scatter + grid > interval) & np.isfinite(needs), needs, 0.0)
+    return tuple(
+        min(max(had, min(rounded(more), GROWTH * had)), MOST_DRAWS)
+        for had, more in zip(now.tolist(), asked.reshape(now.size, -1).max(axis=1).tolist(), strict=True)
+    )
+
+
+def rounded(surfaces: float) -> int:
+    """Surfaces that are solved where so many just suffice."""
+    return TOGETHER * ceil(MARGIN * surfaces / TOGETHER)
+
+
+def enough(
+    dataset: xarray.Dataset, above: str, below: str | None, costs: Sequence[float], interval: float
+) -> Enough:
+    """Surfaces of each stratum that just suffice for such intervals, at the least cost; see `needed`."""
     strata, both = dataset["stratum"].values, pooled(dataset)
     now = np.bincount(strata, minlength=len(costs))
     # A model without another grid has no error of it.
@@ -55,11 +87,7 @@ def needed(
         share = np.sqrt(parts / parts.sum(axis=0) * drawn)
         least = np.maximum(interval - grid, OWN_SHARE * interval)
         needs = share / by_cost * np.sum(share * by_cost, axis=0) * np.square(scatter / least)
-    asked = np.where((scatter + grid > interval) & np.isfinite(needs), needs, 0.0)
-    return tuple(
-        min(max(had, min(TOGETHER * ceil(MARGIN * more / TOGETHER), GROWTH * had)), MOST_DRAWS)
-        for had, more in zip(now.tolist(), asked.reshape(now.size, -1).max(axis=1).tolist(), strict=True)
-    )
+    return Enough(needs, scatter, grid)
 
 
 def _columns(dataset, above, below):

@@ -20,30 +20,23 @@ from scene.reading import InvalidInput, whole
 
 from ...library.case import Case, doubted
 from ...library.lookup import SceneLike, case_of
-from ...models.table import NONE, ModelLike, Models
+from ...models.table import ModelLike, Models
 from ...report.page import Findings, Table
 from ...solving.amounts import share_of
 from ...solving.cost import MOST_DRAWS, MOST_VALUES
-from ...solving.parameter_grid import COARSE, FINE, LEVELS, ParameterGrid, on_levels, on_two_grids
+from ...solving.parameter_grid import COARSE, FINE, LEVELS, ParameterGrid, on_two_grids
 from ...solving.vocabulary import attributes
-from ...statistics.allocation import needed, pilot
+from ...statistics.allocation import needed
 from ...statistics.finding import Claim, said_of
 from ...statistics.jackknife import DrawSet, mean, measured
 from ...statistics.levels import pooled
 from ...statistics.means import interval
+from ..accuracy import MEANS, WORDS, levelled, wanted
 from ..run.curves import models_of
 from ..study import Judgement, Study
 from . import figure as plots
 
 FEW = 8  # draws where nothing is asked
-# Means over draws: of a variable, or of one over another.
-MEANS = {
-    "friction_coefficient": ("friction_force", "normal_force"),
-    "normal_force": ("normal_force", None),
-    "depth_reached": ("depth_reached", None),
-}
-
-WORDS = {"friction_coefficient": "friction", "normal_force": "force", "depth_reached": "depth"}
 
 
 @dataclass(frozen=True)
@@ -96,8 +89,8 @@ class Sweep(Study):
         moving = max(speeds)
         motion = Slide(speed=moving, **pressed) if moving else Indent(**pressed)
         compared = models_of(case, models, reference)
-        wanted = None if interval is None else share_of("interval", interval)
-        asked = cls(replace(case, motion=motion), speeds, prescribed, drawn, compared, wanted)
+        half = None if interval is None else share_of("interval", interval)
+        asked = cls(replace(case, motion=motion), speeds, prescribed, drawn, compared, half)
         asked._grid.refuse()
         return asked
 
@@ -130,9 +123,8 @@ class Sweep(Study):
         )
         if self.interval is None or not fixed.random:
             return fixed
-        levels = {each.name: on_levels(each.solver, fixed.corners) for each in self.models}
-        drawn = {each.name: pilot(len(levels[each.name])) for each in self.models if each.draws != NONE}
-        return replace(fixed, grids=levels, draws=drawn | dict(self.strata))
+        found = levelled(fixed, self.models)
+        return replace(found, draws={**found.draws, **self.strata})
 
     def more(self, answers: xarray.DataTree) -> "Sweep | None":
         """The sweep with the surfaces that the wanted interval asks for; None once it is reached."""
@@ -143,17 +135,11 @@ class Sweep(Study):
         for name in had:
             dataset = answers["contacts"].children[name].to_dataset(inherit=False)
             counts = [
-                needed(points, *MEANS[mean], self._grid.costs[name], self.interval)
-                for mean, points in self._wanted(dataset)
+                needed(dataset.sel(speed=list(speeds)), *MEANS[mean], self._grid.costs[name], self.interval)
+                for mean, speeds in wanted(self.case.motion.pressed_by, self.speeds, self.case.slides)
             ]
             asked[name] = tuple(map(max, zip(*counts, strict=True)))
         return None if asked == had else replace(self, strata=asked)
-
-    def _wanted(self, dataset):
-        """Names of the means that are asked for, with their points: what is not prescribed, and friction."""
-        yield "normal_force" if self.case.motion.pressed_by == "depth" else "depth_reached", dataset
-        if self.case.slides:
-            yield "friction_coefficient", dataset.sel(speed=[speed for speed in self.speeds if speed > 0])
 
     def judge(self, answers: xarray.DataTree) -> Judgement:
         """Friction, else force or depth, of each model over the reference at every contact, without a claim."""
