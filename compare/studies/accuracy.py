@@ -17,13 +17,13 @@ import xarray
 
 from bem3d import BEM, Unconfirmed
 from bem3d.accuracy import Choice
-from scene import Indent, Refused, Slide, SolveError
+from scene import Refused, SolveError
 
 from ..library.case import Case
-from ..models.table import KNOWN, NONE, Models
-from ..solving.amounts import seconds, share
+from ..models.table import KNOWN, NONE, SURFACES, Models
+from ..solving.amounts import duration, seconds, share
 from ..solving.cost import MOST_DRAWS, SECONDS
-from ..solving.parameter_grid import FINE, LEVELS, ParameterGrid, on_levels, work_of
+from ..solving.parameter_grid import FINE, LEAST, LEVELS, ParameterGrid, on_levels, work_of
 from ..statistics.allocation import DIFFERENCES, PILOT, enough, pilot, rounded
 from ..statistics.intervals import student
 from ..statistics.jackknife import mean_ratio
@@ -37,6 +37,7 @@ MEANS = {
 }
 WORDS = {"friction_coefficient": "friction", "normal_force": "force", "depth_reached": "depth"}
 NUMBERS = "friction_force", "normal_force", "depth_reached"
+MINUTE = 60.0  # [s]
 LONGEST = 1.0  # planned processor time [s] of the pilot of one model, where so little is enough
 UNKNOWN = "nothing is known of the scatter: coarse surfaces have no answer"
 
@@ -90,15 +91,17 @@ class Forecast:
     def __str__(self) -> str:
         told = "; ".join(self._counted(name, counts) for name, counts in self.surfaces.items())
         what = f"{share(self.interval)} of the mean {' and '.join(self.means)}"
-        return f"{what} takes {told}; about {seconds(self.seconds)} of processor time"
+        return f"{what} takes {told}; {_time(self.seconds)}"
 
     def _counted(self, name, counts):
         """Numbers of one solver in words, and why they are not enough, if so."""
-        label, drawn = KNOWN.get(name, (name, "surfaces"))
-        said = f"in {label} {', '.join(f'{count:,} on {points}' for points, count in counts.items())} points"
+        label, drawn = KNOWN.get(name, (name, SURFACES))
+        (points, first), *others = counts.items()
+        finest = f"in {label} {first:,} {drawn} on {points} points"
+        said = ", ".join([finest, *(f"{count:,} on {points}" for points, count in others)])
         if self.halved[name] >= self.interval:
             return f"{said}, and more points: half of them change {share(self.halved[name])}"
-        return f"{said}, no more {drawn} than that" if max(counts.values()) == MOST_DRAWS else said
+        return f"{said}, which are too few and the most there are" if MOST_DRAWS in counts.values() else said
 
 
 @dataclass(frozen=True)
@@ -127,19 +130,18 @@ class Settings:
         many = f"{self.surfaces:,} surfaces, " if self.surfaces else ""
         return (
             f"{share(self.accuracy)} of {self.quantity} in 3D: {solver.points} points and a tolerance of "
-            f"{solver.tolerance:.2g}, which {kept}; {many}about {seconds(self.seconds)} of processor time"
+            f"{solver.tolerance:.2g}, which {kept}; {many}{_time(self.seconds)}"
         )
 
 
 def forecast(case: Case, interval: float) -> Forecast | str:
     """What an interval takes at the contact of a case, by a pilot of coarse surfaces; the reason where none."""
-    if not isinstance(case.motion, Indent | Slide):
-        return f"motion = {type(case.motion).__name__}: surfaces are averaged at rest and in steady sliding"
     models = models_of(case)
-    one = _contact(case, {each.name: {FINE: each.solver} for each in models})
-    if not one.random:
-        return "nothing is averaged: the body has no random surfaces"
     try:
+        case.refuse()
+        one = _contact(case, {each.name: {FINE: each.solver} for each in models})
+        if not one.random:
+            return "nothing is averaged: the body has no random surfaces"
         one.refuse()
     except (Refused, SolveError) as reason:
         return str(reason)
@@ -192,6 +194,10 @@ def sufficient(scatter: float, half: float) -> int:
     return count
 
 
+def _time(value):
+    return f"about {seconds(value) if value < MINUTE else duration(value)} of processor time"
+
+
 def _contact(case, grids):
     """The contact of a case by some solvers."""
     motion = case.motion
@@ -216,7 +222,9 @@ def _seen(one, name, grids):
 
 def _ladder(grids, scene):
     """Settings from fine to coarse, and coarser ones than these: of great grids all of them are costly."""
-    return [*grids, *list(on_levels(grids[-1], [scene]).values())[1:]]
+    last = grids[-1]
+    small = getattr(last, "points", 0) < 2 * LEAST.get(last.name, 1)
+    return grids if small else [*grids, *list(on_levels(last, [scene]).values())[1:]]
 
 
 def _affordable(costs):
