@@ -3,7 +3,7 @@
 from math import isfinite, nan
 from typing import Any
 
-from scene.plain import bare, number
+from scene.plain import NotPlain, bare, number
 from scene.printable import brief
 from scene.reading import InvalidInput
 
@@ -74,12 +74,18 @@ def share_of(name: str, given: Any) -> float:
 
     name : of the argument, for the error
     """
+    found, why = nan, ""
     try:
         found = _share(given)
-    except (ValueError, OverflowError):
-        found = nan
+    except NotPlain as reason:
+        why = f"; {reason}" if str(reason) else ""
+    except (
+        ValueError,
+        OverflowError,
+    ):  # of a text that is no number, and of a number beyond those of floating point
+        pass
     if not 0 < found < 1:
-        raise InvalidInput(f"{name} = {brief(repr(given))}: a share above 0 and below 1, as 2% or 0.02")
+        raise InvalidInput(f"{name} = {brief(repr(given))}: a share above 0 and below 1, as 2% or 0.02{why}")
     return found
 
 

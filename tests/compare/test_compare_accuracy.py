@@ -30,12 +30,12 @@ ROUGHLY = 2.0
 
 @pytest.fixture(scope="module")
 def foretold():
-    return forecast(ROUGH, 0.04)
+    return forecast(ROUGH, 0.05)
 
 
 @pytest.mark.usefixtures("in_this_process")
 def test_a_sweep_solves_about_as_many_surfaces_as_were_foretold(foretold, tmp_path):
-    found = compare.sweep(ROUGH, [ROUGH.motion.speed], interval="4%", output=tmp_path, report=False)
+    found = compare.sweep(ROUGH, [ROUGH.motion.speed], interval="5%", output=tmp_path, report=False)
     for name, counts in foretold.surfaces.items():
         status = found["status"].sel(solver=name)
         solved = [(status.sel(grid=grid) == "solved").sum().item() for grid in ("fine", "coarse")]
@@ -45,12 +45,12 @@ def test_a_sweep_solves_about_as_many_surfaces_as_were_foretold(foretold, tmp_pa
             assert one / ROUGHLY < other < one * ROUGHLY
 
 
-def test_half_the_interval_takes_four_times_the_surfaces(foretold):
-    # The grid takes its part of both, and rounding up to a task of eight.
-    halved = forecast(ROUGH, 0.02)
+def test_surfaces_rise_as_the_square_of_what_the_grid_leaves_to_their_scatter(foretold):
+    halved = forecast(ROUGH, 0.025)
     for name, counts in foretold.surfaces.items():
-        assert 3 < list(halved.surfaces[name].values())[-1] / list(counts.values())[-1] < 6
-    assert halved.seconds > 2 * foretold.seconds
+        left, less = (each - foretold.halved[name] for each in (0.05, 0.025))
+        few, many = (list(each.values())[-1] for each in (counts, halved.surfaces[name]))
+        assert many / few == pytest.approx((left / less) ** 2, rel=8 / few)  # rounded up to a task of eight
 
 
 def test_an_interval_that_no_number_of_surfaces_reaches_is_told_so():
@@ -132,13 +132,19 @@ def test_what_cannot_be_foretold_says_why():
         assert "motion = Program" in told(moving, 0.1)
 
 
+def test_a_forecast_is_a_sentence(foretold):
+    said = str(foretold)
+    assert said.startswith("5 % of the mean depth and friction takes in 1D 8 profiles on 1024 points, ")
+    assert "; in 3D 8 surfaces on 64 points, " in said
+    assert said.endswith(" s of processor time")
+
+
 def test_a_plan_tells_both_where_they_are_asked_for():
-    asked = ["plan", "quick-start", "--interval", "10%", "--accuracy", "0.2"]
-    answer = CliRunner().invoke(app, asked)
+    answer = CliRunner().invoke(app, ["plan", "hertz", "--interval", "10%", "--accuracy", "0.1"])
     assert answer.exit_code == 0, answer.output
-    assert "interval   10 % of the mean depth and friction takes in 1D 8 profiles on 2000 points" in answer.output
-    assert "accuracy   20 % of friction in 3D: " in answer.output
-    silent = compare.plan(SLIDING)
+    assert "interval   nothing is averaged: the body has no random surfaces" in answer.output
+    assert "accuracy   10 % of depth in 3D: 128 points and a tolerance of 0.0033, which leaves " in answer.output
+    silent = compare.plan("hertz")
     assert silent.interval is None
     assert silent.accuracy is None
 
