@@ -117,6 +117,11 @@ def test_at_rest_the_depth_is_averaged_or_the_load_whichever_is_not_prescribed()
     assert settings(replace(coarse, motion=Indent(depth=1e-4)), 0.2).quantity == "load"
 
 
+def test_a_solver_of_the_fewest_points_has_no_coarser_grid():
+    fewest = replace(ROUGH, bem=BEM(points=16))
+    assert list(forecast(fewest, 0.1).surfaces["BEM"]) == [16]
+
+
 def test_a_smooth_body_has_no_surfaces():
     smooth = replace(ROUGH, roughness=None)
     assert forecast(smooth, 0.01) == "nothing is averaged: the body has no random surfaces"
