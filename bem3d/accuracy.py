@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 _LOG = logging.getLogger(__name__)
 FIRST, MOST = 32, 1024  # points a side
 SHARE = 1 / 30  # tolerance over wanted error: a tenth of that error is left to it
+LOOSEST = 1e-2  # tolerance that a solver takes
 NARROW = 1e-7  # tolerance of a prescribed gap, at least: a narrow one is lost in a looser one
 # Order at which an error is taken to fall with the points: no lower one is waited for, no higher one believed.
 ORDERS = 0.5, 2.0
@@ -89,7 +90,7 @@ def choose(solver: "BEM", scene: Scene, wanted: Mapping[str, float]) -> Choice:
     answers: list[Result] = []
     choice: Choice | None = None
     left: Refused | SolveError | None = None
-    for settings in _doubled(solver, scene, SHARE * min(wanted.values())):
+    for settings in _doubled(solver, scene, min(SHARE * min(wanted.values()), LOOSEST)):
         try:
             answers.append(settings.solve(scene))
         except (Refused, SolveError) as reason:

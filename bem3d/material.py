@@ -8,7 +8,6 @@ pressures in units of the relaxed E*.
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import brentq
 
 from .upstream import Endless, Repeating
 
@@ -36,6 +35,8 @@ class Creep:
         values in their middles: the delay of what lasts many steps is then exact, and with it the loss. Near the
         middle for a glassy solid or a short memory, at 1/2 + 1/sqrt(12) of short steps of a Kelvin body.
         """
+        from scipy.optimize import brentq  # slow, and only contacts in time need it
+
         if len(self.times) == 0:
             return step / 2
         short = step / self.times

@@ -106,7 +106,7 @@ class BEM:
 
     points: Annotated[Whole, Field(ge=16, le=16384)] = 256
     extent: Length | None = None
-    tolerance: Annotated[Positive, Field(ge=1e-12, le=1e-2)] = 1e-5
+    tolerance: Annotated[Positive, Field(ge=1e-12, le=accuracy.LOOSEST)] = 1e-5
     threads: Annotated[Whole, Field(ge=1, le=1024)] = 1
     precision: Literal["double", "single"] = "double"
     transforms: Library = "ducc0"

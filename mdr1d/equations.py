@@ -15,7 +15,6 @@ from collections.abc import Callable
 from typing import Literal, get_args
 
 import numpy as np
-from scipy.integrate import quad_vec
 
 from .domain import between, in_si, not_negative, one_of, positive
 
@@ -141,6 +140,8 @@ def spectral_force(loss_modulus: Callable, spectrum: Callable, band, speed, cont
 
     spectrum : the function C_1D(q) [m^3], two-sided; band : lowest and highest wave number [rad/m]; L [m]
     """
+    from scipy.integrate import quad_vec  # slow, and no other equation needs it
+
     low, high = band
     positive(band=band)
     not_negative(speed=speed, contact_length=contact_length)

@@ -1,5 +1,6 @@
 """The command `crosscheck`: every function of `compare.commands` as a command, its docstring as the help."""
 
+import gc
 import inspect
 import json
 import os
@@ -50,11 +51,13 @@ class Command:
     function : of the same name in Python
     said : what is printed of what it returns
     details : help of the option that prints the details of what it returns; empty where it has none
+    brief : whether it ends so soon that no garbage is looked for
     """
 
     function: Callable[..., Any]
     said: Callable[[Any], str] = str
     details: str = ""
+    brief: bool = False
 
     @property
     def title(self) -> str:
@@ -104,13 +107,7 @@ class Command:
         with warnings.catch_warnings(), said_to_people(output, solves=self.solves):
             # What Python is warned of stands at the top of what is printed.
             warnings.filterwarnings("ignore", category=UserWarning, module=re.escape(__name__))
-            if self.tells and not (quiet or json):
-                from ..solving.terminal import Preparing  # slow, and only what solves needs it
-
-                with Preparing(lines=verbose) as given["progress"]:
-                    found = self.function(**given)
-            else:
-                found = self.function(**given)
+            found = self._answer(given, shown=not (quiet or json), lines=verbose)
         swept = getattr(found, "swept", None)
         if swept is not None and swept.reused and not swept.solved and not (quiet or json):
             say(f"0 tasks solved, {swept.reused} reused")
@@ -127,6 +124,17 @@ class Command:
             raise typer.Exit(FAILED)
         if not getattr(found, "feasible", True):
             raise typer.Exit(MISTAKE)
+
+    def _answer(self, given: dict[str, Any], shown: bool, lines: bool) -> Any:
+        """What the function returns; shown : whether a terminal shows how far it is, in lines or as a bar."""
+        if not self.brief:
+            gc.enable()
+        if not (self.tells and shown):
+            return self.function(**given)
+        from ..solving.terminal import Preparing  # slow, and only what solves needs it
+
+        with Preparing(lines=lines) as progress:
+            return self.function(**given, progress=progress)
 
 
 def _parameter(command: str, name: str, hint: Any, default: Any, text: str) -> inspect.Parameter:
@@ -192,7 +200,7 @@ def _schema(found: Mapping[str, Any]) -> str:
 
 COMMANDS = (
     Command(commands.run),
-    Command(commands.trust),
+    Command(commands.trust, brief=True),
     Command(commands.study),
     Command(commands.paper),
     Command(commands.workprecision),
@@ -235,4 +243,9 @@ def main() -> None:
     """Entry point of the console command."""
     # The matrices of the judge are small: threads of BLAS would wait for one another on a busy machine.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-    app()
+    # What is imported stays: a third of the time of a short command went into looking for garbage among it.
+    gc.disable()
+    try:
+        app()
+    finally:
+        gc.freeze()  # so that none is looked for at the end either, as all goes with the process

@@ -1,7 +1,9 @@
 """Times, errors and settings in words."""
 
 from math import inf, isfinite, nan
+from typing import Any
 
+from scene.plain import NotPlain, bare, number
 from scene.printable import brief
 from scene.quantities import SECOND
 from scene.reading import InvalidInput
@@ -68,19 +70,32 @@ def short(value: float) -> str:
     return f"{rounded:.0f}" if 10 <= rounded < 1e6 else f"{rounded:g}"
 
 
-def share_of(name: str, given: float | str) -> float:
-    """Share between 0 and 1, of a number or a text such as 2%. Raises InvalidInput.
+def share_of(name: str, given: Any) -> float:
+    """Share between 0 and 1, of a number, one of another library too, or a text as 2%. Raises InvalidInput.
 
     name : of the argument, for the error
     """
+    found, why = nan, ""
     try:
-        percent = isinstance(given, str) and given.strip().endswith("%")
-        found = float(str(given).strip().removesuffix("%")) / (100 if percent else 1)
-    except ValueError:
-        found = nan
-    if isinstance(given, bool) or not 0 < found < 1:
-        raise InvalidInput(f"{name} = {brief(repr(given))}: a share above 0 and below 1, as 2% or 0.02")
+        found = _share(given)
+    except NotPlain as reason:
+        why = f"; {reason}" if str(reason) else ""
+    except (
+        ValueError,
+        OverflowError,
+    ):  # of a text that is no number, and of a number beyond those of floating point
+        pass
+    if not 0 < found < 1:
+        raise InvalidInput(f"{name} = {brief(repr(given))}: a share above 0 and below 1, as 2% or 0.02{why}")
     return found
+
+
+def _share(given):
+    if isinstance(given, str):
+        text = given.strip()
+        return float(text.removesuffix("%")) / (100 if text.endswith("%") else 1)
+    held, unit = bare(given)
+    return float(number(held, None)) / 100 if unit == "%" else float(number(given, None))
 
 
 def seconds_of(name: str, given: float | str) -> float:

@@ -10,7 +10,7 @@ the last one asked for, keep the level; the tests measure it.
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import ceil, isfinite
-from typing import Self
+from typing import NamedTuple, Self
 
 import numpy as np
 import xarray
@@ -25,6 +25,19 @@ from .levels import holding, pooled
 GROWTH = 4.0  # times the surfaces at most from one look to the next: the scatter of few is known roughly
 MARGIN = 1.1  # surfaces beyond those that just suffice: they spare most of the second looks
 OWN_SHARE = 0.5  # of the wanted width that is left to the scatter at least, however much the grid takes
+
+
+class Enough(NamedTuple):
+    """Surfaces that just suffice at every point (...), NaN where that is not known.
+
+    surfaces : of each stratum (K, ...)
+    scatter : half-width of the interval of 95 % with those that are there, relative
+    grid : what half the points change, relative, which adds to it
+    """
+
+    surfaces: np.ndarray
+    scatter: np.ndarray
+    grid: np.ndarray
 
 
 def needed(
@@ -44,6 +57,21 @@ def needed(
     costs : planned of one surface of each stratum, on all of its grids
     growth : times the surfaces at most
     """
+    now = np.bincount(dataset["stratum"].values, minlength=len(costs))
+    needs, scatter, grid = enough(dataset, above, below, costs, interval)
+    asked = np.where((scatter + grid > interval) & np.isfinite(needs), needs, 0.0)
+    return tuple(map(_more, now.tolist(), asked.reshape(now.size, -1).max(axis=1).tolist(), [growth] * now.size))
+
+
+def rounded(surfaces: float) -> int:
+    """Surfaces that are solved where so many just suffice."""
+    return TOGETHER * ceil(MARGIN * surfaces / TOGETHER)
+
+
+def enough(
+    dataset: xarray.Dataset, above: str, below: str | None, costs: Sequence[float], interval: float
+) -> Enough:
+    """Surfaces of each stratum that just suffice for such intervals, at the least cost; see `needed`."""
     strata, both = dataset["stratum"].values, pooled(dataset)
     now = np.bincount(strata, minlength=len(costs))
     # A model without another grid has no error of it.
@@ -56,8 +84,7 @@ def needed(
         parts = np.array([squares[..., strata == k].sum(axis=-1) for k in range(now.size)])
         least = np.maximum(interval - grid, OWN_SHARE * interval)
         needs = _least_cost(parts / parts.sum(axis=0), now, np.array(costs), scatter / least)
-    asked = np.where((scatter + grid > interval) & np.isfinite(needs), needs, 0.0)
-    return tuple(map(_more, now.tolist(), asked.reshape(now.size, -1).max(axis=1).tolist(), [growth] * now.size))
+    return Enough(needs, scatter, grid)
 
 
 def held(counts: tuple[int, ...], datasets: Sequence[xarray.Dataset]) -> tuple[int, ...]:
@@ -71,7 +98,7 @@ def held(counts: tuple[int, ...], datasets: Sequence[xarray.Dataset]) -> tuple[i
 
 @dataclass(frozen=True)
 class DrawnSurfaces:
-    """DrawnSurfaces of some parameter grids that share them.
+    """Surfaces of some parameter grids that share them.
 
     counts : of each model, by stratum
     costs : planned work of one of them on all of its grids, in units of `Task.work`, likewise
@@ -82,7 +109,7 @@ class DrawnSurfaces:
 
     @classmethod
     def of(cls, grids: Iterable[ParameterGrid]) -> Self:
-        """DrawnSurfaces of grids that have as many."""
+        """Surfaces of grids that have as many."""
         first, *others = grids
         costs = {
             name: tuple(map(sum, zip(each, *(other.costs[name] for other in others), strict=True)))
@@ -169,8 +196,7 @@ def _least_cost(parts, drawn, costs, times):
 
 def _more(had, asked, growth):
     """Number of surfaces of a stratum, of which so many are asked for."""
-    most = int(growth * had)
-    return min(max(had, min(TOGETHER * ceil(min(MARGIN * asked, most) / TOGETHER), most)), MOST_DRAWS)
+    return min(max(had, min(rounded(min(asked, MOST_DRAWS)), int(growth * had))), MOST_DRAWS)
 
 
 def _words(sources, words):

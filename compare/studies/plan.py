@@ -1,9 +1,12 @@
 """Plan of a scene: what both solvers would simulate, what that costs, and what the 1D answer would be worth."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from math import isinf
 from pathlib import Path
 from textwrap import fill
+from typing import TYPE_CHECKING, Any
 
 from bem3d import BEM
 from mdr1d import MDR
@@ -17,10 +20,13 @@ from scene.reading import InvalidInput
 from ..library.case import Case, NotCompared, doubted
 from ..library.lookup import SceneLike, case_of
 from ..models.table import KNOWN
-from ..solving.amounts import duration, pascals, seconds
+from ..solving.amounts import duration, pascals, seconds, share_of
 from ..solving.cost import Cost
 from ..trustmap.verdict import Advice, trust
 from .run.curves import curves, models_of
+
+if TYPE_CHECKING:
+    from .accuracy import Forecast, Settings
 
 WIDTH = 100
 WHOLE = {"break_long_words": False, "break_on_hyphens": False}
@@ -34,6 +40,7 @@ class Plans(dict[str, Plan | str | Advice]):
     cost : what all contacts of `crosscheck run` take; the reason where it solves none
     refused : whether that refuses the numbers of a scene of a kind that it compares
     doubts : about the scene, and notes on what was read for it, as sentences
+    interval, accuracy : what those take that were asked for, or why nothing is foretold; None if not asked for
     """
 
     def __init__(
@@ -43,8 +50,11 @@ class Plans(dict[str, Plan | str | Advice]):
         cost: Cost | str,
         refused: bool = False,
         doubts: Sequence[str] = (),
+        interval: Forecast | str | None = None,
+        accuracy: Settings | str | None = None,
     ) -> None:
         super().__init__(plans)
+        self.interval, self.accuracy = interval, accuracy
         self.scene, self.cost, self.refused, self.doubts = scene, cost, refused, tuple(doubts)
 
     def draw(self, file: str | Path) -> Path:
@@ -106,6 +116,9 @@ class Plans(dict[str, Plan | str | Advice]):
             left = dict.fromkeys(name for plan in plans.values() for name in plan.left_out)
             yield "left out", ", ".join(left) or "nothing"
         yield "modulus", _stiffness(self.scene)
+        for name in ("interval", "accuracy"):
+            if (foretold := getattr(self, name)) is not None:
+                yield name, str(foretold)
         # What refuses all contacts refuses this one too, with values that work for all of them.
         told = self.cost if isinstance(self.cost, str) else ""
         reasons = {name: each for name, each in self.items() if isinstance(each, str)}
@@ -131,17 +144,27 @@ def _stiffness(scene):
     return f"{at_rest}; {pascals(instant)}, {pascals(stiffer * instant)} at the instant"
 
 
-def plans(asked: SceneLike) -> Plans:
+def plans(asked: SceneLike, interval: Any = None, accuracy: Any = None) -> Plans:
     """The plans of a case, of a scene alone, of a file or of a ready scene, whether or not both can solve it.
+
+    interval, accuracy : shares; to foretell what they take, coarse surfaces are solved
 
     Raises InvalidInput.
     """
+    given = {"interval": interval, "accuracy": accuracy}
+    wanted = {name: share_of(name, each) for name, each in given.items() if each is not None}
     case = case_of(asked)
     made: dict[str, Plan | str | Advice] = {
         solver.name: planned(solver, case.scene) for solver in (case.mdr, case.bem)
     }
     cost, refused = _cost(case)
-    return Plans(made | {"trust": trust(case.scene)}, case.scene, cost, refused, doubted(case))
+    told: dict[str, Any] = {}
+    if wanted:
+        from . import accuracy as foretold  # slow, and few plans ask for it
+
+        by_name = {"interval": foretold.forecast, "accuracy": foretold.settings}
+        told = {name: by_name[name](case, each) for name, each in wanted.items()}
+    return Plans(made | {"trust": trust(case.scene)}, case.scene, cost, refused, doubted(case), **told)
 
 
 def planned(solver: MDR | BEM, scene: Scene) -> Plan | str:

@@ -5,7 +5,6 @@ from functools import cached_property
 
 import numpy as np
 from scipy.linalg import cho_solve, cholesky, solve_triangular
-from scipy.optimize import minimize
 
 # Where the search for scales begins, and how far it may go: of the inputs in standard deviations, of the values.
 _START, _SHORTEST, _LONGEST, _LEAST = 3.0, 0.1, 100.0, 1e-4
@@ -55,6 +54,8 @@ class Process:
     @classmethod
     def fitted(cls, inputs: np.ndarray, values: np.ndarray, variances: np.ndarray) -> "Process":
         """Process of the scales under which the values are likeliest."""
+        from scipy.optimize import minimize  # slow, and only a fit needs it
+
         count = inputs.shape[1]
         start = np.log([_START] * count + [np.std(values), 0.1 * np.std(values), 10 * _LEAST])
         bounds = [(np.log(_SHORTEST), np.log(_LONGEST))] * count + [(np.log(_LEAST), np.log(_LONGEST))] * 3
@@ -94,7 +95,8 @@ class Process:
         standard = self._standard(self.inputs)
         matrix = _covariance(standard, standard, self.scales)
         matrix[np.diag_indices(self.values.size)] += self.variances + self.scales.noise**2
-        return cholesky(matrix, lower=True, overwrite_a=True, check_finite=False)
+        # Transposed, it is the same in the order of LAPACK, which then copies nothing.
+        return cholesky(matrix.T, lower=True, overwrite_a=True, check_finite=False)
 
     @cached_property
     def _weights(self):
@@ -109,18 +111,26 @@ def _standard(inputs, among):
 
 def _squares(first, second):
     """Squared distances (N, M) between points (N, D), (M, D)."""
-    found = np.sum(first**2, axis=1)[:, None] + np.sum(second**2, axis=1) - 2 * first @ second.T
+    found = np.sum(first**2, axis=1)[:, None] + np.sum(second**2, axis=1)
+    found -= 2 * first @ second.T
     return np.maximum(found, 0.0, out=found)
 
 
 def _bell(squares):
-    return np.exp(-squares / 2)
+    """Bells of squared distances, in their place: of thousands of points each array takes 50 MB."""
+    squares /= -2
+    return np.exp(squares, out=squares)
 
 
 def _covariance(first, second, scales):
     """Covariances (N, M) between standard inputs (N, D), (M, D); a constant of variance 1 is not known before."""
-    bell = _bell(_squares(first / scales.lengths, second / scales.lengths))
-    return scales.amplitude**2 * bell + scales.slope**2 * (first @ second.T) + 1
+    found = _bell(_squares(first / scales.lengths, second / scales.lengths))
+    found *= scales.amplitude**2
+    straight = first @ second.T
+    straight *= scales.slope**2
+    found += straight
+    found += 1
+    return found
 
 
 def _unlikeliness(logarithms, inputs, values, variances):

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from bem3d import BEM
-from bem3d.accuracy import FIRST, MOST, SHARE, Choice, Unconfirmed, apart, changes, error
+from bem3d.accuracy import FIRST, LOOSEST, MOST, SHARE, Choice, Unconfirmed, apart, changes, error
 from bem3d.costs import BANDS, COSTS, SLOW, band, measured, typical
 from scene import (
     WLF,
@@ -202,6 +202,11 @@ def test_every_kind_of_contact_is_promised_and_confirmed(scene, wanted):
     assert choice.result.normal_force > 0
     ((name, most),) = wanted.items()
     assert 0 <= choice.error[name] <= most
+
+
+def test_a_wide_error_asks_for_no_looser_tolerance_than_a_solver_takes():
+    assert BEM.for_accuracy(SMOOTH, friction=0.9).solver.tolerance == LOOSEST
+    assert BEM(tolerance=LOOSEST)
 
 
 def test_two_answers_without_friction_are_alike_and_one_is_not():

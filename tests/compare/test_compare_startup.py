@@ -38,7 +38,8 @@ DRAWING = {"matplotlib", "jinja2"}
 SOLVING = {"numba", "scipy", "ducc0", "pyfftw", "bem3d", "mdr1d"}
 HEAVY = {"numpy", "pydantic", "pandas", "pint", "distributed", "dask", "scene", *ON_DISK, *DRAWING, *SOLVING}
 LISTED = HEAVY - {"pydantic"}
-PLANNED = {"pint", "pandas", "distributed", "dask", *ON_DISK, *DRAWING}
+SEARCHES = {"scipy.optimize", "scipy.integrate", "scipy.stats", "scipy.interpolate"}
+PLANNED = {"pint", "pandas", "distributed", "dask", *ON_DISK, *DRAWING, *SEARCHES}
 # Each step, what is there after it, and packages and modules that are not, in one process: from light to heavy.
 STEPS = [
     ("import compare; dir(compare)", "compare", HEAVY | {"compare.cli.app", "compare.commands"}),
@@ -50,6 +51,7 @@ STEPS = [
         "bem3d",
         PLANNED | {"compare.solving.runner", "compare.solving.store", "compare.studies.pipeline"},
     ),
+    ("command('trust', 'scene.toml')", "compare.trustmap.shipped", PLANNED | {"compare.solving.runner"}),
 ]
 
 

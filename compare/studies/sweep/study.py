@@ -31,20 +31,13 @@ from ...statistics.finding import Claim, said_of
 from ...statistics.jackknife import DrawSet, mean, measured
 from ...statistics.levels import pooled
 from ...statistics.means import interval
+from ..accuracy import MEANS, WORDS, wanted
 from ..run.curves import models_of
 from ..sampling import in_strata
 from ..study import Judgement, Study
 from . import figure as plots
 
 FEW = 8  # draws where nothing is asked
-# Means over draws: of a variable, or of one over another.
-MEANS = {
-    "friction_coefficient": ("friction_force", "normal_force"),
-    "normal_force": ("normal_force", None),
-    "depth_reached": ("depth_reached", None),
-}
-
-WORDS = {"friction_coefficient": "friction", "normal_force": "force", "depth_reached": "depth"}
 
 
 @dataclass(frozen=True)
@@ -97,8 +90,8 @@ class Sweep(Study):
         moving = max(speeds)
         motion = Slide(speed=moving, **pressed) if moving else Indent(**pressed)
         compared = models_of(case, models, reference)
-        wanted = None if interval is None else share_of("interval", interval)
-        asked = cls(replace(case, motion=motion), speeds, prescribed, drawn, compared, wanted)
+        half = None if interval is None else share_of("interval", interval)
+        asked = cls(replace(case, motion=motion), speeds, prescribed, drawn, compared, half)
         asked._grid.refuse()
         return asked
 
@@ -142,17 +135,13 @@ class Sweep(Study):
         for name in had:
             dataset = answers["contacts"].children[name].to_dataset(inherit=False)
             counts = [
-                needed(points, *MEANS[mean], self._grid.costs[name], self.interval, growth)
-                for mean, points in self._wanted(dataset)
+                needed(
+                    dataset.sel(speed=list(speeds)), *MEANS[mean], self._grid.costs[name], self.interval, growth
+                )
+                for mean, speeds in wanted(self.case.motion.pressed_by, self.speeds, self.case.slides)
             ]
             asked[name] = held(tuple(map(max, zip(*counts, strict=True))), [dataset])
         return None if asked == had else replace(self, strata=asked)
-
-    def _wanted(self, dataset):
-        """Names of the means that are asked for, with their points: what is not prescribed, and friction."""
-        yield "normal_force" if self.case.motion.pressed_by == "depth" else "depth_reached", dataset
-        if self.case.slides:
-            yield "friction_coefficient", dataset.sel(speed=[speed for speed in self.speeds if speed > 0])
 
     def judge(self, answers: xarray.DataTree) -> Judgement:
         """Friction, else force or depth, of each model over the reference at every contact, without a claim."""
