@@ -5,30 +5,76 @@ over surfaces of its own (Giles, Oper. Res. 56, 607, 2008), whatever the coarser
 draws of one grid: each surface is one that lies off this mean by as much as it moves it, so that mean, scatter and
 skewness of these draws are those of the sum. A stratum holds the surfaces of one difference, for Welch's degrees
 of freedom.
+
+Where moments of known mean, nil, go with the surfaces on the coarsest grid, their part in the scatter is taken out by
+regression (Lavenberg and Welch, Manage. Sci. 27, 322, 1981): the mean is that of a plane through the answers, at
+moments of nil.
 """
 
 import numpy as np
 import xarray
 
+MOMENTS = "local_moments"
+EACH = 4  # surfaces for each moment at least: what a regression leaves of few surfaces is known roughly
+ALIKE = 1e-8  # of a size, within which numbers are alike: they tell nothing apart
+
 
 def pooled(dataset: xarray.Dataset) -> xarray.Dataset:
     """Draws of the fine and of the coarse grid from those of all grids; one without a stratum is returned.
 
-    dataset : grids from fine to coarse; draws of stratum k have answers on the grids k and k + 1, if there is one
+    dataset : grids from fine to coarse; draws of stratum k have answers on the grids k and k + 1, if there is one.
+        `local_moments` of the draws on the coarsest grid, if it has them, are left out of what is returned
     """
     if "stratum" not in dataset.coords:
         return dataset
+    moments = dataset.get(MOMENTS)
+    dataset = dataset.drop_vars(MOMENTS, errors="ignore")
     numbers = [name for name, each in dataset.data_vars.items() if "seed" in each.dims and each.dtype.kind == "f"]
     strata = dataset["stratum"].values
     made = {}
     for name in numbers:
-        values = dataset[name].transpose("grid", ..., "seed").values
+        ordered = dataset[name].transpose("grid", ..., "seed")
+        values = ordered.values
+        if moments is not None:
+            rows = np.flatnonzero(strata == len(values) - 1)
+            controls = moments.transpose(*ordered.dims[1:], "moment").values[..., rows, :]
+            values = values.copy()
+            values[-1][..., rows] = controlled(values[-1][..., rows], controls)
         made[name] = np.stack([_draws(values, strata, first) for first in range(len(values))[:2]])
     both = dataset.isel(grid=slice(2))
     dims = {name: [each for each in dataset[name].dims if each not in ("grid", "seed")] for name in numbers}
     return both.assign(
         {name: (("grid", *dims[name], "seed"), each, dataset[name].attrs) for name, each in made.items()}
     )
+
+
+def controlled(values: np.ndarray, moments: np.ndarray) -> np.ndarray:
+    """Values (..., n) less what moments (..., n, K) of mean nil tell of them, by least squares at each point.
+
+    Their mean is that of the regression at nil, and they scatter about it so that the error of a mean of n values is
+    its error, that of its slopes included: with normal moments (1 + K / (n - K - 2)) / n times the variance about it.
+    NaN stays, and is left out. The first moments alone are used where there are fewer than 4 values for each.
+    """
+    known = np.isfinite(values)
+    count = known.sum(axis=-1, keepdims=True)
+    used = known[..., None] & (np.arange(moments.shape[-1]) < count[..., None] // EACH)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        mean = np.where(known, values, 0.0).sum(axis=-1, keepdims=True) / count
+        middle = np.where(used, moments, 0.0).sum(axis=-2, keepdims=True) / count[..., None]
+        about = np.where(used, moments - middle, 0.0)
+        size = np.sqrt(np.square(about).sum(axis=-2, keepdims=True))
+        told = size > ALIKE * np.abs(middle)
+        about, middle = (np.where(told, each, 0.0) / np.where(told, size, 1.0) for each in (about, middle))
+        left, strength, right = np.linalg.svd(about, full_matrices=False)
+        apart = strength > ALIKE
+        rank = apart.sum(axis=-1, keepdims=True)
+        answers = np.where(known, values - mean, 0.0)
+        parts = np.where(apart, np.einsum("...nk,...n->...k", left, answers), 0.0)
+        at_nil = np.einsum("...ij,...j->...i", right, middle[..., 0, :]) / np.where(apart, strength, 1.0)
+        wider = (count - 1) / (count - rank - 1) * (1 + rank / (count - rank - 2))
+        rest = answers - np.einsum("...nk,...k->...n", left, parts)
+        adjusted = mean - np.sum(parts * at_nil, axis=-1, keepdims=True) + np.sqrt(wider) * rest
+    return np.where(known & (rank > 0), adjusted, values)
 
 
 def _draws(values, strata, first):
