@@ -11,6 +11,7 @@ pressure of a wave s times its height.
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
@@ -42,15 +43,10 @@ class Footprint:
     @classmethod
     def of(cls, x: np.ndarray, y: np.ndarray, pressure: np.ndarray) -> "Footprint":
         """Footprint of a smooth contact: its pressure (Y, X), or a line force (1, X), on a wider patch."""
-        found = []
-        for axis, at in enumerate((y, x)):
-            on = at[np.flatnonzero((pressure > 0).any(axis=1 - axis))]
-            places = np.linspace(on[0], on[-1], min(PLACES, at.size))
-            pressure = np.apply_along_axis(lambda line, at=at, to=places: np.interp(to, at, line), axis, pressure)
-            middle = places.mean()
-            found.append(middle + WIDER * (places - middle))
-        weight = np.maximum(pressure, 0.0)
-        return cls(found[1], found[0], weight / weight.sum())
+        across, to_y = _patch(y, (pressure > 0).any(axis=1))
+        along, to_x = _patch(x, (pressure > 0).any(axis=0))
+        weight = np.maximum(to_y @ pressure @ to_x.T, 0.0)
+        return cls(along, across, weight / weight.sum())
 
     @property
     def size(self) -> float:
@@ -61,9 +57,9 @@ class Footprint:
 def local_moments(solver: Solver, scenes: Sequence[Scene], seeds: Sequence[int]) -> np.ndarray:
     """Moments of the surfaces that a solver draws, (scenes, seeds, K) [1], in units of the spectrum.
 
-    K is 8 of surfaces in 3D: p, p h_xx, h_x^2, h_xx, h, p^2 h_xx, p h_x^2, h_x; 7 of lines in 1D, where the
-    pressure p of full contact is as the height h. It is 0 of what has no such moments: of another model, a body that
-    repeats, a motion in time, and roughness that is not drawn from a self-affine spectrum.
+    K is 8 of surfaces in 3D: h, p, p h_xx, h_x^2, h_xx, p^2 h_xx, p h_x^2, h_x; 7 of lines in 1D, where the
+    pressure p of full contact is as the height h. It is 0 of what has no such moments: of another model, a plane,
+    a motion in time, and roughness that is not drawn from a self-affine spectrum.
 
     scenes : of one body and roughness, steady; where the smooth body has no answer its moments are nil
     seeds : of the surfaces; those of the scenes are replaced
@@ -73,7 +69,8 @@ def local_moments(solver: Solver, scenes: Sequence[Scene], seeds: Sequence[int])
         isinstance(each.motion, Program) or isinstance(each.indenter, Plane) for each in scenes
     ):
         return np.empty((len(scenes), len(seeds), 0))
-    footprints = [_footprint(solver, replace(each, roughness=None)) for each in scenes]
+    asked: Any = solver
+    footprints = [_footprint(asked, replace(each, roughness=None)) for each in scenes]
     tops = [0 if each is None else _waves_of(rough, each) for each in footprints]
     found = np.zeros((len(scenes), len(seeds), 7 if isinstance(solver, MDR) else 8))
     if not any(tops):
@@ -88,6 +85,17 @@ def local_moments(solver: Solver, scenes: Sequence[Scene], seeds: Sequence[int])
             if each is not None:
                 own[some] = _moments(each, family, top, waves)
     return found
+
+
+def _patch(at, touched):
+    """Places across a contact, and from evenly spaced ones the matrix that interpolates to as many within it."""
+    if at.size == 1:
+        return at, np.ones((1, 1))
+    ends = at[touched]
+    within = np.linspace(ends[0], ends[-1], PLACES)
+    middle = (ends[0] + ends[-1]) / 2
+    hats = np.maximum(1 - np.abs(within[:, None] - at) / (at[1] - at[0]), 0.0)
+    return middle + WIDER * (within - middle), hats
 
 
 @lru_cache(maxsize=1024)
@@ -106,11 +114,12 @@ def _footprint(solver, smooth) -> Footprint | None:
 def _waves_of(rough, footprint):
     """Number in a period of the shortest waves that count."""
     most = min(MOST, int(_bandwidth(rough, MOST) * (1 + 1e-12)))
-    return most if footprint.size * most <= CUT * rough.longest else int(CUT * rough.longest / footprint.size) or 1
+    across = footprint.size / rough.longest
+    return most if across * most <= CUT else max(int(CUT / across), 1)
 
 
 def _bandwidth(rough, top):
-    """Highest wave number, over the lowest, of waves up to a number in a period: no higher than the surface has."""
+    """Highest wave number, over the lowest, of up to a number of waves in a period: or all of the surface."""
     return top + 0.5 if rough.shortest is None else min(top + 0.5, rough.longest / rough.shortest)
 
 
@@ -130,7 +139,7 @@ class _Surfaces:
 
 
 class _Lines:
-    """Lines of one spectrum, by complex amplitudes (seeds, 1, top + 1); the pressure of a foundation is its height."""
+    """Lines of one spectrum, by complex amplitudes (seeds, 1, top + 1); springs press as they are high."""
 
     stiffness = None
 
@@ -162,8 +171,8 @@ def _moments(footprint, family, top, waves):
     p = _real(across @ (waves * stiffness), along) if surface else h
     squares = np.square(k_x)
     slopes, pressed = np.sum(power * squares), -np.sum(power * stiffness * squares)
-    products = [p, p * h_xx - pressed, h_x**2 - slopes, h_xx, p**2 * h_xx, p * h_x**2, h_x]
-    return np.stack([np.tensordot(each, footprint.weight, 2) for each in products + [h] * surface], axis=-1)
+    products = [h] * surface + [p, p * h_xx - pressed, h_x**2 - slopes, h_xx, p**2 * h_xx, p * h_x**2, h_x]
+    return np.stack([np.tensordot(each, footprint.weight, 2) for each in products], axis=-1)
 
 
 def _real(rows, columns):

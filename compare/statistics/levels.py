@@ -6,9 +6,8 @@ draws of one grid: each surface is one that lies off this mean by as much as it 
 skewness of these draws are those of the sum. A stratum holds the surfaces of one difference, for Welch's degrees
 of freedom.
 
-Where moments of known mean, nil, go with the surfaces on the coarsest grid, their part in the scatter is taken out by
-regression (Lavenberg and Welch, Manage. Sci. 27, 322, 1981): the mean is that of a plane through the answers, at
-moments of nil.
+Where moments of a known mean, nil, go with the surfaces on the coarsest grid, a regression takes their part out of
+the scatter (Lavenberg and Welch, Manage. Sci. 27, 322, 1981).
 """
 
 import numpy as np
@@ -49,11 +48,11 @@ def pooled(dataset: xarray.Dataset) -> xarray.Dataset:
 
 
 def controlled(values: np.ndarray, moments: np.ndarray) -> np.ndarray:
-    """Values (..., n) less what moments (..., n, K) of mean nil tell of them, by least squares at each point.
+    """Values (..., n) less what moments (..., n, K) of mean nil tell of each, by least squares a point.
 
-    Their mean is that of the regression at nil, and they scatter about it so that the error of a mean of n values is
-    its error, that of its slopes included: with normal moments (1 + K / (n - K - 2)) / n times the variance about it.
-    NaN stays, and is left out. The first moments alone are used where there are fewer than 4 values for each.
+    The slopes for a value are those of all others, so that the mean has no bias (Avramidis and Wilson, Oper. Res.
+    Lett. 14, 187, 1993), and the scatter that is left has the errors of the slopes in it. NaN is left
+    out, and stays. Where there are fewer than 4 values for each moment, the first moments alone are used.
     """
     known = np.isfinite(values)
     count = known.sum(axis=-1, keepdims=True)
@@ -64,17 +63,18 @@ def controlled(values: np.ndarray, moments: np.ndarray) -> np.ndarray:
         about = np.where(used, moments - middle, 0.0)
         size = np.sqrt(np.square(about).sum(axis=-2, keepdims=True))
         told = size > ALIKE * np.abs(middle)
-        about, middle = (np.where(told, each, 0.0) / np.where(told, size, 1.0) for each in (about, middle))
-        left, strength, right = np.linalg.svd(about, full_matrices=False)
-        apart = strength > ALIKE
-        rank = apart.sum(axis=-1, keepdims=True)
+        about, middle = (np.where(told, each / size, 0.0) for each in (about, middle))
+        apart, strength, turn = np.linalg.svd(about, full_matrices=False)
+        apart = np.where((strength > ALIKE)[..., None, :], apart, 0.0)
+        shift = np.where(strength > ALIKE, (turn @ np.swapaxes(middle, -1, -2))[..., 0] / strength, 0.0)
         answers = np.where(known, values - mean, 0.0)
-        parts = np.where(apart, np.einsum("...nk,...n->...k", left, answers), 0.0)
-        at_nil = np.einsum("...ij,...j->...i", right, middle[..., 0, :]) / np.where(apart, strength, 1.0)
-        wider = (count - 1) / (count - rank - 1) * (1 + rank / (count - rank - 2))
-        rest = answers - np.einsum("...nk,...k->...n", left, parts)
-        adjusted = mean - np.sum(parts * at_nil, axis=-1, keepdims=True) + np.sqrt(wider) * rest
-    return np.where(known & (rank > 0), adjusted, values)
+        slopes = np.sum(apart * answers[..., None], axis=-2, keepdims=True)
+        rest = answers - np.sum(apart * slopes, axis=-1)
+        # What a value moves the slopes by: its distance from the plane through all others.
+        moved = rest / np.maximum(1 - np.sum(np.square(apart), axis=-1) - 1 / count, ALIKE)
+        others = slopes - apart * moved[..., None]
+        told_of_it = np.sum((apart + shift[..., None, :]) * others, axis=-1)
+    return np.where(known, values - told_of_it, values)
 
 
 def _draws(values, strata, first):
