@@ -25,7 +25,8 @@ WIDER = 1.15  # footprint over the smooth contact, around which peaks touch
 CUT = 10  # of the shortest waves that count lie across a footprint: what is shorter averages out
 MOST = 64  # waves in a period
 PLACES = 20  # along a side of a footprint
-TOGETHER = 64  # surfaces at once: 17 MB of waves at most
+TOGETHER = 64  # surfaces at once: 9 MB of waves at most
+ENOUGH = {"BEM": 64, "MDR": 1024}  # points for a smooth body
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,12 +42,15 @@ class Footprint:
     weight: np.ndarray
 
     @classmethod
-    def of(cls, x: np.ndarray, y: np.ndarray, pressure: np.ndarray) -> "Footprint":
-        """Footprint of a smooth contact: its pressure (Y, X), or a line force (1, X), on a wider patch."""
+    def of(cls, x: np.ndarray, y: np.ndarray, pressure: np.ndarray) -> "Footprint | None":
+        """Footprint of a smooth contact: its pressure (Y, X), or a line force (1, X), on a wider patch.
+
+        None where the places fall beside what presses.
+        """
         across, to_y = _patch(y, (pressure > 0).any(axis=1))
         along, to_x = _patch(x, (pressure > 0).any(axis=0))
         weight = np.maximum(to_y @ pressure @ to_x.T, 0.0)
-        return cls(along, across, weight / weight.sum())
+        return cls(along, across, weight / weight.sum()) if weight.any() else None
 
     @property
     def size(self) -> float:
@@ -70,7 +74,8 @@ def local_moments(solver: Solver, scenes: Sequence[Scene], seeds: Sequence[int])
     ):
         return np.empty((len(scenes), len(seeds), 0))
     asked: Any = solver
-    footprints = [_footprint(asked, replace(each, roughness=None)) for each in scenes]
+    smooth = replace(asked, points=min(asked.points, ENOUGH[solver.name]), extent=None)
+    footprints = [_footprint(smooth, replace(each, roughness=None)) for each in scenes]
     tops = [0 if each is None else _waves_of(rough, each) for each in footprints]
     found = np.zeros((len(scenes), len(seeds), 7 if isinstance(solver, MDR) else 8))
     if not any(tops):
@@ -99,10 +104,10 @@ def _patch(at, touched):
 
 
 @lru_cache(maxsize=1024)
-def _footprint(solver, smooth) -> Footprint | None:
-    """Footprint of a smooth scene; None where it has no answer."""
+def _footprint(solver, scene) -> Footprint | None:
+    """Footprint of a smooth body; None where it has no answer."""
     try:
-        fields = solver.solve(smooth).fields
+        fields = solver.solve(scene).fields
     except (SolveError, Refused, NotImplementedError):
         return None
     x = fields["x"]
