@@ -23,6 +23,7 @@ from scene.scales import elastic_contact
 
 from .continuation import Continuation, by_contact, joined
 from .cost import MOST_DRAWS, Cost
+from .local_moments import local_moments
 from .outcome import Outcome, Row
 from .task import SceneTask, Task, draws_of
 from .vocabulary import attributes
@@ -223,6 +224,15 @@ class ParameterGrid:
                 found.append((name, contacts))
         return tuple(found)
 
+    def _local_moments(self, name):
+        """Moments (speeds, values, draws, K) of the surfaces on the coarsest grid alone, NaN of all others."""
+        *finer, coarsest = self.strata(name)
+        solver, first = [*self.grids[name].values()][-1], self.scene.roughness.seed
+        scenes = [self.at(value, speed) for speed, value in product(self.speeds, self.values)]
+        found = local_moments(solver, scenes, [first + seed for seed in coarsest])
+        found = np.pad(found, ((0, 0), (sum(map(len, finer)), 0), (0, 0)), constant_values=nan)
+        return found.reshape(len(self.speeds), len(self.values), *found.shape[1:])
+
     def _dataset(self, name, rows):
         import xarray
 
@@ -276,6 +286,9 @@ class ParameterGrid:
 
         made = {label: variable(found, label) for label, found in values.items()}
         made |= {"status": variable(status, "status"), "reason": variable(reasons, "reason")}
+        if self._stratified(name) and (moments := self._local_moments(name)).size:
+            label = "local_moments"
+            made[label] = xarray.Variable([*dims[1:], "moment"], moments, attributes(label, self.scene))
         dataset = xarray.Dataset(made, coordinates, {"solver": name})
         for label in dataset.coords:
             dataset[label].attrs = attributes(str(label), self.scene)

@@ -5,6 +5,9 @@ over surfaces of its own (Giles, Oper. Res. 56, 607, 2008), whatever the coarser
 draws of one grid: each surface is one that lies off this mean by as much as it moves it, so that mean, scatter and
 skewness of these draws are those of the sum. A stratum holds the surfaces of one difference, for Welch's degrees
 of freedom.
+
+Where moments of a known mean, nil, go with the surfaces on the coarsest grid, a regression takes their part out of
+the scatter (Lavenberg and Welch, Manage. Sci. 27, 322, 1981).
 """
 
 from collections.abc import Sequence
@@ -17,14 +20,21 @@ from ..solving.parameter_grid import EMPTY, FAILED
 # What is spent or left over on a grid, and is no number of the contact.
 SPENT = "seconds", "operator_applications", "residual"
 
+MOMENTS = "local_moments"
+EACH = 4  # surfaces for each moment at least: what a regression leaves of few surfaces is known roughly
+ALIKE = 1e-8  # of a size, within which numbers are alike: they tell nothing apart
+
 
 def pooled(dataset: xarray.Dataset) -> xarray.Dataset:
     """Draws of the fine and of the coarse grid from those of all grids; one without a stratum is returned.
 
-    dataset : grids from fine to coarse; draws of stratum k have answers on the grids k and k + 1, if there is one
+    dataset : grids from fine to coarse; draws of stratum k have answers on the grids k and k + 1, if there is one.
+        `local_moments` of the draws on the coarsest grid, if it has them, are left out of what is returned
     """
     if "stratum" not in dataset.coords:
         return dataset
+    moments = dataset.get(MOMENTS)
+    dataset = dataset.drop_vars(MOMENTS, errors="ignore")
     if "status" in dataset and "friction_force" in dataset:
         # What does not touch adds nothing to either force.
         dataset = dataset.assign(friction_force=dataset["friction_force"].where(dataset["status"] != EMPTY, 0.0))
@@ -33,7 +43,13 @@ def pooled(dataset: xarray.Dataset) -> xarray.Dataset:
     strata = dataset["stratum"].values
     made = {}
     for name in numbers:
-        values = dataset[name].transpose("grid", ..., "seed").values
+        ordered = dataset[name].transpose("grid", ..., "seed")
+        values = ordered.values
+        if moments is not None:
+            rows = np.flatnonzero(strata == len(values) - 1)
+            controls = moments.transpose(*ordered.dims[1:], "moment").values[..., rows, :]
+            values = values.copy()
+            values[-1][..., rows] = controlled(values[-1][..., rows], controls)
         made[name] = np.stack([_draws(values, strata, first) for first in range(len(values))[:2]])
     both = dataset.isel(grid=slice(2))
     dims = {name: [each for each in dataset[name].dims if each not in ("grid", "seed")] for name in numbers}
@@ -52,6 +68,36 @@ def holding(datasets: Sequence[xarray.Dataset]) -> int:
     ]
     most = max(each.sizes["grid"] for each in datasets)
     return min([most, *(int(grid) for each in failed for grid in each if grid > 1)])
+
+
+def controlled(values: np.ndarray, moments: np.ndarray) -> np.ndarray:
+    """Values (..., n) less what moments (..., n, K) of mean nil tell of each, by least squares a point.
+
+    The slopes for a value are those of all others, so that the mean has no bias (Avramidis and Wilson, Oper. Res.
+    Lett. 14, 187, 1993), and the scatter that is left has the errors of the slopes in it. NaN is left
+    out, and stays. Where there are fewer than 4 values for each moment, the first moments alone are used.
+    """
+    known = np.isfinite(values)
+    count = known.sum(axis=-1, keepdims=True)
+    used = known[..., None] & (np.arange(moments.shape[-1]) < count[..., None] // EACH)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        mean = np.where(known, values, 0.0).sum(axis=-1, keepdims=True) / count
+        middle = np.where(used, moments, 0.0).sum(axis=-2, keepdims=True) / count[..., None]
+        about = np.where(used, moments - middle, 0.0)
+        size = np.sqrt(np.square(about).sum(axis=-2, keepdims=True))
+        told = size > ALIKE * np.abs(middle)
+        about, middle = (np.where(told, each / size, 0.0) for each in (about, middle))
+        apart, strength, turn = np.linalg.svd(about, full_matrices=False)
+        apart = np.where((strength > ALIKE)[..., None, :], apart, 0.0)
+        shift = np.where(strength > ALIKE, (turn @ np.swapaxes(middle, -1, -2))[..., 0] / strength, 0.0)
+        answers = np.where(known, values - mean, 0.0)
+        slopes = np.sum(apart * answers[..., None], axis=-2, keepdims=True)
+        rest = answers - np.sum(apart * slopes, axis=-1)
+        # What a value moves the slopes by: its distance from the plane through all others.
+        moved = rest / np.maximum(1 - np.sum(np.square(apart), axis=-1) - 1 / count, ALIKE)
+        others = slopes - apart * moved[..., None]
+        told_of_it = np.sum((apart + shift[..., None, :]) * others, axis=-1)
+    return np.where(known, values - told_of_it, values)
 
 
 def _draws(values, strata, first):

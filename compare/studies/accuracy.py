@@ -27,6 +27,7 @@ from ..solving.parameter_grid import DIFFERENCES, FINE, LEAST, LEVELS, PILOT, Pa
 from ..statistics.allocation import enough, rounded
 from ..statistics.intervals import student
 from ..statistics.jackknife import mean_ratio
+from ..statistics.levels import MOMENTS
 from .run.curves import models_of
 from .sampling import in_strata
 
@@ -255,4 +256,7 @@ def _strata(answers, taken):
             for below in (0, 1) if k + 1 < len(taken) else (0,):
                 rows[k + below][..., stratum == k] = values[each + below][..., those]
         made[name] = ("grid", "speed", "value", "seed"), rows
+    if MOMENTS in answers:
+        moments = answers[MOMENTS].transpose(..., "seed", "moment").values
+        made[MOMENTS] = ("speed", "value", "seed", "moment"), moments[..., np.concatenate(columns), :]
     return xarray.Dataset(made, {"stratum": ("seed", stratum)})

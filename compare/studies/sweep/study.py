@@ -29,7 +29,7 @@ from ...solving.vocabulary import attributes
 from ...statistics.allocation import GROWTH, held, needed
 from ...statistics.finding import Claim, said_of
 from ...statistics.jackknife import DrawSet, mean, measured
-from ...statistics.levels import pooled
+from ...statistics.levels import MOMENTS, pooled
 from ...statistics.means import interval
 from ..accuracy import MEANS, WORDS, wanted
 from ..run.curves import models_of
@@ -161,6 +161,8 @@ class Sweep(Study):
         )
         word = WORDS[name]
         above, below = MEANS[name]
+        nodes = answers["contacts"].children
+        drawn = {each: pooled(nodes[each].to_dataset(inherit=False)) for each in self.models.labels}
         for (i, speed), (j, value), model in product(
             enumerate(self.speeds), enumerate(self.values), self.models.judged
         ):
@@ -180,15 +182,14 @@ class Sweep(Study):
                 ),
                 beside,
             )
-            fine, coarse = (self._draws(answers, grid, solvers) for grid in (FINE, COARSE))
+            fine, coarse = (self._draws(drawn, grid, solvers) for grid in (FINE, COARSE))
             where = f"{speed:g} m/s, {value:g} {UNITS[prescribed]}"
             yield replace(measured(claim, fine, coarse, where), dimension=beside)
 
     @staticmethod
-    def _draws(answers, grid, solvers):
-        nodes = {each: answers["contacts"].children[each].to_dataset(inherit=False) for each in solvers}
+    def _draws(drawn, grid, solvers):
         return DrawSet(
-            {name: pooled(each).sel(grid=grid if grid in each["grid"] else FINE) for name, each in nodes.items()}
+            {each: drawn[each].sel(grid=grid if grid in drawn[each]["grid"] else FINE) for each in solvers}
         )
 
     def dataset(self, answers: xarray.DataTree) -> xarray.Dataset:
@@ -212,6 +213,7 @@ class Sweep(Study):
             for end, values in interval(pooled(dataset), above, below)._asdict().items():
                 label = f"{name}_{'mean' if end == 'value' else end}"
                 dataset[label] = ("speed", self.case.motion.pressed_by), values, attributes(label)
+        dataset = dataset.drop_vars(MOMENTS, errors="ignore")
         return dataset.reset_coords("points").drop_attrs(deep=False)
 
 
