@@ -10,6 +10,7 @@ the last one asked for, keep the level; the tests measure it.
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import ceil, isfinite
+from operator import mul
 from typing import NamedTuple, Self
 
 import numpy as np
@@ -17,7 +18,8 @@ import xarray
 
 from ..solving.amounts import duration
 from ..solving.cost import MOST_DRAWS, SECONDS
-from ..solving.parameter_grid import PILOT, TOGETHER, ParameterGrid
+from ..solving.parameter_grid import PILOT, TOGETHER, ParameterGrid, pilot
+from .collapse import PARTED
 from .finding import UNDECIDED, Finding
 from .jackknife import Source, mean_ratio, off_the_ratio
 from .levels import holding, pooled
@@ -124,7 +126,7 @@ class DrawnSurfaces:
             expected; None if only a verdict is
         """
         (low, high), claim, value = finding.scatter, finding.claim, finding.value
-        if finding.verdict != UNDECIDED or finding.undecidable or not finding.parts:
+        if not _open(finding):
             return {}
         edges = [claim.expected - claim.tolerance, claim.expected + claim.tolerance]
         edge = min(edges, key=lambda each: abs(each - value))
@@ -133,7 +135,8 @@ class DrawnSurfaces:
         if interval is not None:
             wanted = interval * max(1.0, abs(claim.expected))
             if (high - low) / 2 + finding.grid <= wanted:
-                return {}
+                decided = self.deciding(finding)
+                return decided if self._cost(decided) < self._pilot else {}
             left = max(left, wanted - finding.grid, OWN_SHARE * wanted)
         sources = [each for each in finding.parts if each[0] in self.counts]
         if not (left > 0 and sources):
@@ -147,6 +150,19 @@ class DrawnSurfaces:
             )
         )
         return dict(zip(sources, _least_cost(parts, counts, costs, scatter / left).tolist(), strict=True))
+
+    @property
+    def _pilot(self):
+        """Planned work of a pilot: where a verdict takes no more beyond what is there, it is worth it."""
+        return sum(
+            sum(map(mul, pilot(len(costs)), costs)) for name, costs in self.costs.items() if name in self.counts
+        )
+
+    def _cost(self, numbers):
+        """Planned work of numbers of draws beyond those that are there."""
+        return sum(
+            max(count - self.counts[name][k], 0.0) * self.costs[name][k] for (name, k), count in numbers.items()
+        )
 
     def more(
         self, findings: Iterable[Finding], interval: float, growth: float = GROWTH
@@ -163,7 +179,7 @@ class DrawnSurfaces:
 
     def told(self, finding: Finding, words: Mapping[str, str]) -> Finding:
         """The finding with what would decide it. words : what a draw of each model is called, in the plural"""
-        if finding.verdict != UNDECIDED or finding.undecidable or not finding.parts:
+        if not _open(finding):
             return finding
         asked = self.deciding(finding)
         if not asked:
@@ -172,7 +188,7 @@ class DrawnSurfaces:
         more = {source: max(1.0, count) for source, count in more.items() if count > 0}
         if not all(map(isfinite, more.values())) or max(asked.values()) > MOST_DRAWS:
             return replace(finding, remedy=f"more than {MOST_DRAWS:,} {' or '.join(_words(asked, words))} would")
-        seconds = SECONDS * sum(count * self.costs[solver][k] for (solver, k), count in more.items())
+        seconds = SECONDS * self._cost(asked)
         totals = {
             word: sum(count for (solver, _), count in more.items() if words.get(solver) == word)
             for word in _words(more, words)
@@ -181,6 +197,13 @@ class DrawnSurfaces:
         return replace(
             finding, remedy=f"some {said}, {duration(max(seconds, 1.0))} of processor time, would decide it"
         )
+
+
+def _open(finding):
+    """Whether more surfaces may decide a finding: curves that part at the least overlap may miss by too much."""
+    parted = finding.reason == PARTED and finding.value > finding.claim.expected + finding.claim.tolerance
+    known = isfinite(finding.value) and all(map(isfinite, finding.interval))
+    return finding.verdict == UNDECIDED and bool(finding.parts) and (parted if finding.reason else True) and known
 
 
 def _least_cost(parts, drawn, costs, times):

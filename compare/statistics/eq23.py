@@ -8,7 +8,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from .collapse import DEGREE, ROUNDING, Alignment, Collapse
+from .collapse import DEGREE, PARTED, ROUNDING, Alignment, Collapse
 from .commoncurve import LEAST_OVERLAP
 from .finding import EXACT, FAILS, HALVED, UNKNOWN, Claim, Finding
 from .intervals import Estimated, RmsMisfit
@@ -81,6 +81,7 @@ MISFIT, MENDED = attrgetter("horizontal.misfit"), attrgetter("horizontal.mended"
 LEFT = attrgetter("both.misfit")
 _Number = TypeVar("_Number", RmsMisfit, Estimated)
 TOO_FEW = "too few points have an answer on half of the surfaces"
+CLOSER = "speeds closer to each other may tell"
 _UNKNOWN = "the scatter is not known, or neighbouring curves share too little once shifted"
 
 
@@ -214,6 +215,7 @@ def finding(claim: Claim, fine: _Number, coarse: _Number | None = None, reason: 
         grid=grid,
         grid_method=method,
         reason=reason or ("" if known else _UNKNOWN),
+        remedy=CLOSER if reason == PARTED else "",
         size=isinstance(fine, RmsMisfit),
         parts={source: float(each) for source, each in fine.parts.items()},
     )

@@ -147,7 +147,8 @@ class Finding:
     @property
     def why(self) -> str:
         """Reason why there is no verdict and what would give one, or a remark on a stated verdict; else empty."""
-        return self.reason or (self.undecidable or self.remedy if self.verdict == UNDECIDED else "")
+        told = (self.reason or self.undecidable, self.remedy) if self.verdict == UNDECIDED else (self.reason,)
+        return "; ".join(filter(None, told))
 
     @property
     def place(self) -> str:

@@ -77,9 +77,9 @@ def run(
             more.cost().refuse(count, yes)
             study, swept = more, swept.joined(_solve(more, swept, output, workers, scheduler, progress))
             answers = study.answers(swept.outcomes)
+            judged = study.judge(answers)
             # What breaks with few surfaces breaks with more.
-            more = None if swept.faults else _more(study, answers, clock)
-        judged = study.judge(answers)
+            more = None if swept.faults else _more(study, answers, judged.findings, clock)
         findings, page = judged.findings, judged.page(study.title, answers)
         unsolved = study.unsolved(_whole(swept))
         page = replace(page, doubts=(*study.doubts, *unsolved.sentences), notes=study.notes)
@@ -123,10 +123,10 @@ class Clock:
         return self.limit == inf or spent * more <= (self.limit - spent) * had
 
 
-def _more(study, answers, clock):
+def _more(study, answers, findings, clock):
     """The study with more surfaces, of which as many as fit into the time that is left; None where none do."""
     for growth in GROWTHS:
-        more = study.more(answers, growth)
+        more = study.more(answers, findings, growth)
         if more is None:
             return None
         done = study.cost().work

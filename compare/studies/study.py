@@ -114,8 +114,10 @@ class Study:
         """Everything that was solved, labelled."""
         return parameter_grid.tree(self.grids(), outcomes)
 
-    def more(self, answers: xarray.DataTree, growth: float = GROWTH) -> "Study | None":
-        """The study with more surfaces, as its answers ask for; None where they say enough.
+    def more(
+        self, answers: xarray.DataTree, findings: Sequence[Finding], growth: float = GROWTH
+    ) -> "Study | None":
+        """The study with more surfaces, as its answers and what they come to ask for; None where they say enough.
 
         growth : times the surfaces at most
         """

@@ -173,7 +173,7 @@ def test_a_budget_that_is_spent_asks_for_no_more(tmp_path):
     report = compare.run(CASE, interval="1%", budget="1 ms", report=False, output=tmp_path)
     drawn = {name: each.strata("BEM") for name, each in report.study.grids().items() if each.random}
     assert {sum(map(len, each)) for each in drawn.values()} == {PILOT + 8}
-    assert report.study.more(report.answers) is not None
+    assert report.study.more(report.answers, report.findings) is not None
 
 
 def test_an_interval_and_numbers_of_surfaces_are_not_both_stated():

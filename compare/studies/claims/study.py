@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from math import inf
 from os.path import lexists
 from pathlib import Path
 from typing import Any
@@ -153,24 +154,26 @@ class ClaimStudy(Study):
     def judged(self, answers: xarray.DataTree) -> JudgedStudy:
         """Every series, and all together."""
         series = tuple(judge_series(Contacts(each, answers)) for each in self.series)
-        return JudgedStudy(series, tuple(family_findings(series)))
+        places = {every(each): each for each in self.series}
+        together = tuple(_told(places[each.where], each) for each in family_findings(series))
+        own = ((each, tuple(_told(each.series, one) for one in each.findings)) for each in series)
+        return JudgedStudy(tuple(replace(each, findings=found) for each, found in own), together)
 
-    def more(self, answers: xarray.DataTree, growth: float = GROWTH) -> "ClaimStudy | None":
+    def more(
+        self, answers: xarray.DataTree, findings: Sequence[Finding], growth: float = GROWTH
+    ) -> "ClaimStudy | None":
         """The study with the draws that undecided claims ask for; None where none does."""
-        judged = self.judged(answers)
-        sampled = {each.series.name: each for each in judged.series if each.series.interval is not None}
-        asked = {}
+        sampled = {each.name: each for each in self.series if each.interval is not None}
+        asked, had = {}, {}
         for name, each in sampled.items():
-            series, own = each.series, each.contacts.datasets
-            together = [found for found in judged.together if found.where == every(series)]
-            assert series.interval is not None
-            counts = series.drawn.more([*each.findings, *together], series.interval, growth)
-            drawn = {model.name for model in series.models.drawn}
-            asked[name] = {model: held(counts[model], [own[model, ROUGH]]) for model in counts if model in drawn}
-        for names in alike([each.series for each in sampled.values()]):
+            own = [found for found in findings if found.where in (name, every(each))]
+            drawn = {model.name for model in each.models.drawn}
+            counts = each.drawn.more(own, each.interval or inf, growth)
+            datasets = Contacts(each, answers).datasets
+            asked[name] = {model: held(counts[model], [datasets[model, ROUGH]]) for model in drawn}
+            had[name] = {model: each.drawn.counts[model] for model in drawn}
+        for names in alike(list(sampled.values())):
             asked |= dict.fromkeys(names, _most([asked[name] for name in names]))
-        every_count = {name: each.series.drawn.counts for name, each in sampled.items()}
-        had = {name: {model: counts[model] for model in asked[name]} for name, counts in every_count.items()}
         return None if asked == had else replace(self, strata=asked)
 
     def judge(self, answers: xarray.DataTree) -> Judgement:
@@ -230,6 +233,20 @@ class AllStudies(Study):
         """Parameter grids of every study, by "study/series/body"."""
         return {f"{each.name}/{name}": found for each in self.studies for name, found in each.grids().items()}
 
+    def more(
+        self, answers: xarray.DataTree, findings: Sequence[Finding], growth: float = GROWTH
+    ) -> "AllStudies | None":
+        """The studies with the draws that undecided claims of each ask for; None where none does."""
+        found = []
+        for each in self.studies:
+            place = f"{each.name}, "
+            own = [one for one in findings if one.where.startswith(place)]
+            own = [replace(one, where=one.where.removeprefix(place)) for one in own]
+            found.append(each.more(answers.children[each.name], own, growth))
+        if not any(found):
+            return None
+        return replace(self, studies=tuple(more or each for more, each in zip(found, self.studies, strict=True)))
+
     def judge(self, answers: xarray.DataTree) -> Judgement:
         """A section for each study: its figures and findings."""
         findings: list[Finding] = []
@@ -251,6 +268,11 @@ class AllStudies(Study):
             for each in self.studies
         )
         return [Text(self.about), Text(UNMATCHED), Text("\n".join(questions))]
+
+
+def _told(series: Series, found: Finding) -> Finding:
+    """A finding with what would decide it."""
+    return series.drawn.told(found, {each.name: each.draws for each in series.models})
 
 
 def _most(counts: Sequence[Mapping[str, tuple[int, ...]]]) -> dict[str, tuple[int, ...]]:

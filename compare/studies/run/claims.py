@@ -44,6 +44,11 @@ AT_SPEEDS, SPREAD = CLAIMS["friction.ratio.speed"], CLAIMS["friction.spread"]
 CLOSED_FORM, GRID = CLAIMS["force.closed-form"], CLAIMS["grid.change"]
 
 
+def draws_of(found: Finding) -> str:
+    """Name of the draws that a finding stands on."""
+    return REST if found.claim.id == ROUGH_FORCE.id else SLIDING
+
+
 def _slow(model: Model, reference: Model) -> Claim:
     """What slow friction of the smooth body is over that of the reference: 2 of one dimension over three."""
     factor = model.slow_factor / reference.slow_factor
@@ -91,21 +96,12 @@ class CaseFindings:
     def findings(self) -> list[Finding]:
         """Findings on claims, then numbers that tell how far these can be trusted."""
         words = {each.name: each.draws for each in self.models}
-        return [self.draws[shared].told(each, words) for shared, each in self._shared]
-
-    @property
-    def by_draws(self) -> dict[str, list[Finding]]:
-        """Findings by the draws that they stand on."""
-        return {name: [each for shared, each in self._shared if shared == name] for name in self.draws}
-
-    @cached_property
-    def _shared(self):
-        """Findings, each behind the name of its draws."""
-        return [(REST if each.claim.id == ROUGH_FORCE.id else SLIDING, each) for each in self._found]
+        drawn = [(self.draws.get(draws_of(each)), each) for each in self._found]
+        return [each if draws is None else draws.told(each, words) for draws, each in drawn]
 
     @cached_property
     def datasets(self) -> Mapping[str, xarray.Dataset]:
-        """DrawnSurfaces of two grids, by "curve/model"."""
+        """Draws of two grids, by "curve/model"."""
         return {place: pooled(each) for place, each in self.answers.items()}
 
     @property

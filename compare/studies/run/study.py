@@ -33,7 +33,7 @@ from ...statistics.finding import Finding
 from ...statistics.means import FRICTION, with_spread
 from ...trustmap.verdict import Advice, trust
 from ..study import Judgement, Study
-from .claims import ROUGH_FORCE, SMOOTH_FORCE, SMOOTH_SPEED, CaseFindings
+from .claims import ROUGH_FORCE, SMOOTH_FORCE, SMOOTH_SPEED, CaseFindings, draws_of
 from .curves import (
     CURVES,
     OWN,
@@ -181,25 +181,27 @@ class Run(Study):
             name, self.folders[name], self.cases[name], self.models[name], datasets, self._draws(name)
         )
 
-    def more(self, answers: xarray.DataTree, growth: float = GROWTH) -> "Run | None":
+    def more(self, answers: xarray.DataTree, findings: Sequence[Finding], growth: float = GROWTH) -> "Run | None":
         """The run with the surfaces that undecided claims and wide intervals ask for; None where none does."""
         sampled = [name for name, case in self.cases.items() if self._wanted(name) is not None and case.roughness]
-        asked = {name: self._more(self._judged(name, answers), growth) for name in sampled}
+        asked = {name: self._more(name, answers, findings, growth) for name in sampled}
         had = {name: {shared: dict(each.counts) for shared, each in self._draws(name).items()} for name in sampled}
         return None if asked == had else replace(self, strata=asked)
 
-    def _more(self, found, growth):
-        """Numbers of surfaces of each model on each grid, of REST and SLIDING."""
-        case, wanted, made = found.case, self._wanted(found.name), {}
-        for shared, draws in found.draws.items():
-            counts = draws.more(found.by_draws[shared], wanted, growth)
-            for model in self.models[found.name].drawn:
-                places = (f"{curve}/{model.name}" for curve in SHARED[shared])
-                own = [found.answers[place] for place in places if place in found.answers]
-                for over, under in _means(case) if shared == SLIDING else ():
-                    more = needed(own[0], over, under, draws.costs[model.name], wanted, growth)
+    def _more(self, name, answers, findings, growth):
+        """Numbers of surfaces of each model on each grid, of REST and SLIDING of a case."""
+        wanted, made = self._wanted(name), {}
+        for shared, draws in self._draws(name).items():
+            own = [each for each in findings if _of_case(each, name) and draws_of(each) == shared]
+            counts = draws.more(own, wanted, growth)
+            for model in self.models[name].drawn:
+                below = answers[self.folders[name]].children
+                nodes = [below[curve].children[model.name] for curve in SHARED[shared] if curve in below]
+                solved = [node.to_dataset(inherit=False) for node in nodes]
+                for over, under in _means(self.cases[name]) if shared == SLIDING else ():
+                    more = needed(solved[0], over, under, draws.costs[model.name], wanted, growth)
                     counts[model.name] = tuple(map(max, counts[model.name], more))
-                counts[model.name] = held(counts[model.name], own)
+                counts[model.name] = held(counts[model.name], solved)
             made[shared] = counts
         return made
 
@@ -234,6 +236,11 @@ class Run(Study):
             for name, case in self.cases.items()
             for block in _setting(case.title or name, case, self.models[name], self._curves[name])
         ]
+
+
+def _of_case(found: Finding, name: str) -> bool:
+    """Whether a finding was measured in a case: its name stands first in the place."""
+    return found.where == name or found.where.startswith(f"{name}, ")
 
 
 def _means(case: Case) -> Iterator[tuple[str, str | None]]:

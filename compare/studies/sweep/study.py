@@ -27,7 +27,7 @@ from ...solving.cost import MOST_DRAWS, MOST_VALUES
 from ...solving.parameter_grid import COARSE, FINE, LEVELS, ParameterGrid, on_two_grids
 from ...solving.vocabulary import attributes
 from ...statistics.allocation import GROWTH, held, needed
-from ...statistics.finding import Claim, said_of
+from ...statistics.finding import Claim, Finding, said_of
 from ...statistics.jackknife import DrawSet, mean, measured
 from ...statistics.levels import MOMENTS, pooled
 from ...statistics.means import interval
@@ -126,7 +126,9 @@ class Sweep(Study):
             return fixed
         return in_strata([fixed], self.models, self.strata)[0]
 
-    def more(self, answers: xarray.DataTree, growth: float = GROWTH) -> "Sweep | None":
+    def more(
+        self, answers: xarray.DataTree, findings: Sequence[Finding], growth: float = GROWTH
+    ) -> "Sweep | None":
         """The sweep with the surfaces that the wanted interval asks for; None once it is reached."""
         if self.interval is None:
             return None
