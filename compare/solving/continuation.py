@@ -93,7 +93,8 @@ def _shared(contact):
     """Key that all contacts of a path share: all but the speed, and the grid except its kind."""
     (scene, *others), solver = contact.scenes, contact.solver
     motion = scene.motion
-    if others or contact.keeps_fields or not isinstance(solver, BEM) or isinstance(motion, Program):
+    alone = others or contact.keeps_fields or contact.apart
+    if alone or not isinstance(solver, BEM) or isinstance(motion, Program):
         return contact
     rest = Indent(**{motion.pressed_by: motion.greatest})
     return replace(scene, motion=rest), replace(solver, points=16, steps=1)

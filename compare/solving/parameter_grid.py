@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
 from math import inf, nan
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -55,6 +55,20 @@ NUMBERS = {
 }
 
 
+class Instead(NamedTuple):
+    """Contact of a draw that a finer grid answers in place of the next coarser one.
+
+    solver : by name; grid : number of the finer grid; speed, value : [m/s], [N] or [m]
+    seed : of the draw, less that of the scene
+    """
+
+    solver: str
+    grid: int
+    speed: float
+    value: float
+    seed: int
+
+
 @dataclass(frozen=True, kw_only=True)
 class ParameterGrid:
     """Contacts of one scene at every speed and every load or depth, each solver on its grids, on the same draws.
@@ -68,6 +82,7 @@ class ParameterGrid:
         Several numbers are those of strata, one for each grid, from fine to coarse: surfaces of each are solved on
         that grid and on the next coarser one, see `statistics.levels`
     keeps_fields : whether the fields of the first draw on the fine grid are kept, for pictures
+    instead : contacts that are also solved on a finer grid, as the next coarser one has no answer to them
     """
 
     scene: Scene
@@ -76,6 +91,7 @@ class ParameterGrid:
     grids: Mapping[str, Mapping[str, Solver]]
     draws: Mapping[str, int | tuple[int, ...]]
     keeps_fields: bool = False
+    instead: frozenset[Instead] = frozenset()
 
     def __post_init__(self):
         for name, unit in (("speeds", SPEED), ("values", PRESSES[self.prescribed])):
@@ -112,11 +128,10 @@ class ParameterGrid:
     @property
     def cost(self) -> Cost:
         """Cost of all contacts, by counting."""
-        points = len(self.speeds) * len(self.values)
         costs = [
-            Cost(points * drawn, points * drawn * work_of(solver, self.scene))
+            Cost(count, count * work_of(solver, self.scene))
             for name, grids in self.grids.items()
-            for solver, drawn in zip(grids.values(), self._asked(name).sum(axis=1).tolist(), strict=True)
+            for solver, count in zip(grids.values(), self._asked(name).sum(axis=(1, 2, 3)).tolist(), strict=True)
         ]
         fine = (each for grids in self.grids.values() for name, each in grids.items() if name == FINE)
         planes = (each.points**2 for each in fine if self.keeps_fields and isinstance(each, BEM))
@@ -147,10 +162,42 @@ class ParameterGrid:
         return ", ".join(f"{count:,} {word} on {grids} points" for count, grids in zip(counts, on, strict=True))
 
     def _asked(self, name):
-        """Whether each draw is solved on each grid (grids, draws)."""
-        stratum = np.array([k for k, each in enumerate(self.strata(name)) for _ in each])
-        on = np.arange(len(self.grids[name]))[:, None]
-        return (stratum == on) | (stratum == on - 1) | (not self._stratified(name))
+        """Whether each contact is solved (grids, speeds, values, draws)."""
+        strata = self.strata(name)
+        stratum = np.array([k for k, each in enumerate(strata) for _ in each])
+        on = np.arange(len(self.grids[name])).reshape(-1, 1, 1, 1)
+        asked = (stratum == on) | (stratum == on - 1) | (not self._stratified(name))
+        found = np.repeat(np.repeat(asked, len(self.speeds), axis=1), len(self.values), axis=2)
+        drawn = {seed: number for number, seed in enumerate(seed for each in strata for seed in each)}
+        for each in self.instead:
+            if each.solver == name:
+                place = self.speeds.index(each.speed), self.values.index(each.value), drawn[each.seed]
+                found[each.grid][place] = True
+        return found
+
+    def unanswered(self, datasets: Mapping[str, xarray.Dataset]) -> frozenset[Instead]:
+        """Contacts of strata that a grid has no answer to, to be solved on the next finer one.
+
+        datasets : like those of `datasets`, by the name of the solver
+        """
+        found = []
+        for name in self.grids:
+            if not self._stratified(name):
+                continue
+            seeds = [seed for each in self.strata(name) for seed in each]
+            failed = datasets[name]["status"].transpose("grid", "speed", self.prescribed, "seed").values == FAILED
+            for grid, i, j, k in np.argwhere(failed[1:]).tolist():
+                found.append(Instead(name, grid, self.speeds[i], self.values[j], seeds[k]))
+        return frozenset(found)
+
+    @property
+    def replaced(self) -> frozenset[tuple[Solver, Scene]]:
+        """Coarser grids and scenes to which finer ones answer in their place."""
+        solvers = {name: list(grids.values()) for name, grids in self.grids.items()}
+        return frozenset(
+            (solvers[each.solver][each.grid + 1], draws_of(self.at(each.value, each.speed), [each.seed])[0])
+            for each in self.instead
+        )
 
     def _stratified(self, name):
         return self.random and isinstance(self.draws.get(name), tuple)
@@ -215,13 +262,19 @@ class ParameterGrid:
                     for start in range(0, len(each), alike)
                 ]
                 first = self.keeps_fields and grid == FINE and (speed, value) == own
-                contacts = tuple(
+                contacts = [
                     SceneTask(
                         solver, each, keeps_fields=first and not k, work=len(each) * work_of(solver, each[0])
                     )
                     for k, each in enumerate(together)
-                )
-                found.append((name, contacts))
+                ]
+                # These come from coarser strata, whose draws stand behind all others.
+                place = name, k, speed, value
+                asked = {seed for each in seeds for seed in each}
+                for seed in sorted({each.seed for each in self.instead if each[:-1] == place} - asked):
+                    scenes = draws_of(self.at(value, speed), [seed])
+                    contacts.append(SceneTask(solver, scenes, apart=True, work=work_of(solver, scenes[0])))
+                found.append((name, tuple(contacts)))
         return tuple(found)
 
     def _local_moments(self, name):
@@ -239,8 +292,7 @@ class ParameterGrid:
         grids, asked = self.grids[name], self._asked(name)
         shape = len(grids), len(self.speeds), len(self.values), -1
         left = iter(rows)
-        points = len(self.speeds) * len(self.values)
-        rows = [next(left) if each else UNASKED for on in asked for each in np.tile(on, points).tolist()]
+        rows = [next(left) if each else UNASKED for each in asked.ravel().tolist()]
 
         def array(number, kind=float):
             return np.array([number(row) for row in rows], kind).reshape(shape)

@@ -67,12 +67,14 @@ class SceneTask:
 
     keeps_fields : whether the fields of the first scene are kept, for pictures
     work : rough cost, see `Task`
+    apart : whether it is solved by itself, and not on a path of neighbouring contacts
     """
 
     solver: Solver
     scenes: tuple[Scene, ...]
     keeps_fields: bool = field(default=False, compare=False)
     work: float = field(default=1.0, compare=False)
+    apart: bool = field(default=False, compare=False)
 
     @property
     def label(self) -> str:

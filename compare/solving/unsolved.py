@@ -5,6 +5,8 @@ from collections import Counter
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 
+from scene import Scene, Solver
+
 from .continuation import by_contact
 from .outcome import Outcome
 from .task import SceneTask, Task
@@ -22,19 +24,32 @@ class Unsolved:
     failed, contacts : how many of how many, by the name of the solver
     reasons : one of each kind, by how many contacts have one of that kind, the most frequent first
     own : whether the contact of a scene as it stands is among them
+    replaced : how many others a finer grid answers in their place
     """
 
     failed: Mapping[str, int]
     contacts: Mapping[str, int]
     reasons: Mapping[str, int]
     own: bool = False
+    replaced: int = 0
 
     @classmethod
-    def of(cls, contacts: Iterable[SceneTask], outcomes: Mapping[Task, Outcome], own: Collection[SceneTask] = ()):
-        """Count over contacts, each once; one that is not among the outcomes, as its task broke, is no failure."""
+    def of(
+        cls,
+        contacts: Iterable[SceneTask],
+        outcomes: Mapping[Task, Outcome],
+        own: Collection[SceneTask] = (),
+        replaced: Collection[tuple[Solver, Scene]] = (),
+    ):
+        """Count over contacts, each once; one that is not among the outcomes, as its task broke, is no failure.
+
+        replaced : solvers and scenes that a finer grid answers in their place, no failures either
+        """
         found, rows = by_contact(outcomes), []
         for each in contacts:
-            rows += [(each.solver.name, row.reason) for row in (found[each].rows if each in found else ())]
+            for scene, row in zip(each.scenes, found[each].rows, strict=True) if each in found else ():
+                if row.reason is None or (each.solver, scene) not in replaced:
+                    rows.append((each.solver.name, row.reason))
         failed = [(name, reason) for name, reason in rows if reason is not None]
         kinds = Counter(NUMBER.sub("#", reason) for _, reason in failed)
         first = {NUMBER.sub("#", reason): reason for _, reason in reversed(failed)}
@@ -43,6 +58,7 @@ class Unsolved:
             Counter(name for name, _ in rows),
             {first[kind]: count for kind, count in kinds.most_common()},
             any(each in found and found[each].rows[0].reason is not None for each in own),
+            len(replaced),
         )
 
     @property
@@ -63,6 +79,14 @@ class Unsolved:
         whole = f"{sum(self.failed.values())} of {sum(self.contacts.values())}"
         told = [f"{count} of them: {reason}" for reason, count in [*self.reasons.items()][:SHOWN]]
         return (f"{whole} contacts have no answer{own}: {by_solver}; they are left out.", *told)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """A sentence on contacts that a finer grid answers; none without any."""
+        if not self.replaced:
+            return ()
+        many = f"{self.replaced} contacts are" if self.replaced > 1 else "1 contact is"
+        return (f"{many} too much for a coarse grid, and the next finer one answers in its place.",)
 
 
 NONE_UNSOLVED = Unsolved({}, {}, {})

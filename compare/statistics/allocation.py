@@ -10,7 +10,6 @@ the last one asked for, keep the level; the tests measure it.
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import ceil, isfinite
-from operator import mul
 from typing import NamedTuple, Self
 
 import numpy as np
@@ -18,11 +17,11 @@ import xarray
 
 from ..solving.amounts import duration
 from ..solving.cost import MOST_DRAWS, SECONDS
-from ..solving.parameter_grid import PILOT, TOGETHER, ParameterGrid, pilot
+from ..solving.parameter_grid import TOGETHER, ParameterGrid
 from .collapse import PARTED
 from .finding import UNDECIDED, Finding
 from .jackknife import Source, mean_ratio, off_the_ratio
-from .levels import holding, pooled
+from .levels import pooled
 
 GROWTH = 4.0  # times the surfaces at most from one look to the next: the scatter of few is known roughly
 MARGIN = 1.1  # surfaces beyond those that just suffice: they spare most of the second looks
@@ -89,15 +88,6 @@ def enough(
     return Enough(needs, scatter, grid)
 
 
-def held(counts: tuple[int, ...], datasets: Sequence[xarray.Dataset]) -> tuple[int, ...]:
-    """Numbers of surfaces without the grids that do not hold every surface: which they hold is no chance.
-
-    datasets : of the contacts whose draws these are
-    """
-    kept = holding(datasets)
-    return counts if kept >= len(counts) else (*counts[: kept - 1], max(counts[kept - 1], PILOT))
-
-
 @dataclass(frozen=True)
 class DrawnSurfaces:
     """Surfaces of some parameter grids that share them.
@@ -135,8 +125,7 @@ class DrawnSurfaces:
         if interval is not None:
             wanted = interval * max(1.0, abs(claim.expected))
             if (high - low) / 2 + finding.grid <= wanted:
-                decided = self.deciding(finding)
-                return decided if self._cost(decided) < self._pilot else {}
+                return {}
             left = max(left, wanted - finding.grid, OWN_SHARE * wanted)
         sources = [each for each in finding.parts if each[0] in self.counts]
         if not (left > 0 and sources):
@@ -150,13 +139,6 @@ class DrawnSurfaces:
             )
         )
         return dict(zip(sources, _least_cost(parts, counts, costs, scatter / left).tolist(), strict=True))
-
-    @property
-    def _pilot(self):
-        """Planned work of a pilot: where a verdict takes no more beyond what is there, it is worth it."""
-        return sum(
-            sum(map(mul, pilot(len(costs)), costs)) for name, costs in self.costs.items() if name in self.counts
-        )
 
     def _cost(self, numbers):
         """Planned work of numbers of draws beyond those that are there."""

@@ -1,7 +1,8 @@
 """Means over many surfaces on coarse grids and few on finer ones, as draws of one grid (multilevel Monte Carlo).
 
 The mean on the finest grid is that on the coarsest plus that of each difference between neighbouring grids, each
-over surfaces of its own (Giles, Oper. Res. 56, 607, 2008), whatever the coarser grids answer. Statistics ask for
+over surfaces of its own (Giles, Oper. Res. 56, 607, 2008), whatever the coarser grids answer: where one has no
+answer to a surface, that of the next finer grid stands in its place, in both strata. Statistics ask for
 draws of one grid: each surface is one that lies off this mean by as much as it moves it, so that mean, scatter and
 skewness of these draws are those of the sum. A stratum holds the surfaces of one difference, for Welch's degrees
 of freedom.
@@ -10,12 +11,10 @@ Where moments of a known mean, nil, go with the surfaces on the coarsest grid, a
 the scatter (Lavenberg and Welch, Manage. Sci. 27, 322, 1981).
 """
 
-from collections.abc import Sequence
-
 import numpy as np
 import xarray
 
-from ..solving.parameter_grid import EMPTY, FAILED
+from ..solving.parameter_grid import EMPTY
 
 # What is spent or left over on a grid, and is no number of the contact.
 SPENT = "seconds", "operator_applications", "residual"
@@ -44,11 +43,10 @@ def pooled(dataset: xarray.Dataset) -> xarray.Dataset:
     made = {}
     for name in numbers:
         ordered = dataset[name].transpose("grid", ..., "seed")
-        values = ordered.values
+        values = _answered(ordered.values, strata)
         if moments is not None:
             rows = np.flatnonzero(strata == len(values) - 1)
             controls = moments.transpose(*ordered.dims[1:], "moment").values[..., rows, :]
-            values = values.copy()
             values[-1][..., rows] = controlled(values[-1][..., rows], controls)
         made[name] = np.stack([_draws(values, strata, first) for first in range(len(values))[:2]])
     both = dataset.isel(grid=slice(2))
@@ -56,18 +54,6 @@ def pooled(dataset: xarray.Dataset) -> xarray.Dataset:
     return both.assign(
         {name: (("grid", *dims[name], "seed"), each, dataset[name].attrs) for name, each in made.items()}
     )
-
-
-def holding(datasets: Sequence[xarray.Dataset]) -> int:
-    """Number of grids on which every surface has an answer, the finest first; of two at least the second tells how
-    far the first errs, whatever it lacks.
-    """
-    failed = [
-        np.flatnonzero((each["status"] == FAILED).any([name for name in each["status"].dims if name != "grid"]))
-        for each in datasets
-    ]
-    most = max(each.sizes["grid"] for each in datasets)
-    return min([most, *(int(grid) for each in failed for grid in each if grid > 1)])
 
 
 def controlled(values: np.ndarray, moments: np.ndarray) -> np.ndarray:
@@ -98,6 +84,15 @@ def controlled(values: np.ndarray, moments: np.ndarray) -> np.ndarray:
         others = slopes - apart * moved[..., None]
         told_of_it = np.sum((apart + shift[..., None, :]) * others, axis=-1)
     return np.where(known, values - told_of_it, values)
+
+
+def _answered(values, strata):
+    """Values (grids, ..., seeds) where the next finer grid answers for one that has no answer to a draw."""
+    found = values.copy()
+    for grid in range(1, len(values)):
+        asked = (strata == grid) | (strata == grid - 1)
+        found[grid] = np.where(np.isfinite(found[grid]) | ~asked, found[grid], found[grid - 1])
+    return found
 
 
 def _draws(values, strata, first):

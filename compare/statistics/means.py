@@ -53,14 +53,16 @@ def with_spread(dataset: xarray.Dataset) -> xarray.Dataset:
     return dataset.assign(friction_spread=abs(apart) / abs(force))
 
 
-def means(dataset: xarray.Dataset) -> DataFrame:
+def means(dataset: xarray.Dataset, both: xarray.Dataset | None = None) -> DataFrame:
     """A row for each speed, and load or depth, on the fine grid.
 
     Each mean has the standard deviation of one draw and an interval of 95 % that counts scatter and grid. Of draws
     in strata that is the deviation on the coarsest grid, which has the most of them.
+
+    both : draws of two grids that `levels.pooled` makes of it, where these are known
     """
     every = with_spread(dataset)
-    drawn, dataset = _most_drawn(every), pooled(every)
+    drawn, dataset = _most_drawn(every), pooled(every) if both is None else both
     fine, prescribed = dataset.sel(grid=FINE), pressed(dataset)
     speed, value = np.meshgrid(dataset["speed"].values, dataset[prescribed].values, indexing="ij")
     columns = {"points": np.full(speed.size, int(fine["points"])), "speed": speed, prescribed: value}

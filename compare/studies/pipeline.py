@@ -82,7 +82,7 @@ def run(
             more = None if swept.faults else _more(study, answers, judged.findings, clock)
         findings, page = judged.findings, judged.page(study.title, answers)
         unsolved = study.unsolved(_whole(swept))
-        page = replace(page, doubts=(*study.doubts, *unsolved.sentences), notes=study.notes)
+        page = replace(page, doubts=(*study.doubts, *unsolved.sentences), notes=(*study.notes, *unsolved.notes))
     except (SolveError, ValueError, ArithmeticError, LookupError) as error:
         # What is made of NaN alone raises nearly anything, and would hide what matters.
         if not swept.faults:

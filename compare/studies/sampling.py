@@ -1,11 +1,17 @@
 """Rough contacts in strata: many surfaces on coarse grids, few on finer ones, as an interval is wanted."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import islice
+from typing import TYPE_CHECKING
 
 from ..models.table import Models
-from ..solving.parameter_grid import LEVELS, ParameterGrid, on_levels, pilot, width
+from ..solving.parameter_grid import LEVELS, Instead, ParameterGrid, on_levels, pilot, width
+
+if TYPE_CHECKING:
+    import xarray
 
 
 def levels(models: Models, grids: Sequence[ParameterGrid], most: int = len(LEVELS)) -> dict[str, dict]:
@@ -27,3 +33,19 @@ def in_strata(
     drawn = {each.name: strata.get(each.name, pilot(len(found[each.name]))) for each in models.drawn}
     kept = {name: dict(islice(each.items(), len(drawn.get(name, each)))) for name, each in found.items()}
     return [replace(each, grids=kept, draws={**each.draws, **drawn}) for each in grids]
+
+
+def answered(grids: Mapping[str, ParameterGrid], instead: Mapping[str, frozenset]) -> dict[str, ParameterGrid]:
+    """Parameter grids with the contacts that finer grids answer, by the name of the parameter grid."""
+    made = {name: replace(grids[name], instead=contacts) for name, contacts in instead.items()}
+    return {**grids, **made}
+
+
+def unanswered(grids: Mapping[str, ParameterGrid], answers: xarray.DataTree) -> dict[str, frozenset[Instead]]:
+    """Contacts that a grid of a stratum has no answer to, by the name of the parameter grid; none without any."""
+    found = {}
+    for name, each in grids.items():
+        own = {solver: answers[f"{name}/{solver}"].to_dataset(inherit=False) for solver in each.grids}  # type: ignore
+        if contacts := each.unanswered(own):
+            found[name] = contacts
+    return found

@@ -85,7 +85,9 @@ class Study:
 
     def unsolved(self, outcomes: Mapping[Task, Outcome]) -> Unsolved:
         """Contacts of the grids without an answer."""
-        return Unsolved.of(parameter_grid.contacts_of(self.grids()), outcomes, self.own)
+        grids = self.grids()
+        replaced = frozenset().union(*(each.replaced for each in grids.values()))
+        return Unsolved.of(parameter_grid.contacts_of(grids), outcomes, self.own, replaced)
 
     @property
     def inputs(self) -> Mapping[str, Any]:

@@ -21,12 +21,13 @@ from ...models.table import ModelLike, listed
 from ...report.page import Block, Findings, Section, Table, Text
 from ...solving.amounts import share_of
 from ...solving.outcome import Outcome
-from ...solving.parameter_grid import ParameterGrid, refuse
+from ...solving.parameter_grid import Instead, ParameterGrid, refuse
 from ...solving.suggest import known
 from ...solving.task import Task
 from ...statistics import eq23
-from ...statistics.allocation import GROWTH, held
+from ...statistics.allocation import GROWTH
 from ...statistics.finding import REPORTED, VERDICTS, Finding, claimed, sentences
+from ..sampling import answered, unanswered
 from ..study import Judgement, Study
 from .catalogue import SIZES, STUDIES, ReadyStudy
 from .families import alike, every, family_findings
@@ -68,6 +69,7 @@ class ClaimStudy(Study):
     models, reference : in place of those that its file names, see `Models.of`
     interval : in place of that of the study, see `Series`
     strata : numbers of draws on each grid by model, of each series where they are not fixed
+    instead : then contacts that a finer grid answers, by "series/body"
     """
 
     name: str
@@ -78,6 +80,7 @@ class ClaimStudy(Study):
     reference: str = ""
     interval: float | None = None
     strata: Mapping[str, Mapping[str, tuple[int, ...]]] = field(default_factory=dict)
+    instead: Mapping[str, frozenset[Instead]] = field(default_factory=dict)
 
     command = "study"
 
@@ -142,7 +145,8 @@ class ClaimStudy(Study):
 
     def grids(self) -> Mapping[str, ParameterGrid]:
         """Parameter grids of the rough and of the smooth body of every series, by "series/body"."""
-        return {name: each for series in self.series for name, each in series.grids.items()}
+        found = {name: each for series in self.series for name, each in series.grids.items()}
+        return answered(found, self.instead)
 
     def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
         """Everything that was solved, at /series/body/solver; a series has title and note as attributes."""
@@ -169,12 +173,13 @@ class ClaimStudy(Study):
             own = [found for found in findings if found.where in (name, every(each))]
             drawn = {model.name for model in each.models.drawn}
             counts = each.drawn.more(own, each.interval or inf, growth)
-            datasets = Contacts(each, answers).datasets
-            asked[name] = {model: held(counts[model], [datasets[model, ROUGH]]) for model in drawn}
+            asked[name] = {model: counts[model] for model in drawn}
             had[name] = {model: each.drawn.counts[model] for model in drawn}
         for names in alike(list(sampled.values())):
             asked |= dict.fromkeys(names, _most([asked[name] for name in names]))
-        return None if asked == had else replace(self, strata=asked)
+        instead = unanswered(self.grids(), answers)
+        same = asked == had and instead == self.instead
+        return None if same else replace(self, strata=asked, instead=instead)
 
     def judge(self, answers: xarray.DataTree) -> Judgement:
         """An overview of the verdicts, and findings on several series; then each series.

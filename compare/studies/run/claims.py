@@ -233,9 +233,12 @@ class CaseFindings:
         """Every point of every curve on the fine grid, a row each."""
         frames = {}
         for curve, solver in product(CURVES, dict.fromkeys((*self._labels, "exact"))):
-            if (dataset := self.answers.get(f"{curve}/{solver}")) is not None:
+            place = f"{curve}/{solver}"
+            if (dataset := self.answers.get(place)) is not None:
                 rough = "seed" in dataset.dims or (self.case.roughness and "smooth" not in curve)
-                frames[curve, solver, "rough" if rough else "smooth"] = means.means(dataset)
+                frames[curve, solver, "rough" if rough else "smooth"] = means.means(
+                    dataset, self.datasets[f"{curve}/{solver}"]
+                )
         every = stacked(frames, "curve", "solver", "body")
         first = [name for name in ("curve", "solver", "body", "points", "speed", "load", "depth") if name in every]
         return every[[*first, *(name for name in every if name not in first)]]

@@ -24,14 +24,15 @@ from ...solving import parameter_grid
 from ...solving.amounts import share_of
 from ...solving.continuation import by_contact
 from ...solving.outcome import Outcome
-from ...solving.parameter_grid import ParameterGrid
+from ...solving.parameter_grid import Instead, ParameterGrid
 from ...solving.task import SceneTask, Task
 from ...solving.vocabulary import attributes
 from ...statistics import eq23, finding
-from ...statistics.allocation import GROWTH, DrawnSurfaces, held, needed
+from ...statistics.allocation import GROWTH, DrawnSurfaces, needed
 from ...statistics.finding import Finding
 from ...statistics.means import FRICTION, with_spread
 from ...trustmap.verdict import Advice, trust
+from ..sampling import answered, unanswered
 from ..study import Judgement, Study
 from .claims import ROUGH_FORCE, SMOOTH_FORCE, SMOOTH_SPEED, CaseFindings, draws_of
 from .curves import (
@@ -62,6 +63,7 @@ class Run(Study):
     interval : half-width that is wanted of intervals of 95 %, in place of those of the cases: relative, of the
         scene's own friction, depth or force, and of claims that are not decided; None where the cases say
     strata : then numbers of surfaces on each grid, by case; see `curves.curves`
+    instead : then contacts that a finer grid answers, by "case/curve"
     """
 
     cases: Mapping[str, Case]
@@ -69,6 +71,7 @@ class Run(Study):
     reference: str | None = None
     interval: float | None = None
     strata: Mapping[str, Strata] = field(default_factory=dict)
+    instead: Mapping[str, frozenset[Instead]] = field(default_factory=dict)
 
     command, title = "run", "One dimension against three"
 
@@ -151,11 +154,16 @@ class Run(Study):
 
     def grids(self) -> Mapping[str, ParameterGrid]:
         """Every curve of every case, by "case/curve"."""
-        return {
+        return self._grids
+
+    @cached_property
+    def _grids(self):
+        found = {
             f"{self.folders[name]}/{curve}": each
-            for name, found in self._curves.items()
-            for curve, each in found.items()
+            for name, own in self._curves.items()
+            for curve, each in own.items()
         }
+        return answered(found, self.instead)
 
     def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
         """Every curve, the fields of each scene's own contact, and the processor time of each solver."""
@@ -186,7 +194,9 @@ class Run(Study):
         sampled = [name for name, case in self.cases.items() if self._wanted(name) is not None and case.roughness]
         asked = {name: self._more(name, answers, findings, growth) for name in sampled}
         had = {name: {shared: dict(each.counts) for shared, each in self._draws(name).items()} for name in sampled}
-        return None if asked == had else replace(self, strata=asked)
+        instead = unanswered(self.grids(), answers)
+        same = asked == had and instead == self.instead
+        return None if same else replace(self, strata=asked, instead=instead)
 
     def _more(self, name, answers, findings, growth):
         """Numbers of surfaces of each model on each grid, of REST and SLIDING of a case."""
@@ -195,13 +205,10 @@ class Run(Study):
             own = [each for each in findings if _of_case(each, name) and draws_of(each) == shared]
             counts = draws.more(own, wanted, growth)
             for model in self.models[name].drawn:
-                below = answers[self.folders[name]].children
-                nodes = [below[curve].children[model.name] for curve in SHARED[shared] if curve in below]
-                solved = [node.to_dataset(inherit=False) for node in nodes]
                 for over, under in _means(self.cases[name]) if shared == SLIDING else ():
-                    more = needed(solved[0], over, under, draws.costs[model.name], wanted, growth)
+                    own_contact = answers[f"{self.folders[name]}/{OWN}/{model.name}"].to_dataset(inherit=False)
+                    more = needed(own_contact, over, under, draws.costs[model.name], wanted, growth)
                     counts[model.name] = tuple(map(max, counts[model.name], more))
-                counts[model.name] = held(counts[model.name], solved)
             made[shared] = counts
         return made
 

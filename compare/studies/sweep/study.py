@@ -24,16 +24,16 @@ from ...models.table import ModelLike, Models
 from ...report.page import Findings, Table
 from ...solving.amounts import share_of
 from ...solving.cost import MOST_DRAWS, MOST_VALUES
-from ...solving.parameter_grid import COARSE, FINE, LEVELS, ParameterGrid, on_two_grids
+from ...solving.parameter_grid import COARSE, FINE, LEVELS, Instead, ParameterGrid, on_two_grids
 from ...solving.vocabulary import attributes
-from ...statistics.allocation import GROWTH, held, needed
+from ...statistics.allocation import GROWTH, needed
 from ...statistics.finding import Claim, Finding, said_of
 from ...statistics.jackknife import DrawSet, mean, measured
 from ...statistics.levels import MOMENTS, pooled
 from ...statistics.means import interval
 from ..accuracy import MEANS, WORDS, wanted
 from ..run.curves import models_of
-from ..sampling import in_strata
+from ..sampling import answered, in_strata, unanswered
 from ..study import Judgement, Study
 from . import figure as plots
 
@@ -50,6 +50,7 @@ class Sweep(Study):
     models : of which each but the reference is compared with that
     interval : half-width of the intervals of 95 % that is wanted of each mean, relative; None of fixed draws
     strata : then numbers of surfaces on each grid by model, see `ParameterGrid`
+    instead : then contacts that a finer grid answers, likewise
     """
 
     case: Case
@@ -59,6 +60,7 @@ class Sweep(Study):
     models: Models
     interval: float | None = None
     strata: Mapping[str, tuple[int, ...]] = field(default_factory=dict)
+    instead: Mapping[str, frozenset[Instead]] = field(default_factory=dict)
 
     command, title = "sweep", "A sweep in one and in three dimensions"
 
@@ -111,7 +113,7 @@ class Sweep(Study):
         return doubted(*(replace(self.case, motion=each.motion) for each in scenes))
 
     def grids(self) -> Mapping[str, ParameterGrid]:
-        return {"contacts": self._grid}
+        return answered({"contacts": self._grid}, self.instead)
 
     @cached_property
     def _grid(self) -> ParameterGrid:
@@ -142,8 +144,10 @@ class Sweep(Study):
                 )
                 for mean, speeds in wanted(self.case.motion.pressed_by, self.speeds, self.case.slides)
             ]
-            asked[name] = held(tuple(map(max, zip(*counts, strict=True))), [dataset])
-        return None if asked == had else replace(self, strata=asked)
+            asked[name] = tuple(map(max, zip(*counts, strict=True)))
+        instead = unanswered(self.grids(), answers)
+        same = asked == had and instead == self.instead
+        return None if same else replace(self, strata=asked, instead=instead)
 
     def judge(self, answers: xarray.DataTree) -> Judgement:
         """Friction, else force or depth, of each model over the reference at every contact, without a claim."""

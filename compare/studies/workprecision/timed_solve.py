@@ -48,7 +48,7 @@ class TimedSolve(SceneTask):
     @classmethod
     def of(cls, solver: Solver, scene: Scene, keeps: tuple[str, ...] = ()) -> Self:
         """The scene with the solver, its work as expected."""
-        return cls(solver, (scene,), bool(keeps), work(solver), keeps)
+        return cls(solver, (scene,), bool(keeps), work(solver), keeps=keeps)
 
     @property
     def scene(self) -> Scene:
