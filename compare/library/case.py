@@ -1,14 +1,13 @@
 """A case: one scene, how it departs from the paper, what is varied around it, and the settings of both solvers."""
 
 from dataclasses import fields
-from functools import partial
 from importlib.resources import as_file, files
 from math import sqrt
 from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
-from pydantic import AfterValidator, BeforeValidator, Field, TypeAdapter, model_validator
+from pydantic import AfterValidator, BeforeValidator, Field, TypeAdapter, WithJsonSchema, model_validator
 from pydantic.dataclasses import dataclass
 
 from bem3d import BEM
@@ -19,7 +18,7 @@ from scene.motion import Motion
 from scene.printable import brief
 from scene.protocol import trusted
 from scene.quantities import CLOSED, ROW, Positive, Speed, Whole
-from scene.reading import read
+from scene.reading import InvalidInput, read
 from scene.rheology import Elastomer
 from scene.roughness import Roughness
 from scene.scales import elastic_contact
@@ -31,8 +30,19 @@ from scene.terms import terms_of
 from ..solving.amounts import share_of
 from ..solving.cost import MOST_DRAWS, MOST_VALUES
 
+
+def _share(given: Any) -> float:
+    """Share of a field, whose name stands before what is wrong."""
+    try:
+        return share_of("", given)
+    except InvalidInput as error:
+        raise ValueError(str(error).partition(": ")[2]) from None
+
+
 Draws = Annotated[Whole, Field(ge=1, le=MOST_DRAWS)]
-Share = Annotated[float, BeforeValidator(partial(share_of, "interval"))]
+_WRITTEN = {"type": "string", "pattern": r"^\s*[0-9.]+\s*%\s*$", "examples": ["5%"]}
+_NUMBER = {"type": "number", "exclusiveMinimum": 0, "exclusiveMaximum": 1}
+Share = Annotated[float, BeforeValidator(_share), WithJsonSchema({"anyOf": [_NUMBER, _WRITTEN]})]
 Factors = Annotated[tuple[Positive, ...], ROW, Field(min_length=1, max_length=MOST_VALUES)]
 MOST_MODELS = 8  # compared at once
 Speeds = Annotated[tuple[Speed, ...], ROW, Field(min_length=1, max_length=MOST_VALUES)]

@@ -75,6 +75,8 @@ def run(
     try:
         while more is not None:
             more.cost().refuse(count, yes)
+            if more is not study:
+                progress.told(f"more surfaces: {more.cost()}")
             study, swept = more, swept.joined(_solve(more, swept, output, workers, scheduler, progress))
             answers = study.answers(swept.outcomes)
             judged = study.judge(answers)

@@ -20,7 +20,7 @@ from scene.reading import InvalidInput
 from ..library.case import Case, NotCompared, doubted
 from ..library.lookup import SceneLike, case_of
 from ..models.table import KNOWN
-from ..solving.amounts import duration, pascals, seconds, share_of
+from ..solving.amounts import duration, pascals, seconds, share, share_of
 from ..solving.cost import Cost
 from ..trustmap.verdict import Advice, trust
 from .run.curves import curves, models_of
@@ -41,6 +41,7 @@ class Plans(dict[str, Plan | str | Advice]):
     refused : whether that refuses the numbers of a scene of a kind that it compares
     doubts : about the scene, and notes on what was read for it, as sentences
     interval, accuracy : what those take that were asked for, or why nothing is foretold; None if not asked for
+    stated : interval of the case, which takes more surfaces than those of a first look; None if it has none
     """
 
     def __init__(
@@ -52,8 +53,10 @@ class Plans(dict[str, Plan | str | Advice]):
         doubts: Sequence[str] = (),
         interval: Forecast | str | None = None,
         accuracy: Settings | str | None = None,
+        stated: float | None = None,
     ) -> None:
         super().__init__(plans)
+        self.stated = stated
         self.interval, self.accuracy = interval, accuracy
         self.scene, self.cost, self.refused, self.doubts = scene, cost, refused, tuple(doubts)
 
@@ -107,7 +110,10 @@ class Plans(dict[str, Plan | str | Advice]):
             if self.refused:
                 contacts = "none by crosscheck run, which refuses this scene"
             elif isinstance(self.cost, Cost):
-                contacts = f"at most {self.cost.contacts:,}, solved by crosscheck run"
+                more = (
+                    "" if self.stated is None else f", and as many more as intervals of {share(self.stated)} take"
+                )
+                contacts = f"at most {self.cost.contacts:,}, solved by crosscheck run{more}"
                 time = f"about {duration(self.cost.seconds)} on one processor; "
             yield "contacts", contacts
             yield "time", f"{time}this contact {self._by_dimension(_seconds)}"
@@ -158,12 +164,12 @@ def plans(asked: SceneLike, interval: Any = None, accuracy: Any = None) -> Plans
         solver.name: planned(solver, case.scene) for solver in (case.mdr, case.bem)
     }
     cost, refused = _cost(case)
-    told: dict[str, Any] = {}
+    told: dict[str, Any] = {"stated": case.study.interval}
     if wanted:
         from . import accuracy as foretold  # slow, and few plans ask for it
 
         by_name = {"interval": foretold.forecast, "accuracy": foretold.settings}
-        told = {name: by_name[name](case, each) for name, each in wanted.items()}
+        told |= {name: by_name[name](case, each) for name, each in wanted.items()}
     return Plans(made | {"trust": trust(case.scene)}, case.scene, cost, refused, doubted(case), **told)
 
 
@@ -181,7 +187,8 @@ def planned(solver: MDR | BEM, scene: Scene) -> Plan | str:
 def _cost(case: Case) -> tuple[Cost | str, bool]:
     """Cost of all contacts that `crosscheck run` solves, or why it solves none, and whether that is a refusal."""
     try:
-        return sum((each.cost for each in curves(case, models_of(case)).values()), Cost()), False
+        grids = curves(case, models_of(case), None if case.study.interval is None else {})
+        return sum((each.cost for each in grids.values()), Cost()), False
     except NotCompared as reason:
         return str(reason), False
     except Refused as reason:

@@ -30,12 +30,12 @@ ROUGHLY = 2.0
 
 @pytest.fixture(scope="module")
 def foretold():
-    return forecast(ROUGH, 0.05)
+    return forecast(ROUGH, 0.02)
 
 
 @pytest.mark.usefixtures("in_this_process")
 def test_a_sweep_solves_about_as_many_surfaces_as_were_foretold(foretold, tmp_path):
-    found = compare.sweep(ROUGH, [ROUGH.motion.speed], interval="5%", output=tmp_path, report=False)
+    found = compare.sweep(ROUGH, [ROUGH.motion.speed], interval="2%", output=tmp_path, report=False)
     for name, counts in foretold.surfaces.items():
         status = found["status"].sel(solver=name)
         solved = [(status.sel(grid=grid) == "solved").sum().item() for grid in ("fine", "coarse")]
@@ -46,9 +46,9 @@ def test_a_sweep_solves_about_as_many_surfaces_as_were_foretold(foretold, tmp_pa
 
 
 def test_surfaces_rise_as_the_square_of_what_the_grid_leaves_to_their_scatter(foretold):
-    halved = forecast(ROUGH, 0.025)
+    halved = forecast(ROUGH, 0.015)
     for name, counts in foretold.surfaces.items():
-        left, less = (each - foretold.halved[name] for each in (0.05, 0.025))
+        left, less = (each - foretold.halved[name] for each in (0.02, 0.015))
         few, many = (list(each.values())[-1] for each in (counts, halved.surfaces[name]))
         assert many / few == pytest.approx((left / less) ** 2, rel=8 / few)  # rounded up to a task of eight
 

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import xarray
 from small_cases import SLIDING
 from test_compare_allocation import COSTS, grown
 from test_compare_levels import answers
@@ -11,12 +12,13 @@ from test_compare_levels import answers
 import compare
 from bem3d import BEM
 from compare.library.case import Case, Variations
-from compare.solving.parameter_grid import FAILED, PILOT, pilot
-from compare.statistics.allocation import GROWTH, DrawnSurfaces, held
+from compare.solving.parameter_grid import FAILED, NOT_ASKED, PILOT, SOLVED, pilot
+from compare.statistics.allocation import GROWTH, DrawnSurfaces
 from compare.statistics.finding import FAILS, HOLDS, UNDECIDED, Claim, Finding
 from compare.statistics.jackknife import DrawSet, friction, measured
-from compare.statistics.levels import holding, pooled
+from compare.statistics.levels import pooled
 from mdr1d import MDR
+from scene import SolveError
 from scene.reading import InvalidInput
 
 RATIO = Claim("ratio", "The ratio is one", 1.0, 0.05, measure=lambda sample: float(friction(sample["BEM"])[0]))
@@ -116,16 +118,22 @@ def test_verdicts_contradict_the_truth_in_one_study_of_twenty_at_most(variation)
     assert share <= 0.05 + 2 * (0.05 * 0.95 / (2 * studies)) ** 0.5
 
 
-def test_a_grid_that_does_not_hold_every_surface_is_left_out():
+def test_a_surface_that_a_coarse_grid_does_not_hold_has_the_answer_of_the_next_finer_one():
+    """As if the coarse grid had given that answer, in both of its strata."""
     given = answers(np.random.default_rng(0), (8, 8, 40))
-    status = np.full(given["friction_force"].shape, "solved", object)
-    status[2, 0, -1] = FAILED
-    failed = given.assign(status=(given["friction_force"].dims, status))
-    assert holding([failed]) == 2
-    assert held((8, 8, 40), [failed]) == (8, PILOT)
-    status[2, 0, -1], status[1, 0, -1] = "solved", FAILED
-    # Without the second grid the error of the first is not known.
-    assert held((8, 8, 40), [failed.assign(status=(given["friction_force"].dims, status))]) == (8, 8, 40)
+    force = given["friction_force"]
+    hard = (given["seed"] % 7 == 0) & (given["grid"] == "coarser")
+    finer = answers(np.random.default_rng(5), (8, 8, 40))["friction_force"].sel(grid="fine").fillna(1.01)
+    finer = xarray.where(given["stratum"] == 1, force.sel(grid="coarse"), finer)
+    failed = force.where(~hard)
+    failed = xarray.where((given["grid"] == "coarse") & (given["seed"] % 7 == 0), finer, failed)
+    asked = given["stratum"] >= 1
+    failed = failed.where(asked | (given["grid"] != "coarse"), force).transpose("grid", "load", "seed")
+    filled = xarray.where(hard & asked, failed.sel(grid="coarse"), failed).transpose("grid", "load", "seed")
+    one, other = (pooled(given.assign(friction_force=each))["friction_force"] for each in (failed, filled))
+    assert failed.isnull().sum() > filled.isnull().sum()
+    np.testing.assert_array_equal(one, other)
+    assert np.isfinite(one.sel(grid="fine")).all()
 
 
 def test_what_does_not_touch_adds_nothing_to_either_force():
@@ -166,6 +174,35 @@ def test_a_run_stops_with_every_claim_decided_or_narrow_and_resumes(tmp_path):
     again = compare.run(**asked)
     assert (again.swept.solved, again.swept.reused) == (0, report.swept.solved)
     assert again.findings == report.findings
+
+
+@pytest.mark.usefixtures("in_this_process")
+def test_hard_surfaces_are_solved_on_the_next_finer_grid_and_told(tmp_path, monkeypatch):
+    solve = BEM.solve
+
+    def failing(self, scene, *trail):
+        if self.points < CASE.bem.points and getattr(scene.roughness, "seed", 1) % 5 == 0:
+            raise SolveError("a hard surface")
+        return solve(self, scene, *trail)
+
+    monkeypatch.setattr(BEM, "solve", failing)
+    asked = {"scene": CASE, "interval": "25%", "report": False, "output": tmp_path}
+    report = compare.run(**asked)
+    assert report.unsolved.failed == {}
+    (note,) = report.unsolved.notes
+    assert (
+        note
+        == f"{report.unsolved.replaced} contacts are too much for a coarse grid, and the next finer one "
+        + ("answers in its place.")
+    )
+    dataset = report.answers["scene/own/BEM"].to_dataset(inherit=False)
+    hard, last = dataset["seed"] % 5 == 0, dataset["stratum"] == 1
+    status = dataset["status"].isel(speed=0, load=0)
+    assert (status.sel(grid="coarse", seed=hard) == FAILED).all()
+    assert (status.sel(grid="fine", seed=hard) == SOLVED).all()
+    assert (status.sel(grid="fine", seed=~hard & last) == NOT_ASKED).all()
+    again = compare.run(**asked)
+    assert (again.swept.solved, again.findings) == (0, report.findings)
 
 
 @pytest.mark.usefixtures("in_this_process")

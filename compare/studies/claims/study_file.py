@@ -30,7 +30,7 @@ from scene.reading import InvalidInput, invalid, parsed, validator
 from scene.rheology import Elastomer
 from scene.temperature import Temperature
 
-from ...library.case import MOST_MODELS, Draws
+from ...library.case import MOST_MODELS, Draws, Share
 from ...library.describe import folders
 from ...library.ready import NotReady, find
 from ...solving.cost import MOST_VALUES
@@ -119,6 +119,7 @@ class _Shared:
     loads, depths : what presses [N], [m]: one of them
     surfaces, profiles : drawn in three and in one dimension, at most 10,000; absent, as many as the size of the
         study has
+    interval : in place of both, the half-width of intervals of 95 % that is wanted of claims, relative, as "5%"
     claims : which are judged: "collapse" (Eq. 23), "friction" (Eqs. 14 to 19), "depth" (at rest, and pressed in),
         "dimensions" (1D against 3D), "families" (several series together); absent, all of them
     bem, mdr : settings of the solvers on the finer grid; the coarser has half the points
@@ -135,6 +136,7 @@ class _Shared:
     depths: Depths | None = None
     surfaces: Draws | None = None
     profiles: Draws | None = None
+    interval: Share | None = None
     claims: Claims | None = None
     bem: BEM | dict[str, Any] | None = None
     mdr: MDR | dict[str, Any] | None = None
@@ -233,6 +235,7 @@ class _Stated:
             bem=BEM(**settings),
             mdr=MDR(**self.contact.get("mdr", {})),
             note=self.own.note,
+            interval=self["interval"],
             claims=self["claims"] or KINDS,
             asked=self.shared.models,
             reference=self.shared.reference,
@@ -245,6 +248,8 @@ class _Stated:
             if not least <= len(given) <= 1:
                 stated = "both given" if given else "none given"
                 yield f"{names}: {stated}, give {'exactly' if least else 'at most'} one of them"
+        if self["interval"] is not None and (self["surfaces"] or self["profiles"]):
+            yield f"interval = {self['interval']:g}: it takes the place of surfaces and profiles, leave them out"
         for name, values in (pressing | moved).items():
             if isinstance(values, tuple) and list(values) != sorted(set(values)):
                 yield f"{name} = {brief(repr(list(values)))}: from the least to the greatest, each once"
