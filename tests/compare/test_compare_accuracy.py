@@ -139,7 +139,7 @@ def test_what_cannot_be_foretold_says_why():
 
 def test_a_forecast_is_a_sentence(foretold):
     said = str(foretold)
-    assert said.startswith("5 % of the mean depth and friction takes in 1D 8 profiles on 1024 points, ")
+    assert said.startswith("2 % of the mean depth and friction takes in 1D 8 profiles on 1024 points, ")
     assert "; in 3D 8 surfaces on 64 points, " in said
     assert said.endswith(" s of processor time")
 
