@@ -40,7 +40,9 @@ NO_DRAWS = "none"  # of a model that answers for all surfaces at once
 UNASKED = Row()  # of a draw that is not solved on a grid
 ROOM = 1.5  # times the points that a line takes at least: then others of its family do not need more
 MOST_ASKED = 1000  # lines drawn, whether each fits its grid
-PILOT, DIFFERENCES = 32, 8  # surfaces on the coarsest grid, and of each difference, before anything is decided
+# Surfaces on the coarsest grid, of each difference, and of that of the finest of several, which scatters least and
+# costs most, before anything is decided.
+PILOT, DIFFERENCES, FINEST = 32, 8, 4
 TOGETHER = 8  # profiles of a stratum that are one task, so that more of them leave those before as they are
 # What a solver gives of every contact, by the names of a Dataset: there `depth` is one that is prescribed, which a
 # march answers half a step before.
@@ -349,7 +351,8 @@ class ParameterGrid:
 
 def pilot(grids: int) -> tuple[int, ...]:
     """Numbers of surfaces of each stratum before anything is known of their scatter."""
-    return (DIFFERENCES,) * (grids - 1) + (PILOT,)
+    finer = (FINEST,) * (grids > 2) + (DIFFERENCES,) * (grids - 1)
+    return (*finer[: grids - 1], PILOT)
 
 
 def on_two_grids(*solvers: Solver) -> dict[str, dict[str, Solver]]:
