@@ -8,7 +8,6 @@ from pathlib import Path
 from time import process_time
 
 import numpy as np
-from matplotlib.lines import Line2D
 from pandas import DataFrame
 from tables import replaced, table
 
@@ -29,132 +28,125 @@ from scene import Slide
 PAGE = Path(__file__).parents[1] / "results" / "sampling.md"
 LOAD, SPEEDS, WIDTHS = 1.0, (0.1, 1.0), (0.05, 0.02, 0.01)
 ASKED = {128: (3, "a third"), 256: (5, "a fifth")}  # times less than on the fixed grid
-TIMED = 24  # surfaces of a fixed grid
-OTHERS = 1000, 2000  # seeds of these, of which nothing is remembered from other solves
+TIMED = 24  # surfaces of a fixed grid, on half the points too and alone, and the first seeds of both
+FIXED = {"fixed": 2_000_000, "alone": 3_000_000}
+FIRST = 1, 1_000_001, 1_100_001  # seeds of repeats: other surfaces, at other stops
 COLOUR = {128: "#0072B2", 256: "#D55E00"}
-HEADER = "body|v [m/s]|finest grid|half-width|surfaces by grid|sampled [s]|fixed [s]|share|alone [s]|share"
+LOOK = {"seconds": ("-", "os", "sampled"), "fixed_seconds": ("--", "  ", "fixed, and half the points")}
+LOOK |= {"alone_seconds": (":", "  ", "fixed alone")}
+HEADER = "body|v [m/s]|grid|half-width|surfaces by grid|sampled [s]|fixed [s]|share|alone [s]|share"
 
 
 def main() -> None:
     """Measure all, and write the page, its table and its figure."""
     rows = []
     for name, case in shipped_cases().items():
-        for points in ASKED:
+        for points, speed in ((points, speed) for points in ASKED for speed in SPEEDS):
             scene = replace(case, bem=replace(case.bem, points=points))
-            _fixed(scene, SPEEDS[0], 1, OTHERS[0])  # what is planned or compiled once
-            for speed in SPEEDS:
-                rows += _rows(name.removeprefix("paper-"), scene, speed)
+            rows += [{"body": name.removeprefix("paper-"), **row} for row in _rows(scene, speed)]
+            print(DataFrame(rows[-len(WIDTHS) :]).to_string(), flush=True)
     frame = DataFrame(rows)
     write_text(PAGE.with_suffix(".csv"), text(frame))
-    written(frame)
-
-
-def written(frame: DataFrame) -> None:
-    """Write the page and its figure."""
-    replaced(PAGE, "summary", "\n".join(_summary(own, points) for points, own in frame.groupby("points")))
-    replaced(PAGE, "numbers", table(HEADER, map(_line, frame.itertuples())))
+    numbers = frame.groupby(["body", "speed", "points", "wanted"], sort=False).mean().reset_index()
+    replaced(PAGE, "summary", "\n".join(_summary(own, points) for points, own in numbers.groupby("points")))
+    replaced(PAGE, "numbers", table(HEADER, map(_line, numbers.itertuples())))
     with style.applied():
-        _figure(frame).savefig(PAGE.with_suffix(".png"), dpi=200)
+        _figure(numbers).savefig(PAGE.with_suffix(".png"), dpi=200)
 
 
-def _rows(body, case, speed):
+def _rows(case, speed):
     """Rows of one contact: sampled for each half-width, beside fixed grids that reach as much."""
-    both, change = _fixed(case, speed, TIMED, OTHERS[0])
-    alone, _ = _fixed(case, speed, TIMED, OTHERS[1], False)
-    known: dict = {}
-    rows = [_sampled(case, speed, wanted, known) for wanted in WIDTHS]
-    scatter = rows[-1]["scatter"]  # of the most surfaces
-    for row in rows:
-        # On half the points too, the error of the grid takes its part of the half-width; on one grid nobody knows it.
-        counts = [sufficient(scatter, row["half_width"] - grid) for grid in (change, 0.0)]
-        row |= {"scatter": scatter, "fixed_surfaces": counts[0], "fixed_seconds": counts[0] * both}
-        row |= {"alone_surfaces": counts[1], "alone_seconds": counts[1] * alone}
-        print(body, speed, row, flush=True)
-    return [{"body": body, "speed": speed, "points": case.bem.points, **row} for row in rows]
+    for seed in FIXED.values():
+        _fixed(case, speed, seed - 1, 1)  # what is planned or compiled once
+    costs = [_fixed(case, speed, seed, TIMED, name == "fixed") for name, seed in FIXED.items()]
+    for first in FIRST:
+        known: dict = {}
+        rows = [_sampled(_drawn(case, first), speed, wanted, known) for wanted in WIDTHS]
+        for row in rows:
+            # The scatter is that of the most surfaces. One grid alone tells no error of the grid.
+            lefts = row["half_width"] - row["grid"], row["half_width"]
+            for name, cost, left in zip(FIXED, costs, lefts, strict=True):
+                count = sufficient(rows[-1]["scatter"], left)
+                row |= {f"{name}_surfaces": count, f"{name}_seconds": count * cost}
+            yield {"speed": speed, "points": case.bem.points, "first": first, **row}
 
 
-def _fixed(case, speed, count, seed, halves=True):
-    """Processor seconds of a surface on a fixed grid, with half the points too or alone; what these change."""
-    started = process_time()
-    grids = on_two_grids(case.bem) if halves else {case.bem.name: {FINE: case.bem}}
-    scene = replace(case.scene, roughness=replace(case.scene.roughness, seed=seed))
-    one = ParameterGrid(scene=scene, speeds=(speed,), values=(LOAD,), grids=grids, draws={case.bem.name: count})
-    found = one.datasets({task: task.solve() for task in one.tasks()})[case.bem.name]
-    seconds = (process_time() - started) / count
-    friction = found["friction_force"].mean("seed").values.ravel()
-    return seconds, abs(friction[-1] / friction[0] - 1)
+def _drawn(case, seed):
+    return replace(case, roughness=replace(case.roughness, seed=seed))
+
+
+def _fixed(case, speed, seed, count, halves=True):
+    """Processor seconds of a surface on a fixed grid, with half the points too or alone."""
+    started, name = process_time(), case.bem.name
+    grids = on_two_grids(case.bem) if halves else {name: {FINE: case.bem}}
+    scene = _drawn(case, seed).scene
+    one = ParameterGrid(scene=scene, speeds=(speed,), values=(LOAD,), grids=grids, draws={name: count})
+    one.datasets({task: task.solve() for task in one.tasks()})
+    return (process_time() - started) / count
 
 
 def _sampled(case, speed, wanted, known):
     """Half-width that is reached, surfaces and processor seconds; known : outcomes and seconds by task."""
-    alone = Models((Model.of(case.bem),), case.bem.name)
-    study = Sweep(replace(case, motion=Slide(speed=speed, load=LOAD)), (speed,), (LOAD,), 1, alone, wanted)
-    started, solving, looks = process_time(), 0.0, 0
+    name, started, solving = case.bem.name, process_time(), 0.0
+    alone, moving = Models((Model.of(case.bem),), name), replace(case, motion=Slide(speed=speed, load=LOAD))
+    study = Sweep(moving, (speed,), (LOAD,), 1, alone, wanted)
     while study is not None:
-        tasks, begun = study.batches()[0].tasks, process_time()
-        for task in tasks:
-            if task not in known:
-                at = process_time()
-                known[task] = task.solve(), process_time() - at
+        last, tasks, begun = study, study.batches()[0].tasks, process_time()
+        for task in (task for task in tasks if task not in known):
+            at = process_time()
+            known[task] = task.solve(), process_time() - at
         solving += process_time() - begun
-        last, looks = study, looks + 1
         answers = study.answers({task: known[task][0] for task in tasks})
         study = study.more(answers, [])
-    beside = process_time() - started - solving
-    found = answers["contacts"].children[case.bem.name].to_dataset(inherit=False)
-    value, low, high = (each.item() for each in means.interval(pooled(found), *FRICTION))
+    seconds = process_time() - started - solving + sum(known[task][1] for task in tasks)
+    found = answers["contacts"].children[name].to_dataset(inherit=False)
+    both = pooled(found)
+    value, low, high = (each.item() for each in means.interval(both, *FRICTION))
+    fine, coarse = (both["friction_force"] / both["normal_force"].mean("seed")).mean("seed").values.ravel()[:2]
     many = found.isel(grid=-1, seed=np.flatnonzero(found["stratum"] == found.sizes["grid"] - 1))
     one = mean_ratio(many["friction_force"].values, many["normal_force"].values)
-    return {
-        "wanted": wanted,
-        "half_width": (high - low) / 2 / value,
-        "surfaces": " + ".join(str(len(each)) for each in last.grids()["contacts"].strata(case.bem.name)),
-        "looks": looks,
-        "seconds": sum(known[task][1] for task in tasks) + beside,
-        "beside": beside,
-        "scatter": (one.error / one.value).item() * many.sizes["seed"] ** 0.5,
-    }
+    scatter = (one.error / one.value).item() * many.sizes["seed"] ** 0.5
+    row = {"wanted": wanted, "half_width": (high - low) / 2 / value, "grid": abs(coarse / fine - 1)}
+    points = found["points"].values.tolist()
+    strata = zip(points, last.grids()["contacts"].strata(name), strict=True)
+    return row | {"scatter": scatter, "seconds": seconds} | {f"on_{at}": len(each) for at, each in strata}
 
 
 def _line(row):
-    shares = row.seconds / row.fixed_seconds, row.seconds / row.alone_seconds
-    times = f"{row.fixed_seconds:.1f}", f"{shares[0]:.2f}", f"{row.alone_seconds:.1f}", f"{shares[1]:.2f}"
-    width = f"{100 * row.half_width:.2f} %"
-    return row.body, f"{row.speed:g}", f"{row.points}²", width, row.surfaces, f"{row.seconds:.1f}", *times
+    widths = [getattr(row, f"on_{points}") for points in (256, 128, 64, 32)]
+    surfaces = " + ".join(f"{count:.0f}" for count in widths if np.isfinite(count))
+    times = row.fixed_seconds, row.seconds / row.fixed_seconds, row.alone_seconds, row.seconds / row.alone_seconds
+    shown = [f"{each:.{digits}f}" for each, digits in zip((row.seconds, *times), (1, 1, 2, 1, 2), strict=True)]
+    return row.body, f"{row.speed:g}", f"{row.points}²", f"{100 * row.half_width:.2f} %", surfaces, *shown
 
 
 def _summary(own, points):
-    """Whether a finest grid takes as little as is asked, at each half-width."""
-    times, words = ASKED[points]
-    said = []
-    for wanted, some in own.groupby("wanted", sort=False):
-        shares = (some["seconds"] / some["fixed_seconds"]).sort_values()
-        kept = f"{(shares <= 1 / times).sum()} of {shares.size}"
-        said.append(f"{kept} at {100 * wanted:g} % ({shares.iloc[0]:.2f} to {shares.iloc[-1]:.2f})")
-    return f"- At most {words} of {points}²: {', '.join(said)}."
+    """Whether a finest grid takes as little as is asked, at each half-width, beside both fixed answers."""
+    (times, words), said = ASKED[points], []
+    for name, wanted in ((name, wanted) for name in ("fixed", "alone") for wanted in WIDTHS):
+        some = own[own["wanted"] == wanted]
+        shares = (some["seconds"] / some[f"{name}_seconds"]).sort_values()
+        kept = f"{(shares <= 1 / times).sum()} of {shares.size} at {100 * wanted:g} %"
+        said.append(f"{kept} ({shares.iloc[0]:.2f} to {shares.iloc[-1]:.2f})")
+    with_halves, alone = ", ".join(said[: len(WIDTHS)]), ", ".join(said[len(WIDTHS) :])
+    return f"- at most {words} of fixed {points}²: {with_halves}; alone: {alone}"
 
 
-def _figure(frame):
+def _figure(numbers):
     """Half-width against processor seconds, a panel for each body and speed."""
-    drawing = style.canvas("double", 2.6)
-    contacts = list(frame.groupby(["body", "speed"], sort=False))
+    drawing = style.canvas("double", 2.8)
+    contacts = list(numbers.groupby(["body", "speed"], sort=False))
     panels = drawing.subplots(1, len(contacts), sharex=True, sharey=True)
     for axes, ((body, speed), some) in zip(panels, contacts, strict=True):
-        for points, own in some.groupby("points"):
-            widths = 100 * own["half_width"]
-            axes.plot(own["fixed_seconds"], widths, "--", color=COLOUR[points])
-            axes.plot(own["seconds"], widths, "o" if points == 128 else "s", linestyle="-", color=COLOUR[points])
+        for column, (line, markers, name) in LOOK.items():
+            for marker, (points, own) in zip(markers, some.groupby("points"), strict=True):
+                looks = {"linestyle": line, "marker": marker, "color": COLOUR[points]}
+                axes.plot(own[column], 100 * own["half_width"], label=f"{name}, {points}²", **looks)
         axes.set(xscale="log", yscale="log", title=f"{body}, {speed:g} m/s", xlabel="processor time [s]")
     panels[0].set_ylabel("half-width [%]")
     lettered(panels)
     style.decades(*panels)
-    looks = {"sampled": ("os", "-"), "fixed grid": (("", ""), "--")}
-    handles = [
-        Line2D([], [], color=COLOUR[points], marker=marker, linestyle=line, label=f"{name}, {points}²")
-        for name, (markers, line) in looks.items()
-        for marker, points in zip(markers, COLOUR, strict=True)
-    ]
-    style.legend(drawing, handles, "outside lower center", 4)
+    style.legend(drawing, panels[-1].get_legend_handles_labels()[0], "outside lower center", 3)
     return drawing
 
 
