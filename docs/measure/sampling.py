@@ -121,15 +121,13 @@ def _line(row):
 
 
 def _summary(own, points):
-    """Whether a finest grid takes as little as is asked, at each half-width, beside both fixed answers."""
+    """How many contacts stay within what is asked at each half-width, and the largest share of the fixed time."""
     (times, words), said = ASKED[points], []
-    for name, wanted in ((name, wanted) for name in ("fixed", "alone") for wanted in WIDTHS):
-        some = own[own["wanted"] == wanted]
-        shares = (some["seconds"] / some[f"{name}_seconds"]).sort_values()
-        kept = f"{(shares <= 1 / times).sum()} of {shares.size} at {100 * wanted:g} %"
-        said.append(f"{kept} ({shares.iloc[0]:.2f} to {shares.iloc[-1]:.2f})")
-    with_halves, alone = ", ".join(said[: len(WIDTHS)]), ", ".join(said[len(WIDTHS) :])
-    return f"- at most {words} of fixed {points}²: {with_halves}; alone: {alone}"
+    for name in FIXED:
+        shares = (own["seconds"] / own[f"{name}_seconds"]).groupby(own["wanted"], sort=False)
+        counts, most = shares.agg(lambda each: (each <= 1 / times).sum()), shares.max()
+        said.append(f"{', '.join(f'{each:.0f}' for each in counts)} ({', '.join(f'{each:.2f}' for each in most)})")
+    return f"- {words} of fixed {points}²: {said[0]}; alone: {said[1]}"
 
 
 def _figure(numbers):
@@ -143,7 +141,7 @@ def _figure(numbers):
                 looks = {"linestyle": line, "marker": marker, "color": COLOUR[points]}
                 axes.plot(own[column], 100 * own["half_width"], label=f"{name}, {points}²", **looks)
         axes.set(xscale="log", yscale="log", title=f"{body}, {speed:g} m/s", xlabel="processor time [s]")
-    panels[0].set_ylabel("half-width [%]")
+    panels[0].set(ylabel="half-width [%]", ylim=(0.8, 5.5))
     lettered(panels)
     style.decades(*panels)
     style.legend(drawing, panels[-1].get_legend_handles_labels()[0], "outside lower center", 3)
