@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import xarray
+from pandas.testing import assert_frame_equal
 from small_cases import SLIDING
 from test_compare_allocation import COSTS, grown
 from test_compare_levels import answers
@@ -106,8 +107,8 @@ def sampled(rng, claim, variation, interval):
 @pytest.mark.slow
 @pytest.mark.parametrize("variation", [0.15, 0.5, 1.0])
 def test_verdicts_contradict_the_truth_in_one_study_of_twenty_at_most(variation):
-    """Truth a quarter of the tolerance inside the edge, and outside of it: 250 synthetic studies of each."""
-    rng, tolerance, wrong, studies = np.random.default_rng(11), 0.4 * variation, 0, 250
+    """Truth a quarter of the tolerance inside the edge, and outside of it: 80 synthetic studies of each."""
+    rng, tolerance, wrong, studies = np.random.default_rng(11), 0.4 * variation, 0, 80
     truth = 1.0  # of friction; the load is 1 too
     for shift, right in ((0.75, HOLDS), (1.25, FAILS)):
         claim = replace(RATIO, expected=truth + shift * tolerance, tolerance=tolerance)
@@ -223,3 +224,57 @@ def test_a_budget_is_a_time(budget, tmp_path):
     with pytest.raises(InvalidInput, match=r"budget = .*: a time above zero, as 10min or 600 s"):
         compare.run(CASE, interval="5%", budget=budget, output=tmp_path / "none")
     assert not (tmp_path / "none").exists()
+
+
+STUDY = """
+title = "Two heights"
+interval = "30%"
+speeds = [0.1, 0.3]
+loads = [0.5, 1.0, 2.0]
+indenter = {type = "sphere", radius = 0.01}
+elastomer = {type = "kelvin", modulus = 1e6, relaxation_time = 1e-3}
+bem = {points = 64}
+mdr = {points = 512}
+
+[roughness]
+type = "self-affine"
+hurst = 0.8
+rms_height = 5e-6
+longest = 1e-2
+shortest = 1e-3
+seed = 3
+
+[[series]]
+name = "low"
+
+[[series]]
+name = "high"
+roughness = {rms_height = 1e-5}
+bem = {points = 128}
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("in_this_process")
+def test_a_study_stops_likewise_and_series_of_a_family_have_as_many_surfaces(tmp_path):
+    path = tmp_path / "heights.toml"
+    path.write_text(STUDY)
+    report = compare.study(path, output=tmp_path / "study", report=False)
+    for each in report.findings:
+        if each.verdict == UNDECIDED and not each.undecidable:
+            low, high = each.interval
+            assert (high - low) / 2 <= 0.3 * max(1.0, abs(each.claim.expected))
+    low, high = (each.drawn.counts for each in report.study.series)
+    assert low == high
+    assert len(low["BEM"]) < 3  # as many grids as the coarser of both has
+    assert any(each.where == "every sphere" for each in report.findings)
+    again = compare.study(path, output=tmp_path / "study", report=False)
+    assert again.swept.solved == 0
+    assert_frame_equal(again.table, report.table)
+
+
+def test_a_study_states_an_interval_or_numbers_of_surfaces(tmp_path):
+    path = tmp_path / "both.toml"
+    path.write_text(STUDY.replace('interval = "30%"', 'interval = "30%"\nsurfaces = 3'))
+    with pytest.raises(InvalidInput, match=r"interval = 0\.3: it takes the place of surfaces and profiles"):
+        compare.study(path, output=tmp_path / "none")
