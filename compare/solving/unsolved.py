@@ -86,7 +86,7 @@ class Unsolved:
         if not self.replaced:
             return ()
         many = f"{self.replaced} contacts are" if self.replaced > 1 else "1 contact is"
-        return (f"{many} too much for a coarse grid, and the next finer one answers in its place",)
+        return (f"{many} too much for a coarse grid, and the next finer one answers in its place.",)
 
 
 NONE_UNSOLVED = Unsolved({}, {}, {})

@@ -84,7 +84,8 @@ def run(
             more = None if swept.faults else _more(study, answers, judged.findings, clock)
         findings, page = judged.findings, judged.page(study.title, answers)
         unsolved = study.unsolved(_whole(swept))
-        page = replace(page, doubts=(*study.doubts, *unsolved.sentences), notes=(*study.notes, *unsolved.notes))
+        answer, doubts = (*page.answer, *unsolved.notes), (*study.doubts, *unsolved.sentences)
+        page = replace(page, answer=answer, doubts=doubts, notes=study.notes)
     except (SolveError, ValueError, ArithmeticError, LookupError) as error:
         # What is made of NaN alone raises nearly anything, and would hide what matters.
         if not swept.faults:

@@ -17,7 +17,7 @@ def answers(three, one=(1e-5, 2e-5)):
 
     def dataset(errors):
         both = np.array([errors, np.full(len(errors), 0.9)])
-        return xarray.Dataset({"friction_error": (("grid", "seed"), both)}, {"grid": ["fine", "coarse"]})
+        return xarray.Dataset({"friction_error": (("grid", "speed"), both)}, {"grid": ["fine", "coarse"]})
 
     return xarray.DataTree.from_dict({"/contacts/BEM": dataset(three), "/contacts/MDR": dataset(one)})
 
@@ -70,3 +70,9 @@ def test_a_drawing_of_an_uncertain_contact_says_so_first(tmp_path):
     with pytest.warns(Doubtful, match="slope of the body at the edge of the contact"):
         report = compare.draw(case(BLUNT, 0.3), workers=1, output=tmp_path)
     assert report.page.answer[0].startswith("Friction in 3D may be wrong by up to")
+
+
+def test_of_surfaces_the_mean_is_uncertain_by_the_mean_of_their_bounds():
+    bounds = xarray.Dataset({"friction_error": (("speed", "seed"), [[0.02, 0.2], [0.2, 0.4]])})
+    (found,) = griderror.stated(xarray.DataTree.from_dict({"/contacts/BEM": bounds})).values()
+    np.testing.assert_allclose(found, [0.11, 0.3])
