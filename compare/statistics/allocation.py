@@ -15,7 +15,7 @@ from typing import NamedTuple, Self
 import numpy as np
 import xarray
 
-from ..solving.amounts import duration
+from ..solving.amounts import duration, share
 from ..solving.cost import MOST_DRAWS, SECONDS
 from ..solving.parameter_grid import TOGETHER, ParameterGrid
 from .collapse import PARTED
@@ -73,19 +73,42 @@ def enough(
     dataset: xarray.Dataset, above: str, below: str | None, costs: Sequence[float], interval: float
 ) -> Enough:
     """Surfaces of each stratum that just suffice for such intervals, at the least cost; see `needed`."""
+    parts, scatter, grid = _errors(dataset, above, below)
+    now = np.bincount(dataset["stratum"].values, minlength=len(costs))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        least = np.maximum(interval - grid, OWN_SHARE * interval)
+        needs = _least_cost(parts, now, np.array(costs), scatter / least)
+    return Enough(needs, scatter, grid)
+
+
+def unreached(dataset: xarray.Dataset, above: str, below: str | None, interval: float) -> str:
+    """What keeps the interval of a mean wider than wanted somewhere, in words; empty where nothing does."""
+    _, scatter, grid = _errors(dataset, above, below)
+    half = np.where(np.isfinite(scatter + grid), scatter + grid, 0.0)
+    if half.max() <= interval:
+        return ""
+    worst = np.unravel_index(np.argmax(half), half.shape)
+    told = f"is known to {share(half[worst])} only, {share(interval)} are wanted"
+    if grid[worst] > OWN_SHARE * interval:
+        return f"{told}: half the points change it by {share(grid[worst])}, take more points"
+    return f"{told}: more surfaces would narrow it"
+
+
+def _errors(dataset, above, below):
+    """Share of each stratum (K, ...) in the variance of a mean, half of its interval, and the error of its grid.
+
+    The latter are relative.
+    """
     strata, both = dataset["stratum"].values, pooled(dataset)
-    now = np.bincount(strata, minlength=len(costs))
     # A model without another grid has no error of it.
     fine, coarse = (_columns(both.isel(grid=k), above, below) for k in (0, -1))
     found, other = (mean_ratio(over, under, strata) for over, under in (fine, coarse))
     low, high = found.interval()
     size, squares = np.abs(found.value), np.square(off_the_ratio(*fine)[1])
     with np.errstate(invalid="ignore", divide="ignore"):
-        scatter, grid = (high - low) / 2 / size, np.abs(other.value - found.value) / size
-        parts = np.array([squares[..., strata == k].sum(axis=-1) for k in range(now.size)])
-        least = np.maximum(interval - grid, OWN_SHARE * interval)
-        needs = _least_cost(parts / parts.sum(axis=0), now, np.array(costs), scatter / least)
-    return Enough(needs, scatter, grid)
+        sums = np.array([squares[..., strata == k].sum(axis=-1) for k in range(dataset.sizes["grid"])])
+        parts = sums / sums.sum(axis=0)
+        return parts, (high - low) / 2 / size, np.abs(other.value - found.value) / size
 
 
 @dataclass(frozen=True)

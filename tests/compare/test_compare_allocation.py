@@ -1,5 +1,6 @@
 """Who asks for an interval gets one as narrow, of as few surfaces as scatter and cost ask for."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -13,7 +14,7 @@ from bem3d import BEM
 from compare.library.case import Case
 from compare.solving.cost import MOST_DRAWS
 from compare.solving.parameter_grid import DIFFERENCES, FINEST, PILOT, pilot
-from compare.statistics.allocation import GROWTH, needed
+from compare.statistics.allocation import GROWTH, needed, unreached
 from compare.statistics.jackknife import mean_ratio
 from compare.statistics.levels import pooled
 from mdr1d import MDR
@@ -101,6 +102,21 @@ def test_costly_strata_get_fewer_surfaces():
 def test_what_is_narrow_enough_asks_for_nothing_more():
     found = answers(np.random.default_rng(2), pilot(3), 0.1)
     assert needed(found, *FRICTION, COSTS, 0.5) == pilot(3) == (FINEST, DIFFERENCES, PILOT)
+
+
+def test_an_interval_that_is_not_reached_says_why():
+    found = answers(np.random.default_rng(2), pilot(3), 0.1)
+    assert unreached(found, *FRICTION, 0.5) == ""
+    assert re.fullmatch(
+        r"is known to [\d.]+ % only, 1 % are wanted: more surfaces would narrow it",
+        unreached(found, *FRICTION, 0.01),
+    )
+    force = found["friction_force"]
+    coarse = found.assign(friction_force=force.where(found["grid"] == "fine", 1.2 * force))
+    assert re.fullmatch(
+        r"is known to [\d.]+ % only, 10 % are wanted: half the points change it by [12]\d %, take more points",
+        unreached(coarse, *FRICTION, 0.1),
+    )
 
 
 def test_one_contact_without_an_answer_does_not_stop_the_others():

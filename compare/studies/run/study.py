@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property, partial
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -28,10 +29,11 @@ from ...solving.parameter_grid import Instead, ParameterGrid
 from ...solving.task import SceneTask, Task
 from ...solving.vocabulary import attributes
 from ...statistics import eq23, finding
-from ...statistics.allocation import GROWTH, DrawnSurfaces, needed
+from ...statistics.allocation import GROWTH, DrawnSurfaces, needed, unreached
 from ...statistics.finding import Finding
-from ...statistics.means import FRICTION, with_spread
+from ...statistics.means import with_spread
 from ...trustmap.verdict import Advice, trust
+from ..accuracy import MEANS, WORDS
 from ..sampling import answered, unanswered
 from ..study import Judgement, Study
 from .claims import ROUGH_FORCE, SMOOTH_FORCE, SMOOTH_SPEED, CaseFindings, draws_of
@@ -191,7 +193,7 @@ class Run(Study):
 
     def more(self, answers: xarray.DataTree, findings: Sequence[Finding], growth: float = GROWTH) -> "Run | None":
         """The run with the surfaces that undecided claims and wide intervals ask for; None where none does."""
-        sampled = [name for name, case in self.cases.items() if self._wanted(name) is not None and case.roughness]
+        sampled = self._sampled
         asked = {name: self._more(name, answers, findings, growth) for name in sampled}
         had = {name: {shared: dict(each.counts) for shared, each in self._draws(name).items()} for name in sampled}
         instead = unanswered(self.grids(), answers)
@@ -205,12 +207,29 @@ class Run(Study):
             own = [each for each in findings if _of_case(each, name) and draws_of(each) == shared]
             counts = draws.more(own, wanted, growth)
             for model in self.models[name].drawn:
-                for over, under in _means(self.cases[name]) if shared == SLIDING else ():
-                    own_contact = answers[f"{self.folders[name]}/{OWN}/{model.name}"].to_dataset(inherit=False)
-                    more = needed(own_contact, over, under, draws.costs[model.name], wanted, growth)
+                for mean in _means(self.cases[name]) if shared == SLIDING else ():
+                    own_contact = self._own_contact(name, model.name, answers)
+                    more = needed(own_contact, *MEANS[mean], draws.costs[model.name], wanted, growth)
                     counts[model.name] = tuple(map(max, counts[model.name], more))
             made[shared] = counts
         return made
+
+    def _own_contact(self, name, model, answers):
+        """Answers of a model to a scene as it stands."""
+        return answers[f"{self.folders[name]}/{OWN}/{model}"].to_dataset(inherit=False)
+
+    def _unreached(self, answers):
+        """Sentences on means of scenes as they stand whose intervals are wider than wanted."""
+        for name in self._sampled:
+            for model, mean in product(self.models[name].drawn, _means(self.cases[name])):
+                own_contact = self._own_contact(name, model.name, answers)
+                if why := unreached(own_contact, *MEANS[mean], self._wanted(name)):
+                    yield f"{name}: the {WORDS[mean]} in {model.label} {why}."
+
+    @property
+    def _sampled(self):
+        """Names of the rough cases of which an interval is wanted."""
+        return [name for name, case in self.cases.items() if self._wanted(name) is not None and case.roughness]
 
     @cached_property
     def trusts(self) -> Mapping[str, Advice]:
@@ -225,7 +244,8 @@ class Run(Study):
             for name, found in self.trusts.items()
             for quantity, each in found.corrections.items()
         ]
-        answer = [*eq23.answers(findings), *finding.sentences(finding.claimed(findings)), *worth]
+        claims = finding.sentences(finding.claimed(findings))
+        answer = [*eq23.answers(findings), *claims, *self._unreached(answers), *worth]
         blocks: list[Block] = [
             Section(case.case.title or case.name, _blocks(case, answers[case.folder], self.trusts[case.name]))
             for case in cases
@@ -250,11 +270,11 @@ def _of_case(found: Finding, name: str) -> bool:
     return found.where == name or found.where.startswith(f"{name}, ")
 
 
-def _means(case: Case) -> Iterator[tuple[str, str | None]]:
+def _means(case: Case) -> Iterator[str]:
     """Means of the scene's own contact that tell what it is: what is not prescribed, and friction."""
-    yield "normal_force" if case.motion.load is None else "depth_reached", None
+    yield "normal_force" if case.motion.load is None else "depth_reached"
     if case.slides and case.motion.speed > 0:
-        yield FRICTION
+        yield "friction_coefficient"
 
 
 def _blocks(found: CaseFindings, answers, trusted: Advice) -> list[Block]:

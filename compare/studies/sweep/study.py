@@ -26,8 +26,8 @@ from ...solving.amounts import share_of
 from ...solving.cost import MOST_DRAWS, MOST_VALUES
 from ...solving.parameter_grid import COARSE, FINE, LEVELS, Instead, ParameterGrid, on_two_grids
 from ...solving.vocabulary import attributes
-from ...statistics.allocation import GROWTH, needed
-from ...statistics.finding import Claim, Finding, said_of
+from ...statistics.allocation import GROWTH, needed, unreached
+from ...statistics.finding import Claim, Finding, said_of, sentences
 from ...statistics.jackknife import DrawSet, mean, measured
 from ...statistics.levels import MOMENTS, pooled
 from ...statistics.means import interval
@@ -134,27 +134,43 @@ class Sweep(Study):
         """The sweep with the surfaces that the wanted interval asks for; None once it is reached."""
         if self.interval is None:
             return None
-        had = {name: each for name, each in self._grid.draws.items() if isinstance(each, tuple)}
-        asked = {}
+        had, asked = self._sampled, {}
         for name in had:
-            dataset = answers["contacts"].children[name].to_dataset(inherit=False)
+            costs = self._grid.costs[name]
             counts = [
-                needed(
-                    dataset.sel(speed=list(speeds)), *MEANS[mean], self._grid.costs[name], self.interval, growth
-                )
-                for mean, speeds in wanted(self.case.motion.pressed_by, self.speeds, self.case.slides)
+                needed(points, *MEANS[quantity], costs, self.interval, growth)
+                for quantity, points in self._wanted(name, answers)
             ]
             asked[name] = tuple(map(max, zip(*counts, strict=True)))
         instead = unanswered(self.grids(), answers)
         same = asked == had and instead == self.instead
         return None if same else replace(self, strata=asked, instead=instead)
 
+    @property
+    def _sampled(self):
+        """Numbers of surfaces by model, of those in strata."""
+        return {name: each for name, each in self._grid.draws.items() if isinstance(each, tuple)}
+
+    def _wanted(self, name, answers):
+        """Means that an interval is wanted of, each with its points of one model."""
+        dataset = answers["contacts"].children[name].to_dataset(inherit=False)
+        for quantity, speeds in wanted(self.case.motion.pressed_by, self.speeds, self.case.slides):
+            yield quantity, dataset.sel(speed=list(speeds))
+
+    def _unreached(self, answers):
+        """Sentences on means whose intervals are wider than wanted."""
+        for name in self._sampled:
+            for quantity, points in self._wanted(name, answers):
+                if why := unreached(points, *MEANS[quantity], self.interval):
+                    yield f"The {WORDS[quantity]} in {self.models.labels[name]} {why}."
+
     def judge(self, answers: xarray.DataTree) -> Judgement:
         """Friction, else force or depth, of each model over the reference at every contact, without a claim."""
         findings, table = list(self._findings(answers)), means(self.dataset(answers))
         plot = [plots.plot(table)] if max(self.speeds) > 0 else []
         shown = Table("means", table, "Means over draws with intervals of 95 %.")
-        return Judgement(findings, blocks=[*plot, Findings(findings), shown], setting=self.setting)
+        answer = [*sentences(findings), *self._unreached(answers)]
+        return Judgement(findings, answer, [*plot, Findings(findings), shown], self.setting)
 
     def _findings(self, answers):
         prescribed = self.case.motion.pressed_by
