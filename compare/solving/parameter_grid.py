@@ -374,10 +374,7 @@ def on_levels(solver: Solver, scenes: Iterable[Scene], most: int = len(LEVELS)) 
             # Half the points tell the error of the grid, however few they are.
             if len(found) > 1 and found[-1].points < 2 * LEAST.get(solver.name, 1):
                 break
-            try:
-                coarser = halved(found[-1])
-            except ValueError:  # half the points are fewer than the solver takes
-                break
+            coarser = halved(found[-1])
             if coarser is None or why_not(coarser, first) or any(lacking(coarser, each) for each in others):
                 break
             found.append(coarser)

@@ -192,7 +192,8 @@ class DrawnSurfaces:
         more = {source: count - self.counts[source[0]][source[1]] for source, count in asked.items()}
         more = {source: max(1.0, count) for source, count in more.items() if count > 0}
         if not all(map(isfinite, more.values())) or max(asked.values()) > MOST_DRAWS:
-            return replace(finding, remedy=f"more than {MOST_DRAWS:,} {' or '.join(_words(asked, words))} would")
+            most = f"{MOST_DRAWS:,} {' or '.join(_words(asked, words))}"
+            return replace(finding, remedy=f"only more than {most} would decide it")
         seconds = SECONDS * self._cost(asked)
         totals = {
             word: sum(count for (solver, _), count in more.items() if words.get(solver) == word)

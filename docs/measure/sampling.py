@@ -121,7 +121,7 @@ def _line(row):
 
 
 def _summary(own, points):
-    """How many contacts stay within what is asked at each half-width, and the largest share of the fixed time."""
+    """Lines that say how many contacts stay within what is asked, and the largest share of the fixed time."""
     (times, words), said = ASKED[points], []
     for name in FIXED:
         shares = (own["seconds"] / own[f"{name}_seconds"]).groupby(own["wanted"], sort=False)

@@ -147,7 +147,7 @@ class Run(Study):
         return self.cases[name].study.interval if self.interval is None else self.interval
 
     def _draws(self, name):
-        """DrawnSurfaces of the rough curves of a case that share them."""
+        """Surfaces of the rough curves of a case, by the name of those that share them."""
         own = {
             shared: [each for curve, each in self._curves[name].items() if curve in names]
             for shared, names in SHARED.items()
