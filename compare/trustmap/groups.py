@@ -13,13 +13,12 @@ from scene import Scene, SelfAffine
 from scene.scales import elastic_contact
 
 from ..models.exact.full_contact import complex_stiffness
+from ..models.law import bands as surface
 
 # Solvers of the smooth body, which answer in a few hundredths of a second.
 LINE, SPACE = MDR(points=2000), BEM(points=64)
 # Loss over the relaxed modulus below which a flow is as slow as at rest, and stiffening that is as good as none.
 LEAST_LOSS, MOST_STIFFENING = 1e-3, 1e5
-# Nodes of the spectrum, and of directions over a quarter of a circle.
-_WAVES, _DIRECTIONS = 48, 24
 
 
 class Answer(Protocol):
@@ -95,33 +94,18 @@ class FullContact:
     @classmethod
     def of(cls, scene: Scene, smooth: SmoothReference) -> "FullContact":
         """Full contact of a rough scene."""
-        rough, speed, rest = _roughness(scene), scene.motion.speed, elastic_contact(scene)
-        q_s = rough.q_max(0.0)
-        nodes, weights = np.polynomial.legendre.leggauss(_WAVES)
-        angles, shares = np.polynomial.legendre.leggauss(_DIRECTIONS)
-        half = log(q_s / rough.q_min) / 2
-        q = rough.q_min * np.exp(half * (1 + nodes))
-        weights = weights * half * q
-        # At unit height, as the square of a tiny one would vanish.
-        unit, height = replace(rough, rms_height=1.0), rough.rms_height
-        on_line, on_surface = weights * unit.density_1d(q, q_s), weights * q * unit.density_2d(q, q_s)
-        cosine, shares = np.cos(pi / 4 * (1 + angles)), pi * shares
-        along = complex_stiffness(scene.solid, speed * q)
-        around = complex_stiffness(scene.solid, speed * q[:, None] * cosine)
+        speed, rest = scene.motion.speed, elastic_contact(scene)
+        bands = surface.Bands.of(_roughness(scene))
+        along = complex_stiffness(scene.solid, speed * bands.q)
+        around = surface.FullContact.of(bands, scene.solid, speed)
         load = rest.load * smooth.load
         line_load = load * smooth.force / (2 * smooth.line_radius * rest.radius)
         pressure = load / (pi * (smooth.radius * rest.radius) ** 2)
         return cls(
-            line_friction=float(height**2 * 2 * np.sum(on_line * q * along.imag) / line_load),
-            line_pressure=height * sqrt(2 * np.sum(on_line * abs(along) ** 2)) / line_load,
-            friction=float(
-                height**2
-                * np.sum(on_surface * q**2 / 2 * np.sum(shares * cosine * around.imag, axis=1))
-                / pressure
-            ),
-            pressure=height
-            * sqrt(np.sum(on_surface * q**2 / 4 * np.sum(shares * abs(around) ** 2, axis=1)))
-            / pressure,
+            line_friction=float(bands.unit**2 * np.sum(bands.power * bands.q * along.imag) / line_load),
+            line_pressure=bands.unit * sqrt(np.sum(bands.power * abs(along) ** 2)) / line_load,
+            friction=float(around.friction.sum() / pressure),
+            pressure=float(around.pressure[-1] / pressure),
         )
 
 

@@ -1,0 +1,98 @@
+"""Isotropic roughness as bands of waves, and what they do in full contact with a solid that flows past them."""
+
+from dataclasses import dataclass, replace
+from math import log, pi, sqrt
+
+import numpy as np
+from scipy.special import j1, jv
+
+from scene import SelfAffine
+from scene.rheology import Elastomer
+
+from ..exact.full_contact import complex_stiffness
+
+# Nodes of the spectrum, and of directions over a quarter of a circle.
+_WAVES, _DIRECTIONS = 48, 24
+_ANGLES, _SHARES = np.polynomial.legendre.leggauss(_DIRECTIONS)
+_COSINE, _SHARES = np.cos(pi / 4 * (1 + _ANGLES)), _SHARES / 2
+
+
+@dataclass(frozen=True)
+class Bands:
+    """Waves in all directions, each for those of a band of lengths.
+
+    q : wave numbers (N,) [rad/m], from the longest wave to the shortest
+    power : mean square height of each band (N,), in units of unit**2; they are summed at a height near one, as the
+        square of a tiny one would vanish
+    unit : [m]
+    """
+
+    q: np.ndarray
+    power: np.ndarray
+    unit: float
+
+    @classmethod
+    def of(cls, rough: SelfAffine) -> "Bands":
+        """Bands of a spectrum with a shortest wave: the nodes of a quadrature over ln q."""
+        q_s = rough.q_max(0.0)
+        nodes, weights = np.polynomial.legendre.leggauss(_WAVES)
+        half = log(q_s / rough.q_min) / 2
+        q = rough.q_min * np.exp(half * (1 + nodes))
+        density = replace(rough, rms_height=1.0).density_2d(q, q_s)
+        return cls(q, weights * half * 2 * pi * q**2 * density, rough.rms_height)
+
+    def beneath(self, radius: float) -> "Bands":
+        """What a disc of a radius [m] leaves of them, when the mean and the tilt of each wave over it are removed.
+
+        A body that presses rides on these: of a wave q the share (2 J_1(s)/s)^2 + 16 J_2(s)^2/s^2, s = q radius,
+        is a height and a tilt of the disc.
+        """
+        s = self.q * radius
+        rides = np.square(2 * j1(s) / s) + 16 * np.square(jv(2, s) / s)
+        return replace(self, power=self.power * np.maximum(1 - rides, 0.0))
+
+    @property
+    def rms_height(self) -> float:
+        """[m]"""
+        return self.unit * sqrt(self.power.sum())
+
+    @property
+    def rms_slope(self) -> float:
+        """Of the full gradient [1]."""
+        return self.unit * sqrt(np.sum(self.power * self.q**2))
+
+
+@dataclass(frozen=True)
+class FullContact:
+    """A rough plane that touches everywhere, from its longest waves to each of its bands (N,).
+
+    Each wave for itself: sum_q (|q| |q_x| / 2) |h_q|^2 Im E*(|q_x| v) is friction an area, and
+    sum_q (q / 2)^2 |E*(q_x v)|^2 |h_q|^2 the mean square pressure; Persson, J. Chem. Phys. 115, 3840 (2001).
+
+    friction : of each band, an area [Pa]; their sum is that of all
+    pressure : rms of that about its mean [Pa], of all bands up to each
+    lossy : rms of the part of the pressure that is a quarter of a period off, over the rms pressure of all
+    stiffening : rms pressure over that of the relaxed solid
+    """
+
+    friction: np.ndarray
+    pressure: np.ndarray
+    lossy: float
+    stiffening: float
+
+    @classmethod
+    def of(cls, bands: Bands, elastomer: Elastomer, speed: float) -> "FullContact":
+        """Full contact of waves that slide at a speed [m/s]."""
+        around = complex_stiffness(elastomer, speed * bands.q[:, None] * _COSINE)
+        lossy = np.sum(_SHARES * _COSINE * around.imag, axis=1)
+        friction = np.square(bands.unit) * bands.power * bands.q**2 / 2 * lossy
+        slopes = bands.power * np.square(bands.q / 2)
+        squares = np.cumsum(slopes * (_SHARES * np.square(abs(around))).sum(axis=1))
+        lost = np.sum(slopes * (_SHARES * np.square(around.imag)).sum(axis=1))
+        relaxed = elastomer.indentation_modulus * sqrt(slopes.sum())
+        return cls(
+            friction=friction,
+            pressure=bands.unit * np.sqrt(squares),
+            lossy=sqrt(lost / squares[-1]),
+            stiffening=sqrt(squares[-1]) / relaxed,
+        )
