@@ -121,7 +121,7 @@ def scene_at(point: np.ndarray, seed: int = 0, periods: tuple[float, float] = PE
     indenter = _indenter(shape, exponent)
     rough = None if smooth < SMOOTH else _rough(height, waves, hurst, periods, period, rolled, rolloff, seed)
     wave = RADIUS / _between(WAVES, waves)
-    solid = _solid(kind, loss, spread, tilt, branches, speed, wave)
+    solid = solid_at(kind, loss, spread, tilt, branches, speed, wave)
     rests = speed >= SLIDING
     stiffness = 2 * indenter.exponent / (indenter.exponent + 1) * solid.indentation_modulus * DEPTH * RADIUS
     load, depth = (stiffness, None) if pressed < UNDER_LOAD else (None, DEPTH)
@@ -156,7 +156,7 @@ def _rough(height, waves, hurst, periods, period, rolled, rolloff, seed) -> Self
     )
 
 
-def _solid(kind, loss, spread, tilt, branches, speed, wave) -> Elastomer:
+def solid_at(kind, loss, spread, tilt, branches, speed, wave) -> Elastomer:
     """Solid whose times lie so that the speed runs from where friction grows with it to beyond its peak."""
     place = min(speed / SLIDING, 1.0)
     stiffening = _between(STIFFENING, loss)

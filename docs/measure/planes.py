@@ -1,0 +1,149 @@
+"""The share of its friction in full contact that a rough plane keeps in partial contact: rough planes, solved.
+
+python docs/measure/planes.py [WORKERS] solves what is not solved yet, and writes results/law/planes.csv
+"""
+
+import sys
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from math import exp, log, pi
+from pathlib import Path
+
+import numpy as np
+from campaign import solved
+from pandas import DataFrame
+from scipy.stats import qmc
+
+from bem3d import BEM
+from bem3d.heights import heights
+from compare.models.exact import full_contact
+from compare.models.law.bands import Bands, FullContact
+from compare.report.csvfiles import text, write_text
+from compare.solving.outcome import Outcome
+from compare.solving.task import SceneTask, Task
+from compare.statistics.jackknife import mean_ratio
+from compare.studies.trust.design import RADIUS, SPEED, solid_at
+from scene import Plane, Scene, SelfAffine, Slide
+
+PAGE = Path(__file__).parents[1] / "results" / "law" / "planes.md"
+PLANES, SEED, SURFACE_SEEDS = 400, 36_001, 1000
+HELD_OUT = 5  # every fifth plane is held out
+BREADTHS = 4.0, 32.0  # longest over shortest wave
+# Pressures over the rms pressure in full contact, one of each range, and numbers of surfaces: few spots touch under
+# light ones, and scatter.
+RANGES = ((5e-3, 3e-2), 16), ((3e-2, 0.15), 8), ((0.15, 0.6), 6), ((0.6, 3.0), 4)
+# Points a wave; the finer tells what the coarser is off by, which hardly differs between surfaces.
+COARSE, FINE, CHECKED = 16, 32, 2
+
+
+@dataclass(frozen=True)
+class PlaneContact:
+    """One plane under one pressure.
+
+    number : of the plane; place : of the pressure in RANGES
+    scene : its first surface; count : of surfaces
+    friction, pressure : of these waves in full contact, an area [Pa], and rms [Pa]
+    lossy, stiffening : see `FullContact`
+    """
+
+    number: int
+    place: int
+    scene: Scene
+    count: int
+    friction: float
+    pressure: float
+    lossy: float
+    stiffening: float
+
+    def task(self, points: int, count: int) -> SceneTask:
+        """Some of its surfaces, with a number of points a wave."""
+        rough = self.scene.roughness
+        side = 2 * round(points * rough.longest / rough.shortest / 2)
+        scenes = tuple(
+            replace(self.scene, roughness=replace(rough, seed=seed))
+            for seed in range(rough.seed, rough.seed + count)
+        )
+        return SceneTask(BEM(points=side), scenes, work=float(count * side**2))
+
+    @property
+    def tasks(self) -> tuple[SceneTask, SceneTask, SceneTask]:
+        """All surfaces coarse; a few of them coarse, then fine."""
+        return self.task(COARSE, self.count), self.task(COARSE, CHECKED), self.task(FINE, CHECKED)
+
+
+def contacts() -> Iterator[PlaneContact]:
+    """All planes under all pressures, of a Sobol sequence."""
+    for number, place in enumerate(qmc.Sobol(12, seed=SEED).random(512)[:PLANES]):
+        hurst, breadth, rolled, rolloff, kind, loss, spread, tilt, branches, speed, at, shift = map(float, place)
+        kind, speed = 0.8 * kind + 0.2 * (kind > 0.9), 0.88 * speed
+        longest, ratio = RADIUS, between(BREADTHS, breadth)
+        shortest = longest / ratio
+        rough = SelfAffine(
+            hurst=hurst,
+            rms_height=1e-7,
+            longest=longest,
+            shortest=shortest,
+            rolloff=between((1.05 * shortest, longest), rolloff) if rolled < 0.5 else None,
+            seed=SURFACE_SEEDS * number,
+        )
+        solid = solid_at(kind, loss, spread, tilt, branches, speed, shortest / (2 * pi))
+        drawn = heights(
+            Scene(Plane(), solid, Slide(speed=SPEED, pressure=1.0), rough), 2 * round(4 * ratio)
+        ).height
+        sides = longest, longest
+        friction = full_contact.friction(drawn, sides, solid, SPEED)
+        pressure = float(full_contact.pressure(drawn, sides, solid, SPEED).std())
+        full = FullContact.of(Bands.of(rough), solid, SPEED)
+        for index, (ends, count) in enumerate(RANGES):
+            x = between(ends, (at + shift * index) % 1)
+            scene = Scene(Plane(), solid, Slide(speed=SPEED, pressure=x * pressure), rough)
+            yield PlaneContact(number, index, scene, count, friction, pressure, full.lossy, full.stiffening)
+
+
+def rows(found: list[PlaneContact], outcomes: Mapping[Task, Outcome]) -> Iterator[dict]:
+    """Each plane under each pressure: where it lies, and the share with its standard error, relative."""
+    for each in found:
+        coarse, few, fine = (_means(outcomes[task]) for task in each.tasks)
+        area = each.scene.roughness.longest**2
+        mean = mean_ratio(coarse["friction"], np.full(each.count, each.friction * area))
+        finer = {name: float(np.mean(fine[name]) / np.mean(few[name])) for name in fine}
+        rough = each.scene.roughness
+        yield {
+            "plane": each.number,
+            "x": each.scene.motion.pressure / each.pressure,
+            "share": float(mean.value) * finer["friction"],
+            "error": float(np.std(coarse["friction"], ddof=1) / np.mean(coarse["friction"]) / each.count**0.5),
+            "finer": finer["friction"] - 1,
+            "area": float(np.mean(coarse["area"])) * finer["area"],
+            "gap": float(np.mean(coarse["gap"])) * finer["gap"] / rough.rms_height,
+            "lossy": each.lossy,
+            "stiffening": each.stiffening,
+            "hurst": rough.hurst,
+            "breadth": rough.longest / rough.shortest,
+            "rolloff": rough.q_max(0.0) / rough.q_rolloff,
+            "solid": type(each.scene.elastomer).__name__,
+        }
+
+
+def _means(outcome):
+    return {
+        "friction": np.array([row.friction_force for row in outcome.rows]),
+        "area": np.array([row.measures["contact_fraction"] for row in outcome.rows]),
+        "gap": np.array([row.measures["mean_gap"] for row in outcome.rows]),
+    }
+
+
+def between(ends, place):
+    low, high = ends
+    return exp(log(low) + place * log(high / low))
+
+
+def main(workers: int | None = None) -> None:
+    """Solve what is not solved yet, and write what was found."""
+    found = list(contacts())
+    outcomes = solved(PAGE, [task for each in found for task in each.tasks], workers)
+    write_text(PAGE.with_suffix(".csv"), text(DataFrame(rows(found, outcomes))))
+
+
+if __name__ == "__main__":
+    main(*map(int, sys.argv[1:]))
