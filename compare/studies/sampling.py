@@ -21,16 +21,22 @@ def levels(models: Models, grids: Sequence[ParameterGrid], most: int = len(LEVEL
 
 
 def in_strata(
-    grids: Sequence[ParameterGrid], models: Models, strata: Mapping[str, tuple[int, ...]], most: int = len(LEVELS)
+    grids: Sequence[ParameterGrid],
+    models: Models,
+    strata: Mapping[str, tuple[int, ...]],
+    most: int = len(LEVELS),
+    least: Mapping[str, int] = {},
 ) -> list[ParameterGrid]:
     """Parameter grids that share their surfaces, on all grids that hold them.
 
     strata : numbers of surfaces on each grid, by model; those of a pilot where absent. Fewer numbers than grids
         leave out the coarsest
     most : grids
+    least : numbers of surfaces of a pilot on the coarsest grid, by model, where more than usual are wanted
     """
     found = levels(models, grids, most)
-    drawn = {each.name: strata.get(each.name, pilot(len(found[each.name]))) for each in models.drawn}
+    first = {each.name: pilot(len(found[each.name]), least.get(each.name, 0)) for each in models.drawn}
+    drawn = {name: strata.get(name, counts) for name, counts in first.items()}
     kept = {name: dict(islice(each.items(), len(drawn.get(name, each)))) for name, each in found.items()}
     return [replace(each, grids=kept, draws={**each.draws, **drawn}) for each in grids]
 
