@@ -29,8 +29,12 @@ def in_strata(
         leave out the coarsest
     most : grids
     """
-    found = levels(models, grids, most)
-    drawn = {each.name: strata.get(each.name, pilot(len(found[each.name]))) for each in models.drawn}
+    found = {name: own for name, own in levels(models, grids, most).items() if name in grids[0].grids}
+    drawn = {
+        each.name: strata.get(each.name, pilot(len(found[each.name])))
+        for each in models.drawn
+        if each.name in found
+    }
     kept = {name: dict(islice(each.items(), len(drawn.get(name, each)))) for name, each in found.items()}
     return [replace(each, grids=kept, draws={**each.draws, **drawn}) for each in grids]
 

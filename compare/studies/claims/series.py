@@ -92,8 +92,9 @@ class Series:
 
     @cached_property
     def models(self) -> Models:
-        """Models that are compared. Raises InvalidInput."""
-        return Models.of(self.asked or None, self.reference or None, {"mdr": self.mdr, "bem": self.bem})
+        """Models that are compared: those asked for with a claim on its contacts. Raises InvalidInput."""
+        asked = Models.of(self.asked or None, self.reference or None, {"mdr": self.mdr, "bem": self.bem})
+        return asked.telling(self.prescribed, self.slides)
 
     @property
     def pressed_in(self) -> bool:
@@ -147,10 +148,16 @@ class Contacts:
         """Labels of the models by name: 1D, 3D."""
         return self.series.models.labels
 
-    def pairs(self) -> Iterator[tuple[str, str, str]]:
-        """Each model and the reference, by name, and their dimension in findings: MDR, BEM, 1D/3D."""
+    def pairs(self, quantity: str) -> Iterator[tuple[str, str, str]]:
+        """Each model and the reference, by name, and their dimension in findings: MDR, BEM, 1D/3D.
+
+        quantity : that both have a claim on
+        """
         models = self.series.models
-        return ((each.name, models.reference, models.beside(each.name)) for each in models.judged)
+        if quantity in models[models.reference].answers:
+            for each in models.judged:
+                if quantity in each.answers:
+                    yield each.name, models.reference, models.beside(each.name)
 
     @cached_property
     def datasets(self) -> Mapping[tuple[str, str], xarray.Dataset]:

@@ -138,7 +138,7 @@ def edge_slope(case: Case) -> float:
 
 def _grid(case: Case, models: Models, scene: Scene, speeds, values, keeps_fields=False) -> ParameterGrid:
     """Contacts on the grid of each solver, and on half its points where that is a grid of the same surface."""
-    plan = case.plan()
+    plan, models = case.plan(), models.telling(scene.motion.pressed_by, any(speeds))
     found = ParameterGrid(
         scene=scene,
         speeds=tuple(speeds),
