@@ -33,6 +33,7 @@ from .curves import (
     SMOOTH_DEPTH,
     SMOOTH_SPEED,
     SPEED,
+    THEORY,
     predicted_exponent,
     scaled_speed,
 )
@@ -236,7 +237,7 @@ class CaseFindings:
     def points(self) -> DataFrame:
         """Every point of every curve on the fine grid, a row each."""
         frames = {}
-        for curve, solver in product(CURVES, dict.fromkeys((*self._labels, "exact"))):
+        for curve, solver in product(CURVES, dict.fromkeys((*self._labels, THEORY.name, "exact"))):
             place = f"{curve}/{solver}"
             if (dataset := self.answers.get(place)) is not None:
                 rough = "seed" in dataset.dims or (self.case.roughness and "smooth" not in curve)

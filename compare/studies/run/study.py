@@ -42,6 +42,7 @@ from .curves import (
     OWN,
     SHARED,
     SLIDING,
+    THEORY,
     Strata,
     curves,
     edge_slope,
@@ -366,6 +367,8 @@ def _plots(found: CaseFindings, answers) -> list[Plot]:
     """Figures of a case."""
     case, folder, points = found.case, f"{found.folder}/", found.points
     motion, law = case.motion, partial(friction_law, case)
+    beside = points["solver"] == ("" if THEORY.name in found.models.labels else THEORY.name)
+    theory, judged = points[beside], points[~beside]
     below = answers.children.get(FIELDS, xarray.DataTree()).children
     fields = {
         solver: {str(name): each.values for name, each in node.variables.items()} for solver, node in below.items()
@@ -380,8 +383,8 @@ def _plots(found: CaseFindings, answers) -> list[Plot]:
     plots = [
         contact_maps.plot(view(case.scene, case.bem, fields), folder),
         force_depth.plot(points, forces, folder),
-        friction_curves.against_speed(points, found.at_speeds, law, pressed, folder),
-        friction_curves.against_load(points, law, folder),
+        friction_curves.against_speed(judged, found.at_speeds, law, pressed, theory, folder),
+        friction_curves.against_load(judged, law, theory, folder),
         _shifted_curves(found),
         _smooth_limit(found),
     ]
