@@ -94,7 +94,9 @@ class Persson:
     def refusals(self, scene: Scene) -> list[str]:
         """Reasons why the theory does not answer the scene, one sentence each."""
         terms = [
-            OTHERWISE.get(each.field, lacking(each.why))(each.field, each.part) if isinstance(each, Lacking) else each
+            OTHERWISE.get(each.field, lacking(each.why))(each.field, each.part)
+            if isinstance(each, Lacking)
+            else each
             for each in terms_of(TERMS, scene)
         ]
         return [reason for term in terms for reason in term.refusals(scene)]
@@ -104,7 +106,9 @@ class Persson:
         start = process_time()
         refuse(self, scene)
         with trusted():
-            return self._of_plane(scene, start) if isinstance(scene.indenter, Plane) else self._of_body(scene, start)
+            return (
+                self._of_plane(scene, start) if isinstance(scene.indenter, Plane) else self._of_body(scene, start)
+            )
 
     def _of_plane(self, scene, start):
         area, pressure = scene.roughness.period**2, scene.motion.pressure
@@ -115,10 +119,13 @@ class Persson:
 
     def _of_body(self, scene, start):
         smooth = SmoothContact.of(scene)
-        own, told = smooth.friction_coefficient * smooth.load, {
-            "residual": smooth.residual,
-            "operator_applications": smooth.operator_applications,
-        }
+        own, told = (
+            smooth.friction_coefficient * smooth.load,
+            {
+                "residual": smooth.residual,
+                "operator_applications": smooth.operator_applications,
+            },
+        )
         if scene.roughness is None or scene.roughness.flat:
             measures = _measures(smooth.area, own, 0.0, smooth.area)
             return self._result(scene, start, smooth.load, smooth.depth, measures, **told)

@@ -20,6 +20,7 @@ from ...statistics.allocation import DrawnSurfaces
 from ...statistics.jackknife import DrawSet
 from ...statistics.levels import pooled
 from ..sampling import in_strata
+from ..theory import THEORY, with_theory
 
 ROUGH, SMOOTH = BODIES = "rough", "smooth"
 # Kinds of claims: shifts of curves (Eq. 23), friction in each dimensionality (Eqs. 14 to 19), depth and force in
@@ -124,6 +125,7 @@ class Series:
         smooth = replace(rough, scene=replace(self.scene, roughness=None))
         if self.interval is not None:
             rough = in_strata([rough], self.models, self.strata or {})[0]
+        rough = with_theory(rough) if self.slides else rough
         return {f"{self.name}/{ROUGH}": rough, f"{self.name}/{SMOOTH}": smooth}
 
     def at(self, value: float, speed: float = 0.0) -> Scene:
@@ -167,6 +169,15 @@ class Contacts:
         }
         nodes = {place: cast(xarray.DataTree, self.answers[path]) for place, path in places.items()}
         return {place: node.to_dataset(inherit=False) for place, node in nodes.items()}
+
+    @property
+    def theory(self) -> xarray.Dataset | None:
+        """Rough points that slide of the theory beside the models, or of the model that it is; None without it."""
+        rough = f"{self.series.name}/{ROUGH}"
+        if THEORY.name not in self.series.grids[rough].grids:
+            return None
+        node = cast(xarray.DataTree, self.answers[f"{rough}/{THEORY.name}"])
+        return sliding(node.to_dataset(inherit=False).sel(grid=FINE))
 
     @cached_property
     def _pooled(self):

@@ -23,6 +23,7 @@ from ...statistics.levels import pooled
 from ...statistics.means import Compared, compared
 from ..claims.claims import CLAIMS, TOLERANCE
 from ..claims.points import stacked
+from ..theory import THEORY
 from .curves import (
     CURVES,
     LOAD,
@@ -33,7 +34,6 @@ from .curves import (
     SMOOTH_DEPTH,
     SMOOTH_SPEED,
     SPEED,
-    THEORY,
     predicted_exponent,
     scaled_speed,
 )

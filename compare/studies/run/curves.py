@@ -12,13 +12,11 @@ from scene.scales import elastic_contact
 
 from ...library.case import Case
 from ...models import exact
-from ...models.law.persson import Persson
 from ...models.table import PROFILES, ModelLike, Models
 from ...solving.parameter_grid import COARSE, FINE, LEVELS, ParameterGrid, refuse
 from ..sampling import in_strata, levels
+from ..theory import with_theory
 
-# Drawn beside the models where nobody asks for it, and not judged.
-THEORY = Persson()
 OWN, SPEED, LOAD = "own", "friction-speed", "friction-load"
 ROUGH_DEPTH, SMOOTH_DEPTH, SMOOTH_SPEED = "force-depth-rough", "force-depth-smooth", "smooth-speed"
 CURVES = {
@@ -55,7 +53,7 @@ def curves(case: Case, models: Models, strata: Strata | None = None) -> dict[str
         found = _curves(case, models)
         if strata is not None and case.roughness:
             found |= _in_strata(found, models, strata)
-        found |= {name: _with_theory(found[name]) for name in (SPEED, LOAD) if name in found}
+        found |= {name: with_theory(found[name]) for name in (SPEED, LOAD) if name in found}
         refuse(found.values())
     except (ArithmeticError, SolveError, ValidationError) as error:
         # The case is valid; what follows from it is not.
@@ -95,14 +93,6 @@ def _in_strata(found, models, strata):
             sampled = in_strata(list(own.values()), models, strata.get(shared, {}), _most_grids(found[OWN].scene))
             made |= dict(zip(own, sampled, strict=True))
     return made
-
-
-def _with_theory(grid):
-    """A parameter grid with the theory of rough contact beside the models, if it answers all of it."""
-    rough = grid.scene.roughness is not None and not grid.scene.roughness.flat
-    if not rough or THEORY.name in grid.grids or any(THEORY.refusals(scene) for scene in grid.corners):
-        return grid
-    return replace(grid, grids={**grid.grids, THEORY.name: {FINE: THEORY}})
 
 
 def predicted_exponent(case: Case) -> float:

@@ -36,13 +36,13 @@ from ...trustmap.verdict import Advice, trust
 from ..accuracy import MEANS, WORDS
 from ..sampling import answered, unanswered
 from ..study import Judgement, Study
+from ..theory import THEORY
 from .claims import ROUGH_FORCE, SMOOTH_FORCE, SMOOTH_SPEED, CaseFindings, draws_of
 from .curves import (
     CURVES,
     OWN,
     SHARED,
     SLIDING,
-    THEORY,
     Strata,
     curves,
     edge_slope,
