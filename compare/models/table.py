@@ -97,6 +97,13 @@ class Model:
         return DEPTH in self.answers or (slides and FRICTION in self.answers)
 
     @property
+    def claim(self) -> str:
+        """Sentence on what it has a claim on; empty where that is everything."""
+        if set(self.answers) == set(QUANTITIES):
+            return ""
+        return f"{self.label} has a claim on {' and '.join(self.answers)} alone: it is left out of all else"
+
+    @property
     def has_grid(self) -> bool:
         """Whether half its points can be asked for, which tells the error of its grid."""
         return hasattr(self.solver, "points")

@@ -1,5 +1,6 @@
 """`Persson`: his theory of contact and friction of a rough plane, carried over to bodies of revolution."""
 
+from dataclasses import replace
 from math import nan, sqrt
 from time import process_time
 from typing import Annotated, ClassVar
@@ -9,12 +10,28 @@ from pydantic import Field
 from pydantic.dataclasses import dataclass
 from scipy.special import erf
 
-from scene import WLF, Arrhenius, Indent, Plane, Result, Scene, SelfAffine, Slide
+from scene import (
+    WLF,
+    Arrhenius,
+    Cylinder,
+    Indent,
+    Measured,
+    Plane,
+    Profile,
+    Program,
+    Result,
+    Scene,
+    SelfAffine,
+    Shear,
+    Slide,
+    Topography,
+    Wave,
+)
 from scene.indenter import Axisymmetric
 from scene.protocol import refuse, trusted
 from scene.quantities import CLOSED, Finite
 from scene.signatures import readable
-from scene.terms import Lacking, Term, lacking, terms_of
+from scene.terms import Term, lacking, terms_of
 from scene.viscoelastic import Linear
 
 from .bands import Bands, FullContact
@@ -46,9 +63,15 @@ class Pressed(Term):
 
 BODY = lacking("a body of revolution (Sphere, Cone, PowerLaw) or a Plane is allowed")
 ROUGHNESS = lacking("the theory is of a spectrum; SelfAffine with a shortest wave is allowed")
-LINES = dict.fromkeys((Axisymmetric, Plane, Linear, WLF, Arrhenius), Term)
-TERMS = LINES | {SelfAffine: Spectrum} | dict.fromkeys((Indent, Slide), Pressed)
-OTHERWISE = {"indenter": BODY, "roughness": ROUGHNESS}
+MOTION = lacking("the theory is of steady sliding; Slide or Indent is allowed")
+TERMS = {
+    **dict.fromkeys((Axisymmetric, Plane, Linear, WLF, Arrhenius), Term),
+    **dict.fromkeys((Cylinder, Measured), BODY),
+    **dict.fromkeys((Indent, Slide), Pressed),
+    **dict.fromkeys((Shear, Program), MOTION),
+    **dict.fromkeys((Wave, Topography, Profile), ROUGHNESS),
+    SelfAffine: Spectrum,
+}
 
 
 @readable
@@ -93,13 +116,10 @@ class Persson:
 
     def refusals(self, scene: Scene) -> list[str]:
         """Reasons why the theory does not answer the scene, one sentence each."""
-        terms = [
-            OTHERWISE.get(each.field, lacking(each.why))(each.field, each.part)
-            if isinstance(each, Lacking)
-            else each
-            for each in terms_of(TERMS, scene)
-        ]
-        return [reason for term in terms for reason in term.refusals(scene)]
+        reasons = [reason for term in terms_of(TERMS, scene) for reason in term.refusals(scene)]
+        if reasons or isinstance(scene.indenter, Plane):
+            return reasons
+        return SPACE.refusals(replace(scene, roughness=None))
 
     def solve(self, scene: Scene) -> Result:
         """Friction and area of contact. Raises Refused, and SolveError where the smooth contact has no answer."""

@@ -8,7 +8,8 @@ import numpy as np
 from bem3d import BEM
 from scene import Scene
 
-# A hundredth of a second; the friction of a sphere and of a cone is then known to about 1 %.
+# A hundredth of a second. Friction of spheres and cones is within 1 % of that on 512 points a side; the contact is
+# up to 5 % too wide at high speed.
 SPACE = BEM(points=64)
 
 

@@ -92,10 +92,14 @@ class Series:
         return DrawnSurfaces.of([self.grids[f"{self.name}/{ROUGH}"]])
 
     @cached_property
+    def every_model(self) -> Models:
+        """Models that are asked for. Raises InvalidInput."""
+        return Models.of(self.asked or None, self.reference or None, {"mdr": self.mdr, "bem": self.bem})
+
+    @cached_property
     def models(self) -> Models:
-        """Models that are compared: those asked for with a claim on its contacts. Raises InvalidInput."""
-        asked = Models.of(self.asked or None, self.reference or None, {"mdr": self.mdr, "bem": self.bem})
-        return asked.telling(self.prescribed, self.slides)
+        """Those of them with a claim on its contacts, which are compared. Raises InvalidInput."""
+        return self.every_model.telling(self.prescribed, self.slides)
 
     @property
     def pressed_in(self) -> bool:

@@ -331,6 +331,7 @@ def _setting(title: str, case: Case, models: Models, curves: Mapping[str, Parame
     lines = [f"{name}: {described(part)}" for name, part in parts if part is not None]
     lines.append(f"averaged: {_averaged(curves, models) if case.roughness else 'one smooth body'}")
     lines.append(f"grids: {_grids_of(models)}")
+    lines += [each.claim for each in models if each.claim]
     yield Section(f"Scene: {title}", [_list([*lines, *case.notes])])
     if case.departures:
         yield Section(f"How this departs from the paper: {title}", [_list(case.departures)])
