@@ -177,11 +177,8 @@ class Contacts:
     @property
     def theory(self) -> xarray.Dataset | None:
         """Rough points that slide of the theory beside the models, or of the model that it is; None without it."""
-        rough = f"{self.series.name}/{ROUGH}"
-        if THEORY.name not in self.series.grids[rough].grids:
-            return None
-        node = cast(xarray.DataTree, self.answers[f"{rough}/{THEORY.name}"])
-        return sliding(node.to_dataset(inherit=False).sel(grid=FINE))
+        node = cast(xarray.DataTree, self.answers[f"{self.series.name}/{ROUGH}"]).children.get(THEORY.name)
+        return None if node is None else sliding(node.to_dataset(inherit=False).sel(grid=FINE))
 
     @cached_property
     def _pooled(self):
