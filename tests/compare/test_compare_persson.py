@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray
 from scipy.special import erf
 
 import compare
@@ -269,6 +270,16 @@ def test_a_series_asks_it_for_friction_under_a_load_alone():
     assert set(at_rest.grids[f"one/{ROUGH}"].grids) == {"MDR", "BEM"}
     assert set(series().grids[f"one/{ROUGH}"].grids) == {"MDR", "BEM", "Persson"}
     assert "Persson" not in series().models.labels
+
+
+def test_a_study_draws_the_theory_where_it_was_solved():
+    solved = xarray.Dataset(
+        {"friction_coefficient": (("grid", "speed", "load"), np.ones((1, 3, 2)))},
+        {"grid": ["fine"], "speed": [0.0, 0.1, 1.0], "load": [0.5, 1.0]},
+    )
+    found = Contacts(series(), xarray.DataTree.from_dict({f"/one/{ROUGH}/Persson": solved})).theory
+    assert found["speed"].values.tolist() == [0.1, 1.0]
+    assert Contacts(series(), xarray.DataTree.from_dict({f"/one/{ROUGH}/MDR": solved})).theory is None
 
 
 @dataclass(frozen=True)

@@ -122,6 +122,10 @@ class Persson:
             return reasons
         return SPACE.refusals(replace(scene, roughness=None))
 
+    def foreseen(self, scene: Scene) -> list[str]:
+        """Reasons why the smooth contact would have no answer, as far as a coarse one shows."""
+        return [] if isinstance(scene.indenter, Plane) else SPACE.foreseen(replace(scene, roughness=None))
+
     def solve(self, scene: Scene) -> Result:
         """Friction and area of contact. Raises Refused, and SolveError where the smooth contact has no answer."""
         start = process_time()
