@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
-from math import inf, nan
+from math import ceil, inf, nan
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -349,10 +349,13 @@ class ParameterGrid:
         return dataset
 
 
-def pilot(grids: int) -> tuple[int, ...]:
-    """Numbers of surfaces of each stratum before anything is known of their scatter."""
+def pilot(grids: int, least: int = PILOT) -> tuple[int, ...]:
+    """Numbers of surfaces of each stratum before anything is known of their scatter.
+
+    least : of the coarsest, in whose proportion the others are then more
+    """
     finer = (FINEST,) * (grids > 2) + (DIFFERENCES,) * (grids - 1)
-    return (*finer[: grids - 1], PILOT)
+    return tuple(ceil(each * max(1.0, least / PILOT)) for each in (*finer[: grids - 1], PILOT))
 
 
 def on_two_grids(*solvers: Solver) -> dict[str, dict[str, Solver]]:

@@ -21,20 +21,23 @@ def levels(models: Models, grids: Sequence[ParameterGrid], most: int = len(LEVEL
 
 
 def in_strata(
-    grids: Sequence[ParameterGrid], models: Models, strata: Mapping[str, tuple[int, ...]], most: int = len(LEVELS)
+    grids: Sequence[ParameterGrid],
+    models: Models,
+    strata: Mapping[str, tuple[int, ...]],
+    most: int = len(LEVELS),
+    least: Mapping[str, int] = {},
 ) -> list[ParameterGrid]:
     """Parameter grids that share their surfaces, on all grids that hold them.
 
     strata : numbers of surfaces on each grid, by model; those of a pilot where absent. Fewer numbers than grids
         leave out the coarsest
     most : grids
+    least : numbers of surfaces of a pilot on the coarsest grid, by model, where more than usual are wanted
     """
     found = {name: own for name, own in levels(models, grids, most).items() if name in grids[0].grids}
-    drawn = {
-        each.name: strata.get(each.name, pilot(len(found[each.name])))
-        for each in models.drawn
-        if each.name in found
-    }
+    drawing = [each.name for each in models.drawn if each.name in found]
+    first = {name: pilot(len(found[name]), least.get(name, 0)) for name in drawing}
+    drawn = {name: strata.get(name, counts) for name, counts in first.items()}
     kept = {name: dict(islice(each.items(), len(drawn.get(name, each)))) for name, each in found.items()}
     return [replace(each, grids=kept, draws={**each.draws, **drawn}) for each in grids]
 

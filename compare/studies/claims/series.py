@@ -43,13 +43,14 @@ class Series:
         constant rate, and all other scenes slide. Every scene is also solved at rest
     speeds : of sliding, or the rates of pressing in [m/s]; none where only rest is asked for
     values : loads [N] or depths [m]
-    surfaces, profiles : drawn in three and in one dimension, with the seeds from that of the scene on
+    surfaces, profiles : drawn in three and in one dimension, with the seeds from that of the scene on; where an
+        interval is wanted, of a pilot at least so many on its coarsest grid
     bem, mdr : the finer settings; the coarser have half the points, and half the steps in time
     note : what is to be said of it on the page
     claims : which kinds of claims are judged, out of KINDS
     asked, reference : models and the reference among them, see `Models.of`; MDR and BEM if none is asked for
-    interval : in place of surfaces and profiles, the half-width that is wanted of intervals of 95 % of claims that
-        are not decided, relative; None of fixed numbers
+    interval : the half-width that is wanted of intervals of 95 % of claims that are not decided, relative; None of
+        fixed numbers
     strata : then numbers of draws on each grid by model, those of a pilot if absent; fewer numbers than grids
         leave out the coarsest
     """
@@ -128,7 +129,7 @@ class Series:
         )
         smooth = replace(rough, scene=replace(self.scene, roughness=None))
         if self.interval is not None:
-            rough = in_strata([rough], self.models, self.strata or {})[0]
+            rough = in_strata([rough], self.models, self.strata or {}, least=rough.draws)[0]
         rough = with_theory(rough) if self.slides else rough
         return {f"{self.name}/{ROUGH}": rough, f"{self.name}/{SMOOTH}": smooth}
 

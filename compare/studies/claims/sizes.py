@@ -21,7 +21,7 @@ class Size:
     few : speeds, and loads or depths, at most, where many parameters are changed
     indentations : rates and depths of pressing in
     steps : in time, of pressing in
-    interval : in place of surfaces and profiles, the half-width that is wanted of intervals, see `Series`
+    interval : the half-width that is wanted of intervals, see `Series`
     """
 
     range: tuple[float, float]
