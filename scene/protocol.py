@@ -32,6 +32,8 @@ class Solver(Protocol):
     points, steps : settings of its grid and its steps in time, halved to know their error; it has no coarser grid
     label : what it is called beside 1D and 3D; its name
     draws : what its means are taken over: "profiles" in one dimension, "surfaces", or "none"; surfaces
+    answers : what it has a claim on, of "friction", "force" (at a depth) and "depth" (under a load); all of them.
+        The judge asks it for nothing else, nor for friction at a depth without the force
     packages : names of the packages whose code its answers depend on; the package of its class
     """
 

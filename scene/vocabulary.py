@@ -59,7 +59,9 @@ MEASURES: Mapping[str, Entry] = {
     ),
     "contact_area": _area("Area of real contact: pixels under pressure."),
     "contact_fraction": Entry(
-        "1", "Share in real contact: in 1D of the span from first to last contact, of a plane of its cell."
+        "1",
+        "Share in real contact: in 1D of the span from first to last contact, of a plane of its cell, in a theory "
+        "of the smooth contact.",
     ),
     "contact_length": Entry("m", "Length of real contact along the profile."),
     "contact_over_period": Entry("1", "Width of the smooth relaxed contact over the longest wavelength, 2a / L."),
@@ -85,6 +87,8 @@ MEASURES: Mapping[str, Entry] = {
     ),
     "friction_in_elastomer": _force("Part of the friction that the elastomer dissipates."),
     "friction_in_interface": _force("Part of the tangential force that shear of the interface carries."),
+    "friction_of_roughness": _force("Part of the friction that the roughness adds to that of the smooth body."),
+    "friction_of_shape": _force("Part of the friction that the smooth body has."),
     "heating_solves": Entry("1", "Contacts that were solved to find the temperature at which heat is balanced."),
     "height_over_depth": Entry("1", "Rms height of the roughness over the depth of the smooth relaxed contact."),
     "load_on_leading_flanks": Entry("1", "Share of the load where the profile falls along +x."),
@@ -97,6 +101,7 @@ MEASURES: Mapping[str, Entry] = {
     "pixel": Entry("m", "Spacing of the grid on which the contact was solved."),
     "points_across_contact": Entry("1", "Pixels from the first contact to the last, on the longer side."),
     "points_per_shortest_wave": Entry("1", "Pixels on the shortest wavelength of the roughness."),
+    "pressure_ratio": Entry("1", "Mean pressure over the rms pressure of the roughness in full contact."),
     "rms_height": Entry("m", "Rms height of the roughness over its period."),
     "rms_slope": Entry(
         "1", "Rms slope of the roughness over its period: in 1D of finite differences, in 3D of the full gradient."

@@ -22,11 +22,13 @@ GROUP = "crosscheck.models"  # of entry points, by which installed packages add 
 Draws: TypeAlias = Literal["profiles", "surfaces", "none"]
 DRAWS: tuple[Draws, ...] = get_args(Draws)
 PROFILES, SURFACES, NONE = DRAWS
+FRICTION, FORCE, DEPTH = QUANTITIES = "friction", "force", "depth"  # that a model may have a claim on
 # A model as it is asked for: an object of the protocol `scene.Solver`, or a name.
 ModelLike: TypeAlias = Solver | str
 # Label and draws of those that come with the package, by the name of the solver; others state their own.
 KNOWN: Mapping[str, tuple[str, Draws]] = {"MDR": ("1D", PROFILES), "BEM": ("3D", SURFACES)}
 OWN = {"mdr": MDR, "bem": BEM}  # models that a scene has settings for, by the name of these
+THEORIES = {"persson": "compare.models.law.persson:Persson"}  # imported when they are asked for
 
 
 @dataclass(frozen=True)
@@ -37,11 +39,14 @@ class Model:
     label : what it is called in words: 1D, 3D, or as its attribute `label` says; its name, if it has none
     draws : what its means are taken over, as its attribute `draws` says: profiles in one dimension, surfaces, or
         none of what answers for all surfaces at once; surfaces, if it has none
+    answers : quantities that it has a claim on, as its attribute `answers` says: friction, force at a depth, depth
+        under a load; all, if it has none
     """
 
     solver: Solver
     label: str
     draws: Draws
+    answers: tuple[str, ...] = QUANTITIES
 
     @classmethod
     def of(cls, solver: Solver) -> "Model":
@@ -65,7 +70,12 @@ class Model:
         draws = cast(Draws, getattr(solver, "draws", draws))
         if draws not in DRAWS:
             raise InvalidInput(f"{told}: its `draws` is {brief(repr(draws))}, {', '.join(DRAWS)} are allowed")
-        return cls(solver, label, draws)
+        answers = getattr(solver, "answers", QUANTITIES)
+        if not isinstance(answers, tuple) or not answers or not set(answers) <= set(QUANTITIES):
+            raise InvalidInput(
+                f"{told}: its `answers` is {brief(repr(answers))}, a tuple of {', '.join(QUANTITIES)} is allowed"
+            )
+        return cls(solver, label, draws, answers)
 
     @property
     def name(self) -> str:
@@ -76,6 +86,22 @@ class Model:
     def dimension(self) -> str:
         """1D of what draws profiles, else 3D: which laws it must hold."""
         return "1D" if self.draws == PROFILES else "3D"
+
+    def tells(self, pressed_by: str, slides: bool) -> bool:
+        """Whether it has a claim on contacts under a load or at a depth, that slide or rest: its grids are solved.
+
+        At a depth friction is a coefficient only with the force.
+        """
+        if pressed_by in ("depth", "gap"):
+            return FORCE in self.answers
+        return DEPTH in self.answers or (slides and FRICTION in self.answers)
+
+    @property
+    def claim(self) -> str:
+        """Sentence on what it has a claim on; empty where that is everything."""
+        if set(self.answers) == set(QUANTITIES):
+            return ""
+        return f"{self.label} has a claim on {' and '.join(self.answers)} alone: it is left out of all else"
 
     @property
     def has_grid(self) -> bool:
@@ -128,10 +154,18 @@ class Models:
         if len(found) < 2:
             raise InvalidInput(f"models = {', '.join(names)}: at least two are compared")
         by_name = {each.lower(): each for each in names}
-        chosen = reference.lower() if reference else "bem" if "bem" in by_name else names[-1].lower()
-        if chosen not in by_name:
+        if reference and reference.lower() not in by_name:
             raise InvalidInput(f"reference = {brief(repr(reference))}: one of {', '.join(names)} is allowed")
-        return cls(tuple(found), by_name[chosen])
+        return cls(tuple(found), by_name[reference.lower()] if reference else _reference(names))
+
+    def telling(self, pressed_by: str, slides: bool) -> "Models":
+        """Those with a claim on some contacts, see `Model.tells`. Raises InvalidInput where there is none."""
+        found = tuple(each for each in self.models if each.tells(pressed_by, slides))
+        names = [each.name for each in found]
+        if not found:
+            told = ", ".join(f"{each.name} ({', '.join(each.answers)})" for each in self.models)
+            raise InvalidInput(f"models = {told}: none has a claim on contacts under a prescribed {pressed_by}")
+        return Models(found, self.reference if self.reference in names else _reference(names))
 
     def __getitem__(self, name: str) -> Model:
         return self._by_name[name]
@@ -181,10 +215,11 @@ def named(name: str, own: Mapping[str, Solver]) -> Solver:
     if name.lower() in own:
         return own[name.lower()]
     installed = {each.name: each for each in entry_points(group=GROUP)}
+    place = THEORIES.get(name.lower(), name)
     if name in installed:
         found = installed[name].load()
-    elif ":" in name:
-        module, _, attribute = name.partition(":")
+    elif ":" in place:
+        module, _, attribute = place.partition(":")
         if os.getcwd() not in sys.path:  # a console command does not look where it is called
             sys.path.insert(0, os.getcwd())
         try:
@@ -192,13 +227,18 @@ def named(name: str, own: Mapping[str, Solver]) -> Solver:
         except (ImportError, AttributeError, ValueError) as error:
             raise InvalidInput(f"models = {brief(repr(name))}: cannot be imported: {brief(str(error))}") from error
     else:
-        known = [*own, *installed]
+        known = [*own, *THEORIES, *installed]
         meant = suggestion(name, known) or "."
         raise InvalidInput(
             f"models = {brief(repr(name))}: no model of that name{meant} There are {', '.join(known)}, those of "
             f"installed packages (entry points {GROUP}), and MODULE:NAME"
         )
     return _made(found, repr(name))
+
+
+def _reference(names: Sequence[str]) -> str:
+    """The reference where none is named: BEM if it is among them, else the last."""
+    return next((each for each in names if each.lower() == "bem"), names[-1])
 
 
 def _made(found: Any, name: str) -> Any:

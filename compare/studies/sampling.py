@@ -34,8 +34,9 @@ def in_strata(
     most : grids
     least : numbers of surfaces of a pilot on the coarsest grid, by model, where more than usual are wanted
     """
-    found = levels(models, grids, most)
-    first = {each.name: pilot(len(found[each.name]), least.get(each.name, 0)) for each in models.drawn}
+    found = {name: own for name, own in levels(models, grids, most).items() if name in grids[0].grids}
+    drawing = [each.name for each in models.drawn if each.name in found]
+    first = {name: pilot(len(found[name]), least.get(name, 0)) for name in drawing}
     drawn = {name: strata.get(name, counts) for name, counts in first.items()}
     kept = {name: dict(islice(each.items(), len(drawn.get(name, each)))) for name, each in found.items()}
     return [replace(each, grids=kept, draws={**each.draws, **drawn}) for each in grids]

@@ -239,7 +239,7 @@ def test_every_panel_has_its_letter(name):
 def test_a_style_and_colours_of_ones_own_hold_in_every_figure(name):
     """A quarter more text, twice the lines, in another font, and other colours of the solvers."""
     sheet = {"font.size": 10, "lines.linewidth": 2.2, "lines.markersize": 8, "font.family": "serif"}
-    own = {"MDR": "#117733", "CorrectedMDR": "#999933", "BEM": "#AA4499"}
+    own = {"MDR": "#117733", "CorrectedMDR": "#999933", "BEM": "#AA4499", "Persson": "#332288"}
     styled = drawn(name, style.Look(sheet=sheet, colours=own))
     sizes, larger = (max(text.get_fontsize() for text in _written(each)) for each in (plain(name), styled))
     assert larger == pytest.approx(1.25 * sizes, rel=ROUNDING)

@@ -129,6 +129,7 @@ OBJECTS = [
         speeds=(0.1, 1.0), pressing=(0.5, 2.0), load_speeds=(0.1,), depths=(1.0, 2.0), surfaces=2, profiles=3
     ),
     compare.CorrectedMDR(profiles=3),
+    compare.Persson(gamma=0.5),
     PARAMETER_GRID,
     compare.Claim("a", "A", expected=1.0, tolerance=0.1),
     compare.Finding(compare.Claim("a", "A"), value=1.0, scatter=(0.5, 1.5), grid=0.1),

@@ -2,4 +2,6 @@
 leaves of it.
 
 bands : a spectrum as waves, and what these do in full contact
+smooth : the smooth contact that roughness is added to
+persson : Persson's theory, a model
 """

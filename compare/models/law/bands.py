@@ -7,7 +7,7 @@ import numpy as np
 from scipy.special import j1, jv
 
 from scene import SelfAffine
-from scene.rheology import Elastomer
+from scene.viscoelastic import Linear
 
 from ..exact.full_contact import complex_stiffness
 
@@ -81,7 +81,7 @@ class FullContact:
     stiffening: float
 
     @classmethod
-    def of(cls, bands: Bands, elastomer: Elastomer, speed: float) -> "FullContact":
+    def of(cls, bands: Bands, elastomer: Linear, speed: float) -> "FullContact":
         """Full contact of waves that slide at a speed [m/s]."""
         around = complex_stiffness(elastomer, speed * bands.q[:, None] * _COSINE)
         lossy = np.sum(_SHARES * _COSINE * around.imag, axis=1)

@@ -53,5 +53,7 @@ def averaged(points: DataFrame) -> str:
         return "The body is smooth: bars are the change on halving the grid."
     count = {solver: int(rows["surfaces"].max()) for solver, rows in rough.groupby("solver")}
     means = [f"{count.get('MDR', 0)} profiles (1D)", f"{count.get('BEM', 0)} surfaces (3D)"]
-    means += [f"{number} draws ({name})" for name, number in count.items() if name not in ("MDR", "BEM")]
+    # What answers for all surfaces at once has one.
+    others = {name: number for name, number in count.items() if name not in ("MDR", "BEM") and number > 1}
+    means += [f"{number} draws ({name})" for name, number in others.items()]
     return f"Means over {', '.join(means[:-1])} and {means[-1]}; bars are intervals of 95 %."

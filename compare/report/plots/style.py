@@ -37,11 +37,17 @@ if TYPE_CHECKING:
 SINGLE, DOUBLE = JOURNALS["default"].single, JOURNALS["default"].double
 
 # Okabe and Ito: blue and vermillion differ for every reader; marker and line tell them apart in grey.
-COLOURS = {"MDR": "#0072B2", "CorrectedMDR": "#56B4E9", "BEM": "#D55E00"}
-MARKER = {"MDR": "o", "CorrectedMDR": "^", "BEM": "s", "exact": ""}
-LINE = {"MDR": "-", "CorrectedMDR": "-.", "BEM": "--", "exact": "-"}
-LABEL = {"MDR": "1D (MDR)", "CorrectedMDR": "1D, corrected", "BEM": "3D (BEM)", "exact": "closed form"}
-OTHERS = ("#009E73", "#CC79A7", "#8A6D00", "#7E57C2")  # colours of models that did not come with the package
+COLOURS = {"MDR": "#0072B2", "CorrectedMDR": "#56B4E9", "BEM": "#D55E00", "Persson": "#009E73"}
+MARKER = {"MDR": "o", "CorrectedMDR": "^", "BEM": "s", "Persson": "D", "exact": ""}
+LINE = {"MDR": "-", "CorrectedMDR": "-.", "BEM": "--", "Persson": (0, (5, 1, 1, 1)), "exact": "-"}
+LABEL = {
+    "MDR": "1D (MDR)",
+    "CorrectedMDR": "1D, corrected",
+    "BEM": "3D (BEM)",
+    "Persson": "Persson's theory",
+    "exact": "closed form",
+}
+OTHERS = ("#882255", "#CC79A7", "#8A6D00", "#7E57C2")  # colours of models that did not come with the package
 SERIES_MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 SERIES_LINES = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)), (0, (1, 3)))
 

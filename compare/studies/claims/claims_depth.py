@@ -10,6 +10,7 @@ from scene.regime import MUCH_LESS_HEIGHT
 from scene.scales import elastic_contact
 
 from ...models.exact.indentation import loading_force
+from ...models.table import DEPTH, FORCE
 from ...statistics.finding import Finding
 from ...statistics.jackknife import mean
 from .claims import claim
@@ -20,6 +21,7 @@ from .series import ROUGH, SMOOTH, Contacts, Series
 def depth_findings(contacts: Contacts) -> list[Finding]:
     """Findings at rest, and pressed in where the motion is a Program."""
     series, words = contacts.series, where(contacts.series)
+    told = DEPTH if series.prescribed == "load" else FORCE
     found = [
         finding(claim(name, partial(measure, solver), dimension), contacts, SMOOTH, words, solver, plot=plot)
         for solver, dimension in contacts.labels.items()
@@ -27,12 +29,12 @@ def depth_findings(contacts: Contacts) -> list[Finding]:
     ]
     found += rest_findings(contacts, words)
     if not series.speeds and not series.pressed_in and len(series.values) > 2:
-        found += pair_findings("rest.stiffness", _stiffer, contacts, ROUGH, words, "depth")
+        found += pair_findings("rest.stiffness", _stiffer, contacts, ROUGH, words, "depth", told)
     if series.pressed_in and len(series.speeds) > 1:
         for place, name in ((0, "slow"), (-1, "fast")):
             regime = f"{series.speeds[place]:.2g} m/s; {words}"
             apart = partial(_pressed_apart, series, place)
-            found += pair_findings(f"pressed-in.{name}", apart, contacts, ROUGH, regime, "pressed-in")
+            found += pair_findings(f"pressed-in.{name}", apart, contacts, ROUGH, regime, "pressed-in", told)
     return found
 
 
@@ -47,13 +49,13 @@ def rest_findings(contacts: Contacts, words: str) -> list[Finding]:
         return (np.log(mean(one, "normal_force")[0]) - np.log(mean(three, "normal_force")[0]))[places]
 
     deep = depths * MUCH_LESS_HEIGHT >= series.scene.roughness.rms_height
-    what = "depth" if at_load else "force"
+    what = DEPTH if at_load else FORCE
     return [
         found
         for side, places in (("deep", deep), ("shallow", ~deep))
         if places.any()
         for found in pair_findings(
-            f"rest.{what}-{side}", partial(apart, places), contacts, ROUGH, words, plot="depth"
+            f"rest.{what}-{side}", partial(apart, places), contacts, ROUGH, words, "depth", what
         )
     ]
 

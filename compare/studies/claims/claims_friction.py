@@ -8,7 +8,7 @@ from math import nan
 import numpy as np
 
 from ...models import exact
-from ...models.table import PROFILES
+from ...models.table import FRICTION, PROFILES
 from ...solving.parameter_grid import COARSE, FINE
 from ...statistics import eq23
 from ...statistics.collapse import Collapse, collapse
@@ -46,11 +46,20 @@ def friction_findings(contacts: Contacts, laws: Mapping[str, Laws]) -> list[Find
 
 
 def pair_findings(
-    name: str, measure: Callable, contacts: Contacts, body: str, regime: str, plot: str = "levels"
+    name: str,
+    measure: Callable,
+    contacts: Contacts,
+    body: str,
+    regime: str,
+    plot: str = "levels",
+    quantity: str = FRICTION,
 ) -> list[Finding]:
-    """Findings of a claim on each model against the reference. measure : of answers of both, in this order"""
+    """Findings of a claim on each model against the reference, of those that answer a quantity.
+
+    measure : of answers of both, in this order
+    """
     found = []
-    for model, reference, beside in contacts.pairs():
+    for model, reference, beside in contacts.pairs(quantity):
 
         def of_both(sample, both=(model, reference)):
             return measure(*(sample[each] for each in both))

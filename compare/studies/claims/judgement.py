@@ -38,7 +38,7 @@ def judge_series(contacts: Contacts) -> JudgedSeries:
     series = contacts.series
     if not series.slides:
         return JudgedSeries(contacts, {}, {}, _asked(series, depth_findings(contacts), DEPTH))
-    found = {solver: laws(contacts, solver) for solver in contacts.labels}
+    found = {each.name: laws(contacts, each.name) for each in series.models if FRICTION in each.answers}
     ruled = {solver: each for solver, each in found.items() if each is not None}
     reference = series.models.reference
     if reference not in ruled or not set(found) & set(SOLVERS) <= set(ruled):

@@ -20,6 +20,7 @@ from ...statistics.allocation import DrawnSurfaces
 from ...statistics.jackknife import DrawSet
 from ...statistics.levels import pooled
 from ..sampling import in_strata
+from ..theory import THEORY, with_theory
 
 ROUGH, SMOOTH = BODIES = "rough", "smooth"
 # Kinds of claims: shifts of curves (Eq. 23), friction in each dimensionality (Eqs. 14 to 19), depth and force in
@@ -92,9 +93,14 @@ class Series:
         return DrawnSurfaces.of([self.grids[f"{self.name}/{ROUGH}"]])
 
     @cached_property
-    def models(self) -> Models:
-        """Models that are compared. Raises InvalidInput."""
+    def every_model(self) -> Models:
+        """Models that are asked for. Raises InvalidInput."""
         return Models.of(self.asked or None, self.reference or None, {"mdr": self.mdr, "bem": self.bem})
+
+    @cached_property
+    def models(self) -> Models:
+        """Those of them with a claim on its contacts, which are compared. Raises InvalidInput."""
+        return self.every_model.telling(self.prescribed, self.slides)
 
     @property
     def pressed_in(self) -> bool:
@@ -124,6 +130,7 @@ class Series:
         smooth = replace(rough, scene=replace(self.scene, roughness=None))
         if self.interval is not None:
             rough = in_strata([rough], self.models, self.strata or {}, least=rough.draws)[0]
+        rough = with_theory(rough) if self.slides else rough
         return {f"{self.name}/{ROUGH}": rough, f"{self.name}/{SMOOTH}": smooth}
 
     def at(self, value: float, speed: float = 0.0) -> Scene:
@@ -148,10 +155,16 @@ class Contacts:
         """Labels of the models by name: 1D, 3D."""
         return self.series.models.labels
 
-    def pairs(self) -> Iterator[tuple[str, str, str]]:
-        """Each model and the reference, by name, and their dimension in findings: MDR, BEM, 1D/3D."""
+    def pairs(self, quantity: str) -> Iterator[tuple[str, str, str]]:
+        """Each model and the reference, by name, and their dimension in findings: MDR, BEM, 1D/3D.
+
+        quantity : that both have a claim on
+        """
         models = self.series.models
-        return ((each.name, models.reference, models.beside(each.name)) for each in models.judged)
+        if quantity in models[models.reference].answers:
+            for each in models.judged:
+                if quantity in each.answers:
+                    yield each.name, models.reference, models.beside(each.name)
 
     @cached_property
     def datasets(self) -> Mapping[tuple[str, str], xarray.Dataset]:
@@ -161,6 +174,12 @@ class Contacts:
         }
         nodes = {place: cast(xarray.DataTree, self.answers[path]) for place, path in places.items()}
         return {place: node.to_dataset(inherit=False) for place, node in nodes.items()}
+
+    @property
+    def theory(self) -> xarray.Dataset | None:
+        """Rough points that slide of the theory beside the models, or of the model that it is; None without it."""
+        node = cast(xarray.DataTree, self.answers[f"{self.series.name}/{ROUGH}"]).children.get(THEORY.name)
+        return None if node is None else sliding(node.to_dataset(inherit=False).sel(grid=FINE))
 
     @cached_property
     def _pooled(self):

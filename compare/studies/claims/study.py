@@ -353,6 +353,7 @@ def _asked(judged: JudgedSeries) -> Iterator[str]:
     for model in series.models:
         points = f" of {getattr(model.solver, 'points', 0)} points, also on half of them" if model.has_grid else ""
         yield f"{model.label}: {rough.told(model.name, model.draws)}{points if series.interval is None else ''}"
+    yield from (each.claim for each in series.every_model if each.claim)
     for solver, dimension in judged.contacts.labels.items():
         answers = judged.contacts(solver)
         known = answers["rms_slope"].values if "rms_slope" in answers else np.array(np.nan)

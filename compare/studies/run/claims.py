@@ -11,7 +11,7 @@ import xarray
 from pandas import DataFrame
 
 from ...library.case import Case
-from ...models.table import Model, Models
+from ...models.table import DEPTH, FORCE, FRICTION, Model, Models
 from ...solving.parameter_grid import COARSE, FINE
 from ...statistics import eq23, means
 from ...statistics.allocation import DrawnSurfaces
@@ -20,9 +20,10 @@ from ...statistics.finding import HALVED, UNKNOWN, Claim, Finding, said_of
 from ...statistics.frictioncurves import SimulatedCurves
 from ...statistics.jackknife import DrawSet, mean
 from ...statistics.levels import pooled
-from ...statistics.means import FRICTION, Compared, compared
+from ...statistics.means import Compared, compared
 from ..claims.claims import CLAIMS, TOLERANCE
 from ..claims.points import stacked
+from ..theory import THEORY
 from .curves import (
     CURVES,
     LOAD,
@@ -124,7 +125,7 @@ class CaseFindings:
         if speeds := self._speeds(SMOOTH_SPEED):
             lowest = int(np.argmin(speeds))
             regime = f"v τ / a = {scaled_speed(self.case, speeds[lowest]):.2g}"
-            for model in self.models.judged:
+            for model in self._judged(SMOOTH_SPEED, FRICTION):
                 told = {"plot": "smooth-limit", "regime": regime, "dimension": self.models.beside(model.name)}
                 found = self._friction(SMOOTH_SPEED, model.name)
                 yield self._finding(_slow(model, self.models[self.models.reference]), found, (lowest, 0), **told)
@@ -132,7 +133,7 @@ class CaseFindings:
     def _own(self):
         """Friction of the scene as it stands."""
         if self.case.slides and self.case.motion.speed > 0:
-            for model in self.models.judged:
+            for model in self._judged(OWN, FRICTION):
                 beside = self.models.beside(model.name)
                 found = self._friction(OWN, model.name)
                 yield self._finding(
@@ -143,7 +144,8 @@ class CaseFindings:
     def at_speeds(self) -> list[tuple[str, float, Finding]]:
         """Friction of each model over that of the reference at every speed."""
         rows = []
-        for model in self.models.judged if (speeds := self._speeds(SPEED)) else ():
+        speeds = self._speeds(SPEED)
+        for model in self._judged(SPEED, FRICTION):
             beside, found = self.models.beside(model.name), self._friction(SPEED, model.name)
             claim = said_of(AT_SPEEDS, beside)
             rows += [
@@ -155,10 +157,8 @@ class CaseFindings:
     def forces(self, claim: Claim) -> list[tuple[str, float, Finding]]:
         """Force of each model over that of the reference less one, at every depth at which that one touches."""
         curve, reference = ROUGH_DEPTH if claim is ROUGH_FORCE else SMOOTH_DEPTH, self.models.reference
-        if f"{curve}/{reference}" not in self.datasets:
-            return []
         rows = []
-        for model in self.models.judged:
+        for model in self._judged(curve, FORCE):
             beside = self.models.beside(model.name)
             found = self._deviations(said_of(claim, beside), curve, model.name, reference, beside)
             rows += [(model.name, depth, each) for depth, each in found.items()]
@@ -167,24 +167,26 @@ class CaseFindings:
     def _closed_form(self):
         """Force on the smooth body over the closed form, less one."""
         if f"{SMOOTH_DEPTH}/exact" in self.datasets:
-            for solver, dimension in self._labels.items():
-                yield from self._deviations(CLOSED_FORM, SMOOTH_DEPTH, solver, "exact", dimension).values()
+            for model in self._claiming(SMOOTH_DEPTH, FORCE):
+                yield from self._deviations(CLOSED_FORM, SMOOTH_DEPTH, model.name, "exact", model.label).values()
 
     def _grid(self):
         """Change of the scene's own answer from half the points to all."""
         names: tuple[str, ...] = ("normal_force",) if self.case.motion.load is None else ("depth_reached",)
-        names = FRICTION if self.case.slides and self.case.motion.speed > 0 else names
-        for solver, dimension in self._labels.items():
-            if not self._has_grid(solver):
-                continue
-            number = self._ratio(OWN, (solver,), *names)
-            value = float((number.grid / np.abs(number.value))[0, 0])
-            yield Finding(GRID, value, where=self.name, draws=number.draws, dimension=dimension)
+        quantity = FORCE if self.case.motion.load is None else DEPTH
+        if self.case.slides and self.case.motion.speed > 0:
+            names, quantity = means.FRICTION, FRICTION
+        for model in self._claiming(OWN, quantity):
+            if model.has_grid:
+                number = self._ratio(OWN, (model.name,), *names)
+                value = float((number.grid / np.abs(number.value))[0, 0])
+                yield Finding(GRID, value, where=self.name, draws=number.draws, dimension=model.label)
 
     def _spread(self):
         """Spread of both estimates of friction in three dimensions, at every speed."""
         speeds = self._speeds(SPEED)
-        for solver, dimension in self._labels.items() if speeds else ():
+        for model in self._claiming(SPEED, FRICTION):
+            solver, dimension = model.name, model.label
             if "friction_spread" not in self.datasets[f"{SPEED}/{solver}"]:
                 continue
             found = self._ratio(SPEED, (solver,), "friction_spread", size=True)
@@ -197,7 +199,8 @@ class CaseFindings:
     def shifted(self) -> list[Shifted]:
         """Curves of friction against load shifted onto one, of each solver where there are points enough."""
         found = []
-        for solver, dimension in self._labels.items():
+        for model in self._claiming(LOAD, FRICTION):
+            solver, dimension = model.name, model.label
             fine, coarse = (self._collapse(solver, grid) for grid in (FINE, COARSE))
             if fine is None:
                 continue
@@ -225,14 +228,16 @@ class CaseFindings:
         if asked is not None and eq23.shiftable(asked.sizes["speed"], asked.sizes[means.pressed(asked)]):
             known = {each.solver for each in self.shifted}
             yield from (
-                eq23.too_few(label, self.name) for each, label in self._labels.items() if each not in known
+                eq23.too_few(each.label, self.name)
+                for each in self._claiming(LOAD, FRICTION)
+                if each.name not in known
             )
 
     @cached_property
     def points(self) -> DataFrame:
         """Every point of every curve on the fine grid, a row each."""
         frames = {}
-        for curve, solver in product(CURVES, dict.fromkeys((*self._labels, "exact"))):
+        for curve, solver in product(CURVES, dict.fromkeys((*self._labels, THEORY.name, "exact"))):
             place = f"{curve}/{solver}"
             if (dataset := self.answers.get(place)) is not None:
                 rough = "seed" in dataset.dims or (self.case.roughness and "smooth" not in curve)
@@ -258,11 +263,23 @@ class CaseFindings:
     def _labels(self):
         return self.models.labels
 
+    def _claiming(self, curve, quantity) -> list[Model]:
+        """Models of a curve with a claim on a quantity."""
+        return [
+            each for each in self.models if quantity in each.answers and f"{curve}/{each.name}" in self.datasets
+        ]
+
+    def _judged(self, curve, quantity) -> list[Model]:
+        """Those of them that are compared with the reference; none where that is not one of them."""
+        found = {each.name: each for each in self._claiming(curve, quantity)}
+        reference = found.pop(self.models.reference, None)
+        return list(found.values()) if reference else []
+
     def _has_grid(self, name):
         return name not in self._labels or self.models[name].has_grid
 
     def _friction(self, curve, model) -> Compared:
-        return self._ratio(curve, (model, self.models.reference), *FRICTION)
+        return self._ratio(curve, (model, self.models.reference), *means.FRICTION)
 
     def _ratio(self, curve, solvers, over, under=None, size=False) -> Compared:
         """A mean, or a ratio of two means, of one solver, or of one over another, at every point of a curve."""

@@ -15,6 +15,7 @@ from ...models import exact
 from ...models.table import PROFILES, ModelLike, Models
 from ...solving.parameter_grid import COARSE, FINE, LEVELS, ParameterGrid, refuse
 from ..sampling import in_strata, levels
+from ..theory import with_theory
 
 OWN, SPEED, LOAD = "own", "friction-speed", "friction-load"
 ROUGH_DEPTH, SMOOTH_DEPTH, SMOOTH_SPEED = "force-depth-rough", "force-depth-smooth", "smooth-speed"
@@ -52,6 +53,7 @@ def curves(case: Case, models: Models, strata: Strata | None = None) -> dict[str
         found = _curves(case, models)
         if strata is not None and case.roughness:
             found |= _in_strata(found, models, strata)
+        found |= {name: with_theory(found[name]) for name in (SPEED, LOAD) if name in found}
         refuse(found.values())
     except (ArithmeticError, SolveError, ValidationError) as error:
         # The case is valid; what follows from it is not.
@@ -138,7 +140,7 @@ def edge_slope(case: Case) -> float:
 
 def _grid(case: Case, models: Models, scene: Scene, speeds, values, keeps_fields=False) -> ParameterGrid:
     """Contacts on the grid of each solver, and on half its points where that is a grid of the same surface."""
-    plan = case.plan()
+    plan, models = case.plan(), models.telling(scene.motion.pressed_by, any(speeds))
     found = ParameterGrid(
         scene=scene,
         speeds=tuple(speeds),

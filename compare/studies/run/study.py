@@ -36,6 +36,7 @@ from ...trustmap.verdict import Advice, trust
 from ..accuracy import MEANS, WORDS
 from ..sampling import answered, unanswered
 from ..study import Judgement, Study
+from ..theory import THEORY
 from .claims import ROUGH_FORCE, SMOOTH_FORCE, SMOOTH_SPEED, CaseFindings, draws_of
 from .curves import (
     CURVES,
@@ -330,6 +331,7 @@ def _setting(title: str, case: Case, models: Models, curves: Mapping[str, Parame
     lines = [f"{name}: {described(part)}" for name, part in parts if part is not None]
     lines.append(f"averaged: {_averaged(curves, models) if case.roughness else 'one smooth body'}")
     lines.append(f"grids: {_grids_of(models)}")
+    lines += [each.claim for each in models if each.claim]
     yield Section(f"Scene: {title}", [_list([*lines, *case.notes])])
     if case.departures:
         yield Section(f"How this departs from the paper: {title}", [_list(case.departures)])
@@ -366,6 +368,8 @@ def _plots(found: CaseFindings, answers) -> list[Plot]:
     """Figures of a case."""
     case, folder, points = found.case, f"{found.folder}/", found.points
     motion, law = case.motion, partial(friction_law, case)
+    beside = points["solver"] == ("" if THEORY.name in found.models.labels else THEORY.name)
+    theory, judged = points[beside], points[~beside]
     below = answers.children.get(FIELDS, xarray.DataTree()).children
     fields = {
         solver: {str(name): each.values for name, each in node.variables.items()} for solver, node in below.items()
@@ -380,8 +384,8 @@ def _plots(found: CaseFindings, answers) -> list[Plot]:
     plots = [
         contact_maps.plot(view(case.scene, case.bem, fields), folder),
         force_depth.plot(points, forces, folder),
-        friction_curves.against_speed(points, found.at_speeds, law, pressed, folder),
-        friction_curves.against_load(points, law, folder),
+        friction_curves.against_speed(judged, found.at_speeds, law, pressed, theory, folder),
+        friction_curves.against_load(judged, law, theory, folder),
         _shifted_curves(found),
         _smooth_limit(found),
     ]

@@ -172,6 +172,10 @@ class Sweep(Study):
         answer = [*sentences(findings), *self._unreached(answers)]
         return Judgement(findings, answer, [*plot, Findings(findings), shown], self.setting)
 
+    @property
+    def _reference(self):
+        return self.models[self.models.reference]
+
     def _findings(self, answers):
         prescribed = self.case.motion.pressed_by
         name = (
@@ -185,9 +189,8 @@ class Sweep(Study):
         above, below = MEANS[name]
         nodes = answers["contacts"].children
         drawn = {each: pooled(nodes[each].to_dataset(inherit=False)) for each in self.models.labels}
-        for (i, speed), (j, value), model in product(
-            enumerate(self.speeds), enumerate(self.values), self.models.judged
-        ):
+        both = [each for each in self.models.judged if {word} <= {*each.answers} & {*self._reference.answers}]
+        for (i, speed), (j, value), model in product(enumerate(self.speeds), enumerate(self.values), both):
             solvers = model.name, self.models.reference
 
             def ratio(sample, i=i, j=j, solvers=solvers):
@@ -224,6 +227,8 @@ class Sweep(Study):
             parts,
             xarray.Variable("solver", list(self.models.labels), attributes("solver")),
             data_vars="all",
+            coords="minimal",  # what answers for all surfaces at once has no seed
+            compat="override",
             join="outer",
         )
         grids = [grid for grid in LEVELS if grid in joined["grid"]]  # which joining may have sorted

@@ -25,6 +25,7 @@ UNITS = {"load": "N", "depth": "m"}
 BAR = {"load": (1.0, "normal force [N]"), "depth": (1e6, "depth [µm]")}
 # What makes slow friction depend on the load, each over its number under the least load.
 BEHIND = {"contact": "real contact [1]", "drag": "friction over contact [1]", "slope": "slope in contact [1]"}
+THEORY = "levels-theory"  # table of what is drawn beside the models
 MARKERS = ("o", "s", "^", "v", "D", "<", ">")  # of the series of a family
 MEMORIES = {"rough": ("memory_over_shortest", "v τ q$_s$ [1]"), "smooth": ("memory_over_contact", "v τ / a [1]")}
 
@@ -143,6 +144,11 @@ def levels(tables: Tables) -> Figure:
     for axes, value in zip(panels, chosen, strict=True):
         for index, (dimension, curve) in enumerate(every[every[prescribed] == value].groupby("dimension")):
             _level(axes, curve, dimension, index)
+        if THEORY in tables:
+            own = tables[THEORY][tables[THEORY][prescribed] == value]
+            for solver, curve in own.groupby("solver"):
+                look = style.look(str(solver), marker="", linewidth=style.width(0.7))
+                axes.plot(curve["speed"], curve["friction_coefficient"], **look)
         axes.set(xlabel="speed [m/s]", title=EngFormatter(UNITS[prescribed])(float(f"{value:.3g}")))
     style.legend(above, panels[0].get_legend_handles_labels()[0], "outside lower center", 6)
     lower = below.subplots(1, 2, sharey=True)

@@ -98,13 +98,20 @@ def _levels(judged) -> Plot:
             memories("BEM") | interval_columns("friction_1d_over_3d", interval(ratio, contacts, body, *SOLVERS))
         )
     )
+    tables = {"levels": each_dimension(friction_of), "levels-ratios": ratios}
+    told = ""
+    if (theory := contacts.theory) is not None:
+        friction_there = theory["friction_coefficient"].transpose("speed", series.prescribed).values
+        own = place_columns(series) | {"friction_coefficient": friction_there.ravel()}
+        tables[study_friction.THEORY] = DataFrame({"solver": theory.attrs["solver"], **own})
+        told = " Green, thin: Persson's theory of the rough body, P(q) as published in 2001."
     return Plot(
         f"{series.folder}/levels",
         study_friction.levels,
-        {"levels": each_dimension(friction_of), "levels-ratios": ratios},
+        tables,
         f"Friction against speed at the least, a middle and the greatest {series.prescribed}: rough (markers), "
-        "smooth (thin), Eq. 19 (pale dashes). Below: 1D over 3D, rough and smooth; lines at 1 and at 2, the limit "
-        "of smooth bodies at low speed. Bars: 95 %.",
+        f"smooth (thin), Eq. 19 (pale dashes).{told} Below: 1D over 3D, rough and smooth; lines at 1 and at 2, "
+        "the limit of smooth bodies at low speed. Bars: 95 %.",
         f"Friction of {series.title} in both dimensionalities",
     )
 

@@ -16,7 +16,9 @@ from ....statistics.finding import Finding
 
 SPEED, LOAD = "friction-speed", "friction-load"
 RATIO, LAW = f"{SPEED}-ratio", f"{SPEED}-law"
+SPEED_THEORY, LOAD_THEORY = f"{SPEED}-theory", f"{LOAD}-theory"
 EQ_19 = "Eq. 19 with exponent 1.5 and the rms slope of the 1D profiles, without the slope of the smooth shape."
+THIN = " Thin: Persson's theory, P(q) as published in 2001, not judged here."
 # Neighbouring markers are drawn apart by this factor of the speed, either way.
 APART = 1.04
 # mu of Eq. 19 at loads [N], speeds [m/s] and an rms slope.
@@ -24,12 +26,18 @@ Law = Callable[[Any, Any, float], Any]
 
 
 def against_speed(
-    points: DataFrame, ratios: Sequence[tuple[str, float, Finding]], law: Law, held: str, folder: str = ""
+    points: DataFrame,
+    ratios: Sequence[tuple[str, float, Finding]],
+    law: Law,
+    held: str,
+    theory: DataFrame,
+    folder: str = "",
 ) -> Plot | None:
     """Plot of friction against speed; None unless something slides.
 
     ratios : model, speed [m/s], and the finding on it over the reference
     law : Eq. 19; held : what is prescribed at all speeds, in words
+    theory : points of what is drawn beside the models and not judged; may be empty
     """
     own = of_curves(points, points["curve"] == SPEED)
     if own.empty:
@@ -41,6 +49,9 @@ def against_speed(
     ]
     tables = {SPEED: own, RATIO: DataFrame(rows), LAW: _law(own, law)}
     told = f" Dotted: {EQ_19}" if len(tables[LAW]) else ""
+    if len(beside := of_curves(theory, theory["curve"] == SPEED)):
+        tables[SPEED_THEORY] = beside
+        told += THIN
     caption = f"Coefficient of friction against speed at a {held}; below, 1D over 3D.{told} {averaged(own)}"
     alternative = "Friction of both models rises to a maximum and falls; below, their ratio."
     return Plot(f"{folder}{SPEED}", speed_figure, tables, caption, alternative)
@@ -59,6 +70,9 @@ def speed_figure(tables: Tables) -> Figure:
         intervals(
             above, curve["speed"] * APART ** (2 * index - len(curves) + 1), curve, "friction_coefficient", **look
         )
+    for solver, curve in _theories(tables, SPEED_THEORY).groupby("solver"):
+        curve = curve.sort_values("speed")
+        above.plot(curve["speed"], curve["friction_coefficient_mean"], **_thin(str(solver)))
     lowest = above.get_ylim()[0]
     if len(law):
         look = style.line(0.3, 0.9, label="Eq. 19, roughness alone")
@@ -80,8 +94,11 @@ def speed_figure(tables: Tables) -> Figure:
     return drawing
 
 
-def against_load(points: DataFrame, law: Law, folder: str = "") -> Plot | None:
-    """Plot of friction against load at several speeds; None unless something slides."""
+def against_load(points: DataFrame, law: Law, theory: DataFrame, folder: str = "") -> Plot | None:
+    """Plot of friction against load at several speeds; None unless something slides.
+
+    theory : points of what is drawn beside the models and not judged; may be empty
+    """
     own = of_curves(points, points["curve"] == LOAD)
     if own.empty:
         return None
@@ -92,11 +109,15 @@ def against_load(points: DataFrame, law: Law, folder: str = "") -> Plot | None:
         own.loc[known, "eq_19"] = law(own["normal_force_mean"][known], own["speed"][known], slope)
     pressed = "" if "load" in own else " The depth is prescribed: loads are means."
     told = f" Dotted, in the shade of each speed: {EQ_19}" if known.any() else ""
+    tables = {LOAD: own}
+    if len(beside := of_curves(theory, theory["curve"] == LOAD)):
+        tables[LOAD_THEORY] = beside
+        told += THIN
     caption = (
         f"Coefficient of friction against normal force, a curve for each speed.{pressed}{told} {averaged(own)}"
     )
     alternative = "Friction of both models against load in two panels of the same axes, a curve for each speed."
-    return Plot(f"{folder}{LOAD}", load_figure, {LOAD: own}, caption, alternative)
+    return Plot(f"{folder}{LOAD}", load_figure, tables, caption, alternative)
 
 
 def load_figure(tables: Tables) -> Figure:
@@ -116,6 +137,7 @@ def load_figure(tables: Tables) -> Figure:
             look = style.look(solver, color=shade, **form, label=f"{speed:.3g} m/s", capsize=style.mark(0.6))
             own = curve.sort_values("normal_force_mean")
             intervals(axes, own["normal_force_mean"], own, "friction_coefficient", **look)
+        _beside(axes, solver, _theories(tables, LOAD_THEORY))
     _eq_19(panels[0], points[points["eq_19"].notna()])
     for axes in panels:
         axes.legend()
@@ -124,6 +146,27 @@ def load_figure(tables: Tables) -> Figure:
     lettered(panels)
     clear(drawing, panels)
     return drawing
+
+
+def _theories(tables, name):
+    """Points of a theory; none where no one was drawn."""
+    return tables.get(name, DataFrame(columns=["solver", "speed"]))
+
+
+def _thin(solver, **other):
+    """Look of what is not judged."""
+    return style.look(solver, marker="", linewidth=style.width(0.7), **other)
+
+
+def _beside(axes, solver, points):
+    """A theory at each speed in a panel of a model, in its shades, with one entry for all."""
+    for theory, own in points.groupby("solver"):
+        curves = list(own.groupby("speed"))
+        for shade, (_, curve) in zip(style.shades(solver, len(curves)), curves, strict=True):
+            curve = curve.sort_values("normal_force_mean")
+            look = _thin(str(theory), color=shade, label="")
+            axes.plot(curve["normal_force_mean"], curve["friction_coefficient_mean"], **look)
+        axes.plot([], [], **_thin(str(theory), color=style.grey(0.3)))
 
 
 def _eq_19(axes, points):

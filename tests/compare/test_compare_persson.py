@@ -1,0 +1,304 @@
+"""Persson's theory as a model: its limits, the formula as published, planes in three dimensions, and the judge."""
+
+import sys
+from dataclasses import dataclass, replace
+from math import isnan, nan, pi, sqrt
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray
+from scipy.special import erf
+
+import compare
+from bem3d import BEM
+from compare import Persson
+from compare.models.exact.full_contact import complex_stiffness
+from compare.models.law.bands import Bands, FullContact
+from compare.models.table import Model, Models
+from compare.studies.claims.series import ROUGH, Contacts, Series
+from mdr1d import MDR
+from scene import (
+    Coulomb,
+    CrossedWaves,
+    Cylinder,
+    Indent,
+    Kelvin,
+    Layer,
+    Plane,
+    Program,
+    Refused,
+    Result,
+    Scene,
+    SelfAffine,
+    Slide,
+    Sphere,
+    Stage,
+    Wave,
+)
+from scene.reading import InvalidInput
+
+pytestmark = pytest.mark.usefixtures("in_this_process")
+
+SOLID = Kelvin(modulus=1e6, relaxation_time=1e-3)
+SURFACE = SelfAffine(hurst=0.8, rms_height=2e-6, longest=8e-3, shortest=1e-3, seed=3)
+SPEEDS = {"slow": 1e-2, "fast": 3.0}  # v tau q_s = 0.06 and 19
+BODY = Scene(Sphere(radius=1e-2), SOLID, Slide(speed=0.1, load=1.0), SURFACE)
+ROUGH_CASE = compare.Case(
+    indenter=BODY.indenter,
+    elastomer=SOLID,
+    motion=BODY.motion,
+    roughness=SURFACE,
+    bem=BEM(points=48),
+    mdr=MDR(points=400),
+)
+MODELS = ["mdr", "bem", "persson"]
+FULL = 20.0  # pressure over the rms pressure at which less than 1e-80 of the area is out of contact
+# Bands are nodes of a quadrature, and a band touches as its middle does: against the same integral on 4000 waves.
+QUADRATURE = 1e-3
+
+
+def full_contact(speed, surface=SURFACE):
+    return FullContact.of(Bands.of(surface), SOLID, speed)
+
+
+def plane(ratio, speed=0.1, surface=SURFACE):
+    """Under a pressure over the rms pressure of all waves in full contact."""
+    pressure = ratio * float(full_contact(speed, surface).pressure[-1])
+    return Scene(Plane(), SOLID, Slide(speed=speed, pressure=pressure), surface)
+
+
+@pytest.mark.parametrize("gamma", [None, 0.0, 0.5])
+@pytest.mark.parametrize("speed", SPEEDS.values(), ids=SPEEDS)
+def test_in_full_contact_every_wave_has_all_of_its_friction(gamma, speed):
+    found = Persson(gamma).solve(plane(FULL, speed))
+    assert found.measures["contact_fraction"] == pytest.approx(1, rel=1e-12)
+    area = SURFACE.longest**2
+    assert found.friction_force == pytest.approx(full_contact(speed).friction.sum() * area, rel=1e-12)
+
+
+def test_under_light_pressure_the_area_is_proportional_to_it():
+    ratio = 1e-3
+    found = Persson().solve(plane(ratio))
+    # The next term of erf is x^2/6 of the first.
+    assert found.measures["contact_fraction"] == pytest.approx(sqrt(2 / pi) * ratio, rel=ratio**2)
+    assert found.measures["pressure_ratio"] == pytest.approx(ratio, rel=1e-12)
+    twice = Persson().solve(plane(2 * ratio))
+    # Of the longest waves alone the pressure is not light.
+    assert twice.friction_coefficient == pytest.approx(found.friction_coefficient, rel=0.1 * ratio)
+    assert twice.friction_coefficient > 1.5 * Persson(0.5).solve(plane(2 * ratio)).friction_coefficient
+
+
+def test_of_waves_that_are_not_seen_nothing_is_out_of_contact():
+    """At the magnification 1 all of the plane touches; each shorter wave takes some of the area away."""
+    scene = plane(0.3)
+    cut = [replace(SURFACE, shortest=shortest, rolloff=SURFACE.longest) for shortest in (4e-3, 2e-3, 1e-3, 5e-4)]
+    found = [Persson().solve(replace(scene, roughness=each)).measures["contact_fraction"] for each in cut]
+    assert found == sorted(found, reverse=True)
+    flat = replace(SURFACE, rms_height=1e-12)
+    assert Persson().solve(replace(scene, roughness=flat)).measures["contact_fraction"] == 1
+
+
+@pytest.mark.parametrize("ratio", [0.05, 0.5, 2.0])
+@pytest.mark.parametrize("gamma", [None, 0.5])
+def test_the_integral_is_that_of_the_papers(ratio, gamma):
+    """mu = 1/2 int q^3 C P [S] int cos Im E*/p, P = erf(1/(2 sqrt G)), G = 1/8 int q^3 C int |E*/p|^2."""
+    scene = plane(ratio)
+    speed, pressure = scene.motion.speed, scene.motion.pressure
+    q = np.geomspace(SURFACE.q_min, SURFACE.q_max(0.0) * (1 - 1e-12), 4001)
+    angle = np.linspace(0, pi / 2, 401)
+    around = complex_stiffness(SOLID, speed * q[:, None] * np.cos(angle)) / pressure
+    lost = 4 * np.trapezoid(np.cos(angle) * around.imag, angle, axis=1)
+    squares = 4 * np.trapezoid(np.abs(around) ** 2, angle, axis=1)
+    weight = q**3 * SURFACE.density_2d(q, SURFACE.q_max(0.0))
+    steps = np.diff(q) / 2
+    grown = np.concatenate([[0.0], np.cumsum(steps * (weight[1:] * squares[1:] + weight[:-1] * squares[:-1]))]) / 8
+    with np.errstate(divide="ignore"):
+        touching = erf(1 / (2 * np.sqrt(grown)))
+    kept = touching * (1 if gamma is None else gamma + (1 - gamma) * touching**2)
+    expected = np.trapezoid(weight * kept * lost, q) / 2
+    assert Persson(gamma).solve(scene).friction_coefficient == pytest.approx(expected, rel=QUADRATURE)
+    assert expected != pytest.approx(np.trapezoid(weight * lost, q) / 2, rel=10 * QUADRATURE)
+
+
+def test_the_later_factor_is_none_at_one_and_lowers_friction():
+    scene = plane(0.2)
+    frictions = [Persson(gamma).solve(scene).friction_force for gamma in (0.0, 0.5, 1.0)]
+    assert frictions == sorted(frictions)
+    assert frictions[-1] == Persson().solve(scene).friction_force
+    assert len({Persson().name, Persson(0.5).name, Persson(1.0).name}) == 3
+
+
+@pytest.fixture(scope="module")
+def measured_errors():
+    """Of docs/measure: area and friction over those of planes in three dimensions."""
+    sys.path.insert(0, str(Path(__file__).parents[2] / "docs" / "measure"))
+    try:
+        import persson
+    finally:
+        sys.path.pop(0)
+    return persson
+
+
+@pytest.mark.parametrize(
+    ("loss", "ratio", "area", "friction"),
+    [
+        (0.06, 0.1, (0.6, 0.9), (0.5, 0.9)),
+        (20.0, 0.1, (1.1, 1.5), (1.15, 1.7)),
+        (20.0, 1.0, (0.9, 1.1), (0.9, 1.1)),
+    ],
+)
+def test_planes_in_three_dimensions_lie_where_the_docs_say(measured_errors, loss, ratio, area, friction):
+    """Too little contact slow, too much fast, and all of it in full contact; two surfaces scatter by 15 %."""
+    found = measured_errors.errors(measured_errors.plane(loss, ratio), surfaces=2, finer=1)
+    assert area[0] < found["area"] < area[1]
+    assert friction[0] < found["friction, P alone"] < friction[1]
+    assert found["friction, P with gamma"] < found["friction, P alone"]
+
+
+def test_a_smooth_body_has_the_answer_of_three_dimensions():
+    smooth = replace(BODY, roughness=None)
+    found, known = Persson().solve(smooth), BEM(points=64).solve(smooth)
+    for name in ("normal_force", "depth", "friction_force"):
+        assert getattr(found, name) == pytest.approx(getattr(known, name), rel=1e-14)
+    at_depth = replace(smooth, motion=Slide(speed=0.1, depth=1e-4))
+    assert Persson().solve(at_depth).normal_force == BEM(points=64).solve(at_depth).normal_force
+
+
+def test_at_rest_nothing_rubs_and_the_depth_of_a_rough_body_is_not_told():
+    found = Persson().solve(replace(BODY, motion=Indent(load=1.0)))
+    assert found.friction_force == 0
+    assert isnan(found.depth)
+    assert 0 < found.measures["contact_fraction"] < 1
+
+
+def test_under_light_pressure_a_body_rubs_like_a_plane():
+    """Where contact is proportional to the pressure it does not matter how that is spread."""
+    surface = replace(SURFACE, rms_height=2e-2)
+    found = Persson().solve(replace(BODY, roughness=surface))
+    flat = Persson().solve(plane(1e-4, BODY.motion.speed, surface))
+    assert found.measures["pressure_ratio"] < 0.01
+    roughness = found.measures["friction_of_roughness"] / found.normal_force
+    assert roughness == pytest.approx(flat.friction_coefficient, rel=1e-4)
+
+
+def test_in_full_contact_all_of_the_smooth_contact_rubs():
+    surface = replace(SURFACE, rms_height=1e-10)
+    measures = Persson().solve(replace(BODY, roughness=surface)).measures
+    full = full_contact(BODY.motion.speed, surface).friction.sum()
+    assert measures["friction_of_roughness"] == pytest.approx(full * measures["contact_area"], rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("changed", "said"),
+    [
+        ({"motion": Slide(speed=0.1, depth=1e-4)}, "motion.depth = 0.0001: the theory makes no claim"),
+        ({"indenter": Plane(), "motion": Slide(speed=0.1, gap=1e-5)}, "motion.gap = 1e-05"),
+        ({"roughness": replace(SURFACE, shortest=None)}, "roughness.shortest is absent"),
+        ({"roughness": Wave(amplitude=1e-6, wavelength=1e-3)}, "roughness = Wave.*SelfAffine"),
+        ({"roughness": CrossedWaves(amplitude=1e-6, wavelength=1e-3)}, "roughness = CrossedWaves.*SelfAffine"),
+        ({"indenter": Cylinder(radius=1e-2), "motion": Slide(speed=0.1, line_load=1.0)}, "indenter = Cylinder"),
+        ({"motion": Program(stages=(Stage(duration=1.0, load=1.0),))}, "motion = Program.*Slide or Indent"),
+        ({"layer": Layer(thickness=0.01)}, "layer = Layer"),
+        ({"interface": Coulomb(coefficient=0.1)}, "interface = Coulomb"),
+    ],
+)
+def test_what_the_theory_is_not_of_is_refused_by_name(changed, said):
+    with pytest.raises(Refused, match=said):
+        Persson().solve(replace(BODY, **changed))
+
+
+@pytest.fixture(scope="module")
+def judged(tmp_path_factory):
+    return compare.run(ROUGH_CASE, tmp_path_factory.mktemp("persson"), models=MODELS, report=False)
+
+
+@pytest.fixture(scope="module")
+def by_default(tmp_path_factory):
+    return compare.run(ROUGH_CASE, tmp_path_factory.mktemp("pair"), report=False)
+
+
+def test_the_judge_leaves_out_what_the_theory_has_no_claim_on(judged):
+    found = judged.table[judged.table["dimension"].str.contains("Persson")]
+    assert set(found["claim"]) >= {"friction.ratio.own", "friction.ratio.speed", "friction.ratio.smooth-slow"}
+    assert not found["claim"].str.contains("force|depth|grid").any()
+    assert found["value"][found["claim"].str.startswith("friction")].notna().all()
+
+
+def test_the_others_keep_their_findings_beside_it(judged, by_default):
+    columns = ["claim", "where", "dimension", "value", "low", "high", "verdict"]
+    pair = judged.table[~judged.table["dimension"].str.contains("Persson")]
+    assert by_default.table[columns].to_csv() == pair[columns].reset_index(drop=True).to_csv()
+
+
+def test_where_nobody_asks_for_it_the_theory_is_drawn_and_not_judged(by_default):
+    assert not by_default.table["dimension"].str.contains("Persson").any()
+    for name in ("friction-speed", "friction-load"):
+        lines = [line.get_label() for line in by_default.figures[f"scene/{name}"].axes[0].get_lines()]
+        assert "Persson's theory" in lines
+
+
+def test_a_scene_at_a_depth_is_compared_without_it(tmp_path):
+    case = replace(ROUGH_CASE, motion=Slide(speed=0.1, depth=2e-4))
+    report = compare.run(case, tmp_path, models=MODELS, report=False)
+    assert not report.table["dimension"].str.contains("Persson").any()
+    assert set(report.table["dimension"]) >= {"1D", "3D", "1D/3D"}
+
+
+def series(**changed):
+    given = {
+        "name": "one",
+        "title": "one",
+        "scene": BODY,
+        "speeds": (0.1, 1.0),
+        "values": (0.5, 1.0),
+        "surfaces": 2,
+        "profiles": 2,
+        "bem": BEM(points=48),
+        "mdr": MDR(points=400),
+    }
+    return Series(**(given | changed))
+
+
+def test_a_series_asks_it_for_friction_under_a_load_alone():
+    asked = series(asked=("mdr", "bem", Persson()))
+    assert [model for model, *_ in Contacts(asked, None).pairs("friction")] == ["MDR", "Persson"]
+    assert [model for model, *_ in Contacts(asked, None).pairs("depth")] == ["MDR"]
+    at_depth = replace(asked, scene=replace(BODY, motion=Slide(speed=0.1, depth=1e-4)), values=(1e-4, 2e-4))
+    assert set(at_depth.grids[f"one/{ROUGH}"].grids) == {"MDR", "BEM"}
+    at_rest = replace(asked, speeds=())
+    assert set(at_rest.grids[f"one/{ROUGH}"].grids) == {"MDR", "BEM"}
+    assert set(series().grids[f"one/{ROUGH}"].grids) == {"MDR", "BEM", "Persson"}
+    assert "Persson" not in series().models.labels
+
+
+def test_a_study_draws_the_theory_where_it_was_solved():
+    solved = xarray.Dataset(
+        {"friction_coefficient": (("grid", "speed", "load"), np.ones((1, 3, 2)))},
+        {"grid": ["fine"], "speed": [0.0, 0.1, 1.0], "load": [0.5, 1.0]},
+    )
+    found = Contacts(series(), xarray.DataTree.from_dict({f"/one/{ROUGH}/Persson": solved})).theory
+    assert found["speed"].values.tolist() == [0.1, 1.0]
+    assert Contacts(series(), xarray.DataTree.from_dict({f"/one/{ROUGH}/MDR": solved})).theory is None
+
+
+@dataclass(frozen=True)
+class Claiming:
+    """A model with a claim on something."""
+
+    answers: tuple[str, ...] = ("friction",)
+    name = "Claiming"
+
+    def solve(self, scene: Scene) -> Result:
+        return Result(scene, self.name, {}, 1.0, nan)
+
+
+def test_a_claim_is_on_friction_force_or_depth():
+    assert Model.of(BEM()).answers == ("friction", "force", "depth")
+    assert Model.of(Claiming()).tells("load", slides=True)
+    assert not Model.of(Claiming()).tells("load", slides=False)
+    assert not Model.of(Claiming(("friction", "depth"))).tells("depth", slides=True)
+    with pytest.raises(InvalidInput, match="a tuple of friction, force, depth"):
+        Model.of(Claiming(("speed",)))
+    with pytest.raises(InvalidInput, match="none has a claim"):
+        Models.of([Claiming(), Persson()]).telling("depth", slides=True)
