@@ -17,6 +17,11 @@ _ANGLES, _SHARES = np.polynomial.legendre.leggauss(_DIRECTIONS)
 _COSINE, _SHARES = np.cos(pi / 4 * (1 + _ANGLES)), _SHARES / 2
 
 
+def around(elastomer: Linear, speed: float, q: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Waves in all directions (M,): |cosine| of each with the flow, its share of the circle; E* at q (N, M) [Pa]."""
+    return _COSINE, _SHARES, complex_stiffness(elastomer, speed * q[:, None] * _COSINE)
+
+
 @dataclass(frozen=True)
 class Bands:
     """Waves in all directions, each for those of a band of lengths.
@@ -83,12 +88,12 @@ class FullContact:
     @classmethod
     def of(cls, bands: Bands, elastomer: Linear, speed: float) -> "FullContact":
         """Full contact of waves that slide at a speed [m/s]."""
-        around = complex_stiffness(elastomer, speed * bands.q[:, None] * _COSINE)
-        lossy = np.sum(_SHARES * _COSINE * around.imag, axis=1)
+        cosine, shares, stiffness = around(elastomer, speed, bands.q)
+        lossy = np.sum(shares * cosine * stiffness.imag, axis=1)
         friction = np.square(bands.unit) * bands.power * bands.q**2 / 2 * lossy
         slopes = bands.power * np.square(bands.q / 2)
-        squares = np.cumsum(slopes * (_SHARES * np.square(abs(around))).sum(axis=1))
-        lost = np.sum(slopes * (_SHARES * np.square(around.imag)).sum(axis=1))
+        squares = np.cumsum(slopes * (shares * np.square(abs(stiffness))).sum(axis=1))
+        lost = np.sum(slopes * (shares * np.square(stiffness.imag)).sum(axis=1))
         relaxed = elastomer.indentation_modulus * sqrt(slopes.sum())
         return cls(
             friction=friction,

@@ -1,0 +1,147 @@
+"""`FrictionLaw`: friction of a rough body of revolution from its spectrum, in three dimensions."""
+
+from dataclasses import dataclass as frozen_parts
+from dataclasses import replace
+from math import inf, nan, pi, sqrt
+from time import process_time
+from typing import ClassVar
+
+import numpy as np
+from pydantic.dataclasses import dataclass
+
+from scene import Plane, Result, Scene
+from scene.protocol import refuse, trusted
+from scene.quantities import CLOSED
+from scene.signatures import readable
+from scene.terms import terms_of
+
+from .bands import Bands, FullContact
+from .nominal import NominalContact
+from .persson import BODY, SPACE, TERMS
+from .share import Share
+from .smooth import SmoothContact
+
+TERMS = {**TERMS, Plane: BODY}
+PASSES = 2  # of the window, which is as wide as the contact, which depends on what the window leaves
+# Rms height of the waves on which the contact rides, over its depth, from which on they are bodies of their own.
+RIDDEN = 0.1
+
+
+@frozen_parts(frozen=True)
+class LawParts:
+    """What the law makes friction of.
+
+    load : [N]; depth : of the smooth contact [m]
+    smooth, rough : parts of the friction coefficient
+    radius : of a disc with the spread of the nominal pressure, of which the smooth contact's is the radius [m]
+    full : friction of all waves in full contact, an area [Pa]
+    pressure : rms of theirs in full contact [Pa]
+    share : S(x) of these waves; ridden : rms height of the waves that carry the contact as a whole [m]
+    """
+
+    load: float
+    depth: float
+    smooth: float
+    rough: float
+    radius: float
+    full: float
+    pressure: float
+    share: Share
+    ridden: float
+
+    @property
+    def x(self) -> float:
+        """Mean nominal pressure over the rms pressure of full contact."""
+        return self.load / (pi * self.radius**2 * self.pressure) if self.pressure else inf
+
+    @classmethod
+    def of(cls, scene: Scene) -> "LawParts":
+        """Parts of a rough scene. Raises SolveError where the smooth or the nominal contact has no answer."""
+        smooth = SmoothContact.of(scene)
+        n, speed, solid = scene.indenter.exponent, scene.motion.speed, scene.solid
+        # A fast contact is small, and deeper than one of its size at rest.
+        depth = max(smooth.depth, scene.indenter.mdr_coefficient * smooth.radius**n)
+        bare = NominalContact.smooth(n, smooth.radius, smooth.load)
+        waves, found, radius = Bands.of(scene.roughness), bare, smooth.radius
+        for _ in range(PASSES):
+            bands = waves.beneath(radius)
+            full = FullContact.of(bands, solid, speed)
+            pressure = float(full.pressure[-1])
+            found = bare.on_layer(n, depth, bands.rms_height, pressure)
+            radius = smooth.radius * found.spread / bare.spread
+        share = Share.of(full)
+        friction = float(full.friction.sum())
+        bare_lost = bare.lost(solid, speed)
+        return cls(
+            load=smooth.load,
+            depth=smooth.depth,
+            smooth=smooth.friction_coefficient * (found.lost(solid, speed) / bare_lost if bare_lost else 1.0),
+            rough=friction * float(np.sum(share(found.pressure / pressure) * found.area)) / smooth.load,
+            radius=radius,
+            full=friction,
+            pressure=pressure,
+            share=share,
+            ridden=sqrt(max(waves.rms_height**2 - bands.rms_height**2, 0.0)),
+        )
+
+
+@readable
+@dataclass(frozen=True, config=CLOSED)
+class FrictionLaw:
+    """Friction in three dimensions: that of the smooth body, and a share of that of all waves in full contact.
+
+    mu = mu_smooth + (1/F_N) int F_full S(p / p_rms) dA: F_full is the friction an area of all waves in full
+    contact, p_rms the rms of their pressure, both from the spectrum; S the share that partial contact leaves, as
+    measured on rough planes; p the pressure of the body on its roughness as a soft layer. Waves on which the
+    contact rides as a whole, by their height and tilt under it, are taken out.
+    """
+
+    label: ClassVar[str] = "3D law"
+    draws: ClassVar[str] = "none"  # it answers with the mean
+    answers: ClassVar[tuple[str, ...]] = ("friction",)
+    # Whose code and data the answer depends on.
+    packages: ClassVar[tuple[str, ...]] = ("bem3d", "compare.models.exact", "compare.models.law")
+
+    @property
+    def name(self) -> str:
+        return "FrictionLaw"
+
+    def refusals(self, scene: Scene) -> list[str]:
+        """Reasons why the law does not answer the scene, one sentence each."""
+        reasons = [reason for term in terms_of(TERMS, scene) for reason in term.refusals(scene)]
+        return reasons or SPACE.refusals(replace(scene, roughness=None))
+
+    def foreseen(self, scene: Scene) -> list[str]:
+        """Reasons why the smooth contact would have no answer, as far as a coarse one shows."""
+        return SPACE.foreseen(replace(scene, roughness=None))
+
+    def solve(self, scene: Scene) -> Result:
+        """Friction and its parts. Raises Refused, and SolveError where the smooth contact has no answer."""
+        start = process_time()
+        refuse(self, scene)
+        with trusted():
+            if scene.roughness is None or scene.roughness.flat:
+                smooth = SmoothContact.of(scene)
+                load, own, rough = smooth.load, smooth.friction_coefficient, 0.0
+                told = {"nominal_radius": smooth.radius}
+                depth = smooth.depth
+            else:
+                parts = LawParts.of(scene)
+                load, own, rough, depth = parts.load, parts.smooth, parts.rough, nan
+                told = {
+                    "nominal_radius": parts.radius,
+                    "pressure_ratio": parts.x,
+                    "share_of_full_contact": float(parts.share(np.array(parts.x))),
+                }
+        return Result(
+            scene=scene,
+            solver=self.name,
+            settings={},
+            normal_force=load,
+            depth=depth,
+            friction_force=(own + rough) * load,
+            residual=0.0,
+            operator_applications=0.0,
+            seconds=process_time() - start,
+            measures={"friction_of_shape": own * load, "friction_of_roughness": rough * load} | told,
+        )
