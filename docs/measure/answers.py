@@ -1,7 +1,8 @@
 """The answers in numbers: the tables of docs/results/answers.md and the numbers of README.md, of stored findings.
 
-python docs/measure/answers.py         writes them again
-python docs/measure/answers.py again   does `crosscheck run` first, and stores its findings and first lines
+python docs/measure/answers.py           writes them again
+python docs/measure/answers.py again     does `crosscheck run` first, and stores its findings and first lines
+python docs/measure/answers.py studies   does the six studies at size standard first, and stores their findings
 """
 
 import sys
@@ -19,9 +20,11 @@ from tables import replaced, table
 import compare
 from compare.report.csvfiles import text, write_text
 from compare.statistics.digits import interval, number
+from compare.studies.claims.catalogue import STUDIES
 
 PAGE = Path(__file__).parents[1] / "results" / "answers.md"
 DOCS, README = PAGE.parent, PAGE.parents[2] / "README.md"
+STANDARD = DOCS / "study" / "standard"
 RUN = DOCS / "answers" / "run.csv"
 # Parts of what the command prints that README.md shows, by their first words.
 SHOWN = "One dimension against three", "Slow friction of the smooth body", "Friction of the scene"
@@ -43,14 +46,10 @@ OF_PAPER = {
     "paper.eq14.plateau": "plateau over √2 times the rms slope, Eq. 14; claimed 1",
 }
 OF_STUDY = {
-    "Eq. 23: shifts along the load bring friction at all speeds onto one curve": "misfit, shifted at best",
-    "Eqs. 22, 23: shifted by p(v) of the loss at the shortest wave, friction falls onto one curve": (
-        "misfit, shifted as Eq. 22 predicts"
-    ),
-    "Eqs. 16, 17: at low speed friction falls with the load as F_N^(-n/(n+1))": (
-        "exponent of the load at low speed; claimed −2/3 (sphere), −1/2 (cone)"
-    ),
-    "Eq. 14: at high speed friction is sqrt(2) times the rms slope": "plateau over that of Eq. 14; claimed 1",
+    "eq23.collapse": "misfit, shifted at best",
+    "eq23.predicted": "misfit, shifted as Eq. 22 predicts",
+    "eq17.load-exponent": "exponent of the load at low speed; claimed −2/3 (sphere), −1/2 (cone)",
+    "eq14.plateau": "plateau over that of Eq. 14; claimed 1",
 }
 IN_REGIME = {
     "eq17.load-exponent": "the same exponent in the regime of the paper",
@@ -61,7 +60,7 @@ AT_SPEED = {
     "eq23.collapse": "misfit there, shifted at best",
     "eq23.predicted": "misfit there, shifted as Eq. 22 predicts",
 }
-MISFITS = ("eq23", "Eq. 23", "Eqs. 22")
+MISFITS = ("eq23",)
 
 
 def parts() -> Mapping[tuple[Path, str], str]:
@@ -102,13 +101,11 @@ def _of_paper(found: DataFrame) -> Iterator[tuple[str, ...]]:
 
 
 def _of_study(slow_found: DataFrame, fast_found: DataFrame) -> Iterator[tuple[str, ...]]:
-    found = pandas.read_csv(DOCS / "study" / "standard" / "collapse.csv").rename(columns={"series": "where"})
+    found = pandas.read_csv(STANDARD / "collapse.csv")
     places = [(body, dimension) for dimension in ("1D", "3D") for body in BODIES]
-    for sentence, words in OF_STUDY.items():
-        yield words, *(_cell(_row(found, sentence, body, dimension)) for body, dimension in places)
-    for claims, of_regime in ((IN_REGIME, slow_found), (AT_SPEED, fast_found)):
+    for claims, judged in ((OF_STUDY, found), (IN_REGIME, slow_found), (AT_SPEED, fast_found)):
         for claim, words in claims.items():
-            yield words, *(_cell(_row(of_regime, claim, body, dimension)) for body, dimension in places)
+            yield words, *(_cell(_row(judged, claim, body, dimension)) for body, dimension in places)
 
 
 def _of_spectrum() -> str:
@@ -156,13 +153,19 @@ def run_again() -> None:
     write_text(RUN.with_suffix(".txt"), "\n\n".join([title, "...", *others]) + "\n")
 
 
-def main(again: bool = False) -> None:
+def studies_again() -> None:
+    """Do the six studies at size standard, as far as they are not solved, and store their findings."""
+    for name in STUDIES:
+        found = compare.study(name, "standard", progress="lines").table
+        write_text(STANDARD / f"{name}.csv", text(found.drop(columns=["regime", "meaning", "plot", "sentence"])))
+
+
+def main(first: str = "") -> None:
     """Write all of them."""
-    if again:
-        run_again()
+    {"again": run_again, "studies": studies_again}.get(first, lambda: None)()
     for (page, name), part in parts().items():
         replaced(page, name, part)
 
 
 if __name__ == "__main__":
-    main(again=sys.argv[1:] == ["again"])
+    main(*sys.argv[1:])

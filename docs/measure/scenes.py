@@ -5,7 +5,7 @@ python docs/measure/scenes.py [WORKERS]   solves what is not solved yet, and wri
 
 import sys
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import inf
 from pathlib import Path
 

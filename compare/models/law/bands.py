@@ -18,7 +18,7 @@ _COSINE, _SHARES = np.cos(pi / 4 * (1 + _ANGLES)), _SHARES / 2
 
 
 def around(elastomer: Linear, speed: float, q: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Waves in all directions (M,): |cosine| of each with the flow, its share of the circle; E* at q (N, M) [Pa]."""
+    """Waves in all directions (M,): |cosine| with the flow of each, its share of the circle; E* (N, M) [Pa]."""
     return _COSINE, _SHARES, complex_stiffness(elastomer, speed * q[:, None] * _COSINE)
 
 

@@ -1,18 +1,27 @@
-"""The share of its friction in full contact that a rough plane keeps in partial contact."""
+"""The share of its friction in full contact that a rough plane keeps in partial contact, as measured on planes."""
 
+import csv
+from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cache
+from math import log, sqrt, tanh
+from pathlib import Path
 
 import numpy as np
 
 from .bands import FullContact
 
-# Below and above which pressures, over the rms pressure of full contact, powers of it were measured.
+FITTED = Path(__file__).with_name("share.csv")
+# Between which pressures, over the rms pressure of full contact, it bends; below it is in proportion to them.
 LEAST, MOST = 5e-3, 2.0
 
 
 @dataclass(frozen=True)
 class Share:
     """S(x) = 1 - exp{-x e^A (1 + B x) (x + 0.01)^C}, x the pressure over the rms pressure of full contact.
+
+    Within the powers x is at least LEAST and at most MOST, so that S is in proportion to light pressures, and 1 in
+    full contact.
 
     level, bend, power : A, B, C [1]
     """
@@ -23,16 +32,23 @@ class Share:
 
     @classmethod
     def of(cls, full: FullContact) -> "Share":
-        """Share of waves that lose and stiffen as these do."""
-        t = full.lossy
-        g = np.tanh(np.log(full.stiffening * np.sqrt(max(1 - t**2, 1e-12))))
-        return cls(
-            level=0.282 - 0.293 * t + 0.518 * t**2 - 0.049 * g,
-            bend=0.331 - 0.202 * t,
-            power=-0.144 + 0.335 * t - 0.139 * t**2 + 0.091 * g,
-        )
+        """Share of waves that lose and stiffen as these do, by the coefficients of `share.csv`."""
+        lossy, stored = full.lossy, max(1 - full.lossy**2, 1e-12)
+        stiff = tanh(log(full.stiffening * sqrt(stored)))
+        known = {"one": 1.0, "lossy": lossy, "lossy squared": lossy**2, "stiff": stiff}
+        sums = {name: 0.0 for name in ("level", "bend", "power")}
+        for (name, of), value in coefficients().items():
+            sums[name] += value * known[of]
+        return cls(**sums)
 
     def __call__(self, x: np.ndarray) -> np.ndarray:
         """Share at pressures x >= 0, of any shape."""
         inside = np.clip(x, LEAST, MOST)
         return -np.expm1(-x * np.exp(self.level) * (1 + self.bend * inside) * (inside + 0.01) ** self.power)
+
+
+@cache
+def coefficients() -> Mapping[tuple[str, str], float]:
+    """Coefficients by what they add to, and what they are multiplied by."""
+    with FITTED.open(encoding="utf-8", newline="") as file:
+        return {(row["to"], row["times"]): float(row["value"]) for row in csv.DictReader(file)}
