@@ -1,0 +1,96 @@
+"""Errors of the law of friction and of its rivals on random scenes: the tables of results/law.md.
+
+python docs/measure/law.py [SET]   holds them against results/law/scenes-SET.csv, by default fresh
+"""
+
+import sys
+from collections.abc import Callable, Iterator
+
+import numpy as np
+import pandas
+from compare.models.law.card import card
+from pandas import DataFrame
+from scenes import PAGE, RandomScene, scenes
+from tables import replaced, table
+
+from compare import FrictionLaw, Persson
+from compare.report.csvfiles import text, write_text
+from scene import Cone, Sphere
+from scene.scales import elastic_contact
+
+LAW = PAGE.parents[1] / "law.md"
+SMALL = 0.1  # rms height over depth, up to which roughness is small
+REGIONS: dict[str, Callable[[DataFrame], pandas.Series]] = {
+    "h₀ ≤ 0.1 d": lambda d: d["height"] <= SMALL,
+    "h₀ > 0.1 d": lambda d: d["height"] > SMALL,
+    "inside": lambda d: d["outside"] == 0,
+    "inside, h₀ ≤ 0.1 d": lambda d: (d["outside"] == 0) & (d["height"] <= SMALL),
+    "inside, h₀ > 0.1 d": lambda d: (d["outside"] == 0) & (d["height"] > SMALL),
+    "outside": lambda d: d["outside"] == 1,
+    "all": lambda d: d["height"] > 0,
+}
+MODELS = {"law": "law", "card": "card", "persson": "Persson", "line": "MDR"}
+
+
+def errors(name: str) -> DataFrame:
+    """ln(model / 3D) of each scene, where it lies, and whether its interval holds it."""
+    known = pandas.read_csv(PAGE.with_name(f"scenes-{name}.csv")).set_index("scene")
+    return DataFrame(
+        [_errors(each, known.loc[each.number]) for each in scenes(name) if each.number in known.index]
+    )
+
+
+def _errors(each: RandomScene, known) -> dict:
+    scene, rest = each.scene, elastic_contact(each.scene)
+    found = FrictionLaw().solve(scene)
+    low, high = (found.measures[f"friction_{end}"] for end in ("low", "high"))
+    loaded = scene if scene.motion.load is not None else None
+    spread = np.exp(1.96 * known["error"])
+    answers = {
+        "law": found.friction_coefficient,
+        "card": card(scene) if loaded and isinstance(scene.indenter, (Sphere, Cone)) else np.nan,
+        "persson": Persson().solve(loaded).friction_coefficient if loaded else np.nan,
+        "line": known["line"],
+    }
+    return {
+        "scene": each.number,
+        "height": scene.roughness.rms_height / rest.depth,
+        "waves": rest.radius / scene.roughness.shortest,
+        "body": type(scene.indenter).__name__,
+        "solid": type(scene.elastomer).__name__,
+        "pressed by": scene.motion.pressed_by,
+        "x": found.measures["pressure_ratio"],
+        "share": found.measures["friction_of_roughness"] / found.friction_force,
+        "outside": found.measures["outside"],
+        "held": float(low / spread <= known["friction"] <= high * spread),
+        "error": known["error"],
+        **{name: float(np.log(value / known["friction"])) for name, value in answers.items()},
+    }
+
+
+def rows(found: DataFrame) -> Iterator[tuple[str, ...]]:
+    """Number of scenes, error of each model in the median and at nine in ten, and coverage, by region."""
+    for region, chosen in REGIONS.items():
+        own = found[chosen(found)]
+        cells = (_cell(own[name]) for name in MODELS)
+        held = own["held"]
+        yield region, str(len(own)), *cells, f"{100 * held.mean():.0f} %"
+
+
+def _cell(logs):
+    off = 100 * np.abs(np.expm1(logs.dropna()))
+    return f"{off.median():.2g} / {off.quantile(0.9):.2g} % ({len(off)})" if len(off) else ""
+
+
+def main(name: str = "fresh") -> None:
+    """Write the errors, and their table where the set is fresh."""
+    found = errors(name)
+    write_text(PAGE.with_name(f"errors-{name}.csv"), text(found))
+    told = table("|scenes|" + "|".join(MODELS.values()) + "|held", rows(found))
+    print(told)
+    if name == "fresh":
+        replaced(LAW, "errors", told)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

@@ -1,0 +1,89 @@
+"""The law of friction in the regime of the paper: steep sphere and cone, from slow to the plateau, against 3D.
+
+python docs/measure/steep.py [WORKERS]   solves what is not solved yet, and writes results/law/steep.csv
+"""
+
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from math import pi
+
+import numpy as np
+from campaign import solved
+from pandas import DataFrame
+from planes import PAGE as PLANES
+
+from bem3d import BEM
+from compare.models.law.friction_law import FrictionLaw
+from compare.report.csvfiles import text, write_text
+from compare.solving.task import SceneTask, draws_of
+from compare.statistics.jackknife import mean_ratio
+from compare.studies.claims.contacts import STEEP
+from scene import Scene, Slide
+
+PAGE = PLANES.with_name("steep.md")
+SPEEDS = 0.06, 1.0, 12.0, 100.0  # v tau q_s
+# Points a side, 9 pixels to the shortest wave and more; surfaces, and those on twice the points too.
+POINTS, SURFACES, FINER = 960, 4, 1
+
+
+@dataclass(frozen=True)
+class SteepContact:
+    """One contact: body, load [N], v tau q_s, and its scene."""
+
+    body: str
+    load: float
+    speed: float
+    scene: Scene
+
+    @property
+    def tasks(self) -> tuple[SceneTask, SceneTask, SceneTask]:
+        """All surfaces; few of them; these on twice the points."""
+        return (
+            SceneTask(BEM(points=POINTS), draws_of(self.scene, SURFACES), work=2.0),
+            SceneTask(BEM(points=POINTS), draws_of(self.scene, FINER)),
+            SceneTask(BEM(points=2 * POINTS), draws_of(self.scene, FINER), work=4.0),
+        )
+
+
+def contacts() -> Iterator[SteepContact]:
+    """Sphere and cone under the least and the greatest load, at each speed."""
+    for body, (scene, (low, high)) in STEEP.items():
+        rough = replace(scene.roughness, seed=1)
+        unit = rough.shortest / (2 * pi * scene.elastomer.relaxation_time)
+        for speed in SPEEDS:
+            for load in (low, high):
+                slides = Slide(speed=speed * unit, load=load)
+                yield SteepContact(body, load, speed, replace(scene, roughness=rough, motion=slides))
+
+
+def _friction(outcome):
+    return mean_ratio(
+        *(np.array([getattr(row, name) for row in outcome.rows]) for name in ("friction_force", "normal_force"))
+    )
+
+
+def main(workers: int | None = None) -> None:
+    """Solve what is not solved yet, and write friction in 3D, on ever finer grids, beside that of the law."""
+    found = list(contacts())
+    outcomes = solved(PAGE, [task for each in found for task in each.tasks], workers)
+    rows = []
+    for each in found:
+        mean, few, fine = (_friction(outcomes[task]) for task in each.tasks)
+        change = float(fine.value / few.value - 1)
+        rows.append(
+            {
+                "body": each.body,
+                "load": each.load,
+                "speed": each.speed,
+                "friction": float(mean.value) * (1 + 2 * change),
+                "error": float(mean.error / mean.value),
+                "finer": change,
+                "law": FrictionLaw().solve(each.scene).friction_coefficient,
+            }
+        )
+    write_text(PAGE.with_suffix(".csv"), text(DataFrame(rows)))
+
+
+if __name__ == "__main__":
+    main(*map(int, sys.argv[1:]))

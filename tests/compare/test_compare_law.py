@@ -1,0 +1,145 @@
+"""The law of friction in three dimensions: its parts against closed forms, its limits, and random scenes solved."""
+
+from dataclasses import replace
+from math import isnan, pi
+
+import numpy as np
+import pytest
+
+from bem3d import BEM
+from compare import FrictionLaw
+from compare.models.exact import slow_friction_3d
+from compare.models.law.bands import Bands, FullContact
+from compare.models.law.friction_law import LawParts
+from compare.models.law.nominal import NominalContact, Rings
+from compare.models.law.share import LEAST, MOST, Share
+from mdr1d import MDR
+from scene import (
+    Cone,
+    CrossedWaves,
+    Cylinder,
+    Elastic,
+    Indent,
+    Kelvin,
+    Plane,
+    PowerLaw,
+    Refused,
+    Scene,
+    SelfAffine,
+    Slide,
+    Sphere,
+    StandardLinearSolid,
+)
+
+SOLID = Kelvin(modulus=1e6, relaxation_time=1e-3)
+ROUGH = SelfAffine(hurst=0.5, rms_height=4e-6, longest=3e-3, shortest=2.5e-4, seed=1)
+SCENE = Scene(Sphere(radius=10e-3), SOLID, Slide(speed=0.1, load=1.0), ROUGH)
+EXPONENTS = 1.0, 2.0, 4.0
+RADIUS, LOAD = 1e-3, 0.5
+
+
+def full_contact(scene=SCENE):
+    return FullContact.of(Bands.of(scene.roughness), scene.solid, scene.motion.speed)
+
+
+@pytest.mark.parametrize("solid", [SOLID, StandardLinearSolid(1e6, 1e8, 1e-3), Elastic(1e6)])
+def test_light_pressure_has_a_share_in_proportion_and_full_contact_all(solid):
+    share = Share.of(full_contact(replace(SCENE, elastomer=solid)))
+    x = np.array([1e-8, 1e-4, LEAST / 2])
+    assert share(x) / x == pytest.approx(share(x[:1]) / x[0], rel=LEAST * 2)
+    assert share(np.array([0.0])) == 0.0
+    assert share(np.array([50.0])) == pytest.approx(1.0, abs=1e-12)
+    rising = share(np.geomspace(1e-6, 10 * MOST, 200))
+    assert np.all(np.diff(rising) >= 0)
+
+
+def test_a_long_wave_carries_the_contact_and_a_short_one_is_left():
+    bands = Bands.of(ROUGH)
+    assert bands.beneath(1e-3 * ROUGH.shortest).rms_height < 1e-3 * bands.rms_height
+    assert bands.beneath(1e3 * ROUGH.longest).rms_height == pytest.approx(bands.rms_height, rel=1e-6)
+    left = [bands.beneath(radius).rms_height for radius in np.geomspace(1e-5, 1e-1, 30)]
+    assert np.all(np.diff(left) > 0)
+
+
+@pytest.mark.parametrize("n", EXPONENTS)
+def test_the_smooth_nominal_contact_is_that_of_galin_and_sneddon(n):
+    body = PowerLaw(1.0, n)
+    smooth = NominalContact.smooth(n, RADIUS, LOAD)
+    modulus = LOAD * (n + 1) / (2 * n * body.mdr_coefficient * RADIUS ** (n + 1))
+    depth, rings = body.mdr_coefficient * RADIUS**n, Rings.all()
+    inside = rings.middle < 0.95
+    sunk = rings.compliance @ smooth.pressure * RADIUS / modulus + body.height(rings.middle * RADIUS, 0.0)
+    assert smooth.load == pytest.approx(LOAD, rel=1e-12)
+    assert sunk[inside] == pytest.approx(depth, rel=5e-3)
+    solid, speed = Kelvin(modulus / 4, 1e-7), 1e-3
+    slow = slow_friction_3d(speed, RADIUS, 1e-7, modulus, body.mdr_coefficient, n)
+    assert smooth.lost(solid, speed) == pytest.approx(slow, rel=0.06)  # the edge on rings
+
+
+@pytest.mark.parametrize("n", EXPONENTS)
+@pytest.mark.parametrize("pressure", [0.03, 1.0, 1e3])
+def test_a_layer_keeps_the_load_and_widens_the_more_the_higher_it_is(n, pressure):
+    smooth = NominalContact.smooth(n, RADIUS, LOAD)
+    full = LOAD / (pi * RADIUS**2) / pressure
+    found = [smooth.on_layer(n, 1e-5, height, full) for height in (1e-12, 1e-8, 1e-6, 3e-6)]
+    assert [each.load for each in found] == pytest.approx([LOAD] * len(found), rel=1e-6)
+    assert found[0].spread == pytest.approx(smooth.spread, rel=5e-3)
+    spread, lost = [each.spread for each in found], [each.lost(SOLID, 0.1) for each in found]
+    if pressure < 10:
+        assert np.all(np.diff(spread[1:]) > 0) and np.all(np.diff(lost[1:]) < 0)
+
+
+def test_roughness_that_vanishes_leaves_the_smooth_body():
+    smooth = FrictionLaw().solve(replace(SCENE, roughness=None))
+    assert smooth.friction_coefficient == BEM(points=64).solve(replace(SCENE, roughness=None)).friction_coefficient
+    tiny = FrictionLaw().solve(replace(SCENE, roughness=replace(ROUGH, rms_height=1e-10)))
+    assert tiny.friction_coefficient == pytest.approx(smooth.friction_coefficient, rel=5e-3)
+    assert FrictionLaw().solve(replace(SCENE, elastomer=Elastic(1e6))).friction_coefficient == 0.0
+    assert FrictionLaw().solve(replace(SCENE, motion=Indent(load=1.0))).friction_coefficient == 0.0
+
+
+def test_the_parts_are_those_of_the_result():
+    answer, parts = FrictionLaw().solve(SCENE), LawParts.of(SCENE)
+    own, rough = (answer.measures[f"friction_of_{name}"] for name in ("shape", "roughness"))
+    assert own + rough == pytest.approx(answer.friction_force, rel=1e-12)
+    assert (own, rough) == pytest.approx((parts.smooth * parts.load, parts.rough * parts.load), rel=1e-12)
+    assert answer.measures["pressure_ratio"] == parts.x and answer.measures["nominal_radius"] == parts.radius
+    assert answer.measures["friction_low"] < answer.friction_coefficient < answer.measures["friction_high"]
+    assert isnan(answer.depth)
+
+
+@pytest.mark.parametrize("factor", [1e-6, 1e6])
+def test_no_unit_of_length_load_or_time_matters(factor):
+    stiff = replace(SCENE, elastomer=Kelvin(1e6 * factor, 1e-3), motion=Slide(speed=0.1, load=factor))
+    later = replace(SCENE, elastomer=Kelvin(1e6, 1e-3 * factor), motion=Slide(speed=0.1 / factor, load=1.0))
+    expected = FrictionLaw().solve(SCENE).friction_coefficient
+    for scene in (stiff, later):
+        assert FrictionLaw().solve(scene).friction_coefficient == pytest.approx(expected, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("scene", "told"),
+    [
+        (replace(SCENE, indenter=Plane(), motion=Slide(speed=0.1, pressure=1e4)), "body of revolution"),
+        (replace(SCENE, indenter=Cylinder(1e-2), motion=Slide(speed=0.1, line_load=10.0)), "body of revolution"),
+        (replace(SCENE, roughness=CrossedWaves(amplitude=1e-6, wavelength=1e-3)), "SelfAffine"),
+        (replace(SCENE, roughness=replace(ROUGH, shortest=None)), "state shortest"),
+    ],
+)
+def test_what_the_law_has_no_answer_to_is_refused_with_a_reason(scene, told):
+    with pytest.raises(Refused, match=told):
+        FrictionLaw().solve(scene)
+
+
+@pytest.mark.parametrize("body", [Sphere(radius=10e-3), Cone(angle=0.05)])
+@pytest.mark.parametrize("speed", [0.01, 0.1, 1.0])
+def test_three_dimensions_agree_within_its_interval_where_one_dimension_does_not(body, speed):
+    scene = replace(SCENE, indenter=body, motion=Slide(speed=speed, load=1.0))
+    draws = [replace(scene, roughness=replace(ROUGH, seed=seed)) for seed in range(8)]
+    space, line = (
+        np.mean([solver.solve(each).friction_coefficient for each in draws])
+        for solver in (BEM(points=128), MDR(points=2000))
+    )
+    answer = FrictionLaw().solve(scene)
+    assert answer.measures["friction_low"] < space < answer.measures["friction_high"]
+    assert abs(answer.friction_coefficient / space - 1) < 0.05 < abs(line / space - 1)
