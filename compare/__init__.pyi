@@ -21,6 +21,7 @@ from .commands import trust as trust
 from .commands import verify as verify
 from .commands import workprecision as workprecision
 from .library.case import Case as Case
+from .models.law.friction_law import FrictionLaw as FrictionLaw
 from .models.law.persson import Persson as Persson
 from .solving.errors import Doubtful as Doubtful
 from .solving.errors import InvalidInput as InvalidInput

@@ -28,7 +28,10 @@ ModelLike: TypeAlias = Solver | str
 # Label and draws of those that come with the package, by the name of the solver; others state their own.
 KNOWN: Mapping[str, tuple[str, Draws]] = {"MDR": ("1D", PROFILES), "BEM": ("3D", SURFACES)}
 OWN = {"mdr": MDR, "bem": BEM}  # models that a scene has settings for, by the name of these
-THEORIES = {"persson": "compare.models.law.persson:Persson"}  # imported when they are asked for
+THEORIES = {  # imported when they are asked for
+    "persson": "compare.models.law.persson:Persson",
+    "law": "compare.models.law.friction_law:FrictionLaw",
+}
 
 
 @dataclass(frozen=True)

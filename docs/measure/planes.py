@@ -18,6 +18,7 @@ from bem3d import BEM
 from bem3d.heights import heights
 from compare.models.exact import full_contact
 from compare.models.law.bands import Bands, FullContact
+from compare.models.law.share import waves
 from compare.report.csvfiles import text, write_text
 from compare.solving.outcome import Outcome
 from compare.solving.task import SceneTask, Task
@@ -44,7 +45,7 @@ class PlaneContact:
     number : of the plane; place : of the pressure in RANGES
     scene : its first surface; count : of surfaces
     friction, pressure : of these waves in full contact, an area [Pa], and rms [Pa]
-    lossy, stiffening : see `FullContact`
+    waves : what is told of these waves, see `share.waves`
     """
 
     number: int
@@ -53,8 +54,7 @@ class PlaneContact:
     count: int
     friction: float
     pressure: float
-    lossy: float
-    stiffening: float
+    waves: Mapping[str, float]
 
     def task(self, points: int, count: int) -> SceneTask:
         """Some of its surfaces, with a number of points a wave."""
@@ -95,11 +95,11 @@ def contacts() -> Iterator[PlaneContact]:
         sides = longest, longest
         friction = full_contact.friction(drawn, sides, solid, SPEED)
         pressure = float(full_contact.pressure(drawn, sides, solid, SPEED).std())
-        full = FullContact.of(Bands.of(rough), solid, SPEED)
+        told = waves(FullContact.of(Bands.of(rough), solid, SPEED))
         for index, (ends, count) in enumerate(RANGES):
             x = between(ends, (at + shift * index) % 1)
             scene = Scene(Plane(), solid, Slide(speed=SPEED, pressure=x * pressure), rough)
-            yield PlaneContact(number, index, scene, count, friction, pressure, full.lossy, full.stiffening)
+            yield PlaneContact(number, index, scene, count, friction, pressure, told)
 
 
 def rows(found: list[PlaneContact], outcomes: Mapping[Task, Outcome]) -> Iterator[dict]:
@@ -107,7 +107,7 @@ def rows(found: list[PlaneContact], outcomes: Mapping[Task, Outcome]) -> Iterato
     for each in found:
         area = each.scene.roughness.longest**2
         coarse, *checked = (_means(outcomes[task]) for task in each.tasks)
-        mean = mean_ratio(coarse["friction"], np.full(each.count, each.friction * area))
+        mean = mean_ratio(coarse["friction"], np.full(coarse["friction"].size, each.friction * area))
         finer = dict.fromkeys(coarse, nan)
         if checked:
             few, fine = checked
@@ -117,12 +117,13 @@ def rows(found: list[PlaneContact], outcomes: Mapping[Task, Outcome]) -> Iterato
             "plane": each.number,
             "x": each.scene.motion.pressure / each.pressure,
             "share": float(mean.value),
-            "error": float(np.std(coarse["friction"], ddof=1) / np.mean(coarse["friction"]) / each.count**0.5),
+            "error": float(
+                np.std(coarse["friction"], ddof=1) / np.mean(coarse["friction"]) / coarse["friction"].size ** 0.5
+            ),
             "area": float(np.mean(coarse["area"])),
             "gap": float(np.mean(coarse["gap"])) / rough.rms_height,
             **{f"{name}_finer": change for name, change in finer.items()},
-            "lossy": each.lossy,
-            "stiffening": each.stiffening,
+            **{name: value for name, value in each.waves.items() if name not in ("one", "lossy squared")},
             "hurst": rough.hurst,
             "breadth": rough.longest / rough.shortest,
             "rolloff": rough.q_max(0.0) / rough.q_rolloff,
@@ -131,10 +132,11 @@ def rows(found: list[PlaneContact], outcomes: Mapping[Task, Outcome]) -> Iterato
 
 
 def _means(outcome):
+    rows = [each for each in outcome.rows if each.reason is None]
     return {
-        "friction": np.array([row.friction_force for row in outcome.rows]),
-        "area": np.array([row.measures["contact_fraction"] for row in outcome.rows]),
-        "gap": np.array([row.measures["mean_gap"] for row in outcome.rows]),
+        "friction": np.array([row.friction_force for row in rows]),
+        "area": np.array([row.measures["contact_fraction"] for row in rows]),
+        "gap": np.array([row.measures["mean_gap"] for row in rows]),
     }
 
 

@@ -22,10 +22,8 @@ PLACES = (5e-3, 0.015), (0.015, 0.03), (0.03, 0.07), (0.07, 0.15), (0.15, 0.3), 
 def planes() -> DataFrame:
     """Planes with their share on ever finer grids: what those with a finer one differ by is alike for all."""
     found = pandas.read_csv(PAGE.with_suffix(".csv"))
-    lossy = found["lossy"].to_numpy()
-    known = {"one": np.ones(len(found)), "lossy": lossy, "lossy squared": lossy**2}
-    found["stiff"] = np.tanh(np.log(found["stiffening"] * np.sqrt(np.maximum(1 - lossy**2, 1e-12))))
-    columns = np.stack([known["one"], lossy, np.log(found["x"]), lossy * np.log(found["x"])], axis=1)
+    known = {"one": np.ones(len(found)), "lossy squared": np.square(found["lossy"])}
+    columns = np.stack([known["one"], found["lossy"], np.log(found["x"])], axis=1)
     seen = found["friction_finer"].notna().to_numpy()
     change = columns @ np.linalg.lstsq(columns[seen], found["friction_finer"][seen], rcond=None)[0]
     # Halving the pixel once more changes half as much again, and so on.

@@ -1,7 +1,7 @@
 """Isotropic roughness as bands of waves, and what they do in full contact with a solid that flows past them."""
 
 from dataclasses import dataclass, replace
-from math import log, pi, sqrt
+from math import log, pi, sqrt, tanh
 
 import numpy as np
 from scipy.special import j1, jv
@@ -77,27 +77,40 @@ class FullContact:
     friction : of each band, an area [Pa]; their sum is that of all
     pressure : rms of that about its mean [Pa], of all bands up to each
     lossy : rms of the part of the pressure that is a quarter of a period off, over the rms pressure of all
-    stiffening : rms pressure over that of the relaxed solid
+    along : mean |cosine| of the waves with the flow, weighted by friction
+    across : mean of the fourth power of their sine, weighted by mean square pressure
+    shorter : mean ln q weighted by friction, less that weighted by mean square pressure
+    harder : the latter, less that weighted by mean square slope
+    rising : tanh of half the logarithm of the stiffness of the shortest waves over that of the longest
     """
 
     friction: np.ndarray
     pressure: np.ndarray
     lossy: float
-    stiffening: float
+    along: float
+    across: float
+    shorter: float
+    harder: float
+    rising: float
 
     @classmethod
     def of(cls, bands: Bands, elastomer: Linear, speed: float) -> "FullContact":
         """Full contact of waves that slide at a speed [m/s]."""
         cosine, shares, stiffness = around(elastomer, speed, bands.q)
-        lossy = np.sum(shares * cosine * stiffness.imag, axis=1)
-        friction = np.square(bands.unit) * bands.power * bands.q**2 / 2 * lossy
-        slopes = bands.power * np.square(bands.q / 2)
-        squares = np.cumsum(slopes * (shares * np.square(abs(stiffness))).sum(axis=1))
-        lost = np.sum(slopes * (shares * np.square(stiffness.imag)).sum(axis=1))
-        relaxed = elastomer.indentation_modulus * sqrt(slopes.sum())
+        slopes, lengths = bands.power * np.square(bands.q), np.log(bands.q)
+        losses, squares = shares * cosine * stiffness.imag, shares * np.square(abs(stiffness))
+        friction, pressure = slopes / 2 * losses.sum(axis=1), slopes / 4 * squares.sum(axis=1)
+        sum_of_friction, sum_of_squares, sum_of_slopes = friction.sum(), pressure.sum(), slopes.sum()
+        lost = np.sum(slopes / 4 * (shares * np.square(stiffness.imag)).sum(axis=1))
+        middle = float(lengths @ pressure / sum_of_squares)
+        rubs = bool(sum_of_friction)
         return cls(
-            friction=friction,
-            pressure=bands.unit * np.sqrt(squares),
-            lossy=sqrt(lost / squares[-1]),
-            stiffening=sqrt(squares[-1]) / relaxed,
+            friction=np.square(bands.unit) * friction,
+            pressure=bands.unit * np.sqrt(np.cumsum(pressure)),
+            lossy=sqrt(lost / sum_of_squares),
+            along=float(slopes / 2 @ (losses @ cosine) / sum_of_friction) if rubs else 8 / (3 * pi),  # as slow
+            across=float(slopes / 4 @ (squares @ np.square(1 - np.square(cosine))) / sum_of_squares),
+            shorter=float(lengths @ friction / sum_of_friction) - middle if rubs else 0.0,
+            harder=middle - float(lengths @ slopes / sum_of_slopes),
+            rising=tanh(log(squares[-1].sum() / squares[0].sum()) / 4),
         )

@@ -4,7 +4,6 @@ import csv
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
-from math import log, sqrt, tanh
 from pathlib import Path
 
 import numpy as np
@@ -32,10 +31,8 @@ class Share:
 
     @classmethod
     def of(cls, full: FullContact) -> "Share":
-        """Share of waves that lose and stiffen as these do, by the coefficients of `share.csv`."""
-        lossy, stored = full.lossy, max(1 - full.lossy**2, 1e-12)
-        stiff = tanh(log(full.stiffening * sqrt(stored)))
-        known = {"one": 1.0, "lossy": lossy, "lossy squared": lossy**2, "stiff": stiff}
+        """Share of these waves, by the coefficients of `share.csv`."""
+        known = waves(full)
         sums = {name: 0.0 for name in ("level", "bend", "power")}
         for (name, of), value in coefficients().items():
             sums[name] += value * known[of]
@@ -44,7 +41,15 @@ class Share:
     def __call__(self, x: np.ndarray) -> np.ndarray:
         """Share at pressures x >= 0, of any shape."""
         inside = np.clip(x, LEAST, MOST)
-        return -np.expm1(-x * np.exp(self.level) * (1 + self.bend * inside) * (inside + 0.01) ** self.power)
+        return -np.expm1(
+            -x * np.exp(self.level) * np.maximum(1 + self.bend * inside, 0.05) * (inside + 0.01) ** self.power
+        )
+
+
+def waves(full: FullContact) -> dict[str, float]:
+    """What is told of waves in full contact: the numbers that coefficients are multiplied by."""
+    names = "lossy", "along", "across", "shorter", "harder", "rising"
+    return {"one": 1.0, "lossy squared": full.lossy**2, **{name: getattr(full, name) for name in names}}
 
 
 @cache
