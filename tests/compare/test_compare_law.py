@@ -1,4 +1,4 @@
-"""The law of friction in three dimensions: its parts against closed forms, its limits, and random scenes solved."""
+"""The law of friction in three dimensions: its parts against closed forms, its limits, and scenes solved."""
 
 from dataclasses import replace
 from math import isnan, pi
@@ -10,9 +10,11 @@ from bem3d import BEM
 from compare import FrictionLaw
 from compare.models.exact import slow_friction_3d
 from compare.models.law.bands import Bands, FullContact
+from compare.models.law.card import card
 from compare.models.law.friction_law import LawParts
 from compare.models.law.nominal import NominalContact, Rings
 from compare.models.law.share import LEAST, MOST, Share
+from compare.models.law.smooth import SmoothContact
 from mdr1d import MDR
 from scene import (
     Cone,
@@ -87,7 +89,8 @@ def test_a_layer_keeps_the_load_and_widens_the_more_the_higher_it_is(n, pressure
     assert found[0].spread == pytest.approx(smooth.spread, rel=5e-3)
     spread, lost = [each.spread for each in found], [each.lost(SOLID, 0.1) for each in found]
     if pressure < 10:
-        assert np.all(np.diff(spread[1:]) > 0) and np.all(np.diff(lost[1:]) < 0)
+        assert np.all(np.diff(spread[1:]) > 0)
+        assert np.all(np.diff(lost[1:]) < 0)
 
 
 def test_roughness_that_vanishes_leaves_the_smooth_body():
@@ -104,7 +107,8 @@ def test_the_parts_are_those_of_the_result():
     own, rough = (answer.measures[f"friction_of_{name}"] for name in ("shape", "roughness"))
     assert own + rough == pytest.approx(answer.friction_force, rel=1e-12)
     assert (own, rough) == pytest.approx((parts.smooth * parts.load, parts.rough * parts.load), rel=1e-12)
-    assert answer.measures["pressure_ratio"] == parts.x and answer.measures["nominal_radius"] == parts.radius
+    assert answer.measures["pressure_ratio"] == parts.x
+    assert answer.measures["nominal_radius"] == parts.radius
     assert answer.measures["friction_low"] < answer.friction_coefficient < answer.measures["friction_high"]
     assert isnan(answer.depth)
 
@@ -144,3 +148,15 @@ def test_three_dimensions_agree_within_its_interval_where_one_dimension_does_not
     answer = FrictionLaw().solve(scene)
     assert answer.measures["friction_low"] < space < answer.measures["friction_high"]
     assert abs(answer.friction_coefficient / space - 1) < 0.05 < abs(line / space - 1)
+
+
+@pytest.mark.parametrize("body", [Sphere(radius=10e-3), Cone(angle=0.05)])
+@pytest.mark.parametrize("solid", [SOLID, StandardLinearSolid(1e6, 1e9, 1e-6)])
+@pytest.mark.parametrize("height", [1e-10, 2e-6])
+def test_the_card_is_close_to_the_law(body, solid, height):
+    for speed in (0.01, 0.1, 1.0):
+        scene = replace(SCENE, indenter=body, elastomer=solid, motion=Slide(speed=speed, load=1.0))
+        scene = replace(scene, roughness=replace(ROUGH, rms_height=height))
+        smooth, law = SmoothContact.of(scene), FrictionLaw().solve(scene).friction_coefficient
+        assert card(scene, (smooth.friction_coefficient, smooth.radius)) == pytest.approx(law, rel=0.08)
+        assert card(scene) == pytest.approx(law, rel=0.15)

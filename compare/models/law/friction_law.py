@@ -4,12 +4,12 @@ from dataclasses import dataclass as frozen_parts
 from dataclasses import replace
 from math import exp, hypot, inf, nan, pi, sqrt
 from time import process_time
-from typing import ClassVar
+from typing import ClassVar, cast
 
 import numpy as np
 from pydantic.dataclasses import dataclass
 
-from scene import Plane, Result, Scene
+from scene import Plane, Result, Scene, SelfAffine
 from scene.protocol import refuse, trusted
 from scene.quantities import CLOSED
 from scene.scales import elastic_contact
@@ -82,11 +82,11 @@ class LawParts:
         """Parts of a rough scene. Raises SolveError where the smooth or the nominal contact has no answer."""
         smooth = SmoothContact.of(scene)
         n, speed, solid = scene.indenter.exponent, scene.motion.speed, scene.solid
-        rest = elastic_contact(scene).depth
+        rest, rough = elastic_contact(scene).depth, cast(SelfAffine, scene.roughness)
         # A fast contact is small, and deeper than one of its size at rest.
         depth = max(smooth.depth, scene.indenter.mdr_coefficient * smooth.radius**n)
         bare = NominalContact.smooth(n, smooth.radius, smooth.load)
-        waves, found, radius = Bands.of(scene.roughness), bare, smooth.radius
+        waves, found, radius = Bands.of(rough), bare, smooth.radius
         for _ in range(PASSES):
             bands = waves.beneath(radius)
             full = FullContact.of(bands, solid, speed)

@@ -120,16 +120,17 @@ class Series:
         """
         if self.scene.roughness is None:
             raise InvalidInput(f"{self.title}: a series asks what roughness does, and this scene has none")
+        counts = {each.name: each.count(self.profiles, self.surfaces) for each in self.models}
         rough = ParameterGrid(
             scene=self.scene,
             speeds=(0.0, *self.speeds),
             values=self.values,
             grids=on_two_grids(*(each.solver for each in self.models)),
-            draws={each.name: each.count(self.profiles, self.surfaces) for each in self.models},
+            draws=counts,
         )
         smooth = replace(rough, scene=replace(self.scene, roughness=None))
         if self.interval is not None:
-            rough = in_strata([rough], self.models, self.strata or {}, least=rough.draws)[0]
+            rough = in_strata([rough], self.models, self.strata or {}, least=counts)[0]
         rough = with_theory(rough) if self.slides else rough
         return {f"{self.name}/{ROUGH}": rough, f"{self.name}/{SMOOTH}": smooth}
 
