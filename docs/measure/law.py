@@ -8,16 +8,19 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 import pandas
-from compare.models.law.card import card
 from pandas import DataFrame
 from scenes import PAGE, RandomScene, scenes
 from tables import replaced, table
 
 from compare import FrictionLaw, Persson
+from compare.models.law.card import card
+from compare.models.law.share import FITTED
+from compare.models.law.smooth import SmoothContact
 from compare.report.csvfiles import text, write_text
 from scene import Cone, Sphere
 from scene.scales import elastic_contact
 
+STEEP = "body", "v τ q_s", "law / 3D, least load", "greatest load", "exponent, law", "exponent, 3D"
 LAW = PAGE.parents[1] / "law.md"
 SMALL = 0.1  # rms height over depth, up to which roughness is small
 REGIONS: dict[str, Callable[[DataFrame], pandas.Series]] = {
@@ -29,7 +32,7 @@ REGIONS: dict[str, Callable[[DataFrame], pandas.Series]] = {
     "outside": lambda d: d["outside"] == 1,
     "all": lambda d: d["height"] > 0,
 }
-MODELS = {"law": "law", "card": "card", "persson": "Persson", "line": "MDR"}
+MODELS = {"law": "law", "card": "card", "known": "card, smooth body known", "persson": "Persson", "line": "MDR"}
 
 
 def errors(name: str) -> DataFrame:
@@ -45,10 +48,12 @@ def _errors(each: RandomScene, known) -> dict:
     found = FrictionLaw().solve(scene)
     low, high = (found.measures[f"friction_{end}"] for end in ("low", "high"))
     loaded = scene if scene.motion.load is not None else None
+    on_card, smooth = bool(loaded) and isinstance(scene.indenter, Sphere | Cone), SmoothContact.of(scene)
     spread = np.exp(1.96 * known["error"])
     answers = {
         "law": found.friction_coefficient,
-        "card": card(scene) if loaded and isinstance(scene.indenter, (Sphere, Cone)) else np.nan,
+        "card": card(scene) if on_card else np.nan,
+        "known": card(scene, (smooth.friction_coefficient, smooth.radius)) if on_card else np.nan,
         "persson": Persson().solve(loaded).friction_coefficient if loaded else np.nan,
         "line": known["line"],
     }
@@ -82,6 +87,36 @@ def _cell(logs):
     return f"{off.median():.2g} / {off.quantile(0.9):.2g} % ({len(off)})" if len(off) else ""
 
 
+def steep() -> Iterator[tuple[str, ...]]:
+    """Law over 3D under both loads at each speed, and the exponent of the load of each."""
+    found = pandas.read_csv(PAGE.with_name("steep.csv"))
+    for (body, speed), own in found.groupby(["body", "speed"], sort=False):
+        ratios = own["law"] / own["friction"]
+        span = np.log(own["load"].iloc[-1] / own["load"].iloc[0])
+        powers = (np.log(own[name].iloc[-1] / own[name].iloc[0]) / span for name in ("law", "friction"))
+        yield (
+            body,
+            f"{speed:g}",
+            *(f"{each:.3f}" for each in ratios),
+            *(f"{each:.3f}".replace("-", "−") for each in powers),
+        )
+
+
+def shares() -> Iterator[tuple[str, ...]]:
+    """Misfits of planes held out."""
+    for row in pandas.read_csv(PAGE.with_name("share.csv")).to_dict("records"):
+        off = (f"{100 * row[name]:.2g} %" for name in ("median", "nine in ten", "error"))
+        yield f"{row['from']:g} to {row['to']:g}", str(int(row["planes"])), *off
+
+
+def coefficients() -> Iterator[tuple[str, ...]]:
+    """Coefficients of S."""
+    of = {"level": "A", "bend": "B", "power": "C"}
+    for row in pandas.read_csv(FITTED).to_dict("records"):
+        value, low, high = (f"{row[name]:.3g}".replace("-", "−") for name in ("value", "low", "high"))
+        yield of[row["to"]], "1" if row["times"] == "one" else row["times"], value, f"{low} to {high}"
+
+
 def main(name: str = "fresh") -> None:
     """Write the errors, and their table where the set is fresh."""
     found = errors(name)
@@ -90,6 +125,9 @@ def main(name: str = "fresh") -> None:
     print(told)
     if name == "fresh":
         replaced(LAW, "errors", told)
+        replaced(LAW, "steep", table("|".join(STEEP), steep()))
+        replaced(LAW, "share", table("x|planes|median|nine in ten|standard error", shares()))
+        replaced(LAW, "coefficients", table("of|times|value|interval", coefficients()))
 
 
 if __name__ == "__main__":

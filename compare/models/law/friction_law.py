@@ -9,12 +9,12 @@ from typing import ClassVar, cast
 import numpy as np
 from pydantic.dataclasses import dataclass
 
-from scene import Plane, Result, Scene, SelfAffine
+from scene import Indent, Plane, Result, Scene, SelfAffine, Slide
 from scene.protocol import refuse, trusted
 from scene.quantities import CLOSED
 from scene.scales import elastic_contact
 from scene.signatures import readable
-from scene.terms import terms_of
+from scene.terms import Term, terms_of
 
 from .bands import Bands, FullContact
 from .nominal import NominalContact
@@ -22,7 +22,8 @@ from .persson import BODY, SPACE, TERMS
 from .share import Share
 from .smooth import SmoothContact
 
-TERMS = {**TERMS, Plane: BODY}
+# At a depth it answers for the load of the smooth body.
+TERMS = {**TERMS, Plane: BODY, Indent: Term, Slide: Term}
 PASSES = 2  # of the window, which is as wide as the contact, which depends on what the window leaves
 # Outside the law: waves that carry the contact as a whole with an rms height over the depth of so much, which are
 # bodies of their own; and less contact than of so many of the shortest waves.
