@@ -1,4 +1,4 @@
-"""Theories that are drawn beside the models where nobody asks for them: solved and stored with them, not judged."""
+"""Theories that stand beside the models where nobody asks for them: solved, stored and drawn, not judged."""
 
 from collections.abc import Sequence
 from dataclasses import replace

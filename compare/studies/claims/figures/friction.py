@@ -148,6 +148,8 @@ def levels(tables: Tables) -> Figure:
             own = tables[THEORY][tables[THEORY][prescribed] == value]
             for solver, curve in own.groupby("solver"):
                 look = style.look(str(solver), marker="", linewidth=style.width(0.7))
+                if solver not in style.COLOURS:
+                    look |= {"color": style.ink(), "linestyle": ":"}
                 axes.plot(curve["speed"], curve["friction_coefficient"], **look)
         axes.set(xlabel="speed [m/s]", title=EngFormatter(UNITS[prescribed])(float(f"{value:.3g}")))
     style.legend(above, panels[0].get_legend_handles_labels()[0], "outside lower center", 6)
