@@ -27,6 +27,10 @@ _ON_THE_LAW = (
     "the waves in full contact. The upper end of the interval has in it what scatter of surfaces adds, the lower "
     "has not."
 )
+_AVERAGED = (
+    "|ln(measured / mean of S)| at the same points: that of the law itself. S is bent, so that the mean lies "
+    "below S at the mean pressure, by up to a tenth for a cone."
+)
 _RAW = "|ln(measured / S)| at the same points, on the contact of the bare smooth body, with all waves."
 _DEEP, _SHALLOW = "At rest, rough, h0 at most 0.1 d", "At rest, rough, h0 above 0.1 d"
 # Sentence and meaning of each claim by its id; by the number claimed, NaN where it differs from place to place,
@@ -186,6 +190,14 @@ _TEXTS: dict[tuple[float, float], dict[str, tuple[str, str]]] = {
     },
     (nan, nan): {  # reported, and not claimed
         "friction.ratio.speed": ("Friction in 1D over 3D", "Ratio of the means at each speed."),
+        "law3d.averaged": (
+            "Misfit from S averaged over the pressure of the body, median",
+            f"Median of {_AVERAGED}",
+        ),
+        "law3d.averaged-most": (
+            "Misfit from S averaged over the pressure of the body, nine in ten",
+            f"Nine in ten are below it: {_AVERAGED}",
+        ),
         "law3d.raw": ("Misfit from S(x) in raw coordinates, median", f"Median of {_RAW}"),
         "law3d.raw-most": (
             "Misfit from S(x) in raw coordinates, nine in ten",

@@ -18,14 +18,16 @@ from ...statistics.jackknife import DrawSet, friction, resample
 from ..theory import LAW
 from .claims import CLAIMS
 from .laws import Laws
+from .regime import words
 from .series import ROUGH, SMOOTH, Contacts
 
 # Rms height over the depth of the smooth relaxed contact up to which the law is claimed.
 SHALLOW = 0.1
 # Part of friction that the roughness has at least, by the law: below, its part is a small difference.
 LEAST_ROUGH = 0.3
-QUANTILES = {"collapse": 0.5, "collapse-most": 0.9}
-RAW = {"raw": 0.5, "raw-most": 0.9}
+# Coordinates of each finding: at the mean pressure, averaged over that of the body, and raw.
+FINDINGS = {"collapse": "law", "averaged": "averaged", "raw": "bare"}
+QUANTILES = {"": 0.5, "-most": 0.9}
 PLOT, EVERY = "law", "every series"
 _UNKNOWN = "the scatter is not known, or at some point roughness does not add to friction"
 
@@ -57,6 +59,12 @@ class Coordinates:
         )
 
     @classmethod
+    def averaged(cls, law: xarray.Dataset) -> "Coordinates":
+        """Those of the law, with S at the pressure of each place: it is bent, and pressure peaks at the tip."""
+        share = law["friction_of_roughness"].values / law["full_contact_friction"].values
+        return replace(cls.of_law(law), share=share)
+
+    @classmethod
     def of_bare(cls, smooth: xarray.Dataset, waves: Sequence[FullContact]) -> "Coordinates":
         """Raw ones: all waves, in full contact at each speed, on the contact of the smooth body that slides."""
         load, drag, area = (_points(smooth[name]) for name in ("normal_force", "friction_force", "contact_area"))
@@ -78,7 +86,7 @@ class LawPoints:
     """Points of a series for the master curve, arrays (speeds, values).
 
     contacts, solver : answers, and the model that is measured
-    law, bare : coordinates of the law, and raw ones
+    law, averaged, bare : coordinates of the law, and raw ones
     curves : S of all waves, by the speed
     height : rms height over the depth of the smooth relaxed contact [1]
     counted : where the roughness has enough of friction, and friction is known on both grids
@@ -87,6 +95,7 @@ class LawPoints:
     contacts: Contacts
     solver: str
     law: Coordinates
+    averaged: Coordinates
     bare: Coordinates
     curves: tuple[Share, ...]
     height: np.ndarray
@@ -110,6 +119,7 @@ class LawPoints:
                 contacts=contacts,
                 solver=solver,
                 law=Coordinates.of_law(law),
+                averaged=Coordinates.averaged(law),
                 bare=Coordinates.of_bare(contacts(solver, SMOOTH).isel(speed=slice(1, None)), waves),
                 curves=tuple(map(Share.of, waves)),
                 height=1 / laws[solver].ratios["depth_over_height"],
@@ -128,7 +138,8 @@ def law_findings(contacts: Contacts, laws: Mapping[str, Laws]) -> list[Finding]:
     found, series = LawPoints.of(contacts, laws), contacts.series
     if found is None:
         return []
-    return list(_findings([found], series.name, laws[found.solver].words, f"{series.folder}/{PLOT}"))
+    regime = words({name: each[found.claimed] for name, each in laws[found.solver].ratios.items()})
+    return list(_findings([found], series.name, regime, f"{series.folder}/{PLOT}"))
 
 
 def law_findings_of_all(series: Sequence[tuple[Contacts, Mapping[str, Laws]]]) -> list[Finding]:
@@ -137,7 +148,7 @@ def law_findings_of_all(series: Sequence[tuple[Contacts, Mapping[str, Laws]]]) -
     return list(_findings(points, EVERY, "", PLOT)) if len(points) > 1 else []
 
 
-def _findings(points: Sequence[LawPoints], where, words, plot) -> Iterator[Finding]:
+def _findings(points: Sequence[LawPoints], where, groups, plot) -> Iterator[Finding]:
     """Findings at all points of some series, of which the same surfaces are left out."""
     claimed = np.concatenate([each.law.x[each.claimed] for each in points])
     if not claimed.size:
@@ -152,17 +163,17 @@ def _findings(points: Sequence[LawPoints], where, words, plot) -> Iterator[Findi
         for grid in (FINE, COARSE)
     )
     regime = f"{claimed.size} points, x {claimed.min():.2g} to {claimed.max():.2g}"
-    for quantiles, coordinates in ((QUANTILES, "law"), (RAW, "bare")):
+    for found, coordinates in FINDINGS.items():
 
         def off(sample, coordinates=coordinates):
             return np.concatenate([_off(each, coordinates, sample) for each in points])
 
-        for name, level in quantiles.items():
+        for quantile, level in QUANTILES.items():
             yield replace(
-                _finding(f"law3d.{name}", level, off, fine, coarse),
+                _finding(f"law3d.{found}{quantile}", level, off, fine, coarse),
                 where=where,
                 dimension=points[0].contacts.labels[points[0].solver],
-                regime="; ".join(filter(None, (regime, words))),
+                regime="; ".join(filter(None, (regime, groups))),
                 plot=plot,
             )
 

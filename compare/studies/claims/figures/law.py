@@ -27,14 +27,18 @@ LABELS = {
     "xi": r"$\xi$ [1]",
     "friction_over_plateau": r"friction / plateau, $\tilde{\mu}$ [1]",
 }
-TITLES = {"shifted_force": ("1D: shifted, Eq. 23", "one curve"), "xi": ("1D: over the plateau", "Eq. 19")}
+TITLES = {"shifted_force": ("1D: shifted, Eq. 23", "common curve"), "xi": ("1D: over the plateau", "Eq. 19")}
 MARK: dict[str, Any] = {"linestyle": "none", "capsize": 0}
 
 
-def plot(members: Sequence[LawPoints], paper: DataFrame, curve: DataFrame, folder: str, alone: str = "") -> Plot:
+def plot(
+    members: Sequence[LawPoints], paper: DataFrame, curve: DataFrame, folder: str = "", fitted: str = ""
+) -> Plot:
     """Of one series or of several.
 
     paper, curve : points in one dimension with the title of their series, and the curve that they are to fall on
+    folder : of the figure of one series
+    fitted : misfit in words, of a curve that is fitted to the points in one dimension
     """
     points = concat([_measured(each) for each in members], ignore_index=True)
     x = np.geomspace(points["pressure_ratio"].min(), points["pressure_ratio"].max(), 101)
@@ -42,7 +46,7 @@ def plot(members: Sequence[LawPoints], paper: DataFrame, curve: DataFrame, folde
     ends = {"share_of_full_contact_low": shares.min(axis=0), "share_of_full_contact_high": shares.max(axis=0)}
     left = (
         "friction shifted along the load (Eq. 23)"
-        if alone
+        if folder
         else "friction over its plateau against ξ (Eqs. 18, 19)"
     )
     return Plot(
@@ -54,10 +58,11 @@ def plot(members: Sequence[LawPoints], paper: DataFrame, curve: DataFrame, folde
             "law-3d": points,
             "law-share": DataFrame({"pressure_ratio": x} | ends),
         },
-        f"(a) In 1D: {left}. (b) In 3D: what roughness adds to friction over that in full contact, against "
-        "x = p / p_rms; band: S(x) at all speeds. Markers: series; hollow: h0 above 0.1 d. Left out: roughness "
-        "below 0.3 of the friction. (c), (d) Off the curve, 5 % in grey. Bars: 95 %.",
+        f"(a) In 1D: {left}. (b) In 3D: what roughness adds to friction, over that in full contact; band: S(x) at "
+        "all speeds. Hollow: h0 above 0.1 d; left out: roughness below 0.3 of the friction. (c), (d) Off the "
+        "curve, 5 % in grey; numbers, without hollow ones. Bars: 95 %.",
         "The master curve in three dimensions beside the paper's in one",
+        {"fitted": fitted, "claimed": SHALLOW},
     )
 
 
@@ -71,8 +76,11 @@ def _measured(points: LawPoints) -> DataFrame:
     return DataFrame(columns)[points.counted.ravel()].reset_index(drop=True)
 
 
-def master_curve(tables: Tables) -> Figure:
-    """Left: the paper's curve in 1D. Right: S(x) in 3D. Below: off either."""
+def master_curve(tables: Tables, fitted: str = "", claimed: float = SHALLOW) -> Figure:
+    """Left: the paper's curve in 1D. Right: S(x) in 3D. Below: off either.
+
+    fitted : misfit in 1D, in words; claimed : rms height over depth above which markers are hollow
+    """
     paper, curve, points, share = (tables[name] for name in ("law-1d", "law-1d-curve", "law-3d", "law-share"))
     across, up = ONE if ONE[0] in paper else SEVERAL
     drawing = style.canvas("double", 5.0)
@@ -95,16 +103,18 @@ def master_curve(tables: Tables) -> Figure:
         for (series, speed), own in table.groupby(["series", "speed"]):
             look: dict[str, Any] = {"color": shades.SPEED(scale(speed)), "marker": markers[series]}
             look |= MARK | {"markersize": style.mark(0.75), "elinewidth": style.width(0.65)}
-            for chosen, inside in ((heights <= SHALLOW, {}), (heights > SHALLOW, _hollow())):
+            for chosen, inside in ((heights <= claimed, {}), (heights > claimed, _hollow())):
                 shown = own[chosen[own.index]]
                 intervals(axes, shown[name], shown, value, **look | inside)
                 intervals(below, shown[name], off.loc[shown.index], "off_curve", 100, **look | inside)
         axes.set(xscale="log", yscale="log", ylim=_around(np.log(table[value].where(table[value] > 0)), np.exp))
         missed = 100 * off["off_curve"]
-        below.set(ylim=_around([*missed, -5, 5]), title=_missed(np.abs(off["off_curve"][heights <= SHALLOW])))
+        below.set(ylim=_around([*missed, -5, 5]), title=_missed(np.abs(off["off_curve"][heights <= claimed])))
         below.axhspan(-5, 5, color=style.grey(0.9), linewidth=0, zorder=0)
         below.axhline(0, **line)
         axes.legend(loc="best")
+    if fitted:
+        below_left.set_title(fitted)
     left.set(ylabel=LABELS[up], title=TITLES[across][0])
     right.set(ylabel="share of full contact [1]", title="3D: what roughness adds to friction")
     below_left.set(xlabel=LABELS[across], ylabel="off the curve [%]")
@@ -114,16 +124,18 @@ def master_curve(tables: Tables) -> Figure:
     place = {"location": "bottom", "aspect": 60, "shrink": 0.7, "fraction": 0.03, "pad": 0.02}
     shades.bar(drawing, panels, shades.SPEED, scale, "speed [m/s]", **place)
     grey: dict[str, Any] = {"linestyle": "none", "color": style.grey(0.3), "markersize": style.mark(0.75)}
-    handles = [Line2D([], [], marker=markers[name], label=literal(name), **grey) for name in names]
-    if (points["height_over_depth"] > SHALLOW).any():
-        handles.append(Line2D([], [], marker="o", label=f"hollow: h$_0$ > {SHALLOW:g} d", **grey | _hollow()))
-    style.legend(drawing, handles, "outside lower center", 4)
+    handles = [Line2D([], [], marker=markers[name], label=literal(name), **grey) for name in names[1:] and names]
+    if (points["height_over_depth"] > claimed).any():
+        handles.append(Line2D([], [], marker="o", label=f"h$_0$ > {claimed:g} d", **grey | _hollow()))
+    if handles:
+        style.legend(drawing, handles, "outside lower center", 4)
     clear(drawing, (left, right))
     return drawing
 
 
 def _hollow() -> dict[str, Any]:
-    return {"markerfacecolor": style.paper()}
+    """Looks of points of which nothing is claimed."""
+    return {"markerfacecolor": style.paper(), "zorder": 1.5}
 
 
 def _around(values, of=np.asarray) -> tuple[float, float]:

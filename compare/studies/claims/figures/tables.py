@@ -130,13 +130,15 @@ def _friction_of_theory(series, answers) -> DataFrame:
 def _law(judged, shifted: Plot) -> Iterator[Plot]:
     """Master curve of a series beside its curves in one dimension, shifted as in another plot."""
     if (points := LawPoints.of(judged.contacts, judged.laws)) is not None:
-        paper, curves = (table[table["dimension"] == "1D"] for table in list(shifted.tables.values())[:2])
-        drawn = curves[curves["curve"] == curves["curve"].iloc[0]]
-        paper = paper.assign(series=judged.series.title)
+        tables = (shifted.tables[name] for name in ("collapse", "collapse-curves", "collapse-fits"))
+        paper, curves, fits = (table[table["dimension"] == "1D"] for table in tables)
+        first = curves["curve"].iloc[0]
+        fitted = study_friction.misfit(fits.iloc[0]) if first == study_friction.COMMON else ""
         if "shifted_friction" in paper and paper["shifted_friction"].notna().any():
             lifted = {f"friction_coefficient{end}": paper[f"shifted_friction{end}"] for end in ENDS}
             paper = paper.assign(**lifted)
-        yield study_law.plot([points], paper, drawn, f"{judged.series.folder}/", judged.series.title)
+        paper = paper.assign(series=judged.series.title)
+        yield study_law.plot([points], paper, curves[curves["curve"] == first], f"{judged.series.folder}/", fitted)
 
 
 def _law_of_all(series: Sequence[JudgedSeries]) -> Iterator[Plot]:
@@ -146,7 +148,7 @@ def _law_of_all(series: Sequence[JudgedSeries]) -> Iterator[Plot]:
         paper = concat([_reduced([each], "MDR") for each, _ in found], ignore_index=True)
         xi = np.geomspace(paper["xi"].min(), paper["xi"].max(), 101)
         curve = DataFrame({"xi": xi, "friction_over_plateau": interpolation(xi)})
-        yield study_law.plot([points for _, points in found], paper, curve, "")
+        yield study_law.plot([points for _, points in found], paper, curve)
 
 
 def _behind(judged) -> Plot:
