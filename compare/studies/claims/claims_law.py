@@ -6,6 +6,7 @@ from math import nan
 
 import numpy as np
 import xarray
+from scipy.special import ndtri
 
 from scene import SelfAffine
 
@@ -188,16 +189,15 @@ def _off(points, coordinates, sample):
 def _finding(name: str, level: float, off: Callable, fine: DrawSet, coarse: DrawSet) -> Finding:
     """Finding on a quantile of the sizes of what points are off by.
 
-    Scatter makes sizes larger: the upper end of the interval has that in it, the lower end is of the squares less
-    those of the standard errors.
+    Scatter makes sizes larger: the upper end of the interval has that in it, the lower end is of what they are
+    beyond the size that scatter alone has at this quantile.
     """
     with np.errstate(invalid="ignore", divide="ignore"):
-        errors = resample(lambda sample: {"": off(sample)}, fine)[""].estimated.error
+        chance = ndtri((1 + level) / 2) * resample(lambda sample: {"": off(sample)}, fine)[""].estimated.error
 
         def both(sample):
-            missed = off(sample)
-            left = np.quantile(np.square(missed) - np.square(errors), level)
-            return np.array([np.quantile(np.abs(missed), level), np.sqrt(np.maximum(left, 0.0))])
+            sizes = np.abs(off(sample))
+            return np.quantile([sizes, np.maximum(sizes - chance, 0.0)], level, axis=1)
 
         found = resample(lambda sample: {"": both(sample)}, fine)[""].estimated
         low, high = found.interval()[0][1], found.interval()[1][0]

@@ -27,7 +27,7 @@ LABELS = {
     "xi": r"$\xi$ [1]",
     "friction_over_plateau": r"friction / plateau, $\tilde{\mu}$ [1]",
 }
-TITLES = {"shifted_force": ("1D: shifted, Eq. 23", "common curve"), "xi": ("1D: over the plateau", "Eq. 19")}
+TITLES = {"shifted_force": "1D: shifted, Eq. 23", "xi": "1D: over the plateau"}
 MARK: dict[str, Any] = {"linestyle": "none", "capsize": 0}
 
 
@@ -58,9 +58,9 @@ def plot(
             "law-3d": points,
             "law-share": DataFrame({"pressure_ratio": x} | ends),
         },
-        f"(a) In 1D: {left}. (b) In 3D: what roughness adds to friction, over that in full contact; band: S(x) at "
-        "all speeds. Hollow: h0 above 0.1 d; left out: roughness below 0.3 of the friction. (c), (d) Off the "
-        "curve, 5 % in grey; numbers, without hollow ones. Bars: 95 %.",
+        f"(a) In 1D: {left}. (b) In 3D: what roughness adds to friction, over that in full contact; band, S(x) at "
+        "all speeds; roughness below 0.3 of the friction left out. (c), (d) Off the curve, 5 % in grey; numbers, "
+        "without hollow points. Bars: 95 %, cut at the frame.",
         "The master curve in three dimensions beside the paper's in one",
         {"fitted": fitted, "claimed": SHALLOW},
     )
@@ -90,7 +90,7 @@ def master_curve(tables: Tables, fitted: str = "", claimed: float = SHALLOW) -> 
     names = list(dict.fromkeys([*paper["series"], *points["series"]]))
     markers = dict(zip(names, cycle(MANY), strict=False))
     line = style.line(0, 0.8, zorder=1)
-    left.plot(curve[across], curve[up], "-", label=TITLES[across][1], **line)
+    left.plot(curve[across], curve[up], "-", label=curve["curve"].iloc[0], **line)
     ends = (share[f"share_of_full_contact_{end}"] for end in ("low", "high"))
     right.fill_between(share["pressure_ratio"], *ends, color=style.grey(0.65), linewidth=0, zorder=1, label="S(x)")
     known = np.interp(np.log(paper[across]), np.log(curve[across]), np.log(curve[up]))
@@ -115,10 +115,10 @@ def master_curve(tables: Tables, fitted: str = "", claimed: float = SHALLOW) -> 
         axes.legend(loc="best")
     if fitted:
         below_left.set_title(fitted)
-    left.set(ylabel=LABELS[up], title=TITLES[across][0])
-    right.set(ylabel="share of full contact [1]", title="3D: what roughness adds to friction")
+    left.set(ylabel=LABELS[up], title=TITLES[across])
+    right.set(ylabel="share of full contact [1]", title="3D: roughness alone")
     below_left.set(xlabel=LABELS[across], ylabel="off the curve [%]")
-    below_right.set(xlabel=r"$x = p\,/\,p_\mathrm{rms}$ [1]")
+    below_right.set(xlabel=r"$x = p\,/\,p_\mathrm{rms}$ [1]", ylabel="off S(x) [%]")
     lettered(panels.flat)
     style.decades(left, right)
     place = {"location": "bottom", "aspect": 60, "shrink": 0.7, "fraction": 0.03, "pad": 0.02}
@@ -126,7 +126,9 @@ def master_curve(tables: Tables, fitted: str = "", claimed: float = SHALLOW) -> 
     grey: dict[str, Any] = {"linestyle": "none", "color": style.grey(0.3), "markersize": style.mark(0.75)}
     handles = [Line2D([], [], marker=markers[name], label=literal(name), **grey) for name in names[1:] and names]
     if (points["height_over_depth"] > claimed).any():
-        handles.append(Line2D([], [], marker="o", label=f"h$_0$ > {claimed:g} d", **grey | _hollow()))
+        handles.append(
+            Line2D([], [], marker="o", label=f"h$_0$ > {claimed:g} d", **grey, markerfacecolor=style.paper())
+        )
     if handles:
         style.legend(drawing, handles, "outside lower center", 4)
     clear(drawing, (left, right))
@@ -135,7 +137,7 @@ def master_curve(tables: Tables, fitted: str = "", claimed: float = SHALLOW) -> 
 
 def _hollow() -> dict[str, Any]:
     """Looks of points of which nothing is claimed."""
-    return {"markerfacecolor": style.paper(), "zorder": 1.5}
+    return {"markerfacecolor": style.paper(), "elinewidth": style.width(0.35), "zorder": 1.5}
 
 
 def _around(values, of=np.asarray) -> tuple[float, float]:

@@ -147,7 +147,7 @@ def _law_of_all(series: Sequence[JudgedSeries]) -> Iterator[Plot]:
     if len(found) > 1:
         paper = concat([_reduced([each], "MDR") for each, _ in found], ignore_index=True)
         xi = np.geomspace(paper["xi"].min(), paper["xi"].max(), 101)
-        curve = DataFrame({"xi": xi, "friction_over_plateau": interpolation(xi)})
+        curve = DataFrame({"curve": "Eq. 19", "xi": xi, "friction_over_plateau": interpolation(xi)})
         yield study_law.plot([points for _, points in found], paper, curve)
 
 
