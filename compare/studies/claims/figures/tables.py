@@ -110,7 +110,7 @@ def _levels(judged) -> Plot:
         tables[study_friction.THEORY] = stacked(
             {(name,): _friction_of_theory(series, each) for name, each in theories.items()}, "solver"
         )
-        told = " Thin: Persson's theory (2001, green), the law in 3D (black)."
+        told = " Thin: Persson's theory (2001, green), the law in 3D (dotted)."
     return Plot(
         f"{series.folder}/levels",
         study_friction.levels,
