@@ -85,8 +85,10 @@ MEASURES: Mapping[str, Entry] = {
         "Bound of 95 % on the relative error of friction by the grid: against the same model and surface on ever "
         "finer grids. Absent without friction.",
     ),
+    "friction_high": Entry("1", "Upper end of the interval of 95 % of the coefficient of friction."),
     "friction_in_elastomer": _force("Part of the friction that the elastomer dissipates."),
     "friction_in_interface": _force("Part of the tangential force that shear of the interface carries."),
+    "friction_low": Entry("1", "Lower end of the interval of 95 % of the coefficient of friction."),
     "friction_of_roughness": _force("Part of the friction that the roughness adds to that of the smooth body."),
     "friction_of_shape": _force("Part of the friction that the smooth body has."),
     "full_contact_friction": _force(
@@ -104,6 +106,7 @@ MEASURES: Mapping[str, Entry] = {
         "m", "Radius of a disc as wide as the pressure of a rough body, its spots smeared out."
     ),
     "one_sidedness": Entry("1", "Share of the real contact where the profile falls along +x."),
+    "outside": Entry("1", "Whether the roughness is beyond what the law was measured on, 1 where it is."),
     "pixel": Entry("m", "Spacing of the grid on which the contact was solved."),
     "points_across_contact": Entry("1", "Pixels from the first contact to the last, on the longer side."),
     "points_per_shortest_wave": Entry("1", "Pixels on the shortest wavelength of the roughness."),
