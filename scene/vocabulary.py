@@ -85,10 +85,15 @@ MEASURES: Mapping[str, Entry] = {
         "Bound of 95 % on the relative error of friction by the grid: against the same model and surface on ever "
         "finer grids. Absent without friction.",
     ),
+    "friction_high": Entry("1", "Upper end of the interval of 95 % of the coefficient of friction."),
     "friction_in_elastomer": _force("Part of the friction that the elastomer dissipates."),
     "friction_in_interface": _force("Part of the tangential force that shear of the interface carries."),
+    "friction_low": Entry("1", "Lower end of the interval of 95 % of the coefficient of friction."),
     "friction_of_roughness": _force("Part of the friction that the roughness adds to that of the smooth body."),
     "friction_of_shape": _force("Part of the friction that the smooth body has."),
+    "full_contact_friction": _force(
+        "Friction that the roughness would have in full contact all over a nominal one."
+    ),
     "heating_solves": Entry("1", "Contacts that were solved to find the temperature at which heat is balanced."),
     "height_over_depth": Entry("1", "Rms height of the roughness over the depth of the smooth relaxed contact."),
     "load_on_leading_flanks": Entry("1", "Share of the load where the profile falls along +x."),
@@ -97,7 +102,11 @@ MEASURES: Mapping[str, Entry] = {
     ),
     "mean_gap": Entry("m", "Mean distance of plane and deformed surface over the cell, never below zero."),
     "mean_pressure": Entry("Pa", "Normal force over the area of the cell."),
+    "nominal_radius": Entry(
+        "m", "Radius of a disc as wide as the pressure of a rough body, its spots smeared out."
+    ),
     "one_sidedness": Entry("1", "Share of the real contact where the profile falls along +x."),
+    "outside": Entry("1", "Whether the roughness is beyond what the law was measured on, 1 where it is."),
     "pixel": Entry("m", "Spacing of the grid on which the contact was solved."),
     "points_across_contact": Entry("1", "Pixels from the first contact to the last, on the longer side."),
     "points_per_shortest_wave": Entry("1", "Pixels on the shortest wavelength of the roughness."),
@@ -112,6 +121,9 @@ MEASURES: Mapping[str, Entry] = {
     "spot_radius": Entry("m", "Radius of a disc with the area over rim of the real contact: of spots their size."),
     "rms_slope_spectral": Entry("1", "Rms slope of the rough line over its period, from its spectrum."),
     "rounds": Entry("1", "Rounds in which the set of points in contact was sought."),
+    "share_of_full_contact": Entry(
+        "1", "Share of its friction in full contact that roughness keeps under the mean nominal pressure."
+    ),
     "slip_area": _area("Area of real contact that slips."),
     "slip_length": Entry("m", "Length of real contact that slips."),
     "stick_area": _area("Area of real contact that sticks."),

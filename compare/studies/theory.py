@@ -1,28 +1,30 @@
-"""A theory that is drawn beside the models where nobody asks for it: solved and stored with them, not judged."""
+"""Theories that stand beside the models where nobody asks for them: solved, stored and drawn, not judged."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from scene import SolveError
 from scene.protocol import trusted, why_not
 
+from ..models.law.friction_law import FrictionLaw
 from ..models.law.persson import Persson
 from ..solving.parameter_grid import FINE, ParameterGrid
 
-THEORY = Persson()
+THEORY, LAW = THEORIES = Persson(), FrictionLaw()
 
 
-def with_theory(grid: ParameterGrid) -> ParameterGrid:
-    """A rough parameter grid with the theory beside the models, if it is none of them and answers all of it."""
-    rough = grid.scene.roughness is not None and not grid.scene.roughness.flat
-    if not rough or THEORY.name in grid.grids or not _answers(grid):
+def with_theory(grid: ParameterGrid, theories: Sequence[Persson | FrictionLaw] = (THEORY,)) -> ParameterGrid:
+    """A rough parameter grid with theories beside the models, those that are none of them and answer all of it."""
+    if grid.scene.roughness is None or grid.scene.roughness.flat:
         return grid
-    return replace(grid, grids={**grid.grids, THEORY.name: {FINE: THEORY}})
+    beside = {each.name: {FINE: each} for each in theories if each.name not in grid.grids and _answers(each, grid)}
+    return replace(grid, grids={**grid.grids, **beside}) if beside else grid
 
 
-def _answers(grid):
-    """Whether the theory answers a parameter grid; not where its numbers are too far apart, which others tell."""
+def _answers(theory, grid):
+    """Whether a theory answers a parameter grid; not where its numbers are too far apart, which others tell."""
     try:
         with trusted():
-            return not any(why_not(THEORY, scene) for scene in grid.corners)
+            return not any(why_not(theory, scene) for scene in grid.corners)
     except SolveError:
         return False

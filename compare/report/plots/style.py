@@ -45,6 +45,7 @@ LABEL = {
     "CorrectedMDR": "1D, corrected",
     "BEM": "3D (BEM)",
     "Persson": "Persson's theory",
+    "FrictionLaw": "3D law",
     "exact": "closed form",
 }
 OTHERS = ("#882255", "#CC79A7", "#8A6D00", "#7E57C2")  # colours of models that did not come with the package

@@ -21,6 +21,17 @@ _REST_DEPTH = (
     "rms over loads of the difference of depths, over that of the smooth body.",
 )
 _REST_FORCE = "the force at a depth is the same in 1D and 3D", "rms over depths of ln of the ratio of forces."
+_ON_THE_LAW = (
+    "|ln(measured / S)| over the points at which the roughness has more than 0.3 of the friction, h0 at most "
+    "0.1 d. Measured: friction less that of the smooth body on the contact that roughness widens, over that of "
+    "the waves in full contact. The upper end of the interval has in it what scatter of surfaces adds, the lower "
+    "has not."
+)
+_AVERAGED = (
+    "|ln(measured / mean of S)| at the same points: that of the law itself. S is bent, so that the mean lies "
+    "below S at the mean pressure, by up to a tenth for a cone."
+)
+_RAW = "|ln(measured / S)| at the same points, on the contact of the bare smooth body, with all waves."
 _DEEP, _SHALLOW = "At rest, rough, h0 at most 0.1 d", "At rest, rough, h0 above 0.1 d"
 # Sentence and meaning of each claim by its id; by the number claimed, NaN where it differs from place to place,
 # and by how far from it still counts.
@@ -136,6 +147,10 @@ _TEXTS: dict[tuple[float, float], dict[str, tuple[str, str]]] = {
             "d ln mu / d ln F_N at the speed at which xi is closest to 1, less that of the law there, least "
             "squares over the loads or depths.",
         ),
+        "law3d.collapse": (
+            "Law in 3D: what roughness adds to friction, over that in full contact, is S(x)",
+            f"Median of {_ON_THE_LAW}",
+        ),
         "rest.depth-deep": (f"{_DEEP}: {_REST_DEPTH[0]}", _REST_DEPTH[1]),
         "rest.depth-shallow": (f"{_SHALLOW}: {_REST_DEPTH[0]}", _REST_DEPTH[1]),
         "rest.force-deep": (f"{_DEEP}: {_REST_FORCE[0]}", _REST_FORCE[1]),
@@ -151,6 +166,12 @@ _TEXTS: dict[tuple[float, float], dict[str, tuple[str, str]]] = {
         "pressed-in.fast": (
             "Pressed in at the fastest rate, rough: the force at the greatest depth is the same in 1D and 3D",
             _PRESSED,
+        ),
+    },
+    (0.0, 3 * TOLERANCE): {
+        "law3d.collapse-most": (
+            "Law in 3D: nine in ten points lie on S(x) to within 15 %",
+            f"Nine in ten are below it: {_ON_THE_LAW}",
         ),
     },
     (0.0, CLOSED): {
@@ -169,6 +190,19 @@ _TEXTS: dict[tuple[float, float], dict[str, tuple[str, str]]] = {
     },
     (nan, nan): {  # reported, and not claimed
         "friction.ratio.speed": ("Friction in 1D over 3D", "Ratio of the means at each speed."),
+        "law3d.averaged": (
+            "Misfit from S averaged over the pressure of the body, median",
+            f"Median of {_AVERAGED}",
+        ),
+        "law3d.averaged-most": (
+            "Misfit from S averaged over the pressure of the body, nine in ten",
+            f"Nine in ten are below it: {_AVERAGED}",
+        ),
+        "law3d.raw": ("Misfit from S(x) in raw coordinates, median", f"Median of {_RAW}"),
+        "law3d.raw-most": (
+            "Misfit from S(x) in raw coordinates, nine in ten",
+            f"Nine in ten are below it: {_RAW}",
+        ),
         "friction.spread": (
             "Spread of both estimates of 3D friction",
             "Friction by traction less friction by energy lost, over friction: an indicator of the error of "

@@ -14,6 +14,7 @@ from ...statistics.intervals import RmsMisfit
 from ...statistics.jackknife import DrawSet, mean_ratio, measured, strata_of
 from .claims import CLAIMS, at_xi, claim, geometric, power
 from .claims_friction import FAST, SLOW
+from .claims_law import law_findings_of_all
 from .judgement import JudgedSeries
 from .series import FAMILIES, ROUGH, Series, sliding
 
@@ -69,11 +70,13 @@ def reduced(members: Sequence[JudgedSeries], solver: str, grid: str = FINE) -> S
 
 
 def family_findings(series: Sequence[JudgedSeries]) -> Iterator[Finding]:
-    """Findings for each shape and dimensionality."""
+    """Findings for each shape and dimensionality, then those on all series, whatever their shape."""
     for shape, members in families(series).items():
         for solver in members[0].laws:
             yield _one_curve(members, solver, shape)
             yield from _slope_exponents(members, solver, shape)
+    asked = [each for each in series if each.laws and FAMILIES in each.series.claims]
+    yield from law_findings_of_all([(each.contacts, each.laws) for each in asked])
 
 
 def _one_curve(members, solver, shape):

@@ -7,6 +7,7 @@ from ...statistics.collapse import Collapse
 from ...statistics.finding import Finding
 from .claims_depth import depth_findings, rest_findings
 from .claims_friction import collapses, friction_findings, shift_findings
+from .claims_law import law_findings
 from .laws import Laws, laws
 from .series import COLLAPSE, DEPTH, FRICTION, PAIRS, SOLVERS, Contacts, Series
 
@@ -50,6 +51,7 @@ def judge_series(contacts: Contacts) -> JudgedSeries:
         if both is not None:
             shifted[solver] = both[0]
         shifts += shift_findings(contacts, solver, both, each)
+    shifts += law_findings(contacts, ruled)
     friction = [*friction_findings(contacts, ruled), *rest_findings(contacts, ruled[reference].words)]
     findings = _asked(series, shifts, COLLAPSE) + _asked(series, friction, FRICTION)
     return JudgedSeries(contacts, ruled, shifted, findings)

@@ -20,7 +20,7 @@ from ...statistics.allocation import DrawnSurfaces
 from ...statistics.jackknife import DrawSet
 from ...statistics.levels import pooled
 from ..sampling import in_strata
-from ..theory import THEORY, with_theory
+from ..theory import THEORIES, with_theory
 
 ROUGH, SMOOTH = BODIES = "rough", "smooth"
 # Kinds of claims: shifts of curves (Eq. 23), friction in each dimensionality (Eqs. 14 to 19), depth and force in
@@ -131,7 +131,7 @@ class Series:
         smooth = replace(rough, scene=replace(self.scene, roughness=None))
         if self.interval is not None:
             rough = in_strata([rough], self.models, self.strata or {}, least=counts)[0]
-        rough = with_theory(rough) if self.slides else rough
+        rough = with_theory(rough, THEORIES) if self.slides else rough
         return {f"{self.name}/{ROUGH}": rough, f"{self.name}/{SMOOTH}": smooth}
 
     def at(self, value: float, speed: float = 0.0) -> Scene:
@@ -177,10 +177,11 @@ class Contacts:
         return {place: node.to_dataset(inherit=False) for place, node in nodes.items()}
 
     @property
-    def theory(self) -> xarray.Dataset | None:
-        """Rough points that slide of the theory beside the models, or of the model that it is; None without it."""
-        node = cast(xarray.DataTree, self.answers[f"{self.series.name}/{ROUGH}"]).children.get(THEORY.name)
-        return None if node is None else sliding(node.to_dataset(inherit=False).sel(grid=FINE))
+    def theories(self) -> Mapping[str, xarray.Dataset]:
+        """Rough points that slide of theories beside the models, or of the models that they are, by name."""
+        nodes = cast(xarray.DataTree, self.answers[f"{self.series.name}/{ROUGH}"]).children
+        names = [each.name for each in THEORIES if each.name in nodes]
+        return {name: sliding(nodes[name].to_dataset(inherit=False).sel(grid=FINE)) for name in names}
 
     @cached_property
     def _pooled(self):

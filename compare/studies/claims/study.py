@@ -159,7 +159,9 @@ class ClaimStudy(Study):
         """Every series, and all together."""
         series = tuple(judge_series(Contacts(each, answers)) for each in self.series)
         places = {every(each): each for each in self.series}
-        together = tuple(_told(places[each.where], each) for each in family_findings(series))
+        together = tuple(
+            _told(places[each.where], each) if each.where in places else each for each in family_findings(series)
+        )
         own = ((each, tuple(_told(each.series, one) for one in each.findings)) for each in series)
         return JudgedStudy(tuple(replace(each, findings=found) for each, found in own), together)
 

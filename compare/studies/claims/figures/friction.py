@@ -75,7 +75,7 @@ def _left_over(axes: Axes, own: DataFrame, fit, solver: str, scale, tolerance: f
     axes.set(xlabel="shifted normal force [N]", xscale="log")
     axes.axhspan(-100 * tolerance, 100 * tolerance, color=style.grey(0.9), linewidth=0)
     axes.axhline(0, **style.line(0, 0.65))
-    axes.set_title(_misfit(fit))
+    axes.set_title(misfit(fit))
     kept = own[own["shifted_as"] == FITTED]
     _curves(axes, kept, "shifted_force", "off_curve", solver, scale, 100, linewidth=style.width(0.55))
 
@@ -89,7 +89,8 @@ def _curves(axes: Axes, points: DataFrame, across: str, name: str, solver: str, 
         intervals(axes, curve[across], curve, name, times, **look)
 
 
-def _misfit(fit):
+def misfit(fit) -> str:
+    """Misfit of a fit in words."""
     if not np.isfinite(fit["misfit"]):
         return f"δ unknown, the means miss the curve by {fit['rms']:.1%}"
     if not np.isfinite(fit["misfit_low"]):
@@ -148,6 +149,8 @@ def levels(tables: Tables) -> Figure:
             own = tables[THEORY][tables[THEORY][prescribed] == value]
             for solver, curve in own.groupby("solver"):
                 look = style.look(str(solver), marker="", linewidth=style.width(0.7))
+                if solver not in style.COLOURS:
+                    look |= {"color": style.ink(), "linestyle": ":"}
                 axes.plot(curve["speed"], curve["friction_coefficient"], **look)
         axes.set(xlabel="speed [m/s]", title=EngFormatter(UNITS[prescribed])(float(f"{value:.3g}")))
     style.legend(above, panels[0].get_legend_handles_labels()[0], "outside lower center", 6)

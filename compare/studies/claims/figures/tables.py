@@ -11,12 +11,14 @@ from mdr1d.equations import interpolation
 
 from ....report.page import Plot
 from ....solving.parameter_grid import COARSE, FINE
+from ....statistics.collapse import ENDS
 from ....statistics.finding import claimed, table
 from ....statistics.jackknife import friction, mean, mean_ratio
 from ....statistics.means import Interval
 from ...mastercurve import figures as shift_plots
 from ..claims_depth import closed_forms, loading
 from ..claims_friction import WHY, behind, nominal_exponent
+from ..claims_law import LawPoints
 from ..families import families, reduced
 from ..judgement import JudgedSeries
 from ..points import each_dimension, force_at, friction_at, interval, interval_columns, place_columns, stacked
@@ -24,6 +26,7 @@ from ..series import BODIES, ROUGH, SMOOTH, SOLVERS, Contacts, resting
 from . import depth as study_depth
 from . import effects as study_effects
 from . import friction as study_friction
+from . import law as study_law
 
 
 def plots_of_study(series: Sequence[JudgedSeries], together: bool) -> Iterator[Plot]:
@@ -34,6 +37,8 @@ def plots_of_study(series: Sequence[JudgedSeries], together: bool) -> Iterator[P
     found = families(series)
     if found and together and all(set(SOLVERS) <= set(each.contacts.labels) for each in series):
         yield _family(found)
+    if together and all(set(SOLVERS) <= set(each.contacts.labels) for each in series):
+        yield from _law_of_all(series)
 
 
 def plots_of_series(judged: JudgedSeries) -> Iterator[Plot]:
@@ -54,9 +59,10 @@ def plots_of_series(judged: JudgedSeries) -> Iterator[Plot]:
     if not set(SOLVERS) <= set(judged.contacts.labels):
         return
     if judged.laws:
-        yield shift_plots.collapse(judged)
+        yield (collapsed := shift_plots.collapse(judged))
         if shifted := shift_plots.shifts(judged):
             yield shifted
+        yield from _law(judged, collapsed)
         yield _levels(judged)
         if any(each.claim.id in WHY.values() for each in judged.findings):
             yield _behind(judged)
@@ -100,11 +106,11 @@ def _levels(judged) -> Plot:
     )
     tables = {"levels": each_dimension(friction_of), "levels-ratios": ratios}
     told = ""
-    if (theory := contacts.theory) is not None:
-        friction_there = theory["friction_coefficient"].transpose("speed", series.prescribed).values
-        own = place_columns(series) | {"friction_coefficient": friction_there.ravel()}
-        tables[study_friction.THEORY] = DataFrame({"solver": theory.attrs["solver"], **own})
-        told = " Green, thin: Persson's theory of the rough body, P(q) as published in 2001."
+    if theories := contacts.theories:
+        tables[study_friction.THEORY] = stacked(
+            {(name,): _friction_of_theory(series, each) for name, each in theories.items()}, "solver"
+        )
+        told = " Thin: Persson's theory (2001, green), the law in 3D (dotted)."
     return Plot(
         f"{series.folder}/levels",
         study_friction.levels,
@@ -114,6 +120,35 @@ def _levels(judged) -> Plot:
         "the limit of smooth bodies at low speed. Bars: 95 %.",
         f"Friction of {series.title} in both dimensionalities",
     )
+
+
+def _friction_of_theory(series, answers) -> DataFrame:
+    mu = answers["friction_coefficient"].transpose("speed", series.prescribed).values
+    return DataFrame(place_columns(series) | {"friction_coefficient": mu.ravel()})
+
+
+def _law(judged, shifted: Plot) -> Iterator[Plot]:
+    """Master curve of a series beside its curves in one dimension, shifted as in another plot."""
+    if (points := LawPoints.of(judged.contacts, judged.laws)) is not None:
+        tables = (shifted.tables[name] for name in ("collapse", "collapse-curves", "collapse-fits"))
+        paper, curves, fits = (table[table["dimension"] == "1D"] for table in tables)
+        first = curves["curve"].iloc[0]
+        fitted = study_friction.misfit(fits.iloc[0]) if first == study_friction.COMMON else ""
+        if "shifted_friction" in paper and paper["shifted_friction"].notna().any():
+            lifted = {f"friction_coefficient{end}": paper[f"shifted_friction{end}"] for end in ENDS}
+            paper = paper.assign(**lifted)
+        paper = paper.assign(series=judged.series.title)
+        yield study_law.plot([points], paper, curves[curves["curve"] == first], f"{judged.series.folder}/", fitted)
+
+
+def _law_of_all(series: Sequence[JudgedSeries]) -> Iterator[Plot]:
+    """Master curve of several series, beside friction in one dimension against xi."""
+    found = [(each, points) for each in series if each.laws and (points := LawPoints.of(each.contacts, each.laws))]
+    if len(found) > 1:
+        paper = concat([_reduced([each], "MDR") for each, _ in found], ignore_index=True)
+        xi = np.geomspace(paper["xi"].min(), paper["xi"].max(), 101)
+        curve = DataFrame({"curve": "Eq. 19", "xi": xi, "friction_over_plateau": interpolation(xi)})
+        yield study_law.plot([points for _, points in found], paper, curve)
 
 
 def _behind(judged) -> Plot:

@@ -1,0 +1,225 @@
+"""Claims on the master curve in three dimensions: what roughness adds to friction, over full contact, is S(x)."""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from math import nan
+
+import numpy as np
+import xarray
+from scipy.special import ndtri
+
+from scene import SelfAffine
+
+from ...models.law.bands import Bands, FullContact
+from ...models.law.share import Share
+from ...models.table import SURFACES
+from ...solving.parameter_grid import COARSE, FINE
+from ...statistics.finding import HALVED, UNKNOWN, Finding
+from ...statistics.jackknife import DrawSet, friction, resample
+from ..theory import LAW
+from .claims import CLAIMS
+from .laws import Laws
+from .regime import words
+from .series import ROUGH, SMOOTH, Contacts
+
+# Rms height over the depth of the smooth relaxed contact up to which the law is claimed.
+SHALLOW = 0.1
+# Part of friction that the roughness has at least, by the law: below, its part is a small difference.
+LEAST_ROUGH = 0.3
+# Coordinates of each finding: at the mean pressure, averaged over that of the body, and raw.
+FINDINGS = {"collapse": "law", "averaged": "averaged", "raw": "bare"}
+QUANTILES = {"": 0.5, "-most": 0.9}
+PLOT, EVERY = "law", "every series"
+_UNKNOWN = "the scatter is not known, or at some point roughness does not add to friction"
+
+
+@dataclass(frozen=True)
+class Coordinates:
+    """Points of a series in which they are to fall on one curve, arrays (speeds, values).
+
+    x : mean nominal pressure over the rms pressure of the roughness in full contact [1]
+    share : S(x), the share of its friction in full contact that the roughness is to have [1]
+    smooth : friction coefficient of the smooth body [1]
+    full : friction coefficient of the roughness in full contact, F_full / p [1]
+    """
+
+    x: np.ndarray
+    share: np.ndarray
+    smooth: np.ndarray
+    full: np.ndarray
+
+    @classmethod
+    def of_law(cls, law: xarray.Dataset) -> "Coordinates":
+        """Those of the law: without the waves on which the contact rides, on the contact that roughness widens."""
+        load = law["normal_force"].values
+        return cls(
+            x=law["pressure_ratio"].values,
+            share=law["share_of_full_contact"].values,
+            smooth=law["friction_of_shape"].values / load,
+            full=law["full_contact_friction"].values / load,
+        )
+
+    @classmethod
+    def averaged(cls, law: xarray.Dataset) -> "Coordinates":
+        """Those of the law, with S at the pressure of each place: it is bent, and pressure peaks at the tip."""
+        share = law["friction_of_roughness"].values / law["full_contact_friction"].values
+        return replace(cls.of_law(law), share=share)
+
+    @classmethod
+    def of_bare(cls, smooth: xarray.Dataset, waves: Sequence[FullContact]) -> "Coordinates":
+        """Raw ones: all waves, in full contact at each speed, on the contact of the smooth body that slides."""
+        load, drag, area = (_points(smooth[name]) for name in ("normal_force", "friction_force", "contact_area"))
+        force, rms = (
+            np.array([number(each) for each in waves])[:, None]
+            for number in (lambda each: each.friction.sum(), lambda each: each.pressure[-1])
+        )
+        x = load / area / rms
+        shares = [Share.of(each)(row) for each, row in zip(waves, x, strict=True)]
+        return cls(x=x, share=np.array(shares), smooth=drag / load, full=force * area / load)
+
+    def measured(self, mu: np.ndarray) -> np.ndarray:
+        """Share of its friction in full contact that the roughness has at coefficients of friction."""
+        return (mu - self.smooth) / self.full
+
+
+@dataclass(frozen=True)
+class LawPoints:
+    """Points of a series for the master curve, arrays (speeds, values).
+
+    contacts, solver : answers, and the model that is measured
+    law, averaged, bare : coordinates of the law, and raw ones
+    curves : S of all waves, by the speed
+    height : rms height over the depth of the smooth relaxed contact [1]
+    counted : where the roughness has enough of friction, and friction is known on both grids
+    """
+
+    contacts: Contacts
+    solver: str
+    law: Coordinates
+    averaged: Coordinates
+    bare: Coordinates
+    curves: tuple[Share, ...]
+    height: np.ndarray
+    counted: np.ndarray
+
+    @classmethod
+    def of(cls, contacts: Contacts, laws: Mapping[str, Laws]) -> "LawPoints | None":
+        """Points of the reference, where it is in three dimensions and the law answers; None where it is not."""
+        series, law = contacts.series, contacts.theories.get(LAW.name)
+        solver, roughness = series.models.reference, series.scene.roughness
+        if law is None or "share_of_full_contact" not in law or series.models[solver].draws != SURFACES:
+            return None
+        assert isinstance(roughness, SelfAffine)  # the law answers no other
+        law = law.transpose("speed", series.prescribed, ...)
+        bands = Bands.of(roughness)
+        waves = [FullContact.of(bands, series.scene.solid, speed) for speed in series.speeds]
+        known = [np.isfinite(_mu(contacts.sample(grid, ROUGH, solver)[solver])) for grid in (FINE, COARSE)]
+        with np.errstate(invalid="ignore", divide="ignore"):
+            rough = law["friction_of_roughness"].values / law["friction_force"].values
+            found = cls(
+                contacts=contacts,
+                solver=solver,
+                law=Coordinates.of_law(law),
+                averaged=Coordinates.averaged(law),
+                bare=Coordinates.of_bare(contacts(solver, SMOOTH).isel(speed=slice(1, None)), waves),
+                curves=tuple(map(Share.of, waves)),
+                height=1 / laws[solver].ratios["depth_over_height"],
+                counted=(rough > LEAST_ROUGH) & known[0] & known[1],
+            )
+        return found if found.counted.any() else None
+
+    @property
+    def claimed(self) -> np.ndarray:
+        """Points that the claims are on."""
+        return self.counted & (self.height <= SHALLOW)
+
+
+def law_findings(contacts: Contacts, laws: Mapping[str, Laws]) -> list[Finding]:
+    """Findings on the master curve of one series; none where the law claims nothing."""
+    found, series = LawPoints.of(contacts, laws), contacts.series
+    if found is None:
+        return []
+    regime = words({name: each[found.claimed] for name, each in laws[found.solver].ratios.items()})
+    return list(_findings([found], series.name, regime, f"{series.folder}/{PLOT}"))
+
+
+def law_findings_of_all(series: Sequence[tuple[Contacts, Mapping[str, Laws]]]) -> list[Finding]:
+    """Findings on the master curve of several series together."""
+    points = [found for each in series if (found := LawPoints.of(*each))]
+    return list(_findings(points, EVERY, "", PLOT)) if len(points) > 1 else []
+
+
+def _findings(points: Sequence[LawPoints], where, groups, plot) -> Iterator[Finding]:
+    """Findings at all points of some series, of which the same surfaces are left out."""
+    claimed = np.concatenate([each.law.x[each.claimed] for each in points])
+    if not claimed.size:
+        return
+    fine, coarse = (
+        DrawSet(
+            {
+                each.contacts.series.name: each.contacts.sample(grid, ROUGH, each.solver)[each.solver]
+                for each in points
+            }
+        )
+        for grid in (FINE, COARSE)
+    )
+    regime = f"{claimed.size} points, x {claimed.min():.2g} to {claimed.max():.2g}"
+    for found, coordinates in FINDINGS.items():
+
+        def off(sample, coordinates=coordinates):
+            return np.concatenate([_off(each, coordinates, sample) for each in points])
+
+        for quantile, level in QUANTILES.items():
+            yield replace(
+                _finding(f"law3d.{found}{quantile}", level, off, fine, coarse),
+                where=where,
+                dimension=points[0].contacts.labels[points[0].solver],
+                regime="; ".join(filter(None, (regime, groups))),
+                plot=plot,
+            )
+
+
+def _off(points, coordinates, sample):
+    """ln of the share measured over S at the points that are claimed."""
+    place: Coordinates = getattr(points, coordinates)
+    mu = _mu(sample[points.contacts.series.name])
+    return np.log(place.measured(mu) / place.share)[points.claimed]
+
+
+def _finding(name: str, level: float, off: Callable, fine: DrawSet, coarse: DrawSet) -> Finding:
+    """Finding on a quantile of the sizes of what points are off by.
+
+    Scatter makes sizes larger: the upper end of the interval has that in it, the lower end is of what they are
+    beyond the size that scatter alone has at this quantile.
+    """
+    with np.errstate(invalid="ignore", divide="ignore"):
+        chance = ndtri((1 + level) / 2) * resample(lambda sample: {"": off(sample)}, fine)[""].estimated.error
+
+        def both(sample):
+            sizes = np.abs(off(sample))
+            return np.quantile([sizes, np.maximum(sizes - chance, 0.0)], level, axis=1)
+
+        found = resample(lambda sample: {"": both(sample)}, fine)[""].estimated
+        low, high = found.interval()[0][1], found.interval()[1][0]
+        grid = abs(float(both(coarse)[0] - found.value[0]))
+    known = np.all(np.isfinite([low, high, grid]))
+    return Finding(
+        claim=CLAIMS[name],
+        value=float(found.value[0]),
+        scatter=(max(float(low), 0.0), float(high)) if known else (nan, nan),
+        grid=grid,
+        grid_method=HALVED if np.isfinite(grid) else UNKNOWN,
+        draws=fine.draws,
+        reason="" if known else _UNKNOWN,
+        size=True,
+        parts={source: float(each[0]) for source, each in found.parts.items()},
+    )
+
+
+def _mu(dataset):
+    return friction(dataset)[1:]
+
+
+def _points(values):
+    """Values (speeds, values) of a smooth body, which has no draws."""
+    return values.mean("seed").values if "seed" in values.dims else values.values
