@@ -8,6 +8,7 @@ from scene.protocol import trusted, why_not
 
 from ..models.law.friction_law import FrictionLaw
 from ..models.law.persson import Persson
+from ..models.table import Model
 from ..solving.parameter_grid import FINE, ParameterGrid
 
 THEORY, LAW = THEORIES = Persson(), FrictionLaw()
@@ -23,6 +24,9 @@ def with_theory(grid: ParameterGrid, theories: Sequence[Persson | FrictionLaw] =
 
 def _answers(theory, grid):
     """Whether a theory answers a parameter grid; not where its numbers are too far apart, which others tell."""
+    motion = grid.scene.motion
+    if not Model.of(theory).tells(motion.pressed_by, motion.speed > 0):
+        return False
     try:
         with trusted():
             return not any(why_not(theory, scene) for scene in grid.corners)
