@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 SINGLE, DOUBLE = JOURNALS["default"].single, JOURNALS["default"].double
 
 # Okabe and Ito: blue and vermillion differ for every reader; marker and line tell them apart in grey.
-COLOURS = {"MDR": "#0072B2", "CorrectedMDR": "#56B4E9", "BEM": "#D55E00", "Persson": "#009E73"}
+COLOURS = {"MDR": "#0072B2", "CorrectedMDR": "#56B4E9", "BEM": "#D55E00", "Persson": "#44AA99"}
 MARKER = {"MDR": "o", "CorrectedMDR": "^", "BEM": "s", "Persson": "D", "exact": ""}
 LINE = {"MDR": "-", "CorrectedMDR": "-.", "BEM": "--", "Persson": (0, (5, 1, 1, 1)), "exact": "-"}
 LABEL = {
