@@ -156,8 +156,8 @@ def run(
 
     scene : file of a scene (TOML), or name of a ready scene; if absent, the paper's sphere and cone. From Python
         also a Scene or a Case, or several by name
-    models : names of the models, separated by commas: mdr, bem, persson, those of installed packages, MODULE:NAME;
-        mdr,bem if absent. From Python also objects, see `scene.Solver`
+    models : names of the models, separated by commas: mdr, bem, persson, law, those of installed packages,
+        MODULE:NAME; mdr,bem if absent. From Python also objects, see `scene.Solver`
     reference : name of the model against which the others are judged; bem, or the last, if absent
     interval : wanted half-width of the intervals of 95 %, relative, as 2%. It takes the place of the numbers of
         surfaces and profiles: many are solved on coarse grids, few on finer ones, until every claim is decided or

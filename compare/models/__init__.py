@@ -1,1 +1,1 @@
-"""Models that come with the judge, beside the two solvers: closed forms, and Persson's theory."""
+"""Models that come with the judge, beside the two solvers: closed forms, and theories of rough friction."""

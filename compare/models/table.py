@@ -162,7 +162,7 @@ class Models:
         return cls(tuple(found), by_name[reference.lower()] if reference else _reference(names))
 
     def telling(self, pressed_by: str, slides: bool) -> "Models":
-        """Those with a claim on some contacts, see `Model.tells`. Raises InvalidInput where there is none."""
+        """Models with a claim on some contacts, see `Model.tells`. Raises InvalidInput where there is none."""
         found = tuple(each for each in self.models if each.tells(pressed_by, slides))
         names = [each.name for each in found]
         if not found:

@@ -6,7 +6,7 @@ python docs/measure/planes.py [WORKERS] solves what is not solved yet, and write
 import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from math import exp, log, nan, pi
+from math import nan, pi
 from pathlib import Path
 
 import numpy as np
@@ -23,15 +23,13 @@ from compare.report.csvfiles import text, write_text
 from compare.solving.outcome import Outcome
 from compare.solving.task import SceneTask, Task
 from compare.statistics.jackknife import mean_ratio
-from compare.studies.trust.design import RADIUS, SPEED, solid_at
+from compare.studies.trust.design import RADIUS, SPEED, between, solid_at
 from scene import Plane, Scene, SelfAffine, Slide
 
 PAGE = Path(__file__).parents[1] / "results" / "law" / "planes.md"
 PLANES, SEED, SURFACE_SEEDS = 250, 36_001, 1000
 HELD_OUT = 5  # every fifth plane is held out
 BREADTHS = 4.0, 32.0  # longest over shortest wave
-# Planes after the others, of many waves: longest, and roll-off, over the shortest; surfaces and points a wave.
-WIDE, WIDE_BREADTH, ROLLOFFS, WIDE_SURFACES, WIDE_POINTS = 40, 64.0, (1.5, 20.0), 4, 12
 # Pressures over the rms pressure in full contact, one of each range, and numbers of surfaces: few spots touch
 # under light ones, and scatter.
 RANGES = ((5e-3, 3e-2), 16), ((3e-2, 0.15), 8), ((0.15, 0.6), 6), ((0.6, 3.0), 4)
@@ -71,30 +69,23 @@ class PlaneContact:
     @property
     def tasks(self) -> tuple[SceneTask, ...]:
         """All surfaces coarse; of every fourth plane also a few of them coarse and fine."""
-        if self.number >= PLANES:
-            return (self.task(WIDE_POINTS, WIDE_SURFACES),)
         few = self.task(COARSE, CHECKED), self.task(FINE, CHECKED)
         return self.task(COARSE, self.count), *(few if self.number % CHECKS == 0 else ())
 
 
 def contacts() -> Iterator[PlaneContact]:
     """All planes under all pressures, of a Sobol sequence."""
-    for number, place in enumerate(qmc.Sobol(12, seed=SEED).random(512)[: PLANES + WIDE]):
+    for number, place in enumerate(qmc.Sobol(12, seed=SEED).random(512)[:PLANES]):
         hurst, breadth, rolled, rolloff, kind, loss, spread, tilt, branches, speed, at, shift = map(float, place)
         kind, speed = 0.8 * kind + 0.2 * (kind > 0.9), 0.88 * speed
-        wide = number >= PLANES
-        longest, ratio = RADIUS, WIDE_BREADTH if wide else between(BREADTHS, breadth)
+        longest, ratio = RADIUS, between(BREADTHS, breadth)
         shortest = longest / ratio
         rough = SelfAffine(
             hurst=hurst,
             rms_height=1e-7,
             longest=longest,
             shortest=shortest,
-            rolloff=shortest * between(ROLLOFFS, rolloff)
-            if wide
-            else between((1.05 * shortest, longest), rolloff)
-            if rolled < 0.5
-            else None,
+            rolloff=between((1.05 * shortest, longest), rolloff) if rolled < 0.5 else None,
             seed=SURFACE_SEEDS * number,
         )
         solid = solid_at(kind, loss, spread, tilt, branches, speed, shortest / (2 * pi))
@@ -147,11 +138,6 @@ def _means(outcome):
         "area": np.array([row.measures["contact_fraction"] for row in rows]),
         "gap": np.array([row.measures["mean_gap"] for row in rows]),
     }
-
-
-def between(ends, place):
-    low, high = ends
-    return exp(log(low) + place * log(high / low))
 
 
 def main(workers: int | None = None) -> None:

@@ -1,10 +1,15 @@
 """The law of friction in three dimensions: its parts against closed forms, its limits, and scenes solved."""
 
 from dataclasses import replace
+from itertools import pairwise
 from math import isnan, pi
+from pathlib import Path
 
 import numpy as np
+import pandas
 import pytest
+from planes import HELD_OUT
+from share import share
 
 from bem3d import BEM
 from compare import FrictionLaw
@@ -12,8 +17,8 @@ from compare.models.exact import slow_friction_3d
 from compare.models.law.bands import Bands, FullContact
 from compare.models.law.card import card
 from compare.models.law.friction_law import LawParts
-from compare.models.law.nominal import NominalContact, Rings
-from compare.models.law.share import LEAST, MOST, Share
+from compare.models.law.nominal import GAPS, NominalContact, Rings
+from compare.models.law.share import LEAST, MOST, Share, coefficients
 from compare.models.law.smooth import SmoothContact
 from mdr1d import MDR
 from scene import (
@@ -35,6 +40,8 @@ from scene import (
 
 SOLID = Kelvin(modulus=1e6, relaxation_time=1e-3)
 ROUGH = SelfAffine(hurst=0.5, rms_height=4e-6, longest=3e-3, shortest=2.5e-4, seed=1)
+HIGH = replace(ROUGH, rms_height=1.0)
+ROOT = Path(__file__).parents[2]
 SCENE = Scene(Sphere(radius=10e-3), SOLID, Slide(speed=0.1, load=1.0), ROUGH)
 EXPONENTS = 1.0, 2.0, 4.0
 RADIUS, LOAD = 1e-3, 0.5
@@ -62,6 +69,15 @@ def test_a_long_wave_carries_the_contact_and_a_short_one_is_left():
     assert bands.beneath(1e3 * ROUGH.longest).rms_height == pytest.approx(bands.rms_height, rel=1e-6)
     left = [bands.beneath(radius).rms_height for radius in np.geomspace(1e-5, 1e-1, 30)]
     assert np.all(np.diff(left) > 0)
+    # One wave on a disc, as fine a grid as is needed, less the plane that fits it best.
+    x, y = np.meshgrid(*2 * [(np.arange(400) + 0.5) / 200 - 1])
+    x, y = x[np.hypot(x, y) < 1], y[np.hypot(x, y) < 1]
+    planes = np.stack([np.ones_like(x), x, y], axis=1)
+    for q in (0.5, 2.0, 5.0):
+        waves = np.stack([np.cos(q * x), np.sin(q * x)], axis=1)
+        beyond = waves - planes @ np.linalg.lstsq(planes, waves, rcond=None)[0]
+        one = replace(bands, q=np.array([q]), power=np.array([1.0])).beneath(1.0)
+        assert one.power[0] == pytest.approx(np.mean(np.sum(beyond**2, axis=1)), rel=0.01)
 
 
 @pytest.mark.parametrize("n", EXPONENTS)
@@ -96,8 +112,11 @@ def test_a_layer_keeps_the_load_and_widens_the_more_the_higher_it_is(n, pressure
 def test_roughness_that_vanishes_leaves_the_smooth_body():
     smooth = FrictionLaw().solve(replace(SCENE, roughness=None))
     assert smooth.friction_coefficient == BEM(points=64).solve(replace(SCENE, roughness=None)).friction_coefficient
-    tiny = FrictionLaw().solve(replace(SCENE, roughness=replace(ROUGH, rms_height=1e-10)))
-    assert tiny.friction_coefficient == pytest.approx(smooth.friction_coefficient, rel=5e-3)
+    for height in (1e-10, 1e-200):
+        tiny = FrictionLaw().solve(replace(SCENE, roughness=replace(ROUGH, rms_height=height)))
+        assert tiny.friction_coefficient == pytest.approx(smooth.friction_coefficient, rel=5e-3)
+    far = FrictionLaw().solve(replace(SCENE, roughness=replace(ROUGH, longest=1e12, shortest=1e11)))
+    assert far.friction_coefficient == pytest.approx(smooth.friction_coefficient, rel=1e-9)
     assert FrictionLaw().solve(replace(SCENE, elastomer=Elastic(1e6))).friction_coefficient == 0.0
     assert FrictionLaw().solve(replace(SCENE, motion=Indent(load=1.0))).friction_coefficient == 0.0
 
@@ -106,11 +125,35 @@ def test_the_parts_are_those_of_the_result():
     answer, parts = FrictionLaw().solve(SCENE), LawParts.of(SCENE)
     own, rough = (answer.measures[f"friction_of_{name}"] for name in ("shape", "roughness"))
     assert own + rough == pytest.approx(answer.friction_force, rel=1e-12)
-    assert (own, rough) == pytest.approx((parts.smooth * parts.load, parts.rough * parts.load), rel=1e-12)
+    load = parts.contact.load
+    assert (own, rough) == pytest.approx((parts.smooth * load, parts.rough * load), rel=1e-12)
     assert answer.measures["pressure_ratio"] == parts.x
     assert answer.measures["nominal_radius"] == parts.radius
     assert answer.measures["friction_low"] < answer.friction_coefficient < answer.measures["friction_high"]
     assert isnan(answer.depth)
+
+
+@pytest.mark.parametrize(
+    "scene", [replace(SCENE, motion=Slide(speed=0.1, load=1e-12)), replace(SCENE, roughness=HIGH)]
+)
+def test_roughness_that_is_a_body_of_its_own_is_told_outside_and_of_a_wide_interval(scene):
+    measures = FrictionLaw().solve(scene).measures
+    assert measures["outside"] == 1.0
+    assert measures["friction_high"] > 100 * measures["friction_low"]
+
+
+def test_the_formula_and_the_layer_are_those_of_the_planes_that_were_solved():
+    planes = pandas.read_csv(ROOT / "docs" / "results" / "law" / "planes.csv")
+    held = planes[(planes["plane"] % HELD_OUT == 0) & (planes["x"] > 0.1)].assign(one=1.0)
+    held["lossy squared"] = held["lossy"] ** 2
+    names = list(coefficients())
+    off = share(held, names, np.array([coefficients()[name] for name in names])) / held["share"] - 1
+    assert np.median(np.abs(off)) < 0.04
+    slow = planes[planes["lossy"] < 0.1]
+    for low, high in pairwise(GAPS):
+        near = slow[slow["x"].between(low, high)]
+        gaps = np.interp(np.log(near["x"]), np.log(list(GAPS)), list(GAPS.values()))
+        assert abs(np.median(near["gap"] - gaps)) < 0.1
 
 
 @pytest.mark.parametrize("factor", [1e-6, 1e6])

@@ -2,7 +2,7 @@
 
 import time
 from math import pi
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from pydantic.dataclasses import dataclass
@@ -61,7 +61,7 @@ class Exact:
         start = time.process_time()
         contact = elastic_contact(scene)
         r = np.linspace(0, contact.radius, 101)[1:]
-        pressure = _pressure(scene, contact.radius, r)
+        pressure = smooth_pressure(scene.indenter, scene.solid.indentation_modulus, contact.radius, r)
         return Result(
             scene=scene,
             solver=self.name,
@@ -77,11 +77,15 @@ class Exact:
         )
 
 
-def _pressure(scene, radius, r):
-    """Substituting x^2 = r^2 + s^2 leaves the smooth integrand g'(x)/x, for Gauss-Legendre in s = r sinh(u)."""
-    shape = scene.indenter
+def smooth_pressure(shape: Any, modulus: float, radius: float, r: np.ndarray) -> np.ndarray:
+    """Pressure [Pa] (N,) under a body of revolution, (E*/pi) int_r^a g'/sqrt(x^2 - r^2) dx, at 0 < r < a [m].
+
+    modulus : E* [Pa]; radius : a, of the contact [m]
+
+    Substituting x^2 = r^2 + s^2 leaves the smooth integrand g'(x)/x, for Gauss-Legendre in s = r sinh(u).
+    """
     n, c = shape.exponent, shape.mdr_coefficient
     nodes, weights = np.polynomial.legendre.leggauss(40)
     top = np.arccosh(radius / r)[:, None]
     x = r[:, None] * np.cosh(top * (nodes + 1) / 2)
-    return scene.solid.indentation_modulus / pi * np.sum(weights * top / 2 * n * c * x ** (n - 1), axis=1)
+    return modulus / pi * np.sum(weights * top / 2 * n * c * x ** (n - 1), axis=1)

@@ -13,8 +13,9 @@ from ..exact.full_contact import complex_stiffness
 
 # Nodes of the spectrum, and of directions over a quarter of a circle.
 _WAVES, _DIRECTIONS = 48, 24
-_ANGLES, _SHARES = np.polynomial.legendre.leggauss(_DIRECTIONS)
-_COSINE, _SHARES = np.cos(pi / 4 * (1 + _ANGLES)), _SHARES / 2
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(_DIRECTIONS)
+_COSINE, _SHARES = np.cos(pi / 4 * (1 + _NODES)), _WEIGHTS / 2
+ROUNDING = 1e-16  # of the share of a wave that a disc leaves
 
 
 def around(elastomer: Linear, speed: float, q: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -47,24 +48,19 @@ class Bands:
         return cls(q, weights * half * 2 * pi * q**2 * density, rough.rms_height)
 
     def beneath(self, radius: float) -> "Bands":
-        """What a disc of a radius [m] leaves of them, when the mean and the tilt of each wave over it are removed.
+        """Bands without the mean and the tilt of each wave over a disc of a radius [m].
 
         A body that presses rides on these: of a wave q the share (2 J_1(s)/s)^2 + 16 J_2(s)^2/s^2, s = q radius,
         is a height and a tilt of the disc.
         """
         s = self.q * radius
         rides = np.square(2 * j1(s) / s) + 16 * np.square(jv(2, s) / s)
-        return replace(self, power=self.power * np.maximum(1 - rides, 0.0))
+        return replace(self, power=self.power * np.maximum(1 - rides, ROUNDING))
 
     @property
     def rms_height(self) -> float:
-        """[m]"""
+        """Rms height of all bands [m]."""
         return self.unit * sqrt(self.power.sum())
-
-    @property
-    def rms_slope(self) -> float:
-        """Of the full gradient [1]."""
-        return self.unit * sqrt(np.sum(self.power * self.q**2))
 
 
 @dataclass(frozen=True)

@@ -31,13 +31,14 @@ RIDDEN, SPOTS = 0.15, 0.3
 # Half of an interval of 95 % in ln mu: the root of the squares of what each of these numbers adds, as fitted to
 # scenes that were solved for it.
 AT_LEAST, BY_ROUGHNESS, BY_LIGHTNESS, BY_HEIGHT, BY_RIDDEN = 0.0088, 0.104, 0.154, 1.06, 2.0
+NOTHING_KNOWN = 7.0  # a factor of a thousand: wider intervals say no more
 
 
 @frozen_parts(frozen=True)
 class LawParts:
     """What the law makes friction of.
 
-    load : [N]; depth : of the smooth contact [m]
+    contact : of the smooth body
     smooth, rough : parts of the friction coefficient
     radius : of a disc with the spread of the nominal pressure, of which the smooth contact's is the radius [m]
     full : friction of all waves in full contact, an area [Pa]
@@ -47,8 +48,7 @@ class LawParts:
     wave : the shortest [m]
     """
 
-    load: float
-    depth: float
+    contact: SmoothContact
     smooth: float
     rough: float
     radius: float
@@ -62,7 +62,7 @@ class LawParts:
     @property
     def x(self) -> float:
         """Mean nominal pressure over the rms pressure of full contact."""
-        return self.load / (pi * self.radius**2 * self.pressure) if self.pressure else inf
+        return self.contact.load / (pi * self.radius**2 * self.pressure) if self.pressure else inf
 
     @property
     def outside(self) -> bool:
@@ -74,9 +74,8 @@ class LawParts:
         """Half of the interval of 95 % of ln mu, as the law was off where it was tried."""
         of_it = self.rough / (self.smooth + self.rough) if self.rough else 0.0
         light = BY_LIGHTNESS * min(self.x, 1.0) ** -0.25
-        return hypot(
-            AT_LEAST, of_it * BY_ROUGHNESS, of_it * light, BY_HEIGHT * self.height, BY_RIDDEN * self.ridden
-        )
+        parts = AT_LEAST, of_it * BY_ROUGHNESS, of_it * light, BY_HEIGHT * self.height, BY_RIDDEN * self.ridden
+        return min(hypot(*parts), NOTHING_KNOWN)
 
     @classmethod
     def of(cls, scene: Scene) -> "LawParts":
@@ -98,8 +97,7 @@ class LawParts:
         friction = float(full.friction.sum())
         bare_lost = bare.lost(solid, speed)
         return cls(
-            load=smooth.load,
-            depth=smooth.depth,
+            contact=smooth,
             smooth=smooth.friction_coefficient * (found.lost(solid, speed) / bare_lost if bare_lost else 1.0),
             rough=friction * float(np.sum(share(found.pressure / pressure) * found.area)) / smooth.load,
             radius=radius,
@@ -159,12 +157,11 @@ class FrictionLaw:
         with trusted():
             if scene.roughness is None or scene.roughness.flat:
                 smooth = SmoothContact.of(scene)
-                load, own, rough = smooth.load, smooth.friction_coefficient, 0.0
+                own, rough, depth = smooth.friction_coefficient, 0.0, smooth.depth
                 told = {"nominal_radius": smooth.radius}
-                depth = smooth.depth
             else:
                 parts = LawParts.of(scene)
-                load, own, rough, depth = parts.load, parts.smooth, parts.rough, nan
+                smooth, own, rough, depth = parts.contact, parts.smooth, parts.rough, nan
                 factor = exp(parts.doubt)
                 told = {
                     "friction_low": (own + rough) / factor,
@@ -178,12 +175,12 @@ class FrictionLaw:
         return Result(
             scene=scene,
             solver=self.name,
-            settings={},
-            normal_force=load,
+            settings={"points": SPACE.points},
+            normal_force=smooth.load,
             depth=depth,
-            friction_force=(own + rough) * load,
-            residual=0.0,
-            operator_applications=0.0,
+            friction_force=(own + rough) * smooth.load,
+            residual=smooth.residual,
+            operator_applications=smooth.operator_applications,
             seconds=process_time() - start,
-            measures={"friction_of_shape": own * load, "friction_of_roughness": rough * load} | told,
+            measures={"friction_of_shape": own * smooth.load, "friction_of_roughness": rough * smooth.load} | told,
         )

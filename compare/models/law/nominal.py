@@ -10,6 +10,7 @@ from scipy.special import ellipkm1, j0
 from scene import PowerLaw, SolveError
 from scene.viscoelastic import Linear
 
+from ..exact.solver import smooth_pressure
 from .bands import around
 
 # Mean gap over the rms height against the pressure over the rms pressure of full contact: of rough planes.
@@ -21,6 +22,7 @@ CLOSED = 500.0  # of the pressure, over the greatest there is, per gap that is m
 EVEN, INNER, WIDER, OUTER, NODES = 48, 1.5, 24, 8.0, 24
 WAVES = np.geomspace(0.05, 60.0, 120)  # wave numbers of a pressure, times the radius of the smooth contact
 ROUNDS, CLOSE, SHORTEST_STEP = 60, 1e-9, 1e-6
+THINNEST = 1e-9  # of a layer over the depth, below which there is none
 _LOGS, _GAPS = np.log(list(GAPS)), np.array(list(GAPS.values()))
 
 
@@ -71,14 +73,11 @@ class NominalContact:
 
     @classmethod
     def smooth(cls, exponent: float, radius: float, load: float) -> "NominalContact":
-        """Body r^n without roughness: p = (E*/pi) int_r^a g'/sqrt(x^2 - r^2) dx, Galin and Sneddon."""
+        """Body r^n without roughness, of an elastic half-space."""
         rings = Rings.all()
         r = rings.middle[rings.middle < 1]
-        nodes, weights = np.polynomial.legendre.leggauss(40)
-        top = np.arccosh(1 / r)[:, None]
         pressure = np.zeros_like(rings.middle)
-        steep = (r[:, None] * np.cosh(top * (nodes + 1) / 2)) ** (exponent - 1)
-        pressure[: r.size] = np.sum(weights * top / 2 * steep, axis=1)
+        pressure[: r.size] = smooth_pressure(PowerLaw(1.0, exponent), 1.0, 1.0, r)
         return cls(radius, pressure * load / np.sum(pressure * rings.area * radius**2))
 
     def on_layer(self, exponent: float, depth: float, height: float, full: float) -> "NominalContact":
@@ -89,6 +88,8 @@ class NominalContact:
 
         Newton's method for the gap of each ring, shortened until the misfit falls. Raises SolveError.
         """
+        if height < THINNEST * depth:
+            return self
         rings, load = Rings.all(), self.load
         modulus = load * (exponent + 1) / (2 * exponent * depth * self.radius)
         softness, weight = (
@@ -122,12 +123,12 @@ class NominalContact:
 
     @property
     def area(self) -> np.ndarray:
-        """Of each ring [m^2], (N,)."""
+        """Area of each ring [m^2], (N,)."""
         return Rings.all().area * self.radius**2
 
     @property
     def load(self) -> float:
-        """[N]"""
+        """Load [N]."""
         return float(np.sum(self.pressure * self.area))
 
     @property

@@ -47,7 +47,7 @@ class Share:
 
 
 def waves(full: FullContact) -> dict[str, float]:
-    """What is told of waves in full contact: the numbers that coefficients are multiplied by."""
+    """Numbers of waves in full contact that coefficients are multiplied by, by name."""
     names = "lossy", "along", "across", "shorter", "harder", "rising"
     return {"one": 1.0, "lossy squared": full.lossy**2, **{name: getattr(full, name) for name in names}}
 

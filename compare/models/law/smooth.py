@@ -51,10 +51,10 @@ class SmoothContact:
 
     @property
     def area(self) -> float:
-        """[m^2]"""
+        """Area of the contact [m^2]."""
         return pi * self.radius**2
 
     @property
     def mean_pressure(self) -> float:
-        """[Pa]"""
+        """Load over area [Pa]."""
         return self.load / self.area

@@ -50,7 +50,7 @@ class Coordinates:
 
     @classmethod
     def of_law(cls, law: xarray.Dataset) -> "Coordinates":
-        """Those of the law: without the waves on which the contact rides, on the contact that roughness widens."""
+        """Coordinates of the law: without waves that carry the contact, which roughness widens."""
         load = law["normal_force"].values
         return cls(
             x=law["pressure_ratio"].values,
@@ -61,13 +61,13 @@ class Coordinates:
 
     @classmethod
     def averaged(cls, law: xarray.Dataset) -> "Coordinates":
-        """Those of the law, with S at the pressure of each place: it is bent, and pressure peaks at the tip."""
+        """Coordinates of the law, with S at the pressure of each place, as S is bent and pressure peaks."""
         share = law["friction_of_roughness"].values / law["full_contact_friction"].values
         return replace(cls.of_law(law), share=share)
 
     @classmethod
     def of_bare(cls, smooth: xarray.Dataset, waves: Sequence[FullContact]) -> "Coordinates":
-        """Raw ones: all waves, in full contact at each speed, on the contact of the smooth body that slides."""
+        """Raw coordinates: all waves in full contact at each speed, on the contact of the bare smooth body."""
         load, drag, area = (_points(smooth[name]) for name in ("normal_force", "friction_force", "contact_area"))
         force, rms = (
             np.array([number(each) for each in waves])[:, None]

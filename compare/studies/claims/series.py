@@ -99,7 +99,7 @@ class Series:
 
     @cached_property
     def models(self) -> Models:
-        """Those of them with a claim on its contacts, which are compared. Raises InvalidInput."""
+        """Models with a claim on its contacts, which are compared. Raises InvalidInput."""
         return self.every_model.telling(self.prescribed, self.slides)
 
     @property

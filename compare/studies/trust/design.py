@@ -120,7 +120,7 @@ def scene_at(point: np.ndarray, seed: int = 0, periods: tuple[float, float] = PE
      rolloff, speed) = (float(each) for each in point)  # fmt: skip
     indenter = _indenter(shape, exponent)
     rough = None if smooth < SMOOTH else _rough(height, waves, hurst, periods, period, rolled, rolloff, seed)
-    wave = RADIUS / _between(WAVES, waves)
+    wave = RADIUS / between(WAVES, waves)
     solid = solid_at(kind, loss, spread, tilt, branches, speed, wave)
     rests = speed >= SLIDING
     stiffness = 2 * indenter.exponent / (indenter.exponent + 1) * solid.indentation_modulus * DEPTH * RADIUS
@@ -129,7 +129,8 @@ def scene_at(point: np.ndarray, seed: int = 0, periods: tuple[float, float] = PE
     return Scene(indenter, solid, motion, rough)
 
 
-def _between(ends, place):
+def between(ends: tuple[float, float], place: float) -> float:
+    """Number at a place, 0 to 1, between two ends, in equal ratios."""
     low, high = ends
     return exp(log(low) + place * log(high / low))
 
@@ -139,18 +140,18 @@ def _indenter(shape, exponent) -> Sphere | Cone | PowerLaw:
         return Cone(np.arctan(DEPTH / RADIUS / Cone(angle=np.pi / 4).mdr_coefficient))
     if shape < ROUND:
         return Sphere(RADIUS**2 / DEPTH)
-    n = _between(EXPONENTS, exponent)
+    n = between(EXPONENTS, exponent)
     return PowerLaw(DEPTH / PowerLaw(RADIUS**-n, n).mdr_coefficient * RADIUS**-n * RADIUS**-n, n)
 
 
 def _rough(height, waves, hurst, periods, period, rolled, rolloff, seed) -> SelfAffine:
-    shortest = RADIUS / _between(WAVES, waves)
-    longest = _between((max(periods[0] * RADIUS, 2 * shortest), periods[1] * RADIUS), period)
+    shortest = RADIUS / between(WAVES, waves)
+    longest = between((max(periods[0] * RADIUS, 2 * shortest), periods[1] * RADIUS), period)
     return SelfAffine(
         hurst=hurst,
-        rms_height=DEPTH * _between(HEIGHTS, height),
+        rms_height=DEPTH * between(HEIGHTS, height),
         longest=longest,
-        rolloff=_between((shortest, longest), max(rolloff, 1e-3)) if rolled < 0.5 else None,
+        rolloff=between((shortest, longest), max(rolloff, 1e-3)) if rolled < 0.5 else None,
         shortest=shortest,
         seed=seed,
     )
@@ -159,12 +160,12 @@ def _rough(height, waves, hurst, periods, period, rolled, rolloff, seed) -> Self
 def solid_at(kind, loss, spread, tilt, branches, speed, wave) -> Elastomer:
     """Solid whose times lie so that the speed runs from where friction grows with it to beyond its peak."""
     place = min(speed / SLIDING, 1.0)
-    stiffening = _between(STIFFENING, loss)
+    stiffening = between(STIFFENING, loss)
     if kind < 0.25:
-        return Kelvin(MODULUS, wave / SPEED * _between(SPEEDS, place))
+        return Kelvin(MODULUS, wave / SPEED * between(SPEEDS, place))
     if kind < 0.6:
         # From slow on the scale of retardation to fast on that of relaxation.
-        time = wave / SPEED * _between((SPEEDS[0] / stiffening**0.5, SPEEDS[1]), place)
+        time = wave / SPEED * between((SPEEDS[0] / stiffening**0.5, SPEEDS[1]), place)
         return StandardLinearSolid(MODULUS, MODULUS * stiffening, time)
     if kind < 0.8:
         exponent = 0.1 + 0.8 * loss
@@ -181,7 +182,7 @@ def solid_at(kind, loss, spread, tilt, branches, speed, wave) -> Elastomer:
     count = 2 + int(5 * branches)
     steps = np.linspace(-0.5, 0.5, count)
     moduli = 10 ** ((2 * tilt - 1) * width / 2 * steps)
-    middle = log10(wave / SPEED * _between((SPEEDS[0] / stiffening**0.5, SPEEDS[1]), place))
+    middle = log10(wave / SPEED * between((SPEEDS[0] / stiffening**0.5, SPEEDS[1]), place))
     return Prony(
         MODULUS,
         tuple((MODULUS * (stiffening - 1) * moduli / moduli.sum()).tolist()),

@@ -34,7 +34,7 @@ MARK: dict[str, Any] = {"linestyle": "none", "capsize": 0}
 def plot(
     members: Sequence[LawPoints], paper: DataFrame, curve: DataFrame, folder: str = "", fitted: str = ""
 ) -> Plot:
-    """Of one series or of several.
+    """Plot of the master curve, of one series or of several.
 
     paper, curve : points in one dimension with the title of their series, and the curve that they are to fall on
     folder : of the figure of one series
