@@ -10,6 +10,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import fast
+import law
 import pandas
 import slow
 import spectrum
@@ -49,14 +50,17 @@ OF_STUDY = {
     "eq23.collapse": "misfit, shifted at best",
     "eq23.predicted": "misfit, shifted as Eq. 22 predicts",
     "eq17.load-exponent": "exponent of the load at low speed; claimed −2/3 (sphere), −1/2 (cone)",
-    "eq14.plateau": "plateau over that of Eq. 14; claimed 1",
+    "eq14.plateau-least": "plateau over that of Eq. 14 at the least load with one; claimed 1",
+    "eq14.plateau-greatest": "at the greatest",
 }
 IN_REGIME = {
     "eq17.load-exponent": "the same exponent in the regime of the paper",
-    "eq17.level": "friction at low speed there over that of Eq. 17; claimed 1",
+    "eq17.level-least": "friction at low speed there over that of Eq. 17, at the least load; claimed 1",
+    "eq17.level-greatest": "at the greatest",
 }
 AT_SPEED = {
-    "eq14.plateau": "plateau there over that of Eq. 14; claimed 1",
+    "eq14.plateau-least": "plateau there over that of Eq. 14, at the least load; claimed 1",
+    "eq14.plateau-greatest": "at the greatest",
     "eq23.collapse": "misfit there, shifted at best",
     "eq23.predicted": "misfit there, shifted as Eq. 22 predicts",
 }
@@ -73,6 +77,7 @@ def parts() -> Mapping[tuple[Path, str], str]:
         (PAGE, "study"): table("|sphere, 1D|cone, 1D|sphere, 3D|cone, 3D", _of_study(slow_found, fast_found)),
         (PAGE, "spectrum"): _of_spectrum(),
         (README, "answer"): _answer(run),
+        (README, "law"): law.answer(),
         (README, "slow"): slow.answer(slow_found),
         (README, "fast"): fast.answer(fast_found),
         (README, "prints"): f"```text\n{(RUN.parent / 'run.txt').read_text(encoding='utf-8').strip()}\n```",

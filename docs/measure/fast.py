@@ -16,11 +16,18 @@ import compare
 from compare.report.csvfiles import text, write_text
 from compare.report.plots import style
 from compare.report.plots.shades import SPEED, bar, between
+from compare.solving.parameter_grid import COARSE, FINE
+from compare.statistics import eq23
+from compare.statistics.collapse import collapse
 from compare.statistics.finding import verdict
+from compare.statistics.frictioncurves import SimulatedCurves
 from compare.statistics.jackknife import mean_ratio
+from compare.studies.claims.claims import ENDS
+from compare.studies.claims.contacts import STEEP
 
 PAGE = Path(__file__).parents[1] / "results" / "fast.md"
 README = PAGE.parents[2] / "README.md"
+SOLVERS = {"1D": "MDR", "3D": "BEM"}
 STUDIES = "steep-all-speeds", "steep-on-fine-grids"
 EXPONENT = {"sphere": 1.5, "cone": 2.0}  # (n + 1)/n: p(v) of a Kelvin solid is v to the power of minus that
 COLUMNS = "claim", "where", "dimension", "value", "low", "high", "draws", "verdict"
@@ -29,16 +36,23 @@ COLLAPSE = {
     "eq23.predicted": "shifted by p(v) of the theory, by",
     "eq23.vertical-alone": "shifted along friction alone, by",
 }
+# The same of those speeds alone that are at the knee and above: v tau q_s from so much on.
+KNEE, BEYOND = 2.5, ", from the knee on"
+FROM_KNEE = {f"{claim}{BEYOND}": f"from the knee on: {words}" for claim, words in COLLAPSE.items()}
 # What is corrected by finer grids, and where: the place of the speed among those of the fine grids.
 CORRECTED = {
-    "eq19.level": ("at the knee: friction over the law", 0),
+    "eq19.level-least": ("at the knee: friction over the law, under the least load", 0),
+    "eq19.level-greatest": ("at the knee: friction over the law, under the greatest load", 0),
     "eq19.load-exponent": ("at the knee: power of the load, less that of the law", 0),
-    "eq14.plateau": ("on the plateau: friction over the law", 1),
+    "eq14.plateau-least": ("on the plateau: friction over the law, under the least load", 1),
+    "eq14.plateau-greatest": ("on the plateau: friction over the law, under the greatest load", 1),
     "eq14.load-exponent": ("on the plateau: power of the load, less that of the law", 1),
 }
 ANSWER = (
-    "From low speed to the plateau, curves shifted as Eq. 23 predicts miss one another by {} % (sphere) and {} % "
-    "(cone) in 1D, by {} % and {} % in 3D; the plateau is {} and {} times that of Eq. 14."
+    "From low speed to the plateau (v τ q_s = 0.3 to 200, loads over a factor of five) curves shifted as Eq. 23 "
+    "predicts miss one another by {} % (sphere) and {} % (cone) in 1D, by {} % and {} % in 3D; from the knee on "
+    "alone by {} % and {} % in 3D. The plateau in 3D is {} (sphere) and {} (cone) times that of Eq. 14 under the "
+    "least load, {} and {} times under the greatest."
 )
 
 
@@ -51,6 +65,7 @@ def main() -> None:
     for body in EXPONENT:
         for dimension in ("1D", "3D"):
             rows += [_plain(found, claim, dimension, body) for claim in COLLAPSE]
+            rows += _from_the_knee(trees[0], dimension, body)
             rows += [
                 _plain(found, claim, dimension, body)
                 if dimension == "1D"
@@ -59,16 +74,16 @@ def main() -> None:
             ]
     told = DataFrame(rows)
     write_text(PAGE.with_suffix(".csv"), text(told))
-    columns = [(body, dimension) for body in EXPONENT for dimension in ("1D", "3D")]
-    words = COLLAPSE | {claim: name for claim, (name, _) in CORRECTED.items()}
-    header = "|".join(["", *(f"{body}, {dimension}" for body, dimension in columns)])
+    columns = [(dimension, body) for body in EXPONENT for dimension in ("1D", "3D")]
+    words = COLLAPSE | FROM_KNEE | {claim: name for claim, (name, _) in CORRECTED.items()}
+    header = "|".join(["", *(f"{body}, {dimension}" for dimension, body in columns)])
     replaced(
         PAGE,
         "numbers",
         table(
             header,
             (
-                (name, *(_said(told, claim, dimension, body, claim in COLLAPSE) for body, dimension in columns))
+                (name, *(_said(told, claim, *place, claim.startswith("eq23")) for place in columns))
                 for claim, name in words.items()
             ),
         ),
@@ -82,8 +97,14 @@ def main() -> None:
 def answer(told: DataFrame) -> str:
     """The answer in one sentence."""
     in_1d = [_said(told, "eq23.predicted", "1D", body, True).split(" ")[0] for body in EXPONENT]
-    in_3d = [_said(told, "eq23.predicted", "3D", body, True).replace(" %", "") for body in EXPONENT]
-    return ANSWER.format(*in_1d, *in_3d, *(_said(told, "eq14.plateau", "3D", body, False) for body in EXPONENT))
+    in_3d = [
+        _said(told, f"eq23.predicted{which}", "3D", body, True).replace(" %", "")
+        for which in ("", BEYOND)
+        for body in EXPONENT
+    ]
+    plateaus = (f"eq14.plateau-{end}" for end in ENDS)
+    levels = (_said(told, claim, "3D", body, False) for claim in plateaus for body in EXPONENT)
+    return ANSWER.format(*in_1d, *in_3d, *levels)
 
 
 def _plain(found, claim, dimension, body):
@@ -91,6 +112,20 @@ def _plain(found, claim, dimension, body):
     chosen = (found["claim"] == claim) & (found["dimension"] == dimension) & (found["where"] == body)
     (row,) = found[chosen].itertuples()
     return {name: getattr(row, name) for name in COLUMNS}
+
+
+def _from_the_knee(tree, dimension, body):
+    """What shifts come to at the speeds from the knee on."""
+    answers = tree[f"{body}/rough/{SOLVERS[dimension]}"].to_dataset(inherit=False).isel(speed=slice(1, None))
+    scene, _ = STEEP[body]
+    slowest = KNEE * scene.roughness.shortest / (2 * np.pi * scene.elastomer.relaxation_time)
+    answers = answers.isel(speed=np.flatnonzero(answers["speed"] >= 0.999 * slowest))
+    fine, coarse = (collapse(SimulatedCurves.of(answers.sel(grid=grid))) for grid in (FINE, COARSE))
+    shifts = -EXPONENT[body] * np.log(fine.speeds)
+    for each in eq23.findings(fine, coarse, dimension, shifts, where=body):
+        if each.claim.id in COLLAPSE:
+            row = each.row
+            yield {name: row[name] for name in COLUMNS} | {"claim": f"{each.claim.id}{BEYOND}"}
 
 
 def _corrected(found, fine, trees, claim, place, body):
@@ -106,7 +141,7 @@ def _corrected(found, fine, trees, claim, place, body):
     places = [int(np.argmin(abs(np.log(coarse[0] / speed)))) for speed in finest[0]]
     load, change = finest[1], np.log(finest[2][place] / coarse[2][places[place]][[0, -1], : finest[2].shape[-1]])
     lever = np.log(load) - np.log(load).mean()
-    each = lever @ change / (lever @ lever) if claim.endswith("exponent") else change.mean(axis=0)
+    each = lever @ change / (lever @ lever) if claim.endswith("exponent") else change[_end(claim)]
     moved = mean_ratio(each)
     changed = np.array([moved.value, *moved.interval()])
     value, *ends = many["value"] + changed if claim.endswith("exponent") else many["value"] * np.exp(changed)
@@ -122,6 +157,11 @@ def _corrected(found, fine, trees, claim, place, body):
         "draws": many["draws"],
         "verdict": verdict(many["expected"], many["tolerance"], value - below, value + above),
     }
+
+
+def _end(claim):
+    """Place of the load of a level."""
+    return -1 if claim.endswith(ENDS[-1]) else 0
 
 
 def _friction(tree, body):
@@ -146,7 +186,7 @@ def _figure(tree) -> Figure:
     panels = drawing.subplots(2, len(EXPONENT), sharex="col", sharey=True)
     small = {"markersize": style.mark(0.6), "linewidth": style.width(0.8)}
     for column, (body, exponent) in enumerate(EXPONENT.items()):
-        for axes, (solver, name) in zip(panels[:, column], {"MDR": "1D", "BEM": "3D"}.items(), strict=True):
+        for axes, (name, solver) in zip(panels[:, column], SOLVERS.items(), strict=True):
             sliding = tree[f"{body}/rough/{solver}"].to_dataset(inherit=False).sel(grid="fine")
             mean = sliding.isel(speed=slice(1, None)).mean("seed")
             speeds = mean["speed"].values

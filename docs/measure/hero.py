@@ -1,8 +1,8 @@
 """The figure of the README: a rough contact in three dimensions and in one, and friction against load in both.
 
 The contact is the steep sphere of docs/results/slow.md, in the regime of the paper. It is solved each time, in
-seconds; friction is read from hero.csv, and solved again, in
-minutes, where that is deleted.
+seconds; friction is read from hero.csv, and solved again, in minutes, where that is deleted. The master curve in
+three dimensions is that of steep sphere and cone, from law/steep.csv.
 """
 
 from collections.abc import Iterator
@@ -20,6 +20,7 @@ from bem3d import BEM, Trail
 from compare.report.csvfiles import read, text, write_text
 from compare.report.page import Plot
 from compare.report.plots import style
+from compare.report.plots.shades import SPEED, between
 from compare.report.views import view
 from compare.solving.task import draws_of
 from compare.studies.claims.contacts import STEEP
@@ -29,7 +30,7 @@ from mdr1d import MDR, equations
 from scene import Slide
 
 PAGE = Path(__file__).parents[1] / "results" / "hero.png"
-NUMBERS = PAGE.with_suffix(".csv")
+NUMBERS, STEEP_CONTACTS = PAGE.with_suffix(".csv"), PAGE.parent / "law" / "steep.csv"
 SCENE, (LEAST, MOST) = STEEP["sphere"]
 LOADS, SPEEDS = np.geomspace(LEAST, MOST, 4), (1e-4, 2e-4, 4e-4, 8e-4)
 LINE, SPACE = MDR(points=5000), BEM(points=480)
@@ -45,16 +46,16 @@ def main() -> None:
     fields = {solver.name: solver.solve(SHOWN).fields for solver in (LINE, SPACE)}
     seen = view(SHOWN, SPACE, fields)
     with style.applied():
-        drawing = figure(draw.plot(SHOWN, *datasets(seen, fields["MDR"])), read(NUMBERS))
+        drawing = figure(draw.plot(SHOWN, *datasets(seen, fields["MDR"])), read(NUMBERS), read(STEEP_CONTACTS))
         image = BytesIO()
         drawing.savefig(image, dpi=WIDTH / drawing.get_figwidth())
     Image.open(image).convert("RGB").save(PAGE, optimize=True)
 
 
-def figure(plot: Plot, numbers: DataFrame) -> Figure:
-    """(a) The surface in 3D, (b) the row of springs, (c) and (d) friction of both against the shifted load."""
+def figure(plot: Plot, numbers: DataFrame, steep: DataFrame) -> Figure:
+    """(a) Surface in 3D, (b) row of springs, (c), (d) friction of both over the shifted load, (e) master curve."""
     drawing = style.canvas("double", 2.9)
-    left, middle, right = drawing.subfigures(1, 3, squeeze=False, width_ratios=(1.75, 0.75, 1.05))[0]
+    left, middle, right, last = drawing.subfigures(1, 4, squeeze=False, width_ratios=(1.5, 0.7, 1.05, 1.0))[0]
     tables, options = plot.tables, plot.options
     draw.surface(
         left, left.subplots(), tables[draw.SURFACE], options["enlarged"], options["highest"], 1, "(a) 3D: surface"
@@ -74,7 +75,26 @@ def figure(plot: Plot, numbers: DataFrame) -> Figure:
         below.annotate(text, (shifted(last["load"], speed), last["friction"]), xytext=(5, 1), **look)
     below.set_xlabel("load $F_N\\,p(v)$ [N]")
     right.supylabel("friction coefficient μ", fontsize=style.size())
+    master_curve(last.subplots(), steep)
     return drawing
+
+
+def master_curve(axes: Axes, steep: DataFrame) -> None:
+    """What roughness adds in 3D, over that in full contact, against the pressure; line, the law."""
+    scale = between(steep["speed"])
+    for (body, own), form in zip(steep.groupby("body", sort=False), style.forms(), strict=False):
+        for speed, chosen in own.groupby("speed"):
+            x, colour = chosen["x"], SPEED(scale(speed))
+            axes.loglog(
+                x, chosen["averaged_share"], "-", color=style.grey(0.6), linewidth=style.width(2.5), zorder=1
+            )
+            axes.loglog(x, chosen["measured_share"], linestyle="none", marker=form["marker"], color=colour)
+        axes.plot([], [], linestyle="none", marker=form["marker"], color=style.grey(0.3), label=body)
+    axes.plot([], [], "-", color=style.grey(0.6), linewidth=style.width(2.5), label="law")
+    axes.legend(fontsize=style.small())
+    axes.set(
+        xlabel="pressure / that of full contact", ylabel="share of full-contact friction", title="(e) 3D: the law"
+    )
 
 
 def against_load(axes: Axes, numbers: DataFrame, solver: str) -> None:

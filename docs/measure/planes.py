@@ -30,12 +30,16 @@ PAGE = Path(__file__).parents[1] / "results" / "law" / "planes.md"
 PLANES, SEED, SURFACE_SEEDS = 250, 36_001, 1000
 HELD_OUT = 5  # every fifth plane is held out
 BREADTHS = 4.0, 32.0  # longest over shortest wave
-# Pressures over the rms pressure in full contact, one of each range, and numbers of surfaces: few spots touch
-# under light ones, and scatter.
-RANGES = ((5e-3, 3e-2), 16), ((3e-2, 0.15), 8), ((0.15, 0.6), 6), ((0.6, 3.0), 4)
+# Planes of many waves a side, as many as a contact of the paper has: these rolled off, between so many of the
+# shortest wave, that they are rough alike at each place.
+WIDE, WIDE_SEED, WIDE_BREADTH, WIDE_ROLLOFFS = 48, 36_002, 64.0, (1.5, 20.0)
+# Pressures over the rms pressure in full contact, one of each range, and numbers of surfaces, few waves a side and
+# many: few spots touch under light ones, and scatter.
+RANGES = ((5e-3, 3e-2), (16, 4)), ((3e-2, 0.15), (8, 3)), ((0.15, 0.6), (6, 2)), ((0.6, 3.0), (4, 2))
 # Points a wave; on every fourth plane the finer tells what the coarser is off by, which hardly differs between
 # surfaces.
 COARSE, FINE, CHECKED, CHECKS = 16, 32, 2, 4
+DRAWN, DIMENSIONS = 512, 12  # places of a sequence, of which the first are taken
 
 
 @dataclass(frozen=True)
@@ -70,22 +74,29 @@ class PlaneContact:
     def tasks(self) -> tuple[SceneTask, ...]:
         """All surfaces coarse; of every fourth plane also a few of them coarse and fine."""
         few = self.task(COARSE, CHECKED), self.task(FINE, CHECKED)
-        return self.task(COARSE, self.count), *(few if self.number % CHECKS == 0 else ())
+        checked = self.number % CHECKS == 0 and self.number < PLANES
+        return self.task(COARSE, self.count), *(few if checked else ())
 
 
 def contacts() -> Iterator[PlaneContact]:
     """All planes under all pressures, of a Sobol sequence."""
-    for number, place in enumerate(qmc.Sobol(12, seed=SEED).random(512)[:PLANES]):
+    few, many = (
+        qmc.Sobol(DIMENSIONS, seed=seed).random(DRAWN)[:count]
+        for seed, count in ((SEED, PLANES), (WIDE_SEED, WIDE))
+    )
+    for number, place in enumerate(np.concatenate([few, many])):
+        wide = number >= PLANES
         hurst, breadth, rolled, rolloff, kind, loss, spread, tilt, branches, speed, at, shift = map(float, place)
         kind, speed = 0.8 * kind + 0.2 * (kind > 0.9), 0.88 * speed
-        longest, ratio = RADIUS, between(BREADTHS, breadth)
+        longest, ratio = RADIUS, WIDE_BREADTH if wide else between(BREADTHS, breadth)
         shortest = longest / ratio
+        rolloffs = WIDE_ROLLOFFS if wide else (1.05, ratio)
         rough = SelfAffine(
             hurst=hurst,
             rms_height=1e-7,
             longest=longest,
             shortest=shortest,
-            rolloff=between((1.05 * shortest, longest), rolloff) if rolled < 0.5 else None,
+            rolloff=shortest * between(rolloffs, rolloff) if wide or rolled < 0.5 else None,
             seed=SURFACE_SEEDS * number,
         )
         solid = solid_at(kind, loss, spread, tilt, branches, speed, shortest / (2 * pi))
@@ -96,10 +107,10 @@ def contacts() -> Iterator[PlaneContact]:
         friction = full_contact.friction(drawn, sides, solid, SPEED)
         pressure = float(full_contact.pressure(drawn, sides, solid, SPEED).std())
         told = waves(FullContact.of(Bands.of(rough), solid, SPEED))
-        for index, (ends, count) in enumerate(RANGES):
+        for index, (ends, counts) in enumerate(RANGES):
             x = between(ends, (at + shift * index) % 1)
             scene = Scene(Plane(), solid, Slide(speed=SPEED, pressure=x * pressure), rough)
-            yield PlaneContact(number, index, scene, count, friction, pressure, told)
+            yield PlaneContact(number, index, scene, counts[wide], friction, pressure, told)
 
 
 def rows(found: list[PlaneContact], outcomes: Mapping[Task, Outcome]) -> Iterator[dict]:

@@ -4,6 +4,7 @@ They are those of `crosscheck study steep-and-slow --size standard`, in whose fo
 it takes half an hour on two cores.
 """
 
+import re
 import shutil
 from pathlib import Path
 
@@ -18,7 +19,8 @@ README = PAGE.parents[2] / "README.md"
 BODIES, DIMENSIONS = ("sphere", "cone"), ("1D", "3D")
 CLAIMS = {
     "eq17.load-exponent": "friction goes with the load to the power",
-    "eq17.level": "friction over the law",
+    "eq17.level-least": "friction over the law, under the least load",
+    "eq17.level-greatest": "under the greatest",
     "eq17.contact": "real contact goes with the load to the power",
     "eq17.friction-per-contact": "friction over real contact to the power",
     "eq17.slope-in-contact": "slope of what touches to the power",
@@ -26,15 +28,17 @@ CLAIMS = {
 }
 ANSWER = (
     "Inside the regime of the paper, slow friction in 3D goes with the load to the power {} for the sphere and {} "
-    "for the cone, where Eq. 17 has −0.667 and −0.5, and is {} and {} times as high."
+    "for the cone, where Eq. 17 has −0.667 and −0.5. At p/(E* h') = {} it is {} times as high as Eq. 17, at {} {} "
+    "times (sphere); at {} {} times under {} N and {} times under {} N (cone)."
 )
+LEVELS = "eq17.level-least", "eq17.level-greatest"
 
 
 def main() -> None:
     """Solve what is not solved yet, and write the numbers, the figures and the answer."""
     report = compare.study("steep-and-slow", "standard", progress="lines")
     found = report.table[report.table["claim"].isin(CLAIMS)]
-    write_text(PAGE.with_suffix(".csv"), text(found.drop(columns=["regime", "meaning", "plot"])))
+    write_text(PAGE.with_suffix(".csv"), text(found.drop(columns=["meaning", "plot"])))
     for body in BODIES:
         shutil.copy(report.path.parent / body / "behind.png", PAGE.with_name(f"slow-{body}.png"))
     columns = [(body, dimension) for body in BODIES for dimension in DIMENSIONS]
@@ -49,14 +53,30 @@ def main() -> None:
 
 def answer(found: DataFrame) -> str:
     """The answer in one sentence."""
-    asked = [(claim, body) for claim in ("eq17.load-exponent", "eq17.level") for body in BODIES]
-    return ANSWER.format(*(_said(found, claim, "3D", body) for claim, body in asked))
+    powers = (_said(found, "eq17.load-exponent", "3D", body) for body in BODIES)
+    (least, greatest), cone = ([_said(found, claim, "3D", body) for claim in LEVELS] for body in BODIES)
+    light, heavy = (_regime(found, claim, "sphere", "p/(E* h')") for claim in LEVELS)
+    loads = (_regime(found, claim, "cone", "F_N") for claim in LEVELS)
+    alike = _regime(found, LEVELS[0], "cone", "p/(E* h')")
+    first, last = loads
+    return ANSWER.format(*powers, light, least, heavy, greatest, alike, cone[0], first, cone[1], last)
+
+
+def _regime(found: DataFrame, claim: str, body: str, symbol: str) -> str:
+    """A number of the place of a level, of those that its words tell."""
+    regime = _row(found, claim, "3D", body).regime
+    return re.search(rf"{re.escape(symbol)} ([\d.e-]+)", regime)[1]
+
+
+def _row(found, claim, dimension, body):
+    chosen = (found["claim"] == claim) & (found["dimension"] == dimension) & (found["where"] == body)
+    (row,) = found[chosen].itertuples()
+    return row
 
 
 def _said(found: DataFrame, claim: str, dimension: str, body: str) -> str:
     """Value with its interval."""
-    chosen = (found["claim"] == claim) & (found["dimension"] == dimension) & (found["where"] == body)
-    (row,) = found[chosen].itertuples()
+    row = _row(found, claim, dimension, body)
     digits = 1 if row.value > 2 else 3
     value, low, high = (f"{each:.{digits}f}".replace("-", "−") for each in (row.value, row.low, row.high))
     return f"{value} ({low} to {high})"

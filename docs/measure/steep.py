@@ -22,7 +22,7 @@ from compare.studies.claims.contacts import STEEP
 from scene import Scene, Slide
 
 PAGE = PLANES.with_name("steep.md")
-SPEEDS = 0.06, 1.0, 12.0, 100.0  # v tau q_s
+SPEEDS = 0.06, 0.3, 1.0, 3.5, 12.0, 35.0, 100.0  # v tau q_s
 # Points a side, 9 pixels to the shortest wave and more; surfaces, and those on twice the points too.
 POINTS, SURFACES, FINER = 960, 4, 1
 
@@ -71,6 +71,10 @@ def main(workers: int | None = None) -> None:
     for each in found:
         mean, few, fine = (_friction(outcomes[task]) for task in each.tasks)
         change = float(fine.value / few.value - 1)
+        law = FrictionLaw().solve(each.scene)
+        full = law.measures["full_contact_friction"]
+        # What the roughness adds, over that in full contact: the master curve.
+        added = float(mean.value) * (1 + 2 * change) * law.normal_force - law.measures["friction_of_shape"]
         rows.append(
             {
                 "body": each.body,
@@ -79,7 +83,10 @@ def main(workers: int | None = None) -> None:
                 "friction": float(mean.value) * (1 + 2 * change),
                 "error": float(mean.error / mean.value),
                 "finer": change,
-                "law": FrictionLaw().solve(each.scene).friction_coefficient,
+                "law": law.friction_coefficient,
+                "x": law.measures["pressure_ratio"],
+                "measured_share": added / full,
+                "averaged_share": law.measures["friction_of_roughness"] / full,
             }
         )
     write_text(PAGE.with_suffix(".csv"), text(DataFrame(rows)))

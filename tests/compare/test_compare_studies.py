@@ -56,7 +56,12 @@ def test_answers_that_obey_the_law_are_said_to_in_both_dimensionalities_by_the_s
 
 
 STRAIGHT = {f"eq23.{name}": "undecided" for name in ("collapse", "vertical", "exponent")}
-LEVELS = dict.fromkeys(("eq17.level", "eq19.level", "eq14.plateau", "eq19.law"), "fails")
+LEVEL = "eq17.level-least"
+LEVELS = {
+    f"{name}-{end}": "fails"
+    for name in ("eq17.level", "eq19.level", "eq14.plateau")
+    for end in ("least", "greatest")
+} | {"eq19.law": "fails"}
 
 
 @pytest.mark.parametrize(
@@ -87,7 +92,7 @@ LEVELS = dict.fromkeys(("eq17.level", "eq19.level", "eq14.plateau", "eq19.law"),
             STRAIGHT | {"eq23.predicted": "holds"},
         ),
         # the grid may have made it
-        (lambda: obeying(eq_19, grid=0.2), {"eq17.level": "undecided"}),
+        (lambda: obeying(eq_19, grid=0.2), {LEVEL: "undecided"}),
     ],
     ids=["level", "little vertical", "vertical", "wrong shift", "straight", "grid"],
 )
@@ -95,11 +100,23 @@ def test_answers_that_break_a_law_break_the_claims_on_it(answers, expected):
     found = judge_series(answers())
     three = verdicts(found, "3D")
     assert three | expected == three
-    if expected.get("eq17.level") == "fails":
+    if expected.get(LEVEL) == "fails":
         assert {each.verdict for each in of(found, "friction.ratio.") if each.draws} == {"fails"}
         assert {name for name, verdict in three.items() if verdict == "fails"} == {*LEVELS, DRAG}
     straight = [each.reason for each in of(found, "eq23", "3D") if each.verdict == "undecided"]
-    assert all("straight" in reason for reason in straight if reason) or "eq17.level" in expected
+    assert all("straight" in reason for reason in straight if reason) or LEVEL in expected
+
+
+def test_a_level_that_differs_from_load_to_load_is_stated_at_two_with_what_they_are():
+    found = judge_series(obeying(lambda load, speed: eq_19(load, speed) * load**0.3))
+    least, greatest = of(found, "eq17.level", "3D")
+    loads = SERIES.values[0], SERIES.values[-1]
+    assert greatest.value / least.value == pytest.approx((loads[1] / loads[0]) ** 0.3, rel=0.02)
+    for each, load in zip((least, greatest), loads, strict=True):
+        assert each.regime.startswith(f"F_N {load:.2g} N, xi ")
+        assert " to " not in each.regime  # one point
+    ratios = of(found, "friction.ratio.slow")
+    assert [each.claim.id for each in ratios] == ["friction.ratio.slow-least", "friction.ratio.slow-greatest"]
 
 
 @pytest.mark.parametrize("place", [np.s_[0, 2], np.s_[0, 2, :5]])
@@ -135,7 +152,7 @@ def test_an_average_of_fewer_than_half_of_the_surfaces_is_none(whole):
 def test_friction_that_is_not_positive_on_average_is_no_number(whole):
     pushed = spoiled(whole, np.s_[0, :0])
     pushed.answers["sphere/rough/BEM"]["friction_force"].values[0, 1, 0] *= -1
-    (level,) = of(judge_series(pushed), "eq17.level", "3D")
+    (level,) = of(judge_series(pushed), LEVEL, "3D")
     assert (level.verdict, np.isnan(level.value)) == ("undecided", True)
     assert "not positive" in level.reason
 
@@ -145,10 +162,10 @@ def test_of_one_surface_the_scatter_is_not_known_but_smooth_bodies_need_none(who
     rough = [each for each in of(found, "") if each.draws]
     assert {each.verdict for each in rough} == {"undecided"}
     assert all("scatter" in each.reason and "straight" not in each.reason for each in rough)
-    (smooth,) = of(found, "friction.ratio.smooth")
+    smooth, _ = of(found, "friction.ratio.smooth")
     assert (smooth.verdict, smooth.draws, smooth.scatter) == ("holds", 0, (smooth.value, smooth.value))
-    (smooth,) = of(judge_series(spoiled(whole, np.s_[0, 1], body=SMOOTH)), "friction.ratio.smooth")
-    assert smooth.verdict == "undecided"
+    least, greatest = of(judge_series(spoiled(whole, np.s_[0, 0], body=SMOOTH)), "friction.ratio.smooth")
+    assert (least.verdict, greatest.verdict) == ("undecided", "holds")
 
 
 def test_a_series_of_which_nothing_was_solved_has_no_finding():

@@ -11,9 +11,11 @@ import numpy as np
 
 from scene import Cone, Scene, Sphere
 from scene.scales import elastic_contact
+from scene.viscoelastic import Linear
 
 from ..exact.full_contact import complex_stiffness
 from .bands import Bands, FullContact
+from .nominal import NominalContact
 from .share import Share
 
 
@@ -23,7 +25,8 @@ class Body:
 
     stiff, lossy, later : frequencies over v / a at which E* says how stiff the contact is, how much it loses, and
         how that changes
-    off : what friction is less than slope times loss, in ln: of 1, s, s^2, l, l^2, s l and s ln(a / a_0)
+    radius, friction : ln of the radius and of the friction of the smooth body over what these frequencies and its
+        pressure at rest make them: of 1, s, s^2, l, l^2 and s l
     wider, slow, fast : c, alpha, k, beta of c eta^alpha ln(1 + k / x)^beta: how much wider the contact is, and how
         much less the smooth part, where losses grow with frequency and where they fall
     """
@@ -31,27 +34,49 @@ class Body:
     stiff: float
     lossy: float
     later: float
-    off: tuple[float, ...]
+    radius: tuple[float, ...]
+    friction: tuple[float, ...]
     wider: tuple[float, float, float, float]
     slow: tuple[float, float, float, float]
     fast: tuple[float, float, float, float]
 
+    def losses(self, solid: Linear, speed: float, radius: float) -> tuple[float, ...]:
+        """1, s, s^2, l, l^2, s l: s the sine of the phase of E* for a contact, l d ln s / d ln omega."""
+        s, later = (
+            float(np.sin(np.angle(complex_stiffness(solid, k * speed / radius)))) for k in (self.lossy, self.later)
+        )
+        rate = log(later / s) / log(self.later / self.lossy)
+        return 1.0, s, s**2, rate, rate**2, s * rate
+
+    def as_stiff(self, n: float, rest: float, solid: Linear, speed: float) -> float:
+        """Radius [m] of the smooth sliding contact of r^n with a radius at rest [m]: as stiff as E* is there."""
+        low, high = -30.0, 0.0
+        for _ in range(HALVINGS):
+            middle = (low + high) / 2
+            stiff = abs(complex_stiffness(solid, self.stiff * speed / (rest * exp(middle))))
+            low, high = (
+                (low, middle) if (n + 1) * middle + log(stiff / solid.indentation_modulus) > 0 else (middle, high)
+            )
+        return rest * exp((low + high) / 2)
+
 
 BODIES = {
     Sphere: Body(
-        stiff=1.86,
-        lossy=0.696,
-        later=2.654,
-        off=(0.459, 0.197, -0.743, -0.35, -0.187, -0.238, 0.099),
+        stiff=2.387,
+        lossy=2.538,
+        later=1.907,
+        radius=(0.0022, 0.1358, -0.0315, -0.0005, 0.0027, -0.213),
+        friction=(0.0035, -0.173, 0.0438, -0.0004, 0.0195, 0.2823),
         wider=(0.361, 0.986, 5.07, 0.367),
         slow=(1.376, 0.964, 4.34, 0.549),
         fast=(0.324, 0.971, 4.39, 0.410),
     ),
     Cone: Body(
-        stiff=1.073,
-        lossy=0.719,
-        later=1.653,
-        off=(0.112, -0.172, 0.199, -0.653, -0.488, -0.113, 0.0),
+        stiff=0.7263,
+        lossy=0.9547,
+        later=0.5489,
+        radius=(0.0009, -0.0852, -0.2799, 0.0044, 0.0048, -0.4110),
+        friction=(0.0052, 0.6046, -0.4226, -0.0121, 0.0073, 0.8221),
         wider=(1.295, 1.204, 7.26, 0.292),
         slow=(3.38, 1.562, 3.27, 0.810),
         fast=(0.88, 1.187, 5.30, 0.438),
@@ -68,36 +93,29 @@ def card(scene: Scene, known: tuple[float, float] | None = None) -> float:
     shape, solid, speed = scene.indenter, scene.solid, scene.motion.speed
     rough: Any = scene.roughness
     body, n, rest = BODIES[type(shape)], shape.exponent, elastic_contact(scene)
-    a = known[1] if known else rest.radius * exp(_shrunk(body, n, rest.radius, solid, speed))
-    s, later = (float(np.sin(np.angle(complex_stiffness(solid, k * speed / a)))) for k in (body.lossy, body.later))
-    ratio = log(later / s)
-    steps = 1.0, s, s**2, ratio, ratio**2, s * ratio, s * log(a / rest.radius)
-    slope = n * shape.coefficient * a ** (n - 1)
-    off = sum(c * step for c, step in zip(body.off, steps, strict=True))
-    smooth = known[0] if known else slope * s * exp(-off)
+    smooth, a, rate = (*known, body.losses(solid, speed, known[1])[3]) if known else smooth_body(scene)
     bands = Bands.of(rough).beneath(a)
     full = FullContact.of(bands, solid, speed)
     x = rest.load / (pi * a**2 * float(full.pressure[-1]))
     eta = bands.rms_height / (shape.mdr_coefficient * a**n)
     wider, slow, fast = (_grown(eta, x, *numbers) for numbers in (body.wider, body.slow, body.fast))
     # Loss goes with the frequency to a power of 1 where it is slow, and -1 where it is fast.
-    rising = min(max((1 + ratio / log(body.later / body.lossy)) / 2, 0.0), 1.0)
+    rising = min(max((1 + rate) / 2, 0.0), 1.0)
     radius = a * (1 + wider)
     share = float(Share.of(full)(np.array(x / (1 + wider) ** 2)))
     own = smooth / (1 + rising * slow + (1 - rising) * fast)
     return own + float(full.friction.sum()) * share * pi * radius**2 / rest.load
 
 
-def _shrunk(body, n, radius, solid, speed):
-    """ln of the radius of the smooth sliding contact over that at rest: as stiff as E* is at that radius."""
-    low, high = -30.0, 0.0
-    for _ in range(HALVINGS):
-        middle = (low + high) / 2
-        stiff = abs(complex_stiffness(solid, body.stiff * speed / (radius * exp(middle))))
-        low, high = (
-            (low, middle) if (n + 1) * middle + log(stiff / solid.indentation_modulus) > 0 else (middle, high)
-        )
-    return (low + high) / 2
+def smooth_body(scene: Scene) -> tuple[float, float, float]:
+    """Of the smooth sphere or cone under a load: friction coefficient, contact radius [m], d ln s / d ln omega."""
+    shape, solid, speed, rest = scene.indenter, scene.solid, scene.motion.speed, elastic_contact(scene)
+    body = BODIES[type(shape)]
+    a = body.as_stiff(shape.exponent, rest.radius, solid, speed)
+    losses = body.losses(solid, speed, a)
+    lost = NominalContact.smooth(shape.exponent, a, rest.load).lost(solid, speed)
+    radius, friction = (exp(np.dot(numbers, losses)) for numbers in (body.radius, body.friction))
+    return lost / rest.load * friction, a * radius, losses[3]
 
 
 def _grown(eta, x, c, alpha, k, beta):

@@ -1,6 +1,6 @@
 """Claims on one scene and on series, each by its id, and what measures them: powers, means, places along xi."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from math import nan
 from typing import Any
@@ -14,7 +14,7 @@ from ...statistics.finding import BOTH, Claim
 TOLERANCE = 0.05
 # How close theory and solution are where theory is exact.
 CLOSED = 0.01
-_RATIO = "Ratio of the coefficients, 1D over 3D, geometric mean over the loads or depths."
+_RATIO = "Ratio of the coefficients, 1D over 3D."
 _PRESSED = "ln of the ratio of forces, each over that of the smooth body at the depth reached."
 _REST_DEPTH = (
     "the depth under a load is the same in 1D and 3D",
@@ -81,11 +81,6 @@ _TEXTS: dict[tuple[float, float], dict[str, tuple[str, str]]] = {
             "Friction of the scene as it stands is the same in 1D and 3D",
             "Friction in 1D over 3D, ratio of the means over surfaces.",
         ),
-        "eq17.level": (
-            "Eq. 17: friction at low speed has the level of the law",
-            "mu over the law at the slowest speed, geometric mean over the loads or depths, with the rms slope as "
-            "this dimensionality has it and every wave taken for the shortest.",
-        ),
         "limit.slow": (
             "Friction at the slowest speed is that of the exact limit of low speed",
             "Not of the paper: mu at the slowest speed over v tau times the mean of d2z/dx2 weighted with the "
@@ -94,27 +89,10 @@ _TEXTS: dict[tuple[float, float], dict[str, tuple[str, str]]] = {
             "friction is found by that mean where the contact trails by less than a quarter of a pixel "
             "(docs/explanation/theory.md, Eq. 5e): the check is then of the pressure found in sliding.",
         ),
-        "eq14.plateau": (
-            "Eq. 14: at high speed friction is sqrt(2) times the rms slope",
-            "mu over that, times what Eq. 19 has there, at the fastest speed, geometric mean over the loads or "
-            "depths at which xi is large.",
-        ),
-        "eq19.level": (
-            "Eq. 19: friction at the knee has the level of the law",
-            "mu over the law with alpha = 1.5 at the speed at which xi is closest to 1, geometric mean over the "
-            "loads or depths.",
-        ),
         "eq14.slope-exponent": (
             "Eq. 14: friction at the fastest speed goes as the rms slope to the power 1",
             "d ln mu / d ln of the rms slope, least squares over several rms heights, mean of the loads or depths "
             "at which all are at that limit, but for what Eq. 19 still lacks of it.",
-        ),
-        "friction.ratio.slow": ("Rough, at the slowest speed: friction in 1D is that in 3D", _RATIO),
-        "friction.ratio.knee": ("Rough, at the knee: friction in 1D is that in 3D", _RATIO),
-        "friction.ratio.fast": ("Rough, at the fastest speed: friction in 1D is that in 3D", _RATIO),
-        "friction.ratio.smooth": (
-            "Smooth, at the slowest speed: friction in 1D is that in 3D",
-            f"{_RATIO} It tends to 2 as the speed tends to zero.",
         ),
     },
     (2.0, 2 * TOLERANCE): {
@@ -219,10 +197,40 @@ _TEXTS: dict[tuple[float, float], dict[str, tuple[str, str]]] = {
         ),
     },
 }
+# The same of levels, each claimed to be 1 at one load or depth: what differs from load to load has no mean.
+_LEVELS = {
+    "eq17.level": (
+        "Eq. 17: friction at low speed has the level of the law",
+        "mu over the law at the slowest speed, with the rms slope as this dimensionality has it and every wave "
+        "taken for the shortest.",
+    ),
+    "eq19.level": (
+        "Eq. 19: friction at the knee has the level of the law",
+        "mu over the law with alpha = 1.5 at the speed at which xi is closest to 1.",
+    ),
+    "eq14.plateau": (
+        "Eq. 14: at high speed friction is sqrt(2) times the rms slope",
+        "mu over that, times what Eq. 19 has there, at the fastest speed, of the loads or depths at which xi is "
+        "large.",
+    ),
+    "friction.ratio.slow": ("Rough, at the slowest speed: friction in 1D is that in 3D", _RATIO),
+    "friction.ratio.knee": ("Rough, at the knee: friction in 1D is that in 3D", _RATIO),
+    "friction.ratio.fast": ("Rough, at the fastest speed: friction in 1D is that in 3D", _RATIO),
+    "friction.ratio.smooth": (
+        "Smooth, at the slowest speed: friction in 1D is that in 3D",
+        f"{_RATIO} It tends to 2 as the speed tends to zero.",
+    ),
+}
+ENDS = "least", "greatest"  # load or depth at which a level is stated
 CLAIMS = {
     name: Claim(name, sentence, expected, tolerance, meaning)
     for (expected, tolerance), texts in _TEXTS.items()
     for name, (sentence, meaning) in texts.items()
+} | {
+    name: Claim(name, f"{sentence}, at the {end} load or depth", 1.0, TOLERANCE, meaning)
+    for level, (sentence, meaning) in _LEVELS.items()
+    for end in ENDS
+    for name in [f"{level}-{end}"]
 }
 
 
@@ -244,12 +252,14 @@ def power(abscissae: np.ndarray, values: np.ndarray) -> float:
 
 
 def geometric(ratios: np.ndarray) -> float:
-    """Geometric mean."""
+    """Geometric mean; NaN where any of them is not positive."""
     return float(np.exp(np.mean(np.log(ratios))))
 
 
-def at_xi(values: np.ndarray, words: str) -> str:
-    """Regime in words, behind the range of xi in which a number was measured."""
-    known = np.asarray(values)[np.isfinite(values)]
-    reached = f"{known.min():.2g} to {known.max():.2g}" if known.size else "unknown"
-    return f"xi {reached}; {words}"
+def at_ends(level: str, places: np.ndarray) -> Iterator[tuple[str, int]]:
+    """Claim on a level at the least and the greatest of some loads or depths, with its place; one alone is least.
+
+    places : whether it can be stated at each, from the least on
+    """
+    known = np.flatnonzero(places)[[0, -1]]
+    return ((f"{level}-{end}", place) for end, place in zip(ENDS, dict.fromkeys(known.tolist()), strict=False))

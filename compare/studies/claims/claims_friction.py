@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
 from math import nan
+from typing import Any
 
 import numpy as np
 
@@ -15,7 +16,7 @@ from ...statistics.collapse import Collapse, collapse
 from ...statistics.finding import UNDECIDED, Claim, Finding, said_of
 from ...statistics.frictioncurves import SimulatedCurves
 from ...statistics.jackknife import friction, mean, mean_ratio, measured
-from .claims import at_xi, claim, geometric, power
+from .claims import at_ends, claim, geometric, power
 from .laws import Laws
 from .series import CONTACT, ROUGH, SLOW_DRAG, SMOOTH, Contacts, sliding
 
@@ -32,17 +33,17 @@ def friction_findings(contacts: Contacts, laws: Mapping[str, Laws]) -> list[Find
     """Findings on a series that slides, except those on the shifts of its curves."""
     found = []
     for solver, law in laws.items():
-        dimension, words = contacts.labels[solver], law.words
-        for name, measure, xi, expected in _one_sided(contacts.series, solver, law):
+        dimension = contacts.labels[solver]
+        for name, measure, place, expected in _one_sided(contacts.series, solver, law):
             each = claim(name, partial(_of_one, measure, solver), dimension, expected)
-            regime = words if xi is None else at_xi(xi, words)
             plot = "collapse" if name == "eq17.load-exponent" else "behind" if name in WHY.values() else "levels"
-            found.append(finding(each, contacts, ROUGH, regime, solver, plot=plot))
-    known = laws[contacts.series.models.reference]
-    for name, place in _places(known):
-        regime = at_xi(known.xi[place], known.words)
-        found += pair_findings(name, partial(_ratio, place), contacts, ROUGH, regime)
-    return [*found, *pair_findings("friction.ratio.smooth", partial(_ratio, 0), contacts, SMOOTH, known.words)]
+            found.append(finding(each, contacts, ROUGH, law.words(place), solver, plot=plot))
+    known, everywhere = laws[contacts.series.models.reference], np.full(len(contacts.series.values), True)
+    for level, speed, body in _places(known):
+        for name, value in at_ends(level, everywhere):
+            place = speed, value
+            found += pair_findings(name, partial(_ratio, place), contacts, body, known.words(place))
+    return found
 
 
 def pair_findings(
@@ -74,7 +75,7 @@ def _of_one(measure, solver, sample):
 
 
 def _ratio(place, one, three):
-    """Friction in 1D over 3D at a speed, geometric mean over the loads or depths."""
+    """Friction in 1D over 3D at a speed and a load or depth."""
     return geometric(friction(one)[1:][place] / friction(three)[1:][place])
 
 
@@ -90,11 +91,11 @@ def finding(
     return measured(each, fine, coarse, contacts.series.name, regime, f"{contacts.series.folder}/{plot}")
 
 
-def _one_sided(series, solver, laws) -> Iterator[tuple[str, Callable, np.ndarray | None, float | None]]:
+def _one_sided(series, solver, laws) -> Iterator[tuple[str, Callable, Any, float | None]]:
     """Claims of the paper on friction in one dimensionality.
 
-    Each by its id, with what measures it on the answers of the solver, xi where it is measured, and the number
-    that the law has there; None of a law at all points, and of the number of the claim itself.
+    Each by its id, with what measures it on the answers of the solver, the place of speeds and values where that
+    is, and the number that the law has there, None of the number of the claim itself.
     """
 
     def mu(answers):
@@ -123,8 +124,12 @@ def _one_sided(series, solver, laws) -> Iterator[tuple[str, Callable, np.ndarray
         limit = series.speeds[0] * mean_ratio(drag, force).value
         return geometric(mu(answers)[0] / limit)
 
-    slowest, fast = laws.xi[0], laws.xi[-1] >= FAST
-    known = slowest[np.isfinite(slowest)]
+    def level(name, quantity, speed, places):
+        for end, value in at_ends(name, places):
+            yield end, lambda it, place=(speed, value): geometric(quantity(it)[place]), (speed, value), None
+
+    slowest, fast, everywhere = 0, laws.xi[-1] >= FAST, np.full(len(series.values), True)
+    known = laws.xi[0][np.isfinite(laws.xi[0])]
     if len(laws.speeds) > 1 and laws.slowest_loss <= SLOW and known.size and known.max() <= SLOW:
         yield "eq17.speed-exponent", speed_exponent, slowest, float(laws.loss_exponent[0])
         if len(series.values) > 1:
@@ -135,20 +140,19 @@ def _one_sided(series, solver, laws) -> Iterator[tuple[str, Callable, np.ndarray
                 law = nominal_exponent(draws, exponent) if name == "contact" else None
                 measure = with_load(partial(_slowest, variable, below))
                 yield WHY[name], measure, slowest, law
-        yield "eq17.level", lambda it: geometric(mu(it)[0] / (laws.plateau * xi(it)[0])), slowest, None
+        yield from level("eq17.level", lambda it: mu(it) / (laws.plateau * xi(it)), slowest, everywhere)
         # Every mode of the solid is fast against the slowest speed, so that the limit can be seen.
         if laws.wave_number * series.speeds[0] * series.scene.solid.retardation()[2].max() <= SLOW:
             yield "limit.slow", over_limit, slowest, None
     if (knee := _closest_to_one(laws)[1]) is not None:
-        yield "eq19.level", lambda it: geometric(over_law(it)[knee]), laws.xi[knee], None
+        yield from level("eq19.level", over_law, knee, everywhere)
         if len(series.values) > 1:
-            yield "eq19.load-exponent", lambda it: against_load(it, over_law(it)[knee], knee), laws.xi[knee], None
+            yield "eq19.load-exponent", lambda it: against_load(it, over_law(it)[knee], knee), knee, None
     if fast.any():
-        reached = laws.xi[-1][fast]
-        yield "eq14.plateau", lambda it: geometric(over_law(it)[-1][fast]), reached, None
+        yield from level("eq14.plateau", over_law, -1, fast)
         if fast.sum() > 1:
-            yield "eq14.load-exponent", lambda it: against_load(it, over_law(it)[-1], -1, fast), reached, None
-    yield "eq19.law", lambda it: np.log(mu(it) / laws.law_of(xi(it))), None, None
+            yield "eq14.load-exponent", lambda it: against_load(it, over_law(it)[-1], -1, fast), (-1, fast), None
+    yield "eq19.law", lambda it: np.log(over_law(it)), ..., None
 
 
 def _slowest(variable, below, answers):
@@ -170,16 +174,20 @@ def nominal_exponent(draws: str, of_friction: float) -> float:
     return (1 + of_friction) * (1 if draws == PROFILES else 2)
 
 
-def _places(laws) -> Iterator[tuple[str, int]]:
-    """Claims by where the median of xi lies at a speed; each speed is asked once."""
+def _places(laws) -> Iterator[tuple[str, int, str]]:
+    """Claims on rough bodies by where the median of xi lies at a speed, each speed once; and on the smooth body.
+
+    Each with its speed and the body.
+    """
     middle, knee = _closest_to_one(laws)
     last = len(middle) - 1
     if middle[0] < 1 and knee != 0:
-        yield "friction.ratio.slow", 0
+        yield "friction.ratio.slow", 0, ROUGH
     if knee is not None:
-        yield "friction.ratio.knee", knee
+        yield "friction.ratio.knee", knee, ROUGH
     if middle[last] > 1 and knee != last:
-        yield "friction.ratio.fast", last
+        yield "friction.ratio.fast", last, ROUGH
+    yield "friction.ratio.smooth", 0, SMOOTH
 
 
 def _closest_to_one(laws) -> tuple[np.ndarray, int | None]:
@@ -210,7 +218,7 @@ def shift_findings(
 ) -> Iterator[Finding]:
     """Whether curves fall onto one, with the shifts that are best and with those predicted."""
     series, dimension = contacts.series, contacts.labels[solver]
-    words, draws = laws.words, series.draws[solver]
+    words, draws = laws.words(), series.draws[solver]
     plots = f"{series.folder}/collapse", f"{series.folder}/shifts"
     if both is not None:
         shifts = dict(zip(series.speeds, laws.shifts.tolist(), strict=True))

@@ -12,7 +12,7 @@ from ...statistics.finding import Finding
 from ...statistics.frictioncurves import SimulatedCurves
 from ...statistics.intervals import RmsMisfit
 from ...statistics.jackknife import DrawSet, mean_ratio, measured, strata_of
-from .claims import CLAIMS, at_xi, claim, geometric, power
+from .claims import CLAIMS, claim, geometric, power
 from .claims_friction import FAST, SLOW
 from .claims_law import law_findings_of_all
 from .judgement import JudgedSeries
@@ -129,7 +129,7 @@ def _slope_exponents(members, solver, shape):
             levels = [geometric((jackknife.friction(each)[1:][place] / less)[values]) for each, less in pairs]
             return power(plateaus, np.array(levels))
 
-        words = at_xi(np.array([each.xi[place][values] for each in laws]), _words(alike, solver))
+        words = _words(alike, solver, (place, values))
         asked = claim(name, exponent, members[0].contacts.labels[solver])
         yield measured(asked, fine, coarse, every(members[0].series), words, PLOT)
 
@@ -151,9 +151,9 @@ def _differ(members):
     return any(each.roughness != scenes[0].roughness or each.elastomer != scenes[0].elastomer for each in scenes)
 
 
-def _words(members, solver):
-    """The regimes of all."""
-    return "; ".join(dict.fromkeys(judged.laws[solver].words for judged in members))
+def _words(members, solver, place=...):
+    """The regimes of all, at some points."""
+    return "; ".join(dict.fromkeys(judged.laws[solver].words(place) for judged in members))
 
 
 def _filled(rows, count):

@@ -52,7 +52,7 @@ def judge_series(contacts: Contacts) -> JudgedSeries:
             shifted[solver] = both[0]
         shifts += shift_findings(contacts, solver, both, each)
     shifts += law_findings(contacts, ruled)
-    friction = [*friction_findings(contacts, ruled), *rest_findings(contacts, ruled[reference].words)]
+    friction = [*friction_findings(contacts, ruled), *rest_findings(contacts, ruled[reference].words())]
     findings = _asked(series, shifts, COLLAPSE) + _asked(series, friction, FRICTION)
     return JudgedSeries(contacts, ruled, shifted, findings)
 

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import nan
+from typing import Any
 
 import numpy as np
 import xarray
@@ -48,10 +49,10 @@ class Laws:
     shifts: np.ndarray
     exponent: float
 
-    @property
-    def words(self) -> str:
-        """Ranges of the groups of all points."""
-        return words(self.ratios)
+    def words(self, place: Any = ...) -> str:
+        """Ranges of load, xi and groups of points, all if no place among them is given."""
+        known = {"load": np.broadcast_to(self.load, self.xi.shape), "xi": self.xi, **self.ratios}
+        return words({name: values[place] for name, values in known.items()})
 
     def xi_under(self, load: np.ndarray) -> np.ndarray:
         """xi at other loads [N], (speeds, values)."""

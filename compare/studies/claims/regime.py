@@ -12,7 +12,7 @@ from scene.scales import elastic_contact
 
 from ...models.exact import mean_lag
 
-# Ratios by the order in which words tell them.
+# Ratios by the order in which words tell them, behind load and speed.
 SYMBOLS = {
     "depth_over_height": "d/h0",
     "shortest_in_contact": "a q_s",
@@ -24,6 +24,8 @@ SYMBOLS = {
     "memory_over_shortest": "v tau q_s",
     "contact_fraction": "contact",
 }
+_TOLD = {"load": "F_N", "xi": "xi", **SYMBOLS}
+_UNITS = {"load": (1, " N"), "contact_fraction": (100, " %")}
 
 
 def ratios(scene: Scene, measures: Mapping[str, float]) -> dict[str, float]:
@@ -70,12 +72,11 @@ def ratios(scene: Scene, measures: Mapping[str, float]) -> dict[str, float]:
 
 
 def words(found: Mapping[str, Any]) -> str:
-    """Ranges of ratios, numbers or arrays, for a table; those that are zero or unknown everywhere are left out."""
+    """Ranges of load [N], xi and ratios, numbers or arrays, for a table; without what is zero or unknown."""
     said = []
-    for name, symbol in SYMBOLS.items():
-        values, unit = np.asarray(found[name], float), ""
-        if name == "contact_fraction":
-            values, unit = 100 * values, " %"
+    for name in (name for name in _TOLD if name in found):
+        symbol, (scale, unit) = _TOLD[name], _UNITS.get(name, (1, ""))
+        values = scale * np.asarray(found[name], float)
         if reach := _range(values[np.isfinite(values)]):
             said.append(f"{symbol} {reach}{unit}")
     return ", ".join(said)

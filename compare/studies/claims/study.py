@@ -360,5 +360,5 @@ def _asked(judged: JudgedSeries) -> Iterator[str]:
         answers = judged.contacts(solver)
         known = answers["rms_slope"].values if "rms_slope" in answers else np.array(np.nan)
         if np.isfinite(known).any():
-            words = f"; {judged.laws[solver].words}" if solver in judged.laws else ""
+            words = f"; {judged.laws[solver].words()}" if solver in judged.laws else ""
             yield f"{dimension}: rms slope {np.nanmean(known):.3g}{words}"
