@@ -118,7 +118,8 @@ def coefficients() -> Iterator[tuple[str, ...]]:
     of = {"level": "A", "bend": "B", "power": "C"}
     for row in pandas.read_csv(FITTED).to_dict("records"):
         value, low, high = (f"{row[name]:.3g}".replace("-", "−") for name in ("value", "low", "high"))
-        yield of[row["to"]], "1" if row["times"] == "one" else row["times"], value, f"{low} to {high}"
+        times = "1" if row["times"] == "one" else row["times"].replace("*", " × ")
+        yield of[row["to"]], times, value, f"{low} to {high}"
 
 
 def smooth_bodies() -> Iterator[tuple[str, ...]]:
@@ -137,9 +138,9 @@ def answer() -> str:
     return (
         "- **In three dimensions another law holds.** μ = μ_smooth + (F_full / p) S(p / p_rms): friction of the "
         "smooth body, and that of all waves in full contact, of which partial contact leaves the share S. Of "
-        f"{len(claimed)} unseen contacts half are within {claimed.median():.1f} % of 3D, nine in ten within "
-        f"{claimed.quantile(0.9):.1f} %; {small.median():.1f} and {small.quantile(0.9):.1f} % where roughness is at "
-        "most a tenth of the depth. It takes hundredths of a second ([the law](docs/results/law.md))."
+        f"{len(claimed)} unseen contacts half are within {claimed.median():.1f} % of 3D and nine in ten within "
+        f"{claimed.quantile(0.9):.1f} %; where roughness is at most a tenth of the depth, {small.median():.1f} "
+        f"and {small.quantile(0.9):.1f} %. It takes hundredths of a second ([the law](docs/results/law.md))."
     )
 
 

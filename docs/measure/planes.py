@@ -134,7 +134,7 @@ def rows(found: list[PlaneContact], outcomes: Mapping[Task, Outcome]) -> Iterato
             "area": float(np.mean(coarse["area"])),
             "gap": float(np.mean(coarse["gap"])) / rough.rms_height,
             **{f"{name}_finer": change for name, change in finer.items()},
-            **{name: value for name, value in each.waves.items() if name not in ("one", "lossy squared")},
+            **{name: value for name, value in each.waves.items() if name != "one"},
             "hurst": rough.hurst,
             "breadth": rough.longest / rough.shortest,
             "rolloff": rough.q_max(0.0) / rough.q_rolloff,

@@ -15,6 +15,7 @@ from ..exact.full_contact import complex_stiffness
 _WAVES, _DIRECTIONS = 48, 24
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(_DIRECTIONS)
 _COSINE, _SHARES = np.cos(pi / 4 * (1 + _NODES)), _WEIGHTS / 2
+FASTER = 4.0  # times the speed of waves: spots of contact are smaller than waves, and are passed that much faster
 ROUNDING = 1e-16  # of the share of a wave that a disc leaves
 
 
@@ -78,6 +79,7 @@ class FullContact:
     shorter : mean ln q weighted by friction, less that weighted by mean square pressure
     harder : the latter, less that weighted by mean square slope
     rising : tanh of half the logarithm of the stiffness of the shortest waves over that of the longest
+    faster : ln of the friction over the rms pressure at FASTER times the speed, less that at the speed
     """
 
     friction: np.ndarray
@@ -88,6 +90,7 @@ class FullContact:
     shorter: float
     harder: float
     rising: float
+    faster: float
 
     @classmethod
     def of(cls, bands: Bands, elastomer: Linear, speed: float) -> "FullContact":
@@ -100,6 +103,10 @@ class FullContact:
         lost = np.sum(slopes / 4 * (shares * np.square(stiffness.imag)).sum(axis=1))
         middle = float(lengths @ pressure / sum_of_squares)
         rubs = bool(sum_of_friction)
+        _, _, stiffer = around(elastomer, FASTER * speed, bands.q)
+        drag, press = (
+            slopes @ (shares * each).sum(axis=1) for each in (cosine * stiffer.imag, np.square(abs(stiffer)))
+        )
         return cls(
             friction=np.square(bands.unit) * friction,
             pressure=bands.unit * np.sqrt(np.cumsum(pressure)),
@@ -109,4 +116,5 @@ class FullContact:
             shorter=float(lengths @ friction / sum_of_friction) - middle if rubs else 0.0,
             harder=middle - float(lengths @ slopes / sum_of_slopes),
             rising=tanh(log(squares[-1].sum() / squares[0].sum()) / 4),
+            faster=log(drag / 2 / sum_of_friction) - log(press / 4 / sum_of_squares) / 2 if rubs else log(FASTER),
         )

@@ -4,7 +4,9 @@ import csv
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
+from math import prod
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -32,10 +34,14 @@ class Share:
     @classmethod
     def of(cls, full: FullContact) -> "Share":
         """Share of these waves, by the coefficients of `share.csv`."""
-        known = waves(full)
-        sums = {name: 0.0 for name in ("level", "bend", "power")}
-        for (name, of), value in coefficients().items():
-            sums[name] += value * known[of]
+        return cls.summed(coefficients(), waves(full))
+
+    @classmethod
+    def summed(cls, values: Mapping[tuple[str, str], float], known: Mapping[str, Any]) -> "Share":
+        """Share with A, B, C the sums of coefficients times numbers of waves, or products of these, as "a*b"."""
+        sums: dict[str, Any] = {name: 0.0 for name in ("level", "bend", "power")}
+        for (name, times), value in values.items():
+            sums[name] = sums[name] + value * prod(known[each] for each in times.split("*"))
         return cls(**sums)
 
     def __call__(self, x: np.ndarray) -> np.ndarray:
@@ -48,8 +54,8 @@ class Share:
 
 def waves(full: FullContact) -> dict[str, float]:
     """Numbers of waves in full contact that coefficients are multiplied by, by name."""
-    names = "lossy", "along", "across", "shorter", "harder", "rising"
-    return {"one": 1.0, "lossy squared": full.lossy**2, **{name: getattr(full, name) for name in names}}
+    names = "lossy", "along", "across", "shorter", "harder", "rising", "faster"
+    return {"one": 1.0, **{name: getattr(full, name) for name in names}}
 
 
 @cache
