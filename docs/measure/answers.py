@@ -50,8 +50,6 @@ OF_STUDY = {
     "eq23.collapse": "misfit, shifted at best",
     "eq23.predicted": "misfit, shifted as Eq. 22 predicts",
     "eq17.load-exponent": "exponent of the load at low speed; claimed −2/3 (sphere), −1/2 (cone)",
-    "eq14.plateau-least": "plateau over that of Eq. 14 at the least load with one; claimed 1",
-    "eq14.plateau-greatest": "at the greatest",
 }
 IN_REGIME = {
     "eq17.load-exponent": "the same exponent in the regime of the paper",

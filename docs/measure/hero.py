@@ -54,8 +54,9 @@ def main() -> None:
 
 def figure(plot: Plot, numbers: DataFrame, steep: DataFrame) -> Figure:
     """(a) Surface in 3D, (b) row of springs, (c), (d) friction of both over the shifted load, (e) master curve."""
-    drawing = style.canvas("double", 2.9)
-    left, middle, right, last = drawing.subfigures(1, 4, squeeze=False, width_ratios=(1.5, 0.7, 1.05, 1.0))[0]
+    drawing = style.canvas("double", 4.6)
+    upper, lower = drawing.subfigures(2, 1, height_ratios=(1.25, 1))
+    left, middle = upper.subfigures(1, 2, width_ratios=(1.9, 1))
     tables, options = plot.tables, plot.options
     draw.surface(
         left, left.subplots(), tables[draw.SURFACE], options["enlarged"], options["highest"], 1, "(a) 3D: surface"
@@ -63,19 +64,17 @@ def figure(plot: Plot, numbers: DataFrame, steep: DataFrame) -> Figure:
     springs, lines = middle.subplots(), tables[draw.LINES]
     draw.row(springs, tables[draw.ROW], lines[lines["x"].abs() < SPAN].iloc[::2], (-SPAN, SPAN))
     springs.set_title("(b) 1D: springs")
-    above, below = right.subplots(2, 1, sharex=True, sharey=True)
+    above, below, beside = lower.subplots(1, 3)
     for axes, solver, title in ((above, "MDR", "(c) 1D: one curve"), (below, "BEM", "(d) 3D: no such curve")):
         against_load(axes, numbers[numbers["solver"] == solver], solver)
-        axes.set_title(title)
+        axes.set(title=title, xlabel="load $F_N\\,p(v)$ [N]", ylabel="friction coefficient μ")
     below.text(0.012, 9e-4, "Eq. 17", fontsize=style.small(), ha="center", va="top")
     for speed, chosen in numbers[numbers["solver"] == "BEM"].groupby("speed"):
         last = chosen.iloc[-1]
         look = {"textcoords": "offset points", "fontsize": style.small(), "va": "center"}
         text = f"{1e3 * speed:g} mm/s" if speed == SPEEDS[-1] else f"{1e3 * speed:g}"
         below.annotate(text, (shifted(last["load"], speed), last["friction"]), xytext=(5, 1), **look)
-    below.set_xlabel("load $F_N\\,p(v)$ [N]")
-    right.supylabel("friction coefficient μ", fontsize=style.size())
-    master_curve(last.subplots(), steep)
+    master_curve(beside, steep)
     return drawing
 
 
@@ -93,7 +92,7 @@ def master_curve(axes: Axes, steep: DataFrame) -> None:
     axes.plot([], [], "-", color=style.grey(0.6), linewidth=style.width(2.5), label="law")
     axes.legend(fontsize=style.small())
     axes.set(
-        xlabel="pressure / that of full contact", ylabel="share of full-contact friction", title="(e) 3D: the law"
+        xlabel="pressure / that of full contact", ylabel="friction / that of full contact", title="(e) 3D: the law"
     )
 
 
