@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 from itertools import pairwise
-from math import isnan, pi
+from math import isnan, log, pi, tan
 from pathlib import Path
 
 import numpy as np
@@ -14,8 +14,8 @@ from share import share
 from bem3d import BEM
 from compare import FrictionLaw
 from compare.models.exact import slow_friction_3d
-from compare.models.law.bands import Bands, FullContact
-from compare.models.law.card import card
+from compare.models.law.bands import FASTER, Bands, FullContact
+from compare.models.law.card import card, smooth_body
 from compare.models.law.friction_law import LawParts
 from compare.models.law.nominal import GAPS, NominalContact, Rings
 from compare.models.law.share import LEAST, MOST, Share, coefficients
@@ -37,6 +37,7 @@ from scene import (
     Sphere,
     StandardLinearSolid,
 )
+from scene.scales import elastic_contact
 
 SOLID = Kelvin(modulus=1e6, relaxation_time=1e-3)
 ROUGH = SelfAffine(hurst=0.5, rms_height=4e-6, longest=3e-3, shortest=2.5e-4, seed=1)
@@ -61,6 +62,15 @@ def test_light_pressure_has_a_share_in_proportion_and_full_contact_all(solid):
     assert share(np.array([50.0])) == pytest.approx(1.0, abs=1e-12)
     rising = share(np.geomspace(1e-6, 10 * MOST, 200))
     assert np.all(np.diff(rising) >= 0)
+
+
+def test_faster_flow_has_the_friction_of_a_loss_that_grows_or_falls_with_the_frequency():
+    # Loss in proportion to the frequency under a constant stiffness, and over it far above the transition.
+    glass = StandardLinearSolid(1e6, 1e7, 1e-3)
+    for solid, speed, power in ((SOLID, 1e-6, 1), (glass, 1e-6, 1), (glass, 1e5, -1), (SOLID, 1e4, 0)):
+        found = full_contact(replace(SCENE, elastomer=solid, motion=Slide(speed=speed, load=1.0)))
+        assert found.faster == pytest.approx(power * log(FASTER), abs=0.01)
+    assert full_contact(replace(SCENE, elastomer=Elastic(1e6))).faster == pytest.approx(log(FASTER))
 
 
 def test_a_long_wave_carries_the_contact_and_a_short_one_is_left():
@@ -145,7 +155,6 @@ def test_roughness_that_is_a_body_of_its_own_is_told_outside_and_of_a_wide_inter
 def test_the_formula_and_the_layer_are_those_of_the_planes_that_were_solved():
     planes = pandas.read_csv(ROOT / "docs" / "results" / "law" / "planes.csv")
     held = planes[(planes["plane"] % HELD_OUT == 0) & (planes["x"] > 0.1)].assign(one=1.0)
-    held["lossy squared"] = held["lossy"] ** 2
     names = list(coefficients())
     off = share(held, names, np.array([coefficients()[name] for name in names])) / held["share"] - 1
     assert np.median(np.abs(off)) < 0.04
@@ -191,6 +200,16 @@ def test_three_dimensions_agree_within_its_interval_where_one_dimension_does_not
     answer = FrictionLaw().solve(scene)
     assert answer.measures["friction_low"] < space < answer.measures["friction_high"]
     assert abs(answer.friction_coefficient / space - 1) < 0.05 < abs(line / space - 1)
+
+
+@pytest.mark.parametrize("body", [Sphere(radius=10e-3), Cone(angle=0.05)])
+def test_the_smooth_body_of_the_card_has_the_closed_form_of_low_speed(body):
+    scene = replace(SCENE, indenter=body, motion=Slide(speed=1e-4, load=1.0), roughness=None)
+    friction, radius, rate = smooth_body(scene)
+    rest = elastic_contact(scene).radius
+    lag = SOLID.relaxation_time * 1e-4
+    slow = lag / 10e-3 if isinstance(body, Sphere) else pi / 2 * tan(0.05) * lag / rest
+    assert (friction, radius, rate) == pytest.approx((slow, rest, 1.0), rel=0.02)
 
 
 @pytest.mark.parametrize("body", [Sphere(radius=10e-3), Cone(angle=0.05)])
