@@ -28,8 +28,8 @@ CLAIMS = {
 }
 ANSWER = (
     "Inside the regime of the paper, slow friction in 3D goes with the load to the power {} for the sphere and {} "
-    "for the cone, where Eq. 17 has −0.667 and −0.5. At p/(E* h') = {} it is {} times as high as Eq. 17, at {} {} "
-    "times (sphere); at {} {} times under {} N and {} times under {} N (cone)."
+    "for the cone, where Eq. 17 has −0.667 and −0.5. It is {} times as high as Eq. 17 at p/(E* h') = {} and {} "
+    "times at {} (sphere), {} times under {} N and {} times under {} N (cone, {} under any load)."
 )
 LEVELS = "eq17.level-least", "eq17.level-greatest"
 
@@ -59,7 +59,7 @@ def answer(found: DataFrame) -> str:
     loads = (_regime(found, claim, "cone", "F_N") for claim in LEVELS)
     alike = _regime(found, LEVELS[0], "cone", "p/(E* h')")
     first, last = loads
-    return ANSWER.format(*powers, light, least, heavy, greatest, alike, cone[0], first, cone[1], last)
+    return ANSWER.format(*powers, least, light, greatest, heavy, cone[0], first, cone[1], last, alike)
 
 
 def _regime(found: DataFrame, claim: str, body: str, symbol: str) -> str:
