@@ -25,7 +25,7 @@ SYMBOLS = {
     "contact_fraction": "contact",
 }
 _TOLD = {"load": "F_N", "xi": "xi", **SYMBOLS}
-_UNITS = {"load": (1, " N"), "contact_fraction": (100, " %")}
+_UNITS = {"load": (1, " N", 3), "contact_fraction": (100, " %", 2)}  # scale, unit and digits of what has any
 
 
 def ratios(scene: Scene, measures: Mapping[str, float]) -> dict[str, float]:
@@ -75,16 +75,16 @@ def words(found: Mapping[str, Any]) -> str:
     """Ranges of load [N], xi and ratios, numbers or arrays, for a table; without what is zero or unknown."""
     said = []
     for name in (name for name in _TOLD if name in found):
-        symbol, (scale, unit) = _TOLD[name], _UNITS.get(name, (1, ""))
+        symbol, (scale, unit, digits) = _TOLD[name], _UNITS.get(name, (1, "", 2))
         values = scale * np.asarray(found[name], float)
-        if reach := _range(values[np.isfinite(values)]):
+        if reach := _range(values[np.isfinite(values)], digits):
             said.append(f"{symbol} {reach}{unit}")
     return ", ".join(said)
 
 
-def _range(known):
-    """Least and greatest number to two digits; empty where there is none, or all are zero."""
+def _range(known, digits):
+    """Least and greatest number to so many digits; empty where there is none, or all are zero."""
     if not known.any():
         return ""
-    low, high = (f"{float(f'{end:.2g}'):g}" for end in (known.min(), known.max()))
+    low, high = (f"{float(f'{end:.{digits}g}'):g}" for end in (known.min(), known.max()))
     return low if low == high else f"{low} to {high}"
