@@ -138,9 +138,9 @@ def answer() -> str:
     return (
         "- **In three dimensions another law holds.** μ = μ_smooth + (F_full / p) S(p / p_rms): friction of the "
         "smooth body, and that of all waves in full contact, of which partial contact leaves the share S. Of "
-        f"{len(found)} unseen contacts it claims {len(claimed)}: half are within {claimed.median():.1f} % of 3D, nine "
-        f"in ten within {claimed.quantile(0.9):.1f} %; where roughness is at most a tenth of the depth, within "
-        f"{small.median():.1f} and {small.quantile(0.9):.1f} %. It takes hundredths of a second "
+        f"{len(found)} unseen contacts it claims {len(claimed)}: half are within {claimed.median():.1f} % of 3D, "
+        f"nine in ten within {claimed.quantile(0.9):.1f} %; where roughness is at most a tenth of the depth, "
+        f"within {small.median():.1f} and {small.quantile(0.9):.1f} %. It takes hundredths of a second "
         "([the law](docs/results/law.md))."
     )
 
