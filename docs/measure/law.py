@@ -33,6 +33,21 @@ REGIONS: dict[str, Callable[[DataFrame], pandas.Series]] = {
     "inside": lambda d: d["outside"] == 0,
     "inside, h₀ ≤ 0.1 d": lambda d: (d["outside"] == 0) & (d["height"] <= SMALL),
     "inside, h₀ > 0.1 d": lambda d: (d["outside"] == 0) & (d["height"] > SMALL),
+    **{
+        f"inside, {words}": lambda d, column=column, kinds=kinds: (d["outside"] == 0) & d[column].isin(kinds)
+        for column, kinds, words in (
+            ("body", ["Sphere"], "spheres"),
+            ("body", ["Cone"], "cones"),
+            ("body", ["PowerLaw"], "other powers"),
+            ("solid", ["Kelvin"], "Kelvin"),
+            ("solid", ["StandardLinearSolid"], "standard solids"),
+            ("solid", ["Prony"], "Prony"),
+            ("solid", ["Fractional"], "fractional"),
+            ("pressed by", ["load"], "load prescribed"),
+            ("pressed by", ["depth"], "depth prescribed"),
+        )
+    },
+    "inside, x < 0.1": lambda d: (d["outside"] == 0) & (d["x"] < 0.1),
     "outside": lambda d: d["outside"] == 1,
     "all": lambda d: d["height"] > 0,
 }
