@@ -7,6 +7,7 @@ import numpy as np
 from . import modulinames as names
 from .columns import Chosen, refuse_half_stated
 from .modulinames import KINDS, OPEN
+from .printable import brief
 from .sheet import Sheet
 
 _SAME = 0.1  # of the logarithm, of what columns state twice
@@ -27,7 +28,7 @@ class Columns:
     @property
     def heading(self) -> str:
         """The heading, for messages."""
-        return f"{self.sheet.name}: the heading ({', '.join(self.sheet.names)})"
+        return f"{self.sheet.name}: the heading ({brief(', '.join(self.sheet.names))})"
 
     def __contains__(self, name: str) -> bool:
         return name in self.found
