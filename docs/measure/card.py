@@ -19,9 +19,11 @@ from compare.studies.trust.design import drawn_points, scene_at
 from scene import Cone, Scene, Slide, Sphere
 from scene.scales import elastic_contact
 
-SEED, FLOOR, MOST = 36_300, 0.004, 0.3
+SEED = 36_300
+SCENES = 400  # at most, of each shape: every second is fitted to, the others are held out
+# Misfits below which one counts no more than another, and above which one counts no more than another.
+FLOOR, MOST = 0.004, 0.3
 ROUNDS = 50  # of the search for the three frequencies
-FEWER = 400  # scenes of each shape: every second is fitted to, the others are held out
 
 
 def smooth_scenes(shape: type) -> Iterator[Scene]:
@@ -34,7 +36,7 @@ def smooth_scenes(shape: type) -> Iterator[Scene]:
 
 def solved(shape: type) -> list[tuple[Scene, float, float]]:
     """Scenes with friction coefficient and radius of the contact in three dimensions."""
-    scenes = [scene for scene, _ in zip(smooth_scenes(shape), range(FEWER), strict=False)]
+    scenes = [scene for scene, _ in zip(smooth_scenes(shape), range(SCENES), strict=False)]
     return [(scene, (found := SmoothContact.of(scene)).friction_coefficient, found.radius) for scene in scenes]
 
 

@@ -104,7 +104,7 @@ def main() -> None:
 
 
 def _master(found):
-    """How far the points are off the curve of the law in 3D, beside those off the curve of Eq. 23."""
+    """Rows of the table of the master curve in 3D: misfits from S(x), and from the curve of Eq. 23."""
     for claim, words in MASTER.items():
         rows = (_plain(found, claim, "3D", body) for body in EXPONENT)
         yield words, *(_percent(row) for row in rows)

@@ -30,8 +30,8 @@ PAGE = Path(__file__).parents[1] / "results" / "law" / "planes.md"
 PLANES, SEED, SURFACE_SEEDS = 250, 36_001, 1000
 HELD_OUT = 5  # every fifth plane is held out
 BREADTHS = 4.0, 32.0  # longest over shortest wave
-# Planes of many waves a side, as many as a contact of the paper has: these rolled off, between so many of the
-# shortest wave, that they are rough alike at each place.
+# Planes of many waves a side, as a contact of the paper has them: rolled off at so many times the shortest wave,
+# so that they are alike at each place.
 WIDE, WIDE_SEED, WIDE_BREADTH, WIDE_ROLLOFFS = 48, 36_002, 64.0, (1.5, 20.0)
 # Pressures over the rms pressure in full contact, one of each range, and numbers of surfaces, few waves a side and
 # many: few spots touch under light ones, and scatter.

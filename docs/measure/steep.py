@@ -25,8 +25,8 @@ PAGE = PLANES.with_name("steep.md")
 SPEEDS = 0.06, 0.3, 1.0, 3.5, 12.0, 35.0, 100.0  # v tau q_s
 # Points a side, 9 pixels to the shortest wave and more; surfaces, and those on twice the points too.
 POINTS, SURFACES, FINER = 960, 4, 1
-# Contacts that are solved on four times the points, too; and what a grid leaves over the change from twice its
-# pixel. Where these were solved it is 0.06 to 0.25: a third of order two is on the safe side.
+# Contacts that are solved on four times the points, too; and what a grid leaves, over its change from twice the
+# pixel: a third, as an error of order two does. Where four times the points were solved it is 0.06 to 0.2.
 FINEST, LEFT = (("sphere", 0.9, 12.0), ("sphere", 0.9, 100.0)), 1 / 3
 
 

@@ -210,6 +210,7 @@ def test_the_smooth_body_of_the_card_has_the_closed_form_of_low_speed(body):
     lag = SOLID.relaxation_time * 1e-4
     slow = lag / 10e-3 if isinstance(body, Sphere) else pi / 2 * tan(0.05) * lag / rest
     assert (friction, radius, rate) == pytest.approx((slow, rest, 1.0), rel=0.02)
+    assert card(replace(scene, elastomer=Elastic(1e6), roughness=ROUGH)) == 0.0
 
 
 @pytest.mark.parametrize("body", [Sphere(radius=10e-3), Cone(angle=0.05)])

@@ -45,7 +45,7 @@ class Body:
         s, later = (
             float(np.sin(np.angle(complex_stiffness(solid, k * speed / radius)))) for k in (self.lossy, self.later)
         )
-        rate = log(later / s) / log(self.later / self.lossy)
+        rate = log(later / s) / log(self.later / self.lossy) if s else 1.0  # as slow
         return 1.0, s, s**2, rate, rate**2, s * rate
 
     def as_stiff(self, n: float, rest: float, solid: Linear, speed: float) -> float:
@@ -108,7 +108,10 @@ def card(scene: Scene, known: tuple[float, float] | None = None) -> float:
 
 
 def smooth_body(scene: Scene) -> tuple[float, float, float]:
-    """Of the smooth sphere or cone under a load: friction coefficient, contact radius [m], d ln s / d ln omega."""
+    """Smooth sphere or cone that slides under a load, without a solve.
+
+    Friction coefficient, contact radius [m], and d ln s / d ln omega, see `Body.losses`.
+    """
     shape, solid, speed, rest = scene.indenter, scene.solid, scene.motion.speed, elastic_contact(scene)
     body = BODIES[type(shape)]
     a = body.as_stiff(shape.exponent, rest.radius, solid, speed)

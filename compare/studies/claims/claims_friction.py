@@ -131,7 +131,7 @@ def _one_sided(series, solver, laws) -> Iterator[tuple[str, Callable, Any, float
     slowest, fast, everywhere = 0, laws.xi[-1] >= FAST, np.full(len(series.values), True)
     known = laws.xi[0][np.isfinite(laws.xi[0])]
     if len(laws.speeds) > 1 and laws.slowest_loss <= SLOW and known.size and known.max() <= SLOW:
-        yield "eq17.speed-exponent", speed_exponent, slowest, float(laws.loss_exponent[0])
+        yield "eq17.speed-exponent", speed_exponent, slice(2), float(laws.loss_exponent[0])
         if len(series.values) > 1:
             exponent = laws.exponent_of_load
             yield "eq17.load-exponent", with_load(lambda it: mu(it)[0]), slowest, exponent
