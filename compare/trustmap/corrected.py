@@ -68,7 +68,7 @@ class CorrectedMDR:
         """
         start = process_time()
         refuse(self, scene)
-        corrections, motion = trust(scene).corrections, scene.motion
+        corrections, motion = trust(scene).of_model(self.mdr.name), scene.motion
         for name, worth in corrections.items():
             if not isfinite(worth.ratio):
                 raise SolveError(f"the ratio 1D/3D of {name} is not known. {worth.reason}")

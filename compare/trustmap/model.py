@@ -8,12 +8,15 @@ import numpy as np
 from scipy.special import digamma, polygamma
 
 from .groups import DimensionlessGroups
+from .ratio import LAW
 from .regions import LOST, WIDENED, parts
 from .regression import Process, Scales
 
 NAMES = tuple(each.name for each in fields(DimensionlessGroups))
 # Estimate in closed form, of which the model learns the rest: exact where the body is smooth, and in full contact.
 ESTIMATES = {"friction": "friction", "depth": "smooth_depth", "force": "smooth_force"}
+# What is left of friction goes with the root of the law's own doubt, and so towards nothing as roughness does.
+DOUBTED = "friction", LAW
 # Change of the grid that is taken where half the points have no answer.
 UNKNOWN_GRID = 0.02
 # Noise beyond which a measured ratio says nothing, and surfaces below which it has no scatter.
@@ -21,9 +24,11 @@ MOST_NOISE, LEAST_SURFACES = 0.25, 3
 LEAST_VARIANCE = 1e-8
 # Scenes from which the scatter of one surface is learned, and scenes of like error whose intervals widen alike.
 SCATTERED, ALIKE = 600, 150
+# Scenes that a process goes through at most: more take longer at each start, and hardly tell more.
+MOST_TAKEN = 2600
 # Share of the scenes left out that is to lie within, and that in a region of enough scenes: so large that 95 % of
-# those lie within to which no scale was fitted.
-HELD, HELD_IN_PART, FEWEST = 0.95, 0.97, 40
+# those lie within to which no scale was fitted, also where the narrower of two intervals is taken.
+HELD, HELD_IN_PART, FEWEST = 0.96, 0.97, 40
 # Least factor on an error: noise that is larger says little of it.
 LEAST_FACTOR = 0.5
 # How well a depth is known at best that is lost in the roughness: of the scenes left out fewer than 95 % lie in
@@ -81,12 +86,14 @@ class Fitted:
     """Fitted part of a model; the measurements are the other part.
 
     process : scales of what is measured beyond the estimate in closed form
+    taken : numbers of the scenes that the process goes through, among all that were measured
     scatter : scales of the logarithm of the scatter of one surface
     errors, widening : standard errors of the process (K,), and factors on them under which 95 % hold
     parts : further factors (P,), at least 1, one for each of `regions.WIDENED`
     """
 
     process: Scales
+    taken: np.ndarray
     scatter: Scales
     errors: np.ndarray
     widening: np.ndarray
@@ -115,17 +122,22 @@ class Model:
     @classmethod
     def of(cls, quantity: str, measured: Measurements, fitted: Fitted) -> "Model":
         """Model of measurements to which it was fitted."""
-        measured = _usable(measured)
-        scatter = Process(*_scattered(measured), fitted.scatter)
-        return cls(quantity, Process(*_learned(quantity, measured, scatter), fitted.process), scatter, fitted)
+        scatter = Process(*_scattered(measured.taken(_usable(measured))), fitted.scatter)
+        process = Process(*_learned(quantity, measured.taken(fitted.taken), scatter), fitted.process)
+        return cls(quantity, process, scatter, fitted)
 
     @classmethod
     def fit(cls, quantity: str, measured: Measurements) -> "Model":
-        """Model fitted to measurements; takes minutes for two thousand scenes."""
+        """Model fitted to measurements; takes minutes for thousands of scenes."""
         usable = _usable(measured)
-        scatter = Process.fitted(*_scattered(usable))
-        process = Process.fitted(*_learned(quantity, usable, scatter))
-        return cls(quantity, process, scatter, _fitted(quantity, process, scatter))
+        scatter = Process.fitted(*_scattered(measured.taken(usable)))
+        # Where the noise lets it say something.
+        noise = measured.taken(usable).variance(np.exp(scatter.mean(measured.groups[usable])))
+        usable = usable[noise < MOST_NOISE**2]
+        everything = Process.fitted(*_learned(quantity, measured.taken(usable), scatter))
+        taken = everything.telling(MOST_TAKEN)
+        fitted = _fitted(quantity, everything, taken, scatter)
+        return cls(quantity, everything.taken(taken), scatter, replace(fitted, taken=usable[taken]))
 
     def predicted(self, groups: np.ndarray) -> Predicted:
         """Ratios at groups (M, D)."""
@@ -133,8 +145,14 @@ class Model:
         error = self.fitted.widened(np.sqrt(variance), groups)
         if self.quantity == "depth":
             error = np.where(lost(groups), np.maximum(error, LEAST_LOST), error)
+        unit = scale(self.quantity, groups)
+        logarithm = estimate(self.quantity, groups) + rest * unit
+        return Predicted(logarithm, error * unit, self.scatter_at(groups))
+
+    def scatter_at(self, groups: np.ndarray) -> np.ndarray:
+        """Relative scatter of one surface (M,) at groups (M, D)."""
         logarithm, spread = self.scatter.predicted(groups)
-        return Predicted(estimate(self.quantity, groups) + rest, error, np.exp(logarithm + spread / 2))
+        return np.exp(logarithm + spread / 2)
 
 
 def lost(groups: np.ndarray) -> np.ndarray:
@@ -144,12 +162,18 @@ def lost(groups: np.ndarray) -> np.ndarray:
 
 
 def estimate(quantity: str, groups: np.ndarray) -> np.ndarray:
-    """Estimates in closed form of the logarithm of the ratio (M,)."""
-    return groups[:, NAMES.index(ESTIMATES[quantity])]
+    """Estimates in closed form of the logarithm of the ratio (M,); the law is one itself."""
+    return groups[:, NAMES.index(ESTIMATES[quantity])] if quantity in ESTIMATES else np.zeros(len(groups))
+
+
+def scale(quantity: str, groups: np.ndarray) -> np.ndarray:
+    """Unit (M,) in which a process learns what is beyond the estimate."""
+    return np.exp(groups[:, NAMES.index("doubt")] / 2) if quantity in DOUBTED else np.ones(len(groups))
 
 
 def _usable(measured):
-    return measured.taken(np.isfinite(measured.logarithm) & (measured.surfaces >= LEAST_SURFACES))
+    """Numbers of the scenes that have a ratio and enough surfaces."""
+    return np.flatnonzero(np.isfinite(measured.logarithm) & (measured.surfaces >= LEAST_SURFACES))
 
 
 def _scattered(measured) -> Points:
@@ -163,24 +187,36 @@ def _scattered(measured) -> Points:
 
 
 def _learned(quantity, measured, scatter) -> Points:
-    """Groups, what was measured beyond the estimate, and its variance, where the noise lets it say something."""
+    """Groups, what was measured beyond the estimate, and its variance."""
     variance = measured.variance(np.exp(scatter.mean(measured.groups)))
-    telling = variance < MOST_NOISE**2
-    measured = measured.taken(telling)
-    return measured.groups, measured.logarithm - estimate(quantity, measured.groups), variance[telling]
+    beyond, unit = measured.logarithm - estimate(quantity, measured.groups), scale(quantity, measured.groups)
+    return measured.groups, beyond / unit, variance / unit**2
 
 
-def _fitted(quantity, process, scatter):
+def _left_out(everything, taken):
+    """Errors (N,) of each value predicted from all others that are taken, and their standard errors, noiseless."""
+    process = everything.taken(taken)
+    error, variance = np.empty(everything.values.size), np.empty(everything.values.size)
+    error[taken], variance[taken] = process.left_out()
+    variance[taken] -= process.variances
+    others = np.setdiff1d(np.arange(error.size), taken)
+    if others.size:
+        found, variance[others] = process.predicted(everything.inputs[others])
+        error[others] = everything.values[others] - found
+    return error, np.sqrt(np.maximum(variance, LEAST_VARIANCE))
+
+
+def _fitted(quantity, everything, taken, scatter):
     """Fitted part of a model: factors by which errors grow for as many of the values left out to lie within."""
-    error, variance = process.left_out()
-    own, inputs = np.sqrt(np.maximum(variance - process.variances, LEAST_VARIANCE)), process.inputs
+    (error, own), inputs = _left_out(everything, taken), everything.inputs
     # How wide each error has to be for its value to lie within, beside the noise of what was measured.
-    needed = np.sqrt(np.maximum((error / NORMAL) ** 2 - process.variances, 0))
+    needed = np.sqrt(np.maximum((error / NORMAL) ** 2 - everything.variances, 0))
     counted = np.flatnonzero(~lost(inputs)) if quantity == "depth" else np.arange(own.size)
     alike = np.array_split(counted[np.argsort(own[counted])], max(1, counted.size // ALIKE))
     errors = np.array([np.median(own[few]) for few in alike])
     factors = np.array([max(LEAST_FACTOR, np.quantile(needed[few] / own[few], HELD)) for few in alike])
-    found = Fitted(process.scales, scatter.scales, errors, factors, np.ones(len(_parts(inputs))))
+    parts = np.ones(len(_parts(inputs)))
+    found = Fitted(everything.scales, taken, scatter.scales, errors, factors, parts)
     needed = needed / found.widened(own, inputs)
     regions = [needed[counted[here[counted]]] for here in _parts(inputs)]
     widest = [max(1.0, np.quantile(few, HELD_IN_PART)) if few.size >= FEWEST else 1.0 for few in regions]

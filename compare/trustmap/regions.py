@@ -51,6 +51,10 @@ PRESCRIBED: dict[str, Condition] = {
     "load": lambda g: g["prescribed"] == 0,
     "depth": lambda g: g["prescribed"] == 1,
 }
+SURFACES: dict[str, Condition] = {
+    "spectrum": lambda g: (g["side"] == 0) & (g["gaussian"] == 0),
+    "as measured": lambda g: (g["side"] > 0) | (g["gaussian"] > 0),
+}
 REGIONS = {"body": SHAPES, "speed": SPEEDS, "roughness": ROUGHNESS, "solid": SOLIDS, "waves": WAVES}
 # What coverage is stated by, and in what parts intervals are widened: there rest is as slow as can be.
 COVERED = {"speed": SPEEDS, "roughness": ROUGHNESS, "prescribed": PRESCRIBED, "body": SHAPES}

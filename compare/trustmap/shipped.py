@@ -19,17 +19,18 @@ def model(quantity: str) -> Model:
     """Model of friction, depth or force; the same object each time."""
     told = json.loads(FITTED.read_text(encoding="utf-8"))[quantity]
     process, scatter = (
-        Scales(np.array(each["lengths"]), each["amplitude"], each["slope"], each["noise"])
-        for each in (told["process"], told["scatter"])
+        Scales(**{name: np.array(each) if isinstance(each, list) else each for name, each in scales.items()})
+        for scales in (told["process"], told["scatter"])
     )
-    fitted = Fitted(process, scatter, *(np.array(told[each]) for each in ("errors", "widening", "parts")))
+    errors, widening, parts = (np.array(told[each]) for each in ("errors", "widening", "parts"))
+    fitted = Fitted(process, np.array(told["taken"]), scatter, errors, widening, parts)
     return Model.of(quantity, measurements(read(LEARNED), quantity)[1], fitted)
 
 
 def as_json(models: dict[str, Model]) -> str:
     """Fitted parts of models by quantity, as the JSON that the package holds."""
-    return json.dumps({name: asdict(each.fitted) for name, each in models.items()}, default=_rounded, indent=1)
+    return json.dumps({name: asdict(each.fitted) for name, each in models.items()}, default=_rounded)
 
 
 def _rounded(array):
-    return [float(f"{each:.5g}") for each in array]
+    return array.tolist() if array.dtype.kind == "i" else [float(f"{each:.5g}") for each in array]

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .model import NAMES, Measurements
-from .ratio import QUANTITIES, Ratio
+from .ratio import RATIOS, Ratio
 
 if TYPE_CHECKING:
     import xarray
@@ -30,7 +30,7 @@ def column(quantity: str, number: str) -> str:
     return f"{quantity}_{number}"
 
 
-COLUMNS = ("point", *NAMES, *(column(quantity, number) for quantity in QUANTITIES for number in NUMBERS))
+COLUMNS = ("point", *NAMES, *(column(quantity, number) for quantity in RATIOS for number in NUMBERS))
 
 
 def written(table: Mapping[str, np.ndarray]) -> bytes:
@@ -58,7 +58,7 @@ def columns(dataset: xarray.Dataset) -> dict[str, np.ndarray]:
     found |= {name: rough["groups"].sel(group=name).values for name in NAMES}
     return found | {
         column(quantity, number): rough[number].sel(quantity=quantity).values
-        for quantity in QUANTITIES
+        for quantity in RATIOS
         for number in NUMBERS
     }
 

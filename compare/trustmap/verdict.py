@@ -1,15 +1,17 @@
-"""Correction of the 1D answer to a scene: use it, multiply it, or solve in 3D."""
+"""Correction of the cheap answers to a scene, of 1D and of the law: use one, multiply it, or solve in 3D."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, astuple, dataclass, replace
+from dataclasses import asdict, astuple, dataclass, fields, replace
 from functools import cache
-from math import exp, hypot, isfinite, log, nan
+from math import ceil, exp, hypot, isfinite, log, nan
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from bem3d import BEM
+from mdr1d import MDR
 from scene import (
     Cone,
     Doubt,
@@ -21,16 +23,20 @@ from scene import (
     Slide,
     SolveError,
     Sphere,
+    Topography,
     doubts,
     markup,
     notes,
 )
 from scene.doubt import beyond_linear
+from scene.scales import elastic_contact
 
+from ..models.law.bands import Bands
+from ..solving.amounts import seconds
 from . import shipped, table
 from .groups import LINE, SPACE, DimensionlessGroups, SmoothReference
 from .model import MOST_SCATTER, NAMES, NORMAL, lost
-from .ratio import QUANTITIES, asked_of
+from .ratio import LAW, RATIOS, asked_of
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -46,22 +52,33 @@ SMALL, WIDE = 0.05, 0.15
 SLACK = 0.02
 NEAREST = 3
 FITTED = "The surface is one fitted to a measured line: the uncertainty of that fit comes on top."
+SOLVED = "the body is smooth, and both solvers answered it"
 NOTHING = "One surface says nothing: single surfaces differ by as much as their mean."
-HEADINGS = "quantity", "ratio", "low", "high", "surface_low", "surface_high", "advice", "reason"
+# Models by ratio, and what they are called in sentences.
+MODELS = {"friction": "MDR", LAW: "FrictionLaw", "depth": "MDR", "force": "MDR"}
+CALLED = {"MDR": "1D", "FrictionLaw": "the law"}
+TOLD = {"friction": "friction by 1D", LAW: "friction by the law", "depth": "depth by 1D", "force": "force by 1D"}
+# Profiles in 1D that a mean takes, and the interval of 95 % for which surfaces in 3D are counted.
+PROFILES, CLOSE = 40, 0.05
+# Window of a solve over the radius of its contact, its pixels to the shortest wave, its points, and surfaces at
+# least.
+EXTENT, PIXELS, LEAST_POINTS, MOST_POINTS, FEWEST = 3.0, 10, 64, 4096, 4
 # Towards these ends the ratio has a limit, which what was measured has reached: slow, low, pressed flat.
-LIMITED_BELOW = "height", "sliding_height", "lost_waves", "lost_contact", "stiffening"
-LIMITED_ABOVE = "pressure", "slope", "sliding_pressure", "line_pressure"
+LIMITED_BELOW = "height", "sliding_height", "lost_waves", "lost_contact", "stiffening", "doubt"
+LIMITED_ABOVE = "pressure", "slope", "sliding_pressure", "line_pressure", "nominal"
 # Standard groups for people, and those of them that place a scene on the map.
 SYMBOLS = {
     "shape": "1/n",
-    "hurst": "H",
-    "period": "L/a",
-    "rolloff": "λ_r/λ_s",
+    "breadth": "h0 h''/h'^2",
     "slope": "slope of the body/h'",
+    "side": "radius/side of the map",
+    "directed": "rms slope along/across the direction of the map",
+    "skewness": "skewness of the heights",
+    "tails": "kurtosis of the heights/3",
     "height": "h0/d",
-    "waves": "a/λ_s",
+    "waves": "a/λ_c",
     "pressure": "p/(E* h')",
-    "lost_waves": "G''(v q_s)/G0",
+    "lost_waves": "G''(v q_c)/G0",
     "lost_contact": "G''(v/a)/G0",
     "stiffening": "E_g/E_r",
 }
@@ -69,43 +86,56 @@ PLACED = tuple(SYMBOLS)[-6:]
 # Parts of scenes that were never measured.
 NEVER = "layer", "interface", "heating"
 # Groups that are no logarithms.
-PLAIN = "shape", "prescribed", "hurst", "full_share", "share"
+PLAIN = "shape", "prescribed", "full_share", "share", "riding", "side", "skewness", "gaussian"
 # Share of friction, and radius over the shortest wave at which the reason names them.
 MOST, FEW = 0.5, 2.0
 
 
 @dataclass(frozen=True)
 class Correction:
-    """Correction of the 1D answer for one quantity.
+    """Correction of the answer of a cheap model for one quantity.
 
-    ratio : mean over profiles in 1D over mean over surfaces in 3D; nan if not known
+    model : MDR, of which the answer is the mean over profiles, or FrictionLaw
+    ratio : its answer over the mean over surfaces in 3D; nan if not known
     low, high : its interval of 95 %
-    surface_low, surface_high : interval of 95 % of the mean in 1D over one single surface in 3D; nan where single
+    surface_low, surface_high : interval of 95 % of its answer over one single surface in 3D; nan where single
         surfaces differ so much that one says nothing, as the reason then tells
-    advice : "use" 1D as it is, "multiply" it by 1 / ratio, "solve" in 3D, or "none" beyond every linear theory
+    advice : "use" it as it is, "multiply" it by 1 / ratio, "solve" in 3D, or "none" beyond every linear theory
+    seconds : of processor time that the model takes, as planned; of MDR for PROFILES profiles
     reason : in a sentence or two
     """
 
+    model: str
     ratio: float
     low: float
     high: float
     surface_low: float
     surface_high: float
     advice: Treatment
+    seconds: float
     reason: str
 
     @property
     def factor(self) -> float:
-        """Factor that 1D is multiplied by: 1 / ratio."""
+        """Factor that the answer is multiplied by: 1 / ratio."""
         return 1 / self.ratio
+
+    @property
+    def half(self) -> float:
+        """Half the interval of 95 % of the logarithm of the ratio."""
+        return log(self.high / self.low) / 2
 
     def __str__(self) -> str:
         if self.advice == NONE:
             return f"no advice. {self.reason}"
         if self.advice == SOLVE:
             return f"solve in 3D. {self.reason}"
-        told = "use 1D as it is" if self.advice == USE else f"multiply 1D by {self.factor:.3g}"
+        told = f"multiply {CALLED[self.model]} by {self.factor:.3g}"
+        told = f"use {CALLED[self.model]} as it is" if self.advice == USE else told
         return f"{told} (95 %: {1 / self.high:.3g} to {1 / self.low:.3g}). {self.reason}"
+
+
+HEADINGS = "quantity", *(each.name for each in fields(Correction))
 
 
 @dataclass(frozen=True)
@@ -126,9 +156,12 @@ class Neighbour:
 
 @dataclass(frozen=True)
 class Advice:
-    """Correction of 1D for a scene; None where a quantity is prescribed or zero.
+    """Corrections of cheap models for a scene; None where a quantity is prescribed or zero.
 
-    friction, depth, force : of the coefficient of friction, the depth under a load, the force at a depth
+    friction, depth, force : of 1D: of the coefficient of friction, the depth under a load, the force at a depth
+    law : of the law of friction in three dimensions: of the coefficient of friction
+    solving : processor time of as many surfaces in 3D as know friction, or depth or force at rest, to 5 % (95 %),
+        as planned [s]; nan where nothing tells how they scatter
     groups : dimensionless groups by name, as numbers; empty of a smooth body and of what was never measured
     nearest : scenes that were measured, the nearest first, of the first quantity
     doubts : about the scene
@@ -138,19 +171,46 @@ class Advice:
     friction: Correction | None
     depth: Correction | None
     force: Correction | None
+    law: Correction | None
     groups: Mapping[str, float]
     nearest: tuple[Neighbour, ...]
+    solving: float = nan
     doubts: tuple[Doubt, ...] = ()
     notes: tuple[str, ...] = ()
 
     @property
     def corrections(self) -> dict[str, Correction]:
-        """Quantities that the scene has, by name."""
-        return {name: worth for name in QUANTITIES if (worth := getattr(self, name))}
+        """Ratios that the scene has, by name: of 1D, and of the law."""
+        return {name: worth for name in RATIOS if (worth := getattr(self, name))}
+
+    def of_model(self, name: str) -> dict[str, Correction]:
+        """Corrections of one model, by quantity."""
+        return {each: worth for each, worth in self.corrections.items() if worth.model == name}
+
+    @property
+    def taken(self) -> Correction | None:
+        """Correction of friction to take, that with the narrower interval; None where it is to be solved in 3D."""
+        known = [each for each in (self.friction, self.law) if each and each.advice in (USE, MULTIPLY)]
+        return min(known, key=lambda each: each.half, default=None)
+
+    @property
+    def choice(self) -> str:
+        """Cheap model to take for friction, in a sentence; empty where there is none to take or no friction."""
+        if not self.friction:
+            return ""
+        if self.friction.advice == NONE:
+            return "for friction take no linear model"
+        solve = f"; as closely as 5 % 3D takes {seconds(self.solving)}" if isfinite(self.solving) else ""
+        if (best := self.taken) is None:
+            return f"for friction solve in 3D{solve}"
+        as_it_is = "as it is" if best.advice == USE else f"multiplied by {best.factor:.3g}"
+        interval = f"95 %: {1 / best.high:.3g} to {1 / best.low:.3g}"
+        return f"for friction take {CALLED[best.model]} {as_it_is} ({interval}), {seconds(best.seconds)}{solve}"
 
     def __str__(self) -> str:
         lines = [*(f"doubtful: {each}" for each in self.doubts), *(f"note: {each}" for each in self.notes)]
-        lines += [f"{name}: {worth}" for name, worth in self.corrections.items()]
+        lines += [self.choice] if self.choice else []
+        lines += [f"{TOLD[name]}: {worth}" for name, worth in self.corrections.items()]
         if self.groups:
             lines.append(f"place on the map: {_placed(self.groups)}")
         first = next(iter(self.corrections), "")
@@ -162,18 +222,18 @@ class Advice:
         return first + markup.table(self._rows, HEADINGS, "Trust map")
 
     def table(self) -> DataFrame:
-        """A row for each quantity."""
+        """A row for each quantity and model."""
         from pandas import DataFrame
 
         return DataFrame(self._rows, columns=HEADINGS)
 
     @property
     def _rows(self):
-        return [(name, *astuple(worth)) for name, worth in self.corrections.items()]
+        return [("friction" if name == LAW else name, *astuple(worth)) for name, worth in self.corrections.items()]
 
 
 def trust(scene: Scene) -> Advice:
-    """Correction of 1D for a scene, from its groups and the smooth body in its place; nothing rough is solved.
+    """Corrections for a scene, from its groups and the smooth body in its place; nothing rough is solved.
 
     A measured line is judged as the surface that is fitted to it. Beyond every linear theory of contact there is
     no advice: 3D is as linear as 1D.
@@ -203,9 +263,11 @@ def _advised(scene):
         told = [beyond[name] for name in SYMBOLS if name in beyond] or list(beyond.values())
         return replace(_unknown(scene, f"Off the map: {'; '.join(told)}."), groups=named)
     place = np.clip(place, *limits())
-    asked = [name for name in asked_of(scene) if name != "friction" or smooth.friction_coefficient]
-    corrections = {name: _predicted(name, place, groups) for name in asked}
-    return _of(corrections, named, tuple(_nearest(asked[0], place)))
+    rubs = bool(smooth.friction_coefficient)
+    asked = [name for name in asked_of(scene) if rubs or name not in ("friction", LAW)]
+    corrections = {name: _predicted(name, place, groups, _cost(name, scene)) for name in asked}
+    found = _of(corrections, named, tuple(_nearest(asked[0], place)))
+    return replace(found, solving=_solving(scene, asked[0], place, smooth))
 
 
 def as_judged(scene: Scene) -> Scene:
@@ -231,20 +293,22 @@ def unmeasured(scene: Scene) -> list[str]:
     if not isinstance(scene.motion, Indent | Slide):
         reasons.append(f"motion = {type(scene.motion).__name__} was not measured, Indent and Slide were")
     rough = scene.roughness
-    if isinstance(rough, SelfAffine) and not rough.flat:
-        if rough.shortest is None:
-            reasons.append("roughness.shortest is absent, so that either grid cuts the spectrum where it ends")
-        if rough.amplitudes != "fixed":
-            reasons.append(f"roughness.amplitudes = {rough.amplitudes!r} were not measured, fixed ones were")
-    elif rough is not None and not rough.flat:
-        reasons.append(f"roughness = {type(rough).__name__} was not measured, SelfAffine was")
+    if rough is None or rough.flat:
+        return reasons
+    if isinstance(rough, Topography):
+        reasons += [f"roughness = Topography has {rough.crowded}"] if rough.crowded else []
+    elif not isinstance(rough, SelfAffine):
+        reasons.append(
+            f"roughness = {type(rough).__name__} was not measured, SelfAffine, Topography and Profile were"
+        )
+    elif rough.shortest is None:
+        reasons.append("roughness.shortest is absent, so that either grid cuts the spectrum where it ends")
     return reasons
 
 
 def _unknown(scene, reason, advice=SOLVE):
-    worth = Correction(nan, nan, nan, nan, nan, advice, reason)
-    asked = asked_of(scene) if isinstance(scene.motion, Indent | Slide) else QUANTITIES
-    return _of(dict.fromkeys(asked, worth))
+    asked = asked_of(scene) if isinstance(scene.motion, Indent | Slide) else RATIOS
+    return _of({name: Correction(MODELS[name], *[nan] * 5, advice, nan, reason) for name in asked})
 
 
 def _of(
@@ -252,8 +316,8 @@ def _of(
     groups: Mapping[str, float] | None = None,
     nearest: tuple[Neighbour, ...] = (),
 ) -> Advice:
-    friction, depth, force = (corrections.get(name) for name in QUANTITIES)
-    return Advice(friction, depth, force, groups or {}, nearest)
+    friction, depth, force, law = (corrections.get(name) for name in RATIOS)
+    return Advice(friction, depth, force, law, groups or {}, nearest)
 
 
 def _smooth(scene) -> Advice:
@@ -265,18 +329,42 @@ def _smooth(scene) -> Advice:
     )
     corrections = {}
     for name in asked_of(scene):
-        if name == "friction" and not fine.friction_coefficient:
+        # The law is the smooth solve itself.
+        if name == LAW or (name == "friction" and not fine.friction_coefficient):
             continue
         ratio, other = getattr(fine, name), getattr(coarse, name)
         error = abs(log(ratio / other)) / NORMAL
-        corrections[name] = _worth(ratio, error, 0.0, "the body is smooth, and both solvers answered it")
+        corrections[name] = _worth(name, ratio, error, 0.0, 0.0, SOLVED)
     return _of(corrections)
 
 
-def _predicted(name, place, groups):
+def _predicted(name, place, groups, seconds):
     found = shipped.model(name).predicted(place[None])
     logarithm, error, scatter = (float(each[0]) for each in found)
-    return _worth(exp(logarithm), error, scatter, _because(name, groups))
+    return _worth(name, exp(logarithm), error, scatter, seconds, _because(name, groups))
+
+
+def _cost(name, scene) -> float:
+    """Processor time of a cheap model, as planned [s]; nan where that is not known."""
+    if name == LAW:
+        return _planned(SPACE, replace(scene, roughness=None))
+    return PROFILES * _planned(MDR(points=4000), scene)
+
+
+def _solving(scene, name, place, smooth):
+    """Processor time of as many surfaces as know a quantity to CLOSE, as planned [s]; see `Advice.solving`."""
+    scatter = float(shipped.model(name).scatter_at(place[None])[0])
+    window = EXTENT * smooth.radius * elastic_contact(scene).radius
+    points = max(LEAST_POINTS, ceil(PIXELS * window / Bands.of(scene.roughness).finest))
+    if not scatter < MOST_SCATTER or points > MOST_POINTS:
+        return nan
+    surfaces = max(FEWEST, ceil((NORMAL * scatter / CLOSE) ** 2))
+    return surfaces * _planned(BEM(points=points + points % 2), scene)
+
+
+def _planned(solver, scene):
+    expected = solver.plan(scene).seconds.value
+    return nan if expected is None else expected
 
 
 def advice_on(ratio: float, error: float) -> Treatment:
@@ -287,18 +375,20 @@ def advice_on(ratio: float, error: float) -> Treatment:
     return MULTIPLY if half <= WIDE else SOLVE
 
 
-def _worth(ratio, error, scatter, because):
+def _worth(name, ratio, error, scatter, seconds, because):
     half = NORMAL * error
     whole = NORMAL * hypot(error, scatter) if scatter < MOST_SCATTER else nan
     low, high = ratio * exp(-half), ratio * exp(half)
-    advice = advice_on(ratio, error)
+    advice, called = advice_on(ratio, error), CALLED[MODELS[name]]
+    called = called[0].upper() + called[1:]
     reason = {
-        USE: f"1D is within {100 * SMALL:.0f} % of 3D",
-        MULTIPLY: f"1D is {ratio:.3g} times 3D",
-        SOLVE: f"The map knows 1D/3D no closer than {low:.2g} to {high:.2g}",
+        USE: f"{called} is within {100 * SMALL:.0f} % of 3D",
+        MULTIPLY: f"{called} is {ratio:.3g} times 3D",
+        SOLVE: f"The map knows {CALLED[MODELS[name]]}/3D no closer than {low:.2g} to {high:.2g}",
     }[advice]
     told = f"{reason}: {because}." if isfinite(whole) else f"{reason}: {because}. {NOTHING}"
-    return Correction(ratio, low, high, ratio * exp(-whole), ratio * exp(whole), advice, told)
+    surface = ratio * exp(-whole), ratio * exp(whole)
+    return Correction(MODELS[name], ratio, low, high, *surface, advice, seconds, told)
 
 
 def _because(name, groups):
@@ -306,7 +396,7 @@ def _because(name, groups):
     if name == "depth" and lost(np.array([astuple(groups)]))[0]:
         return "the roughness is nearly as high as the body is deep"
     flat = "is pressed flat" if groups.sliding_pressure > 0 else "touches in part"
-    if name == "friction" and groups.share > MOST:
+    if name in ("friction", LAW) and groups.share > MOST:
         return f"the roughness {flat} and makes most of the friction"
     few = ", with few waves in the contact" if groups.sliding_waves < log(FEW) else ""
     return f"the roughness {flat}{few}"

@@ -17,13 +17,13 @@ from tables import replaced
 from tables import table as markdown
 
 import compare
-from compare.studies.trust.scoring import Score
-from compare.studies.trust.statements import advice_rows, evenly
-from compare.studies.trust.study import HELD_OUT, LEARNED, TrustStudy
+from compare.studies.trust.scoring import of_count
+from compare.studies.trust.statements import BEST, Scored, advice_rows, error_rows, of_surfaces
+from compare.studies.trust.study import HELD_OUT, LEARNED, NAMED, TrustStudy
 from compare.trustmap import shipped, table
 from compare.trustmap.model import Model
-from compare.trustmap.ratio import QUANTITIES
-from compare.trustmap.regions import BODIES
+from compare.trustmap.ratio import LAW, RATIOS
+from compare.trustmap.regions import BODIES, SURFACES
 
 PAGE = Path(__file__).parents[1] / "results" / "trust.md"
 README = PAGE.parents[2] / "README.md"
@@ -45,15 +45,15 @@ def ship(answers: xarray.DataTree) -> None:
         path.write_bytes(table.written(table.columns(answers[name].to_dataset())))
     table.read.cache_clear()
     learned = table.read(table.LEARNED)
-    models = {name: Model.fit(name, table.measurements(learned, name)[1]) for name in QUANTITIES}
+    models = {name: Model.fit(name, table.measurements(learned, name)[1]) for name in RATIOS}
     shipped.FITTED.write_text(shipped.as_json(models) + "\n", encoding="utf-8")
     shipped.model.cache_clear()
 
 
 @cache
-def scores() -> dict[str, tuple[Score, Mapping[str, np.ndarray]]]:
+def scores() -> dict[str, Scored]:
     """Scores of the models that come with the package."""
-    return TrustStudy.scored(table.read(table.HELD_OUT), {name: shipped.model(name) for name in QUANTITIES})
+    return TrustStudy.scored(table.read(table.HELD_OUT), {name: shipped.model(name) for name in RATIOS})
 
 
 def advice(rows: list[dict[str, Any]], quantity: str) -> Iterator[dict[str, str]]:
@@ -79,20 +79,33 @@ def _advised(row):
     return f"{kind}, ±{100 * row['interval']:.2g} %" + (f"; solve {solve} %" if solve else "")
 
 
-def errors(found: Mapping[str, tuple[Score, Mapping[str, np.ndarray]]]) -> Iterator[dict[str, str]]:
-    """A row for each quantity: errors on all held-out scenes that are usable."""
-    for name, (score, _) in found.items():
-        used = score.used
-        own, raw = (np.quantile(np.abs(each), (0.5, 0.9)) for each in (used.own, used.errors))
-        yield {
-            "": name,
-            "held-out scenes": f"{score.usable.size}",
-            "use or multiply": f"{100 * score.usable.mean():.0f} %",
-            "median error, as measured": f"{100 * raw[0]:.2g} %",
-            "nine in ten within, as measured": f"{100 * raw[1]:.2g} %",
-            "both without the scatter of the truth": f"{100 * own[0]:.2g} %, {100 * own[1]:.2g} %",
-            "in their interval of 95 %": f"{100 * used.covered:.1f} %",
-        }
+def errors(found: Mapping[str, Scored]) -> Iterator[dict[str, str]]:
+    """A row for each ratio and kind of surface: errors on all held-out scenes that are usable."""
+    for kind in SURFACES:
+        for name, (score, _) in of_surfaces(found, kind).items():
+            used, counts = score.used, np.isfinite(score.measured.logarithm)
+            own, raw = (np.quantile(np.abs(each), (0.5, 0.9)) for each in (used.own, used.errors))
+            low, high = of_count(int(used.held.sum()), used.held.size)
+            yield {
+                "": f"{NAMED[name]}, {kind}",
+                "held-out scenes": f"{counts.sum()}",
+                "use or multiply": f"{100 * score.usable[counts].mean():.0f} %",
+                "median error, as measured": f"{100 * raw[0]:.2g} %",
+                "nine in ten within, as measured": f"{100 * raw[1]:.2g} %",
+                "both without the scatter of the truth": f"{100 * own[0]:.2g} %, {100 * own[1]:.2g} %",
+                "in their interval of 95 %": f"{100 * used.covered:.1f} ({100 * low:.1f} to {100 * high:.1f}) %",
+            }
+
+
+def regions(found: Mapping[str, Scored]) -> Iterator[dict[str, str]]:
+    """A row for each region: errors of friction by 1D, by the law, by the best advice, and the share held."""
+    cells: dict[str, dict[str, str]] = {}
+    for row in error_rows({name: found[name] for name in ("friction", LAW, BEST)}):
+        told = f"{100 * row['median']:.2g} / {100 * row['nine in ten']:.2g}, {100 * row['in 95 %']:.0f}"
+        few = f" ({row['scenes']})" if row["scenes"] < FEW else ""
+        cells.setdefault(f"{row['by']}: {row['region']}", {})[NAMED[row["ratio"]]] = told + few
+    for region, found_there in cells.items():
+        yield {"median / nine in ten, held [%]": region, **found_there}
 
 
 def told(rows: Iterator[dict[str, str]]) -> str:
@@ -104,11 +117,12 @@ def told(rows: Iterator[dict[str, str]]) -> str:
 def parts() -> Mapping[tuple[Path, str], str]:
     """Text between two comments, by the page and the name of the comment."""
     found = scores()
-    even = evenly(found)
-    rows = list(advice_rows(even))
+    drawn = of_surfaces(found, "spectrum")
+    rows = list(advice_rows({name: each for name, each in drawn.items() if name != BEST}))
     return {
-        (PAGE, "advice"): "\n\n".join(f"**{name}**\n\n{told(advice(rows, name))}" for name in found),
-        (PAGE, "errors"): told(errors(even)),
+        (PAGE, "advice"): "\n\n".join(f"**{NAMED[name]}**\n\n{told(advice(rows, name))}" for name in RATIOS),
+        (PAGE, "errors"): told(errors(found)),
+        (PAGE, "regions"): told(regions(found)),
         (README, "friction"): in_short(told(advice(rows, "friction"))),
     }
 
@@ -121,8 +135,8 @@ def in_short(text: str) -> str:
 
 
 def corrected() -> str:
-    """What is left of the errors of friction once it is corrected, in one sentence."""
-    used = evenly(scores())["friction"][0].used
+    """What is left of the errors of friction by the best advice, in one sentence."""
+    used = of_surfaces(scores(), "spectrum")[BEST][0].used
     measured, alone = (100 * np.quantile(np.abs(each), (0.5, 0.9)) for each in (used.errors, used.own))
     return (
         f"- **Corrected, trust it.** Multiplied as `crosscheck trust` says, friction of {used.usable.size} unseen "

@@ -1,13 +1,14 @@
 """Isotropic roughness as bands of waves, and what they do in full contact with a solid that flows past them."""
 
 from dataclasses import dataclass, replace
-from math import log, pi, sqrt, tanh
+from math import hypot, log, pi, sqrt, tanh
 
 import numpy as np
 from scipy.special import j1, jv
 
-from scene import SelfAffine
+from scene import Profile, SelfAffine, Topography
 from scene.viscoelastic import Linear
+from scene.waves import Waves
 
 from ..exact.full_contact import complex_stiffness
 
@@ -17,6 +18,18 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(_DIRECTIONS)
 _COSINE, _SHARES = np.cos(pi / 4 * (1 + _NODES)), _WEIGHTS / 2
 FASTER = 4.0  # times the speed of waves: spots of contact are smaller than waves, and are passed that much faster
 ROUNDING = 1e-16  # of the share of a wave that a disc leaves
+STEEP = 0.95  # of the mean square slope of a map, which its shortest wave that a grid resolves leaves behind
+
+
+def directed(rough: SelfAffine | Topography | Profile) -> float:
+    """Rms slope of a map in the direction in which it is greatest, over that across; 1 of what has none."""
+    if not isinstance(rough, Topography):
+        return 1.0
+    waves = rough.waves
+    q_x, q_y = waves.along_x[None, :], waves.along_y[:, None]
+    x, y, both = (float(np.sum(waves.power * each)) for each in (q_x**2 + 0 * q_y, q_y**2 + 0 * q_x, q_x * q_y))
+    half, apart = (x + y) / 2, hypot((x - y) / 2, both)
+    return sqrt((half + apart) / max(half - apart, ROUNDING * half))
 
 
 def around(elastomer: Linear, speed: float, q: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -39,14 +52,38 @@ class Bands:
     unit: float
 
     @classmethod
-    def of(cls, rough: SelfAffine) -> "Bands":
-        """Bands of a spectrum with a shortest wave: the nodes of a quadrature over ln q."""
+    def of(cls, rough: SelfAffine | Topography | Profile) -> "Bands":
+        """Bands of a spectrum with a shortest wave, as nodes of a quadrature over ln q, or of a map, as rings.
+
+        A measured line is the surface that is fitted to it.
+        """
+        if isinstance(rough, Topography):
+            return cls.of_waves(rough.waves)
+        if isinstance(rough, Profile):
+            rough = rough.fitted
         q_s = rough.q_max(0.0)
         nodes, weights = np.polynomial.legendre.leggauss(_WAVES)
         half = log(q_s / rough.q_min) / 2
         q = rough.q_min * np.exp(half * (1 + nodes))
         density = replace(rough, rms_height=1.0).density_2d(q, q_s)
         return cls(q, weights * half * 2 * pi * q**2 * density, rough.rms_height)
+
+    @classmethod
+    def of_waves(cls, waves: Waves) -> "Bands":
+        """Bands of the waves of a map: each is at the rms of the wave numbers in it, weighted by power."""
+        q, power = waves.q, waves.power
+        present = power > 0
+        q, power = q[present], power[present]
+        edges = np.geomspace(q.min(), q.max() * (1 + 1e-12), _WAVES + 1)
+        height, square = (np.histogram(q, edges, weights=each)[0] for each in (power, power * np.square(q)))
+        some = height > 0
+        return cls(np.sqrt(square[some] / height[some]), height[some], waves.unit)
+
+    @property
+    def finest(self) -> float:
+        """Wave that a grid has to resolve [m]: the shortest, or the one up to which nearly all slopes are."""
+        slopes = np.cumsum(self.power * np.square(self.q))
+        return 2 * pi / float(self.q[np.searchsorted(slopes, STEEP * slopes[-1])])
 
     def beneath(self, radius: float) -> "Bands":
         """Bands without the mean and the tilt of each wave over a disc of a radius [m].

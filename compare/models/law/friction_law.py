@@ -4,12 +4,12 @@ from dataclasses import dataclass as frozen_parts
 from dataclasses import replace
 from math import exp, hypot, inf, nan, pi, sqrt
 from time import process_time
-from typing import ClassVar, cast
+from typing import Any, ClassVar, cast
 
 import numpy as np
 from pydantic.dataclasses import dataclass
 
-from scene import Indent, Plane, Result, Scene, SelfAffine, Slide
+from scene import Indent, Plane, Result, Scene, Slide
 from scene.protocol import refuse, trusted
 from scene.quantities import CLOSED
 from scene.scales import elastic_contact
@@ -60,6 +60,11 @@ class LawParts:
     wave: float
 
     @property
+    def friction_coefficient(self) -> float:
+        """Friction coefficient [1]."""
+        return self.smooth + self.rough
+
+    @property
     def x(self) -> float:
         """Mean nominal pressure over the rms pressure of full contact."""
         return self.contact.load / (pi * self.radius**2 * self.pressure) if self.pressure else inf
@@ -72,17 +77,20 @@ class LawParts:
     @property
     def doubt(self) -> float:
         """Half of the interval of 95 % of ln mu, as the law was off where it was tried."""
-        of_it = self.rough / (self.smooth + self.rough) if self.rough else 0.0
+        of_it = self.rough / self.friction_coefficient if self.rough else 0.0
         light = BY_LIGHTNESS * min(self.x, 1.0) ** -0.25
         parts = AT_LEAST, of_it * BY_ROUGHNESS, of_it * light, BY_HEIGHT * self.height, BY_RIDDEN * self.ridden
         return min(hypot(*parts), NOTHING_KNOWN)
 
     @classmethod
-    def of(cls, scene: Scene) -> "LawParts":
-        """Parts of a rough scene. Raises SolveError where the smooth or the nominal contact has no answer."""
-        smooth = SmoothContact.of(scene)
+    def of(cls, scene: Scene, smooth: SmoothContact | None = None) -> "LawParts":
+        """Parts of a rough scene. Raises SolveError where the smooth or the nominal contact has no answer.
+
+        smooth : its smooth contact, solved here if absent
+        """
+        smooth = SmoothContact.of(scene) if smooth is None else smooth
         n, speed, solid = scene.indenter.exponent, scene.motion.speed, scene.solid
-        rest, rough = elastic_contact(scene).depth, cast(SelfAffine, scene.roughness)
+        rest, rough = elastic_contact(scene).depth, cast(Any, scene.roughness)
         # A fast contact is small, and deeper than one of its size at rest.
         depth = max(smooth.depth, scene.indenter.mdr_coefficient * smooth.radius**n)
         bare = NominalContact.smooth(n, smooth.radius, smooth.load)

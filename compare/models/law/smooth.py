@@ -1,7 +1,9 @@
 """The smooth contact that a rough body of revolution slides on: what all of its roughness is added to."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from math import pi, sqrt
+from typing import Protocol
 
 import numpy as np
 
@@ -11,6 +13,29 @@ from scene import Scene
 # A hundredth of a second. Friction of spheres and cones is within 1 % of that on 512 points a side; the contact is
 # up to 5 % too wide at high speed.
 SPACE = BEM(points=64)
+NOT_KEPT = np.empty(0)
+
+
+class Answer(Protocol):
+    """Answer to a smooth scene, as far as it is needed: a Result, or a row of an outcome."""
+
+    @property
+    def normal_force(self) -> float: ...
+
+    @property
+    def depth(self) -> float: ...
+
+    @property
+    def friction_coefficient(self) -> float: ...
+
+    @property
+    def residual(self) -> float: ...
+
+    @property
+    def operator_applications(self) -> float: ...
+
+    @property
+    def measures(self) -> Mapping[str, float]: ...
 
 
 @dataclass(frozen=True)
@@ -37,7 +62,11 @@ class SmoothContact:
     def of(cls, scene: Scene) -> "SmoothContact":
         """Smooth contact of a scene, of which roughness is left out. Raises Refused, SolveError."""
         found = SPACE.solve(replace(scene, roughness=None))
-        pressure = found.fields["pressure"]
+        return cls.of_answer(found, found.fields["pressure"])
+
+    @classmethod
+    def of_answer(cls, found: Answer, pressure: np.ndarray = NOT_KEPT) -> "SmoothContact":
+        """Smooth contact of its answer, and of the pressure of each pixel if that was kept."""
         return cls(
             load=found.normal_force,
             depth=found.depth,

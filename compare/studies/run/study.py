@@ -288,7 +288,13 @@ def _blocks(found: CaseFindings, answers, trusted: Advice) -> list[Block]:
             "Claims: intervals of 95 % with the scatter of surfaces and the error of the grid.",
         ),
         Findings(others, "Numbers that tell how far these can be trusted."),
-        Table(f"{folder}trust", trusted.table(), "Advice of the trust map on 1D, predicted without solving."),
+        Table(
+            f"{folder}trust",
+            trusted.table(),
+            " ".join(
+                filter(None, ["Advice of the trust map on cheap models, predicted.", _sentence(trusted.choice)])
+            ),
+        ),
         Table(f"{folder}points", found.points, "Every point of every curve.", long=True),
     ]
     if len(found.failures):
@@ -298,6 +304,10 @@ def _blocks(found: CaseFindings, answers, trusted: Advice) -> list[Block]:
         *blocks,
         Table(f"{folder}times", times, "Processor time of all solves, those of earlier runs included."),
     ]
+
+
+def _sentence(text: str) -> str:
+    return f"{text[0].upper()}{text[1:]}." if text else ""
 
 
 def summary(cases: Sequence[CaseFindings]) -> DataFrame:

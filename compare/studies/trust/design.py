@@ -5,8 +5,9 @@ else matters: in the linear theory heights may be stretched together, body and r
 ratio of two answers.
 """
 
+from dataclasses import replace
 from functools import cache
-from math import exp, log, log10
+from math import log, log10, pi
 
 import numpy as np
 
@@ -24,6 +25,10 @@ from scene import (
     StandardLinearSolid,
 )
 from scene.rheology import Elastomer
+from scene.roughness import Roughness
+from scene.scales import elastic_contact
+
+from .maps import Numbers, between, surface
 
 RADIUS, DEPTH, MODULUS, SPEED = 1e-3, 1e-4, 1e6, 1.0
 # Ranges of the groups, from least to greatest.
@@ -33,59 +38,91 @@ HEIGHTS = 2e-3, 1.0
 WAVES = 0.7, 16.0
 PERIODS = 1.0, 10.0
 SPEEDS = 1e-3, 1e3
-# Points to learn from from which on the longest wave is far longer than the contact, as in the paper.
-LONG, LONG_PERIODS = 4096, (8.0, 25.0)
-# Points from which on bodies are blunt and slide under a load, where the depth is hardest to predict: of those to
-# learn from, of those that were held out once and then learned from, and of those held out. Their exponents and
-# heights, and the longest waves of all of them.
-BLUNT, BLUNT_CHECKED, BLUNT_HELD_OUT = 6144, 12_000, 4000
-TO_LEARN, TO_HOLD_OUT = ((2.5, 12.0), (0.05, 0.4)), ((3.0, 12.0), (0.08, 0.3))
+# Points of scenes: each has a number, and surfaces of its own, so that none scatter together. From which number on
+# they are drawn in which way: the longest wave far longer than the contact, as in the paper; blunt bodies that
+# slide under a load, where the depth is hardest to predict; drawn evenly; blunt ones again, twice; once more
+# evenly, with longest waves of all lengths; surfaces as they are measured, in two sets; many waves on the radius.
+LONG, BLUNT, EVENLY, BLUNT_AGAIN, BLUNT_AT_LAST, EVENLY_AGAIN = 4096, 6144, 10_000, 12_000, 14_000, 20_000
+MEASURED, MEASURED_AGAIN, WIDE = 30_000, 40_000, 50_000
+LONG_PERIODS = 8.0, 25.0
+# Exponents and heights of blunt bodies, and the longest waves of all.
+WIDELY, NARROWLY = ((2.5, 12.0), (0.05, 0.4)), ((3.0, 12.0), (0.08, 0.3))
 ALL_PERIODS = PERIODS[0], LONG_PERIODS[1]
 DIMENSIONS = 16
 # Shares of the bodies that are cones, and cones or spheres.
 CONES, ROUND = 0.3, 0.6
 # Shares of the scenes that are smooth, slide, and are pressed by a load.
 SMOOTH, SLIDING, UNDER_LOAD = 0.1, 0.88, 0.6
-# Seeds of the points to learn from, of those that are held out, and of blunt ones: held out once, and held out.
-LEARNED, HELD_OUT, CHECKED_BLUNT, HELD_OUT_BLUNT = 20, 1120, 32_006, 61_125
+# Seeds of the points, by the number from which on they are drawn from one.
+DRAWN = {
+    EVENLY: 1120,
+    BLUNT_AGAIN: 32_006,
+    BLUNT_AT_LAST: 61_125,
+    EVENLY_AGAIN: 37_100,
+    MEASURED: 37_200,
+    MEASURED_AGAIN: 37_300,
+    WIDE: 37_400,
+}
+SOBOL = 20
 # Surfaces that a point may have.
 SEEDS = 1000
+# Where waves are many: their number on the radius; pressure over that of full contact, p / (E* h'), which sets
+# their height, and their most over the depth; longest waves over the radius.
+MANY_WAVES, PRESSURES, MOST_HEIGHT, MANY_PERIODS = (20.0, 150.0), (0.03, 3.0), 0.3, (0.5, 4.0)
 
 
 @cache
-def learned_points() -> np.ndarray:
+def even_points() -> np.ndarray:
     """Points to choose from (8192, DIMENSIONS): a Sobol sequence, which fills the cube evenly."""
     from scipy.stats import qmc  # takes half a second, which the verdict on a scene does not have
 
-    return qmc.Sobol(DIMENSIONS, seed=LEARNED).random(8192)
+    return qmc.Sobol(DIMENSIONS, seed=SOBOL).random(8192)
 
 
 @cache
-def drawn_points(seed: int) -> np.ndarray:
-    """Points of a seed (2000, DIMENSIONS), drawn evenly."""
-    return np.random.default_rng(seed).random((2000, DIMENSIONS))
+def drawn_points(seed: int, numbers: int = DIMENSIONS) -> np.ndarray:
+    """Points of a seed (2000, numbers), drawn evenly."""
+    return np.random.default_rng(seed).random((2000, numbers))
 
 
-def learned(point: int) -> Scene:
-    """Scene of a number of a point to learn from; each has surfaces of its own, so that none scatter together."""
+def scene(point: int) -> Scene:
+    """Scene of the number of a point."""
     seed = SEEDS * point
-    if point >= BLUNT_CHECKED:
-        return scene_at(
-            _blunt(drawn_points(CHECKED_BLUNT)[point - BLUNT_CHECKED], *TO_HOLD_OUT), seed, ALL_PERIODS
-        )
-    place = learned_points()[point]
-    if point >= BLUNT:
-        return scene_at(_blunt(place, *TO_LEARN), seed, ALL_PERIODS)
-    return scene_at(place, seed, PERIODS if point < LONG else LONG_PERIODS)
+    if point < EVENLY:
+        place = even_points()[point]
+        if point >= BLUNT:
+            return scene_at(_blunt(place, *WIDELY), seed, ALL_PERIODS)
+        return scene_at(place, seed, PERIODS if point < LONG else LONG_PERIODS)
+    start = max(first for first in DRAWN if first <= point)
+    if start in (MEASURED, MEASURED_AGAIN):
+        return _measured(drawn_points(DRAWN[start], DIMENSIONS + len(Numbers._fields))[point - start], seed)
+    place = drawn_points(DRAWN[start])[point - start]
+    if start == WIDE:
+        return _wide(place, seed)
+    if start in (BLUNT_AGAIN, BLUNT_AT_LAST):
+        return scene_at(_blunt(place, *NARROWLY), seed, ALL_PERIODS)
+    return scene_at(place, seed, PERIODS if start == EVENLY else ALL_PERIODS)
 
 
-def held_out(point: int) -> Scene:
-    """Scene of a number of a point held out."""
-    seed = 10_000 * SEEDS + SEEDS * point
-    if point >= BLUNT_HELD_OUT:
-        place = drawn_points(HELD_OUT_BLUNT)[point - BLUNT_HELD_OUT]
-        return scene_at(_blunt(place, *TO_HOLD_OUT), seed, ALL_PERIODS)
-    return scene_at(drawn_points(HELD_OUT)[point], seed)
+def _measured(point: np.ndarray, seed: int) -> Scene:
+    """Scene of a surface as it is measured."""
+    wave, height = RADIUS / between(WAVES, point[10]), DEPTH * between(HEIGHTS, point[9])
+    numbers = Numbers(*point[DIMENSIONS:].tolist())
+    return scene_on(surface(numbers, height, wave, RADIUS, seed), point[:DIMENSIONS], wave)
+
+
+def _wide(point: np.ndarray, seed: int) -> Scene:
+    """Cone or sphere that slides under a load on many waves; the place of the height sets how they are pressed."""
+    place = np.array([ROUND * point[0], *point[1:-1], SLIDING * point[-1]])
+    place[7:9] = UNDER_LOAD * point[7], 1.0
+    wave = RADIUS / between(MANY_WAVES, point[10])
+    periods = max(MANY_PERIODS[0], 4 * wave / RADIUS), MANY_PERIODS[1]
+    rough = _rough(HEIGHTS[0], wave, point[11], periods, *point[12:15], seed)
+    smooth = scene_on(None, place, wave)
+    rest = elastic_contact(smooth)
+    slope = rest.load / (pi * rest.radius**2) / smooth.solid.indentation_modulus / between(PRESSURES, point[9])
+    height = rough.rms_height * slope / rough.rms_slope(rough.q_max(0.0))
+    return replace(smooth, roughness=replace(rough, rms_height=min(height, MOST_HEIGHT * DEPTH)))
 
 
 def _blunt(point, exponents, heights):
@@ -116,23 +153,22 @@ def scene_at(point: np.ndarray, seed: int = 0, periods: tuple[float, float] = PE
 
     seed : of its first surface; periods : range of the longest wave over the radius
     """
-    (shape, exponent, kind, loss, spread, tilt, branches, pressed, smooth, height, waves, hurst, period, rolled,
-     rolloff, speed) = (float(each) for each in point)  # fmt: skip
-    indenter = _indenter(shape, exponent)
-    rough = None if smooth < SMOOTH else _rough(height, waves, hurst, periods, period, rolled, rolloff, seed)
+    _, _, _, _, _, _, _, _, smooth, height, waves, hurst, period, rolled, rolloff, _ = map(float, point)
     wave = RADIUS / between(WAVES, waves)
+    drawn = between(HEIGHTS, height), wave, hurst, periods, period, rolled, rolloff
+    return scene_on(None if smooth < SMOOTH else _rough(*drawn, seed), point, wave)
+
+
+def scene_on(rough: Roughness | None, point: np.ndarray, wave: float) -> Scene:
+    """Scene of a roughness, or none, with all else of a point of the cube; wave : its shortest [m]."""
+    shape, exponent, kind, loss, spread, tilt, branches, pressed, *_, speed = map(float, point)
+    indenter = _indenter(shape, exponent)
     solid = solid_at(kind, loss, spread, tilt, branches, speed, wave)
     rests = speed >= SLIDING
     stiffness = 2 * indenter.exponent / (indenter.exponent + 1) * solid.indentation_modulus * DEPTH * RADIUS
     load, depth = (stiffness, None) if pressed < UNDER_LOAD else (None, DEPTH)
     motion = Indent(load=load, depth=depth) if rests else Slide(speed=SPEED, load=load, depth=depth)
     return Scene(indenter, solid, motion, rough)
-
-
-def between(ends: tuple[float, float], place: float) -> float:
-    """Number at a place, 0 to 1, between two ends, in equal ratios."""
-    low, high = ends
-    return exp(log(low) + place * log(high / low))
 
 
 def _indenter(shape, exponent) -> Sphere | Cone | PowerLaw:
@@ -144,12 +180,12 @@ def _indenter(shape, exponent) -> Sphere | Cone | PowerLaw:
     return PowerLaw(DEPTH / PowerLaw(RADIUS**-n, n).mdr_coefficient * RADIUS**-n * RADIUS**-n, n)
 
 
-def _rough(height, waves, hurst, periods, period, rolled, rolloff, seed) -> SelfAffine:
-    shortest = RADIUS / between(WAVES, waves)
+def _rough(height, shortest, hurst, periods, period, rolled, rolloff, seed) -> SelfAffine:
+    """Roughness of a height over the depth and a shortest wave [m]."""
     longest = between((max(periods[0] * RADIUS, 2 * shortest), periods[1] * RADIUS), period)
     return SelfAffine(
         hurst=hurst,
-        rms_height=DEPTH * between(HEIGHTS, height),
+        rms_height=DEPTH * height,
         longest=longest,
         rolloff=between((shortest, longest), max(rolloff, 1e-3)) if rolled < 0.5 else None,
         shortest=shortest,

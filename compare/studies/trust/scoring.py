@@ -1,6 +1,6 @@
 """Score of a model on scenes that it never saw: its errors, the scatter of the truth in them, its coverage."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property
 
 import numpy as np
@@ -26,6 +26,20 @@ class Score:
     def taken(self, chosen: np.ndarray) -> "Score":
         """Score of some scenes: a mask or numbers of scenes."""
         return Score(self.measured.taken(chosen), Predicted(*(each[chosen] for each in self.predicted)))
+
+    def best(self, other: "Score") -> "Score":
+        """Of each scene the one of two scores whose interval is narrower, and usable if any is."""
+        first = np.where(self.usable == other.usable, self.predicted.error <= other.predicted.error, self.usable)
+
+        def picked(ours, theirs):
+            return np.where(first.reshape(-1, *[1] * (ours.ndim - 1)), ours, theirs)
+
+        measured = (
+            picked(getattr(self.measured, each.name), getattr(other.measured, each.name))
+            for each in fields(Measurements)
+        )
+        predicted = (picked(*each) for each in zip(self.predicted, other.predicted, strict=True))
+        return Score(Measurements(*measured), Predicted(*predicted))
 
     @cached_property
     def variance(self) -> np.ndarray:

@@ -7,7 +7,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from ...trustmap.model import NORMAL
-from ...trustmap.regions import BODIES, COVERED, ROUGHNESS, SPEEDS, parts
+from ...trustmap.regions import BODIES, COVERED, REGIONS, ROUGHNESS, SPEEDS, SURFACES, parts
 from ...trustmap.verdict import MULTIPLY, SOLVE, USE
 from .scoring import Score, of_count
 
@@ -15,16 +15,46 @@ from .scoring import Score, of_count
 FEWEST = 5
 # Scenes of a region from which on it fails if its coverage is below what was promised, with 95 % of confidence.
 ENOUGH, PROMISED = 40, 0.95
+# Of the narrower of two intervals, of 1D and of the law.
+BEST = "best-advice"
+STATED = {**REGIONS, "prescribed": COVERED["prescribed"], "surface": SURFACES}
 # A score, and the groups of its scenes by name.
 Scored: TypeAlias = tuple[Score, Mapping[str, np.ndarray]]
 
 
-def evenly(scores: Mapping[str, Scored]) -> dict[str, Scored]:
-    """Scores on the scenes that were drawn evenly, without the blunt ones that were held out by themselves."""
-    return {
-        name: (score.taken(~groups["blunt"]), {key: each[~groups["blunt"]] for key, each in groups.items()})
-        for name, (score, groups) in scores.items()
-    }
+def of_surfaces(scores: Mapping[str, Scored], name: str) -> dict[str, Scored]:
+    """Scores on the scenes with surfaces of one kind, see `regions.SURFACES`."""
+    found = {}
+    for each, (score, groups) in scores.items():
+        here = SURFACES[name](groups)
+        found[each] = score.taken(here), {key: values[here] for key, values in groups.items()}
+    return found
+
+
+def error_rows(scores: Mapping[str, Scored]) -> Iterator[dict[str, Any]]:
+    """Errors as measured and share within the interval, by ratio and region, a kind of region at a time.
+
+    fails : as of `coverage_rows`
+    """
+    kinds = {"all": {"all": lambda groups: groups["shape"] == groups["shape"]}, **STATED}
+    for (name, (score, groups)), (kind, regions) in product(scores.items(), kinds.items()):
+        for region, condition in regions.items():
+            here = condition(groups) & np.isfinite(score.measured.logarithm)
+            used = score.taken(here & score.usable)
+            if not used.usable.size:
+                continue
+            half, most = np.quantile(np.abs(used.errors), (0.5, 0.9))
+            row = {"ratio": name, "by": kind, "region": region, "scenes": int(here.sum())}
+            row |= {"usable": float(score.usable[here].mean()), "median": half, "nine in ten": most}
+            yield row | _held(used)
+
+
+def _held(used):
+    """Share within the interval with its own, and whether it fails what was promised."""
+    tried = used.usable.size
+    low, high = of_count(int(used.held.sum()), tried)
+    fails = tried >= ENOUGH and high < PROMISED
+    return {"in 95 %": used.covered, "least": low, "most": high, "fails": fails}
 
 
 def coverage_rows(scores: Mapping[str, Scored]) -> Iterator[dict[str, Any]]:
@@ -36,15 +66,9 @@ def coverage_rows(scores: Mapping[str, Scored]) -> Iterator[dict[str, Any]]:
         counts = score.usable & np.isfinite(score.measured.logarithm)
         for named, here in parts(COVERED, groups):
             used = score.taken(here & counts)
-            if tried := used.usable.size:
-                low, high = of_count(int(used.held.sum()), tried)
-                row = dict(zip(COVERED, named, strict=True)) | {"quantity": name, "scenes": tried}
-                yield row | {
-                    "in 95 %": used.covered,
-                    "least": low,
-                    "most": high,
-                    "fails": tried >= ENOUGH and high < PROMISED,
-                }
+            if used.usable.size:
+                row = dict(zip(COVERED, named, strict=True)) | {"quantity": name, "scenes": used.usable.size}
+                yield row | _held(used)
 
 
 def advice_rows(scores: Mapping[str, Scored]) -> Iterator[dict[str, Any]]:
