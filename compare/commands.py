@@ -386,7 +386,7 @@ def friction_plot(dataset: xarray.Dataset) -> Figure:
 
 
 def trust(scene: SceneLike) -> Advice:
-    """Say whether to use 1D, multiply it, or solve in 3D. It takes about a second, as nothing rough is solved.
+    """Say which cheap answer to use or multiply, or to solve in 3D, in about a second: nothing rough is solved.
 
     scene : file of a scene (TOML), or name of a ready scene. From Python also a Scene or a Case
     """

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from math import isinf
 from pathlib import Path
 from textwrap import fill
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from bem3d import BEM
 from mdr1d import MDR
@@ -34,7 +34,9 @@ INDENT = 11  # of the lines, after their names
 
 
 class Plans(dict[str, Plan | str | Advice]):
-    """Plans by the names of the solvers, or why there is none; by "trust", what 1D is worth. Printed, six lines.
+    """Plans by the names of the solvers, or why there is none; by "trust", what cheap answers are worth.
+
+    Printed, seven lines.
 
     scene : the scene that is planned
     cost : what all contacts of `crosscheck run` take; the reason where it solves none
@@ -102,7 +104,7 @@ class Plans(dict[str, Plan | str | Advice]):
         return {name: each for name, each in self.items() if isinstance(each, Plan)}
 
     def _summary(self) -> Iterator[tuple[str, str]]:
-        """Names and texts of doubts and notes, of the six lines, then the reasons against the scene."""
+        """Names and texts of doubts and notes, of the seven lines, then the reasons against the scene."""
         yield from (("doubtful", each) for each in self.doubts)
         yield from (("note", each) for each in notes(self.scene))
         if plans := self._plans:
@@ -121,6 +123,8 @@ class Plans(dict[str, Plan | str | Advice]):
             yield "simulated", ", ".join(type(part).__name__ for part in self.scene.parts.values())
             left = dict.fromkeys(name for plan in plans.values() for name in plan.left_out)
             yield "left out", ", ".join(left) or "nothing"
+        if choice := cast(Advice, self["trust"]).choice:
+            yield "advice", choice
         yield "modulus", _stiffness(self.scene)
         for name in ("interval", "accuracy"):
             if (foretold := getattr(self, name)) is not None:

@@ -19,6 +19,7 @@ from ..models.law.smooth import Answer, SmoothContact
 LINE, SPACE = MDR(points=2000), BEM(points=64)
 # Loss over the relaxed modulus below which a flow is as slow as at rest, and stiffening that is as good as none.
 LEAST_LOSS, MOST_STIFFENING = 1e-3, 1e5
+FLAT = 100.0  # pressure over that of full contact, beyond which nothing changes
 
 
 @dataclass(frozen=True)
@@ -218,7 +219,7 @@ class DimensionlessGroups:
             full_friction=log(line / space) if space else 0.0,
             full_share=full.friction / space if space else 0.0,
             riding=1 - (waves.bands.beneath(smooth.radius * a).rms_height / height) ** 2,
-            nominal=log(law.x),
+            nominal=log(min(law.x, FLAT)),
             friction=log((smooth_line + line_touching) / by_law) if by_law else 0.0,
             share=law.rough / by_law if by_law else 0.0,
             side=smooth.radius * a / waves.side,

@@ -15,8 +15,8 @@ from .regression import Process, Scales
 NAMES = tuple(each.name for each in fields(DimensionlessGroups))
 # Estimate in closed form, of which the model learns the rest: exact where the body is smooth, and in full contact.
 ESTIMATES = {"friction": "friction", "depth": "smooth_depth", "force": "smooth_force"}
-# What is left of friction goes with the root of the law's own doubt, and so towards nothing as roughness does.
-DOUBTED = "friction", LAW
+# Groups with whose root what is left of a ratio goes, and so towards nothing as roughness does.
+UNITS = {"friction": "doubt", LAW: "doubt", "depth": "sliding_height", "force": "sliding_height"}
 # Change of the grid that is taken where half the points have no answer.
 UNKNOWN_GRID = 0.02
 # Noise beyond which a measured ratio says nothing, and surfaces below which it has no scatter.
@@ -142,12 +142,11 @@ class Model:
     def predicted(self, groups: np.ndarray) -> Predicted:
         """Ratios at groups (M, D)."""
         rest, variance = self.process.predicted(groups)
-        error = self.fitted.widened(np.sqrt(variance), groups)
+        unit = scale(self.quantity, groups)
+        error = self.fitted.widened(np.sqrt(variance), groups) * unit
         if self.quantity == "depth":
             error = np.where(lost(groups), np.maximum(error, LEAST_LOST), error)
-        unit = scale(self.quantity, groups)
-        logarithm = estimate(self.quantity, groups) + rest * unit
-        return Predicted(logarithm, error * unit, self.scatter_at(groups))
+        return Predicted(estimate(self.quantity, groups) + rest * unit, error, self.scatter_at(groups))
 
     def scatter_at(self, groups: np.ndarray) -> np.ndarray:
         """Relative scatter of one surface (M,) at groups (M, D)."""
@@ -168,7 +167,7 @@ def estimate(quantity: str, groups: np.ndarray) -> np.ndarray:
 
 def scale(quantity: str, groups: np.ndarray) -> np.ndarray:
     """Unit (M,) in which a process learns what is beyond the estimate."""
-    return np.exp(groups[:, NAMES.index("doubt")] / 2) if quantity in DOUBTED else np.ones(len(groups))
+    return np.exp(groups[:, NAMES.index(UNITS[quantity])] / 2)
 
 
 def _usable(measured):

@@ -18,13 +18,14 @@ FITTED = Path(__file__).with_name("fitted.json")
 def model(quantity: str) -> Model:
     """Model of friction, depth or force; the same object each time."""
     told = json.loads(FITTED.read_text(encoding="utf-8"))[quantity]
-    process, scatter = (
-        Scales(**{name: np.array(each) if isinstance(each, list) else each for name, each in scales.items()})
-        for scales in (told["process"], told["scatter"])
-    )
+    process, scatter = (_scales(**told[each]) for each in ("process", "scatter"))
     errors, widening, parts = (np.array(told[each]) for each in ("errors", "widening", "parts"))
     fitted = Fitted(process, np.array(told["taken"]), scatter, errors, widening, parts)
     return Model.of(quantity, measurements(read(LEARNED), quantity)[1], fitted)
+
+
+def _scales(middle, spread, lengths, **numbers) -> Scales:
+    return Scales(np.array(middle), np.array(spread), np.array(lengths), **numbers)
 
 
 def as_json(models: dict[str, Model]) -> str:

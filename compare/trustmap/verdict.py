@@ -200,7 +200,7 @@ class Advice:
             return ""
         if self.friction.advice == NONE:
             return "for friction take no linear model"
-        solve = f"; as closely as 5 % 3D takes {seconds(self.solving)}" if isfinite(self.solving) else ""
+        solve = f"; 3D to 5 %: {seconds(self.solving)}" if isfinite(self.solving) else ""
         if (best := self.taken) is None:
             return f"for friction solve in 3D{solve}"
         as_it_is = "as it is" if best.advice == USE else f"multiplied by {best.factor:.3g}"

@@ -2,8 +2,8 @@
 
 python docs/measure/recipes.py [WORKERS]   solves what is not solved yet, and writes results/trust/recipes.csv
 
-A body is mapped or as given; a rough line has C_1D = pi q C_2D or is a line scan. Each is held against the truth of
-the trust map in three dimensions, alone and multiplied by what a model makes of scenes to learn from.
+A body is mapped or as given; a rough line has C_1D = pi q C_2D or is a line scan. Each is held against the truth
+of the trust map in three dimensions, alone and multiplied by what a model makes of scenes to learn from.
 """
 
 import sys

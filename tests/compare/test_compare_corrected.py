@@ -39,7 +39,7 @@ SMOOTH = replace(ROUGH, roughness=None)
 FEW = CorrectedMDR(MDR(points=1000), profiles=8)
 # Sums in another order.
 ROUNDING = 1e-12
-WORTH = Correction(2.0, 1.9, 2.1, 1.5, 2.5, "multiply", "Made up.")
+WORTH = Correction("MDR", 2.0, 1.9, 2.1, 1.5, 2.5, "multiply", 0.1, "Made up.")
 
 
 @pytest.fixture
@@ -50,7 +50,7 @@ def worth(monkeypatch):
     def predicted(scene):
         asked.append(scene)
         friction = WORTH if getattr(scene.motion, "speed", 0.0) else None
-        return Advice(friction, *_free(scene, WORTH), {}, ())
+        return Advice(friction, *_free(scene, WORTH), None, {}, ())
 
     monkeypatch.setattr(corrected, "trust", predicted)
     return asked
@@ -84,7 +84,7 @@ def test_a_smooth_body_slides_with_the_friction_of_three_dimensions(speed):
 
 @pytest.mark.parametrize("scene", [ROUGH, AT_DEPTH], ids=["load", "depth"])
 def test_what_is_prescribed_stays_and_all_else_is_its_mean_over_the_ratio(scene):
-    found, drawn, corrections = FEW.solve(scene), profiles_of(scene), trust(scene).corrections
+    found, drawn, corrections = FEW.solve(scene), profiles_of(scene), trust(scene).of_model("MDR")
     force, friction, depth = (
         np.mean([getattr(each, name) for each in drawn]) for name in ("normal_force", "friction_force", "depth")
     )
@@ -124,7 +124,7 @@ def test_an_interval_holds_its_value_and_is_wider_for_fewer_profiles_and_for_one
 
 
 def test_where_one_surface_says_nothing_its_interval_has_no_ends_and_the_mean_s_has(monkeypatch):
-    silent = Advice(replace(WORTH, surface_low=nan, surface_high=nan), WORTH, None, {}, ())
+    silent = Advice(replace(WORTH, surface_low=nan, surface_high=nan), WORTH, None, None, {}, ())
     monkeypatch.setattr(corrected, "trust", lambda scene: silent)
     ends = FEW.solve(ROUGH).measures
     assert isnan(ends["friction_surface_low"])
@@ -137,7 +137,7 @@ def test_where_one_surface_says_nothing_its_interval_has_no_ends_and_the_mean_s_
 def test_the_part_of_the_profiles_in_an_interval_is_what_means_of_them_scatter_by(scene, monkeypatch):
     """Of 60 means of eight, the ratio exact; allowed: three deviations of an rms of so many, 3/sqrt(2 * 59)."""
     exact = replace(WORTH, low=WORTH.ratio, high=WORTH.ratio)
-    monkeypatch.setattr(corrected, "trust", lambda _: Advice(exact, *_free(scene, exact), {}, ()))
+    monkeypatch.setattr(corrected, "trust", lambda _: Advice(exact, *_free(scene, exact), None, {}, ()))
     seeds = (replace(scene.roughness, seed=FEW.profiles * k) for k in range(60))
     found = [FEW.solve(replace(scene, roughness=each)) for each in seeds]
     logarithms = np.log([each.friction_coefficient for each in found])
@@ -157,8 +157,8 @@ def test_a_profile_that_touches_nothing_counts_as_a_force_of_zero(worth):
 
 
 def test_off_the_map_there_is_no_answer_but_the_reason():
-    steep = replace(ROUGH, roughness=replace(ROUGH.roughness, shortest=1e-5))
-    with pytest.raises(SolveError, match=r"Off the map: .*a/λ_s"):
+    steep = replace(ROUGH, roughness=replace(ROUGH.roughness, shortest=2e-6))
+    with pytest.raises(SolveError, match=r"Off the map: .*a/λ_c"):
         CorrectedMDR().solve(steep)
 
 

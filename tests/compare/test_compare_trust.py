@@ -295,14 +295,15 @@ def test_the_law_refuses_a_map_with_a_direction_and_says_how_much():
     assert FrictionLaw().refusals(replace(PAPER, roughness=mapped(MANY))) == []
 
 
-def test_of_many_waves_the_law_is_taken_and_of_a_rough_sphere_the_narrower_interval():
+def test_the_narrower_interval_is_taken_and_of_many_waves_the_law_is_right_where_1d_is_not():
     found = trust(PAPER)
     assert found.taken in (found.friction, found.law)
     assert found.taken.half == min(found.friction.half, found.law.half)
-    many = trust(replace(PAPER, roughness=replace(MANY, shortest=5e-5, rms_height=1e-6)))
-    assert many.taken is many.law
+    many = trust(replace(PAPER, roughness=replace(MANY, shortest=5e-5)))
+    assert many.friction.ratio < 0.4
+    assert many.law.low < 1 < many.law.high
     assert max(many.law.seconds, many.friction.seconds) < 0.1 * many.solving
-    assert str(many).splitlines()[0].startswith("for friction take the law ")
+    assert str(many).splitlines()[0].startswith("for friction take ")
     far = trust(replace(PAPER, roughness=replace(ROUGH, rms_height=2e-4)))
     assert (far.taken, far.choice) == (None, "for friction solve in 3D")
 

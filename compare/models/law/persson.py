@@ -40,7 +40,7 @@ from .smooth import SPACE, SmoothContact
 
 # Rms slope of a map in one direction over that across, up to which it counts as isotropic: scenes with such maps
 # were solved, and the law missed them no more than others.
-MOST_DIRECTED = 1.4
+MOST_DIRECTED = 1.35
 
 
 class Spectrum(Term):

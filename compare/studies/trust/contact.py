@@ -181,4 +181,6 @@ class Contact:
 
 def finest_wave(rough: Any) -> float:
     """Shortest wave that a grid has to resolve [m]: of a map the one up to which nearly all of its slope is."""
-    return rough.shortest if isinstance(rough, SelfAffine) else Bands.of(rough).finest
+    if isinstance(rough, SelfAffine) and rough.shortest is not None:
+        return rough.shortest
+    return Bands.of(rough).finest

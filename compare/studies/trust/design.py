@@ -117,7 +117,8 @@ def _wide(point: np.ndarray, seed: int) -> Scene:
     place[7:9] = UNDER_LOAD * point[7], 1.0
     wave = RADIUS / between(MANY_WAVES, point[10])
     periods = max(MANY_PERIODS[0], 4 * wave / RADIUS), MANY_PERIODS[1]
-    rough = _rough(HEIGHTS[0], wave, point[11], periods, *point[12:15], seed)
+    period, rolled, rolloff = point[12:15].tolist()
+    rough = _rough(HEIGHTS[0], wave, float(point[11]), periods, period, rolled, rolloff, seed)
     smooth = scene_on(None, place, wave)
     rest = elastic_contact(smooth)
     slope = rest.load / (pi * rest.radius**2) / smooth.solid.indentation_modulus / between(PRESSURES, point[9])

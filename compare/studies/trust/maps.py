@@ -80,7 +80,9 @@ def _map(numbers: Numbers, height: float, wave: float, radius: float, seed: int)
     found *= height / found.std()
     tilt = TILT * found.std() * draw.uniform(-1, 1, 2)
     across = np.linspace(-1, 1, count)
-    return Topography(heights=found + tilt[0] * across + tilt[1] * across[:, None], pixel=pixel, seed=seed + 1)
+    return Topography(
+        heights=found + tilt[0] * across + tilt[1] * across[:, None], pixel=(pixel, pixel), seed=seed + 1
+    )
 
 
 def _parent(numbers, count, pixel, wave, draw):

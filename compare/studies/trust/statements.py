@@ -24,7 +24,7 @@ Scored: TypeAlias = tuple[Score, Mapping[str, np.ndarray]]
 
 def of_surfaces(scores: Mapping[str, Scored], name: str) -> dict[str, Scored]:
     """Scores on the scenes with surfaces of one kind, see `regions.SURFACES`."""
-    found = {}
+    found: dict[str, Scored] = {}
     for each, (score, groups) in scores.items():
         here = SURFACES[name](groups)
         found[each] = score.taken(here), {key: values[here] for key, values in groups.items()}

@@ -160,8 +160,8 @@ class TrustStudy(Study):
             predicted = model.predicted(np.clip(measured.groups, *limits()))
             predicted = predicted._replace(error=np.where(off, np.inf, predicted.error))
             found[name] = Score(measured, predicted), groups
-        (line, groups), (law, _) = found["friction"], found[LAW]
-        return {**found, BEST: (line.best(law), groups)}
+        line, law = found["friction"], found[LAW]
+        return {**found, BEST: (line[0].best(law[0]), line[1])}
 
     def judge(self, answers: xarray.DataTree) -> Judgement:
         models = self.models(answers)
