@@ -1,0 +1,57 @@
+"""What friction curves of one ball, solid and roughness come to: shifts, straight parts, and where they break."""
+
+from collections.abc import Mapping
+from math import nan
+
+import numpy as np
+
+from ...statistics.collapse import collapse
+from ...statistics.frictioncurves import SimulatedCurves
+
+# Change of slope below which two straight parts are one, and least points in each.
+STRAIGHT, LEAST = 0.02, 2
+TRIED = 401  # places of the break
+
+
+def two_lines(x: np.ndarray, y: np.ndarray) -> tuple[float, float, float, float]:
+    """Best continuous pair of straight lines: where they meet, slopes before and behind it, and the rms left."""
+    found = []
+    for place in np.linspace(x[LEAST - 1], x[-LEAST], TRIED):
+        basis = np.stack([np.ones_like(x), np.minimum(x - place, 0.0), np.maximum(x - place, 0.0)], axis=1)
+        numbers = np.linalg.lstsq(basis, y, rcond=None)[0]
+        found.append((place, *numbers[1:], _rms(y - basis @ numbers)))
+    return min(found, key=lambda each: each[-1])
+
+
+def measured(
+    loads: np.ndarray, speeds: np.ndarray, shape: np.ndarray, rough: np.ndarray, expected: float
+) -> Mapping[str, float]:
+    """Numbers of one set of curves, by the ids of the claims.
+
+    shape, rough : parts of the friction coefficient (speeds, loads); expected : force of the break [N]
+    """
+    mu, middle = shape + rough, len(speeds) // 2
+    found = collapse(SimulatedCurves(speeds, np.broadcast_to(loads, mu.shape), mu * loads))
+    x, y = np.log(loads), np.log(mu[middle])
+    place, light, heavy, left = two_lines(x, y)
+    cubic = _rms(y - np.polynomial.Polynomial.fit(x, y, 3)(x))
+    bent = abs(heavy - light) > STRAIGHT
+    along, across = found.horizontal.misfit.value, found.vertical.misfit.value
+    return {
+        "collapse": along,
+        "along-friction": across,
+        "unshifted": found.unshifted.misfit.value,
+        "same": across - along,
+        "exponent": found.horizontal.exponent.value,
+        "two-lines": left / cubic if bent else nan,
+        "slope-light": light,
+        "slope-heavy": heavy,
+        "break": np.exp(place) / expected if bent else nan,
+        "ball-light": shape[middle, 0] / mu[middle, 0],
+        "ball-heavy": shape[middle, -1] / mu[middle, -1],
+        "level": mu[middle].max(),
+    }
+
+
+def _rms(values):
+    return float(np.sqrt(np.mean(np.square(values))))
