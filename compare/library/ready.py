@@ -99,8 +99,8 @@ CATALOGUE = {
     ),
     "experiment": About(
         "The paper's experiment in three dimensions",
-        "The steel ball on a layer of polyurethane, at the loads and speeds of the paper, with all that the paper does "
-        "not state varied over what is plausible: master curve, straight parts, crossover, shifts.",
+        "The steel ball on a layer of polyurethane, at the loads and speeds of the paper, with all that the paper "
+        "does not state varied over what is plausible: master curve, straight parts, crossover, shifts.",
     ),
 }
 

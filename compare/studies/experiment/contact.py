@@ -32,7 +32,7 @@ class RoughBall:
     spectra: tuple[SelfAffine, ...]
     points: int
     keeps_fields = False
-    packages = ("scene", "bem3d", "compare.models.exact", "compare.models.law", "compare.studies.experiment.contact")
+    packages = ("scene", "bem3d", "compare.models.exact", "compare.models.law", __name__)
 
     @property
     def label(self) -> str:
@@ -53,28 +53,27 @@ class RoughBall:
     def solve(self) -> Outcome:
         """Solve the smooth contact, and add each roughness."""
         try:
-            return self._of(BEM(points=self.points).solve(self.scene))
+            found = BEM(points=self.points).solve(self.scene)
         except SolveError as error:
             return self.failed(str(error) or type(error).__name__)
+        return Outcome(tuple(self._rough(found, each) for each in self.spectra))
 
-    def _of(self, found: Result) -> Outcome:
-        """Rows of the solved smooth contact."""
-        scene = self.scene
-        pressure, area = found.fields["pressure"], found.measures["pixel"] ** 2
+    def _rough(self, found: Result, roughness: SelfAffine) -> Row:
+        """Row of the solved smooth contact with a roughness."""
+        smooth, pressure, area = row(found), found.fields["pressure"], found.measures["contact_area"]
         pressure = pressure[pressure > 0]
-        radius, smooth, rows = sqrt(found.measures["contact_area"] / pi), row(found), []
-        for each in self.spectra:
-            full = FullContact.of(bands_of(each).beneath(radius), scene.solid, scene.motion.speed)
-            rms = float(full.pressure[-1])
-            rough = float(full.friction.sum() * Share.of(full)(pressure / rms).sum() * area)
-            told = {
-                "friction_of_shape": smooth.friction_force,
-                "friction_of_roughness": rough,
-                "pressure_ratio": float(pressure.mean()) / rms,
-                "contact_area": found.measures["contact_area"],
-            }
-            rows.append(replace(smooth, friction_force=smooth.friction_force + rough, measures=told))
-        return Outcome(tuple(rows))
+        waves = bands_of(roughness).beneath(sqrt(area / pi))
+        full = FullContact.of(waves, self.scene.solid, self.scene.motion.speed)
+        rms = float(full.pressure[-1])
+        share = float(Share.of(full)(pressure / rms).sum())
+        rough = float(full.friction.sum()) * share * found.measures["pixel"] ** 2
+        told = {
+            "friction_of_shape": smooth.friction_force,
+            "friction_of_roughness": rough,
+            "pressure_ratio": float(pressure.mean()) / rms,
+            "contact_area": area,
+        }
+        return replace(smooth, friction_force=smooth.friction_force + rough, measures=told)
 
     def failed(self, reason: str) -> Outcome:
         """Outcome with the reason in each row."""

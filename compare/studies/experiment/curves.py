@@ -19,39 +19,37 @@ def two_lines(x: np.ndarray, y: np.ndarray) -> tuple[float, float, float, float]
     for place in np.linspace(x[LEAST - 1], x[-LEAST], TRIED):
         basis = np.stack([np.ones_like(x), np.minimum(x - place, 0.0), np.maximum(x - place, 0.0)], axis=1)
         numbers = np.linalg.lstsq(basis, y, rcond=None)[0]
-        found.append((place, *numbers[1:], _rms(y - basis @ numbers)))
+        found.append((float(place), *numbers[1:].tolist(), _rms(y - basis @ numbers)))
     return min(found, key=lambda each: each[-1])
 
 
-def measured(
-    loads: np.ndarray, speeds: np.ndarray, shape: np.ndarray, rough: np.ndarray, expected: float
-) -> Mapping[str, float]:
-    """Numbers of one set of curves, by the ids of the claims.
+def measured(loads: np.ndarray, speeds: np.ndarray, shape: np.ndarray, rough: np.ndarray) -> Mapping[str, float]:
+    """Numbers of one set of curves, by the ids of the claims; the break is a force [N].
 
-    shape, rough : parts of the friction coefficient (speeds, loads); expected : force of the break [N]
+    shape, rough : parts of the friction coefficient (speeds, loads)
     """
     mu, middle = shape + rough, len(speeds) // 2
     found = collapse(SimulatedCurves(speeds, np.broadcast_to(loads, mu.shape), mu * loads))
-    x, y = np.log(loads), np.log(mu[middle])
+    x, y = np.log([loads, mu[middle]])[:, np.isfinite(mu[middle])]
     place, light, heavy, left = two_lines(x, y)
     cubic = _rms(y - np.polynomial.Polynomial.fit(x, y, 3)(x))
     bent = abs(heavy - light) > STRAIGHT
     along, across = found.horizontal.misfit.value, found.vertical.misfit.value
     return {
+        "unshifted": found.unshifted.misfit.value,
         "collapse": along,
         "along-friction": across,
-        "unshifted": found.unshifted.misfit.value,
         "same": across - along,
         "exponent": found.horizontal.exponent.value,
         "two-lines": left / cubic if bent else nan,
         "slope-light": light,
         "slope-heavy": heavy,
-        "break": np.exp(place) / expected if bent else nan,
+        "break": float(np.exp(place)) if bent else nan,
+        "level": float(np.exp(y.max())),
         "ball-light": shape[middle, 0] / mu[middle, 0],
         "ball-heavy": shape[middle, -1] / mu[middle, -1],
-        "level": mu[middle].max(),
     }
 
 
-def _rms(values):
+def _rms(values: np.ndarray) -> float:
     return float(np.sqrt(np.mean(np.square(values))))
