@@ -7,6 +7,7 @@ import numpy as np
 
 from ...statistics.collapse import collapse
 from ...statistics.frictioncurves import SimulatedCurves
+from .setup import SHIFT
 
 # Change of slope below which two straight parts are one, and least points in each.
 STRAIGHT, LEAST = 0.02, 2
@@ -32,16 +33,19 @@ def measured(loads: np.ndarray, speeds: np.ndarray, shape: np.ndarray, rough: np
     found = collapse(SimulatedCurves(speeds, np.broadcast_to(loads, mu.shape), mu * loads))
     x, y = np.log([loads, mu[middle]])[:, np.isfinite(mu[middle])]
     place, light, heavy, left = two_lines(x, y)
-    cubic = _rms(y - np.polynomial.Polynomial.fit(x, y, 3)(x))
+    straight, cubic = (_rms(y - np.polynomial.Polynomial.fit(x, y, degree)(x)) for degree in (1, 3))
     bent = abs(heavy - light) > STRAIGHT
     along, across = found.horizontal.misfit.value, found.vertical.misfit.value
     return {
         "unshifted": found.unshifted.misfit.value,
         "collapse": along,
         "along-friction": across,
+        "predicted": found.misfit_at(SHIFT * np.log(speeds / speeds[middle])).value,
         "same": across - along,
         "exponent": found.horizontal.exponent.value,
-        "two-lines": left / cubic if bent else nan,
+        "one-line": straight,
+        "two-lines": left,
+        "over-cubic": left / cubic if bent else nan,
         "slope-light": light,
         "slope-heavy": heavy,
         "break": float(np.exp(place)) if bent else nan,

@@ -13,6 +13,7 @@ from scene import Fractional, Layer, Prony, Scene, SelfAffine, Slide, Sphere
 Solid: TypeAlias = Fractional | Prony
 # As stated: shear moduli [Pa], power of the loss, rms height of the ball [m], friction.
 RELAXED, GLASSY, POWER, HEIGHT, MEASURED = 3e6, 1.5e9, 0.1, 1e-7, 0.5
+SHIFT = -1.5 * POWER  # along the force, as a power of the speed
 LOADS, SPEEDS = np.geomspace(1.0, 100.0, 9), np.geomspace(3e-3, 20e-3, 5)  # [N], [m/s]
 FREQUENCIES = 1e-3, 1e7  # in which the power law holds [rad/s]: those of a whole contact and of all waves
 SLOWEST = 1.0  # v/a at the middle of loads and speeds, to within a factor of five [rad/s]
