@@ -20,9 +20,9 @@ from .contact import RoughBall
 from .setup import HALF_SPACE, LOSSY, SOLIDS, STIFF, THIN, Pair
 
 LOAD, SPEED = 10.0, 0.01  # [N], [m/s]
-LONGEST, SHORTEST, HURST, POINTS = 3, 12, 0.8, 320  # waves in a radius; points a side, ten to the shortest wave
+LONGEST, SHORTEST, HURST, POINTS = 3, 12, 0.8, 320  # waves in a radius; points a side, twelve a wave
 LOSSES, HEIGHTS, PAIRS = (LOSSY, "loss from 30 rad/s", STIFF), (0.01, 0.04), (THIN, HALF_SPACE)
-OVER = "Ratio, with the interval of 95 % over surfaces; twelve waves in a radius, a layer as thick as 1.9 radii."
+OVER = "Ratio, with the interval of 95 % over surfaces; twelve waves in a radius, a layer as thick as 1.6 radii."
 LAW, ROUGH, LAYER = (
     Claim(f"experiment.{id}", sentence, *claimed, OVER, dimension="3D")
     for id, sentence, claimed in (
