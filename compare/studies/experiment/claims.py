@@ -7,12 +7,7 @@ from ...statistics.finding import Claim
 from .setup import GLASSY, LOADS, MEASURED, POWER, RELAXED, SHIFT, SPEEDS
 
 SCATTER = 0.02  # of ln mu: that of means of six measurements which scatter by 5 % each
-OPEN = {
-    "solid": "the solid",
-    "hurst": "the Hurst exponent",
-    "shortest": "the shortest wave",
-    "longest": "the longest",
-}
+OPEN = {"solid": "the solid", "hurst": "the exponent H", "shortest": "the shortest wave", "longest": "the longest"}
 AS_ASSUMED, EVERY = "as the paper assumes", "all that is plausible"
 OVER = "The interval is the range over all that the paper does not state; the number is the median."
 
@@ -51,9 +46,6 @@ _STATED = (
 )
 # By the column of the numbers that decide them.
 CLAIMS = {each[0]: _claim(*each) for each in _STATED}
-GLASS = _claim(
-    "glass", "Modulus that the shortest wave meets over the glassy one", meaning="At the greatest speed."
-)
 ABOUT = f"""The smooth ball is solved on the layer at {len(LOADS)} loads of {LOADS[0]:g} to {LOADS[-1]:g} N and
 {len(SPEEDS)} speeds of {1e3 * SPEEDS[0]:g} to {1e3 * SPEEDS[-1]:g} mm/s. Its roughness is too fine for any grid:
 its friction follows from the pressure field by the law of three dimensions, without the waves on which the contact
@@ -64,6 +56,6 @@ beta = {POWER:g}, rms roughness of 0.1 um. **Not stated, and varied**: Hurst exp
 and where the loss begins.
 
 **The solids.** A loss that is a power of 0.1 at every frequency rises from 3 MPa to 1.5 GPa over 27 decades: in
-the band that is sampled G_inf is not reached, nor felt. In these solids the modulus at the frequency of the
+the band that is sampled G_inf is not reached. In these solids the modulus at the frequency of the
 contact, about 1 rad/s, is 1.03, 1.1 or 1.3 of that at rest (the paper's assumption), or 2 and 4 times that. Or the
 loss begins at 0.3, 30 or 3000 rad/s, rises with the power 0.1, and ends at 1e10 rad/s with the modulus G_inf."""

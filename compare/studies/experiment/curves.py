@@ -40,7 +40,7 @@ def measured(loads: np.ndarray, speeds: np.ndarray, shape: np.ndarray, rough: np
         "unshifted": found.unshifted.misfit.value,
         "collapse": along,
         "along-friction": across,
-        "predicted": found.misfit_at(SHIFT * np.log(speeds / speeds[middle])).value,
+        "predicted": found.misfit_at(SHIFT * np.log(found.speeds / speeds[middle])).value,
         "same": across - along,
         "exponent": found.horizontal.exponent.value,
         "one-line": straight,

@@ -34,7 +34,10 @@ def plot(answers: xarray.DataTree, members: DataFrame) -> Plot:
         ("layer, nearly smooth", MAIN, gentle),
         ("half-space, rough", HALF_SPACE, steep),
     )
-    rows = [_row(title, answers[pair.title].to_dataset(), spectrum) for title, pair, spectrum in shown]
+    rows = [
+        _row(title, answers["balls"].to_dataset().sel(pair=pair.title), spectrum)
+        for title, pair, spectrum in shown
+    ]
     found = shifted_curves.plot(rows, NAME)
     assert found is not None
     return replace(found, draw=draw, caption=CAPTION, alternative=WORDS, options={})

@@ -16,13 +16,13 @@ from ...solving.outcome import Outcome
 from ...solving.suggest import known
 from ...solving.task import Batch, SceneTask, Task
 from ...solving.vocabulary import attributes
-from ...statistics.finding import EXACT, UNKNOWN, Finding, claimed, sentences
+from ...statistics.finding import UNKNOWN, Finding, claimed, sentences
 from ..study import Judgement, Study
 from . import check, figure
-from .claims import ABOUT, AS_ASSUMED, CLAIMS, EVERY, GLASS, OPEN
+from .claims import ABOUT, AS_ASSUMED, CLAIMS, EVERY, OPEN
 from .contact import RoughBall
 from .curves import measured
-from .setup import ASSUMED, GLASSY, LOADS, MAIN, SIZES, SOLIDS, SPEEDS, Pair, Size
+from .setup import ASSUMED, LOADS, MAIN, SIZES, SOLIDS, SPEEDS, Size
 
 NUMBERS = "friction_of_shape", "friction_of_roughness", "pressure_ratio", "contact_area"
 WAVES = list(OPEN)[1:]
@@ -58,16 +58,13 @@ class ExperimentStudy(Study):
         return SIZES[self.size]
 
     @cached_property
-    def contacts(self) -> Mapping[tuple[Pair, str], list[RoughBall]]:
+    def contacts(self) -> Sequence[RoughBall]:
         """Tasks of each pair and solid, speed by speed."""
         size = self.solved
-        return {
-            (pair, solid): [
-                RoughBall(pair.scene(SOLIDS[solid], float(v), float(load)), size.spectra, size.points)
-                for v, load in product(SPEEDS, LOADS)
-            ]
-            for pair, solid in product(size.pairs, size.solids)
-        }
+        return [
+            RoughBall(pair.scene(SOLIDS[solid], float(speed), float(load)), size.spectra, size.points)
+            for pair, solid, speed, load in product(size.pairs, size.solids, SPEEDS, LOADS)
+        ]
 
     @cached_property
     def checks(self) -> Sequence[tuple[SceneTask, RoughBall]]:
@@ -76,21 +73,18 @@ class ExperimentStudy(Study):
 
     def batches(self) -> Sequence[Batch]:
         """Smooth balls, and rough ones that are solved as they are."""
-        parts = self.contacts.values(), self.checks
-        return tuple(Batch([each for tasks in part for each in tasks]) for part in parts)
+        return Batch(self.contacts), Batch([each for both in self.checks for each in both])
 
     def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
-        """Numbers of each pair: by solid, speed, load and spectrum; and of the checks, by contact and surface."""
-        size, found = self.solved, {}
-        dims: dict[str, Any] = {"solid": list(size.solids), "speed": SPEEDS, "load": LOADS}
+        """Numbers by ball, solid, speed, load and spectrum; and of the checks, by contact and surface."""
+        size, titles = self.solved, [each.title for each in self.solved.pairs]
+        dims: dict[str, Any] = {"pair": titles, "solid": list(size.solids), "speed": SPEEDS, "load": LOADS}
         waves = {name: ("spectrum", [getattr(each, name) for each in size.spectra]) for name in WAVES}
         shape = *(len(each) for each in dims.values()), len(size.spectra)
-        for pair in size.pairs:
-            tasks = [each for solid in size.solids for each in self.contacts[pair, solid]]
-            rows = [row.measures for each in tasks for row in outcomes[each].rows]
-            own = {name: [row.get(name, np.nan) for row in rows] for name in NUMBERS}
-            numbers = {name: ((*dims, "spectrum"), np.reshape(values, shape)) for name, values in own.items()}
-            found[pair.title] = xarray.Dataset(numbers, dims | waves)
+        rows = [row.measures for each in self.contacts for row in outcomes[each].rows]
+        own = {name: np.reshape([row.get(name, np.nan) for row in rows], shape) for name in NUMBERS}
+        numbers = {name: ((*dims, "spectrum"), values) for name, values in own.items()}
+        found = {"balls": xarray.Dataset(numbers, dims | waves)}
         if self.checks:
             found["checks"] = check.answers(self.checks, outcomes)
         for dataset in found.values():
@@ -100,24 +94,21 @@ class ExperimentStudy(Study):
 
     def members(self, answers: xarray.DataTree) -> DataFrame:
         """Numbers of each claim for each pair, solid and roughness."""
-        rows = []
-        for pair, solid in product(self.solved.pairs, self.solved.solids):
-            found = answers[pair.title].to_dataset().sel(solid=solid)
-            for spectrum in range(found.sizes["spectrum"]):
-                own = found.isel(spectrum=spectrum)
-                told = dict(measured(LOADS, SPEEDS, *(own[name].values / LOADS for name in NUMBERS[:2])))
-                told["break"] /= pair.crossover
-                area = np.log(own["contact_area"].values[len(SPEEDS) // 2])
-                radius = np.sqrt(np.exp(np.interp(np.log(pair.crossover), np.log(LOADS), area)) / np.pi)
-                told |= {"width": 2 * radius / pair.width, "pressed": float(own["pressure_ratio"].min())}
-                rows.append(
-                    {"curves": pair.title, "solid": solid, **{name: own[name].item() for name in WAVES}, **told}
-                )
+        rows, found = [], answers["balls"].to_dataset()
+        for pair, solid, place in product(self.solved.pairs, self.solved.solids, range(found.sizes["spectrum"])):
+            own = found.sel(pair=pair.title, solid=solid).isel(spectrum=place)
+            told = dict(measured(LOADS, SPEEDS, *(own[name].values / LOADS for name in NUMBERS[:2])))
+            told["break"] /= pair.crossover
+            area = np.log(own["contact_area"].values[len(SPEEDS) // 2])
+            radius = np.sqrt(np.exp(np.interp(np.log(pair.crossover), np.log(LOADS), area)) / np.pi)
+            told |= {"width": 2 * radius / pair.width, "pressed": float(own["pressure_ratio"].min())}
+            waves = {name: own[name].item() for name in WAVES}
+            rows.append({"curves": pair.title, "solid": solid, **waves, **told})
         return DataFrame(rows)
 
     def judge(self, answers: xarray.DataTree) -> Judgement:
         members = self.members(answers)
-        findings = [*self._findings(members), *self._glass()]
+        findings = [*self._findings(members)]
         if "checks" in answers:
             findings += check.findings(answers["checks"].to_dataset())
         others = tuple(pair.title for pair in self.solved.pairs if pair != MAIN)
@@ -132,14 +123,6 @@ class ExperimentStudy(Study):
             own = members[members["curves"] == pair.title]
             for which in SETS if pair == MAIN else (AS_ASSUMED,):
                 yield _finding(name, own[own["solid"].isin(list(SETS[which]))], f"{pair.title}, {which}")
-
-    def _glass(self) -> Iterator[Finding]:
-        waves = 2 * np.pi * SPEEDS[-1] / np.array(self.solved.shortest)
-        for which, names in SETS.items():
-            chosen = [each for each in self.solved.solids if each in names]
-            values = np.ravel([abs(SOLIDS[each].complex_modulus(waves)) / GLASSY for each in chosen])
-            ends = float(values.min()), float(values.max())
-            yield Finding(GLASS, float(np.median(values)), ends, 0.0, EXACT, which)
 
 
 def _finding(name: str, members: DataFrame, where: str) -> Finding:
