@@ -17,12 +17,11 @@ from compare.studies.experiment.setup import LOADS, LOSSY, MAIN, POWER, RELAXED,
 from compare.studies.experiment.study import ExperimentStudy, _finding
 from scene import SolveError
 
-POINTS = 64
 SMALL = SIZES["quick"].spectra[:2]
 
 
 def ball(pair, load=10.0, speed=0.01, solid=SOLIDS["power law, 0.03 at contact"], spectra=SMALL):
-    return RoughBall(pair.scene(solid, speed, load), spectra, POINTS)
+    return RoughBall(pair.scene(solid, speed, load), spectra, 64)
 
 
 def solved(*args, **kwargs):
@@ -40,8 +39,7 @@ def test_hertz_has_the_contact_as_wide_as_the_layer_at_the_force_of_the_paper():
 def test_a_thick_layer_is_a_half_space_and_a_thin_one_is_not():
     """The thin one is felt at 100 N, 20 times its force of the paper."""
     half = solved(HALF, 100.0)
-    names = "friction_of_shape", "friction_of_roughness", "contact_area"
-    for name in names:
+    for name in ("friction_of_shape", "friction_of_roughness", "contact_area"):
         assert solved(replace(MAIN, thickness=1.0), 100.0).measures[name] == pytest.approx(
             half.measures[name], rel=0.01
         )
@@ -110,9 +108,8 @@ def test_a_claim_is_decided_only_where_all_that_is_open_agrees():
     members = study.members(answers)
     assert _finding("slope-light", members, "here").verdict == "holds"
     members.loc[3, "slope-light"] = 0.2
-    open_ = _finding("slope-light", members, "here")
-    assert open_.verdict == "undecided"
-    assert open_.interval[1] == 0.2
+    split = _finding("slope-light", members, "here")
+    assert (split.verdict, split.interval[1]) == ("undecided", 0.2)
 
 
 def curve(task):
