@@ -184,17 +184,19 @@ def study(
 
     name : name of a study, or file of your own study (TOML); if absent, a table of the studies is printed
     size : how much is solved: quick (minutes), standard (up to an hour) or full (up to a day)
-    models, reference, interval, budget : like those of `run`; the study `trust` takes none
+    models, reference, interval, budget : like those of `run`; the studies `trust` and `experiment` take none
     """
     if name is None:
         from .library.ready import studies
 
         return studies()
     from .studies.claims.study import ClaimStudy
+    from .studies.experiment.study import ExperimentStudy
     from .studies.trust.study import TrustStudy
 
-    if name == TrustStudy.name:
-        return solve(TrustStudy.of(size), output, **options)
+    for each in (TrustStudy, ExperimentStudy):
+        if str(name) == each.name:
+            return solve(each.of(size), output, **options)
     return solve(ClaimStudy.of(str(name), size, models, reference, interval), output, budget=budget, **options)
 
 
@@ -386,7 +388,7 @@ def friction_plot(dataset: xarray.Dataset) -> Figure:
 
 
 def trust(scene: SceneLike) -> Advice:
-    """Say which cheap answer to use or multiply, or to solve in 3D, in about a second: nothing rough is solved.
+    """Say which cheap answer to use, or to solve in 3D. It takes about a second, as nothing rough is solved.
 
     scene : file of a scene (TOML), or name of a ready scene. From Python also a Scene or a Case
     """

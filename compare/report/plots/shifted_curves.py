@@ -247,7 +247,7 @@ def _shifts(axes: Axes, fit, shifts: DataFrame, powers: DataFrame, colours: Any)
         label = f"{name} {power.exponent:.3g}"
         if power.power in (FITTED, ACROSS):
             colour, line = style.grey(0.6), "-" if power.power == FITTED else (0, (5, 1))
-            if np.isfinite(power.exponent_low):
+            if power.exponent_low < power.exponent_high:
                 label += f"\n({power.exponent_low:.3g} to {power.exponent_high:.3g})"
         elif power.power == EXPECTED:
             colour, line = style.ink(), "--"

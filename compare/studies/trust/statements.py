@@ -34,7 +34,7 @@ def of_surfaces(scores: Mapping[str, Scored], name: str) -> dict[str, Scored]:
 def error_rows(scores: Mapping[str, Scored]) -> Iterator[dict[str, Any]]:
     """Errors as measured and share within the interval, by ratio and region, a kind of region at a time.
 
-    fails : as of `coverage_rows`
+    fails : like that of `coverage_rows`
     """
     kinds = {"all": {"all": lambda groups: groups["shape"] == groups["shape"]}, **STATED}
     for (name, (score, groups)), (kind, regions) in product(scores.items(), kinds.items()):

@@ -1,0 +1,1 @@
+"""The experiment of the paper in three dimensions: `crosscheck study experiment`."""

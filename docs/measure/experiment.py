@@ -1,0 +1,82 @@
+"""The paper's experiment in three dimensions: the tables and the figure of results/experiment.md.
+
+They are those of `crosscheck study experiment --size standard`, in whose folder it is solved. From nothing it
+takes six minutes of processor time.
+"""
+
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+
+from pandas import DataFrame
+from tables import replaced, table
+
+import compare
+from compare.report.csvfiles import text, write_text
+from compare.statistics.digits import interval
+
+PAGE = Path(__file__).parents[1] / "results" / "experiment.md"
+STORED = PAGE.parent / "study" / "experiment-standard"
+NAME = "experiment"
+PLACES = {
+    "50 mm on 10 mm, as the paper assumes": "layer, as the paper assumes",
+    "50 mm on 10 mm, all that is plausible": "layer, all that is plausible",
+    "50 mm on a half-space, as the paper assumes": "half-space, as the paper assumes",
+}
+CLAIMS = {
+    "unshifted": "misfit to one curve before any shift [%]; claimed 0 ± 2",
+    "collapse": "shifted along the force [%]; claimed 0 ± 2",
+    "along-friction": "shifted along friction [%]; claimed 0 ± 2",
+    "same": "the latter less the former [%]; claimed 0 ± 2",
+    "predicted": "shifted along the force as the paper has it [%]; claimed 0 ± 2",
+    "exponent": "exponent of the shift along the force; claimed −0.15 ± 0.0075",
+    "one-line": "misfit of one straight line [%]; claimed 0 ± 2",
+    "two-lines": "misfit of two straight lines [%]; claimed 0 ± 2",
+    "over-cubic": "the latter over that of a cubic; claimed 0 to 1",
+    "slope-light": "slope of the first line; claimed −0.667 to 0",
+    "slope-heavy": "slope of the second; claimed −0.667 to 0",
+    "break": "force at which they meet over F*; claimed 1 ± 0.25",
+    "width": "diameter of the contact at F* over the thickness; claimed 1 ± 0.05",
+    "level": "greatest friction; claimed 0.5 ± 0.25",
+    "ball-light": "share of the smooth ball in friction, 1 N",
+    "ball-heavy": "share of the smooth ball in friction, 100 N",
+    "pressed": "least mean pressure over the rms pressure of full contact",
+}
+PERCENT = "unshifted", "collapse", "along-friction", "same", "predicted", "one-line", "two-lines"
+LAW = {
+    "law": "law / BEM on the layer; claimed 1 ± 0.05",
+    "law-of-roughness": "of roughness alone",
+    "law-on-layer": "layer over half-space; claimed 1 ± 0.05",
+}
+
+
+def main() -> None:
+    """Solve what is not solved yet, and write the tables and the figure."""
+    report = compare.study(NAME, "standard", progress="lines")
+    found = report.table.drop(columns=["meaning", "plot", "sentence"])
+    STORED.mkdir(exist_ok=True)
+    write_text(STORED / "findings.csv", text(found))
+    shutil.copy(report.path.parent / f"{NAME}.png", STORED)
+    places = [(place, words) for place, words in PLACES.items()]
+    rows = ((words, *(_cell(found, claim, place) for place, _ in places)) for claim, words in CLAIMS.items())
+    replaced(PAGE, "numbers", table("|".join(["", *(words for _, words in places)]), rows))
+    replaced(PAGE, "law", table("|".join(["", *LAW.values()]), _checks(found)))
+
+
+def _checks(found: DataFrame) -> Iterator[tuple[str, ...]]:
+    for where in found.loc[found["claim"] == f"{NAME}.law", "where"]:
+        yield where, *(_cell(found, claim, where) for claim in LAW)
+
+
+def _cell(found: DataFrame, claim: str, where: str) -> str:
+    """Verdict, unless the number is only reported, and the number with its interval."""
+    (row,) = (
+        each for _, each in found[(found["claim"] == f"{NAME}.{claim}") & (found["where"] == where)].iterrows()
+    )
+    scale = 100 if claim in PERCENT else 1
+    said = interval(*(scale * row[name] for name in ("value", "low", "high")))
+    return said if row["verdict"] == "reported" else f"{row['verdict']}: {said}"
+
+
+if __name__ == "__main__":
+    main()
