@@ -39,7 +39,7 @@ RECIPES = {
     for shape, spectrum in product(("mapped", "as-given"), ("mapped", "line-scan"))
 }
 # Scenes of each set that slide, and profiles of each.
-SETS = {"learned": (table.LEARNED, 900, 40), "held-out": (table.HELD_OUT, 600, 120)}
+SETS = {"learned": (table.LEARNED, 600, 40), "held-out": (table.HELD_OUT, 400, 80)}
 
 
 def chosen(name: str) -> np.ndarray:

@@ -17,15 +17,20 @@ from tables import replaced
 from tables import table as markdown
 
 import compare
+from compare.report.csvfiles import text, write_text
+from compare.report.page import Table
+from compare.report.plots.rendering import picture
+from compare.statistics.finding import table as findings
 from compare.studies.trust.scoring import of_count
 from compare.studies.trust.statements import BEST, Scored, advice_rows, error_rows, of_surfaces
-from compare.studies.trust.study import HELD_OUT, LEARNED, NAMED, TrustStudy
+from compare.studies.trust.study import HELD_OUT, LEARNED, NAMED, TrustStudy, labelled
 from compare.trustmap import shipped, table
 from compare.trustmap.model import Model
 from compare.trustmap.ratio import LAW, RATIOS
 from compare.trustmap.regions import BODIES, SURFACES
 
 PAGE = Path(__file__).parents[1] / "results" / "trust.md"
+STORED = PAGE.parent / "study" / "trust-standard"
 README = PAGE.parents[2] / "README.md"
 # Scenes below which a number says how few there are.
 FEW = 20
@@ -145,12 +150,37 @@ def corrected() -> str:
     )
 
 
+def stored() -> None:
+    """Write findings, tables and the map of the page of the campaign, judged from the tables of the package."""
+    table_of = table.read(table.HELD_OUT)
+    count = table_of["point"].size
+    rows = {
+        "point": table_of["point"],
+        "groups": table.groups(table_of),
+        "smooth": np.full((count, len(RATIOS)), np.nan),
+        **{
+            number: np.stack([table_of[table.column(name, number)] for name in RATIOS], axis=1)
+            for number in table.NUMBERS
+        },
+    }
+    tree = xarray.DataTree.from_dict({f"/{HELD_OUT}": labelled(rows)})
+    judged = TrustStudy("standard").judge(tree)
+    for plot in judged.plots:
+        for name, frame in plot.files.items():
+            write_text(STORED / f"{name}.csv", text(frame))
+        (STORED / f"{plot.name}.png").write_bytes(picture(plot).files["png"])
+    frames = {each.name: each.frame for each in judged.page("", tree).every(Table)}
+    for name, frame in {"findings": findings(judged.findings), **frames}.items():
+        write_text(STORED / f"{name}.csv", text(frame))
+
+
 def main(folder: Path | None) -> None:
-    """Write everything; without a folder, the tables of the pages alone."""
+    """Write everything; without a folder, what follows from the tables of the package."""
     if folder is not None:
         ship(compare.load(folder / "trust-standard"))
-    for (page, part), text in parts().items():
-        replaced(page, part, text)
+    stored()
+    for (page, part), told_there in parts().items():
+        replaced(page, part, told_there)
 
 
 if __name__ == "__main__":

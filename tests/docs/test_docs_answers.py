@@ -72,7 +72,7 @@ def test_every_number_of_the_readme_and_of_the_answers_is_the_stored_one(parts):
 
 
 def test_errors_are_told_as_measured_and_those_without_the_scatter_of_the_truth_beside_them():
-    used = trust.evenly(trust.scores())["friction"][0].used
+    used = trust.of_surfaces(trust.scores(), "spectrum")[trust.BEST][0].used
     told, beside = re.search(
         r"is within (.*) \((.*) without the scatter of the truth\)", trust.corrected()
     ).groups()

@@ -232,8 +232,11 @@ def ratios_of(scene: Scene, outcome: Outcome, law: float) -> dict[str, list[floa
 
 
 def _dataset(rows: Sequence[Mapping[str, Any]]) -> xarray.Dataset:
-    """Rows as a Dataset with the dimensions scene, group and quantity."""
-    made = {name: np.array([row[name] for row in rows], float) for name in rows[0]}
+    return labelled({name: np.array([row[name] for row in rows], float) for name in rows[0]})
+
+
+def labelled(made: Mapping[str, np.ndarray]) -> xarray.Dataset:
+    """Columns of scenes as a Dataset with the dimensions scene, group and quantity."""
     dims = {"point": ("scene",), "groups": ("scene", "group")}
     dataset = xarray.Dataset(
         {name: (dims.get(name, ("scene", "quantity")), values) for name, values in made.items()},
@@ -284,7 +287,7 @@ def _findings(name: str, score: Score, wanted: tuple[float, float]) -> Iterator[
 def _smooth_findings(held_out: xarray.Dataset) -> Iterator[Finding]:
     """Findings on the smooth scenes held out: their ratios as the map answers them, against more points."""
     smooth = held_out.isel(scene=np.isnan(held_out["groups"].values).all(axis=1))
-    for name in QUANTITIES:
+    for name in QUANTITIES if smooth.sizes["scene"] else ():
         apart = (smooth["logarithm"] - smooth["smooth"]).sel(quantity=name).dropna("scene").values
         claim = Claim(
             f"trust.{name}.smooth", f"The {name} ratio of smooth bodies is known within 1 %", 0.0, 0.01,
