@@ -75,8 +75,8 @@ def logarithms(name: str, outcomes: Mapping[SceneTask, Outcome]) -> DataFrame:
                 "set": name,
                 "point": int(points[row]),
                 "recipe": recipe,
-                "logarithm": log(value / space) if value > 0 else np.nan,
-                "error": error / value,
+                "logarithm": float(f"{log(value / space):.5g}") if value > 0 else np.nan,
+                "error": float(f"{error / value:.3g}"),
             }
         )
     return DataFrame(rows)
