@@ -118,10 +118,11 @@ class Contact:
         solver, half = BEM(points=points), BEM(points=points // 2)
         most = max(many, round(self.surfaces * (LEAST_POINTS / points) ** 1.5))
         scenes = draws_of(self.scene, most)
+        most = len(scenes)  # one of a smooth body
         fine, coarse = (
             [*SceneTask(each, scenes[:count]).solve().rows] for each, count in ((solver, few), (half, many))
         )
-        stands_in = self._alike(fine, coarse)
+        stands_in = most >= many and self._alike(fine, coarse)
         while stands_in and not self._both_known(fine, coarse):
             spread, apart = self._spreads(fine, coarse)
             # The greatest gain in variance for what it costs.
@@ -133,7 +134,7 @@ class Contact:
             else:
                 break
         if not stands_in:
-            coarse, most = coarse[:few], max(few, most // round(DEARER))
+            coarse, most = coarse[:few], min(most, max(few, most // round(DEARER)))
         while not stands_in and len(fine) < most and not self._known(fine):
             fine += SceneTask(solver, scenes[len(fine) : len(fine) + few]).solve().rows
         yield from self._told(FINE, solver, fine)
