@@ -277,7 +277,7 @@ def as_judged(scene: Scene) -> Scene:
 
 
 def _of_fit(found):
-    """Worths with what a fit adds to their uncertainty."""
+    """Advice whose reasons tell what a fit adds to the uncertainty."""
     told = {name: replace(worth, reason=f"{worth.reason} {FITTED}") for name, worth in found.corrections.items()}
     return replace(found, **told)
 

@@ -140,7 +140,7 @@ def in_short(text: str) -> str:
 
 
 def corrected() -> str:
-    """What is left of the errors of friction by the best advice, in one sentence."""
+    """Sentence of the README on the errors of friction by the best advice."""
     used = of_surfaces(scores(), "spectrum")[BEST][0].used
     measured, alone = (100 * np.quantile(np.abs(each), (0.5, 0.9)) for each in (used.errors, used.own))
     return (

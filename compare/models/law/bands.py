@@ -18,7 +18,7 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(_DIRECTIONS)
 _COSINE, _SHARES = np.cos(pi / 4 * (1 + _NODES)), _WEIGHTS / 2
 FASTER = 4.0  # times the speed of waves: spots of contact are smaller than waves, and are passed that much faster
 ROUNDING = 1e-16  # of the share of a wave that a disc leaves
-STEEP = 0.95  # of the mean square slope of a map, which its shortest wave that a grid resolves leaves behind
+STEEP = 0.95  # share of the mean square slope of a map that a grid has to resolve
 
 
 def directed(rough: SelfAffine | Topography | Profile) -> float:

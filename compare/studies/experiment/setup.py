@@ -83,7 +83,7 @@ LOSSY, STIFF = "power law, 0.3 at contact", "loss from 3000 rad/s"
 
 @dataclass(frozen=True)
 class Size:
-    """How much is solved. hurst, shortest, longest : of the spectra [1], [m], [m]; checks : surfaces of each"""
+    """Size of the study. hurst, shortest, longest : of the spectra [1], [m], [m]; checks : surfaces of each"""
 
     solids: tuple[str, ...]
     pairs: tuple[Pair, ...]

@@ -54,7 +54,7 @@ class ExperimentStudy(Study):
 
     @property
     def solved(self) -> Size:
-        """What is solved."""
+        """Size of the study: solids, pairs and spectra that are solved."""
         return SIZES[self.size]
 
     @cached_property

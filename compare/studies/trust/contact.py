@@ -62,7 +62,7 @@ class Contact:
     surfaces: int
     grids: Grids = USUAL
     keeps_fields = False
-    packages = ("scene", "mdr1d", "bem3d", "compare.studies.trust.contact")
+    packages = ("scene", "mdr1d", "bem3d", "compare.models.law.bands", "compare.studies.trust.contact")
 
     @property
     def label(self) -> str:
@@ -146,7 +146,7 @@ class Contact:
         return (replace(row, measures={}, settings=told) for row in rows)
 
     def _values(self, rows):
-        """What is asked of the scene, of each row (N,)."""
+        """Friction coefficient of each row (N,); of a scene at rest its depth, or its force at a depth."""
         at_rest = "depth" if self.scene.motion.pressed_by == "load" else "normal_force"
         name = "friction_coefficient" if getattr(self.scene.motion, "speed", 0.0) > 0 else at_rest
         return np.array([getattr(row, name) if row.reason is None else np.nan for row in rows])

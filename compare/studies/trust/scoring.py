@@ -28,7 +28,7 @@ class Score:
         return Score(self.measured.taken(chosen), Predicted(*(each[chosen] for each in self.predicted)))
 
     def best(self, other: "Score") -> "Score":
-        """Of each scene the one of two scores whose interval is narrower, and usable if any is."""
+        """Score that takes for each scene the narrower of two intervals, and is usable where either is."""
         first = np.where(self.usable == other.usable, self.predicted.error <= other.predicted.error, self.usable)
 
         def picked(ours, theirs):
