@@ -21,9 +21,19 @@ from compare.report.csvfiles import text, write_text
 from compare.report.page import Table
 from compare.report.plots.rendering import picture
 from compare.statistics.finding import table as findings
+from compare.studies.trust import design
 from compare.studies.trust.scoring import of_count
 from compare.studies.trust.statements import BEST, Scored, advice_rows, error_rows, of_surfaces
-from compare.studies.trust.study import HELD_OUT, LEARNED, NAMED, TrustStudy, labelled
+from compare.studies.trust.study import (
+    HELD_OUT,
+    LEARNED,
+    NAMED,
+    TrustStudy,
+    answers_of,
+    contact_at,
+    labelled,
+    tasks_of,
+)
 from compare.trustmap import shipped, table
 from compare.trustmap.model import Model
 from compare.trustmap.ratio import LAW, RATIOS
@@ -151,7 +161,10 @@ def corrected() -> str:
 
 
 def stored() -> None:
-    """Write findings, tables and the map of the page of the campaign, judged from the tables of the package."""
+    """Write findings, tables and the map of the page of the campaign, judged from the tables of the package.
+
+    Smooth scenes are in no table: those of the campaign are solved here, in minutes.
+    """
     table_of = table.read(table.HELD_OUT)
     count = table_of["point"].size
     rows = {
@@ -163,7 +176,11 @@ def stored() -> None:
             for number in table.NUMBERS
         },
     }
-    tree = xarray.DataTree.from_dict({f"/{HELD_OUT}": labelled(rows)})
+    evenly = range(design.EVENLY_AGAIN, int(max(rows["point"][rows["point"] < design.MEASURED])) + 1)
+    smooth = {point: contact_at(point, HELD_OUT) for point in evenly if design.scene(point).roughness is None}
+    outcomes = {task: task.solve() for task in tasks_of(smooth.values())}
+    both = xarray.concat([labelled(rows), answers_of(smooth, outcomes)], "scene")
+    tree = xarray.DataTree.from_dict({f"/{HELD_OUT}": both})
     judged = TrustStudy("standard").judge(tree)
     for plot in judged.plots:
         for name, frame in plot.files.items():

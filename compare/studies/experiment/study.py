@@ -13,11 +13,10 @@ from pandas import DataFrame
 from ...library.ready import CATALOGUE
 from ...report.page import Findings, Table, Text
 from ...solving.outcome import Outcome
-from ...solving.suggest import known
 from ...solving.task import Batch, SceneTask, Task
 from ...solving.vocabulary import attributes
 from ...statistics.finding import UNKNOWN, Finding, claimed, sentences
-from ..study import Judgement, Study
+from ..study import Judgement, SizedStudy
 from . import check, figure
 from .claims import ABOUT, AS_ASSUMED, CLAIMS, EVERY, OPEN
 from .contact import RoughBall
@@ -30,27 +29,12 @@ SETS = {AS_ASSUMED: ASSUMED, EVERY: SOLIDS}
 
 
 @dataclass(frozen=True)
-class ExperimentStudy(Study):
+class ExperimentStudy(SizedStudy):
     """The experiment in three dimensions, at a size."""
-
-    size: str = "quick"
 
     command, name = "study", "experiment"
     title, about = CATALOGUE["experiment"].title, CATALOGUE["experiment"].about
-
-    @classmethod
-    def of(cls, size: str) -> "ExperimentStudy":
-        """Study of a size. Raises InvalidInput where there is no such size."""
-        known("size", size, SIZES)
-        return cls(size)
-
-    @property
-    def place(self) -> str:  # type: ignore[override]
-        return f"{self.name}-{self.size}"
-
-    @property
-    def inputs(self) -> Mapping[str, Any]:
-        return {"name": self.name, "size": self.size}
+    sizes = SIZES
 
     @property
     def solved(self) -> Size:

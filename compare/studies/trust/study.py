@@ -1,6 +1,6 @@
 """The trust map, made again: scenes solved in both dimensionalities, and errors on scenes held out."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 from math import log
@@ -16,7 +16,6 @@ from ...library.ready import CATALOGUE
 from ...models.law.friction_law import LawParts
 from ...report.page import Block, Findings, Table, Text
 from ...solving.outcome import Outcome
-from ...solving.suggest import known
 from ...solving.task import Batch, SceneTask, Task
 from ...solving.vocabulary import attributes
 from ...statistics.finding import Claim, Finding, claimed, sentences
@@ -26,7 +25,7 @@ from ...trustmap.model import NAMES, Model
 from ...trustmap.ratio import LAW, QUANTITIES, RATIOS, Ratio, asked_of, ratio_of
 from ...trustmap.regions import SURFACES
 from ...trustmap.verdict import WIDE, beyond_measured, limits
-from ..study import Judgement, Study
+from ..study import Judgement, SizedStudy
 from . import design
 from . import figure as regime_map
 from .contact import GREAT, USUAL, Contact
@@ -96,47 +95,27 @@ SIZES = "quick", "standard", "full"
 
 
 @dataclass(frozen=True)
-class TrustStudy(Study):
+class TrustStudy(SizedStudy):
     """The campaign behind the trust map, at a size."""
-
-    size: str = "quick"
 
     command, name = "study", "trust"
     title, about = CATALOGUE["trust"].title, CATALOGUE["trust"].about
-
-    @classmethod
-    def of(cls, size: str) -> "TrustStudy":
-        """Study of a size. Raises InvalidInput where there is no such size."""
-        known("size", size, SIZES)
-        return cls(size)
-
-    @property
-    def place(self) -> str:  # type: ignore[override]
-        return f"{self.name}-{self.size}"
-
-    @property
-    def inputs(self) -> Mapping[str, Any]:
-        return {"name": self.name, "size": self.size}
+    sizes = SIZES
 
     def contacts(self) -> dict[str, dict[int, Contact]]:
         """Task of each scene, by set and point."""
         size = _size(self.size)
         sets = {LEARNED: size.learned, HELD_OUT: size.held_out}
-        return {name: {k: _contact(k, name, size.closer) for k in points} for name, points in sets.items()}
+        return {name: {k: contact_at(k, name, size.closer) for k in points} for name, points in sets.items()}
 
     def batches(self) -> Sequence[Batch]:
         """Scenes, and their smooth bodies."""
-        contacts = [each for found in self.contacts().values() for each in found.values()]
-        return (Batch([task for each in contacts for task in (each, *_smooth(each.scene))]),)
+        return (Batch([task for found in self.contacts().values() for task in tasks_of(found.values())]),)
 
     def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
         """Groups and ratios of the scenes of each set."""
-        sets = {
-            name: _dataset([_row(point, each, outcomes) for point, each in found.items()])
-            for name, found in self.contacts().items()
-            if found
-        }
-        return xarray.DataTree.from_dict({f"/{name}": each for name, each in sets.items()})
+        sets = {f"/{name}": answers_of(found, outcomes) for name, found in self.contacts().items() if found}
+        return xarray.DataTree.from_dict(sets)
 
     def models(self, answers: xarray.DataTree) -> dict[str, Model]:
         """Models of all quantities: fitted to what was learned, or those that come with the package."""
@@ -192,11 +171,22 @@ class TrustStudy(Study):
         return [Text(ABOUT)]
 
 
-def _contact(point: int, name: str, closer: float) -> Contact:
+def contact_at(point: int, name: str, closer: float = 1.0) -> Contact:
     """Task of a point of a set; closer : how much closer it is to be known than that of the package."""
     many = point >= design.WIDE
     wanted, most = KNOWN_WIDE if many else KNOWN[name]
     return Contact(design.scene(point), wanted / closer, round(most * closer**2), GREAT if many else USUAL)
+
+
+def tasks_of(contacts: Iterable[Contact]) -> list[Task]:
+    """Scenes, and their smooth bodies, as tasks."""
+    return [task for each in contacts for task in (each, *_smooth(each.scene))]
+
+
+def answers_of(contacts: Mapping[int, Contact], outcomes: Mapping[Task, Outcome]) -> xarray.Dataset:
+    """Groups and ratios of scenes by their points, from the outcomes of `tasks_of`."""
+    rows = [_row(point, each, outcomes) for point, each in contacts.items()]
+    return labelled({name: np.array([row[name] for row in rows], float) for name in rows[0]})
 
 
 def _smooth(scene: Scene) -> tuple[SceneTask, SceneTask]:
@@ -229,10 +219,6 @@ def ratios_of(scene: Scene, outcome: Outcome, law: float) -> dict[str, list[floa
     found = {name: ratio_of(outcome, name, law) for name in asked_of(scene)}
     none = Ratio(np.nan, np.nan, np.nan, 0, np.nan)
     return {number: [getattr(found.get(name, none), number) for name in RATIOS] for number in table.NUMBERS}
-
-
-def _dataset(rows: Sequence[Mapping[str, Any]]) -> xarray.Dataset:
-    return labelled({name: np.array([row[name] for row in rows], float) for name in rows[0]})
 
 
 def labelled(made: Mapping[str, np.ndarray]) -> xarray.Dataset:
