@@ -18,7 +18,8 @@ from ..library.case import Draws
 from ..solving.outcome import Row
 from ..solving.task import SceneTask, draws_of
 from ..statistics.jackknife import mean_ratio
-from .verdict import Correction, trust, unmeasured
+from .measured import unmeasured
+from .verdict import Correction, trust
 
 # Quantities whose means over profiles are taken.
 TAKEN = {"friction": "friction_force", "depth": "depth", "force": "normal_force"}

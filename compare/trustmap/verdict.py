@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import asdict, astuple, dataclass, fields, replace
-from functools import cache
 from math import ceil, exp, hypot, isfinite, log, nan
 from typing import TYPE_CHECKING, Literal
 
@@ -12,30 +11,16 @@ import numpy as np
 
 from bem3d import BEM
 from mdr1d import MDR
-from scene import (
-    Cone,
-    Doubt,
-    Indent,
-    PowerLaw,
-    Profile,
-    Scene,
-    SelfAffine,
-    Slide,
-    SolveError,
-    Sphere,
-    Topography,
-    doubts,
-    markup,
-    notes,
-)
+from scene import Doubt, Indent, Profile, Scene, Slide, SolveError, doubts, markup, notes
 from scene.doubt import beyond_linear
 from scene.scales import elastic_contact
 
 from ..models.law.bands import Bands
 from ..solving.amounts import seconds
-from . import shipped, table
+from . import shipped
 from .groups import LINE, SPACE, DimensionlessGroups, SmoothReference
-from .model import MOST_SCATTER, NAMES, NORMAL, lost
+from .measured import PLAIN, SYMBOLS, Neighbour, as_judged, beyond_measured, limits, nearest, placed, unmeasured
+from .model import MOST_SCATTER, NORMAL, lost
 from .ratio import LAW, RATIOS, asked_of
 
 if TYPE_CHECKING:
@@ -48,9 +33,6 @@ SOLVE: Treatment = "solve"
 NONE: Treatment = "none"  # of neither solver
 # Error of 1D as it is that is no reason to correct it, and half an interval of 95 % that is one to solve in 3D.
 SMALL, WIDE = 0.05, 0.15
-# Tolerated extrapolation, as a fraction of the measured range.
-SLACK = 0.02
-NEAREST = 3
 FITTED = "The surface is one fitted to a measured line: the uncertainty of that fit comes on top."
 SOLVED = "the body is smooth, and both solvers answered it"
 NOTHING = "One surface says nothing: single surfaces differ by as much as their mean."
@@ -63,30 +45,6 @@ PROFILES, CLOSE = 40, 0.05
 # Window of a solve over the radius of its contact, its pixels to the shortest wave, its points, and surfaces at
 # least.
 EXTENT, PIXELS, LEAST_POINTS, MOST_POINTS, FEWEST = 3.0, 10, 64, 4096, 4
-# Towards these ends the ratio has a limit, which what was measured has reached: slow, low, pressed flat.
-LIMITED_BELOW = "height", "sliding_height", "lost_waves", "lost_contact", "stiffening", "doubt"
-LIMITED_ABOVE = "pressure", "slope", "sliding_pressure", "line_pressure", "nominal"
-# Standard groups for people, and those of them that place a scene on the map.
-SYMBOLS = {
-    "shape": "1/n",
-    "breadth": "h0 h''/h'^2",
-    "slope": "slope of the body/h'",
-    "side": "radius/side of the map",
-    "directed": "rms slope along/across the direction of the map",
-    "skewness": "skewness of the heights",
-    "tails": "kurtosis of the heights/3",
-    "height": "h0/d",
-    "waves": "a/λ_c",
-    "pressure": "p/(E* h')",
-    "lost_waves": "G''(v q_c)/G0",
-    "lost_contact": "G''(v/a)/G0",
-    "stiffening": "E_g/E_r",
-}
-PLACED = tuple(SYMBOLS)[-6:]
-# Parts of scenes that were never measured.
-NEVER = "layer", "interface", "heating"
-# Groups that are no logarithms.
-PLAIN = "shape", "prescribed", "full_share", "share", "riding", "side", "skewness", "gaussian"
 # Share of friction, and radius over the shortest wave at which the reason names them.
 MOST, FEW = 0.5, 2.0
 
@@ -136,22 +94,6 @@ class Correction:
 
 
 HEADINGS = "quantity", *(each.name for each in fields(Correction))
-
-
-@dataclass(frozen=True)
-class Neighbour:
-    """A scene that was measured.
-
-    point : its number in the design
-    distance : in lengths over which the ratio changes
-    ratio : of 1D over 3D, as measured
-    groups : by name, as numbers
-    """
-
-    point: int
-    distance: float
-    ratio: float
-    groups: Mapping[str, float]
 
 
 @dataclass(frozen=True)
@@ -212,9 +154,9 @@ class Advice:
         lines += [self.choice] if self.choice else []
         lines += [f"{TOLD[name]}: {worth}" for name, worth in self.corrections.items()]
         if self.groups:
-            lines.append(f"place on the map: {_placed(self.groups)}")
+            lines.append(f"place on the map: {placed(self.groups)}")
         first = next(iter(self.corrections), "")
-        lines += [f"measured: {first} 1D/3D = {each.ratio:.3g} at {_placed(each.groups)}" for each in self.nearest]
+        lines += [f"measured: {first} 1D/3D = {each.ratio:.3g} at {placed(each.groups)}" for each in self.nearest]
         return "\n".join(lines)
 
     def _repr_html_(self) -> str:
@@ -266,44 +208,14 @@ def _advised(scene):
     rubs = bool(smooth.friction_coefficient)
     asked = [name for name in asked_of(scene) if rubs or name not in ("friction", LAW)]
     corrections = {name: _predicted(name, place, groups, _cost(name, scene)) for name in asked}
-    found = _of(corrections, named, tuple(_nearest(asked[0], place)))
+    found = _of(corrections, named, tuple(nearest(asked[0], place)))
     return replace(found, solving=_solving(scene, asked[0], place, smooth))
-
-
-def as_judged(scene: Scene) -> Scene:
-    """The scene with the surface that is fitted to a measured line in its place."""
-    rough = scene.roughness
-    return replace(scene, roughness=rough.fitted) if isinstance(rough, Profile) else scene
 
 
 def _of_fit(found):
     """Advice whose reasons tell what a fit adds to the uncertainty."""
     told = {name: replace(worth, reason=f"{worth.reason} {FITTED}") for name, worth in found.corrections.items()}
     return replace(found, **told)
-
-
-def unmeasured(scene: Scene) -> list[str]:
-    """Parts of a scene that were never measured, a reason each; empty if all were."""
-    scene = as_judged(scene)
-    reasons = [
-        f"{name} = {type(part).__name__} was not measured" for name in NEVER if (part := getattr(scene, name))
-    ]
-    if not isinstance(scene.indenter, Sphere | Cone | PowerLaw):
-        reasons.append(f"indenter = {type(scene.indenter).__name__} is no body of revolution")
-    if not isinstance(scene.motion, Indent | Slide):
-        reasons.append(f"motion = {type(scene.motion).__name__} was not measured, Indent and Slide were")
-    rough = scene.roughness
-    if rough is None or rough.flat:
-        return reasons
-    if isinstance(rough, Topography):
-        reasons += [f"roughness = Topography has {rough.crowded}"] if rough.crowded else []
-    elif not isinstance(rough, SelfAffine):
-        reasons.append(
-            f"roughness = {type(rough).__name__} was not measured, SelfAffine, Topography and Profile were"
-        )
-    elif rough.shortest is None:
-        reasons.append("roughness.shortest is absent, so that either grid cuts the spectrum where it ends")
-    return reasons
 
 
 def _unknown(scene, reason, advice=SOLVE):
@@ -400,47 +312,3 @@ def _because(name, groups):
         return f"the roughness {flat} and makes most of the friction"
     few = ", with few waves in the contact" if groups.sliding_waves < log(FEW) else ""
     return f"the roughness {flat}{few}"
-
-
-def _placed(groups):
-    return ", ".join(f"{SYMBOLS[name]} = {groups[name]:.2g}" for name in PLACED)
-
-
-@cache
-def _ranges():
-    """Least and greatest of each group that was measured (2, D)."""
-    groups = table.groups(table.read(table.LEARNED))
-    return np.array([groups.min(axis=0), groups.max(axis=0)])
-
-
-@cache
-def limits() -> tuple[np.ndarray, np.ndarray]:
-    """Least and greatest values (D,) to which groups are moved that have a limit beyond."""
-    low, high = _ranges()
-    below, above = np.isin(NAMES, LIMITED_BELOW), np.isin(NAMES, LIMITED_ABOVE)
-    return np.where(below, low, -np.inf), np.where(above, high, np.inf)
-
-
-def beyond_measured(place: np.ndarray) -> dict[str, str]:
-    """Groups (D,) beyond what was measured, each in words by its name."""
-    (low, high), (least, greatest) = _ranges(), limits()
-    slack = SLACK * (high - low)
-    found = {}
-    for name, *numbers in zip(NAMES, np.clip(place, least, greatest), low - slack, high + slack, strict=True):
-        value, start, end = numbers if name in PLAIN else np.exp(numbers)
-        if not start <= value <= end:
-            found[name] = f"{SYMBOLS.get(name, name)} = {value:.3g}, where {start:.3g} to {end:.3g} was measured"
-    return found
-
-
-def _nearest(name, place):
-    """Scenes that were measured, the nearest first."""
-    measured = table.read(table.LEARNED)
-    rows, found = table.measurements(measured, name)
-    apart = shipped.model(name).process.distances(place, found.groups)
-    apart[np.isnan(found.logarithm)] = np.inf
-    for row in np.argsort(apart)[:NEAREST]:
-        groups = {
-            key: value if key in PLAIN else exp(value) for key, value in zip(NAMES, found.groups[row], strict=True)
-        }
-        yield Neighbour(int(measured["point"][rows[row]]), float(apart[row]), exp(found.logarithm[row]), groups)

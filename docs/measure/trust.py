@@ -7,7 +7,9 @@ those learned from, beside the modules that read them, and the tables of docs/re
 import re
 import sys
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from functools import cache
+from math import exp, hypot
 from pathlib import Path
 from typing import Any
 
@@ -17,15 +19,18 @@ from tables import replaced
 from tables import table as markdown
 
 import compare
+from compare.library.lookup import case_of
 from compare.report.csvfiles import text, write_text
 from compare.report.page import Table
 from compare.report.plots.rendering import picture
 from compare.statistics.finding import table as findings
 from compare.studies.trust import design
+from compare.studies.trust.contact import Contact
 from compare.studies.trust.scoring import of_count
 from compare.studies.trust.statements import BEST, Scored, advice_rows, error_rows, of_surfaces
 from compare.studies.trust.study import (
     HELD_OUT,
+    KNOWN,
     LEARNED,
     NAMED,
     TrustStudy,
@@ -35,15 +40,19 @@ from compare.studies.trust.study import (
     tasks_of,
 )
 from compare.trustmap import shipped, table
-from compare.trustmap.model import Model
-from compare.trustmap.ratio import LAW, RATIOS
+from compare.trustmap.model import NORMAL, Model
+from compare.trustmap.ratio import LAW, RATIOS, ratio_of
 from compare.trustmap.regions import BODIES, SURFACES
+from scene import Indent
+from scene.scales import elastic_contact
 
 PAGE = Path(__file__).parents[1] / "results" / "trust.md"
 STORED = PAGE.parent / "study" / "trust-standard"
 README = PAGE.parents[2] / "README.md"
 # Scenes below which a number says how few there are.
 FEW = 20
+# Speeds of the ready scenes, v τ over the shortest wave.
+SPEEDS = 0.02, 0.2, 20.0
 # Words of the tables of advice, and what stands for them in the README.
 SHORT = {
     "multiply by ": "×",
@@ -123,6 +132,35 @@ def regions(found: Mapping[str, Scored]) -> Iterator[dict[str, str]]:
         yield {"median / nine in ten, held [%]": region, **found_there}
 
 
+def apart() -> Iterator[dict[str, str]]:
+    """A row for each speed, and for rest: 1D/3D of the ready sphere and cone, as solved and as foretold."""
+    asked = {f"friction, v τ = {each:g} λ_s": each for each in SPEEDS} | {"force at rest at a depth": None}
+    for named, speed in asked.items():
+        row = {"": named}
+        for body in ("sphere", "cone"):
+            scene = _pressed(case_of(f"paper-{body}").scene, speed)
+            quantity = "force" if speed is None else "friction"
+            found = ratio_of(Contact(scene, *KNOWN[HELD_OUT]).solve(), quantity)
+            error = NORMAL * hypot(found.line_error, found.scatter / found.surfaces**0.5)
+            foretold = getattr(compare.trust(scene), quantity)
+            measured = (exp(found.logarithm + each * error) for each in (0, -1, 1))
+            row[f"{body}, measured"] = _between(*measured)
+            row["map" if body == "sphere" else "map "] = _between(foretold.ratio, foretold.low, foretold.high)
+        yield row
+
+
+def _pressed(scene, speed):
+    """The scene at rest at the depth of its smooth body, or so fast that it creeps so far in units of λ_s."""
+    if speed is None:
+        return replace(scene, motion=Indent(depth=elastic_contact(scene).depth))
+    waves = scene.roughness.shortest / scene.elastomer.relaxation_time
+    return replace(scene, motion=replace(scene.motion, speed=speed * waves))
+
+
+def _between(middle, low, high):
+    return f"{middle:.2f} ({low:.2f} to {high:.2f})"
+
+
 def told(rows: Iterator[dict[str, str]]) -> str:
     """Rows as a Markdown table."""
     first, *others = rows
@@ -196,6 +234,7 @@ def main(folder: Path | None) -> None:
     if folder is not None:
         ship(compare.load(folder / "trust-standard"))
     stored()
+    replaced(PAGE, "apart", told(apart()))
     for (page, part), told_there in parts().items():
         replaced(page, part, told_there)
 

@@ -10,7 +10,7 @@ from pandas import DataFrame
 from scene import Kelvin, Scene, SelfAffine, Slide, Sphere
 
 from ...models.exact import mean_lag
-from ...trustmap import shipped, verdict
+from ...trustmap import measured, shipped, verdict
 from ...trustmap.groups import DimensionlessGroups, SmoothReference
 from ...trustmap.model import NORMAL, Model
 
@@ -44,9 +44,9 @@ def regime_table(
     Rows of infinite pressure are the smooth body, solved in both dimensionalities. Raises ValueError of a family
     that was not measured, SolveError where the smooth body has no answer.
     """
-    if reasons := verdict.unmeasured(family):
+    if reasons := measured.unmeasured(family):
         raise ValueError("; ".join(reasons))
-    family = verdict.as_judged(family)
+    family = measured.as_judged(family)
     rows: list[tuple[float, ...]] = []
     for memory in memories:
         speed = memory / (mean_lag(family.solid) * family.roughness.q_max(0.0))
@@ -68,7 +68,7 @@ def _predicted(scene, pressures, model):
             for height in rough.rms_height * own / np.array(pressures)
         ]
     )
-    known = [not verdict.beyond_measured(place) for place in places]
-    logarithm, error, _ = model.predicted(np.clip(places, *verdict.limits()))
+    known = [not measured.beyond_measured(place) for place in places]
+    logarithm, error, _ = model.predicted(np.clip(places, *measured.limits()))
     ratios = np.exp(logarithm + NORMAL * np.outer((0, -1, 1), error))
     return np.where(known, ratios, nan).T

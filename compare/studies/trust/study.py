@@ -21,10 +21,11 @@ from ...solving.vocabulary import attributes
 from ...statistics.finding import Claim, Finding, claimed, sentences
 from ...trustmap import shipped, table
 from ...trustmap.groups import LINE, SPACE, DimensionlessGroups, SmoothReference
+from ...trustmap.measured import beyond_measured, limits
 from ...trustmap.model import NAMES, Model
 from ...trustmap.ratio import LAW, QUANTITIES, RATIOS, Ratio, asked_of, ratio_of
 from ...trustmap.regions import SURFACES
-from ...trustmap.verdict import WIDE, beyond_measured, limits
+from ...trustmap.verdict import WIDE
 from ..study import Judgement, SizedStudy
 from . import design
 from . import figure as regime_map

@@ -1,0 +1,132 @@
+"""What was measured for the map: parts of scenes, ranges of groups, and the scenes near another."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import cache
+from math import exp
+
+import numpy as np
+
+from scene import Cone, Indent, PowerLaw, Profile, Scene, SelfAffine, Slide, Sphere, Topography
+
+from . import shipped, table
+from .model import NAMES
+
+# Tolerated extrapolation, as a fraction of the measured range.
+SLACK = 0.02
+NEAREST = 3
+# Towards these ends the ratio has a limit, which what was measured has reached: slow, low, pressed flat.
+LIMITED_BELOW = "height", "sliding_height", "lost_waves", "lost_contact", "stiffening", "doubt"
+LIMITED_ABOVE = "pressure", "slope", "sliding_pressure", "line_pressure", "nominal"
+# Standard groups for people, and those of them that place a scene on the map.
+SYMBOLS = {
+    "shape": "1/n",
+    "breadth": "h0 h''/h'^2",
+    "slope": "slope of the body/h'",
+    "side": "radius/side of the map",
+    "directed": "rms slope along/across the direction of the map",
+    "skewness": "skewness of the heights",
+    "tails": "kurtosis of the heights/3",
+    "height": "h0/d",
+    "waves": "a/λ_c",
+    "pressure": "p/(E* h')",
+    "lost_waves": "G''(v q_c)/G0",
+    "lost_contact": "G''(v/a)/G0",
+    "stiffening": "E_g/E_r",
+}
+PLACED = tuple(SYMBOLS)[-6:]
+# Parts of scenes that were never measured.
+NEVER = "layer", "interface", "heating"
+# Groups that are no logarithms.
+PLAIN = "shape", "prescribed", "full_share", "share", "riding", "side", "skewness", "gaussian"
+
+
+@dataclass(frozen=True)
+class Neighbour:
+    """A scene that was measured.
+
+    point : its number in the design
+    distance : in lengths over which the ratio changes
+    ratio : of 1D over 3D, as measured
+    groups : by name, as numbers
+    """
+
+    point: int
+    distance: float
+    ratio: float
+    groups: Mapping[str, float]
+
+
+def as_judged(scene: Scene) -> Scene:
+    """The scene with the surface that is fitted to a measured line in its place."""
+    rough = scene.roughness
+    return replace(scene, roughness=rough.fitted) if isinstance(rough, Profile) else scene
+
+
+def unmeasured(scene: Scene) -> list[str]:
+    """Parts of a scene that were never measured, a reason each; empty if all were."""
+    scene = as_judged(scene)
+    reasons = [
+        f"{name} = {type(part).__name__} was not measured" for name in NEVER if (part := getattr(scene, name))
+    ]
+    if not isinstance(scene.indenter, Sphere | Cone | PowerLaw):
+        reasons.append(f"indenter = {type(scene.indenter).__name__} is no body of revolution")
+    if not isinstance(scene.motion, Indent | Slide):
+        reasons.append(f"motion = {type(scene.motion).__name__} was not measured, Indent and Slide were")
+    rough = scene.roughness
+    if rough is None or rough.flat:
+        return reasons
+    if isinstance(rough, Topography):
+        reasons += [f"roughness = Topography has {rough.crowded}"] if rough.crowded else []
+    elif not isinstance(rough, SelfAffine):
+        reasons.append(
+            f"roughness = {type(rough).__name__} was not measured, SelfAffine, Topography and Profile were"
+        )
+    elif rough.shortest is None:
+        reasons.append("roughness.shortest is absent, so that either grid cuts the spectrum where it ends")
+    return reasons
+
+
+@cache
+def _ranges():
+    """Least and greatest of each group that was measured (2, D)."""
+    groups = table.groups(table.read(table.LEARNED))
+    return np.array([groups.min(axis=0), groups.max(axis=0)])
+
+
+@cache
+def limits() -> tuple[np.ndarray, np.ndarray]:
+    """Least and greatest values (D,) to which groups are moved that have a limit beyond."""
+    low, high = _ranges()
+    below, above = np.isin(NAMES, LIMITED_BELOW), np.isin(NAMES, LIMITED_ABOVE)
+    return np.where(below, low, -np.inf), np.where(above, high, np.inf)
+
+
+def beyond_measured(place: np.ndarray) -> dict[str, str]:
+    """Groups (D,) beyond what was measured, each in words by its name."""
+    (low, high), (least, greatest) = _ranges(), limits()
+    slack = SLACK * (high - low)
+    found = {}
+    for name, *numbers in zip(NAMES, np.clip(place, least, greatest), low - slack, high + slack, strict=True):
+        value, start, end = numbers if name in PLAIN else np.exp(numbers)
+        if not start <= value <= end:
+            found[name] = f"{SYMBOLS.get(name, name)} = {value:.3g}, where {start:.3g} to {end:.3g} was measured"
+    return found
+
+
+def placed(groups: Mapping[str, float]) -> str:
+    """Place on the map, in standard groups with their numbers."""
+    return ", ".join(f"{SYMBOLS[name]} = {groups[name]:.2g}" for name in PLACED)
+
+
+def nearest(name: str, place: np.ndarray) -> Iterator[Neighbour]:
+    """Scenes that were measured, the nearest first, by their ratio of a name; place : groups (D,)."""
+    measured = table.read(table.LEARNED)
+    rows, found = table.measurements(measured, name)
+    apart = shipped.model(name).process.distances(place, found.groups)
+    apart[np.isnan(found.logarithm)] = np.inf
+    for row in np.argsort(apart)[:NEAREST]:
+        groups = {
+            key: value if key in PLAIN else exp(value) for key, value in zip(NAMES, found.groups[row], strict=True)
+        }
+        yield Neighbour(int(measured["point"][rows[row]]), float(apart[row]), exp(found.logarithm[row]), groups)
