@@ -506,16 +506,12 @@ def draw(
     scene : scene as TOML, or the name of a ready one. From Python also a Scene or a Case
     interactive : also write surface.html, which a browser turns and enlarges, offline; takes the extra interactive
     """
-    from .report.page import Plot
     from .studies.draw import interactive as turning
     from .studies.draw.study import Drawing
 
     if interactive:
         turning.refuse()
-    report = solve(Drawing.of(scene, interactive), output, **options)
-    if interactive:
-        turning.write(next(report.page.every(Plot)), report.output)
-    return report
+    return solve(Drawing.of(scene, interactive), output, **options)
 
 
 def animate(

@@ -5,6 +5,7 @@ from math import nan
 import numpy as np
 from pandas import DataFrame
 
+from compare.report import render
 from compare.report.page import Findings, Page, Section, Table, Text
 from compare.statistics.finding import HALVED, Claim, Finding, sentences
 from compare.studies.sweep import figure as sweep
@@ -35,6 +36,11 @@ ROWS = DataFrame(
 )
 LONG = DataFrame({"x": np.linspace(0, 1, 1000), "pressure": np.linspace(0, 1e6, 1000) / 3})
 PROSE = "Some *emphasis*, `code_x`, a [link](https://example.org) & <b>50 %</b>.\n\n- one\n- two"
+
+
+def written(page, findings, folder, format="html"):
+    """The file of a page, with its figures and tables beside it."""
+    return render.write(render.files(page, findings, format), folder)[-1]
 
 
 def page() -> Page:

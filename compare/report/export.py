@@ -11,6 +11,7 @@ from scene.printable import brief
 from scene.reading import InvalidInput
 
 from ..solving import netcdf, parameter_grid, store
+from ..solving.hold import hold
 from ..solving.suggest import known
 from ..solving.vocabulary import entry
 from . import csvfiles, latex, manifest, vtk
@@ -31,8 +32,8 @@ def export(folder: str | Path, to: str = "csv", output: str | Path | None = None
         has room for; or "vtk", the surfaces for ParaView
     output : where to; `tables` in the folder, or beside the file, if absent
 
-    Raises InvalidInput where there is nothing of the kind or a file is damaged, Refused of vtk without its extra,
-    OSError for what cannot be written.
+    Raises InvalidInput where there is nothing of the kind, a file is damaged or a run holds the folder, Refused of
+    vtk without its extra, OSError for what cannot be written.
     """
     known("to", to, FORMS)
     if to == "vtk":
@@ -57,7 +58,9 @@ def export(folder: str | Path, to: str = "csv", output: str | Path | None = None
 def _surfaces(folder: Path, output: Path) -> list[Path]:
     """Write a file for each Dataset with fields over y and x."""
     written = []
-    for node in netcdf.load(folder).subtree:
+    with hold([folder]):
+        solved = netcdf.load(folder)
+    for node in solved.subtree:
         if content := vtk.content(node.to_dataset(inherit=False)):
             written.append(manifest.inside(output, f"{node.path.strip('/') or folder.stem}{vtk.ENDING}"))
             store.make(written[-1].parent)
@@ -72,8 +75,9 @@ def _tables(folder: Path) -> Iterator[tuple[str, DataFrame]]:
     if not folder.is_file():
         for each in manifest.folders(folder):
             place = each.path.relative_to(folder)
-            for name in each.manifest.tables:
-                yield (place / name).as_posix(), csvfiles.read(manifest.inside(each.path, f"{name}.csv"))
+            with hold([each.path]):
+                for name in each.manifest.tables:
+                    yield (place / name).as_posix(), csvfiles.read(manifest.inside(each.path, f"{name}.csv"))
         if not any(folder.rglob(netcdf.NAME)):
             return
     for node in netcdf.load(folder).subtree:

@@ -3,22 +3,23 @@
 import json
 import os
 import platform
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 from pydantic_core import to_json
 
-from scene.files import Unreadable, content
 from scene.printable import brief
 from scene.reading import InvalidInput
 
-from ..solving.folder_format import FORMAT, UNSTATED, refuse_other
-from ..solving.store import PACKAGES
+from ..solving.folder_format import FORMAT, Stated, finished, read
+from ..solving.folder_format import MANIFEST as NAME
+from ..solving.store import PACKAGES, clear
 from .csvfiles import write_text
 from .page import Page, Plot
 
@@ -26,13 +27,14 @@ if TYPE_CHECKING:
     from ..solving.runner import SweepResult
     from ..studies.study import Study
 
-NAME = "manifest.json"
 FINDINGS = "findings"
 VERSIONS = (*PACKAGES, "matplotlib", "pandas", "xarray", "pydantic")
 
 
-# Most bytes of a file, which has the heights of measured maps in it; most items of a list, letters of a name.
-MOST_BYTES, MOST_LISTED, MOST_LETTERS = 2**30, 10_000, 1000
+# Most items of a list, letters of a name.
+MOST_LISTED, MOST_LETTERS = 10_000, 1000
+# What a run writes beside its page, and the next one on the folder may remove.
+OURS = (".html", ".md", ".csv", ".nc", ".png", ".pdf", ".svg")
 
 
 def _of_folder(name: str) -> str:
@@ -51,12 +53,6 @@ Name = Annotated[str, AfterValidator(_of_folder)]
 Names = Annotated[tuple[Name, ...], Field(max_length=MOST_LISTED)]
 
 
-class Format(BaseModel):
-    """Part of the manifest that all versions have: the format of the folder."""
-
-    format: int = UNSTATED
-
-
 class PlotEntry(BaseModel):
     """A figure in a manifest: its name, the function that draws it from its tables, and the options of that."""
 
@@ -69,11 +65,12 @@ class PlotEntry(BaseModel):
     options: dict[str, Any]
 
 
-class Manifest(BaseModel):
+class Manifest(Stated):
     """Part of the manifest of a folder that is read; the file has more.
 
     plots : figures that can be drawn again
     tables : names of the CSV files, without ending
+    files : all that the run wrote beside it; of one that has not come to its end, and of those before it
     """
 
     model_config = ConfigDict(extra="ignore", frozen=True)
@@ -81,6 +78,15 @@ class Manifest(BaseModel):
     command: str
     plots: Annotated[tuple[PlotEntry, ...], Field(max_length=MOST_LISTED)]
     tables: Names
+    files: Annotated[tuple[Name, ...], Field(max_length=10 * MOST_LISTED)] = ()
+
+    @property
+    def written(self) -> tuple[str, ...]:
+        """The files; of an earlier version, which did not list them, figures and tables."""
+        return self.files or (
+            *(f"{plot.name}.png" for plot in self.plots),
+            *(f"{name}.csv" for name in self.tables),
+        )
 
 
 @dataclass(frozen=True)
@@ -91,10 +97,44 @@ class Folder:
     manifest: Manifest
 
 
-def stamp(folder: Path, study: "Study", page: Page, swept: "SweepResult", solved: str) -> None:
-    """Write the manifest of a folder, last of all: what it lists is there. Raises OSError."""
+def begin(folder: Path, study: "Study", files: Iterable[str]) -> None:
+    """Take away what earlier runs wrote into a folder; until its stamp, the manifest says that a run is under way.
+
+    files : names of what this run will write. Killed at any instant, it leaves a folder that is refused, and whose
+        files the next run knows. Raises OSError.
+    """
+    earlier: tuple[str, ...] = ()
+    with suppress(InvalidInput):
+        earlier = read(folder / NAME, Manifest).written
+    listed = list(dict.fromkeys([*earlier, *files]))
+    _write(folder, {"finished": False, "command": study.command, "plots": [], "tables": [], "files": listed})
+    places = set()
+    for name in earlier:
+        with suppress(InvalidInput):  # of one that leads out of the folder by now
+            path = inside(folder, name)
+            if path.suffix in OURS:
+                path.unlink(missing_ok=True)
+                places.add(path.parent)
+    for place in places:
+        clear(place)
+        with suppress(OSError):
+            place.rmdir()  # where nothing else is in it
+
+
+def stamp(
+    folder: Path,
+    study: "Study",
+    page: Page,
+    swept: "SweepResult",
+    solved: str,
+    files: Iterable[str] = (),
+    results: str = "",
+) -> None:
+    """Write the manifest of a folder, last of all: what it lists is there. Raises OSError.
+
+    solved : folder of what has been solved, from here; files : see `begin`; results : digest of results.nc
+    """
     left = {
-        "format": FORMAT,
         "command": study.command,
         "title": page.title,
         "inputs": study.inputs,
@@ -104,18 +144,28 @@ def stamp(folder: Path, study: "Study", page: Page, swept: "SweepResult", solved
         "tasks": {"solved": swept.solved, "reused": swept.reused},
         "seconds": swept.seconds,
         "plots": [_entry(plot) for plot in page.every(Plot)],
-        "tables": list(dict.fromkeys([FINDINGS, *(name for name, _ in page.tables())])),
+        "tables": table_names(page),
+        "files": list(files),
+        "results": results,
     }
-    write_text(folder / NAME, json.dumps(_storable(left), indent=1, allow_nan=False, ensure_ascii=False))
+    _write(folder, left)
 
 
-def remove(folder: Path) -> None:
-    """Take the manifest away, while what it lists is written anew. Raises OSError."""
-    (folder / NAME).unlink(missing_ok=True)
+def table_names(page: Page) -> list[str]:
+    """Names of the tables of a page and of its findings, without ending."""
+    return list(dict.fromkeys([FINDINGS, *(name for name, _ in page.tables())]))
+
+
+def _write(folder, left):
+    left = _storable({"format": FORMAT} | left)
+    write_text(folder / NAME, json.dumps(left, indent=1, allow_nan=False, ensure_ascii=False))
 
 
 def folders(folder: str | Path) -> Iterator[Folder]:
-    """A folder with a manifest, or those just below it. Raises InvalidInput of none or a damaged one."""
+    """A folder with a manifest, or those just below it.
+
+    Raises InvalidInput of none, of a damaged one, and of one of a run that has not come to its end.
+    """
     folder = Path(folder)
     if not folder.is_dir():
         raise InvalidInput(f"{brief(str(folder))}: no such folder")
@@ -125,7 +175,7 @@ def folders(folder: str | Path) -> Iterator[Folder]:
         raise InvalidInput(
             f"{brief(str(folder))}: no {NAME} here or one level below: no command has written this folder"
         )
-    return (Folder(path.parent, _read(path)) for path in paths)
+    return (Folder(path.parent, finished(path, Manifest)) for path in paths)
 
 
 def inside(folder: Path, name: str) -> Path:
@@ -167,20 +217,6 @@ def _entry(plot):
         tables=tuple(plot.tables),
         options=dict(plot.options),
     ).model_dump()
-
-
-def _read(path):
-    try:
-        text = content(path, MOST_BYTES)
-        refuse_other(path, Format.model_validate_json(text).format)
-        return Manifest.model_validate_json(text)
-    except Unreadable as error:
-        raise InvalidInput(str(error)) from error
-    except ValidationError as error:
-        first = error.errors()[0]
-        where = ".".join(map(str, first["loc"]))
-        reason = f"{brief(where)}: {first['msg']}" if where else first["msg"]
-    raise InvalidInput(f"{brief(str(path))}: was not written by this version of the command: {reason}")
 
 
 def _storable(value):

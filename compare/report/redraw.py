@@ -15,6 +15,7 @@ from pydantic import ConfigDict, ValidationError, create_model
 from scene.printable import brief
 from scene.reading import InvalidInput
 
+from ..solving.hold import hold
 from . import csvfiles, manifest, render
 from .page import Plot
 from .plots import style as looks
@@ -41,7 +42,8 @@ def redraw(
     output : where to; `figures` in the folder if absent
     told : called with the name of each figure that is drawn
 
-    Raises InvalidInput where there is nothing to draw, where a file is damaged, or for no such journal or style.
+    Raises InvalidInput where there is nothing to draw, a file is damaged or a run holds the folder, or for no such
+    journal or style.
     """
     target = manifest.inside(Path(folder), FIGURES) if output is None else Path(output)
     drawn = []
@@ -50,10 +52,11 @@ def redraw(
         with chosen:
             for each in manifest.folders(folder):
                 place = each.path.relative_to(folder).as_posix()
-                for entry in each.manifest.plots:
-                    told(entry.name)
-                    name = entry.name if place == "." else f"{place}/{entry.name}"
-                    drawn += _draw(each.path, entry, manifest.inside(target, name))
+                with hold([each.path]):
+                    for entry in each.manifest.plots:
+                        told(entry.name)
+                        name = entry.name if place == "." else f"{place}/{entry.name}"
+                        drawn += _draw(each.path, entry, manifest.inside(target, name))
     except InvalidInput:
         raise
     except ValueError as error:
@@ -73,7 +76,7 @@ def _draw(folder: Path, entry: manifest.PlotEntry, target: Path) -> list[Path]:
     }
     plot = Plot(entry.name, draw, tables, "", options=chosen)
     try:
-        with warnings.catch_warnings():
+        with looks.DRAWING, warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of numbers that no command has left
             drawn = picture(plot, FORMS)
     except InvalidInput:
@@ -83,7 +86,7 @@ def _draw(folder: Path, entry: manifest.PlotEntry, target: Path) -> list[Path]:
         raise InvalidInput(
             f"{folder}: figure {entry.name} cannot be drawn from its tables: {brief(repr(error))}"
         ) from error
-    return render.write_picture(drawn, target)
+    return render.write(drawn.named(target.name), target.parent)
 
 
 def function(entry: manifest.PlotEntry, path: Path) -> Callable[..., Figure]:

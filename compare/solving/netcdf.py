@@ -16,8 +16,7 @@ from scene.files import Unreadable, content
 from scene.printable import brief
 from scene.reading import InvalidInput
 
-from . import store
-from .folder_format import FORMAT, UNSTATED, refuse_other
+from .folder_format import FORMAT, MANIFEST, UNSTATED, Stated, finished, refuse_other
 
 NAME = "results.nc"
 # Behind the last byte that HDF5 knows of, which readers pass over: the format of the folder, and a seal, by which
@@ -37,14 +36,18 @@ LEAST_READ = 16  # texts at once
 FILTERS = {h5py.h5z.FILTER_DEFLATE, h5py.h5z.FILTER_SHUFFLE}
 
 
-def write(path: Path, answers: xarray.DataTree) -> None:
-    """Write everything that was solved as one netCDF-4 file, whole or not at all. Raises OSError."""
+def packed(answers: xarray.DataTree) -> bytes:
+    """Everything that was solved as one netCDF-4 file."""
     made = BytesIO()
     with h5py.File(made, "w", track_order=True) as file:
         _fill(file, answers)
     image = made.getvalue() + LABEL
-    seal = SEAL + hashlib.sha256(image).hexdigest().encode()
-    store.write(path, lambda file: file.write(image + seal))
+    return image + SEAL + hashlib.sha256(image).hexdigest().encode()
+
+
+def digest(file: bytes) -> str:
+    """Digest of a file of results, which stands at its end."""
+    return file[len(SEAL) - SEALED :].decode()
 
 
 def load(folder: str | Path) -> xarray.DataTree:
@@ -53,20 +56,29 @@ def load(folder: str | Path) -> xarray.DataTree:
     Each single draw is there, with `status` and `reason`; units and definitions are attributes. A folder of
     several studies has each below its name.
 
-    Raises InvalidInput where there are no results, or they are damaged, too large, no such file, or of another
-    version.
+    Raises InvalidInput where there are no results, or they are damaged, too large, no such file, of another
+    version or of another run than the manifest beside them, or where a run has not come to its end.
     """
     folder = Path(folder)
     if not folder.exists():
         raise InvalidInput(f"{brief(str(folder))}: no such file or folder")
-    paths = sorted(folder.rglob(NAME)) if folder.is_dir() else [folder]
+    paths, stated = [folder], {}
+    if folder.is_dir():
+        paths = sorted(folder.rglob(NAME))
+        places = [place for place in {folder, *(path.parent for path in paths)} if (place / MANIFEST).exists()]
+        stated = {place: finished(place / MANIFEST, Stated).results for place in places}
     if not paths:
         raise InvalidInput(f"{brief(str(folder))}: no command has left results here")
     parts: dict[str, xarray.Dataset] = {}
     for path in paths:
         place = "" if path == folder or path.parent == folder else f"/{path.parent.relative_to(folder).as_posix()}"
         try:
-            image = _unsealed(content(path, MOST_BYTES))
+            sealed = content(path, MOST_BYTES)
+            image = _unsealed(sealed)
+            if stated.get(path.parent, "") not in ("", digest(sealed)):
+                raise InvalidInput(
+                    f"{brief(str(path))}: is of another run than {MANIFEST} beside it: run the command again"
+                )
             label = LABELLED.search(image[-2 * len(LABEL) :])
             refuse_other(path, int(label[1]) if label else UNSTATED)
             with h5py.File(BytesIO(image)) as file:

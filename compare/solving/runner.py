@@ -13,7 +13,7 @@ from typing import Any
 from .outcome import Outcome
 from .store import Store, write
 from .task import Task
-from .workers import Fault, Processes, VersionMismatch, Workers, caught, counted, solved, starting, unpacked
+from .workers import Fault, Processes, VersionMismatch, Workers, caught, counted, solved, unpacked
 
 _LOG = logging.getLogger(__name__)
 # Seconds after which an interrupt is noticed.
@@ -33,7 +33,7 @@ class SweepProgress:
         """A task is solved and stored, or has failed: then its rows have a reason."""
 
     def said(self, line: str) -> None:
-        """Remark for people: a worker died, there is none, another run is waited for."""
+        """Remark for people: a worker died, there is none."""
 
     def interrupted(self) -> None:
         """Tell that nothing more is started; the solves under way are waited for."""
@@ -97,10 +97,10 @@ def sweep(
     scheduler : address of a dask scheduler, whose workers then solve the tasks in place of processes
 
     What no other process can import, as the model of a script or a notebook, is solved in this one.
-    While another run solves in the same folder, this one waits for it. A task that raises, or that workers die of,
-    has failed: its outcome has the reason in every row, its traceback lies beside the store's file, and the next
-    sweep solves it again. On an interrupt, any signal that raises KeyboardInterrupt, nothing more is started; what
-    is being solved is finished and stored, and KeyboardInterrupt is raised. A second interrupt ends it at once.
+    The folder is to be held, see `hold`. A task that raises, or that workers die of, has failed: its outcome has
+    the reason in every row, its traceback lies beside the store's file, and the next sweep solves it again. On an
+    interrupt, any signal that raises KeyboardInterrupt, nothing more is started; what is being solved is finished
+    and stored, and KeyboardInterrupt is raised. A second interrupt ends it at once.
 
     Raises OSError where the store cannot be written (everything before is kept), where processes end as they
     start, and where a scheduler cannot be reached or is lost; Refused, before anything is solved, where a
@@ -111,13 +111,7 @@ def sweep(
     if len(stored) == len(set(tasks)):
         progress.planned([], len(stored))
         return SweepResult(stored, 0, len(stored), time.perf_counter() - start)
-    if starting():  # of a script without a guard, run again: it would wait for the folder of its parent
-        raise SystemExit(1)
-    with caught() as interrupts, store.writing(lambda: _patience(interrupts), progress.said) as had:
-        if not had:
-            raise KeyboardInterrupt
-        # Another run may have had the folder before.
-        stored |= _stored([task for task in tasks if task not in stored], store)
+    with caught() as interrupts, store.writing():
         missing = sorted({task: None for task in tasks if task not in stored}, key=lambda task: -task.work)
         if other := store.by_other_code(missing):
             progress.said(f"{other} stored tasks were solved by other code: they are solved again")
@@ -132,11 +126,6 @@ def sweep(
 def _stored(tasks, store):
     found = {task: store.get(task) for task in dict.fromkeys(tasks)}
     return {task: outcome for task, outcome in found.items() if outcome is not None}
-
-
-def _patience(interrupts):
-    time.sleep(PULSE)
-    return not interrupts
 
 
 def _workers(missing, count, fresh, scheduler, progress) -> AbstractContextManager[Workers]:

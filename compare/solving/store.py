@@ -6,9 +6,10 @@ import io
 import json
 import math
 import os
+import platform
 import re
 import sys
-import tempfile
+import time
 from base64 import b64decode, b64encode
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
@@ -16,6 +17,7 @@ from functools import cache
 from importlib.metadata import version
 from importlib.util import find_spec
 from pathlib import Path
+from secrets import token_hex
 from stat import S_ISREG
 from typing import IO, Any
 
@@ -26,16 +28,12 @@ from scene import files
 from .outcome import NUMBERS, Outcome, Row
 from .task import Task
 
-try:
-    import fcntl
-except ImportError:  # Windows: two runs at once may solve a task twice
-    fcntl = None  # type: ignore[assignment]
-
 FILE = "answers.txt"
 TRACE = ".fault.txt"  # of how a task broke, behind its key
 PACKAGES = ("mdr-bem-crosscheck", "numpy", "scipy", "ducc0", "pyfftw", "numba")
-# Name of a file that is being written: that of the file, the process, and some letters.
-TEMPORARY = re.compile(r"\..+\.([1-9][0-9]*)\.[a-z0-9_]{8}")
+# Name of a file that is being written: whose it is, where, by which process, since when [s], and some letters.
+TEMPORARY = re.compile(r"\.crosscheck-([0-9a-f]{8})-([0-9]{1,10})-([0-9]{1,11})-[0-9a-f]{16}")
+LEFT = 7 * 86400  # age from which one of another machine counts as left behind [s]
 DIGEST = 32  # letters of a digest
 SOURCES = {".py", ".json", ".gz"}  # what answers are made of
 HEAD = 3 * DIGEST + 2  # letters of a line before its content: its digest, and the key of two digests
@@ -105,33 +103,26 @@ class Store:
         return self.folder / f"{key(task)}{TRACE}"
 
     @contextmanager
-    def writing(self, wait: Callable[[], bool] = lambda: True, say: Callable[[str], Any] = str) -> Iterator[bool]:
-        """The folder for this run alone; what a killed run left half written is cleared.
-
-        wait : called again and again while another run has the folder; it stops the waiting by False
-        say : is told what a person wants to know: that another run is waited for, or that nothing keeps it out
-
-        Gives whether the folder could be had. Raises OSError, which names the file.
-        """
+    def writing(self) -> Iterator[None]:
+        """The file, open; what a killed run left half written is cut off. Raises OSError, which names the file."""
         self.folder.mkdir(parents=True, exist_ok=True)
         with _named(self.path):
-            file = os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_APPEND | getattr(os, "O_CLOEXEC", 0), 0o644)
+            file = os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_APPEND | getattr(os, "O_CLOEXEC", 0), 0o666)
         try:
             status = os.fstat(file)
             if not S_ISREG(status.st_mode) or status.st_size > MOST_BYTES:
                 reason = f"is no regular file of at most {MOST_BYTES / 1e9:.3g} GB"
                 raise OSError(errno.EINVAL, reason, str(self.path))
-            had = _locked(file, wait, say)
-            if had:
-                self._file = file
-                self._mend()
-            yield had
+            self._file = file
+            self._mend()
+            yield
         finally:
             self._file = None
             os.close(file)
 
     def _mend(self):
-        """Cut off a line without an end, which was being written as its run was killed."""
+        """Clear what was being written as its run was killed: files, and a line without an end."""
+        clear(self.folder)
         self._read_on()
         if os.fstat(self._file).st_size > self._end:
             with _named(self.path):
@@ -189,26 +180,6 @@ class Store:
                 raise ValueError("the fields are damaged")
             fields = dict(zip(content["names"], _unpacked(packed), strict=True))
         return Outcome(_rows(content), fields)
-
-
-def _locked(file, wait, say):
-    """Whether a file is locked for this process; the system gives it back however the process ends."""
-    if fcntl is None:
-        return True
-    told = False
-    while True:
-        try:
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            return True
-        except BlockingIOError:
-            if not told:
-                say("another run solves in this folder: waiting for it")
-            told = True
-            if not wait():
-                return False
-        except OSError as error:
-            say(f"this folder cannot be locked ({error.strerror}), as on some network drives: run one at a time")
-            return True
 
 
 def key(task: Task) -> str:
@@ -286,27 +257,33 @@ def write(path: Path, fill: Callable[[IO[bytes]], Any]) -> None:
 
     Raises OSError, which names the file.
     """
-    _clear(path.parent)
+    _cleared(path.parent)
     with _named(path):
         if path.exists() and not (path.is_file() or path.is_dir()):  # as a device, which a file would replace
             raise OSError(errno.EINVAL, "is no regular file, and is not written over")
-        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.{os.getpid()}.")
-        try:
-            with os.fdopen(handle, "wb") as file:
-                fill(file)
-            os.chmod(name, 0o644)
-            os.replace(name, path)
-        except BaseException:
-            with suppress(OSError):
-                os.unlink(name)
-            raise
+        with _temporary(path.parent) as file:
+            fill(file)
+            file.close()
+            os.replace(file.name, path)
 
 
 def make(folder: Path) -> None:
     """Make a folder, and see whether files can be written into it. Raises OSError, which names it."""
     folder.mkdir(parents=True, exist_ok=True)
-    with _named(folder), tempfile.TemporaryFile(dir=folder):
+    with _named(folder), _temporary(folder):
         pass
+
+
+@contextmanager
+def _temporary(folder):
+    """A file whose name says whose it is, with the permissions that the user's files have; gone afterwards."""
+    name = folder / f".crosscheck-{_here()}-{os.getpid()}-{int(time.time())}-{token_hex(8)}"
+    try:
+        with name.open("xb") as file:
+            yield file
+    finally:
+        with suppress(OSError):
+            name.unlink()
 
 
 @contextmanager
@@ -320,22 +297,35 @@ def _named(path):
         raise OSError(error.errno, error.strerror, str(path)) from error
 
 
+def clear(folder: Path) -> None:
+    """Clear a folder of what processes left that ended while they wrote."""
+    for path in folder.glob(".crosscheck-*"):
+        if left := TEMPORARY.fullmatch(path.name):
+            here, process, since = left[1] == _here(), int(left[2]), int(left[3])
+            if (here and _ended(process)) or time.time() - since > LEFT:
+                with suppress(OSError):
+                    path.unlink()
+
+
+_cleared = cache(clear)
+
+
 @cache
-def _clear(folder: Path) -> None:
-    """Clear a folder of what processes left that ended while they wrote; once a process."""
-    for path in folder.glob(".*"):
-        if (left := TEMPORARY.fullmatch(path.name)) and _ended(int(left[1])):
-            with suppress(OSError):
-                path.unlink()
+def _here() -> str:
+    """Digest of where numbers of processes mean something: this machine since it was started, this container."""
+    where = [platform.node()]
+    with suppress(OSError):  # of Linux alone
+        where += [Path("/proc/sys/kernel/random/boot_id").read_text(), os.readlink("/proc/self/ns/pid")]
+    return _digest(canonical(where).encode())[:8]
 
 
 def _ended(process):
-    """Whether a process has ended, as far as this machine knows."""
+    """Whether a process of this machine has ended, as far as it knows."""
     if os.name != "posix":
         return False
     try:
         os.kill(process, 0)
-    except ProcessLookupError:
+    except (ProcessLookupError, OverflowError):
         return True
     except PermissionError:
         pass

@@ -22,6 +22,7 @@ from .task import Task
 MOST = 1024
 # A worker solves on one thread; two workers with two threads each are slower than either alone.
 ONE_THREAD = {f"{library}_NUM_THREADS": "1" for library in ("OMP", "OPENBLAS", "MKL", "NUMBA")}
+_STARTING = threading.Lock()  # of one process after the other, as the environment is that of all threads
 # Pools that end before a worker of theirs is ready, one after the other, until it is plain that none will be.
 STILLBORN = 3
 # What a terminal sends to every process of a run: workers leave it to their parent.
@@ -131,13 +132,10 @@ class Processes:
         self.stillborn = 0
 
     def __enter__(self):
-        self.environment = _environment(ONE_THREAD)
-        self.environment.__enter__()
         return self
 
     def __exit__(self, kind, *_):
         self._end(kill=kind is not None)
-        self.environment.__exit__(None, None, None)
 
     def room(self, out: int) -> int:
         """Number of tasks that can be submitted now, see Workers: no more are out than there are processes."""
@@ -150,7 +148,7 @@ class Processes:
             self.ready = self.context.Value("b", 0, lock=False)
             self.pool = ProcessPoolExecutor(self.count, self.context, _begin, (self.ready,))
         try:
-            with _held():
+            with _STARTING, _environment(ONE_THREAD), _held():
                 return self.pool.submit(answered, packed)
         except BrokenProcessPool:
             self.lost()

@@ -14,6 +14,7 @@ from ..report import manifest, render
 from ..report.page import Plot
 from ..solving import netcdf, runner
 from ..solving.amounts import seconds_of
+from ..solving.hold import hold
 from ..solving.runner import Progress, SweepResult
 from ..solving.store import Store, Unwritable, make
 from ..solving.suggest import known
@@ -54,7 +55,8 @@ def run(
     progress : told how far it is
 
     Raises Refused, before a task is built, for more than a day without a yes; Unwritable, before anything is
-    solved, where the folder cannot be written; Broken where so many tasks broke that nothing can be judged.
+    solved, where the folder cannot be written; InvalidInput, where another run holds it; Broken where so many
+    tasks broke that nothing can be judged.
     """
     output, progress = Path(output), progress or Progress()
     forms = tuple(dict.fromkeys(["png", *(form.strip() for form in figure_format.split(",") if form.strip())]))
@@ -68,9 +70,17 @@ def run(
     if Path(study.place).parts[:1] == (SOLVED,):
         raise InvalidInput(f"place = {study.place}: this folder holds the solved contacts, choose another place")
     _make_folders(output, [SOLVED] if cost.contacts else [], study.place)
-    if cost.contacts:
-        progress.told(str(cost))
-    swept, clock = SweepResult({}, 0, 0, 0.0), Clock(limit)
+    with hold((output, below), progress.told):
+        if cost.contacts:
+            progress.told(str(cost))
+        done = _answered(study, output, workers, scheduler, yes, Clock(limit), progress)
+        path = _write(done, below, format, forms, report, progress)
+        return replace(done, path=path)
+
+
+def _answered(study, output, workers, scheduler, yes, clock, progress) -> Report:
+    """Report of a study, of which nothing is written yet."""
+    swept, count = SweepResult({}, 0, 0, 0.0), counted(workers)
     more: Study | None = study
     try:
         while more is not None:
@@ -97,18 +107,26 @@ def run(
             else f"the solved contacts cannot be judged without the broken ones: {error}"
         )
         raise Broken("; ".join([what, *faults(swept, output)])) from error
-    manifest.remove(below)
-    netcdf.write(below / netcdf.NAME, answers)
-    path = None
+    return Report(study, answers, findings, page, swept, output, None, unsolved)
+
+
+def _write(done, folder, format, forms, report, progress) -> Path | None:
+    """Write a page and all beside it in place of what earlier runs wrote there; returns the file of the page.
+
+    All is drawn before the folder is touched.
+    """
+    study, page, results = done.study, done.page, netcdf.packed(done.answers)
+    files = {netcdf.NAME: results} | {name: text.encode() for name, text in study.beside(page).items()}
     if report:
         with progress.writing(len(list(page.every(Plot)))) as told:
-            path = render.write(page, findings, below, format, forms, told)
+            files |= render.files(page, done.findings, format, forms, told)
     else:
-        for name in render.FILES:  # of an earlier run, whose findings these are no longer
-            (below / name).unlink(missing_ok=True)
-        render.write_tables(page, findings, below)
-    manifest.stamp(below, study, page, swept, os.path.relpath(output / SOLVED, below))
-    return Report(study, answers, findings, page, swept, output, path, unsolved)
+        files |= render.tables(page, done.findings)
+    manifest.begin(folder, study, files)
+    written = render.write(files, folder)
+    solved = os.path.relpath(done.output / SOLVED, folder)
+    manifest.stamp(folder, study, page, done.swept, solved, files, netcdf.digest(results))
+    return written[-1] if report else None
 
 
 class Clock:

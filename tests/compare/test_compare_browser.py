@@ -81,7 +81,7 @@ OPEN = "for (const part of document.querySelectorAll('details')) part.open = tru
 @pytest.fixture(scope="module")
 def written(tmp_path_factory):
     """The page, as it is written."""
-    return render.write(page(), FINDINGS, tmp_path_factory.mktemp("page"))
+    return render.write(render.files(page(), FINDINGS), tmp_path_factory.mktemp("page"))[-1]
 
 
 @pytest.fixture(scope="module")

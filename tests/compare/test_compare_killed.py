@@ -1,19 +1,33 @@
-"""Killed at any instant, a study that is asked for again ends as if nothing had happened."""
+"""Killed at any instant, a study that is asked for again ends as if nothing had happened; no runs are mixed."""
 
 import json
+import multiprocessing
 import os
 import random
 import signal
+import threading
 import time
 from collections import Counter
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from functools import partial
+from itertools import count
 from pathlib import Path
 
 import marked_study
 import pytest
+import xarray
+from matplotlib.figure import Figure
+from pandas import DataFrame
 from processes import PATIENCE, finish, start
 
+import compare
+from compare.report.page import Plot, Table
+from compare.solving import store
+from compare.solving.hold import LOCK
 from compare.solving.store import Store
+from compare.statistics.finding import Claim, Finding
+from compare.studies.study import Judgement, Study
+from scene.reading import InvalidInput
 
 ROOT = Path(__file__).parents[2]
 PATHS = os.pathsep.join([str(ROOT), str(ROOT / "tests")])
@@ -82,7 +96,7 @@ class Killed:
         assert f"{len(fresh)} tasks solved, {len(before)} reused" in said
         for task in self.tasks:
             assert exactly(self.store.get(task)) == expected[task]
-        assert not [path for path in self.folder.rglob(".*") if path.is_file()]
+        assert {path.name for path in self.folder.rglob(".*") if path.is_file()} == {LOCK}
         manifest = self.store.folder.parent / "collapse-quick" / "manifest.json"
         assert json.loads(manifest.read_text())
 
@@ -139,3 +153,155 @@ def test_killed_at_fifty_moments_studies_end_as_undisturbed_ones(tmp_path, expec
             unstored += study.count() == 0
         study.finish(expected)
     print(f"{kills} kills in {studies} studies of {len(study.tasks)} tasks, {unstored} before anything was stored")
+
+
+def blank(tables):
+    return Figure(figsize=(0.1, 0.1), layout="none")
+
+
+@dataclass(frozen=True)
+class Word(Study):
+    """A study that solves nothing: title, findings, table, figure, results and a file of its own tell one word."""
+
+    title: str
+
+    def answers(self, outcomes):
+        return xarray.DataTree.from_dict({"/a": xarray.Dataset({"word": self.title})})
+
+    def judge(self, answers):
+        table = DataFrame({"word": [self.title]})
+        blocks = [Plot(f"{self.title}/picture", blank, {"points": table}, ""), Table(self.title, table)]
+        return Judgement([Finding(Claim(self.title, self.title), 1.0)], [self.title], blocks)
+
+    def beside(self, page):
+        return {f"{self.title}.html": self.title}
+
+
+def written(word, folder, **options):
+    compare.solve(Word(word), folder, **options)
+    return files(folder)
+
+
+def files(folder):
+    return {path.relative_to(folder).as_posix() for path in folder.rglob("*") if not path.is_dir()}
+
+
+def of(word, *others):
+    own = {f"{word}.html", f"{word}.csv", f"{word}/picture.png", f"{word}/points.csv", *others}
+    return own | {LOCK, "findings.csv", "results.nc", "manifest.json"}
+
+
+def killed(word, folder, step):
+    """Whether a run was killed before it did so many things to its folder."""
+
+    def to_its_death():
+        steps = count(1)
+
+        def dying(does):
+            def done(*given, **named):
+                if next(steps) == step:
+                    os.kill(os.getpid(), signal.SIGKILL)
+                return does(*given, **named)
+
+            return done
+
+        os.replace, os.unlink, os.rmdir = map(dying, (os.replace, os.unlink, os.rmdir))
+        store._cleared.cache_clear()
+        written(word, folder, figure_format="svg")
+
+    process = multiprocessing.get_context("fork").Process(target=to_its_death)
+    process.start()
+    process.join()
+    assert process.exitcode in (0, -signal.SIGKILL)
+    return process.exitcode != 0
+
+
+def titled(folder):
+    """The word of the results, which is that of the page."""
+    word = str(compare.load(folder)["a"]["word"].values)
+    assert json.loads((folder / "manifest.json").read_text())["title"] == word
+    assert f"<title>{word}</title>" in (folder / "report.html").read_text()
+    return word
+
+
+def test_a_new_scene_takes_the_place_of_all_that_the_one_before_it_left_and_of_nothing_else(tmp_path):
+    assert written("one", tmp_path, figure_format="pdf, svg") == of(
+        "one", "one/picture.pdf", "one/picture.svg", "report.html"
+    )
+    mine = {"one/notes.txt", "one/mine.csv", "mine.pdf", "figures/one/picture.pdf", "two.md"}
+    for name in mine:
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).touch()
+    assert written("two", tmp_path, format="markdown") == of("two", "report.md") | mine
+    assert written("three", tmp_path, report=False) == of("three") - {"three/picture.png"} | mine
+    manifest = json.loads((tmp_path / "manifest.json").read_text())
+    (tmp_path / "outside.csv").touch()
+    forged = manifest | {"files": [*manifest["files"], "inside/outside.csv", "notes.txt"]}
+    (tmp_path / "page").mkdir()
+    (tmp_path / "page/inside").symlink_to(tmp_path)
+    (tmp_path / "page/notes.txt").touch()
+    (tmp_path / "page/manifest.json").write_text(json.dumps(forged))
+    written("four", tmp_path / "page")
+    assert (tmp_path / "outside.csv").exists()
+    assert (tmp_path / "page/notes.txt").exists()
+
+
+@pytest.mark.filterwarnings("ignore:This process:DeprecationWarning")
+@pytest.mark.parametrize("stride", [7, pytest.param(1, marks=pytest.mark.slow)])
+def test_killed_at_a_step_a_run_leaves_the_old_scene_or_says_that_it_did_not_end_and_the_next_clears_all(
+    tmp_path, stride
+):
+    states = Counter()
+    written("old", tmp_path)
+    for step in count(1, stride):
+        if not killed(f"new{step}", tmp_path, step):
+            break
+        whole = json.loads((tmp_path / "manifest.json").read_text()).get("finished", True)
+        states[titled(tmp_path)[:3] if whole else "unfinished"] += 1
+        for read in () if whole else (compare.load, compare.redraw, compare.export):
+            with pytest.raises(InvalidInput, match="has not come to its end, or was killed"):
+                read(tmp_path)
+        if step // stride % 3 == 2:
+            assert written(f"old{step}", tmp_path) == of(f"old{step}", "report.html")
+    assert titled(tmp_path) == f"new{step}"
+    assert files(tmp_path) == of(f"new{step}", "report.html", f"new{step}/picture.svg")
+    assert states["old"] >= 1
+    assert states["unfinished"] >= 20 / stride
+
+
+def test_results_of_one_run_and_the_manifest_of_another_are_noticed(tmp_path):
+    for word in ("one", "two"):
+        written(word, tmp_path / word, report=False)
+    (tmp_path / "one/results.nc").replace(tmp_path / "two/results.nc")
+    with pytest.raises(InvalidInput, match=r"results\.nc: is of another run than manifest\.json beside it"):
+        compare.load(tmp_path / "two")
+    assert compare.load(tmp_path / "two/results.nc")["a"]["word"] == "one"
+
+
+def test_while_a_run_holds_a_folder_others_are_refused_before_they_change_anything(tmp_path):
+    below = tmp_path / "page"
+    written("one", below, report=False)
+    before, refused = {path: path.stat().st_mtime_ns for path in below.iterdir()}, []
+
+    class Below(Word):
+        place = "page"
+
+        def beside(self, page):
+            another = threading.Thread(target=ask)
+            another.start()
+            another.join()
+            ask()
+            return super().beside(page)
+
+    def ask():
+        for other in (compare.redraw, compare.export, partial(written, "two")):
+            with pytest.raises(InvalidInput, match=f"{below}: another run holds this folder"):
+                other(below)
+            refused.append(other)
+        with pytest.raises(InvalidInput, match=f"{tmp_path}: another run holds this folder"):
+            compare.solve(Below("two"), tmp_path)
+        assert {path: path.stat().st_mtime_ns for path in below.iterdir()} == before
+
+    compare.solve(Below("three"), tmp_path, report=False)
+    assert len(refused) == 6
+    assert written("four", below, report=False) == of("four") - {"four/picture.png"}

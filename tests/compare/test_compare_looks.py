@@ -5,6 +5,7 @@ Every figure that a command can leave is drawn from the tables in plots, as `cro
 
 import re
 import zlib
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import replace
 from functools import cache
@@ -456,3 +457,15 @@ def test_a_legend_over_a_curve_is_found_and_given_room():
         lettering.clear(drawing, [axes])
         drawing.draw_without_rendering()
         assert not lettering.covered(axes)
+
+
+def test_threads_that_draw_at_once_draw_as_one_alone():
+    def drawn_in(chosen):
+        with style.chosen(style.Look(journal(chosen))):
+            return picture(sample("sweep-figure")).files
+
+    asked, outside = ("default", "nature", "default"), dict(matplotlib.rcParams)
+    with ThreadPoolExecutor(len(asked)) as threads:
+        together = list(threads.map(drawn_in, asked))
+    assert together == [drawn_in(each) for each in asked]
+    assert dict(matplotlib.rcParams) == outside

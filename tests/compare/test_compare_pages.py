@@ -20,7 +20,7 @@ import pytest
 import xarray
 from hypothesis import given
 from hypothesis import strategies as st
-from page_samples import FINDINGS, MEANS, ROWS, page
+from page_samples import FINDINGS, MEANS, ROWS, page, written
 from pandas import DataFrame
 from pandas.testing import assert_frame_equal
 
@@ -46,11 +46,11 @@ def folder(tmp_path_factory):
     """What a command leaves: page, figures, tables, results and manifest."""
     path = tmp_path_factory.mktemp("left")
     drawn = []
-    render.write(page(), FINDINGS, path, told=drawn.append)
+    render.write(render.files(page(), FINDINGS, told=drawn.append), path)
     assert drawn == ["sphere/friction"]
     values = {"friction_force": ("seed", [0.1, 1 / 3]), "status": ("seed", ["solved", "not asked"])}
     dataset = xarray.Dataset(values, {"seed": [0, 1]})
-    netcdf.write(path / netcdf.NAME, xarray.DataTree.from_dict({"/sphere/MDR": dataset}))
+    (path / netcdf.NAME).write_bytes(netcdf.packed(xarray.DataTree.from_dict({"/sphere/MDR": dataset})))
     manifest.stamp(path, STUDY, page(), SWEPT, "solved")
     return path
 
@@ -107,11 +107,11 @@ def test_every_table_of_a_page_lies_beside_it_with_every_digit(folder):
     assert {folder / f"{name}.csv" for name in listed} == set(folder.rglob("*.csv"))
 
 
-def test_two_tables_of_one_name_are_refused_unless_they_are_one(tmp_path):
+def test_two_tables_of_one_name_are_refused_unless_they_are_one():
     one, same, other = (Table("points", frame) for frame in (ROWS, ROWS.copy(), ROWS * 2))
-    render.write_tables(Page("", [], [one, same]), [], tmp_path)
+    render.tables(Page("", [], [one, same]), [])
     with pytest.raises(ValueError, match="'points'"):
-        render.write_tables(Page("", [], [one, other]), [], tmp_path)
+        render.tables(Page("", [], [one, other]), [])
 
 
 # Renderers.
@@ -194,7 +194,7 @@ def test_every_formula_of_the_vocabulary_is_typeset():
 
 @pytest.mark.parametrize("form", render.FORMATS)
 def test_every_form_has_answer_findings_tables_and_figures_escaped(form, tmp_path):
-    text = render.write(page(), FINDINGS, tmp_path, form).read_text()
+    text = written(page(), FINDINGS, tmp_path, form).read_text()
     shown = "".join(Links(text).words) if form == "html" else text
     for said in ("Depths at rest agree", "1.010 (0.986 to 1.034)", "fails", "undecided", "12.3 (10.9 to 13.8) s"):
         assert said in shown
@@ -209,14 +209,14 @@ def test_a_regime_stands_in_the_first_row_of_its_place_alone(form, end, tmp_path
     slow, fast = (replace(FINDINGS[0], where="sphere", regime=regime) for regime in ("slowly", "fast"))
     other = replace(slow, where="cone")
     block = Page("Found", (), (Findings((slow, fast, slow, other, fast)),))
-    text = render.write(block, [slow, fast, other], tmp_path, form).read_text()
+    text = written(block, [slow, fast, other], tmp_path, form).read_text()
     assert (text.count(f"slowly{end}"), text.count(f"fast{end}")) == (2, 1)
 
 
 def test_a_page_in_markdown_shows_whole_tables_of_forty_rows_in_all_and_names_the_files_of_the_others(tmp_path):
     tables = [Table(name, DataFrame({"x": range(rows)})) for name, rows in (("a", 30), ("b", 11), ("c", 10))]
     many = Findings(FINDINGS[:1] * 41)
-    text = render.write(Page("Long", (), (*tables, many)), FINDINGS, tmp_path, "markdown").read_text()
+    text = written(Page("Long", (), (*tables, many)), FINDINGS, tmp_path, "markdown").read_text()
     assert text.count("\n| ") == 30 + 10 + 2 * 2
     assert "41 findings stand in [findings.csv](findings.csv)." in text
     assert "Every digit of 11 rows: [b.csv](b.csv)." in text
@@ -225,7 +225,7 @@ def test_a_page_in_markdown_shows_whole_tables_of_forty_rows_in_all_and_names_th
 def test_a_caption_of_several_figures_stands_on_a_page_in_markdown_once(tmp_path):
     (plot,) = page().every(Plot)
     other = replace(plot, name="plane/friction")
-    text = render.write(Page("Two", (), (plot, other)), FINDINGS, tmp_path, "markdown").read_text()
+    text = written(Page("Two", (), (plot, other)), FINDINGS, tmp_path, "markdown").read_text()
     assert text.count(plot.caption.partition("$")[0]) == 1
     assert "Caption as above. Data: [friction.csv](plane/friction.csv)." in text
 
@@ -515,7 +515,7 @@ def test_what_hdf5_can_hold_and_no_command_writes_is_refused(tmp_path, kind):
 def test_texts_come_back_in_parts_as_they_do_at_once(tmp_path, monkeypatch):
     words = np.array([f"{'x' * (k % 7)}é{k}" for k in range(60)]).reshape(3, 4, 5)
     tree = xarray.DataTree.from_dict({"/a": xarray.Dataset({"reason": (("p", "q", "r"), words)})})
-    netcdf.write(tmp_path / "results.nc", tree)
+    (tmp_path / "results.nc").write_bytes(netcdf.packed(tree))
     for most in (1, 2, 7, 20, 59, 10**6):
         monkeypatch.setattr(netcdf, "LEAST_READ", most)
         monkeypatch.setattr(netcdf, "PACKED", 50)
@@ -620,7 +620,7 @@ def test_every_column_of_findings_is_defined_on_the_page(folder):
 
 
 def test_the_same_page_gives_the_same_bytes(folder, tmp_path):
-    again = render.write(page(), FINDINGS, tmp_path)
+    again = written(page(), FINDINGS, tmp_path)
     assert again.read_bytes() == (folder / "report.html").read_bytes()
 
 

@@ -127,7 +127,7 @@ def test_results_are_read_as_xarray_reads_them(answers, tmp_path):
     )
     parts = {node.path: node.to_dataset(inherit=False) for node in answers.subtree}
     parts |= {"/": xarray.Dataset(attrs={"title": "all"}), "/all": of_all_kinds}
-    netcdf.write(tmp_path / "results.nc", xarray.DataTree.from_dict(parts))
+    (tmp_path / "results.nc").write_bytes(netcdf.packed(xarray.DataTree.from_dict(parts)))
     again = netcdf.load(tmp_path)
     with xarray.open_datatree(tmp_path / "results.nc", engine="h5netcdf") as expected:
         xarray.testing.assert_identical(again, expected)

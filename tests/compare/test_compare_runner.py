@@ -3,20 +3,22 @@
 import io
 import multiprocessing
 import os
+import re
 import signal
 import subprocess
 import sys
-import time
 from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 import pytest
+from processes import wait_for
 from pydantic.dataclasses import dataclass
 from rich.console import Console
 from stand_in_solver import SCENE, Heard, Here, Stand, loads
 
 from compare.solving import runner
+from compare.solving.hold import hold
 from compare.solving.outcome import Outcome, Row
 from compare.solving.runner import sweep
 from compare.solving.store import Store
@@ -24,6 +26,7 @@ from compare.solving.task import SceneTask as Task
 from compare.solving.terminal import SweepBar
 from compare.solving.workers import ONE_THREAD, STILLBORN, Processes
 from scene import EmptyContact, Indent
+from scene.reading import InvalidInput
 
 
 @pytest.fixture
@@ -176,11 +179,11 @@ def test_workers_that_end_as_they_start_are_an_error_at_once(tmp_path, monkeypat
     assert len(died) == STILLBORN
 
 
-def test_a_worker_that_runs_the_script_which_asked_for_it_ends_before_it_waits(tmp_path, monkeypatch):
+def test_a_worker_that_runs_the_script_which_asked_for_it_ends_before_it_has_a_folder(tmp_path, monkeypatch):
     monkeypatch.setattr(multiprocessing.current_process(), "_inheriting", True, raising=False)
-    with pytest.raises(SystemExit):
-        sweep(loads(1.0), Store(tmp_path / "solved"), workers=1)
-    assert not (tmp_path / "solved").exists()
+    with pytest.raises(SystemExit), hold([tmp_path / "output"], str):
+        pass
+    assert not (tmp_path / "output").exists()
 
 
 def test_a_fresh_process_solves_each_task_where_that_is_asked_for(tmp_path):
@@ -193,14 +196,15 @@ TWIN = """
 import sys
 from pathlib import Path
 from stand_in_solver import Here, Stand, loads
+from compare.solving.hold import hold
 from compare.solving.store import Store
 from compare.solving.runner import sweep
 
 if __name__ == "__main__":
     folder = Path(sys.argv[1])
     tasks = loads(*map(float, range(1, 13)), solver=Stand(marks=str(folder), seconds=0.05))
-    swept = sweep(tasks, Store(folder / "solved"), workers=1)
-    print(swept.solved, swept.reused, *(swept.outcomes[task].rows[0].normal_force for task in tasks))
+    with hold([folder], print):
+        sweep(tasks, Store(folder / "solved"), workers=1)
 """
 
 
@@ -211,29 +215,17 @@ def twin(folder):
     return subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment, start_new_session=True)
 
 
-def test_of_two_sweeps_at_once_one_waits_and_nothing_is_solved_twice(tmp_path):
-    both = [twin(tmp_path) for _ in range(2)]
-    said = [list(map(float, process.communicate(timeout=120)[0].split())) for process in both]
-    (solved, reused, *first), (solved_too, reused_too, *second) = said
-    assert first == second == [float(load) for load in range(1, 13)]
-    assert solved + solved_too == 12
-    assert solved + reused == solved_too + reused_too == 12
-    assert len(list(tmp_path.glob("*-*"))) == 12  # a mark a solve
-
-
-def test_a_folder_is_free_again_when_the_run_that_had_it_is_killed(tmp_path):
-    other, store = twin(tmp_path), Store(tmp_path / "solved")
-    deadline = time.monotonic() + 60
-    while not len(store) and time.monotonic() < deadline:
-        time.sleep(0.01)
-    waited = []
-    with store.writing(lambda: bool(waited.append(0)), waited.append) as had:
-        assert not had
-    assert waited == ["another run solves in this folder: waiting for it", 0]
+def test_a_folder_is_held_until_the_run_that_has_it_ends_or_is_killed(tmp_path):
+    other, store, said = twin(tmp_path), Store(tmp_path / "solved"), []
+    wait_for(lambda: len(store))
+    for say in (said.append, None):
+        with pytest.raises(InvalidInput, match=re.escape(f"{tmp_path}: another run holds")), hold([tmp_path], say):
+            pass
     os.killpg(other.pid, signal.SIGKILL)
     other.communicate()
-    with store.writing() as had:
-        assert had
+    with hold([tmp_path], said.append), pytest.raises(InvalidInput), hold([tmp_path]):  # and no thread twice
+        pass
+    assert said == []
     tasks = loads(*map(float, range(1, 13)), solver=Stand(marks=str(tmp_path), seconds=0.05))
     swept = sweep(tasks, store, workers=1)
     assert swept.reused >= 1

@@ -22,6 +22,7 @@ from strategies import examples
 
 from compare.models.exact import Exact
 from compare.solving import store as module
+from compare.solving.hold import LOCK, hold
 from compare.solving.outcome import Outcome, Row
 from compare.solving.store import FILE, Store, canonical, code_digest, key, write
 from compare.solving.task import SceneTask as Task
@@ -272,8 +273,8 @@ def test_a_folder_that_cannot_be_locked_is_said_and_used(tmp_path, monkeypatch):
 
     monkeypatch.setattr(fcntl, "flock", no_locks)
     said = []
-    with Store(tmp_path).writing(say=said.append) as had:
-        assert had
+    with hold([tmp_path, tmp_path / "below"], said.append):
+        assert os.listdir(tmp_path / "below") == [LOCK]
     assert said == [
         "this folder cannot be locked (No locks available), as on some network drives: run one at a time"
     ]
@@ -353,19 +354,19 @@ def writer(folder, times):
 def _write(folder, times):
     replaced = os.replace  # half of its time there is a file that is written and has no name yet
     os.replace = lambda *paths: time.sleep(0.01) or replaced(*paths)
-    module._clear.cache_clear()
+    module._cleared.cache_clear()
     for k in range(times):
         Store(folder).put(PICTURE, Outcome((replace(ROW, depth=float(k)),), {"x": np.full(20000, float(k))}))
 
 
 @FORKS
-def test_two_processes_write_one_task_while_others_read_it(tmp_path):
-    store, both, read = Store(tmp_path), [writer(tmp_path, 30) for _ in range(2)], 0
-    while any(process.is_alive() for process in both):
+def test_a_process_writes_one_task_while_others_read_it(tmp_path):
+    store, process, read = Store(tmp_path), writer(tmp_path, 30), 0
+    while process.is_alive():
         outcome = store.get(PICTURE)  # None between the fields of one write and their line
         read += outcome is not None
         assert outcome is None or (outcome.fields["x"] == outcome.rows[0].depth).all()
-    assert [process.exitcode for process in both] == [0, 0]
+    assert process.exitcode == 0
     assert store.get(PICTURE).rows[0].depth == 29.0
     assert read > 3
     assert sorted(path.name for path in tmp_path.iterdir()) == sorted([f"{key(PICTURE)}.npz", FILE])
@@ -393,19 +394,45 @@ def test_a_writer_killed_at_any_moment_leaves_whole_lines_and_nothing_else(tmp_p
     assert halves
 
 
-def test_temporary_files_of_a_process_that_lives_are_left_alone(tmp_path):
+def test_of_temporary_files_only_those_that_are_ours_and_left_behind_are_cleared(tmp_path, monkeypatch):
     ended = subprocess.Popen([sys.executable, "-c", ""])
     ended.wait()
-    names = {
-        "alive": f".page.html.{os.getppid()}.abcdefgh",
-        "ended": f".page.html.{ended.pid}.abcdefgh",
-        "something else": ".hidden",
-    }
-    for name in names.values():
+    here, there, now, letters = module._here(), "0" * 8, int(time.time()), "0123456789abcdef"
+    kept = [
+        f".crosscheck-{here}-{os.getppid()}-{now}-{letters}",
+        f".crosscheck-{there}-{ended.pid}-{now - 6 * 86400}-{letters}",  # of another machine or container
+        f".crosscheck-{here}-{ended.pid}-{now}-{letters}.csv",
+        f".page.html.{ended.pid}.abcdefgh",
+        f".page.html.{'9' * 30}.abcdefgh",
+        ".hidden",
+    ]
+    left = [
+        f".crosscheck-{here}-{ended.pid}-{now}-{letters}",
+        f".crosscheck-{here}-{'9' * 10}-{now}-{letters}",  # no number of a process
+        f".crosscheck-{there}-{os.getppid()}-{now - 8 * 86400}-{letters}",
+    ]
+    for name in (*kept, *left):
         (tmp_path / name).touch()
     write(tmp_path / "numbers.csv", lambda file: file.write(b"1"))
-    left = {what for what, name in names.items() if (tmp_path / name).exists()}
-    assert left == {"alive", "something else"}
+    assert sorted(os.listdir(tmp_path)) == sorted([*kept, "numbers.csv"])
+    monkeypatch.setattr(module.platform, "node", lambda: "elsewhere")
+    assert module._here.__wrapped__() != here
+
+
+@pytest.mark.skipif(os.name != "posix", reason="permissions")
+@pytest.mark.parametrize("mask", [0o077, 0o022, 0o002], ids=oct)
+def test_files_and_folders_have_the_permissions_of_the_user_s_others(tmp_path, mask):
+    before = os.umask(mask)
+    try:
+        module.make(tmp_path / "page")
+        write(tmp_path / "page" / "results.nc", lambda file: file.write(b"1"))
+        with hold([tmp_path / "page"], str):
+            Store(tmp_path / "page" / "solved").put(PICTURE, Outcome((ROW,), {"x": np.arange(3.0)}))
+    finally:
+        os.umask(before)
+    modes = {path.name: path.stat().st_mode & 0o777 for path in (tmp_path / "page").rglob("*")}
+    assert modes.pop("solved") == 0o777 & ~mask == (tmp_path / "page").stat().st_mode & 0o777
+    assert modes == dict.fromkeys(["results.nc", LOCK, FILE, f"{key(PICTURE)}.npz"], 0o666 & ~mask)
 
 
 def test_the_name_changes_with_everything_that_the_answer_depends_on():

@@ -27,6 +27,10 @@ class Picture:
     files: Mapping[str, bytes]
     inches: tuple[float, float]
 
+    def named(self, name: str) -> dict[str, bytes]:
+        """The files by name; name : without ending."""
+        return {f"{name}.{form}": content for form, content in self.files.items()}
+
 
 def picture(plot: Plot, forms: Sequence[str] = FORMS[:1]) -> Picture:
     """Draw a plot in the current look, with a PNG whatever the forms.

@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 from itertools import cycle
 from os import PathLike
 from pathlib import Path
+from threading import RLock
 from typing import TYPE_CHECKING, Any, Literal
 from zlib import crc32
 
@@ -147,6 +148,7 @@ class Look:
         return found | own | FILES
 
 
+DRAWING = RLock()  # of the thread that draws
 _current: ContextVar[Look] = ContextVar("look", default=Look())  # noqa: B039
 
 
@@ -160,13 +162,16 @@ def applied(look: Look | None = None) -> Iterator[None]:
     """The settings while a figure is drawn or saved, and those of the caller afterwards.
 
     look : the current one by default; what a matplotlibrc of the machine says is left out
+
+    One thread draws at a time: settings are those of the process, and mathtext mixes up formulas of two.
     """
     from matplotlib import style as styles
 
     look = look or current()
-    settings: dict[Any, Any] = look.settings()
-    with chosen(look), styles.context("default"), matplotlib.rc_context(settings):
-        yield
+    with DRAWING, chosen(look), styles.context("default"):
+        settings: dict[Any, Any] = look.settings()
+        with matplotlib.rc_context(settings):
+            yield
 
 
 @contextmanager
@@ -188,7 +193,8 @@ def fitting(name: str) -> Iterator[None]:
 @contextmanager
 def chosen(look: Look) -> Iterator[None]:
     """Make a look the current one, for all that is drawn inside; ValueError where it is none."""
-    look.settings()
+    with DRAWING:  # also of the log of matplotlib, which tells mistakes in a style
+        look.settings()
     token = _current.set(look)
     try:
         yield

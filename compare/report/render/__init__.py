@@ -15,7 +15,7 @@ from ..page import Page, Plot
 from ..plots.rendering import FORMS, Picture, picture
 from . import html, markdown, terminal
 
-__all__ = ["FILES", "FORMATS", "FORMS", "html", "terminal", "write", "write_picture", "write_tables"]
+__all__ = ["FILES", "FORMATS", "FORMS", "files", "html", "tables", "terminal", "write"]
 
 _RENDERERS: Mapping[str, tuple[str, ModuleType]] = {
     "html": ("report.html", html),
@@ -25,48 +25,44 @@ FORMATS = tuple(_RENDERERS)
 FILES = tuple(name for name, _ in _RENDERERS.values())
 
 
-def write(
+def files(
     page: Page,
     findings: Sequence[Finding],
-    folder: Path,
     format: str = "html",
     forms: Sequence[str] = ("png",),
     told: Callable[[str], Any] = lambda name: None,
-) -> Path:
-    """Write a page with its figures and tables; returns the file of the page.
+) -> dict[str, bytes]:
+    """A page with its figures and tables, as files by name; the page comes last.
 
     findings : that findings.csv has, of the page and beyond it
-    forms : of the figures; a PNG is always written
+    forms : of the figures; a PNG is always among them
     told : called with the name of each figure once it is drawn
 
-    Raises OSError, InvalidInput where the look has text too large for a figure.
+    Raises InvalidInput where the look has text too large for a figure.
     """
-    write_tables(page, findings, folder)
+    found = tables(page, findings)
     pictures: dict[str, Picture] = {}
     for plot in page.every(Plot):
         pictures[plot.name] = picture(plot, forms)
-        write_picture(pictures[plot.name], folder / plot.name)
+        found |= pictures[plot.name].named(plot.name)
         told(plot.name)
     name, renderer = _RENDERERS[format]
-    csvfiles.write_text(folder / name, renderer.text(page, pictures))
-    return folder / name
+    return found | {name: renderer.text(page, pictures).encode()}
 
 
-def write_picture(drawn: Picture, path: Path) -> list[Path]:
-    """Write every form of a figure; path : without its ending. Returns the files. Raises OSError."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    files = {path.with_name(f"{path.name}.{form}"): content for form, content in drawn.files.items()}
-    for file, content in files.items():
-        write_whole(file, methodcaller("write", content))
-    return list(files)
-
-
-def write_tables(page: Page, findings: Sequence[Finding], folder: Path) -> None:
-    """Write every table of a page as CSV, and all findings. Raises OSError."""
-    texts: dict[str, str] = {}
+def tables(page: Page, findings: Sequence[Finding]) -> dict[str, bytes]:
+    """Every table of a page as CSV, and all findings, as files by name."""
+    found: dict[str, bytes] = {}
     for name, frame in ((FINDINGS, finding.table(findings)), *page.tables()):
-        text = csvfiles.text(frame)
-        if texts.setdefault(name, text) != text:
+        content = csvfiles.text(frame).encode()
+        if found.setdefault(f"{name}.csv", content) != content:
             raise ValueError(f"two tables of the page have the name {name!r}")
-    for name, text in texts.items():
-        csvfiles.write_text(folder / f"{name}.csv", text)
+    return found
+
+
+def write(found: Mapping[str, bytes], folder: Path) -> list[Path]:
+    """Write files into a folder, which is made; returns their paths. Raises OSError."""
+    for name, content in found.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        write_whole(folder / name, methodcaller("write", content))
+    return [folder / name for name in found]

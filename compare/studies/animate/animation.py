@@ -18,6 +18,7 @@ from scene.quantities import SECOND, WHOLE, takes
 
 from ...library.lookup import SceneLike, case_of
 from ...report.plots import style
+from ...solving.hold import hold
 from ...solving.runner import SweepProgress, sweep
 from ...solving.store import Store, make, write
 from ...solving.task import SceneTask
@@ -56,11 +57,10 @@ def animate(
     path = Path(output or f"{Path(scene).stem if isinstance(scene, str | Path) else 'scene'}.gif")
     case = case_of(scene)
     check(path, frames, seconds)
-    record(
-        filmed(case.scene, case.mdr, case.bem, frames, Store(Path(folder) / SOLVED), workers, progress),
-        path,
-        seconds,
-    )
+    store = Store(Path(folder) / SOLVED)
+    with hold([Path(folder)], progress.said if progress else str):
+        film = filmed(case.scene, case.mdr, case.bem, frames, store, workers, progress)
+        record(film, path, seconds)
     return path
 
 

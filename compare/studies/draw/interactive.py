@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from importlib.util import find_spec
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,7 +11,6 @@ from scene import Refused
 from ...report.page import Plot
 from ...report.plots import touching
 from ...report.plots.prefixes import prefixed
-from ...solving.store import write as write_whole
 from .figure import SURFACE
 
 NAME = "surface.html"
@@ -27,12 +25,9 @@ def refuse() -> None:
         raise Refused(f"interactive: the page is made by plotly, which is not installed: {EXTRA}")
 
 
-def write(plot: Plot, folder: Path) -> Path:
-    """Write the surface of a plot of `plots.draw` as an HTML file that needs nothing else; returns its path."""
-    path = folder / NAME
-    text = _page(plot.tables[SURFACE], plot.options)
-    write_whole(path, lambda file: file.write(text.encode()))
-    return path
+def text(plot: Plot) -> str:
+    """The surface of a plot of `plots.draw` as an HTML file that needs nothing else."""
+    return _page(plot.tables[SURFACE], plot.options)
 
 
 def _page(table, options: Mapping[str, Any]) -> str:

@@ -12,7 +12,7 @@ from scene.protocol import foresee
 
 from ...library.case import Case, doubted
 from ...library.lookup import SceneLike, case_of
-from ...report.page import Text
+from ...report.page import Page, Plot, Text
 from ...report.views import View, view
 from ...solving.outcome import Outcome
 from ...solving.parameter_grid import work_of
@@ -135,6 +135,10 @@ class Drawing(Study):
             said.append(Text(f"The surface, to be turned in a browser: [{turning.NAME}]({turning.NAME})."))
         answer = [f"{each.claim.sentence}: {each.found()}." for each in findings]
         return Judgement(findings, answer, [plots.plot(self.case.scene, *_parts(answers)), *said], self.setting)
+
+    def beside(self, page: Page) -> Mapping[str, str]:
+        """The surface that turns, where it is asked for."""
+        return {turning.NAME: turning.text(next(page.every(Plot)))} if self.interactive else {}
 
 
 def _task(solver: Solver, case: Case) -> SceneTask:

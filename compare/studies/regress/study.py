@@ -22,6 +22,7 @@ from scene.quantities import CLOSED, Finite
 from scene.reading import InvalidInput, read
 
 from ...report.page import Block, Findings, Section, Table, Text
+from ...solving.hold import hold
 from ...solving.outcome import Outcome
 from ...solving.runner import sweep
 from ...solving.store import Store, write
@@ -246,8 +247,8 @@ def update(
 
 def _solved(study, folder, workers):
     (batch,) = study.batches()
-    with tempfile.TemporaryDirectory() as passing:
-        outcomes = sweep(batch.tasks, Store(Path(folder or passing)), workers).outcomes
+    with tempfile.TemporaryDirectory() as passing, hold([place := Path(folder or passing)], str):
+        outcomes = sweep(batch.tasks, Store(place), workers).outcomes
     return study.measured(study.answers(outcomes))
 
 
