@@ -123,7 +123,8 @@ def sentinels(heights: np.ndarray) -> list[float]:
 
 
 def _far(value, rest, count):
-    low, high = rest.min() / 2, rest.max() / 2  # their difference is a number
+    # Numbers of Python overflow without a word.
+    value, low, high = float(value), float(rest.min()) / 2, float(rest.max()) / 2  # their difference is a number
     off, span = max(value / 2 - high, low - value / 2), high - low
     if _written(value) and off > _PROGRAMS * span:
         return True
@@ -135,7 +136,7 @@ def _written(value):
     for unit, metre in _METRES.items():
         number = abs(value) / metre
         nines = 10.0 ** np.round(np.log10(number + 1)) - 1
-        exact = [abs(each) for each in _NONES if each * value > 0]
+        exact = [abs(each) for each in _NONES if value and (each > 0) == (value > 0)]
         if number >= _ENDLESS or any(abs(number - each) <= 1e-9 * each for each in (*exact, max(nines, 9999.0))):
             return f"{value / metre:.10g} {unit}"
     return ""

@@ -72,7 +72,9 @@ class Tabulated(Solid):
         table, found = stated["table"], dict(stated)
         if not _is_plain(table):
             try:
-                read = read_moduli(table, stated.get("frequency_unit"), stated.get("kind"))
+                # What is no text is for the check of the fields to name.
+                words = {name: each for name, each in stated.items() if isinstance(each, str)}
+                read = read_moduli(table, words.get("frequency_unit"), words.get("kind"))
             except ValueError as error:
                 raise _of_the_table(table, error) from error
             found["table"] = table = read.table

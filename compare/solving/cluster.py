@@ -1,25 +1,30 @@
 """Workers of a dask.distributed cluster, with the same code. This process alone stores their answers."""
 
+import asyncio
 import logging
 import os
+import socket
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import Future
+from concurrent.futures import Future, wait
 from contextlib import ExitStack, contextmanager, suppress
+from functools import partial
+from threading import Thread
 from typing import TYPE_CHECKING, Any
 from uuid import uuid4
 
 from scene import Refused
+from scene.printable import brief
 
 from .store import code_of
-from .workers import ONE_THREAD, VersionMismatch, answered
+from .workers import ONE_THREAD, PULSE, VersionMismatch, answered
 
 if TYPE_CHECKING:
     from distributed import Client
 
 EXTRA = "pip install mdr-bem-crosscheck[cluster]"
-# Seconds in which a scheduler answers, in which it lets go, and between two looks at its workers.
-ANSWERS, LETS_GO, LOOKS = 5.0, 2.0, 1.0
+# Seconds in which a scheduler answers, after which it is lost, in which it lets go, between two looks at it.
+ANSWERS, LOST, LETS_GO, LOOKS = 4.0, 30.0, 2.0, 1.0
 # Tasks submitted beyond one a thread, so that no worker waits for its next.
 SPARE = 2
 # What a nanny gives its worker; no kernel of ours asks numba for threads.
@@ -34,6 +39,7 @@ class Cluster:
     address : of the scheduler
     packages : whose code has to be the same there
     say : is told, in a line, which workers are refused, and when there is none
+    interrupts : signals that came; the first ends what is waited for on entry, the second anything
 
     Raises Refused, ConnectionError on entry, see sweep. A few more tasks are submitted than the workers have
     threads. All ends with this process, except the contacts being solved just then, whose answers are dropped.
@@ -41,8 +47,10 @@ class Cluster:
 
     tries = 2  # as the scheduler tries a task with several workers before it says that they died
 
-    def __init__(self, address: str, packages: Sequence[str], say: Callable[[str], Any]):
-        self.address, self.packages, self.say = address, tuple(packages), say
+    def __init__(
+        self, address: str, packages: Sequence[str], say: Callable[[str], Any], interrupts: Sequence[int] = ()
+    ):
+        self.address, self.packages, self.say, self.interrupts = address, tuple(packages), say, interrupts
         self.here = code_of(self.packages)
         self.threads: dict[str, int] = {}
         self.refused: dict[str, str] = {}
@@ -56,7 +64,7 @@ class Cluster:
         self.stack.callback(self._let_go)
         self.client = None
         try:
-            self.client = _connected(self.address)
+            self.client = self._connected()
             from distributed import KilledWorker
 
             self.died = (KilledWorker,)
@@ -110,7 +118,9 @@ class Cluster:
     def call_back(self) -> None:
         """Cancel what no worker is solving, see Workers."""
         with suppress(Exception):
-            at_work = {key for keys in self.client.run(_executing).values() for key in keys}
+            at_work = {
+                key for keys in self._answer(partial(self.client.run, _executing), LOST).values() for key in keys
+            }
             for future, (name, _) in list(self.flights.items()):
                 if name not in at_work:
                     future.cancel()
@@ -118,9 +128,11 @@ class Cluster:
     def _look(self):
         """At who works there now: newcomers have to say what they solve with."""
         try:
-            known = {address: int(count) for address, count in self.client.nthreads().items()}
+            found = self._answer(self.client.nthreads, LOST)
+            known = {address: int(count) for address, count in found.items()}
             new = [address for address in known if address not in self.threads | self.refused]
-            said = self.client.run(introduced, self.packages, workers=new, on_error="return") if new else {}
+            ask = partial(self.client.run, introduced, self.packages, workers=new, on_error="return")
+            said = self._answer(ask, LOST) if new else {}
         except (OSError, TimeoutError, ValueError) as error:
             raise self._lost() from error
         self.looked = time.monotonic()
@@ -135,6 +147,55 @@ class Cluster:
         for future, (_, allowed) in list(self.flights.items()):
             if allowed and not allowed & self.threads.keys():
                 future.cancel()  # all who were allowed to solve it are gone
+
+    def _connected(self) -> "Client":
+        from distributed import Client
+        from distributed.comm import CommClosedError, get_address_host_port, resolve_address
+
+        try:
+            host, port = get_address_host_port(self.address)  # inproc:// has none
+            if not (host.encode("idna") and 0 < port < 2**16):
+                raise ValueError
+        except (TypeError, ValueError) as error:
+            raise Refused(f"scheduler = {brief(repr(self.address))}: an address, as tcp://name:8786") from error
+
+        def asked():
+            return asyncio.run(asyncio.wait_for(_kind(resolve_address(self.address)), ANSWERS))
+
+        # A client at an address that is none of a scheduler waits for ever, and holds the end of the program.
+        try:
+            if (kind := self._answer(asked, ANSWERS)) != "Scheduler":
+                raise ValueError(kind)
+            return self._answer(partial(Client, self.address, timeout=ANSWERS, set_as_default=False), ANSWERS)
+        except Exception as error:
+            reason = "another program answers there, or one that wants TLS set up in the configuration of dask"
+            if isinstance(error, socket.gaierror):
+                reason = "no host has this name"
+            elif isinstance(error, OSError) and not isinstance(error, CommClosedError):
+                reason = f"nothing answers within {ANSWERS:g} s"
+            raise ConnectionError(f"{brief(self.address)} is no scheduler of dask: {reason}") from error
+
+    def _answer(self, ask: Callable[[], Any], seconds: float) -> Any:
+        """What a call of the library gives, which may wait for ever and lets no signal through.
+
+        Raises what it raises, TimeoutError after these seconds, KeyboardInterrupt at an interrupt.
+        """
+        answer: Future[Any] = Future()
+
+        def call():
+            try:
+                answer.set_result(ask())
+            except BaseException as error:
+                answer.set_exception(error)
+
+        Thread(target=call, daemon=True).start()
+        until = time.monotonic() + seconds
+        while not wait([answer], PULSE).done:
+            if len(self.interrupts) > (self.client is not None):
+                raise KeyboardInterrupt
+            if time.monotonic() > until:
+                raise TimeoutError
+        return answer.result()
 
     def _refusals(self):
         return "; ".join(f"{address}: {differs}" for address, differs in sorted(self.refused.items()))
@@ -179,24 +240,22 @@ def _executing(dask_worker) -> list[str]:
     return [state.key for state in dask_worker.state.executing]
 
 
-def _connected(address) -> "Client":
-    try:
-        from distributed import Client
-        from distributed.comm import resolve_address
-    except ImportError as error:
-        raise Refused(f"a cluster needs dask.distributed: {EXTRA}") from error
-    try:
-        resolve_address(address)  # a client that cannot read it hangs at the end of the program
-        return Client(address, timeout=ANSWERS, set_as_default=False)
-    except (OSError, TimeoutError) as error:
-        raise ConnectionError(f"no scheduler answers at {address} within {ANSWERS:g} s") from error
-    except ValueError as error:
-        raise Refused(f"{address} is no address of a scheduler, as tcp://name:8786: {error}") from error
+async def _kind(address) -> str:
+    """Kind of the server of dask at an address, as "Scheduler". Raises nearly anything of another one."""
+    from distributed import Security
+    from distributed.core import rpc
+
+    async with rpc(address, timeout=ANSWERS, connection_args=Security().get_connection_args("client")) as there:
+        return (await there.identity())["type"]
 
 
 @contextmanager
 def _quiet() -> Iterator[None]:
-    """Silence the log of the library on a lost connection, which we report in one line."""
+    """Silence the log of the library on a lost connection, which we report in one line. Raises Refused."""
+    try:
+        import distributed  # noqa: F401, sets the levels of its log
+    except ImportError as error:
+        raise Refused(f"a cluster needs dask.distributed: {EXTRA}") from error
     loggers = [logging.getLogger(name) for name in NOISE]
     before = [each.level for each in loggers]
     for each in loggers:

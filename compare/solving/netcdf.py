@@ -28,7 +28,8 @@ SEALED = len(SEAL) + 64
 LARGE = 2**12
 # How netCDF-4 writes a dimension without a variable, its own attributes, and what CF calls other coordinates.
 NAMELESS = b"This is a netCDF dimension but not a netCDF variable."
-OF_FORMAT = {"CLASS", "NAME", "DIMENSION_LIST", "REFERENCE_LIST"}
+LISTED, SCALE = "DIMENSION_LIST", b"DIMENSION_SCALE"
+OF_FORMAT = {"CLASS", "NAME", LISTED, "REFERENCE_LIST"}
 BESIDE = "coordinates"
 # Most bytes of a file, and the factor by which it may unpack: gzip, the only packing of ours, packs no more.
 MOST_BYTES, PACKED = 2**31, 1032
@@ -82,7 +83,7 @@ def load(folder: str | Path) -> xarray.DataTree:
             label = LABELLED.search(image[-2 * len(LABEL) :])
             refuse_other(path, int(label[1]) if label else UNSTATED)
             with h5py.File(BytesIO(image)) as file:
-                read = _Reader(len(image))
+                read = _Reader(file, len(image))
                 parts |= {f"{place}{at}".rstrip("/") or "/": dataset for at, dataset in read.datasets(file)}
         except Unreadable as error:
             raise InvalidInput(str(error)) from error
@@ -95,8 +96,9 @@ def load(folder: str | Path) -> xarray.DataTree:
             ) from error
     try:
         return xarray.DataTree.from_dict(parts)
-    except (ValueError, KeyError, TypeError) as error:
-        raise InvalidInput(f"{brief(str(folder))}: its results do not go together: {brief(str(error))}") from error
+    except Exception as error:
+        names = brief(", ".join(map(str, paths)))
+        raise InvalidInput(f"{names}: its results do not go together: {brief(str(error))}") from error
 
 
 def _unsealed(image):
@@ -112,24 +114,26 @@ class _Reader:
     size : bytes of the file
     """
 
-    def __init__(self, size: int):
+    def __init__(self, file: h5py.File, size: int):
         room = min(MOST_BYTES, PACKED * size)
         self.room = room
-        self._seen: set[Any] = set()
+        self._seen: set[Any] = {file["/"]}
         self._some = max(LEAST_READ, room // size)  # texts that fit, were each as long as the file
 
     def datasets(self, place: h5py.Group) -> Iterator[tuple[str, xarray.Dataset]]:
         """Every group as its path and a Dataset, directly: to open many, xarray takes ten times as long."""
-        if place in self._seen:
-            raise ValueError(f"{place.name} stands in several places")
-        self._seen.add(place)
         for name in place:
             if not isinstance(place.get(name, getlink=True), h5py.HardLink):
                 raise ValueError(f"{name} is a link to elsewhere")
         inside = dict(place.items())
+        for name, each in inside.items():
+            if each in self._seen or not isinstance(each, h5py.Dataset | h5py.Group):
+                raise ValueError(f"{name} stands in several places, or is a mere type")
+            self._seen.add(each)
         stored = {name: each for name, each in inside.items() if isinstance(each, h5py.Dataset)}
-        scales = {each: name for name, each in stored.items() if each.is_scale}
-        variables = {name: self._variable(each, scales) for name, each in stored.items() if not _nameless(each)}
+        scales = {each: name for name, each in stored.items() if _mark(each, "CLASS") == SCALE}
+        nameless = {each for each in scales if _mark(each, "NAME").startswith(NAMELESS)}
+        variables = {name: self._variable(each, scales) for name, each in stored.items() if each not in nameless}
         said = _said(place)
         beside = said.pop(BESIDE, "").split()
         yield place.name, xarray.Dataset(variables, attrs=said).set_coords(beside)
@@ -140,9 +144,11 @@ class _Reader:
     def _variable(self, stored, scales):
         said = _said(stored)
         # The name of a scale takes HDF5 long to find, so it is looked up.
-        dims = [scales[stored]] if stored in scales else [scales[dim[0]] for dim in stored.dims]
+        dims = [scales[stored]] if stored in scales else [scales[each] for each in _attached(stored)]
+        if len({*dims}) < len(dims):
+            raise ValueError(f"{stored.name} has a dimension twice")
         values = self._values(stored)
-        if said.get("dtype") == "bool":
+        if said.get("dtype") == "bool" and values.dtype == np.int8:
             values, said = values.astype(bool), {key: value for key, value in said.items() if key != "dtype"}
         return xarray.Variable(dims, values, said)
 
@@ -152,7 +158,7 @@ class _Reader:
         if stored.is_virtual or stored.external or not filters <= FILTERS or stored.shape is None:
             raise ValueError(f"{stored.name} is not stored as this program stores numbers")
         text = h5py.check_string_dtype(stored.dtype)
-        if not text and stored.dtype.kind not in "iuf":
+        if not text and (stored.dtype.kind not in "iuf" or stored.dtype.metadata):  # an enumeration has some
             raise ValueError(f"{stored.name} is of type {stored.dtype}, which holds no results")
         self._take(stored, stored.dtype.itemsize * max(stored.size, prod(stored.chunks or ())))
         return self._words(stored) if text else stored[()]
@@ -184,17 +190,34 @@ def _pieces(shape, most):
         yield ()
 
 
+def _attached(stored):
+    """The scale of each dimension. HDF5 itself ends the process over a list that is none of references."""
+    if not stored.shape:
+        return
+    of = LISTED in stored.attrs and h5py.check_vlen_dtype(stored.attrs.get_id(LISTED).dtype)
+    listed = stored.attrs[LISTED] if of and h5py.check_ref_dtype(of) is h5py.Reference else np.empty(())
+    if listed.shape != (stored.ndim,) or any(len(scales) != 1 for scales in listed):
+        raise ValueError(f"{stored.name} has dimensions without a name each")
+    for (scale,) in listed:
+        yield stored.file[scale]
+
+
 def _said(place):
     """Attributes that are not of the format: texts, one each."""
     names = [name for name in place.attrs if name not in OF_FORMAT]
     for name, found in zip(names, map(place.attrs.get_id, names), strict=True):
-        if found.shape != () or not h5py.check_string_dtype(found.dtype):
+        of = h5py.check_string_dtype(found.dtype)
+        if found.shape != () or not of or of.length is not None:
             raise ValueError(f"{place.name} has an attribute {name}, which is no text")
-    return {name: str(place.attrs[name]) for name in names}
+    said = {name: place.attrs[name] for name in names}
+    "".join(said.values()).encode()  # raises ValueError of bytes that were no UTF-8
+    return said
 
 
-def _nameless(stored):
-    return stored.is_scale and stored.attrs["NAME"].startswith(NAMELESS)
+def _mark(stored, name):
+    """A text of the format, empty without one. HDF5's own `is_scale` ends the process over a damaged one."""
+    found = stored.attrs.get_id(name) if name in stored.attrs else None
+    return bytes(stored.attrs[name]) if found and found.shape == () and found.dtype.kind == "S" else b""
 
 
 def _fill(place, node):

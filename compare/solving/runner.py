@@ -13,11 +13,9 @@ from typing import Any
 from .outcome import Outcome
 from .store import Store, write
 from .task import Task
-from .workers import Fault, Processes, VersionMismatch, Workers, caught, counted, solved, unpacked
+from .workers import PULSE, Fault, Processes, VersionMismatch, Workers, caught, counted, solved, unpacked
 
 _LOG = logging.getLogger(__name__)
-# Seconds after which an interrupt is noticed.
-PULSE = 0.2
 
 
 class SweepProgress:
@@ -104,7 +102,8 @@ def sweep(
 
     Raises OSError where the store cannot be written (everything before is kept), where processes end as they
     start, and where a scheduler cannot be reached or is lost; Refused, before anything is solved, where a
-    scheduler is named and its library is not installed, or none of its workers has the same code.
+    scheduler is named and its address is none, its library is not installed, or none of its workers has the same
+    code.
     """
     progress, start = progress or SweepProgress(), time.perf_counter()
     stored = _stored(tasks, store)
@@ -117,7 +116,7 @@ def sweep(
             progress.said(f"{other} stored tasks were solved by other code: they are solved again")
         _LOG.info("%d tasks to solve, %d reused from %s", len(missing), len(stored), store.folder)
         progress.planned(missing, len(stored))
-        with _workers(missing, workers, fresh, scheduler, progress) as pool:
+        with _workers(missing, workers, fresh, scheduler, progress, interrupts) as pool:
             course = _Course(deque(missing), store, pool, progress, interrupts)
             outcomes = stored | dict(course.run())
     return SweepResult(outcomes, len(missing), len(stored), time.perf_counter() - start, course.faults)
@@ -128,13 +127,13 @@ def _stored(tasks, store):
     return {task: outcome for task, outcome in found.items() if outcome is not None}
 
 
-def _workers(missing, count, fresh, scheduler, progress) -> AbstractContextManager[Workers]:
+def _workers(missing, count, fresh, scheduler, progress, interrupts) -> AbstractContextManager[Workers]:
     if scheduler is None:
         return Processes(min(counted(count), max(len(missing), 1)), fresh)
     from .cluster import Cluster
 
     packages = sorted({package for task in missing for package in task.packages})
-    return Cluster(scheduler, packages, progress.said)
+    return Cluster(scheduler, packages, progress.said, interrupts)
 
 
 @dataclass

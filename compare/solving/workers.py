@@ -25,6 +25,8 @@ ONE_THREAD = {f"{library}_NUM_THREADS": "1" for library in ("OMP", "OPENBLAS", "
 _STARTING = threading.Lock()  # of one process after the other, as the environment is that of all threads
 # Pools that end before a worker of theirs is ready, one after the other, until it is plain that none will be.
 STILLBORN = 3
+# Seconds after which an interrupt is noticed.
+PULSE = 0.2
 # What a terminal sends to every process of a run: workers leave it to their parent.
 FROM_THE_TERMINAL = {getattr(signal, name) for name in ("SIGINT", "SIGHUP") if hasattr(signal, name)}
 

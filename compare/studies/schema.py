@@ -13,6 +13,10 @@ from ..solving.suggest import known
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 KINDS = {"scene": "Scene file of crosscheck run and plan", "study": "Study file of crosscheck study"}
+_ITEMS = {
+    "minLength": "minItems",
+    "maxLength": "maxItems",
+}  # of a list, where pydantic does not see that it is one
 _BOUNDS = {"gt": "exclusiveMinimum", "ge": "minimum", "lt": "exclusiveMaximum", "le": "maximum"}
 
 
@@ -66,6 +70,8 @@ def _said_in_full(node):
     for name, value in node.items():
         if name in _BOUNDS and not isinstance(value, dict):
             found[_BOUNDS[name]] = value
+        elif name in _ITEMS and node.get("type") == "array":
+            found[_ITEMS[name]] = value
         elif name == "anyOf":
             choices = [_said_in_full(each) for each in value if each != {"type": "null"}]
             found |= choices[0] if len(choices) == 1 else {"anyOf": choices}

@@ -3,18 +3,23 @@
 import json
 import os
 import signal
+import socket
 import subprocess
 import sys
 import threading
 import time
+from contextlib import ExitStack, suppress
+from functools import partial
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from processes import wait_for
+from processes import PATIENCE, finish, start, wait_for
 from stand_in_solver import Heard, Stand, loads
 
-from compare.solving.cluster import Cluster, differences
+from compare.solving import cluster as cluster_module
+from compare.solving.cluster import BLAS, Cluster, differences
 from compare.solving.runner import sweep
 from compare.solving.store import Store, code_of
 from compare.solving.task import SceneTask as Task
@@ -142,31 +147,36 @@ def test_an_interrupt_calls_back_what_has_not_started_and_waits_for_the_rest(clu
 
 
 CLIENT = """
-import sys
 from pathlib import Path
-from processes import wait_for
+import typer
 from stand_in_solver import Stand, loads
+from compare.cli.console import said_to_people
 from compare.solving.store import Store
 from compare.solving.runner import sweep
 
-if __name__ == "__main__":
-    folder, address = Path(sys.argv[1]), sys.argv[2]
+def client(folder: Path, address: str):
     tasks = loads(*range(1, 200), solver=Stand(marks=str(folder), seconds=0.2))
-    sweep(tasks, Store(folder / "solved"), scheduler=address)
+    with said_to_people("", solves=True):
+        sweep(tasks, Store(folder / "solved"), scheduler=address)
+
+if __name__ == "__main__":
+    typer.run(client)
 """
+
+
+def command(folder, address):
+    """A command that solves on a cluster, in a process of its own, and its tasks."""
+    tasks = loads(*range(1, 200), solver=Stand(marks=str(folder), seconds=0.2))
+    return start(folder, str(folder), address, program=("-c", CLIENT), **HERE), tasks
 
 
 @pytest.mark.slow
 def test_a_client_that_is_killed_leaves_nothing_to_solve_and_its_store_whole(cluster, tmp_path):
-    (tmp_path / "client.py").write_text(CLIENT)
-    process = subprocess.Popen(
-        [sys.executable, str(tmp_path / "client.py"), str(tmp_path), cluster.scheduler_address],
-        env=os.environ | HERE,
-    )
+    process, tasks = command(tmp_path, cluster.scheduler_address)
     solved = tmp_path / "solved"
     wait_for(lambda: len(Store(solved)) >= 2)
     process.kill()
-    process.wait()
+    process.communicate()
     marks = len(list(tmp_path.glob("*-*")))
     with distributed.Client(cluster, set_as_default=False) as client:
         wait_for(lambda: client.run_on_scheduler(lambda dask_scheduler: len(dask_scheduler.tasks)) == 0)
@@ -175,7 +185,6 @@ def test_a_client_that_is_killed_leaves_nothing_to_solve_and_its_store_whole(clu
     assert ended <= marks + 4  # what the threads were at
     time.sleep(1.0)
     assert len(list(tmp_path.glob("*-*"))) == ended
-    tasks = loads(*range(1, 200), solver=Stand(marks=str(tmp_path), seconds=0.2))
     assert sum(Store(solved).get(task) is not None for task in tasks) == len(Store(solved))
 
 
@@ -242,32 +251,134 @@ def test_without_workers_it_says_so_and_waits_and_refuses_those_of_other_code_by
 
 
 @pytest.mark.slow
-def test_a_scheduler_that_is_lost_in_the_middle_is_an_error_and_what_is_solved_is_kept(scheduler, tmp_path):
-    class Losing(Heard):
-        def finished(self, task, outcome):
-            super().finished(task, outcome)
-            scheduler.kill()
-
-    worker = join(scheduler.address, tmp_path)
-    tasks = loads(*range(1, 30), solver=Stand(seconds=0.1))
+def test_a_command_that_loses_its_scheduler_says_so_in_a_line_and_goes_on_from_there(scheduler, tmp_path):
+    worker, solved = join(scheduler.address, tmp_path, **BLAS), tmp_path / "solved"
     try:
-        with pytest.raises(ConnectionError, match=f"scheduler at {scheduler.address} is lost"):
-            sweep(tasks, Store(tmp_path / "solved"), scheduler=scheduler.address, progress=Losing())
+        process, tasks = command(tmp_path, scheduler.address)
+        wait_for(lambda: len(Store(solved)) >= 2)
+        scheduler.kill()
+        lost = f"crosscheck: the scheduler at {scheduler.address} is lost. Solved contacts are kept.\n"
+        assert finish(process) == (1, "", lost)
     finally:
         worker.kill()
         worker.wait()
-    assert sum(Store(tmp_path / "solved").get(task) is not None for task in tasks) >= 1
+    kept = len(Store(solved))
+    again = sweep(tasks[-kept - 2 :], Store(solved), workers=1)
+    assert (again.solved, again.reused) == (2, kept)
+
+
+@pytest.fixture
+def strange():
+    """A server that is no scheduler: what it says to whom, and what it does then; its address."""
+    with ExitStack() as stack:
+
+        def serve(said, then=lambda: None):
+            server = stack.enter_context(socket.create_server(("127.0.0.1", 0)))
+
+            def answer():
+                with suppress(OSError):
+                    while True:
+                        each = stack.enter_context(server.accept()[0])
+                        if said is not None:
+                            each.sendall(said)
+                            each.close()
+                        then()
+
+            threading.Thread(target=answer, daemon=True).start()
+            stack.callback(server.shutdown, socket.SHUT_RDWR)
+            return f"tcp://127.0.0.1:{server.getsockname()[1]}"
+
+        yield serve
+
+
+STRANGERS = {
+    "silence": None,
+    "an end at once": b"",
+    "the web": b"HTTP/1.0 400 Bad Request\r\n\r\n",
+    "noise": bytes(range(255, 0, -1)),
+    "very much to come": (2**62).to_bytes(8, "little"),
+    "nothing": bytes(100),
+}
+
+
+@pytest.mark.parametrize("said", STRANGERS.values(), ids=STRANGERS)
+def test_whatever_answers_that_is_no_scheduler_is_named_within_seconds(said, strange, tmp_path, monkeypatch):
+    monkeypatch.setattr(cluster_module, "ANSWERS", 0.3)
+    address, before, start = strange(said), set(threading.enumerate()), time.monotonic()
+    # An end that comes too soon is taken for a connection that failed.
+    why = {None: "nothing answers within 0.3 s", b"": ""}.get(said, "another program answers there")
+    with pytest.raises(ConnectionError, match=f"^{address} is no scheduler of dask: {why}"):
+        sweep(loads(1.0), Store(tmp_path), scheduler=address)
+    assert time.monotonic() - start < 10
+    wait_for(lambda: set(threading.enumerate()) <= before)
+    assert not len(Store(tmp_path))
+
+
+def test_nobody_and_a_worker_are_no_scheduler(cluster, tmp_path, monkeypatch):
+    monkeypatch.setattr(cluster_module, "ANSWERS", 0.5)
+    worker = next(iter(cluster.scheduler_info["workers"]))
+    for address, why in {"tcp://127.0.0.1:9": "nothing answers", worker: "another program answers there"}.items():
+        with pytest.raises(ConnectionError, match=f"^{address} is no scheduler of dask: {why}"):
+            sweep(loads(1.0), Store(tmp_path), scheduler=address)
+
+
+@pytest.mark.parametrize(("seconds", "why"), [(0, "no host has this name"), (2, "nothing answers within 0.3 s")])
+def test_a_name_is_looked_for_as_long_as_a_scheduler(seconds, why, tmp_path, monkeypatch):
+    def unknown(*_, **__):
+        time.sleep(seconds)
+        raise socket.gaierror
+
+    monkeypatch.setattr(cluster_module, "ANSWERS", 0.3)
+    monkeypatch.setattr(socket, "getaddrinfo", unknown)
+    start = time.monotonic()
+    with pytest.raises(ConnectionError, match=f"^tcp://name:1 is no scheduler of dask: {why}"):
+        sweep(loads(1.0), Store(tmp_path), scheduler="tcp://name:1")
+    assert time.monotonic() - start < 1.5
+
+
+NO_ADDRESSES = (
+    "nonsense://x|inproc://|inproc://1/2/3||tcp://|tcp://name|tcp://name:0|tcp://name:99999|unix:///tmp/x"
+)
+
+
+@pytest.mark.parametrize("address", [*NO_ADDRESSES.split("|"), "tcp://:1", "tcp://[::1:1", f"tcp://{'ä' * 300}:1"])
+def test_what_is_no_address_is_refused(address, tmp_path):
+    with pytest.raises(Refused, match=r"^scheduler = '.*': an address, as tcp://name:8786$"):
+        sweep(loads(1.0), Store(tmp_path), scheduler=address)
+
+
+def test_an_interrupt_ends_the_wait_for_a_silent_scheduler_at_once(strange, tmp_path):
+    before, start = signal.signal(signal.SIGTERM, signal.default_int_handler), time.monotonic()
+    address = strange(None, then=lambda: os.kill(os.getpid(), signal.SIGTERM))
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            sweep(loads(1.0), Store(tmp_path), scheduler=address)
+    finally:
+        signal.signal(signal.SIGTERM, before)
+    assert time.monotonic() - start < cluster_module.ANSWERS / 2
 
 
 @pytest.mark.slow
-def test_a_scheduler_that_cannot_be_reached_is_named_within_seconds(tmp_path):
-    start = time.monotonic()
-    with pytest.raises(ConnectionError, match=r"no scheduler answers at tcp://127\.0\.0\.1:9 within"):
-        sweep(loads(1.0), Store(tmp_path), scheduler="tcp://127.0.0.1:9")
-    assert time.monotonic() - start < 20
-    with pytest.raises(Refused, match="nonsense://x is no address of a scheduler"):
-        sweep(loads(1.0), Store(tmp_path), scheduler="nonsense://x")
-    assert not len(Store(tmp_path))
+def test_a_command_ends_as_soon_as_it_knows_that_there_is_no_scheduler(strange, tmp_path):
+    heard = threading.Event()
+    process, _ = command(tmp_path, strange(None, then=heard.set))
+    assert heard.wait(PATIENCE)
+    since = time.monotonic()
+    status, said, told = finish(process)
+    assert (status, said, told.count("\n")) == (1, "", 1)
+    assert time.monotonic() - since < 2 * cluster_module.ANSWERS
+
+
+def test_a_scheduler_that_stands_still_is_lost_and_a_second_interrupt_does_not_wait_for_it(monkeypatch):
+    monkeypatch.setattr(cluster_module, "LOST", 0.1)
+    interrupts = []
+    cluster = Cluster("tcp://x", ("scene",), print, interrupts)
+    cluster.client = SimpleNamespace(nthreads=partial(time.sleep, 2))
+    with pytest.raises(ConnectionError, match="the scheduler at tcp://x is lost"):
+        cluster._look()
+    interrupts += [signal.SIGTERM, signal.SIGTERM]
+    with pytest.raises(KeyboardInterrupt):
+        cluster._look()
 
 
 def test_without_the_library_it_is_said_how_to_get_it(tmp_path, monkeypatch):

@@ -5,14 +5,16 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from damage import places
 
 from compare import run
 from compare.library.case import Case
 from compare.library.lookup import located
 from compare.library.ready import NotReady, find, ready, write
+from compare.solving.cost import MOST_VALUES
 from compare.studies.claims.catalogue import SIZES
 from compare.studies.claims.study import ClaimStudy
-from compare.studies.claims.study_file import study_of
+from compare.studies.claims.study_file import StudyFile, study_of
 from compare.studies.plan import plans
 from compare.studies.schema import DIALECT, schema
 from scene import Prony, Refused, Scene
@@ -122,6 +124,58 @@ def test_what_a_file_may_not_say_is_no_valid_file_by_the_schema_either(old, new,
     with pytest.raises(InvalidInput):
         read(path, Case)
     assert not validators["scene"].is_valid(tomllib.loads(path.read_text(encoding="utf-8")))
+
+
+def truths(value):
+    """A value with a truth in place of everything that is no list and no table."""
+    if isinstance(value, dict):
+        return {name: truths(each) for name, each in value.items()}
+    return [truths(each) for each in value] if isinstance(value, list) else True
+
+
+TABLES = {"indenter", "elastomer", "roughness", "temperature", "mdr", "bem"}
+WAVY = [[1e-6 * ((3 * i + 5 * j) % 7) for i in range(6)] for j in range(6)]
+SURFACES = {
+    "map": {"roughness": {"type": "topography", "heights": WAVY, "pixel": [1e-3, 1e-3]}},
+    "line": {"roughness": {"type": "profile", "heights": [sum(row) for row in WAVY * 5], "spacing": 1e-4}},
+    "body": {"indenter": {"type": "measured", "heights": WAVY, "pixel": 1e-3}},
+}
+
+
+@pytest.mark.parametrize("name", [*ready(), *SURFACES])
+def test_a_truth_is_no_number_to_the_reader_nor_to_the_schema(name, validators):
+    kind = ready()[name].kind if name in ready() else "scene"
+    content = tomllib.loads(ready()[name if name in ready() else "hertz"].text) | SURFACES.get(name, {})
+    what = {"scene": Case, "study": StudyFile}[kind]
+    found = list(places(content))
+    # Both leave tables of a study open that a series may complete.
+    partial = [inside[key] for inside, key in found if kind == "study" and key in TABLES]
+    for inside, key in found:
+        value = inside[key]
+        if isinstance(value, dict) or any(inside is each for each in partial) or (isinstance(key, int) and key):
+            continue
+        for wrong in ([True], [[True]], truths(value)):
+            inside[key] = wrong
+            assert not validators[kind].is_valid(content), (key, wrong)
+            with pytest.raises(InvalidInput):
+                made(content, what, name)
+        inside[key] = value
+
+
+@pytest.mark.parametrize("name", ["kind", "frequency_unit"])
+def test_a_table_where_a_word_belongs_is_named_beside_a_file_of_moduli(name, tmp_path):
+    rows = ["f [Hz];E' [MPa];E'' [MPa]", "1;3;0.3", "10;3.3;0.4", "100;4;0.3", "1000;4.5;0.2"]
+    (tmp_path / "rubber.csv").write_text("\n".join(rows))
+    elastomer = {"type": "tabulated", "table": str(tmp_path / "rubber.csv"), name: {"a": 1}}
+    with pytest.raises(InvalidInput, match=rf"elastomer\.{name}: Input should be "):
+        made(tomllib.loads(find("hertz").text) | {"elastomer": elastomer}, Case, "mine.toml")
+
+
+def test_a_list_is_as_long_for_the_schema_as_for_the_reader(validators):
+    content = tomllib.loads(find("quick-start").text)
+    for speeds, valid in (([], False), ([0.1], True), ([0.1] * (MOST_VALUES + 1), False)):
+        content["study"]["speeds"] = speeds
+        assert validators["scene"].is_valid(content) is valid
 
 
 # The page about them

@@ -483,6 +483,22 @@ def virtual(file):
     file.create_virtual_dataset("x", layout)
 
 
+def spread(file, values, *names):
+    """A variable over dimensions of these names, of three points each."""
+    for name in {*names}:
+        file[name] = np.arange(3.0)
+        file[name].make_scale(name)
+    file["v"] = values
+    for axis, name in enumerate(names):
+        file["v"].dims[axis].attach_scale(file[name])
+    return file["v"]
+
+
+def nested(file):
+    for _ in range(2000):
+        file = file.create_group("a")
+
+
 HDF5 = {
     "soft link": lambda file: file.update({"x": h5py.SoftLink("/y")}),
     "link to another file": lambda file: file.update({"x": h5py.ExternalLink("/etc/hostname", "/y")}),
@@ -501,6 +517,21 @@ HDF5 = {
     "bytes": lambda file: file.create_dataset("x", data=np.zeros(3, "V8")),
     "nothing": lambda file: file.create_dataset("x", data=h5py.Empty("f8")),
     "no dimensions": lambda file: file.create_dataset("x", data=np.arange(3.0)),
+    "a dimension twice": lambda file: spread(file, np.eye(3), "x", "x"),
+    "a dimension of two names": lambda file: spread(file, np.eye(3), "x", "y").dims[0].attach_scale(file["y"]),
+    "a dimension of another size": lambda file: spread(file, np.ones(2), "x"),
+    "dimensions that are a number": lambda file: spread(file, np.ones(3)).attrs.update({"DIMENSION_LIST": 5}),
+    "dimensions that are a text": lambda file: spread(file, np.ones(3)).attrs.update({"DIMENSION_LIST": "x"}),
+    "a mark that is a number": lambda file: spread(file, np.ones(3)).attrs.update({"CLASS": 5}),
+    "a scale of two dimensions": lambda file: spread(file, np.eye(3)).make_scale("v"),
+    "a variable of two names": lambda file: file.update({"w": spread(file, np.ones(3), "x")}),
+    "an enumeration": lambda file: file.create_dataset("x", data=1, dtype=h5py.enum_dtype({"a": 1})),
+    "a type alone": lambda file: file.update({"x": np.dtype("f8")}),
+    "groups without end": nested,
+    "coordinates that are nowhere": lambda file: file.attrs.update({"coordinates": "x y"}),
+    "an attribute of bytes": lambda file: file.attrs.update({"units": np.bytes_(b"m")}),
+    "an attribute that is no UTF-8": lambda file: file.attrs.create("units", b"\xff", dtype=h5py.string_dtype()),
+    "an attribute that is a reference": lambda file: file.attrs.update({"units": file.ref}),
     "attributes that are arrays": lambda file: file.attrs.update({"units": np.zeros(9)}),
 }
 
@@ -509,6 +540,17 @@ HDF5 = {
 def test_what_hdf5_can_hold_and_no_command_writes_is_refused(tmp_path, kind):
     sealed(tmp_path / "results.nc", HDF5[kind])
     with pytest.raises(InvalidInput, match=r"results\.nc: is not a file of results"):
+        netcdf.load(tmp_path)
+
+
+def test_groups_that_contradict_what_they_stand_in_are_refused(tmp_path):
+    def fill(file):
+        spread(file, np.ones(3), "x")
+        file["below/x"] = np.arange(2.0)
+        file["below/x"].make_scale("x")
+
+    sealed(tmp_path / "results.nc", fill)
+    with pytest.raises(InvalidInput, match=r"results\.nc: its results do not go together"):
         netcdf.load(tmp_path)
 
 

@@ -23,6 +23,7 @@ from compare.library.case import Case
 from compare.solving.task import SCENES
 from scene import Elastic, Indent, Measured, Plane, Scene, SelfAffine, Sphere, Topography
 from scene.heightfile import MOST_BYTES
+from scene.heightmap import HeightMap
 from scene.reading import InvalidInput, read
 from scene.sheet import LINE
 from scene.waves import MOST_WAVES
@@ -742,3 +743,11 @@ def test_a_scene_file_names_the_map_by_its_path(tmp_path, monkeypatch):
         read("scene.toml", Scene)
     for named in ("roughness.heights", "roughness.pixel: missing", "roughness.zzz"):
         assert named in str(error.value)
+
+
+@pytest.mark.parametrize("height", [1e308, -1e308, 1.7e308])
+def test_heights_at_the_end_of_numbers_are_refused_without_a_word_of_numpy(height):
+    heights = 1e-6 * np.arange(36.0).reshape(6, 6)
+    heights[0, 0] = height
+    with pytest.raises(ValueError, match="heights"):
+        HeightMap(heights)
