@@ -38,7 +38,7 @@ def distances(poles, weights, constant):
     weights : (K,) > 0
     constant : c >= 0, in units of weight / pole; R = K if c > 0, else K - 1
 
-    Raises ArithmeticError where the constant vanishes beside the weights.
+    Raises ArithmeticError where the constant vanishes beside the weights, and where a distance does.
     """
     count = len(poles) - (constant == 0)
     if count <= 0:
@@ -65,7 +65,8 @@ def distances(poles, weights, constant):
     offsets = p[nearer, None] - p
     # The term of the nearer pole alone outweighs the other side below this distance.
     least = w[nearer] / np.where(last, c, np.where(left, rising, falling))
-    return unit * _balanced(sides, offsets, sign, c, least, half)
+    with np.errstate(divide="raise", invalid="raise"):
+        return unit * _balanced(sides, offsets, sign, c, least, half)
 
 
 def _ratios(apart):

@@ -5,6 +5,7 @@ from pathlib import Path
 
 from rich.console import Console
 
+from compare.solving.hold import hold
 from compare.solving.outcome import Outcome
 from compare.solving.runner import sweep
 from compare.solving.store import Store
@@ -16,5 +17,6 @@ def solved(
     page: Path, tasks: Iterable[Task], workers: int | None = None, fresh: bool = False
 ) -> Mapping[Task, Outcome]:
     """Answers of tasks; what has been solved once lies in the folder `solved` beside the numbers of the page."""
-    with SweepBar(Console(highlight=False, soft_wrap=True)) as progress:
-        return sweep(list(tasks), Store(page.with_suffix("") / "solved"), workers, progress, fresh=fresh).outcomes
+    store = Store(page.with_suffix("") / "solved")
+    with hold([store.folder], print), SweepBar(Console(highlight=False, soft_wrap=True)) as progress:
+        return sweep(list(tasks), store, workers, progress, fresh=fresh).outcomes

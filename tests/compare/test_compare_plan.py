@@ -57,6 +57,21 @@ def test_a_plan_counts_the_contacts_that_a_run_solves(written, tmp_path):
     assert f"contacts   at most {report.study.cost().contacts:,}, " in told(path).output
 
 
+# A solid with the shortest time that a number holds.
+FASTEST = """[indenter]
+type = "sphere"
+radius = 0.01
+
+[elastomer]
+type = "prony"
+instantaneous_modulus = 1e7
+g = [0.2, 0.3]
+tau = [5e-324, 1.0]
+
+[motion]
+type = "indent"
+load = 1.0
+"""
 HEAD = SCENE.partition("[motion]")[0]
 PROGRAM = (
     HEAD
@@ -75,8 +90,13 @@ PROGRAM = (
         ),
         (PROGRAM.format(1e-3), 0, ["alone      motion = Program: crosscheck compares bodies"]),
         (PROGRAM.format(1e9), 2, ["would not get through this scene"]),
+        (
+            FASTEST,
+            2,
+            ["not known: the numbers of the scene are too far apart", "MDR would not get through this scene"],
+        ),
     ],
-    ids=["refused by one", "refused by both", "not compared", "too many steps"],
+    ids=["refused by one", "refused by both", "not compared", "too many steps", "shortest time of all"],
 )
 def test_what_is_refused_stands_in_the_plan_and_in_its_status(written, text, status, said):
     answer = told(written(text))
