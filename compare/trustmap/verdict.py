@@ -36,6 +36,8 @@ SMALL, WIDE = 0.05, 0.15
 FITTED = "The surface is one fitted to a measured line: the uncertainty of that fit comes on top."
 SOLVED = "the body is smooth, and both solvers answered it"
 NOTHING = "One surface says nothing: single surfaces differ by as much as their mean."
+# Of a force where the roughness touches in part and is as high as the body is deep.
+NARROW = "Here it held 90 of 103 scenes held out, and one half as wide again 96: take that."
 # Models by ratio, and what they are called in sentences.
 MODELS = {"friction": "MDR", LAW: "FrictionLaw", "depth": "MDR", "force": "MDR"}
 CALLED = {"MDR": "1D", "FrictionLaw": "the law"}
@@ -253,7 +255,8 @@ def _smooth(scene) -> Advice:
 def _predicted(name, place, groups, seconds):
     found = shipped.model(name).predicted(place[None])
     logarithm, error, scatter = (float(each[0]) for each in found)
-    return _worth(name, exp(logarithm), error, scatter, seconds, _because(name, groups))
+    worth = _worth(name, exp(logarithm), error, scatter, seconds, _because(name, groups))
+    return replace(worth, reason=f"{worth.reason} {NARROW}") if name == "force" and _lost(groups) else worth
 
 
 def _cost(name, scene) -> float:
@@ -303,9 +306,13 @@ def _worth(name, ratio, error, scatter, seconds, because):
     return Correction(MODELS[name], ratio, low, high, *surface, advice, seconds, told)
 
 
+def _lost(groups):
+    return bool(lost(np.array([astuple(groups)]))[0])
+
+
 def _because(name, groups):
     """Reason that decides the ratio in this part of the map."""
-    if name == "depth" and lost(np.array([astuple(groups)]))[0]:
+    if name == "depth" and _lost(groups):
         return "the roughness is nearly as high as the body is deep"
     flat = "is pressed flat" if groups.sliding_pressure > 0 else "touches in part"
     if name in ("friction", LAW) and groups.share > MOST:
