@@ -1,15 +1,15 @@
-"""The sums and updates of an iteration on the points of contact, each in one pass: the only door to numba.
+"""The sums and updates of an iteration on the points of contact, each in one pass.
 
 Values on the points of contact are vectors (m,); `where` (m,) are their places in a flattened plane, ascending.
 `Plain` says in whole-array arithmetic what `Fused` does in one loop, and is what runs where numba does not.
 """
 
 import numpy as np
-from numba import njit
+
+from scene import loops
 
 # Sums may be reordered, so that they vectorize; nothing else about the arithmetic is relaxed.
-compiled = njit(cache=True, nogil=True, fastmath={"reassoc", "contract", "nsz"})
-
+compiled = loops.compiled(fastmath={"reassoc", "contract", "nsz"})
 
 LEAST = -np.inf  # pressure that a foundation may have
 ROWS = 8  # marched side by side: a pixel waits for the one before it, but not for its neighbours aside

@@ -11,16 +11,14 @@ from math import exp, expm1, inf, log, nan
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
+from scene import loops
 from scene.quantities import METRE, takes
 
-# How every loop of this package is compiled: this module is its only door to numba.
-compiled = njit(cache=True, nogil=True, error_model="numpy")
+# How every loop of this package is compiled.
+compiled = loops.compiled(error_model="numpy")
 # Compiled for short loops that only sum: in any order, side by side, at the place of the call.
-summed = njit(
-    cache=True, nogil=True, error_model="numpy", fastmath={"reassoc", "contract", "nsz"}, forceinline=True
-)
+summed = loops.compiled(error_model="numpy", fastmath={"reassoc", "contract", "nsz"}, forceinline=True)
 
 NOWHERE = -1.0
 # Part of the lengths of an interval that squared is none.

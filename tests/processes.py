@@ -16,12 +16,12 @@ def heed_signals():
         signal.signal(number, signal.SIG_DFL)
 
 
-def start(folder, *arguments, program=("-m", "compare"), **environment):
+def start(folder, *arguments, program=("-m", "compare"), output=subprocess.PIPE, **environment):
     """A process in a group of its own, in which warnings are errors."""
     return subprocess.Popen(
         [sys.executable, *program, *arguments],
         cwd=folder,
-        stdout=subprocess.PIPE,
+        stdout=output,
         stderr=subprocess.PIPE,
         text=True,
         start_new_session=True,

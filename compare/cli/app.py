@@ -85,7 +85,8 @@ class Command:
         stated = SimpleNamespace(__annotations__={name: each.annotation for name, each in taken.items()})
         hints = get_type_hints(stated, vars(commands), STAND_INS)
         parameters = [
-            _parameter(self.title, name, hints[name], each.default, texts[name]) for name, each in taken.items()
+            _parameter(self.title, name, hints[name], each.default, texts.get(name, ""))
+            for name, each in taken.items()
         ]
         if self.solves:
             parameters += [_keyword("quiet", Quiet), _keyword("verbose", Verbose), _keyword("json", AsJson)]
@@ -107,6 +108,7 @@ class Command:
         with warnings.catch_warnings(), said_to_people(output, solves=self.solves):
             # What Python is warned of stands at the top of what is printed.
             warnings.filterwarnings("ignore", category=UserWarning, module=re.escape(__name__))
+            warnings.showwarning = lambda message, *_: say(f"crosscheck: {message}", error=True)
             found = self._answer(given, shown=not (quiet or json), lines=verbose)
         swept = getattr(found, "swept", None)
         if swept is not None and swept.reused and not swept.solved and not (quiet or json):
@@ -140,11 +142,14 @@ class Command:
 def _parameter(command: str, name: str, hint: Any, default: Any, text: str) -> inspect.Parameter:
     """Argument or option of a command.
 
-    text : what the docstring says of it, with more on Python alone
+    text : what the docstring says of it, with more on Python alone; empty in Python without docstrings
     """
     kind, values = _on_command_line(hint)
     text = text.partition(". From Python")[0]
-    about: Any = {"help": f"{text[:1].upper()}{text[1:]}.", "autocompletion": completion(command, name, values)}
+    about: Any = {
+        "help": text and f"{text[0].upper()}{text[1:]}.",
+        "autocompletion": completion(command, name, values),
+    }
     if default is inspect.Parameter.empty or name in PLACED:
         told = typer.Argument(**about)
     elif kind is bool and not default:
@@ -247,5 +252,8 @@ def main() -> None:
     gc.disable()
     try:
         app()
+    except OSError as error:  # commands say their own: this one is of standard output
+        say(f"crosscheck: standard output: {error.strerror}", error=True)
+        raise SystemExit(FAILED) from error
     finally:
         gc.freeze()  # so that none is looked for at the end either, as all goes with the process

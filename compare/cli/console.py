@@ -1,5 +1,7 @@
 """Output of a command for people, and every mistake in a line."""
 
+import errno
+import os
 import signal
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -29,6 +31,11 @@ def said_to_people(output: str, solves: bool) -> Iterator[None]:
         if signal.getsignal(number) is signal.SIG_DFL:  # and not ignored, as by nohup
             signal.signal(number, signal.default_int_handler)
     try:
+        os.getcwd()
+    except OSError as error:
+        say("crosscheck: the folder in which it is called is gone", error=True)
+        raise typer.Exit(MISTAKE) from error
+    try:
         yield
     except KeyboardInterrupt as interrupt:
         say("Interrupted. Solved contacts are kept: the same command resumes from there.", error=True)
@@ -54,6 +61,8 @@ def said_to_people(output: str, solves: bool) -> Iterator[None]:
 
         early = isinstance(error, Unwritable) or not solves
         where = f"{output}: " if isinstance(error, Unwritable) else ""
-        told = f"{brief(str(error.filename))}: {error.strerror}" if error.filename else str(error)
+        told = (
+            f"{brief(str(error.filename))}: {error.strerror}" if error.filename else error.strerror or str(error)
+        )
         say(f"crosscheck: {where}{told}{'' if early else '. Solved contacts are kept.'}", error=True)
-        raise typer.Exit(MISTAKE if early else FAILED) from error
+        raise typer.Exit(MISTAKE if early and error.errno != errno.ENOSPC else FAILED) from error

@@ -202,6 +202,30 @@ def test_nothing_that_a_file_says_controls_a_terminal(tmp_path, command):
         assert all(line.isprintable() for line in answer.output.split("\n"))
 
 
+def test_in_python_without_docstrings_commands_run_as_ever(folder):
+    status, said, complained = finish(start(folder, "scenes", PYTHONOPTIMIZE="2"))
+    assert (status, complained) == (0, "")
+    assert "quick-start" in said
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="there is no device that is always full")
+@pytest.mark.parametrize("command", ["--help", "scenes"])
+def test_output_onto_a_full_disk_is_one_line_and_status_1(folder, command):
+    with open("/dev/full", "w") as full:
+        status, _, complained = finish(start(folder, command, output=full))
+    assert (status, complained) == (1, "crosscheck: standard output: No space left on device\n")
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows deletes no folder that is in use")
+def test_a_folder_that_is_gone_is_one_line_and_status_2(tmp_path, monkeypatch):
+    (tmp_path / "gone").mkdir()
+    monkeypatch.chdir(tmp_path / "gone")
+    (tmp_path / "gone").rmdir()
+    answer = ask("run", "hertz", "--output", tmp_path / "elsewhere")
+    assert (answer.exit_code, answer.output) == (2, "crosscheck: the folder in which it is called is gone\n")
+    assert not [*tmp_path.iterdir()]
+
+
 def test_a_fault_keeps_its_traceback(monkeypatch):
     def broken():
         raise ValueError("a fault")

@@ -21,7 +21,7 @@ DOORS = {  # files outside which a library is not imported, in whichever folder 
     "pyfftw": {"engine"},
     "ducc0": {"engine"},
     "cupy": {"engine"},
-    "numba": {"kernels", "foundation"},  # one a package: neither solver imports the other
+    "numba": {"loops"},
     "tomllib": {"reading"},
     "SurfaceTopography": {"heightfile"},
     "pint": {"units"},

@@ -3,6 +3,7 @@
 Run with NUMBA_DISABLE_JIT=1, this process is the plain one; so the loops are seen when coverage is measured.
 """
 
+import errno
 import json
 import math
 import os
@@ -31,6 +32,7 @@ from scene import (
     Sphere,
     Stage,
     StandardLinearSolid,
+    loops,
 )
 
 PLAIN = os.environ.get("NUMBA_DISABLE_JIT") == "1"
@@ -110,6 +112,21 @@ def test_compiled_loops_answer_as_plain_python_does():
         assert np.isfinite(values).all(), name
         size = max(map(abs, values)) * ROUNDING * math.sqrt(np.finfo(float).eps)
         assert values == pytest.approx(there[name], rel=ROUNDING, abs=size), name
+
+
+@pytest.mark.skipif(PLAIN, reason="nothing is compiled")
+@pytest.mark.parametrize(
+    "function", [eval("lambda x: 2 * x"), lambda x: 2 * x], ids=["no folder for it", "a full disk"]
+)
+def test_code_that_cannot_be_kept_serves_its_process_and_that_is_said_once(monkeypatch, function):
+    def full(*_):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr("numba.core.caching.IndexDataCacheFile.save", full)
+    loops._say.cache_clear()
+    with pytest.warns(UserWarning, match="compiled code cannot be kept") as told:
+        answers = [loops.compiled()(function)(1.5) for _ in range(2)]
+    assert (answers, len(told)) == ([3.0, 3.0], 1)
 
 
 if __name__ == "__main__":

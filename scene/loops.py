@@ -1,0 +1,50 @@
+"""Loops that numba compiles when they are first called, and keeps on disk for the next process."""
+
+import multiprocessing
+import warnings
+from collections.abc import Callable
+from functools import cache
+from typing import Any
+
+from numba import njit
+
+
+def compiled(**options: Any) -> Callable[[Callable], Callable]:
+    """Decorator: a function as machine code that runs beside other threads.
+
+    options : how it is compiled, see numba.njit
+
+    Where no folder can be written, or the disk is full, each process compiles anew; a UserWarning says so once.
+    """
+
+    def made(function):
+        try:
+            loop = njit(cache=True, nogil=True, **options)(function)
+        except RuntimeError:  # of the folders that numba tries, none can be written
+            _say()
+            return njit(nogil=True, **options)(function)
+        if hasattr(loop, "_cache"):  # and not the plain function, by NUMBA_DISABLE_JIT
+            loop._cache.save_overload = _where_there_is_room(loop._cache.save_overload)
+        return loop
+
+    return made
+
+
+def _where_there_is_room(save):
+    def saved(*compiled):
+        try:
+            save(*compiled)
+        except OSError:  # what is compiled serves this process all the same
+            _say()
+
+    return saved
+
+
+@cache
+def _say():
+    if multiprocessing.parent_process() is None:  # workers leave it to their parent
+        warnings.warn(
+            "compiled code cannot be kept, as no folder for it can be written: each process compiles anew, for "
+            "some ten seconds; NUMBA_CACHE_DIR may name a folder",
+            stacklevel=2,
+        )
