@@ -33,7 +33,7 @@ def _physical() -> Iterator[int]:
 def _of_groups() -> Iterator[int]:
     """Limits of the control groups of this process, on Linux: of its own and of those around it."""
     try:
-        lines = Path("/proc/self/cgroup").read_text().splitlines()
+        lines = Path("/proc/self/cgroup").read_text(encoding="utf-8").splitlines()
     except OSError:
         return
     for line in lines:

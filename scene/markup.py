@@ -4,6 +4,8 @@ from collections.abc import Iterable, Sequence
 from html import escape
 from typing import Any
 
+from .printable import printable
+
 LONGEST = 60  # rows of a table that are shown
 
 
@@ -34,4 +36,4 @@ def _row(cells):
 
 def _text(cell):
     said = f"{cell:.6g}" if isinstance(cell, float) else str(cell)
-    return escape(said).replace("\n", "<br>")
+    return escape(printable(said)).replace("\n", "<br>")

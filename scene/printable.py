@@ -1,10 +1,12 @@
-"""Text as a terminal may show it: what controls one, or turns the direction of reading, is written out."""
+"""Text as a terminal or a page may show it: what controls one, or turns the direction of reading, is spelt out."""
+
+from unicodedata import category
 
 LONGEST = 200  # letters of a name or a value in a message
 
 
 def printable(text: str) -> str:
-    r"""A text whose unprintable characters, line ends aside, are written as escapes, as \x1b."""
+    r"""A text whose unprintable characters, line ends aside, are written as escapes, as \x1b; blanks are alike."""
     if text.isprintable():
         return text
     return "".join(each if each.isprintable() or each == "\n" else _escape(each) for each in text)
@@ -21,4 +23,4 @@ def brief(text: str, most: int = LONGEST) -> str:
 
 
 def _escape(letter):
-    return letter.encode("unicode_escape").decode("ascii")
+    return " " if category(letter) == "Zs" else letter.encode("unicode_escape").decode("ascii")

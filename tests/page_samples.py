@@ -1,5 +1,6 @@
-"""A page with a block of every kind, made of numbers alone, for tests of its renderers."""
+"""A page with a block of every kind, made of numbers alone, for tests of its renderers, and one of a stranger."""
 
+from dataclasses import replace
 from math import nan
 
 import numpy as np
@@ -50,3 +51,45 @@ def page() -> Page:
     return Page(
         "1D & 3D: *demo* of µ_x", sentences(FINDINGS), [plot, Findings(FINDINGS), Section("A sphere", blocks)]
     )
+
+
+# Where the texts of a stranger would have a browser, Markdown, Sphinx, LaTeX or a terminal go.
+PLACE = "http://127.0.0.1:PORT"
+HOSTILE = (
+    "<script>owned = 1</script>",
+    "<img src=x onerror='owned = 1'><svg onload='owned = 1'><details open ontoggle='owned = 1'>",
+    f"<style>@import '{PLACE}/a';</style><link rel=stylesheet href={PLACE}/b><base href={PLACE}>",
+    f"<iframe src={PLACE}/c></iframe><object data={PLACE}/d><meta http-equiv=refresh content='0;{PLACE}'>",
+    "\"'><b onmouseover='owned = 1' autofocus onfocus='owned = 1' tabindex=1>",
+    "</code></p></td></table></main></title></style><script>owned = 1</script>",
+    "&lt;script&gt;owned = 1&lt;/script&gt; &#60;img src=x onerror=owned=1&#62; &#x202e;",
+    "<!-- ]]> --!> <![CDATA[ <math><mtext><img src=x onerror=owned=1></mtext></math>",
+    "[a](javascript:owned=1) [b](JaVaScRiPt&colon;owned=1) [c](data:text/html,x) [d](file:///etc/passwd)",
+    "[e](../../etc/passwd) [f](%2e%2e/x) [g](//host/x) [h](/etc/passwd) [i](myst:x) <javascript:owned=1>",
+    f"![j]({PLACE}/e.png) \\![k]({PLACE}/f.png) ![l][l] [m]\n\n[l]: {PLACE}/g.png\n[m]: {PLACE}",
+    "{{ 7 * 7 }} {% include x %} {include}`/etc/passwd` {.a onclick=owned=1}",
+    "```{eval-rst}\n.. include:: /etc/passwd\n```",
+    ":::{include} /etc/passwd\n:::",
+    "~~~{raw} html\n<script>owned = 1</script>\n~~~",
+    "setext\n===\n# head\n---\nmyst: x\n---",
+    "| a | b |\n|---|---|\n| x | y |",
+    "n[^1] ~~s~~ term\n: text\n\n[^1]: note",
+    "(target)=\n% comment\n+++\n1. one\n\n    code",
+    r"$\href{javascript:owned=1}{x}$ $\input{/etc/passwd}$ $^^5cinput{/etc/passwd}$ $a%$ $$\write18{x}$$",
+    r"\input{/etc/passwd} ^^5cinput{x} \catcode`\%=0 \begin{align}x\end{align} \(x\)",
+    "\x1b[2J\x1b]0;t\x07\x9b \u202egpj.exe\u2066 \u200b\u200f\u061c",
+)
+
+
+def hostile_page() -> Page:
+    """A page with the texts of a stranger in every place."""
+    text = " ".join(HOSTILE)
+    claim = Claim("x", f"{text} xi", 1.0, 0.1, text, dimension="1D")
+    found = Finding(claim, 1.0, (0.9, 1.1), nan, where=f"{text} a", draws=3, regime=text, reason=text)
+    plot = sweep.plot(MEANS)
+    plot = replace(plot, name="friction", caption=text, alternative=text)
+    frame = DataFrame({"reason": HOSTILE, text: range(len(HOSTILE)), "body": [each[:9] for each in HOSTILE]})
+    blocks = [*(Text(each) for each in HOSTILE), Text("\n".join(f"- {each}" for each in HOSTILE)), plot]
+    blocks += [Findings([found], text), Findings([found, replace(found, where=text)]), Table("rows", frame, text)]
+    sections = [Section(each, [Text(each)]) for each in HOSTILE]
+    return Page(text, HOSTILE, [*blocks, *sections], {"platform": text}, HOSTILE, HOSTILE)

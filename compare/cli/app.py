@@ -18,7 +18,7 @@ from .. import commands
 from ..library import ready as library
 from ..solving.docstrings import documented
 from .completion import completion
-from .console import FAILED, MISTAKE, said_to_people, say
+from .console import FAILED, MISTAKE, print_in_any_encoding, said_to_people, say
 
 # Help is plain text: as markup of rich, what stands in brackets, units too, would be taken for a style and lost.
 app = typer.Typer(
@@ -246,6 +246,7 @@ def crosscheck(
 
 def main() -> None:
     """Entry point of the console command."""
+    print_in_any_encoding()
     # The matrices of the judge are small: threads of BLAS would wait for one another on a busy machine.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     # What is imported stays: a third of the time of a short command went into looking for garbage among it.

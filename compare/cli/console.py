@@ -1,14 +1,24 @@
 """Output of a command for people, and every mistake in a line."""
 
+import codecs
 import errno
 import os
+import re
 import signal
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from io import TextIOWrapper
 
 import typer
 
 FAILED, MISTAKE, INTERRUPTED = 1, 2, 130
+# Stand-ins for letters that an older encoding lacks; others are the names of Greek letters, or escapes.
+EXPONENT = re.compile("[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+")
+FIGURES = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻₀₁₂₃₄₅₆₇₈₉", "0123456789-0123456789")
+PLAIN = {"−": "-", "–": "-", "±": "+-", "×": "x", "·": "*", "µ": "u", "°": " deg", "√": "sqrt ", "≤": "<="} | {
+    "≥": ">=", "≈": "~", "∞": "inf", "′": "'", "…": "...", "½": "1/2"
+}  # fmt: skip
 
 
 def say(text: str, error: bool = False) -> None:
@@ -17,7 +27,29 @@ def say(text: str, error: bool = False) -> None:
         from scene.printable import printable  # slow, and few texts need it
 
         text = printable(text)
-    typer.echo(text, err=error)
+    print(text, file=sys.stderr if error else sys.stdout, flush=True)
+
+
+def print_in_any_encoding() -> None:
+    """From now on what is printed has stand-ins for the letters that the encoding of the terminal lacks."""
+    codecs.register_error("readable", _readable)
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):
+            stream.reconfigure(errors="readable")
+
+
+def _readable(error):
+    """Plain letters for those that cannot be encoded, and where to go on: an exponent is written whole, 10^-12."""
+    from ..report.render.mathematics import GREEK
+
+    text, start, end = error.object, error.start, error.end
+    if start and EXPONENT.match(text, start - 1):  # its first figures are written
+        return text[start:end].encode("ascii", "backslashreplace").decode(), end
+    if exponent := EXPONENT.match(text, end - 1):
+        end = exponent.end()
+    plain = EXPONENT.sub(lambda found: f"^{found[0]}", text[start:end]).translate(FIGURES)
+    plain = "".join(PLAIN.get(each) or GREEK.get(each, each).removeprefix("var") for each in plain)
+    return plain.encode("ascii", "backslashreplace").decode(), end
 
 
 @contextmanager

@@ -39,6 +39,12 @@ def _share(given: Any) -> float:
         raise ValueError(str(error).partition(": ")[2]) from None
 
 
+def _whole_letters(text: str) -> str:
+    text.encode()  # raises ValueError of halves of letters, which no file holds
+    return text
+
+
+Words = Annotated[str, AfterValidator(_whole_letters)]
 Draws = Annotated[Whole, Field(ge=1, le=MOST_DRAWS)]
 _WRITTEN = {"type": "string", "pattern": r"^\s*[0-9.]+\s*%\s*$", "examples": ["5%"]}
 _NUMBER = {"type": "number", "exclusiveMinimum": 0, "exclusiveMaximum": 1}
@@ -127,9 +133,9 @@ class Case:
     bem, mdr : settings of the solvers in three dimensions and in one
     """
 
-    title: str = ""
-    notes: tuple[str, ...] = ()
-    departures: tuple[str, ...] = ()
+    title: Words = ""
+    notes: tuple[Words, ...] = ()
+    departures: tuple[Words, ...] = ()
     indenter: Indenter
     elastomer: Elastomer
     motion: Motion

@@ -66,8 +66,8 @@ def folders(names: Iterable[str], what: str) -> dict[str, str]:
     """
     found: dict[str, str] = {}  # names by folder
     for name in names:
-        if not isinstance(name, str):
-            raise InvalidInput(f"{what} {brief(repr(name))}: a name is a text")
+        if not (isinstance(name, str) and name.isprintable()):
+            raise InvalidInput(f"{what} {brief(repr(name))}: a name is a text in printable letters")
         folder, said = slug(name), f"{what} {brief(name)!r}"
         if folder in TAKEN or len(folder) > MOST_LETTERS:
             why = f"has more than {MOST_LETTERS} letters" if len(folder) > MOST_LETTERS else "has another use"

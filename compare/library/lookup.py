@@ -9,7 +9,7 @@ from typing import TypeAlias
 
 from scene import Scene
 from scene.files import Unreadable, checked
-from scene.printable import brief
+from scene.printable import brief, printable
 from scene.reading import MOST, InvalidInput, parsed, read, text_of
 
 from ..solving.suggest import suggestion
@@ -30,7 +30,7 @@ def named_cases(asked: SceneLike | Mapping[str, SceneLike] | None = None) -> dic
         return shipped_cases()
     if isinstance(asked, str | Path):
         path = located(asked)
-        return {path.stem: read_case(path)}
+        return {printable(path.stem): read_case(path)}
     several = asked if isinstance(asked, Mapping) else {"scene": asked}
     cases = {name: case_of(each) for name, each in several.items()}
     for case in cases.values():

@@ -60,16 +60,18 @@ class Model:
                 f"{told}: an object of a frozen dataclass with `name` and `solve(scene)` is allowed"
             )
         name = getattr(solver, "name", None)
-        if not isinstance(name, str) or not name or set(name) & set("/\\"):
-            raise InvalidInput(f"{told}: its `name` is {brief(repr(name))}, a text without slashes is allowed")
+        label, draws = KNOWN.get(name, (name, SURFACES)) if isinstance(name, str) else ("", SURFACES)
+        label = str(getattr(solver, "label", label))
+        for what, text, without in (("name", name, "/\\$"), ("label", label, "$")):
+            if not (isinstance(text, str) and text.strip(". ") and text.isprintable()) or set(text) & set(without):
+                allowed = f"printable letters without {' '.join(without)}"
+                raise InvalidInput(f"{told}: its `{what}` is {brief(repr(text))}, {allowed} are allowed")
         try:
             json.dumps(asdict(solver))
         except (TypeError, ValueError) as error:
             raise InvalidInput(
                 f"{told}: its settings are to be numbers, texts and rows of them: {error}"
             ) from error
-        label, draws = KNOWN.get(name, (name, SURFACES))
-        label = str(getattr(solver, "label", label))
         draws = cast(Draws, getattr(solver, "draws", draws))
         if draws not in DRAWS:
             raise InvalidInput(f"{told}: its `draws` is {brief(repr(draws))}, {', '.join(DRAWS)} are allowed")

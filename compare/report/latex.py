@@ -4,6 +4,8 @@ import re
 
 from pandas import DataFrame
 
+from scene.printable import printable
+
 from .render import mathematics
 from .render.columns import columns
 
@@ -23,7 +25,7 @@ JOINED = re.compile(f"μ̃|[{''.join(SUPERSCRIPTS)}]+|[{''.join(SUBSCRIPTS)}]+|.
 
 def escaped(words: str) -> str:
     """Text that LaTeX prints as it is; letters beyond ASCII that are no symbols are left to its input encoding."""
-    return JOINED.sub(lambda found: _symbol(found.group()), words)
+    return JOINED.sub(lambda found: _symbol(found.group()), printable(words))
 
 
 def typeset(words: str) -> str:
@@ -43,7 +45,7 @@ def table(frame: DataFrame, caption: str = "", label: str = "") -> str:
         position_float="centering",
         column_format="".join("r" if column.numeric else "l" for column in shown),
         caption=typeset(caption) or None,
-        label=label or None,
+        label=re.sub(r"[^A-Za-z0-9:/_.-]", "-", label) or None,
     )
 
 

@@ -7,9 +7,14 @@ from typing import Any
 
 import numpy as np
 
-from scene import Result
+from scene import Result, SolveError
+from scene.printable import brief
 
 NUMBERS = ("normal_force", "depth", "friction_force", "residual", "operator_applications", "seconds")
+# Names of what stands beside the measures of a model, which may have no other.
+TAKEN = {*NUMBERS, "grid", "speed", "load", "seed", "points", "stratum", "moment", "local_moments"} | {
+    "friction_coefficient", "depth_reached", "status", "reason"
+}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -41,7 +46,12 @@ class Outcome:
 
 
 def row(result: Result) -> Row:
-    """The numbers of a result, as plain Python numbers."""
+    """The numbers of a result, as plain Python numbers. Raises SolveError of measures that no table can hold."""
+    for name in (*result.measures, *result.fields):
+        if not (isinstance(name, str) and name.isprintable() and name.strip(". ")) or "/" in name:
+            raise SolveError(f"measure or field {brief(repr(name))}: printable letters without / are allowed")
+    if taken := sorted(TAKEN & result.measures.keys()):
+        raise SolveError(f"measure {taken[0]!r}: the name has another use, choose another")
     numbers: dict[str, Any] = {name: float(getattr(result, name)) for name in NUMBERS}
     return Row(
         **numbers,

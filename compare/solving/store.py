@@ -315,7 +315,10 @@ def _here() -> str:
     """Digest of where numbers of processes mean something: this machine since it was started, this container."""
     where = [platform.node()]
     with suppress(OSError):  # of Linux alone
-        where += [Path("/proc/sys/kernel/random/boot_id").read_text(), os.readlink("/proc/self/ns/pid")]
+        where += [
+            Path("/proc/sys/kernel/random/boot_id").read_text(encoding="ascii"),
+            os.readlink("/proc/self/ns/pid"),
+        ]
     return _digest(canonical(where).encode())[:8]
 
 
@@ -399,3 +402,12 @@ def _package_digest(package):
     return code_digest(
         Path(spec.submodule_search_locations[0] if spec.submodule_search_locations else spec.origin)
     )
+
+
+def refuse_impossible(path: Path) -> None:
+    """Raise OSError of a path that no file can have."""
+    try:
+        with suppress(OSError):
+            path.lstat()
+    except ValueError as error:  # of zero bytes, and of letters that no file system has
+        raise OSError(errno.EINVAL, "is a name that no file can have", str(path)) from error

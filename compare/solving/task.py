@@ -121,6 +121,8 @@ class SceneTask:
             try:
                 began = process_time()
                 result = self.solver.solve(scene, *trail)
+                seconds = result.seconds if isfinite(result.seconds) else process_time() - began
+                rows.append(row(replace(result, seconds=seconds)))
             except EmptyContact:
                 depth = scene.motion.greatest if scene.motion.pressed_by == "depth" else nan
                 rows.append(Row(0.0, depth, 0.0, residual=0.0, operator_applications=0.0, seconds=0.0))
@@ -131,10 +133,8 @@ class SceneTask:
             except SolveError as error:
                 rows.append(Row(reason=str(error) or type(error).__name__))
                 continue
-            if self.keeps_fields and not rows:
+            if self.keeps_fields and len(rows) == 1:
                 fields = dict(result.fields)
-            seconds = result.seconds if isfinite(result.seconds) else process_time() - began
-            rows.append(row(replace(result, seconds=seconds)))
         return Outcome(tuple(rows), fields)
 
     def failed(self, reason: str) -> Outcome:

@@ -16,7 +16,7 @@ from ..solving import netcdf, runner
 from ..solving.amounts import seconds_of
 from ..solving.hold import hold
 from ..solving.runner import Progress, SweepResult
-from ..solving.store import Store, Unwritable, make
+from ..solving.store import Store, Unwritable, make, refuse_impossible
 from ..solving.suggest import known
 from ..solving.workers import counted
 from ..statistics.allocation import GROWTH
@@ -181,6 +181,7 @@ def _solve(study, had, output, workers, scheduler, progress) -> SweepResult:
 def _make_folders(folder, below, place):
     """Make every folder that is written into. Raises Unwritable."""
     try:
+        refuse_impossible(folder)
         for path in (folder, *(folder / name for name in (*below, place) if name)):
             if path.exists() and not path.is_dir():
                 raise NotADirectoryError(errno.ENOTDIR, "is a file, and no folder", str(path))

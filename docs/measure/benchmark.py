@@ -206,7 +206,8 @@ def steady_sliding() -> str:
 
 def machine() -> str:
     """Day, processor and versions, without names of places."""
-    cpu = next(line for line in Path("/proc/cpuinfo").read_text().splitlines() if line.startswith("model name"))
+    lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
+    cpu = next(line for line in lines if line.startswith("model name"))
     names = "numpy", "scipy", "numba", "ducc0", "pyfftw", "tamaas", "ContactMechanics"
     versions = ", ".join(f"{name} {importlib.metadata.version(name)}" for name in names)
     cores = f"{os.cpu_count()} cores (load at the start {os.getloadavg()[0]:.1f})"

@@ -63,7 +63,7 @@ def by_tamaas(scene: Scene, solver: BEM, tolerance: float) -> dict:
 def printed():
     """What a compiled library prints meanwhile, as lines, once it is over."""
     lines: list[str] = []
-    with tempfile.TemporaryFile("w+") as file:
+    with tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") as file:
         kept = [(number, os.dup(number)) for number in (1, 2)]
         for number, _ in kept:
             os.dup2(file.fileno(), number)

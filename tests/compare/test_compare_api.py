@@ -156,6 +156,7 @@ def test_a_result_shows_every_number_with_its_unit_and_escapes_what_it_holds():
     for name in ("normal_force", "depth", "friction_coefficient", *result.measures, *result.fields):
         assert f">{name}<" in text
     assert ">N<" in text
-    hostile = replace(result, settings={"points": "<script>"}, measures={"<b>": 1.0})
+    hostile = replace(result, settings={"points": "<script>"}, measures={"<b>\u202e": 1.0})
     assert "<script>" not in hostile._repr_html_()
     assert "<b>" not in hostile._repr_html_()
+    assert hostile._repr_html_().isprintable()

@@ -2,11 +2,16 @@
 
 import re
 import shutil
+import threading
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 
+import numpy as np
 import pytest
-from page_samples import FINDINGS, page
+from page_samples import FINDINGS, HOSTILE, hostile_page, page
+from pandas import DataFrame
 
 from compare.report import render
+from compare.studies.draw import interactive
 
 playwright = pytest.importorskip("playwright.sync_api", reason="playwright drives the browser: extra browser")
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
@@ -170,6 +175,14 @@ def test_a_link_unfolds_what_it_leads_to_without_a_script(written, opened):
     assert sheet.is_visible()
 
 
+def changed(written, folder, part, policy=""):
+    """The page with another part, and another policy or none."""
+    text = written.read_text(encoding="utf-8").replace("</main>", f"{part}</main>")
+    path = folder / "changed.html"
+    path.write_text(re.sub("<meta http-equiv.*>", policy, text, count=1), encoding="utf-8")
+    return path
+
+
 @pytest.mark.parametrize(
     ("broken", "complaint"),
     [
@@ -189,16 +202,83 @@ def test_a_link_unfolds_what_it_leads_to_without_a_script(written, opened):
     ],
 )
 def test_every_check_finds_what_it_looks_for(written, opened, tmp_path, broken, complaint):
-    path = tmp_path / "broken.html"
-    text = written.read_text(encoding="utf-8")
-    path.write_text(text.replace("</main>", f"{broken}</main>"), encoding="utf-8")
-    shown, complaints = opened(path)
+    shown, complaints = opened(changed(written, tmp_path, broken))
     assert any(complaint in fault for fault in faults(shown, complaints))
 
 
 def test_what_is_too_wide_is_seen_on_a_phone_and_on_paper(written, opened, tmp_path):
-    path = tmp_path / "wide.html"
-    text = written.read_text(encoding="utf-8")
-    path.write_text(text.replace("</main>", "<div style='width: 800px'>wide</div></main>"), encoding="utf-8")
+    path = changed(written, tmp_path, "<div style='width: 800px'>wide</div>")
     for viewport in (PHONE, PAPER):
         assert opened(path, viewport=viewport)[0].evaluate(WIDE) > 0
+
+
+@pytest.fixture
+def stranger():
+    """Address of a machine that a page must not ask for anything, and what it was asked for."""
+    asked = []
+
+    class Asked(BaseHTTPRequestHandler):
+        def do_GET(self):
+            asked.append(self.path)
+            self.send_error(404)
+
+        def log_message(self, *_):
+            pass
+
+    server = ThreadingHTTPServer(("127.0.0.1", 0), Asked)
+    threading.Thread(target=server.serve_forever, args=(0.05,), daemon=True).start()
+    yield f"127.0.0.1:{server.server_port}", asked
+    server.shutdown()
+    server.server_close()
+
+
+STRANGE = "script, iframe, object, embed, link, base, form, input, svg, meta[http-equiv=refresh], b, [autofocus]"
+OBEYED = f"""() => [typeof owned, document.querySelectorAll("{STRANGE}").length, document.images.length,
+  [...document.querySelectorAll("*")].filter(e => e.getAttributeNames().some(n => n.startsWith("on"))).length]"""
+LINKS = "[...document.links].filter(a => !a.hash || a.host).map(a => [a.protocol, a.rel])"
+
+
+@pytest.mark.parametrize("policy", [True, False])
+def test_the_texts_of_a_stranger_run_nothing_and_load_nothing_even_without_the_policy(
+    tmp_path, opened, stranger, policy
+):
+    address, asked = stranger
+    path = render.write(render.files(hostile_page(), []), tmp_path)[-1]
+    text = path.read_text(encoding="utf-8").replace("127.0.0.1:PORT", address)
+    path.write_text(text, encoding="utf-8")
+    shown, complaints = opened(path if policy else changed(path, tmp_path, ""), offline=False)
+    assert shown.evaluate(OBEYED) == ["undefined", 0, 1, 0]
+    assert shown.evaluate(LINKS) == [["http:", "noopener noreferrer"]] * len(shown.evaluate(LINKS))
+    assert HOSTILE[0] in shown.locator("main").inner_text()
+    assert not asked
+    assert complaints == []
+
+
+def test_the_policy_of_a_page_stops_what_was_not_escaped(written, tmp_path, opened, stranger):
+    address, asked = stranger
+    place = f"http://{address}"
+    part = f"""<script>owned = 1</script><img src=x onerror='owned = 1' alt=''><img src='{place}/a' alt=''>
+        <iframe src='{place}/b'></iframe><link rel=stylesheet href='{place}/c'><script src='{place}/d'></script>
+        <style>main {{ display: none; background: url({place}/e) }}</style><object data='{place}/f'></object>"""
+    (policy,) = re.findall("<meta http-equiv.*>", written.read_text(encoding="utf-8"))
+    shown, _ = opened(changed(written, tmp_path, part, policy), offline=False)
+    assert shown.evaluate("typeof owned") == "undefined"
+    assert shown.locator("main").is_visible()
+    assert not asked
+    shown, _ = opened(changed(written, tmp_path, part), offline=False)
+    assert shown.evaluate("typeof owned") == "number"
+    assert {"/a", "/b", "/c", "/d"} <= set(asked)
+
+
+@pytest.mark.slow
+def test_the_interactive_page_draws_under_its_policy(tmp_path, opened):
+    pytest.importorskip("plotly")
+    x, y = (each.ravel() * 1e-3 for each in np.meshgrid(np.linspace(-1, 1, 9), np.linspace(-1, 1, 9)))
+    table = DataFrame({"x": x, "y": y, "displacement": -(x**2) - y**2, "pressure": 1e6, "gap": 0.0})
+    path = tmp_path / interactive.NAME
+    path.write_text(interactive._page(table, {"highest": 1e6, "enlarged": 9.0, "sliding": 1}), encoding="utf-8")
+    shown, complaints = opened(path)
+    shown.locator(".gl-container canvas, .no-webgl").first.wait_for(state="attached")
+    assert "indenter slides" in shown.locator(".gtitle").text_content()
+    assert [each for each in complaints if each.startswith(("error", "fetched")) and "WebGL" not in each] == []
+    assert "script-src 'sha256-" in path.read_text(encoding="utf-8")

@@ -5,6 +5,7 @@ import json
 import os
 import re
 import signal
+from io import BytesIO, TextIOWrapper
 
 import pandas
 import pytest
@@ -14,6 +15,7 @@ from typer.testing import CliRunner
 
 from compare import commands
 from compare.cli.app import COMMANDS, app
+from compare.cli.console import print_in_any_encoding, say
 from compare.library.ready import ready
 from compare.report.plots.journals import JOURNALS
 from compare.solving.docstrings import documented
@@ -192,6 +194,30 @@ def test_a_mistake_is_one_clear_line_and_status_2_before_anything_is_solved(tmp_
     assert {path.name: path.read_text() for path in tmp_path.iterdir()} == texts
 
 
+def printed(text, encoding, monkeypatch):
+    """What a terminal of an encoding is sent of a text."""
+    sent = BytesIO()
+    monkeypatch.setattr("sys.stdout", TextIOWrapper(sent, encoding))
+    print_in_any_encoding()
+    say(text)
+    return sent.getvalue().decode(encoding)
+
+
+@pytest.mark.parametrize(
+    ("encoding", "said"),
+    [
+        ("utf-8", "−2 ± 1 × 10⁻¹² Pa, λ ≤ 5 µm, 3 · 10¹⁰ h₀, 摩"),
+        ("cp1252", r"-2 ± 1 × 10^-12 Pa, lambda <= 5 µm, 3 · 10¹\u2070 h0, \u6469"),
+        ("latin-1", r"-2 ± 1 × 10^-12 Pa, lambda <= 5 µm, 3 · 10¹\u2070 h0, \u6469"),
+        ("ascii", r"-2 +- 1 x 10^-12 Pa, lambda <= 5 um, 3 * 10^10 h0, \u6469"),
+    ],
+)
+def test_letters_that_an_encoding_lacks_have_stand_ins_that_say_the_same_number(encoding, said, monkeypatch):
+    assert printed("−2 ± 1 × 10⁻¹² Pa, λ ≤ 5 µm, 3 · 10¹⁰ h₀, 摩", encoding, monkeypatch) == f"{said}\n"
+    every = "".join(map(chr, range(0x3000))) + "\ud800\U0001f600"
+    assert len(printed(every, encoding, monkeypatch)) > 0x3000
+
+
 @pytest.mark.parametrize("command", ["plan", "trust"])
 def test_nothing_that_a_file_says_controls_a_terminal(tmp_path, command):
     path = tmp_path / "\x1b[31m.toml"
@@ -211,7 +237,7 @@ def test_in_python_without_docstrings_commands_run_as_ever(folder):
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="there is no device that is always full")
 @pytest.mark.parametrize("command", ["--help", "scenes"])
 def test_output_onto_a_full_disk_is_one_line_and_status_1(folder, command):
-    with open("/dev/full", "w") as full:
+    with open("/dev/full", "w", encoding="ascii") as full:
         status, _, complained = finish(start(folder, command, output=full))
     assert (status, complained) == (1, "crosscheck: standard output: No space left on device\n")
 

@@ -1,5 +1,7 @@
 """Friction that a user measured: the table is read or refused by its line, and shifted onto one curve."""
 
+import os
+import sys
 from io import StringIO
 
 import numpy as np
@@ -7,11 +9,13 @@ import pandas
 import pytest
 
 import compare
+from compare.library.ready import ready
 from compare.report.plots import shifted_curves, style
 from compare.statistics.eq23 import NO_SHIFT
 from compare.statistics.finding import FAILS, HOLDS, REPORTED, UNDECIDED
 from compare.studies.mastercurve.measurements import MeasuredFriction
 from compare.studies.mastercurve.study import NOT_REPEATED, Mastercurve
+from compare.studies.run.study import Run
 from scene.reading import InvalidInput
 
 
@@ -34,6 +38,22 @@ def study(tmp_path, text, name="ball.csv"):
 
 def found(study):
     return {each.claim.id.removeprefix("mastercurve."): each for each in study.judge(study.answers({})).findings}
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="names of files are texts elsewhere")
+def test_a_file_whose_name_is_no_text_is_named_by_letters_that_stand_for_it(tmp_path):
+    name = os.fsdecode(b"ball\xff")
+    np.save(tmp_path / f"{name}.npy", np.random.default_rng(1).normal(size=(16, 16)))
+    study(tmp_path, table(), f"{name}.csv")
+    (tmp_path / f"{name}.toml").write_text(ready()["hertz"].text, encoding="utf-8")
+    for left in (
+        compare.mastercurve(tmp_path / f"{name}.csv", output=tmp_path / name, report=False),
+        compare.topography(tmp_path / f"{name}.npy", 1e-6, unit="um", output=tmp_path / name, report=False),
+    ):
+        assert r"ball\udcff" in str(left)
+        assert r"ball\udcff" in left.study.title
+        assert set(compare.export(left.output)) >= {left.output / "tables/findings.csv"}
+    assert list(Run.of(tmp_path / f"{name}.toml").cases) == [r"ball\udcff"]
 
 
 @pytest.mark.parametrize("noise", [0.0, 0.003, 0.01])

@@ -52,6 +52,29 @@ class Stiff:
         return Result(scene, self.name, {}, self.factor * contact.load, contact.depth, 0.01 * contact.load)
 
 
+def called(name, label="a model"):
+    return dataclass(frozen=True)(type("Called", (Stiff,), {"name": name, "label": label}))()
+
+
+@dataclass(frozen=True)
+class Measuring(Stiff):
+    """One that measures something of a name."""
+
+    measure: str = ""
+    name = "Measuring"
+
+    def solve(self, scene: Scene) -> Result:
+        return replace(super().solve(scene), measures={self.measure: 1.0})
+
+
+@pytest.mark.parametrize("measure", ["speed", "status", "depth_reached", "seconds", "a/b", "..", "\ud800", ""])
+def test_a_measure_that_has_the_name_of_something_else_is_no_answer(measure):
+    (row,) = SceneTask(Measuring(measure=measure), (SCENE,)).solve().rows
+    assert repr(measure) in row.reason
+    (row,) = SceneTask(Measuring(measure="rms_slope"), (SCENE,)).solve().rows
+    assert (row.reason, row.measures) == (None, {"rms_slope": 1.0})
+
+
 @dataclass(frozen=True)
 class Averaging(Stiff):
     name, draws = "Averaging", "none"
@@ -130,6 +153,11 @@ def test_a_model_that_answers_nothing_is_told_and_takes_no_other_with_it(error, 
         (["bem", Stiff], None, "frozen dataclass"),
         (["bem", object()], None, "frozen dataclass"),
         (["bem", replace(Stiff(), factor=object())], None, "numbers, texts"),
+        *(
+            (["bem", called(name)], None, "its `name` is")
+            for name in ("", "..", "a/b", "$x", "\ud800", "\u202e", 3)
+        ),
+        (["bem", called("a", r"$\frac$")], None, "its `label` is"),
     ],
 )
 def test_a_mistake_is_named_before_anything_is_solved(models, reference, said, tmp_path):

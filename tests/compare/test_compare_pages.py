@@ -6,6 +6,7 @@ import os
 import re
 import shutil
 from dataclasses import replace
+from functools import partial
 from html import escape
 from html.parser import HTMLParser
 from io import BytesIO
@@ -18,9 +19,20 @@ import numpy as np
 import pandas
 import pytest
 import xarray
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
-from page_samples import FINDINGS, MEANS, ROWS, page, written
+from markdown_it import MarkdownIt
+from mdit_py_plugins.amsmath import amsmath_plugin
+from mdit_py_plugins.attrs import attrs_block_plugin, attrs_plugin
+from mdit_py_plugins.colon_fence import colon_fence_plugin
+from mdit_py_plugins.deflist import deflist_plugin
+from mdit_py_plugins.dollarmath import dollarmath_plugin
+from mdit_py_plugins.footnote import footnote_plugin
+from mdit_py_plugins.front_matter import front_matter_plugin
+from mdit_py_plugins.myst_blocks import myst_block_plugin
+from mdit_py_plugins.myst_role import myst_role_plugin
+from mdit_py_plugins.substitution import substitution_plugin
+from page_samples import FINDINGS, HOSTILE, MEANS, PLACE, ROWS, hostile_page, page, written
 from pandas import DataFrame
 from pandas.testing import assert_frame_equal
 
@@ -33,6 +45,7 @@ from compare.report.render import html, markdown, mathematics, prose, terminal
 from compare.solving import netcdf, vocabulary
 from compare.statistics import digits
 from compare.statistics.finding import COLUMNS
+from scene.printable import printable
 from scene.reading import InvalidInput
 
 STUDY = SimpleNamespace(command="run", inputs={"loads": np.array([1.0, nan])})
@@ -252,6 +265,16 @@ def test_prose_keeps_its_marks_in_every_form():
     assert "<script>" not in prose.html("<script>")
 
 
+def test_no_caption_label_or_cell_of_a_table_for_latex_is_a_command():
+    frame = DataFrame({text: [text] for text in HOSTILE})
+    printed = latex.table(frame, "".join(HOSTILE), f"tab:a}}^^5cinput{{{PLACE}}}%")
+    ours = "begin end centering caption label toprule midrule bottomrule textbackslash textasciicircum"
+    assert set(re.findall(r"\\([a-zA-Z]+)", printed)) == {"textasciitilde", *ours.split()}
+    assert "^^" not in printed
+    assert re.search(r"\\label\{[\w:/.-]*\}", printed)
+    assert re.fullmatch(r"[^\x00-\x09\x0b-\x1f\x7f-\x9f\u200b\u202e]*", printed)
+
+
 @given(st.text(st.characters(codec="ascii", categories=("L", "N", "P", "S", "Zs"))))
 def test_text_escaped_for_latex_has_no_command_of_its_own(text):
     printed = latex.escaped(text)
@@ -259,8 +282,91 @@ def test_text_escaped_for_latex_has_no_command_of_its_own(text):
     assert not set(plain) & set("\\{}&%$#_~^")
 
 
-def test_markdown_shows_what_it_is_given_as_it_is():
-    assert markdown.escaped("*a* | _b_ h_0 <i>") == r"\*a\* \| \_b\_ h_0 \<i\>"
+def test_the_texts_of_a_stranger_are_no_marks_of_html_and_control_no_terminal(tmp_path):
+    whole = written(hostile_page(), [], tmp_path).read_text(encoding="utf-8")
+    for text in (whole, html.fragment(hostile_page())):
+        found = Links(text)
+        assert not re.search(
+            r"<(script|svg|iframe|object|link|base|b|details open|meta http-equiv=refresh)\b", text
+        )
+        assert all(image["src"].startswith("data:image/png;base64,") for image in found.images)
+        assert {each for each in found.links if each[0] != "#"} == {f"{PLACE}/e.png", f"{PLACE}/f.png"}
+        assert all(map(str.isprintable, text.split("\n")))
+    (policy,) = re.findall('<meta http-equiv="Content-Security-Policy" content="(.*)">', whole)
+    assert policy.startswith("default-src &#39;none&#39;; ")
+    assert all(map(str.isprintable, terminal.text(hostile_page()).split("\n")))
+
+
+def sphinx():
+    """A parser of Markdown that knows all that those of documentation may."""
+    parser = MarkdownIt("commonmark", {"html": True}).enable(["table", "strikethrough"])
+    for plugin in (amsmath_plugin, attrs_block_plugin, attrs_plugin, colon_fence_plugin, deflist_plugin,
+                   footnote_plugin, front_matter_plugin, myst_block_plugin, myst_role_plugin,
+                   partial(dollarmath_plugin, double_inline=True), substitution_plugin):  # fmt: skip
+        parser.use(plugin)
+    return parser
+
+
+def parts(text):
+    """Kinds of the parts of a text in Markdown, where its links and images lead, and its formulas."""
+    kinds, led, formulas = set(), [], []
+    for block in sphinx().parse(text):
+        for token in [block, *(block.children or ())]:
+            kinds.add(token.type.removesuffix("_open").removesuffix("_close"))
+            led += [str(token.attrs[name]) for name in ("href", "src") if name in token.attrs]
+            formulas += [token.content] if token.type.startswith("math") else []
+            assert not token.attrs.keys() - {"href", "src", "alt", "style", "start"}
+            assert token.attrs.get("style", "text-align:") in (
+                "text-align:",
+                "text-align:left",
+                "text-align:right",
+            )
+    return kinds, led, formulas
+
+
+KNOWN = {"inline", "text", "paragraph", "bullet_list", "ordered_list", "list_item", "em", "strong", "code_inline"}
+KNOWN |= {"link", "softbreak", "math_inline", "math_inline_double", "math_block"}
+OURS = {"heading", "image", "table", "thead", "tbody", "tr", "th", "td"}
+
+
+def test_the_texts_of_a_stranger_are_no_marks_of_markdown_and_no_directives_of_sphinx(tmp_path):
+    text = written(hostile_page(), [], tmp_path, "markdown").read_text(encoding="utf-8")
+    kinds, led, formulas = parts(text)
+    assert kinds <= KNOWN | OURS
+    assert {each for each in led if each.startswith("http")} <= {f"{PLACE}/e.png", f"{PLACE}/f.png"}
+    assert all(re.fullmatch(r"[a-z-]+\.(csv|png)", each) for each in led if not each.startswith("http"))
+    assert all(mathematics.understood(each) for each in formulas)
+    assert re.fullmatch(r"[^\x00-\x09\x0b-\x1f\x7f-\x9f\u200b\u202e]*", text)
+
+
+MARKED = st.lists(
+    st.sampled_from([*"`*_[]()<>|$~#{}&!%=-+:.1a^@\\\"' \n\t\u202e\x85", "\n\n", "    ", "```", ":::", "---", "http://a",
+                     "&#33;", "{a}`", "$x^2$", r"\frac", "- ", "1. ", "![a](b)", "a", "xi", "é"]),
+    max_size=20,
+).map("".join)  # fmt: skip
+
+
+@given(MARKED)
+@example("- a\n\n      - b\n  c\n1. d")
+@example("a!\\[b](c)")
+@example("$a\n\\$b$")
+def test_a_text_written_again_in_markdown_says_the_same_and_has_no_other_marks(text):
+    again = markdown.restated(text)
+    kinds, _, formulas = parts(f"# a\n\n{printable(again)}\n\nb")
+    assert kinds <= KNOWN | {"heading"}
+    assert all(mathematics.understood(" ".join(each.split())) for each in formulas)
+    said, told = (re.sub(r"[\s-]|\d+\.", "", prose.plain(each)) for each in (text, again))
+    assert said == told or "$" in text
+
+
+@given(MARKED)
+def test_markdown_shows_what_it_is_given_as_it_is(text):
+    (_, shown, _) = sphinx().parse(markdown.begun(printable(markdown.escaped(f"{text} x"))))
+    assert {each.type for each in shown.children} == {"text"}
+    assert (
+        "".join(each.content for each in shown.children)
+        == printable(re.sub(r"[ \t\r\n]+", " ", f"{text} x")).strip()
+    )
 
 
 def test_a_table_for_a_paper_has_booktabs_and_values_with_their_errors():

@@ -12,9 +12,11 @@ from compare.library.case import Case, Variations
 from compare.report.export import TABLES
 from compare.report.plots import style
 from compare.report.redraw import FIGURES
+from compare.solving import netcdf
 from compare.solving.continuation import Continuation
 from compare.solving.outcome import Outcome, Row
 from compare.solving.parameter_grid import COARSE, FINE, tasks_of
+from compare.solving.store import Unwritable
 from compare.statistics import finding
 from compare.studies.report import SOLVED
 from compare.studies.run.curves import (
@@ -246,7 +248,7 @@ def test_what_cannot_be_compared_is_refused_before_anything_is_solved(tmp_path):
 
 
 SHARED = [("A", "a"), ("é", "e\u0301"), ("日本", "東京"), ("a b", "a-b")]
-TAKEN = [SOLVED, FIGURES, TABLES, "NUL", "x" * 5000, 3]
+TAKEN = [SOLVED, FIGURES, TABLES, "NUL", "x" * 5000, 3, "\ud800", "a\u202eb", "\x1b[2J"]
 
 
 @pytest.mark.parametrize("names", [*SHARED, *((name,) for name in TAKEN)], ids=lambda names: str(names)[:20])
@@ -255,6 +257,30 @@ def test_names_that_have_no_folder_of_their_own_are_refused_before_anything_is_s
         compare.run(dict.fromkeys(names, CASE), output=tmp_path / "out")
     assert all(brief(str(name)) in str(caught.value) for name in names)
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("output", ["\ud800", "a\0b"])
+def test_a_folder_that_cannot_be_and_words_that_no_file_holds_are_refused_before_anything_is_solved(output):
+    with pytest.raises(Unwritable, match="name that no file can have"):
+        compare.run(CASE, output)
+    with pytest.raises(ValueError, match="surrogates"):
+        replace(CASE, notes=("\ud800",))
+
+
+def test_no_name_of_a_case_is_a_column_or_a_part_of_another(tmp_path):
+    rest = replace(CASE, elastomer=Elastic(modulus=1e6), motion=Indent(load=1.0), roughness=None)
+    rest = replace(rest, title=r"$\frac$ \input{x} <b>")
+    names = ["sentence", OWN, r"$\frac{$ \input{x} <b> a/../b"]
+    run = Run.of(dict.fromkeys(names, rest))
+    answers = run.answers(invented_of(run))
+    made = run.judge(answers)
+    shown = made.page(run.title, answers)
+    (table,) = (frame for name, frame in shown.tables() if name == "summary")
+    assert list(table) == ["sentence", "dimension", "case", "verdict"]
+    assert table["case"].value_counts().to_dict() == dict.fromkeys(names, len(table) // len(names))
+    assert {each.where.partition(",")[0] for each in made.findings} == set(names)
+    (tmp_path / netcdf.NAME).write_bytes(netcdf.packed(answers))
+    assert set(netcdf.load(tmp_path).children) == set(run.folders.values())
 
 
 @pytest.mark.parametrize("place", ["../out", "/elsewhere/out", "a/../..", SOLVED, f"{SOLVED}/a"])

@@ -15,6 +15,7 @@ def test_what_controls_a_terminal_is_written_out(control):
 def test_letters_of_people_and_line_ends_stay():
     text = "µ = 0.3 °C, naïve 摩擦\nnext"
     assert printable(text) == text
+    assert printable("20\u202f000\xa0N") == "20 000 N"
     assert brief(text) == text.replace("\n", "\\n")
 
 

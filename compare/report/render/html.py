@@ -1,6 +1,7 @@
 """A page as one HTML file that needs nothing else, offline and without scripts; a part of it for a notebook."""
 
 import base64
+import hashlib
 from collections.abc import Mapping
 from html import escape
 from pathlib import Path
@@ -9,6 +10,8 @@ from typing import Any
 import jinja2
 from markupsafe import Markup
 from pandas import DataFrame
+
+from scene.printable import printable
 
 from ...solving.vocabulary import Term, entry, stem
 from ..manifest import FINDINGS, made
@@ -22,15 +25,20 @@ MOST_ROWS = 400  # a longer table is no reading
 DIGITS = 6
 # A word that is longer may be broken into lines.
 LONG = 30
+# A browser loads nothing for a page, and runs and applies nothing that is not allowed by its digest.
+POLICY = "default-src 'none'; base-uri 'none'; form-action 'none'; img-src data:"
 
 
 def text(page: Page, pictures: Mapping[str, Picture]) -> str:
     """The page; pictures : of the plots, by name."""
     used: dict[str, Term] = {}
+    style = _template("style.html").render()
     shown = {table.name for table in page.every(Table)}
     behind = {name: frame for name, frame in page.tables() if name not in shown}
-    return _template("page.html").render(
+    made_of = _template("page.html").render(
         page=page,
+        policy=f"{POLICY}; style-src {digest(style)}",
+        style=Markup(style),
         contents=[
             (anchor("section", each.title), each.title) for each in page.blocks if isinstance(each, Section)
         ],
@@ -38,11 +46,18 @@ def text(page: Page, pictures: Mapping[str, Picture]) -> str:
         about={**page.about, **made()},
         **_content(used, pictures, {plot.name for plot in page.every(Plot)}),
     )
+    return printable(made_of)
+
+
+def digest(text: str) -> str:
+    """A script or a style of a page as its policy names it."""
+    return f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'"
 
 
 def fragment(page: Page, path: Path | None = None) -> str:
     """Answer, findings and tables of a page for a notebook, without figures; path : of the page, named last."""
-    return _template("fragment.html").render(page=page, path=path and path.resolve(), **_content(None, {}, set()))
+    content = _content(None, {}, set())
+    return printable(_template("fragment.html").render(page=page, path=path and path.resolve(), **content))
 
 
 def anchor(*parts: str) -> str:

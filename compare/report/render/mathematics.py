@@ -47,7 +47,7 @@ SYMBOLS = {
 }
 _LONGEST_FIRST = "|".join(map(re.escape, sorted(SYMBOLS, key=len, reverse=True)))
 _SYMBOL = re.compile(rf"(?<![\w/^-])(?:{_LONGEST_FIRST})(?![\w/^-])")
-_COMMAND = re.compile(r"\\([A-Za-z]+) ?")
+_COMMAND, _MARKS = re.compile(r"\\([A-Za-z]+) ?"), re.compile(r"""[<>&"%#$`@]|\^\^|\\(?![A-Za-z,;: ])""")
 
 
 def typeset(words: str, escaped: Callable[[str], str], formula: Callable[[str], str]) -> str:
@@ -70,13 +70,18 @@ def dollars(latex: str) -> str:
 @lru_cache(maxsize=1024)
 def mathml(latex: str) -> str:
     """A formula for HTML; one that is not understood stands as code, as it is written."""
-    # The converter passes marks of HTML on, and has commands that link and style.
-    if not set(latex) & set('<>&"') and all(name in COMMANDS for name in _COMMAND.findall(latex)):
+    # The converter passes marks of HTML on, and has commands that link and style; TeX takes others for its own.
+    if not _MARKS.search(latex) and all(name in COMMANDS for name in _COMMAND.findall(latex)):
         try:
             return convert(latex)
         except Exception:  # its errors have no class in common
             pass
     return f"<code>{escape(latex)}</code>"
+
+
+def understood(latex: str) -> bool:
+    """Whether a formula has nothing but what it may have, for whatever sets it later."""
+    return latex.isprintable() and mathml(latex).startswith("<math")
 
 
 def plain(latex: str) -> str:

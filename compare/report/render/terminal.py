@@ -4,6 +4,8 @@ import textwrap
 from collections.abc import Iterator
 from pathlib import Path
 
+from scene.printable import printable
+
 from ...statistics.finding import Finding
 from ..page import Findings, Page, Plot, Section, Table, Text
 from . import prose
@@ -24,7 +26,7 @@ def text(page: Page, path: Path | None = None) -> str:
     ]
     if path is not None:
         parts.append(f"Page: {path.resolve()}")
-    return "\n\n".join(part for part in parts if part)
+    return printable("\n\n".join(part for part in parts if part))
 
 
 def _blocks(blocks, rule) -> Iterator[str]:

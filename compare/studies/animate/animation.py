@@ -20,7 +20,7 @@ from ...library.lookup import SceneLike, case_of
 from ...report.plots import style
 from ...solving.hold import hold
 from ...solving.runner import SweepProgress, sweep
-from ...solving.store import Store, make, write
+from ...solving.store import Store, make, refuse_impossible, write
 from ...solving.task import SceneTask
 from ..report import SOLVED
 from .figure import MarchFigure
@@ -107,6 +107,7 @@ def check(path: Path, frames: int, seconds: float) -> None:
             f"frames = {frames} in seconds = {seconds:g}: 1 to {MOST_FRAMES} frames in at most {LONGEST} seconds, "
             f"and at most {FASTEST} in a second"
         )
+    refuse_impossible(path)
     if not path.parent.is_dir():
         raise FileNotFoundError(errno.ENOENT, "no such folder", str(path.parent))
     if path.is_dir():

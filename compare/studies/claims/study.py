@@ -12,6 +12,7 @@ import numpy as np
 import xarray
 from pandas import DataFrame
 
+from scene.printable import printable
 from scene.reading import InvalidInput, text_of
 
 from ...library.describe import described, slug
@@ -107,7 +108,7 @@ class ClaimStudy(Study):
         else:
             path = _located(name)
             text = text_of(path)
-            found = cls(path.stem, study_of(text, str(path)), size, text, *chosen)
+            found = cls(printable(path.stem), study_of(text, str(path)), size, text, *chosen)
         refuse(found.grids().values())
         return found
 

@@ -1,5 +1,6 @@
 """The surface of a drawing as one page that a browser turns and enlarges, offline: by plotly, an extra."""
 
+import re
 from collections.abc import Mapping
 from importlib.util import find_spec
 from typing import Any
@@ -11,6 +12,7 @@ from scene import Refused
 from ...report.page import Plot
 from ...report.plots import touching
 from ...report.plots.prefixes import prefixed
+from ...report.render.html import POLICY, digest
 from .figure import SURFACE
 
 NAME = "surface.html"
@@ -77,4 +79,7 @@ def _page(table, options: Mapping[str, Any]) -> str:
             "aspectratio": {"x": wide / unit, "y": deep / unit, "z": tall / unit},
         },
     }
-    return graph_objects.Figure(surface, layout).to_html(include_plotlyjs=True, default_height="95vh")
+    page = graph_objects.Figure(surface, layout).to_html(include_plotlyjs=True, default_height="95vh")
+    scripts = " ".join(map(digest, re.findall(r"<script[^>]*>(.*?)</script>", page, re.DOTALL)))
+    policy = f"{POLICY} blob:; style-src 'unsafe-inline'; script-src {scripts}"
+    return page.replace("<head>", f'<head><meta http-equiv="Content-Security-Policy" content="{policy}">', 1)

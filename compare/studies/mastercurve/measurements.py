@@ -11,6 +11,7 @@ import xarray
 
 from scene.blocks import joined
 from scene.columns import PURE, Chosen, Column, chosen, meant, refuse_half_stated, sheet_of
+from scene.printable import printable
 from scene.quantities import HERTZ, KELVIN, NEWTON, RADIAN_PER_SECOND, SPEED
 from scene.reading import InvalidInput
 from scene.sheet import Sheet, read_sheets
@@ -94,9 +95,9 @@ class MeasuredFriction:
             columns, notes = _columns(sheet)
         except ValueError as error:
             raise InvalidInput(str(error)) from error
-        named = path.stem if path else sheet.name
+        named = printable(path.stem if path else sheet.name)
         count = len(columns["F_N"])
-        source = str(table) if path else f"a {sheet.name} from Python, {count} rows"
+        source = printable(str(table)) if path else f"a {sheet.name} from Python, {count} rows"
         data = {
             name: ("measurement", columns[field], attributes(name))
             for field, name in VARIABLES.items()

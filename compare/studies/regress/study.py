@@ -17,7 +17,7 @@ import xarray
 from pandas import DataFrame
 from pydantic.dataclasses import dataclass as validated
 
-from scene.printable import brief
+from scene.printable import brief, printable
 from scene.quantities import CLOSED, Finite
 from scene.reading import InvalidInput, read
 
@@ -82,7 +82,7 @@ class Regress(Study):
 
     @property
     def inputs(self) -> Mapping[str, Any]:
-        return {"baseline": self.path.name}
+        return {"baseline": printable(self.path.name)}
 
     def batches(self) -> Sequence[Batch]:
         return (Batch([task for quantity in self.quantities for task in quantity.tasks]),)

@@ -184,9 +184,10 @@ class Run(Study):
     def _judged(self, name, answers) -> CaseFindings:
         below = answers[self.folders[name]]
         datasets = {
-            f"{node.parent.name}/{node.name}": with_spread(node.to_dataset(inherit=False))
-            for node in below.subtree
-            if node.parent is not None and node.parent.name in CURVES
+            f"{curve}/{solver}": with_spread(node.to_dataset(inherit=False))
+            for curve, solvers in below.children.items()
+            if curve in CURVES
+            for solver, node in solvers.children.items()
         }
         return CaseFindings(
             name, self.folders[name], self.cases[name], self.models[name], datasets, self._draws(name)
@@ -311,7 +312,7 @@ def _sentence(text: str) -> str:
 
 
 def summary(cases: Sequence[CaseFindings]) -> DataFrame:
-    """A row for each claim and dimension, a column for each case: number and verdict, or counts of verdicts."""
+    """A row for each claim, dimension and case: number and verdict, or counts of verdicts."""
     rows: dict[tuple[str, str], dict[str, list[Finding]]] = {}
     for case in cases:
         for each in finding.claimed(case.findings):
@@ -319,16 +320,16 @@ def summary(cases: Sequence[CaseFindings]) -> DataFrame:
             rows.setdefault(place, {}).setdefault(case.name, []).append(each)
     return DataFrame(
         [
-            {"sentence": sentence, "dimension": dimension}
-            | {case.name: _cell(found.get(case.name, [])) for case in cases}
+            (sentence, dimension, case, _cell(each))
             for (sentence, dimension), found in rows.items()
+            for case, each in found.items()
         ],
-        columns=["sentence", "dimension", *(case.name for case in cases)],
+        columns=["sentence", "dimension", "case", "verdict"],
     )
 
 
 def _cell(found: Sequence[Finding]) -> str:
-    """One number with its verdict, or how often each verdict stands; empty without any."""
+    """One number with its verdict, or how often each verdict stands."""
     if len(found) == 1:
         return f"{finding.number(found[0])}, {found[0].verdict}"
     counts = {name: sum(each.verdict == name for each in found) for name in finding.VERDICTS}

@@ -13,6 +13,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from scene import Topography
 from scene.files import reading_once
+from scene.printable import printable
 from scene.quantities import METRE, argument
 from scene.reading import InvalidInput, mistakes
 
@@ -103,7 +104,8 @@ class Map(Study):
     @property
     def name(self) -> str:
         """Name of the file, or of what holds the heights."""
-        return Path(self.given).name if isinstance(self.given, str | Path) else type(self.given).__name__
+        path = isinstance(self.given, str | Path)
+        return printable(Path(self.given).name) if path else type(self.given).__name__
 
     @property
     def title(self) -> str:  # type: ignore[override]
@@ -112,7 +114,8 @@ class Map(Study):
     @property
     def inputs(self) -> Mapping[str, Any]:
         held = self.description.topography.heights
-        named = {"file": str(self.given)} if isinstance(self.given, str | Path) else {"heights": held.digest}
+        path = isinstance(self.given, str | Path)
+        named = {"file": printable(str(self.given))} if path else {"heights": held.digest}
         plain = {name: each if isinstance(each, str | float) else str(each) for name, each in self.stated.items()}
         return named | plain
 

@@ -203,7 +203,7 @@ def learn(path: Path, every: Sequence[tuple], outcomes: Mapping[Task, Outcome]) 
             numbers = {each: f"{value:.4g}" for each, value in answer.measures.items() if each != "one"}
             error, residual = f"{error:.4g}", f"{answer.residual:.2g}"
             found.append({"scene": name, "kind": kind, "error": error, "residual": residual, **numbers})
-    with gzip.GzipFile(path, "wb", mtime=0) as packed, io.TextIOWrapper(packed, newline="") as file:
+    with gzip.GzipFile(path, "wb", mtime=0) as packed, io.TextIOWrapper(packed, "utf-8", newline="") as file:
         lines = csv.DictWriter(file, list(found[0]), lineterminator="\n")
         lines.writeheader()
         lines.writerows(found)
