@@ -193,9 +193,14 @@ def test_a_formula_is_mathml_on_a_page_stays_in_markdown_and_is_in_plain_letters
     assert mathematics.typeset("exit, v tau/a & xi", str, "[{}]".format) == r"exit, [v\tau/a] & [\xi]"
 
 
-@pytest.mark.parametrize("wrong", ["<b>x</b>", r"\text{<b>}", r"\href{javascript:x}{y}", r"\frac", r"a^", "a & b"])
+WRONG = ["<b>x</b>", r"\text{<b>}", r"\href{javascript:x}{y}", r"\frac", r"a^", "a & b"]
+WRONG += ["^^5cinput{x}", "a % b", r"a\$b", "a \\", r"\write18{x}", "#1"]
+
+
+@pytest.mark.parametrize("wrong", WRONG)
 def test_a_formula_that_is_not_understood_stands_as_it_is_written_and_is_no_markup(wrong):
     assert mathematics.mathml(wrong) == f"<code>{escape(wrong)}</code>"
+    assert not mathematics.understood(wrong)
 
 
 def test_every_formula_of_the_vocabulary_is_typeset():
