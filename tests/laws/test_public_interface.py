@@ -27,7 +27,8 @@ def members():
             if inspect.isfunction(owner) or inspect.isclass(owner):
                 yield f"{package.__name__}.{name}", owner
             for below, method in inspect.getmembers(owner if inspect.isclass(owner) else None, inspect.isroutine):
-                ours = callable(method) and (getattr(method, "__module__", None) or "").startswith(package.__name__)
+                home = getattr(method, "__module__", None) or ""
+                ours = callable(method) and home.startswith(package.__name__)
                 if ours and not below.startswith("_"):
                     yield f"{package.__name__}.{name}.{below}", method
 
