@@ -37,7 +37,7 @@ _MINUS = str.maketrans("−‐‑–", "----")
 def _number(decimal):
     mark = re.escape(decimal)
     return re.compile(
-        rf"[+-]?(?:(?:\d+{mark}?\d*|{mark}\d+)(?:[eEdD][+-]?\d+)?|inf(?:inity)?)", re.IGNORECASE | re.ASCII
+        rf"[+-]?(?:(?:\d+(?:{mark}\d*)?|{mark}\d+)(?:[eEdD][+-]?\d+)?|inf(?:inity)?)", re.IGNORECASE | re.ASCII
     )
 
 

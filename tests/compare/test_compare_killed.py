@@ -247,7 +247,7 @@ def test_a_new_scene_takes_the_place_of_all_that_the_one_before_it_left_and_of_n
 
 
 @pytest.mark.filterwarnings("ignore:This process:DeprecationWarning")
-@pytest.mark.parametrize("stride", [7, pytest.param(1, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("stride", [7, pytest.param(3, marks=pytest.mark.slow)])
 def test_killed_at_a_step_a_run_leaves_the_old_scene_or_says_that_it_did_not_end_and_the_next_clears_all(
     tmp_path, stride
 ):
