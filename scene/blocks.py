@@ -25,7 +25,8 @@ def joined(sheets: Sequence[Sheet], stated: Sequence[Column] = ()) -> Sheet:
 
     stated : what lines above a block may state of its rows and of those below, where no column does
 
-    Raises ValueError for blocks with headings of their own, and for lines that tell blocks apart otherwise.
+    Raises ValueError for blocks with headings of their own, or with fewer or more columns, and for lines that tell
+    blocks apart otherwise.
     """
     first, *others = sheets
     for each in others:
@@ -37,6 +38,11 @@ def joined(sheets: Sequence[Sheet], stated: Sequence[Column] = ()) -> Sheet:
         if each.unread and not each.commented:
             raise ValueError(
                 f"{each.name}, line {each.lines[0] - 1}: {brief(repr(each.unread))} parts two tables: keep one"
+            )
+        if each.numbers.shape[1] != first.numbers.shape[1]:
+            raise ValueError(
+                f"{each.name}, line {each.lines[0]}: {each.numbers.shape[1]} columns, where line {first.lines[0]} "
+                f"has {first.numbers.shape[1]}"
             )
     before = tuple(dict.fromkeys(text for each in sheets for text in each.before))
     lines = tuple(line for each in sheets for line in each.lines)

@@ -70,7 +70,7 @@ def mended(
 
 
 def _checked(holes, are, is_):
-    """How many pixels are filled in. Raises ValueError for too many."""
+    """Number of the pixels that are filled in. Raises ValueError for too many."""
     count = np.count_nonzero(holes)
     if count > MOST_FILLED * holes.size:
         raise ValueError(

@@ -274,6 +274,15 @@ def make(folder: Path) -> None:
         pass
 
 
+def refuse_impossible(path: Path) -> None:
+    """Raise OSError of a path that no file can have."""
+    try:
+        with suppress(OSError):
+            path.lstat()
+    except ValueError as error:  # of zero bytes, and of letters that no file system has
+        raise OSError(errno.EINVAL, "is a name that no file can have", str(path)) from error
+
+
 @contextmanager
 def _temporary(folder):
     """A file whose name says whose it is, with the permissions that the user's files have; gone afterwards."""
@@ -402,12 +411,3 @@ def _package_digest(package):
     return code_digest(
         Path(spec.submodule_search_locations[0] if spec.submodule_search_locations else spec.origin)
     )
-
-
-def refuse_impossible(path: Path) -> None:
-    """Raise OSError of a path that no file can have."""
-    try:
-        with suppress(OSError):
-            path.lstat()
-    except ValueError as error:  # of zero bytes, and of letters that no file system has
-        raise OSError(errno.EINVAL, "is a name that no file can have", str(path)) from error

@@ -13,10 +13,8 @@ from ..solving.suggest import known
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 KINDS = {"scene": "Scene file of crosscheck run and plan", "study": "Study file of crosscheck study"}
-_ITEMS = {
-    "minLength": "minItems",
-    "maxLength": "maxItems",
-}  # of a list, where pydantic does not see that it is one
+# Bounds of a list, where pydantic does not see that it is one.
+_ITEMS = {"minLength": "minItems", "maxLength": "maxItems"}
 _BOUNDS = {"gt": "exclusiveMinimum", "ge": "minimum", "lt": "exclusiveMaximum", "le": "maximum"}
 
 

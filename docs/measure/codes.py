@@ -78,7 +78,7 @@ def printed():
 
 
 def by_contact_mechanics(scene: Scene, solver: BEM, tolerance: float) -> dict:
-    """The same method there; the solve alone."""
+    """Numbers of a solve by ContactMechanics, by the same method; its time is that of the solve alone."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         import ContactMechanics

@@ -145,7 +145,7 @@ def apart() -> Iterator[dict[str, str]]:
             foretold = getattr(compare.trust(scene), quantity)
             measured = (exp(found.logarithm + each * error) for each in (0, -1, 1))
             row[f"{body}, measured"] = _between(*measured)
-            row["map" if body == "sphere" else "map "] = _between(foretold.ratio, foretold.low, foretold.high)
+            row[f"{body}, map"] = _between(foretold.ratio, foretold.low, foretold.high)
         yield row
 
 

@@ -223,6 +223,13 @@ def test_names_order_units_and_the_friction_force_change_no_digit(tmp_path, head
     assert len(turned) == sum(bool(np.all(numbers < 0)) for numbers in ALIKE[heading])
 
 
+def test_a_block_with_a_cell_less_is_named_by_its_line(tmp_path):
+    path = tmp_path / "friction.csv"
+    path.write_text("mu,F_N,v\n0.06,1,0.01\n0.03,3,0.01\n\n0.24,1,0.1\n\n0.13,3,\n")
+    with pytest.raises(InvalidInput, match=r"friction\.csv, line 7: 2 columns, where line 2 has 3"):
+        MeasuredFriction.of(path)
+
+
 def test_a_line_above_the_rows_states_the_load_of_its_block(tmp_path):
     blocks = [
         f"Load: {1e3 * load!r} mN\n{written({'mu': MU[load == LOAD], 'v': SPEED[load == LOAD]})}"
