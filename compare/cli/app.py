@@ -40,7 +40,9 @@ SHARED = {
     if name in commands.Options.__annotations__ and name not in PYTHON_ONLY
 }
 Quiet = Annotated[bool, typer.Option("-q", "--quiet", help="Print mistakes only.")]
-Verbose = Annotated[bool, typer.Option("-v", "--verbose", help="Print a line for each solve and each figure.")]
+Verbose = Annotated[
+    bool, typer.Option("-v", "--verbose", help="Print a line for each solve and each figure, and every number.")
+]
 AsJson = Annotated[bool, typer.Option("--json", help="Print the findings as JSON.")]
 
 

@@ -51,6 +51,12 @@ def described(part: Any) -> str:
     return ", ".join([kind, *said])
 
 
+def conditions(motion: Any) -> str:
+    """Speed, and load or depth, of a motion in words: 0.1 m/s, 1 N."""
+    names = ("speed", motion.pressed_by) if isinstance(motion, Slide) else (motion.pressed_by,)
+    return ", ".join(_quantity(motion, name) for name in names)
+
+
 def slug(name: str) -> str:
     """Name as it may stand in a path."""
     plain = unicodedata.normalize("NFKD", name).encode("ascii", "ignore").decode()

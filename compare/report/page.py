@@ -101,7 +101,7 @@ def in_order(blocks: Sequence[Block]) -> tuple[Block, ...]:
 
 @dataclass(frozen=True)
 class Page:
-    """A page, in the order of reading: doubts, the answer, figures, findings, other tables, sections.
+    """A page, in the order of reading: doubts, the opening, the answer, figures, findings, other tables, sections.
 
     title : of the page
     answer : a sentence for each claim, generated from all findings
@@ -109,6 +109,7 @@ class Page:
     about : facts on how it was made, by name: versions, machine, times
     doubts : sentences that stand before the answer: doubts about what was asked, contacts without an answer
     notes : sentences that follow them, on what was read
+    opening : paragraphs before the answer: what a reader came for, in words
     """
 
     title: str
@@ -117,6 +118,7 @@ class Page:
     about: Mapping[str, str] = field(default_factory=dict)
     doubts: Sequence[str] = ()
     notes: Sequence[str] = ()
+    opening: Sequence[str] = ()
 
     def __post_init__(self):
         object.__setattr__(self, "blocks", in_order(self.blocks))

@@ -52,6 +52,21 @@ def share(value: float) -> str:
     return f"{100 * value:.2g} %" if value >= 0.99e-4 else f"{value:.0e}".replace("e-0", "e-")
 
 
+def off(ratio: float) -> str:
+    """A number over what it should be, in words: 39 % too low, 2.6 times too high."""
+    if not isfinite(ratio):
+        return "off by an unknown share"
+    if ratio >= 2:
+        return f"{ratio:.3g} times too high"
+    apart = 100 * (ratio - 1)
+    return f"{abs(apart):.2g} % too {'high' if apart > 0 else 'low'}"
+
+
+def capital(words: str) -> str:
+    """Words with a capital at their beginning."""
+    return words[:1].upper() + words[1:]
+
+
 def digits(value: float) -> str:
     """A setting as it is written at a point: 1024, 0.5, 1e-3."""
     return f"{value:g}" if value >= 0.01 else f"{value:.0e}".replace("e-0", "e-")

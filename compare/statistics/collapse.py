@@ -30,7 +30,7 @@ ROUNDING = 1e-9
 # Endings of the names of columns: a number, and the ends of its interval.
 ENDS = ("", "_low", "_high")
 PARALLEL = "straight parallel lines fit: a horizontal shift cannot be told from a vertical one"
-PARTED = "the fit asks for less than the least overlap of neighbours"
+PARTED = "once shifted, curves of neighbouring speeds share too small a range of loads"
 UNSCATTERED = "scatter is not known, nor whether the curves are bent"
 
 

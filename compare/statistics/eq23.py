@@ -23,6 +23,7 @@ COLLAPSE = Claim(
     tolerance=TOLERANCE,
     meaning=f"{_MISFIT}. All shifts are found at once, and neighbouring curves share {LEAST_OVERLAP:.0%} of their "
     "range at least.",
+    percent=True,
 )
 VERTICAL = Claim(
     id="eq23.vertical",
@@ -30,6 +31,7 @@ VERTICAL = Claim(
     expected=0.0,
     tolerance=TOLERANCE,
     meaning="rms of ln mu of what vertical shifts beside the horizontal ones would take from the misfit.",
+    percent=True,
 )
 PREDICTED = Claim(
     id="eq23.predicted",
@@ -37,6 +39,7 @@ PREDICTED = Claim(
     expected=0.0,
     tolerance=TOLERANCE,
     meaning=f"{_MISFIT}, with the shifts that the theory gives, none fitted.",
+    percent=True,
 )
 EXPONENT = Claim(
     id="eq23.exponent",
@@ -47,16 +50,19 @@ UNSHIFTED = Claim(
     id="eq23.unshifted",
     sentence="Misfit of friction to one curve before shifting",
     meaning=f"{_MISFIT}, where no curve is shifted.",
+    percent=True,
 )
 VERTICAL_ALONE = Claim(
     id="eq23.vertical-alone",
     sentence="Misfit of friction to one curve with vertical shifts alone",
     meaning=f"{_MISFIT}, with a shift along friction at each speed and none along the load.",
+    percent=True,
 )
 BOTH = Claim(
     id="eq23.both",
     sentence="Misfit of friction to one curve with shifts along load and friction",
     meaning=f"{_MISFIT}, with both shifts at each speed.",
+    percent=True,
 )
 NOT_SHIFTED = Claim(
     id="eq23.vertical-exponent",
@@ -82,7 +88,7 @@ LEFT = attrgetter("both.misfit")
 _Number = TypeVar("_Number", RmsMisfit, Estimated)
 TOO_FEW = "too few points have an answer on half of the surfaces"
 CLOSER = "speeds closer to each other may tell"
-_UNKNOWN = "the scatter is not known, or neighbouring curves share too little once shifted"
+_UNKNOWN = "its scatter is not known, or neighbouring curves share too little once shifted"
 
 
 def findings(

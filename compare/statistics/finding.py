@@ -19,7 +19,7 @@ HALVED, EXTRAPOLATED, EXACT, UNKNOWN = "change on halving", "extrapolated", "exa
 BOTH = "1D/3D"
 # Models of which a number is said alone.
 ALONE = ("1D", "1D corrected", "3D")
-# Findings on a claim in one dimension that a statement tells one by one.
+# Findings on a claim of one model that a statement tells one by one.
 SHOWN = 4
 
 
@@ -50,6 +50,7 @@ class Claim:
     curves : names of the grids that it is measured on
     measure : function of one sample of these grids, see `statistics.jackknife.Sample`, that returns a number,
         or an array of which the root mean square counts
+    percent : whether people read the number in percent
     """
 
     id: str
@@ -61,10 +62,29 @@ class Claim:
     dimension: str = BOTH
     curves: tuple[str, ...] = ()
     measure: Callable[[Mapping[str, Any]], Any] | None = None
+    percent: bool = False
 
     def __post_init__(self):
         for name in ("expected", "tolerance"):
             object.__setattr__(self, name, argument(name, getattr(self, name), BARE.value))
+
+    @property
+    def scale(self) -> float:
+        """Factor on its numbers as people read them."""
+        return 100.0 if self.percent else 1.0
+
+    def said(self, text: str) -> str:
+        """A number in words, already to scale, with its unit."""
+        return digits.with_unit(text, "%" if self.percent else self.unit)
+
+    @property
+    def tested(self) -> str:
+        """Number that it is tested against, with tolerance and unit in words; empty without a claim."""
+        if not isfinite(self.tolerance):
+            return ""
+        expected, tolerance = (digits.number(self.scale * each) for each in (self.expected, self.tolerance))
+        exactly = expected if self.tolerance == 0 else f"{expected} ± {tolerance}"
+        return self.said(exactly if isfinite(self.expected) else f"at most {tolerance}")
 
 
 @readable
@@ -147,8 +167,17 @@ class Finding:
     @property
     def why(self) -> str:
         """Reason why there is no verdict and what would give one, or a remark on a stated verdict; else empty."""
-        told = (self.reason or self.undecidable, self.remedy) if self.verdict == UNDECIDED else (self.reason,)
+        open_ = self.verdict == UNDECIDED
+        told = (self.undecidable or self._crossed, self.remedy) if open_ else (self.reason,)
         return "; ".join(filter(None, told))
+
+    @property
+    def _crossed(self) -> str:
+        """Where the interval leaves the tolerance, in words."""
+        low, high = self.interval
+        ends = (self.claim.expected + side * self.claim.tolerance for side in (-1, 1))
+        inside = [self.claim.said(digits.number(self.claim.scale * each)) for each in ends if low < each < high]
+        return f"its interval reaches across {' and '.join(inside)}" if inside else ""
 
     @property
     def place(self) -> str:
@@ -159,18 +188,8 @@ class Finding:
         """Value with its interval and unit in words; figures : significant digits of a value without interval"""
         if not isfinite(self.value):
             return "not known"
-        return digits.with_unit(digits.interval(self.value, *self.interval, figures), self.claim.unit)
-
-    @property
-    def claimed(self) -> str:
-        """Number expected with its tolerance and unit in words; empty of a number without a claim."""
-        claim = self.claim
-        if not isfinite(claim.tolerance):
-            return ""
-        expected, tolerance = digits.number(claim.expected), digits.number(claim.tolerance)
-        exactly = expected if claim.tolerance == 0 else f"{expected} ± {tolerance}"
-        said = exactly if isfinite(claim.expected) else f"at most {tolerance}"
-        return digits.with_unit(said, claim.unit)
+        value, low, high = (self.claim.scale * each for each in (self.value, *self.interval))
+        return self.claim.said(digits.interval(value, low, high, figures))
 
     @property
     def basis(self) -> str:
@@ -223,57 +242,68 @@ def claimed(findings: Iterable[Finding]) -> list[Finding]:
 
 
 def sentences(findings: Sequence[Finding]) -> list[str]:
-    """A statement for each claim, from all of its findings: where it holds, fails, is undecided.
+    """A line for each claim, from all of its findings: the verdict, the claim, the numbers, and why it is open.
 
-    Few findings in one dimension are told one by one, many by the number of places and the range of values.
+    Few findings on one model are told one by one, many by the number of places and the range of values.
     """
     found = []
     for sentence in dict.fromkeys(each.claim.sentence for each in findings):
         own = [each for each in findings if each.claim.sentence == sentence]
-        claims = {each.claimed for each in own if each.claimed}
-        claimed = f" (claimed {claims.pop().replace(' ± ', ' to within ')})" if len(claims) == 1 else ""
-        parts = []
-        for dimension in dict.fromkeys(each.dimension for each in own):
-            here = [each for each in own if each.dimension == dimension]
-            verdicts = (name for name in VERDICTS if any(each.verdict == name for each in here))
-            said = [_said(name, [each for each in here if each.verdict == name], len(here)) for name in verdicts]
-            told = ("; it " if any(";" in each for each in said) else ", ").join(said)
-            parts.append(f"In {dimension} it {told}" if dimension in ALONE else f"It {told}")
-        found.append(". ".join([f"{sentence}{claimed}", *parts]) + ".")
+        names = dict.fromkeys(each.dimension for each in own)
+        models = [[each for each in own if each.dimension == name] for name in names]
+        verdicts = _verdicts(models)
+        numbers = "; ".join(_numbers(here, len(models) > 1 or here[0].dimension in ALONE) for here in models)
+        tested = {each.claim.tested for each in own} - {""}
+        against = f", tested against {tested.pop()}" if len(tested) == 1 else ""
+        reasons = dict.fromkeys(each.why for each in own if each.verdict == UNDECIDED)
+        open_ = f" Undecided: {'. '.join(reasons)}." if any(reasons) else ""
+        found.append(f"{verdicts}{sentence}: {numbers}{against}.{open_}")
     return found
 
 
-def _said(verdict, findings, of):
-    """Places of one verdict on a claim: each with its number, or how many and their range."""
-    verb = {UNDECIDED: "is undecided", REPORTED: "is"}.get(verdict, verdict)
-    if of > SHOWN:
-        known = [each.value for each in findings if isfinite(each.value)]
-        reach = " to ".join(dict.fromkeys(digits.number(end(known), 3) for end in (min, max))) if known else ""
-        if verdict == REPORTED:
-            reach = digits.with_unit(reach, findings[0].claim.unit) if known else "not measured"
-            return f"{verb} {reach} in {_counted(len(known) or of, of)} places"
-        return f"{verb} in {_counted(len(findings), of)} places{f' ({reach})' if reach else ''}"
-    if verdict == REPORTED:
-        places = (f" for {each.where}" if each.where else "" for each in findings)
-        return f"{verb} " + _listed([number(each) + place for each, place in zip(findings, places, strict=True)])
-    if not any(each.where for each in findings):
-        return f"{verb} at " + _listed([number(each) for each in findings])
-    return f"{verb} for " + _listed([_placed(each) for each in findings])
+def _verdicts(models) -> str:
+    """Verdicts on a claim, with the models where these differ and a colon; nothing of a number without a claim."""
+    told = {here[0].dimension: _verdict(here) for here in models}
+    if set(told.values()) == {REPORTED}:
+        return ""
+    if len(set(told.values())) > 1:
+        words = ", ".join(f"{verdict} in {model}" for model, verdict in told.items())
+    else:
+        words = next(iter(told.values()))
+    return f"{words[0].upper()}{words[1:]}: "
 
 
-def _counted(count, of):
-    return f"all {of}" if count == of else f"{count} of {of}"
+def _verdict(findings) -> str:
+    """Verdict of all, or how often each stands."""
+    counts = {name: sum(each.verdict == name for each in findings) for name in VERDICTS}
+    counts = {name: count for name, count in counts.items() if count}
+    if len(counts) == 1:
+        return next(iter(counts))
+    return f"{', '.join(f'{name} in {count}' for name, count in counts.items())} of {len(findings)} places"
 
 
-def _placed(found: Finding) -> str:
-    """Place and number; in brackets that there is none."""
-    return f"{found.where} at {number(found)}" if isfinite(found.value) else f"{found.where} ({number(found)})"
+def _numbers(findings, named) -> str:
+    """Numbers of a model on a claim: each with its place, or their range and how many are known."""
+    claim = findings[0].claim
+    model = f"in {findings[0].dimension} " if named else ""
+    if len(findings) <= SHOWN:
+        mixed = len({each.verdict for each in findings}) > 1
+        return model + _listed([_placed(each, mixed) for each in findings])
+    known = [claim.scale * each.value for each in findings if isfinite(each.value)]
+    count = f"{'all ' if len(known) == len(findings) else f'{len(known)} of '}{len(findings)} places"
+    if not known:
+        return f"{model}not measured in {count.replace('0 of ', 'any of ')}"
+    reach = " to ".join(dict.fromkeys(digits.number(end(known), 3) for end in (min, max)))
+    return f"{model}{claim.said(reach)} in {count}"
+
+
+def _placed(found: Finding, mixed: bool) -> str:
+    place = f" for {found.where}" if found.where else ""
+    return f"{number(found)}{place}{f' ({found.verdict})' if mixed else ''}"
 
 
 def _listed(parts):
     *first, last = parts
-    if any(", " in part for part in parts):
-        return "; ".join(parts)
     return f"{', '.join(first)} and {last}" if first else last
 
 

@@ -78,9 +78,14 @@ class Report:
         return faults(self.swept, self.output)
 
     def __str__(self) -> str:
-        return render.terminal.text(self.page, self.path)
+        return render.terminal.text(self.page, self.path, whole=False)
 
     __repr__ = __str__
+
+    @property
+    def details(self) -> str:
+        """The whole page as a terminal shows it, with every number."""
+        return render.terminal.text(self.page, self.path)
 
     def _repr_html_(self) -> str:
         return render.html.fragment(self.page, self.path)

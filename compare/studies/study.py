@@ -33,12 +33,14 @@ class Judgement:
     answer : sentences; one for each claim if absent
     blocks : figures, findings and other tables of the page, alone or in sections; all findings if absent
     setting : what was solved and how it is judged; it stands last on the page
+    opening : paragraphs that stand before the answer: what a reader came for, in words
     """
 
     findings: Sequence[Finding]
     answer: Sequence[str] | None = None
     blocks: Sequence[Block] | None = None
     setting: Sequence[Block] = ()
+    opening: Sequence[str] = ()
 
     @property
     def plots(self) -> tuple[Plot, ...]:
@@ -50,7 +52,7 @@ class Judgement:
         told = finding.sentences(self.findings) if self.answer is None else self.answer
         blocks = [Findings(self.findings)] if self.blocks is None else self.blocks
         last = [Section(SETTING, self.setting)] if self.setting else []
-        return Page(title, griderror.told(answers, told), [*blocks, *last])
+        return Page(title, griderror.told(answers, told), [*blocks, *last], opening=self.opening)
 
 
 class Study:

@@ -16,7 +16,8 @@ from scene.doubt import beyond_linear
 from scene.scales import elastic_contact
 
 from ..models.law.bands import Bands
-from ..solving.amounts import seconds
+from ..solving.amounts import capital, off, seconds, share
+from ..statistics.digits import interval
 from . import shipped
 from .groups import LINE, SPACE, DimensionlessGroups, SmoothReference
 from .measured import PLAIN, SYMBOLS, Neighbour, as_judged, beyond_measured, limits, nearest, placed, unmeasured
@@ -81,6 +82,11 @@ class Correction:
         return 1 / self.ratio
 
     @property
+    def times(self) -> str:
+        """Factor with its interval of 95 % in words."""
+        return interval(self.factor, 1 / self.high, 1 / self.low, 3)
+
+    @property
     def half(self) -> float:
         """Half the interval of 95 % of the logarithm of the ratio."""
         return log(self.high / self.low) / 2
@@ -90,9 +96,9 @@ class Correction:
             return f"no advice. {self.reason}"
         if self.advice == SOLVE:
             return f"solve in 3D. {self.reason}"
-        told = f"multiply {CALLED[self.model]} by {self.factor:.3g}"
-        told = f"use {CALLED[self.model]} as it is" if self.advice == USE else told
-        return f"{told} (95 %: {1 / self.high:.3g} to {1 / self.low:.3g}). {self.reason}"
+        if self.advice == USE:
+            return f"use {CALLED[self.model]} as it is. {self.reason}"
+        return f"multiply {CALLED[self.model]} by {self.times}. {self.reason}"
 
 
 HEADINGS = "quantity", *(each.name for each in fields(Correction))
@@ -139,17 +145,17 @@ class Advice:
 
     @property
     def choice(self) -> str:
-        """Cheap model to take for friction, in a sentence; empty where there is none to take or no friction."""
+        """Cheap model to take for friction, in a sentence; empty where there is no friction."""
         if not self.friction:
             return ""
         if self.friction.advice == NONE:
-            return "for friction take no linear model"
-        solve = f"; 3D to 5 %: {seconds(self.solving)}" if isfinite(self.solving) else ""
+            return "For friction take no linear model."
+        solve = f" 3D to 5 % takes {seconds(self.solving)}." if isfinite(self.solving) else ""
         if (best := self.taken) is None:
-            return f"for friction solve in 3D{solve}"
-        as_it_is = "as it is" if best.advice == USE else f"multiplied by {best.factor:.3g}"
-        interval = f"95 %: {1 / best.high:.3g} to {1 / best.low:.3g}"
-        return f"for friction take {CALLED[best.model]} {as_it_is} ({interval}), {seconds(best.seconds)}{solve}"
+            return f"For friction solve in 3D.{solve}"
+        as_it_is = "as it is" if best.advice == USE else f"times {best.times}"
+        spent = f"; it takes {seconds(best.seconds)}" if best.seconds > 0 else ""
+        return f"For friction take {CALLED[best.model]} {as_it_is}{spent}.{solve}"
 
     def __str__(self) -> str:
         lines = [*(f"doubtful: {each}" for each in self.doubts), *(f"note: {each}" for each in self.notes)]
@@ -295,11 +301,10 @@ def _worth(name, ratio, error, scatter, seconds, because):
     whole = NORMAL * hypot(error, scatter) if scatter < MOST_SCATTER else nan
     low, high = ratio * exp(-half), ratio * exp(half)
     advice, called = advice_on(ratio, error), CALLED[MODELS[name]]
-    called = called[0].upper() + called[1:]
     reason = {
-        USE: f"{called} is within {100 * SMALL:.0f} % of 3D",
-        MULTIPLY: f"{called} is {ratio:.3g} times 3D",
-        SOLVE: f"The map knows {CALLED[MODELS[name]]}/3D no closer than {low:.2g} to {high:.2g}",
+        USE: f"{capital(called)} is within {share(SMALL)} of 3D, {off(low)} to {off(high)}",
+        MULTIPLY: f"{capital(called)} is {off(ratio)}",
+        SOLVE: f"The map knows no more than that {called} is {off(low)} to {off(high)}",
     }[advice]
     told = f"{reason}: {because}." if isfinite(whole) else f"{reason}: {because}. {NOTHING}"
     surface = ratio * exp(-whole), ratio * exp(whole)

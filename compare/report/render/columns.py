@@ -67,7 +67,7 @@ def claims(findings: Sequence[Finding]) -> dict[str, list[str]]:
         "Model": [each.dimension for each in findings],
         "Where": [each.place for each in regimes_once(findings)],
         "Found (95 %)": [each.found() for each in findings],
-        "Claimed": [each.claimed for each in findings],
+        "Tested against": [each.claim.tested for each in findings],
         "Basis": ["; ".join(filter(None, (each.basis, each.why))) for each in findings],
     }
     return {head: column for head, column in cells.items() if any(column)}

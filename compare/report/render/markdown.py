@@ -47,6 +47,7 @@ def text(page: Page, pictures: Mapping[str, Picture]) -> str:
     """The page; what stands in tables is defined at its end."""
     shown = _Shown()
     parts = [f"# {escaped(page.title)}", "\n".join(f"- **{typeset(each)}**" for each in page.first)]
+    parts += [begun(typeset(words)) for words in page.opening]
     parts += ["\n".join(f"- {begun(typeset(sentence))}" for sentence in page.answer)]
     parts += _blocks(page.blocks, 2, shown)
     parts.append(f"All findings, every digit: [{FINDINGS}.csv]({FINDINGS}.csv).")

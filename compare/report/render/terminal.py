@@ -12,17 +12,19 @@ from . import prose
 from .columns import columns
 
 WIDTH = 100
+MORE = "Every number stands on the page; -v prints it too, as `report.details` does in Python."
 # Largest table that a terminal can show.
 MOST_ROWS, WIDEST = 40, 200
 
 
-def text(page: Page, path: Path | None = None) -> str:
-    """The page; path : of its file, named at the end."""
+def text(page: Page, path: Path | None = None, whole: bool = True) -> str:
+    """The page; path : of its file, named at the end; whole : whether numbers follow an opening in words."""
     parts = [
         _headed(page.title, "="),
         *map(_filled, page.first),
+        *map(_filled, page.opening),
         *map(_filled, page.answer),
-        *_blocks(page.blocks, "-"),
+        *(_blocks(page.blocks, "-") if whole or not page.opening else [MORE]),
     ]
     if path is not None:
         parts.append(f"Page: {path.resolve()}")
@@ -53,9 +55,9 @@ def _findings(findings) -> Iterator[str]:
     """Each claim, and below it a line for each place: verdict, place, number found, reason."""
     claims: dict[tuple[str, str], list[Finding]] = {}
     for each in findings:
-        claims.setdefault((each.claim.sentence, each.claimed), []).append(each)
-    for (claim, claimed), found in claims.items():
-        yield _filled(f"{claim}{f' (claimed {claimed})' if claimed else ''}:", 2)
+        claims.setdefault((each.claim.sentence, each.claim.tested), []).append(each)
+    for (claim, tested), found in claims.items():
+        yield _filled(f"{claim}{f' (tested against {tested})' if tested else ''}:", 2)
         for each in found:
             place = " ".join(part for part in (each.dimension, each.where) if part)
             reason = f"; {each.why}" if each.why else ""

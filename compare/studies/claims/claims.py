@@ -14,6 +14,9 @@ from ...statistics.finding import BOTH, Claim
 TOLERANCE = 0.05
 # How close theory and solution are where theory is exact.
 CLOSED = 0.01
+# Claims on relative deviations, by the first part of their names.
+IN_PERCENT = {"force", "grid", "law3d", "pressed-in", "rest", "smooth"}
+_OWN = "Ratio of the means over surfaces."
 _RATIO = "Ratio of the coefficients, 1D over 3D."
 _PRESSED = "ln of the ratio of forces, each over that of the smooth body at the depth reached."
 _REST_DEPTH = (
@@ -168,6 +171,8 @@ _TEXTS: dict[tuple[float, float], dict[str, tuple[str, str]]] = {
     },
     (nan, nan): {  # reported, and not claimed
         "friction.ratio.speed": ("Friction in 1D over 3D", "Ratio of the means at each speed."),
+        "own.depth": ("Depth of the scene as it stands, 1D over 3D", _OWN),
+        "own.force": ("Force of the scene as it stands, 1D over 3D", _OWN),
         "law3d.averaged": (
             "Misfit from S averaged over the pressure of the body, median",
             f"Median of {_AVERAGED}",
@@ -197,38 +202,43 @@ _TEXTS: dict[tuple[float, float], dict[str, tuple[str, str]]] = {
         ),
     },
 }
-# The same of levels, each claimed to be 1 at one load or depth: what differs from load to load has no mean.
-_LEVELS = {
-    "eq17.level": (
-        "Eq. 17: friction at low speed has the level of the law",
-        "mu over the law at the slowest speed, with the rms slope as this dimensionality has it and every wave "
-        "taken for the shortest.",
-    ),
-    "eq19.level": (
-        "Eq. 19: friction at the knee has the level of the law",
-        "mu over the law with alpha = 1.5 at the speed at which xi is closest to 1.",
-    ),
-    "eq14.plateau": (
-        "Eq. 14: at high speed friction is sqrt(2) times the rms slope",
-        "mu over that, times what Eq. 19 has there, at the fastest speed, of the loads or depths at which xi is "
-        "large.",
-    ),
-    "friction.ratio.slow": ("Rough, at the slowest speed: friction in 1D is that in 3D", _RATIO),
-    "friction.ratio.knee": ("Rough, at the knee: friction in 1D is that in 3D", _RATIO),
-    "friction.ratio.fast": ("Rough, at the fastest speed: friction in 1D is that in 3D", _RATIO),
-    "friction.ratio.smooth": (
-        "Smooth, at the slowest speed: friction in 1D is that in 3D",
-        f"{_RATIO} It tends to 2 as the speed tends to zero.",
-    ),
+# The same of levels, by the number claimed, at one load or depth: what differs from load to load has no mean.
+_LEVELS: dict[float, dict[str, tuple[str, str]]] = {
+    1.0: {
+        "eq17.level": (
+            "Eq. 17: friction at low speed has the level of the law",
+            "mu over the law at the slowest speed, with the rms slope as this dimensionality has it and every "
+            "wave taken for the shortest.",
+        ),
+        "eq19.level": (
+            "Eq. 19: friction at the knee has the level of the law",
+            "mu over the law with alpha = 1.5 at the speed at which xi is closest to 1.",
+        ),
+        "eq14.plateau": (
+            "Eq. 14: at high speed friction is sqrt(2) times the rms slope",
+            "mu over that, times what Eq. 19 has there, at the fastest speed, of the loads or depths at which "
+            "xi is large.",
+        ),
+        "friction.ratio.slow": ("Rough, at the slowest speed: friction in 1D is that in 3D", _RATIO),
+        "friction.ratio.knee": ("Rough, at the knee: friction in 1D is that in 3D", _RATIO),
+        "friction.ratio.fast": ("Rough, at the fastest speed: friction in 1D is that in 3D", _RATIO),
+    },
+    2.0: {
+        "friction.ratio.smooth": (
+            "Smooth, at the slowest speed: friction in 1D is twice that in 3D",
+            f"{_RATIO} It tends to 2 as the speed tends to zero.",
+        ),
+    },
 }
 ENDS = "least", "greatest"  # load or depth at which a level is stated
 CLAIMS = {
-    name: Claim(name, sentence, expected, tolerance, meaning)
+    name: Claim(name, sentence, expected, tolerance, meaning, percent=name.split(".")[0] in IN_PERCENT)
     for (expected, tolerance), texts in _TEXTS.items()
     for name, (sentence, meaning) in texts.items()
 } | {
-    name: Claim(name, f"{sentence}, at the {end} load or depth", 1.0, TOLERANCE, meaning)
-    for level, (sentence, meaning) in _LEVELS.items()
+    name: Claim(name, f"{sentence}, at the {end} load or depth", number, number * TOLERANCE, meaning)
+    for number, texts in _LEVELS.items()
+    for level, (sentence, meaning) in texts.items()
     for end in ENDS
     for name in [f"{level}-{end}"]
 }

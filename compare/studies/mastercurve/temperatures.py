@@ -26,8 +26,13 @@ TOGETHER = Claim(
     tolerance=eq23.TOLERANCE,
     meaning="rms of ln mu about one function of load and shifted speed, without what scatter adds. Each "
     "temperature has one shift along the logarithm of the speed.",
+    percent=True,
 )
-APART = Claim("mastercurve.temperatures-unshifted", "Misfit of the temperatures before shifting along the speed")
+APART = Claim(
+    "mastercurve.temperatures-unshifted",
+    "Misfit of the temperatures before shifting along the speed",
+    percent=True,
+)
 C1 = Claim("mastercurve.c1", "Constant c1 of WLF that the shifts ask for")
 C2 = Claim("mastercurve.c2", "Constant c2 of WLF that the shifts ask for", unit="K")
 ENERGY = Claim("mastercurve.activation-energy", "Activation energy of the shifts", unit="J/mol")

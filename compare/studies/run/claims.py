@@ -1,6 +1,6 @@
 """Claims on one scene in one and in three dimensions, and their findings on its curves."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
@@ -11,7 +11,7 @@ import xarray
 from pandas import DataFrame
 
 from ...library.case import Case
-from ...models.table import DEPTH, FORCE, FRICTION, Model, Models
+from ...models.table import FORCE, FRICTION, Model, Models
 from ...solving.parameter_grid import COARSE, FINE
 from ...statistics import eq23, means
 from ...statistics.allocation import DrawnSurfaces
@@ -21,6 +21,7 @@ from ...statistics.frictioncurves import SimulatedCurves
 from ...statistics.jackknife import DrawSet, mean
 from ...statistics.levels import pooled
 from ...statistics.means import Compared, compared
+from ..accuracy import MEANS, WORDS
 from ..claims.claims import CLAIMS, TOLERANCE
 from ..claims.points import stacked
 from ..theory import THEORY
@@ -38,11 +39,24 @@ from .curves import (
     scaled_speed,
 )
 
-SLOW, OWN_FRICTION = CLAIMS["friction.ratio.smooth-slow"], CLAIMS["friction.ratio.own"]
+SLOW = CLAIMS["friction.ratio.smooth-slow"]
+# Of the scene as it stands, by the name of the mean, see `accuracy.MEANS`.
+OWN_RATIOS = {
+    "friction_coefficient": CLAIMS["friction.ratio.own"],
+    "depth_reached": CLAIMS["own.depth"],
+    "normal_force": CLAIMS["own.force"],
+}
 ROUGH_FORCE, SMOOTH_FORCE = CLAIMS["force.ratio.rough"], CLAIMS["force.ratio.smooth"]
 # Numbers that tell how far those above can be trusted.
 AT_SPEEDS, SPREAD = CLAIMS["friction.ratio.speed"], CLAIMS["friction.spread"]
 CLOSED_FORM, GRID = CLAIMS["force.closed-form"], CLAIMS["grid.change"]
+
+
+def own_means(case: Case) -> Iterator[str]:
+    """Means of the scene's own contact that tell what it is: friction, and what is not prescribed."""
+    if case.slides and case.motion.speed > 0:
+        yield "friction_coefficient"
+    yield "normal_force" if case.motion.load is None else "depth_reached"
 
 
 def draws_of(found: Finding) -> str:
@@ -109,7 +123,7 @@ class CaseFindings:
     def _found(self):
         return [
             *self._slow(),
-            *self._own(),
+            *(found for _, _, found in self.own),
             *(found for _, _, found in self.forces(ROUGH_FORCE)),
             *(found for _, _, found in self.forces(SMOOTH_FORCE)),
             *(each for shifted in self.shifted for each in shifted.findings),
@@ -130,15 +144,18 @@ class CaseFindings:
                 found = self._friction(SMOOTH_SPEED, model.name)
                 yield self._finding(_slow(model, self.models[self.models.reference]), found, (lowest, 0), **told)
 
-    def _own(self):
-        """Friction of the scene as it stands."""
-        if self.case.slides and self.case.motion.speed > 0:
-            for model in self._judged(OWN, FRICTION):
+    @cached_property
+    def own(self) -> list[tuple[str, Model, Finding]]:
+        """Means of the scene as it stands, of each model over that of the reference."""
+        rows = []
+        for name in own_means(self.case):
+            plot = "friction-speed" if WORDS[name] == FRICTION else "force-depth"
+            for model in self._judged(OWN, WORDS[name]):
                 beside = self.models.beside(model.name)
-                found = self._friction(OWN, model.name)
-                yield self._finding(
-                    said_of(OWN_FRICTION, beside), found, (0, 0), plot="friction-speed", dimension=beside
-                )
+                found = self._ratio(OWN, (model.name, self.models.reference), *MEANS[name])
+                claim = said_of(OWN_RATIOS[name], beside)
+                rows.append((name, model, self._finding(claim, found, (0, 0), plot=plot, dimension=beside)))
+        return rows
 
     @cached_property
     def at_speeds(self) -> list[tuple[str, float, Finding]]:
@@ -172,13 +189,10 @@ class CaseFindings:
 
     def _grid(self):
         """Change of the scene's own answer from half the points to all."""
-        names: tuple[str, ...] = ("normal_force",) if self.case.motion.load is None else ("depth_reached",)
-        quantity = FORCE if self.case.motion.load is None else DEPTH
-        if self.case.slides and self.case.motion.speed > 0:
-            names, quantity = means.FRICTION, FRICTION
-        for model in self._claiming(OWN, quantity):
+        first = next(own_means(self.case))
+        for model in self._claiming(OWN, WORDS[first]):
             if model.has_grid:
-                number = self._ratio(OWN, (model.name,), *names)
+                number = self._ratio(OWN, (model.name,), *MEANS[first])
                 value = float((number.grid / np.abs(number.value))[0, 0])
                 yield Finding(GRID, value, where=self.name, draws=number.draws, dimension=model.label)
 

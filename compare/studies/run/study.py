@@ -37,7 +37,7 @@ from ..accuracy import MEANS, WORDS
 from ..sampling import answered, unanswered
 from ..study import Judgement, Study
 from ..theory import THEORY
-from .claims import ROUGH_FORCE, SMOOTH_FORCE, SMOOTH_SPEED, CaseFindings, draws_of
+from .claims import ROUGH_FORCE, SMOOTH_FORCE, SMOOTH_SPEED, CaseFindings, draws_of, own_means
 from .curves import (
     CURVES,
     OWN,
@@ -53,6 +53,7 @@ from .curves import (
     slow_friction,
 )
 from .figures import force_depth, friction_curves, smooth_limit
+from .opening import opening
 
 FIELDS, TIMES, COLLAPSE = "fields", "times", "collapse"
 
@@ -209,7 +210,7 @@ class Run(Study):
             own = [each for each in findings if _of_case(each, name) and draws_of(each) == shared]
             counts = draws.more(own, wanted, growth)
             for model in self.models[name].drawn:
-                for mean in _means(self.cases[name]) if shared == SLIDING else ():
+                for mean in own_means(self.cases[name]) if shared == SLIDING else ():
                     own_contact = self._own_contact(name, model.name, answers)
                     more = needed(own_contact, *MEANS[mean], draws.costs[model.name], wanted, growth)
                     counts[model.name] = tuple(map(max, counts[model.name], more))
@@ -223,7 +224,7 @@ class Run(Study):
     def _unreached(self, answers):
         """Sentences on means of scenes as they stand whose intervals are wider than wanted."""
         for name in self._sampled:
-            for model, mean in product(self.models[name].drawn, _means(self.cases[name])):
+            for model, mean in product(self.models[name].drawn, own_means(self.cases[name])):
                 own_contact = self._own_contact(name, model.name, answers)
                 if why := unreached(own_contact, *MEANS[mean], self._wanted(name)):
                     yield f"{name}: the {WORDS[mean]} in {model.label} {why}."
@@ -241,13 +242,8 @@ class Run(Study):
     def judge(self, answers: xarray.DataTree) -> Judgement:
         cases = [self._judged(name, answers) for name in self.cases]
         findings = [each for case in cases for each in case.findings]
-        worth = [
-            f"Trust map, {quantity} of {name}: {each}"
-            for name, found in self.trusts.items()
-            for quantity, each in found.corrections.items()
-        ]
         claims = finding.sentences(finding.claimed(findings))
-        answer = [*eq23.answers(findings), *claims, *self._unreached(answers), *worth]
+        answer = [*claims, *eq23.answers(findings), *self._unreached(answers)]
         blocks: list[Block] = [
             Section(case.case.title or case.name, _blocks(case, answers[case.folder], self.trusts[case.name]))
             for case in cases
@@ -255,7 +251,8 @@ class Run(Study):
         if len(cases) > 1:
             every = Table("summary", summary(cases), "Number and verdict, or counts of verdicts, of each case.")
             blocks.append(Section("Every claim in every case", [every]))
-        return Judgement(findings, answer, blocks, self.setting)
+        first = [opening(each, self.trusts[each.name]) for each in cases]
+        return Judgement(findings, answer, blocks, self.setting, first)
 
     @property
     def setting(self) -> Sequence[Block]:
@@ -272,13 +269,6 @@ def _of_case(found: Finding, name: str) -> bool:
     return found.where == name or found.where.startswith(f"{name}, ")
 
 
-def _means(case: Case) -> Iterator[str]:
-    """Means of the scene's own contact that tell what it is: what is not prescribed, and friction."""
-    yield "normal_force" if case.motion.load is None else "depth_reached"
-    if case.slides and case.motion.speed > 0:
-        yield "friction_coefficient"
-
-
 def _blocks(found: CaseFindings, answers, trusted: Advice) -> list[Block]:
     folder = f"{found.folder}/"
     others = [each for each in found.findings if each.verdict == finding.REPORTED]
@@ -292,9 +282,7 @@ def _blocks(found: CaseFindings, answers, trusted: Advice) -> list[Block]:
         Table(
             f"{folder}trust",
             trusted.table(),
-            " ".join(
-                filter(None, ["Advice of the trust map on cheap models, predicted.", _sentence(trusted.choice)])
-            ),
+            " ".join(filter(None, ["Advice of the trust map on cheap models, predicted.", trusted.choice])),
         ),
         Table(f"{folder}points", found.points, "Every point of every curve.", long=True),
     ]
@@ -305,10 +293,6 @@ def _blocks(found: CaseFindings, answers, trusted: Advice) -> list[Block]:
         *blocks,
         Table(f"{folder}times", times, "Processor time of all solves, those of earlier runs included."),
     ]
-
-
-def _sentence(text: str) -> str:
-    return f"{text[0].upper()}{text[1:]}." if text else ""
 
 
 def summary(cases: Sequence[CaseFindings]) -> DataFrame:

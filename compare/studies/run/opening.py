@@ -1,0 +1,83 @@
+"""First paragraph on a scene: what each model answers, how far they are apart, and what to do with 1D."""
+
+from math import isfinite
+
+from ...library.describe import conditions
+from ...report.plots.prefixes import prefixed
+from ...solving.amounts import capital, off, share
+from ...statistics.digits import interval, with_unit
+from ...statistics.finding import Finding
+from ...trustmap.verdict import MULTIPLY, NONE, SMALL, USE, Advice, Correction
+from ..accuracy import WORDS
+from .claims import CaseFindings, own_means
+from .curves import OWN
+
+UNITS = {"depth_reached": "m", "normal_force": "N"}
+
+
+def opening(case: CaseFindings, advice: Advice) -> str:
+    """A scene, its friction, its depth or force, the advice on both, and what the numbers are means of."""
+    told = [f"{case.case.title or case.name}, {conditions(case.case.motion)}."]
+    for mean in own_means(case.case):
+        told.append(_answers(case, mean))
+        cheap = getattr(advice, WORDS[mean])
+        if cheap and {"MDR", "BEM"} <= set(case.models.labels):
+            told.append(_advised(cheap, advice.law if cheap is advice.friction else None))
+    return " ".join([*told, _averaged(case)]).strip()
+
+
+def _own(case):
+    """Points of the scene as it stands, by model."""
+    return case.points[case.points["curve"] == OWN].set_index("solver")
+
+
+def _answers(case: CaseFindings, mean: str) -> str:
+    """Answers of the models with their intervals, and how far they are from the reference."""
+    points, answers = _own(case), []
+    factor, unit = prefixed(points[f"{mean}_mean"], UNITS[mean]) if mean in UNITS else (1.0, "")
+    for model in case.models:
+        if model.name in points.index and WORDS[mean] in model.answers:
+            value, low, high = (
+                factor * points.loc[model.name, f"{mean}_{end}"] for end in ("mean", "low", "high")
+            )
+            said = with_unit(interval(value, low, high, 3), unit) if isfinite(value) else "not known"
+            answers.append(f"{said} in {model.label}")
+    reference = case.models[case.models.reference].label
+    apart = [_apart(model.label, found, reference) for name, model, found in case.own if name == mean]
+    return f"{capital(WORDS[mean])} {', '.join(answers)}{': ' if apart else ''}{'; '.join(apart)}."
+
+
+def _apart(label: str, ratio: Finding, reference: str) -> str:
+    """How far a model is from the reference."""
+    low, high = ratio.interval
+    if not (isfinite(low) and isfinite(high)):
+        return f"how far {label} is off is not known"
+    if low >= 1 - SMALL and high <= 1 + SMALL:
+        return f"{label} is within {share(SMALL)} of {reference}"
+    if low <= 1 <= high:
+        return f"{label} is between {off(low)} and {off(high)}"
+    return f"{label} is {off(ratio.value)}"
+
+
+def _advised(cheap: Correction, law: Correction | None) -> str:
+    """What the trust map says of the answer of 1D."""
+    why = cheap.reason.partition(": ")[2] or cheap.reason
+    if cheap.advice == NONE:
+        return cheap.reason
+    if cheap.advice == USE:
+        return "The trust map takes 1D as it is."
+    if cheap.advice == MULTIPLY:
+        other = f", and the law by {law.times}" if law and law.advice == MULTIPLY else ""
+        return f"Do not use it as it is: the trust map multiplies 1D by {cheap.times}{other}, as {why}"
+    return f"Do not use it: the trust map says to solve in 3D, as {why}"
+
+
+def _averaged(case: CaseFindings) -> str:
+    """What the numbers are means of; empty of a smooth body."""
+    points = _own(case)
+    drawn = [
+        f"{points.loc[model.name, 'surfaces']:.0f} {model.draws} in {model.label}"
+        for model in case.models.drawn
+        if model.name in points.index
+    ]
+    return f"Means of {' and '.join(drawn)}." if case.case.roughness and drawn else ""
