@@ -145,18 +145,14 @@ def smooth_bodies() -> Iterator[tuple[str, ...]]:
 
 
 def answer() -> str:
-    """The law and its errors on fresh scenes, in three sentences."""
+    """The law and its errors on fresh scenes, in two sentences."""
     found = pandas.read_csv(PAGE.with_name("errors-fresh.csv"))
-    small, claimed = (
-        100 * np.abs(np.expm1(found[REGIONS[region](found)]["law"])) for region in ("inside, h₀ ≤ 0.1 d", "inside")
-    )
+    claimed = 100 * np.abs(np.expm1(found[REGIONS["inside"](found)]["law"]))
     return (
-        "- **In three dimensions another law holds.** μ = μ_smooth + (F_full / p) S(p / p_rms): friction of the "
-        "smooth body, and that of all waves in full contact, of which partial contact leaves the share S. Of "
-        f"{len(found)} unseen contacts it claims {len(claimed)}: half are within {claimed.median():.1f} % of 3D, "
-        f"nine in ten within {claimed.quantile(0.9):.1f} %; where roughness is at most a tenth of the depth, "
-        f"within {small.median():.1f} and {small.quantile(0.9):.1f} %. It takes hundredths of a second "
-        "([the law](docs/results/law.md))."
+        "[Another law](docs/results/law.md) holds there: μ = μ_smooth + (F_full / p) S(p / p_rms), friction of "
+        "the smooth body and that of all waves in full contact, of which partial contact leaves the share S. Of "
+        f"the {len(claimed)} of {len(found)} unseen contacts that it claims, half are within "
+        f"{claimed.median():.1f} %, nine in ten within {claimed.quantile(0.9):.1f} %."
     )
 
 

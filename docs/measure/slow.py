@@ -15,7 +15,6 @@ import compare
 from compare.report.csvfiles import text, write_text
 
 PAGE = Path(__file__).parents[1] / "results" / "slow.md"
-README = PAGE.parents[2] / "README.md"
 BODIES, DIMENSIONS = ("sphere", "cone"), ("1D", "3D")
 CLAIMS = {
     "eq17.load-exponent": "friction goes with the load to the power",
@@ -47,8 +46,7 @@ def main() -> None:
         for claim, words in CLAIMS.items()
     )
     replaced(PAGE, "numbers", table("|".join(["", *(f"{body}, {dim}" for body, dim in columns)]), rows))
-    for page in (PAGE, README):
-        replaced(page, "slow", answer(found))
+    replaced(PAGE, "slow", answer(found))
 
 
 def answer(found: DataFrame) -> str:

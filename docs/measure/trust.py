@@ -4,7 +4,6 @@ The folder is that of `crosscheck study trust --size standard`. Written are the 
 those learned from, beside the modules that read them, and the tables of docs/results/trust.md and the README.
 """
 
-import re
 import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
@@ -53,14 +52,8 @@ README = PAGE.parents[2] / "README.md"
 FEW = 20
 # Speeds of the ready scenes, v τ over the shortest wave.
 SPEEDS = 0.02, 0.2, 20.0
-# Words of the tables of advice, and what stands for them in the README.
-SHORT = {
-    "multiply by ": "×",
-    ", roughness ": ", ",
-    "the body is deep": "the depth",
-    r"; solve [1-4] %": "",
-    r"; (\d+) scenes": r" (\1)",
-}
+# Columns of the table of the README.
+SHORT = "roughness|multiply 1D by (nine in ten scenes)|± for one scene, 95 %|solve in 3D|scenes"
 
 
 def ship(answers: xarray.DataTree) -> None:
@@ -176,25 +169,33 @@ def parts() -> Mapping[tuple[Path, str], str]:
         (PAGE, "advice"): "\n\n".join(f"**{NAMED[name]}**\n\n{told(advice(rows, name))}" for name in RATIOS),
         (PAGE, "errors"): told(errors(found)),
         (PAGE, "regions"): told(regions(found)),
-        (README, "friction"): in_short(told(advice(rows, "friction"))),
+        (README, "friction"): in_short({"friction": drawn["friction"]}),
     }
 
 
-def in_short(text: str) -> str:
-    """A table of advice in few words: shares to solve from 5 % on, the number of scenes in brackets."""
-    for pattern, brief in SHORT.items():
-        text = re.sub(pattern, brief, text)
-    return text.replace("|  |", "| (scenes, if few) |", 1)
+def in_short(found: Mapping[str, Scored]) -> str:
+    """Table of the README: advice on friction by 1D in each regime, of all bodies together."""
+    rows = advice_rows(found, {"": lambda columns: np.isfinite(columns["shape"])})
+    cells = (
+        (
+            f"{row['speed']}, {row['roughness']}",
+            f"{row['factor']:.2f} ({row['from']:.2f} to {row['to']:.2f})",
+            f"{100 * row['interval']:.2g} %",
+            f"{100 * row['solve']:.0f} %",
+            str(row["scenes"]),
+        )
+        for row in rows
+    )
+    return markdown(SHORT, cells)
 
 
 def corrected() -> str:
-    """Sentence of the README on the errors of friction by the best advice."""
+    """Sentences of the README on the errors of friction by the best advice."""
     used = of_surfaces(scores(), "spectrum")[BEST][0].used
-    measured, alone = (100 * np.quantile(np.abs(each), (0.5, 0.9)) for each in (used.errors, used.own))
+    measured = 100 * np.quantile(np.abs(used.errors), (0.5, 0.9))
     return (
-        f"- **Corrected, trust it.** Multiplied as `crosscheck trust` says, friction of {used.usable.size} unseen "
-        f"rough contacts is within {measured[0]:.1f} % of 3D in half, {measured[1]:.1f} % in nine of ten "
-        f"({alone[0]:.1f} % and {alone[1]:.1f} % without the scatter of the truth)."
+        f"Multiplied as `crosscheck trust` says, friction of {used.usable.size} unseen rough contacts is within "
+        f"{measured[0]:.1f} % of 3D in half, {measured[1]:.1f} % in nine of ten."
     )
 
 

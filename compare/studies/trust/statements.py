@@ -7,7 +7,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from ...trustmap.model import NORMAL
-from ...trustmap.regions import BODIES, COVERED, REGIONS, ROUGHNESS, SPEEDS, SURFACES, parts
+from ...trustmap.regions import BODIES, COVERED, REGIONS, ROUGHNESS, SPEEDS, SURFACES, Condition, parts
 from ...trustmap.verdict import MULTIPLY, SOLVE, USE
 from .scoring import Score, of_count
 
@@ -71,12 +71,14 @@ def coverage_rows(scores: Mapping[str, Scored]) -> Iterator[dict[str, Any]]:
                 yield row | _held(used)
 
 
-def advice_rows(scores: Mapping[str, Scored]) -> Iterator[dict[str, Any]]:
+def advice_rows(
+    scores: Mapping[str, Scored], bodies: Mapping[str, Condition] = BODIES
+) -> Iterator[dict[str, Any]]:
     """Factor on 1D, half its interval, and share of each advice, by quantity, speed, roughness and body.
 
     The factor is that of the usable scenes, from the lowest to the highest of nine in ten.
     """
-    regimes = list(product(SPEEDS.items(), ROUGHNESS.items(), BODIES.items()))
+    regimes = list(product(SPEEDS.items(), ROUGHNESS.items(), bodies.items()))
     for (name, (score, groups)), named in product(scores.items(), regimes):
         here = np.all([condition(groups) for _, condition in named], axis=0)
         part = score.taken(here)
