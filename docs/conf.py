@@ -42,13 +42,14 @@ extensions = [
     "thumbnails",
     "variables",
 ]
-exclude_patterns = ["*/solved/*"]
+exclude_patterns = ["*/solved/*", "joss/*"]  # whose citations are of pandoc
 
 myst_enable_extensions = ["dollarmath", "colon_fence"]
 myst_heading_anchors = 3
 
 # Outputs of executed pages are kept beside the built ones until a cell changes; a fresh copy has none.
 nb_execution_mode = "cache"
+nb_execution_in_temp = True
 nb_execution_timeout = 600
 nb_execution_raise_on_error = True
 nb_execution_show_tb = True

@@ -1,4 +1,4 @@
-"""The answers in numbers: the tables of docs/results/answers.md and the numbers of README.md, of stored findings.
+"""The answers in numbers: those of docs/results/answers.md, README.md and docs/joss/paper.md, of stored findings.
 
 python docs/measure/answers.py           writes them again
 python docs/measure/answers.py again     does `crosscheck run` first, and stores its findings and first lines
@@ -25,6 +25,7 @@ from compare.studies.claims.catalogue import STUDIES
 
 PAGE = Path(__file__).parents[1] / "results" / "answers.md"
 DOCS, README = PAGE.parent, PAGE.parents[2] / "README.md"
+PAPER = DOCS.parent / "joss" / "paper.md"
 STANDARD = DOCS / "study" / "standard"
 RUN = DOCS / "answers" / "run.csv"
 # Parts of what the command prints that README.md shows, by their first words.
@@ -77,6 +78,9 @@ def parts() -> Mapping[tuple[Path, str], str]:
         (README, "answer"): _answer(run),
         (README, "law"): law.answer(),
         (README, "slow"): slow.answer(slow_found),
+        (PAPER, "answer"): _answer(run),
+        (PAPER, "law"): law.answer().replace("(docs/", "(../"),
+        (PAPER, "slow"): slow.answer(slow_found),
         (README, "fast"): fast.answer(fast_found),
         (README, "prints"): f"```text\n{(RUN.parent / 'run.txt').read_text(encoding='utf-8').strip()}\n```",
         (slow.PAGE, "slow"): slow.answer(slow_found),
