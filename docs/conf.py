@@ -18,6 +18,7 @@ _profile.mkdir()
     'settings.IPKernelApp.matplotlib = "inline"\n'
     'settings.InlineBackend.print_figure_kwargs = {"bbox_inches": None}\n'
     "settings.InlineBackend.rc = {'figure.figsize': (7.0, 3.2), 'figure.dpi': 100, 'font.size': 10.0, "
+    "'figure.constrained_layout.use': True, "
     "'axes.spines.top': False, 'axes.spines.right': False, 'legend.frameon': False}\n"
     "settings.IPKernelApp.log_level = 40\n"
 )
