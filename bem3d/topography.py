@@ -1,7 +1,7 @@
 """Roughness that was measured, as boundary elements take it up: a map by its waves, a line by a fitted surface."""
 
 from scene import Plane, Scene
-from scene.plan import said
+from scene.parts import said
 from scene.waves import MOST_WAVES
 
 from .term import Term

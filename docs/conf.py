@@ -18,6 +18,7 @@ _profile.mkdir()
     'settings.IPKernelApp.matplotlib = "inline"\n'
     'settings.InlineBackend.print_figure_kwargs = {"bbox_inches": None}\n'
     "settings.InlineBackend.rc = {'figure.figsize': (7.0, 3.2), 'figure.dpi': 100, 'font.size': 10.0, "
+    "'figure.constrained_layout.use': True, "
     "'axes.spines.top': False, 'axes.spines.right': False, 'legend.frameon': False}\n"
     "settings.IPKernelApp.log_level = 40\n"
 )
@@ -42,13 +43,14 @@ extensions = [
     "thumbnails",
     "variables",
 ]
-exclude_patterns = ["*/solved/*"]
+exclude_patterns = ["*/solved/*", "joss/*"]  # whose citations are of pandoc
 
 myst_enable_extensions = ["dollarmath", "colon_fence"]
 myst_heading_anchors = 3
 
 # Outputs of executed pages are kept beside the built ones until a cell changes; a fresh copy has none.
 nb_execution_mode = "cache"
+nb_execution_in_temp = True
 nb_execution_timeout = 600
 nb_execution_raise_on_error = True
 nb_execution_show_tb = True

@@ -1,19 +1,18 @@
 """Plan of a solver for a scene, before it solves: parts that are built, their costs, and parts left out."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import MISSING, Field, dataclass, field, fields, is_dataclass
+from dataclasses import dataclass, field, fields
 from math import prod
 from typing import Any
 
 from .costs import Expected
 from .doubt import Doubt
 from .markup import table
-from .motion import UNITS, Program
+from .motion import Program
 from .scanned import Scanned
 from .scene import Scene
 
 WIDTH = 36  # of the first column of a plan, at least
-FEW = 4  # of a part's values or stages, that are said one by one
 PIECE = 27  # words that Python needs for each array that is kept apart, and its time
 # What an absent part means for every solver.
 ABSENT = {
@@ -152,37 +151,6 @@ class Plan:
             "expected", {"operator_applications": self.operator_applications, "seconds": self.seconds}
         )
         yield from _table("left out", self.left_out)
-
-
-def said(part: Any) -> str:
-    """A part of a scene in a line: its type, and of its fields those that say something."""
-    match part:
-        case Program() if len(part.stages) > FEW:
-            return _summed_up(part)
-        case tuple() if len(part) > FEW and all(isinstance(value, float) for value in part):
-            return f"{len(part)} from {min(part):g} to {max(part):g}"
-        case tuple():
-            return f"({', '.join(map(said, part))})"
-    if not is_dataclass(part):
-        return f"{part:g}" if isinstance(part, float) else repr(part)
-    stated = (each for each in fields(part) if each.repr and not _usual(each, getattr(part, each.name)))
-    return f"{type(part).__name__}({', '.join(f'{e.name}={said(getattr(part, e.name))}' for e in stated)})"
-
-
-def _summed_up(program):
-    """A program of many stages."""
-    speeds = [stage.speed for stage in program.stages]
-    swings = sum(stage.oscillation is not None for stage in program.stages)
-    return (
-        f"Program({len(speeds)} stages{f', {swings} of them oscillating' if swings else ''}, "
-        f"{program.duration:g} s, path {program.length:g} m, speed {min(speeds):g} to {max(speeds):g} m/s, "
-        f"{program.pressed_by} up to {program.greatest:g} {UNITS[program.pressed_by]})"
-    )
-
-
-def _usual(declared: Field, value: Any) -> bool:
-    default = declared.default
-    return default is not MISSING and type(value) is type(default) and value == default
 
 
 def absent(scene: Scene, meanings: Mapping[str, str]) -> dict[str, str]:

@@ -1,18 +1,22 @@
 """Result of a solver: the same fields from either dimension."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from importlib.metadata import version
 from math import nan
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from .markup import table
+from .reading import validator
 from .scene import Scene
-from .vocabulary import FIELDS, MEASURES, NUMBERS
+from .vocabulary import FIELDS, MEASURES, NUMBERS, Entry
 
 if TYPE_CHECKING:
     import xarray
+
+UNKNOWN = Entry("", "")  # of what a model names by itself
 
 
 @dataclass(frozen=True)
@@ -50,34 +54,53 @@ class Result:
         return self.friction_force / self.normal_force if self.normal_force else nan
 
     def to_xarray(self) -> "xarray.Dataset":
-        """Numbers, measures and fields as a Dataset, each with its unit and definition; settings as attributes."""
-        kind, words = self.scene.indenter.type, {**NUMBERS, **MEASURES}
+        """Numbers, measures and fields as a Dataset, each with its unit and definition.
+
+        The settings are attributes; so is where the numbers come from, see `provenance`.
+        """
+        kind, rough = self.scene.indenter.type, self.scene.roughness
+        seeds = [rough.seed] if hasattr(rough, "seed") else []
         found = labelled(self.fields, kind)
-        named = {name: getattr(self, name) for name in (*NUMBERS, "friction_coefficient")} | dict(self.measures)
-        for name, value in named.items():
-            entry = words.get(name)
-            told = {"units": entry.unit_under(kind), "comment": entry.text} if entry else {"units": "1"}
+        for name, (value, entry) in self._numbers.items():
             label = f"{name}_at_end" if name in found else name  # a field is its history
-            found[label] = (), float(value), {"long_name": name.replace("_", " ")} | told
+            found[label] = (), value, entry.attributes(name, kind)
         return found.assign_attrs(
-            {"solver": self.solver} | {name: str(value) for name, value in self.settings.items()}
+            provenance(self.scene, seeds)
+            | {"solver": self.solver}
+            | {name: str(value) for name, value in self.settings.items()}
         )
 
+    @property
+    def _numbers(self) -> dict[str, tuple[float, Entry]]:
+        """Numbers and measures by name, each with its entry."""
+        named = {name: getattr(self, name) for name in NUMBERS} | dict(self.measures)
+        return {name: (float(value), {**NUMBERS, **MEASURES}.get(name, UNKNOWN)) for name, value in named.items()}
+
     def _repr_html_(self) -> str:
-        kind, words = self.scene.indenter.type, {**NUMBERS, **MEASURES}
-        rows = [(name, getattr(self, name), words[name].unit_under(kind), words[name].text) for name in NUMBERS]
-        rows.insert(
-            3, ("friction_coefficient", self.friction_coefficient, "1", "Friction force over normal force.")
-        )
-        for name, value in self.measures.items():
-            known = words.get(name)
-            rows.append((name, float(value), known.unit_under(kind) if known else "", known.text if known else ""))
+        shown: list[tuple[str, float | str, Entry]] = [(name, *found) for name, found in self._numbers.items()]
         for name, values in self.fields.items():
-            known = FIELDS.get(name)
-            shape = f"array {' x '.join(map(str, values.shape))}"
-            rows.append((name, shape, known.unit_under(kind) if known else "", known.text if known else ""))
+            shown.append((name, f"array {' x '.join(map(str, values.shape))}", FIELDS.get(name, UNKNOWN)))
+        kind = self.scene.indenter.type
+        rows = [(name, value, entry.unit_under(kind), entry.text) for name, value, entry in shown]
         settings = ", ".join(f"{name} = {value}" for name, value in self.settings.items())
         return table(rows, ("name", "value", "unit", "meaning"), f"{self.solver}, {settings}")
+
+
+def provenance(scene: Scene, seeds: Sequence[int] | np.ndarray = ()) -> dict[str, str]:
+    """Attributes of a Dataset that say where its numbers come from: the scene as JSON, the version, and the seeds.
+
+    seeds : of the rough surfaces, ascending; none of a body without draws
+    """
+    said = {"scene": validator(Scene).dump_json(scene, exclude_none=True).decode(), "source": source()}
+    if len(seeds) > 0:
+        rows = np.split(seeds, np.flatnonzero(np.diff(seeds) > 1) + 1)
+        said["seeds"] = ", ".join(f"{row[0]} to {row[-1]}" if len(row) > 1 else str(row[0]) for row in rows)
+    return said
+
+
+def source() -> str:
+    """Name and version of the package, by which every Dataset says where it comes from."""
+    return f"mdr-bem-crosscheck {version('mdr-bem-crosscheck')}"
 
 
 def labelled(fields: Mapping[str, np.ndarray], indenter: str) -> "xarray.Dataset":
@@ -93,17 +116,14 @@ def labelled(fields: Mapping[str, np.ndarray], indenter: str) -> "xarray.Dataset
     lengths = {name: values.size if values.ndim == 1 else -1 for name, values in axes.items()}
     variables = {}
     for name, entry in known.items():
-        values, plain = np.asarray(fields[name]), name.replace("_", " ")
+        values = np.asarray(fields[name])
         dims = entry.axes if entry else ()
         if len(dims) > values.ndim:
             dims = tuple(axis for axis in dims if axis != "y")
         agree = len(dims) == values.ndim and all(
             lengths.setdefault(axis, size) == size for axis, size in zip(dims, values.shape, strict=True)
         )
-        told = {"long_name": plain}
-        if agree and entry:
-            told |= {"units": entry.unit_under(indenter), "comment": entry.text}
-        else:
-            dims = tuple(f"{name}_{axis}" for axis in range(values.ndim))
-        variables[name] = dims, values, told
+        if not (agree and entry):
+            entry, dims = UNKNOWN, tuple(f"{name}_{axis}" for axis in range(values.ndim))
+        variables[name] = dims, values, entry.attributes(name, indenter)
     return xarray.Dataset(variables)

@@ -10,8 +10,11 @@ from .heating import Heating
 from .indenter import Indenter, Plane
 from .interface import Coulomb
 from .layer import Layer
+from .markup import table
 from .measured import Measured
 from .motion import UNITS, Motion, Shear
+from .parts import rows
+from .printable import printable
 from .quantities import CLOSED
 from .rheology import Elastomer
 from .roughness import Roughness
@@ -75,6 +78,14 @@ class Scene:
     heating: Heating | None = None  # last: all friction heats
 
     _fits = model_validator(mode="after")(fit_together)
+
+    def __str__(self) -> str:
+        lines = list(rows(self.parts))
+        width = max(len(name) for name, _, _ in lines)
+        return printable("\n".join(f"{name:{width}}  {value} {unit}".rstrip() for name, value, unit in lines))
+
+    def _repr_html_(self) -> str:
+        return table(rows(self.parts), ("name", "value", "unit"), "Scene")
 
     @property
     def parts(self) -> dict[str, Any]:

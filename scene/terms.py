@@ -8,7 +8,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from .plan import Plan, said
+from .parts import said
+from .plan import Plan
 from .result import Result
 from .scene import Scene
 

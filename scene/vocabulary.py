@@ -2,13 +2,14 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import reduce
 
 
 @dataclass(frozen=True)
 class Entry:
     """Meaning of a word of a Result.
 
-    unit : SI, "1" of pure numbers and counts
+    unit : SI, "1" of pure numbers and counts, as UDUNITS spells it
     text : one sentence, with sign and convention
     axes : of a field, the words along whose values it lies, slowest first, in 1D less y; empty of a number
     along_line : unit under a Cylinder, where what is extensive is counted per length of the line
@@ -22,6 +23,17 @@ class Entry:
     def unit_under(self, indenter: str) -> str:
         """Unit under an indenter of a type as a scene file names it."""
         return self.along_line or self.unit if indenter == "cylinder" else self.unit
+
+    @property
+    def unit_in_words(self) -> str:
+        """Unit as people write it: m² for m^2."""
+        return reduce(lambda unit, power: unit.replace(*power), (("^2", "²"), ("^3", "³"), ("^4", "⁴")), self.unit)
+
+    def attributes(self, name: str, indenter: str = "") -> dict[str, str]:
+        """Attributes of a variable of this name by the CF conventions, none of them empty."""
+        axis = name.upper() if self.axes == (name,) and name in ("x", "y") else ""
+        said = {"units": self.unit_under(indenter), "long_name": name.replace("_", " "), "axis": axis}
+        return {word: text for word, text in {**said, "comment": self.text}.items() if text}
 
 
 def _force(text, axes=()):
@@ -47,6 +59,7 @@ NUMBERS: Mapping[str, Entry] = {
     "friction_force": _force(
         "Tangential force on the indenter, above zero where it opposes motion forwards, which is along -x."
     ),
+    "friction_coefficient": Entry("1", "Friction force over normal force."),
     "residual": Entry("1", "Residual of the discrete conditions of contact, relative, as the solver defines it."),
     "operator_applications": Entry("1", "Operator applications of the solve, in equivalents of the finest grid."),
     "seconds": Entry("s", "Processor time of the solve."),

@@ -15,6 +15,7 @@ import xarray
 from scene.files import Unreadable, content
 from scene.printable import brief
 from scene.reading import InvalidInput
+from scene.result import source
 
 from .folder_format import FORMAT, MANIFEST, UNSTATED, Stated, finished, refuse_other
 
@@ -42,6 +43,7 @@ def packed(answers: xarray.DataTree) -> bytes:
     made = BytesIO()
     with h5py.File(made, "w", track_order=True) as file:
         _fill(file, answers)
+        file.attrs["source"] = source()
     image = made.getvalue() + LABEL
     return image + SEAL + hashlib.sha256(image).hexdigest().encode()
 

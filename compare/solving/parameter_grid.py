@@ -19,6 +19,7 @@ from scene.motion import PRESSES, UNITS, Motion
 from scene.printable import brief
 from scene.protocol import lacking, trusted, why_not
 from scene.quantities import SPEED, WHOLE, argument
+from scene.result import provenance
 from scene.scales import elastic_contact
 
 from .continuation import Continuation, by_contact, joined
@@ -343,7 +344,8 @@ class ParameterGrid:
         if self._stratified(name) and (moments := self._local_moments(name)).size:
             label = "local_moments"
             made[label] = xarray.Variable([*dims[1:], "moment"], moments, attributes(label, self.scene))
-        dataset = xarray.Dataset(made, coordinates, {"solver": name})
+        about = provenance(self.scene, coordinates.get("seed", ()))
+        dataset = xarray.Dataset(made, coordinates, about | {"solver": name})
         for label in dataset.coords:
             dataset[label].attrs = attributes(str(label), self.scene)
         return dataset

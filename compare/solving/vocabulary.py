@@ -145,9 +145,9 @@ holds : Whether every condition of the laws holds at a point.
 
 Of measured maps.
 q : Wave number; of a ring, the mean of its waves. [rad/m]
-density_2d : Two-sided spectral density C_2D, mean over directions. [m⁴]
-density_1d : Two-sided spectral density C_1D of the line scans along x, mean over the rows. [m³]
-density_1d_mapped : Spectral density by the rule of the MDR. [m³] | C_\mathrm{1D} = \pi q\,C_\mathrm{2D}
+density_2d : Two-sided spectral density C_2D, mean over directions. [m^4]
+density_1d : Two-sided spectral density C_1D of the line scans along x, mean over the rows. [m^3]
+density_1d_mapped : Spectral density by the rule of the MDR. [m^3] | C_\mathrm{1D} = \pi q\,C_\mathrm{2D}
 waves : Waves of a map in a ring of wave numbers, a wave and its opposite counted as one. [1]
 in_band : Whether a wave number lies in the band in which the power law was fitted.
 ratio : Number in one dimension over that in three. [1]
@@ -214,7 +214,7 @@ reference_error : Relative error of the reference; what is at or below it is onl
 processor : Processor time of one thread from the scene to the result: the least of several repeats, each alone in
     a process that has loaded compiled code. [s]
 wall : Least time of repeated solves by the clock. [s]
-memory : By how much a solve raises the peak memory of its process. [B]
+memory : By how much a solve raises the peak memory of its process. [byte]
 order : Power of the setting with which the error falls. [1]
 change : Relative change of a quantity from half the points to all. [1]
 repeats : How often the solve was repeated. [1]
@@ -331,14 +331,9 @@ def _entry(name):
 def head(name: str) -> str:
     """Name of a column in words, with its unit."""
     found, plain = entry(name), name.replace("_", " ")
-    return plain if found is None or found.unit in ("", "1") else f"{plain} [{found.unit.replace('^2', '²')}]"
+    return plain if found is None or found.unit in ("", "1") else f"{plain} [{found.unit_in_words}]"
 
 
 def attributes(name: str, scene: Scene | None = None) -> dict[str, str]:
     """Attributes of a variable of a Dataset: units, long name and definition."""
-    found, plain = entry(name), name.replace("_", " ")
-    if found is None:
-        return {"long_name": plain}
-    indenter = "" if scene is None else scene.indenter.type
-    said = {"units": found.unit_under(indenter), "long_name": plain, "comment": found.text}
-    return {name: text for name, text in said.items() if text}
+    return (entry(name) or Term("", "")).attributes(name, "" if scene is None else scene.indenter.type)

@@ -34,8 +34,7 @@ class Variables(SphinxDirective):
 
 
 def _unit(said):
-    unit = said.unit.replace("^2", "²")
-    return f"{unit} (line: {said.along_line})" if said.along_line else unit
+    return f"{said.unit_in_words} (line: {said.along_line})" if said.along_line else said.unit_in_words
 
 
 def setup(app):

@@ -1,4 +1,4 @@
-"""The answers in numbers: the tables of docs/results/answers.md and the numbers of README.md, of stored findings.
+"""The answers in numbers: those of docs/results/answers.md, README.md and docs/joss/paper.md, of stored findings.
 
 python docs/measure/answers.py           writes them again
 python docs/measure/answers.py again     does `crosscheck run` first, and stores its findings and first paragraph
@@ -26,6 +26,7 @@ from compare.studies.claims.claims import ENDS
 
 PAGE = Path(__file__).parents[1] / "results" / "answers.md"
 DOCS, README = PAGE.parent, PAGE.parents[2] / "README.md"
+PAPER = DOCS.parent / "joss" / "paper.md"
 STANDARD = DOCS / "study" / "standard"
 RUN = DOCS / "answers" / "run.csv"
 # The paragraph of what the command prints that README.md shows, by its first words.
@@ -77,6 +78,8 @@ def parts() -> Mapping[tuple[Path, str], str]:
         (PAGE, "study"): table("|sphere, 1D|cone, 1D|sphere, 3D|cone, 3D", _of_study(slow_found, fast_found)),
         (PAGE, "spectrum"): _of_spectrum(),
         (README, "answer"): _answer(run, slow_found, fast_found),
+        (PAPER, "answer"): _answer(run, slow_found, fast_found).replace("(docs/", "(../"),
+        (PAPER, "slow"): slow.answer(slow_found),
         (README, "prints"): f"```text\n{(RUN.parent / 'run.txt').read_text(encoding='utf-8').strip()}\n```",
         (slow.PAGE, "slow"): slow.answer(slow_found),
         (fast.PAGE, "fast"): fast.answer(fast_found),

@@ -3,6 +3,7 @@
 import itertools
 import json
 from dataclasses import replace
+from importlib.metadata import version
 
 import numpy as np
 import pytest
@@ -16,7 +17,10 @@ from compare.solving.parameter_grid import ParameterGrid, on_two_grids
 from compare.statistics.finding import COLUMNS, Claim
 from compare.statistics.jackknife import friction
 from mdr1d import MDR
-from scene.reading import InvalidInput
+from scene import Scene
+from scene.reading import InvalidInput, made
+from scene.result import provenance
+from scene.vocabulary import FIELDS
 
 
 def shown(thing):
@@ -98,6 +102,24 @@ def test_a_sweep_is_a_dataset_of_every_draw_with_means_and_intervals(tmp_path):
     assert isinstance(compare.friction_plot(answers), Figure)
     again = compare.sweep(TINY, speed=[0.0, 0.1], load=[0.5, 1.0], draws=2, output=tmp_path, report=False)
     xarray.testing.assert_identical(again, answers)
+    answers.to_netcdf(tmp_path / "copy.nc", engine="h5netcdf")
+    with xarray.open_dataset(tmp_path / "copy.nc", engine="h5netcdf") as copy:
+        xarray.testing.assert_identical(copy.load(), answers)
+
+
+def test_a_dataset_names_its_scene_version_and_seeds_and_its_axes_have_names_and_units(folder, found):
+    tree, fields = compare.load(folder), BEM(points=32).solve(SLIDING).to_xarray()
+    stored, source = tree["tiny/friction-speed/BEM"], f"mdr-bem-crosscheck {version('mdr-bem-crosscheck')}"
+    for attributes, seeds in ((fields.attrs, "5"), (stored.attrs, "5 to 6")):
+        asked = made(json.loads(attributes["scene"]), Scene, "scene")
+        assert replace(asked, motion=SLIDING.motion) == SLIDING
+        assert (attributes["source"], attributes["seeds"]) == (source, seeds)
+    assert tree.attrs == {"source": source}
+    assert provenance(SLIDING, [1, 2, 3, 7, 10_001])["seeds"] == "1 to 3, 7, 10001"
+    for name, unit in {"x": "m", "y": "m", "pressure": "Pa"}.items():
+        axis = {"axis": name.upper()} if name in fields.dims else {}
+        assert fields[name].attrs == {"units": unit, "long_name": name, "comment": FIELDS[name].text, **axis}
+    assert stored.speed.attrs["units"] == "m/s"
 
 
 def test_a_smooth_sweep_has_no_draws_and_the_grid_alone_in_its_interval(tmp_path):
@@ -148,6 +170,14 @@ def test_a_study_of_ones_own_goes_the_same_way(tmp_path):
     assert report.path == tmp_path / "report.html"
     assert compare.load(tmp_path)["smooth/BEM"].sizes["grid"] == 2
     assert compare.solve(Twice(), tmp_path, report=False).path is None
+
+
+def test_a_scene_shows_the_fields_of_its_parts_with_their_units():
+    text, lines = shown(SLIDING), str(SLIDING).splitlines()
+    for cell in ("indenter", "Sphere", "motion.load", "N", "roughness.amplitudes", "fixed"):
+        assert f">{cell}<" in text
+    assert "motion.depth" not in text  # which is not given
+    assert [line.split() for line in lines[:2]] == [["indenter", "Sphere"], ["indenter.radius", "0.01", "m"]]
 
 
 def test_a_result_shows_every_number_with_its_unit_and_escapes_what_it_holds():

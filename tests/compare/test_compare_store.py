@@ -23,12 +23,12 @@ from strategies import examples
 from compare.models.exact import Exact
 from compare.solving import store as module
 from compare.solving.hold import LOCK, hold
-from compare.solving.outcome import Outcome, Row
+from compare.solving.outcome import NUMBERS, Outcome, Row
 from compare.solving.store import FILE, Store, canonical, code_digest, key, write
 from compare.solving.task import SceneTask as Task
 from mdr1d import MDR
 from scene import Indent, Kelvin, Prony, Scene, SelfAffine, Slide, Sphere
-from scene.vocabulary import MEASURES, NUMBERS
+from scene.vocabulary import MEASURES
 
 SCENE = Scene(
     Sphere(radius=1e-2),

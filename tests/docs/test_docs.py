@@ -262,13 +262,29 @@ def test_a_signature_names_kinds_of_number(docstrings):
     assert "speed: Velocity = 0.0, load: ForceOrZero | None = None" in docstrings.signature(scene.Stage)
 
 
-def test_the_citation_is_of_this_version():
+def test_the_citation_the_page_how_to_cite_and_the_paper_of_at_most_1000_words_agree():
     yaml = pytest.importorskip("yaml")
-    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
-    assert citation.keys() >= {"cff-version", "message", "title", "authors"}
-    stated = re.search(r'^version = "(.*)"', (ROOT / "pyproject.toml").read_text(), re.MULTILINE)[1]
-    assert citation["version"] == stated
-    assert f"version = {{{stated}}}" in (DOCS / "howto" / "cite.md").read_text(encoding="utf-8")
+    citation, page, bibliography = (
+        each.read_text(encoding="utf-8")
+        for each in (ROOT / "CITATION.cff", DOCS / "howto" / "cite.md", DOCS / "joss" / "paper.bib")
+    )
+    cited = yaml.safe_load(citation)
+    assert cited.keys() >= {"cff-version", "message"}
+    (author,), (law,) = cited["authors"], cited["references"]
+    version = re.search(r'^version = "(.*)"', (ROOT / "pyproject.toml").read_text(), re.MULTILINE)[1]
+    assert cited["version"] == version
+    for stated in (f"title   = {{{cited['title']}}}", f"{{{{{author['name']}}}}}", f"version = {{{version}}}"):
+        assert stated in page
+    for stated in (f"{{{law['title']}}}", f"{{{law['doi']}}}"):
+        assert stated in page
+        assert stated in bibliography
+    _, heading, paper = (DOCS / "joss" / "paper.md").read_text(encoding="utf-8").split("---\n", 2)
+    about = yaml.safe_load(heading)
+    assert (about["title"], [each["name"] for each in about["authors"]]) == (cited["title"], [author["name"]])
+    assert about["tags"][1:] == cited["keywords"]
+    assert len(re.sub("<!--.*?-->", "", paper).split()) <= 1000
+    keys = re.findall(r"^@\w+\{(\w+),", bibliography, re.MULTILINE)
+    assert {*re.findall(r"@(\w+)", paper)} == {*keys}
 
 
 WAVES, SIDE, HEIGHT = 4, 2.0, 0.3

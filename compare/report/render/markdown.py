@@ -177,7 +177,7 @@ def _findings(block, shown):
 
 def _definition(name):
     found = entry(name)
-    unit = f" [{found.unit.replace('^2', '²')}]" if found.unit else ""
+    unit = f" [{found.unit_in_words}]" if found.unit else ""
     formula = f" {mathematics.dollars(found.formula)}." if found.formula else ""
     source = f" ({found.source})" if found.source else ""
     words = f"{escaped(unit)}: {typeset(found.text)}{formula}{escaped(source)}"

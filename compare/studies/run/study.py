@@ -12,7 +12,7 @@ import xarray
 from pandas import DataFrame
 
 from scene import Refused, Scene, notes
-from scene.result import labelled
+from scene.result import labelled, provenance
 
 from ...library.case import Case, NotCompared, doubted
 from ...library.describe import described, folders
@@ -176,7 +176,8 @@ class Run(Study):
         for name, found in self._curves.items():
             folder = self.folders[name]
             for solver, kept in found[OWN].fields(outcomes).items():
-                parts[f"/{folder}/{FIELDS}/{solver}"] = labelled(kept, self.cases[name].indenter.type)
+                fields = labelled(kept, self.cases[name].indenter.type)
+                parts[f"/{folder}/{FIELDS}/{solver}"] = fields.assign_attrs(provenance(self.cases[name].scene))
             parts[f"/{folder}/{TIMES}"] = _times(parameter_grid.contacts_of(found), outcomes)
         return xarray.DataTree.from_dict(
             {node.path: node.to_dataset(inherit=False) for node in super().answers(outcomes).subtree} | parts

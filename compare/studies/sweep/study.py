@@ -17,6 +17,7 @@ from scene.plain import one_by_one
 from scene.printable import brief
 from scene.quantities import SPEED
 from scene.reading import InvalidInput, whole
+from scene.result import provenance
 
 from ...library.case import Case, doubted
 from ...library.lookup import SceneLike, case_of
@@ -233,7 +234,9 @@ class Sweep(Study):
             join="outer",
         )
         grids = [grid for grid in LEVELS if grid in joined["grid"]]  # which joining may have sorted
-        return joined.sel(grid=grids).assign_attrs(prescribed=self.case.motion.pressed_by)
+        seeds = joined["seed"].values if "seed" in joined else ()
+        about = provenance(self.case.scene, seeds)
+        return joined.sel(grid=grids).assign_attrs(about, prescribed=self.case.motion.pressed_by)
 
     def _with_means(self, dataset):
         """One solver with its means; the points of a grid, which differ between solvers, as a variable."""
