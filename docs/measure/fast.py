@@ -38,9 +38,9 @@ COLLAPSE = {
     "eq23.vertical-alone": "shifted along friction alone, by",
 }
 MASTER = {
-    "law3d.collapse": "off S(x), median; claimed 0 to within 5 %",
-    "law3d.collapse-most": "off S(x), nine in ten within; claimed 15 %",
-    "eq23.predicted": "Eq. 23 in 3D: off one curve, rms; claimed 0 to within 5 %",
+    "law3d.collapse": "off S(x), median; tested against 0 ± 5 %",
+    "law3d.collapse-most": "off S(x), nine in ten within; tested against 15 %",
+    "eq23.predicted": "Eq. 23 in 3D: misfit; paper: 0, tolerance 5 %",
 }
 # The same of those speeds alone that are at the knee and above: v tau q_s from so much on.
 KNEE, BEYOND = 2.5, ", from the knee on"
