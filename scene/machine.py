@@ -22,7 +22,7 @@ def shortage(needed: int, there: int | None = None) -> list[str]:
     there = memory() if there is None else there
     if needed <= there:
         return []
-    return [f"it takes {size(needed)} of memory, and {size(there)} are here: take fewer points"]
+    return [f"it needs {size(needed)} of memory, and only {size(there)} are available: use fewer points"]
 
 
 def _physical() -> Iterator[int]:

@@ -118,7 +118,7 @@ class Unit(_Numbers):
 
     @property
     def allowed(self) -> str:
-        return f"{self.kind}, as {self.example} or {self.number:g} (in {self.symbol})"
+        return f'{self.kind}, such as "{self.example}" or {self.number:g} (in {self.symbol})'
 
     @property
     def _unit(self) -> tuple[str | None, bool]:

@@ -8,8 +8,8 @@ from sphinx.transforms.post_transforms import SphinxPostTransform
 
 PAGE = "reference/glossary"
 # Terms that are also words of any sentence, or have another meaning in some.
-WORDS = "claim draw fails holds multiply path program reference reported scene solve stage tolerance use window"
-COMMON = set(WORDS.split())
+WORDS = "claim draw factor fails holds multiply path program ratio reference reported scene solve stage tolerance"
+COMMON = {*WORDS.split(), "use", "window"}
 
 
 class Linked(SphinxPostTransform):
@@ -23,7 +23,11 @@ class Linked(SphinxPostTransform):
         objects = self.env.domains.standard_domain.objects
         terms = {name: place for (kind, name), place in objects.items() if kind == "term" and name not in COMMON}
         # The longest first: "trust map" before "map". "ξ (xi)" is known by either.
-        known = {each: place for name, place in terms.items() for each in re.split(r" \(|\)", name) if each}
+        named = {each: place for name, place in terms.items() for each in re.split(r" \(|\)", name) if each}
+        for link in self.document.findall(nodes.reference):
+            if "glossary.html#" in link.get("refuri", ""):  # linked by the page itself, for GitHub
+                named.pop(link.astext().removesuffix("s"), None)
+        known = {form: place for each, place in named.items() for form in (each, each[0].upper() + each[1:])}
         for text in list(self.document.findall(nodes.Text)):
             if known and is_prose(text) and not _in_title(text):
                 text.parent.replace(text, list(self.pieces(str(text), known)))
@@ -31,14 +35,14 @@ class Linked(SphinxPostTransform):
     def pieces(self, text, known):
         """The text, with a link for each term that was not met before; it is taken out of the known ones."""
         while known:
-            match = re.search(rf"\b({'|'.join(map(re.escape, sorted(known, key=len, reverse=True)))})\b", text)
+            match = re.search(rf"\b({'|'.join(map(re.escape, sorted(known, key=len, reverse=True)))})s?\b", text)
             if match is None:
                 break
-            page, anchor = known[match[0]]
+            page, anchor = known[match[1]]
             uri = self.app.builder.get_relative_uri(self.env.docname, page) + f"#{anchor}"
             yield nodes.Text(text[: match.start()])
             yield nodes.reference(match[0], match[0], internal=True, refuri=uri, classes=["term"])
-            for name in [name for name, place in known.items() if place == known[match[0]]]:
+            for name in [name for name, place in known.items() if place == known[match[1]]]:
                 del known[name]
             text = text[match.end() :]
         yield nodes.Text(text)

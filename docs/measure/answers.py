@@ -35,35 +35,35 @@ ALONE = "1D", "3D"
 BODIES, SCENES = ("sphere", "cone"), ("paper-sphere", "paper-cone")
 # Claims of the tables in words, by their names.
 OF_RUN = {
-    ("friction.ratio.smooth-slow", "1D/3D"): "friction 1D / 3D, smooth body at low speed; in the limit 2",
-    ("friction.ratio.own", "1D/3D"): "friction 1D / 3D, rough body, 0.1 m/s, 1 N; claimed 1",
+    ("friction.ratio.smooth-slow", "1D/3D"): "friction 1D/3D, smooth body at low speed; theory: 2",
+    ("friction.ratio.own", "1D/3D"): "friction 1D/3D, rough body, 0.1 m/s, 1 N; tested against 1",
     ("eq23.predicted", "1D"): "misfit of the curves shifted as Eq. 22 predicts, in 1D",
     ("eq23.predicted", "3D"): "misfit of the curves shifted as Eq. 22 predicts, in 3D",
     ("eq23.collapse", "1D"): "misfit of the curves shifted at best, in 1D",
     ("eq23.collapse", "3D"): "misfit of the curves shifted at best, in 3D",
 }
 OF_PAPER = {
-    "paper.eq17.exponent": "exponent of ξ at low speed, where the conditions of Eq. 17 hold; claimed 1",
+    "paper.eq17.exponent": "exponent of ξ at low speed, where the conditions of Eq. 17 hold; paper: 1",
     "paper.eq17.exponent.any-slope": "exponent of ξ at low speed, whatever the slope of the body",
     "paper.eq17.exponent.slope-kept": "exponent of ξ at low speed, with the slope of the body kept",
-    "paper.eq19.alpha": "α of Eq. 19; claimed 1.5",
-    "paper.eq14.plateau": "plateau over √2 times the rms slope, Eq. 14; claimed 1",
+    "paper.eq19.alpha": "α of Eq. 19; paper: 1.5",
+    "paper.eq14.plateau": "plateau over √2 times the rms slope, Eq. 14; paper: 1",
 }
 OF_STUDY = {
     "eq23.collapse": "misfit, shifted at best",
     "eq23.predicted": "misfit, shifted as Eq. 22 predicts",
-    "eq17.load-exponent": "exponent of the load at low speed; claimed −2/3 (sphere), −1/2 (cone)",
+    "eq17.load-exponent": "exponent of the load at low speed; paper: −2/3 (sphere), −1/2 (cone)",
 }
 IN_REGIME = {
-    "eq17.load-exponent": "the same exponent in the regime of the paper",
-    "eq17.level-least": "friction at low speed there over that of Eq. 17, at the least load; claimed 1",
-    "eq17.level-greatest": "at the greatest",
+    "eq17.load-exponent": "the same exponent, in the regime of the paper",
+    "eq17.level-least": "regime: friction at low speed over Eq. 17, least load; paper: 1",
+    "eq17.level-greatest": "regime: the same, greatest load",
 }
 AT_SPEED = {
-    "eq14.plateau-least": "plateau there over that of Eq. 14, at the least load; claimed 1",
-    "eq14.plateau-greatest": "at the greatest",
-    "eq23.collapse": "misfit there, shifted at best",
-    "eq23.predicted": "misfit there, shifted as Eq. 22 predicts",
+    "eq14.plateau-least": "regime: plateau over Eq. 14, least load; paper: 1",
+    "eq14.plateau-greatest": "regime: the same, greatest load",
+    "eq23.collapse": "regime: misfit, shifted at best",
+    "eq23.predicted": "regime: misfit, shifted as Eq. 22 predicts",
 }
 MISFITS = ("eq23",)
 
@@ -93,7 +93,7 @@ def _of_run(found: DataFrame) -> Iterator[tuple[str, ...]]:
     for depth, place in (("shallow", 0), ("deep", -1)):
         forces = [found[found["claim"].eq("force.ratio.rough") & found["where"].str.startswith(s)] for s in SCENES]
         cells = (_cell(each.iloc[place], percent=True) for each in forces)
-        yield f"force 1D / 3D of the rough body at the same depth, less one, {depth}", *cells
+        yield f"error of the 1D force at the same depth, rough body, {depth}", *cells
 
 
 def _of_paper(found: DataFrame) -> Iterator[tuple[str, ...]]:

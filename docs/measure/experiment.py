@@ -24,29 +24,29 @@ PLACES = {
     "50 mm on a half-space, as the paper assumes": "half-space, as the paper assumes",
 }
 CLAIMS = {
-    "unshifted": "misfit to one curve before any shift [%]; claimed 0 ± 2",
-    "collapse": "shifted along the force [%]; claimed 0 ± 2",
-    "along-friction": "shifted along friction [%]; claimed 0 ± 2",
-    "same": "the latter less the former [%]; claimed 0 ± 2",
-    "predicted": "shifted along the force as the paper has it [%]; claimed 0 ± 2",
-    "exponent": "exponent of the shift along the force; claimed −0.15 ± 0.0075",
-    "one-line": "misfit of one straight line [%]; claimed 0 ± 2",
-    "two-lines": "misfit of two straight lines [%]; claimed 0 ± 2",
-    "over-cubic": "the latter over that of a cubic; claimed 0 to 1",
-    "slope-light": "slope of the first line; claimed −0.667 to 0",
-    "slope-heavy": "slope of the second; claimed −0.667 to 0",
-    "break": "force at which they meet over F*; claimed 1 ± 0.25",
-    "width": "diameter of the contact at F* over the thickness; claimed 1 ± 0.05",
-    "level": "greatest friction; claimed 0.5 ± 0.25",
+    "unshifted": "misfit before any shift [%]; tested against 0 ± 2",
+    "collapse": "misfit, shifted along the force at best [%]; 0 ± 2",
+    "along-friction": "misfit, shifted along friction at best [%]; 0 ± 2",
+    "same": "the latter minus the former [%]; 0 ± 2",
+    "predicted": "misfit, shifted along the force by the paper's power [%]; 0 ± 2",
+    "exponent": "exponent of the shift along the force; paper: −0.15 ± 0.0075",
+    "one-line": "misfit of one straight line [%]; 0 ± 2",
+    "two-lines": "misfit of two straight lines [%]; 0 ± 2",
+    "over-cubic": "the latter over that of a cubic; 0 to 1",
+    "slope-light": "slope of the first line; paper: −0.667 to 0",
+    "slope-heavy": "slope of the second; paper: −0.667 to 0",
+    "break": "force at which they meet over F*; paper: 1 ± 0.25",
+    "width": "diameter of the contact at F* over the thickness; paper: 1 ± 0.05",
+    "level": "greatest friction; paper: 0.5 ± 0.25",
     "ball-light": "share of the smooth ball in friction, 1 N",
     "ball-heavy": "share of the smooth ball in friction, 100 N",
     "pressed": "least mean pressure over the rms pressure of full contact",
 }
 PERCENT = "unshifted", "collapse", "along-friction", "same", "predicted", "one-line", "two-lines"
 LAW = {
-    "law": "law / BEM on the layer; claimed 1 ± 0.05",
-    "law-of-roughness": "of roughness alone",
-    "law-on-layer": "layer over half-space; claimed 1 ± 0.05",
+    "law": "friction law/BEM on the layer; tested against 1 ± 0.05",
+    "law-of-roughness": "the same, of roughness alone",
+    "law-on-layer": "law/BEM, layer over half-space; tested against 1 ± 0.05",
 }
 
 

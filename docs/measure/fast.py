@@ -33,26 +33,26 @@ STUDIES = "steep-all-speeds", "steep-on-fine-grids"
 EXPONENT = {"sphere": 1.5, "cone": 2.0}  # (n + 1)/n: p(v) of a Kelvin solid is v to the power of minus that
 COLUMNS = "claim", "where", "dimension", "value", "low", "high", "draws", "verdict"
 COLLAPSE = {
-    "eq23.collapse": "shifted along the load at best, curves miss one another by",
-    "eq23.predicted": "shifted by p(v) of the theory, by",
-    "eq23.vertical-alone": "shifted along friction alone, by",
+    "eq23.collapse": "misfit, shifted along the load at best",
+    "eq23.predicted": "misfit, shifted by p(v) of Eq. 22",
+    "eq23.vertical-alone": "misfit, shifted along friction alone",
 }
 MASTER = {
-    "law3d.collapse": "off S(x), median; claimed 0 to within 5 %",
-    "law3d.collapse-most": "off S(x), nine in ten within; claimed 15 %",
-    "eq23.predicted": "Eq. 23 in 3D: off one curve, rms; claimed 0 to within 5 %",
+    "law3d.collapse": "off S(x), median; tested against 0 ± 5 %",
+    "law3d.collapse-most": "off S(x), nine in ten within; tested against 15 %",
+    "eq23.predicted": "Eq. 23 in 3D: misfit; paper: 0, tolerance 5 %",
 }
 # The same of those speeds alone that are at the knee and above: v tau q_s from so much on.
 KNEE, BEYOND = 2.5, ", from the knee on"
 FROM_KNEE = {f"{claim}{BEYOND}": f"from the knee on: {words}" for claim, words in COLLAPSE.items()}
 # What is corrected by finer grids, and where: the place of the speed among those of the fine grids.
 CORRECTED = {
-    "eq19.level-least": ("at the knee: friction over the law, under the least load", 0),
-    "eq19.level-greatest": ("at the knee: friction over the law, under the greatest load", 0),
-    "eq19.load-exponent": ("at the knee: power of the load, less that of the law", 0),
-    "eq14.plateau-least": ("on the plateau: friction over the law, under the least load", 1),
-    "eq14.plateau-greatest": ("on the plateau: friction over the law, under the greatest load", 1),
-    "eq14.load-exponent": ("on the plateau: power of the load, less that of the law", 1),
+    "eq19.level-least": ("at the knee: friction over Eq. 19, least load", 0),
+    "eq19.level-greatest": ("at the knee: friction over Eq. 19, greatest load", 0),
+    "eq19.load-exponent": ("at the knee: exponent of the load, less that of Eq. 19", 0),
+    "eq14.plateau-least": ("on the plateau: friction over Eq. 14, least load", 1),
+    "eq14.plateau-greatest": ("on the plateau: friction over Eq. 14, greatest load", 1),
+    "eq14.load-exponent": ("on the plateau: exponent of the load, less that of Eq. 14", 1),
 }
 ANSWER = (
     "From low speed to the plateau (v τ q_s = 0.3 to 200, loads over a factor of five) curves shifted as Eq. 23 "

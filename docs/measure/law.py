@@ -22,7 +22,7 @@ from scene.scales import elastic_contact
 
 WHICH = {
     "tried": "240 scenes, by which the form of the law and its interval were chosen; S is fitted to planes.",
-    "fresh": "640 scenes drawn for this, looked at once, when the law was final.",
+    "fresh": "640 new scenes, looked at once, when the law was final.",
 }
 STEEP = "body", "v τ q_s", "law / 3D, least load", "greatest load", "exponent, law", "exponent, 3D"
 LAW = PAGE.parents[1] / "law.md"

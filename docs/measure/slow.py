@@ -17,12 +17,12 @@ from compare.report.csvfiles import text, write_text
 PAGE = Path(__file__).parents[1] / "results" / "slow.md"
 BODIES, DIMENSIONS = ("sphere", "cone"), ("1D", "3D")
 CLAIMS = {
-    "eq17.load-exponent": "friction goes with the load to the power",
-    "eq17.level-least": "friction over the law, under the least load",
-    "eq17.level-greatest": "under the greatest",
-    "eq17.contact": "real contact goes with the load to the power",
-    "eq17.friction-per-contact": "friction over real contact to the power",
-    "eq17.slope-in-contact": "slope of what touches to the power",
+    "eq17.load-exponent": "exponent of the load: friction",
+    "eq17.level-least": "friction over Eq. 17, least load",
+    "eq17.level-greatest": "friction over Eq. 17, greatest load",
+    "eq17.contact": "exponent of the load: real contact",
+    "eq17.friction-per-contact": "exponent of the load: friction over real contact",
+    "eq17.slope-in-contact": "exponent of the load: rms slope in contact",
     "limit.slow": "friction over its exact limit",
 }
 ANSWER = (

@@ -121,15 +121,14 @@ def _line(row):
 
 
 def sentence(shape: str, own: DataFrame) -> str:
-    """Friction between what both estimates come to, and what one dimension has."""
+    """Friction between what both estimates come to, and that in 1D."""
     three, (one,) = own[own["dimension"] == "3D"], own[own["dimension"] == "1D"].itertuples()
     last, limits = three.iloc[-1], [limit(three[name].to_numpy()) for name in ("by_traction", "by_loss")]
     known = [last["by_loss"], last["by_traction"], *(each for each in limits if np.isfinite(each))]
     low, high, slope = min(known), max(known), three["rms_slope"].iloc[0]
     return (
-        f"Friction of the {shape} in three dimensions is {(low + high) / 2:.2f} ({low:.2f} to {high:.2f}) on this "
-        f"surface, at a rms slope of {slope:.1f} that is far beyond any linear theory; one dimension has "
-        f"{one.friction:.2f}."
+        f"Friction of the {shape} is {(low + high) / 2:.2f} ({low:.2f} to {high:.2f}) in 3D on this surface, and "
+        f"{one.friction:.2f} in 1D. The rms slope of {slope:.1f} is far beyond any linear theory."
     )
 
 

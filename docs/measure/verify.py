@@ -24,17 +24,19 @@ PAGE = DOCS / "results" / "verify.md"
 VERDICTS = "holds", "fails", "reported"
 HEAD = """# Scorecards
 
-`crosscheck verify` of four codes, [by adapters](../howto/verify.md) of the last two. Written by
-`python docs/measure/verify.py`. Every law that was asked, with its misfit, its bound and where
-that comes from, is in [verify.csv](verify.csv).
+How many physical laws four contact codes keep, by `crosscheck verify`, with [adapters](../howto/verify.md) for
+the last two. Written by `python docs/measure/verify.py`. [verify.csv](verify.csv) has every law that was
+tested, with its error, its bound and the source of the bound.
 
 """
 NOTES = """
-A code in 1D is asked other laws than one in 3D. Left out is what a code refuses: here tamaas has planes at rest,
-and ContactMechanics bodies of revolution at rest. Laws see what is wrong by more than the grid: that tamaas 2.9 is
-wrong in its highest wave numbers where the points a side are odd, which comparing single pixels shows, is less.
+A code in 1D is tested on other laws than one in 3D. Left out are laws whose scenes a code refuses: here tamaas
+has planes at rest, and ContactMechanics bodies of revolution at rest. Laws show errors larger than those of the
+grid. That tamaas 2.9 is wrong in its highest wave numbers where the points a side are odd is smaller; comparing
+single pixels shows it.
 
-Work and precision are those of the force on a sphere at a depth, against Hertz; of tamaas no law has a sphere.
+The table below has the error of the force on a sphere at a depth, against Hertz, and the processor time; no law
+for tamaas has a sphere.
 
 """
 

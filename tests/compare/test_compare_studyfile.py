@@ -99,7 +99,7 @@ def test_what_a_series_states_of_its_motion_replaces_what_is_shared():
     ("old", "new", "said"),
     [
         ('name = "b"', 'name = "A"', ["series 'A': has the folder of 'a'"]),
-        ('"50 mm/s"', '"50 mm"', ["speeds.0 = '50 mm': Input should be a speed, as 20 mm/s"]),
+        ('"50 mm/s"', '"50 mm"', ["speeds.0 = '50 mm': Input should be a speed, such as"]),
         (", 0.1, 0.2]", "]", ["series.0: speeds: at least two", "series.1: speeds: at least two"]),
         ("greatest = 2", "greatest = 0.2", ["loads: greatest = 0.2 must exceed least = 0.5"]),
         ("surfaces = 2", "depths = [1e-4]", ["series.0: loads, depths: both given", "series.1: loads, depths"]),

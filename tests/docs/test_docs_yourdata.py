@@ -42,7 +42,7 @@ def called(columns):
 @pytest.mark.parametrize("page", COLUMNS)
 def test_names_and_units_of_columns_are_those_that_are_read(page):
     text = (yourdata.FOLDER / f"{page}.md").read_text(encoding="utf-8").replace(r"\|", "¦")
-    table = text.partition("| Column | Names, as |")[2].partition("\n\n")[0]
+    table = text.partition("| Column | Names, such as |")[2].partition("\n\n")[0]
     rows = ROW.findall(table)
     assert len(rows) == table.count("\n") - 1
     for names, units in rows:

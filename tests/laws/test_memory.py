@@ -31,7 +31,7 @@ def test_plan_and_solve_refuse_with_both_figures_what_the_machine_has_not(monkey
     reasons = set()
     for ask in (solver.plan, solver.solve, lambda scene: refuse(solver, scene)):
         with pytest.raises(
-            Refused, match=r"it takes .*MB of memory, and .*MB are here: take fewer points"
+            Refused, match=r"it needs .*MB of memory, and only .*MB are available: use fewer points"
         ) as told:
             ask(SCENE)
         reasons.add(str(told.value))
@@ -43,14 +43,14 @@ def test_plan_and_solve_refuse_with_both_figures_what_the_machine_has_not(monkey
 
 def test_on_a_gpu_it_is_the_memory_of_the_gpu_that_counts(monkeypatch):
     monkeypatch.setattr(engine, "_cupy", lambda: STAND_IN)
-    with pytest.raises(Refused, match=r"takes .* GB of memory, and 8 GB are here"):
+    with pytest.raises(Refused, match=r"needs .* GB of memory, and only 8 GB are available"):
         BEM(points=8192, transforms="cupy").plan(SCENE)
 
 
 def test_what_no_machine_holds_has_no_plan_either():
     scene = Scene(SCENE.indenter, SCENE.elastomer, SCENE.motion, BROAD)
     for ask in (BEM().plan, BEM().solve):
-        with pytest.raises(Refused, match=r"it takes 2.*e\+05 GB of memory"):
+        with pytest.raises(Refused, match=r"it needs 2.*e\+05 GB of memory"):
             ask(scene)
 
 

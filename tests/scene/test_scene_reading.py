@@ -56,10 +56,10 @@ def test_a_file_says_what_python_says(tmp_path):
         (
             "radius = 1e-2",
             'radius = "wide"',
-            r"radius = 'wide': Input should be a length, as 5 mm or 0.005 \(in m\)",
+            r"radius = 'wide': Input should be a length, such as \"5 mm\" or 0.005 \(in m\)",
         ),
         ("radius = 1e-2", "radius = true", r"indenter.radius = True: Input should be a length"),
-        ("radius = 1e-2", "", r"indenter.radius: missing, a length, as 5 mm"),
+        ("radius = 1e-2", "", r'indenter.radius: missing, a length, such as "5 mm"'),
         ("radius = 1e-2", "radius = 1\nangle = 1", r"indenter.angle = 1: unknown here; known are radius, type"),
         ('"sphere"', '"ball"', r"indenter.type = 'ball': one of 'sphere', 'cone', 'power-law', 'cylinder'"),
         ('type = "sphere"', "", r"indenter.type: missing, one of 'sphere', 'cone'"),
@@ -256,7 +256,7 @@ def test_what_stands_under_a_misspelt_name_is_checked_as_if_it_were_right(tmp_pa
 
 def test_everything_that_is_missing_is_said(tmp_path):
     assert lines_of(tmp_path, '[indenter]\ntype = "cone"\n[motion]\n') == [
-        "indenter.angle: missing, an angle, as 30 deg or 0.523599 (in rad)",
+        'indenter.angle: missing, an angle, such as "30 deg" or 0.523599 (in rad)',
         "motion.type: missing, one of 'indent', 'slide', 'shear', 'program'",
         "elastomer: missing, a table",
     ]
