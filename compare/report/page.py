@@ -37,7 +37,7 @@ class Table:
 
 @dataclass(frozen=True)
 class Findings:
-    """Findings as a table: claim, verdict, value with its interval, the number claimed, and the reason."""
+    """Findings as a table: claim, verdict, interval, what it is tested against, and the reason."""
 
     findings: Sequence[Finding]
     caption: str = ""

@@ -63,8 +63,8 @@ value : Number measured, in brackets its interval of 95 %: scatter of surfaces, 
 low : Lower end of the interval of 95 %: scatter of surfaces, widened by the error of the grid.
 high : Upper end of the interval of 95 %: scatter of surfaces, widened by the error of the grid.
 unit : Unit of the number; 1 of a ratio.
-expected : Number that is claimed.
-tolerance : How far from the number claimed still counts as it.
+expected : Number that is tested against.
+tolerance : How far from that number still counts as it.
 scatter_low : Lower end of the interval of 95 % from the scatter of surfaces alone, by leaving out some at a time.
 scatter_high : Upper end of the interval of 95 % from the scatter of surfaces alone, by leaving out some at a time.
 grid_error : Error of discretisation, by which the interval is wider at both ends.

@@ -199,12 +199,12 @@ def answers(findings: Iterable[Finding]) -> list[str]:
 def answer(across: Finding, along: Finding, alone: Finding, collapsed: Finding) -> str:
     """Both shifts in words, with horizontal ones alone as the alternative."""
     if isfinite(alone.value):
-        other = f"as v^{alone.found(3)}, leaves curves that miss one by {collapsed.found(3)} of ln μ (rms)"
+        other = f"as v^{alone.found(3)}, they miss one by {collapsed.found(3)} (rms)"
     else:
-        other = "brings the curves onto none"
+        other = "they form none"
     return (
-        f"friction is shifted as v^{across.found(3)} and the load as v^{along.found(3)}; "
-        f"the alternative, a shift of the load alone, {other}"
+        f"the curves form one if friction is shifted as v^{across.found(3)} and the load as v^{along.found(3)}; "
+        f"shifted along the load alone, {other}."
     )
 
 

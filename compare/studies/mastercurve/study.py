@@ -15,6 +15,7 @@ from scene.reading import InvalidInput
 
 from ...report.page import Block, Findings, Table, Text
 from ...report.plots import shifted_curves
+from ...solving.amounts import capital
 from ...solving.outcome import Outcome
 from ...solving.task import Batch, Task
 from ...statistics import eq23
@@ -186,7 +187,7 @@ class Mastercurve(Study):
         lines = temperatures.sentences_of(self.shifts, self.law, findings) if self.shifts else []
         told = sentences([each for each in claimed(findings) if each.claim.id != temperatures.TOGETHER.id])
         if self.lead is self.collapse.both and isfinite(across.value):
-            return [eq23.answer(across, along, alone, collapsed).capitalize(), *told, *lines]
+            return [capital(eq23.answer(across, along, alone, collapsed)), *told, *lines]
         return [*told, *sentences([alone]), *lines]
 
     @property
