@@ -19,6 +19,7 @@ import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import same_color, to_rgb
+from matplotlib.figure import Figure
 from matplotlib.image import imread
 from matplotlib.legend import Legend
 from matplotlib.lines import Line2D
@@ -430,6 +431,17 @@ def test_a_text_is_broken_where_it_would_be_too_wide():
     assert style.fill("a\nb", 1.0, 8) == "a\nb"
     told = style.fill("sphere, standard linear, v τ = 10 a", 1.5, 8)
     assert "v\u00a0τ\u00a0=\u00a010\u00a0a" in told.split("\n")
+
+
+def test_a_logarithmic_axis_has_few_round_numbers_however_short_it_is():
+    axes = Figure().subplots()
+    axes.set_xscale("log")
+    for low, share in product((1.05e-4, 0.31, 7.0, 480.0), (1.05, 1.5, 2.5, 9.0, 60.0, 2e3, 1e9)):
+        axes.set_xlim(low, share * low)
+        style.decades(axes)
+        seen = [tick for tick in axes.get_xticks() if low <= tick <= share * low]
+        assert 2 <= len(seen) <= 9, (low, share)
+        assert seen == pytest.approx([float(f"{tick:.4g}") for tick in seen])
 
 
 @pytest.mark.parametrize(("inches", "expected"), [(0.1, 1), (3.0, 2), (30.0, 4)])

@@ -25,7 +25,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 from matplotlib.font_manager import FontProperties
 from matplotlib.textpath import TextToPath
-from matplotlib.ticker import LogLocator, NullFormatter
+from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 
 from scene.reading import InvalidInput
 
@@ -55,8 +55,11 @@ SERIES_LINES = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)), (0, 
 
 # Font sizes relative to the base size: of all but labels and titles, of texts at points; the base size [point].
 SMALL, TINY, TEXT = 0.875, 0.7, 8.0
-# Share of the page that numbers and label of a vertical axis take.
-BESIDE = 0.06
+# What numbers and label of a vertical axis take, in multiples of the text.
+BESIDE = 5.2
+# Multiples of powers of ten that are written along an axis: the first of which two are in view, and the very first
+# only along two decades or more.
+MULTIPLES = (1,), (1, 2, 5), (1, 2, 3, 5), (1, 1.5, 2, 3, 4, 6, 8)
 # A blank at which no line ends, and where a title has it.
 GLUE, FORMULA = "\u00a0", re.compile(r"v ?τ = \S+( [aλ]\w*)?")
 TEXTS = {
@@ -331,7 +334,7 @@ def fill(text: str, inches: float, points: float, weight: str = "normal") -> str
 
 def head(axes: Axes, text: str, count: int) -> None:
     """A title of a panel, one of so many side by side, in lines that leave the next its numbers and label."""
-    inches = (1 / count - BESIDE) * axes.figure.figure.get_figwidth()
+    inches = axes.figure.figure.get_figwidth() / count - BESIDE * size() / 72
     weight = rcParams["axes.titleweight"]
     axes.set_title(fill(text, inches, small(), weight), fontsize=small())
 
@@ -409,14 +412,24 @@ def span(axes: Axes, values) -> None:
 
 
 def decades(*panels: Axes) -> None:
-    """Readable ticks on logarithmic axes: 1, 2, 5 within two decades, plain numbers where they are short."""
+    """Readable ticks on logarithmic axes: few and round, two at least, plain numbers where they are short."""
     for axis in (axis for axes in panels for axis in (axes.xaxis, axes.yaxis) if axis.get_scale() == "log"):
         low, high = axis.get_view_interval()
-        axis.set_major_locator(LogLocator(subs=(1, 2, 5) if high / low < 100 else (1,)))
+        axis.set_major_locator(_locator(low, high))
         axis.set_minor_formatter(NullFormatter())
         axis.set_tick_params(which="minor", label1On=False)  # or empty labels are measured, which takes longest
         if low >= 1e-4 and high <= 1e4:
             axis.set_major_formatter(lambda value, _: f"{value:g}")
+
+
+def _locator(low, high):
+    """The ticks of a logarithmic axis; where it is so short that none of the multiples will do, even steps."""
+    powers = 10.0 ** np.arange(np.floor(np.log10(low)), np.log10(high) + 1)
+    for multiples in MULTIPLES[int(high / low < 100) :]:
+        ticks = np.outer(powers, multiples)
+        if np.sum((low <= ticks) & (ticks <= high)) > 1:
+            return LogLocator(subs=multiples)
+    return MaxNLocator(4)
 
 
 def forms() -> Iterator[dict[str, Any]]:
