@@ -457,6 +457,22 @@ def test_a_legend_has_as_many_columns_as_fit(inches, expected):
         assert count == 1 or legend.get_window_extent().width <= drawing.bbox.width
 
 
+def test_speeds_without_an_answer_are_crossed_on_the_axis_and_have_no_bar(monkeypatch):
+    monkeypatch.setattr("compare.studies.run.figures.friction_curves.clear", lambda *_: None)  # which takes longest
+    tables = {name: frame.copy() for name, frame in sample("friction_curves-speed_figure").tables.items()}
+    points, ratios = tables["friction-speed"], tables["friction-speed-ratio"]
+    lost = points["speed"].min()
+    points.loc[(points["solver"] == "BEM") & (points["speed"] == lost), "friction_coefficient_mean"] = np.nan
+    ratios.loc[ratios["speed"] == lost, ["ratio", "ratio_low", "ratio_high"]] = np.nan
+    with style.applied():
+        above, below = replace(sample("friction_curves-speed_figure"), tables=tables).figure().axes
+    crosses = [[line.get_xdata() for line in axes.lines if line.get_marker() == "x"] for axes in (above, below)]
+    assert [len(each) for each in crosses] == [1, 1]
+    assert crosses[1][0] == pytest.approx([lost])
+    assert "3D (BEM): no answer" in [text.get_text() for text in above.get_legend().get_texts()]
+    assert np.isnan(style.bars([1.0, 1.0], [0.5, np.nan], [2.0, 2.0])).tolist() == 2 * [[False, True]]
+
+
 def test_a_legend_over_a_curve_is_found_and_given_room():
     with style.applied():
         drawing = style.canvas("single", 2.0)

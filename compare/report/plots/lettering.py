@@ -108,8 +108,10 @@ def _placed(axes, letter, size, avoided, inside):
 
 
 def _markers(axes) -> Iterator[Bbox]:
+    """Around markers of the data, not those that stand on an axis, where no text does."""
     for line in axes.lines:
-        if line.get_marker() not in ("None", "none", "", None):
+        placed = all(line.get_transform().contains_branch_seperately(axes.transData))
+        if placed and line.get_marker() not in ("None", "none", "", None):
             yield from (_around(axes, at, MARKER) for at in _shown(line))
 
 

@@ -57,8 +57,8 @@ SERIES_LINES = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)), (0, 
 SMALL, TINY, TEXT = 0.875, 0.7, 8.0
 # What numbers and label of a vertical axis take, in multiples of the text.
 BESIDE = 5.2
-# Multiples of powers of ten that are written along an axis: the first of which two are in view, and the very first
-# only along two decades or more.
+# Multiples of powers of ten that are written along an axis: the first of which three are in view, else two; the very
+# first along two decades or more.
 MULTIPLES = (1,), (1, 2, 5), (1, 2, 3, 5), (1, 1.5, 2, 3, 4, 6, 8)
 # A blank at which no line ends, and where a title has it.
 GLUE, FORMULA = "\u00a0", re.compile(r"v ?τ = \S+( [aλ]\w*)?")
@@ -424,12 +424,13 @@ def decades(*panels: Axes) -> None:
 
 def _locator(low, high):
     """The ticks of a logarithmic axis; where it is so short that none of the multiples will do, even steps."""
+    if high / low >= 100:
+        return LogLocator(subs=MULTIPLES[0])
     powers = 10.0 ** np.arange(np.floor(np.log10(low)), np.log10(high) + 1)
-    for multiples in MULTIPLES[int(high / low < 100) :]:
-        ticks = np.outer(powers, multiples)
-        if np.sum((low <= ticks) & (ticks <= high)) > 1:
-            return LogLocator(subs=multiples)
-    return MaxNLocator(4)
+    ticks = {each: np.outer(powers, each) for each in MULTIPLES[1:]}
+    seen = {each: np.sum((low <= own) & (own <= high)) for each, own in ticks.items()}
+    chosen = [each for least in (3, 2) for each, count in seen.items() if count >= least]
+    return LogLocator(subs=chosen[0]) if chosen else MaxNLocator(4)
 
 
 def forms() -> Iterator[dict[str, Any]]:
@@ -449,6 +450,7 @@ def shades(solver: str, count: int) -> list[tuple[float, float, float]]:
 
 
 def bars(values, low, high) -> np.ndarray:
-    """Lengths (2, N) of error bars from intervals, as `errorbar` takes them; none where an end is not known."""
+    """Lengths (2, N) of error bars from intervals, as `errorbar` takes them; NaN, no bar, with an end unknown."""
     values, low, high = (np.asarray(each, float) for each in (values, low, high))
-    return np.nan_to_num(np.clip([values - low, high - values], 0.0, None), nan=0.0, posinf=0.0)
+    found = np.clip([values - low, high - values], 0.0, None)
+    return np.where(np.isfinite(found).all(axis=0), found, np.nan)
