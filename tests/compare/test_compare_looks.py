@@ -458,7 +458,7 @@ def test_a_legend_has_as_many_columns_as_fit(inches, expected):
 
 
 def test_speeds_without_an_answer_are_crossed_on_the_axis_and_have_no_bar(monkeypatch):
-    monkeypatch.setattr("compare.studies.run.figures.friction_curves.clear", lambda *_: None)  # which takes longest
+    monkeypatch.setattr("compare.studies.run.figures.friction_curves.clear", lambda *_: None)  # takes longest
     tables = {name: frame.copy() for name, frame in sample("friction_curves-speed_figure").tables.items()}
     points, ratios = tables["friction-speed"], tables["friction-speed-ratio"]
     lost = points["speed"].min()

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field
+from io import BytesIO
 from itertools import cycle
 from os import PathLike
 from pathlib import Path
@@ -55,10 +56,11 @@ SERIES_LINES = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)), (0, 
 
 # Font sizes relative to the base size: of all but labels and titles, of texts at points; the base size [point].
 SMALL, TINY, TEXT = 0.875, 0.7, 8.0
+SCREEN = 110  # dots per inch of what a notebook shows
 # What numbers and label of a vertical axis take, in multiples of the text.
 BESIDE = 5.2
-# Multiples of powers of ten that are written along an axis: the first of which three are in view, else two; the very
-# first along two decades or more.
+# Multiples of powers of ten that are written along an axis: the first of which three are in view, else two; the
+# very first along two decades or more.
 MULTIPLES = (1,), (1, 2, 5), (1, 2, 3, 5), (1, 1.5, 2, 3, 4, 6, 8)
 # A blank at which no line ends, and where a title has it.
 GLUE, FORMULA = "\u00a0", re.compile(r"v ?τ = \S+( [aλ]\w*)?")
@@ -293,13 +295,23 @@ def across(column: Literal["single", "double"]) -> float:
     return {"single": current().journal.single, "double": current().journal.double}[column]
 
 
+class Drawing(Figure):
+    """A figure that a notebook shows, too, where no pyplot is in use."""
+
+    def _repr_png_(self) -> bytes:
+        image = BytesIO()
+        with applied():
+            self.canvas.print_figure(image, format="png", dpi=SCREEN)
+        return image.getvalue()
+
+
 def canvas(column: Literal["single", "double"], height: float) -> Figure:
     """An empty figure as wide as a column or the page of the journal.
 
     height : for text of 8 points, and 7 where it is small [inch]; it goes with the text
     """
     times = max(size() / TEXT, small() / (SMALL * TEXT))
-    return Figure(figsize=(across(column), height * times))
+    return Drawing(figsize=(across(column), height * times))
 
 
 def lay_out(drawing: Figure, passes: int = 1) -> None:
