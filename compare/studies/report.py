@@ -15,7 +15,7 @@ from scene.signatures import readable
 from ..report import render
 from ..report.page import Page, Plot
 from ..report.plots.rendering import finished
-from ..report.plots.style import Drawing
+from ..report.plots.style import png
 from ..solving.runner import SweepResult
 from ..solving.store import TRACE
 from ..solving.unsolved import NONE_UNSOLVED, Unsolved
@@ -104,7 +104,7 @@ class Figures(Mapping[str, Figure]):
         return f"Figures({', '.join(self)})"
 
     def _repr_html_(self) -> str:
-        shown = ((name, b64encode(Drawing._repr_png_(figure)).decode()) for name, figure in self.items())
+        shown = ((name, b64encode(png(figure)).decode()) for name, figure in self.items())
         return "".join(
             f'<p><img alt="{escape(name)}" src="data:image/png;base64,{image}"></p>' for name, image in shown
         )

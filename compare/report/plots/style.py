@@ -295,14 +295,18 @@ def across(column: Literal["single", "double"]) -> float:
     return {"single": current().journal.single, "double": current().journal.double}[column]
 
 
-class Drawing(Figure):
-    """A figure that a notebook shows, too, where no pyplot is in use."""
+def png(drawing: Figure) -> bytes:
+    """A figure as a screen shows it."""
+    image = BytesIO()
+    with applied():
+        drawing.canvas.print_figure(image, format="png", dpi=SCREEN)
+    return image.getvalue()
 
-    def _repr_png_(self) -> bytes:
-        image = BytesIO()
-        with applied():
-            self.canvas.print_figure(image, format="png", dpi=SCREEN)
-        return image.getvalue()
+
+class Drawing(Figure):
+    """A figure that a notebook shows, also where pyplot is not in use."""
+
+    _repr_png_ = png
 
 
 def canvas(column: Literal["single", "double"], height: float) -> Figure:
