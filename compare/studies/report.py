@@ -4,7 +4,6 @@ from base64 import b64encode
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
-from io import BytesIO
 from pathlib import Path
 
 import xarray
@@ -15,7 +14,8 @@ from scene.signatures import readable
 
 from ..report import render
 from ..report.page import Page, Plot
-from ..report.plots import style
+from ..report.plots.rendering import finished
+from ..report.plots.style import png
 from ..solving.runner import SweepResult
 from ..solving.store import TRACE
 from ..solving.unsolved import NONE_UNSOLVED, Unsolved
@@ -25,7 +25,6 @@ from .study import Study
 
 SOLVED = "solved"  # folder of what has been solved, below that of the page
 SHOWN = 3  # reasons that are said of tasks that broke
-SCREEN = 110  # dots per inch of what a notebook shows
 
 
 @readable
@@ -98,11 +97,7 @@ class Figures(Mapping[str, Figure]):
     plots: tuple[Plot, ...]
 
     def __getitem__(self, name: str) -> Figure:
-        plot = {each.name: each for each in self.plots}[name]
-        with style.applied():
-            figure = plot.figure()
-        figure._repr_png_ = lambda: _png(figure)  # type: ignore[attr-defined]
-        return figure
+        return finished({each.name: each for each in self.plots}[name])
 
     def __iter__(self) -> Iterator[str]:
         return (plot.name for plot in self.plots)
@@ -114,17 +109,10 @@ class Figures(Mapping[str, Figure]):
         return f"Figures({', '.join(self)})"
 
     def _repr_html_(self) -> str:
-        shown = ((name, b64encode(_png(self[name])).decode()) for name in self)
+        shown = ((name, b64encode(png(figure)).decode()) for name, figure in self.items())
         return "".join(
             f'<p><img alt="{escape(name)}" src="data:image/png;base64,{image}"></p>' for name, image in shown
         )
-
-
-def _png(figure):
-    image = BytesIO()
-    with style.applied():
-        figure.savefig(image, format="png", dpi=SCREEN)
-    return image.getvalue()
 
 
 def faults(swept: SweepResult, output: Path) -> list[str]:

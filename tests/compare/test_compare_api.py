@@ -99,7 +99,10 @@ def test_a_sweep_is_a_dataset_of_every_draw_with_means_and_intervals(tmp_path):
         answers.friction_coefficient_high.sel(solver="BEM") - answers.friction_coefficient_mean.sel(solver="BEM")
         >= grid - 1e-12
     ).all()
-    assert isinstance(compare.friction_plot(answers), Figure)
+    drawing = compare.friction_plot(answers)
+    assert drawing._repr_png_().startswith(b"\x89PNG")
+    box, (width, height) = drawing.get_tightbbox(), drawing.get_size_inches()
+    assert min(box.x0, box.y0, width - box.x1, height - box.y1) >= 0  # nothing is cut where it is saved as it is
     again = compare.sweep(TINY, speed=[0.0, 0.1], load=[0.5, 1.0], draws=2, output=tmp_path, report=False)
     xarray.testing.assert_identical(again, answers)
     answers.to_netcdf(tmp_path / "copy.nc", engine="h5netcdf")

@@ -19,6 +19,7 @@ import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import same_color, to_rgb
+from matplotlib.figure import Figure
 from matplotlib.image import imread
 from matplotlib.legend import Legend
 from matplotlib.lines import Line2D
@@ -432,6 +433,17 @@ def test_a_text_is_broken_where_it_would_be_too_wide():
     assert "v\u00a0τ\u00a0=\u00a010\u00a0a" in told.split("\n")
 
 
+def test_a_logarithmic_axis_has_few_round_numbers_however_short_it_is():
+    axes = Figure().subplots()
+    axes.set_xscale("log")
+    for low, share in product((1.05e-4, 0.31, 7.0, 480.0), (1.05, 1.5, 2.5, 9.0, 60.0, 2e3, 1e9)):
+        axes.set_xlim(low, share * low)
+        style.decades(axes)
+        seen = [tick for tick in axes.get_xticks() if low <= tick <= share * low]
+        assert 2 <= len(seen) <= 9, (low, share)
+        assert seen == pytest.approx([float(f"{tick:.4g}") for tick in seen])
+
+
 @pytest.mark.parametrize(("inches", "expected"), [(0.1, 1), (3.0, 2), (30.0, 4)])
 def test_a_legend_has_as_many_columns_as_fit(inches, expected):
     with style.applied():
@@ -443,6 +455,22 @@ def test_a_legend_has_as_many_columns_as_fit(inches, expected):
         drawing.draw_without_rendering()
         (legend,) = drawing.legends
         assert count == 1 or legend.get_window_extent().width <= drawing.bbox.width
+
+
+def test_speeds_without_an_answer_are_crossed_on_the_axis_and_have_no_bar(monkeypatch):
+    monkeypatch.setattr("compare.studies.run.figures.friction_curves.clear", lambda *_: None)  # takes longest
+    tables = {name: frame.copy() for name, frame in sample("friction_curves-speed_figure").tables.items()}
+    points, ratios = tables["friction-speed"], tables["friction-speed-ratio"]
+    lost = points["speed"].min()
+    points.loc[(points["solver"] == "BEM") & (points["speed"] == lost), "friction_coefficient_mean"] = np.nan
+    ratios.loc[ratios["speed"] == lost, ["ratio", "ratio_low", "ratio_high"]] = np.nan
+    with style.applied():
+        above, below = replace(sample("friction_curves-speed_figure"), tables=tables).figure().axes
+    crosses = [[line.get_xdata() for line in axes.lines if line.get_marker() == "x"] for axes in (above, below)]
+    assert [len(each) for each in crosses] == [1, 1]
+    assert crosses[1][0] == pytest.approx([lost])
+    assert "3D (BEM): no answer" in [text.get_text() for text in above.get_legend().get_texts()]
+    assert np.isnan(style.bars([1.0, 1.0], [0.5, np.nan], [2.0, 2.0])).tolist() == 2 * [[False, True]]
 
 
 def test_a_legend_over_a_curve_is_found_and_given_room():

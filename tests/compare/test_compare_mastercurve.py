@@ -414,18 +414,20 @@ def test_a_name_that_would_be_a_formula_is_drawn_as_it_is(tmp_path):
 def test_the_figure_is_a_function_of_its_csv_files(tmp_path, text):
     made = study(tmp_path, text)
     told = made.judge(made.answers({}))
-    findings, (plot,) = told.findings, told.plots
+    (plot,) = told.plots
     tables = again(plot)
     with style.applied():
         drawing = shifted_curves.figure(tables, **plot.options)
-    left, middle, right, _ = drawing.axes
+    left, middle, below, *shifts, _ = drawing.axes
     points = plot.tables[shifted_curves.NAME]
-    for axes, across in ((left, "normal_force"), (middle, "shifted_force")):
+    for axes, across in ((left, "normal_force"), (middle, "shifted_force"), (below, "shifted_force")):
         lines = next(each for each in axes.collections if len(each.get_segments()) == len(made.collapse.speeds))
         shown = np.concatenate(lines.get_segments())[:, 0]
         np.testing.assert_allclose(np.sort(shown), np.sort(points[across]), rtol=1e-12)
-    assert ("undecided" in right.get_title(loc="left")) == (findings[0].verdict == FAILS)
-    assert findings[0].verdict in middle.get_title(loc="left")
+    assert bool(shifts) == plot.tables[shifted_curves.SHIFTS]["log_shift"].notna().all()
+    (rms,) = plot.tables[shifted_curves.FITS]["rms"]
+    assert f"{100 * rms:.2g} %" in below.get_title(loc="left")
+    assert rms == pytest.approx(np.sqrt(np.mean(points["deviation"] ** 2)))
     assert len(plot.caption.split()) <= 60
 
 

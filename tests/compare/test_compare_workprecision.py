@@ -20,7 +20,7 @@ from compare.statistics.convergence import MeasuredLadder, answers, ladders, obs
 from compare.studies.workprecision import elastic, extent, marching, mdr, scenes, sliding, timed_solve
 from compare.studies.workprecision.convergence import Convergence, Ladder, steps_table
 from compare.studies.workprecision.diagram import convergence, enough_finding, order_finding
-from compare.studies.workprecision.figures.errors import panels
+from compare.studies.workprecision.figures.errors import ROUNDING, panels
 from compare.studies.workprecision.reference import FORCE, FRICTION, Known, closed_form, finer, slow_limit
 from compare.studies.workprecision.study import DIAGRAMS, WorkPrecision
 from compare.studies.workprecision.timed_solve import TimedSolve
@@ -368,6 +368,14 @@ def test_points_within_the_error_of_the_reference_are_hollow_and_failures_are_na
     written = {text.get_text() for text in axes.texts}
     assert {"failed: points 64", "32", "128"} <= written
     assert "64" not in written
+
+
+def test_an_error_of_rounding_is_drawn_hollow_on_the_band_of_rounding():
+    _, figure = drawn([1e-3, 1e-16, 4e-14])
+    (axes,) = figure.axes
+    hollow = [line for line in axes.lines if line.get_markerfacecolor() == "white" and len(line.get_ydata())]
+    assert [y for line in hollow for y in line.get_ydata()] == [ROUNDING, ROUNDING]
+    assert axes.patches[0].get_window_extent().y1 == pytest.approx(axes.transData.transform((1, ROUNDING))[1])
 
 
 def test_estimates_of_one_answer_share_a_panel_and_the_table_has_every_step():

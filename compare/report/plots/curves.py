@@ -1,4 +1,4 @@
-"""Points of curves: intervals of 95 %, and markers hollow where a condition breaks."""
+"""Points of curves: intervals of 95 %, crosses without an answer, and markers hollow where a condition breaks."""
 
 from typing import Any
 
@@ -21,6 +21,15 @@ def intervals(
         times * (points[name + end].to_numpy(float) - np.asarray(less)) for end in (middle, "_low", "_high")
     )
     axes.errorbar(x, value, yerr=style.bars(value, low, high), **look)
+
+
+def unanswered(axes: Axes, x: Any, values: Any, colour: Any, label: str = "") -> None:
+    """Crosses on the axis below, where a value is not known. label : whose answer is missing, for the legend"""
+    x = np.asarray(x, float)[~np.isfinite(np.asarray(values, float))]
+    if x.size:
+        look: dict[str, Any] = {"color": colour, "markersize": style.mark(), "clip_on": False, "zorder": 4}
+        look |= {"label": f"{label}: no answer"} if label else {}
+        axes.plot(x, np.zeros(x.size), "x", transform=axes.get_xaxis_transform(), **look)
 
 
 def scatter(

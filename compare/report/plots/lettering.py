@@ -34,6 +34,8 @@ PLACES = (
 )
 # Half of what a marker and a line take, and how closely lines are followed [points].
 MARKER, LINE, PITCH = 2.2, 0.5, 1.5
+# Between a text and what it must not cover [points].
+GAP = 1.5
 # Between legends and curves [points], and how often room is made for legends: curves beyond the limits come in.
 ROOM, PASSES = 3.0, 5
 
@@ -99,15 +101,17 @@ def _placed(axes, letter, size, avoided, inside):
         )
         box = text.get_window_extent()
         within = inside.x0 <= box.x0 and box.x1 <= inside.x1 and inside.y0 <= box.y0 and box.y1 <= inside.y1
-        if within and not any(box.overlaps(other) for other in avoided):
+        if within and not any(box.padded(GAP * _scale(axes)).overlaps(other) for other in avoided):
             return box
         text.remove()
     return None
 
 
 def _markers(axes) -> Iterator[Bbox]:
+    """Around markers of the data, not those that stand on an axis, where no text does."""
     for line in axes.lines:
-        if line.get_marker() not in ("None", "none", "", None):
+        placed = all(line.get_transform().contains_branch_seperately(axes.transData))
+        if placed and line.get_marker() not in ("None", "none", "", None):
             yield from (_around(axes, at, MARKER) for at in _shown(line))
 
 

@@ -37,8 +37,20 @@ def picture(plot: Plot, forms: Sequence[str] = FORMS[:1]) -> Picture:
 
     Raises InvalidInput where the look has text too large for the figure.
     """
+    with style.applied():
+        return rendered(finished(plot), ("png", *(form for form in forms if form != "png")))
+
+
+def finished(plot: Plot) -> Figure:
+    """The figure of a plot in the current look, laid out for its PNG: whatever saves it later cuts nothing off.
+
+    Raises InvalidInput where the look has text too large for the figure.
+    """
     with style.applied(), style.fitting(plot.name):
-        return rendered(plot.figure(), ("png", *(form for form in forms if form != "png")))
+        drawing = plot.figure()
+        drawing.set_dpi(DOTS_PER_INCH)
+        style.lay_out(drawing)
+        return drawing
 
 
 def rendered(drawing: Figure, forms: Sequence[str] = FORMS) -> Picture:

@@ -31,9 +31,11 @@ def bar(
     scale: LogNorm,
     label: str,
     **place: Any,
-) -> None:
+) -> Colorbar:
     """Beside or below some panels."""
-    style.decades(colours(drawing, ScalarMappable(scale, shades), label, ax=panels, **place).ax)
+    drawn = colours(drawing, ScalarMappable(scale, shades), label, ax=panels, **place)
+    style.decades(drawn.ax)
+    return drawn
 
 
 def colours(drawing: Figure | SubFigure, image: ScalarMappable, label: str, **place: Any) -> Colorbar:

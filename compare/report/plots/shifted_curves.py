@@ -1,4 +1,7 @@
-"""Friction against load at many speeds, the curves shifted onto one, and the shifts (paper, Figs. 5 to 7)."""
+"""Friction against load at many speeds, the curves shifted onto one, how far they are from it, and the shifts.
+
+Paper, Figs. 5 to 7.
+"""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -10,6 +13,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
+from numpy.polynomial import Chebyshev
 from pandas import DataFrame, concat
 
 from ...statistics.collapse import ENDS, Alignment, Collapse
@@ -25,7 +29,14 @@ LOG10 = np.log(10)
 SLID = "speed times $a_T$ [m/s]"
 # Most speeds that are drawn.
 SPEEDS = 8
-FITTED, EXPECTED, BOTH, ACROSS = "fitted", "expected", "both", "along friction"
+FITTED, EXPECTED, BOTH, UNSHIFTED, ACROSS = "fitted", "expected", "both", "none", "along friction"
+# What is done to the curves, in the words of a title.
+SHIFTED = {
+    FITTED: "shifted along the force",
+    EXPECTED: "shifted as expected, $v^{{{:.3g}}}$",
+    BOTH: "shifted along force and friction",
+    UNSHIFTED: "no shift brings them onto one",
+}
 # Lines of other powers of the speed, in the order in which they come.
 OTHERS = (("#009E73", ":"), ("#CC79A7", "-."))
 
@@ -64,8 +75,8 @@ class ShiftedCurves:
         return self.both or (not self.collapse.horizontal.reason and self.finding.verdict != FAILS)
 
 
-def plot(rows: Sequence[ShiftedCurves], name: str = NAME, about: str = "") -> Plot | None:
-    """The plot of some sets of curves; None without any. about : a sentence added to the caption."""
+def plot(rows: Sequence[ShiftedCurves], name: str = NAME) -> Plot | None:
+    """The plot of some sets of curves; None without any."""
     if not rows:
         return None
     parts: dict[str, list[DataFrame]] = {NAME: [], SHIFTS: [], POWERS: [], FITS: []}
@@ -75,15 +86,14 @@ def plot(rows: Sequence[ShiftedCurves], name: str = NAME, about: str = "") -> Pl
             parts[table].append(frame)
     tables = {name + key.removeprefix(NAME): concat(frames, ignore_index=True) for key, frames in parts.items()}
     caption = (
-        f"Friction against normal force, a curve for each of at most {SPEEDS} speeds; the curves shifted along "
-        "the force (Eq. 23), and along friction where that is shifted too (squares), to come closest to one; the "
-        "shift. Bars: 95 %. Shifts of curves that do not collapse are hollow; curves that part are shifted as "
-        f"expected, if at all. {about}"
+        f"Friction against normal force at up to {SPEEDS} speeds; shifted along the force (Eq. 23), and along "
+        "friction where that is shifted too (squares), beside the one curve nearest to all (grey), and how far "
+        "off it; the shifts. Bars: 95 %. Curves that no shift brings together are shifted as expected, if at all; "
+        "hollow shifts leave curves apart."
     )
-    alternative = "; ".join(
-        f"{each.title}: " + ("both shifts" if each.both else f"collapse {each.finding.verdict}") for each in rows
-    )
-    return Plot(name, figure, tables, caption.strip(), alternative, {"name": name})
+    fits = tables[name + FITS.removeprefix(NAME)]
+    alternative = "; ".join(f"{fit.curves}: {100 * fit.rms:.2g} % off one curve" for fit in fits.itertuples())
+    return Plot(name, figure, tables, caption, alternative, {"name": name})
 
 
 def figure(tables: Tables, name: str = NAME) -> Figure:
@@ -92,38 +102,54 @@ def figure(tables: Tables, name: str = NAME) -> Figure:
     points, shifts, powers, fits = (tables[name + each] for each in names)
     warm = "reduced_speed" in points
     points, shifts = (_few(_slid(each)) for each in (points, shifts))
-    count = len(fits)
-    drawing = style.canvas("double", 0.55 + 2.1 * count)
-    panels = drawing.subplots(count, 3, squeeze=False)
-    between = shades.between(shifts["speed"])
-    for row, (_, fit) in zip(panels, fits.iterrows(), strict=True):
-        own, moved, lines = (each[each["curves"] == fit["curves"]] for each in (points, shifts, powers))
-        row[1].sharey(row[0])
-        lifted = "shifted_friction" if fit["shifted_as"] == BOTH else "friction_coefficient"
-        for axes, at in zip(
-            row, (("normal_force", "friction_coefficient"), ("shifted_force", lifted)), strict=False
-        ):
-            _curves(axes, own, *at, shades.SPEED(between(own["speed"].to_numpy())))
-            axes.set(xscale="log", yscale="log")
-        if own["shifted_force"].isna().all():
-            row[1].text(0.5, 0.5, "undecided", transform=row[1].transAxes, ha="center", fontsize=style.small())
-        _shifts(row[2], fit, moved, lines, shades.SPEED(between(moved["speed"].to_numpy())))
+    count, along = len(fits), SLID if warm else "speed [m/s]"
+    drawing = style.canvas("double", 0.55 + 2.4 * count)
+    grid = drawing.add_gridspec(2 * count, 3, height_ratios=(3, 1) * count)
+    speeds = np.unique(shifts["speed"])
+    between, panels, legends = shades.between(speeds), [], []
+    for k, fit in enumerate(fits.itertuples()):
+        own, moved, lines = (each[each["curves"] == fit.curves] for each in (points, shifts, powers))
+        known = moved["log_shift"].notna().any()
+        panels += _collapse(drawing, grid, k, 2 if known else 3, fit, own, shades.SPEED(between(own["speed"])))
         if warm:
-            _warmth(row[1], own)
-        row[0].set_title(literal(fit["curves"]))
-        row[1].set_title(_verdict(fit))
-        row[2].set_title("" if fit["decided"] else "exponent undecided")
-        row[0].set(xlabel="normal force [N]", ylabel="friction coefficient [1]")
-        row[1].set(xlabel="shifted normal force [N]")
-        row[2].set(xlabel=SLID if warm else "speed [m/s]", ylabel="decades of the shift [1]")
-        style.decades(*row)
-        for axis in (row[0].yaxis, row[1].yaxis, row[1].xaxis):
-            axis.set_major_formatter(lambda value, _: f"{value:g}")
+            _warmth(panels[-2], own)
+        if known:
+            axes = drawing.add_subplot(grid[2 * k : 2 * k + 2, 2], title="shifts", xlabel=along)
+            _shifts(axes, fit, moved, lines, shades.SPEED(between(moved["speed"])))
+            panels.append(axes)
+            legends.append(axes)
+    style.decades(*panels)
+    for axis in (axis for axes in panels for axis in (axes.xaxis, axes.yaxis) if axis.get_scale() == "log"):
+        axis.set_major_formatter(lambda value, _: f"{value:g}")
     place = {"location": "bottom", "aspect": 60, "shrink": 0.7, "fraction": 0.03, "pad": 0.04 / count}
-    shades.bar(drawing, panels, shades.SPEED, between, SLID if warm else "speed [m/s]", **place)
-    lettered(panels.flat, 3)
-    clear(drawing, panels[:, 2])
+    bar = shades.bar(drawing, panels, shades.SPEED, between, along, **place)
+    if len(speeds) <= SPEEDS:
+        bar.set_ticks(list(speeds), labels=[f"{speed:.3g}" for speed in speeds])
+        bar.minorticks_off()
+    lettered(panels, 3)
+    clear(drawing, legends)
     return drawing
+
+
+def _collapse(drawing, grid, k, end, fit, points, colours):
+    """Panels of the curves of a fit: as they are, shifted up to a column, and how far they are off one curve."""
+    lifted = "shifted_friction" if fit.shifted_as == BOTH else "friction_coefficient"
+    shifted = "normal force [N]" if fit.shifted_as == UNSHIFTED else "shifted normal force [N]"
+    left = drawing.add_subplot(grid[2 * k : 2 * k + 2, 0], xscale="log", yscale="log")
+    above = drawing.add_subplot(grid[2 * k, 1:end], sharey=left, xscale="log")
+    below = drawing.add_subplot(grid[2 * k + 1, 1:end], sharex=above)
+    _curves(left, points, "normal_force", "friction_coefficient", colours)
+    _curves(above, points, "shifted_force", lifted, colours)
+    _curves(below, points, "shifted_force", "deviation", colours, 100.0)
+    common = points.sort_values("shifted_force")
+    look = style.line(0.75, 2.0, zorder=1)
+    above.plot(common["shifted_force"], common[lifted] / (1 + common["deviation"]), **look)
+    below.axhline(0, **style.line(0.6, 0.55))
+    left.set(title=literal(fit.curves), xlabel="normal force [N]", ylabel="friction coefficient [1]")
+    above.set_title(_title(fit))
+    above.tick_params(labelbottom=False)
+    below.set(title=f"off one curve: {100 * fit.rms:.2g} % (rms)", xlabel=shifted, ylabel="off [%]")
+    return left, above, below
 
 
 def _slid(table: DataFrame) -> DataFrame:
@@ -146,10 +172,16 @@ def _few(table: DataFrame) -> DataFrame:
 def _tables(each):
     """Tables of one row of the figure, by their names."""
     found, lead = each.collapse, each.lead or each.collapse.horizontal
-    expected = lead.reason and np.isfinite(each.expected)
+    how = BOTH if each.both else FITTED
     reference = found.speeds[found.speeds.size // 2]
-    along = each.expected * np.log(found.speeds / reference) if expected else lead.horizontal.value
+    along = lead.horizontal.value
+    if lead.reason:
+        how, power = (EXPECTED, each.expected) if np.isfinite(each.expected) else (UNSHIFTED, 0.0)
+        along = power * np.log(found.speeds / reference)
     points = found.points(along, lead.vertical.value if each.both else None)
+    points = points.join(
+        _deviation(points, "shifted_friction" if each.both else "friction_coefficient", found.degree)
+    )
     if each.conditions is not None:
         points = points.join(each.conditions.reset_index(drop=True))
     shifts = found.shifts(lead)
@@ -173,8 +205,10 @@ def _tables(each):
     fit = {
         "verdict": each.finding.verdict,
         **{f"misfit{end}": number for end, number in zip(ENDS, missed, strict=True)},
+        "rms": np.sqrt(np.mean(np.square(points["deviation"]))),
         "decided": each.decided,
-        "shifted_as": BOTH if each.both else EXPECTED if expected else FITTED,
+        "shifted_as": how,
+        "expected": each.expected,
         "reference_speed": reference,
         "degree": found.degree,
     }
@@ -189,28 +223,29 @@ def _tables(each):
     }
 
 
-def _verdict(fit):
-    misfit = f", misfit {fit['misfit']:.2%}" if np.isfinite(fit["misfit"]) else ""
-    if fit["shifted_as"] == BOTH:
-        return f"shifted both ways{misfit}"
-    how = ", shifted as expected" if fit["shifted_as"] == EXPECTED else ""
-    return f"collapse {fit['verdict']}{how}{misfit}"
+def _deviation(points, friction, degree):
+    """Friction over the polynomial of this degree that comes closest to ln mu of all points, less one."""
+    load = np.log(points["shifted_force"].to_numpy())
+    common = np.exp(Chebyshev.fit(load, np.log(points[friction].to_numpy()), degree)(load))
+    return DataFrame({f"deviation{end}": points[f"{friction}{end}"] / common - 1 for end in ENDS})
 
 
-def _curves(axes: Axes, points: DataFrame, across: str, friction: str, colours: Any) -> None:
+def _title(fit):
+    return SHIFTED[fit.shifted_as].format(fit.expected)
+
+
+def _curves(axes: Axes, points: DataFrame, across: str, up: str, colours: Any, times: float = 1.0) -> None:
     """Lines with intervals; points filled where the conditions of the laws hold, or none are known."""
-    known = points[across].notna().to_numpy()
-    points, colours = points[known], colours[known]
-    x, mu, speed = (points[name].to_numpy() for name in (across, friction, "speed"))
+    x, y, speed = points[across].to_numpy(), times * points[up].to_numpy(), points["speed"].to_numpy()
     at = [np.flatnonzero(speed == each) for each in np.unique(speed)]
-    lines = [np.column_stack([x[each], mu[each]]) for each in at]
+    lines = [np.column_stack([x[each], y[each]]) for each in at]
     shade = [colours[each[0]] for each in at]
     axes.add_collection(LineCollection(lines, colors=shade, linewidths=style.width(0.45), zorder=2))
     bars = {"fmt": "none", "ecolor": colours, "elinewidth": style.width(0.8), "capsize": 0}
-    intervals(axes, x, points, friction, **bars)
+    intervals(axes, x, points, up, times, **bars)
     holds = points["holds"].to_numpy(bool) if "holds" in points else np.ones(len(points), bool)
     for marker, where in _marked(points):
-        scatter(axes, x[where], mu[where], holds[where], colours[where], 0.5, 0.35, zorder=2.5, marker=marker)
+        scatter(axes, x[where], y[where], holds[where], colours[where], 0.5, 0.35, zorder=2.5, marker=marker)
 
 
 def _marked(table: DataFrame):
@@ -232,19 +267,18 @@ def _warmth(axes: Axes, points: DataFrame) -> None:
 def _shifts(axes: Axes, fit, shifts: DataFrame, powers: DataFrame, colours: Any) -> None:
     """Shifts with intervals, hollow where curves do not collapse, and powers of the speed."""
     speed, shift = shifts["speed"].to_numpy(), shifts["log_shift"].to_numpy() / LOG10
-    if np.isfinite(shift).any():
-        intervals(axes, speed, shifts, "log_shift", 1 / LOG10, fmt="none", ecolor=colours, capsize=0)
-        for marker, where in _marked(shifts):
-            decided = np.full(where.sum(), bool(fit["decided"]))
-            scatter(axes, speed[where], shift[where], decided, colours[where], 0.8, 0.8, zorder=2, marker=marker)
-    if fit["shifted_as"] == BOTH:
+    intervals(axes, speed, shifts, "log_shift", 1 / LOG10, fmt="none", ecolor=colours, capsize=0)
+    for marker, where in _marked(shifts):
+        decided = np.full(where.sum(), bool(fit.decided))
+        scatter(axes, speed[where], shift[where], decided, colours[where], 0.8, 0.8, zorder=2, marker=marker)
+    if fit.shifted_as == BOTH:
         squares = {"fmt": "s", "color": style.ink(), "markersize": style.mark(0.6), "capsize": 0}
         intervals(axes, speed, shifts, "log_lift", 1 / LOG10, **squares)
     colour: Any
-    decades, others = np.log10(speed / fit["reference_speed"]), iter(OTHERS)
+    decades, others = np.log10(speed / fit.reference_speed), iter(OTHERS)
     for power in powers.itertuples():
         name = "along the load" if ACROSS in set(powers["power"]) and power.power == FITTED else power.power
-        label = f"{name} {power.exponent:.3g}"
+        label = f"{name} $v^{{{power.exponent:.3g}}}$"
         if power.power in (FITTED, ACROSS):
             colour, line = style.grey(0.6), "-" if power.power == FITTED else (0, (5, 1))
             if power.exponent_low < power.exponent_high:
@@ -255,7 +289,7 @@ def _shifts(axes: Axes, fit, shifts: DataFrame, powers: DataFrame, colours: Any)
             colour, line = next(others, OTHERS[-1])
         look = {"color": colour, "linestyle": line, "linewidth": style.width(0.8)}
         axes.plot(speed, power.exponent * decades, label=label, **look)
-    axes.set(xscale="log", xlim=(speed[0] / 1.2, speed[-1] * 1.2))
+    axes.set(xscale="log", xlim=(speed[0] / 1.2, speed[-1] * 1.2), ylabel="decades of the shift [1]")
     if len(powers):
         low, high = axes.get_ylim()
         axes.set_ylim(low, high + 0.5 * (high - low))

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field
+from io import BytesIO
 from itertools import cycle
 from os import PathLike
 from pathlib import Path
@@ -25,7 +26,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 from matplotlib.font_manager import FontProperties
 from matplotlib.textpath import TextToPath
-from matplotlib.ticker import LogLocator, NullFormatter
+from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 
 from scene.reading import InvalidInput
 
@@ -55,8 +56,12 @@ SERIES_LINES = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)), (0, 
 
 # Font sizes relative to the base size: of all but labels and titles, of texts at points; the base size [point].
 SMALL, TINY, TEXT = 0.875, 0.7, 8.0
-# Share of the page that numbers and label of a vertical axis take.
-BESIDE = 0.06
+SCREEN = 110  # dots per inch of what a notebook shows
+# What numbers and label of a vertical axis take, in multiples of the text.
+BESIDE = 5.2
+# Multiples of powers of ten that are written along an axis: the first of which three are in view, else two; the
+# very first along two decades or more.
+MULTIPLES = (1,), (1, 2, 5), (1, 2, 3, 5), (1, 1.5, 2, 3, 4, 6, 8)
 # A blank at which no line ends, and where a title has it.
 GLUE, FORMULA = "\u00a0", re.compile(r"v ?τ = \S+( [aλ]\w*)?")
 TEXTS = {
@@ -290,13 +295,27 @@ def across(column: Literal["single", "double"]) -> float:
     return {"single": current().journal.single, "double": current().journal.double}[column]
 
 
+def png(drawing: Figure) -> bytes:
+    """A figure as a screen shows it."""
+    image = BytesIO()
+    with applied():
+        drawing.canvas.print_figure(image, format="png", dpi=SCREEN)
+    return image.getvalue()
+
+
+class Drawing(Figure):
+    """A figure that a notebook shows, also where pyplot is not in use."""
+
+    _repr_png_ = png
+
+
 def canvas(column: Literal["single", "double"], height: float) -> Figure:
     """An empty figure as wide as a column or the page of the journal.
 
     height : for text of 8 points, and 7 where it is small [inch]; it goes with the text
     """
     times = max(size() / TEXT, small() / (SMALL * TEXT))
-    return Figure(figsize=(across(column), height * times))
+    return Drawing(figsize=(across(column), height * times))
 
 
 def lay_out(drawing: Figure, passes: int = 1) -> None:
@@ -331,7 +350,7 @@ def fill(text: str, inches: float, points: float, weight: str = "normal") -> str
 
 def head(axes: Axes, text: str, count: int) -> None:
     """A title of a panel, one of so many side by side, in lines that leave the next its numbers and label."""
-    inches = (1 / count - BESIDE) * axes.figure.figure.get_figwidth()
+    inches = axes.figure.figure.get_figwidth() / count - BESIDE * size() / 72
     weight = rcParams["axes.titleweight"]
     axes.set_title(fill(text, inches, small(), weight), fontsize=small())
 
@@ -409,14 +428,25 @@ def span(axes: Axes, values) -> None:
 
 
 def decades(*panels: Axes) -> None:
-    """Readable ticks on logarithmic axes: 1, 2, 5 within two decades, plain numbers where they are short."""
+    """Readable ticks on logarithmic axes: few and round, two at least, plain numbers where they are short."""
     for axis in (axis for axes in panels for axis in (axes.xaxis, axes.yaxis) if axis.get_scale() == "log"):
         low, high = axis.get_view_interval()
-        axis.set_major_locator(LogLocator(subs=(1, 2, 5) if high / low < 100 else (1,)))
+        axis.set_major_locator(_locator(low, high))
         axis.set_minor_formatter(NullFormatter())
         axis.set_tick_params(which="minor", label1On=False)  # or empty labels are measured, which takes longest
         if low >= 1e-4 and high <= 1e4:
             axis.set_major_formatter(lambda value, _: f"{value:g}")
+
+
+def _locator(low, high):
+    """The ticks of a logarithmic axis; where it is so short that none of the multiples will do, even steps."""
+    if high / low >= 100:
+        return LogLocator(subs=MULTIPLES[0])
+    powers = 10.0 ** np.arange(np.floor(np.log10(low)), np.log10(high) + 1)
+    ticks = {each: np.outer(powers, each) for each in MULTIPLES[1:]}
+    seen = {each: np.sum((low <= own) & (own <= high)) for each, own in ticks.items()}
+    chosen = [each for least in (3, 2) for each, count in seen.items() if count >= least]
+    return LogLocator(subs=chosen[0]) if chosen else MaxNLocator(4)
 
 
 def forms() -> Iterator[dict[str, Any]]:
@@ -436,6 +466,7 @@ def shades(solver: str, count: int) -> list[tuple[float, float, float]]:
 
 
 def bars(values, low, high) -> np.ndarray:
-    """Lengths (2, N) of error bars from intervals, as `errorbar` takes them; none where an end is not known."""
+    """Lengths (2, N) of error bars from intervals, as `errorbar` takes them; NaN, no bar, with an end unknown."""
     values, low, high = (np.asarray(each, float) for each in (values, low, high))
-    return np.nan_to_num(np.clip([values - low, high - values], 0.0, None), nan=0.0, posinf=0.0)
+    found = np.clip([values - low, high - values], 0.0, None)
+    return np.where(np.isfinite(found).all(axis=0), found, np.nan)

@@ -46,12 +46,11 @@ def plot(answers: xarray.DataTree, members: DataFrame) -> Plot:
 def draw(tables: Tables) -> Figure:
     """The figure, with F* where there is a layer."""
     drawing = shifted_curves.figure(tables, NAME)
-    panels = [axes for axes in drawing.axes if axes.get_subplotspec() is not None]
+    panels = [axes for axes in drawing.axes if axes.get_yscale() == "log"]
     for place, axes in enumerate(panels):
-        if place % 3 < 2:
-            axes.yaxis.set_major_locator(MaxNLocator(5))
-            axes.yaxis.set_minor_locator(NullLocator())
-        if place % 3 < 2 and place < 3 * ON_LAYER:
+        axes.yaxis.set_major_locator(MaxNLocator(5))
+        axes.yaxis.set_minor_locator(NullLocator())
+        if place < 2 * ON_LAYER:
             axes.axvline(MAIN.crossover, linestyle=":", **style.line(0.3, 0.8))
     return drawing
 

@@ -5,7 +5,7 @@ from pandas import DataFrame
 
 from ...report.page import Plot, Tables
 from ...report.plots import style
-from ...report.plots.curves import intervals
+from ...report.plots.curves import intervals, unanswered
 
 UNITS = {"speed": "m/s", "load": "N", "depth": "m"}
 WORDS = {"speed": "speed", "load": "normal force", "depth": "depth"}
@@ -39,6 +39,7 @@ def figure(tables: Tables) -> Figure:
             line = style.SERIES_LINES[index % len(style.SERIES_LINES)]
             look = style.look(solver, label=label, linestyle=line, capsize=2)
             intervals(axes, curve[across], curve, "friction_coefficient", **look)
+            unanswered(axes, curve[across], curve["friction_coefficient_mean"], look["color"], label)
     axes.set(xscale="log", yscale="log", ylabel="coefficient of friction [1]")
     axes.set_xlabel(f"{WORDS[across]} [{UNITS[across]}]")
     axes.legend()

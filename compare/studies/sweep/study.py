@@ -23,7 +23,7 @@ from ...library.case import Case, doubted
 from ...library.lookup import SceneLike, case_of
 from ...models.table import ModelLike, Models
 from ...report.page import Findings, Table
-from ...report.plots import style
+from ...report.plots.rendering import finished
 from ...solving.amounts import share_of
 from ...solving.cost import MOST_DRAWS, MOST_VALUES
 from ...solving.parameter_grid import COARSE, FINE, LEVELS, Instead, ParameterGrid, on_two_grids
@@ -256,8 +256,7 @@ def means(dataset: xarray.Dataset) -> DataFrame:
 
 def figure_of(dataset: xarray.Dataset) -> Figure:
     """Friction of a sweep against speed, or against load if there is one speed: a matplotlib Figure."""
-    with style.DRAWING:
-        return plots.plot(means(dataset)).figure()
+    return finished(plots.plot(means(dataset)))
 
 
 def _numbers(name, values, least=None):

@@ -11,7 +11,7 @@ from pandas import DataFrame, concat
 
 from ....report.page import Plot, Tables
 from ....report.plots import style
-from ....report.plots.curves import averaged, intervals, of_curves
+from ....report.plots.curves import averaged, intervals, of_curves, unanswered
 from ....report.plots.lettering import lettered
 from ....statistics.finding import Finding
 
@@ -85,6 +85,7 @@ def _over_smooth(axes: Axes, points: DataFrame) -> None:
                 x = MICRONS * curve["depth"].to_numpy(float) * APART ** (2 * index - len(solvers) + 1)
                 label = f"{style.label(solver)}, {body}"
                 intervals(axes, x, own, "normal_force", **style.look(solver, label=label, **look))
+                unanswered(axes, x, own["normal_force_mean"], style.COLOUR[solver], label)
                 rows += [own.set_axis(x)] if body == "rough" else []
     if rows:
         _limit(axes, *concat(rows).reset_index().to_numpy(float).T)

@@ -10,7 +10,7 @@ from pandas import DataFrame
 
 from ....report.page import Plot, Tables
 from ....report.plots import style
-from ....report.plots.curves import averaged, intervals, of_curves
+from ....report.plots.curves import averaged, intervals, of_curves, unanswered
 from ....report.plots.lettering import clear, lettered
 from ....statistics.finding import Finding
 
@@ -67,9 +67,9 @@ def speed_figure(tables: Tables) -> Figure:
     curves = list(points.sort_values("speed").groupby("solver", sort=False))
     for index, (solver, curve) in enumerate(curves):
         look = style.look(str(solver), markersize=style.mark(0.7), capsize=style.mark(0.7))
-        intervals(
-            above, curve["speed"] * APART ** (2 * index - len(curves) + 1), curve, "friction_coefficient", **look
-        )
+        speed = curve["speed"] * APART ** (2 * index - len(curves) + 1)
+        intervals(above, speed, curve, "friction_coefficient", **look)
+        unanswered(above, speed, curve["friction_coefficient_mean"], look["color"], look["label"])
     for solver, curve in _theories(tables, SPEED_THEORY).groupby("solver"):
         curve = curve.sort_values("speed")
         above.plot(curve["speed"], curve["friction_coefficient_mean"], **_thin(str(solver)))
@@ -86,8 +86,10 @@ def speed_figure(tables: Tables) -> Figure:
     for solver, rows in ratios.groupby("solver", sort=False):
         own = {"color": style.COLOUR[str(solver)]} if several else {}
         intervals(below, rows["speed"], rows, "ratio", **(look | own))
+        unanswered(below, rows["speed"], rows["ratio"], (look | own)["color"])
     over = "1D / 3D" if set(points["solver"]) <= {"MDR", "BEM"} else "over reference"
-    below.set(xlabel="speed [m/s]", ylabel=f"{over} [1]", ylim=(0, None))
+    below.set(xlabel="speed [m/s]", ylabel=f"{over} [1]")
+    below.set_ylim(0, 1.1 * np.nanmax([1, *ratios["ratio"], *ratios["ratio_high"]]))
     lettered((above, below))
     style.decades(above, below)
     clear(drawing, (above,))
@@ -137,6 +139,8 @@ def load_figure(tables: Tables) -> Figure:
             look = style.look(solver, color=shade, **form, label=f"{speed:.3g} m/s", capsize=style.mark(0.6))
             own = curve.sort_values("normal_force_mean")
             intervals(axes, own["normal_force_mean"], own, "friction_coefficient", **look)
+            if "load" in own:
+                unanswered(axes, own["load"], own["friction_coefficient_mean"], shade, look["label"])
         _beside(axes, solver, _theories(tables, LOAD_THEORY))
     _eq_19(panels[0], points[points["eq_19"].notna()])
     for axes in panels:

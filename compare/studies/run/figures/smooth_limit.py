@@ -8,6 +8,7 @@ from pandas import DataFrame, concat
 
 from ....report.page import Plot, Tables
 from ....report.plots import style
+from ....report.plots.curves import unanswered
 from ....report.plots.lettering import clear, lettered
 
 NAME = "smooth-limit"
@@ -56,6 +57,7 @@ def figure(tables: Tables) -> Figure:
     for solver, curve in curves.items():
         look = style.look(solver, linestyle="none")
         above.plot(curve["v_tau_over_a"], curve["friction_over_slope"], **look)
+        unanswered(above, curve["v_tau_over_a"], curve["friction_over_slope"], look["color"], look["label"])
     for solver, curve in curves.items():
         slowest = curve.iloc[0]
         # Straight through the slow half, where the first order in the speed is meant to hold.
@@ -63,13 +65,15 @@ def figure(tables: Tables) -> Figure:
         limit = slowest["friction_over_slope_low_speed"] / slowest["v_tau_over_a"]
         label = f"{style.label(solver).split(' ')[0]} limit"
         above.plot(slow, limit * slow, **style.look(solver, marker="", label=label, linewidth=style.width(0.7)))
-    below.axhline(2, **style.line(0.45, 0.8))
-    place = {"xytext": (0, 2), "textcoords": "offset points", "ha": "right", "fontsize": style.small()}
-    below.annotate("2, derived", (points["v_tau_over_a"].max(), 2), **place)
+    slowest = points["v_tau_over_a"].min()
+    below.plot([slowest, SLOW], [2, 2], **style.line(0.45, 0.8))
+    place = {"xytext": (0, 4), "textcoords": "offset points", "fontsize": style.small()}
+    below.annotate("2, derived for low speed", (slowest, 2), **place)
     several = ratios["solver"].nunique() > 1
     for solver, rows in ratios.groupby("solver", sort=False):
         colour = style.COLOUR[str(solver)] if several else style.ink()
         below.plot(rows["v_tau_over_a"], rows["ratio"], color=colour, marker="o")
+        unanswered(below, rows["v_tau_over_a"], rows["ratio"], colour)
     over = "1D / 3D" if set(points["solver"]) <= {"MDR", "BEM"} else "over reference"
     ends = min(0.9, ratios["ratio"].min()) - 0.1, max(2.2, ratios["ratio"].max()) + 0.1
     below.set(xlabel=r"$v\tau / a$ [1]", ylabel=f"{over} [1]", ylim=ends)

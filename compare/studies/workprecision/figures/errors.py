@@ -6,23 +6,26 @@ from math import ceil, isfinite
 from typing import Any
 
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.ticker import LogLocator
+from matplotlib.patches import Patch
 from pandas import DataFrame
 
 from ....report.page import Plot, Tables
 from ....report.plots import style
 from ....report.plots.lettering import Letter, letter, write
+from ....report.plots.prefixes import prefixed
 from ....solving.amounts import digits
 from ....statistics.convergence import MeasuredLadder, ladders
 
 # Columns of panels, their height and that around all of them [inch], and how many a figure of several quantities
 # has at most.
 COLUMNS, HEIGHT, AROUND, MOST = 3, 2.2, 0.6, 9
-# Errors below are those of rounding, and drawn there.
-LEAST = 1e-16
+# Errors below are those of rounding in sums over thousands of points, and drawn there.
+ROUNDING = 1e-12
+HIDDEN = 0.9  # between ink and paper
 # Estimates beside the answer itself: distinct from both dimensions and from one another in grey.
 BESIDE: tuple[dict[str, Any], ...] = (
     {"color": "#009E73", "marker": "^", "linestyle": ":"},
@@ -33,18 +36,18 @@ BESIDE: tuple[dict[str, Any], ...] = (
 )
 
 
-def plots(name: str, tables: Tables, shared: bool = False) -> Iterator[Plot]:
-    """Plots of tables, of which the first is of steps. shared : see `figure`
+def plots(name: str, tables: Tables) -> Iterator[Plot]:
+    """Plots of tables, of which the first is of steps.
 
     One plot of the answers, or of many panels one for friction and one for what else is measured; then one of all
     estimates where there are several.
     """
     table, *_ = tables
-    common = {"steps": table} | ({"shared": True} if shared else {})
+    common = {"steps": table}
     told = (
         "Relative error against processor time of one solve, the least of its repeats; settings at the points "
-        "where there is room. Grey, error of the reference, within which points are hollow; dotted, fitted power "
-        "of a ladder of points."
+        f"where there is room. Grey, error of the reference, or of rounding ({ROUNDING:g}), within which points "
+        "are hollow; dotted, fitted power of a ladder of points."
     )
     alternative = "Panels of falling curves: relative error over processor time."
     drawn = panels(tables[table])
@@ -80,24 +83,29 @@ def figure(
     steps: str,
     quantities: list[str] | None = None,
     estimates: bool = False,
-    shared: bool = False,
 ) -> Figure:
-    """All panels, and one legend below.
+    """All panels, on the same axes as errors and times are compared across them, and one legend below.
 
     steps : name of the table; quantities : that are shown, all if absent
     estimates : whether the first ladder by every estimate is shown, in place of every ladder by the answer
-    shared : whether all panels have the same axes, as errors and times are compared across them
     """
     drawn = panels(tables[steps], estimates)
     drawn = [own for own in drawn if quantities is None or own[0].quantity in quantities]
-    drawing, all_axes = framed([f"{first.title}\n{first.label}" for first, *_ in drawn], shared)
+    times, unit = prefixed([min(time, 1.0) for panel in drawn for curve in panel for time in curve.processor], "s")
+    drawing, all_axes = framed([f"{first.title}\n{first.label}" for first, *_ in drawn], unit)
     looks = _looks(drawn)
     for axes, panel in zip(all_axes, drawn, strict=True):
-        _panel(axes, panel, drawn if shared else [panel], looks)
-    handles = [
+        _panel(axes, panel, looks)
+    _room(all_axes, drawn, times)
+    for axes, (first, *_) in zip(all_axes, drawn, strict=True):
+        hidden(axes, axes.get_ylim()[0], _told(first))
+    handles: list[Artist] = [
         Line2D([], [], **look, label=style.LABEL.get(label, label), markersize=style.mark())
         for label, look in looks.items()
     ]
+    if any(axes.patches for axes in all_axes):
+        label = "error of the reference, or of rounding"
+        handles.append(Patch(color=style.grey(HIDDEN), linewidth=0, label=label))
     style.legend(drawing, handles, "outside lower center", len(handles))
     style.lay_out(drawing)
     for axes, panel in zip(all_axes, drawn, strict=True):
@@ -105,21 +113,21 @@ def figure(
     return drawing
 
 
-def framed(titles: Sequence[str], shared: bool) -> tuple[Figure, list[Axes]]:
-    """Empty panels with letters and titles; shared : whether all have the same axes"""
+def framed(titles: Sequence[str], unit: str = "s") -> tuple[Figure, list[Axes]]:
+    """Empty panels with letters and titles on the same axes. unit : of time"""
     count = len(titles)
     columns = min(COLUMNS, count) if count != 4 else 2
     rows = ceil(count / columns)
     drawing = style.canvas("double", rows * HEIGHT + AROUND)
     every: list[Axes] = []
     for k, title in enumerate(titles):
-        first = every[0] if every and shared else None
+        first = every[0] if every else None
         axes = drawing.add_subplot(rows, columns, k + 1, sharex=first, sharey=first, xscale="log", yscale="log")
         style.head(axes, f"({letter(k)}) {title}", columns)
-        if not shared or k % columns == 0:
+        if k % columns == 0:
             axes.set_ylabel("relative error [1]")
-        if not shared or k + columns >= count:
-            axes.set_xlabel("processor time [s]")
+        if k + columns >= count:
+            axes.set_xlabel(f"processor time [{unit}]")
         every.append(axes)
     return drawing, every
 
@@ -151,13 +159,17 @@ def _looks(drawn) -> Mapping[str, Mapping[str, Any]]:
     return looks | {name: look | thin for name, look in zip(beside, cycle(BESIDE), strict=False)}
 
 
-def _panel(axes: Axes, panel, sharing, looks):
-    """A panel whose axes have room for all that share them."""
+def _told(curve: MeasuredLadder) -> float:
+    """The error from which on one is told from that of the reference, or of rounding."""
+    return float(np.nanmax([curve.reference_error, ROUNDING]))
+
+
+def _panel(axes: Axes, panel, looks):
+    """Curves, fitted powers and failures of a panel."""
     solved = [curve for curve in panel if np.isfinite(curve.errors).any()]
-    own = panel[0].reference_error
     for curve in solved:
-        look, errors = dict(looks[_name(curve, panel)]), np.maximum(curve.errors, LEAST)
-        marker, hollow = look.pop("marker"), (errors <= own) & (curve.estimate != "indicator")
+        look, errors = dict(looks[_name(curve, panel)]), np.maximum(curve.errors, ROUNDING)
+        marker, hollow = look.pop("marker"), (errors <= _told(panel[0])) & (curve.estimate != "indicator")
         axes.plot(curve.processor, errors, **look)
         for part, face in ((hollow, style.paper()), (~hollow, look["color"])):
             dots = {"marker": marker, "markersize": style.mark(), "color": look["color"], "markerfacecolor": face}
@@ -165,9 +177,6 @@ def _panel(axes: Axes, panel, sharing, looks):
     if not solved:
         axes.text(0.5, 0.5, "not solved", transform=axes.transAxes, ha="center", va="center")
         return
-    _room(axes, sharing)
-    if own > 0:
-        hidden(axes, axes.get_ylim()[0], own)
     answers = [curve for curve in panel if curve.estimate == panel[0].estimate]
     for curve in answers:
         if _falls(curve):
@@ -189,8 +198,9 @@ def _power(curve):
 
 
 def hidden(axes: Axes, least: float, error: float) -> None:
-    """Band of errors that are not told from that of the reference."""
-    axes.axhspan(least, error, color=style.grey(0.9), zorder=0, linewidth=0)
+    """Band of errors that are not told from that of the reference, as far as it is in view."""
+    if error > least:
+        axes.axhspan(least, error, color=style.grey(HIDDEN), zorder=0, linewidth=0)
 
 
 def corner(axes: Axes, text: str) -> None:
@@ -199,29 +209,29 @@ def corner(axes: Axes, text: str) -> None:
     axes.text(0.02, 0.02, text, transform=axes.transAxes, **look)
 
 
-def _room(axes, sharing):
-    """Limits around all points, with room for what is written; at least a decade of errors."""
-    curves = [curve for panel in sharing for curve in panel]
+def _room(panels, drawn, times):
+    """Limits of all panels, with room for what is written; at least a decade of errors. times : for their unit"""
+    curves = [curve for panel in drawn for curve in panel]
     x = np.concatenate([curve.processor for curve in curves])
-    y = np.maximum(np.concatenate([curve.errors for curve in curves]), LEAST)
-    known = [first.reference_error for first, *_ in sharing if first.reference_error > 0]
+    y = np.maximum(np.concatenate([curve.errors for curve in curves]), ROUNDING)
+    if np.isnan(y).all():
+        return
+    known = [first.reference_error for first, *_ in drawn if first.reference_error > 0]
     low, high = min([np.nanmin(y), *known]), np.nanmax(y)
     room = max((high / low) ** 0.16, 10 ** (0.5 - np.log10(high / low) / 2))
-    axes.set_ylim(low / room, high * room)
+    panels[0].set_ylim(low / room, high * room)
     low, high = np.nanmin(x), np.nanmax(x)
     room = max((high / low) ** 0.12, 1.3)
-    axes.set_xlim(low / room, high * room)
-    style.decades(axes)
-    span = high / low
-    # Multiples of powers of ten that are written, the fewer the more decades there are.
-    axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 3, 5) if span < 5 else (1, 2, 5) if span < 30 else (1,)))
+    panels[0].set_xlim(low / room, high * room)
+    style.decades(*panels)
+    panels[0].xaxis.set_major_formatter(lambda value, _: f"{times * value:g}")
 
 
 def _letters(panel) -> Iterator[Letter]:
     """Settings at the points of the answer, then the exponents of the powers at their ends."""
     answers = [curve for curve in panel if curve.estimate == panel[0].estimate]
     for curve in answers:
-        for x, y, value in zip(curve.processor, np.maximum(curve.errors, LEAST), curve.values, strict=True):
+        for x, y, value in zip(curve.processor, np.maximum(curve.errors, ROUNDING), curve.values, strict=True):
             if isfinite(x) and isfinite(y):
                 yield Letter(digits(value), (x, y))
     for curve in answers:

@@ -34,7 +34,7 @@ def plots(name: str, tables: Tables) -> Iterator[Plot]:
     """Plots of all regimes, of smooth contacts and of rough ones, from the tables of steps, plans and answers."""
     kinds = {name.split("-")[2]: name for name in tables}
     if "steps" in kinds:
-        yield from errors.plots(f"{name}-smooth", tables, shared=True)
+        yield from errors.plots(f"{name}-smooth", tables)
     if "plans" in kinds:
         yield Plot(
             f"{name}-rough", rough, tables,
@@ -49,7 +49,7 @@ def plots(name: str, tables: Tables) -> Iterator[Plot]:
 def rough(tables: Tables, plans: str) -> Figure:
     """Means over rough surfaces, a panel a regime and quantity. plans : name of the table"""
     drawn = means(tables[plans])
-    drawing, axes = errors.framed([f"{mean.title}\n{mean.label}" for mean in drawn], True)
+    drawing, axes = errors.framed([f"{mean.title}\n{mean.label}" for mean in drawn])
     for each, mean in zip(axes, drawn, strict=True):
         _draw_mean(each, mean)
     _share(axes)
@@ -101,8 +101,7 @@ def _draw_mean(axes: Axes, mean: Mean):
         if isfinite(floor.most):
             band: dict[str, Any] = {"color": style.COLOUR[solver], "alpha": 0.13, "zorder": 0, "linewidth": 0}
             axes.axhspan(max(floor.least, LEAST), floor.most, **band)
-    if mean.grid_error > 0:
-        errors.hidden(axes, LEAST / 10, mean.grid_error)
+    errors.hidden(axes, LEAST / 10, mean.grid_error)
     if mean.failed:
         errors.corner(axes, f"not solved: {mean.failed}")
 
@@ -154,6 +153,6 @@ def _legend(drawing: Figure) -> None:
     for solver, name in LINES.items():
         band: dict[str, Any] = {"color": style.COLOUR[solver], "alpha": 0.2, "linewidth": 0}
         entries.append(Patch(**band, label=f"error that {name} keeps, 95 %"))
-    entries.append(Patch(color=style.grey(0.88), linewidth=0, label="error of the reference"))
+    entries.append(Patch(color=style.grey(errors.HIDDEN), linewidth=0, label="error of the reference"))
     style.legend(drawing, entries, "outside lower center", len(entries))
     style.lay_out(drawing)
