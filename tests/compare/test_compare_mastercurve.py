@@ -70,7 +70,7 @@ def test_the_answer_holds_the_pair_of_shifts_that_was_planted(tmp_path, vertical
     if vertical:
         assert (told["vertical-exponent"].verdict, told["vertical"].verdict) == (FAILS, REPORTED)
         assert first.startswith(
-            f"The curves form one if friction is shifted as v^{told['vertical-exponent'].found(3)} and the load as v^"
+            f"The curves form one if friction is shifted as v^{told['vertical-exponent'].found(3)} and the load"
         )
         assert "shifted along the load alone, as v^" in first
         assert not any("No shift along friction" in each for each in others)
