@@ -49,6 +49,7 @@ if TYPE_CHECKING:
     from .studies.regress.quantity import Quantity
     from .studies.report import Report
     from .studies.study import Study
+    from .studies.sweep.values import Values
     from .studies.topography.study import Surface
     from .trustmap.verdict import Advice
 
@@ -343,9 +344,9 @@ def topography(
 
 def sweep(
     scene: SceneLike,
-    speed: Sequence[float],
-    load: Sequence[float] | None = None,
-    depth: Sequence[float] | None = None,
+    speed: Values | None = None,
+    load: Values | None = None,
+    depth: Values | None = None,
     draws: int | None = None,
     output: str | Path = "crosscheck-sweep",
     models: Sequence[ModelLike] | None = None,
@@ -354,7 +355,7 @@ def sweep(
     budget: str | float | None = None,
     **options: Unpack[Options],
 ) -> xarray.Dataset:
-    """Solve a scene at every speed and every load or depth in both dimensionalities, or by other models.
+    """Solve a scene at many speeds and loads, in 1D and 3D.
 
     Returns a Dataset with the dimensions solver, grid, speed, load or depth, and seed: every single draw with its
     `status` and `reason`, and the means over draws on the fine grid, `friction_coefficient_mean`,
@@ -363,21 +364,32 @@ def sweep(
     `friction_error` bounds what the grid leaves of friction in 95 % of draws; above a tenth UncertainFriction is
     warned.
 
-    speed : [m/s]; 0 is rest
-    load, depth : [N], [m]; those of the scene if both are absent
+    scene : file of a scene (TOML), or name of a ready scene. From Python also a Scene or a Case
+    speed : speeds, as "1mm/s,10mm/s", or a range of three to a decade, as "1mm/s..1m/s", or of seven in all, as
+        "1mm/s..1m/s:7"; "0 m/s" is rest. That of the scene if absent. From Python also numbers [m/s]
+    load, depth : likewise, as "0.1N..10N" or "10um..100um"; those of the scene if both are absent. From Python
+        also numbers [N], [m]
     draws : rough surfaces, and as many profiles; 8 if absent
     interval : in place of draws, the half-width that is wanted of the interval of 95 % of each mean, relative:
         0.02 or "2%". Many surfaces are then solved on coarse grids and few on finer ones, until every interval is
         so narrow; `stratum` tells on which grids. An error of the grid above half of it keeps an interval wider
-    budget : time after which no more surfaces are asked for [s], or as "10min"
+    models, reference, budget : like those of `run`
     """
     from .statistics import griderror
+
+    asked = {"scene": scene, "speed": speed, "load": load, "depth": depth, "draws": draws}
+    compared = {"models": models, "reference": reference, "interval": interval}
+    report = swept(output, budget, **asked, **compared, **options)
+    griderror.warn(report.answers)
+    return report.study.dataset(report.answers)
+
+
+def swept(output: str | Path = "crosscheck-sweep", budget: str | float | None = None, **given: Any) -> Report:
+    """Report of a sweep, of the arguments of `sweep`: the command prints it."""
     from .studies.sweep.study import Sweep
 
-    asked = Sweep.of(scene, speed, load, depth, draws, models, reference, interval)
-    answers = solve(asked, output, budget=budget, **options).answers
-    griderror.warn(answers)
-    return asked.dataset(answers)
+    options: Any = {name: given.pop(name) for name in Options.__annotations__ if name in given}
+    return solve(Sweep.of(**given), output, budget=budget, **options)
 
 
 def friction_plot(dataset: xarray.Dataset) -> Figure:

@@ -29,7 +29,13 @@ app = typer.Typer(
 )
 
 # What stands on a command line for types that are slow to import.
-STAND_INS = {"SceneLike": str, "ModelLike": str, "Measurements": Path, "Surface": Path}
+STAND_INS = {
+    "SceneLike": str,
+    "ModelLike": str,
+    "Measurements": Path,
+    "Surface": Path,
+    "Values": Sequence[str],
+}
 # Arguments by their place, though they may be absent.
 PLACED = ("scene", "name", "file", "kind")
 # What a Python call states and a command line cannot.
@@ -49,6 +55,7 @@ class Command:
     """One command.
 
     function : of the same name in Python
+    reported : what returns a report of the same arguments, where the function returns something else
     said : what is printed of what it returns
     details : help of the option that prints the details of what it returns; empty where it has none
     brief : whether it ends so soon that no garbage is looked for
@@ -58,6 +65,7 @@ class Command:
     said: Callable[[Any], str] = str
     details: str = ""
     brief: bool = False
+    reported: Callable[..., Any] | None = None
 
     @property
     def title(self) -> str:
@@ -131,12 +139,13 @@ class Command:
         """What the function returns; shown : whether a terminal shows how far it is, in lines or as a bar."""
         if not self.brief:
             gc.enable()
+        function = self.reported or self.function
         if not (self.tells and shown):
-            return self.function(**given)
+            return function(**given)
         from ..solving.terminal import Preparing  # slow, and only what solves needs it
 
         with Preparing(lines=lines) as progress:
-            return self.function(**given, progress=progress)
+            return function(**given, progress=progress)
 
 
 def _parameter(command: str, name: str, hint: Any, default: Any, text: str) -> inspect.Parameter:
@@ -205,6 +214,7 @@ def _schema(found: Mapping[str, Any]) -> str:
 
 COMMANDS = (
     Command(commands.run),
+    Command(commands.sweep, reported=commands.swept),
     Command(commands.trust, brief=True),
     Command(commands.study),
     Command(commands.paper),

@@ -15,6 +15,7 @@ from bem3d import BEM
 from compare.solving.parameter_grid import ParameterGrid, on_two_grids
 from compare.statistics.finding import COLUMNS, Claim
 from compare.statistics.jackknife import friction
+from compare.studies.sweep.study import Sweep
 from mdr1d import MDR
 from scene.reading import InvalidInput
 
@@ -117,12 +118,28 @@ def test_a_smooth_sweep_has_no_draws_and_the_grid_alone_in_its_interval(tmp_path
         ({"speed": [0.1], "draws": 0}, "draws = 0"),
         ({"speed": [float("nan")]}, "speed = nan"),
         ({"speed": itertools.count(1)}, "speed: more than 1,000 values"),
+        ({"speed": "1mm/s..5mm"}, "speed = '5mm': .*a speed, as 20 mm/s"),
+        ({"load": ["1 N", "0N..2N"]}, "load = '0N': finite numbers above zero"),
+        ({"depth": "1um..2um:1e3"}, "depth = '1um..2um:1e3': points = '1e3': a whole number"),
     ],
 )
 def test_a_mistake_in_a_sweep_is_said_before_anything_is_solved(tmp_path, asked, message):
     with pytest.raises(InvalidInput, match=message):
         compare.sweep(SLIDING, output=tmp_path / "no", **asked)
     assert not (tmp_path / "no").exists()
+
+
+@pytest.mark.parametrize(
+    ("given", "numbers"),
+    [
+        ("1mm/s..1m/s", 10 ** (np.arange(10) / 3 - 3)),
+        ("8mm/s..1mm/s:4", [1e-3, 2e-3, 4e-3, 8e-3]),
+        (["1 mm/s, 0 m/s", 0.5, "3mm/s..3.1mm/s"], [0, 1e-3, 3e-3, 3.1e-3, 0.5]),
+        (None, [0.1]),
+    ],
+)
+def test_speeds_are_numbers_texts_with_units_and_ranges_of_three_to_a_decade(given, numbers):
+    assert Sweep.of(SLIDING, given).speeds == pytest.approx(tuple(numbers))
 
 
 class Twice(compare.Study):

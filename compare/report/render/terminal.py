@@ -13,7 +13,7 @@ from .columns import columns
 
 WIDTH = 100
 # Largest table that a terminal can show.
-MOST_ROWS, WIDEST = 40, 200
+MOST_ROWS, WIDEST = 100, 200
 
 
 def text(page: Page, path: Path | None = None) -> str:
