@@ -145,7 +145,7 @@ def _warn(sentences: Sequence[str]) -> None:
 
 
 def run(
-    scene: SceneLike | Mapping[str, SceneLike] | None = None,
+    scene: SceneLike | Sequence[str | Path] | Mapping[str, SceneLike] | None = None,
     output: str | Path = "crosscheck-report",
     models: Sequence[ModelLike] | None = None,
     reference: str | None = None,
@@ -155,8 +155,8 @@ def run(
 ) -> Report:
     """Solve a scene in 1D and in 3D, compare, and write a report.
 
-    scene : file of a scene (TOML), or name of a ready scene; if absent, the paper's sphere and cone. From Python
-        also a Scene or a Case, or several by name
+    scene : file of a scene (TOML), or name of a ready scene, or several, which the page then has side by side; if
+        absent, the paper's sphere and cone. From Python also a Scene or a Case, or several by name
     models : names of the models, separated by commas: mdr, bem, persson, law, those of installed packages,
         MODULE:NAME; mdr,bem if absent. From Python also objects, see `scene.Solver`
     reference : name of the model against which the others are judged; bem, or the last, if absent

@@ -20,7 +20,7 @@ from ...statistics.finding import HALVED, UNKNOWN, Claim, Finding, said_of
 from ...statistics.frictioncurves import SimulatedCurves
 from ...statistics.jackknife import DrawSet, mean
 from ...statistics.levels import pooled
-from ...statistics.means import Compared, compared
+from ...statistics.means import Compared, Interval, compared
 from ..claims.claims import CLAIMS, TOLERANCE
 from ..claims.points import stacked
 from ..theory import THEORY
@@ -104,6 +104,14 @@ class CaseFindings:
     def datasets(self) -> Mapping[str, xarray.Dataset]:
         """Draws of two grids, by "curve/model"."""
         return {place: pooled(each) for place, each in self.answers.items()}
+
+    def own(self, quantity: str, over: str, under: str | None = None) -> dict[str, Interval]:
+        """A mean of the scene as it stands, or a ratio of two, in each model, then over that of the reference."""
+        asked: dict[str, tuple[str, ...]] = {each.label: (each.name,) for each in self._claiming(OWN, quantity)}
+        for each in self._judged(OWN, quantity):
+            asked[self.models.beside(each.name)] = each.name, self.models.reference
+        found = {label: self._ratio(OWN, names, over, under).interval for label, names in asked.items()}
+        return {label: Interval(*(float(end[0, 0]) for end in each)) for label, each in found.items()}
 
     @property
     def _found(self):
