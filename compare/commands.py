@@ -479,6 +479,7 @@ def redraw(
     journal: Journal = "default",
     style: str | PathLike | Mapping[str, Any] | None = None,
     output: str | Path | None = None,
+    width: str | float | None = None,
 ) -> list[Path]:
     """Draw the figures of a folder again, for a journal. Nothing is solved: the figures are drawn from tables.
 
@@ -487,10 +488,12 @@ def redraw(
         aps, elsevier, ieee, iop, nature, royal-society, sage, springer, taylor-francis, wiley
     style : your own matplotlib style: a .mplstyle file or the name of a style. From Python also settings
     output : folder for the figures; if absent, `figures` in the folder
+    width : width of a column, as 84mm, from 80 mm to 200 mm; figures across the page grow or shrink with it. That
+        of the journal if absent. From Python also a number [m]
     """
     from .report.redraw import redraw
 
-    return redraw(folder, journal, style, output)
+    return redraw(folder, journal, style, output, width=width)
 
 
 def export(
