@@ -463,10 +463,12 @@ def new(name: str, file: str | Path | None = None) -> Path:
     return write(name, file or f"{name}.toml")
 
 
-def schema(kind: Literal["scene", "study"] = "scene", output: str | Path | None = None) -> dict[str, Any]:
-    """Print the JSON schema of scene files or study files. Editors use it to complete and check TOML.
+def schema(
+    kind: Literal["scene", "study", "answers"] = "scene", output: str | Path | None = None
+) -> dict[str, Any]:
+    """Print the JSON schema of scene files, study files or answers.
 
-    kind : schema of which files: scene or study
+    kind : scene or study, by which editors complete and check TOML; answers, the form of what --json prints
     output : file to write beside; if absent, none
     """
     from .studies.schema import schema

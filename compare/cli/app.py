@@ -47,7 +47,7 @@ SHARED = {
 }
 Quiet = Annotated[bool, typer.Option("-q", "--quiet", help="Print mistakes only.")]
 Verbose = Annotated[bool, typer.Option("-v", "--verbose", help="Print a line for each solve and each figure.")]
-AsJson = Annotated[bool, typer.Option("--json", help="Print the findings as JSON.")]
+AsJson = Annotated[bool, typer.Option("--json", help="Print the answer as JSON: see crosscheck schema answers.")]
 
 
 @dataclass(frozen=True)
@@ -97,10 +97,12 @@ class Command:
             for name, each in taken.items()
         ]
         if self.solves:
-            parameters += [_keyword("quiet", Quiet), _keyword("verbose", Verbose), _keyword("json", AsJson)]
+            parameters += [_keyword("quiet", Quiet), _keyword("verbose", Verbose)]
         elif self.details:
             details = typer.Option("-v", "--verbose", help=self.details)
             parameters += [_keyword("verbose", Annotated[bool, details])]
+        if self.said is not _schema:
+            parameters.append(_keyword("json", AsJson))
 
         def called(**given: Any) -> None:
             self(**given)
@@ -127,7 +129,9 @@ class Command:
             for line in getattr(getattr(found, "unsolved", None), "sentences", ()):
                 say(f"crosscheck: {line}", error=True)
         if json:
-            say(_as_json(found))
+            from ..studies.answers import written  # slow, and only JSON needs it
+
+            say(written(found))
         elif not quiet:
             say(found.details if verbose and hasattr(found, "details") else self.said(found))
         if getattr(found, "failed", False):
@@ -186,15 +190,6 @@ def _on_command_line(hint: Any) -> tuple[Any, list[str]]:
 
 def _keyword(name, annotation, default=False):
     return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=annotation)
-
-
-def _as_json(found: Any) -> str:
-    if hasattr(found, "findings"):
-        rows = json.loads(found.table.to_json(orient="records", double_precision=15))
-        page = str(found.path) if found.path else None
-        told = {"page": page, "doubts": list(found.page.first), "findings": rows}
-        return json.dumps(told, indent=1)
-    return json.dumps({name: str(each) for name, each in dict(found).items()}, indent=1)
 
 
 def _paths(found: Any) -> str:

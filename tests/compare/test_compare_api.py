@@ -8,13 +8,17 @@ import numpy as np
 import pytest
 import xarray
 from matplotlib.figure import Figure
+from scene_files import SCENE, SMALL
 from small_cases import SLIDING, TINY
+from typer.testing import CliRunner
 
 import compare
 from bem3d import BEM
+from compare.cli.app import app
 from compare.solving.parameter_grid import ParameterGrid, on_two_grids
 from compare.statistics.finding import COLUMNS, Claim
 from compare.statistics.jackknife import friction
+from compare.studies.answers import written
 from compare.studies.sweep.study import Sweep
 from mdr1d import MDR
 from scene.reading import InvalidInput
@@ -28,6 +32,31 @@ def shown(thing):
 
 
 @pytest.fixture(scope="module")
+def valid():
+    """What a text says in JSON, of which the schema of answers allows everything and nothing beside it."""
+    jsonschema = pytest.importorskip("jsonschema")
+    allowed = jsonschema.Draft202012Validator(compare.schema("answers"))
+
+    def valid(text):
+        told = json.loads(text, parse_constant=pytest.fail)
+        allowed.validate(told)
+        assert not allowed.is_valid(told | {"more": 0})
+        return told
+
+    return valid
+
+
+def printed(*arguments):
+    return CliRunner().invoke(app, [*map(str, arguments), "--json"], catch_exceptions=False).stdout
+
+
+@pytest.mark.parametrize("asked", ["trust hertz", "plan thin-layer", "scenes", "study", "new hertz"])
+def test_every_command_answers_in_json_as_its_schema_says(valid, asked, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert valid(printed(*asked.split()))
+
+
+@pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     return tmp_path_factory.mktemp("found")
 
@@ -37,7 +66,7 @@ def found(folder):
     return compare.run({"tiny": TINY}, folder, workers=1)
 
 
-def test_a_run_prints_nothing_and_what_it_returns_says_what_the_command_prints(folder, found, capfd):
+def test_a_run_prints_nothing_and_what_it_returns_says_what_the_command_prints(folder, found, capfd, valid):
     assert str(found.path.resolve()) in str(found)
     assert repr(found) == str(found)
     assert found.page.answer
@@ -45,6 +74,7 @@ def test_a_run_prints_nothing_and_what_it_returns_says_what_the_command_prints(f
     assert capfd.readouterr() == ("", "")
     assert (again.swept.solved, again.swept.reused, again.path) == (0, found.swept.solved, None)
     assert list(again.table.columns) == list(COLUMNS)
+    assert valid(written(found))["page"] == str(found.path)
 
 
 def test_a_run_shows_itself_in_a_notebook(found):
@@ -80,9 +110,11 @@ def test_a_plan_is_asked_of_a_scene_a_case_or_a_file(tmp_path):
     assert all(str(each) in of_scene.details for each in of_scene.values())
 
 
-def test_a_sweep_is_a_dataset_of_every_draw_with_means_and_intervals(tmp_path):
+def test_a_sweep_is_a_dataset_of_every_draw_with_means_and_intervals(tmp_path, valid):
+    scene, output = tmp_path / "scene.toml", tmp_path / "found"
+    scene.write_text(SCENE + SMALL)
     answers = compare.sweep(
-        TINY, speed=[0.1, 0.0], load=[0.5, 1.0], draws=2, output=tmp_path, workers=1, report=False
+        scene, speed=[0.1, 0.0], load=[0.5, 1.0], draws=2, output=output, workers=1, report=False
     )
     assert dict(answers.sizes) == {"solver": 2, "grid": 2, "speed": 2, "load": 2, "seed": 2}
     assert answers.speed.values.tolist() == [0.0, 0.1]
@@ -97,8 +129,14 @@ def test_a_sweep_is_a_dataset_of_every_draw_with_means_and_intervals(tmp_path):
         >= grid - 1e-12
     ).all()
     assert isinstance(compare.friction_plot(answers), Figure)
-    again = compare.sweep(TINY, speed=[0.0, 0.1], load=[0.5, 1.0], draws=2, output=tmp_path, report=False)
+    again = compare.sweep(scene, speed="0 m/s, 10cm/s", load="0.5N..1N:2", draws=2, output=output, report=False)
     xarray.testing.assert_identical(again, answers)
+    asked = "sweep", scene, "--speed", "0 m/s,10cm/s", "--load", "0.5 N", "--load", "1N"
+    told = valid(printed(*asked, "--draws", 2, "--output", output, "--no-report"))
+    row = next(each for each in told["tables"]["means-friction"] if each["load"] == 1.0)
+    mean = answers.friction_coefficient_mean.sel(solver="BEM", speed=0.1, load=1.0).item()
+    assert row["friction_coefficient (3D)"] == mean
+    assert row["1D/3D"] == pytest.approx(row["friction_coefficient (1D)"] / mean)
 
 
 def test_a_smooth_sweep_has_no_draws_and_the_grid_alone_in_its_interval(tmp_path):

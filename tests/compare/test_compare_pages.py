@@ -395,7 +395,8 @@ def test_a_figure_drawn_again_from_its_table_is_the_same_picture(folder, tmp_pat
     other = redraw(folder, "nature", output=tmp_path / "nature")
     assert other[0].read_bytes() != written[0].read_bytes()
     of_a_width, _, _ = redraw(folder, output=tmp_path / "narrow", width="84 mm")
-    assert Image.open(of_a_width).width == pytest.approx(84 / 25.4 * 300, abs=1)
+    with Image.open(of_a_width) as drawn:
+        assert drawn.width == pytest.approx(84 / 25.4 * 300, abs=1)
 
 
 def test_a_changed_table_gives_another_picture(folder, tmp_path):
