@@ -476,6 +476,13 @@ def schema(
     return schema(kind, output)
 
 
+def as_json(found: Any) -> str:
+    """What a command returns, as its option --json prints it: see `schema` of answers."""
+    from .studies.answers import written
+
+    return written(found)
+
+
 def redraw(
     folder: str | Path,
     journal: Journal = "default",

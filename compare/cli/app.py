@@ -129,9 +129,7 @@ class Command:
             for line in getattr(getattr(found, "unsolved", None), "sentences", ()):
                 say(f"crosscheck: {line}", error=True)
         if json:
-            from ..studies.answers import written  # slow, and only JSON needs it
-
-            say(written(found))
+            say(commands.as_json(found))
         elif not quiet:
             say(found.details if verbose and hasattr(found, "details") else self.said(found))
         if getattr(found, "failed", False):

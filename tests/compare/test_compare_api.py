@@ -14,11 +14,11 @@ from typer.testing import CliRunner
 
 import compare
 from bem3d import BEM
+from compare import commands
 from compare.cli.app import app
 from compare.solving.parameter_grid import ParameterGrid, on_two_grids
 from compare.statistics.finding import COLUMNS, Claim
 from compare.statistics.jackknife import friction
-from compare.studies.answers import written
 from compare.studies.sweep.study import Sweep
 from mdr1d import MDR
 from scene.reading import InvalidInput
@@ -74,7 +74,7 @@ def test_a_run_prints_nothing_and_what_it_returns_says_what_the_command_prints(f
     assert capfd.readouterr() == ("", "")
     assert (again.swept.solved, again.swept.reused, again.path) == (0, found.swept.solved, None)
     assert list(again.table.columns) == list(COLUMNS)
-    assert valid(written(found))["page"] == str(found.path)
+    assert valid(commands.as_json(found))["page"] == str(found.path)
 
 
 def test_a_run_shows_itself_in_a_notebook(found):

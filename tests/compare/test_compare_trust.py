@@ -323,6 +323,9 @@ def test_it_says_where_the_scene_lies_and_what_was_measured_near_it():
     found = trust(PAPER)
     distances = [each.distance for each in found.nearest]
     assert distances == sorted(distances)
+    texts = (str(trust(replace(PAPER, elastomer=each))) for each in (KELVIN, STANDARD))
+    places = [next(line for line in each.splitlines() if line.startswith("place")) for each in texts]
+    assert [each.rpartition(", ")[2] for each in places] == ["E_g/E_r is infinite", "E_g/E_r = 10"]
 
 
 def test_waves_in_full_contact_have_the_friction_and_pressure_of_a_drawn_surface():
