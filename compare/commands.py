@@ -28,7 +28,7 @@ from __future__ import annotations
 import sys
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager, nullcontext
+from contextlib import contextmanager
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack
@@ -557,5 +557,5 @@ def animate(
     """
     from .studies.animate.animation import animate
 
-    with _shown(progress) as told, told.solving() if told else nullcontext() as solving:
-        return animate(scene, output, frames, seconds, folder, workers, solving)
+    with _shown(progress) as told:
+        return animate(scene, output, frames, seconds, folder, workers, told)
