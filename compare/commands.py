@@ -31,7 +31,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack
+from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack, cast
 
 if TYPE_CHECKING:
     from types import FrameType
@@ -49,6 +49,7 @@ if TYPE_CHECKING:
     from .studies.regress.quantity import Quantity
     from .studies.report import Report
     from .studies.study import Study
+    from .studies.sweep.study import Sweep
     from .studies.sweep.values import Values
     from .studies.topography.study import Surface
     from .trustmap.verdict import Advice
@@ -381,7 +382,7 @@ def sweep(
     compared = {"models": models, "reference": reference, "interval": interval}
     report = swept(output, budget, **asked, **compared, **options)
     griderror.warn(report.answers)
-    return report.study.dataset(report.answers)
+    return cast("Sweep", report.study).dataset(report.answers)
 
 
 def swept(output: str | Path = "crosscheck-sweep", budget: str | float | None = None, **given: Any) -> Report:

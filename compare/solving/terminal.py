@@ -47,7 +47,7 @@ class Notebook(Console):
 
         content = Padding(Group(*self.lines, *below), 0, expand=False)
         if self.place is None:
-            self.place = display(content, display_id=True)  # type: ignore[no-untyped-call]
+            self.place = display(content, display_id=True)
         else:
             self.place.update(content)
 

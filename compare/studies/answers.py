@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from math import nan
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, cast
 
 from pydantic import Field, create_model
 from pydantic_core import to_json
@@ -51,7 +51,7 @@ class Planned:
     """Of `plan`.
 
     solvers : plan of each solver by its name, or in words why there is none
-    trust : what cheap answers are worth, as of `trust`
+    trust : worth of cheap answers, the same that `trust` prints
     contacts, seconds : of `crosscheck run`, at most, and its processor time [s]; null where it solves nothing
     reason : why it solves nothing; empty where it does
     doubts, notes : about the scene, and on what was read for it
@@ -100,20 +100,20 @@ def answer(found: Any) -> Answer:
     match found:
         case Report():
             tables = {each.name: _rows(each.frame) for each in found.page.every(Table) if not each.long}
-            path, page = found.path and str(found.path), found.page
-            return Reported(path, tuple(page.first), tuple(page.answer), _rows(found.table), tables)
+            page = found.page
+            return Reported(_said(found.path), tuple(page.first), tuple(page.answer), _rows(found.table), tables)
         case Plans():
             cost = found.cost if isinstance(found.cost, Cost) else None
             return Planned(
                 solvers={name: each for name, each in found.items() if not isinstance(each, Advice)},
-                trust=found["trust"],
-                contacts=cost and cost.contacts,
-                seconds=cost and cost.seconds,
+                trust=cast(Advice, found["trust"]),
+                contacts=cost.contacts if cost else None,
+                seconds=cost.seconds if cost else None,
                 reason="" if cost else str(found.cost),
                 doubts=tuple(found.doubts),
                 notes=tuple(notes(found.scene)),
-                interval=found.interval and str(found.interval),
-                accuracy=found.accuracy and str(found.accuracy),
+                interval=_said(found.interval),
+                accuracy=_said(found.accuracy),
             )
         case Listing():
             return Listed({name: Offered(each.title, each.about) for name, each in found.items()})
@@ -127,6 +127,10 @@ def answer(found: Any) -> Answer:
 def written(found: Any) -> str:
     """The same as JSON, in which a number that is not known or not finite is null."""
     return to_json(answer(found), indent=1, inf_nan_mode="null", fallback=_plain).decode()
+
+
+def _said(found):
+    return None if found is None else str(found)
 
 
 def _rows(frame):

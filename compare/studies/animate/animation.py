@@ -135,8 +135,8 @@ def record(film: Film, path: Path, seconds: float, told: Callable[[str], Any] = 
         try:
             _draw(film, writer, made, told)
         except (subprocess.CalledProcessError, BrokenPipeError) as error:
-            told = getattr(error, "stderr", None) or str(error)
-            raise SolveError(f"ffmpeg wrote no {path.name}: {told.strip()}") from error
+            why = getattr(error, "stderr", None) or str(error)
+            raise SolveError(f"ffmpeg wrote no {path.name}: {why.strip()}") from error
         content = made.read_bytes()
     write(path, lambda file: file.write(content))
 

@@ -20,7 +20,7 @@ from ...statistics.finding import HALVED, UNKNOWN, Claim, Finding, said_of
 from ...statistics.frictioncurves import SimulatedCurves
 from ...statistics.jackknife import DrawSet, mean
 from ...statistics.levels import pooled
-from ...statistics.means import Compared, Interval, compared
+from ...statistics.means import Compared, compared
 from ..claims.claims import CLAIMS, TOLERANCE
 from ..claims.points import stacked
 from ..theory import THEORY
@@ -105,13 +105,13 @@ class CaseFindings:
         """Draws of two grids, by "curve/model"."""
         return {place: pooled(each) for place, each in self.answers.items()}
 
-    def own(self, quantity: str, over: str, under: str | None = None) -> dict[str, Interval]:
-        """A mean of the scene as it stands, or a ratio of two, in each model, then over that of the reference."""
+    def own(self, quantity: str, over: str, under: str | None = None) -> dict[str, tuple[float, ...]]:
+        """A mean of the scene as it stands, or a ratio of two, by model and over the reference, with its interval."""
         asked: dict[str, tuple[str, ...]] = {each.label: (each.name,) for each in self._claiming(OWN, quantity)}
         for each in self._judged(OWN, quantity):
             asked[self.models.beside(each.name)] = each.name, self.models.reference
         found = {label: self._ratio(OWN, names, over, under).interval for label, names in asked.items()}
-        return {label: Interval(*(float(end[0, 0]) for end in each)) for label, each in found.items()}
+        return {label: tuple(float(end[0, 0]) for end in each) for label, each in found.items()}
 
     @property
     def _found(self):

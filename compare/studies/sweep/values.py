@@ -48,12 +48,12 @@ def _numbers(name, given, least) -> Iterator[float]:
             yield _number(name, part, least)
             continue
         high, colon, count = rest.partition(":")
-        ends = [_number(name, end, None) for end in (low, high)]
-        points = 1 + round(TO_A_DECADE * abs(log10(ends[1] / ends[0])))
+        first, last = (_number(name, end, None) for end in (low, high))
+        points = 1 + round(TO_A_DECADE * abs(log10(last / first)))
         if colon:
             told = f"{name} = {brief(repr(part))}: points"
             points = whole(told, int(count) if count.strip().isdecimal() else count, MOST_VALUES)
-        yield from np.geomspace(*ends, max(2, points)).tolist()
+        yield from np.geomspace(first, last, max(2, points)).tolist()
 
 
 def _number(name, given, least):
