@@ -106,7 +106,7 @@ class CaseFindings:
         return {place: pooled(each) for place, each in self.answers.items()}
 
     def own(self, quantity: str, over: str, under: str | None = None) -> dict[str, tuple[float, ...]]:
-        """A mean of the scene as it stands, or a ratio of two, by model and over the reference, with its interval."""
+        """A mean of the scene as it stands, or a ratio of two: of each model and over the reference, with ends."""
         asked: dict[str, tuple[str, ...]] = {each.label: (each.name,) for each in self._claiming(OWN, quantity)}
         for each in self._judged(OWN, quantity):
             asked[self.models.beside(each.name)] = each.name, self.models.reference
