@@ -165,31 +165,39 @@ class SweepBar(SweepProgress):
         self._tell()
 
     def _seconds(self):
-        """Seconds that what is done takes, with shares of running tasks, and that all takes, as known by now.
+        """Seconds that all takes, as known by now, and of each running task those expected and spent.
 
-        A unit of work takes what it took until now, and before any is solved, what it is expected to take. After
-        most of its time a task goes on ever more slowly: the bar neither stops nor is full.
+        A unit of work takes what it took until now, and before any is solved, what it is expected to take.
         """
         unit = {each: self.took[each] / self.solved[each] if self.took[each] else SECONDS for each in self.every}
-        now, done = self.clock(), sum(self.took.values())
-        for task, handed_out in list(self.running.items()):
-            whole = unit[_solver(task)] * task.work
-            spent = (now - max(handed_out, self.since)) / ((whole + (0.0 if self.done else START)) or 1.0)
-            done += whole * (spent if spent < 0.8 else 1 - 0.04 / (spent - 0.6))
-        return done, sum(unit[each] * work for each, work in self.every.items()) or 1.0
+        now, start = self.clock(), 0.0 if self.done else START
+        running = [
+            (unit[_solver(task)] * task.work + start, now - max(handed_out, self.since))
+            for task, handed_out in list(self.running.items())
+        ]
+        return sum(unit[each] * work for each, work in self.every.items()) or 1.0, running
 
     def _left(self):
-        """Time left if the work goes on as it went until now; not known where a first task takes longer."""
-        now, (done, whole) = self.clock(), self._seconds()
-        if self.done:
-            return duration((now - self.since) * (whole / done - 1) if done else None)
-        left = START + whole / max(len(self.running), 1) - (now - self.start)
-        return duration(left if left > 0 else None)
+        """Time left at the pace until now, a quarter more of tasks that are late; not known of late first ones."""
+        now, (whole, running) = self.clock(), self._seconds()
+        if not self.done:
+            left = START + whole / max(len(running), 1) - (now - self.start)
+            return duration(left if left > 0 else None)
+        done = sum(self.took.values()) + sum(spent for _, spent in running)
+        late = sum(max(0.0, 1.25 * spent - expected) for expected, spent in running)
+        return duration((now - self.since) * max(0.0, (whole + late) / done - 1) if done else None)
 
     def _move(self):
+        """Bring the bar up to date: late tasks go on ever more slowly, so that it neither stops nor is full."""
         if self.row is not None:
-            done, whole = self._seconds()
-            self.reached = max(self.reached, done / whole)
+            whole, running = self._seconds()
+            start = 0.0 if self.done else START
+            shares = (
+                (expected - start) * (part if part < 0.8 else 1 - 0.04 / (part - 0.6))
+                for expected, spent in running
+                for part in [spent / (expected or 1.0)]
+            )
+            self.reached = max(self.reached, (sum(self.took.values()) + sum(shares)) / whole)
             self.bar.update(self.row, completed=self.reached, left=self._left())
 
     def _counts(self):
