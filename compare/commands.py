@@ -28,10 +28,10 @@ from __future__ import annotations
 import sys
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager, nullcontext
+from contextlib import contextmanager
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack
+from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack, cast
 
 if TYPE_CHECKING:
     from types import FrameType
@@ -49,6 +49,8 @@ if TYPE_CHECKING:
     from .studies.regress.quantity import Quantity
     from .studies.report import Report
     from .studies.study import Study
+    from .studies.sweep.study import Sweep
+    from .studies.sweep.values import Values
     from .studies.topography.study import Surface
     from .trustmap.verdict import Advice
 
@@ -144,7 +146,7 @@ def _warn(sentences: Sequence[str]) -> None:
 
 
 def run(
-    scene: SceneLike | Mapping[str, SceneLike] | None = None,
+    scene: SceneLike | Sequence[str | Path] | Mapping[str, SceneLike] | None = None,
     output: str | Path = "crosscheck-report",
     models: Sequence[ModelLike] | None = None,
     reference: str | None = None,
@@ -154,8 +156,8 @@ def run(
 ) -> Report:
     """Solve a scene in 1D and in 3D, compare, and write a report.
 
-    scene : file of a scene (TOML), or name of a ready scene; if absent, the paper's sphere and cone. From Python
-        also a Scene or a Case, or several by name
+    scene : file of a scene (TOML), or name of a ready scene, or several, which the page then has side by side; if
+        absent, the paper's sphere and cone. From Python also a Scene or a Case, or several by name
     models : names of the models, separated by commas: mdr, bem, persson, law, those of installed packages,
         MODULE:NAME; mdr,bem if absent. From Python also objects, see `scene.Solver`
     reference : name of the model against which the others are judged; bem, or the last, if absent
@@ -343,9 +345,9 @@ def topography(
 
 def sweep(
     scene: SceneLike,
-    speed: Sequence[float],
-    load: Sequence[float] | None = None,
-    depth: Sequence[float] | None = None,
+    speed: Values | None = None,
+    load: Values | None = None,
+    depth: Values | None = None,
     draws: int | None = None,
     output: str | Path = "crosscheck-sweep",
     models: Sequence[ModelLike] | None = None,
@@ -354,7 +356,7 @@ def sweep(
     budget: str | float | None = None,
     **options: Unpack[Options],
 ) -> xarray.Dataset:
-    """Solve a scene at every speed and every load or depth in both dimensionalities, or by other models.
+    """Solve a scene at many speeds and loads, in 1D and 3D.
 
     Returns a Dataset with the dimensions solver, grid, speed, load or depth, and seed: every single draw with its
     `status` and `reason`, and the means over draws on the fine grid, `friction_coefficient_mean`,
@@ -363,21 +365,32 @@ def sweep(
     `friction_error` bounds what the grid leaves of friction in 95 % of draws; above a tenth UncertainFriction is
     warned.
 
-    speed : [m/s]; 0 is rest
-    load, depth : [N], [m]; those of the scene if both are absent
+    scene : file of a scene (TOML), or name of a ready scene. From Python also a Scene or a Case
+    speed : speeds, as "1mm/s,10mm/s", or a range of three to a decade, as "1mm/s..1m/s", or of seven in all, as
+        "1mm/s..1m/s:7"; "0 m/s" is rest. That of the scene if absent. From Python also numbers [m/s]
+    load, depth : likewise, as "0.1N..10N" or "10um..100um"; those of the scene if both are absent. From Python
+        also numbers [N], [m]
     draws : rough surfaces, and as many profiles; 8 if absent
     interval : in place of draws, the half-width that is wanted of the interval of 95 % of each mean, relative:
         0.02 or "2%". Many surfaces are then solved on coarse grids and few on finer ones, until every interval is
         so narrow; `stratum` tells on which grids. An error of the grid above half of it keeps an interval wider
-    budget : time after which no more surfaces are asked for [s], or as "10min"
+    models, reference, budget : like those of `run`
     """
     from .statistics import griderror
+
+    asked = {"scene": scene, "speed": speed, "load": load, "depth": depth, "draws": draws}
+    compared = {"models": models, "reference": reference, "interval": interval}
+    report = swept(output, budget, **asked, **compared, **options)
+    griderror.warn(report.answers)
+    return cast("Sweep", report.study).dataset(report.answers)
+
+
+def swept(output: str | Path = "crosscheck-sweep", budget: str | float | None = None, **given: Any) -> Report:
+    """Report of a sweep, of the arguments of `sweep`: the command prints it."""
     from .studies.sweep.study import Sweep
 
-    asked = Sweep.of(scene, speed, load, depth, draws, models, reference, interval)
-    answers = solve(asked, output, budget=budget, **options).answers
-    griderror.warn(answers)
-    return asked.dataset(answers)
+    options: Any = {name: given.pop(name) for name in Options.__annotations__ if name in given}
+    return solve(Sweep.of(**given), output, budget=budget, **options)
 
 
 def friction_plot(dataset: xarray.Dataset) -> Figure:
@@ -451,10 +464,12 @@ def new(name: str, file: str | Path | None = None) -> Path:
     return write(name, file or f"{name}.toml")
 
 
-def schema(kind: Literal["scene", "study"] = "scene", output: str | Path | None = None) -> dict[str, Any]:
-    """Print the JSON schema of scene files or study files. Editors use it to complete and check TOML.
+def schema(
+    kind: Literal["scene", "study", "answers"] = "scene", output: str | Path | None = None
+) -> dict[str, Any]:
+    """Print the JSON schema of scene files, study files or answers.
 
-    kind : schema of which files: scene or study
+    kind : scene or study, by which editors complete and check TOML; answers, the form of what --json prints
     output : file to write beside; if absent, none
     """
     from .studies.schema import schema
@@ -462,11 +477,19 @@ def schema(kind: Literal["scene", "study"] = "scene", output: str | Path | None 
     return schema(kind, output)
 
 
+def as_json(found: Any) -> str:
+    """What a command returns, as its option --json prints it: see `schema` of answers."""
+    from .studies.answers import written
+
+    return written(found)
+
+
 def redraw(
     folder: str | Path,
     journal: Journal = "default",
     style: str | PathLike | Mapping[str, Any] | None = None,
     output: str | Path | None = None,
+    width: str | float | None = None,
 ) -> list[Path]:
     """Draw the figures of a folder again, for a journal. Nothing is solved: the figures are drawn from tables.
 
@@ -475,10 +498,12 @@ def redraw(
         aps, elsevier, ieee, iop, nature, royal-society, sage, springer, taylor-francis, wiley
     style : your own matplotlib style: a .mplstyle file or the name of a style. From Python also settings
     output : folder for the figures; if absent, `figures` in the folder
+    width : width of a column, as 84mm, from 80 mm to 200 mm; figures across the page grow or shrink with it. That
+        of the journal if absent. From Python also a number [m]
     """
     from .report.redraw import redraw
 
-    return redraw(folder, journal, style, output)
+    return redraw(folder, journal, style, output, width=width)
 
 
 def export(
@@ -533,5 +558,5 @@ def animate(
     """
     from .studies.animate.animation import animate
 
-    with _shown(progress) as told, told.solving() if told else nullcontext() as solving:
-        return animate(scene, output, frames, seconds, folder, workers, solving)
+    with _shown(progress) as told:
+        return animate(scene, output, frames, seconds, folder, workers, told)

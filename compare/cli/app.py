@@ -29,7 +29,13 @@ app = typer.Typer(
 )
 
 # What stands on a command line for types that are slow to import.
-STAND_INS = {"SceneLike": str, "ModelLike": str, "Measurements": Path, "Surface": Path}
+STAND_INS = {
+    "SceneLike": str,
+    "ModelLike": str,
+    "Measurements": Path,
+    "Surface": Path,
+    "Values": Sequence[str],
+}
 # Arguments by their place, though they may be absent.
 PLACED = ("scene", "name", "file", "kind")
 # What a Python call states and a command line cannot.
@@ -43,7 +49,7 @@ Quiet = Annotated[bool, typer.Option("-q", "--quiet", help="Print mistakes only.
 Verbose = Annotated[
     bool, typer.Option("-v", "--verbose", help="Print a line for each solve and each figure, and every number.")
 ]
-AsJson = Annotated[bool, typer.Option("--json", help="Print the findings as JSON.")]
+AsJson = Annotated[bool, typer.Option("--json", help="Print the answer as JSON: see crosscheck schema answers.")]
 
 
 @dataclass(frozen=True)
@@ -51,6 +57,7 @@ class Command:
     """One command.
 
     function : of the same name in Python
+    reported : what returns a report of the same arguments, where the function returns something else
     said : what is printed of what it returns
     details : help of the option that prints the details of what it returns; empty where it has none
     brief : whether it ends so soon that no garbage is looked for
@@ -60,6 +67,7 @@ class Command:
     said: Callable[[Any], str] = str
     details: str = ""
     brief: bool = False
+    reported: Callable[..., Any] | None = None
 
     @property
     def title(self) -> str:
@@ -91,10 +99,12 @@ class Command:
             for name, each in taken.items()
         ]
         if self.solves:
-            parameters += [_keyword("quiet", Quiet), _keyword("verbose", Verbose), _keyword("json", AsJson)]
+            parameters += [_keyword("quiet", Quiet), _keyword("verbose", Verbose)]
         elif self.details:
             details = typer.Option("-v", "--verbose", help=self.details)
             parameters += [_keyword("verbose", Annotated[bool, details])]
+        if self.said is not _schema:
+            parameters.append(_keyword("json", AsJson))
 
         def called(**given: Any) -> None:
             self(**given)
@@ -121,7 +131,7 @@ class Command:
             for line in getattr(getattr(found, "unsolved", None), "sentences", ()):
                 say(f"crosscheck: {line}", error=True)
         if json:
-            say(_as_json(found))
+            say(commands.as_json(found))
         elif not quiet:
             say(found.details if verbose and hasattr(found, "details") else self.said(found))
         if getattr(found, "failed", False):
@@ -133,12 +143,13 @@ class Command:
         """What the function returns; shown : whether a terminal shows how far it is, in lines or as a bar."""
         if not self.brief:
             gc.enable()
+        function = self.reported or self.function
         if not (self.tells and shown):
-            return self.function(**given)
+            return function(**given)
         from ..solving.terminal import Preparing  # slow, and only what solves needs it
 
         with Preparing(lines=lines) as progress:
-            return self.function(**given, progress=progress)
+            return function(**given, progress=progress)
 
 
 def _parameter(command: str, name: str, hint: Any, default: Any, text: str) -> inspect.Parameter:
@@ -181,15 +192,6 @@ def _keyword(name, annotation, default=False):
     return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=annotation)
 
 
-def _as_json(found: Any) -> str:
-    if hasattr(found, "findings"):
-        rows = json.loads(found.table.to_json(orient="records", double_precision=15))
-        page = str(found.path) if found.path else None
-        told = {"page": page, "doubts": list(found.page.first), "findings": rows}
-        return json.dumps(told, indent=1)
-    return json.dumps({name: str(each) for name, each in dict(found).items()}, indent=1)
-
-
 def _paths(found: Any) -> str:
     folders = sorted({str(path.parent.resolve()) for path in found})
     return "\n".join([*(f"  {path.name}" for path in found), f"{len(found)} files: {', '.join(folders)}"])
@@ -207,6 +209,7 @@ def _schema(found: Mapping[str, Any]) -> str:
 
 COMMANDS = (
     Command(commands.run),
+    Command(commands.sweep, reported=commands.swept),
     Command(commands.trust, brief=True),
     Command(commands.study),
     Command(commands.paper),

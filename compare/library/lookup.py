@@ -1,6 +1,6 @@
 """Scenes that a user gives: by path, by the name of a ready one, or as objects."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import fields
 from importlib.resources import files
 from os.path import isdir, lexists
@@ -21,16 +21,26 @@ COMMANDS = {"scene": "run", "study": "study"}  # which command takes a file of w
 SceneLike: TypeAlias = str | Path | Case | Scene
 
 
-def named_cases(asked: SceneLike | Mapping[str, SceneLike] | None = None) -> dict[str, Case]:
-    """Cases by name: one, several by their names, or the paper's sphere and cone where nothing is asked.
+def named_cases(
+    asked: SceneLike | Sequence[str | Path] | Mapping[str, SceneLike] | None = None,
+) -> dict[str, Case]:
+    """Cases by name: one, several by their names or those of their files, or the paper's sphere and cone of none.
 
     Raises InvalidInput, and Refused of a case that cannot be compared.
     """
-    if asked is None:
+    if asked is None or (isinstance(asked, Sequence) and not asked):
         return shipped_cases()
-    if isinstance(asked, str | Path):
-        path = located(asked)
-        return {printable(path.stem): read_case(path)}
+    if isinstance(asked, str | Path | Sequence):
+        if not isinstance(asked, str | Path) and not all(isinstance(each, str | Path) for each in asked):
+            raise InvalidInput("scene: several have names, as run({name: scene}); a list holds files")
+        found: dict[str, Path] = {}
+        for path in map(located, [asked] if isinstance(asked, str | Path) else asked):
+            if (other := found.setdefault(printable(path.stem), path)) is not path:
+                raise InvalidInput(
+                    f"scene = {brief(str(other))}, {brief(str(path))}: both are called {brief(path.stem)}, which "
+                    "their results are named by: rename one, or from Python give names, run({name: file})"
+                )
+        return {name: read_case(path) for name, path in found.items()}
     several = asked if isinstance(asked, Mapping) else {"scene": asked}
     cases = {name: case_of(each) for name, each in several.items()}
     for case in cases.values():

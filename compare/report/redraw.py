@@ -3,6 +3,7 @@
 import inspect
 import warnings
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from importlib import import_module
 from os import PathLike
 from pathlib import Path
@@ -13,17 +14,21 @@ from matplotlib.figure import Figure
 from pydantic import ConfigDict, ValidationError, create_model
 
 from scene.printable import brief
+from scene.quantities import METRE, argument
 from scene.reading import InvalidInput
 
 from ..solving.hold import hold
 from . import csvfiles, manifest, render
 from .page import Plot
 from .plots import style as looks
+from .plots.journals import MILLIMETRE, Journal
 from .plots.journals import journal as find_journal
 from .plots.rendering import FORMS, picture
 
 PACKAGE = __name__.partition(".")[0]
 FIGURES = "figures"
+# Of columns [mm], from that of the narrowest journal on: narrower ones cut titles.
+WIDTHS = 80, 200
 TABLES = "tables"  # of a function that draws: its first argument; all others are options
 
 
@@ -33,6 +38,7 @@ def redraw(
     style: str | PathLike | Mapping[str, Any] | None = None,
     output: str | Path | None = None,
     told: Callable[[str], Any] = lambda name: None,
+    width: str | float | None = None,
 ) -> list[Path]:
     """Draw every figure of a folder again as PDF, SVG and PNG; returns the files.
 
@@ -41,14 +47,16 @@ def redraw(
     style : a style of matplotlib on top: a file, a name, or settings
     output : where to; `figures` in the folder if absent
     told : called with the name of each figure that is drawn
+    width : of a column, see `in_columns`; that of the journal if absent
 
     Raises InvalidInput where there is nothing to draw, a file is damaged or a run holds the folder, or for no such
-    journal or style.
+    journal, width or style.
     """
     target = manifest.inside(Path(folder), FIGURES) if output is None else Path(output)
     drawn = []
     try:
-        chosen = looks.chosen(looks.Look(find_journal(journal), style))
+        found = find_journal(journal)
+        chosen = looks.chosen(looks.Look(found if width is None else in_columns(found, width), style))
         with chosen:
             for each in manifest.folders(folder):
                 place = each.path.relative_to(folder).as_posix()
@@ -64,6 +72,18 @@ def redraw(
     if not drawn:
         raise InvalidInput(f"{brief(str(folder))}: no command has written figures here")
     return drawn
+
+
+def in_columns(journal: Journal, width: str | float) -> Journal:
+    """A journal with columns of a width, as "84 mm" or in metres, and its page as much wider or narrower.
+
+    Raises ValueError of one that is no length or out of WIDTHS.
+    """
+    metres = float(argument("width", width, METRE.value))
+    if not WIDTHS[0] <= 1e3 * metres <= WIDTHS[1]:
+        raise ValueError(f"width = {brief(repr(width))}: {WIDTHS[0]} mm to {WIDTHS[1]} mm are allowed")
+    column = 1e3 * metres * MILLIMETRE
+    return replace(journal, single=column, double=column / journal.single * journal.double)
 
 
 def _draw(folder: Path, entry: manifest.PlotEntry, target: Path) -> list[Path]:

@@ -1,14 +1,18 @@
-"""How far a run is, for people: bars on a terminal, plain lines elsewhere."""
+"""How far a run is, for people: bars on a terminal and in a notebook, plain lines elsewhere."""
 
 import time
+from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
+from io import StringIO
 from typing import Any
 
 from rich import progress as bars
-from rich.console import Console, RenderableType
+from rich.console import Console, Group, RenderableType
 from rich.markup import escape
+from rich.padding import Padding
 from rich.table import Column
+from rich.text import Text
 
 from scene.printable import printable
 
@@ -24,12 +28,41 @@ PAUSE = 5.0
 START = 3.0
 
 
-class Moving(bars.Progress):
-    """A bar that is brought up to date each time it is drawn. before : brings it up to date"""
+class Notebook(Console):
+    """Console of a notebook: one output for all that is said, brought up to date in its place, and a bar below."""
 
-    def __init__(self, *columns: bars.ProgressColumn, before: Callable[[], Any], **options: Any):
+    def __init__(self) -> None:
+        super().__init__(force_jupyter=False, force_terminal=False, file=StringIO())
+        self.lines = list[Text]()
+        self.place: Any = None
+
+    def print(self, *said: Any, **look: Any) -> None:
+        """Say one more line, or take the bar away."""
+        self.lines += map(Text, said)
+        self.show()
+
+    def show(self, *below: RenderableType) -> None:
+        """Bring the output up to date: lines, and what stands below them."""
+        from IPython.display import display
+
+        content = Padding(Group(*self.lines, *below), 0, expand=False)
+        if self.place is None:
+            self.place = display(content, display_id=True)
+        else:
+            self.place.update(content)
+
+
+class Bar(bars.Progress):
+    """A bar on a terminal or in a notebook. before : brings it up to date each time it is drawn"""
+
+    def __init__(
+        self, console: Console, *columns: Any, shown: bool = True, before: Callable[[], Any] = str, **options: Any
+    ):
         self.before = before
-        super().__init__(*columns, **options)
+        disable = not (shown and (console.is_terminal or isinstance(console, Notebook)))
+        super().__init__(*columns, console=console, transient=True, disable=disable, **options)
+        if isinstance(console, Notebook):
+            self.live.refresh = lambda: console.show(self.get_renderable())  # type: ignore[method-assign]
 
     def get_renderables(self) -> Iterable[RenderableType]:
         """Lines to draw now."""
@@ -48,10 +81,10 @@ class SweepBar(SweepProgress):
         self, console: Console, pause: float = PAUSE, clock: Callable[[], float] = time.monotonic, bar: bool = True
     ):
         self.console, self.pause, self.clock = console, pause, clock
-        self.shown = bar and console.is_terminal
         self.row: bars.TaskID | None = None
         # Where there is little room, what is being solved is cut off first, then the bar, never the times.
-        self.bar = Moving(
+        self.bar = Bar(
+            console,
             bars.BarColumn(bar_width=24),
             bars.TextColumn("{task.percentage:3.0f} %", table_column=Column(no_wrap=True, min_width=5)),
             bars.TimeElapsedColumn(table_column=Column(no_wrap=True, min_width=7)),
@@ -62,16 +95,15 @@ class SweepBar(SweepProgress):
                 markup=False,
                 table_column=Column(ratio=1, no_wrap=True, overflow="ellipsis"),
             ),
+            shown=bar,
             before=self._move,
-            console=console,
             get_time=clock,
             expand=True,
-            transient=True,
-            disable=not self.shown,
         )
+        self.shown = not self.bar.disable
         self.total = self.done = self.failed = self.reused = 0
-        # Tasks that are solved now, with the times when they were handed out; and the time that solved ones took.
-        self.doing, self.running, self.taken = "", dict[Task, float](), 0.0
+        # Tasks that are solved now, with the times when they were handed out.
+        self.doing, self.running = "", dict[Task, float]()
 
     def __enter__(self):
         self.bar.start()
@@ -90,10 +122,13 @@ class SweepBar(SweepProgress):
         if self.row is not None:
             self.bar.remove_task(self.row)
         self.total, self.done, self.failed, self.reused = len(tasks), 0, 0, reused
-        self.start = self.last = self.clock()
-        self.work, self.all_work = 0.0, sum(task.work for task in tasks) or 1.0
-        self.reached = self.taken = 0.0
-        self.row = self.bar.add_task("", total=self.all_work, counts=self._counts(), left="?")
+        self.start = self.last = self.since = self.clock()
+        # Work of all tasks, and of solved ones with the seconds that it took, by solver: their units differ.
+        self.every, self.solved, self.took = (defaultdict[type, float](float) for _ in range(3))
+        for task in tasks:
+            self.every[_solver(task)] += task.work
+        self.reached = 0.0
+        self.row = self.bar.add_task("", total=1.0, counts=self._counts(), left="?")
         if tasks and not self.shown:
             self.console.print(f"{len(tasks)} tasks to solve" + (f", {reused} reused" if reused else ""))
 
@@ -104,9 +139,14 @@ class SweepBar(SweepProgress):
 
     def finished(self, task: Task, outcome: Outcome) -> None:
         """A task is solved and stored, or has failed."""
-        now = self.clock()
-        self.taken += now - self.running.pop(task, now)
-        self.done, self.work = self.done + 1, self.work + task.work
+        now, solver = self.clock(), _solver(task)
+        handed_out = self.running.pop(task, now)
+        took = sum(row.seconds for row in outcome.rows if row.seconds > 0) or now - handed_out
+        if not self.done:  # until then workers were starting
+            self.since = max(self.start, now - took)
+        self.done += 1
+        self.solved[solver] += task.work
+        self.took[solver] += took
         self.failed += any(row.reason is not None for row in outcome.rows)
         self._tell()
         if not self.shown and now - self.last >= self.pause:
@@ -124,30 +164,41 @@ class SweepBar(SweepProgress):
             self.console.print("finishing the tasks under way")
         self._tell()
 
-    def _reached(self):
-        """Work that is done, with the share of running tasks that they should have by now; it never falls.
+    def _seconds(self):
+        """Seconds that all takes, as known by now, and of each running task those expected and spent.
 
-        A unit of work takes what it took until now, and before any is solved, what it is expected to take. After
-        its time a task counts half, and the rest comes ever more slowly: the bar neither stops nor is full.
+        A unit of work takes what it took until now, and before any is solved, what it is expected to take.
         """
-        known = self.work and self.taken
-        now, unit, start = self.clock(), self.taken / self.work if known else SECONDS, 0.0 if known else START
-        shares = (
-            task.work * (now - since) / (now - since + unit * task.work + start)
-            for task, since in list(self.running.items())
-            if now > since
-        )
-        self.reached = max(self.reached, self.work, self.work + sum(shares))
-        return self.reached
+        unit = {each: self.took[each] / self.solved[each] if self.took[each] else SECONDS for each in self.every}
+        now, start = self.clock(), 0.0 if self.done else START
+        running = [
+            (unit[_solver(task)] * task.work + start, now - max(handed_out, self.since))
+            for task, handed_out in list(self.running.items())
+        ]
+        return sum(unit[each] * work for each, work in self.every.items()) or 1.0, running
 
     def _left(self):
-        """Time left if the work goes on as it went until now."""
-        reached = self._reached()
-        return duration((self.clock() - self.start) * (self.all_work / reached - 1) if reached else None)
+        """Time left at the pace until now, a quarter more of tasks that are late; not known of late first ones."""
+        now, (whole, running) = self.clock(), self._seconds()
+        if not self.done:
+            left = START + whole / max(len(running), 1) - (now - self.start)
+            return duration(left if left > 0 else None)
+        done = sum(self.took.values()) + sum(spent for _, spent in running)
+        late = sum(max(0.0, 1.25 * spent - expected) for expected, spent in running)
+        return duration((now - self.since) * max(0.0, (whole + late) / done - 1) if done else None)
 
     def _move(self):
+        """Bring the bar up to date: late tasks go on ever more slowly, so that it neither stops nor is full."""
         if self.row is not None:
-            self.bar.update(self.row, completed=self._reached(), left=self._left())
+            whole, running = self._seconds()
+            start = 0.0 if self.done else START
+            shares = (
+                (expected - start) * (part if part < 0.8 else 1 - 0.04 / (part - 0.6))
+                for expected, spent in running
+                for part in [spent / (expected or 1.0)]
+            )
+            self.reached = max(self.reached, (sum(self.took.values()) + sum(shares)) / whole)
+            self.bar.update(self.row, completed=self.reached, left=self._left())
 
     def _counts(self):
         return f"{self.done}/{self.total}" + (f", {self.failed} failed" if self.failed else "")
@@ -158,6 +209,10 @@ class SweepBar(SweepProgress):
             self.bar.update(self.row, counts=self._counts(), description=what)
 
 
+def _solver(task):
+    return type(getattr(task, "solver", task))
+
+
 class Preparing:
     """A bar from the first second, while a command imports, reads and plans; a context, ended by whoever is next.
 
@@ -166,9 +221,10 @@ class Preparing:
 
     def __init__(self, lines: bool = False) -> None:
         self.lines, self.console = lines, Console(highlight=False, soft_wrap=True)
-        shown = self.console.is_terminal and not lines
+        if self.console.is_jupyter and not lines:
+            self.console = Notebook()
         columns = bars.BarColumn(bar_width=24), bars.TimeElapsedColumn(), bars.TextColumn("{task.description}")
-        self.bar = bars.Progress(*columns, console=self.console, transient=True, disable=not shown)
+        self.bar = Bar(self.console, *columns, shown=not lines)
         self.bar.add_task("preparing", total=None)
 
     def __enter__(self) -> "Preparing":
@@ -207,6 +263,6 @@ def _figures(console: Any, count: int, lines: bool) -> Iterator[Callable[[str], 
     if lines:
         yield lambda name: console.print(f"  figure {printable(name)}", markup=False)
         return
-    with bars.Progress(console=console, transient=True, disable=not console.is_terminal) as bar:
-        drawn = bar.add_task("Writing the page", total=count)
+    with Bar(console, *bars.Progress.get_default_columns()) as bar:
+        drawn = bar.add_task("Drawing", total=count)
         yield lambda name: bar.update(drawn, advance=1, description=f"Drawing {escape(printable(name))}")

@@ -306,7 +306,8 @@ ENDINGS = {
 
 
 def stem(name: str) -> str:
-    """Name that an entry is found under: without its ending where the whole has none."""
+    """Name that an entry is found under: without its ending where the whole has none, and a model in brackets."""
+    name = name.partition(" (")[0]
     for ending in ENDINGS:
         if name.endswith(ending) and _entry(name) is None:
             return stem(name.removesuffix(ending))

@@ -1,4 +1,4 @@
-"""JSON schemas of the files that a user writes, for editors: names, allowed values and units as one types."""
+"""JSON schemas of the files that a user writes, for editors, and of what commands print for programs."""
 
 import json
 from pathlib import Path
@@ -12,25 +12,34 @@ from ..solving.store import write
 from ..solving.suggest import known
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
-KINDS = {"scene": "Scene file of crosscheck run and plan", "study": "Study file of crosscheck study"}
+KINDS = {
+    "scene": "Scene file of crosscheck run and plan",
+    "study": "Study file of crosscheck study",
+    "answers": "What the option --json prints",
+}
 # Bounds of a list, where pydantic does not see that it is one.
 _ITEMS = {"minLength": "minItems", "maxLength": "maxItems"}
 _BOUNDS = {"gt": "exclusiveMinimum", "ge": "minimum", "lt": "exclusiveMaximum", "le": "maximum"}
 
 
 def schema(kind: str, output: str | Path | None = None) -> dict[str, Any]:
-    """JSON schema, draft 2020-12, of a "scene" or "study" file. Raises InvalidInput for other kinds.
+    """JSON schema, draft 2020-12, of "scene" or "study" files, or of "answers". Raises InvalidInput of others.
 
     output : file that it is written into; none if absent
     """
     known("KIND", kind, KINDS)
-    # Only the schema itself needs what it describes.
-    from ..library.case import Case
-    from .claims.study_file import StudyFile
+    if kind == "answers":
+        from .answers import Answer
 
-    what = {"scene": Case, "study": StudyFile}[kind]
-    found = TypeAdapter(what).json_schema(schema_generator=_Documented, ref_template="#/$defs/{model}")
-    made = {"$schema": DIALECT, **_said_in_full(found), "title": KINDS[kind]}
+        found = TypeAdapter(Answer).json_schema(mode="serialization", schema_generator=_Answers)
+    else:
+        # Only the schema itself needs what it describes.
+        from ..library.case import Case
+        from .claims.study_file import StudyFile
+
+        what = {"scene": Case, "study": StudyFile}[kind]
+        found = _said_in_full(TypeAdapter(what).json_schema(schema_generator=_Documented))
+    made = {"$schema": DIALECT, **found, "title": KINDS[kind]}
     if output is not None:
         text = json.dumps(made, indent=1, ensure_ascii=False)
         write(Path(output), lambda file: file.write(f"{text}\n".encode()))
@@ -56,6 +65,16 @@ class _Documented(GenerateJsonSchema):
             for part in (self.get_schema_from_definitions(choice["$ref"]) for choice in found["oneOf"]):
                 part["required"] = list(dict.fromkeys(["type", *part.get("required", [])]))
         return found
+
+
+class _Answers(_Documented):
+    """Schema of what is printed: nothing else stands there, and null for a number not known or not finite."""
+
+    def dataclass_schema(self, schema):
+        return super().dataclass_schema(schema) | {"additionalProperties": False}
+
+    def float_schema(self, schema):
+        return {"type": ["number", "null"]}
 
 
 def _said_in_full(node):

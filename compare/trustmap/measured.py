@@ -3,13 +3,14 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
-from math import exp
+from math import exp, inf
 
 import numpy as np
 
 from scene import Cone, Indent, PowerLaw, Profile, Scene, SelfAffine, Slide, Sphere, Topography
 
 from . import shipped, table
+from .groups import MOST_STIFFENING
 from .model import NAMES
 
 # Tolerated extrapolation, as a fraction of the measured range.
@@ -107,16 +108,23 @@ def beyond_measured(place: np.ndarray) -> dict[str, str]:
     (low, high), (least, greatest) = _ranges(), limits()
     slack = SLACK * (high - low)
     found = {}
-    for name, *numbers in zip(NAMES, np.clip(place, least, greatest), low - slack, high + slack, strict=True):
-        value, start, end = numbers if name in PLAIN else np.exp(numbers)
+    for name, *values in zip(NAMES, np.clip(place, least, greatest), low - slack, high + slack, strict=True):
+        value, start, end = values if name in PLAIN else np.exp(values)
         if not start <= value <= end:
             found[name] = f"{SYMBOLS.get(name, name)} = {value:.3g}, where {start:.3g} to {end:.3g} was measured"
     return found
 
 
+def numbers(groups: Mapping[str, float]) -> dict[str, float]:
+    """Groups as numbers, of which most are logarithms; stiffening beyond the scale is infinite."""
+    found = {name: value if name in PLAIN else exp(value) for name, value in groups.items()}
+    endless = found["stiffening"] > MOST_STIFFENING * (1 - SLACK)
+    return found | ({"stiffening": inf} if endless else {})
+
+
 def placed(groups: Mapping[str, float]) -> str:
     """Place on the map, in standard groups with their numbers."""
-    return ", ".join(f"{SYMBOLS[name]} = {groups[name]:.2g}" for name in PLACED)
+    return ", ".join(f"{SYMBOLS[name]} = {groups[name]:.2g}" for name in PLACED).replace("= inf", "is infinite")
 
 
 def nearest(name: str, place: np.ndarray) -> Iterator[Neighbour]:
@@ -126,7 +134,5 @@ def nearest(name: str, place: np.ndarray) -> Iterator[Neighbour]:
     apart = shipped.model(name).process.distances(place, found.groups)
     apart[np.isnan(found.logarithm)] = np.inf
     for row in np.argsort(apart)[:NEAREST]:
-        groups = {
-            key: value if key in PLAIN else exp(value) for key, value in zip(NAMES, found.groups[row], strict=True)
-        }
+        groups = numbers(dict(zip(NAMES, found.groups[row], strict=True)))
         yield Neighbour(int(measured["point"][rows[row]]), float(apart[row]), exp(found.logarithm[row]), groups)

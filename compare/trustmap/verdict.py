@@ -20,7 +20,7 @@ from ..solving.amounts import capital, off, seconds, share
 from ..statistics.digits import interval
 from . import shipped
 from .groups import LINE, SPACE, DimensionlessGroups, SmoothReference
-from .measured import PLAIN, SYMBOLS, Neighbour, as_judged, beyond_measured, limits, nearest, placed, unmeasured
+from .measured import SYMBOLS, Neighbour, as_judged, beyond_measured, limits, nearest, numbers, placed, unmeasured
 from .model import MOST_SCATTER, NORMAL, lost
 from .ratio import LAW, RATIOS, asked_of
 
@@ -205,7 +205,8 @@ def _advised(scene):
             return _smooth(scene)
         smooth = SmoothReference.of(scene)
         groups = DimensionlessGroups.of(scene, smooth)
-        named = {name: value if name in PLAIN else exp(value) for name, value in asdict(groups).items()}
+        stiffening = scene.solid.glassy_modulus / scene.solid.static_modulus
+        named = numbers(asdict(groups)) | {"stiffening": stiffening}
     except (SolveError, ArithmeticError, ValueError) as error:
         return _unknown(scene, f"Off the map: the smooth body in its place has no answer ({error}).")
     place = np.array(astuple(groups))

@@ -9,13 +9,18 @@ import numpy as np
 import pytest
 import xarray
 from matplotlib.figure import Figure
+from scene_files import SCENE, SMALL
 from small_cases import SLIDING, TINY
+from typer.testing import CliRunner
 
 import compare
 from bem3d import BEM
+from compare import commands
+from compare.cli.app import app
 from compare.solving.parameter_grid import ParameterGrid, on_two_grids
 from compare.statistics.finding import COLUMNS, Claim
 from compare.statistics.jackknife import friction
+from compare.studies.sweep.study import Sweep
 from mdr1d import MDR
 from scene import Scene
 from scene.reading import InvalidInput, made
@@ -31,6 +36,31 @@ def shown(thing):
 
 
 @pytest.fixture(scope="module")
+def valid():
+    """What a text says in JSON, of which the schema of answers allows everything and nothing beside it."""
+    jsonschema = pytest.importorskip("jsonschema")
+    allowed = jsonschema.Draft202012Validator(compare.schema("answers"))
+
+    def valid(text):
+        told = json.loads(text, parse_constant=pytest.fail)
+        allowed.validate(told)
+        assert not allowed.is_valid(told | {"more": 0})
+        return told
+
+    return valid
+
+
+def printed(*arguments):
+    return CliRunner().invoke(app, [*map(str, arguments), "--json"], catch_exceptions=False).stdout
+
+
+@pytest.mark.parametrize("asked", ["trust hertz", "plan thin-layer", "scenes", "study", "new hertz"])
+def test_every_command_answers_in_json_as_its_schema_says(valid, asked, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert valid(printed(*asked.split()))
+
+
+@pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     return tmp_path_factory.mktemp("found")
 
@@ -40,7 +70,7 @@ def found(folder):
     return compare.run({"tiny": TINY}, folder, workers=1)
 
 
-def test_a_run_prints_nothing_and_what_it_returns_says_what_the_command_prints(folder, found, capfd):
+def test_a_run_prints_nothing_and_what_it_returns_says_what_the_command_prints(folder, found, capfd, valid):
     assert str(found.path.resolve()) in str(found)
     assert repr(found) == str(found)
     assert found.page.answer
@@ -48,6 +78,7 @@ def test_a_run_prints_nothing_and_what_it_returns_says_what_the_command_prints(f
     assert capfd.readouterr() == ("", "")
     assert (again.swept.solved, again.swept.reused, again.path) == (0, found.swept.solved, None)
     assert list(again.table.columns) == list(COLUMNS)
+    assert valid(commands.as_json(found))["page"] == str(found.path)
 
 
 def test_a_run_shows_itself_in_a_notebook(found):
@@ -83,9 +114,11 @@ def test_a_plan_is_asked_of_a_scene_a_case_or_a_file(tmp_path):
     assert all(str(each) in of_scene.details for each in of_scene.values())
 
 
-def test_a_sweep_is_a_dataset_of_every_draw_with_means_and_intervals(tmp_path):
+def test_a_sweep_is_a_dataset_of_every_draw_with_means_and_intervals(tmp_path, valid):
+    scene, output = tmp_path / "scene.toml", tmp_path / "found"
+    scene.write_text(SCENE + SMALL)
     answers = compare.sweep(
-        TINY, speed=[0.1, 0.0], load=[0.5, 1.0], draws=2, output=tmp_path, workers=1, report=False
+        scene, speed=[0.1, 0.0], load=[0.5, 1.0], draws=2, output=output, workers=1, report=False
     )
     assert dict(answers.sizes) == {"solver": 2, "grid": 2, "speed": 2, "load": 2, "seed": 2}
     assert answers.speed.values.tolist() == [0.0, 0.1]
@@ -103,11 +136,17 @@ def test_a_sweep_is_a_dataset_of_every_draw_with_means_and_intervals(tmp_path):
     assert drawing._repr_png_().startswith(b"\x89PNG")
     box, (width, height) = drawing.get_tightbbox(), drawing.get_size_inches()
     assert min(box.x0, box.y0, width - box.x1, height - box.y1) >= 0  # nothing is cut where it is saved as it is
-    again = compare.sweep(TINY, speed=[0.0, 0.1], load=[0.5, 1.0], draws=2, output=tmp_path, report=False)
+    again = compare.sweep(scene, speed="0 m/s, 10cm/s", load="0.5N..1N:2", draws=2, output=output, report=False)
     xarray.testing.assert_identical(again, answers)
     answers.to_netcdf(tmp_path / "copy.nc", engine="h5netcdf")
     with xarray.open_dataset(tmp_path / "copy.nc", engine="h5netcdf") as copy:
         xarray.testing.assert_identical(copy.load(), answers)
+    asked = "sweep", scene, "--speed", "0 m/s,10cm/s", "--load", "0.5 N", "--load", "1N"
+    told = valid(printed(*asked, "--draws", 2, "--output", output, "--no-report"))
+    row = next(each for each in told["tables"]["means-friction"] if each["load"] == 0.5)
+    mean = answers.friction_coefficient_mean.sel(solver="BEM", speed=0.1, load=0.5).item()
+    assert row["friction_coefficient (3D)"] == mean
+    assert row["1D/3D"] == pytest.approx(row["friction_coefficient (1D)"] / mean)
 
 
 def test_a_dataset_names_its_scene_version_and_seeds_and_its_axes_have_names_and_units(folder, found):
@@ -142,12 +181,28 @@ def test_a_smooth_sweep_has_no_draws_and_the_grid_alone_in_its_interval(tmp_path
         ({"speed": [0.1], "draws": 0}, "draws = 0"),
         ({"speed": [float("nan")]}, "speed = nan"),
         ({"speed": itertools.count(1)}, "speed: more than 1,000 values"),
+        ({"speed": "1mm/s..5mm"}, "speed = '5mm': .*a speed, as 20 mm/s"),
+        ({"load": ["1 N", "0N..2N"]}, "load = '0N': finite numbers above zero"),
+        ({"depth": "1um..2um:1e3"}, "depth = '1um..2um:1e3': points = '1e3': a whole number"),
     ],
 )
 def test_a_mistake_in_a_sweep_is_said_before_anything_is_solved(tmp_path, asked, message):
     with pytest.raises(InvalidInput, match=message):
         compare.sweep(SLIDING, output=tmp_path / "no", **asked)
     assert not (tmp_path / "no").exists()
+
+
+@pytest.mark.parametrize(
+    ("given", "numbers"),
+    [
+        ("1mm/s..1m/s", 10 ** (np.arange(10) / 3 - 3)),
+        ("8mm/s..1mm/s:4", [1e-3, 2e-3, 4e-3, 8e-3]),
+        (["1 mm/s, 0 m/s", 0.5, "3mm/s..3.1mm/s"], [0, 1e-3, 3e-3, 3.1e-3, 0.5]),
+        (None, [0.1]),
+    ],
+)
+def test_speeds_are_numbers_texts_with_units_and_ranges_of_three_to_a_decade(given, numbers):
+    assert Sweep.of(SLIDING, given).speeds == pytest.approx(tuple(numbers))
 
 
 class Twice(compare.Study):

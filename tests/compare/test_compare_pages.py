@@ -35,6 +35,7 @@ from mdit_py_plugins.substitution import substitution_plugin
 from page_samples import FINDINGS, HOSTILE, MEANS, PLACE, ROWS, hostile_page, page, written
 from pandas import DataFrame
 from pandas.testing import assert_frame_equal
+from PIL import Image
 
 from compare.report import csvfiles, latex, manifest, render
 from compare.report import export as tables
@@ -393,6 +394,9 @@ def test_a_figure_drawn_again_from_its_table_is_the_same_picture(folder, tmp_pat
     assert (tmp_path / "sphere/friction.png").read_bytes() == (folder / "sphere/friction.png").read_bytes()
     other = redraw(folder, "nature", output=tmp_path / "nature")
     assert other[0].read_bytes() != written[0].read_bytes()
+    of_a_width, _, _ = redraw(folder, output=tmp_path / "narrow", width="84 mm")
+    with Image.open(of_a_width) as drawn:
+        assert drawn.width == pytest.approx(84 / 25.4 * 300, abs=1)
 
 
 def test_a_changed_table_gives_another_picture(folder, tmp_path):
@@ -697,7 +701,13 @@ def test_nothing_is_written_out_of_the_folder(copied, tmp_path):
 
 @pytest.mark.parametrize(
     ("given", "said"),
-    [({"journal": "natur"}, "mean nature"), ({"style": "nowhere"}, "no style"), ({"style": {"a": 1}}, "a")],
+    [
+        ({"journal": "natur"}, "mean nature"),
+        ({"style": "nowhere"}, "no style"),
+        ({"style": {"a": 1}}, "a"),
+        ({"width": "5 m"}, "width = '5 m': 80 mm to 200 mm"),
+        ({"width": "84 s"}, "width = '84 s': a length"),
+    ],
 )
 def test_a_look_that_does_not_exist_is_refused(folder, tmp_path, given, said):
     with pytest.raises(InvalidInput, match=said):

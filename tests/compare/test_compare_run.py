@@ -9,7 +9,9 @@ import pytest
 import compare
 from bem3d import BEM
 from compare.library.case import Case, Variations
+from compare.library.ready import ready
 from compare.report.export import TABLES
+from compare.report.page import Plot, Table
 from compare.report.plots import style
 from compare.report.redraw import FIGURES
 from compare.solving import netcdf
@@ -226,6 +228,36 @@ def test_one_value_of_everything_is_drawn_without_a_warning(motion):
     with style.applied():
         for plot in run.judge(answers).plots:
             plot.figure().draw_without_rendering()
+
+
+def test_several_scenes_stand_side_by_side_in_one_table_and_one_figure():
+    few = Variations(
+        speeds=(0.1, 1.0), pressing=(1.0, 2.0), load_speeds=(0.1, 0.3), depths=(1.0,), surfaces=2, profiles=2
+    )
+    motions = {"at load": CASE.motion, "at depth": DEEP.motion, "at rest": Indent(load=1.0)}
+    run = Run({name: replace(CASE, study=few, motion=motion) for name, motion in motions.items()})
+    answers = run.answers(invented_of(run))
+    page = run.judge(answers).page("", answers)
+    table = next(each.frame for each in page.blocks if isinstance(each, Table)).set_index(["case", "quantity"])
+    assert table.loc["at load"].index.tolist() == ["friction coefficient", "depth reached [m]"]
+    assert table.loc["at rest"].index.tolist() == ["depth reached [m]"]
+    assert table.loc[("at load", "friction coefficient"), "1D/3D"] == pytest.approx(FRICTION)
+    assert table.loc[("at depth", "normal force [N]"), "1D/3D"] == pytest.approx(FORCE)
+    plot = next(each for each in page.blocks if isinstance(each, Plot))
+    assert [set(each["case"]) for each in plot.tables.values()] == 2 * [{"at load", "at depth"}]
+    assert len(plot.tables["cases-friction-load"]) == 8  # two loads, cases and models, at one speed each
+    with style.applied():
+        plot.figure().draw_without_rendering()
+
+
+def test_several_files_are_named_by_themselves_and_two_of_one_name_refused(tmp_path):
+    assert [*Run.of(["paper-cone", "quick-start"]).cases] == ["paper-cone", "quick-start"]
+    assert [*Run.of(["quick-start"]).cases] == [*Run.of("quick-start").cases]
+    (tmp_path / "quick-start.toml").write_text(ready()["paper-cone"].text)
+    with pytest.raises(InvalidInput, match=r"quick-start.toml, .*quick-start.toml: both are called quick-start"):
+        Run.of([tmp_path / "quick-start.toml", "quick-start"])
+    with pytest.raises(InvalidInput, match="several have names"):
+        Run.of([CASE, DEEP])
 
 
 @pytest.mark.parametrize(("body", "exponent"), [(Sphere(radius=1e-2), -1.5), (Cone(angle=0.2), -2.0)])

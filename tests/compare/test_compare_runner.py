@@ -17,6 +17,7 @@ from pydantic.dataclasses import dataclass
 from rich.console import Console
 from stand_in_solver import SCENE, Heard, Here, Stand, loads
 
+from bem3d import BEM
 from compare.solving import runner
 from compare.solving.hold import hold
 from compare.solving.outcome import Outcome, Row
@@ -25,6 +26,7 @@ from compare.solving.store import Store
 from compare.solving.task import SceneTask as Task
 from compare.solving.terminal import SweepBar
 from compare.solving.workers import ONE_THREAD, STILLBORN, Processes
+from mdr1d import MDR
 from scene import EmptyContact, Indent
 from scene.reading import InvalidInput
 
@@ -324,3 +326,25 @@ def test_a_bar_moves_before_the_first_task_is_solved_never_falls_and_is_full_at_
     assert all(earlier < later for earlier, later in pairwise(shown))
     assert shown[20] == pytest.approx(100 * 4 / 6)
     assert shown[-1] == pytest.approx(100)
+
+
+@pytest.mark.parametrize("work", [1.0, 1e9], ids=["expected to take no time", "expected to take minutes"])
+def test_the_time_left_is_about_right_however_long_workers_took_to_start_and_tasks_were_expected_to_take(work):
+    """Two workers start for 6 s; then tasks of equal work take 9 s of one solver and 2 s of the other."""
+    seconds = {MDR(): 9.0, BEM(): 2.0}
+    pairs = zip(*(loads(*map(float, range(1, 7)), solver=each) for each in seconds), strict=True)
+    tasks = [replace(task, work=work) for pair in pairs for task in pair]
+    waiting, free, now = list(tasks), {6.0: None, 6.001: None}, 0.0
+    with SweepBar(Console(file=io.StringIO()), clock=lambda: now) as told:
+        told.planned(tasks, 0)
+        while free:
+            now = min(free)
+            if (task := free.pop(now)) is not None:
+                told.finished(task, Outcome((Row(1.0, seconds=seconds[task.solver]),)))
+            if waiting:
+                task = waiting.pop(0)
+                told.started(task)
+                free[now + seconds[task.solver]] = task
+            left = max(free, default=now) + sum(seconds[each.solver] for each in waiting) / 2 - now
+            if told.done > 2 and left > 4:
+                assert int(told._left().removesuffix(" s")) == pytest.approx(left, rel=0.3)

@@ -323,6 +323,12 @@ def test_it_says_where_the_scene_lies_and_what_was_measured_near_it():
     found = trust(PAPER)
     distances = [each.distance for each in found.nearest]
     assert distances == sorted(distances)
+    solids = KELVIN, STANDARD, replace(STANDARD, glassy_modulus=2e11)
+    texts = (str(trust(replace(PAPER, elastomer=each))) for each in solids)
+    places = [next(line for line in each.splitlines() if line.startswith("place")) for each in texts]
+    assert [each.rpartition(", ")[2] for each in places] == [
+        f"E_g/E_r {each}" for each in ("is infinite", "= 10", "= 2e+05")
+    ]
 
 
 def test_waves_in_full_contact_have_the_friction_and_pressure_of_a_drawn_surface():

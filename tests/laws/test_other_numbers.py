@@ -20,6 +20,8 @@ import mdr1d
 import scene
 from bem3d import BEM
 from compare.library.case import Variations
+from compare.report.plots.journals import JOURNALS
+from compare.report.redraw import in_columns
 from compare.studies.animate.animation import animate
 from compare.studies.mastercurve.study import Mastercurve
 from compare.studies.mastercurve.temperatures import Constants
@@ -367,6 +369,7 @@ CALLED = [
     Place("compare.sweep(speed)", lambda given: asked(speed=given), (0.1, 0.3), "m/s"),
     Place("compare.sweep(load)", lambda given: asked(load=given), (0.1, 0.3), "N"),
     Place("compare.sweep(depth)", lambda given: asked(depth=given), (1e-5, 2e-5), "m"),
+    Place("compare.redraw(width)", lambda given: in_columns(JOURNALS["default"], given).single, 0.1, "m"),
     Place("compare.sweep(draws)", lambda given: asked(draws=given), 2),
     *(
         Place(f"compare.plan({name})", lambda given, name=name: foretold(name, given), 0.1)

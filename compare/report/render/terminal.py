@@ -14,7 +14,7 @@ from .columns import columns
 WIDTH = 100
 MORE = "Every number stands on the page; -v prints it too, as `report.details` does in Python."
 # Largest table that a terminal can show.
-MOST_ROWS, WIDEST = 40, 200
+MOST_ROWS, WIDEST = 100, 200
 
 
 def text(page: Page, path: Path | None = None, whole: bool = True) -> str:

@@ -4,6 +4,7 @@ import errno
 import os
 import subprocess
 import tempfile
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -12,14 +13,15 @@ from matplotlib.animation import AbstractMovieWriter, FFMpegWriter, PillowWriter
 
 from bem3d import BEM
 from mdr1d import MDR
-from scene import Refused, Scene, SolveError, Solver
+from scene import Refused, Scene, SolveError
 from scene.protocol import refuse
 from scene.quantities import SECOND, WHOLE, takes
 
 from ...library.lookup import SceneLike, case_of
 from ...report.plots import style
+from ...solving.cost import SECONDS
 from ...solving.hold import hold
-from ...solving.runner import SweepProgress, sweep
+from ...solving.runner import Progress, SweepProgress, sweep
 from ...solving.store import Store, make, refuse_impossible, write
 from ...solving.task import SceneTask
 from ..report import SOLVED
@@ -41,7 +43,7 @@ def animate(
     seconds: float = 6.0,
     folder: str | Path = "crosscheck-animation",
     workers: int | None = None,
-    progress: SweepProgress | None = None,
+    progress: Progress | None = None,
 ) -> Path:
     """March through the program of a scene in one and in three dimensions, write what is seen; returns the path.
 
@@ -57,10 +59,12 @@ def animate(
     path = Path(output or f"{Path(scene).stem if isinstance(scene, str | Path) else 'scene'}.gif")
     case = case_of(scene)
     check(path, frames, seconds)
-    store = Store(Path(folder) / SOLVED)
-    with hold([Path(folder)], progress.said if progress else str):
-        film = filmed(case.scene, case.mdr, case.bem, frames, store, workers, progress)
-        record(film, path, seconds)
+    store, progress = Store(Path(folder) / SOLVED), progress or Progress()
+    with hold([Path(folder)], progress.told):
+        with progress.solving() as told:
+            film = filmed(case.scene, case.mdr, case.bem, frames, store, workers, told)
+        with progress.writing(len(film.times)) as drawn:
+            record(film, path, seconds, drawn)
     return path
 
 
@@ -76,12 +80,12 @@ def filmed(
     """Film of a scene, solved or found in the store. Raises Refused, SolveError."""
     scene = started(scene)
     mdr, bem = replace(mdr, frames=frames), replace(bem, frames=frames)
-    solvers: tuple[Solver, Solver] = mdr, bem
     tasks, refused = [], []
-    for each in solvers:
+    for each in (mdr, bem):
         try:
             refuse(each, scene)
-            tasks.append(SceneTask(each, (scene,), keeps_fields=True))
+            work = (each.plan(scene).seconds.value or 0.0) / SECONDS
+            tasks.append(SceneTask(each, (scene,), keeps_fields=True, work=work))
         except Refused as error:
             refused.append(str(error))
     if not tasks:
@@ -115,8 +119,10 @@ def check(path: Path, frames: int, seconds: float) -> None:
     make(path.parent)
 
 
-def record(film: Film, path: Path, seconds: float) -> None:
+def record(film: Film, path: Path, seconds: float, told: Callable[[str], Any] = str) -> None:
     """Draw every instant of a film in the current look and write the file, whole or not at all.
+
+    told : called with each frame, in words, once it is drawn
 
     Raises Refused as `check`, SolveError with the words of ffmpeg where it fails.
     """
@@ -127,15 +133,15 @@ def record(film: Film, path: Path, seconds: float) -> None:
     with style.applied(), tempfile.TemporaryDirectory() as folder:
         made = Path(folder) / path.name
         try:
-            _draw(film, writer, made)
+            _draw(film, writer, made, told)
         except (subprocess.CalledProcessError, BrokenPipeError) as error:
-            told = getattr(error, "stderr", None) or str(error)
-            raise SolveError(f"ffmpeg wrote no {path.name}: {told.strip()}") from error
+            why = getattr(error, "stderr", None) or str(error)
+            raise SolveError(f"ffmpeg wrote no {path.name}: {why.strip()}") from error
         content = made.read_bytes()
     write(path, lambda file: file.write(content))
 
 
-def _draw(film, writer, path):
+def _draw(film, writer, path, told):
     """Frames of every instant. Panels are laid out once, as laying out takes as long as all else."""
     shown, last = MarchFigure(film), len(film.times) - 1
     shown.drawing.set_dpi(DOTS_PER_INCH)
@@ -147,3 +153,4 @@ def _draw(film, writer, path):
         for k in range(last + 1):
             shown.show(k)
             writer.grab_frame()
+            told(f"frame {k + 1} of {last + 1}")

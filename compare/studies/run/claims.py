@@ -119,11 +119,22 @@ class CaseFindings:
         """Draws of two grids, by "curve/model"."""
         return {place: pooled(each) for place, each in self.answers.items()}
 
+    def own(self, mean: str) -> dict[str, tuple[float, ...]]:
+        """A mean of the scene as it stands, of each model and over that of the reference, with its interval.
+
+        mean : see `accuracy.MEANS`
+        """
+        asked: dict[str, tuple[str, ...]] = {each.label: (each.name,) for each in self._claiming(OWN, WORDS[mean])}
+        for each in self._judged(OWN, WORDS[mean]):
+            asked[self.models.beside(each.name)] = each.name, self.models.reference
+        found = {label: self._ratio(OWN, names, *MEANS[mean]).interval for label, names in asked.items()}
+        return {label: tuple(float(end[0, 0]) for end in each) for label, each in found.items()}
+
     @property
     def _found(self):
         return [
             *self._slow(),
-            *(found for _, _, found in self.own),
+            *(found for _, _, found in self.own_ratios),
             *(found for _, _, found in self.forces(ROUGH_FORCE)),
             *(found for _, _, found in self.forces(SMOOTH_FORCE)),
             *(each for shifted in self.shifted for each in shifted.findings),
@@ -145,7 +156,7 @@ class CaseFindings:
                 yield self._finding(_slow(model, self.models[self.models.reference]), found, (lowest, 0), **told)
 
     @cached_property
-    def own(self) -> list[tuple[str, Model, Finding]]:
+    def own_ratios(self) -> list[tuple[str, Model, Finding]]:
         """Means of the scene as it stands, of each model over that of the reference."""
         rows = []
         for name in own_means(self.case):

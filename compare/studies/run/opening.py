@@ -26,25 +26,21 @@ def opening(case: CaseFindings, advice: Advice) -> str:
     return " ".join([*told, _averaged(case)]).strip()
 
 
-def _own(case):
-    """Points of the scene as it stands, by model."""
-    return case.points[case.points["curve"] == OWN].set_index("solver")
-
-
 def _answers(case: CaseFindings, mean: str) -> str:
     """Answers of the models with their intervals, and how far they are from the reference."""
-    points, answers = _own(case), []
-    factor, unit = prefixed(points[f"{mean}_mean"], UNITS[mean]) if mean in UNITS else (1.0, "")
-    for model in case.models:
-        if model.name in points.index and WORDS[mean] in model.answers:
-            value, low, high = (
-                factor * points.loc[model.name, f"{mean}_{end}"] for end in ("mean", "low", "high")
-            )
-            said = with_unit(interval(value, low, high, 3), unit) if isfinite(value) else "not known"
-            answers.append(f"{said} in {model.label}")
+    found = case.own(mean)
+    answers = {model.label: found[model.label] for model in case.models if model.label in found}
+    values = [value for value, _, _ in answers.values()]
+    factor, unit = prefixed(values, UNITS[mean]) if mean in UNITS else (1.0, "")
+    told = [f"{_number(factor, each, unit)} in {label}" for label, each in answers.items()]
     reference = case.models[case.models.reference].label
-    apart = [_apart(model.label, found, reference) for name, model, found in case.own if name == mean]
-    return f"{capital(WORDS[mean])} {', '.join(answers)}{': ' if apart else ''}{'; '.join(apart)}."
+    apart = [_apart(model.label, found, reference) for name, model, found in case.own_ratios if name == mean]
+    return f"{capital(WORDS[mean])} {', '.join(told)}{': ' if apart else ''}{'; '.join(apart)}."
+
+
+def _number(factor, found, unit):
+    value, low, high = (factor * each for each in found)
+    return with_unit(interval(value, low, high, 3), unit) if isfinite(value) else "not known"
 
 
 def _apart(label: str, ratio: Finding, reference: str) -> str:
@@ -74,7 +70,7 @@ def _advised(cheap: Correction, law: Correction | None) -> str:
 
 def _averaged(case: CaseFindings) -> str:
     """What the numbers are means of; empty of a smooth body."""
-    points = _own(case)
+    points = case.points[case.points["curve"] == OWN].set_index("solver")
     drawn = [
         f"{points.loc[model.name, 'surfaces']:.0f} {model.draws} in {model.label}"
         for model in case.models.drawn

@@ -15,7 +15,7 @@ from scene import Refused, Scene, notes
 from scene.result import labelled, provenance
 
 from ...library.case import Case, NotCompared, doubted
-from ...library.describe import described, folders
+from ...library.describe import conditions, described, folders
 from ...library.lookup import SceneLike, named_cases
 from ...models.table import ModelLike, Models, listed
 from ...report.page import Block, Findings, Plot, Section, Table, Text
@@ -27,7 +27,7 @@ from ...solving.continuation import by_contact
 from ...solving.outcome import Outcome
 from ...solving.parameter_grid import Instead, ParameterGrid
 from ...solving.task import SceneTask, Task
-from ...solving.vocabulary import attributes
+from ...solving.vocabulary import attributes, head
 from ...statistics import eq23, finding
 from ...statistics.allocation import GROWTH, DrawnSurfaces, needed, unreached
 from ...statistics.finding import Finding
@@ -52,6 +52,7 @@ from .curves import (
     scaled_speed,
     slow_friction,
 )
+from .figures import cases as friction_of_cases
 from .figures import force_depth, friction_curves, smooth_limit
 from .opening import opening
 
@@ -82,12 +83,14 @@ class Run(Study):
     @classmethod
     def of(
         cls,
-        scene: SceneLike | Mapping[str, SceneLike] | None = None,
+        scene: SceneLike | Sequence[str | Path] | Mapping[str, SceneLike] | None = None,
         models: Sequence[ModelLike] | None = None,
         reference: str | None = None,
         interval: float | str | None = None,
     ) -> "Run":
-        """Run of a scene, of several by name, or of the paper's sphere and cone. Raises InvalidInput, Refused."""
+        """Run of a scene, of several files or by name, or of the paper's two. Raises InvalidInput, Refused."""
+        if isinstance(scene, Sequence) and not isinstance(scene, str) and len(scene) == 1:
+            scene = scene[0]
         asked = scene if isinstance(scene, str | Path) else "scene"
         wanted = None if interval is None else share_of("interval", interval)
         try:
@@ -250,6 +253,7 @@ class Run(Study):
             for case in cases
         ]
         if len(cases) > 1:
+            blocks += _side_by_side(cases)
             every = Table("summary", summary(cases), "Number and verdict, or counts of verdicts, of each case.")
             blocks.append(Section("Every claim in every case", [every]))
         first = [opening(each, self.trusts[each.name]) for each in cases]
@@ -294,6 +298,22 @@ def _blocks(found: CaseFindings, answers, trusted: Advice) -> list[Block]:
         *blocks,
         Table(f"{folder}times", times, "Processor time of all solves, those of earlier runs included."),
     ]
+
+
+def _side_by_side(cases: Sequence[CaseFindings]) -> list[Block]:
+    """Friction, and depth or force, of all scenes as they stand in one table, and their friction in one figure."""
+    rows = []
+    for each, name in ((case, name) for case in cases for name in own_means(case.case)):
+        row: dict[str, Any] = {"case": each.name, "contact": conditions(each.case.motion), "quantity": head(name)}
+        for label, (value, low, high) in each.own(name).items():
+            row |= {label: value, f"{label}_low": low, f"{label}_high": high}
+        rows.append(row)
+    told = "Every scene as it stands: means with intervals of 95 %, and their ratios."
+    drawn = friction_of_cases.plot(
+        {each.name: each.points[each.points["solver"].isin(each.models.labels)] for each in cases},
+        {each.name: each.case.motion.speed for each in cases},
+    )
+    return [Table(friction_of_cases.NAME, DataFrame(rows), told), *([drawn] if drawn else [])]
 
 
 def summary(cases: Sequence[CaseFindings]) -> DataFrame:

@@ -1,10 +1,9 @@
 """A parameter grid of a scene of one's own in both dimensionalities: `compare.sweep`."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from itertools import islice, product
-from math import isfinite
+from itertools import product
 from typing import Any
 
 import xarray
@@ -12,20 +11,17 @@ from matplotlib.figure import Figure
 from pandas import DataFrame
 
 from scene import Indent, Slide, notes
-from scene.motion import PRESSES, UNITS
-from scene.plain import one_by_one
-from scene.printable import brief
-from scene.quantities import SPEED
+from scene.motion import UNITS
 from scene.reading import InvalidInput, whole
 from scene.result import provenance
 
 from ...library.case import Case, doubted
 from ...library.lookup import SceneLike, case_of
 from ...models.table import ModelLike, Models
-from ...report.page import Findings, Table
+from ...report.page import Table
 from ...report.plots.rendering import finished
 from ...solving.amounts import share_of
-from ...solving.cost import MOST_DRAWS, MOST_VALUES
+from ...solving.cost import MOST_DRAWS
 from ...solving.parameter_grid import COARSE, FINE, LEVELS, Instead, ParameterGrid, on_two_grids
 from ...solving.vocabulary import attributes
 from ...statistics.allocation import GROWTH, needed, unreached
@@ -38,6 +34,7 @@ from ..run.curves import models_of
 from ..sampling import answered, in_strata, unanswered
 from ..study import Judgement, Study
 from . import figure as plots
+from .values import Values, values_of
 
 FEW = 8  # draws where nothing is asked
 
@@ -70,9 +67,9 @@ class Sweep(Study):
     def of(
         cls,
         scene: SceneLike,
-        speed: Sequence[float],
-        load: Sequence[float] | None = None,
-        depth: Sequence[float] | None = None,
+        speed: Values | None = None,
+        load: Values | None = None,
+        depth: Values | None = None,
         draws: int | None = None,
         models: Sequence[ModelLike] | None = None,
         reference: str | None = None,
@@ -80,13 +77,14 @@ class Sweep(Study):
     ) -> "Sweep":
         """The sweep of a scene, a case, a file or a ready scene. Raises InvalidInput, Refused."""
         case = case_of(scene)
+        case.refuse()
         if load is not None and depth is not None:
             raise InvalidInput("load, depth: both given, give one of them")
         name, values = ("load", load) if depth is None else ("depth", depth)
         if values is None:
             name, values = case.motion.pressed_by, [case.motion.greatest]
-        speeds = _numbers("speed", speed, least=0.0)
-        prescribed = _numbers(name, values)
+        speeds = values_of("speed", case.motion.speed if speed is None else speed, least=0.0)
+        prescribed = values_of(name, values)
         if draws is not None and interval is not None:
             raise InvalidInput("draws, interval: both given, give one of them")
         drawn = whole("draws", FEW if draws is None else draws, MOST_DRAWS)
@@ -168,11 +166,26 @@ class Sweep(Study):
 
     def judge(self, answers: xarray.DataTree) -> Judgement:
         """Friction, else force or depth, of each model over the reference at every contact, without a claim."""
-        findings, table = list(self._findings(answers)), means(self.dataset(answers))
-        plot = [plots.plot(table)] if max(self.speeds) > 0 else []
-        shown = Table("means", table, "Means over draws with intervals of 95 %.")
+        findings, dataset = list(self._findings(answers)), self.dataset(answers)
+        plot = [plots.plot(means(dataset))] if max(self.speeds) > 0 else []
         answer = [*sentences(findings), *self._unreached(answers)]
-        return Judgement(findings, answer, [*plot, Findings(findings), shown], self.setting)
+        return Judgement(findings, answer, [*plot, *self._tables(dataset, findings)], self.setting)
+
+    def _tables(self, dataset, findings) -> Iterator[Table]:
+        """Friction, and depth or force, a row a contact and a column a model; what is judged also as a ratio."""
+        prescribed = self.case.motion.pressed_by
+        places = DataFrame(list(product(self.speeds, self.values)), columns=["speed", prescribed])
+        for quantity, speeds in reversed([*wanted(prescribed, self.speeds, max(self.speeds) > 0)]):
+            frame = places.copy()
+            for (solver, label), end in product(self.models.labels.items(), ("_mean", "_low", "_high")):
+                values = dataset[f"{quantity}{end}"].sel(solver=solver).values.ravel()
+                frame[f"{quantity} ({label}){end.removeprefix('_mean')}"] = values
+            own = [each for each in findings if each.claim.id == f"sweep.{WORDS[quantity]}"]
+            for beside in dict.fromkeys(each.dimension for each in own):
+                rows = [(each.value, *each.interval) for each in own if each.dimension == beside]
+                frame[[beside, f"{beside}_low", f"{beside}_high"]] = rows
+            told = f"Mean {WORDS[quantity]} at every contact, with intervals of 95 %."
+            yield Table(f"means-{WORDS[quantity]}", frame[frame["speed"].isin(speeds)], told)
 
     @property
     def _reference(self):
@@ -257,34 +270,3 @@ def means(dataset: xarray.Dataset) -> DataFrame:
 def figure_of(dataset: xarray.Dataset) -> Figure:
     """Friction of a sweep against speed, or against load if there is one speed: a matplotlib Figure."""
     return finished(plots.plot(means(dataset)))
-
-
-def _numbers(name, values, least=None):
-    """Distinct finite numbers in SI as a tuple. Raises InvalidInput."""
-    unit = SPEED if name == "speed" else PRESSES[name]
-    single = isinstance(values, str) or getattr(values, "ndim", None) == 0 or not isinstance(values, Iterable)
-    try:
-        given = [values] if single else list(islice(one_by_one(values), MOST_VALUES + 1))
-    except ValueError as error:
-        raise InvalidInput(f"{name}: {error}") from None
-    if len(given) > MOST_VALUES:
-        raise InvalidInput(f"{name}: more than {MOST_VALUES:,} values: at most so many are solved at")
-    found = [_number(name, value, unit, least) for value in given]
-    if not found or len(set(found)) < len(found):
-        raise InvalidInput(f"{name} = {brief(repr(given))}: at least one, and each once")
-    return tuple(sorted(found))
-
-
-def _number(name, given, unit, least):
-    """One of them. Raises InvalidInput."""
-    allowed = "finite numbers of zero or more" if least == 0 else "finite numbers above zero"
-    try:
-        value = float(unit.value(given))
-        wrong = "" if isfinite(value) and (value > 0 or value == least) else allowed
-    except OverflowError:  # of a whole number beyond those of floating point
-        wrong = allowed
-    except ValueError as error:
-        wrong = f"{allowed}, {str(error).removeprefix('Input should be ')}"
-    if wrong:
-        raise InvalidInput(f"{name} = {brief(repr(given))}: {wrong}")
-    return value

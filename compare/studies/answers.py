@@ -1,0 +1,141 @@
+"""What `--json` prints of every command, as types, from which its JSON schema is made."""
+
+from dataclasses import dataclass
+from math import nan
+from pathlib import Path
+from typing import Any, TypeAlias, cast
+
+from pydantic import Field, create_model
+from pydantic_core import to_json
+
+from scene import notes
+from scene.plan import Plan
+
+from ..library.ready import Listing
+from ..report.page import Table
+from ..solving.cost import Cost
+from ..solving.vocabulary import entry
+from ..statistics.finding import Claim, Finding
+from ..trustmap.verdict import Advice
+from .plan import Plans
+from .report import Report
+
+Cell: TypeAlias = str | bool | int | float | None
+_FOUND: Any = {
+    name: (type(value), Field(description=found.text if (found := entry(name)) else name.replace("_", " ")))
+    for name, value in Finding(Claim("", ""), nan).row.items()
+}
+Row: Any = create_model("Row", **_FOUND)
+
+
+@dataclass(frozen=True)
+class Reported:
+    """Of a command that solves, of `study` and `workprecision` with a name, and of `topography`.
+
+    page : file of the page; null if none was written
+    doubts : doubts and notes, which stand before the answer
+    answer : the answer in words
+    findings : one by one, as in findings.csv
+    tables : short tables of the page by name, as in its CSV files: rows of cells by column
+    """
+
+    page: str | None
+    doubts: tuple[str, ...]
+    answer: tuple[str, ...]
+    findings: tuple[Row, ...]
+    tables: dict[str, tuple[dict[str, Cell], ...]]
+
+
+@dataclass(frozen=True)
+class Planned:
+    """Of `plan`.
+
+    solvers : plan of each solver by its name, or in words why there is none
+    trust : worth of cheap answers, the same that `trust` prints
+    contacts, seconds : of `crosscheck run`, at most, and its processor time [s]; null where it solves nothing
+    reason : why it solves nothing; empty where it does
+    doubts, notes : about the scene, and on what was read for it
+    interval, accuracy : what those take, in words; null where they are not asked for
+    """
+
+    solvers: dict[str, Plan | str]
+    trust: Advice
+    contacts: int | None
+    seconds: float | None
+    reason: str
+    doubts: tuple[str, ...]
+    notes: tuple[str, ...]
+    interval: str | None
+    accuracy: str | None
+
+
+@dataclass(frozen=True)
+class Offered:
+    """Scene, study or diagram that comes with the package. title, about : for people"""
+
+    title: str
+    about: str
+
+
+@dataclass(frozen=True)
+class Listed:
+    """Of `scenes`, and of `study` and `workprecision` without a name. offered : by name"""
+
+    offered: dict[str, Offered]
+
+
+@dataclass(frozen=True)
+class Written:
+    """Of `new`, `redraw`, `export` and `animate`. files : that were written"""
+
+    files: tuple[str, ...]
+
+
+# Advice is that of `trust`.
+Answer: TypeAlias = Reported | Advice | Planned | Listed | Written
+
+
+def answer(found: Any) -> Answer:
+    """What `--json` prints of what a command returns."""
+    match found:
+        case Report():
+            tables = {each.name: _rows(each.frame) for each in found.page.every(Table) if not each.long}
+            page = found.page
+            return Reported(_said(found.path), tuple(page.first), tuple(page.answer), _rows(found.table), tables)
+        case Plans():
+            cost = found.cost if isinstance(found.cost, Cost) else None
+            return Planned(
+                solvers={name: each for name, each in found.items() if not isinstance(each, Advice)},
+                trust=cast(Advice, found["trust"]),
+                contacts=cost.contacts if cost else None,
+                seconds=cost.seconds if cost else None,
+                reason="" if cost else str(found.cost),
+                doubts=tuple(found.doubts),
+                notes=tuple(notes(found.scene)),
+                interval=_said(found.interval),
+                accuracy=_said(found.accuracy),
+            )
+        case Listing():
+            return Listed({name: Offered(each.title, each.about) for name, each in found.items()})
+        case Path():
+            return Written((str(found),))
+        case list():
+            return Written(tuple(map(str, found)))
+    return found
+
+
+def written(found: Any) -> str:
+    """The same as JSON, in which a number that is not known or not finite is null."""
+    return to_json(answer(found), indent=1, inf_nan_mode="null", fallback=_plain).decode()
+
+
+def _said(found):
+    return None if found is None else str(found)
+
+
+def _rows(frame):
+    return tuple(frame.to_dict("records"))
+
+
+def _plain(value):
+    return value.item() if hasattr(value, "item") else str(value)
