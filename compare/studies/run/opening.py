@@ -3,6 +3,7 @@
 from math import isfinite
 
 from ...library.describe import conditions
+from ...models.table import Model
 from ...report.plots.prefixes import prefixed
 from ...solving.amounts import capital, off, share
 from ...statistics.digits import interval, with_unit
@@ -12,6 +13,7 @@ from ..accuracy import WORDS
 from .claims import CaseFindings, own_means
 from .curves import OWN
 
+APART = "This map and these means do not agree within their intervals: solve more surfaces."
 UNITS = {"depth_reached": "m", "normal_force": "N"}
 
 
@@ -23,6 +25,11 @@ def opening(case: CaseFindings, advice: Advice) -> str:
         cheap = getattr(advice, WORDS[mean])
         if cheap and {"MDR", "BEM"} <= set(case.models.labels):
             told.append(_advised(cheap, advice.law if cheap is advice.friction else None))
+            told += [
+                APART
+                for name, model, found in case.own_ratios
+                if name == mean and _contradicts(model, found, cheap)
+            ]
     return " ".join([*told, _averaged(case)]).strip()
 
 
@@ -66,6 +73,12 @@ def _advised(cheap: Correction, law: Correction | None) -> str:
         other = f", and the law by {law.times}" if law and law.advice == MULTIPLY else ""
         return f"Do not use it as it is: the trust map multiplies 1D by {cheap.times}{other}, as {why}"
     return f"Do not use it: the trust map says to solve in 3D, as {why}"
+
+
+def _contradicts(model: Model, solved: Finding, foretold: Correction) -> bool:
+    """Whether what is solved and what the trust map foretells of 1D have no ratio in common."""
+    low, high = solved.interval
+    return model.name == "MDR" and (low > foretold.high or high < foretold.low)
 
 
 def _averaged(case: CaseFindings) -> str:
