@@ -101,7 +101,7 @@ def answer(found: Any) -> Answer:
         case Report():
             tables = {each.name: _rows(each.frame) for each in found.page.every(Table) if not each.long}
             page = found.page
-            return Reported(_said(found.path), tuple(page.first), tuple(page.answer), _rows(found.table), tables)
+            return Reported(_said(found.path), tuple(page.first), (*page.opening, *page.answer), _rows(found.table), tables)
         case Plans():
             cost = found.cost if isinstance(found.cost, Cost) else None
             return Planned(
