@@ -1,4 +1,4 @@
-"""Regime map: friction of 1D over 3D against pressure and speed, the contacts behind it, and how well it is known."""
+"""Regime map: friction of 1D over 3D against pressure and speed, contacts behind it, and how well it is known."""
 
 from itertools import product
 from typing import Any
@@ -43,8 +43,9 @@ def plot(table: DataFrame, contacts: DataFrame, about: str, wide: float) -> Plot
     wide : half an interval of 95 %, relative, from which on a scene is to be solved in 3D
     """
     caption = (
-        f"Friction of {about}. Dots, in the colours of the map: such contacts as solved, but of any H, and half to "
-        f"twice the waves. Hatched: an interval of 95 % wider than ±{100 * wide:.0f} %, or beyond what was measured."
+        f"Friction of {about}. Dots, in the colours of the map: such contacts as solved, but of any H, and half "
+        f"to twice the waves. Hatched: an interval of 95 % wider than ±{100 * wide:.0f} %, or beyond what was "
+        "measured."
     )
     known = table["ratio"].dropna()
     alternative = (
