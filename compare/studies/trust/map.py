@@ -79,7 +79,7 @@ def contacts_like(learned: Mapping[str, np.ndarray], family: Scene = FAMILY) -> 
             memory = scene.motion.speed * mean_lag(scene.solid) * scene.roughness.q_max(0.0)
             pressure = exp(learned["pressure"][numbers[k]])
             rows.append((pressure, memory, *np.exp(found.logarithm[k] + error[k] * np.array((0, -1, 1)))))
-    return DataFrame(rows, columns=COLUMNS)
+    return DataFrame(rows, columns=COLUMNS, dtype=float)
 
 
 def _waves(scene):
