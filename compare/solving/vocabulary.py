@@ -184,6 +184,7 @@ rate : Rate of pressing in. [m/s]
 smooth_normal_force : Normal force on the body without its roughness. [N]
 friction_1d_over_3d : Coefficient of friction in 1D over that in 3D. [1]
 friction_over_plateau : Friction over that of the plateau. [1] | \mu/(\sqrt{2}\,s) | Popov et al. 2014, Eq. 14
+over_eq_19 : Friction over that of Eq. 19 at the same ξ and plateau. [1]
 measured_share : Friction that roughness adds, over that in full contact. [1] | (\mu - \mu_0)\,p/F_\mathrm{full}
 contact_fraction : Real over nominal contact: of the area π a² in 3D, of the length 2a in 1D. [1]
 contact_over_period : Diameter of the smooth relaxed contact over the period of the roughness. [1]

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -20,9 +21,11 @@ from bem3d import BEM, Trail
 from compare.report.csvfiles import read, text, write_text
 from compare.report.page import Plot
 from compare.report.plots import style
+from compare.report.plots.curves import intervals
 from compare.report.plots.shades import SPEED, between
 from compare.report.views import view
 from compare.solving.task import draws_of
+from compare.statistics.jackknife import mean_ratio
 from compare.studies.claims.contacts import STEEP
 from compare.studies.draw import figure as draw
 from compare.studies.draw.study import datasets
@@ -67,13 +70,14 @@ def figure(plot: Plot, numbers: DataFrame, steep: DataFrame) -> Figure:
     above, below, beside = lower.subplots(1, 3)
     for axes, solver, title in ((above, "MDR", "(c) 1D: one curve"), (below, "BEM", "(d) 3D: no such curve")):
         against_load(axes, numbers[numbers["solver"] == solver], solver)
-        axes.set(title=title, xlabel="load $F_N\\,p(v)$ [N]", ylabel="friction coefficient μ")
+        axes.set(title=title, xlabel="load $F_N\\,p(v)$ [N]", ylabel="friction coefficient μ [1]")
     below.text(0.012, 9e-4, "Eq. 17", fontsize=style.small(), ha="center", va="top")
+    above.text(1.5, 2e-2, "dashed: Eq. 17", fontsize=style.small(), ha="right")
     for speed, chosen in numbers[numbers["solver"] == "BEM"].groupby("speed"):
         last = chosen.iloc[-1]
-        look = {"textcoords": "offset points", "fontsize": style.small(), "va": "center"}
         text = f"{1e3 * speed:g} mm/s" if speed == SPEEDS[-1] else f"{1e3 * speed:g}"
-        below.annotate(text, (shifted(last["load"], speed), last["friction"]), xytext=(5, 1), **look)
+        place = shifted(last["load"], speed), last["friction"]
+        below.annotate(text, place, xytext=(5, 1), fontsize=style.small(), textcoords="offset points", va="center")
     master_curve(beside, steep)
     return drawing
 
@@ -81,35 +85,51 @@ def figure(plot: Plot, numbers: DataFrame, steep: DataFrame) -> Figure:
 def master_curve(axes: Axes, steep: DataFrame) -> None:
     """What roughness adds in 3D, over that in full contact, against the pressure; line, the law."""
     scale = between(steep["speed"])
+    grey = style.line(0.6, 2.5, linestyle="-")
     for (body, own), form in zip(steep.groupby("body", sort=False), style.forms(), strict=False):
+        mark = {"linestyle": "none", "marker": form["marker"]}
         for speed, chosen in own.groupby("speed"):
-            x, colour = chosen["x"], SPEED(scale(speed))
-            axes.loglog(
-                x, chosen["averaged_share"], "-", color=style.grey(0.6), linewidth=style.width(2.5), zorder=1
-            )
-            axes.loglog(x, chosen["measured_share"], linestyle="none", marker=form["marker"], color=colour)
-        axes.plot([], [], linestyle="none", marker=form["marker"], color=style.grey(0.3), label=body)
-    axes.plot([], [], "-", color=style.grey(0.6), linewidth=style.width(2.5), label="law")
-    axes.legend(fontsize=style.small())
-    axes.set(
-        xlabel="pressure / that of full contact", ylabel="friction / that of full contact", title="(e) 3D: the law"
-    )
+            axes.loglog(chosen["x"], chosen["averaged_share"], **grey, zorder=1)
+            intervals(axes, chosen["x"], chosen, "measured_share", color=SPEED(scale(speed)), **mark)
+        axes.plot([], [], color=style.grey(0.3), label=body, **mark)
+    axes.plot([], [], label="law", **grey)
+    axes.legend(fontsize=style.small(), loc="upper left")
+    for row, speed, place in ((0, "slow", (0, -14)), (-1, "fast", (20, 0))):
+        end = steep.sort_values("speed").iloc[row]
+        axes.annotate(
+            speed,
+            (end["x"], end["measured_share"]),
+            place,
+            fontsize=style.small(),
+            textcoords="offset points",
+            va="center",
+        )
+    axes.set(xlabel="pressure / full contact [1]", ylabel="friction / full contact [1]", title="(e) 3D: the law")
+    tell(axes, steep, "measured_share", "right")
 
 
 def against_load(axes: Axes, numbers: DataFrame, solver: str) -> None:
     """Friction at each speed against the load that Eq. 23 shifts to the lowest one; dashed, Eq. 17."""
+    axes.set(xscale="log", yscale="log", xlim=(6e-3, 2.2), ylim=(5e-5, 6e-2))
     for speed, colour, form in zip(SPEEDS, style.shades(solver, len(SPEEDS)), style.forms(), strict=False):
         chosen = numbers[numbers["speed"] == speed]
-        axes.loglog(
-            shifted(chosen["load"], speed), chosen["friction"], color=colour, marker=form["marker"], linestyle="-"
-        )
+        look = {"color": colour, "marker": form["marker"]}
+        intervals(axes, shifted(chosen["load"], speed), chosen, "friction", **look)
     loads = shifted(np.array([LEAST, MOST]), np.array([SPEEDS[-1], SPEEDS[0]]))
     slope, solid = SCENE.roughness.rms_slope(2 * np.pi / SCENE.roughness.shortest), SCENE.elastomer
     law = equations.low_speed_friction(
         loads, solid.modulus, solid.relaxation_time, SPEEDS[0], slope, SCENE.indenter.mdr_coefficient, 2
     )
     axes.plot(loads, law, **style.line(0.3, 0.7, linestyle=(0, (5, 3)), zorder=1))
-    axes.set(xlim=(6e-3, 2.2), ylim=(8e-5, 6e-2))
+    tell(axes, numbers, "friction")
+
+
+def tell(axes: Axes, numbers: DataFrame, name: str, side: Literal["left", "right"] = "left") -> None:
+    """The widest interval of a panel in words: most bars are shorter than the markers."""
+    most = ((numbers[f"{name}_high"] - numbers[f"{name}_low"]) / numbers[name]).max() / 2
+    told = f"95 %: at most ±{100 * most:.0f} %"
+    place = {"left": 0.04, "right": 0.97}[side]
+    axes.text(place, 0.04, told, fontsize=style.small(), transform=axes.transAxes, ha=side)
 
 
 def shifted(load, speed):
@@ -118,7 +138,7 @@ def shifted(load, speed):
 
 
 def solved() -> Iterator[dict[str, float | str]]:
-    """Mean friction over mean load of some rough surfaces, at each speed and load in each model."""
+    """Mean friction over mean load of some rough surfaces, with its interval, at each speed and load by model."""
     for solver, draws in DRAWS.items():
         trails = [Trail() for _ in range(draws)]
         for load in LOADS:
@@ -128,11 +148,15 @@ def solved() -> Iterator[dict[str, float | str]]:
                     solver.solve(scene, *([trail] if solver is SPACE else []))
                     for scene, trail in zip(scenes, trails, strict=True)
                 ]
-                force, friction = (
-                    sum(getattr(each, name) for each in results) for name in ("normal_force", "friction_force")
+                forces = (
+                    np.array([getattr(each, name) for each in results])
+                    for name in ("friction_force", "normal_force")
                 )
-                print(solver.name, load, speed, friction / force, flush=True)
-                yield {"solver": solver.name, "speed": speed, "load": load, "friction": friction / force}
+                friction = mean_ratio(*forces)
+                low, high = friction.interval()
+                found = {"friction": friction.value, "friction_low": low, "friction_high": high}
+                print(solver.name, load, speed, found, flush=True)
+                yield {"solver": solver.name, "speed": speed, "load": load} | found
 
 
 if __name__ == "__main__":

@@ -18,6 +18,7 @@ from pandas import DataFrame
 
 import compare
 from compare.report.plots import style
+from compare.report.plots.lettering import lettered
 from scene import Kelvin, Scene, Slide, Sphere
 
 RESULTS = Path(__file__).parents[1] / "results"
@@ -50,18 +51,17 @@ def accuracy() -> Figure:
             filled = {} if body == "sphere" else {"markerfacecolor": style.paper()}
             rest.loglog(points, errors, **style.look(name, label=f"{body}, {name}", **filled))
     _order_two(rest, 0.3, points)
-    rest.set(xlabel="points across the contact", ylabel="relative error of the force")
-    style.head(rest, "a  At rest, against closed forms", 2)
+    rest.set(xlabel="points across the contact [1]", ylabel="relative error of the force [1]", title="at rest")
     table = section("accuracy", "Indentation in time")
     for body, rows in table.groupby("shape", sort=False):
         filled = {} if body == "sphere" else {"markerfacecolor": style.paper()}
         worst = rows.iloc[:, 3:].map(lambda text: abs(float(text.rstrip("%"))) / 100).max(axis=1)
         timed.loglog(rows["points"].astype(int), worst, **style.look("BEM", label=f"{body}, BEM", **filled))
-    timed.set(xlabel="points a side of the window", ylabel="worst relative error of the force")
-    style.head(timed, "b  In time, against closed forms", 2)
+    timed.set(xlabel="points a side of the window [1]", ylabel="worst error of the force [1]", title="in time")
     _order_two(timed, 20.0, [64, 128, 256])
     for panel in (rest, timed):
         panel.legend()
+    lettered((rest, timed))
     return figure
 
 
@@ -82,12 +82,11 @@ def benchmark() -> Figure:
         for panel, table, along in ((grids, cells, "points"), (loads, others, "mean pressure / E*")):
             rows = table[(table["code"] == name) & (table["processor s"] != "")]
             panel.loglog(rows[along].str.rstrip("²").astype(float), rows["processor s"].astype(float), **drawn)
-    grids.set(xlabel="points a side", ylabel="processor time [s]")
+    grids.set(xlabel="points a side [1]", ylabel="processor time [s]", title="rough cells")
     grids.set_xticks([256, 512, 1024, 2048], ["256", "512", "1024", "2048"], minor=False)
     grids.minorticks_off()
-    style.head(grids, "a  Rough cells, finer and finer", 2)
-    loads.set(xlabel="mean pressure over $E^*$", ylabel="processor time [s]")
-    style.head(loads, "b  512² points, at other loads", 2)
+    loads.set(xlabel="mean pressure / $E^*$ [1]", ylabel="processor time [s]", title="512² points")
+    lettered((grids, loads))
     grids.legend()
     return figure
 

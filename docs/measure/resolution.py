@@ -132,8 +132,9 @@ def _figure(frame):
             if np.isfinite(over[estimate]).all():
                 axes.plot(own["pixels_a_wave"], over[estimate], color=colour, label=words, **look)
         axes.axhline(1, **style.line(0.6, 0.65, zorder=0))
-        axes.set(xscale="log", xlabel="pixels a wave [1]", title=name, ylim=(0.6, 1.2))
-    panels[0].set_ylabel("over the finest grid [1]")
+        axes.set(xscale="log", xlabel="pixels a wave [1]", title=name, ylim=(0.5, 1.2))
+    panels[0].set_ylabel("curvature / finest answer [1]")
+    panels[1].set_ylabel("friction / finest answer [1]")
     lettered(panels)
     style.decades(*panels)
     style.legend(drawing, panels[-1].get_legend_handles_labels()[0], "outside lower center", 4)

@@ -141,7 +141,7 @@ def _figure(numbers):
                 looks = {"linestyle": line, "marker": marker, "color": COLOUR[points]}
                 axes.plot(own[column], 100 * own["half_width"], label=f"{name}, {points}²", **looks)
         axes.set(xscale="log", yscale="log", title=f"{body}, {speed:g} m/s", xlabel="processor time [s]")
-    panels[0].set(ylabel="half-width [%]", ylim=(0.8, 5.5))
+    panels[0].set(ylabel="half the interval of friction [%]", ylim=(0.8, 5.5))
     lettered(panels)
     style.decades(*panels)
     style.legend(drawing, panels[-1].get_legend_handles_labels()[0], "outside lower center", 3)

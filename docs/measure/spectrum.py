@@ -9,13 +9,15 @@ from pathlib import Path
 
 import numpy as np
 from campaign import solved
+from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 from pandas import DataFrame
 from tables import limit, replaced, table
 
 from bem3d import BEM, refined
 from compare.report.csvfiles import text, write_text
-from compare.report.plots import style
+from compare.report.plots import shades, style
+from compare.solving.outcome import Outcome
 from compare.solving.task import SceneTask, draws_of
 from compare.studies.paper import parameters
 from mdr1d import MDR
@@ -24,9 +26,10 @@ from scene.scales import elastic_contact
 
 PAGE = Path(__file__).parents[1] / "results" / "spectrum.md"
 ONE, PROFILES = 11000, 20  # points of the line, and profiles
-GRIDS, TIMES = (2048, 4096), (2, 4)  # solved on all pixels; pixels of the last of them refined so many times
+GRID, TIMES = 4096, (2, 4)  # points a side, all of which are solved; refined so many times where they touch
 SHAPES = "sphere", "cone"
-SIDES = 3.6e-3, 0.3e-3, 0.012e-3  # of the panels of the figure [m]
+ESTIMATES = "by_traction", "by_loss"
+SIDES = 3.6e-3, 0.012e-3  # of the maps of the figure [m]
 HEADER = (
     "|points|pixels a wave|friction|by traction|by loss|depth [µm]|real over nominal contact|points in contact|"
     "processor time [s]"
@@ -65,7 +68,7 @@ def main() -> None:
         replaced(PAGE, shape, table(HEADER, map(_line, own.itertuples())) + "\n\n" + sentence(shape, own))
     finest = tasks["sphere"][-2]
     with style.applied():
-        drawing = _figure(finest.scenes[0], outcomes[finest])
+        drawing = figure(frame, finest.scenes[0], outcomes[finest])
         drawing.savefig(PAGE.with_suffix(".png"), dpi=200)
 
 
@@ -75,10 +78,7 @@ def _tasks(shape):
     shortest = 2 * parameters.LENGTH / parameters.POINTS
     scene = replace(scene, roughness=replace(scene.roughness, shortest=shortest))
     first = replace(scene, roughness=replace(scene.roughness, seed=1))
-    solvers = [
-        *(BEM(points=points) for points in GRIDS),
-        *(Refined(BEM(points=GRIDS[-1]), each) for each in TIMES),
-    ]
+    solvers = [BEM(points=GRID), *(Refined(BEM(points=GRID), each) for each in TIMES)]
     kept = [SceneTask(each, (scene,), keeps_fields=isinstance(each, Refined)) for each in solvers]
     return [*kept, SceneTask(MDR(points=ONE), draws_of(first, PROFILES))]
 
@@ -123,41 +123,75 @@ def _line(row):
 def sentence(shape: str, own: DataFrame) -> str:
     """Friction between what both estimates come to, and that in 1D."""
     three, (one,) = own[own["dimension"] == "3D"], own[own["dimension"] == "1D"].itertuples()
-    last, limits = three.iloc[-1], [limit(three[name].to_numpy()) for name in ("by_traction", "by_loss")]
-    known = [last["by_loss"], last["by_traction"], *(each for each in limits if np.isfinite(each))]
-    low, high, slope = min(known), max(known), three["rms_slope"].iloc[0]
+    (low, high), slope = ends(three), three["rms_slope"].iloc[0]
     return (
         f"Friction of the {shape} is {(low + high) / 2:.2f} ({low:.2f} to {high:.2f}) in 3D on this surface, and "
         f"{one.friction:.2f} in 1D. The rms slope of {slope:.1f} is far beyond any linear theory."
     )
 
 
-def _figure(scene, outcome):
-    """Real contact on the finest pixels at three magnifications."""
+def ends(three: DataFrame) -> tuple[float, float]:
+    """Interval of friction: both estimates on the finest grid, and the limits of those that show one."""
+    limits = (limit(three[name].to_numpy()) for name in ESTIMATES)
+    known = [*three[list(ESTIMATES)].iloc[-1], *(each for each in limits if np.isfinite(each))]
+    return min(known), max(known)
+
+
+def figure(frame: DataFrame, scene: Scene, outcome: Outcome) -> Figure:
+    """Real contact of a scene on the finest pixels, at two magnifications; friction on ever finer grids."""
     x, y, pressure = (outcome.fields[name] for name in ("x", "y", "pressure"))
     pixel, radius = outcome.rows[0].measures["pixel"], elastic_contact(scene).radius
     # The point with most others within a spot, away from the rim.
-    near = np.hypot(x[:, None] - x, y[:, None] - y) < SIDES[2] / 2
-    middle = int(np.argmax(near.sum(axis=0) * (np.hypot(x, y) < radius / 2)))
-    drawing = style.canvas("double", 2.6)
-    for axes, letter, side in zip(drawing.subplots(1, 3), "abc", SIDES, strict=True):
-        centre = (0.0, 0.0) if side == SIDES[0] else (x[middle], y[middle])
-        unit, scale = ("mm", 1e3) if side == SIDES[0] else ("µm", 1e6)
-        off = np.stack([x - centre[0], y - centre[1]])
+    near = np.hypot(x[:, None] - x, y[:, None] - y) < SIDES[1] / 2
+    spot = np.argmax(near.sum(axis=0) * (np.hypot(x, y) < radius / 2))
+    drawing = style.canvas("double", 3.0)
+    left, right = drawing.subfigures(1, 2, width_ratios=(1.6, 1))
+    whole, close = panels = left.subplots(1, 2)
+    for axes, letter, side, middle, unit, scale in (
+        (whole, "a", SIDES[0], (0.0, 0.0), "mm", 1e3),
+        (close, "b", SIDES[1], (x[spot], y[spot]), "µm", 1e6),
+    ):
+        off = np.stack([x - middle[0], y - middle[1]])
         here = (np.abs(off) < side / 2).all(axis=0)
         # A pixel is drawn as large as it is, and no smaller than can be seen.
         area = max((pixel / side * 130) ** 2, 0.3)
         drawn = axes.scatter(
-            *(scale * off[:, here]), s=area, c=pressure[here] / 1e6, marker="s", linewidths=0, cmap="viridis_r",
-            vmin=0, vmax=np.percentile(pressure, 95) / 1e6,
+            *(scale * off[:, here]), s=area, c=pressure[here] / 1e9, marker="s", linewidths=0, cmap="viridis_r",
+            vmin=0, vmax=np.percentile(pressure, 95) / 1e9,
         )  # fmt: skip
-        if side == SIDES[0]:
-            axes.add_patch(Circle((0, 0), scale * radius, fill=False, **style.line(0.4, 0.6)))
         half = scale * side / 2
         axes.set(xlim=(-half, half), ylim=(-half, half), aspect="equal")
         axes.set(xlabel=f"x [{unit}]", ylabel=f"y [{unit}]", title=f"({letter}) {scale * side:g} {unit} wide")
-    drawing.colorbar(drawn, ax=drawing.axes, label="pressure [MPa]", extend="max")
+    whole.add_patch(Circle((0, 0), 1e3 * radius, fill=False, **style.line(0.4, 0.6)))
+    whole.plot(1e3 * x[spot], 1e3 * y[spot], "o", color=style.ink(), markersize=8, markerfacecolor="none")
+    shades.colours(
+        left, drawn, "pressure [GPa]", ax=panels, location="bottom", aspect=40, shrink=0.7, extend="max"
+    )
+    _friction(right.subplots(), frame)
     return drawing
+
+
+def _friction(axes, frame):
+    """Both estimates over the pixels, the answer with its interval at right, and one dimension."""
+    for (shape, own), form in zip(frame.groupby("shape", sort=False), style.forms(), strict=False):
+        three, (one,) = own[own["dimension"] == "3D"], own[own["dimension"] == "1D"].itertuples()
+        look = {"color": style.COLOUR["BEM"], "marker": form["marker"]}
+        axes.plot(three["pixels_a_wave"], three["by_traction"], "-", label="3D, by traction", **look)
+        hollow = {"markerfacecolor": style.paper(), "label": "3D, by loss"}
+        axes.plot(three["pixels_a_wave"], three["by_loss"], "--", **look, **hollow)
+        low, high = ends(three)
+        answer = {"color": style.ink(), "marker": form["marker"], "linestyle": "none", "label": "3D, answer"}
+        axes.errorbar(30, (low + high) / 2, (high - low) / 2, **answer)
+        axes.axhline(one.friction, **style.line(0, 0.7, color=style.COLOUR["MDR"], linestyle=":"), label="1D")
+        axes.text(60, one.friction + 0.15, shape, fontsize=style.small(), ha="right", color=style.COLOUR["MDR"])
+        axes.text(36, (low + high) / 2 - 0.2, shape, fontsize=style.small(), va="center")
+    axes.set(
+        xscale="log", xlim=(3.4, 64), ylim=(0, 18), xlabel="pixels a wave [1]", ylabel="friction coefficient [1]"
+    )
+    axes.set_title("(c) friction, finer and finer")
+    style.decades(axes)
+    handles, labels = axes.get_legend_handles_labels()
+    style.legend(axes.figure, list(dict(zip(labels, handles, strict=True)).values()), "outside lower center", 2)
 
 
 if __name__ == "__main__":

@@ -17,6 +17,7 @@ from bem3d import BEM
 from compare.models.law.friction_law import FrictionLaw
 from compare.report.csvfiles import text, write_text
 from compare.solving.task import SceneTask, draws_of
+from compare.statistics.intervals import student
 from compare.statistics.jackknife import mean_ratio
 from compare.studies.claims.contacts import STEEP
 from scene import Scene, Slide
@@ -80,19 +81,24 @@ def main(workers: int | None = None) -> None:
         law = FrictionLaw().solve(each.scene)
         full = law.measures["full_contact_friction"]
         # What the roughness adds, over that in full contact: the master curve.
-        added = friction * law.normal_force - law.measures["friction_of_shape"]
+        force, error = friction * law.normal_force, float(mean.error / mean.value)
+        added = force - law.measures["friction_of_shape"]
+        # Ends of 95 %: the surfaces, and as much as the grid was taken to leave.
+        half = force * (student(0.95, SURFACES - 1) * error + LEFT * abs(change))
         rows.append(
             {
                 "body": each.body,
                 "load": each.load,
                 "speed": each.speed,
                 "friction": friction,
-                "error": float(mean.error / mean.value),
+                "error": error,
                 "finer": change,
                 "finest": float(finest[0].value / fine.value - 1) if finest else np.nan,
                 "law": law.friction_coefficient,
                 "x": law.measures["pressure_ratio"],
                 "measured_share": added / full,
+                "measured_share_low": (added - half) / full,
+                "measured_share_high": (added + half) / full,
                 "averaged_share": law.measures["friction_of_roughness"] / full,
             }
         )

@@ -10,7 +10,8 @@ from pandas import DataFrame
 
 from compare.report.plots import style
 from compare.studies.trust import figure as regime_map
-from compare.studies.trust.map import ABOUT, FAMILY, regime_table
+from compare.studies.trust.map import ABOUT, COLUMNS, FAMILY, contacts_like, regime_table
+from compare.trustmap import table as campaign
 from compare.trustmap.verdict import WIDE, trust
 from scene import Layer
 from scene.scales import elastic_contact
@@ -52,9 +53,13 @@ def of_law(law, half=0.01):
 
 def drawn(table, wide=WIDE):
     with style.applied():
-        drawing = regime_map.plot(table, ABOUT, wide).figure()
+        drawing = regime_map.plot(table, DataFrame(columns=COLUMNS, dtype=float), ABOUT, wide).figure()
     axes = drawing.axes[0]
     return axes, axes.child_axes[0]
+
+
+def legend(axes):
+    return [text.get_text() for text in axes.figure.legends[0].get_texts()]
 
 
 def contours(axes):
@@ -105,6 +110,20 @@ def test_a_family_that_was_not_measured_is_refused():
         regime_table(layered, PRESSURES, MEMORIES)
 
 
+def test_contacts_behind_the_map_are_those_of_its_family_and_agree_with_it():
+    """Of other Hurst exponents and half to twice the waves, they differ by a factor."""
+    rows = campaign.read(campaign.LEARNED)
+    chosen = np.flatnonzero(rows["point"] < 400)
+    found = contacts_like({name: values[chosen] for name, values in rows.items()})
+    assert len(found) >= 3
+    assert (found["ratio_low"] < found["ratio"]).all()
+    said = [
+        trust(scene_at(row.pressure_over_slope, row.memory_over_shortest)).friction.ratio
+        for row in found.itertuples()
+    ]
+    assert np.nanmax(np.abs(np.log(found["ratio"] / said))) < np.log(2)
+
+
 def test_lines_lie_where_the_ratio_has_their_value():
     axes, strip = drawn(of_law(lambda p, m: min(p, 20.0) ** 0.5))
     found = lines(axes)
@@ -132,12 +151,12 @@ def test_what_is_to_be_solved_in_3d_is_hatched():
 
     known = of_law(lambda p, m: min(p, 5.0))
     assert hatched(drawn(known)[0]) is None
-    assert drawn(known)[0].get_legend() is None
+    assert "solve in 3D" not in legend(drawn(known)[0])
     pressure = known["pressure_over_slope"]
     half = WIDE * 0.5 / pressure
     unsure = known.assign(ratio_low=known["ratio"] * np.exp(-half), ratio_high=known["ratio"] * np.exp(half))
     axes, _ = drawn(unsure)
     assert hatched(axes).x1 == pytest.approx(0.5, rel=CELL)
-    assert axes.get_legend().get_texts()[0].get_text() == "solve in 3D"
+    assert "solve in 3D" in legend(axes)
     known.loc[pressure < 0.5, ["ratio", "ratio_low", "ratio_high"]] = nan
     assert hatched(drawn(known)[0]).x1 == pytest.approx(0.5, rel=0.05)

@@ -84,7 +84,7 @@ def _place(found):
 
 def test_figures_are_functions_of_their_tables_as_files_have_them(page, tmp_path):
     plots = {plot.name: plot for plot in page.every(Plot)}
-    assert {"family", "sphere/collapse", "sphere/shifts", "sphere/levels", "sphere/effects"} <= set(plots)
+    assert {"family", "sphere/collapse", "sphere/shifts", "sphere/levels"} <= set(plots)
     assert {"rest/depth", "pressed/pressed-in"} <= set(plots)
     assert "rest/levels" not in plots
     for name, plot in plots.items():

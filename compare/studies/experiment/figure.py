@@ -19,9 +19,9 @@ from .setup import HALF_SPACE, LOSSY, MAIN, SHIFT
 
 NAME = "experiment"
 ON_LAYER = 2  # rows of the figure, the first ones
-CAPTION = """Friction against force; shifted along the force (dotted: F*); the shift (dashed: as the paper has it).
-Loss of power 0.1, modulus at contact 1.3 of that at rest. Rough, nearly smooth: the spectra to whose friction the
-smooth ball adds least and most."""
+CAPTION = """Friction against force; shifted along the force (dotted: F*), the one curve nearest to all (grey), and
+how far off it; the shift (dashed: as the paper has it). Loss of power 0.1, modulus at contact 1.3 of that at rest.
+Rough, nearly smooth: the spectra to whose friction the smooth ball adds least and most."""
 WORDS = "Friction of the ball on the layer, rough and nearly smooth, and on a half-space, shifted along the force."
 
 

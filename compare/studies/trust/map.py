@@ -1,18 +1,21 @@
 """Regime map: friction of 1D over 3D against pressure and speed, predicted for a family of scenes."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import astuple, replace
-from math import inf, nan
+from math import exp, inf, log, nan, pi
 
 import numpy as np
 from pandas import DataFrame
 
 from scene import Kelvin, Scene, SelfAffine, Slide, Sphere
+from scene.scales import elastic_contact
 
 from ...models.exact import mean_lag
 from ...trustmap import measured, shipped, verdict
 from ...trustmap.groups import DimensionlessGroups, SmoothReference
 from ...trustmap.model import NORMAL, Model
+from ...trustmap.table import measurements
+from . import design
 
 COLUMNS = "pressure_over_slope", "memory_over_shortest", "ratio", "ratio_low", "ratio_high"
 RADIUS, DEPTH, SOLID = 1e-3, 1e-4, Kelvin(1e6, 1.0)
@@ -24,6 +27,8 @@ FAMILY = Scene(
     SelfAffine(hurst=0.7, rms_height=DEPTH, longest=4 * RADIUS, shortest=RADIUS / 4, seed=0),
 )
 ABOUT = "spheres on Kelvin solids under a load (H = 0.7, a/λ_s = 4, longest wave 4 a, no roll-off)"
+# Contacts are like a family if they have as many waves on the radius, within this factor.
+ALIKE = 2.0
 PRESSURES = tuple(np.geomspace(0.05, 30, 51).tolist())
 MEMORIES = tuple(np.geomspace(1e-2, 1e3, 41).tolist())
 
@@ -56,6 +61,30 @@ def regime_table(
         rows += [(pressure, memory, *each) for pressure, each in zip(pressures, found, strict=True)]
         rows.append((inf, memory, flat.ratio, flat.low, flat.high))
     return DataFrame(rows, columns=COLUMNS)
+
+
+def contacts_like(learned: Mapping[str, np.ndarray], family: Scene = FAMILY) -> DataFrame:
+    """Contacts of a table of the campaign that are like a family, with their ratios as measured and intervals.
+
+    They have its shape and kinds of solid and motion, roughness of any Hurst exponent, and about as many waves.
+    """
+    numbers, found = measurements(learned, "friction")
+    error = NORMAL * np.sqrt(found.variance(found.scatter))
+    own = {"side": 0.0, "shape": 1 / family.indenter.exponent, "prescribed": family.motion.pressed_by == "depth"}
+    alike = np.logical_and.reduce([np.isclose(learned[name][numbers], value) for name, value in own.items()])
+    rows: list[tuple[float, ...]] = []
+    for k in np.flatnonzero(alike):
+        scene = design.scene(int(learned["point"][numbers[k]]))
+        if type(scene.solid) is type(family.solid) and abs(log(_waves(scene) / _waves(family))) <= log(ALIKE):
+            memory = scene.motion.speed * mean_lag(scene.solid) * scene.roughness.q_max(0.0)
+            pressure = exp(learned["pressure"][numbers[k]])
+            rows.append((pressure, memory, *np.exp(found.logarithm[k] + error[k] * np.array((0, -1, 1)))))
+    return DataFrame(rows, columns=COLUMNS, dtype=float)
+
+
+def _waves(scene):
+    """Shortest waves on the radius of the smooth contact at rest."""
+    return elastic_contact(scene).radius * scene.roughness.q_max(0.0) / (2 * pi)
 
 
 def _predicted(scene, pressures, model):

@@ -31,7 +31,7 @@ from . import design
 from . import figure as regime_map
 from .contact import GREAT, USUAL, Contact
 from .map import ABOUT as ABOUT_FAMILY
-from .map import regime_table
+from .map import contacts_like, regime_table
 from .scoring import Score
 from .statements import BEST, Scored, advice_rows, coverage_rows, error_rows, of_surfaces
 
@@ -118,11 +118,16 @@ class TrustStudy(SizedStudy):
         sets = {f"/{name}": answers_of(found, outcomes) for name, found in self.contacts().items() if found}
         return xarray.DataTree.from_dict(sets)
 
+    @staticmethod
+    def learned(answers: xarray.DataTree) -> Mapping[str, np.ndarray]:
+        """Table of the contacts learned from, or of those of the package where none was."""
+        return table.columns(answers[LEARNED].to_dataset()) if LEARNED in answers else table.read(table.LEARNED)
+
     def models(self, answers: xarray.DataTree) -> dict[str, Model]:
         """Models of all quantities: fitted to what was learned, or those that come with the package."""
         if LEARNED not in answers:
             return {name: shipped.model(name) for name in RATIOS}
-        learned = table.columns(answers[LEARNED].to_dataset())
+        learned = self.learned(answers)
         return {name: Model.fit(name, table.measurements(learned, name)[1]) for name in RATIOS}
 
     @staticmethod
@@ -158,7 +163,9 @@ class TrustStudy(SizedStudy):
         rows = advice_rows(drawn), coverage_rows(scores), error_rows(scores)
         advice, coverage, errors = (DataFrame(list(each)) for each in rows)
         blocks: list[Block] = [
-            regime_map.plot(regime_table(model=models["friction"]), ABOUT_FAMILY, WIDE),
+            regime_map.plot(
+                regime_table(model=models["friction"]), contacts_like(self.learned(answers)), ABOUT_FAMILY, WIDE
+            ),
             Table("advice", advice, "Advice on the scenes held out, by regime and body."),
             Findings(findings, "Errors on scenes held out, with intervals of 95 % over these scenes."),
             Table("errors", errors, "Errors as measured and share within the interval, by region."),

@@ -1,6 +1,6 @@
 """Friction of one series: curves shifted onto one, shifts, level against speed; and several series at once."""
 
-from itertools import cycle, product
+from itertools import cycle
 from typing import Any
 
 import numpy as np
@@ -24,9 +24,9 @@ APART = 1.05
 UNITS = {"load": "N", "depth": "m"}
 BAR = {"load": (1.0, "normal force [N]"), "depth": (1e6, "depth [µm]")}
 # What makes slow friction depend on the load, each over its number under the least load.
-BEHIND = {"contact": "real contact [1]", "drag": "friction over contact [1]", "slope": "slope in contact [1]"}
+BEHIND = {"contact": "real contact", "drag": "friction / contact", "slope": "slope in contact"}
 THEORY = "levels-theory"  # table of what is drawn beside the models
-MARKERS = ("o", "s", "^", "v", "D", "<", ">")  # of the series of a family
+MARKERS = ("o", "s", "^", "v", "D", "<", ">")  # of bodies
 MEMORIES = {"rough": ("memory_over_shortest", "v τ q$_s$ [1]"), "smooth": ("memory_over_contact", "v τ / a [1]")}
 
 
@@ -185,7 +185,8 @@ def behind(tables: Tables) -> Figure:
             intervals(axes, load * APART ** (2 * index - 1), own, name, **style.look(solver, label=dimension))
             law = {"color": style.COLOUR[solver], "alpha": 0.5, "linestyle": (6 * index, (6, 6)), "zorder": 1}
             axes.plot(load, own[f"{name}_law"], label=f"{dimension}, the paper", **law)
-        axes.set(xscale="log", xlabel="normal force [N]", ylabel=label, title=f"({letter})")
+        over = f"over that at {every['normal_force'].min():.3g} N [1]"
+        axes.set(xscale="log", xlabel="normal force [N]", ylabel=over, title=f"({letter}) {label}")
     panels[0].set_yscale("log")
     style.decades(*panels)
     style.legend(drawing, panels[0].get_legend_handles_labels()[0], "outside lower center", 4)
@@ -211,47 +212,26 @@ def _ratios(drawing, panels, ratios, prescribed):
 
 
 def family(tables: Tables) -> Figure:
-    """Friction over its plateau against xi: a panel for each shape and dimensionality, with all of its series."""
-    every, laws = tables["family"], tables["family-law"]
-    shapes = list(dict.fromkeys(every["shape"]))
-    drawing = style.canvas("double", 1.0 + 2.4 * len(shapes))
-    panels = drawing.subplots(len(shapes), len(SOLVER), sharex=True, sharey=True, squeeze=False)
+    """Friction over that of Eq. 19 against xi in 1D and 3D: a marker for each shape, a shade for each load."""
+    every = tables["family"]
+    drawing = style.canvas("double", 3.1)
+    panels = drawing.subplots(1, len(SOLVER), sharex=True, sharey=True)
     scale = shades.between(every["normal_force"].dropna())
-    handles: dict[str, Line2D] = {}
-    for axes, (shape, (dimension, solver)) in zip(panels.flat, product(shapes, SOLVER.items()), strict=True):
-        points, law = (
-            table[(table["shape"] == shape) & (table["dimension"] == dimension)] for table in (every, laws)
-        )
-        names = dict.fromkeys(points["series"])
-        for name, marker in zip(names, cycle(MARKERS), strict=False):
-            short = _own_words(name) if len(names) > 1 else name
-            look: dict[str, Any] = {"marker": marker, "markersize": style.mark(0.75)}
-            look["linewidth"] = style.width(0.6)
-            handles.setdefault(short, Line2D([], [], linestyle="none", color=style.grey(0.3), label=short, **look))
-            _by_load(axes, points[points["series"] == name], scale, look)
-        axes.plot(law["xi"], law["friction_over_plateau"], **style.line(0.5, 0.8), zorder=1)
-        axes.set(xscale="log", yscale="log", title=f"{shape}, {dimension} ({solver})")
-    positive = every["friction_over_plateau"][every["friction_over_plateau"] > 0]
-    panels[0, 0].set_ylim(positive.min() / 2, positive.max() * 2)
-    for axes in panels[:, 0]:
-        axes.set_ylabel(r"$\tilde{\mu}$ [1]")
-    for axes in panels[-1]:
-        axes.set_xlabel(r"$\xi$ [1]")
-    lettered(panels.flat)
-    style.decades(*panels.flat)
+    shapes = dict(zip(dict.fromkeys(every["shape"]), MARKERS, strict=False))
+    grey: dict[str, Any] = {"linestyle": "none", "color": style.grey(0.3)}
+    place = ["shape", *(name for name in ("load", "depth") if name in every)]
+    for axes, (dimension, solver) in zip(panels, SOLVER.items(), strict=True):
+        axes.axhline(1, **style.line(0.5, 0.8), zorder=1)
+        for (shape, *_), own in every[every["dimension"] == dimension].groupby(place, dropna=False):
+            look = {"color": shades.PRESS(scale(own["normal_force"].mean())), "linestyle": "none", "capsize": 0}
+            look |= {"marker": shapes[shape], "markersize": style.mark(0.75), "elinewidth": style.width(0.5)}
+            intervals(axes, own["xi"], own, "over_eq_19", **look)
+        axes.set(xscale="log", yscale="log", title=f"{dimension} ({solver})", xlabel=r"$\xi$ [1]")
+    known = every["over_eq_19"][every["over_eq_19"] > 0]
+    panels[0].set(ylim=(known.min() / 1.5, known.max() * 1.5), ylabel="friction / Eq. 19 [1]")
+    lettered(panels)
+    style.decades(*panels)
     shades.bar(drawing, panels, shades.PRESS, scale, "normal force [N]", fraction=0.03, pad=0.01, aspect=40)
-    style.legend(drawing, list(handles.values()), "outside lower center", 4)
+    handles = [Line2D([], [], marker=marker, label=shape, **grey) for shape, marker in shapes.items()]
+    style.legend(drawing, handles, "outside lower center", 4)
     return drawing
-
-
-def _own_words(series: str) -> str:
-    """Title of a series behind its first comma, before which the body stands."""
-    return literal(series.partition(", ")[2] or series)
-
-
-def _by_load(axes, points, scale, look):
-    """Points of each load, or depth, joined; in the shade of their mean force."""
-    prescribed = [name for name in ("load", "depth") if name in points and points[name].notna().any()]
-    for _, own in points.groupby(prescribed):
-        colour = shades.PRESS(scale(own["normal_force"].mean()))
-        intervals(axes, own["xi"], own, "friction_over_plateau", color=colour, capsize=0, **look)

@@ -18,7 +18,6 @@ from ..claims_law import PLOT, SHALLOW, LawPoints
 from ..points import friction_at, interval_columns, place_columns
 from .friction import MARKERS
 
-MANY = (*MARKERS, "P", "X", "p", "h", "*", "d", "8")  # markers, where many series stand together
 # Columns of the panels in one dimension: of one series, and of several.
 ONE, SEVERAL = ("shifted_force", "friction_coefficient"), ("xi", "friction_over_plateau")
 LABELS = {
@@ -87,8 +86,9 @@ def master_curve(tables: Tables, fitted: str = "", claimed: float = SHALLOW) -> 
     panels = drawing.subplots(2, 2, sharex="col", height_ratios=(1.5, 1))
     (left, right), (below_left, below_right) = panels
     scale = shades.between(np.concatenate([paper["speed"], points["speed"]]))
-    names = list(dict.fromkeys([*paper["series"], *points["series"]]))
-    markers = dict(zip(names, cycle(MANY), strict=False))
+    paper, points = (table.assign(body=table["series"].str.partition(", ")[0]) for table in (paper, points))
+    names = list(dict.fromkeys([*paper["body"], *points["body"]]))
+    markers = dict(zip(names, cycle(MARKERS), strict=False))
     line = style.line(0, 0.8, zorder=1)
     left.plot(curve[across], curve[up], "-", label=curve["curve"].iloc[0], **line)
     ends = (share[f"share_of_full_contact_{end}"] for end in ("low", "high"))
@@ -100,8 +100,8 @@ def master_curve(tables: Tables, fitted: str = "", claimed: float = SHALLOW) -> 
     ):
         off = _off(table, value, expected)
         heights = table["height_over_depth"] if "height_over_depth" in table else 0 * table["speed"]
-        for (series, speed), own in table.groupby(["series", "speed"]):
-            look: dict[str, Any] = {"color": shades.SPEED(scale(speed)), "marker": markers[series]}
+        for (body, speed), own in table.groupby(["body", "speed"]):
+            look: dict[str, Any] = {"color": shades.SPEED(scale(speed)), "marker": markers[body]}
             look |= MARK | {"markersize": style.mark(0.75), "elinewidth": style.width(0.65)}
             for chosen, inside in ((heights <= claimed, {}), (heights > claimed, _hollow())):
                 shown = own[chosen[own.index]]

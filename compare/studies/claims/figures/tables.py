@@ -12,7 +12,6 @@ from mdr1d.equations import interpolation
 from ....report.page import Plot
 from ....solving.parameter_grid import COARSE, FINE
 from ....statistics.collapse import ENDS
-from ....statistics.finding import claimed, table
 from ....statistics.jackknife import friction, mean, mean_ratio
 from ....statistics.means import Interval
 from ...mastercurve import figures as shift_plots
@@ -24,7 +23,6 @@ from ..judgement import JudgedSeries
 from ..points import each_dimension, force_at, friction_at, interval, interval_columns, place_columns, stacked
 from ..series import BODIES, ROUGH, SMOOTH, SOLVERS, Contacts, resting
 from . import depth as study_depth
-from . import effects as study_effects
 from . import friction as study_friction
 from . import law as study_law
 
@@ -42,19 +40,8 @@ def plots_of_study(series: Sequence[JudgedSeries], together: bool) -> Iterator[P
 
 
 def plots_of_series(judged: JudgedSeries) -> Iterator[Plot]:
-    """Distance of each claim from what was measured; friction, or depth and force."""
+    """Friction, or depth and force."""
     series = judged.series
-    if claims := claimed(judged.findings):
-        yield Plot(
-            f"{series.folder}/effects",
-            study_effects.effects,
-            {"effects": table(claims)},
-            "Distance of what was measured from what is claimed, in tolerances; grey, within; logarithmic beyond "
-            "one, arrows beyond 100. Lines, intervals of 95 %: thick from the scatter of surfaces, thin with the "
-            "error of the grid. Dot: holds; cross: fails; circle: undecided. Right: the number measured with its "
-            "interval.",
-            _counted(claims),
-        )
     # The figures of a series show one dimension against three.
     if not set(SOLVERS) <= set(judged.contacts.labels):
         return
@@ -69,12 +56,6 @@ def plots_of_series(judged: JudgedSeries) -> Iterator[Plot]:
     yield _depth(judged.contacts)
     if series.pressed_in and series.speeds:
         yield _pressed_in(judged.contacts)
-
-
-def _counted(findings):
-    """Number of findings of each verdict, in words."""
-    verdicts = [each.verdict for each in findings]
-    return ", ".join(f"{name} {verdicts.count(name)}" for name in dict.fromkeys(verdicts))
 
 
 def _each_body(table: Callable[[str], dict]) -> DataFrame:
@@ -261,21 +242,19 @@ def _pressed_in(contacts: Contacts) -> Plot:
 
 
 def _family(found) -> Plot:
-    points, laws = {}, {}
+    points = {}
     for (shape, members), (solver, dimension) in product(found.items(), SOLVERS.items()):
         points[shape, dimension] = frame = _reduced(members, solver)
-        known = frame["xi"].dropna()
-        if known.size:
-            xi = np.geomspace(known.min(), known.max(), 101)
-            laws[shape, dimension] = DataFrame({"xi": xi, "friction_over_plateau": interpolation(xi)})
+        for end in ENDS:
+            frame[f"over_eq_19{end}"] = frame[f"friction_over_plateau{end}"] / interpolation(frame["xi"])
     return Plot(
         "family",
         study_friction.family,
-        {"family": stacked(points, "shape", "dimension"), "family-law": stacked(laws, "shape", "dimension")},
-        "Friction over its plateau (Eq. 14) against ξ (Eq. 18), a marker for each roughness or solid; points of "
-        "one load are joined, in its colour. Grey: Eq. 19. If roughness, solid, speed and load count through ξ "
-        "alone, a panel shows one curve. Bars: 95 %.",
-        f"{len(points)} panels of friction against ξ",
+        {"family": stacked(points, "shape", "dimension")},
+        "Friction over that of Eq. 19 at the same ξ (Eq. 18) and plateau (Eq. 14), for all roughness and solids "
+        "of a shape, by colour of the load. If they count through ξ alone, the points of a shape are one curve. "
+        "Bars: 95 %, cut at the frame.",
+        "Friction over Eq. 19 against ξ, left 1D, right 3D",
     )
 
 

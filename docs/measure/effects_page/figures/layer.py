@@ -46,8 +46,8 @@ def figure(data) -> Figure:
             c.plot(x, friction, **_look(rubber))
             if rubber != "half-space":
                 d.plot(x, friction / plain, **_look(rubber))
-        beside = (-2, 6) if friction[0] > 0.5 else (8, -5)  # beside a curve that rises, above a level one
-        c.annotate(rf"$v\tau_c$ = {memory} $D$", (x[0], friction[0]), xytext=beside, textcoords="offset points",
+        beside = (-2, 6) if friction[0] > 0.5 else (8, -10)  # below a curve that rises, above a level one
+        c.annotate(rf"$v\tau_c$ = {memory} $D$", (x[1], friction[1]), xytext=beside, textcoords="offset points",
                    fontsize=style.small())  # fmt: skip
         d.annotate(f"{memory} $D$", (x[-1], friction[-1] / plain[-1]), xytext=(4, -2), textcoords="offset points",
                    fontsize=style.small())  # fmt: skip
