@@ -100,8 +100,8 @@ def answer(found: Any) -> Answer:
     match found:
         case Report():
             tables = {each.name: _rows(each.frame) for each in found.page.every(Table) if not each.long}
-            page = found.page
-            return Reported(_said(found.path), tuple(page.first), (*page.opening, *page.answer), _rows(found.table), tables)
+            page, told = found.page, (*found.page.opening, *found.page.answer)
+            return Reported(_said(found.path), tuple(page.first), told, _rows(found.table), tables)
         case Plans():
             cost = found.cost if isinstance(found.cost, Cost) else None
             return Planned(
