@@ -246,6 +246,9 @@ def sentences(findings: Sequence[Finding]) -> list[str]:
 
     Few findings on one model are told one by one, many by the number of places and the range of values.
     """
+    cases = {each.where.partition(", ")[0] for each in findings}
+    if len(cases) == 1:  # of the only case the place is said alone
+        findings = [replace(each, where=each.where.partition(", ")[2]) for each in findings]
     found = []
     for sentence in dict.fromkeys(each.claim.sentence for each in findings):
         own = [each for each in findings if each.claim.sentence == sentence]
@@ -288,6 +291,8 @@ def _numbers(findings, named) -> str:
     model = f"in {findings[0].dimension} " if named else ""
     if len(findings) <= SHOWN:
         mixed = len({each.verdict for each in findings}) > 1
+        if len({number(each) for each in findings}) == 1 < len(findings):
+            return f"{model}{number(findings[0])} in all {len(findings)} places"
         return model + _listed([_placed(each, mixed) for each in findings])
     known = [claim.scale * each.value for each in findings if isfinite(each.value)]
     count = f"{'all ' if len(known) == len(findings) else f'{len(known)} of '}{len(findings)} places"
@@ -298,7 +303,8 @@ def _numbers(findings, named) -> str:
 
 
 def _placed(found: Finding, mixed: bool) -> str:
-    place = f" for {found.where}" if found.where else ""
+    at = "at" if found.where[:1].isdigit() or "=" in found.where else "for"
+    place = f" {at} {found.where}" if found.where else ""
     return f"{number(found)}{place}{f' ({found.verdict})' if mixed else ''}"
 
 

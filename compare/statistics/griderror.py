@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     import xarray
 
 MEASURE = "friction_error"
+LEAST = 1e-4  # below which an error is only said to be less
 MUCH = 0.1  # from which on it is said first
 # Nodes of answers by what people call their model.
 MODELS = {"MDR": "1D", "row": "1D", "BEM": "3D", "surface": "3D"}
@@ -70,7 +71,7 @@ def warn(answers: "xarray.DataTree", level: int = 2) -> None:
 
 
 def _percent(share):
-    return f"{100 * share:.3g} %"
+    return f"{100 * share:.2g} %" if share > LEAST else f"less than {100 * LEAST:g} %"
 
 
 def _median(bounds):

@@ -124,11 +124,14 @@ class CaseFindings:
 
         mean : see `accuracy.MEANS`
         """
-        asked: dict[str, tuple[str, ...]] = {each.label: (each.name,) for each in self._claiming(OWN, WORDS[mean])}
-        for each in self._judged(OWN, WORDS[mean]):
-            asked[self.models.beside(each.name)] = each.name, self.models.reference
-        found = {label: self._ratio(OWN, names, *MEANS[mean]).interval for label, names in asked.items()}
-        return {label: tuple(float(end[0, 0]) for end in each) for label, each in found.items()}
+        points = self.points[self.points["curve"] == OWN].set_index("solver")
+        ends = [f"{mean}_{end}" for end in ("mean", "low", "high")]
+        found = {each.label: tuple(points.loc[each.name, ends]) for each in self._claiming(OWN, WORDS[mean])}
+        return found | {
+            self.models.beside(model.name): (each.value, *each.interval)
+            for name, model, each in self.own_ratios
+            if name == mean
+        }
 
     @property
     def _found(self):
