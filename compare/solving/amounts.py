@@ -53,11 +53,11 @@ def share(value: float) -> str:
 
 
 def off(ratio: float) -> str:
-    """A number over what it should be, in words: 39 % too low, 2.6 times too high."""
+    """A number over what it should be, in words: 39 % too low, 2.6 times as high."""
     if not isfinite(ratio):
         return "off by an unknown share"
     if ratio >= 2:
-        return f"{ratio:.3g} times too high"
+        return f"{ratio:.3g} times as high"
     apart = 100 * (ratio - 1)
     return f"{abs(apart):.2g} % too {'high' if apart > 0 else 'low'}"
 

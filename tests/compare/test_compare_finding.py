@@ -73,6 +73,23 @@ def test_the_answer_has_every_finding_those_that_contradict_included():
     assert "fails" in sentence.lower()
 
 
+def test_an_open_claim_says_across_what_its_interval_reaches_and_what_would_decide_it():
+    open_ = found(value=1.04, remedy="some 30 more surfaces would decide it")
+    assert open_.why == "its interval reaches across 1.05; some 30 more surfaces would decide it"
+    assert found(scatter=0.1).why == "its interval reaches across 0.95 and 1.05"
+    assert found(value=1.3, remedy="more").why == found().why == ""
+    (line,) = sentences([replace(open_, where="sphere, 1 mm"), found(where="sphere, 2 mm")])
+    assert line.startswith("Holds in 1, undecided in 1 of 2 places: Friction in 1D is that in 3D: ")
+    assert line.endswith(f" at 2 mm (holds), tested against 1 ± 0.05. Undecided: {open_.why}.")
+
+
+def test_a_deviation_is_said_in_percent_and_stored_as_it_is():
+    share = found(value=0.3, scatter=0.1, grid=0.0)
+    share = replace(share, claim=replace(FRICTION, expected=0.0, percent=True))
+    assert (share.found(), share.claim.tested) == ("30 (20 to 40) %", "0 ± 5 %")
+    assert (share.row["value"], share.row["unit"]) == (0.3, "1")
+
+
 def test_many_reported_numbers_are_told_by_their_range_and_how_many_are_known():
     claim = Claim("time", "Time", unit="s")
     known = [Finding(claim, value, dimension="3D") for value in (0.5, 2.0, 1.0, nan, 3.0)]

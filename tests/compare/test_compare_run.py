@@ -260,6 +260,27 @@ def test_several_files_are_named_by_themselves_and_two_of_one_name_refused(tmp_p
         Run.of([CASE, DEEP])
 
 
+def opening_of(case, **how):
+    run = Run({"a case": case})
+    (paragraph,) = run.judge(run.answers(invented_of(run, **how))).opening
+    return paragraph
+
+
+def test_a_run_opens_with_each_answer_how_far_1d_is_off_the_advice_and_what_stands_behind_it():
+    told = opening_of(CASE)
+    assert told.startswith("a case, 0.1 m/s, 1 N. Friction 0.252 in 1D, 0.126 in 3D: 1D is 2 times as high. ")
+    assert " 1D is within 5 % of 3D. " in told  # the depth, of which both say the same
+    assert told.endswith("Means of 4 profiles in 1D and 2 surfaces in 3D.")
+    advice = compare.trust(CASE.scene)
+    assert f"the trust map multiplies 1D by {advice.friction.times}" in told
+    assert "The trust map takes 1D as it is." in told
+    # twice what the map foretells, whatever the scatter
+    assert "do not agree" in opening_of(replace(CASE, roughness=replace(CASE.roughness, rms_height=2e-5)))
+    assert "these means do not tell how far 1D is off" in opening_of(CASE, scatter=0.5)
+    assert "1D is between " in opening_of(CASE, scatter=0.05)
+    assert "Force 1.1 N in 1D, 1 N in 3D: 1D is 10 % too high." in opening_of(DEEP)
+
+
 @pytest.mark.parametrize(("body", "exponent"), [(Sphere(radius=1e-2), -1.5), (Cone(angle=0.2), -2.0)])
 def test_laws_of_the_smooth_and_of_the_rough_body(body, exponent):
     case = replace(CASE, indenter=body)

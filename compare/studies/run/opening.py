@@ -53,8 +53,8 @@ def _number(factor, found, unit):
 def _apart(label: str, ratio: Finding, reference: str) -> str:
     """How far a model is from the reference."""
     low, high = ratio.interval
-    if not (isfinite(low) and isfinite(high)):
-        return f"how far {label} is off is not known"
+    if not (low > 0 and isfinite(high)):
+        return f"these means do not tell how far {label} is off"
     if low >= 1 - SMALL and high <= 1 + SMALL:
         return f"{label} is within {share(SMALL)} of {reference}"
     if low <= 1 <= high:
@@ -76,9 +76,9 @@ def _advised(cheap: Correction, law: Correction | None) -> str:
 
 
 def _contradicts(model: Model, solved: Finding, foretold: Correction) -> bool:
-    """Whether what is solved and what the trust map foretells of 1D have no ratio in common."""
+    """Whether means over surfaces and what the trust map foretells of 1D have no ratio in common."""
     low, high = solved.interval
-    return model.name == "MDR" and (low > foretold.high or high < foretold.low)
+    return model.name == "MDR" and solved.draws > 0 and (low > foretold.high or high < foretold.low)
 
 
 def _averaged(case: CaseFindings) -> str:
