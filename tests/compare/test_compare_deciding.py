@@ -87,7 +87,7 @@ def test_a_finding_says_what_would_decide_it():
     number = float(told.remedy.split()[1].replace(",", ""))
     assert number == pytest.approx(surfaces, rel=0.1)
     assert told.remedy.endswith("s of processor time, would decide it")
-    assert told.why == told.remedy
+    assert told.why == f"its interval reaches across 0.95; {told.remedy}"
     hopeless = DRAWN.told(found(0.951, 0.3, 0.0), WORDS)
     assert hopeless.remedy == "only more than 10,000 surfaces or profiles would decide it"
     assert "finer one" in DRAWN.told(found(0.951, 0.3, 0.01), WORDS).remedy

@@ -350,7 +350,7 @@ def test_several_temperatures_are_shifted_along_the_speed_and_judged(tmp_path):
     assert told["temperatures-unshifted"].value > 0.2
     first, *_ = made.judge(None).answer
     assert "Shifts along the speed bring the temperatures together" in " ".join(made.judge(None).answer)
-    assert first.startswith("Shifts along the load")
+    assert first.startswith("Holds: Shifts along the load")
     points, shifts = made.judge(None).plots
     assert set(points.tables["shifted-curves"]["temperature"].round(2)) == {285.15, 293.15, 301.15}
     own = shifts.tables["temperature-shifts"]

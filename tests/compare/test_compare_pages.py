@@ -251,7 +251,7 @@ def test_a_caption_of_several_figures_stands_on_a_page_in_markdown_once(tmp_path
 
 def test_the_terminal_shows_a_claim_once_and_its_findings_below():
     text = terminal.text(page())
-    assert text.count("Depths at rest agree (claimed 1 ± 0.05):") == 1
+    assert text.count("Depths at rest agree (tested against 1 ± 0.05):") == 1
     assert "  holds      1D/3D rough sphere: 1.010 (0.986 to 1.034)\n" in text
     assert "Some emphasis, code_x, a link & <b>50 %</b>." in text
     assert all(len(line) <= terminal.WIDTH for line in text.splitlines())

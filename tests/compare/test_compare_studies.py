@@ -163,9 +163,9 @@ def test_of_one_surface_the_scatter_is_not_known_but_smooth_bodies_need_none(who
     assert {each.verdict for each in rough} == {"undecided"}
     assert all("scatter" in each.reason and "straight" not in each.reason for each in rough)
     smooth, _ = of(found, "friction.ratio.smooth")
-    assert (smooth.verdict, smooth.draws, smooth.scatter) == ("holds", 0, (smooth.value, smooth.value))
+    assert (smooth.verdict, smooth.draws, smooth.scatter) == ("fails", 0, (smooth.value, smooth.value))
     least, greatest = of(judge_series(spoiled(whole, np.s_[0, 0], body=SMOOTH)), "friction.ratio.smooth")
-    assert (least.verdict, greatest.verdict) == ("undecided", "holds")
+    assert (least.verdict, greatest.verdict) == ("undecided", "fails")
 
 
 def test_a_series_of_which_nothing_was_solved_has_no_finding():

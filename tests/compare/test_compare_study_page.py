@@ -60,10 +60,10 @@ def test_the_answer_has_a_statement_for_each_claim_and_every_verdict_of_it(study
     findings = [each for each in asked.judge(answers).findings if each.verdict != REPORTED]
     statements = dict.fromkeys(each.claim.sentence for each in findings)
     for text, sentence in zip(page.answer, statements, strict=True):
-        assert text.startswith(sentence)
+        assert f": {sentence}: " in text
         for each in findings:
             if each.claim.sentence == sentence:
-                assert each.verdict in text
+                assert each.verdict in text.lower()
 
 
 def test_every_finding_stands_on_the_page_once_and_leads_to_a_plot_that_is_there(study, page):

@@ -303,9 +303,9 @@ def test_the_narrower_interval_is_taken_and_of_many_waves_the_law_is_right_where
     assert many.friction.ratio < 0.4
     assert many.law.low < 1 < many.law.high
     assert max(many.law.seconds, many.friction.seconds) < 0.1 * many.solving
-    assert str(many).splitlines()[0].startswith("for friction take ")
+    assert str(many).splitlines()[0].startswith("For friction take ")
     far = trust(replace(PAPER, roughness=replace(ROUGH, rms_height=2e-4)))
-    assert (far.taken, far.choice) == (None, "for friction solve in 3D")
+    assert (far.taken, far.choice) == (None, "For friction solve in 3D.")
 
 
 def test_nothing_rough_is_solved(monkeypatch):

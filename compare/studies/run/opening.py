@@ -30,7 +30,7 @@ def opening(case: CaseFindings, advice: Advice) -> str:
                 for name, model, found in case.own_ratios
                 if name == mean and _contradicts(model, found, cheap)
             ]
-    return " ".join([*told, _averaged(case)]).strip()
+    return " ".join(dict.fromkeys([*told, _averaged(case)])).strip()
 
 
 def _answers(case: CaseFindings, mean: str) -> str:
@@ -54,7 +54,7 @@ def _apart(label: str, ratio: Finding, reference: str) -> str:
     """How far a model is from the reference."""
     low, high = ratio.interval
     if not (low > 0 and isfinite(high)):
-        return f"these means do not tell how far {label} is off"
+        return f"how far {label} is off is not known"
     if low >= 1 - SMALL and high <= 1 + SMALL:
         return f"{label} is within {share(SMALL)} of {reference}"
     if low <= 1 <= high:
