@@ -259,7 +259,7 @@ def sentences(findings: Sequence[Finding]) -> list[str]:
         tested = {each.claim.tested for each in own} - {""}
         against = f", tested against {tested.pop()}" if len(tested) == 1 else ""
         reasons = dict.fromkeys(each.why for each in own if each.verdict == UNDECIDED)
-        open_ = f" Undecided: {'. '.join(reasons)}." if any(reasons) else ""
+        open_ = f" Undecided: {'. Also: '.join(reasons)}." if any(reasons) else ""
         found.append(f"{verdicts}{sentence}: {numbers}{against}.{open_}")
     return found
 
@@ -292,14 +292,18 @@ def _numbers(findings, named) -> str:
     if len(findings) <= SHOWN:
         mixed = len({each.verdict for each in findings}) > 1
         if len({number(each) for each in findings}) == 1 < len(findings):
-            return f"{model}{number(findings[0])} in all {len(findings)} places"
+            return f"{model}{number(findings[0])} in {_places(len(findings))}"
         return model + _listed([_placed(each, mixed) for each in findings])
     known = [claim.scale * each.value for each in findings if isfinite(each.value)]
-    count = f"{'all ' if len(known) == len(findings) else f'{len(known)} of '}{len(findings)} places"
+    count = _places(len(findings)) if len(known) == len(findings) else f"{len(known)} of {len(findings)} places"
     if not known:
         return f"{model}not measured in {count.replace('0 of ', 'any of ')}"
     reach = " to ".join(dict.fromkeys(digits.number(end(known), 3) for end in (min, max)))
     return f"{model}{claim.said(reach)} in {count}"
+
+
+def _places(count: int) -> str:
+    return "both places" if count == 2 else f"all {count} places"
 
 
 def _placed(found: Finding, mixed: bool) -> str:
