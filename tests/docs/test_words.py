@@ -68,3 +68,8 @@ def test_a_banned_phrase_is_found(said):
 @pytest.mark.parametrize("said", ["What does it cost?", "It says what it costs."])
 def test_a_sentence_that_takes_one_reading_is_not_found(said):
     assert found(iter([("page", said)]), BANNED | WHAT) == []
+
+
+def test_the_readme_has_at_most_900_words():
+    words = re.findall(r"\S*\w\S*", (ROOT / "README.md").read_text(encoding="utf-8"))
+    assert len(words) <= 900
