@@ -132,8 +132,8 @@ def _answer(run: DataFrame, slow_found: DataFrame, fast_found: DataFrame) -> str
             f"the friction of a slow, smooth sphere, {_number(rough)} times that of the paper's rough one. "
             f"{trust.corrected()}",
             "- **The paper's law of friction, μ = Q(F_N p(v)), holds in 1D alone.** Curves shifted as it says "
-            f"miss one another by {missed['1D']} in 1D, by {missed['3D']} in 3D, where slow friction of the sphere is at least "
-            f"{too_high} times too high for it ([why](docs/results/slow.md)). {law.answer()}",
+            f"miss one another by {missed['1D']} in 1D, by {missed['3D']} in 3D, where slow friction of the "
+            f"sphere is at least {too_high} times too high for it ([why](docs/results/slow.md)). {law.answer()}",
         ]
     )
 
