@@ -53,7 +53,7 @@ class RoughSurface:
         if top > MOST_WAVES:
             raise SolveError(
                 f"the surface has {top:.15g} waves of its cut-off on longest = {roughness.longest:g} m, "
-                f"{MOST_WAVES} fit in memory; take a longer shortest or a shorter longest wave"
+                f"{MOST_WAVES} fit in memory: state a longer shortest, or a shorter longest wave"
             )
         # At unit height, as the square of a tiny one would vanish.
         shared = replace(roughness, rms_height=1.0, seed=1)

@@ -258,7 +258,7 @@ def doubts(scene: Scene, grid: Grid) -> tuple[Doubt, ...]:
     """Doubts about how well a grid shows the shortest wave, and the layer."""
     found, (_, shortest) = [], _shortest(scene)
     if shortest is not None and shortest < RESOLVED * grid.pixel:
-        why = "two carry a wave, about eight resolve it: take more points, or longer waves"
+        why = "two are the least, about eight resolve the wave: use more points, or longer waves"
         found.append(Doubt("pixels in 3D on the shortest wave", shortest / grid.pixel, RESOLVED, "", why))
     if reasons := _falsified(scene, grid):
         share = layer.falsified(scene, grid)
@@ -287,12 +287,12 @@ def _missed(scene, grid, spare=1.0):
     if shortest is None or 2 * grid.pixel <= shortest:
         return []
     least = ceil(2 * spare * grid.extent / shortest)
-    told = [f"points = {least} would carry it"] if least <= MOST_POINTS else []
+    told = [f"points = {least} would do"] if least <= MOST_POINTS else []
     if told and 4 * least <= MOST_POINTS:
-        told = [f"{told[0]}, {4 * least} resolve it"]
+        told = [f"{told[0]}, {4 * least} would resolve it"]
     remedy = (
         "; ".join([*told, *_kept(scene, grid, spare)])
-        or "no allowed number of points would carry it: press less, or take longer waves"
+        or "no allowed number of points would do: press less, or use longer waves"
     )
     return [f"{field}.shortest = {shortest:g} m is less than two pixels of {grid.pixel:g} m; {remedy}"]
 
@@ -309,5 +309,5 @@ def _kept(scene, grid, spare=1.0):
         if kept <= most_kept:
             return [f"{field}.shortest_kept = {kept:.3g} would leave out waves that they cannot carry"]
     elif isinstance(rough, SelfAffine) and kept <= rough.longest / 2:
-        return [f"{field}.shortest = {kept:.3g} would be carried"]
+        return [f"{field}.shortest = {kept:.3g} would do"]
     return []

@@ -152,7 +152,7 @@ def _stiffness(scene):
     stiffer = 2 * (1 + scene.solid.poisson_ratio)
     at_rest = f"shear G = {pascals(rest)}, Young's E = {pascals(stiffer * rest)} at rest"
     if isinf(instant):
-        return f"{at_rest}; infinite at the instant, by a dashpot"
+        return f"{at_rest}; infinite at the instant (a dashpot)"
     if instant == rest:
         return f"{at_rest} and at the instant"
     return f"{at_rest}; {pascals(instant)}, {pascals(stiffer * instant)} at the instant"

@@ -171,7 +171,7 @@ def test_more_waves_than_fit_are_refused_before_they_are_built(monkeypatch):
 
 def test_a_grid_too_coarse_for_a_map_is_refused():
     map_ = sampled(ROUGH, 100)
-    with pytest.raises(Refused, match=r"points = 100 would carry it"):
+    with pytest.raises(Refused, match=r"points = 100 would do"):
         BEM(points=96).solve(replace(PRESSED, roughness=map_))
     with pytest.raises(SolveError, match=r"indenter.shortest = 4e-05 m is less than two pixels"):
         BEM(points=32).solve(Scene(ball(200, 4e-3), SOLID, Indent(load=0.3)))
