@@ -106,7 +106,7 @@ def sampled(rng, claim, variation, interval):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("variation", [0.15, 0.5, 1.0])
+@pytest.mark.parametrize("variation", [0.5, 1.0])
 def test_verdicts_contradict_the_truth_in_one_study_of_twenty_at_most(variation):
     """Truth a quarter of the tolerance inside the edge, and outside of it: 80 synthetic studies of each."""
     rng, tolerance, wrong, studies = np.random.default_rng(11), 0.4 * variation, 0, 80
