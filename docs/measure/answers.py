@@ -71,12 +71,14 @@ MISFITS = ("eq23",)
 def parts() -> Mapping[tuple[Path, str], str]:
     """Text between two comments, by the page and the name of the comment."""
     run = pandas.read_csv(RUN)
-    slow_found, fast_found = (pandas.read_csv(each.PAGE.with_suffix(".csv")) for each in (slow, fast))
+    slow_found, fast_found, waves = (
+        pandas.read_csv(each.PAGE.with_suffix(".csv")) for each in (slow, fast, spectrum)
+    )
     return {
         (PAGE, "run"): table("|rough sphere|rough cone", _of_run(run)),
         (PAGE, "paper"): table("|sphere|cone", _of_paper(pandas.read_csv(DOCS / "paper" / "findings.csv"))),
         (PAGE, "study"): table("|sphere, 1D|cone, 1D|sphere, 3D|cone, 3D", _of_study(slow_found, fast_found)),
-        (PAGE, "spectrum"): _of_spectrum(),
+        (PAGE, "spectrum"): " ".join(spectrum.sentence(body, waves[waves["shape"] == body]) for body in BODIES),
         (README, "answer"): _answer(run, slow_found, fast_found),
         (PAPER, "answer"): _answer(run, slow_found, fast_found).replace("(docs/", "(../"),
         (PAPER, "slow"): slow.answer(slow_found),
@@ -111,12 +113,6 @@ def _of_study(slow_found: DataFrame, fast_found: DataFrame) -> Iterator[tuple[st
     for claims, judged in ((OF_STUDY, found), (IN_REGIME, slow_found), (AT_SPEED, fast_found)):
         for claim, words in claims.items():
             yield words, *(_cell(finding(judged, claim, body, dimension)) for body, dimension in places)
-
-
-def _of_spectrum() -> str:
-    """A sentence for each body."""
-    found = pandas.read_csv(spectrum.PAGE.with_suffix(".csv"))
-    return " ".join(spectrum.sentence(shape, found[found["shape"] == shape]) for shape in BODIES)
 
 
 def _answer(run: DataFrame, slow_found: DataFrame, fast_found: DataFrame) -> str:
