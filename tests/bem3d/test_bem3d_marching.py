@@ -193,14 +193,6 @@ def test_what_comes_into_the_window_is_what_the_contact_did_there():
     np.testing.assert_allclose(around.window.fields[0, :, :12], expected, rtol=2e-3)
 
 
-def test_a_mode_may_be_split_in_two():
-    stages = Stage(duration=TAU, load=1.0), Stage(duration=2 * TAU, speed=0.5)
-    one = marched(Sphere(R), Prony(G, (4 * G,), (TAU,)), Program(stages=stages), 10, 32, 5e-3)
-    two = marched(Sphere(R), Prony(G, (3 * G, G), (TAU, TAU * (1 + 1e-9))), Program(stages=stages), 10, 32, 5e-3)
-    for name in ("normal_force", "friction_by_traction", "depth"):
-        np.testing.assert_allclose(getattr(two, name), getattr(one, name), rtol=1e-5, atol=1e-9)
-
-
 @pytest.mark.slow
 def test_the_contact_does_not_drift_in_steady_sliding():
     depth, speed = A**2 / R, 0.3 * A / TAU

@@ -135,24 +135,6 @@ def alike(pressure, other):
     return np.abs(pressure - other).max() <= ALIKE * max(pressure.max(), other.max())
 
 
-@examples(4)
-@given(presses(media=(HalfSpace,)), decades(-4, 0))
-def test_a_deeper_contact_carries_more(pressed, more):
-    """sum p rises with d: of two answers (p2 - p1) (w2 - w1) <= 0 on every point, and the operator is definite."""
-    shallow = pressed.solved()
-    deep = pressed.solved(depth=shallow.depth + more * np.ptp(pressed.heights))
-    assert broken(pressed, deep) == []
-    assert deep.pressure.sum() >= shallow.pressure.sum() * (1 - ALIKE)
-
-
-@examples(6)
-@given(presses(), decades(-4, 0))
-def test_a_heavier_contact_is_deeper(pressed, more):
-    """The same the other way round, of cells too, where full contact has no depth of its own."""
-    light, heavy = pressed.solved(), pressed._replace(load=pressed.load * (1 + more)).solved()
-    assert heavy.depth >= light.depth - ALIKE * np.ptp(pressed.heights)
-
-
 @examples(12)
 @given(presses(media=(Cell,)), st.tuples(st.integers(0, POINTS), st.integers(0, POINTS)))
 def test_a_repeated_surface_moved_by_whole_pixels_has_the_pressure_moved_as_far(pressed, by):
