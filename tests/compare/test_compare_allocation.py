@@ -11,7 +11,7 @@ from test_compare_levels import answers
 
 import compare
 from bem3d import BEM
-from compare.library.case import Case
+from compare.library.lookup import case_of
 from compare.solving.cost import MOST_DRAWS
 from compare.solving.parameter_grid import DIFFERENCES, FINEST, PILOT, pilot
 from compare.statistics.allocation import GROWTH, needed, unreached
@@ -130,14 +130,7 @@ def test_no_stratum_takes_seeds_of_another():
         pytest.fail("the bound was not reached")
 
 
-CASE = Case(
-    indenter=SLIDING.indenter,
-    elastomer=SLIDING.elastomer,
-    motion=SLIDING.motion,
-    roughness=SLIDING.roughness,
-    bem=BEM(points=64),
-    mdr=MDR(points=1024),
-)
+CASE = replace(case_of(SLIDING), bem=BEM(points=64), mdr=MDR(points=1024))
 
 
 def friction(dataset, end):
