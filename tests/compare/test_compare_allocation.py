@@ -171,13 +171,6 @@ def test_more_than_a_day_is_refused_where_a_look_asks_for_it(tmp_path, monkeypat
     assert (tmp_path / "solved" / "answers.txt").exists()
 
 
-@pytest.mark.usefixtures("in_this_process")
-def test_a_smooth_body_has_no_surfaces_to_average(tmp_path):
-    smooth = replace(CASE, roughness=None)
-    found = compare.sweep(smooth, [0.1], interval="1%", output=tmp_path, report=False)
-    assert "seed" not in found.dims
-
-
 @pytest.mark.parametrize("interval", [0, 1, "2 mm", "200%", True, float("nan"), "-1%"])
 def test_an_interval_is_a_share(interval, tmp_path):
     with pytest.raises(InvalidInput, match=r"interval = .*: a share above 0 and below 1, as 2% or 0\.02"):

@@ -600,7 +600,7 @@ def test_a_scene_is_solved_until_its_scatter_is_known_and_its_ratio_is_the_map_s
 @pytest.mark.slow
 def test_the_campaign_solves_judges_and_resumes(tmp_path, monkeypatch):
     held_out = tuple(design.EVENLY_AGAIN + k for k in range(4))
-    monkeypatch.setattr(study, "_size", lambda name: study.Size((0, 3), held_out, 0.5))
+    monkeypatch.setattr(study, "_size", lambda name: study.Size((0, 3), held_out, 0.25))
     monkeypatch.setattr(study.TrustStudy, "models", lambda *_: {name: shipped.model(name) for name in RATIOS})
     found = compare.study("trust", output=tmp_path, workers=2)
     assert {each.claim.id for each in found.findings} >= {"trust.friction.median", "trust.force.coverage"}
