@@ -1,6 +1,5 @@
 """Marching in time: closed forms of indentation, the steady solver, the elastic one, and what a history keeps."""
 
-from dataclasses import replace
 from math import pi, sqrt
 
 import numpy as np
@@ -133,15 +132,6 @@ def test_a_depth_that_is_seen_late_in_its_step_is_told_of_the_middle():
     found = marching._back(seen, 2 * seen, middle)
     np.testing.assert_allclose(found, [1.2, 3.0, 5.0])  # nothing is known before the first
     np.testing.assert_allclose(marching._back(seen, np.array([np.nan, 1.0, 2.1]), middle)[1], 1.0)
-
-
-def test_an_elastic_solid_has_no_history():
-    up, down = Stage(duration=1.0, depth=2e-4), Stage(duration=0.5, depth=0.0)
-    history = marched(Sphere(R), Elastic(G), Program(stages=(up, down)), 12, 48, 4e-3)
-    rest, solver = Scene(Sphere(R), Elastic(G), Indent(depth=1.0)), BEM(48, 4e-3, TOLERANCE)
-    forces = [solver.solve(replace(rest, motion=Indent(depth=depth))).normal_force for depth in history.depth]
-    np.testing.assert_allclose(history.normal_force, forces, rtol=1e-5)
-    assert np.all(history.power == 0)
 
 
 def started(solid, ratio, points, memories=5.0):
