@@ -1,7 +1,10 @@
 """Scenes, cases and grids of parameters small enough to be solved in a test."""
 
+from dataclasses import replace
+
 from bem3d import BEM
-from compare.library.case import Case, Variations
+from compare.library.case import Variations
+from compare.library.lookup import case_of
 from compare.solving.parameter_grid import ParameterGrid, on_two_grids
 from mdr1d import MDR
 from scene import Kelvin, Scene, SelfAffine, Slide, Sphere
@@ -12,12 +15,9 @@ SLIDING = Scene(
     motion=Slide(speed=0.1, load=1.0),
     roughness=SelfAffine(hurst=0.2, rms_height=1e-6, longest=1e-2, shortest=1e-3, seed=5),
 )
-TINY = Case(
+TINY = replace(
+    case_of(SLIDING),
     title="A <rough> sphere & more",
-    indenter=SLIDING.indenter,
-    elastomer=SLIDING.elastomer,
-    motion=SLIDING.motion,
-    roughness=SLIDING.roughness,
     study=Variations(
         speeds=(0.1, 1.0), pressing=(0.5, 2.0), load_speeds=(0.1,), depths=(1.0,), surfaces=2, profiles=2
     ),

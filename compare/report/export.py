@@ -49,7 +49,8 @@ def export(folder: str | Path, to: str = "csv", output: str | Path | None = None
             frame = _printable(frame)
         if not frame.empty:
             written.append(manifest.inside(Path(output), f"{name}{FORMS[to]}"))
-            csvfiles.write_text(written[-1], _latex(frame, name) if to == "latex" else _csv(frame))
+            headed = frame.rename(columns=lambda column: _head(str(column)))
+            csvfiles.write_text(written[-1], _latex(frame, name) if to == "latex" else csvfiles.text(headed))
     if not written:
         raise InvalidInput(f"{brief(str(folder))}: holds no table that {to} could show")
     return written
@@ -113,10 +114,6 @@ def _latex(frame: DataFrame, name: str) -> str:
     # Columns are not always what their names say.
     except (TypeError, ValueError, ArithmeticError) as error:
         raise InvalidInput(f"table {name} cannot be printed: {brief(str(error))}") from error
-
-
-def _csv(frame: DataFrame) -> str:
-    return csvfiles.text(frame.rename(columns={name: _head(str(name)) for name in frame.columns}))
 
 
 def _head(name: str) -> str:

@@ -166,7 +166,8 @@ def collapse(data: FrictionCurves) -> Collapse:
         )
     if horizontal.reason and not raised.reason:
         horizontal = replace(horizontal, mended=_taken(complete, level, lifted, along, both))
-    friction = _log_friction(complete)
+    values = np.concatenate([curve.log_friction for curve in complete.curves])
+    friction = complete.replicates(values, complete.deviations()).estimated
     return Collapse(
         data=complete,
         points_left_out=data.points - count,
@@ -193,12 +194,6 @@ def along_load(data: FrictionCurves) -> Alignment:
         raise ValueError(f"{len(curves)} speeds with too few points for as many shifts: add loads or speeds")
     fit = Fit(curves, DEGREE)
     return _moved(complete, fit, _best(fit, np.zeros(len(curves) - 1)))
-
-
-def _log_friction(data):
-    """ln mu of every point, with standard errors to first order."""
-    values = np.concatenate([curve.log_friction for curve in data.curves])
-    return data.replicates(values, data.deviations()).estimated
 
 
 def _with_errors(curves, errors):

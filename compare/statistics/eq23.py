@@ -16,71 +16,68 @@ from .intervals import Estimated, RmsMisfit
 # Largest misfit in ln mu that counts as one curve, and relative error of an exponent that counts as predicted.
 TOLERANCE = 0.05
 _MISFIT = "rms of ln mu about one curve, without what scatter adds"
-COLLAPSE = Claim(
-    id="eq23.collapse",
-    sentence="Eq. 23: shifts along the load bring friction at all speeds onto one curve",
-    expected=0.0,
-    tolerance=TOLERANCE,
-    meaning=f"{_MISFIT}. All shifts are found at once, and neighbouring curves share {LEAST_OVERLAP:.0%} of their "
+_POWER = "Exponent of the horizontal shifts against the speed, least squares."
+
+
+def _misfit(name: str, sentence: str, meaning: str, expected: float = nan) -> Claim:
+    """Claim on a misfit in percent, or a number that is only reported."""
+    return Claim(f"eq23.{name}", sentence, expected, expected + TOLERANCE, meaning, percent=True)
+
+
+COLLAPSE = _misfit(
+    "collapse",
+    "Eq. 23: shifts along the load bring friction at all speeds onto one curve",
+    f"{_MISFIT}. All shifts are found at once, and neighbouring curves share {LEAST_OVERLAP:.0%} of their "
     "range at least.",
-    percent=True,
+    0.0,
 )
-VERTICAL = Claim(
-    id="eq23.vertical",
-    sentence="Eq. 23: no shift along friction is needed",
-    expected=0.0,
-    tolerance=TOLERANCE,
-    meaning="rms of ln mu of what vertical shifts beside the horizontal ones would take from the misfit.",
-    percent=True,
+VERTICAL = _misfit(
+    "vertical",
+    "Eq. 23: no shift along friction is needed",
+    "rms of ln mu of what vertical shifts beside the horizontal ones would take from the misfit.",
+    0.0,
 )
-PREDICTED = Claim(
-    id="eq23.predicted",
-    sentence="Eqs. 22, 23: shifted by p(v) of the loss at the shortest wave, friction falls onto one curve",
-    expected=0.0,
-    tolerance=TOLERANCE,
-    meaning=f"{_MISFIT}, with the shifts that the theory gives, none fitted.",
-    percent=True,
+PREDICTED = _misfit(
+    "predicted",
+    "Eqs. 22, 23: shifted by p(v) of the loss at the shortest wave, friction falls onto one curve",
+    f"{_MISFIT}, with the shifts that the theory gives, none fitted.",
+    0.0,
 )
 EXPONENT = Claim(
-    id="eq23.exponent",
-    sentence="Eqs. 22, 23: p(v) is the power of the speed that the loss at the shortest wave gives",
-    meaning="Exponent of the horizontal shifts against the speed, least squares.",
+    "eq23.exponent",
+    "Eqs. 22, 23: p(v) is the power of the speed that the loss at the shortest wave gives",
+    meaning=_POWER,
 )
-UNSHIFTED = Claim(
-    id="eq23.unshifted",
-    sentence="Misfit of friction to one curve before shifting",
-    meaning=f"{_MISFIT}, where no curve is shifted.",
-    percent=True,
+UNSHIFTED = _misfit(
+    "unshifted", "Misfit of friction to one curve before shifting", f"{_MISFIT}, where no curve is shifted."
 )
-VERTICAL_ALONE = Claim(
-    id="eq23.vertical-alone",
-    sentence="Misfit of friction to one curve with vertical shifts alone",
-    meaning=f"{_MISFIT}, with a shift along friction at each speed and none along the load.",
-    percent=True,
+VERTICAL_ALONE = _misfit(
+    "vertical-alone",
+    "Misfit of friction to one curve with vertical shifts alone",
+    f"{_MISFIT}, with a shift along friction at each speed and none along the load.",
 )
-BOTH = Claim(
-    id="eq23.both",
-    sentence="Misfit of friction to one curve with shifts along load and friction",
-    meaning=f"{_MISFIT}, with both shifts at each speed.",
-    percent=True,
+BOTH = _misfit(
+    "both",
+    "Misfit of friction to one curve with shifts along load and friction",
+    f"{_MISFIT}, with both shifts at each speed.",
 )
 NOT_SHIFTED = Claim(
-    id="eq23.vertical-exponent",
-    sentence="Eq. 23: exponent of a shift along friction beside that along the load, as a power of the speed",
+    "eq23.vertical-exponent",
+    "Eq. 23: exponent of a shift along friction beside that along the load, as a power of the speed",
     expected=0.0,
     tolerance=0.0,
     meaning="Exponent of the vertical shifts against the speed, least squares. Nil is claimed where both shifts "
     "can be told apart and the interval leaves it out: then both are the answer.",
 )
 BESIDE = Claim(
-    id="eq23.exponent-beside-vertical",
-    sentence="Exponent of the shift along the load where the curves are shifted along friction too",
-    meaning="Exponent of the horizontal shifts against the speed, least squares.",
+    "eq23.exponent-beside-vertical",
+    "Exponent of the shift along the load where the curves are shifted along friction too",
+    meaning=_POWER,
 )
 ALONE = Claim(
-    id="eq23.exponent-alone",
-    sentence="Exponent of the shift along the load where no curve is shifted along friction",
-    meaning="Exponent of the horizontal shifts against the speed, least squares.",
+    "eq23.exponent-alone",
+    "Exponent of the shift along the load where no curve is shifted along friction",
+    meaning=_POWER,
 )
 NO_SHIFT = "none, as these shifts do not bring the curves onto one"
 MISFIT, MENDED = attrgetter("horizontal.misfit"), attrgetter("horizontal.mended")

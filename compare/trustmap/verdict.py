@@ -189,7 +189,10 @@ def trust(scene: Scene) -> Advice:
     no advice: 3D is as linear as 1D.
     """
     found = replace(_advised(as_judged(scene)), doubts=doubts(scene), notes=notes(scene))
-    return _of_fit(found) if isinstance(scene.roughness, Profile) else found
+    if isinstance(scene.roughness, Profile):
+        told = {name: replace(each, reason=f"{each.reason} {FITTED}") for name, each in found.corrections.items()}
+        return replace(found, **told)
+    return found
 
 
 def _advised(scene):
@@ -219,12 +222,6 @@ def _advised(scene):
     corrections = {name: _predicted(name, place, groups, _cost(name, scene)) for name in asked}
     found = _of(corrections, named, tuple(nearest(asked[0], place)))
     return replace(found, solving=_solving(scene, asked[0], place, smooth))
-
-
-def _of_fit(found):
-    """Advice whose reasons tell what a fit adds to the uncertainty."""
-    told = {name: replace(worth, reason=f"{worth.reason} {FITTED}") for name, worth in found.corrections.items()}
-    return replace(found, **told)
 
 
 def _unknown(scene, reason, advice=SOLVE):

@@ -16,10 +16,10 @@ import slow
 import spectrum
 import trust
 from pandas import DataFrame
-from tables import replaced, table
+from tables import finding, replaced, stored, table
 
 import compare
-from compare.report.csvfiles import text, write_text
+from compare.report.csvfiles import write_text
 from compare.statistics.digits import interval, number
 from compare.studies.claims.catalogue import STUDIES
 from compare.studies.claims.claims import ENDS
@@ -71,12 +71,14 @@ MISFITS = ("eq23",)
 def parts() -> Mapping[tuple[Path, str], str]:
     """Text between two comments, by the page and the name of the comment."""
     run = pandas.read_csv(RUN)
-    slow_found, fast_found = (pandas.read_csv(each.PAGE.with_suffix(".csv")) for each in (slow, fast))
+    slow_found, fast_found, waves = (
+        pandas.read_csv(each.PAGE.with_suffix(".csv")) for each in (slow, fast, spectrum)
+    )
     return {
         (PAGE, "run"): table("|rough sphere|rough cone", _of_run(run)),
         (PAGE, "paper"): table("|sphere|cone", _of_paper(pandas.read_csv(DOCS / "paper" / "findings.csv"))),
         (PAGE, "study"): table("|sphere, 1D|cone, 1D|sphere, 3D|cone, 3D", _of_study(slow_found, fast_found)),
-        (PAGE, "spectrum"): _of_spectrum(),
+        (PAGE, "spectrum"): " ".join(spectrum.sentence(body, waves[waves["shape"] == body]) for body in BODIES),
         (README, "answer"): _answer(run, slow_found, fast_found),
         (PAPER, "answer"): _answer(run, slow_found, fast_found).replace("(docs/", "(../"),
         (PAPER, "slow"): slow.answer(slow_found),
@@ -89,7 +91,7 @@ def parts() -> Mapping[tuple[Path, str], str]:
 
 def _of_run(found: DataFrame) -> Iterator[tuple[str, ...]]:
     for (claim, dimension), words in OF_RUN.items():
-        yield words, *(_cell(_row(found, claim, scene, dimension)) for scene in SCENES)
+        yield words, *(_cell(finding(found, claim, scene, dimension)) for scene in SCENES)
     for depth, place in (("shallow", 0), ("deep", -1)):
         forces = [found[found["claim"].eq("force.ratio.rough") & found["where"].str.startswith(s)] for s in SCENES]
         cells = (_cell(each.iloc[place], percent=True) for each in forces)
@@ -102,7 +104,7 @@ def _of_paper(found: DataFrame) -> Iterator[tuple[str, ...]]:
         if len(rows) == 1:
             yield words, _cell(rows.iloc[0]), "both bodies in one fit"
         else:
-            yield words, *(_cell(_row(found, claim, body, "1D")) for body in BODIES)
+            yield words, *(_cell(finding(found, claim, body, "1D")) for body in BODIES)
 
 
 def _of_study(slow_found: DataFrame, fast_found: DataFrame) -> Iterator[tuple[str, ...]]:
@@ -110,21 +112,16 @@ def _of_study(slow_found: DataFrame, fast_found: DataFrame) -> Iterator[tuple[st
     places = [(body, dimension) for dimension in ("1D", "3D") for body in BODIES]
     for claims, judged in ((OF_STUDY, found), (IN_REGIME, slow_found), (AT_SPEED, fast_found)):
         for claim, words in claims.items():
-            yield words, *(_cell(_row(judged, claim, body, dimension)) for body, dimension in places)
-
-
-def _of_spectrum() -> str:
-    """A sentence for each body."""
-    found = pandas.read_csv(spectrum.PAGE.with_suffix(".csv"))
-    return " ".join(spectrum.sentence(shape, found[found["shape"] == shape]) for shape in BODIES)
+            yield words, *(_cell(finding(judged, claim, body, dimension)) for body, dimension in places)
 
 
 def _answer(run: DataFrame, slow_found: DataFrame, fast_found: DataFrame) -> str:
     """Three points: on the smooth body at rest, on friction by 1D and its correction, and on the law in 3D."""
     smooth = run[run["claim"] == "force.ratio.smooth"]["value"].abs().max()
-    slow_body, rough = (_row(run, f"friction.ratio.{name}", SCENES[0], "1D/3D") for name in ("smooth-slow", "own"))
-    missed = {name: _number(_row(fast_found, "eq23.predicted", "sphere", name), percent=True) for name in ALONE}
-    too_high = _number(_row(slow_found, f"eq17.level-{ENDS[0]}", "sphere", "3D"))
+    ratios = (f"friction.ratio.{name}" for name in ("smooth-slow", "own"))
+    slow_body, rough = (finding(run, claim, SCENES[0], "1D/3D") for claim in ratios)
+    missed = {name: _number(finding(fast_found, "eq23.predicted", "sphere", name), percent=True) for name in ALONE}
+    too_high = _number(finding(slow_found, f"eq17.level-{ENDS[0]}", "sphere", "3D"))
     return "\n".join(
         [
             f"- **Force and depth of a smooth body at rest: trust 1D.** Both models agree to {number(smooth, 1)}.",
@@ -136,12 +133,6 @@ def _answer(run: DataFrame, slow_found: DataFrame, fast_found: DataFrame) -> str
             f"sphere is at least {too_high} times too high for it ([why](docs/results/slow.md)). {law.answer()}",
         ]
     )
-
-
-def _row(found: DataFrame, claim: str, where: str, dimension: str):
-    chosen = found["claim"].eq(claim) & found["where"].eq(where) & found["dimension"].eq(dimension)
-    (row,) = (row for _, row in found[chosen].iterrows())
-    return row
 
 
 def _number(row, percent: bool = False) -> str:
@@ -158,7 +149,7 @@ def _cell(row, percent: bool = False) -> str:
 def run_again() -> None:
     """Store the findings of the main job, and sentences as a terminal shows them."""
     report = compare.run(progress="lines")
-    write_text(RUN, text(report.table))
+    stored(RUN, report.table)
     (shown,) = (part for part in str(report).split("\n\n") if part.startswith(SHOWN))
     write_text(RUN.with_suffix(".txt"), f"{shown}\n")
 
@@ -167,7 +158,7 @@ def studies_again() -> None:
     """Do the six studies at size standard, as far as they are not solved, and store their findings."""
     for name in STUDIES:
         found = compare.study(name, "standard", progress="lines").table
-        write_text(STANDARD / f"{name}.csv", text(found.drop(columns=["regime", "meaning", "plot", "sentence"])))
+        stored(STANDARD / f"{name}.csv", found.drop(columns=["regime", "meaning", "plot", "sentence"]))
 
 
 def main(first: str = "") -> None:

@@ -1,16 +1,27 @@
 """What the measured pages share beside their tables: solving what is not solved yet, with a bar."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
+import numpy as np
 from rich.console import Console
 
 from compare.solving.hold import hold
-from compare.solving.outcome import Outcome
+from compare.solving.outcome import Outcome, Row
 from compare.solving.runner import sweep
 from compare.solving.store import Store
 from compare.solving.task import Task
 from compare.solving.terminal import SweepBar
+from compare.statistics.intervals import Estimated
+from compare.statistics.jackknife import mean_ratio
+
+
+def friction(rows: Sequence[Row]) -> Estimated:
+    """Mean friction force over mean normal force of those with an answer."""
+    known = [each for each in rows if each.reason is None]
+    return mean_ratio(
+        np.array([row.friction_force for row in known]), np.array([row.normal_force for row in known])
+    )
 
 
 def solved(

@@ -10,11 +10,11 @@ import numpy as np
 from pandas import DataFrame
 from scenes import PAGE
 from scipy.optimize import minimize
+from tables import stored
 
 from compare.models.law.card import BODIES, Body
 from compare.models.law.nominal import NominalContact
 from compare.models.law.smooth import SmoothContact
-from compare.report.csvfiles import text, write_text
 from compare.studies.trust.design import drawn_points, scene_at
 from scene import Cone, Scene, Slide, Sphere
 from scene.scales import elastic_contact
@@ -86,7 +86,7 @@ def main() -> None:
             told.append({"shape": shape.__name__, "of": name, **ends, "scenes": len(own)})
         print(found)
     table = DataFrame(told)
-    write_text(PAGE.with_name("card.csv"), text(table))
+    stored(PAGE.with_name("card.csv"), table)
     print(table.to_string())
 
 

@@ -15,12 +15,10 @@ from effects_page import costs
 from effects_page.asked import Effect, effects
 from effects_page.catalogue import STUDIES
 from effects_page.chapter import Chapter
-from pandas import DataFrame
-from tables import replaced, table
+from tables import by_column, replaced, stored, table
 
 import bem3d.plan
 import mdr1d.plan
-from compare.report import csvfiles
 from compare.report.manifest import machine, versions
 from compare.report.plots import style
 from compare.report.plots.rendering import rendered
@@ -38,7 +36,7 @@ def main() -> None:
     timed = solved(PAGE, costs.tasks(), fresh=True)
     billed = costs.costs(timed)
     for name, rows in costs.tables(billed).items():
-        _write_csv(TABLES[name], rows)
+        stored(TABLES[name], rows)
     with style.applied():
         for chapter in (*(study.chapter(outcomes) for study in STUDIES), costs.chapter(timed)):
             _put(chapter)
@@ -75,13 +73,9 @@ def _put(chapter: Chapter) -> None:
     for name, figure in chapter.figures.items():
         (FOLDER / f"{name}.png").write_bytes(rendered(figure, ("png",)).files["png"])
     for name, rows in chapter.tables.items():
-        replaced(PAGE, name, table("|".join(rows[0]), (tuple(map(str, row.values())) for row in rows)))
+        replaced(PAGE, name, by_column(rows))
     for name, rows in chapter.data.items():
-        _write_csv(FOLDER / f"{name}.csv", rows)
-
-
-def _write_csv(path, rows):
-    csvfiles.write_text(path, csvfiles.text(DataFrame(rows)))
+        stored(FOLDER / f"{name}.csv", rows)
 
 
 if __name__ == "__main__":

@@ -9,10 +9,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from pandas import DataFrame
-from tables import replaced, table
+from tables import finding, replaced, stored, table
 
 import compare
-from compare.report.csvfiles import text, write_text
 from compare.statistics.digits import interval
 
 PAGE = Path(__file__).parents[1] / "results" / "experiment.md"
@@ -54,12 +53,10 @@ def main() -> None:
     """Solve what is not solved yet, and write the tables and the figure."""
     report = compare.study(NAME, "standard", progress="lines")
     found = report.table.drop(columns=["meaning", "plot", "sentence"])
-    STORED.mkdir(exist_ok=True)
-    write_text(STORED / "findings.csv", text(found))
+    stored(STORED / "findings.csv", found)
     shutil.copy(report.path.parent / f"{NAME}.png", STORED)
-    places = [(place, words) for place, words in PLACES.items()]
-    rows = ((words, *(_cell(found, claim, place) for place, _ in places)) for claim, words in CLAIMS.items())
-    replaced(PAGE, "numbers", table("|".join(["", *(words for _, words in places)]), rows))
+    rows = ((words, *(_cell(found, claim, place) for place in PLACES)) for claim, words in CLAIMS.items())
+    replaced(PAGE, "numbers", table("|".join(["", *PLACES.values()]), rows))
     replaced(PAGE, "law", table("|".join(["", *LAW.values()]), _checks(found)))
 
 
@@ -70,9 +67,7 @@ def _checks(found: DataFrame) -> Iterator[tuple[str, ...]]:
 
 def _cell(found: DataFrame, claim: str, where: str) -> str:
     """Verdict, unless the number is only reported, and the number with its interval."""
-    (row,) = (
-        each for _, each in found[(found["claim"] == f"{NAME}.{claim}") & (found["where"] == where)].iterrows()
-    )
+    row = finding(found, f"{NAME}.{claim}", where)
     scale = 100 if claim in PERCENT else 1
     said = interval(*(scale * row[name] for name in ("value", "low", "high")))
     return said if row["verdict"] == "reported" else f"{row['verdict']}: {said}"

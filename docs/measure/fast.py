@@ -11,10 +11,9 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 from pandas import DataFrame
-from tables import replaced, table
+from tables import finding, replaced, stored, table
 
 import compare
-from compare.report.csvfiles import text, write_text
 from compare.report.plots import style
 from compare.report.plots.shades import SPEED, bar, between
 from compare.solving.parameter_grid import COARSE, FINE
@@ -79,21 +78,15 @@ def main() -> None:
                 for claim, (_, place) in CORRECTED.items()
             ]
     told = DataFrame(rows)
-    write_text(PAGE.with_suffix(".csv"), text(told))
+    stored(PAGE.with_suffix(".csv"), told)
     columns = [(dimension, body) for body in EXPONENT for dimension in ("1D", "3D")]
     words = COLLAPSE | FROM_KNEE | {claim: name for claim, (name, _) in CORRECTED.items()}
     header = "|".join(["", *(f"{body}, {dimension}" for dimension, body in columns)])
-    replaced(
-        PAGE,
-        "numbers",
-        table(
-            header,
-            (
-                (name, *(_said(told, claim, *place, claim.startswith("eq23")) for place in columns))
-                for claim, name in words.items()
-            ),
-        ),
+    cells = (
+        (name, *(_said(told, claim, *place, claim.startswith("eq23")) for place in columns))
+        for claim, name in words.items()
     )
+    replaced(PAGE, "numbers", table(header, cells))
     replaced(PAGE, "fast", answer(told))
     replaced(LAW, "master", table("|sphere|cone", _master(found)))
     for body in EXPONENT:
@@ -129,9 +122,7 @@ def answer(told: DataFrame) -> str:
 
 def _plain(found, claim, dimension, body):
     """A finding as it stands."""
-    chosen = (found["claim"] == claim) & (found["dimension"] == dimension) & (found["where"] == body)
-    (row,) = found[chosen].itertuples()
-    return {name: getattr(row, name) for name in COLUMNS}
+    return finding(found, claim, body, dimension)[[*COLUMNS]].to_dict()
 
 
 def _from_the_knee(tree, dimension, body):
@@ -153,10 +144,7 @@ def _corrected(found, fine, trees, claim, place, body):
 
     The interval holds the scatter of the many, that of the change, and the last change of the grid.
     """
-    many, few = (
-        each[(each["claim"] == claim) & (each["dimension"] == "3D") & (each["where"] == body)].iloc[0]
-        for each in (found, fine)
-    )
+    many, few = (finding(each, claim, body, "3D") for each in (found, fine))
     coarse, finest = (_friction(tree, body) for tree in trees)
     places = [int(np.argmin(abs(np.log(coarse[0] / speed)))) for speed in finest[0]]
     load, change = finest[1], np.log(finest[2][place] / coarse[2][places[place]][[0, -1], : finest[2].shape[-1]])
@@ -193,8 +181,7 @@ def _friction(tree, body):
 
 def _said(told: DataFrame, claim: str, dimension: str, body: str, percent: bool) -> str:
     """Value with its interval."""
-    chosen = (told["claim"] == claim) & (told["dimension"] == dimension) & (told["where"] == body)
-    (row,) = told[chosen].itertuples()
+    row = finding(told, claim, body, dimension)
     scale, digits = (100, 1) if percent else (1, 3)
     value, low, high = (f"{scale * each:.{digits}f}".replace("-", "−") for each in (row.value, row.low, row.high))
     return f"{value}{' %' if percent else ''} ({low} to {high})"

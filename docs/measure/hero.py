@@ -16,9 +16,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from pandas import DataFrame
 from PIL import Image
+from tables import stored
 
 from bem3d import BEM, Trail
-from compare.report.csvfiles import read, text, write_text
+from compare.report.csvfiles import read
 from compare.report.page import Plot
 from compare.report.plots import style
 from compare.report.plots.curves import intervals
@@ -45,7 +46,7 @@ SPAN, WIDTH = 2e-3, 1440  # of the springs, to either side [m]; of the file, in 
 def main() -> None:
     """Solve what is missing, draw, and write the figure."""
     if not NUMBERS.exists():
-        write_text(NUMBERS, text(DataFrame(solved())))
+        stored(NUMBERS, solved())
     fields = {solver.name: solver.solve(SHOWN).fields for solver in (LINE, SPACE)}
     seen = view(SHOWN, SPACE, fields)
     with style.applied():

@@ -10,13 +10,12 @@ import numpy as np
 import pandas
 from pandas import DataFrame
 from scenes import PAGE, RandomScene, scenes
-from tables import replaced, table
+from tables import replaced, stored, table
 
 from compare import FrictionLaw, Persson
 from compare.models.law.card import card
 from compare.models.law.share import FITTED
 from compare.models.law.smooth import SmoothContact
-from compare.report.csvfiles import text, write_text
 from scene import Cone, Sphere
 from scene.scales import elastic_contact
 
@@ -159,7 +158,7 @@ def answer() -> str:
 def main(name: str = "fresh") -> None:
     """Write the errors, and the tables of the page."""
     found = errors(name)
-    write_text(PAGE.with_name(f"errors-{name}.csv"), text(found))
+    stored(PAGE.with_name(f"errors-{name}.csv"), found)
     told = table("|scenes|" + "|".join(MODELS.values()) + "|held", rows(found))
     print(told)
     replaced(LAW, "errors", f"{WHICH[name]}\n\n{told}")

@@ -11,15 +11,14 @@ from pathlib import Path
 
 import numpy as np
 from campaign import solved
-from pandas import DataFrame
 from scipy.stats import qmc
+from tables import stored
 
 from bem3d import BEM
 from bem3d.heights import heights
 from compare.models.exact import full_contact
 from compare.models.law.bands import Bands, FullContact
 from compare.models.law.share import waves
-from compare.report.csvfiles import text, write_text
 from compare.solving.outcome import Outcome
 from compare.solving.task import SceneTask, Task
 from compare.statistics.jackknife import mean_ratio
@@ -155,7 +154,7 @@ def main(workers: int | None = None) -> None:
     """Solve what is not solved yet, and write what was found."""
     found = list(contacts())
     outcomes = solved(PAGE, [task for each in found for task in each.tasks], workers)
-    write_text(PAGE.with_suffix(".csv"), text(DataFrame(rows(found, outcomes))))
+    stored(PAGE.with_suffix(".csv"), rows(found, outcomes))
 
 
 if __name__ == "__main__":

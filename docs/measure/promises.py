@@ -14,12 +14,10 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from campaign import solved
-from pandas import DataFrame
 from promises_page import costs, errors, promises
-from tables import replaced, table
+from tables import replaced, stored, table
 
 from bem3d.costs import MEASURED
-from compare.report import csvfiles
 
 PAGE = Path(__file__).parents[1] / "results" / "promises.md"
 FOLDER = PAGE.with_suffix("")
@@ -35,7 +33,7 @@ def main() -> None:
         return
     if "costs" in sys.argv[1:]:
         priced = list(costs.asked(PRICED))
-        _write(MEASURED, costs.rows(priced, solved(PAGE, priced)))
+        stored(MEASURED, costs.rows(priced, solved(PAGE, priced)))
         return
     if "learn" in sys.argv[1:]:
         every = list(errors.to_learn(LEARNED))
@@ -45,13 +43,13 @@ def main() -> None:
     judged = [*errors.judged(HELD_OUT), *errors.judged_lines(HELD_OUT)]
     outcomes = solved(PAGE, dict.fromkeys(task for each in judged for task in each.tasks))
     stated = errors.rows(judged, outcomes)
-    _write(FOLDER / "errors.csv", stated)
+    stored(FOLDER / "errors.csv", stated)
     if "errors" in sys.argv[1:]:
         print(_regions(stated))
         return
     asked = list(promises.asked())
     made = promises.rows(asked, solved(PAGE, [task for each in asked for task in each.tasks]))
-    _write(FOLDER / "promises.csv", promises.missed(made))
+    stored(FOLDER / "promises.csv", promises.missed(made))
     replaced(PAGE, "counts", _counts(judged, outcomes, stated))
     replaced(PAGE, "regions", _regions(stated))
     replaced(PAGE, "kept", f"{_kept(made)}\n\n{promises.said(made)}")
@@ -67,10 +65,6 @@ def _counts(judged, outcomes, stated: Sequence[Mapping]) -> str:
         f"{len({each.task.scenes for each in judged})} contacts of other seeds, each on one or two grids: "
         f"{len(stated)} answers, and {answered - len(stated)} more whose truth is not known well enough. {worst}"
     )
-
-
-def _write(path: Path, rows: Sequence[Mapping]) -> None:
-    csvfiles.write_text(path, csvfiles.text(DataFrame(rows)))
 
 
 def _regions(stated) -> str:

@@ -10,10 +10,8 @@ from pathlib import Path
 
 import numpy as np
 from numpy.polynomial import Chebyshev
-from pandas import DataFrame
-from tables import table, write
+from tables import stored, table, write
 
-from compare.report import csvfiles
 from compare.statistics import eq23
 from compare.statistics.collapse import Collapse, collapse
 from compare.statistics.commoncurve import Fit, near
@@ -135,12 +133,10 @@ def mean_of_draws(normal: bool, variation: float, count: int) -> tuple[int, int,
 # Ratios of means.
 
 
-def ratio_of_means(part: SimulatedCurves) -> dict:
-    return {"": part.friction_force.mean() / part.load.mean()}
-
-
-def ratio_of_sides(part: Pair) -> dict:
-    return {"": part.one.friction_force.mean() / part.three.friction_force.mean()}
+def ratio(part: SimulatedCurves | Pair) -> dict:
+    """Mean friction over mean load, or that in 1D over that in 3D."""
+    above, below = (part.one, part.three.friction_force) if isinstance(part, Pair) else (part, part.load)
+    return {"": above.friction_force.mean() / below.mean()}
 
 
 def ratios(surfaces: int, pair: bool) -> Rate:
@@ -155,8 +151,7 @@ def ratios(surfaces: int, pair: bool) -> Rate:
         three = forces(surfaces)
         one = forces(PROFILES * surfaces) if pair else three
         sides = [SimulatedCurves(np.ones(1), load[None, None], force[None, None]) for load, force in (one, three)]
-        samples, statistic = (Pair(*sides), ratio_of_sides) if pair else (sides[0], ratio_of_means)
-        hits += has(resample(statistic, samples)[""].estimated.interval(), 1.0)
+        hits += has(resample(ratio, Pair(*sides) if pair else sides[0])[""].estimated.interval(), 1.0)
     return Rate(hits, CHEAP)
 
 
@@ -247,11 +242,6 @@ def answered(fits: list[Collapse], vertical: float) -> tuple[int, int]:
     return len(both), sum(held)
 
 
-def tally(said: list[str]) -> tuple[int, ...]:
-    """How many claims were kept, undecided and rejected."""
-    return tuple(said.count(kind) for kind in ("holds", "undecided", "fails"))
-
-
 def shares(counted: tuple[int, ...]) -> str:
     return " / ".join(f"{100 * count / sum(counted):g}" for count in counted)
 
@@ -293,14 +283,11 @@ def verdicts(fits: dict[str, list[Collapse]]) -> dict[str, dict[str, Said]]:
     said = {}
     for row, (law, theory) in ROWS.items():
         found, truth = [asked(each, theory) for each in fits[law]], asked(exact[law], theory)
-        said[row] = {
-            claim: Said(
-                truth[claim][0],
-                theory if claim == "power of v" else None,
-                tally([each[claim][1] for each in found]),
-            )
-            for claim in CLAIMS
-        }
+        said[row] = {}
+        for claim in CLAIMS:
+            kinds = [each[claim][1] for each in found]
+            counts = tuple(kinds.count(kind) for kind in ("holds", "undecided", "fails"))
+            said[row][claim] = Said(truth[claim][0], theory if claim == "power of v" else None, counts)
     return said
 
 
@@ -332,10 +319,6 @@ def weak(found: list[Collapse]) -> dict[str, tuple[Rate, float, float]]:
 def _row(section, case, surfaces, hits, repeats, counted="interval holds the truth"):
     names = "section", "case", "surfaces", "counted", "hits", "repeats"
     return dict(zip(names, (section, case, surfaces, counted, hits, repeats), strict=True))
-
-
-def _minus(text):
-    return text.replace("-", "−")
 
 
 def _means(rows) -> str:
@@ -403,7 +386,7 @@ def _weak(rows, fits) -> str:
             for name, (rate, middle, half) in numbers.items():
                 case = f"exponent {name}, scatter {scatter:g}"
                 rows.append(_row("weak", case, surfaces, rate.hits, rate.repeats))
-                cells.append(_minus(f"{rate} of {rate.repeats}: {middle:.2f}, {half:.2f}"))
+                cells.append(f"{rate} of {rate.repeats}: {middle:.2f}, {half:.2f}".replace("-", "−"))
             lines.append((f"{surfaces}", f"{100 * scatter:g} %", *cells))
     return table("n|scatter|" + "|".join(numbers), lines)
 
@@ -431,7 +414,7 @@ def main() -> None:
         "both": lambda: _both(rows, fits),
     }
     write(PAGE, sections)
-    csvfiles.write_text(PAGE.with_suffix(".csv"), csvfiles.text(DataFrame(rows)))
+    stored(PAGE.with_suffix(".csv"), rows)
 
 
 if __name__ == "__main__":

@@ -13,16 +13,13 @@ from math import log
 from pathlib import Path
 
 import numpy as np
-from campaign import solved
+from campaign import friction, solved
 from pandas import DataFrame
-from tables import replaced
-from tables import table as markdown
+from tables import by_column, replaced, stored
 
 from compare.models.law.friction_law import LawParts
-from compare.report.csvfiles import text, write_text
 from compare.solving.outcome import Outcome
 from compare.solving.task import SceneTask, draws_of
-from compare.statistics.jackknife import mean_ratio
 from compare.studies.trust import design
 from compare.studies.trust.statements import STATED
 from compare.trustmap import table
@@ -65,10 +62,7 @@ def logarithms(name: str, outcomes: Mapping[SceneTask, Outcome]) -> DataFrame:
     for row, recipe, task in tasks(name):
         # Friction in 3D, as the table has it beside the law.
         space = LawParts.of(task.scenes[0]).friction_coefficient / np.exp(over_law[row])
-        drawn = [each for each in outcomes[task].rows if each.reason is None]
-        line = mean_ratio(
-            *(np.array([getattr(each, of) for each in drawn]) for of in ("friction_force", "normal_force"))
-        )
+        line = friction(outcomes[task].rows)
         value, error = float(line.value), float(line.error)
         rows.append(
             {
@@ -130,9 +124,8 @@ def main(workers: int | None = None) -> None:
     every = {name: [task for _, _, task in tasks(name)] for name in SETS}
     outcomes = solved(CSV.with_suffix(".md"), [task for each in every.values() for task in each], workers)
     found = DataFrame([row for name in SETS for row in logarithms(name, outcomes).to_dict("records")])
-    write_text(CSV, text(found))
-    first, *others = errors(found)
-    replaced(PAGE, "recipes", markdown("|".join(first), (tuple(row.values()) for row in (first, *others))))
+    stored(CSV, found)
+    replaced(PAGE, "recipes", by_column(errors(found)))
 
 
 if __name__ == "__main__":

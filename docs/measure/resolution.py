@@ -11,10 +11,9 @@ from pathlib import Path
 import numpy as np
 from campaign import solved
 from pandas import DataFrame
-from tables import replaced, table
+from tables import replaced, stored, table
 
 from bem3d import BEM
-from compare.report.csvfiles import text, write_text
 from compare.report.plots import style
 from compare.report.plots.lettering import lettered
 from compare.solving.task import SceneTask
@@ -44,7 +43,7 @@ def main() -> None:
         tasks |= {(speed, points): SceneTask(BEM(points=points), (moving,), work=points**2) for points in POINTS}
     outcomes = solved(PAGE, tasks.values())
     frame = DataFrame([_row(*place, outcomes[task].rows[0]) for place, task in tasks.items()])
-    write_text(PAGE.with_suffix(".csv"), text(frame))
+    stored(PAGE.with_suffix(".csv"), frame)
     with style.applied():
         _figure(frame).savefig(PAGE.with_suffix(".png"), dpi=200)
     replaced(PAGE, "summary", _summary(frame))

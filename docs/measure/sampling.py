@@ -9,11 +9,10 @@ from time import process_time
 
 import numpy as np
 from pandas import DataFrame
-from tables import replaced, table
+from tables import replaced, stored, table
 
 from compare.library.case import shipped_cases
 from compare.models.table import Model, Models
-from compare.report.csvfiles import text, write_text
 from compare.report.plots import style
 from compare.report.plots.lettering import lettered
 from compare.solving.parameter_grid import FINE, ParameterGrid, on_two_grids
@@ -46,7 +45,7 @@ def main() -> None:
             rows += [{"body": name.removeprefix("paper-"), **row} for row in _rows(scene, speed)]
             print(DataFrame(rows[-len(WIDTHS) :]).to_string(), flush=True)
     frame = DataFrame(rows)
-    write_text(PAGE.with_suffix(".csv"), text(frame))
+    stored(PAGE.with_suffix(".csv"), frame)
     numbers = frame.groupby(["body", "speed", "points", "wanted"], sort=False).mean().reset_index()
     replaced(PAGE, "summary", "\n".join(_summary(own, points) for points, own in numbers.groupby("points")))
     replaced(PAGE, "numbers", table(HEADER, map(_line, numbers.itertuples())))

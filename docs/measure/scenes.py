@@ -10,14 +10,12 @@ from math import inf
 from pathlib import Path
 
 import numpy as np
-from campaign import solved
-from pandas import DataFrame
+from campaign import friction, solved
+from tables import stored
 
 from bem3d import BEM
-from compare.report.csvfiles import text, write_text
 from compare.solving.outcome import Outcome
 from compare.solving.task import SceneTask, draws_of
-from compare.statistics.jackknife import mean_ratio
 from compare.studies.trust.design import drawn_points, scene_at
 from mdr1d import MDR
 from scene import Scene, Slide
@@ -69,7 +67,7 @@ def scenes(name: str) -> Iterator[RandomScene]:
 
 def row(scene: RandomScene, space: Outcome, line: Outcome) -> dict:
     """Friction in 3D with its standard error, relative, and in 1D."""
-    surfaces, profiles = _friction(space), _friction(line)
+    surfaces, profiles = friction(space.rows), friction(line.rows)
     return {
         "scene": scene.number,
         "friction": float(surfaces.value),
@@ -83,11 +81,6 @@ def row(scene: RandomScene, space: Outcome, line: Outcome) -> dict:
     }
 
 
-def _friction(outcome):
-    rows = [each for each in outcome.rows if each.reason is None]
-    return mean_ratio(np.array([r.friction_force for r in rows]), np.array([r.normal_force for r in rows]))
-
-
 def main(workers: int | None = None, *names: str) -> None:
     """Solve what is not solved yet, and write what was found."""
     for name in names or SETS:
@@ -95,8 +88,8 @@ def main(workers: int | None = None, *names: str) -> None:
         first = solved(PAGE, [each.first for each in found], workers)
         spaces = {each: each.space(first[each.first]) for each in found}
         outcomes = solved(PAGE, [task for each in found for task in (spaces[each], each.line)], workers)
-        told = DataFrame([row(each, outcomes[spaces[each]], outcomes[each.line]) for each in found])
-        write_text(PAGE.with_name(f"scenes-{name}.csv"), text(told))
+        told = [row(each, outcomes[spaces[each]], outcomes[each.line]) for each in found]
+        stored(PAGE.with_name(f"scenes-{name}.csv"), told)
 
 
 if __name__ == "__main__":

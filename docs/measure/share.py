@@ -10,9 +10,9 @@ import pandas
 from pandas import DataFrame
 from planes import HELD_OUT, PAGE
 from scipy.optimize import least_squares
+from tables import stored
 
 from compare.models.law.share import FITTED, Share, coefficients
-from compare.report.csvfiles import text, write_text
 
 BOOTSTRAPS, SEED = 200, 36
 FLOOR = 0.02  # of the misfit of a plane, below which one counts no more than another
@@ -79,9 +79,9 @@ def main() -> None:
         (to, times, f"{v:.4g}", f"{a:.4g}", f"{b:.4g}")
         for (to, times), v, a, b in zip(names, best, low, high, strict=True)
     ]
-    write_text(FITTED, text(DataFrame(told, columns=["to", "times", "value", "low", "high"])))
+    stored(FITTED, DataFrame(told, columns=["to", "times", "value", "low", "high"]))
     table = DataFrame(misfits(found[held], names, best))
-    write_text(PAGE.with_name("share.csv"), text(table))
+    stored(PAGE.with_name("share.csv"), table)
     print(table.to_string())
 
 

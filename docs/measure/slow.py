@@ -9,10 +9,9 @@ import shutil
 from pathlib import Path
 
 from pandas import DataFrame
-from tables import replaced, table
+from tables import finding, replaced, stored, table
 
 import compare
-from compare.report.csvfiles import text, write_text
 
 PAGE = Path(__file__).parents[1] / "results" / "slow.md"
 BODIES, DIMENSIONS = ("sphere", "cone"), ("1D", "3D")
@@ -37,7 +36,7 @@ def main() -> None:
     """Solve what is not solved yet, and write the numbers, the figures and the answer."""
     report = compare.study("steep-and-slow", "standard", progress="lines")
     found = report.table[report.table["claim"].isin(CLAIMS)]
-    write_text(PAGE.with_suffix(".csv"), text(found.drop(columns=["meaning", "plot"])))
+    stored(PAGE.with_suffix(".csv"), found.drop(columns=["meaning", "plot"]))
     for body in BODIES:
         shutil.copy(report.path.parent / body / "behind.png", PAGE.with_name(f"slow-{body}.png"))
     columns = [(body, dimension) for body in BODIES for dimension in DIMENSIONS]
@@ -62,19 +61,13 @@ def answer(found: DataFrame) -> str:
 
 def _regime(found: DataFrame, claim: str, body: str, symbol: str) -> str:
     """A number of the place of a level, of those that its words tell."""
-    regime = _row(found, claim, "3D", body).regime
+    regime = finding(found, claim, body, "3D")["regime"]
     return re.search(rf"{re.escape(symbol)} ([\d.e-]+)", regime)[1]
-
-
-def _row(found, claim, dimension, body):
-    chosen = (found["claim"] == claim) & (found["dimension"] == dimension) & (found["where"] == body)
-    (row,) = found[chosen].itertuples()
-    return row
 
 
 def _said(found: DataFrame, claim: str, dimension: str, body: str) -> str:
     """Value with its interval."""
-    row = _row(found, claim, dimension, body)
+    row = finding(found, claim, body, dimension)
     digits = 1 if row.value > 2 else 3
     value, low, high = (f"{each:.{digits}f}".replace("-", "−") for each in (row.value, row.low, row.high))
     return f"{value} ({low} to {high})"

@@ -12,10 +12,9 @@ from campaign import solved
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 from pandas import DataFrame
-from tables import limit, replaced, table
+from tables import limit, replaced, stored, table
 
 from bem3d import BEM, refined
-from compare.report.csvfiles import text, write_text
 from compare.report.plots import shades, style
 from compare.solving.outcome import Outcome
 from compare.solving.task import SceneTask, draws_of
@@ -62,7 +61,7 @@ def main() -> None:
     outcomes = solved(PAGE, [task for each in tasks.values() for task in each], workers=1)
     rows = [_row(shape, task, outcomes[task].rows) for shape, each in tasks.items() for task in each]
     frame = DataFrame(rows)
-    write_text(PAGE.with_suffix(".csv"), text(frame))
+    stored(PAGE.with_suffix(".csv"), frame)
     for shape in SHAPES:
         own = frame[frame["shape"] == shape]
         replaced(PAGE, shape, table(HEADER, map(_line, own.itertuples())) + "\n\n" + sentence(shape, own))

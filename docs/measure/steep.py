@@ -9,16 +9,14 @@ from dataclasses import dataclass, replace
 from math import pi
 
 import numpy as np
-from campaign import solved
-from pandas import DataFrame
+from campaign import friction, solved
 from planes import PAGE as PLANES
+from tables import stored
 
 from bem3d import BEM
 from compare.models.law.friction_law import FrictionLaw
-from compare.report.csvfiles import text, write_text
 from compare.solving.task import SceneTask, draws_of
 from compare.statistics.intervals import student
-from compare.statistics.jackknife import mean_ratio
 from compare.studies.claims.contacts import STEEP
 from scene import Scene, Slide
 
@@ -63,25 +61,19 @@ def contacts() -> Iterator[SteepContact]:
                 yield SteepContact(body, load, speed, replace(scene, roughness=rough, motion=slides))
 
 
-def _friction(outcome):
-    return mean_ratio(
-        *(np.array([getattr(row, name) for row in outcome.rows]) for name in ("friction_force", "normal_force"))
-    )
-
-
 def main(workers: int | None = None) -> None:
     """Solve what is not solved yet, and write friction in 3D, on ever finer grids, beside that of the law."""
     found = list(contacts())
     outcomes = solved(PAGE, [task for each in found for task in each.tasks], workers)
     rows = []
     for each in found:
-        mean, few, fine, *finest = (_friction(outcomes[task]) for task in each.tasks)
+        mean, few, fine, *finest = (friction(outcomes[task].rows) for task in each.tasks)
         change = float(fine.value / few.value - 1)
-        friction = float(mean.value) * (1 + (1 + LEFT) * change)
+        mu = float(mean.value) * (1 + (1 + LEFT) * change)
         law = FrictionLaw().solve(each.scene)
         full = law.measures["full_contact_friction"]
         # What the roughness adds, over that in full contact: the master curve.
-        force, error = friction * law.normal_force, float(mean.error / mean.value)
+        force, error = mu * law.normal_force, float(mean.error / mean.value)
         added = force - law.measures["friction_of_shape"]
         # Ends of 95 %: the surfaces, and as much as the grid was taken to leave.
         half = force * (student(0.95, SURFACES - 1) * error + LEFT * abs(change))
@@ -90,7 +82,7 @@ def main(workers: int | None = None) -> None:
                 "body": each.body,
                 "load": each.load,
                 "speed": each.speed,
-                "friction": friction,
+                "friction": mu,
                 "error": error,
                 "finer": change,
                 "finest": float(finest[0].value / fine.value - 1) if finest else np.nan,
@@ -102,7 +94,7 @@ def main(workers: int | None = None) -> None:
                 "averaged_share": law.measures["friction_of_roughness"] / full,
             }
         )
-    write_text(PAGE.with_suffix(".csv"), text(DataFrame(rows)))
+    stored(PAGE.with_suffix(".csv"), rows)
 
 
 if __name__ == "__main__":

@@ -1,10 +1,13 @@
 """Tables of the pages that are measured."""
 
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 
 import numpy as np
+from pandas import DataFrame, Series
+
+from compare.report.csvfiles import text, write_text
 
 
 def table(header: str, rows: Iterator[tuple]) -> str:
@@ -13,6 +16,24 @@ def table(header: str, rows: Iterator[tuple]) -> str:
     lines = [" | ".join(names), " | ".join("---" for _ in names)]
     lines += [" | ".join(row) for row in rows]
     return "\n".join(f"| {line} |" for line in lines)
+
+
+def by_column(rows: Iterable[dict]) -> str:
+    """Rows by the names of their columns as a Markdown table."""
+    first, *others = rows
+    return table("|".join(first), (tuple(map(str, row.values())) for row in (first, *others)))
+
+
+def stored(path: Path, rows: DataFrame | Iterable[dict]) -> None:
+    """Write a table, or its rows, with every digit."""
+    write_text(path, text(DataFrame(rows)))
+
+
+def finding(found: DataFrame, claim: str, where: str, dimension: str = "") -> Series:
+    """The row on a claim in a place, of one dimensionality where there are several."""
+    chosen = found["claim"].eq(claim) & found["where"].eq(where)
+    (row,) = (row for _, row in found[chosen & (found["dimension"].eq(dimension) | (not dimension))].iterrows())
+    return row
 
 
 def order(points, errors) -> float:
@@ -30,17 +51,17 @@ def limit(values, least: float = 0.0) -> float:
     return values[-1] + second / (ratio - 1) if ratio > 2**least else np.nan
 
 
-def replaced(path: Path, name: str, text: str) -> None:
+def replaced(path: Path, name: str, part: str) -> None:
     """Replace what stands between two comments of a page."""
     page = path.read_text(encoding="utf-8")
     pattern = re.compile(rf"(<!-- {name} -->\n).*?(<!-- end -->)", re.DOTALL)
     assert len(pattern.findall(page)) == 1, (path, name)
-    path.write_text(pattern.sub(lambda found: f"{found[1]}{text.strip()}\n{found[2]}", page), encoding="utf-8")
+    path.write_text(pattern.sub(lambda found: f"{found[1]}{part.strip()}\n{found[2]}", page), encoding="utf-8")
 
 
 def write(page: Path, sections: Mapping[str, Callable[[], str]]) -> None:
     """Measure each section; its table goes where the page has one between comments of its name."""
     for name, measure in sections.items():
-        text = measure()
-        print(name, text, sep="\n", flush=True)
-        replaced(page, name, text)
+        part = measure()
+        print(name, part, sep="\n", flush=True)
+        replaced(page, name, part)

@@ -14,12 +14,11 @@ from typing import Any
 
 import numpy as np
 import xarray
-from tables import replaced
+from tables import by_column, replaced, stored
 from tables import table as markdown
 
 import compare
 from compare.library.lookup import case_of
-from compare.report.csvfiles import text, write_text
 from compare.report.page import Table
 from compare.report.plots.rendering import picture
 from compare.statistics.finding import table as findings
@@ -154,21 +153,15 @@ def _between(middle, low, high):
     return f"{middle:.2f} ({low:.2f} to {high:.2f})"
 
 
-def told(rows: Iterator[dict[str, str]]) -> str:
-    """Rows as a Markdown table."""
-    first, *others = rows
-    return markdown("|".join(first), (tuple(row.values()) for row in (first, *others)))
-
-
 def parts() -> Mapping[tuple[Path, str], str]:
     """Text between two comments, by the page and the name of the comment."""
     found = scores()
     drawn = of_surfaces(found, "spectrum")
     rows = list(advice_rows({name: each for name, each in drawn.items() if name != BEST}))
     return {
-        (PAGE, "advice"): "\n\n".join(f"**{NAMED[name]}**\n\n{told(advice(rows, name))}" for name in RATIOS),
-        (PAGE, "errors"): told(errors(found)),
-        (PAGE, "regions"): told(regions(found)),
+        (PAGE, "advice"): "\n\n".join(f"**{NAMED[name]}**\n\n{by_column(advice(rows, name))}" for name in RATIOS),
+        (PAGE, "errors"): by_column(errors(found)),
+        (PAGE, "regions"): by_column(regions(found)),
         (README, "friction"): in_short({"friction": drawn["friction"]}),
     }
 
@@ -199,7 +192,7 @@ def corrected() -> str:
     )
 
 
-def stored() -> None:
+def judged_again() -> None:
     """Write findings, tables and the map of the page of the campaign, judged from the tables of the package.
 
     Smooth scenes are in no table: those of the campaign are solved here, in minutes.
@@ -223,21 +216,21 @@ def stored() -> None:
     judged = TrustStudy("standard").judge(tree)
     for plot in judged.plots:
         for name, frame in plot.files.items():
-            write_text(STORED / f"{name}.csv", text(frame))
+            stored(STORED / f"{name}.csv", frame)
         (STORED / f"{plot.name}.png").write_bytes(picture(plot).files["png"])
     frames = {each.name: each.frame for each in judged.page("", tree).every(Table)}
     for name, frame in {"findings": findings(judged.findings), **frames}.items():
-        write_text(STORED / f"{name}.csv", text(frame))
+        stored(STORED / f"{name}.csv", frame)
 
 
 def main(folder: Path | None) -> None:
     """Write everything; without a folder, what follows from the tables of the package."""
     if folder is not None:
         ship(compare.load(folder / "trust-standard"))
-    stored()
-    replaced(PAGE, "apart", told(apart()))
-    for (page, part), told_there in parts().items():
-        replaced(page, part, told_there)
+    judged_again()
+    replaced(PAGE, "apart", by_column(apart()))
+    for (page, part), told in parts().items():
+        replaced(page, part, told)
 
 
 if __name__ == "__main__":

@@ -11,11 +11,10 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import pandas
-from tables import table
+from tables import stored, table
 
 import compare
 from bem3d import BEM
-from compare.report import csvfiles
 from compare.studies.verify.law import SECTIONS
 from mdr1d import MDR
 
@@ -78,8 +77,7 @@ def main() -> None:
     PAGE.write_text(text, encoding="utf-8")
     columns = ["model", "claim", "where", "verdict", "value", "tolerance", "sentence", "meaning"]
     asked = pandas.concat(laws)
-    written = csvfiles.text(asked[asked["verdict"] != "reported"][columns])
-    csvfiles.write_text(PAGE.with_suffix(".csv"), written)
+    stored(PAGE.with_suffix(".csv"), asked[asked["verdict"] != "reported"][columns])
 
 
 if __name__ == "__main__":

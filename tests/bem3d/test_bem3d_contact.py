@@ -93,27 +93,6 @@ def test_the_start_does_not_matter(length):
         np.testing.assert_allclose(other, answers[0], atol=1e-5 * answers[0].max())
 
 
-def test_equal_heights_everywhere_give_the_pressure_of_a_flat_punch():
-    matrix, _, operator = problem(0)
-    found = contact.solve(operator, np.zeros((N, N)), np.ones((N, N)), 1e-10, depth=1.0, symmetric=True)
-    np.testing.assert_allclose(found.pressure.ravel(), np.linalg.solve(matrix, np.ones(N * N)), rtol=1e-7)
-
-
-def test_a_tolerance_below_rounding_is_an_error_and_not_an_answer():
-    _, z, operator = problem(1.0)
-    with pytest.raises(contact.NotConverged, match="violation"):
-        contact.solve(operator, z, np.ones((N, N)), 1e-19, depth=0.3)
-
-
-def test_sets_of_contact_that_follow_one_another_in_a_cycle_are_left():
-    # in each ring of three a point in contact lifts the one before it and leaves the next without support
-    rings = np.kron(np.eye(8), np.eye(3) + 1.5 * np.roll(np.eye(3), 1, axis=1))
-    heights, start = np.zeros((8, 3)), np.zeros((8, 3))
-    start[:, 0] = 1.0
-    found = contact.solve(Matrix(rings), heights, start, TOLERANCE, depth=1.0)
-    np.testing.assert_allclose(found.pressure, 1 / 2.5, rtol=TOLERANCE)
-
-
 @pytest.mark.parametrize("shape", [(1, 40), (5, 300)])
 def test_the_sets_tried_before_giving_up_grow_with_the_grid_and_the_error_carries_what_is_left(shape):
     def noise(plane, out):

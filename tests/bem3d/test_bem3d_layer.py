@@ -421,16 +421,6 @@ def test_creeping_in_a_layer_is_lee_and_radoks():
     np.testing.assert_allclose(found.fields["normal_force"][late], expected, rtol=4e-3)
 
 
-@pytest.mark.slow
-def test_a_march_ends_in_steady_sliding():
-    solid, stated = standard(), Layer(thickness=2e-4)
-    steady = BEM(points=64).solve(Scene(SPHERE, solid, Slide(speed=0.5, load=1.0), layer=stated))
-    program = Program(stages=(Stage(duration=3e-3, load=1.0), Stage(duration=10e-3, speed=0.5)))
-    marched = BEM(points=64, steps=60).solve(Scene(SPHERE, solid, program, layer=stated))
-    assert marched.depth == pytest.approx(steady.depth, rel=2e-3)
-    assert marched.friction_coefficient == pytest.approx(steady.friction_coefficient, rel=1e-2)
-
-
 def test_a_rough_sphere_finds_its_window_on_a_thin_layer():
     rough = SelfAffine(hurst=0.8, rms_height=5e-6, longest=1e-3, shortest=1e-4, seed=1)
     scene = Scene(SPHERE, SOFT, Indent(depth=5e-5), rough, Layer(thickness=1e-4))

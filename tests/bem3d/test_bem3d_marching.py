@@ -1,6 +1,5 @@
 """Marching in time: closed forms of indentation, the steady solver, the elastic one, and what a history keeps."""
 
-from dataclasses import replace
 from math import pi, sqrt
 
 import numpy as np
@@ -135,15 +134,6 @@ def test_a_depth_that_is_seen_late_in_its_step_is_told_of_the_middle():
     np.testing.assert_allclose(marching._back(seen, np.array([np.nan, 1.0, 2.1]), middle)[1], 1.0)
 
 
-def test_an_elastic_solid_has_no_history():
-    up, down = Stage(duration=1.0, depth=2e-4), Stage(duration=0.5, depth=0.0)
-    history = marched(Sphere(R), Elastic(G), Program(stages=(up, down)), 12, 48, 4e-3)
-    rest, solver = Scene(Sphere(R), Elastic(G), Indent(depth=1.0)), BEM(48, 4e-3, TOLERANCE)
-    forces = [solver.solve(replace(rest, motion=Indent(depth=depth))).normal_force for depth in history.depth]
-    np.testing.assert_allclose(history.normal_force, forces, rtol=1e-5)
-    assert np.all(history.power == 0)
-
-
 def started(solid, ratio, points, memories=5.0):
     """From rest to a speed of ratio A / TAU, at the depth of A; and the steady solver's answer."""
     speed, depth = ratio * A / TAU, A**2 / R
@@ -191,14 +181,6 @@ def test_what_comes_into_the_window_is_what_the_contact_did_there():
     wide[16:48, 32:] = pressure  # the window is the right half: 12 columns more to the left come in
     expected = problem.medium.operator(Grid(64, 64.0))(wide)[16:48, 20:32]
     np.testing.assert_allclose(around.window.fields[0, :, :12], expected, rtol=2e-3)
-
-
-def test_a_mode_may_be_split_in_two():
-    stages = Stage(duration=TAU, load=1.0), Stage(duration=2 * TAU, speed=0.5)
-    one = marched(Sphere(R), Prony(G, (4 * G,), (TAU,)), Program(stages=stages), 10, 32, 5e-3)
-    two = marched(Sphere(R), Prony(G, (3 * G, G), (TAU, TAU * (1 + 1e-9))), Program(stages=stages), 10, 32, 5e-3)
-    for name in ("normal_force", "friction_by_traction", "depth"):
-        np.testing.assert_allclose(getattr(two, name), getattr(one, name), rtol=1e-5, atol=1e-9)
 
 
 @pytest.mark.slow

@@ -145,15 +145,6 @@ def test_after_a_reversal_friction_comes_to_minus_that_of_steady_sliding(indente
     assert result.fields["friction_force"][turned] == pytest.approx(steady.friction_force, rel=5e-3)
 
 
-def test_an_elastic_solid_feels_no_motion():
-    moved, still = (
-        solved(program(pressed(), *stages), Elastic(G), extent=3e-3)
-        for stages in ([slid(A), slid(-1.503 * A)], [{"duration": TAU}])
-    )
-    assert abs(moved.friction_coefficient) < 1e-3
-    assert moved.normal_force == pytest.approx(still.normal_force, rel=2e-3)
-
-
 @pytest.mark.slow
 def test_an_indenter_lifted_away_and_back_finds_its_dent_as_if_it_had_waited_above_it():
     lifted, again = [pressed(), {"duration": 0.2 * TAU, "depth": 0.0}], {"duration": TAU, "depth": DEPTH}

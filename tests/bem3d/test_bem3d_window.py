@@ -166,14 +166,6 @@ def test_a_line_and_a_surface_of_one_seed_share_no_phases():
         assert nearest.min() > 1e-9
 
 
-@pytest.mark.parametrize(
-    ("field", "value"), [("points", 8), ("points", 64.5), ("extent", -1.0), ("extent", np.inf), ("tolerance", 0.5)]
-)
-def test_a_mistaken_setting_is_named(field, value):
-    with pytest.raises(ValueError, match=field):
-        BEM(**{field: value})
-
-
 def drawn_contacts(count, seed):
     """Rough spheres, cones and blunt bodies at rest and sliding, whose waves 16 to 64 points hardly carry."""
     rng = np.random.default_rng(seed)

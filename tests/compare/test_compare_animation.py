@@ -2,7 +2,7 @@
 
 import os
 import stat
-from dataclasses import fields, replace
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -13,7 +13,7 @@ from drawn_scenes import CELL, DIP, KELVIN, LIFT, LOAD, ROUGH, SCENES, STANDARD,
 from PIL import Image, ImageSequence
 
 from bem3d import BEM
-from compare.library.case import Case
+from compare.library.lookup import case_of
 from compare.report.plots import style
 from compare.solving.store import Store
 from compare.studies.animate import animation
@@ -47,7 +47,7 @@ def film(scene, frames=4):
 
 
 def case(scene=RUNNING, line=LINE, space=SPACE):
-    return Case(**{each.name: getattr(scene, each.name) for each in fields(Scene)}, mdr=line, bem=space)
+    return replace(case_of(scene), mdr=line, bem=space)
 
 
 @pytest.fixture

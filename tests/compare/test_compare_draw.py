@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 import compare
 from bem3d import BEM
 from compare.cli.app import app
-from compare.library.case import Case
+from compare.library.lookup import case_of
 from compare.report import vtk
 from compare.studies.draw import figure as draw
 from compare.studies.draw import interactive
@@ -24,6 +24,7 @@ from scene import (
     Indent,
     Layer,
     Refused,
+    Scene,
     SelfAffine,
     Slide,
     SolveError,
@@ -33,13 +34,7 @@ from scene.reading import InvalidInput
 
 pytestmark = pytest.mark.usefixtures("in_this_process")
 
-REST = Case(
-    indenter=Sphere(R),
-    elastomer=KELVIN,
-    motion=Indent(load=LOAD),
-    bem=BEM(points=64),
-    mdr=MDR(points=500),
-)
+REST = replace(case_of(Scene(Sphere(R), KELVIN, Indent(load=LOAD))), bem=BEM(points=64), mdr=MDR(points=500))
 FAST = replace(REST, motion=Slide(speed=A / TAU, load=LOAD))
 ROUGH = replace(FAST, roughness=SelfAffine(hurst=0.2, rms_height=1e-6, longest=1e-2, shortest=1e-3, seed=5))
 LINE = replace(FAST, indenter=Cylinder(R), motion=Slide(speed=0.1, line_load=100.0))

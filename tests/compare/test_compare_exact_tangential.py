@@ -1,15 +1,10 @@
 """Partial slip in closed form: what the forms say of one another, and that both solvers say it."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from bem3d import BEM
 from compare.models.exact import tangential
-from mdr1d import MDR
-from scene import Coulomb, Elastic, Indent, Scene, Shear, Sphere
 
 QUADRATURE = 1e-8
 FRACTIONS = [0.0, 0.01, 0.5, 0.99, 1.0]
@@ -58,15 +53,3 @@ def test_fractions_outside_their_range_are_refused(wrong):
     for form in (tangential.force, tangential.displacement, tangential.stick_radius, tangential.line_stick_width):
         with pytest.raises(ValueError, match="must lie from 0 to 1"):
             form(wrong)
-
-
-@pytest.mark.parametrize(("nu", "apart"), [(0.0, 2e-3), (0.3, 3e-3), (0.5, 5e-3)])
-def test_one_dimension_and_three_have_one_force_under_a_smooth_sphere(nu, apart):
-    # 1e-3 is the grid's; tractions aside, which one dimension has not, add up to 0.3 % of the force at nu = 1/2
-    scene = Scene(Sphere(1e-2), Elastic(1e6, nu), Indent(load=1.0), interface=Coulomb(0.4))
-    depth = MDR().solve(scene).depth
-    for share in (0.2, 0.7):
-        drawn = share * tangential.full_slip_displacement(0.4, depth, nu)
-        asked = replace(scene, motion=Shear(load=1.0, displacement=drawn))
-        one, three = MDR().solve(asked), BEM(points=96).solve(asked)
-        assert three.friction_force == pytest.approx(one.friction_force, rel=apart)

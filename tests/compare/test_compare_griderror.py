@@ -1,15 +1,17 @@
 """What grids leave uncertain of friction, said on every page: first where it is much."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import xarray
 
 import compare
 from bem3d import BEM
-from compare.library.case import Case
+from compare.library.lookup import case_of
 from compare.statistics import griderror
 from mdr1d import MDR
-from scene import Doubtful, Kelvin, PowerLaw, Slide, Sphere
+from scene import Doubtful, Kelvin, PowerLaw, Scene, Slide, Sphere
 
 
 def answers(three, one=(1e-5, 2e-5)):
@@ -38,13 +40,8 @@ def test_without_friction_nothing_is_said():
 
 
 def case(indenter, speed):
-    return Case(
-        indenter=indenter,
-        elastomer=Kelvin(modulus=1e6, relaxation_time=1e-3),
-        motion=Slide(speed=speed, load=1.0),
-        bem=BEM(points=64),
-        mdr=MDR(points=500),
-    )
+    scene = Scene(indenter, Kelvin(modulus=1e6, relaxation_time=1e-3), Slide(speed=speed, load=1.0))
+    return replace(case_of(scene), bem=BEM(points=64), mdr=MDR(points=500))
 
 
 BLUNT = PowerLaw(coefficient=1e-4 / 1e-3**50, exponent=50)

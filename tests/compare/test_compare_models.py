@@ -11,6 +11,7 @@ import pytest
 import compare
 from bem3d import BEM
 from compare.cli.app import app
+from compare.library.lookup import case_of
 from compare.models.table import Model, Models
 from compare.solving.store import key
 from compare.solving.task import SceneTask
@@ -24,15 +25,7 @@ pytestmark = pytest.mark.usefixtures("in_this_process")
 
 PAGE = Path(__file__).parents[2] / "docs" / "howto" / "models.md"
 SCENE = Scene(Sphere(radius=1e-2), Kelvin(1e6, 1e-3), Slide(speed=0.1, load=1.0))
-SMOOTH = compare.Case(
-    indenter=SCENE.indenter,
-    elastomer=SCENE.elastomer,
-    motion=SCENE.motion,
-    bem=BEM(points=32),
-    mdr=MDR(points=400),
-)
-
-
+SMOOTH = replace(case_of(SCENE), bem=BEM(points=32), mdr=MDR(points=400))
 ROUGH = replace(
     SMOOTH,
     roughness=SelfAffine(hurst=0.8, rms_height=2e-6, longest=5e-3, shortest=1e-3, seed=3),

@@ -13,6 +13,7 @@ from scipy.special import erf
 import compare
 from bem3d import BEM
 from compare import Persson
+from compare.library.lookup import case_of
 from compare.models.exact.full_contact import complex_stiffness
 from compare.models.law.bands import Bands, FullContact
 from compare.models.table import Model, Models
@@ -44,14 +45,7 @@ SOLID = Kelvin(modulus=1e6, relaxation_time=1e-3)
 SURFACE = SelfAffine(hurst=0.8, rms_height=2e-6, longest=8e-3, shortest=1e-3, seed=3)
 SPEEDS = {"slow": 1e-2, "fast": 3.0}  # v tau q_s = 0.06 and 19
 BODY = Scene(Sphere(radius=1e-2), SOLID, Slide(speed=0.1, load=1.0), SURFACE)
-ROUGH_CASE = compare.Case(
-    indenter=BODY.indenter,
-    elastomer=SOLID,
-    motion=BODY.motion,
-    roughness=SURFACE,
-    bem=BEM(points=48),
-    mdr=MDR(points=400),
-)
+ROUGH_CASE = replace(case_of(BODY), bem=BEM(points=48), mdr=MDR(points=400))
 MODELS = ["mdr", "bem", "persson"]
 FULL = 20.0  # pressure over the rms pressure at which less than 1e-80 of the area is out of contact
 # Bands are nodes of a quadrature, and a band touches as its middle does: against the same integral on 4000 waves.

@@ -497,29 +497,26 @@ def scores():
     return study.TrustStudy.scored(table.read(table.HELD_OUT), {name: shipped.model(name) for name in RATIOS})
 
 
-@pytest.mark.parametrize("name", study.WANTED)
-def test_held_out_scenes_are_foretold_as_well_as_the_map_claims(scores, name):
+@pytest.mark.parametrize(
+    ("surfaces", "name"),
+    [
+        *(("spectrum", name) for name in study.WANTED),
+        *(("as measured", name) for name in ("friction", LAW, statements.BEST)),
+    ],
+)
+def test_held_out_scenes_are_foretold_as_well_as_the_map_claims(scores, surfaces, name):
     """The claims of docs/results/trust.md, on scenes that were neither fitted nor chosen by."""
-    score, _ = statements.of_surfaces(scores, "spectrum")[name]
+    score, _ = statements.of_surfaces(scores, surfaces)[name]
     used = score.used
-    half, most = study.WANTED[name]
+    half, most = study.WANTED_MEASURED if surfaces == "as measured" else study.WANTED[name]
     # The depth of a third of the scenes is lost in the roughness, and a sixth has none above zero.
-    assert score.usable.mean() > {"depth": 0.6}.get(name, 0.8)
+    assert score.usable.mean() > {"depth": 0.6}.get(name, 0.8) or surfaces == "as measured"
+    assert used.usable.size > 150
     assert not np.any(score.usable & np.isnan(score.measured.logarithm))
     assert np.quantile(np.abs(used.errors), 0.5) < half
     assert np.quantile(np.abs(used.errors), 0.9) < most
     assert scoring.of_count(int(used.held.sum()), used.usable.size)[1] > statements.PROMISED
-    assert used.covered < 1
-
-
-@pytest.mark.parametrize("name", ["friction", LAW, statements.BEST])
-def test_friction_of_surfaces_as_measured_is_foretold_as_well_as_claimed(scores, name):
-    used = statements.of_surfaces(scores, "as measured")[name][0].used
-    half, most = study.WANTED_MEASURED
-    assert used.usable.size > 150
-    assert np.quantile(np.abs(used.errors), 0.5) < half
-    assert np.quantile(np.abs(used.errors), 0.9) < most
-    assert scoring.of_count(int(used.held.sum()), used.usable.size)[1] > statements.PROMISED
+    assert used.covered < 1 or surfaces == "as measured"
 
 
 def test_no_region_holds_fewer_ratios_than_promised(scores):
@@ -603,7 +600,7 @@ def test_a_scene_is_solved_until_its_scatter_is_known_and_its_ratio_is_the_map_s
 @pytest.mark.slow
 def test_the_campaign_solves_judges_and_resumes(tmp_path, monkeypatch):
     held_out = tuple(design.EVENLY_AGAIN + k for k in range(4))
-    monkeypatch.setattr(study, "_size", lambda name: study.Size((0, 3), held_out, 0.5))
+    monkeypatch.setattr(study, "_size", lambda name: study.Size((0, 3), held_out, 0.25))
     monkeypatch.setattr(study.TrustStudy, "models", lambda *_: {name: shipped.model(name) for name in RATIOS})
     found = compare.study("trust", output=tmp_path, workers=2)
     assert {each.claim.id for each in found.findings} >= {"trust.friction.median", "trust.force.coverage"}

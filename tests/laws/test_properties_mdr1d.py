@@ -15,7 +15,6 @@ from scene import (
     EmptyContact,
     Kelvin,
     Program,
-    Prony,
     Scene,
     Slide,
     SolveError,
@@ -179,28 +178,6 @@ def test_the_mirrored_profile_slid_the_other_way_has_the_mirrored_answer(line, m
     forth = sweep(mirrored.heights, line.pixel, memory, line.depth)
     back = against_the_flow(line, memory)
     np.testing.assert_allclose(forth.displacement[::-1], back, rtol=0, atol=ROUNDING * line.depth)
-
-
-@examples(80)
-@given(
-    lines(),
-    SPEEDS,
-    st.lists(st.tuples(decades(-2, 6), decades(-6, 6)), min_size=2, max_size=6),
-    evenly(0.01, 0.99),
-)
-def test_modes_may_stand_in_any_order_and_be_split(line, speed, branches, share):
-    """G(t) is a sum: neither its order nor how a term is written counts. To the digits of 14 that modes keep."""
-    moduli, times = zip(*branches, strict=True)
-    given_order = Prony(1.0, moduli, times)
-    backwards = Prony(1.0, moduli[::-1], times[::-1])
-    split = Prony(1.0, (share * moduli[0], *moduli[1:], (1 - share) * moduli[0]), (*times, times[0]))
-    contact = flowed(line, given_order, speed)
-    for solid in (backwards, split):
-        same = flowed(line, solid, speed)
-        assert same.force == pytest.approx(contact.force, rel=1e-10)
-        assert same.dissipation == pytest.approx(
-            contact.dissipation, rel=1e-9, abs=ROUNDING * line.steepest * contact.force
-        )
 
 
 # Relative to a relaxation length in pixels. Measured over 600 lines: 4.1 in the force, 65 in friction over what it

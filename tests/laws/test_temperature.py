@@ -8,7 +8,6 @@ import pytest
 from scipy.optimize import bisect
 
 from bem3d import BEM
-from compare.solving.task import SceneTask as Task
 from mdr1d import MDR
 from scene import (
     WLF,
@@ -247,10 +246,3 @@ def test_a_program_with_heating_is_refused_by_name(solver):
     heated = replace(WARM, motion=program, heating=Heating(conductivity=1.0))
     with pytest.raises(Refused, match="heating = Heating: it is estimated of steady sliding, not of a Program"):
         solver.solve(heated)
-
-
-def test_tasks_at_two_temperatures_are_two():
-    task = Task(SOLVERS[0], (WARM,))
-    other = Task(SOLVERS[0], (replace(WARM, temperature=replace(LAW, temperature=311.0)),))
-    assert task.question != other.question
-    assert task.question == Task(SOLVERS[0], (replace(WARM),)).question

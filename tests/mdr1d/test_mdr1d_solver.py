@@ -136,28 +136,6 @@ def test_a_depth_that_does_not_reach_the_indenter_is_an_error():
         MDR(points=400, extent=4e-3).solve(replace(scene, roughness=replace(scene.roughness, seed=seed)))
 
 
-@pytest.mark.parametrize("scene", [ROUGH, PAPER])
-def test_roughness_of_no_height_is_the_smooth_answer(scene):
-    for motion in (SMOOTH.motion, Indent(depth=5e-5)):
-        smooth = MDR().solve(replace(SMOOTH, motion=motion))
-        result = MDR().solve(replace(scene, motion=motion, roughness=replace(scene.roughness, rms_height=0.0)))
-        # Two grids, each of second order.
-        for name in ("normal_force", "depth", "friction_force"):
-            assert getattr(result, name) == pytest.approx(getattr(smooth, name), rel=1e-6, abs=1e-15)
-        assert result.measures["rms_slope"] == 0
-
-
-@pytest.mark.parametrize("scene", [ROUGH, PAPER])
-def test_a_depth_far_below_the_roughness_is_carried_by_a_few_asperities(scene):
-    shallow = Slide(speed=0.3, depth=1e-7)
-    smooth = MDR().solve(replace(SMOOTH, motion=shallow))
-    result = MDR().solve(replace(scene, motion=shallow))
-    # The lowest asperity hangs below the tip by many times the depth.
-    assert result.depth < 0.1 * scene.roughness.rms_height
-    assert result.normal_force > 3 * smooth.normal_force
-    assert result.friction_force > 0
-
-
 def test_roughness_repeats_over_an_extent_of_several_periods():
     short = replace(ROUGH, roughness=replace(ROUGH.roughness, longest=5e-4, shortest=5e-5))
     one = MDR().solve(short)

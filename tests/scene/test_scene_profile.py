@@ -76,8 +76,7 @@ def test_intervals_of_a_line_hold_the_surface_that_it_was_cut_from(hurst):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("hurst", [0.2, 0.8])
-@pytest.mark.parametrize("rolloff", [None, 4e-4])
+@pytest.mark.parametrize(("hurst", "rolloff"), [(0.2, None), (0.8, 4e-4)])
 def test_intervals_hold_at_the_rate_that_is_told(hurst, rolloff):
     rates = held(replace(ROUGH, hurst=hurst, rolloff=rolloff), 1024, lines=200)
     assert min(rates.values()) >= 0.9, rates

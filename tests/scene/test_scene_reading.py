@@ -3,12 +3,30 @@
 import difflib
 import tomllib
 from dataclasses import FrozenInstanceError, dataclass, replace
+from math import pi
 
 import numpy as np
 import pytest
 from pydantic import TypeAdapter, ValidationError
 
-from scene import Cylinder, Elastic, Indent, Kelvin, Program, Prony, Scene, SelfAffine, Slide, Sphere, Stage
+from scene import (
+    Cone,
+    Cylinder,
+    Elastic,
+    Fractional,
+    Indent,
+    Kelvin,
+    KelvinChain,
+    PowerLaw,
+    Program,
+    Prony,
+    Scene,
+    SelfAffine,
+    Slide,
+    Sphere,
+    Stage,
+    StandardLinearSolid,
+)
 from scene.reading import DEEPEST, MOST, SAID, InvalidInput, parsed, read
 
 INDENTER = '[indenter]\ntype = "sphere"\nradius = 1e-2\n'
@@ -360,3 +378,42 @@ def test_nothing_of_a_file_controls_a_terminal(tmp_path):
     assert line.isprintable()
     assert line.startswith(r"motion.\x1b[31m\x07\u202e[red] = '\x1b]0;title\x9b\r\n': unknown here")
     assert "\x1b" not in str(InvalidInput("\x1b"))
+
+
+G = 1e6
+SPRINGPOT = Fractional(modulus=G, relaxation_time=1e-3, exponent=0.3, lowest_frequency=1e-4, highest_frequency=1e8)
+ROUGH = SelfAffine(hurst=0.7, rms_height=3e-5, longest=1e-2, shortest=1e-4, seed=3)
+
+
+@pytest.mark.parametrize(
+    ("make", "said"),
+    [
+        (lambda: Cone(angle=pi / 2), r"angle\n.*less than 1\.57"),
+        (lambda: Cone(angle=-0.1), r"angle\n.*greater than 0"),
+        (lambda: PowerLaw(coefficient=1.0, exponent=0.9), r"exponent\n.*greater than or equal to 1"),
+        (lambda: PowerLaw(coefficient=1.0, exponent=101.0), r"exponent\n.*less than or equal to 100"),
+        (lambda: Elastic(modulus=-1.0), r"modulus\n.*greater than 0"),
+        (lambda: Elastic(G, poisson_ratio=0.6), r"poisson_ratio\n.*less than or equal to 0\.5"),
+        (lambda: Elastic(G, poisson_ratio=-1.0), r"poisson_ratio\n.*greater than -1"),
+        (lambda: StandardLinearSolid(G, G, 1.0), r"glassy_modulus = 1e\+06 must exceed rubbery_modulus = 1e\+06"),
+        (lambda: Prony(G, moduli=(), relaxation_times=()), r"moduli\n.*at least 1"),
+        (lambda: Prony(G, (G, G), (1.0,)), "relaxation_times has 1 values, moduli has 2: each modulus"),
+        (lambda: Prony(G, moduli=(G, -G), relaxation_times=(1.0, 2.0)), r"moduli\.1\n.*greater than 0"),
+        (lambda: KelvinChain(0.0, (1.0,), (1.0, 2.0)), "retardation_times has 2 values, compliances has 1"),
+        (lambda: replace(SPRINGPOT, exponent=1.0), r"exponent\n.*less than 1"),
+        (lambda: replace(SPRINGPOT, exponent=0.0), r"exponent\n.*greater than 0"),
+        (lambda: replace(SPRINGPOT, tolerance=0.5), r"tolerance\n.*less than or equal to 0\.1"),
+        (lambda: replace(SPRINGPOT, highest_frequency=1e-4), r"0\.0001 must exceed lowest_frequency = 0\.0001"),
+        (lambda: replace(SPRINGPOT, highest_frequency=1e27), r"highest_frequency = 1e\+27 .* at most 30 decades"),
+        (lambda: replace(ROUGH, hurst=1.1), r"hurst\n.*less than or equal to 1"),
+        (lambda: replace(ROUGH, hurst=-0.1), r"hurst\n.*greater than or equal to 0"),
+        (lambda: replace(ROUGH, shortest=6e-3), r"shortest = 0\.006 must be at most half of longest = 0\.01"),
+        (lambda: replace(ROUGH, seed=-1), r"seed\n.*greater than or equal to 0"),
+        (lambda: replace(ROUGH, rolloff=1e-4), "rolloff = 0.0001 must be more than shortest"),
+        (lambda: replace(ROUGH, rolloff=2e-2), "rolloff = 0.02 must be more than shortest .* at most longest"),
+        (lambda: replace(ROUGH, amplitudes="rayleigh"), r"amplitudes\n.*'fixed' or 'gaussian'"),
+    ],
+)
+def test_a_wrong_value_is_refused_with_its_field_and_what_is_allowed(make, said):
+    with pytest.raises(ValidationError, match=said):
+        make()

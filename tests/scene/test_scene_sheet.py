@@ -59,7 +59,7 @@ def outcomes(path, draw, read, seeds):
 DIALECTS = (
     (draw_table, read_table, 0.7, range(200)),
     (draw_map, read_map, 0.75, range(200)),
-    pytest.param(draw_table, read_table, 0.7, range(1000, 4000), marks=pytest.mark.slow),
+    pytest.param(draw_table, read_table, 0.7, range(1000, 2000), marks=pytest.mark.slow),
     pytest.param(draw_map, read_map, 0.75, range(1000, 2000), marks=pytest.mark.slow),
 )
 

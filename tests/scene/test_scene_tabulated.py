@@ -100,15 +100,6 @@ def test_units_do_not_matter_to_the_fit():
     np.testing.assert_allclose(found, fitted().complex_modulus(OMEGA), rtol=1e-6)
 
 
-def test_the_order_of_rows_does_not_matter_and_repeated_rows_only_weigh_more():
-    rubber, order = table(noise=NOISE), np.random.default_rng(1).permutation(len(OMEGA))
-    shuffled = Table(*(np.array(column)[order] for column in columns(rubber)))
-    for other in (shuffled, Table(*(column * 2 for column in columns(rubber)))):
-        np.testing.assert_allclose(
-            fitted(other).complex_modulus(OMEGA), fitted(rubber).complex_modulus(OMEGA), rtol=1e-6
-        )
-
-
 def test_a_known_modulus_at_rest_is_kept():
     glass = table(omega=np.geomspace(1.0, 1e7, 40))
     solid = fitted(glass, equilibrium_modulus=1.2e6)

@@ -86,8 +86,5 @@ def _column(frame, name, ends, figures):
     written = {0: digits.shown, 1: digits.plus_minus, 2: digits.interval}[len(ends)]
     beside = (frame[end].tolist() for end in ends)
     texts = [written(*each, figures) for each in zip(values, *beside, strict=True)]
-    return Column(name, head(name), [_key(value) for value in values], texts)
-
-
-def _key(value):
-    return float(value) if isinstance(value, Real) else "" if value is None else str(value)
+    keys = [float(each) if isinstance(each, Real) else "" if each is None else str(each) for each in values]
+    return Column(name, head(name), keys, texts)

@@ -94,7 +94,9 @@ class MarchFigure:
             if isinstance(film.scene.indenter, Cylinder):
                 touching.sides(axes, film.radius and along * film.radius)
         axes.set(xlim=limits[0], ylim=limits[1])
-        way = _way(film, film.times[k])
+        stages = film.scene.motion.stages
+        ends = np.cumsum([stage.duration for stage in stages])
+        way = touching.flow(stages[min(int(np.searchsorted(ends, film.times[k])), len(ends) - 1)].speed)
         touching.remark(axes, way if (seen.pressure > 0).any() else f"{way}, nothing touches")
 
     def _lay_out_history(self, axes: Axes, name):
@@ -122,9 +124,3 @@ def _section(film, solver, k):
         return film.line(k)
     seen = film.space(k)
     return None if seen is None else seen.section
-
-
-def _way(film, now):
-    """Words on the direction in which the elastomer passes at a time [s]."""
-    ends = np.cumsum([stage.duration for stage in film.scene.motion.stages])
-    return touching.flow(film.scene.motion.stages[min(int(np.searchsorted(ends, now)), len(ends) - 1)].speed)

@@ -35,7 +35,7 @@ def friction_findings(contacts: Contacts, laws: Mapping[str, Laws]) -> list[Find
     for solver, law in laws.items():
         dimension = contacts.labels[solver]
         for name, measure, place, expected in _one_sided(contacts.series, solver, law):
-            each = claim(name, partial(_of_one, measure, solver), dimension, expected)
+            each = claim(name, partial(lambda of, at, it: of(it[at]), measure, solver), dimension, expected)
             plot = "collapse" if name == "eq17.load-exponent" else "behind" if name in WHY.values() else "levels"
             found.append(finding(each, contacts, ROUGH, law.words(place), solver, plot=plot))
     known, everywhere = laws[contacts.series.models.reference], np.full(len(contacts.series.values), True)
@@ -68,10 +68,6 @@ def pair_findings(
         each = replace(said_of(claim(name, of_both), beside), dimension=beside)
         found.append(finding(each, contacts, body, regime, model, reference, plot=plot))
     return found
-
-
-def _of_one(measure, solver, sample):
-    return measure(sample[solver])
 
 
 def _ratio(place, one, three):
@@ -138,7 +134,7 @@ def _one_sided(series, solver, laws) -> Iterator[tuple[str, Callable, Any, float
             draws = series.models[solver].draws
             for name, (variable, below) in behind(draws).items():
                 law = nominal_exponent(draws, exponent) if name == "contact" else None
-                measure = with_load(partial(_slowest, variable, below))
+                measure = with_load(lambda it, of=variable, over=below: mean(it, of, over)[1])
                 yield WHY[name], measure, slowest, law
         yield from level("eq17.level", lambda it: mu(it) / (laws.plateau * xi(it)), slowest, everywhere)
         # Every mode of the solid is fast against the slowest speed, so that the limit can be seen.
@@ -153,10 +149,6 @@ def _one_sided(series, solver, laws) -> Iterator[tuple[str, Callable, Any, float
         if fast.sum() > 1:
             yield "eq14.load-exponent", lambda it: against_load(it, over_law(it)[-1], -1, fast), (-1, fast), None
     yield "eq19.law", lambda it: np.log(over_law(it)), ..., None
-
-
-def _slowest(variable, below, answers):
-    return mean(answers, variable, below)[1]
 
 
 def behind(draws: str) -> dict[str, tuple[str, str | None]]:

@@ -134,7 +134,7 @@ class Regress(Study):
         """
         values, wrong = dict(self.stored), [each for each in findings if each.stated != HOLDS]
         for each in wrong:
-            id = _id(each)
+            id = each.claim.id.removeprefix("regress.")
             if each.reason == GONE:
                 del values[id]
             elif isfinite(each.value):
@@ -279,7 +279,3 @@ def _finding(id, quantity, value, stored, reason):
         return replace(found, stated=HOLDS)
     told = f"moved by {moved:.3g} tolerances, from {stored:.{DIGITS}g} to {value:.{DIGITS}g}"
     return replace(found, stated=FAILS, reason=told)
-
-
-def _id(found):
-    return found.claim.id.removeprefix("regress.")

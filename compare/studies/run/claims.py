@@ -303,9 +303,6 @@ class CaseFindings:
         reference = found.pop(self.models.reference, None)
         return list(found.values()) if reference else []
 
-    def _has_grid(self, name):
-        return name not in self._labels or self.models[name].has_grid
-
     def _friction(self, curve, model) -> Compared:
         return self._ratio(curve, (model, self.models.reference), *means.FRICTION)
 
@@ -319,7 +316,8 @@ class CaseFindings:
             return values[0] / values[1] if len(values) > 1 else values[0]
 
         # Of a model without points there is no other grid, and its answers have no error of it.
-        coarser = {name: COARSE if self._has_grid(name) else FINE for name in datasets}
+        alone = {name for name in datasets if name in self._labels and not self.models[name].has_grid}
+        coarser = {name: FINE if name in alone else COARSE for name in datasets}
         on_both = all(grid in datasets[name]["grid"].values for name, grid in coarser.items())
         fine = DrawSet({name: each.sel(grid=FINE) for name, each in datasets.items()})
         coarse = {name: each.sel(grid=coarser[name]) for name, each in datasets.items()} if on_both else None

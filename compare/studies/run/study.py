@@ -211,7 +211,9 @@ class Run(Study):
         """Numbers of surfaces of each model on each grid, of REST and SLIDING of a case."""
         wanted, made = self._wanted(name), {}
         for shared, draws in self._draws(name).items():
-            own = [each for each in findings if _of_case(each, name) and draws_of(each) == shared]
+            # The name of a case stands first in the place.
+            here = [each for each in findings if f"{each.where}, ".startswith(f"{name}, ")]
+            own = [each for each in here if draws_of(each) == shared]
             counts = draws.more(own, wanted, growth)
             for model in self.models[name].drawn:
                 for mean in own_means(self.cases[name]) if shared == SLIDING else ():
@@ -267,11 +269,6 @@ class Run(Study):
             for name, case in self.cases.items()
             for block in _setting(case.title or name, case, self.models[name], self._curves[name])
         ]
-
-
-def _of_case(found: Finding, name: str) -> bool:
-    """Whether a finding was measured in a case: its name stands first in the place."""
-    return found.where == name or found.where.startswith(f"{name}, ")
 
 
 def _blocks(found: CaseFindings, answers, trusted: Advice) -> list[Block]:

@@ -287,11 +287,9 @@ def _smooth_findings(held_out: xarray.Dataset) -> Iterator[Finding]:
             f"trust.{name}.smooth", f"The {name} ratio of smooth bodies is known within 1 %", 0.0, 0.01,
             "Error of nine in ten of the smooth scenes held out, on 64 points a side against 128",
         )  # fmt: skip
-        yield _measured(claim, partial(_nine_in_ten, np.abs(apart)), apart.size)
-
-
-def _nine_in_ten(errors, draw):
-    return float(np.quantile(errors[draw], 0.9))
+        yield _measured(
+            claim, partial(lambda off, draw: float(np.quantile(off[draw], 0.9)), np.abs(apart)), apart.size
+        )
 
 
 def _measured(claim: Claim, measure: Callable[[np.ndarray], float], count: int) -> Finding:

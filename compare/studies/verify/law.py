@@ -96,10 +96,6 @@ def _friction(answers):
     return min(grid + _solved(answers), MOST)
 
 
-def _rim(answers):
-    return min(2 / min(each.across for each in answers), MOST)
-
-
 SAME = Bound("what a model says is left in its conditions, ten times, and 1e-9 for rounding", _solved)
 GRID = Bound(
     "n points across the contact: 2/n² in 1D, of second order; (2/n)^1.5 in 3D, the load on the outermost half "
@@ -110,7 +106,10 @@ FRICTION = Bound(
     "n points across the contact: 4/n² in 1D, of second order; 1/n in 3D, half a pixel of the contact's width",
     _friction,
 )
-RIM = Bound("a pixel at each end of n across the contact, 2/n", _rim)
+RIM = Bound(
+    "a pixel at each end of n across the contact, 2/n",
+    lambda answers: min(2 / min(each.across for each in answers), MOST),
+)
 EXACT = Bound("exact, to the last bit", lambda answers: 0.0)
 
 

@@ -87,7 +87,8 @@ def chapter(outcomes: Mapping[AnyTask, Outcome]) -> Chapter:
     found = [_stiffness(rubber, force, outcomes) for rubber in RUBBERS for force in FORCES]
     slid = [_friction(*asked, outcomes[task]) for asked, task in _slid().items()]
     rows = [*found, *_exponents(found), *slid]
-    tables = {"Exponents of the stiffness": _table(rows), "Friction over the half-space": _rough_sphere(outcomes)}
+    rough = [{f"at {over:g} F*": _compared(outcomes, over) for over in ROUGH_OVER_F}]
+    tables = {"Exponents of the stiffness": _table(rows), "Friction over the half-space": rough}
     return Chapter(tables, {drawing.NAME: drawing.figure(rows)}, {drawing.NAME: rows})
 
 
@@ -200,11 +201,6 @@ def _table(rows) -> Rows:
         }
         table.append({"3D (integral equation)": rubber.name} | cells)
     return table
-
-
-def _rough_sphere(outcomes) -> Rows:
-    """Friction under the same surfaces on the layer over that on the half-space."""
-    return [{f"at {over:g} F*": _compared(outcomes, over) for over in ROUGH_OVER_F}]
 
 
 def _compared(outcomes, over):
