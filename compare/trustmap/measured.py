@@ -68,7 +68,9 @@ def unmeasured(scene: Scene) -> list[str]:
     """Parts of a scene that were never measured, a reason each; empty if all were."""
     scene = as_judged(scene)
     reasons = [
-        f"{name} = {type(part).__name__}: no scene with one was measured" for name in NEVER if (part := getattr(scene, name))
+        f"{name} = {type(part).__name__}: no scene with one was measured"
+        for name in NEVER
+        if (part := getattr(scene, name))
     ]
     if not isinstance(scene.indenter, Sphere | Cone | PowerLaw):
         reasons.append(f"indenter = {type(scene.indenter).__name__} is no body of revolution")

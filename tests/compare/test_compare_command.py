@@ -96,7 +96,7 @@ def test_what_broke_is_told_with_its_reason_and_is_no_traceback_but_status_1(fol
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("number", "status"), [(signal.SIGTERM, 130), (signal.SIGKILL, -9)])
+@pytest.mark.parametrize(("number", "status"), [(signal.SIGTERM, 130), (signal.SIGHUP, 130), (signal.SIGKILL, -9)])
 def test_no_worker_outlives_its_parent(folder, number, status):
     process = start(folder, "run", "tiny.toml", "--workers", "2")
     wait_for(lambda: len(Store(folder / "crosscheck-report" / "solved")) > 0)
