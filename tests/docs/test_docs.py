@@ -112,7 +112,7 @@ def test_shifts_bring_1d_together_and_are_not_known_in_3d(shown):
     assert before > 0.5
     assert after < 0.1  # of ln mu, with the scatter of two surfaces
     assert names["found"]["MDR"].horizontal.reason == ""
-    assert "overlap" in names["found"]["BEM"].horizontal.reason
+    assert "share too small a range" in names["found"]["BEM"].horizontal.reason
 
 
 @pytest.mark.slow

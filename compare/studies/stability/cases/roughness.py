@@ -129,15 +129,15 @@ NINE_DECADES = resting(roughness=replace(ROUGH, shortest=1e-12))
 case.add(
     "unresolved-waves",
     "The shortest wave is far less than a pixel.",
-    "Refused: the error names shortest, its value and one that would be carried.",
-    refused(f"shortest | {TINY.shortest:g} | would be", resting(roughness=TINY), WIDE_LINE, space, error=Refused),
+    "Refused: the error names shortest, its value and one that would do.",
+    refused(f"shortest | {TINY.shortest:g} | would do", resting(roughness=TINY), WIDE_LINE, space, error=Refused),
 )
 case.add(
     "nine-decades-of-waves",
     "Roughness from millimetres to picometres fits no memory.",
     "Refused at once: the error names what to change.",
     refused("longest | shortest | raise shortest", NINE_DECADES, line, error=Refused),
-    refused("memory | take", BROAD, partial(square, points=16384), error=(SolveError, Refused)),
+    refused("memory | use", BROAD, partial(square, points=16384), error=(SolveError, Refused)),
 )
 
 
