@@ -278,14 +278,14 @@ def _unresolved(rough: Roughness, band: Band, layout: Grid, points: int) -> list
 
 def _room(rough, band, layout, enough):
     """What works for other draws of the roughness too, whose contacts are wider, in words."""
-    told, kept = f"; {ceil(SPARE * enough):.15g} have room for other draws", 2 * SPARE * layout.pixel
+    told, kept = f"; {ceil(SPARE * enough):.15g} would leave room for other draws", 2 * SPARE * layout.pixel
     if isinstance(rough, Scanned | Profile):
         least, most = rough.keepable
         kept = max(kept, FULLER * least)
         if kept <= most:
             told += f"; roughness.shortest_kept = {kept:.3g} would leave out waves that the pixels cannot carry"
     elif band.shortest is not None and kept <= band.period / 2:
-        told += f"; roughness.shortest = {kept:.3g} would be resolved"
+        told += f"; roughness.shortest = {kept:.3g} would do"
     return told
 
 
