@@ -16,6 +16,7 @@ import typer
 
 from .. import commands
 from ..library import ready as library
+from ..solving.amounts import capital
 from ..solving.docstrings import documented
 from .completion import completion
 from .console import FAILED, MISTAKE, print_in_any_encoding, said_to_people, say
@@ -160,7 +161,7 @@ def _parameter(command: str, name: str, hint: Any, default: Any, text: str) -> i
     kind, values = _on_command_line(hint)
     text = text.partition(". From Python")[0]
     about: Any = {
-        "help": text and f"{text[0].upper()}{text[1:]}.",
+        "help": text and f"{capital(text)}.",
         "autocompletion": completion(command, name, values),
     }
     if default is inspect.Parameter.empty or name in PLACED:
