@@ -194,8 +194,9 @@ def _keyword(name, annotation, default=False):
 
 
 def _paths(found: Any) -> str:
-    folders = sorted({str(path.parent.resolve()) for path in found})
-    return "\n".join([*(f"  {path.name}" for path in found), f"{len(found)} files: {', '.join(folders)}"])
+    folder = os.path.commonpath([path.parent.resolve() for path in found])
+    places = (path.resolve().relative_to(folder) for path in found)
+    return "\n".join([*(f"  {place}" for place in places), f"{len(found)} files: {folder}"])
 
 
 def _written_ready(path: Path) -> str:
