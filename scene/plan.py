@@ -91,7 +91,7 @@ class Plan:
     modes : that are followed
     arrays : those held when most is held; `memory` is their sum
     steps : in time; 0 of what is steady
-    applications, seconds : of the operator, in equivalents of the finest grid, and of processor
+    operator_applications, seconds : in equivalents of the finest grid, and of processor time
     left_out : what the scene does not ask for, and what therefore is not done
     doubts : about the scene, and about how well the grid shows it
     """

@@ -16,6 +16,7 @@ import typer
 
 from .. import commands
 from ..library import ready as library
+from ..solving.amounts import capital
 from ..solving.docstrings import documented
 from .completion import completion
 from .console import FAILED, MISTAKE, print_in_any_encoding, said_to_people, say
@@ -160,7 +161,7 @@ def _parameter(command: str, name: str, hint: Any, default: Any, text: str) -> i
     kind, values = _on_command_line(hint)
     text = text.partition(". From Python")[0]
     about: Any = {
-        "help": text and f"{text[0].upper()}{text[1:]}.",
+        "help": text and f"{capital(text)}.",
         "autocompletion": completion(command, name, values),
     }
     if default is inspect.Parameter.empty or name in PLACED:
@@ -193,8 +194,9 @@ def _keyword(name, annotation, default=False):
 
 
 def _paths(found: Any) -> str:
-    folders = sorted({str(path.parent.resolve()) for path in found})
-    return "\n".join([*(f"  {path.name}" for path in found), f"{len(found)} files: {', '.join(folders)}"])
+    folder = os.path.commonpath([path.parent.resolve() for path in found])
+    places = (path.resolve().relative_to(folder) for path in found)
+    return "\n".join([*(f"  {place}" for place in places), f"{len(found)} files: {folder}"])
 
 
 def _written_ready(path: Path) -> str:

@@ -11,6 +11,7 @@ import pandas
 from scene.quantities import BARE, WHOLE, argument
 from scene.signatures import readable
 
+from ..solving.amounts import capital
 from . import digits
 
 HOLDS, FAILS, UNDECIDED, REPORTED = VERDICTS = ("holds", "fails", "undecided", "reported")
@@ -21,6 +22,8 @@ BOTH = "1D/3D"
 ALONE = ("1D", "1D corrected", "3D")
 # Findings on a claim of one model that a statement tells one by one.
 SHOWN = 4
+# Different reasons of undecided findings that a statement tells whole.
+FEW = 2
 
 
 def verdict(expected: float, tolerance: float, low: float, high: float) -> str:
@@ -168,11 +171,11 @@ class Finding:
     def why(self) -> str:
         """Reason why there is no verdict and what would give one, or a remark on a stated verdict; else empty."""
         open_ = self.verdict == UNDECIDED
-        told = (self.undecidable or self._crossed, self.remedy) if open_ else (self.reason,)
+        told = (self.undecidable or self.crossed, self.remedy) if open_ else (self.reason,)
         return "; ".join(filter(None, told))
 
     @property
-    def _crossed(self) -> str:
+    def crossed(self) -> str:
         """Where the interval leaves the tolerance, in words."""
         low, high = self.interval
         ends = (self.claim.expected + side * self.claim.tolerance for side in (-1, 1))
@@ -258,10 +261,18 @@ def sentences(findings: Sequence[Finding]) -> list[str]:
         numbers = "; ".join(_numbers(here, len(models) > 1 or here[0].dimension in ALONE) for here in models)
         tested = {each.claim.tested for each in own} - {""}
         against = f", tested against {tested.pop()}" if len(tested) == 1 else ""
-        reasons = dict.fromkeys(each.why for each in own if each.verdict == UNDECIDED)
-        open_ = f" Undecided: {'. Also: '.join(reasons)}." if any(reasons) else ""
+        open_ = _open([each for each in own if each.verdict == UNDECIDED])
         found.append(f"{verdicts}{sentence}: {numbers}{against}.{open_}")
     return found
+
+
+def _open(findings) -> str:
+    """Reasons of the undecided findings and what would decide them; of many different ones the reasons alone."""
+    reasons, more = dict.fromkeys(each.why for each in findings), ""
+    if len(reasons) > FEW:
+        reasons = dict.fromkeys(each.undecidable or each.crossed for each in findings)
+        more = " The table of findings says what would decide each."
+    return f" Undecided: {'. Also: '.join(reasons)}.{more}" if any(reasons) else ""
 
 
 def _verdicts(models) -> str:
@@ -273,7 +284,7 @@ def _verdicts(models) -> str:
         words = ", ".join(f"{verdict} in {model}" for model, verdict in told.items())
     else:
         words = next(iter(told.values()))
-    return f"{words[0].upper()}{words[1:]}: "
+    return f"{capital(words)}: "
 
 
 def _verdict(findings) -> str:

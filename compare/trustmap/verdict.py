@@ -41,8 +41,8 @@ NOTHING = "One surface says nothing: single surfaces differ by as much as their 
 NARROW = "Here it held 90 of 103 scenes held out, and one half as wide again 96: take that."
 # Models by ratio, and what they are called in sentences.
 MODELS = {"friction": "MDR", LAW: "FrictionLaw", "depth": "MDR", "force": "MDR"}
-CALLED = {"MDR": "1D", "FrictionLaw": "the law"}
-TOLD = {"friction": "friction by 1D", LAW: "friction by the law", "depth": "depth by 1D", "force": "force by 1D"}
+CALLED = {"MDR": "1D", "FrictionLaw": "the 3D law"}
+TOLD = {name: f"{'friction' if name == LAW else name} by {CALLED[model]}" for name, model in MODELS.items()}
 # Profiles in 1D that a mean takes, and the interval of 95 % for which surfaces in 3D are counted.
 PROFILES, CLOSE = 40, 0.05
 # Window of a solve over the radius of its contact, its pixels to the shortest wave, its points, and surfaces at

@@ -81,6 +81,10 @@ def test_an_open_claim_says_across_what_its_interval_reaches_and_what_would_deci
     (line,) = sentences([replace(open_, where="sphere, 1 mm"), found(where="sphere, 2 mm")])
     assert line.startswith("Holds in 1, undecided in 1 of 2 places: Friction in 1D is that in 3D: ")
     assert line.endswith(f" at 2 mm (holds), tested against 1 ± 0.05. Undecided: {open_.why}.")
+    several = [replace(open_, where=f"sphere, {k} mm", remedy=f"some {k} more would decide it") for k in range(3)]
+    (line,) = sentences(several)
+    assert line.count(open_.crossed) == 1
+    assert "more would" not in line
 
 
 def test_a_deviation_is_said_in_percent_and_stored_as_it_is():

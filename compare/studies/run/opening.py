@@ -70,7 +70,7 @@ def _advised(cheap: Correction, law: Correction | None) -> str:
     if cheap.advice == USE:
         return "The trust map takes 1D as it is."
     if cheap.advice == MULTIPLY:
-        other = f", and the law by {law.times}" if law and law.advice == MULTIPLY else ""
+        other = f", or takes the 3D law times {law.times}" if law and law.advice == MULTIPLY else ""
         return f"Do not use it as it is: the trust map multiplies 1D by {cheap.times}{other}, as {why}"
     return f"Do not use it: the trust map says to solve in 3D, as {why}"
 
