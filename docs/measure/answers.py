@@ -129,8 +129,9 @@ def _answer(run: DataFrame, slow_found: DataFrame, fast_found: DataFrame) -> str
             f"the friction of a slow, smooth sphere, {_number(rough)} times that of the paper's rough one. "
             f"{trust.corrected()}",
             "- **The paper's law of friction, μ = Q(F_N p(v)), holds in 1D alone, in its regime of steep, small "
-            f"roughness.** Curves shifted as it says miss one another by {missed['1D']} in 1D, by {missed['3D']} in "
-            f"3D, where slow friction of the sphere is at least {too_high} times too high for it ([why](docs/results/slow.md)). {law.answer()}",
+            f"roughness.** Curves shifted as it says miss one another by {missed['1D']} in 1D, by {missed['3D']} "
+            f"in 3D, where slow friction of the sphere is at least {too_high} times too high for it "
+            f"([why](docs/results/slow.md)). {law.answer()}",
         ]
     )
 
