@@ -3,7 +3,7 @@
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from math import isfinite, nan
+from math import inf, isfinite, nan
 from typing import Any
 
 import pandas
@@ -310,7 +310,11 @@ def _numbers(findings, named) -> str:
     if not known:
         return f"{model}not measured in {count.replace('0 of ', 'any of ')}"
     reach = " to ".join(dict.fromkeys(digits.number(end(known), 3) for end in (min, max)))
-    return f"{model}{claim.said(reach)} in {count}"
+    widest = max(
+        ((high - low) / 2 for low, high in (each.interval for each in findings) if low < high), default=0.0
+    )
+    about = f" (±{claim.said(digits.number(claim.scale * widest, 2))} at most)" if 0 < widest < inf else ""
+    return f"{model}{claim.said(reach)} in {count}{about}"
 
 
 def _places(count: int) -> str:

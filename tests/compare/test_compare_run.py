@@ -272,7 +272,7 @@ def test_a_run_opens_with_each_answer_how_far_1d_is_off_the_advice_and_what_stan
     assert " 1D is within 5 % of 3D. " in told  # the depth, of which both say the same
     assert told.endswith("Means of 4 profiles in 1D and 2 surfaces in 3D.")
     advice = compare.trust(CASE.scene)
-    assert f"the trust map multiplies 1D by {advice.friction.times}" in told
+    assert f"the trust map multiplies it by {advice.friction.times}" in told
     assert "The trust map takes 1D as it is." in told
     # twice what the map foretells, whatever the scatter
     assert "do not agree" in opening_of(replace(CASE, roughness=replace(CASE.roughness, rms_height=2e-5)))

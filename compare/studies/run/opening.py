@@ -71,8 +71,8 @@ def _advised(cheap: Correction, law: Correction | None) -> str:
         return "The trust map takes 1D as it is."
     if cheap.advice == MULTIPLY:
         other = f", or takes the 3D law times {law.times}" if law and law.advice == MULTIPLY else ""
-        return f"Do not use it as it is: the trust map multiplies 1D by {cheap.times}{other}, as {why}"
-    return f"Do not use it: the trust map says to solve in 3D, as {why}"
+        return f"Do not use 1D as it is: the trust map multiplies it by {cheap.times}{other}, as {why}"
+    return f"Do not use 1D: the trust map says to solve in 3D, as {why}"
 
 
 def _contradicts(model: Model, solved: Finding, foretold: Correction) -> bool:
