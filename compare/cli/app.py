@@ -16,7 +16,6 @@ import typer
 
 from .. import commands
 from ..library import ready as library
-from ..solving.amounts import capital
 from ..solving.docstrings import documented
 from .completion import completion
 from .console import FAILED, MISTAKE, print_in_any_encoding, said_to_people, say
@@ -161,7 +160,7 @@ def _parameter(command: str, name: str, hint: Any, default: Any, text: str) -> i
     kind, values = _on_command_line(hint)
     text = text.partition(". From Python")[0]
     about: Any = {
-        "help": text and f"{capital(text)}.",
+        "help": text and f"{text[0].upper()}{text[1:]}.",
         "autocompletion": completion(command, name, values),
     }
     if default is inspect.Parameter.empty or name in PLACED:
@@ -194,6 +193,8 @@ def _keyword(name, annotation, default=False):
 
 
 def _paths(found: Any) -> str:
+    if not found:
+        return "0 files"
     folder = os.path.commonpath([path.parent.resolve() for path in found])
     places = (path.resolve().relative_to(folder) for path in found)
     return "\n".join([*(f"  {place}" for place in places), f"{len(found)} files: {folder}"])
