@@ -188,21 +188,21 @@ def _said(told: DataFrame, claim: str, dimension: str, body: str, percent: bool)
 
 
 def _figure(tree) -> Figure:
-    """Mean friction against the load shifted by p(v), a colour a speed; in 1D above, in 3D below."""
+    """Mean friction, 95 %, against the load shifted by p(v), a colour a speed; in 1D above, in 3D below."""
     drawing = style.canvas("double", 4.0)
     panels = drawing.subplots(2, len(EXPONENT), sharex="col", sharey=True)
     small = {"markersize": style.mark(0.6), "linewidth": style.width(0.8)}
     for column, (body, exponent) in enumerate(EXPONENT.items()):
         for axes, (name, solver) in zip(panels[:, column], SOLVERS.items(), strict=True):
             sliding = tree[f"{body}/rough/{solver}"].to_dataset(inherit=False).sel(grid="fine")
-            mean = sliding.isel(speed=slice(1, None)).mean("seed")
-            speeds = mean["speed"].values
-            scale = between(speeds)
+            drawn = sliding.isel(speed=slice(1, None)).transpose("speed", "load", "seed", ...)
+            speeds, load = drawn["speed"].values, drawn["normal_force"].values
+            scale, friction = between(speeds), mean_ratio(drawn["friction_force"].values, load)
+            shifted = load.mean(axis=-1) * (speeds[:, None] / speeds[0]) ** -exponent
             for place, speed in enumerate(speeds):
-                here = mean.isel(speed=place)
-                load, friction = here["normal_force"].values, here["friction_force"].values
-                shifted = load * (speed / speeds[0]) ** -exponent
-                axes.plot(shifted, friction / load, "o-", color=SPEED(scale(speed)), **small)
+                value, *ends = (each[place] for each in (friction.value, *friction.interval()))
+                look = {"fmt": "o-", "color": SPEED(scale(speed)), "capsize": 0, **small}
+                axes.errorbar(shifted[place], value, yerr=style.bars(value, *ends), **look)
             letter = "abcd"[2 * (solver == "BEM") + column]
             axes.set(xscale="log", yscale="log", title=f"({letter}) {body}, {name}")
         panels[1, column].set_xlabel("load times p(v) over that of the slowest [N]")

@@ -2,11 +2,12 @@
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import pairwise, product
 from string import ascii_lowercase
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.transforms import Bbox
 from matplotlib.typing import ColorType
@@ -15,23 +16,10 @@ from scene.printable import printable
 
 from . import style
 
-# Around a point, where its text may stand: shift [points] and alignment.
-PLACES = (
-    (0, 4, "center", "bottom"),
-    (0, -4, "center", "top"),
-    (4, 0, "left", "center"),
-    (-4, 0, "right", "center"),
-    (4, 3, "left", "bottom"),
-    (-4, 3, "right", "bottom"),
-    (4, -3, "left", "top"),
-    (-4, -3, "right", "top"),
-    (0, 9, "center", "bottom"),
-    (0, -9, "center", "top"),
-    (10, 4, "left", "bottom"),
-    (-10, 4, "right", "bottom"),
-    (10, -4, "left", "top"),
-    (-10, -4, "right", "top"),
-)
+# Around a point, where its text may stand: how far [points], and on which sides of it, the nearest first.
+AWAY = 4, 7, 10
+SIDES = (0, 1), (0, -1), (1, 0), (-1, 0), (1, 0.75), (-1, 0.75), (1, -0.75), (-1, -0.75)
+ACROSS, UP = {0: "center", 1: "left", -1: "right"}, {0: "center", 1: "bottom", -1: "top"}
 # Half of what a marker and a line take, and how closely lines are followed [points].
 MARKER, LINE, PITCH = 2.2, 0.5, 1.5
 # Between a text and what it must not cover [points].
@@ -47,12 +35,11 @@ def literal(text: str) -> str:
 
 @dataclass(frozen=True)
 class Letter:
-    """A text at a point of the axes' data; one that is not needed is written where it covers no line either."""
+    """A text at a point of the axes' data."""
 
     text: str
     point: tuple[float, float]
-    colour: ColorType | None = None
-    needed: bool = True
+    colour: ColorType
 
 
 def letter(k: int) -> str:
@@ -72,36 +59,30 @@ def lettered(panels: Iterable[Axes], count: int = 1) -> None:
 
 
 def write(axes: Axes, letters: Sequence[Letter], size: float) -> None:
-    """Write each in the first place that is free; if none is, over a line, or not at all.
+    """Write each in the first place in which it covers nothing and no other marker is nearer, or not at all.
 
     The axes have to have their final limits and their place in the figure; size [points].
     """
-    lines = list(_lines(axes))
-    solid = [*_markers(axes), *(text.get_window_extent() for text in axes.texts)]
-    inside = axes.get_window_extent()
+    marks = list(_markers(axes))
+    centres = [mark.get_points().mean(axis=0) for mark in marks]
+    taken = [*marks, *_lines(axes), *(text.get_window_extent() for text in axes.texts)]
     for letter in letters:
-        for avoided in (solid + lines, solid) if letter.needed else (solid + lines,):
-            if (box := _placed(axes, letter, size, avoided, inside)) is not None:
-                solid.append(box)
-                break
+        if (box := _placed(axes, letter, size, centres, taken)) is not None:
+            taken.append(box)
 
 
-def _placed(axes, letter, size, avoided, inside):
+def _placed(axes, letter, size, centres, taken):
     """The box of the text once it stands, None where there is no room."""
-    for across, up, horizontal, vertical in PLACES:
-        text = axes.annotate(
-            letter.text,
-            letter.point,
-            xytext=(across, up),
-            textcoords="offset points",
-            fontsize=size,
-            color=letter.colour or style.ink(),
-            ha=horizontal,
-            va=vertical,
-        )
-        box = text.get_window_extent()
+    dark = 0.65 * np.array(to_rgb(letter.colour)) + 0.35 * np.array(to_rgb(style.ink()))
+    look = {"textcoords": "offset points", "fontsize": size, "color": tuple(dark.tolist())}
+    inside, gap, own = axes.get_window_extent(), GAP * _scale(axes), axes.transData.transform(letter.point)
+    for away, (across, up) in product(AWAY, SIDES):
+        place = {"xytext": (away * across, away * up), "ha": ACROSS[across], "va": UP[np.sign(up)]}
+        text = axes.annotate(letter.text, letter.point, **place, **look)
+        box = text.get_window_extent().padded(gap)
         within = inside.x0 <= box.x0 and box.x1 <= inside.x1 and inside.y0 <= box.y0 and box.y1 <= inside.y1
-        if within and not any(box.padded(GAP * _scale(axes)).overlaps(other) for other in avoided):
+        apart = [np.hypot(*np.maximum(np.maximum(box.min - at, at - box.max), 0)) for at in (own, *centres)]
+        if within and apart[0] <= min(apart) + gap and not any(box.overlaps(other) for other in taken):
             return box
         text.remove()
     return None

@@ -29,6 +29,8 @@ LOG10 = np.log(10)
 SLID = "speed times $a_T$ [m/s]"
 # Most speeds that are drawn.
 SPEEDS = 8
+# Degree of the one curve through those that no shift brings together: it only says where their middle is.
+APART = 2
 FITTED, EXPECTED, BOTH, UNSHIFTED, ACROSS = "fitted", "expected", "both", "none", "along friction"
 # What is done to the curves, in the words of a title.
 SHIFTED = {
@@ -149,6 +151,9 @@ def _collapse(drawing, grid, k, end, fit, points, colours):
     above.set_title(_title(fit))
     above.tick_params(labelbottom=False)
     below.set(title=f"off one curve: {100 * fit.rms:.2g} % (rms)", xlabel=shifted, ylabel="off [%]")
+    if fit.shifted_as in (EXPECTED, UNSHIFTED) and np.isfinite(fit.misfit):
+        least = f"shifted to the least overlap: {100 * fit.misfit:.2g} %"
+        below.set_title(least, loc="right", fontsize=style.small(), fontweight="normal")
     return left, above, below
 
 
@@ -174,14 +179,13 @@ def _tables(each):
     found, lead = each.collapse, each.lead or each.collapse.horizontal
     how = BOTH if each.both else FITTED
     reference = found.speeds[found.speeds.size // 2]
-    along = lead.horizontal.value
+    along, degree = lead.horizontal.value, found.degree
     if lead.reason:
+        degree = APART
         how, power = (EXPECTED, each.expected) if np.isfinite(each.expected) else (UNSHIFTED, 0.0)
         along = power * np.log(found.speeds / reference)
     points = found.points(along, lead.vertical.value if each.both else None)
-    points = points.join(
-        _deviation(points, "shifted_friction" if each.both else "friction_coefficient", found.degree)
-    )
+    points = points.join(_deviation(points, "shifted_friction" if each.both else "friction_coefficient", degree))
     if each.conditions is not None:
         points = points.join(each.conditions.reset_index(drop=True))
     shifts = found.shifts(lead)
@@ -210,7 +214,7 @@ def _tables(each):
         "shifted_as": how,
         "expected": each.expected,
         "reference_speed": reference,
-        "degree": found.degree,
+        "degree": degree,
     }
     return {
         NAME: points,
@@ -282,7 +286,7 @@ def _shifts(axes: Axes, fit, shifts: DataFrame, powers: DataFrame, colours: Any)
         if power.power in (FITTED, ACROSS):
             colour, line = style.grey(0.6), "-" if power.power == FITTED else (0, (5, 1))
             if power.exponent_low < power.exponent_high:
-                label += f"\n({power.exponent_low:.3g} to {power.exponent_high:.3g})"
+                label += f"\n({power.exponent_low:.3g} to {power.exponent_high:.3g})".replace("-", "−")
         elif power.power == EXPECTED:
             colour, line = style.ink(), "--"
         else:

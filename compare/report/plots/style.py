@@ -26,7 +26,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 from matplotlib.font_manager import FontProperties
 from matplotlib.textpath import TextToPath
-from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
+from matplotlib.ticker import LogFormatterSciNotation, LogLocator, MaxNLocator, NullFormatter
 
 from scene.reading import InvalidInput
 
@@ -62,6 +62,7 @@ BESIDE = 5.2
 # Multiples of powers of ten that are written along an axis: the first of which three are in view, else two; the
 # very first along two decades or more.
 MULTIPLES = (1,), (1, 2, 5), (1, 2, 3, 5), (1, 1.5, 2, 3, 4, 6, 8)
+ALIKE = 1.02  # ends of an axis, one over the other, between which no ticks have short numbers
 # A blank at which no line ends, and where a title has it.
 GLUE, FORMULA = "\u00a0", re.compile(r"v ?τ = \S+( [aλ]\w*)?")
 TEXTS = {
@@ -428,10 +429,17 @@ def span(axes: Axes, values) -> None:
 
 
 def decades(*panels: Axes) -> None:
-    """Readable ticks on logarithmic axes: few and round, two at least, plain numbers where they are short."""
+    """Readable ticks on logarithmic axes: few and round, two at least, plain numbers where they are short.
+
+    An axis on which all values are nearly the same gets the room of one value.
+    """
     for axis in (axis for axes in panels for axis in (axes.xaxis, axes.yaxis) if axis.get_scale() == "log"):
         low, high = axis.get_view_interval()
+        if high < ALIKE * low:
+            low, high = low / 1.5, 1.5 * high
+            getattr(axis.axes, f"set_{axis.axis_name}lim")(low, high)
         axis.set_major_locator(_locator(low, high))
+        axis.set_major_formatter(LogFormatterSciNotation(minor_thresholds=(np.inf, np.inf)))  # every tick has one
         axis.set_minor_formatter(NullFormatter())
         axis.set_tick_params(which="minor", label1On=False)  # or empty labels are measured, which takes longest
         if low >= 1e-4 and high <= 1e4:

@@ -94,8 +94,8 @@ def misfit(fit) -> str:
     if not np.isfinite(fit["misfit"]):
         return f"δ unknown, the means miss the curve by {fit['rms']:.1%}"
     if not np.isfinite(fit["misfit_low"]):
-        return f"δ = {fit['misfit']:.1%}"
-    return f"δ = {fit['misfit']:.1%} ({fit['misfit_low']:.1%} to {fit['misfit_high']:.1%})"
+        return f"δ = {100 * fit['misfit']:.1f} %"
+    return f"δ = {100 * fit['misfit']:.1f} % ({100 * fit['misfit_low']:.1f} to {100 * fit['misfit_high']:.1f})"
 
 
 def shifts(tables: Tables, tolerance: float = 0.05) -> Figure:

@@ -90,7 +90,8 @@ def master_curve(tables: Tables, fitted: str = "", claimed: float = SHALLOW) -> 
     names = list(dict.fromkeys([*paper["body"], *points["body"]]))
     markers = dict(zip(names, cycle(MARKERS), strict=False))
     line = style.line(0, 0.8, zorder=1)
-    left.plot(curve[across], curve[up], "-", label=curve["curve"].iloc[0], **line)
+    label = f"{curve['curve'].iloc[0]}, {'' if fitted else 'not '}fitted"
+    left.plot(curve[across], curve[up], "-", label=label, **line)
     ends = (share[f"share_of_full_contact_{end}"] for end in ("low", "high"))
     right.fill_between(share["pressure_ratio"], *ends, color=style.grey(0.65), linewidth=0, zorder=1, label="S(x)")
     known = np.interp(np.log(paper[across]), np.log(curve[across]), np.log(curve[up]))
@@ -151,7 +152,7 @@ def _around(values, of=np.asarray) -> tuple[float, float]:
 def _missed(sizes) -> str:
     """Misfit in words."""
     median, most = np.nanquantile(sizes, (0.5, 0.9)) if np.isfinite(sizes).any() else (np.nan, np.nan)
-    return f"median {median:.1%}, nine in ten {most:.1%}" if np.isfinite(median) else ""
+    return f"median {100 * median:.1f} %, nine in ten {100 * most:.1f} %" if np.isfinite(median) else ""
 
 
 def _off(points: DataFrame, name: str, expected) -> DataFrame:

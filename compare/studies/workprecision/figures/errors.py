@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import cycle
-from math import ceil, isfinite
+from math import ceil
 from typing import Any
 
 import numpy as np
@@ -15,7 +15,7 @@ from pandas import DataFrame
 
 from ....report.page import Plot, Tables
 from ....report.plots import style
-from ....report.plots.lettering import Letter, letter, write
+from ....report.plots.lettering import MARKER, Letter, letter, write
 from ....report.plots.prefixes import prefixed
 from ....solving.amounts import digits
 from ....statistics.convergence import MeasuredLadder, ladders
@@ -23,9 +23,11 @@ from ....statistics.convergence import MeasuredLadder, ladders
 # Columns of panels, their height and that around all of them [inch], and how many a figure of several quantities
 # has at most.
 COLUMNS, HEIGHT, AROUND, MOST = 3, 2.2, 0.6, 9
-# Errors below are those of rounding in sums over thousands of points, and drawn there.
-ROUNDING = 1e-12
+# Errors below are of rounding in sums over thousands of points, those above leave nothing of an answer: both are
+# drawn there.
+ROUNDING, WHOLE = 1e-12, 1.0
 HIDDEN = 0.9  # between ink and paper
+ALONG = "points along x"  # numbers at curves
 # Estimates beside the answer itself: distinct from both dimensions and from one another in grey.
 BESIDE: tuple[dict[str, Any], ...] = (
     {"color": "#009E73", "marker": "^", "linestyle": ":"},
@@ -45,9 +47,10 @@ def plots(name: str, tables: Tables) -> Iterator[Plot]:
     table, *_ = tables
     common = {"steps": table}
     told = (
-        "Relative error against processor time of one solve, the least of its repeats; settings at the points "
-        f"where there is room. Grey, error of the reference, or of rounding ({ROUNDING:g}), within which points "
-        "are hollow; dotted, fitted power of a ladder of points."
+        "Relative error against processor time of one solve, the least of its repeats; numbers, settings at the "
+        "ends of curves where there is room. Grey, error of the reference, or of rounding "
+        f"({ROUNDING:g}), within which points are hollow; dotted, fitted power of a ladder of points; ↑, errors "
+        "beyond the panel."
     )
     alternative = "Panels of falling curves: relative error over processor time."
     drawn = panels(tables[table])
@@ -106,10 +109,12 @@ def figure(
     if any(axes.patches for axes in all_axes):
         label = "error of the reference, or of rounding"
         handles.append(Patch(color=style.grey(HIDDEN), linewidth=0, label=label))
-    style.legend(drawing, handles, "outside lower center", len(handles))
+    settings = dict.fromkeys(curve.setting for panel in drawn for curve in panel)
+    written = f"numbers: {', '.join(settings)}".replace("points", ALONG)
+    style.legend(drawing, handles, "outside lower center", len(handles), title=written)
     style.lay_out(drawing)
     for axes, panel in zip(all_axes, drawn, strict=True):
-        write(axes, list(_letters(panel)), style.tiny())
+        write(axes, list(_letters(axes, panel, looks)), style.tiny())
     return drawing
 
 
@@ -123,7 +128,7 @@ def framed(titles: Sequence[str], unit: str = "s") -> tuple[Figure, list[Axes]]:
     for k, title in enumerate(titles):
         first = every[0] if every else None
         axes = drawing.add_subplot(rows, columns, k + 1, sharex=first, sharey=first, xscale="log", yscale="log")
-        style.head(axes, f"({letter(k)}) {title}", columns)
+        style.head(axes, f"({letter(k)}) {title}" if count > 1 else title, columns)
         if k % columns == 0:
             axes.set_ylabel("relative error [1]")
         if k + columns >= count:
@@ -168,7 +173,7 @@ def _panel(axes: Axes, panel, looks):
     """Curves, fitted powers and failures of a panel."""
     solved = [curve for curve in panel if np.isfinite(curve.errors).any()]
     for curve in solved:
-        look, errors = dict(looks[_name(curve, panel)]), np.maximum(curve.errors, ROUNDING)
+        look, errors = dict(looks[_name(curve, panel)]), _shown(curve)
         marker, hollow = look.pop("marker"), (errors <= _told(panel[0])) & (curve.estimate != "indicator")
         axes.plot(curve.processor, errors, **look)
         for part, face in ((hollow, style.paper()), (~hollow, look["color"])):
@@ -181,7 +186,7 @@ def _panel(axes: Axes, panel, looks):
     for curve in answers:
         if _falls(curve):
             axes.plot(*_power(curve), **style.line(0.3, 0.7, linestyle=(0, (1, 1.5)), zorder=1))
-    failed = [f"{curve.setting} {digits(value)}" for curve in answers for value, _ in curve.failures]
+    failed = [f"{curve.setting} {_written(value)}" for curve in answers for value, _ in curve.failures]
     if failed:
         corner(axes, f"failed: {', '.join(failed)}")
 
@@ -213,7 +218,7 @@ def _room(panels, drawn, times):
     """Limits of all panels, with room for what is written; at least a decade of errors. times : for their unit"""
     curves = [curve for panel in drawn for curve in panel]
     x = np.concatenate([curve.processor for curve in curves])
-    y = np.maximum(np.concatenate([curve.errors for curve in curves]), ROUNDING)
+    y = np.concatenate([_shown(curve) for curve in curves])
     if np.isnan(y).all():
         return
     known = [first.reference_error for first, *_ in drawn if first.reference_error > 0]
@@ -227,14 +232,32 @@ def _room(panels, drawn, times):
     panels[0].xaxis.set_major_formatter(lambda value, _: f"{times * value:g}")
 
 
-def _letters(panel) -> Iterator[Letter]:
-    """Settings at the points of the answer, then the exponents of the powers at their ends."""
+def _shown(curve):
+    """Errors as they are drawn."""
+    return np.clip(curve.errors, ROUNDING, WHOLE)
+
+
+def _written(value: float) -> str:
+    """A setting as it stands in a figure, with a power of ten where it is small."""
+    times, _, power = digits(value).partition("e")
+    return rf"$\mathdefault{{{times} · 10^{{{power}}}}}$".replace("1 · ", "") if power else times
+
+
+def _letters(axes, panel, looks) -> Iterator[Letter]:
+    """Settings at both ends of the answer, errors beyond the panel, then the exponents of the powers."""
     answers = [curve for curve in panel if curve.estimate == panel[0].estimate]
-    for curve in answers:
-        for x, y, value in zip(curve.processor, np.maximum(curve.errors, ROUNDING), curve.values, strict=True):
-            if isfinite(x) and isfinite(y):
-                yield Letter(digits(value), (x, y))
+    for curve in panel:
+        colour, at = looks[_name(curve, panel)]["color"], np.column_stack([curve.processor, _shown(curve)])
+        ends = np.flatnonzero(np.isfinite(at).all(axis=1))[[0, -1]] if np.isfinite(at).all(axis=1).any() else []
+        if curve in answers and len(ends):
+            texts = [_written(curve.values[k]) for k in ends]
+            if np.hypot(*np.diff(axes.transData.transform(at[ends]), axis=0)[0]) < MARKER * axes.figure.dpi / 36:
+                texts = [" to ".join(dict.fromkeys(texts))]
+            yield from (Letter(text, tuple(at[k]), colour) for text, k in zip(texts, ends, strict=False))
+        for k in ends[-1:]:
+            if curve.errors[k] > WHOLE:
+                yield Letter(f"↑ {curve.errors[k]:.3g}", tuple(at[k]), colour)
     for curve in answers:
         if _falls(curve):
             x, y = _power(curve)
-            yield Letter(f"$n^{{-{curve.order.order:.1f}}}$", (x[-1], y[-1]), style.grey(0.35), needed=False)
+            yield Letter(f"$n^{{-{curve.order.order:.1f}}}$", (x[-1], y[-1]), style.grey(0.35))

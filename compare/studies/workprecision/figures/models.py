@@ -13,13 +13,11 @@ from pandas import DataFrame
 
 from ....report.page import Plot, Tables
 from ....report.plots import style
-from ....report.plots.lettering import Letter, write
 from ....statistics.sampling import Bias, Level, Mean, SamplingPlan, Scatter, envelope
 from . import errors
 
 # Models of one dimension, as a legend calls them.
 LINES = {"MDR": "1D", "CorrectedMDR": "corrected 1D"}
-SOLVERS = (*LINES, "BEM")
 # Dashes of what is forecast.
 FORECAST = (0, (4, 2))
 # Errors below are drawn there: the solvers stop before.
@@ -39,7 +37,7 @@ def plots(name: str, tables: Tables) -> Iterator[Plot]:
         yield Plot(
             f"{name}-rough", rough, tables,
             "Rough contacts: expected error of a mean of 1, 10, 100, ... surfaces against the true answer of 3D, "
-            "over processor time; dashed, forecast beyond the surfaces solved. Numbers: points of the grid; "
+            "over processor time; dashed, forecast beyond the surfaces solved. Points: along x; "
             "thick, cheapest plan in 3D. Bands, intervals of 95 % of errors that 1D keeps.",
             "Panels of error over time: 1D is quick and level, 1D corrected lower, 3D slower and falling.",
             {"plans": kinds["plans"]},
@@ -53,9 +51,7 @@ def rough(tables: Tables, plans: str) -> Figure:
     for each, mean in zip(axes, drawn, strict=True):
         _draw_mean(each, mean)
     _share(axes)
-    _legend(drawing)
-    for each, mean in zip(axes, drawn, strict=True):
-        write(each, _ends(mean), style.tiny())
+    _legend(drawing, drawn)
     return drawing
 
 
@@ -87,10 +83,8 @@ def _plan(rows: DataFrame) -> SamplingPlan:
 
 def _draw_mean(axes: Axes, mean: Mean):
     """Expected error of means on each grid, the cheapest plan, and what cannot be passed."""
-    for solver, own in {"BEM": mean.plain, **{solver: mean.of(solver)[-1:] for solver in LINES}}.items():
-        shades = style.shades(solver, len(own))[::-1] if len(own) > 1 else [style.COLOUR[solver]]
-        for plan, colour in zip(own, shades, strict=False):
-            _mean_curve(axes, plan, colour)
+    for plan, colour in _coloured(mean):
+        _mean_curve(axes, plan, colour)
     every = mean.of("BEM")
     known = [plan.least_seconds for plan in every if isfinite(plan.least_seconds)]
     if known:
@@ -106,11 +100,11 @@ def _draw_mean(axes: Axes, mean: Mean):
         errors.corner(axes, f"not solved: {mean.failed}")
 
 
-def _ends(mean: Mean) -> list[Letter]:
-    """Points at the first marks of the coarsest and of the finest grid."""
-    ends = dict.fromkeys((*mean.plain[:1], *mean.plain[-1:], *mean.of("MDR")[-1:]))
-    found = [(plan.levels[0].label, plan.levels[0].seconds, float(plan.error_of(1.0))) for plan in ends]
-    return [Letter(text, (x, y)) for text, x, y in found if isfinite(x) and isfinite(y)]
+def _coloured(mean: Mean) -> Iterator[tuple[SamplingPlan, Any]]:
+    """Plans that are drawn, each grid of 3D and the finest of 1D, with their colours."""
+    for solver, own in {"BEM": mean.plain, **{solver: mean.of(solver)[-1:] for solver in LINES}}.items():
+        shades = style.shades(solver, len(own))[::-1] if len(own) > 1 else [style.COLOUR[solver]]
+        yield from zip(own, shades, strict=False)
 
 
 def _mean_curve(axes, plan: SamplingPlan, colour):
@@ -142,11 +136,18 @@ def _share(group: Sequence[Axes]) -> None:
         style.decades(*group)
 
 
-def _legend(drawing: Figure) -> None:
+def _legend(drawing: Figure, drawn: Sequence[Mean]) -> None:
     """Below all panels; then the panels have their places."""
+    labels = {
+        f"{style.LABEL[plan.solver]}, {plan.levels[0].label} points": (plan.solver, colour)
+        for mean in drawn
+        for plan, colour in _coloured(mean)
+    }
+    # Dashes are left to what is forecast.
+    own = {"linestyle": "-", "markersize": style.mark(0.8)}
+    looks = (style.look(solver, label=label, color=at, **own) for label, (solver, at) in labels.items())
     entries: list = [
-        # Dashes are left to what is forecast.
-        *(Line2D([], [], **style.look(solver, markersize=style.mark(0.8), linestyle="-")) for solver in SOLVERS),
+        *(Line2D([], [], **look) for look in looks),
         Line2D([], [], **style.line(0.3, 0.8, linestyle=FORECAST), label="forecast"),
         Line2D([], [], **_cheapest(), label="cheapest plan in 3D"),
     ]

@@ -15,7 +15,7 @@ SOLVERS = {"1D": "MDR", "3D": "BEM"}
 PANELS = {
     "start": ("start from rest", "path / a [1]"),
     "steps": ("steps of the speed", "path / a [1]"),
-    "oscillation": ("oscillating load", "path / a, periods [1]"),
+    "oscillation": ("oscillating load", "path / a [1]"),
     "oblique": ("oblique approach", "path / a [1]"),
     "reversal": ("reversal, first cycle", "path / a [1]"),
     "mean": ("mean friction", "amplitude over load [1]"),
