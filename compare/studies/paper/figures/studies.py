@@ -13,13 +13,12 @@ from scene.regime import MUCH_LESS_HEIGHT
 
 from ....report.page import Plot, Tables
 from ....report.plots import shades, style
-from ....report.plots.curves import intervals, scatter
+from ....report.plots.curves import scatter
 from ....report.plots.lettering import clear
 
 NAME = "paper-studies"
 LINES = f"{NAME}-lines"
 BETWEEN = Normalize(0, 1)  # of the Hurst exponent
-THINNED = 3  # of so many points one is drawn where they lie over one another
 MARKERS = ("o", "s", "^", "D", "v", "P")
 # What may break in the last panel, where the macroscopic slope is divided out: name, colour, marker, filled. What
 # breaks both is drawn in ink.
@@ -49,9 +48,8 @@ def plot(points: DataFrame, lines: DataFrame) -> Plot | None:
         figure,
         {NAME: points, LINES: lines},
         "Slow friction on a rough cone in six studies of one parameter each. (a) μ̃ against ξ with Eqs. 17 and "
-        "19; hollow where a condition of Eq. 17 breaks; every third point. (b) μ̃/ξ against the rms slope of the "
-        "macroscopic profile over that of the roughness, r; Eq. 10 gives 1 + r². (c) What is left, by what else "
-        "breaks.",
+        "19; hollow where a condition of Eq. 17 breaks. (b) μ̃/ξ against the rms slope of the macroscopic "
+        "profile over that of the roughness, r; Eq. 10 gives 1 + r². (c) What is left, by what else breaks.",
         f"Friction collapses on a line of slope one. {'; '.join(told)}.",
     )
 
@@ -76,8 +74,7 @@ def figure(tables: Tables) -> Figure:
 
 
 def _scatter(axes: Axes, points: DataFrame, x, y):
-    """Markers of every third point, one a study, coloured by the Hurst exponent, filled where all hold."""
-    points, x, y = points[::THINNED], x[::THINNED], y[::THINNED]
+    """One set of markers a study, coloured by the Hurst exponent, filled where all conditions hold."""
     for study, marker in zip(points["study"].unique(), MARKERS, strict=False):
         for holds, above in ((True, 3), (False, 2)):
             at = ((points["study"] == study) & (points["holds"] == holds)).to_numpy()
@@ -105,9 +102,6 @@ def _law(axes, points, lines):
 def _slope(axes, points):
     ratio = points["macro_over_rough"]
     _scatter(axes, points, ratio, points["normalised_friction"] / points["xi"])
-    over = points.filter(like="normalised_friction").div(points["xi"], axis=0)[::THINNED]
-    look = {"fmt": "none", "ecolor": style.grey(0.5), "elinewidth": style.width(0.5), "capsize": 0, "zorder": 1}
-    intervals(axes, ratio[::THINNED], over, "normalised_friction", **look)
     r = np.geomspace(ratio.min(), ratio.max(), 201)
     axes.plot(r, 1 + r**2, **style.line(0, 0.7, zorder=4, label="1 + r²"))
     axes.set(xscale="log", yscale="log", ylabel=r"$\tilde{\mu}/\xi$ [1]", title="(b)")

@@ -248,7 +248,8 @@ def _letters(axes, panel, looks) -> Iterator[Letter]:
     answers = [curve for curve in panel if curve.estimate == panel[0].estimate]
     for curve in panel:
         colour, at = looks[_name(curve, panel)]["color"], np.column_stack([curve.processor, _shown(curve)])
-        ends = np.flatnonzero(np.isfinite(at).all(axis=1))[[0, -1]] if np.isfinite(at).all(axis=1).any() else []
+        known = np.flatnonzero(np.isfinite(at).all(axis=1))
+        ends = known[[0, -1]] if known.size else known
         if curve in answers and len(ends):
             texts = [_written(curve.values[k]) for k in ends]
             if np.hypot(*np.diff(axes.transData.transform(at[ends]), axis=0)[0]) < MARKER * axes.figure.dpi / 36:
