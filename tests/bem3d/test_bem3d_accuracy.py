@@ -161,7 +161,7 @@ def test_an_answer_is_kept_where_finer_grids_have_none(monkeypatch):
 
 def test_where_no_grid_has_an_answer_the_reason_is_raised():
     finest = replace(ROUGH, shortest=1e-6)
-    with pytest.raises(SolveError, match="take a longer shortest"):
+    with pytest.raises(SolveError, match="state a longer shortest"):
         BEM.for_accuracy(replace(SMOOTH, roughness=finest, motion=Indent(load=LOAD)), depth=0.1)
 
 
