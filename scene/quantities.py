@@ -266,7 +266,7 @@ def unit_of(cls: type, field: str) -> str | None:
 
 
 def some_of(types: Mapping[str, Any], stated: Mapping[str, Any]) -> dict[str, Any]:
-    """Those of what is stated that have one of these names, each as its type.
+    """Values of what is stated that have one of these names, each as its type.
 
     Raises ValidationError, in which a value has its name, as one of a field has.
     """

@@ -1,4 +1,4 @@
-"""How far a run is, for people: bars on a terminal and in a notebook, plain lines elsewhere."""
+"""Progress of a run as people see it: bars on a terminal and in a notebook, plain lines elsewhere."""
 
 import time
 from collections import defaultdict

@@ -30,7 +30,7 @@ Row: Any = create_model("Row", **_FOUND)
 
 @dataclass(frozen=True)
 class Reported:
-    """Of a command that solves, of `study` and `workprecision` with a name, and of `topography`.
+    """JSON answer of a command that solves, `study` and `workprecision` with a name among them.
 
     page : file of the page; null if none was written
     doubts : doubts and notes, which stand before the answer
@@ -48,7 +48,7 @@ class Reported:
 
 @dataclass(frozen=True)
 class Planned:
-    """Of `plan`.
+    """JSON answer of `plan`.
 
     solvers : plan of each solver by its name, or in words why there is none
     trust : worth of cheap answers, the same that `trust` prints
@@ -79,14 +79,14 @@ class Offered:
 
 @dataclass(frozen=True)
 class Listed:
-    """Of `scenes`, and of `study` and `workprecision` without a name. offered : by name"""
+    """JSON answer of `scenes`, and of `study` and `workprecision` without a name. offered : by name"""
 
     offered: dict[str, Offered]
 
 
 @dataclass(frozen=True)
 class Written:
-    """Of `new`, `redraw`, `export` and `animate`. files : that were written"""
+    """JSON answer of `new`, `redraw`, `export` and `animate`. files : that were written"""
 
     files: tuple[str, ...]
 
@@ -125,7 +125,7 @@ def answer(found: Any) -> Answer:
 
 
 def written(found: Any) -> str:
-    """The same as JSON, in which a number that is not known or not finite is null."""
+    """JSON of what a command returns; a number that is not known or not finite is null."""
     return to_json(answer(found), indent=1, inf_nan_mode="null", fallback=_plain).decode()
 
 

@@ -298,7 +298,7 @@ class CaseFindings:
         ]
 
     def _judged(self, curve, quantity) -> list[Model]:
-        """Those of them that are compared with the reference; none where that is not one of them."""
+        """Models of a curve that are compared with the reference; none where the reference has no answer."""
         found = {each.name: each for each in self._claiming(curve, quantity)}
         reference = found.pop(self.models.reference, None)
         return list(found.values()) if reference else []

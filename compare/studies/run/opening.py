@@ -8,7 +8,7 @@ from ...report.plots.prefixes import prefixed
 from ...solving.amounts import capital, off, share
 from ...statistics.digits import interval, with_unit
 from ...statistics.finding import Finding
-from ...trustmap.verdict import MULTIPLY, NONE, SMALL, USE, Advice, Correction
+from ...trustmap.verdict import CALLED, MULTIPLY, NONE, SMALL, USE, Advice, Correction
 from ..accuracy import WORDS
 from .claims import CaseFindings, own_means
 from .curves import OWN
@@ -70,7 +70,7 @@ def _advised(cheap: Correction, law: Correction | None) -> str:
     if cheap.advice == USE:
         return "The trust map takes 1D as it is."
     if cheap.advice == MULTIPLY:
-        other = f", or takes the 3D law times {law.times}" if law and law.advice == MULTIPLY else ""
+        other = f", or takes {CALLED[law.model]} times {law.times}" if law and law.advice == MULTIPLY else ""
         return f"Do not use 1D as it is: the trust map multiplies it by {cheap.times}{other}, as {why}"
     return f"Do not use 1D: the trust map says to solve in 3D, as {why}"
 
