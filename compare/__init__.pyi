@@ -21,7 +21,6 @@ from .commands import trust as trust
 from .commands import verify as verify
 from .commands import workprecision as workprecision
 from .library.case import Case as Case
-from .models.law.friction_law import FrictionLaw as FrictionLaw
 from .models.law.persson import Persson as Persson
 from .solving.errors import Doubtful as Doubtful
 from .solving.errors import InvalidInput as InvalidInput
@@ -41,3 +40,4 @@ from .studies.report import Report as Report
 from .studies.study import Judgement as Judgement
 from .studies.study import Study as Study
 from .trustmap.corrected import CorrectedMDR as CorrectedMDR
+from .trustmap.friction_law import FrictionLaw as FrictionLaw

@@ -70,6 +70,7 @@ MEASURES: Mapping[str, Entry] = {
     "average_heating": Entry(
         "K", "Rise in temperature, averaged over the smooth contact, if its friction heats the elastomer alone."
     ),
+    "bare_friction": Entry("1", "Coefficient of friction of the law, before the trust map corrects it."),
     "contact_area": _area("Area of real contact: pixels under pressure."),
     "contact_fraction": Entry(
         "1",
@@ -109,6 +110,7 @@ MEASURES: Mapping[str, Entry] = {
     ),
     "heating_solves": Entry("1", "Contacts that were solved to find the temperature at which heat is balanced."),
     "height_over_depth": Entry("1", "Rms height of the roughness over the depth of the smooth relaxed contact."),
+    "law_ratio": Entry("1", "Friction of the law over friction in three dimensions, by the trust map."),
     "load_on_leading_flanks": Entry("1", "Share of the load where the profile falls along +x."),
     "macro_over_rough": Entry(
         "1", "Rms slope of the smooth profile over its contact, over that of the roughness."
@@ -119,7 +121,7 @@ MEASURES: Mapping[str, Entry] = {
         "m", "Radius of a disc as wide as the pressure of a rough body, its spots smeared out."
     ),
     "one_sidedness": Entry("1", "Share of the real contact where the profile falls along +x."),
-    "outside": Entry("1", "Whether the roughness is beyond what the law was measured on, 1 where it is."),
+    "outside": Entry("1", "Whether the scene is off the trust map, 1 where it is: the law then has no interval."),
     "pixel": Entry("m", "Spacing of the grid on which the contact was solved."),
     "points_across_contact": Entry("1", "Pixels from the first contact to the last, on the longer side."),
     "points_per_shortest_wave": Entry("1", "Pixels on the shortest wavelength of the roughness."),

@@ -30,7 +30,7 @@ KNOWN: Mapping[str, tuple[str, Draws]] = {"MDR": ("1D", PROFILES), "BEM": ("3D",
 OWN = {"mdr": MDR, "bem": BEM}  # models that a scene has settings for, by the name of these
 THEORIES = {  # imported when they are asked for
     "persson": "compare.models.law.persson:Persson",
-    "law": "compare.models.law.friction_law:FrictionLaw",
+    "law": "compare.trustmap.friction_law:FrictionLaw",
 }
 
 

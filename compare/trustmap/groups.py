@@ -1,7 +1,7 @@
 """Dimensionless groups of a rough scene, from which the ratio of 1D over 3D is predicted."""
 
 from dataclasses import dataclass, replace
-from math import erf, inf, log, pi, sqrt
+from math import erf, hypot, inf, log, pi, sqrt
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from scene.scales import elastic_contact
 
 from ..models.exact.full_contact import complex_stiffness
 from ..models.law import bands as surface
-from ..models.law.friction_law import LawParts
+from ..models.law.parts import LawParts
 from ..models.law.smooth import Answer, SmoothContact
 
 # Solvers of the smooth body, which answer in a few hundredths of a second.
@@ -20,6 +20,10 @@ LINE, SPACE = MDR(points=2000), BEM(points=64)
 # Loss over the relaxed modulus below which a flow is as slow as at rest, and stiffening that is as good as none.
 LEAST_LOSS, MOST_STIFFENING = 1e-3, 1e5
 FLAT = 100.0  # pressure over that of full contact, beyond which nothing changes
+# What each of these numbers adds to the expected misfit of the law, of which the root of the squares is taken. The
+# misfit is the unit in which the map learns ratios of friction, no interval: that follows from scenes left out.
+AT_LEAST, BY_ROUGHNESS, BY_LIGHTNESS, BY_HEIGHT, BY_RIDDEN = 0.0088, 0.104, 0.154, 1.06, 2.0
+MOST_MISFIT = 7.0  # a factor of a thousand: a larger one says no more
 
 
 @dataclass(frozen=True)
@@ -177,12 +181,11 @@ class DimensionlessGroups:
     skewness: float  # of its heights
     tails: float  # of its heights
     gaussian: float  # 1 of a spectrum whose surfaces differ in height
-    doubt: float  # half the interval of the law
+    doubt: float  # expected misfit of ln mu of the law, the unit in which ratios of friction are learned
 
     @classmethod
-    def of(cls, scene: Scene, smooth: SmoothReference) -> "DimensionlessGroups":
-        """Groups of a rough scene. Raises SolveError where the law of friction has no answer."""
-        law = LawParts.of(scene, smooth.contact)
+    def of(cls, scene: Scene, smooth: SmoothReference, law: LawParts) -> "DimensionlessGroups":
+        """Groups of a rough scene, from its smooth body and the parts of its law of friction."""
         rest, solid, waves = elastic_contact(scene), scene.solid, Waves.of(_roughness(scene))
         speed, a, n = scene.motion.speed, rest.radius, scene.indenter.exponent
         modulus = complex_stiffness(solid, speed * np.array([waves.curved, 1 / a])) / solid.indentation_modulus
@@ -227,8 +230,16 @@ class DimensionlessGroups:
             skewness=waves.skewness,
             tails=waves.tails,
             gaussian=float(getattr(scene.roughness, "amplitudes", "") == "gaussian"),
-            doubt=log(law.doubt),
+            doubt=log(_misfit(law)),
         )
+
+
+def _misfit(law: LawParts) -> float:
+    """Expected misfit of ln mu of the law."""
+    of_it = law.rough / law.friction_coefficient if law.rough else 0.0
+    light = BY_LIGHTNESS * min(law.x, 1.0) ** -0.25
+    parts = AT_LEAST, of_it * BY_ROUGHNESS, of_it * light, BY_HEIGHT * law.height, BY_RIDDEN * law.ridden
+    return min(hypot(*parts), MOST_MISFIT)
 
 
 def _roughness(scene: Scene) -> SelfAffine | Topography:

@@ -1,16 +1,17 @@
 """What was measured for the map: parts of scenes, ranges of groups, and the scenes near another."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
-from functools import cache
+from dataclasses import asdict, astuple, dataclass, replace
+from functools import cache, cached_property
 from math import exp, inf
 
 import numpy as np
 
-from scene import Cone, Indent, PowerLaw, Profile, Scene, SelfAffine, Slide, Sphere, Topography
+from scene import Cone, Indent, PowerLaw, Profile, Scene, SelfAffine, Slide, SolveError, Sphere, Topography
 
+from ..models.law.parts import LawParts
 from . import shipped, table
-from .groups import MOST_STIFFENING
+from .groups import MOST_STIFFENING, DimensionlessGroups, SmoothReference
 from .model import NAMES
 
 # Tolerated extrapolation, as a fraction of the measured range.
@@ -40,6 +41,59 @@ PLACED = tuple(SYMBOLS)[-6:]
 NEVER = "layer", "interface", "heating"
 # Groups that are no logarithms.
 PLAIN = "shape", "prescribed", "full_share", "share", "riding", "side", "skewness", "gaussian"
+
+
+class OffTheMap(SolveError):
+    """A scene whose parts were never measured, or whose smooth body has no answer: it has no place on the map."""
+
+
+@dataclass(frozen=True)
+class Place:
+    """Place of a rough scene on the map.
+
+    smooth : the body without its roughness; law : parts of the law of friction
+    groups : dimensionless groups; stiffening : of the solid, glassy over relaxed modulus
+    """
+
+    smooth: SmoothReference
+    law: LawParts
+    groups: DimensionlessGroups
+    stiffening: float
+
+    @classmethod
+    def of(cls, scene: Scene) -> "Place":
+        """Place of a rough scene; that of a measured line is found by `as_judged`. Raises OffTheMap."""
+        if reasons := unmeasured(scene):
+            raise OffTheMap(f"Off the map: {'; '.join(reasons)}.")
+        try:
+            smooth = SmoothReference.of(scene)
+            law = LawParts.of(scene, smooth.contact)
+            stiffening = scene.solid.glassy_modulus / scene.solid.static_modulus
+            return cls(smooth, law, DimensionlessGroups.of(scene, smooth, law), stiffening)
+        except (SolveError, ArithmeticError, ValueError) as error:
+            raise OffTheMap(f"Off the map: the smooth body in its place has no answer ({error}).") from error
+
+    @property
+    def named(self) -> dict[str, float]:
+        """Groups as numbers, by name."""
+        return numbers(asdict(self.groups)) | {"stiffening": self.stiffening}
+
+    @cached_property
+    def values(self) -> np.ndarray:
+        """Groups (D,), those with a limit moved to where it is reached."""
+        return np.clip(np.array(astuple(self.groups)), *limits())
+
+    @cached_property
+    def beyond(self) -> str:
+        """Groups beyond what was measured, in words; empty where there is none."""
+        found = beyond_measured(self.values)
+        named = [found[name] for name in SYMBOLS if name in found] or list(found.values())
+        return f"Off the map: {'; '.join(named)}." if named else ""
+
+    def predicted(self, name: str) -> tuple[float, float, float]:
+        """Logarithm of the ratio of a name, its standard error, and the relative scatter of one surface."""
+        logarithm, error, scatter = shipped.model(name).predicted(self.values[None])
+        return float(logarithm[0]), float(error[0]), float(scatter[0])
 
 
 @dataclass(frozen=True)

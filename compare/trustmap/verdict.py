@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, astuple, dataclass, fields, replace
+from dataclasses import astuple, dataclass, fields, replace
 from math import ceil, exp, hypot, isfinite, log, nan
 from typing import TYPE_CHECKING, Literal
 
@@ -18,9 +18,8 @@ from scene.scales import elastic_contact
 from ..models.law.bands import Bands
 from ..solving.amounts import capital, off, seconds, share
 from ..statistics.digits import interval
-from . import shipped
-from .groups import LINE, SPACE, DimensionlessGroups, SmoothReference
-from .measured import SYMBOLS, Neighbour, as_judged, beyond_measured, limits, nearest, numbers, placed, unmeasured
+from .groups import LINE, SPACE, SmoothReference
+from .measured import Neighbour, OffTheMap, Place, as_judged, nearest, placed, unmeasured
 from .model import MOST_SCATTER, NORMAL, lost
 from .ratio import LAW, RATIOS, asked_of
 
@@ -57,7 +56,8 @@ class Correction:
     """Correction of the answer of a cheap model for one quantity.
 
     model : MDR, of which the answer is the mean over profiles, or FrictionLaw
-    ratio : its answer over the mean over surfaces in 3D; nan if not known
+    ratio : its answer over the mean over surfaces in 3D; nan if not known, 1 for FrictionLaw, in whose answer the
+        ratio of the bare law is already
     low, high : its interval of 95 %
     surface_low, surface_high : interval of 95 % of its answer over one single surface in 3D; nan where single
         surfaces differ so much that one says nothing, as the reason then tells
@@ -153,7 +153,9 @@ class Advice:
         solve = f" 3D to 5 % takes {seconds(self.solving)}." if isfinite(self.solving) else ""
         if (best := self.taken) is None:
             return f"For friction solve in 3D.{solve}"
-        as_it_is = "as it is" if best.advice == USE else f"times {best.times}"
+        as_it_is = (
+            f"as it is, {off(best.low)} to {off(best.high)}" if best.advice == USE else f"times {best.times}"
+        )
         spent = f"; it takes {seconds(best.seconds)}" if best.seconds > 0 else ""
         return f"For friction take {CALLED[best.model]} {as_it_is}{spent}.{solve}"
 
@@ -201,27 +203,21 @@ def _advised(scene):
             f"This advice is about linear contacts, and this is none: {steep.name} = {steep.number:.3g}, above 1."
         )
         return _unknown(scene, f"{why} 3D is as linear as 1D.", NONE)
-    if reasons := unmeasured(scene):
-        return _unknown(scene, f"Off the map: {'; '.join(reasons)}.")
     try:
-        if scene.roughness is None or scene.roughness.flat:
+        if (scene.roughness is None or scene.roughness.flat) and not unmeasured(scene):
             return _smooth(scene)
-        smooth = SmoothReference.of(scene)
-        groups = DimensionlessGroups.of(scene, smooth)
-        stiffening = scene.solid.glassy_modulus / scene.solid.static_modulus
-        named = numbers(asdict(groups)) | {"stiffening": stiffening}
+        place = Place.of(scene)
+    except OffTheMap as error:
+        return _unknown(scene, str(error))
     except (SolveError, ArithmeticError, ValueError) as error:
-        return _unknown(scene, f"Off the map: the smooth body in its place has no answer ({error}).")
-    place = np.array(astuple(groups))
-    if beyond := beyond_measured(place):
-        told = [beyond[name] for name in SYMBOLS if name in beyond] or list(beyond.values())
-        return replace(_unknown(scene, f"Off the map: {'; '.join(told)}."), groups=named)
-    place = np.clip(place, *limits())
-    rubs = bool(smooth.friction_coefficient)
+        return _unknown(scene, f"Off the map: the smooth body has no answer ({error}).")
+    if place.beyond:
+        return replace(_unknown(scene, place.beyond), groups=place.named)
+    rubs = bool(place.smooth.friction_coefficient)
     asked = [name for name in asked_of(scene) if rubs or name not in ("friction", LAW)]
-    corrections = {name: _predicted(name, place, groups, _cost(name, scene)) for name in asked}
-    found = _of(corrections, named, tuple(nearest(asked[0], place)))
-    return replace(found, solving=_solving(scene, asked[0], place, smooth))
+    corrections = {name: _predicted(name, place, _cost(name, scene)) for name in asked}
+    found = _of(corrections, place.named, tuple(nearest(asked[0], place.values)))
+    return replace(found, solving=_solving(scene, asked[0], place))
 
 
 def _unknown(scene, reason, advice=SOLVE):
@@ -256,10 +252,12 @@ def _smooth(scene) -> Advice:
     return _of(corrections)
 
 
-def _predicted(name, place, groups, seconds):
-    found = shipped.model(name).predicted(place[None])
-    logarithm, error, scatter = (float(each[0]) for each in found)
-    worth = _worth(name, exp(logarithm), error, scatter, seconds, _because(name, groups))
+def _predicted(name, place, seconds):
+    (logarithm, error, scatter), groups = place.predicted(name), place.groups
+    because = _because(name, groups)
+    if name == LAW:
+        return _of_law(exp(logarithm), error, scatter, seconds, because)
+    worth = _worth(name, exp(logarithm), error, scatter, seconds, because)
     return replace(worth, reason=f"{worth.reason} {NARROW}") if name == "force" and _lost(groups) else worth
 
 
@@ -270,10 +268,10 @@ def _cost(name, scene) -> float:
     return PROFILES * _planned(MDR(points=4000), scene)
 
 
-def _solving(scene, name, place, smooth):
+def _solving(scene, name, place):
     """Processor time of as many surfaces as know a quantity to CLOSE, as planned [s]; see `Advice.solving`."""
-    scatter = float(shipped.model(name).scatter_at(place[None])[0])
-    window = EXTENT * smooth.radius * elastic_contact(scene).radius
+    _, _, scatter = place.predicted(name)
+    window = EXTENT * place.smooth.radius * elastic_contact(scene).radius
     points = max(LEAST_POINTS, ceil(PIXELS * window / Bands.of(scene.roughness).finest))
     if not scatter < MOST_SCATTER or points > MOST_POINTS:
         return nan
@@ -295,18 +293,35 @@ def advice_on(ratio: float, error: float) -> Treatment:
 
 
 def _worth(name, ratio, error, scatter, seconds, because):
-    half = NORMAL * error
-    whole = NORMAL * hypot(error, scatter) if scatter < MOST_SCATTER else nan
-    low, high = ratio * exp(-half), ratio * exp(half)
+    low, high = (ratio * exp(end * NORMAL * error) for end in (-1, 1))
     advice, called = advice_on(ratio, error), CALLED[MODELS[name]]
     reason = {
         USE: f"{capital(called)} is within {share(SMALL)} of 3D, {off(low)} to {off(high)}",
         MULTIPLY: f"{capital(called)} is {off(ratio)}",
         SOLVE: f"The map knows no more than that {called} is {off(low)} to {off(high)}",
     }[advice]
-    told = f"{reason}: {because}." if isfinite(whole) else f"{reason}: {because}. {NOTHING}"
-    surface = ratio * exp(-whole), ratio * exp(whole)
-    return Correction(MODELS[name], ratio, low, high, *surface, advice, seconds, told)
+    return _correction(name, ratio, error, scatter, advice, seconds, f"{reason}: {because}.")
+
+
+def _of_law(ratio, error, scatter, seconds, because):
+    """Correction of the answer of `FrictionLaw`, which has the ratio of the bare law in it: to be used, or not."""
+    low, high = (exp(end * NORMAL * error) for end in (-1, 1))
+    bare = f"its formula alone is {off(ratio)}"
+    advice = USE if NORMAL * error <= WIDE else SOLVE
+    reason = {
+        USE: f"The 3D law is {off(low)} to {off(high)}; {bare}",
+        SOLVE: f"The map knows no more than that the 3D law is {off(low)} to {off(high)}; {bare}",
+    }[advice]
+    return _correction(LAW, 1.0, error, scatter, advice, seconds, f"{reason}: {because}.")
+
+
+def _correction(name, ratio, error, scatter, advice, seconds, reason):
+    """Correction with its intervals, of the mean and of one surface."""
+    half = NORMAL * error
+    whole = NORMAL * hypot(error, scatter) if scatter < MOST_SCATTER else nan
+    ends = (ratio * exp(each) for each in (-half, half, -whole, whole))
+    told = reason if isfinite(whole) else f"{reason} {NOTHING}"
+    return Correction(MODELS[name], ratio, *ends, advice, seconds, told)
 
 
 def _lost(groups):

@@ -17,7 +17,7 @@ from campaign import friction, solved
 from pandas import DataFrame
 from tables import by_column, replaced, stored
 
-from compare.models.law.friction_law import LawParts
+from compare.models.law.parts import LawParts
 from compare.solving.outcome import Outcome
 from compare.solving.task import SceneTask, draws_of
 from compare.studies.trust import design

@@ -5,7 +5,7 @@ python docs/measure/scenes.py [WORKERS]   solves what is not solved yet, and wri
 
 import sys
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf
 from pathlib import Path
 
@@ -14,15 +14,21 @@ from campaign import friction, solved
 from tables import stored
 
 from bem3d import BEM
+from compare.models.law.parts import LawParts
 from compare.solving.outcome import Outcome
 from compare.solving.task import SceneTask, draws_of
-from compare.studies.trust.design import drawn_points, scene_at
+from compare.studies.trust import design
+from compare.studies.trust.design import drawn_points, scene_at, within
 from mdr1d import MDR
 from scene import Scene, Slide
 
 PAGE = Path(__file__).parents[1] / "results" / "law" / "scenes.md"
-# Number of scenes and seed of each set: to choose between forms of the law, and to judge the one that was chosen.
-SETS = {"tried": (240, 36_100), "fresh": (640, 36_200)}
+# Number of scenes and seed of each set: drawn evenly, and two in three of them where the bare law is far off.
+SETS = {"fresh": (640, 36_200), "regions": (240, 53_100)}
+FAST, BLUNT, EVENLY = REGIONS = "spheres on a fast Kelvin solid", "blunt bodies", "drawn evenly"
+# The first of these: v tau over the shortest wave, and h0/d; the second: n, and p/p_rms.
+PASSED, HEIGHT, POWERS, PRESSURES = (15.0, 300.0), (0.04, 0.3), (6.0, 12.0), (0.9, 4.0)
+PASSES = 4  # of the height that a pressure asks for: the contact depends on it little
 # The least number of surfaces: four times as many on the coarsest grid.
 SURFACES, PROFILES, SURFACE_SEEDS = 16, 40, 1000
 POINTS, PIXELS = (128, 192, 256, 384, 512, 640), 12  # a side; to the shortest wave
@@ -30,10 +36,11 @@ POINTS, PIXELS = (128, 192, 256, 384, 512, 640), 12  # a side; to the shortest w
 
 @dataclass(frozen=True)
 class RandomScene:
-    """A scene that slides on roughness, and its tasks."""
+    """A scene that slides on roughness, its region, and its tasks."""
 
     set: str
     number: int
+    region: str
     scene: Scene
 
     @property
@@ -59,10 +66,41 @@ def scenes(name: str) -> Iterator[RandomScene]:
     count, seed = SETS[name]
     found = 0
     for number, point in enumerate(drawn_points(seed)):
-        scene = scene_at(point, SURFACE_SEEDS * number)
+        region, periods = EVENLY, design.PERIODS
+        if name == "regions":
+            region, periods = REGIONS[number % len(REGIONS)], design.ALL_PERIODS
+        scene = scene_at(place(region, point), SURFACE_SEEDS * number, periods)
+        if region == BLUNT:
+            scene = pressed(scene, design.between(PRESSURES, point[9]))
         if scene.roughness is not None and isinstance(scene.motion, Slide) and found < count:
             found += 1
-            yield RandomScene(name, number, scene)
+            yield RandomScene(name, number, region, scene)
+
+
+def place(region: str, point: np.ndarray) -> np.ndarray:
+    """Point of the cube moved to a region."""
+    found = point.copy()
+    if region != EVENLY:
+        # Rough, sliding, under a load.
+        found[8] = design.SMOOTH + (1 - design.SMOOTH) * point[8]
+        found[7], found[15] = design.UNDER_LOAD * point[7], design.SLIDING * point[15]
+    if region == FAST:
+        found[0], found[2] = (design.CONES + design.ROUND) / 2, 0.1
+        found[9] = within(point[9], design.HEIGHTS, HEIGHT)
+        found[15] = design.SLIDING * within(point[15], design.SPEEDS, PASSED)
+    if region == BLUNT:
+        found[0] = design.ROUND + (1 - design.ROUND) * point[0]
+        found[1] = within(point[1], design.EXPONENTS, POWERS)
+    return found
+
+
+def pressed(scene: Scene, ratio: float) -> Scene:
+    """The scene with roughness so high that p/p_rms is a ratio, or as high as the body is deep."""
+    for _ in range(PASSES):
+        rough = scene.roughness
+        height = min(rough.rms_height * LawParts.of(scene).x / ratio, design.DEPTH * design.HEIGHTS[1])
+        scene = replace(scene, roughness=replace(rough, rms_height=height))
+    return scene
 
 
 def row(scene: RandomScene, space: Outcome, line: Outcome) -> dict:
@@ -70,6 +108,7 @@ def row(scene: RandomScene, space: Outcome, line: Outcome) -> dict:
     surfaces, profiles = friction(space.rows), friction(line.rows)
     return {
         "scene": scene.number,
+        "region": scene.region,
         "friction": float(surfaces.value),
         "error": float(surfaces.error / abs(surfaces.value)),
         "load": float(np.nanmean([each.normal_force for each in space.rows])),

@@ -14,10 +14,10 @@ from planes import PAGE as PLANES
 from tables import stored
 
 from bem3d import BEM
-from compare.models.law.friction_law import FrictionLaw
 from compare.solving.task import SceneTask, draws_of
 from compare.statistics.intervals import student
 from compare.studies.claims.contacts import STEEP
+from compare.trustmap.friction_law import FrictionLaw
 from scene import Scene, Slide
 
 PAGE = PLANES.with_name("steep.md")
@@ -86,7 +86,7 @@ def main(workers: int | None = None) -> None:
                 "error": error,
                 "finer": change,
                 "finest": float(finest[0].value / fine.value - 1) if finest else np.nan,
-                "law": law.friction_coefficient,
+                "law": law.measures["bare_friction"],
                 "x": law.measures["pressure_ratio"],
                 "measured_share": added / full,
                 "measured_share_low": (added - half) / full,

@@ -16,8 +16,8 @@ from compare import FrictionLaw
 from compare.models.exact import slow_friction_3d
 from compare.models.law.bands import FASTER, Bands, FullContact
 from compare.models.law.card import card, smooth_body
-from compare.models.law.friction_law import LawParts
 from compare.models.law.nominal import GAPS, NominalContact, Rings
+from compare.models.law.parts import LawParts
 from compare.models.law.share import LEAST, MOST, Share, coefficients
 from compare.models.law.smooth import SmoothContact
 from mdr1d import MDR
@@ -123,8 +123,9 @@ def test_roughness_that_vanishes_leaves_the_smooth_body():
     smooth = FrictionLaw().solve(replace(SCENE, roughness=None))
     assert smooth.friction_coefficient == BEM(points=64).solve(replace(SCENE, roughness=None)).friction_coefficient
     for height in (1e-10, 1e-200):
-        tiny = FrictionLaw().solve(replace(SCENE, roughness=replace(ROUGH, rms_height=height)))
-        assert tiny.friction_coefficient == pytest.approx(smooth.friction_coefficient, rel=5e-3)
+        tiny = FrictionLaw().solve(replace(SCENE, roughness=replace(ROUGH, rms_height=height))).measures
+        assert tiny["bare_friction"] == pytest.approx(smooth.friction_coefficient, rel=5e-3)
+        assert tiny["friction_low"] < smooth.friction_coefficient < tiny["friction_high"]
     far = FrictionLaw().solve(replace(SCENE, roughness=replace(ROUGH, longest=1e12, shortest=1e11)))
     assert far.friction_coefficient == pytest.approx(smooth.friction_coefficient, rel=1e-9)
     assert FrictionLaw().solve(replace(SCENE, elastomer=Elastic(1e6))).friction_coefficient == 0.0
@@ -134,8 +135,10 @@ def test_roughness_that_vanishes_leaves_the_smooth_body():
 def test_the_parts_are_those_of_the_result():
     answer, parts = FrictionLaw().solve(SCENE), LawParts.of(SCENE)
     own, rough = (answer.measures[f"friction_of_{name}"] for name in ("shape", "roughness"))
-    assert own + rough == pytest.approx(answer.friction_force, rel=1e-12)
-    load = parts.contact.load
+    load, bare = parts.contact.load, answer.measures["bare_friction"]
+    assert own + rough == pytest.approx(bare * load, rel=1e-12)
+    assert bare / answer.measures["law_ratio"] == pytest.approx(answer.friction_coefficient, rel=1e-12)
+    assert answer.measures["outside"] == 0.0
     assert (own, rough) == pytest.approx((parts.smooth * load, parts.rough * load), rel=1e-12)
     assert answer.measures["pressure_ratio"] == parts.x
     assert answer.measures["nominal_radius"] == parts.radius
@@ -146,10 +149,11 @@ def test_the_parts_are_those_of_the_result():
 @pytest.mark.parametrize(
     "scene", [replace(SCENE, motion=Slide(speed=0.1, load=1e-12)), replace(SCENE, roughness=HIGH)]
 )
-def test_roughness_that_is_a_body_of_its_own_is_told_outside_and_of_a_wide_interval(scene):
-    measures = FrictionLaw().solve(scene).measures
-    assert measures["outside"] == 1.0
-    assert measures["friction_high"] > 100 * measures["friction_low"]
+def test_off_the_map_the_answer_is_the_bare_law_and_has_no_interval(scene):
+    answer = FrictionLaw().solve(scene)
+    assert answer.measures["outside"] == 1.0
+    assert answer.friction_coefficient == answer.measures["bare_friction"]
+    assert all(isnan(answer.measures[name]) for name in ("law_ratio", "friction_low", "friction_high"))
 
 
 def test_the_formula_and_the_layer_are_those_of_the_planes_that_were_solved():

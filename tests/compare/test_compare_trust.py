@@ -12,11 +12,11 @@ from bem3d import BEM
 from bem3d.surface import RoughSurface
 from compare.models.exact import full_contact
 from compare.models.law.bands import Bands
-from compare.models.law.friction_law import FrictionLaw
 from compare.solving.outcome import Outcome, Row
 from compare.studies.trust import design, scoring, statements, study
 from compare.studies.trust.contact import Contact
 from compare.trustmap import shipped, table, verdict
+from compare.trustmap.friction_law import FrictionLaw
 from compare.trustmap.groups import FullContact, SmoothReference
 from compare.trustmap.model import MOST_TAKEN, NAMES, NORMAL, Measurements, Predicted, lost
 from compare.trustmap.ratio import LAW, RATIOS, asked_of, ratio_of

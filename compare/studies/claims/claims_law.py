@@ -115,7 +115,7 @@ class LawPoints:
         waves = [FullContact.of(bands, series.scene.solid, speed) for speed in series.speeds]
         known = [np.isfinite(_mu(contacts.sample(grid, ROUGH, solver)[solver])) for grid in (FINE, COARSE)]
         with np.errstate(invalid="ignore", divide="ignore"):
-            rough = law["friction_of_roughness"].values / law["friction_force"].values
+            own, rough = (law[f"friction_of_{part}"].values for part in ("shape", "roughness"))
             found = cls(
                 contacts=contacts,
                 solver=solver,
@@ -124,7 +124,7 @@ class LawPoints:
                 bare=Coordinates.of_bare(contacts(solver, SMOOTH).isel(speed=slice(1, None)), waves),
                 curves=tuple(map(Share.of, waves)),
                 height=1 / laws[solver].ratios["depth_over_height"],
-                counted=(rough > LEAST_ROUGH) & known[0] & known[1],
+                counted=(rough / (own + rough) > LEAST_ROUGH) & known[0] & known[1],
             )
         return found if found.counted.any() else None
 

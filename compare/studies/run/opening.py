@@ -70,7 +70,8 @@ def _advised(cheap: Correction, law: Correction | None) -> str:
     if cheap.advice == USE:
         return "The trust map takes 1D as it is."
     if cheap.advice == MULTIPLY:
-        other = f", or takes {CALLED[law.model]} times {law.times}" if law and law.advice == MULTIPLY else ""
+        by_law = law is not None and law.advice == USE
+        other = f", or takes {CALLED[law.model]}, {off(law.low)} to {off(law.high)}" if by_law else ""
         return f"Do not use 1D as it is: the trust map multiplies it by {cheap.times}{other}, as {why}"
     return f"Do not use 1D: the trust map says to solve in 3D, as {why}"
 

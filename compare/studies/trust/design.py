@@ -132,18 +132,18 @@ def _blunt(point, exponents, heights):
     return np.array(
         [
             ROUND + (1 - ROUND) * shape,
-            _within(exponent, EXPONENTS, exponents),
+            within(exponent, EXPONENTS, exponents),
             *middle,
             UNDER_LOAD * pressed,
             SMOOTH + (1 - SMOOTH) * smooth,
-            _within(height, HEIGHTS, heights),
+            within(height, HEIGHTS, heights),
             *point[10:-1],
             SLIDING * point[-1],
         ]
     )
 
 
-def _within(place, ends, part):
+def within(place: float, ends: tuple[float, float], part: tuple[float, float]) -> float:
     """Place between the ends of a range of what is there between those of a part of it, in logarithms."""
     low, high = (log(end / ends[0]) / log(ends[1] / ends[0]) for end in part)
     return low + place * (high - low)

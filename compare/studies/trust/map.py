@@ -11,6 +11,7 @@ from scene import Kelvin, Scene, SelfAffine, Slide, Sphere
 from scene.scales import elastic_contact
 
 from ...models.exact import mean_lag
+from ...models.law.parts import LawParts
 from ...trustmap import measured, shipped, verdict
 from ...trustmap.groups import DimensionlessGroups, SmoothReference
 from ...trustmap.model import NORMAL, Model
@@ -90,13 +91,13 @@ def _waves(scene):
 def _predicted(scene, pressures, model):
     """Ratio, low and high (N, 3) of a scene at the heights of pressures."""
     smooth, rough = SmoothReference.of(scene), scene.roughness
-    own = np.exp(DimensionlessGroups.of(scene, smooth).pressure)
-    places = np.array(
-        [
-            astuple(DimensionlessGroups.of(replace(scene, roughness=replace(rough, rms_height=height)), smooth))
-            for height in rough.rms_height * own / np.array(pressures)
-        ]
-    )
+
+    def groups(height):
+        higher = replace(scene, roughness=replace(rough, rms_height=height))
+        return DimensionlessGroups.of(higher, smooth, LawParts.of(higher, smooth.contact))
+
+    own = np.exp(groups(rough.rms_height).pressure)
+    places = np.array([astuple(groups(height)) for height in rough.rms_height * own / np.array(pressures)])
     known = [not measured.beyond_measured(place) for place in places]
     logarithm, error, _ = model.predicted(np.clip(places, *measured.limits()))
     ratios = np.exp(logarithm + NORMAL * np.outer((0, -1, 1), error))

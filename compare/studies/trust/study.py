@@ -13,7 +13,7 @@ from pandas import DataFrame
 from scene import Scene
 
 from ...library.ready import CATALOGUE
-from ...models.law.friction_law import LawParts
+from ...models.law.parts import LawParts
 from ...report.page import Block, Findings, Table, Text
 from ...solving.outcome import Outcome
 from ...solving.task import Batch, SceneTask, Task
@@ -212,8 +212,8 @@ def _row(point: int, contact: Contact, outcomes: Mapping[Task, Outcome]) -> dict
         body = SmoothReference.of(scene, line, space)
         smooth |= {name: log(getattr(body, name)) for name in QUANTITIES}
         if scene.roughness is not None:
-            groups = asdict(DimensionlessGroups.of(scene, body))
-            law = LawParts.of(scene, body.contact).friction_coefficient
+            parts = LawParts.of(scene, body.contact)
+            groups, law = asdict(DimensionlessGroups.of(scene, body, parts)), parts.friction_coefficient
     return {
         "point": point,
         "groups": [groups.get(name, np.nan) for name in NAMES],

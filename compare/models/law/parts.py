@@ -1,0 +1,90 @@
+"""Friction of a rough body of revolution from its spectrum, in three dimensions, and its parts."""
+
+from dataclasses import dataclass
+from math import inf, pi, sqrt
+from typing import Any, cast
+
+import numpy as np
+
+from scene import Scene
+from scene.scales import elastic_contact
+
+from .bands import Bands, FullContact
+from .nominal import NominalContact
+from .share import Share
+from .smooth import SmoothContact
+
+PASSES = 2  # of the window, which is as wide as the contact, which depends on what the window leaves
+
+
+@dataclass(frozen=True)
+class LawParts:
+    """Law of friction in three dimensions: that of the smooth body, and a share of that of all waves.
+
+    mu = mu_smooth + (1/F_N) int F_full S(p / p_rms) dA: F_full is the friction an area of all waves in full
+    contact, p_rms the rms of their pressure, both from the spectrum; S the share that partial contact leaves, as
+    measured on rough planes; p the pressure of the body on its roughness as a soft layer. Waves on which the
+    contact rides as a whole, by their height and tilt under it, are taken out.
+
+    contact : of the smooth body
+    smooth, rough : parts of the friction coefficient
+    radius : of a disc with the spread of the nominal pressure, of which the smooth contact's is the radius [m]
+    full : friction of all waves in full contact, an area [Pa]
+    pressure : rms of theirs in full contact [Pa]
+    share : S(x) of these waves
+    height, ridden : rms heights over the depth at rest: of all waves; of those that carry the contact as a whole
+    """
+
+    contact: SmoothContact
+    smooth: float
+    rough: float
+    radius: float
+    full: float
+    pressure: float
+    share: Share
+    height: float
+    ridden: float
+
+    @property
+    def friction_coefficient(self) -> float:
+        """Friction coefficient [1]."""
+        return self.smooth + self.rough
+
+    @property
+    def x(self) -> float:
+        """Mean nominal pressure over the rms pressure of full contact."""
+        return self.contact.load / (pi * self.radius**2 * self.pressure) if self.pressure else inf
+
+    @classmethod
+    def of(cls, scene: Scene, smooth: SmoothContact | None = None) -> "LawParts":
+        """Parts of a rough scene. Raises SolveError where the smooth or the nominal contact has no answer.
+
+        smooth : its smooth contact, solved here if absent
+        """
+        smooth = SmoothContact.of(scene) if smooth is None else smooth
+        n, speed, solid = scene.indenter.exponent, scene.motion.speed, scene.solid
+        rest, rough = elastic_contact(scene).depth, cast(Any, scene.roughness)
+        # A fast contact is small, and deeper than one of its size at rest.
+        depth = max(smooth.depth, scene.indenter.mdr_coefficient * smooth.radius**n)
+        bare = NominalContact.smooth(n, smooth.radius, smooth.load)
+        waves, found, radius = Bands.of(rough), bare, smooth.radius
+        for _ in range(PASSES):
+            bands = waves.beneath(radius)
+            full = FullContact.of(bands, solid, speed)
+            pressure = float(full.pressure[-1])
+            found = bare.on_layer(n, depth, bands.rms_height, pressure)
+            radius = smooth.radius * found.spread / bare.spread
+        share = Share.of(full)
+        friction = float(full.friction.sum())
+        bare_lost = bare.lost(solid, speed)
+        return cls(
+            contact=smooth,
+            smooth=smooth.friction_coefficient * (found.lost(solid, speed) / bare_lost if bare_lost else 1.0),
+            rough=friction * float(np.sum(share(found.pressure / pressure) * found.area)) / smooth.load,
+            radius=radius,
+            full=friction,
+            pressure=pressure,
+            share=share,
+            height=waves.rms_height / rest,
+            ridden=sqrt(max(waves.rms_height**2 - bands.rms_height**2, 0.0)) / rest,
+        )
