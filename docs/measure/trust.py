@@ -159,11 +159,15 @@ def parts() -> Mapping[tuple[Path, str], str]:
     drawn = of_surfaces(found, "spectrum")
     rows = list(advice_rows({name: each for name, each in drawn.items() if name != BEST}))
     return {
-        (PAGE, "advice"): "\n\n".join(f"**{NAMED[name]}**\n\n{by_column(advice(rows, name))}" for name in RATIOS),
+        (PAGE, "advice"): "\n\n".join(f"**{_titled(name)}**\n\n{by_column(advice(rows, name))}" for name in RATIOS),
         (PAGE, "errors"): by_column(errors(found)),
         (PAGE, "regions"): by_column(regions(found)),
         (README, "friction"): in_short({"friction": drawn["friction"]}),
     }
+
+
+def _titled(name):
+    return f"{NAMED[name]}, whose answer has the factor" if name == LAW else NAMED[name]
 
 
 def in_short(found: Mapping[str, Scored]) -> str:

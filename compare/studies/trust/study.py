@@ -56,7 +56,7 @@ WANTED_MEASURED = 0.04, 0.12
 # Of what the errors are, in words.
 NAMED = {
     "friction": "friction by corrected 1D",
-    LAW: "friction by the corrected law",
+    LAW: "friction by the 3D law",
     "depth": "depth by corrected 1D",
     "force": "force by corrected 1D",
     BEST: "friction by the best advice",
