@@ -62,7 +62,10 @@ class Magnitudes:
     @property
     def edge_slope(self) -> float:
         """Slope of the body at the edge of the contact."""
-        body, radius = self.scene.indenter, self.contact.radius
+        body, solid = self.scene.indenter, self.scene.elastomer
+        # A table that is continued may come to rest decades below all that the contact asks for.
+        continued = isinstance(solid, Tabulated) and solid.extrapolate
+        radius = self.moving_length if continued else self.contact.radius
         if isinstance(body, Cylinder):
             return radius / body.radius
         return body.coefficient * body.exponent * radius ** (body.exponent - 1)

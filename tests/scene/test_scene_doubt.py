@@ -344,6 +344,13 @@ def test_a_modulus_at_rest_that_is_open_is_doubted_where_it_is_asked_for(motion)
     assert OPEN not in outside(replace(scene, elastomer=plateau))
 
 
+def test_a_table_that_is_continued_is_doubted_for_the_slope_of_the_contact_that_slides():
+    heavy = slid(gel(1.0, 0.3, extrapolate=True), 1e4)
+    heavy = replace(heavy, motion=replace(heavy.motion, load=30.0))
+    assert beyond_linear(heavy) is None
+    assert beyond_linear(replace(heavy, motion=Indent(load=30.0))) is not None
+
+
 def test_what_is_no_table_shows_all_frequencies():
     for omega in (1e-9, 1.0, 1e9):
         assert unseen(slid(RUBBER, omega)) == ()
