@@ -65,7 +65,7 @@ class Tabulated(Solid):
     kind: Literal["shear", "tensile"]
     equilibrium_modulus: ShearModulus | None = None
     tolerance: Annotated[Finite, Field(gt=0, lt=1)] = 0.1
-    extrapolate: bool = False
+    extrapolate: Annotated[bool, Field(strict=True)] = False
     poisson_ratio: PoissonRatio = 0.5
     type: Literal["tabulated"] = Field(default="tabulated", repr=False)
 
