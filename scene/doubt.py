@@ -5,12 +5,14 @@ One list of limits for every command and both solvers; nothing is solved for it.
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from math import nan
+from math import isfinite, nan
 from typing import Any
 
 import numpy as np
 
-from .magnitudes import Magnitudes
+from .extrapolation import REACH
+from .magnitudes import WITHIN, Magnitudes
+from .motion import Slide
 from .scene import Scene
 from .temperature import COLDEST
 
@@ -100,6 +102,22 @@ def beyond_linear(scene: Scene) -> Doubt | None:
     return max(slopes, key=lambda each: each.number, default=None)
 
 
+def unseen(scene: Scene) -> tuple[Doubt, ...]:
+    """Doubts about what a table of moduli does not show and the contact asks for: frequencies, modulus at rest."""
+    found = Magnitudes(scene)
+    limits = (each for each in LIMITS if each.name in (BELOW, ABOVE, OPEN))
+    return tuple(doubt for limit in limits if (doubt := limit.doubt(found)) is not None)
+
+
+def beyond_table(scene: Scene) -> Doubt | None:
+    """Doubt about a modulus at rest that is open, or frequencies over a decade beyond a table; else None.
+
+    Where the table is continued, frequencies beyond its continuation.
+    """
+    found = unseen(scene)
+    return next((each for each in found if each.name == OPEN or each.number > Magnitudes(scene).reach), None)
+
+
 def notes(scene: Scene) -> tuple[str, ...]:
     """Notes on what was read for the parts of a scene: what was not used, and what was made of it."""
 
@@ -124,6 +142,10 @@ def _times(factor):
 
 MM, UM = ("mm", _times(1e-3)), ("um", _times(1e-6))
 MPA, KJ, DEGC = ("MPa", _times(1e6)), ("kJ/mol", _times(1e3)), ("degC", lambda number: number + 273.15)
+BELOW = "frequencies of the contact below those of the table"
+ABOVE = "frequencies of the contact above those of the table"
+OPEN = "width of the interval of the modulus at rest over that modulus"
+EXTRAPOLATED = "the answer rests on an extrapolation of the table"
 LINEAR = "both models are linear and hold for slopes that are small against 1"
 STRAINS = "both models are linear and hold for strains that are small against 1"
 ATOM, ATOMS = "less than an atom is wide", "a few atoms, where no solid is continuous"
@@ -147,8 +169,44 @@ def _seen(found):
     return f"{found.frequencies[0]:.2g} to {found.frequencies[-1]:.2g} rad/s, {found.state} throughout"
 
 
+def _beyond(end):
+    """What is said of frequencies beyond an end of a table: 0, the lower one, or 1."""
+
+    def said(found):
+        low, high = found.shown
+        told = f"{found.asked[end]:.3g} rad/s, the table has {low:.3g} to {high:.3g} rad/s"
+        solid = found.measured
+        if solid.extrapolate:
+            law = solid.continued.upper if end else solid.continued.lower
+            return f"{told}; assumed that G'' goes on as frequency^{law.exponent:.2g} for {REACH:g} decades"
+        bounded = isfinite(solid.glassy_modulus) if end else solid.equilibrium_modulus is None
+        least = (
+            ", so that friction is at least what is found"
+            if bounded and isinstance(found.scene.motion, Slide)
+            else ""
+        )
+        return f"{told}; assumed that nothing relaxes there{least}, unless extrapolate = true"
+
+    return said
+
+
+def _readings(found):
+    low, high = found.measured.equilibrium_interval
+    return f"{low:.3g} Pa if the law goes on that the table ends with, to {high:.3g} Pa"
+
+
 # In the order in which they are told: fields as they stand, then what follows from several.
 LIMITS = (
+    Limit("decades_below", BELOW, WITHIN, "decades", EXTRAPOLATED, beside=_beyond(0)),
+    Limit("decades_above", ABOVE, WITHIN, "decades", EXTRAPOLATED, beside=_beyond(1)),
+    Limit(
+        "rest_width",
+        OPEN,
+        0.1,
+        "",
+        "the table ends before the plateau: measure at lower frequencies, or state equilibrium_modulus",
+        beside=_readings,
+    ),
     Limit("temperature", "temperature", COLDEST, "K", COLD, False, (DEGC,)),
     Limit("temperature", "temperature", 1000.0, "K", HOT),
     Limit("reference", "reference temperature", COLDEST, "K", COLD, False, (DEGC,)),

@@ -10,7 +10,7 @@ from .modes import Relaxation, Retardation
 _MARGIN = 10**0.5
 _TIMES_A_DECADE = (1, 1.5, 2, 3, 5, 10, 30)
 # No measurement is worth modes for a smaller misfit.
-_NEGLIGIBLE = 1e-3
+NEGLIGIBLE = 1e-3
 # Largest relative contribution of a mode that is left out.
 _INVISIBLE = 1e-7
 # Weight of what is known beside rows that are measured.
@@ -28,7 +28,10 @@ class Measured:
     measured: np.ndarray
 
     def ends(self, rest: float | None) -> tuple[float, float]:
-        """Shortest and longest time of a mode [s]; rest : modulus at rest [Pa] if it is known"""
+        """Shortest and longest time of a mode [s], long enough to come to rest as slowly as the table ends.
+
+        rest : modulus at rest [Pa] if it is known
+        """
         raise NotImplementedError
 
     def of(self, modes: Modes) -> np.ndarray:
@@ -65,7 +68,10 @@ class Oscillation(Measured):
         self.omega, self.measured = omega, np.append(modulus.real, modulus.imag)
 
     def ends(self, rest):
-        return 1 / (self.omega[-1] * _MARGIN), _MARGIN / self.omega[0]
+        rows = len(self.omega)
+        storage, loss = self.measured[0], self.measured[rows]
+        further = 1.0 if rest is None else max(1.0, (storage - rest) / loss)
+        return 1 / (self.omega[-1] * _MARGIN), _MARGIN / self.omega[0] * further
 
     def of(self, modes):
         found = modes.complex_modulus(self.omega)
@@ -84,7 +90,11 @@ class Stress(Measured):
         self.time, self.measured = time, modulus
 
     def ends(self, rest):
-        return self.time[0] / _MARGIN, self.time[-1] * _MARGIN
+        early = np.searchsorted(self.time, self.time[-1] / 10)
+        modulus, decades = self.measured[-1], np.log10(self.time[-1] / self.time[early])
+        fall = max((self.measured[early] - modulus) / decades, NEGLIGIBLE * modulus)
+        further = 1.0 if rest is None else max(1.0, (modulus - rest) / fall)
+        return self.time[0] / _MARGIN, self.time[-1] * _MARGIN * further
 
     def of(self, modes):
         return modes.modulus(self.time)
@@ -145,7 +155,7 @@ def fitted(rows: Measured, rest: float | None) -> tuple[Modes, float]:
 
     *coarser, finest = _TIMES_A_DECADE
     best = rows.series(times(finest), rest)
-    enough = max(1.1 * misfit(best), _NEGLIGIBLE)
+    enough = max(1.1 * misfit(best), NEGLIGIBLE)
     tried = (rows.series(times(density), rest) for density in coarser)
     found = next((series for series in tried if misfit(series) <= enough), best)
     if rest is not None:
@@ -166,7 +176,7 @@ def _standard_errors(count, fitted, misfit, without):
     count, fitted : numbers of misfits, and of amounts that were fitted
     misfit, without : root mean square of the misfits with that modulus, and without it
     """
-    noise = max(count * misfit**2 / max(count - fitted, 1), _NEGLIGIBLE**2)
+    noise = max(count * misfit**2 / max(count - fitted, 1), NEGLIGIBLE**2)
     # The sum of squares is least at the fitted amount, and grows as the square of the distance from it.
     return sqrt(max(count * (without**2 - misfit**2), 0.0) / noise)
 

@@ -2,22 +2,27 @@
 
 from dataclasses import replace
 from functools import cached_property
-from math import inf, isfinite, nan, sqrt
+from math import inf, isfinite, log10, nan, pi, sqrt
 
 import numpy as np
 
+from .extrapolation import REACH
 from .indenter import Cylinder, Plane
+from .measured import Measured
 from .motion import Program, Slide
 from .profile import Profile
 from .roughness import CrossedWaves
 from .scales import ElasticContact, elastic_contact
 from .scene import Scene
 from .selfaffine import SelfAffine
+from .tabulated import Tabulated
 from .topography import Topography
 
 DENSITY = 1000.0  # [kg/m^3] of an elastomer, for the speed of its waves
 DECADES = 1.0  # of frequency to either side of what a contact sees
 SAMPLED = 25  # frequencies at which the loss is looked at
+AGREED = 20  # steps until length and modulus agree: each leaves at most half of the difference
+WITHIN = 0.1  # decades outside a table that are none: the frequencies of a contact are no better known
 
 
 class Magnitudes:
@@ -57,7 +62,10 @@ class Magnitudes:
     @property
     def edge_slope(self) -> float:
         """Slope of the body at the edge of the contact."""
-        body, radius = self.scene.indenter, self.contact.radius
+        body, solid = self.scene.indenter, self.scene.elastomer
+        # A table that is continued may come to rest decades below all that the contact asks for.
+        continued = isinstance(solid, Tabulated) and solid.extrapolate
+        radius = self.moving_length if continued else self.contact.radius
         if isinstance(body, Cylinder):
             return radius / body.radius
         return body.coefficient * body.exponent * radius ** (body.exponent - 1)
@@ -162,6 +170,80 @@ class Magnitudes:
     def mach(self) -> float:
         """Speed over that of shear waves in an elastomer of that modulus."""
         return self.speed / sqrt(self.modulus_at_speed / DENSITY)
+
+    @cached_property
+    def moving_length(self) -> float:
+        """Length that is slid over [m], of a contact under a load as stiff as it is while it slides."""
+        body, stiffer = self.scene.indenter, 1.0
+        if self.scene.motion.pressed_by in ("load", "line_load"):
+            power = 1 / 2 if isinstance(body, Cylinder) else 1 / (body.exponent + 1)
+            for _ in range(AGREED):
+                omega = self.speed / self.length * stiffer**power
+                stiffer = abs(complex(self.scene.solid.complex_modulus(omega))) / self.modulus_at_rest
+            return self.length / stiffer**power
+        return self.length
+
+    @cached_property
+    def asked(self) -> tuple[float, float]:
+        """Lowest and highest angular frequency of the contact [rad/s], both zero at rest.
+
+        Of its length and its shortest wave, and of the stages and oscillations of a program.
+        """
+        motion, rough, indenter = self.scene.motion, self.scene.roughness, self.scene.indenter
+        found = []
+        if self.speed > 0:
+            found.append(
+                self.speed / (indenter.side / 2 if isinstance(indenter, Measured) else self.moving_length)
+            )
+            if isinstance(indenter, Measured):
+                found.append(self.speed * 2 * pi / indenter.shortest)
+            elif rough is not None and not rough.flat and (rough.shortest is not None or self.pixel is not None):
+                found.append(self.speed * rough.q_max(1.0 if self.pixel is None else self.pixel))
+        if isinstance(motion, Program):
+            found += [1 / motion.duration, *(1 / stage.duration for stage in motion.stages)]
+            found += [
+                2 * pi * swing.frequency for stage in motion.stages if (swing := stage.oscillation) is not None
+            ]
+        return min(found, default=0.0), max(found, default=0.0)
+
+    @cached_property
+    def measured(self) -> Tabulated:
+        """Elastomer of a table, at the reference of its temperature."""
+        solid = self.scene.elastomer.at_reference(self.scene.temperature)
+        if not isinstance(solid, Tabulated):
+            raise AttributeError("no table")
+        return solid
+
+    @property
+    def shown(self) -> tuple[float, float]:
+        """Lowest and highest angular frequency of the table at the temperature of the scene [rad/s]."""
+        law = self.scene.temperature
+        low, high = self.measured.frequencies
+        return (low, high) if law is None else (low / law.shift, high / law.shift)
+
+    @property
+    def decades_below(self) -> float:
+        """Decades by which the lowest frequency of a moving contact is below the table."""
+        return log10(self.shown[0] / self.asked[0]) if self.asked[0] > 0 else nan
+
+    @property
+    def decades_above(self) -> float:
+        """Decades by which the highest frequency of the contact is above the table."""
+        return log10(self.asked[1] / self.shown[1]) if self.asked[1] > 0 else nan
+
+    @property
+    def reach(self) -> float:
+        """Decades beyond the table up to which there is advice: one, or those of its continuation."""
+        return REACH if self.measured.extrapolate else 1.0
+
+    @property
+    def rest_width(self) -> float:
+        """Width of the interval of the modulus at rest over that modulus, where the contact asks for it."""
+        low, high = self.measured.equilibrium_interval
+        known = REACH if self.measured.extrapolate else WITHIN
+        if self.asked[0] > 0 and not self.decades_below > known:
+            raise AttributeError("the contact does not come to rest")
+        return (high - low) / self.measured.static_modulus
 
     @cached_property
     def frequencies(self) -> np.ndarray:

@@ -20,7 +20,7 @@ _SAME = {
     "g": "alpha alphas alpha_i gamma_i",
     "tau": "taus tau_i tau_k times",
     "rubbery_modulus": "relaxed_modulus static_modulus equilibrium_modulus long_term_modulus",
-    "equilibrium_modulus": "relaxed_modulus static_modulus rubbery_modulus long_term_modulus",
+    "equilibrium_modulus": "modulus_at_rest relaxed_modulus static_modulus rubbery_modulus long_term_modulus",
     "glassy_modulus": "unrelaxed_modulus instantaneous_modulus",
     "table": "file path data",
     "file": "table path data map",

@@ -3,15 +3,17 @@
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import lru_cache
-from math import inf, pi
+from math import inf, pi, sqrt
 from typing import Annotated, Any, Literal
 
 import numpy as np
 from pydantic import ConfigDict, Field, ValidationError, model_validator
 from pydantic.dataclasses import dataclass
 
-from .fit import Creep, Measured, Modes, Oscillation, Stress, fitted, rms
+from .extrapolation import Continued
+from .fit import NEGLIGIBLE, Creep, Measured, Modes, Oscillation, Stress, fitted, rms
 from .mistakes import said
+from .modes import Relaxation, Retardation
 from .moduli import read_moduli
 from .plain import bare
 from .quantities import CLOSED, Finite, ShearModulus, by_name
@@ -23,6 +25,8 @@ from .youngs import in_shear, or_in_tension
 _TABLES = (Table, RelaxationTable, CreepTable)
 # Standard errors of a fitted modulus at rest; what is less of them cannot be told from nothing.
 _TOLD = 3
+# Standard errors in half an interval of 95 %.
+_SURE = 1.96
 
 
 def _or_file(schema: dict[str, Any]) -> None:
@@ -45,12 +49,15 @@ class Tabulated(Solid):
     equilibrium_modulus : shear modulus at rest [Pa] if it is known, else fitted: what does not relax within three
         times the longest time of the table, 1/(lowest angular frequency) or the last
     tolerance : largest root mean square of the relative misfits of all numbers that is accepted
+    extrapolate : whether the power law that the loss follows at either end of the table goes on for six decades;
+        if not, nothing relaxes beyond the table, which bounds the answer but does not give it
 
     `error` and `rms_error` say how well the series follows the table. Raises ValueError where a heading
     contradicts a field, if no passive solid follows the table to within the tolerance (in one, G' never falls with
     the frequency and G'' belongs to it), or if the table leaves the modulus at rest open: fitted, it has to be
-    three times its standard error, `equilibrium_error`. A table at several temperatures has modes once the law of
-    the shift is known, as in a Scene: see `at_reference`.
+    three times its standard error, `equilibrium_error`. Where the table ends before the plateau,
+    `equilibrium_interval` says how far it is open. A table at several temperatures has modes once the law of the
+    shift is known, as in a Scene: see `at_reference`.
     """
 
     table: AnyTable
@@ -58,6 +65,7 @@ class Tabulated(Solid):
     kind: Literal["shear", "tensile"]
     equilibrium_modulus: ShearModulus | None = None
     tolerance: Annotated[Finite, Field(gt=0, lt=1)] = 0.1
+    extrapolate: Annotated[bool, Field(strict=True)] = False
     poisson_ratio: PoissonRatio = 0.5
     type: Literal["tabulated"] = Field(default="tabulated", repr=False)
 
@@ -108,7 +116,7 @@ class Tabulated(Solid):
                 f"square), more than tolerance = {self.tolerance:g}: check units and columns, and {wrong}; if "
                 "this is the scatter, raise tolerance"
             )
-        if self.static_modulus < _TOLD * self.equilibrium_error:
+        if _fit(self)[0].equilibrium < _TOLD * self.equilibrium_error:
             further = "for longer times" if over_time else "at lower frequencies"
             raise ValueError(
                 f"{self.table!r} leaves the modulus at rest open: {self._seen_at_rest()}; state "
@@ -118,7 +126,8 @@ class Tabulated(Solid):
 
     def _seen_at_rest(self):
         """What the table shows of the modulus at rest, in words."""
-        modes, rest = self.modes(), self.static_modulus
+        modes = _fit(self)[0]
+        rest = modes.equilibrium
         fitted = f"is {rest:.2g} Pa with a standard error of {self.equilibrium_error:.2g} Pa"
         fitted = f"and what is fitted {fitted if 0 < self.equilibrium_error < inf else 'is none'}"
         place = self.measured()[0]
@@ -166,11 +175,44 @@ class Tabulated(Solid):
         """Standard error of a fitted modulus at rest [Pa]; zero of a known one, infinite where none is seen."""
         return _fit(self)[1]
 
+    @property
+    def equilibrium_interval(self) -> tuple[float, float]:
+        """Interval of 95 % of the modulus at rest [Pa]; both ends are the known modulus if there is one.
+
+        It holds two readings: a plateau that begins where the table ends, and the law that goes on there.
+        """
+        if self.equilibrium_modulus is not None:
+            return self.equilibrium_modulus, self.equilibrium_modulus
+        readings = _fit(self)[0].equilibrium, self.continued.at_rest
+        error = _SURE * self.equilibrium_error / readings[0]
+        if not isinstance(self.table, Table):
+            # A liquid of so slow modes is far off in a few rows alone, and tells less than the rows of the end.
+            times = self.measured()[0]
+            scatter = max(rms(_rows(self).misfit(_fit(self)[0])), NEGLIGIBLE)
+            error = min(error, _SURE * scatter / sqrt((times > times[-1] / 10).sum()))
+        return min(readings) * (1 - error), max(readings) * (1 + error)
+
+    @property
+    def frequencies(self) -> tuple[float, float]:
+        """Lowest and highest angular frequency of the table [rad/s]; over time, 1/time."""
+        ends = self.measured()[0][[0, -1]]
+        low, high = ends if isinstance(self.table, Table) else 1 / ends[::-1]
+        return float(low), float(high)
+
+    @property
+    def continued(self) -> Continued:
+        """The modes that follow the table, and the laws by which they go on beyond it."""
+        return _continued(self)
+
     def modes(self) -> Modes:
-        """Modes of the fit. Raises ValueError of a table at several temperatures."""
+        """Modes of the fit, and of its continuation. Raises ValueError of a table at several temperatures."""
         if self.table.several:
             raise ValueError(_no_law(self.table))
-        return _fit(self)[0]
+        if not self.extrapolate:
+            return _fit(self)[0]
+        series = _continued(self).series
+        over = isinstance(self.table, CreepTable) and isinstance(series, Relaxation)
+        return series.retardation() if over else series
 
     def at_reference(self, law: WLF | Arrhenius | None) -> "Tabulated":
         """The solid at the reference of the law, by which rows at other temperatures are shifted.
@@ -232,6 +274,19 @@ def _reduced(solid: Tabulated, law: WLF | Arrhenius) -> Tabulated:
 def _fit(solid: Tabulated) -> tuple[Modes, float]:
     """Modes, and the error of the modulus at rest [Pa]."""
     return fitted(_rows(solid), solid.equilibrium_modulus)
+
+
+@lru_cache(maxsize=64)
+def _continued(solid: Tabulated) -> Continued:
+    rows, modes, (low, high) = _rows(solid), _fit(solid)[0], solid.frequencies
+    whole = modes.relaxation() if isinstance(modes, Retardation) else modes
+    scatter = max(rms(rows.misfit(modes)), NEGLIGIBLE)
+    end = complex(whole.complex_modulus(low))
+    if not isinstance(solid.table, Table):
+        high /= sqrt(10)  # modes that had relaxed before the first row are not seen, and part of the loss there
+        if end.imag:  # the loss follows from differences of the moduli
+            scatter *= abs(end) / end.imag
+    return Continued(whole, (low, high), solid.equilibrium_modulus, scatter)
 
 
 def _rows(solid: Tabulated) -> Measured:

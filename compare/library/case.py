@@ -1,5 +1,6 @@
 """A case: one scene, how it departs from the paper, what is varied around it, and the settings of both solvers."""
 
+from collections.abc import Iterable
 from dataclasses import fields
 from importlib.resources import as_file, files
 from math import sqrt
@@ -13,6 +14,7 @@ from pydantic.dataclasses import dataclass
 from bem3d import BEM
 from mdr1d import MDR
 from scene import Coulomb, Doubt, Heating, Indent, Layer, Refused, Scene, Slide
+from scene.doubt import unseen
 from scene.indenter import Indenter
 from scene.motion import Motion
 from scene.printable import brief
@@ -228,10 +230,14 @@ class Case:
         return tuple(load ** (n / (n + 1)) for load in loads)
 
 
-def doubted(*cases: Case) -> tuple[str, ...]:
-    """Doubts about cases as sentences; of one number and limit the first alone."""
+def doubted(*cases: Case, curves: Iterable[Scene] = ()) -> tuple[str, ...]:
+    """Doubts about cases as sentences; of one number and limit the first alone.
+
+    curves : further contacts, of which that is doubted which a table of moduli does not show
+    """
     told: dict[tuple[str, float], str] = {}
-    for each in (doubt for case in cases for doubt in case.doubts):
+    beyond = sorted((doubt for scene in curves for doubt in unseen(scene)), key=lambda each: -each.number)
+    for each in (*(doubt for case in cases for doubt in case.doubts), *beyond):
         told.setdefault((each.name, each.limit), str(each))
     return tuple(told.values())
 

@@ -23,7 +23,7 @@ from ..models.table import KNOWN
 from ..solving.amounts import duration, pascals, seconds, share, share_of
 from ..solving.cost import Cost
 from ..trustmap.verdict import Advice, trust
-from .run.curves import curves, models_of
+from .run.curves import corners, curves, models_of
 
 if TYPE_CHECKING:
     from .accuracy import Forecast, Settings
@@ -171,14 +171,14 @@ def plans(asked: SceneLike, interval: Any = None, accuracy: Any = None) -> Plans
     made: dict[str, Plan | str | Advice] = {
         solver.name: planned(solver, case.scene) for solver in (case.mdr, case.bem)
     }
-    cost, refused = _cost(case)
+    cost, refused, doubts = _cost(case)
     told: dict[str, Any] = {"stated": case.study.interval}
     if wanted:
         from . import accuracy as foretold  # slow, and few plans ask for it
 
         by_name = {"interval": foretold.forecast, "accuracy": foretold.settings}
         told |= {name: by_name[name](case, each) for name, each in wanted.items()}
-    return Plans(made | {"trust": trust(case.scene)}, case.scene, cost, refused, doubted(case), **told)
+    return Plans(made | {"trust": trust(case.scene)}, case.scene, cost, refused, doubts, **told)
 
 
 def planned(solver: MDR | BEM, scene: Scene) -> Plan | str:
@@ -192,15 +192,19 @@ def planned(solver: MDR | BEM, scene: Scene) -> Plan | str:
         return f"{solver.name} would not get through this scene: {reason}"
 
 
-def _cost(case: Case) -> tuple[Cost | str, bool]:
-    """Cost of all contacts that `crosscheck run` solves, or why it solves none, and whether that is a refusal."""
+def _cost(case: Case) -> tuple[Cost | str, bool, tuple[str, ...]]:
+    """Cost of all contacts that `crosscheck run` solves, or why it solves none and whether that is a refusal.
+
+    Also the doubts about them.
+    """
     try:
         grids = curves(case, models_of(case), None if case.study.interval is None else {})
-        return sum((each.cost for each in grids.values()), Cost()), False
+        doubts = doubted(case, curves=corners(grids))
+        return sum((each.cost for each in grids.values()), Cost()), False, doubts
     except NotCompared as reason:
-        return str(reason), False
+        return str(reason), False, doubted(case)
     except Refused as reason:
-        return str(reason), True
+        return str(reason), True, doubted(case)
 
 
 def _seconds(plan: Plan) -> str:

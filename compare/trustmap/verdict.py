@@ -12,7 +12,7 @@ import numpy as np
 from bem3d import BEM
 from mdr1d import MDR
 from scene import Doubt, Indent, Profile, Scene, Slide, SolveError, doubts, markup, notes
-from scene.doubt import beyond_linear
+from scene.doubt import beyond_linear, beyond_table
 from scene.scales import elastic_contact
 
 from ..models.law.bands import Bands
@@ -61,7 +61,8 @@ class Correction:
     low, high : its interval of 95 %
     surface_low, surface_high : interval of 95 % of its answer over one single surface in 3D; nan where single
         surfaces differ so much that one says nothing, as the reason then tells
-    advice : "use" it as it is, "multiply" it by 1 / ratio, "solve" in 3D, or "none" beyond every linear theory
+    advice : "use" it as it is, "multiply" it by 1 / ratio, "solve" in 3D, or "none" beyond every linear theory and
+        beyond the table of an elastomer
     seconds : of processor time that the model takes, as planned; of MDR for PROFILES profiles
     reason : in a sentence or two
     """
@@ -149,7 +150,7 @@ class Advice:
         if not self.friction:
             return ""
         if self.friction.advice == NONE:
-            return "For friction take no linear model."
+            return "For friction take no model as it is."
         solve = f" 3D to 5 % takes {seconds(self.solving)}." if isfinite(self.solving) else ""
         if (best := self.taken) is None:
             return f"For friction solve in 3D.{solve}"
@@ -203,6 +204,9 @@ def _advised(scene):
             f"This advice is about linear contacts, and this is none: {steep.name} = {steep.number:.3g}, above 1."
         )
         return _unknown(scene, f"{why} 3D is as linear as 1D.", NONE)
+    if (unseen := beyond_table(scene)) is not None:
+        told = f"{unseen.name} = {unseen.number:.3g} {unseen.unit}".strip()
+        return _unknown(scene, f"The table of moduli does not show it: {told}.", NONE)
     try:
         if (scene.roughness is None or scene.roughness.flat) and not unmeasured(scene):
             return _smooth(scene)

@@ -14,6 +14,8 @@ from compare.cli.app import app
 from compare.report.plots import solid, style
 from compare.solving.parameter_grid import contacts_of
 from compare.studies.plan import plans
+from compare.studies.run.study import Run
+from compare.studies.sweep.study import Sweep
 from scene import WLF, Doubtful, Indent, Prony, Scene, Sphere, Tabulated
 
 PLANE = """
@@ -198,3 +200,42 @@ def test_doubts_stand_first_in_a_plan_and_in_what_trust_says_and_are_warnings_in
         with pytest.warns(Doubtful, match="is 12.7 mm meant") as warned:
             function(path)
         assert {each.filename for each in warned} == {__file__}
+
+
+GEL = """
+[indenter]
+type = "sphere"
+radius = "10 mm"
+[elastomer]
+type = "tabulated"
+frequency_unit = "rad/s"
+kind = "shear"
+table = {{frequency = {frequency}, storage = {storage}, loss = {loss}}}
+[motion]
+type = "slide"
+speed = {speed}
+load = "1 N"
+"""
+
+
+def test_every_command_doubts_the_same_of_a_table_and_run_and_plan_their_curves_too(written):
+    omega = np.geomspace(1.0, 100.0, 13)
+    modulus = 1e6 * (1j * omega) ** 0.2
+    numbers = {"frequency": omega.tolist(), "storage": modulus.real.tolist(), "loss": modulus.imag.tolist()}
+    slow, within = (GEL.format(speed=speed, **numbers) for speed in (1e-6, 0.05))
+    path = written(slow)
+    sentences = Run.of(path).doubts
+    assert sentences[0].startswith("frequencies of the contact below those of the table = 3.1")
+    assert sentences[1].startswith("width of the interval of the modulus at rest")
+    assert sentences == plans(path).doubts
+    assert sentences[:2] == Sweep.of(path).doubts == tuple(map(str, plans(path)["trust"].doubts))
+    assert Sweep.of(path, speed=1e-2).doubts == ()
+    # The scene is within the table, its curves are not, and indent.
+    path = written(within)
+    assert plans(path)["trust"].doubts == ()
+    curves = Run.of(path).doubts
+    assert {each.split(" = ")[0] for each in curves} == {
+        "frequencies of the contact above those of the table",
+        "width of the interval of the modulus at rest over that modulus",
+    }
+    assert curves == plans(path).doubts

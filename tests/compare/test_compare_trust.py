@@ -43,6 +43,7 @@ from scene import (
     Sphere,
     Stage,
     StandardLinearSolid,
+    Tabulated,
     Topography,
     Wave,
 )
@@ -609,3 +610,37 @@ def test_the_campaign_solves_judges_and_resumes(tmp_path, monkeypatch):
     assert again.swept.solved == 0
     tree = compare.load(tmp_path / "trust-quick")
     assert tree["held-out"]["groups"].sizes == {"scene": 4, "group": len(NAMES)}
+
+
+def gel(**stated):
+    """A table of a power law from 1 to 100 rad/s, which leaves the modulus at rest open."""
+    omega = np.geomspace(1.0, 100.0, 13)
+    modulus = 1e6 * (1j * omega) ** 0.2
+    table = {"omega [rad/s]": omega, "G' [Pa]": modulus.real, "G'' [Pa]": modulus.imag}
+    return Tabulated(table=table, **stated)
+
+
+@pytest.mark.parametrize(
+    ("motion", "doubted", "stated"),
+    [
+        (Slide(speed=1e-6, load=1.0), "below those of the table", {"extrapolate": True}),
+        (Slide(speed=10.0, load=1.0), "above those of the table", {"extrapolate": True}),
+        (Indent(load=1.0), "interval of the modulus at rest", {"equilibrium_modulus": 1e5}),
+    ],
+    ids=["slow", "fast", "at rest"],
+)
+def test_there_is_no_advice_on_what_a_table_does_not_show_until_it_is_stated(motion, doubted, stated):
+    found = trust(replace(SMOOTH, elastomer=gel(), motion=motion))
+    assert doubted in found.doubts[0].name
+    assert {each.advice for each in found.corrections.values()} == {"none"}
+    assert all(doubted in each.reason for each in found.corrections.values())
+    assert str(found).startswith("doubtful: ")
+    known = trust(replace(SMOOTH, elastomer=gel(**stated), motion=motion))
+    assert "none" not in {each.advice for each in known.corrections.values()}
+
+
+def test_there_is_advice_within_a_table_and_a_little_outside():
+    for speed in (1e-2, 0.5):  # v/a = 14 and 600 rad/s
+        found = trust(replace(SMOOTH, elastomer=gel(), motion=Slide(speed=speed, load=1.0)))
+        assert bool(found.doubts) == (speed == 0.5)
+        assert "none" not in {each.advice for each in found.corrections.values()}

@@ -34,13 +34,16 @@ from scene import (
     Sphere,
     Stage,
     StandardLinearSolid,
+    Table,
+    Tabulated,
     Topography,
     Wave,
     doubts,
     notes,
 )
-from scene.doubt import LIMITS, beyond_linear
+from scene.doubt import ABOVE, BELOW, LIMITS, OPEN, beyond_linear, beyond_table, unseen
 from scene.heightmap import HeightMap
+from scene.scales import elastic_contact
 
 LIMITS_PAGE = Path(__file__).parents[2] / "docs" / "explanation" / "limits.md"
 RUBBER = StandardLinearSolid(rubbery_modulus=1e6, glassy_modulus=1e8, relaxation_time=1e-3)
@@ -61,8 +64,21 @@ WAVES = np.sin(2 * np.pi * np.arange(64) / 16)
 GROOVES = 1e-6 * (WAVES[:, None] + 0.05 * WAVES[None, :])  # heights vary along y
 SPIKE = 1e-6 * WAVES[:, None] * WAVES[None, :]
 SPIKE[20, 30] = 1e-3
+
+
+def gel(lowest, exponent=0.2, **stated):
+    """A table of two decades from a lowest frequency [rad/s] on, of a power law of the frequency."""
+    omega = lowest * np.geomspace(1.0, 100.0, 13)
+    modulus = 1e6 * (1j * omega) ** exponent
+    table = Table(omega, modulus.real, modulus.imag)
+    return Tabulated(table=table, frequency_unit="rad/s", kind="shear", **stated)
+
+
 # By the number and its end: what breaks the limit.
 BEYOND = {
+    ("decades_below", True): {"elastomer": gel(1e8)},
+    ("decades_above", True): {"elastomer": gel(1e-4)},
+    ("rest_width", True): {"elastomer": gel(1.0), "motion": Indent(load=1.0)},
     ("temperature", False): {"temperature": replace(LAW, temperature=20, reference=25)},
     ("temperature", True): {"temperature": replace(LAW, temperature=3e4)},
     ("reference", False): {"temperature": replace(LAW, temperature=20, reference=25)},
@@ -194,6 +210,150 @@ def test_beyond_a_slope_of_one_nothing_linear_is_left():
     assert found.number > 1
     steep = beyond_linear(replace(BASE, roughness=replace(ROUGH, rms_height=1e-3)))
     assert steep.name == "rms slope of the roughness"
+
+
+BALL = Sphere(1e-2)
+CLOSE = 1e-4  # decades
+
+
+def slid(elastomer, omega, temperature=None, **parts):
+    """A sphere that slides so that v over the radius, as stiff as it then is, is this frequency [rad/s]."""
+    at_rest = Scene(BALL, elastomer, Indent(load=1.0), temperature=temperature)
+    return replace(at_rest, motion=Slide(speed=omega * radius(at_rest, omega), load=1.0), **parts)
+
+
+def radius(scene, omega):
+    """Radius of the contact of an elastic solid of the modulus that this one has at a frequency [rad/s]."""
+    modulus = abs(complex(scene.solid.complex_modulus(omega)))
+    return elastic_contact(replace(scene, elastomer=Elastic(modulus), temperature=None)).radius
+
+
+def outside(scene):
+    return {each.name: each.number for each in unseen(scene)}
+
+
+@pytest.mark.parametrize("exponent", [0.05, 0.1, 0.2, 0.3])
+@pytest.mark.parametrize(("name", "end", "way"), [(BELOW, 1.0, -1), (ABOVE, 100.0, 1)])
+def test_a_contact_outside_its_table_is_doubted_by_how_many_decades_and_what_is_assumed(name, end, way, exponent):
+    for decades in (-1.0, 0.0, 0.5, 1.5, 3.0):
+        omega = end * 10.0 ** (way * decades)
+        scene = slid(gel(1.0, exponent), omega)
+        found = {each.name: each for each in doubts(scene)}
+        if decades <= 0:
+            assert not {BELOW, ABOVE, OPEN} & set(found)
+            continue
+        assert found[name].number == pytest.approx(decades, abs=CLOSE)
+        assert doubts(scene)[0] == found[name]
+        assert "friction is at least what is found" in str(found[name])
+        assert (beyond_table(scene) is not None) == (decades > 1 or name == BELOW)  # there the rest is open too
+        continued = slid(gel(1.0, exponent, extrapolate=True), omega)
+        (further,) = unseen(continued)
+        assert further.number == pytest.approx(decades, abs=CLOSE)
+        assert f"G'' goes on as frequency^{exponent:g}" in str(further)
+        assert beyond_table(continued) is None
+    far = slid(gel(1.0, exponent, extrapolate=True), 100.0 * 10**7.5 if way > 0 else 10**-8.0)
+    assert beyond_table(far).number > 6
+
+
+def test_the_shortest_wave_counts_and_without_one_that_of_the_grid():
+    speed = slid(gel(1.0), 10.0).motion.speed
+    scene = slid(gel(1.0), 10.0, roughness=replace(ROUGH, shortest=2 * np.pi * speed / 1000))
+    assert outside(scene) == pytest.approx({ABOVE: 1.0}, abs=CLOSE)
+    open_ended = replace(scene, roughness=replace(ROUGH, shortest=None))
+    assert outside(open_ended) == {}
+    (found,) = (each for each in doubts(open_ended, pixel=np.pi * speed / 1e4) if each.name == ABOVE)
+    assert found.number == pytest.approx(2.0, abs=CLOSE)
+
+
+def test_a_table_is_that_at_the_temperature_of_the_scene():
+    warmer = WLF(temperature=310, reference=300, c1=8.86, c2=101.6)  # frequencies 67 times as high
+    law = Arrhenius(temperature=280, reference=300, activation_energy=6e4)
+    for temperature in (warmer, law):
+        shift = np.log10(temperature.shift)
+        for omega in (2.0, 50.0):
+            expected = {ABOVE: np.log10(omega / 100) + shift, BELOW: -np.log10(omega) - shift}
+            expected = {name: each for name, each in expected.items() if each > 0.1}
+            found = outside(slid(gel(1.0), omega, temperature=temperature))
+            found.pop(OPEN, None)
+            assert found == pytest.approx(expected, abs=CLOSE)
+
+
+def test_a_table_of_several_temperatures_reaches_as_far_as_they_do():
+    omega, temperatures, law = np.geomspace(1.0, 100.0, 13), (280.0, 300.0, 320.0), replace(WILLIAMS, c2=150.0)
+    at_each = [replace(law, temperature=each, reference=300.0).shift for each in temperatures]
+    moduli = 1e6 * (1j * np.outer(at_each, omega).ravel()) ** 0.2
+    table = {
+        "omega [rad/s]": np.tile(omega, len(temperatures)),
+        "T [K]": np.repeat(temperatures, len(omega)),
+        "G' [Pa]": moduli.real,
+        "G'' [Pa]": moduli.imag,
+    }
+    solid, here = Tabulated(table=table), replace(law, temperature=300.0, reference=300.0)
+    above, below = slid(solid, 1e2 * max(at_each) * 10**0.5, here), slid(solid, min(at_each) / 10**0.5, here)
+    assert outside(above)[ABOVE] == pytest.approx(0.5, abs=CLOSE)
+    assert outside(below)[BELOW] == pytest.approx(0.5, abs=CLOSE)
+
+
+@pytest.mark.parametrize(
+    ("stages", "expected"),
+    [
+        ((Stage(duration=0.1, load=1.0), Stage(duration=0.9, speed=0.01)), {}),
+        ((Stage(duration=0.1, load=1.0), Stage(duration=99.9)), {BELOW: 2.0}),
+        ((Stage(duration=1e-3, load=1.0), Stage(duration=0.9)), {ABOVE: 1.0}),
+        (
+            (
+                Stage(duration=0.1, load=1.0),
+                Stage(duration=0.5, load=1.0, amplitude=0.1, frequency=1e4 / (2 * np.pi)),
+            ),
+            {ABOVE: 2.0},
+        ),
+        (
+            (Stage(duration=0.1, load=1.0), Stage(duration=0.5, speed=-slid(gel(1.0), 1e4).motion.speed)),
+            {ABOVE: 2.0},
+        ),
+    ],
+    ids=["within", "long", "sudden", "oscillating", "sliding"],
+)
+def test_a_program_has_the_frequencies_of_its_history(stages, expected):
+    found = outside(Scene(BALL, gel(1.0), Program(stages=stages)))
+    assert (OPEN in found) == (BELOW in expected)
+    found.pop(OPEN, None)
+    assert found == pytest.approx(expected, abs=1e-2)
+
+
+AT_REST = {
+    "indented": Indent(load=1.0),
+    "sheared": Shear(load=1.0, displacement=1e-6),
+    "slid as slowly as can be": Slide(speed=0.0, load=1.0),
+    "slid slowly": slid(gel(1.0), 0.2).motion,
+}
+
+
+@pytest.mark.parametrize("motion", AT_REST.values(), ids=AT_REST)
+def test_a_modulus_at_rest_that_is_open_is_doubted_where_it_is_asked_for(motion):
+    scene = Scene(BALL, gel(1.0), motion, interface=Coulomb(coefficient=0.3))
+    assert OPEN in outside(scene)
+    assert beyond_table(scene) is not None
+    assert OPEN not in outside(slid(gel(1.0), 10.0))
+    stated = replace(scene, elastomer=gel(1.0, equilibrium_modulus=1e5))
+    assert OPEN not in outside(stated)
+    assert beyond_table(stated) is None
+    omega = np.geomspace(1.0, 1e5, 26)
+    modulus = RUBBER.complex_modulus(omega)
+    plateau = Tabulated(table=Table(omega, modulus.real, modulus.imag), frequency_unit="rad/s", kind="shear")
+    assert OPEN not in outside(replace(scene, elastomer=plateau))
+
+
+def test_a_table_that_is_continued_is_doubted_for_the_slope_of_the_contact_that_slides():
+    heavy = slid(gel(1.0, 0.3, extrapolate=True), 1e4)
+    heavy = replace(heavy, motion=replace(heavy.motion, load=30.0))
+    assert beyond_linear(heavy) is None
+    assert beyond_linear(replace(heavy, motion=Indent(load=30.0))) is not None
+
+
+def test_what_is_no_table_shows_all_frequencies():
+    for omega in (1e-9, 1.0, 1e9):
+        assert unseen(slid(RUBBER, omega)) == ()
 
 
 def test_notes_are_those_of_what_was_read_and_change_no_part():

@@ -1,6 +1,6 @@
 """Curves around one scene: its own contact, force against depth, friction against speed and against load."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TypeAlias
 
@@ -59,6 +59,11 @@ def curves(case: Case, models: Models, strata: Strata | None = None) -> dict[str
         # The case is valid; what follows from it is not.
         raise Refused("its numbers are so far apart that the contact leaves their range") from error
     return found
+
+
+def corners(grids: Mapping[str, ParameterGrid]) -> Iterator[Scene]:
+    """Contacts at the ends of all curves."""
+    return (corner for grid in grids.values() for corner in grid.corners)
 
 
 def _curves(case, models):

@@ -44,6 +44,7 @@ from .curves import (
     SHARED,
     SLIDING,
     Strata,
+    corners,
     curves,
     edge_slope,
     friction_law,
@@ -121,8 +122,11 @@ class Run(Study):
 
     @cached_property
     def doubts(self) -> tuple[str, ...]:
-        """Doubts about the scene of each case as it stands, with its name where there are several."""
-        found = {name: doubted(case) for name, case in self.cases.items()}
+        """Doubts about the scene of each case as it stands, with its name where there are several.
+
+        Also about its curves, where a table of moduli does not show what they ask for.
+        """
+        found = {name: doubted(case, curves=corners(self._curves[name])) for name, case in self.cases.items()}
         named = len(self.cases) > 1
         return tuple(f"{name}: {each}" if named else each for name, told in found.items() for each in told)
 
