@@ -159,7 +159,9 @@ def parts() -> Mapping[tuple[Path, str], str]:
     drawn = of_surfaces(found, "spectrum")
     rows = list(advice_rows({name: each for name, each in drawn.items() if name != BEST}))
     return {
-        (PAGE, "advice"): "\n\n".join(f"**{_titled(name)}**\n\n{by_column(advice(rows, name))}" for name in RATIOS),
+        (PAGE, "advice"): "\n\n".join(
+            f"**{_titled(each)}**\n\n{by_column(advice(rows, each))}" for each in RATIOS
+        ),
         (PAGE, "errors"): by_column(errors(found)),
         (PAGE, "regions"): by_column(regions(found)),
         (README, "friction"): in_short({"friction": drawn["friction"]}),
