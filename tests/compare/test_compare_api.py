@@ -244,7 +244,12 @@ def test_a_result_shows_every_number_with_its_unit_and_escapes_what_it_holds():
     for name in ("normal_force", "depth", "friction_coefficient", *result.measures, *result.fields):
         assert f">{name}<" in text
     assert ">N<" in text
+    title, *lines = str(result).splitlines()
+    assert title.startswith(f"MDR, points = {result.settings['points']}, ")
+    assert lines[0].split() == ["normal_force", f"{result.normal_force:.6g}", "N"]
+    assert [line.split()[0] for line in lines] == [*result._numbers, *result.fields]
     hostile = replace(result, settings={"points": "<script>"}, measures={"<b>\u202e": 1.0})
     assert "<script>" not in hostile._repr_html_()
     assert "<b>" not in hostile._repr_html_()
     assert hostile._repr_html_().isprintable()
+    assert str(hostile).replace("\n", "").isprintable()

@@ -42,7 +42,6 @@ FEW = (
 )
 
 
-
 def test_the_stored_scorecard_has_each_law_in_the_words_of_today():
     stored = pandas.read_csv(Path(__file__).parents[2] / "docs" / "results" / "verify.csv")
     said = {(f"verify.{law.id}", law.sentence) for law in every_law()}
