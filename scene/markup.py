@@ -1,4 +1,4 @@
-"""Tables of a few rows: as HTML for notebooks, all text escaped, without style but alignment, and as plain text."""
+"""Tables of a few rows: as HTML for notebooks, all text escaped, no style but alignment, and as plain text."""
 
 from collections.abc import Iterable, Sequence
 from html import escape
