@@ -93,7 +93,7 @@ class Options(TypedDict, total=False):
     figure_format: FigureFormat
     report: bool
     yes: bool
-    progress: bool | str | Preparing
+    progress: bool | str | Preparing | None
 
 
 @checked
@@ -108,7 +108,7 @@ def solve(
     report: bool = True,
     yes: bool = False,
     budget: str | float | None = None,
-    progress: bool | str | Preparing = False,
+    progress: bool | str | Preparing | None = False,
 ) -> Report:
     """Do a study, one of your own too: solve what the folder has not, judge, and write the page.
 
@@ -131,7 +131,7 @@ def solve(
 
 
 @contextmanager
-def _shown(progress: bool | str | Preparing) -> Iterator[Progress | None]:
+def _shown(progress: bool | str | Preparing | None) -> Iterator[Progress | None]:
     """Progress that a terminal shows, in lines or as a bar; None where nothing is to be shown."""
     if not progress:
         yield None
@@ -576,7 +576,7 @@ def animate(
     seconds: float = 6.0,
     folder: str | Path = "crosscheck-animation",
     workers: int | None = None,
-    progress: bool | Preparing = False,
+    progress: bool | Preparing | None = False,
 ) -> Path:
     """Animate a scene in time, 1D and 3D side by side.
 
