@@ -33,6 +33,8 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack, cast
 
+from .solving.suggest import checked
+
 if TYPE_CHECKING:
     from types import FrameType
 
@@ -91,9 +93,10 @@ class Options(TypedDict, total=False):
     figure_format: FigureFormat
     report: bool
     yes: bool
-    progress: bool | str | Preparing
+    progress: bool | str | Preparing | None
 
 
+@checked
 def solve(
     study: Study,
     output: str | Path,
@@ -105,15 +108,21 @@ def solve(
     report: bool = True,
     yes: bool = False,
     budget: str | float | None = None,
-    progress: bool | str | Preparing = False,
+    progress: bool | str | Preparing | None = False,
 ) -> Report:
     """Do a study, one of your own too: solve what the folder has not, judge, and write the page.
 
     study : an object of a class derived from `compare.Study`
     budget : time after which no more surfaces are asked for, of a study that asks for them: in seconds, or "10min"
     """
-    from .studies import pipeline
+    from scene.printable import brief
+    from scene.reading import InvalidInput
 
+    from .studies import pipeline
+    from .studies.study import Study
+
+    if not isinstance(study, Study):
+        raise InvalidInput(f"study = {brief(repr(study))}: an object of a class derived from Study is needed")
     _warn(study.doubts)
     with _shown(progress) as told:
         found = pipeline.run(study, output, workers, scheduler, format, figure_format, report, yes, budget, told)
@@ -122,7 +131,7 @@ def solve(
 
 
 @contextmanager
-def _shown(progress: bool | str | Preparing) -> Iterator[Progress | None]:
+def _shown(progress: bool | str | Preparing | None) -> Iterator[Progress | None]:
     """Progress that a terminal shows, in lines or as a bar; None where nothing is to be shown."""
     if not progress:
         yield None
@@ -145,6 +154,7 @@ def _warn(sentences: Sequence[str]) -> None:
         warnings.warn(each, Doubtful, stacklevel=level)
 
 
+@checked
 def run(
     scene: SceneLike | Sequence[str | Path] | Mapping[str, SceneLike] | None = None,
     output: str | Path = "crosscheck-report",
@@ -172,6 +182,7 @@ def run(
     return solve(Run.of(scene, models, reference, interval), output, budget=budget, **options)
 
 
+@checked
 def study(
     name: str | Path | None = None,
     size: Size = "quick",
@@ -202,6 +213,7 @@ def study(
     return solve(ClaimStudy.of(str(name), size, models, reference, interval), output, budget=budget, **options)
 
 
+@checked
 def paper(size: Size = "full", output: str | Path = "crosscheck-paper", **options: Unpack[Options]) -> Report:
     """Repeat the paper in 1D: figures, parameter studies, claims.
 
@@ -212,6 +224,7 @@ def paper(size: Size = "full", output: str | Path = "crosscheck-paper", **option
     return solve(Paper.of(size), output, **options)
 
 
+@checked
 def workprecision(
     name: Diagram | None = None,
     size: Size = "quick",
@@ -235,6 +248,7 @@ def workprecision(
     return solve(WorkPrecision.of([name], size, models), output, **options)
 
 
+@checked
 def stability(
     size: Size = "quick", output: str | Path = "crosscheck-stability", **options: Unpack[Options]
 ) -> Report:
@@ -247,6 +261,7 @@ def stability(
     return solve(Stability.of(size), output, **options)
 
 
+@checked
 def verify(model: ModelLike, output: str | Path = "crosscheck-verify", **options: Unpack[Options]) -> Report:
     """Check a code of contact against what it must hold. The status is 1 if any law fails.
 
@@ -257,6 +272,7 @@ def verify(model: ModelLike, output: str | Path = "crosscheck-verify", **options
     return solve(Verify.of(model), output, **options)
 
 
+@checked
 def regress(
     baseline: str | Path | None = None,
     update: bool = False,
@@ -279,6 +295,7 @@ def regress(
     return report
 
 
+@checked
 def mastercurve(
     table: Measurements,
     output: str | Path = "mastercurve",
@@ -304,6 +321,7 @@ def mastercurve(
     return solve(Mastercurve.of(table, tolerance, **stated), output, **options)
 
 
+@checked
 def topography(
     file: Surface,
     pixel: str | float | Sequence[str | float] | None = None,
@@ -343,6 +361,7 @@ def topography(
     return solve(Map.of(file, pixel=pixel, **asked, **done), output, **options)
 
 
+@checked
 def sweep(
     scene: SceneLike,
     speed: Values | None = None,
@@ -385,6 +404,7 @@ def sweep(
     return cast("Sweep", report.study).dataset(report.answers)
 
 
+@checked
 def swept(output: str | Path = "crosscheck-sweep", budget: str | float | None = None, **given: Any) -> Report:
     """Report of a sweep, of the arguments of `sweep`: the command prints it."""
     from .studies.sweep.study import Sweep
@@ -393,6 +413,7 @@ def swept(output: str | Path = "crosscheck-sweep", budget: str | float | None = 
     return solve(Sweep.of(**given), output, budget=budget, **options)
 
 
+@checked
 def friction_plot(dataset: xarray.Dataset) -> Figure:
     """Friction of a sweep against speed, or against load, both models with error bars: a matplotlib Figure."""
     from .studies.sweep.study import figure_of
@@ -400,6 +421,7 @@ def friction_plot(dataset: xarray.Dataset) -> Figure:
     return figure_of(dataset)
 
 
+@checked
 def trust(scene: SceneLike) -> Advice:
     """Say which cheap answer to use, or to solve in 3D. It takes about a second, as nothing rough is solved.
 
@@ -413,6 +435,7 @@ def trust(scene: SceneLike) -> Advice:
     return found
 
 
+@checked
 def plan(
     scene: SceneLike,
     figure: str | Path | None = None,
@@ -436,6 +459,7 @@ def plan(
     return found
 
 
+@checked
 def load(folder: str | Path) -> xarray.DataTree:
     """Everything that a command solved, with each single draw: a Dataset for each parameter grid and solver.
 
@@ -453,6 +477,7 @@ def scenes() -> Listing:
     return offered()
 
 
+@checked
 def new(name: str, file: str | Path | None = None) -> Path:
     """Copy a ready scene or study into a file of your own.
 
@@ -464,6 +489,7 @@ def new(name: str, file: str | Path | None = None) -> Path:
     return write(name, file or f"{name}.toml")
 
 
+@checked
 def schema(
     kind: Literal["scene", "study", "answers"] = "scene", output: str | Path | None = None
 ) -> dict[str, Any]:
@@ -484,6 +510,7 @@ def as_json(found: Any) -> str:
     return written(found)
 
 
+@checked
 def redraw(
     folder: str | Path,
     journal: Journal = "default",
@@ -506,6 +533,7 @@ def redraw(
     return redraw(folder, journal, style, output, width=width)
 
 
+@checked
 def export(
     folder: str | Path, to: Literal["csv", "latex", "vtk"] = "csv", output: str | Path | None = None
 ) -> list[Path]:
@@ -521,6 +549,7 @@ def export(
     return export(folder, to, output)
 
 
+@checked
 def draw(
     scene: SceneLike, interactive: bool = False, output: str | Path = "crosscheck-draw", **options: Unpack[Options]
 ) -> Report:
@@ -539,6 +568,7 @@ def draw(
     return solve(Drawing.of(scene, interactive), output, **options)
 
 
+@checked
 def animate(
     scene: SceneLike,
     output: str | Path | None = None,
@@ -546,7 +576,7 @@ def animate(
     seconds: float = 6.0,
     folder: str | Path = "crosscheck-animation",
     workers: int | None = None,
-    progress: bool | Preparing = False,
+    progress: bool | Preparing | None = False,
 ) -> Path:
     """Animate a scene in time, 1D and 3D side by side.
 

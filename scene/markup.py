@@ -1,4 +1,4 @@
-"""Tables as HTML, for notebooks: a few rows, all text escaped, no style of their own but alignment."""
+"""Tables of a few rows: as HTML for notebooks, all text escaped, no style but alignment, and as plain text."""
 
 from collections.abc import Iterable, Sequence
 from html import escape
@@ -23,6 +23,14 @@ def table(rows: Iterable[Sequence[Any]], heading: Sequence[str] = (), title: str
     return f"<table>{caption}{f'<thead><tr>{head}</tr></thead>' if head else ''}<tbody>{body}</tbody></table>"
 
 
+def plain_table(rows: Iterable[tuple[str, Any, str]], title: str = "") -> str:
+    """Names, values and units as aligned lines below a title; the unit 1 is left out."""
+    every = [(name, _said(value), "" if unit == "1" else unit) for name, value, unit in rows]
+    width = max(len(name) for name, _, _ in every)
+    lines = (f"{name:{width}}  {value} {unit}".rstrip() for name, value, unit in every)
+    return printable("\n".join([title, *lines] if title else lines))
+
+
 def paragraph(text: str) -> str:
     """A sentence."""
     return f"<p>{_text(text)}</p>"
@@ -35,5 +43,8 @@ def _row(cells):
 
 
 def _text(cell):
-    said = f"{cell:.6g}" if isinstance(cell, float) else str(cell)
-    return escape(printable(said)).replace("\n", "<br>")
+    return escape(printable(_said(cell))).replace("\n", "<br>")
+
+
+def _said(cell):
+    return f"{cell:.6g}" if isinstance(cell, float) else str(cell)

@@ -3,7 +3,7 @@
 What has a unit or labels is known by its attributes: no library is imported to be asked.
 """
 
-from collections.abc import Set
+from collections.abc import Mapping, Set
 from dataclasses import dataclass
 from numbers import Real
 from typing import Any
@@ -97,6 +97,8 @@ def one_by_one(given: Any) -> Any:
     """The numbers of a row, each with the unit that all of them carry; what is no array as it is."""
     if isinstance(given, Set):
         raise NotPlain("a set has no order: give a list")
+    if isinstance(given, Mapping):
+        raise NotPlain("a mapping has names: give a list")
     held, own = bare(given)
     if not isinstance(held, np.ndarray):
         return given
@@ -122,8 +124,10 @@ def relabelled(given: Any, found: Any) -> Any:
 def bare(given: Any) -> tuple[Any, str | None]:
     """What something holds, without labels and masks, and the unit that it carries; None where it has none.
 
-    A unit is empty where something says that it has no dimension.
+    A unit is empty where something says that it has no dimension. Raises NotPlain of two units, and of bytes.
     """
+    if isinstance(given, bytes | bytearray | memoryview):
+        raise NotPlain("bytes are no numbers")
     unit = None
     while type(given) not in _OWN:
         inner, own = _peeled(given)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .markup import table
+from .markup import plain_table, table
 from .reading import validator
 from .scene import Scene
 from .vocabulary import FIELDS, MEASURES, NUMBERS, Entry
@@ -21,7 +21,7 @@ UNKNOWN = Entry("", "")  # of what a model names by itself
 
 @dataclass(frozen=True)
 class Result:
-    """One solved scene.
+    """One solved scene. Printed, it is a table of its numbers.
 
     scene : what was asked
     solver, settings : name of the solver and every setting it solved with, the derived ones included
@@ -76,14 +76,28 @@ class Result:
         named = {name: getattr(self, name) for name in NUMBERS} | dict(self.measures)
         return {name: (float(value), {**NUMBERS, **MEASURES}.get(name, UNKNOWN)) for name, value in named.items()}
 
+    def __str__(self) -> str:
+        return plain_table(((name, value, unit) for name, value, unit, _ in self._rows), self._title)
+
     def _repr_html_(self) -> str:
+        return table(self._rows, ("name", "value", "unit", "meaning"), self._title)
+
+    @property
+    def _title(self) -> str:
+        shown = (
+            f"{name} = {value:.6g}" if isinstance(value, float) else f"{name} = {value}"
+            for name, value in self.settings.items()
+        )
+        return ", ".join([self.solver, *shown])
+
+    @property
+    def _rows(self) -> list[tuple[str, float | str, str, str]]:
+        """Numbers, measures and fields: name, value, unit, meaning."""
         shown: list[tuple[str, float | str, Entry]] = [(name, *found) for name, found in self._numbers.items()]
         for name, values in self.fields.items():
             shown.append((name, f"array {' x '.join(map(str, values.shape))}", FIELDS.get(name, UNKNOWN)))
         kind = self.scene.indenter.type
-        rows = [(name, value, entry.unit_under(kind), entry.text) for name, value, entry in shown]
-        settings = ", ".join(f"{name} = {value}" for name, value in self.settings.items())
-        return table(rows, ("name", "value", "unit", "meaning"), f"{self.solver}, {settings}")
+        return [(name, value, entry.unit_under(kind), entry.text) for name, value, entry in shown]
 
 
 def provenance(scene: Scene, seeds: Sequence[int] | np.ndarray = ()) -> dict[str, str]:

@@ -10,11 +10,10 @@ from .heating import Heating
 from .indenter import Indenter, Plane
 from .interface import Coulomb
 from .layer import Layer
-from .markup import table
+from .markup import plain_table, table
 from .measured import Measured
 from .motion import UNITS, Motion, Shear
 from .parts import rows
-from .printable import printable
 from .quantities import CLOSED
 from .rheology import Elastomer
 from .roughness import Roughness
@@ -80,9 +79,7 @@ class Scene:
     _fits = model_validator(mode="after")(fit_together)
 
     def __str__(self) -> str:
-        lines = list(rows(self.parts))
-        width = max(len(name) for name, _, _ in lines)
-        return printable("\n".join(f"{name:{width}}  {value} {unit}".rstrip() for name, value, unit in lines))
+        return plain_table(rows(self.parts))
 
     def _repr_html_(self) -> str:
         return table(rows(self.parts), ("name", "value", "unit"), "Scene")

@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import fields
 from importlib.resources import files
+from os import PathLike
 from os.path import isdir, lexists
 from pathlib import Path
 from typing import TypeAlias
@@ -59,6 +60,9 @@ def case_of(asked: SceneLike) -> Case:
 
 def located(asked: str | Path, kind: str = "scene") -> Path:
     """A file as it stands, or the ready scene or study of that name. Raises InvalidInput with a suggestion."""
+    if not isinstance(asked, str | PathLike):
+        others = ", a Scene or a Case" if kind == "scene" else ""
+        raise InvalidInput(f"{kind} = {brief(repr(asked))}: a file, the name of a ready {kind}{others} is needed")
     path, every, name = Path(asked), ready(), brief(str(asked))
     # A folder may be called as a ready one is: that of an earlier run.
     if not (isdir(path) and str(asked) in every):

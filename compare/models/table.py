@@ -210,7 +210,9 @@ def model_of(asked: ModelLike) -> Model:
 
 def listed(asked: Sequence[ModelLike] | None) -> tuple[ModelLike, ...]:
     """Models one by one, also of names separated by commas; none where none is asked for."""
-    given = [asked] if isinstance(asked, str) else asked or []
+    given = [asked] if isinstance(asked, str) else [] if asked is None else asked
+    if not isinstance(given, Sequence) or isinstance(given, bytes | bytearray | memoryview):
+        raise InvalidInput(f"models = {brief(repr(given))}: names or models in a list")
     parts = [each.split(",") if isinstance(each, str) else [each] for each in given]
     return tuple(each.strip() if isinstance(each, str) else each for part in parts for each in part)
 

@@ -101,7 +101,7 @@ def view(scene: Scene, bem: BEM, fields: Mapping[str, Fields]) -> View | None:
     else:
         span, aside = _worth_seeing(scene, touched, radius or 0.0)
     space = None if plane is None else _space(scene, bem, plane, span, aside)
-    return View(scene, line and _prolonged(scene, line, span), space, radius, span, aside)
+    return View(scene, line and _prolonged(scene, line, span, fields["MDR"]), space, radius, span, aside)
 
 
 def smooth_radius(scene: Scene, pressed: float | None = None) -> float | None:
@@ -131,24 +131,24 @@ def _line(fields):
     return Section(fields["x"], fields["profile"] - depth, -fields["displacement"], touching)
 
 
-def _prolonged(scene, line, span):
+def _prolonged(scene, line, span, fields):
     """Section beyond its grid, as far as that is known: the surface arrives undisturbed, and behind the contact
-    each mode recovers on its own, so that of one alone the end of the grid tells all. A smooth body is c |x|^n.
+    each mode recovers on its own from the forces that it has felt. A smooth body is c |x|^n.
     """
-    times, motion = scene.solid.retardation()[2], scene.motion
+    if isinstance(scene.motion, Program):
+        return line
     pixel = line.x[1] - line.x[0]
     before = line.x[0] - pixel * np.arange(int(max(line.x[0] - span[0], 0.0) / pixel) + 1, 0, -1)
     behind = line.x[-1] + pixel * np.arange(1, int(max(span[1] - line.x[-1], 0.0) / pixel) + 2)
-    if not isinstance(motion, Slide) or len(times) > 1:
-        return line
-    memory = motion.speed * times.sum()
-    recovering = np.exp(-(behind - line.x[-1]) / memory) if memory else np.zeros(len(behind))
+    flow = Flow.of(scene.solid, scene.motion.speed)
+    felt = fields["line_force"][:-1] @ np.diff(np.exp((line.x - line.x[-1])[:, None] / flow.lengths), axis=0)
+    recovering = np.exp((line.x[-1] - behind)[:, None] / flow.lengths) @ (flow.shares * felt / flow.modulus)
     x = np.concatenate([before, line.x, behind])
     indenter = np.pad(line.indenter, (len(before), len(behind)), constant_values=np.nan)
     if scene.roughness is None:
         tip, n = float(line.indenter.min()), scene.indenter.exponent
         indenter = tip + (line.indenter[-1] - tip) * np.abs(x / line.x[-1]) ** n
-    surface = np.concatenate([np.zeros(len(before)), line.surface, line.surface[-1] * recovering])
+    surface = np.concatenate([np.zeros(len(before)), line.surface, -recovering])
     return Section(x, indenter, surface, np.pad(line.touching, (len(before), len(behind))))
 
 

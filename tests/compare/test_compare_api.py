@@ -1,5 +1,6 @@
 """`crosscheck X` is `compare.X`: the same names, arguments and numbers; nothing is printed."""
 
+import inspect
 import itertools
 import json
 from dataclasses import replace
@@ -20,9 +21,10 @@ from compare.cli.app import app
 from compare.solving.parameter_grid import ParameterGrid, on_two_grids
 from compare.statistics.finding import COLUMNS, Claim
 from compare.statistics.jackknife import friction
+from compare.studies import pipeline
 from compare.studies.sweep.study import Sweep
 from mdr1d import MDR
-from scene import Scene
+from scene import Refused, Scene
 from scene.reading import InvalidInput, made
 from scene.result import provenance
 from scene.vocabulary import FIELDS
@@ -244,7 +246,59 @@ def test_a_result_shows_every_number_with_its_unit_and_escapes_what_it_holds():
     for name in ("normal_force", "depth", "friction_coefficient", *result.measures, *result.fields):
         assert f">{name}<" in text
     assert ">N<" in text
+    title, *lines = str(result).splitlines()
+    assert title.startswith(f"MDR, points = {result.settings['points']}, ")
+    assert lines[0].split() == ["normal_force", f"{result.normal_force:.6g}", "N"]
+    assert [line.split()[0] for line in lines] == [*result._numbers, *result.fields]
     hostile = replace(result, settings={"points": "<script>"}, measures={"<b>\u202e": 1.0})
     assert "<script>" not in hostile._repr_html_()
     assert "<b>" not in hostile._repr_html_()
     assert hostile._repr_html_().isprintable()
+    assert str(hostile).replace("\n", "").isprintable()
+
+
+HEIGHTS = 1e-6 * np.random.default_rng(0).normal(size=(8, 8))
+LOADS, SPEEDS = (each.ravel() for each in np.meshgrid(np.geomspace(0.1, 10, 4), np.geomspace(1e-3, 1, 9)))
+MEASURED = {"mu": LOADS**-0.3 * SPEEDS**0.2, "F_N": LOADS, "v": SPEEDS}
+ASKED = {
+    "run": {"scene": SLIDING},
+    "study": {"name": "collapse"},
+    "paper": {},
+    "workprecision": {"name": "mdr"},
+    "stability": {},
+    "verify": {"model": "mdr"},
+    "regress": {},
+    "mastercurve": {"table": MEASURED},
+    "topography": {"file": HEIGHTS, "pixel": 1e-6},
+    "sweep": {"scene": SLIDING},
+    "trust": {"scene": SLIDING},
+    "plan": {"scene": SLIDING},
+    "load": {"folder": "none"},
+    "new": {"name": "hertz"},
+    "schema": {},
+    "redraw": {"folder": "none"},
+    "export": {"folder": "none"},
+    "draw": {"scene": SLIDING},
+    "animate": {"scene": SLIDING},
+    "friction_plot": {"dataset": None},
+    "solve": {"study": Twice(), "output": "out"},
+}
+
+
+OPTIONS = {"workers", "format", "figure_format", "report", "yes"}
+CALLED = {"table": "a DataFrame", "file": "heights"}  # arguments that messages name otherwise
+
+
+@pytest.mark.parametrize("name", ASKED)
+def test_an_argument_of_a_wrong_type_is_named_before_anything_is_solved(name, monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(pipeline, "_answered", pytest.fail)
+    function = getattr(compare, name)
+    arguments = set(inspect.signature(function).parameters)
+    for argument in arguments - {"options", "progress"} | (OPTIONS if "options" in arguments else set()):
+        for wrong in (object(), b"1", 1j):
+            with pytest.raises((ValueError, Refused)) as caught:
+                function(**ASKED[name] | {argument: wrong})
+            said = str(caught.value)
+            assert argument in said or CALLED.get(argument, argument) in said
+    assert not any(tmp_path.iterdir())

@@ -122,8 +122,9 @@ def test_the_wake_is_seen_behind_a_contact_that_slides_and_none_at_rest():
     assert sliding.space.around.x[-1] >= sliding.span[1] - A / 10
 
 
-def test_in_one_dimension_the_wake_behind_the_grid_recovers_as_it_does_on_it():
-    scene = replace(SCENES["smooth"], motion=Slide(speed=3 * A / TAU, load=LOAD))
+@pytest.mark.parametrize("solid", [KELVIN, STANDARD, Prony(G, (3 * G, 2 * G, G), (TAU / 10, TAU, 10 * TAU))])
+def test_in_one_dimension_the_wake_behind_the_grid_recovers_as_it_does_on_it(solid):
+    scene = replace(SCENES["smooth"], elastomer=solid, motion=Slide(speed=3 * A / TAU, load=LOAD))
     narrow, wide = (
         view(scene, SPACE, {"MDR": MDR(points=1000, extent=extent).solve(scene).fields})
         for extent in (3 * A, 24 * A)

@@ -3,8 +3,12 @@
 import sys
 from dataclasses import replace
 
+import numpy as np
+import pandas
 import pytest
 from drawn_scenes import KELVIN, LOAD, TAU, A, R
+from matplotlib.collections import LineCollection
+from matplotlib.figure import Figure
 from typer.testing import CliRunner
 
 import compare
@@ -12,6 +16,7 @@ from bem3d import BEM
 from compare.cli.app import app
 from compare.library.lookup import case_of
 from compare.report import vtk
+from compare.report.plots import style
 from compare.studies.draw import figure as draw
 from compare.studies.draw import interactive
 from compare.studies.draw.study import APART
@@ -75,6 +80,22 @@ def test_the_surface_is_deepest_under_the_sphere_and_lower_behind_it_than_before
     behind, before = (float(middle.sel(x=at, method="nearest")) for at in (1.3 * A, -1.3 * A))
     assert behind > 1.3 * before > 0
     assert float(surface["x"].max()) > 2 * A
+
+
+def test_springs_are_drawn_where_the_surface_is_known_and_nowhere_beyond():
+    places = np.linspace(-2e-3, 2e-3, draw.STRIPS)
+    known = np.linspace(-5e-4, 1e-3, 301)
+    section = pandas.DataFrame({"x": known, "indenter": known**2, "surface": -1e-6, "touching": False})
+    with style.applied():
+        axes = Figure().subplots()
+        draw.row(axes, section, pandas.DataFrame({"x": places}), (-2e-3, 2e-3))
+    middles = 1e-3 * np.array([np.mean(path[:, 0]) for each in axes.collections for path in each_spring(each)])
+    expected = places[(known[0] < places) & (places < known[-1])]
+    assert (middles.min(), middles.max()) == pytest.approx((expected.min(), expected.max()), abs=1e-4)
+
+
+def each_spring(collection):
+    return collection.get_segments() if isinstance(collection, LineCollection) else []
 
 
 def test_the_picture_is_drawn_again_from_its_tables_to_the_last_byte(drawn, tmp_path):

@@ -119,6 +119,31 @@ def test_a_layer_keeps_the_load_and_widens_the_more_the_higher_it_is(n, pressure
         assert np.all(np.diff(lost[1:]) < 0)
 
 
+@pytest.mark.parametrize("n", [*EXPONENTS, 100.0])
+def test_a_layer_of_any_height_and_pressure_has_an_answer_under_the_load(n):
+    """Half a decade apart in height over depth, and closer in pressure over that of full contact."""
+    smooth = NominalContact.smooth(n, RADIUS, LOAD)
+    for height in np.geomspace(1e-8, 1.0, 17):
+        for pressure in np.geomspace(1e-4, 1e4, 33):
+            found = smooth.on_layer(n, 1e-5, 1e-5 * height, LOAD / (pi * RADIUS**2) / pressure)
+            assert found.load == pytest.approx(LOAD, rel=1e-11)  # of the misfit that is left
+
+
+def test_the_gap_of_each_ring_is_that_of_its_pressure():
+    """The table of gaps between its ends, of what the elastomer and the body leave between them."""
+    n, depth, height, full = 2.0, 1e-5, 2e-6, LOAD / (pi * RADIUS**2)
+    smooth, rings = NominalContact.smooth(n, RADIUS, LOAD), Rings.all()
+    found = smooth.on_layer(n, depth, height, full)
+    modulus = LOAD * (n + 1) / (2 * n * depth * RADIUS)
+    shape = depth / PowerLaw(1.0, n).mdr_coefficient * rings.middle**n
+    gap = (rings.compliance @ found.pressure * RADIUS / modulus + shape) / height
+    x = found.pressure / full
+    inside = (x > min(GAPS)) & (x < max(GAPS))
+    assert inside.sum() > 30
+    lower = gap[inside] - np.interp(np.log(x[inside]), np.log(list(GAPS)), list(GAPS.values()))
+    assert np.ptp(lower) < 1e-9  # all of it the depth
+
+
 def test_roughness_that_vanishes_leaves_the_smooth_body():
     smooth = FrictionLaw().solve(replace(SCENE, roughness=None))
     assert smooth.friction_coefficient == BEM(points=64).solve(replace(SCENE, roughness=None)).friction_coefficient

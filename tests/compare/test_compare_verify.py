@@ -3,8 +3,10 @@
 import subprocess
 import sys
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
+import pandas
 import pytest
 
 import compare
@@ -38,6 +40,12 @@ FEW = (
     "limit.fast",
     "order.sphere",
 )
+
+
+def test_the_stored_scorecard_has_each_law_in_the_words_of_today():
+    stored = pandas.read_csv(Path(__file__).parents[2] / "docs" / "results" / "verify.csv")
+    said = {(f"verify.{law.id}", law.sentence) for law in every_law()}
+    assert {*zip(stored["claim"], stored["sentence"], strict=True)} <= said
 
 
 @dataclass(frozen=True)

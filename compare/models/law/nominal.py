@@ -5,7 +5,7 @@ from functools import cache
 from math import pi, sqrt
 
 import numpy as np
-from scipy.special import ellipkm1, j0
+from scipy.special import ellipkm1, j0, wrightomega
 
 from scene import PowerLaw, SolveError
 from scene.viscoelastic import Linear
@@ -21,9 +21,11 @@ CLOSED = 500.0  # of the pressure, over the greatest there is, per gap that is m
 # quadrature over either half of one.
 EVEN, INNER, WIDER, OUTER, NODES = 48, 1.5, 24, 8.0, 24
 WAVES = np.geomspace(0.05, 60.0, 120)  # wave numbers of a pressure, times the radius of the smooth contact
-ROUNDS, CLOSE, SHORTEST_STEP = 60, 1e-9, 1e-6
+ROUNDS, CLOSE, SHORTEST_STEP = 60, 1e-12, 1e-6
 THINNEST = 1e-9  # of a layer over the depth, below which there is none
 _LOGS, _GAPS = np.log(list(GAPS)), np.array(list(GAPS.values()))
+# Fall of the logarithm of a pressure per gap: below the first of these, and between each two.
+_RATES = -np.append(1 / THINNER, np.diff(_LOGS) / np.diff(_GAPS))
 
 
 @dataclass(frozen=True)
@@ -86,39 +88,41 @@ class NominalContact:
         depth : of the smooth contact [m]
         height, full : rms height [m], and rms pressure in full contact [Pa]
 
-        Newton's method for the gap of each ring, shortened until the misfit falls. Raises SolveError.
+        Newton's method for the push on each ring, its displacement by its own pressure less its gap: where the
+        layer is far stiffer than the elastomer the displacement follows the push, where it is far softer the gap
+        does, so that kinks in the law of the layer hardly matter. A step is shortened until the misfit falls.
+        Raises SolveError.
         """
         if height < THINNEST * depth:
             return self
         rings, load = Rings.all(), self.load
         modulus = load * (exponent + 1) / (2 * exponent * depth * self.radius)
-        softness, weight = (
-            rings.compliance * self.radius / modulus * full / height,
-            rings.area * self.radius**2 * full,
-        )
+        softness = rings.compliance * self.radius / modulus * full / height
+        weight = rings.area * self.radius**2 * full / load
+        own = softness.diagonal()
+        others = softness - np.diag(own)
         z = depth / height / PowerLaw(1.0, exponent).mdr_coefficient * rings.middle**exponent
         size, sunk, stiff = z.size, depth / height, CLOSED * max(1.0, self.pressure.max() / full)
         scale = 1 + np.append(z + sunk, sunk)
 
         def misfit(unknown):
-            x, slope = _pressed(unknown[:size], stiff)
-            off = np.append(softness @ x - unknown[:size] + z - unknown[size], (weight @ x / load - 1) * sunk)
+            x, slope = _pressed(unknown[:size], own, stiff)
+            off = np.append(others @ x + unknown[:size] + z - unknown[size], (weight @ x - 1) * sunk)
             return x, slope, off, np.abs(off / scale).max()
 
-        least = np.maximum(self.pressure, 1e-3 * self.pressure.max())
-        unknown = np.append(np.maximum(np.interp(np.log(least / full), _LOGS, _GAPS), z - sunk), sunk)
+        unknown = np.append(sunk - z - others @ (self.pressure / full), sunk)
         x, slope, off, worst = misfit(unknown)
         for _ in range(ROUNDS):
+            if worst < CLOSE:
+                return NominalContact(self.radius, x * full)
             matrix = np.zeros((size + 1, size + 1))
-            matrix[:size, :size] = softness * slope - np.eye(size)
-            matrix[:size, size], matrix[size, :size] = -1.0, weight * slope / load * sunk
+            matrix[:size, :size] = others * slope + np.eye(size)
+            matrix[:size, size], matrix[size, :size] = -1.0, weight * slope * sunk
             step, share = np.linalg.solve(matrix, -off), 1.0
             while (tried := misfit(unknown + share * step))[3] >= worst and share > SHORTEST_STEP:
                 share /= 2
             unknown = unknown + share * step
             x, slope, off, worst = tried
-            if worst < CLOSE:
-                return NominalContact(self.radius, x * full)
         raise SolveError(f"the nominal pressure was not found in {ROUNDS} rounds, a misfit of {worst:.1g} is left")
 
     @property
@@ -145,11 +149,19 @@ class NominalContact:
         return float(np.trapezoid(np.square(q * waves) * loss / pi, np.log(q)))
 
 
-def _pressed(gaps, stiff):
-    """Pressure over that of full contact, and its slope, at gaps over the rms height; straight where great."""
-    place = np.clip(_GAPS.size - np.searchsorted(_GAPS[::-1], gaps) - 1, 0, _GAPS.size - 2)
-    wide, closed = gaps > _GAPS[0], gaps < _GAPS[-1]
-    rate = np.where(wide, 1 / THINNER, (np.diff(_LOGS) / np.diff(_GAPS))[place])
-    start = np.where(wide, 0, place)
-    x = np.exp(_LOGS[start] + rate * (np.maximum(gaps, _GAPS[-1]) - _GAPS[start]))
-    return np.where(closed, x - stiff * (gaps - _GAPS[-1]), x), np.where(closed, -stiff, rate * x)
+def _pressed(push, own, stiff):
+    """Pressure over that of full contact, and its slope, where rings and the layer on them share a push.
+
+    push : displacement of each ring by its own pressure, less its gap, over the rms height (N,)
+    own : displacement of each ring by unit pressure on it, likewise (N,)
+    stiff : slope of the pressure where the layer is closed
+    """
+    ends = own * np.exp(_LOGS)[:, None] - _GAPS[:, None]
+    passed = np.sum(push >= ends, axis=0)
+    place = np.minimum(passed, _GAPS.size - 1)
+    start, rate = np.maximum(place - 1, 0), _RATES[place]
+    # x = exp(L + rate (push + gap) - rate own x) is y = rate own x with y + ln y = ln(rate own) + L + ...
+    y = wrightomega(np.log(rate * own) + _LOGS[start] + rate * (push + _GAPS[start]))
+    closed, share = passed == _GAPS.size, stiff / (1 + own * stiff)
+    x = np.where(closed, np.exp(_LOGS[-1]) + share * (push - ends[-1]), y / (rate * own))
+    return x, np.where(closed, share, y / (1 + y) / own)

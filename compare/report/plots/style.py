@@ -28,6 +28,7 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.textpath import TextToPath
 from matplotlib.ticker import LogFormatterSciNotation, LogLocator, MaxNLocator, NullFormatter
 
+from scene.printable import brief
 from scene.reading import InvalidInput
 
 from .journals import JOURNALS, Journal
@@ -385,6 +386,8 @@ def read(sheet: str | PathLike | Mapping[str, Any] | None) -> dict[str, Any]:
             given: Mapping[Any, Any] = matplotlib.RcParams(sheet)
         except (KeyError, ValueError) as error:
             raise ValueError(f"no style of matplotlib: {error}") from None
+    elif not isinstance(sheet, str | PathLike):
+        raise ValueError(f"{brief(repr(sheet))}: a file, a name of a style or settings are needed")
     elif str(sheet) in styles.library:
         given = styles.library[str(sheet)]
     elif Path(sheet).is_file():

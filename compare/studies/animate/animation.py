@@ -24,6 +24,7 @@ from ...solving.hold import hold
 from ...solving.runner import Progress, SweepProgress, sweep
 from ...solving.store import Store, make, refuse_impossible, write
 from ...solving.task import SceneTask
+from ...solving.workers import counted
 from ..report import SOLVED
 from .figure import MarchFigure
 from .film import Film, started
@@ -59,6 +60,7 @@ def animate(
     path = Path(output or f"{Path(scene).stem if isinstance(scene, str | Path) else 'scene'}.gif")
     case = case_of(scene)
     check(path, frames, seconds)
+    counted(workers)
     store, progress = Store(Path(folder) / SOLVED), progress or Progress()
     with hold([Path(folder)], progress.told):
         with progress.solving() as told:

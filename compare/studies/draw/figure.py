@@ -113,6 +113,7 @@ def row(axes: Axes, section: DataFrame, lines: DataFrame, span: Sequence[float])
     axes.fill_between(along * seen.x, indenter, high, color=touching.rigid(), linewidth=0)
     touching.level(axes)
     places = _edges(lines["x"].to_numpy())[SPRINGS // 2 :: SPRINGS]
+    places = places[(seen.x[0] <= places) & (places <= seen.x[-1])]
     pressing = np.histogram(seen.x[seen.touching], _edges(places))[0] > 0
     tops = up * np.interp(places, seen.x, seen.surface)
     wide = along * COIL * (places[1] - places[0])

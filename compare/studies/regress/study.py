@@ -75,7 +75,12 @@ class Regress(Study):
 
         Raises InvalidInput if the file is none, or belongs to none of the quantities.
         """
-        asked = tuple(shipped() if quantities is None else quantities)
+        if not isinstance(baseline, str | Path | None):
+            raise InvalidInput(f"baseline = {brief(repr(baseline))}: the path of a file is needed")
+        asked = shipped() if quantities is None else quantities
+        if not (isinstance(asked, Sequence) and all(isinstance(each, Quantity) for each in asked)):
+            raise InvalidInput(f"quantities = {brief(repr(asked))}: a list of Quantity is needed")
+        asked = tuple(asked)
         path = SHIPPED if baseline is None else Path(baseline)
         stored = {} if update and not path.exists() else read_baseline(path, asked)
         return cls(asked, path, stored, update)

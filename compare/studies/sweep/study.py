@@ -12,6 +12,7 @@ from pandas import DataFrame
 
 from scene import Indent, Slide, notes
 from scene.motion import UNITS
+from scene.printable import brief
 from scene.reading import InvalidInput, whole
 from scene.result import provenance
 
@@ -269,4 +270,6 @@ def means(dataset: xarray.Dataset) -> DataFrame:
 
 def figure_of(dataset: xarray.Dataset) -> Figure:
     """Friction of a sweep against speed, or against load if there is one speed: a matplotlib Figure."""
+    if not isinstance(dataset, xarray.Dataset):
+        raise InvalidInput(f"dataset = {brief(repr(dataset))}: the Dataset of a sweep is needed")
     return finished(plots.plot(means(dataset)))

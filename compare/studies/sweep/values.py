@@ -31,7 +31,7 @@ def values_of(name: str, given: Any, least: float | None = None) -> tuple[float,
     try:
         parts = [given] if single else list(islice(one_by_one(given), MOST_VALUES + 1))
     except ValueError as error:
-        raise InvalidInput(f"{name}: {error}") from None
+        raise InvalidInput(f"{name} = {brief(repr(given))}: {error}") from None
     found = [number for part in parts for number in _numbers(name, part, least)]
     if len(found) > MOST_VALUES:
         raise InvalidInput(f"{name}: more than {MOST_VALUES:,} values: at most so many are solved at")

@@ -115,7 +115,7 @@ def symmetries() -> Iterator[Law]:
 def balances() -> Iterator[Law]:
     """Equal questions have equal answers, and the load that goes in comes out."""
     for name, scene in (("rest", _family("rough at rest", 1.0, 1.0, 1.0)), ("sliding", ROUGH_SLIDE)):
-        said = f"SceneLike twice, a rough contact has the same answer: {name}"
+        said = f"Asked twice, a rough contact has the same answer: {name}"
         form = alike(dict.fromkeys((*FORCES, "depth"), 1.0))
         yield Law(f"same.{name}", KEPT, said, (scene, scene), form, EXACT, twice=True)
 

@@ -74,9 +74,10 @@ class WorkPrecision(Study):
         if size not in SIZES:
             raise InvalidInput(f"size = {size}: allowed are {', '.join(SIZES)}")
         chosen = tuple(DIAGRAMS) if ALL in asked else tuple(dict.fromkeys(asked))
-        if models and MODELS not in chosen:
+        several = listed(models)
+        if several and MODELS not in chosen:
             raise InvalidInput(f"models: of the diagram {MODELS} alone, and not of {', '.join(chosen)}")
-        others = (Model.of(named(each, {}) if isinstance(each, str) else each).solver for each in listed(models))
+        others = (Model.of(named(each, {}) if isinstance(each, str) else each).solver for each in several)
         return cls(chosen, size, tuple(others))
 
     @property
