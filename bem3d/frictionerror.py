@@ -3,13 +3,13 @@
 What is known of one pressure: estimates of friction that fail in different ways, and the same estimates on pixels
 twice as wide. `friction_error.csv` has what the error is in proportion to, fitted to random contacts that were
 solved on finer grids: the 95 % quantile of its logarithm, linear in `signs` (Koenker and Bassett, Econometrica 46,
-33, 1978).
+33, 1978). The residual and a sharp tip add to it.
 """
 
 import csv
 from collections.abc import Mapping
 from functools import cache
-from math import ceil, exp, isnan, log, sqrt
+from math import ceil, exp, isnan, log, pi, sqrt
 from pathlib import Path
 from typing import NamedTuple
 
@@ -28,6 +28,7 @@ LEAST_LAG = 3e-3  # below which what friction has beyond the first order in the 
 LEAST = 1e-7  # change over friction: less is rounding, or the tolerance
 MOST = 10.0  # change over friction: more is no more
 OF_TOLERANCE = 3.0  # error of friction over the residual, at most
+OF_TIP = 0.045  # error of friction over `at_tip`; 0.043 for a cone on a Kelvin solid whose contact ends at its tip
 UNTOLD = 0.5  # of friction: where estimates differ by more, or the error may be more, it is no answer
 SPARE, FARTHEST = 1.5, 8.0  # points over what the estimates ask for, and over those there are, at most
 
@@ -54,9 +55,7 @@ def estimated(problem: Problem, grid: Grid, pressure: np.ndarray, lost: Lost) ->
         return friction, None
     wider = grid.coarser() if isinstance(problem.scene.indenter, Plane) else grid.wider()
     coarser = Friction.of(problem, wider, wider.averaged(pressure, grid), surface, lost)
-    touched = pressure > 0
-    spot, count = grid.spot_radius(touched), int(np.count_nonzero(touched))
-    return friction, signs(problem, grid, friction, coarser, spot, count)
+    return friction, signs(problem, grid, friction, coarser, pressure > 0)
 
 
 def bound(seen: "Signs", friction: Friction, points: int, residual: float) -> float:
@@ -68,7 +67,8 @@ def bound(seen: "Signs", friction: Friction, points: int, residual: float) -> fl
     wrong.
     """
     weights = _fitted()[seen.kind]
-    found = exp(sum(weights[name] * value for name, value in seen.numbers.items())) + OF_TOLERANCE * residual
+    found = exp(sum(weights[name] * value for name, value in seen.numbers.items()))
+    found += OF_TIP * seen.tip + OF_TOLERANCE * residual
     apart = friction.contradiction
     if max(apart, found) > UNTOLD:
         times = min(max(found, apart / (1 - min(apart, 0.9))) * SPARE, FARTHEST)
@@ -81,17 +81,18 @@ def bound(seen: "Signs", friction: Friction, points: int, residual: float) -> fl
 
 
 class Signs(NamedTuple):
-    """Signs of an error: the kind of contact, by which they weigh, and numbers by name."""
+    """Signs of an error: the kind of contact, by which they weigh, numbers by name, and `at_tip`, which adds."""
 
     kind: str
     numbers: Mapping[str, float]
+    tip: float = 0.0
 
 
-def signs(problem: Problem, grid: Grid, friction: Friction, coarser: Friction, spot: float, touched: int) -> Signs:
+def signs(problem: Problem, grid: Grid, friction: Friction, coarser: Friction, touched: np.ndarray) -> Signs:
     """Signs of the error of friction.
 
     friction, coarser : of one pressure, on the pixels of the grid and on those twice as wide
-    spot : radius of a spot of contact [m]; touched : pixels in contact
+    touched : pixels in contact, bool, of the shape of the grid
 
     Logarithms of what friction changes by, as far as that counts, from one estimate to another and from the pixels
     to those twice as wide; and of how many pixels there are on what has to be resolved.
@@ -114,7 +115,7 @@ def signs(problem: Problem, grid: Grid, friction: Friction, coarser: Friction, s
     least = LEAST_SHARE * sqrt(sum(each**2 for each in changes.values()))
     changes["curvature to answer"] = change(1.0, friction.by_curvature, force)  # of a fast flow it tells the speed
     scene, waves = problem.scene, problem.points_per_wave(grid)
-    across, smooth = log(spot / grid.pixel), isnan(waves)
+    across, smooth = log(grid.spot_radius(touched) / grid.pixel), isnan(waves)
     breadth = log(problem.flow.memory / problem.flow.trail)
     kind = f"{'smooth' if smooth else 'rough'}, {'slow' if slow > 1 / 2 else 'fast'}"
     return Signs(
@@ -122,7 +123,7 @@ def signs(problem: Problem, grid: Grid, friction: Friction, coarser: Friction, s
         {
             "one": 1.0,
             **{name: log(max(each, least)) for name, each in changes.items()},
-            "points": log(touched),
+            "points": log(np.count_nonzero(touched)),
             "spot": across,
             "spot, squared": across**2,
             "edge": across - log(getattr(scene.indenter, "exponent", 2.0)),
@@ -134,7 +135,25 @@ def signs(problem: Problem, grid: Grid, friction: Friction, coarser: Friction, s
             "slowness": slow,
             "plane": float(isinstance(scene.indenter, Plane)),
         },
+        at_tip(scene.indenter, grid, touched, lag),
     )
+
+
+def at_tip(indenter, grid: Grid, touched: np.ndarray, lag: float) -> float:
+    """Scale of the error that the pixels at a sharp tip leave; 0 without such a tip, or where it is free.
+
+    At the tip of a body r^n the pressure on a viscous solid grows as r^(n - 2), and the friction within r as
+    r^(2 n - 1): that is the order of the error in the pixel over the radius of contact, the first for a cone. The
+    more a solid is glassy on a pixel, by the lag of the grid's shortest wave, the less there is of it.
+
+    touched : pixels in contact, bool, of the shape of the grid
+    """
+    exponent, (x, y) = getattr(indenter, "exponent", 2.0), grid.places
+    around = np.maximum(abs(x), abs(y)) < 1.1 * grid.pixel  # four pixels around a corner, or nine around a centre
+    if exponent >= 2 or not touched[around].any():
+        return 0.0
+    radius = sqrt(np.count_nonzero(touched) / pi)  # of the contact [pixel]
+    return lag / radius ** (2 * exponent - 1)
 
 
 @cache

@@ -7,7 +7,7 @@ import pytest
 
 from bem3d import BEM, frictionerror
 from bem3d.friction import Friction, curvature_by_pressure
-from bem3d.frictionerror import UNTOLD, Signs, bound
+from bem3d.frictionerror import UNTOLD, Signs, at_tip, bound
 from bem3d.grid import Grid
 from bem3d.spots import Spots
 from scene import (
@@ -79,6 +79,29 @@ def test_friction_of_slow_bodies_is_within_its_error_or_refused(points):
     # One in ten may lie beyond a bound of 95 %; by half of it none.
     assert sorted(beyond)[-2] <= 1
     assert max(beyond) < 1.5
+
+
+@pytest.mark.parametrize("lag", [0.25, 0.5, 1.0])
+def test_friction_of_a_cone_whose_contact_ends_at_the_tip_is_within_its_error(lag):
+    radius = elastic_contact(slid(Cone(angle=0.1), 0.0)).radius
+    scene = slid(Cone(angle=0.1), lag * radius / TAU)
+    answers = {points: BEM(points=points).solve(scene) for points in (80, 128, 192, 384)}
+    friction = {points: answer.friction_coefficient for points, answer in answers.items()}
+    truth = 2 * friction[384] - friction[192]  # of first order in the pixel
+    for points in (80, 128):
+        error = abs(friction[points] / truth - 1)
+        assert error < answers[points].measures["friction_error"] < 5 * error
+
+
+@pytest.mark.parametrize(("indenter", "order"), [(Cone(angle=0.1), 1), (blunt(1.0), 1), (blunt(1.5), 2)])
+@pytest.mark.parametrize("points", [63, 64])
+def test_the_share_of_a_sharp_tip_falls_with_its_order_and_is_none_where_the_tip_is_free(indenter, order, points):
+    coarse, fine = (Grid(points * times, 1.0) for times in (1, 4))
+    discs = [np.hypot(*np.meshgrid(each.x, each.y)) < 0.4 for each in (coarse, fine)]
+    shares = [at_tip(indenter, *each, 0.5) for each in zip((coarse, fine), discs, strict=True)]
+    assert shares[0] / shares[1] == pytest.approx(4**order, rel=0.02)
+    ring = discs[0] & (np.hypot(*np.meshgrid(coarse.x, coarse.y)) > 0.05)
+    assert at_tip(indenter, coarse, ring, 0.5) == at_tip(Sphere(radius=1.0), coarse, discs[0], 0.5) == 0
 
 
 @pytest.mark.slow
