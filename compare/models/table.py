@@ -225,8 +225,9 @@ def named(name: str, own: Mapping[str, Solver]) -> Solver:
         found = installed[name].load()
     elif ":" in place:
         module, _, attribute = place.partition(":")
-        if os.getcwd() not in sys.path:  # a console command does not look where it is called
-            sys.path.insert(0, os.getcwd())
+        # A console command does not look where it is called. Last, so that no file there hides an installed module.
+        if place == name and os.getcwd() not in sys.path:
+            sys.path.append(os.getcwd())
         try:
             found = getattr(import_module(module), attribute)
         except (ImportError, AttributeError, ValueError) as error:
@@ -236,7 +237,7 @@ def named(name: str, own: Mapping[str, Solver]) -> Solver:
         meant = suggestion(name, known) or "."
         raise InvalidInput(
             f"models = {brief(repr(name))}: no model of that name{meant} There are {', '.join(known)}, those of "
-            f"installed packages (entry points {GROUP}), and MODULE:NAME"
+            f"installed packages (entry points {GROUP}), and, on the command line or from Python, MODULE:NAME"
         )
     return _made(found, repr(name))
 
