@@ -225,7 +225,7 @@ def named(name: str, own: Mapping[str, Solver]) -> Solver:
         found = installed[name].load()
     elif ":" in place:
         module, _, attribute = place.partition(":")
-        # A console command does not look where it is called. Last, so that no file there hides an installed module.
+        # A console command does not look where it is called. Last, as no file there may hide an installed module.
         if place == name and os.getcwd() not in sys.path:
             sys.path.append(os.getcwd())
         try:

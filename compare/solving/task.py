@@ -1,5 +1,6 @@
 """Task: what one worker solves in one go, and the scenes of one solver as such a task."""
 
+import sys
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from importlib import import_module
@@ -97,16 +98,16 @@ class SceneTask:
 
     @property
     def packages(self) -> tuple[str, ...]:
-        """Packages of the scenes and of the solver, which names them where it has several."""
-        module = type(self.solver).__module__
-        own = (module.rpartition(".")[0] or module,) if self.portable else ()
-        return "scene", *getattr(self.solver, "packages", own)
+        """Packages of the scenes, those that the solver names, and the outermost of its classes that name none."""
+        kinds = type(self.solver).__mro__
+        own = [kind.__module__ for kind in kinds if "packages" not in vars(kind) and _importable(kind)]
+        named = getattr(self.solver, "packages", ())
+        return tuple(dict.fromkeys(["scene", *named, *(module.partition(".")[0] for module in own)]))
 
     @property
     def portable(self) -> bool:
         """Whether another process can import the class of the solver: not of a script, a notebook, a function."""
-        kind = type(self.solver)
-        return kind.__module__ != "__main__" and getattr(import_module(kind.__module__), kind.__name__, 0) is kind
+        return _importable(type(self.solver))
 
     def solve(self, *trail: Any) -> Outcome:
         """Solve every scene, one after the other.
@@ -144,6 +145,14 @@ class SceneTask:
     def fits(self, outcome: Outcome) -> bool:
         """Whether the outcome has a row for each scene."""
         return len(outcome.rows) == len(self.scenes)
+
+
+def _importable(kind) -> bool:
+    """Whether another process can import a class; what comes with Python is not asked for."""
+    module = kind.__module__
+    if module == "__main__" or module.partition(".")[0] in sys.stdlib_module_names:
+        return False
+    return getattr(import_module(module), kind.__name__, None) is kind
 
 
 def _source(kind) -> str:
