@@ -13,6 +13,7 @@ from pydantic import TypeAdapter
 
 from scene import EmptyContact, Program, Refused, Scene, SolveError, Solver
 from scene.motion import UNITS
+from scene.quantities import MOST_SEED
 
 from .outcome import Outcome, Row, row
 
@@ -171,13 +172,25 @@ def _source(kind) -> str:
     return "\n".join(told)
 
 
-def draws_of(scene: Scene, seeds: int | Iterable[int]) -> tuple[Scene, ...]:
-    """The scene with its seed plus each of some, or of so many; smooth bodies and plain waves have one draw."""
+def refuse_seed(scene: Scene, most: int) -> None:
+    """Raise Refused of a rough scene whose seed plus so many is larger than any that is stored."""
+    if (seed := getattr(scene.roughness, "seed", 0)) > MOST_SEED - most:
+        raise Refused(
+            f"roughness.seed = {seed}: at most {MOST_SEED - most} is allowed, as the surfaces that are drawn have "
+            "the seeds from this one on"
+        )
 
+
+def draws_of(scene: Scene, seeds: int | Iterable[int]) -> tuple[Scene, ...]:
+    """The scene with its seed plus each of some, or of so many; smooth bodies and plain waves have one draw.
+
+    Raises Refused of a seed that is too large for it.
+    """
     rough: Any = scene.roughness
     if not hasattr(rough, "seed"):
         return (scene,)
-    added = range(seeds) if isinstance(seeds, int) else seeds
+    added = tuple(range(seeds) if isinstance(seeds, int) else seeds)
+    refuse_seed(scene, max(added, default=0))
     return tuple(replace(scene, roughness=replace(rough, seed=rough.seed + each)) for each in added)
 
 
