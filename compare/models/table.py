@@ -14,7 +14,8 @@ from bem3d import BEM
 from mdr1d import MDR
 from scene import Solver
 from scene.printable import brief
-from scene.reading import InvalidInput
+from scene.quantities import MOST_WHOLE
+from scene.reading import InvalidInput, whole
 
 from ..solving.suggest import suggestion
 
@@ -72,6 +73,8 @@ class Model:
             raise InvalidInput(
                 f"{told}: its settings are to be numbers, texts and rows of them: {error}"
             ) from error
+        if hasattr(solver, "points"):
+            whole(f"{told}: its `points`", solver.points, MOST_WHOLE)
         draws = cast(Draws, getattr(solver, "draws", draws))
         if draws not in DRAWS:
             raise InvalidInput(f"{told}: its `draws` is {brief(repr(draws))}, {', '.join(DRAWS)} are allowed")

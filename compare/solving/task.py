@@ -13,7 +13,7 @@ from pydantic import TypeAdapter
 
 from scene import EmptyContact, Program, Refused, Scene, SolveError, Solver
 from scene.motion import UNITS
-from scene.quantities import MOST_SEED
+from scene.quantities import MOST_WHOLE
 
 from .outcome import Outcome, Row, row
 
@@ -174,10 +174,10 @@ def _source(kind) -> str:
 
 def refuse_seed(scene: Scene, most: int) -> None:
     """Raise Refused of a rough scene whose seed plus so many is larger than any that is stored."""
-    if (seed := getattr(scene.roughness, "seed", 0)) > MOST_SEED - most:
+    if (seed := getattr(scene.roughness, "seed", 0)) > MOST_WHOLE - most:
         raise Refused(
-            f"roughness.seed = {seed}: at most {MOST_SEED - most} is allowed, as the surfaces that are drawn have "
-            "the seeds from this one on"
+            f"roughness.seed = {seed}: at most {MOST_WHOLE - most} is allowed, as the surfaces that are drawn "
+            "have the seeds from this one on"
         )
 
 

@@ -69,6 +69,12 @@ def test_a_measure_that_has_the_name_of_something_else_is_no_answer(measure):
 
 
 @dataclass(frozen=True)
+class Gridded(Stiff):
+    points: int = 64
+    name = "Gridded"
+
+
+@dataclass(frozen=True)
 class Averaging(Stiff):
     name, draws = "Averaging", "none"
 
@@ -146,6 +152,8 @@ def test_a_model_that_answers_nothing_is_told_and_takes_no_other_with_it(error, 
         (["bem", Stiff], None, "frozen dataclass"),
         (["bem", object()], None, "frozen dataclass"),
         (["bem", replace(Stiff(), factor=object())], None, "numbers, texts"),
+        (["bem", Gridded(points=2**63)], None, f"its `points` = {2**63}: a whole number from 1 to {2**63 - 1}"),
+        (["bem", Gridded(points="64")], None, "its `points` = '64': a whole number"),
         *(
             (["bem", called(name)], None, "its `name` is")
             for name in ("", "..", "a/b", "$x", "\ud800", "\u202e", 3)

@@ -31,7 +31,7 @@ from compare.statistics.finding import Claim
 from compare.statistics.jackknife import DrawSet, friction, judge, mean
 from mdr1d import MDR
 from scene import Indent, Layer, Refused
-from scene.quantities import MOST_SEED
+from scene.quantities import MOST_WHOLE
 from scene.reading import InvalidInput
 
 ROUGH = ParameterGrid(
@@ -213,7 +213,7 @@ def seeded(seed):
 
 
 def test_the_largest_seeds_are_told_apart_in_a_file_of_results(tmp_path):
-    last = MOST_SEED - len(LEVELS) * MOST_DRAWS
+    last = MOST_WHOLE - len(LEVELS) * MOST_DRAWS
     each = replace(ROUGH, scene=seeded(last))
     found = tree({"rough": each}, {task: outcome_of(task) for task in each.tasks()})
     (tmp_path / netcdf.NAME).write_bytes(netcdf.packed(found))
@@ -223,21 +223,21 @@ def test_the_largest_seeds_are_told_apart_in_a_file_of_results(tmp_path):
         assert seeds.values.tolist() == [last + k for k in range(4)]
 
 
-@pytest.mark.parametrize("seed", [MOST_SEED + 1, 2**64])
+@pytest.mark.parametrize("seed", [MOST_WHOLE + 1, 2**64])
 def test_a_seed_that_no_file_holds_is_refused_by_its_field(seed):
-    with pytest.raises(ValidationError, match=rf"seed\n.*less than or equal to {MOST_SEED}"):
+    with pytest.raises(ValidationError, match=rf"seed\n.*less than or equal to {MOST_WHOLE}"):
         seeded(seed)
 
 
 def test_surfaces_whose_seeds_no_file_holds_are_refused():
-    (last,) = draws_of(seeded(MOST_SEED - 1), [1])
-    assert last.roughness.seed == MOST_SEED
-    with pytest.raises(Refused, match=rf"roughness\.seed = {MOST_SEED}: at most {MOST_SEED - 1} is allowed"):
+    (last,) = draws_of(seeded(MOST_WHOLE - 1), [1])
+    assert last.roughness.seed == MOST_WHOLE
+    with pytest.raises(Refused, match=rf"roughness\.seed = {MOST_WHOLE}: at most {MOST_WHOLE - 1} is allowed"):
         draws_of(last, 2)
 
 
 @pytest.mark.parametrize("command", ["run", "sweep", "study", "plan"])
-@pytest.mark.parametrize("seed", [MOST_SEED, MOST_SEED + 1])
+@pytest.mark.parametrize("seed", [MOST_WHOLE, MOST_WHOLE + 1])
 def test_seeds_that_surfaces_would_leave_behind_are_refused_before_any_work(command, seed, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     text = HEAD + SHARED + TABLES + "[[series]]\nname = 'a'\n" if command == "study" else SCENE

@@ -20,7 +20,7 @@ from scene import (
     Slide,
     SolveError,
 )
-from scene.quantities import MOST_SEED
+from scene.quantities import MOST_WHOLE
 
 from .conditions import conditions, kelvin_surface
 from .hardcase import Check, Group, deviation
@@ -170,7 +170,7 @@ def steep_beyond_sense(size):
             yield deviation(f"{solver.name}: {name} over the stretch", ratio, getattr(one, name), 1e-12)
 
 
-SEEDED = {f"seed {seed:g}": resting(roughness=replace(ROUGH, seed=seed)) for seed in (2**53 + 1, MOST_SEED)}
+SEEDED = {f"seed {seed:g}": resting(roughness=replace(ROUGH, seed=seed)) for seed in (2**53 + 1, MOST_WHOLE)}
 case.add(
     "huge-seeds",
     "Seeds up to the largest.",
