@@ -3,7 +3,7 @@
 from dataclasses import replace
 from functools import lru_cache
 from math import pi, sqrt
-from typing import Annotated, Any, Literal
+from typing import Any, Literal
 
 import numpy as np
 from pydantic import ConfigDict, Field, model_validator
@@ -16,7 +16,7 @@ from .heightmap import LONGEST, SHORTEST
 from .linescan import Interval, LineLaw
 from .periodogram import taken_off
 from .printable import brief
-from .quantities import CLOSED, METRE, RADIAN_PER_METRE, Length, Whole, by_name, takes
+from .quantities import CLOSED, METRE, RADIAN_PER_METRE, Length, Seed, by_name, takes
 from .scan import UNITS
 from .scanned import QUOTIENT
 from .selfaffine import SelfAffine
@@ -62,7 +62,7 @@ class Profile:
     level: Literal["mean", "tilt", "curvature", "cubic"] = "tilt"
     repeat: Literal["mirror", "periodic"] = "mirror"
     shortest_kept: Length | None = None
-    seed: Annotated[Whole, Field(ge=0)] = 0
+    seed: Seed = 0
     type: Literal["profile"] = Field(default="profile", repr=False)
 
     @model_validator(mode="before")

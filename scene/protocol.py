@@ -34,7 +34,8 @@ class Solver(Protocol):
     draws : what its means are taken over: "profiles" in one dimension, "surfaces", or "none"; surfaces
     answers : what it has a claim on, of "friction", "force" (at a depth) and "depth" (under a load); all of them.
         The judge asks it for nothing else, nor for friction at a depth without the force
-    packages : names of the packages whose code its answers depend on; the package of its class
+    packages : names of the packages whose files its answers depend on; the outermost package of its class and of
+        each class that it derives from
     """
 
     __dataclass_fields__: ClassVar[dict[str, Field[Any]]]

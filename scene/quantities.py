@@ -57,6 +57,8 @@ Finite = Annotated[float, BeforeValidator(_as_float), Field(strict=True, allow_i
 Positive = Annotated[Finite, Field(gt=0)]
 NonNegative = Annotated[Finite, Field(ge=0)]
 Whole = Annotated[int, BeforeValidator(_as_int), Field(strict=True)]
+MOST_WHOLE = 2**63 - 1  # the largest whole number that files of results hold
+Seed = Annotated[Whole, Field(ge=0, le=MOST_WHOLE)]
 # Items of a tuple of numbers: an array of any library counts too, and keeps its unit.
 ROW = BeforeValidator(one_by_one)
 

@@ -17,7 +17,7 @@ from .quantities import (
     Length,
     LengthOrZero,
     NonNegative,
-    Whole,
+    Seed,
     by_name,
     takes,
 )
@@ -88,7 +88,7 @@ class SelfAffine:
     longest: Wavelength
     shortest: Wavelength | None = None
     rolloff: Wavelength | None = None
-    seed: Annotated[Whole, Field(ge=0)] = 0
+    seed: Seed = 0
     amplitudes: Literal["fixed", "gaussian"] = "fixed"
     type: Literal["self-affine"] = Field(default="self-affine", repr=False)
 

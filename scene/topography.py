@@ -3,14 +3,14 @@
 from dataclasses import replace
 from functools import lru_cache
 from math import pi
-from typing import Annotated, Any, Literal
+from typing import Any, Literal
 
 import numpy as np
 from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 
 from .form import levelled
-from .quantities import METRE, Whole, by_name, takes
+from .quantities import METRE, Seed, by_name, takes
 from .scanned import MAPPED, QUOTIENT, Scanned
 from .waves import MOST_WAVES, Waves
 
@@ -36,7 +36,7 @@ class Topography(Scanned):
 
     level: Literal["mean", "tilt", "curvature", "cubic"] = "tilt"
     repeat: Literal["mirror", "periodic"] = "mirror"
-    seed: Annotated[Whole, Field(ge=0)] = 0
+    seed: Seed = 0
     type: Literal["topography"] = Field(default="topography", repr=False)
 
     @model_validator(mode="before")

@@ -41,6 +41,16 @@ def _share(given: Any) -> float:
         raise ValueError(str(error).partition(": ")[2]) from None
 
 
+def _no_module(name: str) -> str:
+    """Name of a model that a file may state: MODULE:NAME would run code of a stranger."""
+    if ":" in name:
+        raise ValueError(
+            "a file may name models of this and of installed packages; MODULE:NAME is for --models on the command "
+            "line, and for Python"
+        )
+    return name
+
+
 def _whole_letters(text: str) -> str:
     text.encode()  # raises ValueError of halves of letters, which no file holds
     return text
@@ -53,6 +63,7 @@ _NUMBER = {"type": "number", "exclusiveMinimum": 0, "exclusiveMaximum": 1}
 Share = Annotated[float, BeforeValidator(_share), WithJsonSchema({"anyOf": [_NUMBER, _WRITTEN]})]
 Factors = Annotated[tuple[Positive, ...], ROW, Field(min_length=1, max_length=MOST_VALUES)]
 MOST_MODELS = 8  # compared at once
+ModelNames = Annotated[tuple[Annotated[str, AfterValidator(_no_module)], ...], Field(max_length=MOST_MODELS)]
 Speeds = Annotated[tuple[Speed, ...], ROW, Field(min_length=1, max_length=MOST_VALUES)]
 
 
@@ -129,8 +140,8 @@ class Case:
     departures : of a case of the paper: sentences that say how the case departs from it
     indenter, elastomer, motion, roughness, layer, temperature, heating, interface : of the scene
     study : what is varied around it
-    models : names of the models that are compared: mdr, bem, persson, law, those of installed packages,
-        MODULE:NAME; mdr and bem if none is named
+    models : names of the models that are compared: mdr, bem, persson, law, those of installed packages; mdr and
+        bem if none is named
     reference : name of the one against which the others are judged; bem, or the last, if absent
     bem, mdr : settings of the solvers in three dimensions and in one
     """
@@ -147,7 +158,7 @@ class Case:
     heating: Heating | None = None
     interface: Coulomb | None = None
     study: Variations = Variations()
-    models: Annotated[tuple[str, ...], Field(max_length=MOST_MODELS)] = ()
+    models: ModelNames = ()
     reference: str = ""
     bem: BEM = BEM(points=128)
     mdr: MDR = MDR(points=5000)

@@ -14,7 +14,8 @@ from bem3d import BEM
 from mdr1d import MDR
 from scene import Solver
 from scene.printable import brief
-from scene.reading import InvalidInput
+from scene.quantities import MOST_WHOLE
+from scene.reading import InvalidInput, whole
 
 from ..solving.suggest import suggestion
 
@@ -72,6 +73,8 @@ class Model:
             raise InvalidInput(
                 f"{told}: its settings are to be numbers, texts and rows of them: {error}"
             ) from error
+        if hasattr(solver, "points"):
+            whole(f"{told}: its `points`", solver.points, MOST_WHOLE)
         draws = cast(Draws, getattr(solver, "draws", draws))
         if draws not in DRAWS:
             raise InvalidInput(f"{told}: its `draws` is {brief(repr(draws))}, {', '.join(DRAWS)} are allowed")
@@ -227,8 +230,9 @@ def named(name: str, own: Mapping[str, Solver]) -> Solver:
         found = installed[name].load()
     elif ":" in place:
         module, _, attribute = place.partition(":")
-        if os.getcwd() not in sys.path:  # a console command does not look where it is called
-            sys.path.insert(0, os.getcwd())
+        # A console command does not look where it is called. Last, as no file there may hide an installed module.
+        if place == name and os.getcwd() not in sys.path:
+            sys.path.append(os.getcwd())
         try:
             found = getattr(import_module(module), attribute)
         except (ImportError, AttributeError, ValueError) as error:
@@ -238,7 +242,7 @@ def named(name: str, own: Mapping[str, Solver]) -> Solver:
         meant = suggestion(name, known) or "."
         raise InvalidInput(
             f"models = {brief(repr(name))}: no model of that name{meant} There are {', '.join(known)}, those of "
-            f"installed packages (entry points {GROUP}), and MODULE:NAME"
+            f"installed packages (entry points {GROUP}), and, on the command line or from Python, MODULE:NAME"
         )
     return _made(found, repr(name))
 

@@ -26,7 +26,7 @@ from .continuation import Continuation, by_contact, joined
 from .cost import MOST_DRAWS, Cost
 from .local_moments import local_moments
 from .outcome import Outcome, Row
-from .task import SceneTask, Task, draws_of
+from .task import SceneTask, Task, draws_of, refuse_seed
 from .vocabulary import attributes
 
 if TYPE_CHECKING:
@@ -111,6 +111,7 @@ class ParameterGrid:
                 allowed = f"{grids} whole numbers, one for each grid, from 1 to {MOST_DRAWS:,}"
                 raise ValueError(f"draws = {brief(repr(counts))} of {name}: {allowed}")
         object.__setattr__(self, "draws", draws)
+        refuse_seed(self.scene, len(LEVELS) * MOST_DRAWS)  # of all strata, however many surfaces they will have
 
     @property
     def prescribed(self) -> str:

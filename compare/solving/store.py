@@ -13,6 +13,7 @@ import time
 from base64 import b64decode, b64encode
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
+from fnmatch import fnmatchcase
 from functools import cache
 from importlib.metadata import version
 from importlib.util import find_spec
@@ -35,7 +36,8 @@ PACKAGES = ("mdr-bem-crosscheck", "numpy", "scipy", "ducc0", "pyfftw", "numba")
 TEMPORARY = re.compile(r"\.crosscheck-([0-9a-f]{8})-([0-9]{1,10})-([0-9]{1,11})-[0-9a-f]{16}")
 LEFT = 7 * 86400  # age from which one of another machine counts as left behind [s]
 DIGEST = 32  # letters of a digest
-SOURCES = {".py", ".json", ".gz"}  # what answers are made of
+# Names of files and folders in a package that no wheel has: left by Python, by editors, by merges.
+UNSHIPPED = ("__pycache__", ".*", "*~", "#*#", "*.bak", "*.orig", "*.rej")
 HEAD = 3 * DIGEST + 2  # letters of a line before its content: its digest, and the key of two digests
 # Most bytes of the file, of a line in it (a longer one is passed over), and of the fields of a task.
 MOST_BYTES, MOST_LINE, MOST_FIELDS = 2**34, 2**26, 2**32
@@ -374,12 +376,28 @@ def _digest(content: bytes) -> str:
     return hashlib.sha256(content).hexdigest()[:DIGEST]
 
 
-def code_digest(folder: Path) -> str:
-    """Digest of every source below a folder, what was measured included, or of one file: names and content."""
-    files = (path for path in folder.rglob("*") if path.suffix in SOURCES)
-    sources = {path.relative_to(folder).as_posix(): path for path in files}
+def shipped(folder: Path) -> dict[str, Path]:
+    """Every file of a package, code and data, by its name in the folder; without what `UNSHIPPED` names."""
+    files = {path.relative_to(folder): path for path in folder.rglob("*") if path.is_file()}
+    return {
+        name.as_posix(): path
+        for name, path in files.items()
+        if not any(fnmatchcase(part, pattern) for part in name.parts for pattern in UNSHIPPED)
+    }
+
+
+def code_digest(*places: Path) -> str:
+    """Digest of names and content of every file that a package ships, or of one file.
+
+    places : folders of the package, of which it may have several, or the file
+
+    A checkout has the digest of the wheel that is made of it.
+    """
+    found: dict[str, Path] = {}
+    for place in places:
+        found |= {place.name: place} if place.is_file() else shipped(place)
     whole = hashlib.sha256()
-    for name, path in sorted(sources.items() if folder.is_dir() else [(folder.name, folder)]):
+    for name, path in sorted(found.items()):
         content = path.read_bytes()
         whole.update(f"{name}\0{len(content)}\0".encode())
         whole.update(content)
@@ -408,6 +426,4 @@ def _package_digest(package):
     if package == "__main__" and script.__spec__ is None:  # a script has no other name
         return code_digest(Path(str(script.__file__)))
     spec = find_spec(package)
-    return code_digest(
-        Path(spec.submodule_search_locations[0] if spec.submodule_search_locations else spec.origin)
-    )
+    return code_digest(*map(Path, spec.submodule_search_locations or [spec.origin]))

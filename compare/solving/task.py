@@ -1,5 +1,6 @@
 """Task: what one worker solves in one go, and the scenes of one solver as such a task."""
 
+import sys
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from importlib import import_module
@@ -12,6 +13,7 @@ from pydantic import TypeAdapter
 
 from scene import EmptyContact, Program, Refused, Scene, SolveError, Solver
 from scene.motion import UNITS
+from scene.quantities import MOST_WHOLE
 
 from .outcome import Outcome, Row, row
 
@@ -97,16 +99,16 @@ class SceneTask:
 
     @property
     def packages(self) -> tuple[str, ...]:
-        """Packages of the scenes and of the solver, which names them where it has several."""
-        module = type(self.solver).__module__
-        own = (module.rpartition(".")[0] or module,) if self.portable else ()
-        return "scene", *getattr(self.solver, "packages", own)
+        """Packages of the scenes, those that the solver names, and the outermost of its classes that name none."""
+        kinds = type(self.solver).__mro__
+        own = [kind.__module__ for kind in kinds if "packages" not in vars(kind) and _importable(kind)]
+        named = getattr(self.solver, "packages", ())
+        return tuple(dict.fromkeys(["scene", *named, *(module.partition(".")[0] for module in own)]))
 
     @property
     def portable(self) -> bool:
         """Whether another process can import the class of the solver: not of a script, a notebook, a function."""
-        kind = type(self.solver)
-        return kind.__module__ != "__main__" and getattr(import_module(kind.__module__), kind.__name__, 0) is kind
+        return _importable(type(self.solver))
 
     def solve(self, *trail: Any) -> Outcome:
         """Solve every scene, one after the other.
@@ -146,6 +148,14 @@ class SceneTask:
         return len(outcome.rows) == len(self.scenes)
 
 
+def _importable(kind) -> bool:
+    """Whether another process can import a class; what comes with Python is not asked for."""
+    module = kind.__module__
+    if module == "__main__" or module.partition(".")[0] in sys.stdlib_module_names:
+        return False
+    return getattr(import_module(module), kind.__name__, None) is kind
+
+
 def _source(kind) -> str:
     """Source of a class; of one whose source is lost, the code of its methods."""
     try:
@@ -162,13 +172,25 @@ def _source(kind) -> str:
     return "\n".join(told)
 
 
-def draws_of(scene: Scene, seeds: int | Iterable[int]) -> tuple[Scene, ...]:
-    """The scene with its seed plus each of some, or of so many; smooth bodies and plain waves have one draw."""
+def refuse_seed(scene: Scene, most: int) -> None:
+    """Raise Refused of a rough scene whose seed plus so many is larger than any that is stored."""
+    if (seed := getattr(scene.roughness, "seed", 0)) > MOST_WHOLE - most:
+        raise Refused(
+            f"roughness.seed = {seed}: at most {MOST_WHOLE - most} is allowed, as the surfaces that are drawn "
+            "have the seeds from this one on"
+        )
 
+
+def draws_of(scene: Scene, seeds: int | Iterable[int]) -> tuple[Scene, ...]:
+    """The scene with its seed plus each of some, or of so many; smooth bodies and plain waves have one draw.
+
+    Raises Refused of a seed that is too large for it.
+    """
     rough: Any = scene.roughness
     if not hasattr(rough, "seed"):
         return (scene,)
-    added = range(seeds) if isinstance(seeds, int) else seeds
+    added = tuple(range(seeds) if isinstance(seeds, int) else seeds)
+    refuse_seed(scene, max(added, default=0))
     return tuple(replace(scene, roughness=replace(rough, seed=rough.seed + each)) for each in added)
 
 

@@ -22,6 +22,8 @@ from .task import Task
 MOST = 1024
 # A worker solves on one thread; two workers with two threads each are slower than either alone.
 ONE_THREAD = {f"{library}_NUM_THREADS": "1" for library in ("OMP", "OPENBLAS", "MKL", "NUMBA")}
+# Python would look for the first modules of a new process in the working folder.
+ENVIRONMENT = ONE_THREAD | {"PYTHONSAFEPATH": "1"}
 _STARTING = threading.Lock()  # of one process after the other, as the environment is that of all threads
 # Pools that end before a worker of theirs is ready, one after the other, until it is plain that none will be.
 STILLBORN = 3
@@ -148,9 +150,10 @@ class Processes:
         if self.pool is None or self.fresh:
             self._end()
             self.ready = self.context.Value("b", 0, lock=False)
-            self.pool = ProcessPoolExecutor(self.count, self.context, _begin, (self.ready,))
+            with _STARTING, _environment(ENVIRONMENT):  # it starts a process that keeps count of its semaphores
+                self.pool = ProcessPoolExecutor(self.count, self.context, _begin, (self.ready,))
         try:
-            with _STARTING, _environment(ONE_THREAD), _held():
+            with _STARTING, _environment(ENVIRONMENT), _held():
                 return self.pool.submit(answered, packed)
         except BrokenProcessPool:
             self.lost()

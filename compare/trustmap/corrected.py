@@ -48,7 +48,13 @@ class CorrectedMDR:
     label: ClassVar[str] = "1D corrected"
     draws: ClassVar[str] = "none"  # it answers with the mean
     # Whose code and data the answer depends on.
-    packages: ClassVar[tuple[str, ...]] = ("mdr1d", "bem3d", "compare.models", "compare.trustmap")
+    packages: ClassVar[tuple[str, ...]] = (
+        "mdr1d",
+        "bem3d",
+        "compare.models",
+        "compare.statistics",
+        "compare.trustmap",
+    )
 
     mdr: MDR = MDR(points=4000)
     profiles: Draws = 40

@@ -69,6 +69,12 @@ def test_a_measure_that_has_the_name_of_something_else_is_no_answer(measure):
 
 
 @dataclass(frozen=True)
+class Gridded(Stiff):
+    points: int = 64
+    name = "Gridded"
+
+
+@dataclass(frozen=True)
 class Averaging(Stiff):
     name, draws = "Averaging", "none"
 
@@ -146,6 +152,8 @@ def test_a_model_that_answers_nothing_is_told_and_takes_no_other_with_it(error, 
         (["bem", Stiff], None, "frozen dataclass"),
         (["bem", object()], None, "frozen dataclass"),
         (["bem", replace(Stiff(), factor=object())], None, "numbers, texts"),
+        (["bem", Gridded(points=2**63)], None, f"its `points` = {2**63}: a whole number from 1 to {2**63 - 1}"),
+        (["bem", Gridded(points="64")], None, "its `points` = '64': a whole number"),
         *(
             (["bem", called(name)], None, "its `name` is")
             for name in ("", "..", "a/b", "$x", "\ud800", "\u202e", 3)
@@ -242,3 +250,40 @@ def test_a_study_judges_every_model_against_the_reference(tmp_path):
     columns = ["claim", "where", "dimension", "value", "low", "high", "verdict"]
     pair = report.table[~report.table["dimension"].str.contains("Stiff")]
     assert alone.table[columns].to_csv() == pair[columns].reset_index(drop=True).to_csv()
+
+
+STRANGER = {
+    "scene": "models = ['mdr', 'bem', 'stranger:Model']\n"
+    + """
+indenter = {type = "sphere", radius = "10 mm"}
+elastomer = {type = "kelvin", modulus = "1 MPa", relaxation_time = "1 ms"}
+motion = {type = "slide", speed = "0.1 m/s", load = "1 N"}
+""",
+    "study": OWN.replace('models = ["mdr", "bem"]', "models = ['mdr', 'bem', 'stranger:Model']"),
+}
+
+
+@pytest.mark.parametrize(("command", "kind"), [("plan", "scene"), ("run", "scene"), ("study", "study")])
+def test_a_file_that_names_a_module_is_refused_and_nothing_of_it_is_imported(command, kind, tmp_path):
+    (tmp_path / f"{kind}.toml").write_text(STRANGER[kind])
+    (tmp_path / "stranger.py").write_text("open('ran', 'w')")
+    ended = subprocess.run(
+        [sys.executable, "-c", "from compare.cli.app import main; main()", command, f"{kind}.toml"],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert ended.returncode == 2
+    assert f"{kind}.toml: models.2 = 'stranger:Model': a file may name models of this and" in ended.stderr
+    assert {each.name for each in tmp_path.iterdir()} == {f"{kind}.toml", "stranger.py"}
+
+
+def test_the_working_folder_is_the_last_place_where_a_model_is_looked_for(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(sys, "path", list(sys.path))
+    (tmp_path / "own_stiff.py").write_text("from bem3d import BEM\nclass Own(BEM): name = 'Own'\n")
+    Models.of(["bem", "law"])
+    assert str(tmp_path) not in sys.path
+    Models.of(["bem", "own_stiff:Own"])
+    assert sys.path[-1] == str(tmp_path)

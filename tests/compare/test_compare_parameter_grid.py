@@ -1,21 +1,37 @@
 """Everything that was solved is a Dataset with named dimensions, units, and a status of each contact."""
 
+import re
 from dataclasses import replace
 from math import nan
 
 import numpy as np
 import pytest
 import xarray
+from pydantic import ValidationError
+from scene_files import HEAD, SCENE, SHARED, TABLES
 from small_cases import SLIDING
+from typer.testing import CliRunner
 
 from bem3d import BEM
+from compare.cli.app import app
 from compare.solving import netcdf
+from compare.solving.cost import MOST_DRAWS
 from compare.solving.outcome import Outcome, Row
-from compare.solving.parameter_grid import ParameterGrid, contacts_of, on_levels, on_two_grids, tasks_of, tree
+from compare.solving.parameter_grid import (
+    LEVELS,
+    ParameterGrid,
+    contacts_of,
+    on_levels,
+    on_two_grids,
+    tasks_of,
+    tree,
+)
+from compare.solving.task import draws_of
 from compare.statistics.finding import Claim
 from compare.statistics.jackknife import DrawSet, friction, judge, mean
 from mdr1d import MDR
 from scene import Indent, Layer, Refused
+from scene.quantities import MOST_WHOLE
 from scene.reading import InvalidInput
 
 ROUGH = ParameterGrid(
@@ -190,3 +206,43 @@ def test_a_claim_is_measured_with_scatter_and_with_the_change_on_halving(answers
     halved = answers.copy()
     halved["rough/BEM"]["normal_force"].loc[{"grid": "coarse"}] *= 1.25
     assert judge(claim, halved).grid == pytest.approx(0.2)
+
+
+def seeded(seed):
+    return replace(SLIDING, roughness=replace(SLIDING.roughness, seed=seed))
+
+
+def test_the_largest_seeds_are_told_apart_in_a_file_of_results(tmp_path):
+    last = MOST_WHOLE - len(LEVELS) * MOST_DRAWS
+    each = replace(ROUGH, scene=seeded(last))
+    found = tree({"rough": each}, {task: outcome_of(task) for task in each.tasks()})
+    (tmp_path / netcdf.NAME).write_bytes(netcdf.packed(found))
+    for made in (found, netcdf.load(tmp_path / netcdf.NAME)):
+        seeds = made["rough/MDR"].seed
+        assert seeds.dtype == np.int64
+        assert seeds.values.tolist() == [last + k for k in range(4)]
+
+
+@pytest.mark.parametrize("seed", [MOST_WHOLE + 1, 2**64])
+def test_a_seed_that_no_file_holds_is_refused_by_its_field(seed):
+    with pytest.raises(ValidationError, match=rf"seed\n.*less than or equal to {MOST_WHOLE}"):
+        seeded(seed)
+
+
+def test_surfaces_whose_seeds_no_file_holds_are_refused():
+    (last,) = draws_of(seeded(MOST_WHOLE - 1), [1])
+    assert last.roughness.seed == MOST_WHOLE
+    with pytest.raises(Refused, match=rf"roughness\.seed = {MOST_WHOLE}: at most {MOST_WHOLE - 1} is allowed"):
+        draws_of(last, 2)
+
+
+@pytest.mark.parametrize("command", ["run", "sweep", "study", "plan"])
+@pytest.mark.parametrize("seed", [MOST_WHOLE, MOST_WHOLE + 1])
+def test_seeds_that_surfaces_would_leave_behind_are_refused_before_any_work(command, seed, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    text = HEAD + SHARED + TABLES + "[[series]]\nname = 'a'\n" if command == "study" else SCENE
+    (tmp_path / "asked.toml").write_text(re.sub(r"seed = \d", f"seed = {seed}", text))
+    answer = CliRunner().invoke(app, [command, "asked.toml"])
+    assert answer.exit_code == 2
+    assert f"roughness.seed = {seed}: " in " ".join(answer.output.split())
+    assert [each.name for each in tmp_path.iterdir()] == ["asked.toml"]

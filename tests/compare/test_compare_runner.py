@@ -217,6 +217,19 @@ def twin(folder):
     return subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment, start_new_session=True)
 
 
+def test_no_process_looks_for_its_first_modules_in_the_working_folder(tmp_path):
+    (tmp_path / "twin.py").write_text(TWIN)
+    here = tmp_path / "here"
+    here.mkdir()
+    for name in ("signal", "threading", "pickle", "selectors"):
+        (here / f"{name}.py").write_text("open('ran', 'w')")
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    command = [sys.executable, str(tmp_path / "twin.py"), str(tmp_path)]
+    assert subprocess.run(command, cwd=here, env=environment, check=False).returncode == 0
+    assert not (here / "ran").exists()
+    assert len(Store(tmp_path / "solved")) == 12
+
+
 def test_a_folder_is_held_until_the_run_that_has_it_ends_or_is_killed(tmp_path):
     other, store, said = twin(tmp_path), Store(tmp_path / "solved"), []
     wait_for(lambda: len(store))

@@ -24,7 +24,7 @@ from compare.models.exact import Exact
 from compare.solving import store as module
 from compare.solving.hold import LOCK, hold
 from compare.solving.outcome import NUMBERS, Outcome, Row
-from compare.solving.store import FILE, Store, canonical, code_digest, key, write
+from compare.solving.store import FILE, Store, canonical, key, write
 from compare.solving.task import SceneTask as Task
 from mdr1d import MDR
 from scene import Indent, Kelvin, Prony, Scene, SelfAffine, Slide, Sphere
@@ -463,16 +463,3 @@ def test_canonical_text_is_json_and_tells_apart_what_differs(value):
     assert "NaN" not in json.dumps(json.loads(text, parse_constant=pytest.fail))
     assert canonical({"a": 1, "b": value}) == text
     assert canonical([value, -0.0]) != canonical([value, 0.0])
-
-
-def test_the_digest_of_code_changes_with_content_and_name(tmp_path):
-    (tmp_path / "a.py").write_text("x = 1\n")
-    first = code_digest(tmp_path)
-    (tmp_path / "notes.txt").write_text("no code")
-    assert code_digest(tmp_path) == first
-    (tmp_path / "a.py").write_text("x = 2\n")
-    second = code_digest(tmp_path)
-    (tmp_path / "a.py").rename(tmp_path / "b.py")
-    third = code_digest(tmp_path)
-    (tmp_path / "measured.csv.gz").write_bytes(b"1")  # what answers are made of
-    assert len({first, second, third, code_digest(tmp_path)}) == 4

@@ -6,10 +6,11 @@ from pathlib import Path
 
 import pytest
 
+from compare.solving.store import shipped
+
 ROOT = Path(__file__).parents[2]
 SETUP = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["setuptools"]
 PACKAGES = ("scene", "mdr1d", "bem3d", "compare")
-CODE = {".py", ".pyc", ".nbi", ".nbc"}  # and what numba keeps
 READ = (
     *(f"{package}/py.typed" for package in PACKAGES),
     *("bem3d/costs.csv", "bem3d/effects.csv", "bem3d/friction_error.csv", "mdr1d/effects.csv"),
@@ -31,7 +32,8 @@ def installed(path):
 
 @pytest.mark.parametrize("package", PACKAGES)
 def test_every_file_that_is_no_code_is_installed(package):
-    data = [each for each in (ROOT / package).rglob("*") if each.is_file() and each.suffix not in CODE]
+    """So a checkout has the digest of its wheel."""
+    data = [each for each in shipped(ROOT / package).values() if each.suffix != ".py"]
     assert [each for each in data if not installed(each)] == []
 
 

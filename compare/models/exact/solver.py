@@ -38,6 +38,7 @@ class Exact:
 
     label: ClassVar[str] = "closed form"
     draws: ClassVar[str] = "none"
+    packages: ClassVar[tuple[str, ...]] = ("compare.models.exact",)  # whose code the answer depends on
 
     @property
     def name(self) -> str:

@@ -30,7 +30,7 @@ from scene.reading import InvalidInput, invalid, parsed, validator
 from scene.rheology import Elastomer
 from scene.temperature import Temperature
 
-from ...library.case import MOST_MODELS, Draws, Share
+from ...library.case import Draws, ModelNames, Share
 from ...library.describe import folders
 from ...library.ready import NotReady, find
 from ...solving.cost import MOST_VALUES
@@ -168,7 +168,7 @@ class StudyFile(_Shared):
 
     title: str
     about: str = ""
-    models: Annotated[tuple[str, ...], Field(max_length=MOST_MODELS)] = ()
+    models: ModelNames = ()
     reference: str = ""
     series: Annotated[tuple[OwnSeries, ...], Field(min_length=1, max_length=MOST_SERIES)]
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from ...solving.outcome import Outcome, Row
 from ...solving.task import Task
+from . import parameters
 
 
 class ArrayTask(Task):
@@ -18,7 +19,11 @@ class ArrayTask(Task):
 
     names: ClassVar[tuple[str, ...]]
     keeps_fields = True
-    packages = ("scene", "mdr1d")
+
+    @property
+    def packages(self) -> tuple[str, ...]:
+        """Packages of the contacts, and the modules that state and solve them."""
+        return "scene", "mdr1d", parameters.__name__, __name__, type(self).__module__
 
     @property
     @abstractmethod
