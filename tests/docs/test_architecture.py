@@ -20,7 +20,6 @@ ARROWS = {
 DOORS = {  # files outside which a library is not imported, in whichever folder they stand
     "pyfftw": {"engine"},
     "ducc0": {"engine"},
-    "cupy": {"engine"},
     "numba": {"loops"},
     "tomllib": {"reading"},
     "SurfaceTopography": {"heightfile"},
