@@ -5,7 +5,7 @@ sum(p) = load. The operator A is positive definite; it need not be symmetric.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -25,9 +25,6 @@ class NotConverged(RuntimeError):
     """No set of contact was found on which all conditions hold to the tolerance."""
 
 
-FUSED = kernels.Fused()
-
-
 @dataclass(frozen=True)
 class Contact:
     """A contact found: planes (ny, nx), and numbers.
@@ -44,11 +41,6 @@ class Contact:
     violation: float
     rounds: int
 
-    def map(self, taken_over: Callable) -> "Contact":
-        """This contact with its planes taken over, to where they are wanted."""
-        planes = {name: taken_over(getattr(self, name)) for name in ("pressure", "displacement", "gap")}
-        return replace(self, **planes)
-
 
 def solve(
     operator: Callable,
@@ -60,7 +52,6 @@ def solve(
     precondition: Callable | None = None,
     foundation: Foundation | None = None,
     symmetric: bool = False,
-    sums=FUSED,
 ) -> Contact:
     """Solve on a set of contact and drop what pulls; add what penetrates once that outweighs what is left.
 
@@ -73,28 +64,26 @@ def solve(
     precondition : approximate inverse, on the whole grid, of the operator without its foundation
     foundation : under a flow, what of the operator remembers along x
     symmetric : conjugate gradients, else GMRES, on a single row elimination
-    sums : see `kernels`
 
     Raises NotConverged.
     """
-    xp = sums.xp
     solver = conjugate_gradients if symmetric else direct if len(heights) == 1 else gmres
-    heights = xp.ascontiguousarray(heights)
-    pressure, accuracy = xp.array(start, order="C"), ACCURACY
+    heights = np.ascontiguousarray(heights)
+    pressure, accuracy = np.array(start, order="C"), ACCURACY
     _balance(pressure, load)
-    gap, displacement = xp.empty(heights.shape), xp.empty(heights.shape)
-    lowest, least = float(heights.min()), float(xp.partition(heights.reshape(-1), FEW)[FEW] - heights.min())
-    most, deepest = ROUNDS + max(heights.shape), xp.inf
-    on_set = _OnSet(operator, precondition, foundation, depth is None, heights.shape, sums)
-    marked, tried = xp.zeros((2, *heights.shape), bool)
+    gap, displacement = np.empty(heights.shape), np.empty(heights.shape)
+    lowest, least = float(heights.min()), float(np.partition(heights.reshape(-1), FEW)[FEW] - heights.min())
+    most, deepest = ROUNDS + max(heights.shape), np.inf
+    on_set = _OnSet(operator, precondition, foundation, depth is None, heights.shape)
+    marked, tried = np.zeros((2, *heights.shape), bool)
     for rounds in range(1, most + 1):
         contact = pressure > 0
         if not contact.any():
             raise NotConverged("nothing is pressed: the pressure is below the range of numbers")
         operator(pressure, out=displacement)
-        mean, highest = _levels(displacement, heights, xp.flatnonzero(contact))
+        mean, highest = _levels(displacement, heights, np.flatnonzero(contact))
         level = mean if depth is None else depth
-        inside, outside = sums.gaps(displacement, heights, level, contact, gap)
+        inside, outside = kernels.gaps(displacement, heights, level, contact, gap)
         aim = tolerance * max(level - lowest, highest - lowest, least)
         if inside <= aim and outside <= aim:
             violation = max(inside, outside) / aim * tolerance
@@ -114,7 +103,7 @@ def solve(
         correction = solver(on_set, -on_set.restricted(gap), accuracy, aim, INNER_ITERATIONS)
         on_set.add(correction, pressure)
         if not pressure.any():  # a poor start, solved too roughly: begin again with what overlaps, and closer
-            pressure, accuracy = xp.maximum(level - heights, 0.0), accuracy / 4
+            pressure, accuracy = np.maximum(level - heights, 0.0), accuracy / 4
         _balance(pressure, load)
     violation = max(inside, outside) / aim * tolerance
     raise NotConverged(f"after {most} sets of contact the violation is {violation:.2e}, wanted {tolerance:.2e}")
@@ -153,15 +142,15 @@ def _balance(pressure, load):
 class _OnSet:
     """The operator on the points of contact alone; at given load on corrections that keep the load."""
 
-    def __init__(self, operator, precondition, foundation, mean_free, shape, sums):
-        self.sums, self.mean_free = sums, mean_free
+    def __init__(self, operator, precondition, foundation, mean_free, shape):
+        self.mean_free = mean_free
         self._operator, self._precondition, self._foundation = operator, precondition, foundation
-        self._plane, self._image = sums.xp.zeros(shape), sums.xp.empty(shape)
+        self._plane, self._image = np.zeros(shape), np.empty(shape)
         self._lifted = None
 
     def turn_to(self, contact):
         """The set of contact (ny, nx)."""
-        self.where, self._contact = self.sums.xp.flatnonzero(contact), contact
+        self.where, self._contact = np.flatnonzero(contact), contact
         self._plane[:] = 0
 
     def restricted(self, plane):
@@ -177,15 +166,15 @@ class _OnSet:
         """
         values = pressure.reshape(-1)[self.where] + correction
         if self._foundation is None:
-            values = self.sums.xp.maximum(values, 0.0)
-        self.sums.put(values, self.where, pressure)
+            values = np.maximum(values, 0.0)
+        kernels.put(values, self.where, pressure)
         if values.min() < 0:
-            self.sums.sink(pressure, self._foundation)
-            self.sums.push(pressure, self._contact, self._foundation, least=0.0)
+            kernels.sink(pressure, self._foundation)
+            kernels.push(pressure, self._contact, self._foundation, least=0.0)
 
     def row(self):
         """Displacement of a single row under a unit load on its first pixel, and on its last."""
-        plane = self.sums.xp.zeros_like(self._plane)
+        plane = np.zeros_like(self._plane)
         images = []
         for place in (0, -1):
             plane[:] = 0
@@ -205,9 +194,9 @@ class _OnSet:
         return self._through(self._precondition, values, out, first, second)
 
     def _through(self, product, values, out, first, second):
-        self.sums.put(values, self.where, self._plane)
+        kernels.put(values, self.where, self._plane)
         product(self._plane, out=self._image)
-        total, along, beside = self.sums.take(self._image, self.where, out, first, second)
+        total, along, beside = kernels.take(self._image, self.where, out, first, second)
         # The vectors are free of mean themselves where means are taken off: their products need no correction.
         return total / out.size if self.mean_free else 0.0, along, beside
 
@@ -235,28 +224,27 @@ class _OnSet:
         """Make ready for `sunk` on this set: at given load, the level and what sinking is worth in load."""
         if not self.mean_free:
             return
-        xp = self.sums.xp
         if self._lifted is None:  # by a displacement of one everywhere: near enough on all sets that follow
-            self._lifted = self._inverted(xp.ones(len(self.where))).copy()
+            self._lifted = self._inverted(np.ones(len(self.where))).copy()
         # The sum of pressures as a sum of what sinks: the transpose of pushing is pushing upstream.
-        worth, contact = xp.ones(self._plane.shape), xp.ascontiguousarray(self._contact[:, ::-1])
+        worth, contact = np.ones(self._plane.shape), np.ascontiguousarray(self._contact[:, ::-1])
         if self._foundation is not None:
-            self.sums.push(worth, contact, self._foundation)
-        self._worth = xp.ascontiguousarray(worth[:, ::-1]).reshape(-1)[self.where]
+            kernels.push(worth, contact, self._foundation)
+        self._worth = np.ascontiguousarray(worth[:, ::-1]).reshape(-1)[self.where]
         level = self._lifted.reshape(-1)[self.where]
         self._level = level / float((self._worth * level).sum())
 
     def _push(self, sunk):
-        self.sums.put(sunk, self.where, self._plane)
+        kernels.put(sunk, self.where, self._plane)
         if self._foundation is not None:
-            self.sums.push(self._plane, self._contact, self._foundation)
+            kernels.push(self._plane, self._contact, self._foundation)
         return self._plane
 
     def _inverted(self, displacement):
         self._plane[:] = 0
-        self.sums.put(displacement, self.where, self._plane)
+        kernels.put(displacement, self.where, self._plane)
         if self._foundation is not None:
-            self.sums.release(self._plane, self._contact, self._foundation)
+            kernels.release(self._plane, self._contact, self._foundation)
         if self._precondition is None:
             return self._plane
         self._precondition(self._plane, out=self._image)

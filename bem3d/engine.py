@@ -1,4 +1,4 @@
-"""Engines, which hold arrays and transform them: the only door to the Fourier transforms and to the GPU.
+"""Engines, which transform arrays: the only door to the Fourier transforms.
 
 A plane of ny x nx values is convolved as rows, then columns, then rows again. Rows of zeros that pad a plane
 are never transformed, and columns go block by block, forward, through the symbol and back, while in the cache.
@@ -11,39 +11,22 @@ from typing import Literal
 
 import numpy as np
 
-from scene.machine import memory
-
-from . import kernels
-
-Library = Literal["ducc0", "fftw", "cupy"]
+Library = Literal["ducc0", "fftw"]
 SMALL = 2**16  # points of a padded plane that is transformed at once: half a megabyte
 BLOCK = 32  # lines transformed at a time: half a megabyte at 512 points, padded
 SHARED = 128  # lines at a time of each of several threads: they wait less for one another
 
 
-class Unavailable(RuntimeError):
-    """The library or the device asked for is not here."""
-
-
 @dataclass(frozen=True)
 class Engine:
-    """library : ducc0 or fftw on the processor, cupy on a GPU
-    threads : that share the blocks of a product on the processor
+    """library : ducc0 or fftw
+    threads : that share the blocks of a product
     precision : of the transforms; everything else is computed in double
     """
 
     library: Library = "ducc0"
     threads: int = 1
     precision: Literal["double", "single"] = "double"
-
-    @property
-    def on_gpu(self) -> bool:
-        return self.library == "cupy"
-
-    @property
-    def xp(self):
-        """The module of arrays: numpy, or cupy. Raises Unavailable."""
-        return _cupy() if self.on_gpu else np
 
     @property
     def real(self):
@@ -55,32 +38,12 @@ class Engine:
         """Number type of the transforms."""
         return np.complex128 if self.precision == "double" else np.complex64
 
-    @property
-    def sums(self):
-        """The sums and updates of an iteration: see `kernels`."""
-        return kernels.Plain(self.xp) if self.on_gpu else kernels.Fused()
-
-    @property
-    def memory(self) -> int:
-        """Bytes that arrays here can take at most."""
-        return self.xp.cuda.runtime.memGetInfo()[1] if self.on_gpu else memory()
-
-    def asarray(self, values):
-        """An array of numpy, here."""
-        return self.xp.asarray(values)
-
-    def asnumpy(self, values) -> np.ndarray:
-        """An array from here, for numpy."""
-        return self.xp.asnumpy(values) if self.on_gpu else np.asarray(values)
-
     def product(self, symbol, shape, padded):
         """The product with a symbol in Fourier space: callable, plane (ny, nx) -> plane, `out` optional.
 
         symbol : (my//2+1, mx//2+1), real or complex, unnormalized; even in q_y
         shape, padded : (ny, nx) and (my, mx); my = 1 multiplies row by row
         """
-        if self.on_gpu:
-            return WholePlane(symbol, shape, padded, self.xp, self.complex)
         if self.library == "ducc0" and shape[0] <= padded[0] and prod(padded) <= SMALL:
             return SmallPlane(symbol, shape, padded, self)
         return Blocked(symbol, shape, padded, self)
@@ -91,8 +54,6 @@ class Engine:
         symbols : xx, xy, yy (my//2+1, mx//2+1), real, unnormalized; xx and yy even in q_y, xy odd
         shape, padded : as in `product`, my > 1
         """
-        if self.on_gpu:
-            return WholePair(symbols, shape, padded, self.xp, self.complex)
         return BlockedPair(symbols, shape, padded, self)
 
     def symmetric(self, kernel, padded, parity=1):
@@ -153,57 +114,6 @@ def _remainder(size):
     return size
 
 
-def _cupy():
-    try:
-        import cupy
-
-        cupy.cuda.runtime.getDeviceCount()
-    except ImportError as error:
-        raise Unavailable("transforms = 'cupy' needs the extra gpu") from error
-    except Exception as error:  # cupy's own errors cannot be named without it
-        raise Unavailable(f"transforms = 'cupy' finds no GPU: {error}") from error
-    return cupy
-
-
-class _Whole:
-    """Planes through symbols in one transform of each padded plane each way; xp: numpy or cupy."""
-
-    def __init__(self, symbols, shape, padded, xp, kind):
-        """symbols: (symbol, parity in q_y) each."""
-        self.shape, self._padded, self._xp = shape, padded, xp
-        rows = np.minimum(np.arange(padded[0]), padded[0] - np.arange(padded[0]))
-        self._symbols = []
-        for symbol, parity in symbols:
-            mirrored = symbol[rows].astype(kind)
-            mirrored[padded[0] // 2 + 1 :] *= parity
-            self._symbols.append(xp.asarray(mirrored))
-        self._real = np.float32 if kind == np.complex64 else np.float64
-        sizes = padded[-1:] if padded[0] == 1 else padded  # of rows alone, or of planes
-        self._axes = {"axes": tuple(range(-len(sizes), 0)), "s": sizes}
-
-    def _waves(self, planes):
-        return self._xp.fft.rfftn(planes.astype(self._real), **self._axes)
-
-    def _image(self, waves, out):
-        ny, nx = self.shape
-        image = self._xp.fft.irfftn(waves, **self._axes)[..., :ny, :nx]
-        if out is None:
-            return image.astype(float)
-        out[:] = image
-        return out
-
-
-class WholePlane(_Whole):
-    """The product with one symbol."""
-
-    def __init__(self, symbol, shape, padded, xp, kind=np.complex128):
-        super().__init__([(symbol, 1)], shape, padded, xp, kind)
-
-    def __call__(self, plane, out=None):
-        """The product (ny, nx)."""
-        return self._image(self._waves(plane) * self._symbols[0], out)
-
-
 class SmallPlane:
     """The product with one symbol, of a plane that stays in the cache: one transform each way, by ducc0."""
 
@@ -228,18 +138,6 @@ class SmallPlane:
             return image[:ny, :nx].astype(float)
         out[:] = image[:ny, :nx]
         return out
-
-
-class WholePair(_Whole):
-    """The product of two planes with a symmetric matrix of symbols."""
-
-    def __init__(self, symbols, shape, padded, xp, kind=np.complex128):
-        super().__init__(zip(symbols, (1, -1, 1), strict=True), shape, padded, xp, kind)
-
-    def __call__(self, planes, out=None):
-        """The product (2, ny, nx)."""
-        (x, y), (xx, xy, yy) = self._waves(planes), self._symbols
-        return self._image(self._xp.stack([xx * x + xy * y, xy * x + yy * y]), out)
 
 
 class _ByBlocks:

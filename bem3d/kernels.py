@@ -1,7 +1,6 @@
 """The sums and updates of an iteration on the points of contact, each in one pass.
 
 Values on the points of contact are vectors (m,); `where` (m,) are their places in a flattened plane, ascending.
-`Plain` says in whole-array arithmetic what `Fused` does in one loop, and is what runs where numba does not.
 """
 
 import numpy as np
@@ -17,121 +16,85 @@ SINK, RELEASE, PUSH = range(3)
 NOWHERE = np.zeros((0, 0), bool)
 
 
-class Marching:
-    """Along the flow over a foundation (see `foundation`), in place, on what `_lap` does on arrays of `xp`."""
-
-    def sink(self, plane, foundation):
-        """Pressure (ny, nx) to the displacement that it makes of a foundation."""
-        states = self._zeros(plane, foundation)
-        if foundation.wraps:
-            self._lap(plane.copy(), NOWHERE, foundation, states, SINK)
-            states /= 1 - self._modes(foundation) ** plane.shape[1]
-        self._lap(plane, NOWHERE, foundation, states, SINK)
-
-    def release(self, plane, contact, foundation):
-        """Displacement of a foundation in contact (ny, nx): elsewhere it becomes that of a surface left alone."""
-        self._lap(plane, contact, foundation, self._entering(plane, contact, foundation), RELEASE)
-
-    def push(self, plane, contact, foundation, least=LEAST):
-        """Displacement of a foundation in contact to pressure, zero elsewhere; no less than `least`."""
-        states = self._entering(plane, contact, foundation)
-        if foundation.wraps and least > LEAST:
-            self._lap(plane.copy(), contact, foundation, states, PUSH, least)
-        self._lap(plane, contact, foundation, states, PUSH, least)
-
-    def _modes(self, foundation):
-        return self.xp.asarray(foundation.kept)[:, None]
-
-    def _zeros(self, plane, foundation):
-        return self.xp.zeros((len(foundation.kept), len(plane)))
-
-    def _entering(self, plane, contact, foundation):
-        """States (K, ny) with which a row begins; where it wraps, those with which it ends."""
-        given = self._zeros(plane, foundation)
-        if not foundation.wraps:
-            return given
-        self._lap(plane.copy(), contact, foundation, given, PUSH)
-        # The end of a row is linear in its beginning.
-        ends = [self._zeros(plane, foundation) for _ in foundation.kept]
-        for mode, end in enumerate(ends):
-            end[mode] = 1.0
-            self._lap(self.xp.zeros_like(plane), contact, foundation, end, PUSH)
-        gone = self.xp.eye(len(ends)) - self.xp.stack(ends).transpose(2, 1, 0)
-        return self.xp.linalg.solve(gone, given.T[..., None])[..., 0].T
+def put(values, where, plane):
+    """values onto the plane at their places."""
+    _put(values, where, plane.reshape(-1))
 
 
-class Plain(Marching):
-    """Sums and updates of an iteration by the arrays of a module xp, numpy or cupy."""
-
-    def __init__(self, xp=np):
-        self.xp = xp
-
-    def put(self, values, where, plane):
-        """values onto the plane at their places."""
-        plane.reshape(-1)[where] = values
-
-    def take(self, plane, where, out, first, second):
-        """Values at the places into out; their sum and their products with two vectors."""
-        out[:] = plane.reshape(-1)[where]
-        return float(out.sum()), float((out * first).sum()), float((out * second).sum())
-
-    def advance(self, x, r, direction, image, step, mean):
-        """x += step direction, r -= step (image - mean); returns the square norm and the largest entry of r."""
-        x += step * direction
-        r -= step * (image - mean)
-        return float((r * r).sum()), float(abs(r).max())
-
-    def turn(self, direction, z, mean, beta):
-        """direction = z - mean + beta direction."""
-        direction *= beta
-        direction += z - mean
-
-    def _lap(self, plane, contact, foundation, states, what, least=LEAST):
-        """Column by column downstream; `states` (K, ny) are those before the first, then those of the last."""
-        gained, where = self.xp.asarray(foundation.gained)[:, None], self.xp.where
-        kept = self._modes(foundation)
-        for x in range(plane.shape[1]):
-            states *= kept
-            known, given = states.sum(axis=0), plane[:, x].copy()
-            if what == SINK:
-                pressure = given
-                plane[:, x] = known + foundation.at_once * pressure
-            else:
-                pressure = self.xp.maximum((given - known) / foundation.at_once, least)
-                pressure = where(contact[:, x], pressure, 0.0)
-                plane[:, x] = pressure if what == PUSH else where(contact[:, x], given, known)
-            states += gained * pressure
-
-    def gaps(self, displacement, heights, level, contact, gap):
-        """gap = displacement + heights - level; largest |gap| in contact, deepest penetration outside."""
-        gap[:] = displacement + heights - level
-        inside = float(self.xp.where(contact, abs(gap), 0.0).max())
-        return inside, float(-self.xp.where(contact, 0.0, gap).min())
+def take(plane, where, out, first, second):
+    """Values at the places into out; their sum and their products with two vectors."""
+    return _take(plane.reshape(-1), where, out, first, second)
 
 
-class Fused(Marching):
-    """One loop each, by numba."""
+def gaps(displacement, heights, level, contact, gap):
+    """gap = displacement + heights - level; largest |gap| in contact, deepest penetration outside."""
+    flat = (a.reshape(-1) for a in (displacement, heights))
+    return _gaps(*flat, level, contact.reshape(-1), gap.reshape(-1))
 
-    xp = np
 
-    def put(self, values, where, plane):
-        _put(values, where, plane.reshape(-1))
+def sink(plane, foundation):
+    """Pressure (ny, nx) to the displacement that it makes of a foundation, in place, as `release` and `push`."""
+    states = _zeros(plane, foundation)
+    if foundation.wraps:
+        _march(plane.copy(), NOWHERE, foundation, states, SINK)
+        states /= 1 - foundation.kept[:, None] ** plane.shape[1]
+    _march(plane, NOWHERE, foundation, states, SINK)
 
-    def take(self, plane, where, out, first, second):
-        return _take(plane.reshape(-1), where, out, first, second)
 
-    def advance(self, x, r, direction, image, step, mean):
-        return _advance(x, r, direction, image, step, mean)
+def release(plane, contact, foundation):
+    """Displacement of a foundation in contact (ny, nx): elsewhere it becomes that of a surface left alone."""
+    _march(plane, contact, foundation, _entering(plane, contact, foundation), RELEASE)
 
-    def turn(self, direction, z, mean, beta):
-        _turn(direction, z, mean, beta)
 
-    def _lap(self, plane, contact, foundation, states, what, least=LEAST):
-        _lap(plane, contact, foundation.at_once, foundation.kept, foundation.gained, states, what, least)
+def push(plane, contact, foundation, least=LEAST):
+    """Displacement of a foundation in contact to pressure, zero elsewhere; no less than `least`."""
+    states = _entering(plane, contact, foundation)
+    if foundation.wraps and least > LEAST:
+        _march(plane.copy(), contact, foundation, states, PUSH, least)
+    _march(plane, contact, foundation, states, PUSH, least)
 
-    def gaps(self, displacement, heights, level, contact, gap):
-        flat = (a.reshape(-1) for a in (displacement, heights))
-        return _gaps(*flat, level, contact.reshape(-1), gap.reshape(-1))
+
+def _zeros(plane, foundation):
+    return np.zeros((len(foundation.kept), len(plane)))
+
+
+def _march(plane, contact, foundation, states, what, least=LEAST):
+    _lap(plane, contact, foundation.at_once, foundation.kept, foundation.gained, states, what, least)
+
+
+def _entering(plane, contact, foundation):
+    """States (K, ny) with which a row begins; where it wraps, those with which it ends."""
+    given = _zeros(plane, foundation)
+    if not foundation.wraps:
+        return given
+    _march(plane.copy(), contact, foundation, given, PUSH)
+    # The end of a row is linear in its beginning.
+    ends = [_zeros(plane, foundation) for _ in foundation.kept]
+    for mode, end in enumerate(ends):
+        end[mode] = 1.0
+        _march(np.zeros_like(plane), contact, foundation, end, PUSH)
+    gone = np.eye(len(ends)) - np.stack(ends).transpose(2, 1, 0)
+    return np.linalg.solve(gone, given.T[..., None])[..., 0].T
+
+
+@compiled
+def advance(x, r, direction, image, step, mean):
+    """x += step direction, r -= step (image - mean); returns the square norm and the largest entry of r."""
+    square = largest = 0.0
+    for i in range(x.size):
+        x[i] += step * direction[i]
+        value = r[i] - step * (image[i] - mean)
+        r[i] = value
+        square += value * value
+        largest = max(largest, abs(value))
+    return square, largest
+
+
+@compiled
+def turn(direction, z, mean, beta):
+    """direction = z - mean + beta direction."""
+    for i in range(z.size):
+        direction[i] = z[i] - mean + beta * direction[i]
 
 
 @compiled
@@ -150,24 +113,6 @@ def _take(plane, where, out, first, second):
         along += value * first[i]
         beside += value * second[i]
     return total, along, beside
-
-
-@compiled
-def _advance(x, r, direction, image, step, mean):
-    square = largest = 0.0
-    for i in range(x.size):
-        x[i] += step * direction[i]
-        value = r[i] - step * (image[i] - mean)
-        r[i] = value
-        square += value * value
-        largest = max(largest, abs(value))
-    return square, largest
-
-
-@compiled
-def _turn(direction, z, mean, beta):
-    for i in range(z.size):
-        direction[i] = z[i] - mean + beta * direction[i]
 
 
 @compiled

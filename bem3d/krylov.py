@@ -7,6 +7,8 @@ from math import sqrt
 
 import numpy as np
 
+from . import kernels
+
 
 def conjugate_gradients(on_set, b, reduction, tolerance, iterations):
     """Preconditioned conjugate gradients for a symmetric positive definite operator.
@@ -14,18 +16,17 @@ def conjugate_gradients(on_set, b, reduction, tolerance, iterations):
     Stops when the residual's 2-norm has fallen by `reduction`, or its largest entry below half of `tolerance`.
     Fletcher-Reeves replaced by Polak-Ribiere, so that a preconditioner only roughly symmetric does no harm.
     """
-    sums, xp = on_set.sums, on_set.sums.xp
-    x, r = xp.zeros_like(b), b.copy()
+    x, r = np.zeros_like(b), b.copy()
     aim = reduction * sqrt(float((b * b).sum()))
     if aim == 0:
         return x
-    image, z = xp.empty_like(b), xp.empty_like(b)
+    image, z = np.empty_like(b), np.empty_like(b)
     mean, descent, _ = on_set.precondition(r, z, r, r)
     direction = z - mean
     for _ in range(iterations):
         mean, along, _ = on_set.operator(direction, image, direction, direction)
         step = descent / along
-        square, largest = sums.advance(x, r, direction, image, step, mean)
+        square, largest = kernels.advance(x, r, direction, image, step, mean)
         if sqrt(square) <= aim or largest <= tolerance / 2:
             break
         if mean:
@@ -33,7 +34,7 @@ def conjugate_gradients(on_set, b, reduction, tolerance, iterations):
         before = descent
         mean, descent, gained = on_set.precondition(r, z, r, image)
         # z * (r - r_before) without keeping r_before: that difference is -step * image.
-        sums.turn(direction, z, mean, -step * gained / before)
+        kernels.turn(direction, z, mean, -step * gained / before)
     return x
 
 
@@ -76,11 +77,11 @@ def direct(on_set, b, reduction, tolerance, iterations):
 
     The operator is the same everywhere, so its columns are those of a load on the first and on the last pixel.
     """
-    xp, where, row = on_set.sums.xp, on_set.where, on_set.row()
+    where, row = on_set.where, on_set.row()
     steps = where[:, None] - where[None, :]
-    matrix = xp.where(steps >= 0, row[0][steps], row[1][steps - 1])
+    matrix = np.where(steps >= 0, row[0][steps], row[1][steps - 1])
     if on_set.mean_free:  # the level is unknown as well, the sum is not to change
-        bordered = xp.zeros((len(b) + 1, len(b) + 1))
+        bordered = np.zeros((len(b) + 1, len(b) + 1))
         bordered[:-1, :-1], bordered[:-1, -1], bordered[-1, :-1] = matrix, -1.0, 1.0
-        matrix, b = bordered, xp.concatenate([b, xp.zeros(1)])
-    return xp.linalg.solve(matrix, b)[: len(where)]
+        matrix, b = bordered, np.concatenate([b, np.zeros(1)])
+    return np.linalg.solve(matrix, b)[: len(where)]

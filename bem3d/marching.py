@@ -117,8 +117,8 @@ def _material(problem, program, grid):
         return Material(creep, Repeating(window))
 
     def half_space(sheet):
-        operator, engine = problem.medium.operator(sheet), problem.engine
-        return lambda pressure: engine.asnumpy(operator(engine.asarray(pressure))) * sheet.pixel
+        operator = problem.medium.operator(sheet)
+        return lambda pressure: operator(pressure) * sheet.pixel
 
     if program.reverses:
         return Material(creep, Returning(window, program.span, half_space, creep.kept))
@@ -237,19 +237,17 @@ class _Press:
         return value * grid.points * grid.rows if self._program.pressed_by == "pressure" else value / grid.patch
 
     def _solved(self, heights, start, tolerance, depth, load, time):
-        engine = self._problem.engine
         try:
             return contact.solve(
                 self._operator,
-                engine.asarray(heights),
-                engine.asarray(start),
+                heights,
+                start,
                 tolerance,
                 depth=depth,
                 load=load,
                 precondition=self._preconditioner,
                 symmetric=True,
-                sums=engine.sums,
-            ).map(engine.asnumpy)
+            )
         except contact.NotConverged as error:
             raise SolveError(f"{time:g} s into the program: {error}; take more steps") from error
 

@@ -70,14 +70,14 @@ class Start:
 
         The pressure itself has spikes at leading edges, and another one at another speed.
         """
-        sums, sunk = kernels.Fused(), self.pressure.copy()
+        sunk = self.pressure.copy()
         if self.foundation is not None:
-            sums.sink(sunk, self.foundation)
+            kernels.sink(sunk, self.foundation)
         contact = grid.nearest(self.pressure > 0, self.grid)
         taken = grid.resample(sunk, self.grid)
         if foundation is None:
             return taken * contact
-        sums.push(taken, contact, foundation, least=0.0)
+        kernels.push(taken, contact, foundation, least=0.0)
         return taken
 
 
@@ -188,12 +188,9 @@ class Problem:
         if grid.rows == 1 and not self.flow.at_rest:
             tolerance = min(tolerance, LEAST_ON_A_ROW)
         operator, preconditioner = self.medium.operator(grid), self.medium.preconditioner(grid)
-        foundation, here = self.medium.foundation(grid), self.engine.asarray
+        foundation = self.medium.foundation(grid)
         begun = [each.on(grid, foundation) for each in starts if each is not None]
-        begun = [here(each) for each in begun if each.any()] or [
-            here(self._first_guess(heights, grid, depth, load))
-        ]
-        heights = here(heights)
+        begun = [each for each in begun if each.any()] or [self._first_guess(heights, grid, depth, load)]
         if len(begun) > 1:
             begun.sort(key=lambda pressure: contact.misfit(operator, heights, pressure, depth, load))
         try:
@@ -207,8 +204,7 @@ class Problem:
                 precondition=preconditioner,
                 foundation=foundation,
                 symmetric=self.flow.at_rest,
-                sums=self.engine.sums,
-            ).map(self.engine.asnumpy)
+            )
         except contact.NotConverged as error:
             advice = "a larger tolerance" if self.engine.precision == "double" else 'precision = "double"'
             raise SolveError(

@@ -18,7 +18,7 @@ from scene.quantities import CLOSED, Length, Positive, UnitOfOthers, Whole, take
 from scene.terms import Table, surrounded, terms_of
 
 from . import accuracy, frictionerror, window
-from .engine import Engine, Library, Unavailable
+from .engine import Engine, Library
 from .grid import Grid
 from .history import marched
 from .measures import measured
@@ -47,7 +47,7 @@ class BEM:
     threads : that share the products in Fourier space; an answer keeps its digits whatever their number
     precision : of the transforms; in single they are up to 1.5 times faster, need half the memory, and leave 1e-6
         of the largest displacement as noise in the gap; single rows are always solved in double
-    transforms : library of the transforms: ducc0 or fftw, or cupy for the whole solve on a GPU
+    transforms : library of the transforms: ducc0 or fftw
     steps : in time, of the whole of a Program; while it slides, a step is a pixel of path at most
     frames : instants of a Program, alike apart, at which the contact is kept in the fields
 
@@ -169,11 +169,7 @@ class BEM:
             reasons += window.unresolved(scene, Grid(self.points, scene.roughness.period))
         elif self.extent is not None:
             reasons += window.unresolved(scene, Grid(self.points, self.extent))
-        try:
-            _ = self.engine.xp
-        except Unavailable as missing:
-            reasons.append(str(missing))
-        return reasons or shortage(memory_of(self, scene), self.engine.memory)
+        return reasons or shortage(memory_of(self, scene))
 
     def foreseen(self, scene: Scene) -> list[str]:
         """Reasons why a solve of what is not refused would fail all the same, as far as a coarse contact shows.

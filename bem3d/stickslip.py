@@ -47,7 +47,6 @@ def solve(
     tolerance: float,
     displacement: float | None = None,
     force: float | None = None,
-    xp=np,
 ) -> Traction:
     """Solve on a set of slip, on which tractions turn but do not grow, and take what results back to the limits.
 
@@ -66,40 +65,40 @@ def solve(
     All points may slip: with one component that takes a displacement, with two also a force a little less than
     sum(limits). Squares of limits, displacement and force have to be numbers. Raises NotConverged.
     """
-    where = xp.flatnonzero(limits > 0)
+    where = np.flatnonzero(limits > 0)
     limits_there = limits.reshape(-1)[where]
-    q = _clipped(start.reshape(len(start), -1)[:, where], limits_there, xp)
-    along_x = xp.zeros((len(q), 1))
+    q = _clipped(start.reshape(len(start), -1)[:, where], limits_there)
+    along_x = np.zeros((len(q), 1))
     along_x[0] = 1.0
     for rounds in range(1, ROUNDS + 1):
-        image = _on(operator, q, where, limits.shape, xp)
-        length = xp.sqrt((q * q).sum(axis=0))
+        image = _on(operator, q, where, limits.shape)
+        length = np.sqrt((q * q).sum(axis=0))
         at_limit = length >= limits_there * (1 - ROUNDING)
-        direction = q / xp.where(length > 0, length, 1.0)
+        direction = q / np.where(length > 0, length, 1.0)
         held = force is not None and (rounds > 1 or displacement is None)
-        drawn: Any = _level(image, direction, at_limit, xp) if held else displacement
+        drawn: Any = _level(image, direction, at_limit) if held else displacement
         slip = drawn * along_x - image
         forward = (direction * slip).sum(axis=0)
         slipping = at_limit & (forward > 0)
-        wrong = slip - xp.where(slipping, forward, 0.0) * direction
+        wrong = slip - np.where(slipping, forward, 0.0) * direction
         aim = tolerance * max(drawn, float(length.mean()))
         missing = 0.0 if force is None else force - float(q[0].sum())
-        left = float(xp.sqrt((wrong * wrong).sum(axis=0)).max()) / aim
+        left = float(np.sqrt((wrong * wrong).sum(axis=0)).max()) / aim
         if force is not None:
             left = max(left, abs(missing) / (tolerance * force))
         if left <= 1:
-            planes = _spread(xp.stack([*q, *slip, slipping.astype(float)]), where, limits.shape, xp)
+            planes = _spread(np.stack([*q, *slip, slipping.astype(float)]), where, limits.shape)
             traction, slips = planes[: len(q)], planes[len(q) : -1]
             return Traction(traction, slips, planes[-1] > 0, drawn, left * tolerance, rounds)
-        bend = xp.where(slipping, forward / limits_there, 0.0)
-        face = _Face(operator, precondition, where, limits.shape, slipping, direction, bend, held, xp)
-        q = _clipped(q + face.step(slip, missing, aim, float(limits_there.max())), limits_there, xp)
+        bend = np.where(slipping, forward / limits_there, 0.0)
+        face = _Face(operator, precondition, where, limits.shape, slipping, direction, bend, held)
+        q = _clipped(q + face.step(slip, missing, aim, float(limits_there.max())), limits_there)
     raise NotConverged(
         f"after {ROUNDS} sets of slip the violation is {left * tolerance:.2e}, wanted {tolerance:.2e}"
     )
 
 
-def _level(image, direction, at_limit, xp):
+def _level(image, direction, at_limit):
     """The displacement that suits a traction best where it sticks.
 
     Where nothing does, the one that leaves the least slip across; if all tractions point along x, the least at
@@ -109,26 +108,26 @@ def _level(image, direction, at_limit, xp):
         return float(image[0][~at_limit].mean())
     if len(image) == 1 or not bool(direction[1].any()):
         return float(image[0].max())
-    across = xp.stack([-direction[1], direction[0]])
+    across = np.stack([-direction[1], direction[0]])
     return float((across[0] * (across * image).sum(axis=0)).sum() / (across[0] ** 2).sum())
 
 
-def _clipped(q, limits, xp):
+def _clipped(q, limits):
     """The nearest tractions within the limits."""
-    length = xp.sqrt((q * q).sum(axis=0))
-    return q * xp.minimum(1.0, limits / xp.where(length > 0, length, 1.0))
+    length = np.sqrt((q * q).sum(axis=0))
+    return q * np.minimum(1.0, limits / np.where(length > 0, length, 1.0))
 
 
-def _spread(values, where, shape, xp):
+def _spread(values, where, shape):
     """Values (components, m) on planes, zero elsewhere."""
-    planes = xp.zeros((len(values), *shape))
+    planes = np.zeros((len(values), *shape))
     planes.reshape(len(values), -1)[:, where] = values
     return planes
 
 
-def _on(product, values, where, shape, xp):
+def _on(product, values, where, shape):
     """A product of planes on vectors (components, m) of values at some places."""
-    return product(_spread(values, where, shape, xp)).reshape(len(values), -1)[:, where]
+    return product(_spread(values, where, shape)).reshape(len(values), -1)[:, where]
 
 
 class _Face:
@@ -137,11 +136,11 @@ class _Face:
     held : whether corrections keep the force
     """
 
-    def __init__(self, operator, precondition, where, shape, slipping, direction, bend, held, xp):
+    def __init__(self, operator, precondition, where, shape, slipping, direction, bend, held):
         self._operator, self._precondition, self._where, self._shape = operator, precondition, where, shape
-        self._normal, self._bend, self._xp = xp.where(slipping, direction, 0.0), bend, xp
-        self._ease = 1 / xp.sqrt(1 + STIFFNESS * bend)  # what bends much is stiff by that alone
-        pull = xp.zeros(direction.shape)
+        self._normal, self._bend = np.where(slipping, direction, 0.0), bend
+        self._ease = 1 / np.sqrt(1 + STIFFNESS * bend)  # what bends much is stiff by that alone
+        pull = np.zeros(direction.shape)
         pull[0] = 1.0
         self._pull = self._along_circles(pull)
         self._pull_square = _inner(self._pull, self._pull)
@@ -160,7 +159,7 @@ class _Face:
 
     def _solved(self, residual, aim, most):
         """Preconditioned, and Polak-Ribiere as in `krylov.conjugate_gradients`."""
-        x, enough = self._xp.zeros(residual.shape), ACCURACY * _norm(residual)
+        x, enough = np.zeros(residual.shape), ACCURACY * _norm(residual)
         if enough == 0:
             return x
         z = self._preconditioned(residual)
@@ -181,14 +180,14 @@ class _Face:
         return x
 
     def _applied(self, values):
-        return self._free(_on(self._operator, values, self._where, self._shape, self._xp) + self._bend * values)
+        return self._free(_on(self._operator, values, self._where, self._shape) + self._bend * values)
 
     def _preconditioned(self, values):
         values = self._eased(values)
         return values - self._answer * _inner(self._pull, values) if self._held else values
 
     def _eased(self, values):
-        image = _on(self._precondition, self._ease * values, self._where, self._shape, self._xp)
+        image = _on(self._precondition, self._ease * values, self._where, self._shape)
         return self._along_circles(self._ease * image)
 
     def _free(self, values):

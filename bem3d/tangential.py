@@ -221,7 +221,6 @@ class Tangential:
         return found
 
     def _on(self, grid, limits, coarse, tolerance, displacement, force):
-        engine, here = self._engine, self._engine.asarray
         operator, inverse = self._operators(grid)
         if coarse is None:
             start = np.zeros((self._components, *grid.shape))
@@ -229,17 +228,11 @@ class Tangential:
         else:
             start = _carried_over(*coarse, grid, limits)
         try:
-            found = stickslip.solve(
-                operator, inverse, here(limits), here(start), tolerance, displacement, force, engine.xp
-            )
+            return stickslip.solve(operator, inverse, limits, start, tolerance, displacement, force)
         finally:
             share = grid.points * grid.rows / (self._grid.points * self._grid.rows)
             self.work += share * operator.operator_applications
             self.transforms += share * (operator.operator_applications + inverse.operator_applications)
-        there = engine.asnumpy
-        return replace(
-            found, traction=there(found.traction), slip=there(found.slip), slipping=there(found.slipping)
-        )
 
     def _operators(self, grid):
         """Tractions -> displacements, and an approximate inverse."""

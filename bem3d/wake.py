@@ -71,8 +71,7 @@ def surroundings(
         left = right = beside = 0
     piece = _extended(grid, left, right, beside)
     pressure = np.pad(fields["pressure"] / problem.flow.modulus, ((beside, beside), (left, right)))
-    engine = problem.engine
-    displacement = engine.asnumpy(problem.medium.operator(piece)(engine.asarray(pressure))) * grid.pixel
+    displacement = problem.medium.operator(piece)(pressure) * grid.pixel
     lag = problem.flow.collocation(grid)
     indenter = problem.heights(piece, problem.surface(grid), lag)
     inside = slice(beside, beside + grid.rows), slice(left, left + grid.points)

@@ -168,8 +168,7 @@ def _penetrating(problem, grid, answer, surface, shortest, inner, outer):
     gap = problem.heights(fine, surface) - depth
     if problem.scene.layer is None and (gap[outside] >= 0).all():  # a half-space does not rise under a pressure
         return None
-    pressure = problem.engine.asarray(_binned(grid, answer.pressure, coarse))
-    displacement = problem.engine.asnumpy(problem.medium.operator(coarse)(pressure))
+    displacement = problem.medium.operator(coarse)(_binned(grid, answer.pressure, coarse))
     gap += fine.resample(displacement, coarse) * coarse.pixel
     penetrating = (gap < -OVERLAP * (depth - answer.lowest * grid.pixel)) & outside
     return fine.box(penetrating) if penetrating.any() else None

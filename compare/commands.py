@@ -9,7 +9,6 @@ Options of all of them:
 output : folder for the page, the figures and the solved contacts
 workers : number of processes; if absent, one for each processor
 scheduler : address of a dask.distributed scheduler, as tcp://host:8786; its workers then solve the contacts
-format : format of the page: html or markdown
 figure_format : file formats of the figures, separated by commas: png, pdf, svg. A PNG is always written
 report : write the page and its figures. Findings, tables and results are written in any case
 yes : agree to a study of more than a day or of more than 300,000 contacts
@@ -59,7 +58,6 @@ if TYPE_CHECKING:
 
 # Allowed values, which a shell completes. Others are refused where they are used.
 Size = Literal["quick", "standard", "full"]
-Format = Literal["html", "markdown"]
 FigureFormat = Literal["png", "pdf", "svg"] | str  # several, separated by commas
 Diagram = Literal["models", "surfaces", "mdr", "elastic", "sliding", "marching", "precision", "extent", "all"]
 Journal = Literal[
@@ -89,7 +87,6 @@ class Options(TypedDict, total=False):
 
     workers: int | None
     scheduler: str | None
-    format: Format
     figure_format: FigureFormat
     report: bool
     yes: bool
@@ -103,7 +100,6 @@ def solve(
     *,
     workers: int | None = None,
     scheduler: str | None = None,
-    format: Format = "html",
     figure_format: FigureFormat = "png",
     report: bool = True,
     yes: bool = False,
@@ -125,7 +121,7 @@ def solve(
         raise InvalidInput(f"study = {brief(repr(study))}: an object of a class derived from Study is needed")
     _warn(study.doubts)
     with _shown(progress) as told:
-        found = pipeline.run(study, output, workers, scheduler, format, figure_format, report, yes, budget, told)
+        found = pipeline.run(study, output, workers, scheduler, figure_format, report, yes, budget, told)
     _warn([" ".join(found.unsolved.sentences)] if found.unsolved.failed else [])
     return found
 
@@ -197,19 +193,17 @@ def study(
 
     name : name of a study, or file of your own study (TOML); if absent, a table of the studies is printed
     size : how much is solved: quick (minutes), standard (up to an hour) or full (up to a day)
-    models, reference, interval, budget : like those of `run`; the studies `trust` and `experiment` take none
+    models, reference, interval, budget : like those of `run`; the study `trust` takes none
     """
     if name is None:
         from .library.ready import studies
 
         return studies()
     from .studies.claims.study import ClaimStudy
-    from .studies.experiment.study import ExperimentStudy
     from .studies.trust.study import TrustStudy
 
-    for each in (TrustStudy, ExperimentStudy):
-        if str(name) == each.name:
-            return solve(each.of(size), output, **options)
+    if str(name) == TrustStudy.name:
+        return solve(TrustStudy.of(size), output, **options)
     return solve(ClaimStudy.of(str(name), size, models, reference, interval), output, budget=budget, **options)
 
 
@@ -534,14 +528,11 @@ def redraw(
 
 
 @checked
-def export(
-    folder: str | Path, to: Literal["csv", "latex", "vtk"] = "csv", output: str | Path | None = None
-) -> list[Path]:
-    """Write tables as CSV or LaTeX, surfaces for ParaView.
+def export(folder: str | Path, to: Literal["csv", "vtk"] = "csv", output: str | Path | None = None) -> list[Path]:
+    """Write tables as CSV, surfaces for ParaView.
 
     folder : folder that a command has written, or its results.nc
-    to : csv (every digit, units in the heading), latex (rounded, for booktabs), or vtk (surfaces for ParaView,
-        which takes the extra vtk)
+    to : csv (every digit, units in the heading), or vtk (surfaces for ParaView, which takes the extra vtk)
     output : folder for the files; if absent, `tables` in the folder
     """
     from .report.export import export
@@ -550,43 +541,14 @@ def export(
 
 
 @checked
-def draw(
-    scene: SceneLike, interactive: bool = False, output: str | Path = "crosscheck-draw", **options: Unpack[Options]
-) -> Report:
+def draw(scene: SceneLike, output: str | Path = "crosscheck-draw", **options: Unpack[Options]) -> Report:
     """Draw the contact in 3D and the row of springs in 1D.
 
     The surface of the elastomer is coloured by pressure, with its wake; beside it stand the forces of both models.
+    Of a program a second figure shows the forces in time and the contact at a few instants.
 
     scene : scene as TOML, or the name of a ready one. From Python also a Scene or a Case
-    interactive : also write surface.html, which a browser turns and enlarges, offline; takes the extra interactive
     """
-    from .studies.draw import interactive as turning
     from .studies.draw.study import Drawing
 
-    if interactive:
-        turning.refuse()
-    return solve(Drawing.of(scene, interactive), output, **options)
-
-
-@checked
-def animate(
-    scene: SceneLike,
-    output: str | Path | None = None,
-    frames: int = 60,
-    seconds: float = 6.0,
-    folder: str | Path = "crosscheck-animation",
-    workers: int | None = None,
-    progress: bool | Preparing | None = False,
-) -> Path:
-    """Animate a scene in time, 1D and 3D side by side.
-
-    scene : file of a scene (TOML), or name of a ready scene. From Python also a Scene or a Case
-    output : file to write, .gif, or .mp4 if ffmpeg is installed; if absent, the name of the scene with .gif
-    frames : number of pictures
-    seconds : length of the animation [s]
-    folder : folder for the solved contacts
-    """
-    from .studies.animate.animation import animate
-
-    with _shown(progress) as told:
-        return animate(scene, output, frames, seconds, folder, workers, told)
+    return solve(Drawing.of(scene), output, **options)

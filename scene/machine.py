@@ -17,9 +17,9 @@ def memory() -> int:
     return min([*_physical(), *_of_groups(), *_of_process()], default=NO_LIMIT)
 
 
-def shortage(needed: int, there: int | None = None) -> list[str]:
-    """Reason why so many bytes do not fit, or nothing. there : bytes there are, of this process if absent"""
-    there = memory() if there is None else there
+def shortage(needed: int) -> list[str]:
+    """Reason why so many bytes do not fit, or nothing."""
+    there = memory()
     if needed <= there:
         return []
     return [f"it needs {size(needed)} of memory, and only {size(there)} are available: use fewer points"]

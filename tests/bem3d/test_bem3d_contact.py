@@ -74,7 +74,7 @@ def test_symmetric_problem_agrees_with_nonnegative_least_squares():
 
 def test_conjugate_gradients_take_as_many_steps_as_the_square_root_of_the_condition_says():
     matrix, _, operator = problem(0)
-    on_set = contact._OnSet(operator, None, None, False, (N, N), contact.FUSED)
+    on_set = contact._OnSet(operator, None, None, False, (N, N))
     on_set.turn_to(np.ones((N, N), bool))
     b, root = np.random.default_rng(0).standard_normal(N * N), np.sqrt(np.linalg.cond(matrix))
     steps = int(np.ceil(np.log(2 * root / 1e-8) / np.log((root + 1) / (root - 1))))

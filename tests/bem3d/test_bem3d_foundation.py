@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 from solids import SOLIDS
 
-from bem3d import BEM
+from bem3d import BEM, kernels
 from bem3d.engine import Engine
 from bem3d.foundation import MERGED, Foundation
 from bem3d.grid import Grid
-from bem3d.kernels import Fused, Plain
 from bem3d.problem import Problem
 from bem3d.sliding import Flow
 from scene import Kelvin, Prony, Scene, SelfAffine, Slide, Sphere, StandardLinearSolid
@@ -41,36 +40,53 @@ def test_a_foundation_that_is_pushed_back_had_that_pressure(flow, wraps):
     foundation, (contact, pressure) = Foundation.of(flow, GRID, wraps), drawn()
     pressure *= contact
     plane = pressure.copy()
-    Fused().sink(plane, foundation)
+    kernels.sink(plane, foundation)
     sunk = plane.copy()
-    Fused().push(plane, contact, foundation)
+    kernels.push(plane, contact, foundation)
     # A memory of many pixels leaves that few digits to the pressure on one.
     assert plane == pytest.approx(pressure, abs=1e-12 / foundation.at_once)
     released = np.where(contact, sunk, 7.0)
-    Fused().release(released, contact, foundation)
+    kernels.release(released, contact, foundation)
     assert released == pytest.approx(sunk, abs=1e-9)  # where nothing presses it is the surface that was
+
+
+def by_columns(plane, contact, at_once, kept, gained, states, what, least):
+    """What the compiled loop of `kernels` does, column by column downstream."""
+    for x in range(plane.shape[1]):
+        states *= kept[:, None]
+        known, given = states.sum(axis=0), plane[:, x].copy()
+        if what == kernels.SINK:
+            pressure = given
+            plane[:, x] = known + at_once * pressure
+        else:
+            pressure = np.where(contact[:, x], np.maximum((given - known) / at_once, least), 0.0)
+            plane[:, x] = pressure if what == kernels.PUSH else np.where(contact[:, x], given, known)
+        states += gained[:, None] * pressure
 
 
 @pytest.mark.parametrize("wraps", [False, True])
 @pytest.mark.parametrize("flow", CASES)
-def test_loops_say_what_whole_arrays_say(flow, wraps):
+def test_loops_say_what_whole_arrays_say(flow, wraps, monkeypatch):
     foundation, (contact, values) = Foundation.of(flow, GRID, wraps), drawn()
-    for march in (
-        lambda sums, plane: sums.sink(plane, foundation),
-        lambda sums, plane: sums.release(plane, contact, foundation),
-        lambda sums, plane: sums.push(plane, contact, foundation),
-        lambda sums, plane: sums.push(plane, contact, foundation, least=0.0),
-    ):
-        loops, arrays = values.copy(), values.copy()
-        march(Fused(), loops)
-        march(Plain(), arrays)
-        np.testing.assert_allclose(loops, arrays, rtol=1e-9, atol=1e-9 * np.abs(arrays).max())
+
+    def marched():
+        sunk, released, pushed, pressed = (values.copy() for _ in range(4))
+        kernels.sink(sunk, foundation)
+        kernels.release(released, contact, foundation)
+        kernels.push(pushed, contact, foundation)
+        kernels.push(pressed, contact, foundation, least=0.0)
+        return sunk, released, pushed, pressed
+
+    loops = marched()
+    monkeypatch.setattr(kernels, "_lap", by_columns)
+    for loop, arrays in zip(loops, marched(), strict=True):
+        np.testing.assert_allclose(loop, arrays, rtol=1e-9, atol=1e-9 * np.abs(arrays).max())
 
 
 def test_a_step_of_pressure_sinks_as_the_solid_creeps():
     flow = Flow.of(SOLIDS["standard"], 5.0)
     foundation, plane = Foundation.of(flow, GRID), np.ones((1, POINTS))
-    Fused().sink(plane, foundation)
+    kernels.sink(plane, foundation)
     (share,), (length,) = flow.shares, flow.lengths
     passed = np.arange(1, POINTS + 1)
     np.testing.assert_allclose(plane[0], flow.instantaneous + share * (1 - np.exp(-passed / length)), rtol=1e-12)
@@ -80,7 +96,7 @@ def test_a_step_of_pressure_sinks_as_the_solid_creeps():
 def test_a_row_that_repeats_under_equal_pressure_is_relaxed():
     for flow in FLOWS["series"].values():
         plane = np.full((2, POINTS), 3.0)
-        Fused().sink(plane, Foundation.of(flow, GRID, wraps=True))
+        kernels.sink(plane, Foundation.of(flow, GRID, wraps=True))
         np.testing.assert_allclose(plane, 3.0, rtol=1e-9)
 
 
@@ -88,14 +104,14 @@ def test_what_would_pull_is_let_go_and_what_follows_presses_the_less():
     foundation = Foundation.of(Flow.of(SOLIDS["kelvin"], 10.0), GRID)
     pressure = np.array([[-1.0, 3.0, 2.0, 0.0, 1.0]])
     plane, contact = pressure.copy(), pressure != 0
-    Fused().sink(plane, foundation)
+    kernels.sink(plane, foundation)
     before = plane.copy()
-    Fused().push(plane, contact, foundation, least=0.0)
+    kernels.push(plane, contact, foundation, least=0.0)
     assert (plane >= 0).all()
     assert plane[0, 0] == 0.0
     assert 1.9 < plane[0, 1] < 3.0
     after = plane.copy()
-    Fused().sink(after, foundation)
+    kernels.sink(after, foundation)
     np.testing.assert_allclose(after[0, 1:], before[0, 1:], rtol=1e-12)  # all that still presses is as deep
     np.testing.assert_allclose(plane[0, 2:], pressure[0, 2:], rtol=1e-9)
 
@@ -115,9 +131,9 @@ def test_a_finer_grid_starts_with_its_foundation_sunk_as_much():
     pressure = np.maximum(1 - (coarse.x**2 + coarse.y[:, None] ** 2) / 1e-6, 0.0)
     sunk = pressure.copy()
     taken = problem.start(coarse, pressure).on(fine, problem.medium.foundation(fine))
-    Fused().sink(sunk, problem.medium.foundation(coarse))
+    kernels.sink(sunk, problem.medium.foundation(coarse))
     there = taken > 0
-    Fused().sink(taken, problem.medium.foundation(fine))
+    kernels.sink(taken, problem.medium.foundation(fine))
     assert np.count_nonzero(there) > 1000
     np.testing.assert_allclose(taken[there], fine.resample(sunk, coarse)[there], rtol=1e-9)
 

@@ -5,10 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bem3d import BEM, Trail
+from bem3d import BEM, Trail, kernels
 from bem3d.engine import Engine
 from bem3d.grid import Grid
-from bem3d.kernels import Fused
 from bem3d.problem import Problem
 from scene import Cylinder, EmptyContact, Indent, Kelvin, Plane, Scene, SelfAffine, Slide, Sphere
 
@@ -113,7 +112,7 @@ def test_a_start_presses_where_it_pressed_and_sinks_the_foundation_as_much(befor
     assert (taken[new.resampled_contact(pressure, old) == 0] == 0).all()
     for plane, foundation in zip((sunk, taken), foundations, strict=True):
         if foundation is not None:  # at rest what sinks is the pressure
-            Fused().sink(plane, foundation)
+            kernels.sink(plane, foundation)
     np.testing.assert_allclose(taken[there], new.resample(sunk, old)[there], rtol=1e-9)
 
 

@@ -279,7 +279,6 @@ ASKED = {
     "redraw": {"folder": "none"},
     "export": {"folder": "none"},
     "draw": {"scene": SLIDING},
-    "animate": {"scene": SLIDING},
     "friction_plot": {"dataset": None},
     "solve": {"study": Twice(), "output": "out"},
 }

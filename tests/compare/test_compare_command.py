@@ -138,13 +138,13 @@ def complete(*words):
 def test_a_shell_completes_names_and_values(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "quiet.toml").touch()
-    for command in ("run", "plan", "trust", "animate"):
+    for command in ("run", "plan", "trust", "draw"):
         assert complete(command, "qui") == ["quick-start", "quiet.toml"]
     assert complete("study", "steep-") == ["steep-all-speeds", "steep-and-slow", "steep-on-fine-grids"]
     assert complete("new", "quick") == ["quick-start"]
     assert complete("workprecision", "ex") == ["extent"]
     assert complete("redraw", "folder", "--journal", "el") == ["elsevier"]
-    assert complete("run", "quick-start", "--form") == ["--format"]
+    assert complete("run", "quick-start", "--figure-f") == ["--figure-format"]
 
 
 @pytest.mark.parametrize("kind", ["scene", "study"])
@@ -162,7 +162,6 @@ MISTAKES = {
     "run two-shapes": "is a ready study, and no scene: crosscheck study two-shapes",
     "run study.toml": "is a study, and no scene: crosscheck study study.toml",
     "run thin-layer": "crosscheck plan says what each solver makes of it",
-    "run quick-start --format word": "format = word: allowed are html, markdown",
     "run quick-start --output mine.toml": "crosscheck: --output mine.toml: mine.toml: is a file, and no folder",
     "study colapse": "NAME = colapse: allowed are collapse, ",
     "study collapse --size big": "size = big: allowed are quick, ",
@@ -171,8 +170,7 @@ MISTAKES = {
     "new quick-start mine.toml": "is there already, and nothing is overwritten",
     "redraw nowhere": "nowhere: no such folder",
     "redraw .": "no manifest.json here",
-    "export . --to word": "to = word: allowed are csv, latex",
-    "animate quick-start --output film.avi": "film.avi",
+    "export . --to word": "to = word: allowed are csv, vtk",
 }
 
 

@@ -20,14 +20,12 @@ ARROWS = {
 DOORS = {  # files outside which a library is not imported, in whichever folder they stand
     "pyfftw": {"engine"},
     "ducc0": {"engine"},
-    "cupy": {"engine"},
     "numba": {"loops"},
     "tomllib": {"reading"},
     "SurfaceTopography": {"heightfile"},
     "pint": {"units"},
     "h5py": {"netcdf"},
     "distributed": {"cluster"},
-    "plotly": {"interactive"},
     "meshio": {"vtk"},
 }
 # What a study may use of the judge: what a user's own study may, and the studies that it builds on.

@@ -6,9 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
-from cupy_stand_in import STAND_IN
 
-from bem3d import BEM, engine
+from bem3d import BEM
 from compare.solving.runner import sweep
 from compare.solving.store import Store
 from compare.solving.task import SceneTask
@@ -26,8 +25,7 @@ BROAD = SelfAffine(hurst=0.8, rms_height=1e-6, longest=100.0, shortest=1e-4)
 def test_plan_and_solve_refuse_with_both_figures_what_the_machine_has_not(monkeypatch, solver, least):
     needed = solver.plan(SCENE).memory
     assert needed > least
-    for module in (machine, engine):
-        monkeypatch.setattr(module, "memory", lambda: needed - 1)
+    monkeypatch.setattr(machine, "memory", lambda: needed - 1)
     reasons = set()
     for ask in (solver.plan, solver.solve, lambda scene: refuse(solver, scene)):
         with pytest.raises(
@@ -36,15 +34,8 @@ def test_plan_and_solve_refuse_with_both_figures_what_the_machine_has_not(monkey
             ask(SCENE)
         reasons.add(str(told.value))
     assert len(reasons) == 1
-    for module in (machine, engine):
-        monkeypatch.setattr(module, "memory", lambda: needed)
+    monkeypatch.setattr(machine, "memory", lambda: needed)
     assert solver.plan(SCENE).memory == needed
-
-
-def test_on_a_gpu_it_is_the_memory_of_the_gpu_that_counts(monkeypatch):
-    monkeypatch.setattr(engine, "_cupy", lambda: STAND_IN)
-    with pytest.raises(Refused, match=r"needs .* GB of memory, and only 8 GB are available"):
-        BEM(points=8192, transforms="cupy").plan(SCENE)
 
 
 def test_what_no_machine_holds_has_no_plan_either():
