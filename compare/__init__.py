@@ -12,7 +12,7 @@ regress : quantities against what is stored; `check` and `update` do so in a tes
 mastercurve, topography : friction that you measured, a surface that you measured
 plan : what would be simulated of a scene, and what that costs
 load, export, redraw : what a command left, as xarray has it, as CSV or LaTeX, as figures for a journal
-animate : a scene that moves, as a picture that moves
+draw : the contact in 3D and the row of springs; of a program also the forces in time
 scenes, new, schema : scenes and studies to begin with, a copy of one of them, and what may stand in it
 Persson : his theory of rough contact and friction, as published and with its later factor
 CorrectedMDR : one dimension, corrected to three by the trust map, where the map knows how

@@ -1,4 +1,3 @@
-from .commands import animate as animate
 from .commands import draw as draw
 from .commands import export as export
 from .commands import friction_plot as friction_plot

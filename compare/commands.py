@@ -521,42 +521,14 @@ def export(
     return export(folder, to, output)
 
 
-def draw(
-    scene: SceneLike, interactive: bool = False, output: str | Path = "crosscheck-draw", **options: Unpack[Options]
-) -> Report:
+def draw(scene: SceneLike, output: str | Path = "crosscheck-draw", **options: Unpack[Options]) -> Report:
     """Draw the contact in 3D and the row of springs in 1D.
 
     The surface of the elastomer is coloured by pressure, with its wake; beside it stand the forces of both models.
+    Of a program a second figure shows the forces in time and the contact at a few instants.
 
     scene : scene as TOML, or the name of a ready one. From Python also a Scene or a Case
-    interactive : also write surface.html, which a browser turns and enlarges, offline; takes the extra interactive
     """
-    from .studies.draw import interactive as turning
     from .studies.draw.study import Drawing
 
-    if interactive:
-        turning.refuse()
-    return solve(Drawing.of(scene, interactive), output, **options)
-
-
-def animate(
-    scene: SceneLike,
-    output: str | Path | None = None,
-    frames: int = 60,
-    seconds: float = 6.0,
-    folder: str | Path = "crosscheck-animation",
-    workers: int | None = None,
-    progress: bool | Preparing = False,
-) -> Path:
-    """Animate a scene in time, 1D and 3D side by side.
-
-    scene : file of a scene (TOML), or name of a ready scene. From Python also a Scene or a Case
-    output : file to write, .gif, or .mp4 if ffmpeg is installed; if absent, the name of the scene with .gif
-    frames : number of pictures
-    seconds : length of the animation [s]
-    folder : folder for the solved contacts
-    """
-    from .studies.animate.animation import animate
-
-    with _shown(progress) as told:
-        return animate(scene, output, frames, seconds, folder, workers, told)
+    return solve(Drawing.of(scene), output, **options)

@@ -229,7 +229,6 @@ COMMANDS = (
     Command(commands.redraw, said=_paths),
     Command(commands.export, said=_paths),
     Command(commands.draw),
-    Command(commands.animate, said=lambda path: f"Animation: {path.resolve()}"),
 )
 for _each in COMMANDS:
     app.command(_each.title)(_each.callback())

@@ -86,7 +86,7 @@ class Listed:
 
 @dataclass(frozen=True)
 class Written:
-    """JSON answer of `new`, `redraw`, `export` and `animate`. files : that were written"""
+    """JSON answer of `new`, `redraw` and `export`. files : that were written"""
 
     files: tuple[str, ...]
 

@@ -116,7 +116,7 @@ def _write(done, folder, format, forms, report, progress) -> Path | None:
     All is drawn before the folder is touched.
     """
     study, page, results = done.study, done.page, netcdf.packed(done.answers)
-    files = {netcdf.NAME: results} | {name: text.encode() for name, text in study.beside(page).items()}
+    files = {netcdf.NAME: results}
     if report:
         with progress.writing(len(list(page.every(Plot)))) as told:
             files |= render.files(page, done.findings, format, forms, told)

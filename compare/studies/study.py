@@ -132,10 +132,6 @@ class Study:
         """What the answers come to: once for the same answers, and all of it."""
         return Judgement([judge(claim, answers) for claim in self.claims()], setting=self.setting)
 
-    def beside(self, page: Page) -> Mapping[str, str]:
-        """Further files beside the page: their texts by name."""
-        return {}
-
     @property
     def setting(self) -> Sequence[Block]:
         """Setting of the study, which stands last on the page: what it is about."""

@@ -5,13 +5,10 @@ import shutil
 import threading
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 
-import numpy as np
 import pytest
 from page_samples import FINDINGS, HOSTILE, hostile_page, page
-from pandas import DataFrame
 
 from compare.report import render
-from compare.studies.draw import interactive
 
 playwright = pytest.importorskip("playwright.sync_api", reason="playwright drives the browser: extra browser")
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
@@ -268,17 +265,3 @@ def test_the_policy_of_a_page_stops_what_was_not_escaped(written, tmp_path, open
     shown, _ = opened(changed(written, tmp_path, part), offline=False)
     assert shown.evaluate("typeof owned") == "number"
     assert {"/a", "/b", "/c", "/d"} <= set(asked)
-
-
-@pytest.mark.slow
-def test_the_interactive_page_draws_under_its_policy(tmp_path, opened):
-    pytest.importorskip("plotly")
-    x, y = (each.ravel() * 1e-3 for each in np.meshgrid(np.linspace(-1, 1, 9), np.linspace(-1, 1, 9)))
-    table = DataFrame({"x": x, "y": y, "displacement": -(x**2) - y**2, "pressure": 1e6, "gap": 0.0})
-    path = tmp_path / interactive.NAME
-    path.write_text(interactive._page(table, {"highest": 1e6, "enlarged": 9.0, "sliding": 1}), encoding="utf-8")
-    shown, complaints = opened(path)
-    shown.locator(".gl-container canvas, .no-webgl").first.wait_for(state="attached")
-    assert "indenter slides" in shown.locator(".gtitle").text_content()
-    assert [each for each in complaints if each.startswith(("error", "fetched")) and "WebGL" not in each] == []
-    assert "script-src 'sha256-" in path.read_text(encoding="utf-8")

@@ -138,7 +138,7 @@ def complete(*words):
 def test_a_shell_completes_names_and_values(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "quiet.toml").touch()
-    for command in ("run", "plan", "trust", "animate"):
+    for command in ("run", "plan", "trust", "draw"):
         assert complete(command, "qui") == ["quick-start", "quiet.toml"]
     assert complete("study", "steep-") == ["steep-all-speeds", "steep-and-slow", "steep-on-fine-grids"]
     assert complete("new", "quick") == ["quick-start"]
@@ -172,7 +172,6 @@ MISTAKES = {
     "redraw nowhere": "nowhere: no such folder",
     "redraw .": "no manifest.json here",
     "export . --to word": "to = word: allowed are csv, latex",
-    "animate quick-start --output film.avi": "film.avi",
 }
 
 

@@ -3,8 +3,9 @@
 import sys
 from dataclasses import replace
 
+import numpy as np
 import pytest
-from drawn_scenes import KELVIN, LOAD, TAU, A, R
+from drawn_scenes import KELVIN, LOAD, SCENES, TAU, A, R
 from typer.testing import CliRunner
 
 import compare
@@ -13,7 +14,7 @@ from compare.cli.app import app
 from compare.library.lookup import case_of
 from compare.report import vtk
 from compare.studies.draw import figure as draw
-from compare.studies.draw import interactive
+from compare.studies.draw import program
 from compare.studies.draw.study import APART
 from mdr1d import MDR
 from scene import (
@@ -84,6 +85,29 @@ def test_the_picture_is_drawn_again_from_its_tables_to_the_last_byte(drawn, tmp_
     assert png.read_bytes() == (folder / "draw.png").read_bytes()
 
 
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=() if name == "dip" else pytest.mark.slow) for name in ("dip", "lift")]
+)
+def test_a_program_is_drawn_in_time_by_the_forces_of_both_and_sections_at_instants(name, tmp_path):
+    case = replace(case_of(SCENES[name]), bem=BEM(points=64, steps=20), mdr=MDR(points=200, steps=20))
+    report = compare.draw(case, output=tmp_path / name, workers=1)
+    tables = next(each for each in report.page.every(draw.Plot) if each.name == program.NAME).tables
+    for solver in (case.mdr, case.bem):
+        answer = solver.solve(case.scene)
+        forces, sections = (each[each["solver"] == solver.name] for each in tables.values())
+        for force in program.HISTORIES:
+            assert forces[force].to_numpy() == pytest.approx(answer.fields[force], rel=1e-12, abs=1e-15)
+        assert sections["time"].nunique() == program.INSTANTS
+        touched = sections[sections["touching"]]
+        # Over the depth: the tolerance of the contact.
+        near = 1e-4 * np.nanmax(answer.fields["depth"])
+        assert touched["surface"].to_numpy() == pytest.approx(touched["indenter"].to_numpy(), abs=near)
+        assert len(touched)
+    png = tmp_path / name / f"{program.NAME}.png"
+    (again,) = (path for path in compare.redraw(png.parent, output=tmp_path / "again") if path.name == png.name)
+    assert again.read_bytes() == png.read_bytes()
+
+
 def test_a_layer_has_no_springs_and_that_is_said(tmp_path):
     report = compare.draw(replace(REST, layer=Layer(thickness=2e-3)), output=tmp_path, workers=1)
     assert "No row of springs: MDR" in str(report)
@@ -105,27 +129,12 @@ def test_a_contact_that_does_not_touch_is_no_picture(tmp_path):
         compare.draw(above, output=tmp_path, workers=1)
 
 
-def test_without_plotly_or_meshio_the_extra_is_named_in_one_line(drawn, monkeypatch, tmp_path):
-    monkeypatch.setitem(sys.modules, "plotly", None)
+def test_without_meshio_the_extra_is_named_in_one_line(drawn, monkeypatch):
     monkeypatch.setitem(sys.modules, "meshio", None)
-    for asked, extra in (
-        (["draw", "hertz", "--interactive", "--output", str(tmp_path / "no")], interactive.EXTRA),
-        (["export", str(drawn["rest"].output), "--to", "vtk"], vtk.EXTRA),
-    ):
-        result = CliRunner().invoke(app, asked)
-        assert result.exit_code == 2
-        assert extra in result.output
-        assert len(result.output.strip().splitlines()) == 1
-    assert not (tmp_path / "no").exists()
-
-
-def test_the_interactive_page_needs_no_network(tmp_path):
-    pytest.importorskip("plotly")
-    report = compare.draw(FAST, interactive=True, output=tmp_path, workers=1)
-    page = (tmp_path / interactive.NAME).read_text(encoding="utf-8")
-    assert "<script src=" not in page
-    assert "height" in page
-    assert interactive.NAME in str(report)
+    result = CliRunner().invoke(app, ["export", str(drawn["rest"].output), "--to", "vtk"])
+    assert result.exit_code == 2
+    assert vtk.EXTRA in result.output
+    assert len(result.output.strip().splitlines()) == 1
 
 
 def test_a_surface_for_paraview_holds_the_load_and_what_is_displaced(drawn):

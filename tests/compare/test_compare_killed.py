@@ -161,7 +161,7 @@ def blank(tables):
 
 @dataclass(frozen=True)
 class Word(Study):
-    """A study that solves nothing: title, findings, table, figure, results and a file of its own tell one word."""
+    """A study that solves nothing: title, findings, table, figure and results tell one word."""
 
     title: str
 
@@ -172,9 +172,6 @@ class Word(Study):
         table = DataFrame({"word": [self.title]})
         blocks = [Plot(f"{self.title}/picture", blank, {"points": table}, ""), Table(self.title, table)]
         return Judgement([Finding(Claim(self.title, self.title), 1.0)], [self.title], blocks)
-
-    def beside(self, page):
-        return {f"{self.title}.html": self.title}
 
 
 def written(word, folder, **options):
@@ -187,7 +184,7 @@ def files(folder):
 
 
 def of(word, *others):
-    own = {f"{word}.html", f"{word}.csv", f"{word}/picture.png", f"{word}/points.csv", *others}
+    own = {f"{word}.csv", f"{word}/picture.png", f"{word}/points.csv", *others}
     return own | {LOCK, "findings.csv", "results.nc", "manifest.json"}
 
 
@@ -286,12 +283,12 @@ def test_while_a_run_holds_a_folder_others_are_refused_before_they_change_anythi
     class Below(Word):
         place = "page"
 
-        def beside(self, page):
+        def judge(self, answers):
             another = threading.Thread(target=ask)
             another.start()
             another.join()
             ask()
-            return super().beside(page)
+            return super().judge(answers)
 
     def ask():
         for other in (compare.redraw, compare.export, partial(written, "two")):

@@ -294,7 +294,7 @@ def test_what_cannot_be_compared_is_refused_before_anything_is_solved(tmp_path):
     program = Program(stages=(Stage(duration=1e-3, load=1.0),))
     with pytest.raises(Refused, match="motion = Program"):
         Run.of(replace(CASE, motion=program))
-    with pytest.raises(Refused, match="crosscheck animate shows"):
+    with pytest.raises(Refused, match="crosscheck draw shows"):
         Run.of("there-and-back")
     with pytest.raises(InvalidInput, match="did you mean quick-start"):
         Run.of("quick-strat")

@@ -26,7 +26,6 @@ DOORS = {  # files outside which a library is not imported, in whichever folder 
     "pint": {"units"},
     "h5py": {"netcdf"},
     "distributed": {"cluster"},
-    "plotly": {"interactive"},
     "meshio": {"vtk"},
 }
 # What a study may use of the judge: what a user's own study may, and the studies that it builds on.

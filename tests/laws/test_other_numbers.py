@@ -22,7 +22,6 @@ from bem3d import BEM
 from compare.library.case import Variations
 from compare.report.plots.journals import JOURNALS
 from compare.report.redraw import in_columns
-from compare.studies.animate.animation import animate
 from compare.studies.mastercurve.study import Mastercurve
 from compare.studies.mastercurve.temperatures import Constants
 from compare.studies.plan import plans
@@ -245,7 +244,7 @@ NOT_NUMBERS = {
     *("roughness", "spectrum", "elastomer", "path", "solver", "result", "findings", "answers", "plots"),
     *("output", "options", "folder", "name", "size", "baseline", "update", "quantities", "table", "file", "unit"),
     *("scheduler", "format", "figure_format", "report", "yes"),
-    *("level", "repeat", "peaks", "kind", "journal", "style", "to", "interactive", "progress", "dataset", "study"),
+    *("level", "repeat", "peaks", "kind", "journal", "style", "to", "progress", "dataset", "study"),
 }
 
 
@@ -443,7 +442,6 @@ def test_every_class_has_an_example_of_each_number():
 
 def test_every_argument_is_known():
     known = {place.name.partition("(")[0].rpartition(".")[2] for place in CALLED} | {
-        "animate",
         "heights",
         "verify",
         "topography",
@@ -548,13 +546,9 @@ def test_counts_of_functions_are_whole_numbers(wrong, tmp_path):
         replace(PARAMETER_GRID, draws={"BEM": wrong})
     with pytest.raises(ValueError, match="workers"):
         compare.run(SLIDING, tmp_path, workers=wrong)
-    with pytest.raises(ValueError, match="frames"):
-        animate(SLIDING, tmp_path / "film.gif", frames=wrong)
 
 
-def test_times_and_pixels_of_functions_have_units(tmp_path, quantity):
-    with pytest.raises(ValueError, match=r"seconds = .*: a time"):
-        animate(SLIDING, tmp_path / "film.gif", seconds=quantity(1.0, "mm"))
+def test_pixels_of_functions_have_units(tmp_path, quantity):
     np.save(tmp_path / "map.npy", HEIGHTS)
     plain = Map.of(tmp_path / "map.npy", pixel=(2e-6, 1e-6), unit="um")
     for pixel in (quantity([2.0, 1.0], "um"), np.array([2e-6, 1e-6]), ("2 um", quantity(1.0, "um"))):

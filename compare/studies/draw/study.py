@@ -1,18 +1,20 @@
 """A contact as a picture: `crosscheck draw`."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 import xarray
 
-from scene import Refused, SolveError, Solver, notes
+from bem3d import BEM
+from mdr1d import MDR
+from scene import Program, Refused, SolveError, notes
 from scene.protocol import foresee
 
 from ...library.case import Case, doubted
 from ...library.lookup import SceneLike, case_of
-from ...report.page import Page, Plot, Text
+from ...report.page import Text
 from ...report.views import View, view
 from ...solving.outcome import Outcome
 from ...solving.parameter_grid import work_of
@@ -22,9 +24,9 @@ from ...statistics import griderror
 from ...statistics.finding import Claim, Finding
 from ..study import Judgement, Study
 from . import figure as plots
-from . import interactive as turning
+from . import program
 
-SURFACE, ROW = "surface", "row"
+SURFACE, ROW, PROGRAM = "surface", "row", "program"
 NUMBERS = ("normal_force", "depth", "friction_force")
 APART = Claim(
     "draw.apart",
@@ -40,18 +42,15 @@ class Drawing(Study):
     case : scene, and settings of the solvers
     tasks : of BEM, and of MDR unless it refuses
     refused : why there is no row of springs; empty where there is one
-    interactive : whether the page links one of the surface that turns
     """
 
     case: Case
     tasks: tuple[SceneTask, ...]
     refused: str = ""
-    interactive: bool = False
-
     command, title = "draw", "One contact"
 
     @classmethod
-    def of(cls, scene: SceneLike, interactive: bool = False) -> "Drawing":
+    def of(cls, scene: SceneLike) -> "Drawing":
         """Drawing of a scene. Raises InvalidInput, and Refused of what no picture shows."""
         case = case_of(scene)
         if case.heating is not None and case.heating.feedback is not None:
@@ -63,7 +62,7 @@ class Drawing(Study):
             tasks.append(_task(case.mdr, case))
         except Refused as error:
             refused = str(error)
-        return cls(case, tuple(tasks), refused, interactive)
+        return cls(case, tuple(tasks), refused)
 
     @property
     def inputs(self) -> Mapping[str, Any]:
@@ -81,28 +80,32 @@ class Drawing(Study):
         return (Batch(self.tasks),)
 
     def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
-        """The surface around the contact, wake included, and the row of springs.
+        """The surface around the contact, wake included, the row of springs, and of a program the forces in time.
 
-        Raises SolveError where a solve failed, and where nothing touches in three dimensions.
+        A program that ends out of contact has these forces alone. Raises SolveError where a solve failed, and
+        where nothing touches in three dimensions.
         """
         found = {task.solver.name: outcomes[task] for task in self.tasks}
         for name, outcome in found.items():
             if outcome.rows[0].reason:
                 raise SolveError(f"{name}: {outcome.rows[0].reason}")
-        seen = view(
-            self.case.scene, self.case.bem, {name: each.fields for name, each in found.items() if each.fields}
-        )
-        if seen is None or seen.space is None or not seen.space.touching.any():
+        fields = {name: each.fields for name, each in found.items() if each.fields}
+        seen, parts = view(self.case.scene, self.case.bem, fields), {}
+        if seen is not None and seen.space is not None and seen.space.touching.any():
+            surface, row = datasets(seen, fields.get("MDR", {}))
+            parts = {f"/{SURFACE}": surface} | ({} if row is None else {f"/{ROW}": row})
+        elif not (isinstance(self.case.motion, Program) and "BEM" in fields):
             raise SolveError("nothing touches in 3D, so there is nothing to draw: press deeper")
-        surface, row = datasets(seen, found["MDR"].fields if "MDR" in found else {})
-        parts = {f"/{SURFACE}": surface} | ({} if row is None else {f"/{ROW}": row})
-        for dataset, outcome in zip(parts.values(), found.values(), strict=True):
+        for dataset, outcome in zip(parts.values(), found.values(), strict=False):
             for name in NUMBERS:
                 value = getattr(outcome.rows[0], name)
                 dataset[name] = (), value, attributes(name, self.case.scene)
             if griderror.MEASURE in outcome.rows[0].measures:
                 error = outcome.rows[0].measures[griderror.MEASURE]
                 dataset[griderror.MEASURE] = (), error, attributes(griderror.MEASURE, self.case.scene)
+        if isinstance(self.case.motion, Program):
+            for name, kept in fields.items():
+                parts[f"/{PROGRAM}/{name}"] = program.dataset(self.case.scene, self.case.bem, name, kept)
         return xarray.DataTree.from_dict(parts)
 
     def _findings(self, answers):
@@ -131,17 +134,18 @@ class Drawing(Study):
     def judge(self, answers: xarray.DataTree) -> Judgement:
         findings = self._findings(answers)
         said = [Text(f"No row of springs: {self.refused}.")] if self.refused else []
-        if self.interactive:
-            said.append(Text(f"The surface, to be turned in a browser: [{turning.NAME}]({turning.NAME})."))
         answer = [f"{each.claim.sentence}: {each.found()}." for each in findings]
-        return Judgement(findings, answer, [plots.plot(self.case.scene, *_parts(answers)), *said], self.setting)
+        surface, row = _parts(answers)
+        shown = [] if surface is None else [plots.plot(self.case.scene, surface, row)]
+        if PROGRAM in answers:
+            marched = {name: each.to_dataset() for name, each in answers[PROGRAM].children.items()}
+            shown.append(program.plot(self.case.scene, marched))
+        return Judgement(findings, answer, [*shown, *said], self.setting)
 
-    def beside(self, page: Page) -> Mapping[str, str]:
-        """The surface that turns, where it is asked for."""
-        return {turning.NAME: turning.text(next(page.every(Plot)))} if self.interactive else {}
 
-
-def _task(solver: Solver, case: Case) -> SceneTask:
+def _task(solver: BEM | MDR, case: Case) -> SceneTask:
+    if isinstance(case.motion, Program):
+        solver = replace(solver, frames=program.INSTANTS)
     foresee(solver, case.scene)
     return SceneTask(solver, (case.scene,), keeps_fields=True, work=work_of(solver, case.scene))
 

@@ -99,9 +99,7 @@ class Run(Study):
         except NotCompared as error:
             if not isinstance(scene, str | Path):
                 raise
-            alone = (
-                "crosscheck plan says what each solver makes of it, and crosscheck animate shows motion in time"
-            )
+            alone = "crosscheck plan says what each solver makes of it, and crosscheck draw shows motion in time"
             raise NotCompared(f"{error}. So {scene} cannot be compared; {alone}") from error
         except Refused as error:
             raise Refused(f"{asked}: {error}") from error

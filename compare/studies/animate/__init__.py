@@ -1,1 +1,0 @@
-"""A scene that moves: crosscheck animate."""
