@@ -13,10 +13,7 @@ from scenes import PAGE, RandomScene, scenes
 from tables import replaced, stored, table
 
 from compare import FrictionLaw, Persson
-from compare.models.law.card import card
 from compare.models.law.share import FITTED
-from compare.models.law.smooth import SmoothContact
-from scene import Cone, Sphere
 from scene.scales import elastic_contact
 
 WHICH = {
@@ -50,7 +47,7 @@ REGIONS: dict[str, Callable[[DataFrame], pandas.Series]] = {
     "outside": lambda d: d["outside"] == 1,
     "all": lambda d: d["height"] > 0,
 }
-MODELS = {"law": "law", "card": "card", "known": "card, smooth body known", "persson": "Persson", "line": "MDR"}
+MODELS = {"law": "law", "persson": "Persson", "line": "MDR"}
 
 
 def errors(name: str) -> DataFrame:
@@ -66,12 +63,9 @@ def _errors(each: RandomScene, known) -> dict:
     found = FrictionLaw().solve(scene)
     low, high = (found.measures[f"friction_{end}"] for end in ("low", "high"))
     loaded = scene if scene.motion.load is not None else None
-    on_card, smooth = bool(loaded) and isinstance(scene.indenter, Sphere | Cone), SmoothContact.of(scene)
     spread = np.exp(1.96 * known["error"])
     answers = {
         "law": found.friction_coefficient,
-        "card": card(scene) if on_card else np.nan,
-        "known": card(scene, (smooth.friction_coefficient, smooth.radius)) if on_card else np.nan,
         "persson": Persson().solve(loaded).friction_coefficient if loaded else np.nan,
         "line": known["line"],
     }
@@ -136,13 +130,6 @@ def coefficients() -> Iterator[tuple[str, ...]]:
         yield of[row["to"]], times, value, f"{low} to {high}"
 
 
-def smooth_bodies() -> Iterator[tuple[str, ...]]:
-    """Errors of the card on smooth bodies."""
-    for row in pandas.read_csv(PAGE.with_name("card.csv")).to_dict("records"):
-        off = (f"{100 * row[name]:.2g} %" for name in ("median", "nine in ten"))
-        yield f"{row['shape'].lower()}, {row['of']}", *off, str(row["scenes"])
-
-
 def answer() -> str:
     """The law and its errors on fresh scenes, in two sentences."""
     found = pandas.read_csv(PAGE.with_name("errors-fresh.csv"))
@@ -165,7 +152,6 @@ def main(name: str = "fresh") -> None:
     if PAGE.with_name("steep.csv").exists():
         replaced(LAW, "steep", table("|".join(STEEP), steep()))
     replaced(LAW, "share", table("x|planes|median|nine in ten|standard error", shares()))
-    replaced(LAW, "card", table("smooth|median|nine in ten|scenes", smooth_bodies()))
     replaced(LAW, "coefficients", table("of|times|value|interval", coefficients()))
 
 

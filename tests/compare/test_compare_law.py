@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 from itertools import pairwise
-from math import isnan, log, pi, tan
+from math import isnan, log, pi
 from pathlib import Path
 
 import numpy as np
@@ -15,11 +15,9 @@ from bem3d import BEM
 from compare import FrictionLaw
 from compare.models.exact import slow_friction_3d
 from compare.models.law.bands import FASTER, Bands, FullContact
-from compare.models.law.card import card, smooth_body
 from compare.models.law.friction_law import LawParts
 from compare.models.law.nominal import GAPS, NominalContact, Rings
 from compare.models.law.share import LEAST, MOST, Share, coefficients
-from compare.models.law.smooth import SmoothContact
 from mdr1d import MDR
 from scene import (
     Cone,
@@ -37,7 +35,6 @@ from scene import (
     Sphere,
     StandardLinearSolid,
 )
-from scene.scales import elastic_contact
 
 SOLID = Kelvin(modulus=1e6, relaxation_time=1e-3)
 ROUGH = SelfAffine(hurst=0.5, rms_height=4e-6, longest=3e-3, shortest=2.5e-4, seed=1)
@@ -200,26 +197,3 @@ def test_three_dimensions_agree_within_its_interval_where_one_dimension_does_not
     answer = FrictionLaw().solve(scene)
     assert answer.measures["friction_low"] < space < answer.measures["friction_high"]
     assert abs(answer.friction_coefficient / space - 1) < 0.05 < abs(line / space - 1)
-
-
-@pytest.mark.parametrize("body", [Sphere(radius=10e-3), Cone(angle=0.05)])
-def test_the_smooth_body_of_the_card_has_the_closed_form_of_low_speed(body):
-    scene = replace(SCENE, indenter=body, motion=Slide(speed=1e-4, load=1.0), roughness=None)
-    friction, radius, rate = smooth_body(scene)
-    rest = elastic_contact(scene).radius
-    lag = SOLID.relaxation_time * 1e-4
-    slow = lag / 10e-3 if isinstance(body, Sphere) else pi / 2 * tan(0.05) * lag / rest
-    assert (friction, radius, rate) == pytest.approx((slow, rest, 1.0), rel=0.02)
-    assert card(replace(scene, elastomer=Elastic(1e6), roughness=ROUGH)) == 0.0
-
-
-@pytest.mark.parametrize("body", [Sphere(radius=10e-3), Cone(angle=0.05)])
-@pytest.mark.parametrize("solid", [SOLID, StandardLinearSolid(1e6, 1e9, 1e-6)])
-@pytest.mark.parametrize("height", [1e-10, 2e-6])
-def test_the_card_is_close_to_the_law(body, solid, height):
-    for speed in (0.01, 0.1, 1.0):
-        scene = replace(SCENE, indenter=body, elastomer=solid, motion=Slide(speed=speed, load=1.0))
-        scene = replace(scene, roughness=replace(ROUGH, rms_height=height))
-        smooth, law = SmoothContact.of(scene), FrictionLaw().solve(scene).friction_coefficient
-        assert card(scene, (smooth.friction_coefficient, smooth.radius)) == pytest.approx(law, rel=0.08)
-        assert card(scene) == pytest.approx(law, rel=0.15)

@@ -5,6 +5,6 @@ bands : a spectrum as waves, and what these do in full contact
 smooth : the smooth contact that roughness is added to
 nominal : that contact with its roughness as a soft layer
 share : the share of friction that partial contact leaves, as measured on rough planes
-friction_law : the law of friction, a model; card : the same without any solve
+friction_law : the law of friction, a model
 persson : Persson's theory, a model
 """
