@@ -9,7 +9,6 @@ Options of all of them:
 output : folder for the page, the figures and the solved contacts
 workers : number of processes; if absent, one for each processor
 scheduler : address of a dask.distributed scheduler, as tcp://host:8786; its workers then solve the contacts
-format : format of the page: html or markdown
 figure_format : file formats of the figures, separated by commas: png, pdf, svg. A PNG is always written
 report : write the page and its figures. Findings, tables and results are written in any case
 yes : agree to a study of more than a day or of more than 300,000 contacts
@@ -57,7 +56,6 @@ if TYPE_CHECKING:
 
 # Allowed values, which a shell completes. Others are refused where they are used.
 Size = Literal["quick", "standard", "full"]
-Format = Literal["html", "markdown"]
 FigureFormat = Literal["png", "pdf", "svg"] | str  # several, separated by commas
 Diagram = Literal["models", "surfaces", "mdr", "elastic", "sliding", "marching", "precision", "extent", "all"]
 Journal = Literal[
@@ -87,7 +85,6 @@ class Options(TypedDict, total=False):
 
     workers: int | None
     scheduler: str | None
-    format: Format
     figure_format: FigureFormat
     report: bool
     yes: bool
@@ -100,7 +97,6 @@ def solve(
     *,
     workers: int | None = None,
     scheduler: str | None = None,
-    format: Format = "html",
     figure_format: FigureFormat = "png",
     report: bool = True,
     yes: bool = False,
@@ -116,7 +112,7 @@ def solve(
 
     _warn(study.doubts)
     with _shown(progress) as told:
-        found = pipeline.run(study, output, workers, scheduler, format, figure_format, report, yes, budget, told)
+        found = pipeline.run(study, output, workers, scheduler, figure_format, report, yes, budget, told)
     _warn([" ".join(found.unsolved.sentences)] if found.unsolved.failed else [])
     return found
 
@@ -506,14 +502,11 @@ def redraw(
     return redraw(folder, journal, style, output, width=width)
 
 
-def export(
-    folder: str | Path, to: Literal["csv", "latex", "vtk"] = "csv", output: str | Path | None = None
-) -> list[Path]:
-    """Write tables as CSV or LaTeX, surfaces for ParaView.
+def export(folder: str | Path, to: Literal["csv", "vtk"] = "csv", output: str | Path | None = None) -> list[Path]:
+    """Write tables as CSV, surfaces for ParaView.
 
     folder : folder that a command has written, or its results.nc
-    to : csv (every digit, units in the heading), latex (rounded, for booktabs), or vtk (surfaces for ParaView,
-        which takes the extra vtk)
+    to : csv (every digit, units in the heading), or vtk (surfaces for ParaView, which takes the extra vtk)
     output : folder for the files; if absent, `tables` in the folder
     """
     from .report.export import export

@@ -36,12 +36,12 @@ ROWS = DataFrame(
     {"body": ["b", "a", "c"], "order": [10.5, 9.0, nan], "memory": [1, 200, 30], "reason": ["", "x", "|y|"]}
 )
 LONG = DataFrame({"x": np.linspace(0, 1, 1000), "pressure": np.linspace(0, 1e6, 1000) / 3})
-PROSE = "Some *emphasis*, `code_x`, a [link](https://example.org) & <b>50 %</b>.\n\n- one\n- two"
+PROSE = "Some *words* of code_x & <b>50 %</b>\nover two lines.\n\n- one\n- two, on\n  and on"
 
 
-def written(page, findings, folder, format="html"):
+def written(page, findings, folder):
     """The file of a page, with its figures and tables beside it."""
-    return render.write(render.files(page, findings, format), folder)[-1]
+    return render.write(render.files(page, findings), folder)[-1]
 
 
 def page() -> Page:

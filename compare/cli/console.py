@@ -17,8 +17,10 @@ FAILED, MISTAKE, INTERRUPTED = 1, 2, 130
 EXPONENT = re.compile("[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+")
 FIGURES = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻₀₁₂₃₄₅₆₇₈₉", "0123456789-0123456789")
 PLAIN = {"−": "-", "–": "-", "±": "+-", "×": "x", "·": "*", "µ": "u", "°": " deg", "√": "sqrt ", "≤": "<="} | {
-    "≥": ">=", "≈": "~", "∞": "inf", "′": "'", "…": "...", "½": "1/2"
+    "≥": ">=", "≈": "~", "∞": "inf", "′": "'", "…": "...", "½": "1/2", "→": "->"
 }  # fmt: skip
+GREEK = "alpha beta gamma delta epsilon eta theta lambda mu nu xi pi rho sigma tau phi omega Delta"
+PLAIN |= dict(zip("αβγδεηθλμνξπρστφωΔ", GREEK.split(), strict=True))
 
 
 def say(text: str, error: bool = False) -> None:
@@ -40,15 +42,13 @@ def print_in_any_encoding() -> None:
 
 def _readable(error):
     """Plain letters for those that cannot be encoded, and where to go on: an exponent is written whole, 10^-12."""
-    from ..report.render.mathematics import GREEK
-
     text, start, end = error.object, error.start, error.end
     if start and EXPONENT.match(text, start - 1):  # its first figures are written
         return text[start:end].encode("ascii", "backslashreplace").decode(), end
     if exponent := EXPONENT.match(text, end - 1):
         end = exponent.end()
     plain = EXPONENT.sub(lambda found: f"^{found[0]}", text[start:end]).translate(FIGURES)
-    plain = "".join(PLAIN.get(each) or GREEK.get(each, each).removeprefix("var") for each in plain)
+    plain = "".join(PLAIN.get(each, each) for each in plain)
     return plain.encode("ascii", "backslashreplace").decode(), end
 
 

@@ -1,4 +1,4 @@
-"""Results of a folder for others: CSV with units in its heads, LaTeX for a paper, surfaces for ParaView."""
+"""Results of a folder for others: CSV with units in its heads, surfaces for ParaView."""
 
 from collections.abc import Iterator
 from operator import methodcaller
@@ -14,22 +14,17 @@ from ..solving import netcdf, parameter_grid, store
 from ..solving.hold import hold
 from ..solving.suggest import known
 from ..solving.vocabulary import entry
-from . import csvfiles, latex, manifest, vtk
+from . import csvfiles, manifest, vtk
 
-FORMS = {"csv": ".csv", "latex": ".tex", "vtk": vtk.ENDING}
+FORMS = "csv", "vtk"
 TABLES = "tables"
-# No paper has room for more rows, or for more columns.
-MOST_ROWS, MOST_COLUMNS = 100, 12
-# Columns of findings that a paper has room for.
-PRINTED = ("sentence", "where", "dimension", "expected", "tolerance", "value", "low", "high", "verdict", "unit")
 
 
 def export(folder: str | Path, to: str = "csv", output: str | Path | None = None) -> list[Path]:
     """Write results into files; returns them.
 
     folder : that a command left, or that has such folders, or a file of results
-    to : "csv", every digit and a unit behind each name; "latex", rounded, for booktabs, without what no page
-        has room for; or "vtk", the surfaces for ParaView
+    to : "csv", every digit and a unit behind each name; or "vtk", the surfaces for ParaView
     output : where to; `tables` in the folder, or beside the file, if absent
 
     Raises InvalidInput where there is nothing of the kind, a file is damaged or a run holds the folder, Refused of
@@ -45,14 +40,12 @@ def export(folder: str | Path, to: str = "csv", output: str | Path | None = None
         return _surfaces(folder, Path(output))
     written = []
     for name, frame in dict(_tables(folder)).items():
-        if to == "latex":
-            frame = _printable(frame)
         if not frame.empty:
-            written.append(manifest.inside(Path(output), f"{name}{FORMS[to]}"))
+            written.append(manifest.inside(Path(output), f"{name}.csv"))
             headed = frame.rename(columns=lambda column: _head(str(column)))
-            csvfiles.write_text(written[-1], _latex(frame, name) if to == "latex" else csvfiles.text(headed))
+            csvfiles.write_text(written[-1], csvfiles.text(headed))
     if not written:
-        raise InvalidInput(f"{brief(str(folder))}: holds no table that {to} could show")
+        raise InvalidInput(f"{brief(str(folder))}: holds no table")
     return written
 
 
@@ -100,27 +93,7 @@ def _flat(name: str, dataset: xarray.Dataset) -> Iterator[tuple[str, DataFrame]]
         yield name if most else f"{name}-{'-'.join(map(str, dims))}", frame
 
 
-def _printable(frame: DataFrame) -> DataFrame:
-    """Table that a paper has room for; nothing of one that is too long or too wide."""
-    if set(PRINTED) <= set(frame.columns):
-        frame = frame[list(PRINTED)]
-    fits = len(frame) <= MOST_ROWS and len(frame.columns) <= MOST_COLUMNS
-    return frame if fits else DataFrame()
-
-
-def _latex(frame: DataFrame, name: str) -> str:
-    try:
-        return latex.table(frame, _title(name), f"tab:{name}")
-    # Columns are not always what their names say.
-    except (TypeError, ValueError, ArithmeticError) as error:
-        raise InvalidInput(f"table {name} cannot be printed: {brief(str(error))}") from error
-
-
 def _head(name: str) -> str:
     """Name of a column with its unit."""
     found = entry(name)
     return name if found is None or found.unit in ("", "1") else f"{name} [{found.unit}]"
-
-
-def _title(name: str) -> str:
-    return name.replace("-", " ").replace("_", " ").replace("/", ": ").capitalize()

@@ -34,7 +34,7 @@ VERSIONS = (*PACKAGES, "matplotlib", "pandas", "xarray", "pydantic")
 # Most items of a list, letters of a name.
 MOST_LISTED, MOST_LETTERS = 10_000, 1000
 # What a run writes beside its page, and the next one on the folder may remove.
-OURS = (".html", ".md", ".csv", ".nc", ".png", ".pdf", ".svg")
+OURS = (".html", ".csv", ".nc", ".png", ".pdf", ".svg")
 
 
 def _of_folder(name: str) -> str:

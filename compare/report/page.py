@@ -14,9 +14,26 @@ Tables: TypeAlias = Mapping[str, DataFrame]
 
 @dataclass(frozen=True)
 class Text:
-    """Paragraphs in Markdown: emphasis, `code`, links, lists, formulas in LaTeX between dollars."""
+    """Plain text: paragraphs with an empty line between them; lines that begin with "- " are a list."""
 
-    markdown: str
+    text: str
+
+    @property
+    def parts(self) -> list[list[str]]:
+        """Paragraphs, each alone, and lists; their lines joined, the marks of a list left."""
+        parts: list[list[str]] = []
+        open_part = False
+        for line in map(str.strip, self.text.splitlines()):
+            if not line:
+                open_part = False
+            elif not open_part or (line.startswith("- ") and not parts[-1][0].startswith("- ")):
+                parts.append([line])
+                open_part = True
+            elif line.startswith("- "):
+                parts[-1].append(line)
+            else:
+                parts[-1][-1] += f" {line}"
+        return parts
 
 
 @dataclass(frozen=True)

@@ -2,24 +2,15 @@
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from scene import Scene
 from scene.vocabulary import FIELDS, MEASURES, NUMBERS, Entry
 
 from .docstrings import documented
 
-
-@dataclass(frozen=True)
-class Term(Entry):
-    """Entry with its formula in LaTeX, and the equation of the theory or of the paper that it comes from."""
-
-    formula: str = ""
-    source: str = ""
-
-
-# Words of the judge: a line is "name : text [unit] | formula | source", without what is not there.
-_WORDS = r"""
+# Words of the judge: a line is "name : text [unit]", without a unit that is not there.
+_WORDS = """
 Of Datasets: coordinates, and what scene.vocabulary has under another name.
 grid : Which grid of the solver: fine, as the settings say, coarse, with half the points a side, or coarser still.
 points : Points of the grid along a side. [1]
@@ -92,7 +83,7 @@ solver : MDR: the method of dimensionality reduction, 1D. CorrectedMDR: that ove
     boundary elements, 3D. exact: closed form. Another name: a model that did not come with the package.
 body : Rough, or smooth: the same body without its roughness.
 curve : Curve that a point belongs to.
-friction : Coefficient of friction: mean friction force over mean normal force. [1] | \mu = F_x/F_N | theory, Eq. 2
+friction : Coefficient of friction: mean friction force over mean normal force. [1]
 friction_coefficient : Coefficient of friction: mean friction force over mean normal force. [1]
 
 Of what accuracy costs: surfaces on several grids, and what an error asks for.
@@ -119,17 +110,16 @@ failed : Solves that ended with an error. [1]
 surfaces : Number of surfaces over which a mean is taken: profiles in 1D, surfaces in 3D. [1]
 failures : Solves that ended with an error and are left out of the means. [1]
 drag : Friction over real contact, over that under the least load. [1]
-contact_law : Real contact over that under the least load, by the paper. [1] |  | Popov et al. 2014, Eq. 17
+contact_law : Real contact over that under the least load, by the paper. [1]
 drag_law : Friction over real contact, likewise. [1]
 slope_law : Rms slope of what touches, likewise. [1]
 contact : Real contact, where pressure is not zero: a length [m] in 1D, an area [m²] in 3D.
 friction_spread : Friction by traction less friction by energy lost, over the friction force, mean over surfaces.
-    [1] | \lvert F_\mathrm{traction} - F_\mathrm{loss}\rvert/\lvert F_x\rvert | theory, Eq. 5d
-log_shift : Shift of a curve along ln F_N that brings it onto the common curve. [1] |  | Popov et al. 2014, Eq. 23
+    [1]
+log_shift : Shift of a curve along ln F_N that brings it onto the common curve. [1]
 log_lift : Shift of a curve along ln mu, beside that along ln F_N, onto the common curve. [1]
-log_time_shift : Shift ln a_T of a temperature along ln v, by which its friction is that of the reference. [1] |
-    \ln a_T | theory, Eq. 21
-reduced_speed : Speed times a_T, the shift of its temperature. [m/s] | v\,a_T | theory, Eq. 21
+log_time_shift : Shift ln a_T of a temperature along ln v, by which its friction is that of the reference. [1]
+reduced_speed : Speed times a_T, the shift of its temperature. [m/s]
 law : Law of the shifts with the temperature: WLF or Arrhenius.
 shifted_force : Normal force times the shift of its curve. [N]
 shifted_friction : Friction coefficient times the shift of its curve along friction. [1]
@@ -147,7 +137,7 @@ Of measured maps.
 q : Wave number; of a ring, the mean of its waves. [rad/m]
 density_2d : Two-sided spectral density C_2D, mean over directions. [m^4]
 density_1d : Two-sided spectral density C_1D of the line scans along x, mean over the rows. [m^3]
-density_1d_mapped : Spectral density by the rule of the MDR. [m^3] | C_\mathrm{1D} = \pi q\,C_\mathrm{2D}
+density_1d_mapped : Spectral density by the rule of the MDR. [m^3]
 waves : Waves of a map in a ring of wave numbers, a wave and its opposite counted as one. [1]
 in_band : Whether a wave number lies in the band in which the power law was fitted.
 ratio : Number in one dimension over that in three. [1]
@@ -171,7 +161,7 @@ off_curve : ln of friction less that of the common curve at the shifted force. [
 rms : rms of ln of friction about the common curve, with scatter of surfaces. [1]
 points_left_out : Points that were not fitted, as fewer than half of the surfaces have an answer. [1]
 surfaces_left_out : Surfaces that were not fitted, as a solve failed at some point that is. [1]
-theory : ln of the shift p(v) that the loss at the shortest wave predicts. [1] |  | Popov et al. 2014, Eq. 22
+theory : ln of the shift p(v) that the loss at the shortest wave predicts. [1]
 rough : Depth [m] under the load, or force [N] at the depth, of the rough body at rest.
 closed_form : Depth [m] or force [N] of the smooth body in closed form.
 rough_deviation : rough less closed_form: of depths over the rms height, of forces over closed_form. [1]
@@ -183,9 +173,9 @@ stiffness : Difference of forces over difference of depths, between neighbouring
 rate : Rate of pressing in. [m/s]
 smooth_normal_force : Normal force on the body without its roughness. [N]
 friction_1d_over_3d : Coefficient of friction in 1D over that in 3D. [1]
-friction_over_plateau : Friction over that of the plateau. [1] | \mu/(\sqrt{2}\,s) | Popov et al. 2014, Eq. 14
+friction_over_plateau : Friction over that of the plateau. [1]
 over_eq_19 : Friction over that of Eq. 19 at the same ξ and plateau. [1]
-measured_share : Friction that roughness adds, over that in full contact. [1] | (\mu - \mu_0)\,p/F_\mathrm{full}
+measured_share : Friction that roughness adds, over that in full contact. [1]
 contact_fraction : Real over nominal contact: of the area π a² in 3D, of the length 2a in 1D. [1]
 contact_over_period : Diameter of the smooth relaxed contact over the period of the roughness. [1]
 fails : Number of findings that fail. [1]
@@ -194,23 +184,18 @@ series : Title of the series.
 shape : Shape of the bodies.
 
 Dimensionless groups.
-depth_over_height : Depth of the smooth relaxed contact over the rms height of the roughness. [1] | d/h_0
-shortest_in_contact : Radius of the smooth relaxed contact times the highest wave number of the roughness. [1] | a
-    q_s
-pressure_over_slope : Mean pressure over modulus times rms slope; far above 1 the contact is full in 3D. [1] |
-    F_N/(\pi a^2 E^* h^{\prime})
-memory_over_contact : Length slid in the mean lag τ of the solid over the radius of the contact. [1] | v\tau/a
-memory_over_shortest : Length slid in the mean lag τ times the highest wave number. [1] | v\tau q_s
-xi : Variable of the law; friction over its plateau in the limit of low speed. [1] | \xi = \frac{v\tau s}{\sqrt{2}}
-    \left(\frac{8 G_0}{F_N}\right)^{n/(n+1)} \left(\frac{n+1}{c n}\right)^{1/(n+1)} | Popov et al. 2014, Eq. 18
-normalised_friction : Friction over that of the plateau, s the rms slope of the roughness. [1] |
-    \tilde\mu = \mu/(\sqrt{2}\,s) | Popov et al. 2014, Eq. 14
-alpha : Exponent of the law that joins low speed and plateau. [1] |
-    \tilde\mu = (1 + \xi^{-\alpha})^{-1/\alpha} | Popov et al. 2014, Eq. 19
+depth_over_height : Depth of the smooth relaxed contact over the rms height of the roughness. [1]
+shortest_in_contact : Radius of the smooth relaxed contact times the highest wave number of the roughness. [1]
+pressure_over_slope : Mean pressure over modulus times rms slope; far above 1 the contact is full in 3D. [1]
+memory_over_contact : Length slid in the mean lag τ of the solid over the radius of the contact. [1]
+memory_over_shortest : Length slid in the mean lag τ times the highest wave number. [1]
+xi : Variable of the law; friction over its plateau in the limit of low speed. [1]
+normalised_friction : Friction over that of the plateau, s the rms slope of the roughness. [1]
+alpha : Exponent of the law that joins low speed and plateau. [1]
 
 Of cost and accuracy.
 relative_error : Error of a quantity against a closed form, or against a far finer solution whose own error is
-    stated. [1] | \lvert y/y_\mathrm{true} - 1\rvert
+    stated. [1]
 reference_error : Relative error of the reference; what is at or below it is only known to be as good as that. [1]
 processor : Processor time of one thread from the scene to the result: the least of several repeats, each alone in
     a process that has loaded compiled code. [s]
@@ -227,7 +212,7 @@ study : Parameter that is varied while all others are held.
 step : Number of the value of the parameter. [1]
 parameter : Value of the parameter that is varied, in its SI unit; angles in radians.
 hurst : Hurst exponent of the roughness. [1]
-macroscopic_modulus : Modulus on the scale of the contact over the static one. [1] | \lvert G(v/a)\rvert/G_0
+macroscopic_modulus : Modulus on the scale of the contact over the static one. [1]
 points_fitted : Points that a straight line through the logarithms was fitted to.
 slope : Slope of the line, the exponent of ξ. [1]
 factor : Factor of the power law. [1]
@@ -277,14 +262,13 @@ reference : Solution that errors are measured against.
 """
 
 
-def _term(line: str) -> Term:
-    said, formula, source = (*line.split(" | "), "", "")[:3]
-    text, unit = re.fullmatch(r"(.*?)(?: \[([^\]]*)\])?", said).groups("")
-    return Term(unit, text, formula=formula, source=source)
+def _stated(line: str) -> Entry:
+    text, unit = re.fullmatch(r"(.*?)(?: \[([^\]]*)\])?", line).groups("")
+    return Entry(unit, text)
 
 
 LABELS: Mapping[str, Entry] = {
-    **{name: _term(line) for name, line in documented(_WORDS)[1].items()},
+    **{name: _stated(line) for name, line in documented(_WORDS)[1].items()},
     "load": Entry("N", "Normal force that was prescribed.", along_line="N/m"),
     "force": Entry("N", "Mean normal force.", along_line="N/m"),
     "depth_reached": NUMBERS["depth"],
@@ -315,7 +299,7 @@ def stem(name: str) -> str:
     return name
 
 
-def entry(name: str) -> Term | None:
+def entry(name: str) -> Entry | None:
     """Entry of a name, of the judge first and then of the solvers; None of a name that explains itself."""
     whose = stem(name)
     found = _entry(whose)
@@ -326,8 +310,7 @@ def entry(name: str) -> Term | None:
 
 
 def _entry(name):
-    found = LABELS.get(name) or NUMBERS.get(name) or MEASURES.get(name) or FIELDS.get(name)
-    return Term(**vars(found)) if found else None
+    return LABELS.get(name) or NUMBERS.get(name) or MEASURES.get(name) or FIELDS.get(name)
 
 
 def head(name: str) -> str:
@@ -338,4 +321,4 @@ def head(name: str) -> str:
 
 def attributes(name: str, scene: Scene | None = None) -> dict[str, str]:
     """Attributes of a variable of a Dataset: units, long name and definition."""
-    return (entry(name) or Term("", "")).attributes(name, "" if scene is None else scene.indenter.type)
+    return (entry(name) or Entry("", "")).attributes(name, "" if scene is None else scene.indenter.type)

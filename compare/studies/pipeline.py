@@ -35,7 +35,6 @@ def run(
     output: str | Path,
     workers: int | None = None,
     scheduler: str | None = None,
-    format: str = "html",
     figure_format: str = "png",
     report: bool = True,
     yes: bool = False,
@@ -47,7 +46,6 @@ def run(
     output : folder of the page and of what has been solved
     workers : processes; as many as processors if absent
     scheduler : address of a scheduler of dask.distributed, whose workers solve then
-    format : of the page, "html" or "markdown"
     figure_format : forms of the figures, "png", "pdf" and "svg", separated by commas; a PNG is always written
     report : whether the page and its figures are written; findings and results always are
     yes : agree to what takes more than a day
@@ -60,7 +58,6 @@ def run(
     """
     output, progress = Path(output), progress or Progress()
     forms = tuple(dict.fromkeys(["png", *(form.strip() for form in figure_format.split(",") if form.strip())]))
-    known("format", format, render.FORMATS)
     for form in forms:
         known("figure_format", form, render.FORMS)
     limit = inf if budget is None else seconds_of("budget", budget)
@@ -74,7 +71,7 @@ def run(
         if cost.contacts:
             progress.told(str(cost))
         done = _answered(study, output, workers, scheduler, yes, Clock(limit), progress)
-        path = _write(done, below, format, forms, report, progress)
+        path = _write(done, below, forms, report, progress)
         return replace(done, path=path)
 
 
@@ -110,7 +107,7 @@ def _answered(study, output, workers, scheduler, yes, clock, progress) -> Report
     return Report(study, answers, findings, page, swept, output, None, unsolved)
 
 
-def _write(done, folder, format, forms, report, progress) -> Path | None:
+def _write(done, folder, forms, report, progress) -> Path | None:
     """Write a page and all beside it in place of what earlier runs wrote there; returns the file of the page.
 
     All is drawn before the folder is touched.
@@ -119,7 +116,7 @@ def _write(done, folder, format, forms, report, progress) -> Path | None:
     files = {netcdf.NAME: results}
     if report:
         with progress.writing(len(list(page.every(Plot)))) as told:
-            files |= render.files(page, done.findings, format, forms, told)
+            files |= render.files(page, done.findings, forms, told)
     else:
         files |= render.tables(page, done.findings)
     manifest.begin(folder, study, files)
@@ -186,7 +183,7 @@ def _make_folders(folder, below, place):
             if path.exists() and not path.is_dir():
                 raise NotADirectoryError(errno.ENOTDIR, "is a file, and no folder", str(path))
             make(path)
-        for path in (folder / place / name for name in (*render.FILES, netcdf.NAME, manifest.NAME)):
+        for path in (folder / place / name for name in (render.PAGE, netcdf.NAME, manifest.NAME)):
             if path.is_dir():
                 raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
     except OSError as error:

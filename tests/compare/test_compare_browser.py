@@ -154,14 +154,12 @@ def test_a_page_prints_on_a4_with_all_figures_and_no_table_cut(written, opened):
     assert len(re.findall(rb"/Subtype\s*/Image", printed)) >= 1
 
 
-def test_a_verdict_leads_to_its_figure_and_that_to_its_table_and_a_head_to_its_definition(written, opened):
+def test_a_verdict_leads_to_its_figure_and_that_to_its_table(written, opened):
     shown, _ = opened(written)
     shown.locator(".claims td.verdict a").first.click()
     shown.locator("figure:target figcaption a").first.click()
     table = shown.locator("details[open] table")
     assert table.is_visible()
-    table.locator("th a.mark").nth(1).click()
-    assert shown.locator("dt:target").text_content().startswith("speed [m/s]")
 
 
 def test_a_link_unfolds_what_it_leads_to_without_a_script(written, opened):
@@ -245,7 +243,7 @@ def test_the_texts_of_a_stranger_run_nothing_and_load_nothing_even_without_the_p
     path.write_text(text, encoding="utf-8")
     shown, complaints = opened(path if policy else changed(path, tmp_path, ""), offline=False)
     assert shown.evaluate(OBEYED) == ["undefined", 0, 1, 0]
-    assert shown.evaluate(LINKS) == [["http:", "noopener noreferrer"]] * len(shown.evaluate(LINKS))
+    assert shown.evaluate(LINKS) == []
     assert HOSTILE[0] in shown.locator("main").inner_text()
     assert not asked
     assert complaints == []

@@ -144,7 +144,7 @@ def test_a_shell_completes_names_and_values(tmp_path, monkeypatch):
     assert complete("new", "quick") == ["quick-start"]
     assert complete("workprecision", "ex") == ["extent"]
     assert complete("redraw", "folder", "--journal", "el") == ["elsevier"]
-    assert complete("run", "quick-start", "--form") == ["--format"]
+    assert complete("run", "quick-start", "--figure-f") == ["--figure-format"]
 
 
 @pytest.mark.parametrize("kind", ["scene", "study"])
@@ -162,7 +162,6 @@ MISTAKES = {
     "run two-shapes": "is a ready study, and no scene: crosscheck study two-shapes",
     "run study.toml": "is a study, and no scene: crosscheck study study.toml",
     "run thin-layer": "crosscheck plan says what each solver makes of it",
-    "run quick-start --format word": "format = word: allowed are html, markdown",
     "run quick-start --output mine.toml": "crosscheck: --output mine.toml: mine.toml: is a file, and no folder",
     "study colapse": "NAME = colapse: allowed are collapse, ",
     "study collapse --size big": "size = big: allowed are quick, ",
@@ -171,7 +170,7 @@ MISTAKES = {
     "new quick-start mine.toml": "is there already, and nothing is overwritten",
     "redraw nowhere": "nowhere: no such folder",
     "redraw .": "no manifest.json here",
-    "export . --to word": "to = word: allowed are csv, latex",
+    "export . --to word": "to = word: allowed are csv, vtk",
 }
 
 

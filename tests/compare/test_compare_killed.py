@@ -229,7 +229,7 @@ def test_a_new_scene_takes_the_place_of_all_that_the_one_before_it_left_and_of_n
     for name in mine:
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).touch()
-    assert written("two", tmp_path, format="markdown") == of("two", "report.md") | mine
+    assert written("two", tmp_path) == of("two", "report.html") | mine
     assert written("three", tmp_path, report=False) == of("three") - {"three/picture.png"} | mine
     manifest = json.loads((tmp_path / "manifest.json").read_text())
     (tmp_path / "outside.csv").touch()

@@ -180,7 +180,7 @@ def test_loads_and_speeds_that_scatter_give_the_exponent_of_nominal_ones(tmp_pat
     assert told["exponent"].interval == pytest.approx(nominal["exponent"].interval, abs=0.006)
     with pytest.raises(InvalidInput, match=r"has 1 load|speeds: 2 to 100"):
         Mastercurve.of(tmp_path / "jittered.csv", tolerance=0)
-    assert "Loads within 5 % of one another are one" in scattering.setting[0].markdown
+    assert "Loads within 5 % of one another are one" in scattering.setting[0].text
 
 
 @pytest.mark.parametrize("tolerance", [-0.1, 0.6, np.nan, True, "wide"])

@@ -124,7 +124,7 @@ def test_a_series_of_which_nothing_was_solved_has_a_page_that_says_so():
     page = study.judge(answers).page(study.title, answers)
     assert list(page.answer) == []
     (section,) = (block for block in page.blocks if isinstance(block, Section) and block.title.startswith("1."))
-    assert any("No claim can be judged" in getattr(block, "markdown", "") for block in section.blocks)
+    assert any("No claim can be judged" in getattr(block, "text", "") for block in section.blocks)
     assert answers["sphere"].attrs["title"] == SERIES.title
 
 

@@ -1,9 +1,8 @@
-"""Pages: four renderers of `page.Page`, and what lies beside a page: figures and tables."""
+"""Pages: renderers of `page.Page`, and what lies beside a page: figures and tables."""
 
 from collections.abc import Callable, Mapping, Sequence
 from operator import methodcaller
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 from ...solving.store import write as write_whole
@@ -13,22 +12,16 @@ from .. import csvfiles
 from ..manifest import FINDINGS
 from ..page import Page, Plot
 from ..plots.rendering import FORMS, Picture, picture
-from . import html, markdown, terminal
+from . import html, terminal
 
-__all__ = ["FILES", "FORMATS", "FORMS", "files", "html", "tables", "terminal", "write"]
+__all__ = ["FORMS", "PAGE", "files", "html", "tables", "terminal", "write"]
 
-_RENDERERS: Mapping[str, tuple[str, ModuleType]] = {
-    "html": ("report.html", html),
-    "markdown": ("report.md", markdown),
-}
-FORMATS = tuple(_RENDERERS)
-FILES = tuple(name for name, _ in _RENDERERS.values())
+PAGE = "report.html"
 
 
 def files(
     page: Page,
     findings: Sequence[Finding],
-    format: str = "html",
     forms: Sequence[str] = ("png",),
     told: Callable[[str], Any] = lambda name: None,
 ) -> dict[str, bytes]:
@@ -46,8 +39,7 @@ def files(
         pictures[plot.name] = picture(plot, forms)
         found |= pictures[plot.name].named(plot.name)
         told(plot.name)
-    name, renderer = _RENDERERS[format]
-    return found | {name: renderer.text(page, pictures).encode()}
+    return found | {PAGE: html.text(page, pictures).encode()}
 
 
 def tables(page: Page, findings: Sequence[Finding]) -> dict[str, bytes]:

@@ -59,20 +59,6 @@ def regimes_once(findings: Sequence[Finding]) -> list[Finding]:
     return found
 
 
-def claims(findings: Sequence[Finding]) -> dict[str, list[str]]:
-    """Findings as columns of text, by their heads; those in which nothing stands are left out."""
-    cells = {
-        "Verdict": [each.verdict for each in findings],
-        "Claim": [each.claim.sentence for each in findings],
-        "Model": [each.dimension for each in findings],
-        "Where": [each.place for each in regimes_once(findings)],
-        "Found (95 %)": [each.found() for each in findings],
-        "Tested against": [each.claim.tested for each in findings],
-        "Basis": ["; ".join(filter(None, (each.basis, each.why))) for each in findings],
-    }
-    return {head: column for head, column in cells.items() if any(column)}
-
-
 def _ends(name, names):
     """Columns that hold the interval of another, or its error."""
     for ends in (JOINED.get(name, ()), (f"{name}{LOW}", f"{name}{HIGH}"), (f"{name}{ERROR}",)):

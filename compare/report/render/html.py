@@ -13,12 +13,11 @@ from pandas import DataFrame
 
 from scene.printable import printable
 
-from ...solving.vocabulary import Term, entry, stem
 from ..manifest import FINDINGS, made
 from ..page import Page, Plot, Section, Table
 from ..plots.rendering import Picture
-from . import mathematics, prose
 from .columns import columns, regimes_once
+from .symbols import symbolic
 
 MOST_ROWS = 400  # a longer table is no reading
 # Digits of numbers that are there to be looked up.
@@ -31,7 +30,6 @@ POLICY = "default-src 'none'; base-uri 'none'; form-action 'none'; img-src data:
 
 def text(page: Page, pictures: Mapping[str, Picture]) -> str:
     """The page; pictures : of the plots, by name."""
-    used: dict[str, Term] = {}
     style = _template("style.html").render()
     shown = {table.name for table in page.every(Table)}
     behind = {name: frame for name, frame in page.tables() if name not in shown}
@@ -42,9 +40,9 @@ def text(page: Page, pictures: Mapping[str, Picture]) -> str:
         contents=[
             (anchor("section", each.title), each.title) for each in page.blocks if isinstance(each, Section)
         ],
-        data={name: _rows(frame, used) for name, frame in behind.items()},
+        data={name: _rows(frame) for name, frame in behind.items()},
         about={**page.about, **made()},
-        **_content(used, pictures, {plot.name for plot in page.every(Plot)}),
+        **_content(True, pictures, {plot.name for plot in page.every(Plot)}),
     )
     return printable(made_of)
 
@@ -56,7 +54,7 @@ def digest(text: str) -> str:
 
 def fragment(page: Page, path: Path | None = None) -> str:
     """Answer, findings and tables of a page for a notebook, without figures; path : of the page, named last."""
-    content = _content(None, {}, set())
+    content = _content(False, {}, set())
     return printable(_template("fragment.html").render(page=page, path=path and path.resolve(), **content))
 
 
@@ -65,54 +63,38 @@ def anchor(*parts: str) -> str:
     return "-".join("".join(c if c.isascii() and c.isalnum() else "-" for c in part) for part in parts if part)
 
 
-def _content(used, pictures, figures) -> dict[str, Any]:
-    """Functions and values for the templates. used : terms that the page defines; None without definitions"""
+def _content(whole, pictures, figures) -> dict[str, Any]:
+    """Functions and values for the templates. whole : whether the page is a file of its own"""
     return {
         "kind": lambda block: type(block).__name__,
         "anchor": anchor,
-        "definitions": used,
+        "whole": whole,
         "pictures": pictures,
         "figures": figures,
-        "prose": lambda markdown: Markup(prose.html(markdown)),
-        "typeset": lambda words: Markup(_typeset(words)),
+        "symbolic": symbolic,
         "regimes_once": regimes_once,
-        "mathml": lambda latex: Markup(mathematics.mathml(latex)),
-        "rows": lambda table: _rows(table.frame, used, people=True),
-        "head": lambda label, name: Markup(_head(label, name, used)),
+        "rows": lambda table: _rows(table.frame, people=True),
         "image": lambda picture: base64.b64encode(picture.files["png"]).decode(),
         "FINDINGS": FINDINGS,
     }
 
 
-def _rows(frame: DataFrame, used: dict[str, Term] | None, people: bool = False) -> Markup | None:
+def _rows(frame: DataFrame, people: bool = False) -> Markup | None:
     """Head and body of a table; None of one that is too long to be read."""
     if len(frame) > MOST_ROWS:
         return None
     shown = columns(frame) if people else columns(frame, DIGITS, merged=False)
-    heads = "".join(_head(column.title, column.name, used) for column in shown)
+    heads = "".join(f'<th scope="col">{escape(column.title)}</th>' for column in shown)
     cells = [[_cell(column, *each) for each in zip(column.values, column.texts, strict=True)] for column in shown]
     body = "\n".join(f"<tr>{''.join(row)}</tr>" for row in zip(*cells, strict=True))
     return Markup(f"<thead><tr>{heads}</tr></thead>\n<tbody>\n{body}\n</tbody>")
 
 
-def _head(title, name, used):
-    """Head of a column, with a link to its definition, which the page then has."""
-    whose, mark = stem(name), ""
-    if used is not None and (found := entry(whose)) is not None:
-        used[whose] = found
-        mark = f'<a class="mark" href="#{anchor("def", whose)}" aria-label="Definition: {escape(title)}">?</a>'
-    return f'<th scope="col">{escape(title)}{mark}</th>'
-
-
 def _cell(column, value, shown):
     label = f' data-label="{escape(column.title)}"'
     if len(shown) > LONG and not isinstance(value, float):
-        return f'<td class="words"{label}>{_typeset(shown)}</td>'
+        return f'<td class="words"{label}>{escape(symbolic(shown))}</td>'
     return f"<td{label}>{escape(shown)}</td>"
-
-
-def _typeset(words):
-    return mathematics.typeset(words, escape, mathematics.mathml)
 
 
 def _template(name: str) -> jinja2.Template:

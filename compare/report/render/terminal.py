@@ -8,7 +8,6 @@ from scene.printable import printable
 
 from ...statistics.finding import Finding
 from ..page import Findings, Page, Plot, Section, Table, Text
-from . import prose
 from .columns import columns
 
 WIDTH = 100
@@ -34,9 +33,10 @@ def text(page: Page, path: Path | None = None, whole: bool = True) -> str:
 def _blocks(blocks, rule) -> Iterator[str]:
     for block in blocks:
         match block:
-            case Text(markdown):
-                lines = prose.plain(markdown).split("\n")
-                yield "\n".join(_filled(line, 2 * line.startswith("- ")) for line in lines)
+            case Text():
+                yield "\n\n".join(
+                    "\n".join(_filled(line, 2 * line.startswith("- ")) for line in part) for part in block.parts
+                )
             case Table() if not block.long and len(block.frame) <= MOST_ROWS:
                 shown = _table(block.frame)
                 if max(map(len, shown.splitlines()), default=0) <= WIDEST:

@@ -41,7 +41,7 @@ from .study_file import study_of
 ALL = "all"
 UNMATCHED = (
     "The roughness is a line in 1D and a surface in 3D. The rule of the method, "
-    r"$C_\mathrm{1D} = \pi q\,C_\mathrm{2D}$, ties their spectra; it keeps the rms height and the rms of the full "
+    "C_1D = π q C_2D, ties their spectra; it keeps the rms height and the rms of the full "
     "gradient. Real contact is a length in 1D and an area in 3D, and no claim compares them."
 )
 
@@ -225,7 +225,7 @@ class AllStudies(Study):
         "dimension and in three, on the same scenes. A claim holds if its whole interval of 95 % lies within the "
         "tolerance and fails if none of it does; otherwise, or where an error is unknown, it is undecided. The "
         "scatter is found by leaving out each surface in turn, at all points at once, and the interval is wider "
-        "at both ends by the change on halving the grid. The page of each study, `crosscheck study NAME`, shows "
+        "at both ends by the change on halving the grid. The page of each study, crosscheck study NAME, shows "
         "every series with its figures and points."
     )
 
@@ -272,8 +272,7 @@ class AllStudies(Study):
     def setting(self) -> Sequence[Block]:
         """Rule of the verdict, what differs between the dimensionalities, and each question with its command."""
         questions = (
-            f"- {each.title} {each.about} `crosscheck study {each.name} --size {each.size}`"
-            for each in self.studies
+            f"- {each.title} {each.about} crosscheck study {each.name} --size {each.size}" for each in self.studies
         )
         return [Text(self.about), Text(UNMATCHED), Text("\n".join(questions))]
 

@@ -129,7 +129,7 @@ class WorkPrecision(Study):
     @property
     def setting(self) -> Sequence[Block]:
         """Meaning of errors and times, and the contacts of each diagram."""
-        return [Text(ABOUT.replace("\n", " "))] + [
+        return [Text(ABOUT)] + [
             Section(f"Contacts of the diagram: {each.title}", [Text(ready.DIAGRAMS[each.name].about)])
             for each in self.diagrams
         ]
