@@ -97,11 +97,6 @@ CATALOGUE = {
         "When can one dimension be trusted?",
         "The ratio of 1D over 3D, learned from scenes that both solved, and its errors on scenes it never saw.",
     ),
-    "experiment": About(
-        "The paper's experiment in three dimensions",
-        "The steel ball on a layer of polyurethane, at the loads and speeds of the paper, with all that the paper "
-        "does not state varied over what is plausible: master curve, straight parts, crossover, shifts.",
-    ),
 }
 
 # Diagrams of `crosscheck workprecision`, in the order of its page.

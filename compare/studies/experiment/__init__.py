@@ -1,1 +1,0 @@
-"""The experiment of the paper in three dimensions: `crosscheck study experiment`."""
