@@ -7,7 +7,7 @@ import make
 import pytest
 
 # Parts that take seconds, and parts that take minutes and run on demand.
-QUICK, LONG = {"solvers", "law", "trust"}, {"parameters", "regime", "depth"}
+QUICK, LONG = {"solvers", "law", "trust"}, {"hurst", "parameters", "regime"}
 WITHOUT_INTERVALS = {"solvers", "law", "regress"}
 
 
