@@ -10,6 +10,7 @@ from pandas import DataFrame
 from ...report.page import Plot, Tables
 from ...report.plots import shifted_curves, style
 from ...report.plots.shifted_curves import ShiftedCurves
+from ...statistics import eq23
 from ...statistics.collapse import collapse
 from ...statistics.finding import Finding
 from ...statistics.frictioncurves import SimulatedCurves
@@ -59,5 +60,7 @@ def _row(title: str, dataset: xarray.Dataset, spectrum: int) -> ShiftedCurves:
     friction = own["friction_of_shape"] + own["friction_of_roughness"]
     loads = own["load"].broadcast_like(friction).transpose("speed", "load")
     found = collapse(SimulatedCurves(own["speed"].values, loads.values, friction.values))
-    missed = found.horizontal.misfit.value
-    return ShiftedCurves(title, found, Finding(CLAIMS["collapse"], missed, (missed, missed), 0.0), SHIFT)
+    findings = {each.claim.id: each for each in eq23.findings(found, None, "3D", every=True, horizontal=True)}
+    judged = findings[eq23.COLLAPSE.id]
+    findings[eq23.COLLAPSE.id] = Finding(CLAIMS["collapse"], judged.value, judged.scatter, 0.0)
+    return ShiftedCurves(title, found, findings, SHIFT)
