@@ -15,8 +15,8 @@ from compare.report.page import Page, Table
 from compare.report.plots import shifted_curves, style
 from compare.report.render import terminal
 from compare.solving.continuation import Continuation
+from compare.solving.cost import MOST_DRAWS
 from compare.solving.outcome import Outcome, Row
-from compare.solving.parameter_grid import COARSE, FINE
 from compare.statistics import eq23
 from compare.statistics.collapse import collapse
 from compare.studies.claims.claims_friction import curves
@@ -32,13 +32,16 @@ def numbers(text):
 
 
 def invented(task, random):
-    """Rows of a contact whose friction scatters, and whose two estimates part by chance."""
-    rows = []
+    """Rows of a contact whose friction scatters; on coarse grids the first surfaces have estimates far apart."""
+    rows, coarse = [], task.solver.name == "BEM" and task.solver.points < TINY.bem.points
     for scene in task.scenes:
+        seed = scene.roughness.seed - TINY.roughness.seed if scene.roughness else 0
+        apart = 0.5 if coarse and seed < MOST_DRAWS else 0.05
         motion, scatter = scene.motion, 0.1 * random.normal() if scene.roughness else 0.0
         load = motion.load if motion.load is not None else motion.depth * 1e4
         friction = 0.1 * (motion.speed or 1.0) ** 0.3 * load**0.8 * np.exp(scatter)
-        parted = {"friction_by_traction": friction * (1 + 0.1 * random.normal()), "friction_by_loss": friction}
+        traction = friction * (1 + apart * random.lognormal())
+        parted = {"friction_by_traction": traction, "friction_by_loss": friction}
         rows.append(Row(load, 1e-4 * (1 + scatter), friction, 0.0, 1.0, 2.0, parted))
     return Outcome(tuple(rows))
 
@@ -56,19 +59,12 @@ def outside(findings):
 @pytest.mark.parametrize("interval", [None, 0.05], ids=["fixed draws", "draws in strata"])
 def test_a_number_of_a_run_lies_in_its_interval(interval):
     """Over draws in strata a mean is a sum of differences, and that of a size may be negative by chance."""
-    sizes = []
-    for seed in range(3):
-        random = np.random.default_rng(seed)
-        run = Run({"a case": TINY}, interval=interval)
-        tasks = [each for batch in run.batches() for each in batch.tasks]
-        contacts = (
-            each for task in tasks for each in (task.contacts if isinstance(task, Continuation) else [task])
-        )
-        findings = run.judge(run.answers({each: invented(each, random) for each in contacts})).findings
-        assert not outside(findings)
-        sizes += [each.value for each in findings if each.claim.id == "friction.spread"]
-    assert sizes
-    assert min(sizes) >= 0
+    random, run = np.random.default_rng(0), Run({"a case": TINY}, interval=interval)
+    tasks = [each for batch in run.batches() for each in batch.tasks]
+    contacts = (each for task in tasks for each in (task.contacts if isinstance(task, Continuation) else [task]))
+    findings = run.judge(run.answers({each: invented(each, random) for each in contacts})).findings
+    assert not outside(findings)
+    assert min(each.value for each in findings if each.claim.id == "friction.spread") >= 0
 
 
 @pytest.mark.parametrize(("scatter", "grid"), [(0.02, 0.0), (0.02, 0.05), (0.3, 0.0)])
@@ -90,8 +86,10 @@ def test_a_number_of_a_study_lies_in_its_interval(scatter, grid):
     ids=["along the load", "along both", "as expected", "not at all"],
 )
 def test_every_misfit_and_exponent_in_the_figure_of_shifts_is_that_of_a_finding(law, expected, horizontal, how):
-    answers = obeying(law, FEW, grid=0.02)
-    fine, coarse = (collapse(curves(answers, "BEM", grid)) for grid in (FINE, COARSE))
+    def off(load, speed):  # half the points miss by more at high speed
+        return law(load, speed) * (1 + 0.02 * np.log(1 + load * speed))
+
+    fine, coarse = (collapse(curves(obeying(each, FEW), "BEM")) for each in (law, off))
     shifts = None if isnan(expected) else expected * np.log(fine.speeds / fine.speeds[fine.speeds.size // 2])
     found = list(eq23.findings(fine, coarse, "3D", shifts, expected, horizontal=horizontal))
     row = shifted_curves.ShiftedCurves(
