@@ -104,7 +104,6 @@ class Finding:
     grid_method : how `grid` is known: "change on halving", "extrapolated", "exact" or "unknown"
     where : case, series or diagram in which it was measured
     draws : number of rough surfaces or profiles behind it, of the solver with the fewest; 0 of smooth bodies
-    drawn : those of each solver, which `draws` then follows from
     regime : range of the dimensionless groups in which it was measured, in words
     reason : why there is no verdict; beside a stated verdict, what else has to be said; else empty
     stated : verdict of a law or a stored value that is no interval; empty where the interval decides
@@ -113,6 +112,7 @@ class Finding:
     size : whether the number is one that is never negative, such as an rms
     parts : share in the scatter by solver and stratum of the surfaces; empty where not told apart
     remedy : what would decide it, in words, where it is undecided; empty where nothing is known that would
+    drawn : numbers of surfaces or profiles by solver, which `draws` then follows from
     """
 
     claim: Claim
@@ -122,7 +122,6 @@ class Finding:
     grid_method: str = UNKNOWN
     where: str = ""
     draws: int = 0
-    drawn: Mapping[str, int] = field(default_factory=dict)
     regime: str = ""
     reason: str = ""
     stated: str = ""
@@ -131,6 +130,7 @@ class Finding:
     size: bool = False
     parts: Mapping[tuple[str, int], float] = field(default_factory=dict, repr=False, compare=False)
     remedy: str = ""
+    drawn: Mapping[str, int] = field(default_factory=dict)
 
     def __post_init__(self):
         object.__setattr__(self, "dimension", self.dimension or self.claim.dimension)
