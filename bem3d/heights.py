@@ -46,5 +46,5 @@ def heights(scene: Scene, points: int, extent: float | None = None) -> Heights:
         grid = window.fitted(problem, points).grid(points, problem.width)
     else:
         grid = Grid(points, extent, width=problem.width)
-    window.check_waves(scene, grid)
+    window.check_waves(scene, grid, extent)
     return Heights(grid.x, grid.y, problem.heights(grid, problem.surface(grid)), grid.pixel)

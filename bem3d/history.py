@@ -17,7 +17,7 @@ def marched(solver, scene, started) -> Result:
     program = scene.motion
     problem = Problem(replace(scene, motion=program.held), solver.engine, solver.terms)
     grid = _grid(solver, problem, program)
-    window.check_waves(scene, grid)
+    window.check_waves(scene, grid, solver.extent)
     window.check_layer(scene, grid)
     history = march(problem, program, grid, solver.tolerance, solver.steps, solver.frames)
     _check(grid, history)

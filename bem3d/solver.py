@@ -258,7 +258,7 @@ class BEM:
         raise SolveError(f"no window holds the contact, the last was {grid.extent:g} m wide; state an extent")
 
     def _on(self, problem, grid, start, beside):
-        window.check_waves(problem.scene, grid)
+        window.check_waves(problem.scene, grid, self.extent)
         return problem.solve(grid, self.tolerance, start, beside)
 
     def _result(self, problem, grid, answer, started):

@@ -193,9 +193,13 @@ def check_on_map(scene: Scene, grid: Grid, touched: np.ndarray) -> None:
         )
 
 
-def check_waves(scene, grid: Grid) -> None:
-    """Raise SolveError where the grid cannot carry the roughness."""
-    if reasons := _missed(scene, grid):
+def check_waves(scene, grid: Grid, extent: float | None) -> None:
+    """Raise SolveError where the grid cannot carry the roughness.
+
+    extent : as stated [m]; None where the window is fitted
+    """
+    fitted_to_contact = extent is None and not isinstance(scene.indenter, Plane)
+    if reasons := _missed(scene, grid, SPARE if fitted_to_contact else 1.0):
         raise SolveError("; ".join(reasons))
 
 
@@ -288,7 +292,7 @@ def _missed(scene, grid, spare=1.0):
     least = ceil(2 * spare * grid.extent / shortest)
     told = [f"points = {least} would do"] if least <= MOST_POINTS else []
     if told and 4 * least <= MOST_POINTS:
-        told = [f"{told[0]}, {4 * least} would resolve it"]
+        told = [f"{told[0]}, points = {4 * least} would resolve it"]
     remedy = (
         "; ".join([*told, *_kept(scene, grid, spare)])
         or "no allowed number of points would do: press less, or use longer waves"

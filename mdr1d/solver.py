@@ -278,7 +278,8 @@ def _unresolved(rough: Roughness, band: Band, layout: Grid, points: int) -> list
 
 def _room(rough, band, layout, enough):
     """What works for other draws of the roughness too, whose contacts are wider, in words."""
-    told, kept = f"; {ceil(SPARE * enough):.15g} would leave room for other draws", 2 * SPARE * layout.pixel
+    told = f"; points = {ceil(SPARE * enough):.15g} would leave room for other draws"
+    kept = 2 * SPARE * layout.pixel
     if isinstance(rough, Scanned | Profile):
         least, most = rough.keepable
         kept = max(kept, FULLER * least)

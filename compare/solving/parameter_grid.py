@@ -3,6 +3,7 @@
 # xarray is imported where a Dataset is made: to count contacts, as `crosscheck plan` does, takes none.
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -45,6 +46,7 @@ MOST_ASKED = 1000  # lines drawn, whether each fits its grid
 # costs most, before anything is decided.
 PILOT, DIFFERENCES, FINEST = 32, 8, 4
 TOGETHER = 8  # profiles of a stratum that are one task, so that more of them leave those before as they are
+POINTS = re.compile(r"(?<=points = )\d+")  # that a reason names: those of its solver, and those that would do
 # What a solver gives of every contact, by the names of a Dataset: there `depth` is one that is prescribed, which a
 # march answers half a step before.
 NUMBERS = {
@@ -410,33 +412,47 @@ def refuse(parameter_grids: Iterable[ParameterGrid]) -> None:
     told: dict[str, str] = {}
     with trusted():
         for one, grids in asked:
-            for solver in (each for each in grids.values() if each.name not in told):
-                if reason := _reason(solver, one):
+            # What mends the coarsest of a solver mends its finer ones, which may lack memory all the same.
+            for solver in reversed([*grids.values()]):
+                if solver.name not in told and (reason := _reason(solver, one, grids)):
                     told[solver.name] = reason
     if told:
         raise Refused("; ".join(told.values()))
 
 
-def _reason(solver, one):
+def _reason(solver, one, grids):
     """Why a solver cannot solve all of a parameter grid; empty where nothing is known."""
     widest, *others = one.corners
     if why := why_not(solver, widest):
-        return _against(solver, widest, why)
+        return _against(solver, widest, why, grids)
     draws: tuple[Scene, ...] = ()
     if isinstance(solver, MDR) and replace(solver, points=max(8, int(solver.points / ROOM))).refusals(widest):
         draws = draws_of(widest, [seed for each in one.strata(solver.name) for seed in each][:MOST_ASKED])
     for scene in (*others, *draws[1:]):
         if why := lacking(solver, scene):
-            return _against(solver, scene, why)
+            return _against(solver, scene, why, grids)
     return ""
 
 
-def _against(solver, scene, why):
+def _against(solver, scene, why, grids):
+    """Reasons of a solver on one of its grids, with the points that have to be stated for all of them."""
     pressed, motion = scene.motion.pressed_by, scene.motion
     speed = f" at {motion.speed:.3g} m/s" if getattr(motion, "speed", 0.0) else ""
-    points = f" on {solver.points} points" if hasattr(solver, "points") else ""
+    points, said = "", "; ".join(why)
+    if hasattr(solver, "points"):
+        own = [each.points for each in grids.values()]
+        stated, coarsest = max(own), min(own)
+        points = f" on {solver.points} points"
+        if solver.points < stated:
+            points += f", which show the error of the grid of {stated}"
+
+        def for_all(named):
+            number = int(named[0])
+            return named[0] if number == solver.points else str(ceil(number * stated / coarsest))
+
+        said = POINTS.sub(for_all, said)
     place = f"{pressed} = {motion.greatest:.3g} {UNITS[pressed]}{speed}{points}"
-    return f"{solver.name} cannot solve this scene with {place}: {'; '.join(why)}"
+    return f"{solver.name} cannot solve this scene with {place}: {said}"
 
 
 def width(scene):

@@ -127,6 +127,7 @@ curves : Set of curves that are shifted onto one.
 power : Power of the speed: fitted to the shifts, expected, or that of a law.
 exponent : Exponent of a power of the speed. [1]
 misfit : Rms of ln mu about one curve, without what scatter adds. [1]
+least_misfit : The same, shifted along the load as far as neighbouring curves share the least range. [1]
 decided : Whether the shifts mean anything: not where curves do not collapse, nor where they part.
 shifted_as : Whether a figure shows curves shifted as fitted, or as expected.
 reference_speed : Speed whose curve is not shifted. [m/s]

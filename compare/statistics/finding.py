@@ -20,6 +20,8 @@ HALVED, EXTRAPOLATED, EXACT, UNKNOWN = "change on halving", "extrapolated", "exa
 BOTH = "1D/3D"
 # Models of which a number is said alone.
 ALONE = ("1D", "1D corrected", "3D")
+# What draws of a solver, or of a model, are called.
+DRAWS = {"MDR": "profiles", "BEM": "surfaces", "1D": "profiles", "1D corrected": "profiles", "3D": "surfaces"}
 # Findings on a claim of one model that a statement tells one by one.
 SHOWN = 4
 # Different reasons of undecided findings that a statement tells whole.
@@ -101,7 +103,7 @@ class Finding:
     grid : error of discretisation, absolute, which widens the interval at both ends; NaN if unknown
     grid_method : how `grid` is known: "change on halving", "extrapolated", "exact" or "unknown"
     where : case, series or diagram in which it was measured
-    draws : number of rough surfaces behind it; 0 of smooth bodies
+    draws : number of rough surfaces or profiles behind it, of the solver with the fewest; 0 of smooth bodies
     regime : range of the dimensionless groups in which it was measured, in words
     reason : why there is no verdict; beside a stated verdict, what else has to be said; else empty
     stated : verdict of a law or a stored value that is no interval; empty where the interval decides
@@ -110,6 +112,7 @@ class Finding:
     size : whether the number is one that is never negative, such as an rms
     parts : share in the scatter by solver and stratum of the surfaces; empty where not told apart
     remedy : what would decide it, in words, where it is undecided; empty where nothing is known that would
+    drawn : numbers of surfaces or profiles by solver, which `draws` then follows from
     """
 
     claim: Claim
@@ -127,9 +130,12 @@ class Finding:
     size: bool = False
     parts: Mapping[tuple[str, int], float] = field(default_factory=dict, repr=False, compare=False)
     remedy: str = ""
+    drawn: Mapping[str, int] = field(default_factory=dict)
 
     def __post_init__(self):
         object.__setattr__(self, "dimension", self.dimension or self.claim.dimension)
+        if self.drawn:
+            object.__setattr__(self, "draws", min(self.drawn.values()))
         for name, unit in (("value", BARE), ("grid", BARE), ("draws", WHOLE)):
             object.__setattr__(self, name, argument(name, getattr(self, name), unit.value))
         object.__setattr__(self, "scatter", argument("scatter", self.scatter, BARE.row))
@@ -196,12 +202,13 @@ class Finding:
 
     @property
     def basis(self) -> str:
-        """Parts of the interval in words: number of surfaces, and error of the grid."""
+        """Parts of the interval in words: numbers of profiles and surfaces, and error of the grid."""
         if not isfinite(self.grid):
             return ""
-        surfaces = f"{self.draws} surfaces, " if self.draws else ""
+        counts = self.drawn or ({self.dimension: self.draws} if self.draws else {})
+        drawn = "".join(f"{count} {DRAWS.get(name, f'draws of {name}')}, " for name, count in counts.items())
         exact = f" {digits.number(self.grid, 2)}" if self.grid else ""
-        return f"{surfaces}grid{exact} ({self.grid_method})"
+        return f"{drawn}grid{exact} ({self.grid_method})"
 
     @property
     def row(self) -> dict[str, Any]:

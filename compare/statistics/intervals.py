@@ -84,14 +84,20 @@ class Estimated(Generic[Value]):
         below, above = sides(level, self.dof, self.skewness)
         return self.value - self.error * below - self.bias, self.value + self.error * above + self.bias
 
-    def size_interval(self, level: float = 0.95) -> tuple:
-        """Ends of a number that is never negative: those of its logarithm."""
-        exact = np.asarray(self.error) == 0
+    def size(self, level: float = 0.95) -> tuple:
+        """Number that is never negative, and the ends of its interval: those of its logarithm.
+
+        A sum of differences may be negative by chance; it is then nil, and its ends are those of the sum.
+        """
+        exact, positive = np.asarray(self.error) == 0, np.asarray(self.value) > 0
         with np.errstate(invalid="ignore", divide="ignore"):
-            share = np.where(exact, 0.0, self.error / np.where(exact, 1.0, self.value))
+            share = np.where(exact, 0.0, self.error / np.where(positive, self.value, 1.0))
         logarithm = Estimated(np.zeros_like(share), share, self.dof, self.skewness)
-        low, high = logarithm.interval(level)
-        return self.value * np.exp(low), self.value * np.exp(high)
+        found = [self.value]
+        for of_logarithm, own in zip(logarithm.interval(level), self.interval(level), strict=True):
+            with np.errstate(over="ignore", invalid="ignore"):  # of a sum that is negative
+                found.append(np.where(positive, self.value * np.exp(of_logarithm), own))
+        return tuple(np.maximum(each, 0.0) for each in found)
 
     def less(self, other: Self) -> "Estimated":
         """Difference from a number of independent draws, with the degrees of freedom of Welch."""

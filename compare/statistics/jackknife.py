@@ -45,11 +45,11 @@ class Grouped(Protocol):
 
 
 class Drawn(Grouped, Protocol):
-    """Something averaged over a number of surfaces that is told."""
+    """Something averaged over numbers of surfaces that are told."""
 
     @property
-    def draws(self) -> int:
-        """Number of surfaces; 0 of smooth bodies."""
+    def drawn(self) -> Mapping[str, int]:
+        """Number of surfaces or profiles of each solver; none of smooth bodies."""
 
 
 @dataclass(frozen=True)
@@ -285,9 +285,9 @@ class DrawSet(Mapping[str, xarray.Dataset]):
         return found
 
     @property
-    def draws(self) -> int:
-        """Number of surfaces of the solver with the fewest; 0 of smooth bodies."""
-        return min((each.size for found in self._strata.values() for each in found), default=0)
+    def drawn(self) -> dict[str, int]:
+        """Number of surfaces or profiles of each solver, least of its Datasets; none of smooth bodies."""
+        return {solver: min(each.size for each in found) for solver, found in self._strata.items()}
 
     @property
     def groups(self) -> Sequence[Group]:
@@ -385,19 +385,19 @@ def measured(
         grid=grid,
         grid_method=HALVED if np.isfinite(grid) else UNKNOWN,
         where=where,
-        draws=fine.draws,
+        drawn=fine.drawn,
         regime=regime,
-        reason=_unknown(fine.draws, (found.value, low, high, grid)),
+        reason=_unknown(fine.drawn, (found.value, low, high, grid)),
         plot=plot,
         size=isinstance(found, RmsMisfit),
         parts={source: float(each) for source, each in found.parts.items()},
     )
 
 
-def _unknown(draws, numbers):
+def _unknown(drawn, numbers):
     """Reason why a number or one of its errors is not known; empty where all are."""
     if np.all(np.isfinite(numbers)):
         return ""
-    if draws == 1:
+    if 1 in drawn.values():
         return "of one surface the scatter is not known"
     return "at some point fewer than half of the surfaces have an answer, or the mean is not positive"

@@ -17,7 +17,7 @@ from .levels import pooled
 # Means of friction: the two forces whose means are divided.
 FRICTION = ("friction_force", "normal_force")
 RATIOS = {"friction_coefficient": FRICTION}
-# Told with deviation and interval, told as a mean alone.
+# Told with deviation and interval; told as a mean alone, of what is never negative.
 ESTIMATED = ("normal_force", "depth_reached", "friction_force", "friction_coefficient", "rms_slope", "contact")
 AVERAGED = ("friction_spread", "pixel", "points_across_contact")
 # Never negative: their intervals are those of their logarithms.
@@ -35,8 +35,8 @@ class Interval(NamedTuple):
     @classmethod
     def of(cls, found: Estimated, grid: np.ndarray | float, size: bool = False) -> "Interval":
         """Interval of the scatter, wider at both ends by the error of the grid. size : see `Finding`"""
-        low, high = found.size_interval() if size else found.interval()
-        return cls(found.value, np.maximum(low - grid, 0.0) if size else low - grid, high + grid)
+        value, low, high = found.size() if size else (found.value, *found.interval())
+        return cls(value, np.maximum(low - grid, 0.0) if size else low - grid, high + grid)
 
 
 def pressed(dataset: xarray.Dataset) -> str:
@@ -80,7 +80,7 @@ def means(dataset: xarray.Dataset, both: xarray.Dataset | None = None) -> DataFr
         columns |= {f"{name}_low": found.low, f"{name}_high": found.high}
     for name in AVERAGED:
         if name in fine:
-            columns[name] = _over_draws(fine[name], "mean")
+            columns[name] = interval(dataset, name, size=True).value
     columns["residual"] = _over_draws(fine["residual"], "max")
     columns["seconds"] = _over_draws(fine["seconds"], "sum")
     columns["surfaces"] = _over_draws(fine["normal_force"].notnull(), "sum")
@@ -94,7 +94,7 @@ class Compared:
 
     value, low, high : numbers, and the ends of their intervals of 95 % from the scatter of draws alone
     grid : change from half the points to all; NaN if not solved there
-    draws : of the solver with the fewest; 0 of smooth bodies
+    drawn : number of draws of each solver; none of smooth bodies
     parts : like those of `Estimated`
     """
 
@@ -102,7 +102,7 @@ class Compared:
     low: np.ndarray
     high: np.ndarray
     grid: np.ndarray
-    draws: int
+    drawn: Mapping[str, int]
     parts: Mapping[Source, np.ndarray] = field(default_factory=dict)
 
     @property
@@ -121,8 +121,8 @@ def compared(
     with np.errstate(invalid="ignore", divide="ignore"):
         found = resample(lambda sample: {"": statistic(sample)}, fine)[""].estimated
         grid = np.full(np.shape(found.value), nan) if coarse is None else np.abs(statistic(coarse) - found.value)
-    low, high = found.size_interval() if size else found.interval()
-    return Compared(found.value, low, high, grid, fine.draws, found.parts)
+    value, low, high = found.size() if size else (found.value, *found.interval())
+    return Compared(value, low, high, grid, fine.drawn, found.parts)
 
 
 def failures(dataset: xarray.Dataset) -> DataFrame:

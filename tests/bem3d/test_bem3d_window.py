@@ -138,7 +138,7 @@ def of_waves(shortest):
         (BEM(64, 1e-2), replace(LIGHT, motion=Indent(load=1e-9)), SolveError, "take more points"),
         (BEM(), Scene(Cylinder(1e-2), Elastic(1e6), Indent(line_load=1.0), ROUGH), Refused, "a rough Cylinder"),
         (BEM(extent=2e-2), PLANE, Refused, r"extent = 0.02 m: the cell of a Plane"),
-        (BEM(32), PLANE, Refused, r"points = 40 would do, 160 would resolve it"),
+        (BEM(32), PLANE, Refused, r"points = 40 would do, points = 160 would resolve it"),
         (BEM(32), replace(SMOOTH, motion=Indent(load=1e300)), SolveError, BEYOND),
         (BEM(32), replace(SMOOTH, motion=Indent(depth=1e300)), SolveError, BEYOND),
         (BEM(32), Scene(Sphere(1e-2), Kelvin(1e6, 1e-3), Slide(speed=0.1, load=1e-307)), SolveError, BEYOND),
@@ -188,9 +188,9 @@ def test_what_is_foreseen_is_what_a_solve_would_fail_by():
     for solver, scene in drawn_contacts(40, seed=1):
         if reasons := solver.foreseen(scene):
             foreseen += 1
-            with pytest.raises(SolveError, match="less than two pixels"):
-                solver.solve(scene)
             assert "less than two pixels" in reasons[0]
+            with pytest.raises(SolveError, match=re.escape(reasons[0])):
+                solver.solve(scene)
         else:
             try:
                 solver.solve(scene)

@@ -102,7 +102,7 @@ def test_the_difference_of_two_independent_means_holds_as_often():
 def test_a_size_has_no_negative_end_and_is_in_its_interval_as_often_as_stated(variation, counts):
     for count in counts:
         found = mean_ratio(drawn("lognormal", variation, count))
-        low, high = found.size_interval()
+        _, low, high = found.size()
         assert (low > 0).all()
         assert held((low, high)) >= least(0.92)
     # which a mean that may be negative has at few draws
@@ -110,8 +110,16 @@ def test_a_size_has_no_negative_end_and_is_in_its_interval_as_often_as_stated(va
 
 
 def test_a_size_of_nothing_is_nil():
-    assert Estimated(0.0, 0.0, 4).size_interval() == (0.0, 0.0)
-    assert np.isnan(Estimated(1.0, nan, 0).size_interval()).all()
+    assert Estimated(0.0, 0.0, 4).size() == (0.0, 0.0, 0.0)
+    assert np.isnan(Estimated(1.0, nan, 0).size()[1:]).all()
+
+
+def test_a_size_that_is_negative_by_chance_is_nil_within_the_interval_of_what_scatters():
+    value, low, high = Estimated(np.array([-0.018, -0.3, 0.02]), np.array([0.02, 0.02, 0.02]), 7).size()
+    assert value.tolist() == [0.0, 0.0, 0.02]
+    assert low[:2].tolist() == [0.0, 0.0]
+    assert high[0] == pytest.approx(-0.018 + 0.02 * student(0.95, 7))
+    assert ((low <= value) & (value <= high)).all()
 
 
 @pytest.mark.parametrize("true", [0.0, 0.02, 0.1])

@@ -11,6 +11,7 @@ from invented_answers import SERIES, eq_19, obeying
 from compare.report.page import Plot
 from compare.report.plots import style
 from compare.solving.parameter_grid import FINE
+from compare.statistics import digits
 from compare.statistics.finding import FAILS, HOLDS, REPORTED
 from compare.studies.claims import catalogue
 from compare.studies.claims.claims_law import EVERY, SHALLOW, LawPoints, law_findings
@@ -167,9 +168,9 @@ def test_without_the_law_or_three_dimensions_nothing_is_found(contacts):
 
 
 def test_figures_show_every_point_and_what_is_not_claimed_hollow():
-    judged, _ = together(answers(times=1.05), answers(CONE))
+    judged, several = together(answers(times=1.05), answers(CONE))
     figures = {each.name: each for each in plots_of_series(judged[0])} | {
-        each.name: each for each in plots_of_study(judged, True)
+        each.name: each for each in plots_of_study(judged, list(several.values()))
     }
     for name, points in (("sphere/law", 9), ("law", 18)):
         plot: Plot = figures[name]
@@ -177,7 +178,12 @@ def test_figures_show_every_point_and_what_is_not_claimed_hollow():
         assert len(plot.caption.split()) <= 60
         with style.applied():
             drawing = plot.figure()
-        _, right, *_ = drawing.axes
+        _, right, _, below, *_ = drawing.axes
+        own = {
+            each.claim.id: 100 * each.value for each in (judged[0].findings if "/" in name else several.values())
+        }
+        median, most = (digits.number(own[f"law3d.collapse{end}"], 2) for end in ("", "-most"))
+        assert below.get_title(loc="left").partition(" ")[2] == f"median {median} %, nine in ten {most} %"
         drawn = [line for line in right.lines if line.get_marker() not in ("", "None", "_", "|")]
         hollow = sum(line.get_xdata().size for line in drawn if line.get_markerfacecolor() == style.paper())
         assert hollow == (plot.tables["law-3d"]["height_over_depth"] > SHALLOW).sum() > 0

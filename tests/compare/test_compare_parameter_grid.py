@@ -186,10 +186,28 @@ def test_what_a_solver_lacks_is_refused_before_anything_is_solved():
         replace(SMOOTH, scene=layered).refuse()
 
 
+@pytest.mark.parametrize("points", [32, 64, 96])
+def test_the_values_that_a_refusal_names_are_enough_for_the_coarser_grid_too(points):
+    def refined(settings, shortest):
+        rough = replace(SLIDING.roughness, shortest=shortest)
+        scene, grids = replace(SLIDING, roughness=rough), on_two_grids(BEM(points=settings))
+        return replace(ROUGH, scene=scene, grids=grids, draws={"BEM": 1})
+
+    shortest = SLIDING.roughness.longest / 200
+    with pytest.raises(Refused, match="would do") as refused:
+        refined(points, shortest).refuse()
+    enough, longer = (
+        re.search(rf"{name} = ([\d.e-]+) would do", str(refused.value))[1] for name in ("points", "shortest")
+    )
+    assert refined(int(enough), shortest).refuse() is None
+    assert refined(points, float(longer)).refuse() is None
+
+
 def test_draws_of_each_solver_are_left_out_by_themselves(answers):
     sample = DrawSet.of(answers, ["rough/MDR", "rough/BEM", "smooth/MDR", "gone/MDR"], "fine")
     assert set(sample) == {"rough/MDR", "rough/BEM", "smooth/MDR"}
-    assert (sample.draws, [each.solver for each in sample.groups]) == (2, ["MDR"] * 4 + ["BEM"] * 2)
+    assert sample.drawn == {"MDR": 4, "BEM": 2}
+    assert [each.solver for each in sample.groups] == ["MDR"] * 4 + ["BEM"] * 2
     less = sample.without(sample.groups[-1])
     assert less["rough/BEM"].seed.values.tolist() == [5]
     assert all(less[name] is sample[name] for name in ("rough/MDR", "smooth/MDR"))
@@ -203,6 +221,7 @@ def test_a_claim_is_measured_with_scatter_and_with_the_change_on_halving(answers
     claim = Claim("force", "The force in 1D is that in 3D", 1.0, 0.01, curves=("rough",), measure=ratio)
     found = judge(claim, answers)
     assert (found.value, found.verdict, found.grid, found.draws) == (1.0, "holds", 0.0, 2)
+    assert found.basis == "4 profiles, 2 surfaces, grid (change on halving)"
     halved = answers.copy()
     halved["rough/BEM"]["normal_force"].loc[{"grid": "coarse"}] *= 1.25
     assert judge(claim, halved).grid == pytest.approx(0.2)

@@ -205,7 +205,7 @@ def test_points_and_waves_that_a_refusal_names_do_for_other_draws_too():
     rough = SelfAffine(hurst=0.5, rms_height=2e-5, longest=4e-3, shortest=2e-5)
     scene = Scene(Sphere(1e-2), Elastic(1e6), Indent(load=1.0), rough)
     (reason,) = MDR(points=100).refusals(scene)
-    points = int(re.search(r"; (\d+) would leave room for other draws", reason)[1])
+    points = int(re.search(r"; points = (\d+) would leave room for other draws", reason)[1])
     shortest = float(re.search(r"roughness.shortest = ([\d.e-]+) would do", reason)[1])
     for seed in range(20):
         drawn = replace(rough, seed=seed)

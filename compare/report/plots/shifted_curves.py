@@ -16,8 +16,9 @@ from matplotlib.figure import Figure
 from numpy.polynomial import Chebyshev
 from pandas import DataFrame, concat
 
+from ...statistics import digits, eq23
 from ...statistics.collapse import ENDS, Alignment, Collapse
-from ...statistics.finding import FAILS, Finding
+from ...statistics.finding import FAILS, Claim, Finding
 from ..page import Plot, Tables
 from . import shades, style
 from .curves import intervals, scatter
@@ -31,6 +32,8 @@ SLID = "speed times $a_T$ [m/s]"
 SPEEDS = 8
 # Degree of the one curve through those that no shift brings together: it only says where their middle is.
 APART = 2
+# Significant digits of a number without an interval, as in the answer.
+FIGURES = 3
 FITTED, EXPECTED, BOTH, UNSHIFTED, ACROSS = "fitted", "expected", "both", "none", "along friction"
 # What is done to the curves, in the words of a title.
 SHIFTED = {
@@ -49,7 +52,7 @@ class ShiftedCurves:
 
     title : what the curves are
     collapse : what shifts make of them
-    finding : on the collapse by horizontal shifts
+    findings : on the collapse, by the claims of `eq23`: those on misfits and exponents, which the figure names
     expected : exponent of the shifts as a power of the speed that is expected; NaN if none is
     powers : other exponents, by name
     conditions : further columns of the points, in their order; where the column `holds` is false points are hollow
@@ -59,12 +62,24 @@ class ShiftedCurves:
 
     title: str
     collapse: Collapse
-    finding: Finding
+    findings: Mapping[str, Finding]
     expected: float = nan
     powers: Mapping[str, float] = field(default_factory=dict)
     conditions: DataFrame | None = None
     lead: Alignment | None = None
     warmth: DataFrame | None = None
+
+    def found(self, *claims: Claim) -> tuple[float, float, float]:
+        """Number and interval of the first of some claims on which there is a finding; NaN where there is none."""
+        for each in claims:
+            if each.id in self.findings:
+                return self.findings[each.id].value, *self.findings[each.id].interval
+        return nan, nan, nan
+
+    @property
+    def verdict(self) -> str:
+        """Verdict on the collapse by horizontal shifts."""
+        return self.findings[eq23.COLLAPSE.id].verdict
 
     @property
     def both(self) -> bool:
@@ -74,7 +89,7 @@ class ShiftedCurves:
     @property
     def decided(self) -> bool:
         """Whether the shifts mean anything: not where they bring the curves onto none, or the curves part."""
-        return self.both or (not self.collapse.horizontal.reason and self.finding.verdict != FAILS)
+        return self.both or (not self.collapse.horizontal.reason and self.verdict != FAILS)
 
 
 def plot(rows: Sequence[ShiftedCurves], name: str = NAME) -> Plot | None:
@@ -94,7 +109,9 @@ def plot(rows: Sequence[ShiftedCurves], name: str = NAME) -> Plot | None:
         "hollow shifts leave curves apart."
     )
     fits = tables[name + FITS.removeprefix(NAME)]
-    alternative = "; ".join(f"{fit.curves}: {100 * fit.rms:.2g} % off one curve" for fit in fits.itertuples())
+    alternative = "; ".join(
+        f"{fit.curves}: {_missed(fit) or 'not known how far'} off one curve" for fit in fits.itertuples()
+    )
     return Plot(name, figure, tables, caption, alternative, {"name": name})
 
 
@@ -150,11 +167,18 @@ def _collapse(drawing, grid, k, end, fit, points, colours):
     left.set(title=literal(fit.curves), xlabel="normal force [N]", ylabel="friction coefficient [1]")
     above.set_title(_title(fit))
     above.tick_params(labelbottom=False)
-    below.set(title=f"off one curve: {100 * fit.rms:.2g} % (rms)", xlabel=shifted, ylabel="off [%]")
-    if fit.shifted_as in (EXPECTED, UNSHIFTED) and np.isfinite(fit.misfit):
-        least = f"shifted to the least overlap: {100 * fit.misfit:.2g} %"
-        below.set_title(least, loc="right", fontsize=style.small(), fontweight="normal")
+    title = ": ".join(filter(None, ("off one curve", _missed(fit))))
+    below.set(title=title, xlabel=shifted, ylabel="off [%]")
+    if fit.shifted_as in (EXPECTED, UNSHIFTED) and (least := _missed(fit, "least_misfit")):
+        told = f"shifted to the least overlap: {least}"
+        below.set_title(told, loc="right", fontsize=style.small(), fontweight="normal")
     return left, above, below
+
+
+def _missed(fit, name="misfit") -> str:
+    """A misfit with its interval as findings have it; empty where it is not known."""
+    misfit, low, high = (100 * getattr(fit, f"{name}{end}") for end in ENDS)
+    return f"{digits.interval(misfit, low, high, FIGURES)} %" if np.isfinite(misfit) else ""
 
 
 def _slid(table: DataFrame) -> DataFrame:
@@ -179,13 +203,15 @@ def _tables(each):
     found, lead = each.collapse, each.lead or each.collapse.horizontal
     how = BOTH if each.both else FITTED
     reference = found.speeds[found.speeds.size // 2]
-    along, degree = lead.horizontal.value, found.degree
+    along, missed = lead.horizontal.value, eq23.BOTH if each.both else eq23.COLLAPSE
     if lead.reason:
-        degree = APART
+        missed = eq23.PREDICTED if np.isfinite(each.expected) else eq23.UNSHIFTED
         how, power = (EXPECTED, each.expected) if np.isfinite(each.expected) else (UNSHIFTED, 0.0)
         along = power * np.log(found.speeds / reference)
     points = found.points(along, lead.vertical.value if each.both else None)
-    points = points.join(_deviation(points, "shifted_friction" if each.both else "friction_coefficient", degree))
+    points = points.join(
+        _deviation(points, "shifted_friction" if each.both else "friction_coefficient", lead.curve)
+    )
     if each.conditions is not None:
         points = points.join(each.conditions.reset_index(drop=True))
     shifts = found.shifts(lead)
@@ -198,23 +224,20 @@ def _tables(each):
                 (shifts, each.warmth),
             )
         )
-    fitted = (lead.exponent.value, *lead.exponent.interval()) if each.decided else (nan, nan, nan)
-    powers = {FITTED: fitted}
+    fitted = each.found(eq23.EXPONENT, eq23.BESIDE if each.both else eq23.ALONE)
+    powers = {FITTED: fitted if each.decided else (nan, nan, nan)}
     if each.both:
-        powers[ACROSS] = (lead.vertical_exponent.value, *lead.vertical_exponent.interval())
+        powers[ACROSS] = each.found(eq23.NOT_SHIFTED)
     powers |= {name: (power, nan, nan) for name, power in ({EXPECTED: each.expected} | each.powers).items()}
-    missed = (
-        (lead.misfit.value, *lead.misfit.interval()) if each.both else (each.finding.value, *each.finding.interval)
-    )
     fit = {
-        "verdict": each.finding.verdict,
-        **{f"misfit{end}": number for end, number in zip(ENDS, missed, strict=True)},
-        "rms": np.sqrt(np.mean(np.square(points["deviation"]))),
+        "verdict": each.verdict,
+        **{f"misfit{end}": number for end, number in zip(ENDS, each.found(missed), strict=True)},
+        **{f"least_misfit{end}": number for end, number in zip(ENDS, each.found(eq23.COLLAPSE), strict=True)},
         "decided": each.decided,
         "shifted_as": how,
         "expected": each.expected,
         "reference_speed": reference,
-        "degree": degree,
+        "degree": APART if lead.reason else found.degree,
     }
     return {
         NAME: points,
@@ -227,10 +250,10 @@ def _tables(each):
     }
 
 
-def _deviation(points, friction, degree):
-    """Friction over the polynomial of this degree that comes closest to ln mu of all points, less one."""
+def _deviation(points, friction, curve):
+    """Friction over the common curve of ln mu, less one; over the nearest of a low degree where there is none."""
     load = np.log(points["shifted_force"].to_numpy())
-    common = np.exp(Chebyshev.fit(load, np.log(points[friction].to_numpy()), degree)(load))
+    common = np.exp((curve or Chebyshev.fit(load, np.log(points[friction].to_numpy()), APART))(load))
     return DataFrame({f"deviation{end}": points[f"{friction}{end}"] / common - 1 for end in ENDS})
 
 
@@ -282,11 +305,13 @@ def _shifts(axes: Axes, fit, shifts: DataFrame, powers: DataFrame, colours: Any)
     decades, others = np.log10(speed / fit.reference_speed), iter(OTHERS)
     for power in powers.itertuples():
         name = "along the load" if ACROSS in set(powers["power"]) and power.power == FITTED else power.power
-        label = f"{name} $v^{{{power.exponent:.3g}}}$"
+        told = digits.interval(power.exponent, power.exponent_low, power.exponent_high, FIGURES)
+        exponent, _, ends = told.partition(" ")
+        # A power of ten behind an interval belongs to the number too.
+        label, ends = (f"{name} v^{told}", "") if "×" in told else (f"{name} $v^{{{exponent}}}$", ends)
         if power.power in (FITTED, ACROSS):
             colour, line = style.grey(0.6), "-" if power.power == FITTED else (0, (5, 1))
-            if power.exponent_low < power.exponent_high:
-                label += f"\n({power.exponent_low:.3g} to {power.exponent_high:.3g})".replace("-", "−")
+            label += f"\n{ends}" if ends else ""
         elif power.power == EXPECTED:
             colour, line = style.ink(), "--"
         else:

@@ -8,11 +8,11 @@ from scene.printable import printable
 
 from ...statistics.finding import Finding
 from ..page import Findings, Page, Plot, Section, Table, Text
-from .columns import columns
+from .columns import LOW, columns
 
 WIDTH = 100
 MORE = "Every number stands on the page; -v prints it too, as `report.details` does in Python."
-# Largest table that a terminal can show.
+# Rows of the longest table that is printed, and letters of a line.
 MOST_ROWS, WIDEST = 100, 200
 
 
@@ -38,9 +38,8 @@ def _blocks(blocks, rule) -> Iterator[str]:
                     "\n".join(_filled(line, 2 * line.startswith("- ")) for line in part) for part in block.parts
                 )
             case Table() if not block.long and len(block.frame) <= MOST_ROWS:
-                shown = _table(block.frame)
-                if max(map(len, shown.splitlines()), default=0) <= WIDEST:
-                    yield "\n".join(part for part in (_filled(block.caption), shown) if part)
+                parts = ["\n".join(part) for part in _table(block.frame)]
+                yield "\n".join(filter(None, [_filled(block.caption), "\n\n".join(parts)]))
             case Findings(findings, caption):
                 yield "\n".join([*([_filled(caption)] if caption else []), *_findings(findings)])
             case Section(title, inside):
@@ -64,15 +63,25 @@ def _findings(findings) -> Iterator[str]:
             yield _filled(f"  {each.verdict:<9}  {place}: {each.found()}{reason}", 13)
 
 
-def _table(frame) -> str:
-    shown = columns(frame)
-    cells = [[each.title, *(text.replace("\n", " ") for text in each.texts)] for each in shown]
-    widths = [max(map(len, column)) for column in cells]
-    sides = [str.rjust if each.numeric else str.ljust for each in shown]
-    return "\n".join(
-        "  ".join(side(cell, width) for side, cell, width in zip(sides, row, widths, strict=True)).rstrip()
-        for row in zip(*cells, strict=True)
-    )
+def _table(frame) -> Iterator[list[str]]:
+    """Lines of a table; one that is too wide in parts, each of which begins with the columns that say where."""
+    aligned, told = [], [name for name in frame if f"{name}{LOW}" in frame]
+    for each in columns(frame):
+        cells = [each.title, *(text.replace("\n", " ") for text in each.texts)]
+        side, width = str.rjust if each.numeric else str.ljust, max(map(len, cells))
+        aligned.append((each.name, [side(cell, width) for cell in cells]))
+    places = [cells for name, cells in aligned[: list(frame).index(told[0])]] if told else []
+    part: list[list[str]] = []
+    for _, cells in aligned:
+        if part != places and sum(len(one[0]) + 2 for one in [*part, cells]) > WIDEST + 2:
+            yield _lines(part)
+            part = [*places]
+        part.append(cells)
+    yield _lines(part)
+
+
+def _lines(aligned) -> list[str]:
+    return ["  ".join(row).rstrip() for row in zip(*aligned, strict=True)]
 
 
 def _headed(title, rule):

@@ -209,7 +209,7 @@ def _finding(name: str, level: float, off: Callable, fine: DrawSet, coarse: Draw
         scatter=(max(float(low), 0.0), float(high)) if known else (nan, nan),
         grid=grid,
         grid_method=HALVED if np.isfinite(grid) else UNKNOWN,
-        draws=fine.draws,
+        drawn=fine.drawn,
         reason="" if known else _UNKNOWN,
         size=True,
         parts={source: float(each[0]) for source, each in found.parts.items()},

@@ -191,7 +191,7 @@ class ClaimStudy(Study):
         """
         judged = self.judged(answers)
         findings = judged.findings
-        whole = list(study_plots.plots_of_study(judged.series, bool(judged.together)))
+        whole = list(study_plots.plots_of_study(judged.series, judged.together))
         blocks: list[Block] = []
         if overview := list(_overview(findings)):
             blocks.append(
@@ -261,7 +261,7 @@ class AllStudies(Study):
         sections = []
         for each in self.studies:
             judged = each.judged(answers.children[each.name])
-            plots = study_plots.plots_of_study(judged.series, bool(judged.together))
+            plots = study_plots.plots_of_study(judged.series, judged.together)
             shown = [replace(plot, name=f"{each.name}/{plot.name}") for plot in plots]
             own = [_named(one, each.name) for one in judged.findings]
             findings += own

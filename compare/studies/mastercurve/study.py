@@ -198,8 +198,10 @@ class Mastercurve(Study):
         return (*self.friction.notes, temperatures.ONE.format(self.pooled.points[0].temperature))
 
     def _plots(self, findings):
+        named = {each.claim.id: each for each in findings}
+        own = {claim: named[name] for claim, (name, _) in CLAIMS.items() if name in named}
         shown = shifted_curves.ShiftedCurves(
-            self.friction.name, self.collapse, findings[0], lead=self.lead, warmth=self._curves()
+            self.friction.name, self.collapse, own, lead=self.lead, warmth=self._curves()
         )
         plots = [shifted_curves.plot([shown])]
         if self.shifts is not None:

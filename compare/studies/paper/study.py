@@ -156,12 +156,11 @@ class Paper(Study):
         return [each for each in drawn if each is not None]
 
     def _shifted(self, lossy, findings):
-        collapses = {each.where: each for each in findings if each.claim.id == eq23.COLLAPSE.id}
         rows = [
             shifted_curves.ShiftedCurves(
                 title=lossy.where(of),
                 collapse=found,
-                finding=collapses[lossy.where(of)],
+                findings={each.claim.id: each for each in findings if each.where == lossy.where(of)},
                 expected=lossy.exponent,
                 powers={name: lossy.powers[name] for name in losses.comparable(of)},
                 conditions=lossy.conditions(of),

@@ -208,7 +208,7 @@ class CaseFindings:
             if model.has_grid:
                 number = self._ratio(OWN, (model.name,), *MEANS[first])
                 value = float((number.grid / np.abs(number.value))[0, 0])
-                yield Finding(GRID, value, where=self.name, draws=number.draws, dimension=model.label)
+                yield Finding(GRID, value, where=self.name, drawn=number.drawn, dimension=model.label)
 
     def _spread(self):
         """Spread of both estimates of friction in three dimensions, at every speed."""
@@ -349,7 +349,7 @@ class CaseFindings:
             grid=grid,
             grid_method=HALVED if isfinite(grid) else UNKNOWN,
             where=f"{self.name}, {place}" if place else self.name,
-            draws=found.draws,
+            drawn=found.drawn,
             regime=regime,
             plot=f"{self.folder}/{plot}" if plot else "",
             dimension=dimension,

@@ -414,7 +414,7 @@ def _shifted_curves(found: CaseFindings) -> Plot | None:
         shifted_curves.ShiftedCurves(
             found.models[each.solver].label,
             each.collapse,
-            each.findings[0],
+            {one.claim.id: one for one in each.findings},
             expected,
             lead=eq23.leading(each.collapse, each.findings),
         )

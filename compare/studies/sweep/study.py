@@ -178,9 +178,10 @@ class Sweep(Study):
         places = DataFrame(list(product(self.speeds, self.values)), columns=["speed", prescribed])
         for quantity, speeds in reversed([*wanted(prescribed, self.speeds, max(self.speeds) > 0)]):
             frame = places.copy()
-            for (solver, label), end in product(self.models.labels.items(), ("_mean", "_low", "_high")):
-                values = dataset[f"{quantity}{end}"].sel(solver=solver).values.ravel()
-                frame[f"{quantity} ({label}){end.removeprefix('_mean')}"] = values
+            answering = [each for each in self.models if WORDS[quantity] in each.answers]
+            for model, end in product(answering, ("_mean", "_low", "_high")):
+                values = dataset[f"{quantity}{end}"].sel(solver=model.name).values.ravel()
+                frame[f"{quantity} ({model.label}){end.removeprefix('_mean')}"] = values
             own = [each for each in findings if each.claim.id == f"sweep.{WORDS[quantity]}"]
             for beside in dict.fromkeys(each.dimension for each in own):
                 rows = [(each.value, *each.interval) for each in own if each.dimension == beside]

@@ -13,6 +13,8 @@ from ....report.page import Plot, Tables
 from ....report.plots import shades, style
 from ....report.plots.curves import intervals
 from ....report.plots.lettering import clear, lettered, literal
+from ....statistics import digits
+from ....statistics.finding import Finding
 from ....statistics.means import Interval
 from ..claims_law import PLOT, SHALLOW, LawPoints
 from ..points import friction_at, interval_columns, place_columns
@@ -31,11 +33,17 @@ MARK: dict[str, Any] = {"linestyle": "none", "capsize": 0}
 
 
 def plot(
-    members: Sequence[LawPoints], paper: DataFrame, curve: DataFrame, folder: str = "", fitted: str = ""
+    members: Sequence[LawPoints],
+    paper: DataFrame,
+    curve: DataFrame,
+    findings: Sequence[Finding],
+    folder: str = "",
+    fitted: str = "",
 ) -> Plot:
     """Plot of the master curve, of one series or of several.
 
     paper, curve : points in one dimension with the title of their series, and the curve that they are to fall on
+    findings : on these points
     folder : of the figure of one series
     fitted : misfit in words, of a curve that is fitted to the points in one dimension
     """
@@ -61,7 +69,7 @@ def plot(
         "all speeds; roughness below 0.3 of the friction left out. (c), (d) Off the curve, 5 % in grey; numbers, "
         "without hollow points. Bars: 95 %, cut at the frame.",
         "The master curve in three dimensions beside the paper's in one",
-        {"fitted": fitted, "claimed": SHALLOW},
+        {"fitted": fitted, "missed": _missed(findings), "claimed": SHALLOW},
     )
 
 
@@ -75,10 +83,11 @@ def _measured(points: LawPoints) -> DataFrame:
     return DataFrame(columns)[points.counted.ravel()].reset_index(drop=True)
 
 
-def master_curve(tables: Tables, fitted: str = "", claimed: float = SHALLOW) -> Figure:
+def master_curve(tables: Tables, fitted: str = "", missed: str = "", claimed: float = SHALLOW) -> Figure:
     """Left: the paper's curve in 1D. Right: S(x) in 3D. Below: off either.
 
-    fitted : misfit in 1D, in words; claimed : rms height over depth above which markers are hollow
+    fitted, missed : misfit in 1D and in 3D, in words
+    claimed : rms height over depth above which markers are hollow
     """
     paper, curve, points, share = (tables[name] for name in ("law-1d", "law-1d-curve", "law-3d", "law-share"))
     across, up = ONE if ONE[0] in paper else SEVERAL
@@ -109,13 +118,12 @@ def master_curve(tables: Tables, fitted: str = "", claimed: float = SHALLOW) -> 
                 intervals(axes, shown[name], shown, value, **look | inside)
                 intervals(below, shown[name], off.loc[shown.index], "off_curve", 100, **look | inside)
         axes.set(xscale="log", yscale="log", ylim=_around(np.log(table[value].where(table[value] > 0)), np.exp))
-        missed = 100 * off["off_curve"]
-        below.set(ylim=_around([*missed, -5, 5]), title=_missed(np.abs(off["off_curve"][heights <= claimed])))
+        below.set(ylim=_around([*(100 * off["off_curve"]), -5, 5]))
         below.axhspan(-5, 5, color=style.grey(0.9), linewidth=0, zorder=0)
         below.axhline(0, **line)
         axes.legend(loc="best")
-    if fitted:
-        below_left.set_title(fitted)
+    below_left.set_title(fitted)
+    below_right.set_title(missed)
     left.set(ylabel=LABELS[up], title=TITLES[across])
     right.set(ylabel="share of full contact [1]", title="3D: roughness alone")
     below_left.set(xlabel=LABELS[across], ylabel="off the curve [%]")
@@ -149,10 +157,11 @@ def _around(values, of=np.asarray) -> tuple[float, float]:
     return float(of(low - room)), float(of(high + room))
 
 
-def _missed(sizes) -> str:
-    """Misfit in words."""
-    median, most = np.nanquantile(sizes, (0.5, 0.9)) if np.isfinite(sizes).any() else (np.nan, np.nan)
-    return f"median {100 * median:.1f} %, nine in ten {100 * most:.1f} %" if np.isfinite(median) else ""
+def _missed(findings) -> str:
+    """Misfit from the law in words; empty where it is not known."""
+    told = {"law3d.collapse": "median", "law3d.collapse-most": "nine in ten"}
+    own = {each.claim.id: 100 * each.value for each in findings if np.isfinite(each.value)}
+    return ", ".join(f"{word} {digits.number(own[name], 2)} %" for name, word in told.items() if name in own)
 
 
 def _off(points: DataFrame, name: str, expected) -> DataFrame:

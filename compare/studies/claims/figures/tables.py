@@ -12,6 +12,7 @@ from mdr1d.equations import interpolation
 from ....report.page import Plot
 from ....solving.parameter_grid import COARSE, FINE
 from ....statistics.collapse import ENDS
+from ....statistics.finding import Finding
 from ....statistics.jackknife import friction, mean, mean_ratio
 from ....statistics.means import Interval
 from ...mastercurve import figures as shift_plots
@@ -27,16 +28,16 @@ from . import friction as study_friction
 from . import law as study_law
 
 
-def plots_of_study(series: Sequence[JudgedSeries], together: bool) -> Iterator[Plot]:
+def plots_of_study(series: Sequence[JudgedSeries], together: Sequence[Finding]) -> Iterator[Plot]:
     """Several series against one variable.
 
-    together : whether there are findings on several series
+    together : findings on several series
     """
     found = families(series)
     if found and together and all(set(SOLVERS) <= set(each.contacts.labels) for each in series):
         yield _family(found)
     if together and all(set(SOLVERS) <= set(each.contacts.labels) for each in series):
-        yield from _law_of_all(series)
+        yield from _law_of_all(series, together)
 
 
 def plots_of_series(judged: JudgedSeries) -> Iterator[Plot]:
@@ -119,17 +120,18 @@ def _law(judged, shifted: Plot) -> Iterator[Plot]:
             lifted = {f"friction_coefficient{end}": paper[f"shifted_friction{end}"] for end in ENDS}
             paper = paper.assign(**lifted)
         paper = paper.assign(series=judged.series.title)
-        yield study_law.plot([points], paper, curves[curves["curve"] == first], f"{judged.series.folder}/", fitted)
+        curve, folder = curves[curves["curve"] == first], f"{judged.series.folder}/"
+        yield study_law.plot([points], paper, curve, judged.findings, folder, fitted)
 
 
-def _law_of_all(series: Sequence[JudgedSeries]) -> Iterator[Plot]:
+def _law_of_all(series: Sequence[JudgedSeries], together: Sequence[Finding]) -> Iterator[Plot]:
     """Master curve of several series, beside friction in one dimension against xi."""
     found = [(each, points) for each in series if each.laws and (points := LawPoints.of(each.contacts, each.laws))]
     if len(found) > 1:
         paper = concat([_reduced([each], "MDR") for each, _ in found], ignore_index=True)
         xi = np.geomspace(paper["xi"].min(), paper["xi"].max(), 101)
         curve = DataFrame({"curve": "Eq. 19", "xi": xi, "friction_over_plateau": interpolation(xi)})
-        yield study_law.plot([points for _, points in found], paper, curve)
+        yield study_law.plot([points for _, points in found], paper, curve, together)
 
 
 def _behind(judged) -> Plot:
