@@ -160,11 +160,10 @@ def collapse(data: FrictionCurves) -> Collapse:
     raised = _undecided(lifted, both, why) if why else _moved(complete, lifted, both)
     if not raised.reason:
         known = raised.misfit.value if raised.misfit.interval()[0] > 0 else 0.0
-        left = dict(zip(("exponent", "vertical_exponent"), unfollowed(lifted, both, known), strict=True))
-        raised = replace(
-            raised, **{name: replace(getattr(raised, name), bias=bias) for name, bias in left.items()}
-        )
-    if horizontal.reason and not raised.reason:
+        raised = _widened(raised, unfollowed(lifted, both, known))
+    if not horizontal.reason:
+        horizontal = _widened(horizontal, unfollowed(level, along))
+    elif not raised.reason:
         horizontal = replace(horizontal, mended=_taken(complete, level, lifted, along, both))
     values = np.concatenate([curve.log_friction for curve in complete.curves])
     friction = complete.replicates(values, complete.deviations()).estimated
@@ -272,6 +271,18 @@ def _taken(data, level, lifted, along, both):
         return {"": missed(level.of(part.curves), along) - missed(lifted.of(part.curves), both)}
 
     return data.resampled(taken)[""].rms
+
+
+def _widened(aligned, bias):
+    """An alignment whose shifts and exponents may be off by so much along load and friction, exponents last."""
+    along, across = bias
+    by = {
+        "horizontal": along[:-1],
+        "vertical": across[:-1],
+        "exponent": along[-1],
+        "vertical_exponent": across[-1],
+    }
+    return replace(aligned, **{name: replace(getattr(aligned, name), bias=each) for name, each in by.items()})
 
 
 def _undecided(fit, increments, reason):
