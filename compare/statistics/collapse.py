@@ -155,16 +155,17 @@ def collapse(data: FrictionCurves) -> Collapse:
     along = _best(Fit(curves, DEGREE), unmoved)
     lifted, both = _freed(complete, Fit(curves, DEGREE, lifted=True), along)
     level = Fit(curves, lifted.degree)
+    if not _spare(lifted.tangent(both)):
+        level, along = _freed(complete, level, along)
     horizontal = _moved(complete, level, along)
     why = _inseparable(straight)
     raised = _undecided(lifted, both, why) if why else _moved(complete, lifted, both)
     if not raised.reason:
         known = raised.misfit.value if raised.misfit.interval()[0] > 0 else 0.0
-        left = dict(zip(("exponent", "vertical_exponent"), unfollowed(lifted, both, known), strict=True))
-        raised = replace(
-            raised, **{name: replace(getattr(raised, name), bias=bias) for name, bias in left.items()}
-        )
-    if horizontal.reason and not raised.reason:
+        raised = _widened(raised, unfollowed(lifted, both, known))
+    if not horizontal.reason:
+        horizontal = _widened(horizontal, unfollowed(level, along))
+    elif not raised.reason:
         horizontal = replace(horizontal, mended=_taken(complete, level, lifted, along, both))
     values = np.concatenate([curve.log_friction for curve in complete.curves])
     friction = complete.replicates(values, complete.deviations()).estimated
@@ -174,7 +175,7 @@ def collapse(data: FrictionCurves) -> Collapse:
         surfaces_left_out=data.surfaces - complete.surfaces,
         curves=_with_errors(curves, friction.error),
         log_friction=friction,
-        degree=lifted.degree,
+        degree=level.degree,
         straight=straight,
         unshifted=_still(complete, level),
         horizontal=horizontal,
@@ -226,7 +227,7 @@ def _freed(data, fit, guess):
     """The fit with the least degree from which a higher one takes no more than scatter, and its increments."""
     best = _best(fit, guess)
     while fit.degree < HIGHEST_DEGREE and _pays(data, fit, best):
-        fit = Fit(fit.curves, fit.degree + 2, lifted=True)
+        fit = Fit(fit.curves, fit.degree + 2, fit.lifted)
         best = near(fit, best)
     return fit, best
 
@@ -234,15 +235,21 @@ def _freed(data, fit, guess):
 def _pays(data, fit, increments):
     """Whether two more coefficients take from the misfit what scatter does not explain.
 
-    The two components of the misfit are asked whether they are scatter. A third of the points stays free.
+    The two components of the misfit are asked whether they are scatter.
     """
     common, tangent = fit.common(increments), fit.tangent(increments)
-    if len(tangent) - tangent.shape[1] - 2 < len(tangent) / 3:
+    if not _spare(tangent):
         return False
     freer = Fit(fit.curves, fit.degree + 2).common(increments).basis[:, -2:]
     new = _outside(tangent, freer)
     missed = data.replicates(new.T @ fit.residuals(increments), data.deviations(common.slopes) @ new)
     return missed.rms.interval(1 - CHANCE)[0] > ROUNDING
+
+
+def _spare(tangent):
+    """Whether a third of the points stays free with two more coefficients."""
+    points, unknowns = tangent.shape
+    return points - unknowns - 2 >= points / 3
 
 
 def _still(data, fit):
@@ -272,6 +279,18 @@ def _taken(data, level, lifted, along, both):
         return {"": missed(level.of(part.curves), along) - missed(lifted.of(part.curves), both)}
 
     return data.resampled(taken)[""].rms
+
+
+def _widened(aligned, bias):
+    """An alignment whose shifts and exponents may be off by so much along load and friction, exponents last."""
+    along, across = bias
+    by = {
+        "horizontal": along[:-1],
+        "vertical": across[:-1],
+        "exponent": along[-1],
+        "vertical_exponent": across[-1],
+    }
+    return replace(aligned, **{name: replace(getattr(aligned, name), bias=each) for name, each in by.items()})
 
 
 def _undecided(fit, increments, reason):

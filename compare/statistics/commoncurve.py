@@ -195,24 +195,38 @@ def _lever(fit):
     return np.cumsum(logs[:0:-1])[::-1] / (logs @ logs)
 
 
-def unfollowed(fit: Fit, guess: np.ndarray, missed: float) -> np.ndarray:
-    """What both exponents (2,) may be off by, as no polynomial is the law.
+def unfollowed(fit: Fit, guess: np.ndarray, missed: float = 0.0) -> np.ndarray:
+    """What shifts against the middle speed and their exponents may be off by, as no polynomial is the law.
 
     missed : rms of ln mu by which that of the fit is known to miss it
-    A miss of that size moves an exponent most where it lies along its gradient. And from one degree to the next
-    exponents change less and less, or do not settle: they may be off by the geometric mean of the change to the
-    degree of the fit and of the one from it, or by the latter where it is larger.
+
+    Returns (2, S + 1), along load and friction, the exponents last. A miss of that size moves a number most where
+    it lies along its gradient. Where points are no more than the unknowns of a higher degree, the change from a
+    lower one decides alone.
     """
+    count = len(fit.curves) - 1
+    # Shifts and exponent as sums of increments.
+    sums = np.vstack([np.transpose([against_middle(each) for each in np.eye(count)]), _lever(fit)])
 
     def at(degree):
         each = Fit(fit.curves, degree, fit.lifted)
-        return exponents(each, near(each, guess))
+        increments = near(each, guess)
+        return np.array([increments, each.lifts(increments)]) @ sums.T
 
-    here = at(fit.degree)
-    before, after = (np.abs(here - at(fit.degree + by)) for by in (-2, 2))
+    here, before = at(fit.degree), at(fit.degree - 2)
+    tangent = fit.tangent(near(fit, guess))
+    after = at(fit.degree + 2) if len(tangent) > tangent.shape[1] + 2 else before
     # The last columns of the tangent are the shifts along the load, those before them the levels.
-    count = len(fit.curves) - 1
-    inverse = np.linalg.pinv(fit.tangent(near(fit, guess)))[-2 * count :]
-    gradients = _lever(fit) @ inverse.reshape(2, count, -1)
-    most = missed * np.sqrt(inverse.shape[1]) * np.linalg.norm(gradients[::-1], axis=1)
-    return np.maximum(most, np.sqrt(after * np.maximum(before, after)))
+    inverse = np.linalg.pinv(tangent)[-(1 + fit.lifted) * count :].reshape(-1, count, len(tangent))[::-1]
+    most = missed * np.sqrt(len(tangent)) * np.linalg.norm(sums @ inverse, axis=2)
+    return np.maximum(np.pad(most, ((0, 1 - fit.lifted), (0, 0))), unsettled(here - before, here - after))
+
+
+def unsettled(before: np.ndarray, after: np.ndarray) -> np.ndarray:
+    """What numbers of a polynomial may be off by, after their changes to its degree and from it to a higher one.
+
+    From one degree to the next numbers change less and less, or do not settle: they may be off by the geometric
+    mean of both changes, or by the latter where it is larger.
+    """
+    before, after = np.abs(before), np.abs(after)
+    return np.sqrt(after * np.maximum(before, after))

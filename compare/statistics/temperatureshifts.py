@@ -13,7 +13,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from .collapse import STRAIGHT
-from .commoncurve import LEAST_OVERLAP, Common, Projected, inside, near, scaled_to_one, within
+from .commoncurve import LEAST_OVERLAP, Common, Projected, inside, near, scaled_to_one, unsettled, within
 from .intervals import Estimated, RmsMisfit
 from .jackknife import Replicates
 
@@ -136,10 +136,21 @@ def found(isotherms: Sequence[Isotherm], loads: int, dof: float) -> TemperatureS
     levers = -against @ np.linalg.pinv(surface.jacobian(increments))
     errors = np.concatenate([each.error for each in isotherms])
     covariance = levers * errors**2 @ levers.T
-    further = Surface(isotherms, surface.degree + 1, loads)
-    bias = np.abs(against @ (near(further, increments) - increments))
+    bias = _unfollowed(surface, against, increments)
     shifts = Estimated(against @ increments, np.sqrt(np.diag(covariance)), dof, bias=bias)
     return _shifted(surface, increments, shifts, covariance, levers, dof, found=True)
+
+
+def _unfollowed(surface, against, increments):
+    """What shifts against one temperature (K,) may be off by, as no polynomial is the law."""
+
+    def changed(degree):
+        other = Surface(surface.isotherms, degree, surface.loads)
+        return np.abs(against @ (near(other, increments) - increments)), other.common(increments).basis.shape[1]
+
+    after, unknowns = changed(surface.degree + 2)
+    before = changed(surface.degree - 2)[0] if surface.degree > 2 else after
+    return unsettled(before, after if unknowns + len(increments) < surface.y.size else before)
 
 
 def _shifted(surface, increments, shifts, covariance, levers, dof, found):

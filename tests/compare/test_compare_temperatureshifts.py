@@ -113,6 +113,26 @@ def test_shifts_within_reach_of_the_polynomial_are_exact_without_scatter():
     np.testing.assert_allclose(told.shifts.value, wlf(KELVINS), atol=1e-8)
 
 
+@pytest.mark.parametrize("noise", [0.0, 0.001, 0.01])
+def test_shifts_and_constants_of_their_law_are_in_their_intervals_whatever_the_scatter(noise):
+    """Of both shapes of the curve and some seeds; allowed: three deviations of as many beside 93 %."""
+    held = []
+    for law in (knee, bent):
+        for seed in range(1 if noise == 0 else 8):
+            told = shifts(*measured(law, noise=noise, jitter=0.0, seed=seed))
+            low, high = told.shifts.interval()
+            true = wlf(told.temperatures) - wlf(told.reference)
+            constants = shiftlaws.law_of(told)
+            held.append(
+                [
+                    np.mean((low - 1e-8 <= true) & (true <= high + 1e-8)),
+                    constants.c1.low - 1e-6 <= C1 <= constants.c1.high + 1e-6,
+                    constants.c2.low - 1e-5 <= C2 <= constants.c2.high + 1e-5,
+                ]
+            )
+    assert np.mean(held, axis=0).min() >= 0.93 - 3 * np.sqrt(0.93 * 0.07 / len(held)), held
+
+
 def test_the_error_of_shifts_is_in_the_exponent_of_the_speed():
     points = pooled(*measured(kelvins=KELVINS[1:4]), TOLERANCE)
     each = isotherms(points)
