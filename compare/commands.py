@@ -193,17 +193,14 @@ def study(
 
     name : name of a study, or file of your own study (TOML); if absent, a table of the studies is printed
     size : how much is solved: quick (minutes), standard (up to an hour) or full (up to a day)
-    models, reference, interval, budget : like those of `run`; the study `trust` takes none
+    models, reference, interval, budget : like those of `run`
     """
     if name is None:
         from .library.ready import studies
 
         return studies()
     from .studies.claims.study import ClaimStudy
-    from .studies.trust.study import TrustStudy
 
-    if str(name) == TrustStudy.name:
-        return solve(TrustStudy.of(size), output, **options)
     return solve(ClaimStudy.of(str(name), size, models, reference, interval), output, budget=budget, **options)
 
 

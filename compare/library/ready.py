@@ -93,10 +93,6 @@ CATALOGUE = {
         "The rough sphere and the rough cone of Fig. 1, pressed in to rest, and at constant rates on a standard "
         "linear solid.",
     ),
-    "trust": About(
-        "When can one dimension be trusted?",
-        "The ratio of 1D over 3D, learned from scenes that both solved, and its errors on scenes it never saw.",
-    ),
 }
 
 # Diagrams of `crosscheck workprecision`, in the order of its page.

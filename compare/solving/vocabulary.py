@@ -71,14 +71,9 @@ surface_low : Lower end of the interval of 95 % of the ratio of the mean in 1D o
     one surface says nothing. [1]
 surface_high : Upper end of the interval of 95 % of the ratio of the mean in 1D over one surface in 3D; none
     where one surface says nothing. [1]
-group : Name of a dimensionless group of a rough scene.
-groups : Dimensionless groups, logarithms but for shape, prescribed, hurst and shares. [1]
-point : Number of a scene in the design of the campaign. [1]
-logarithm : Logarithm of the ratio of the means in 1D and in 3D. [1]
-line_error : Relative standard error of the mean over profiles in 1D. [1]
-smooth : Logarithm of the ratio of the smooth body. [1]
 
 Of points, and of curves through them.
+smooth : Coefficient of friction of the smooth body at the same speed and load or depth. [1]
 solver : MDR: the method of dimensionality reduction, 1D. CorrectedMDR: that over the ratio of the trust map. BEM:
     boundary elements, 3D. exact: closed form. Another name: a model that did not come with the package.
 body : Rough, or smooth: the same body without its roughness.

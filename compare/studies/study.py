@@ -1,8 +1,8 @@
 """Study: the declaration behind a command: what is solved, what is claimed, what its page shows."""
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar
 
 import xarray
 
@@ -13,7 +13,6 @@ from ..solving import parameter_grid
 from ..solving.cost import Cost
 from ..solving.outcome import Outcome
 from ..solving.parameter_grid import ParameterGrid
-from ..solving.suggest import known
 from ..solving.task import Batch, SceneTask, Task
 from ..solving.unsolved import Unsolved
 from ..statistics import finding, griderror
@@ -140,30 +139,3 @@ class Study:
     def failed(self, findings: Sequence[Finding]) -> bool:
         """Whether the command ends with status 1: a law or a stored value does not hold."""
         return any(each.stated == FAILS for each in findings)
-
-
-@dataclass(frozen=True)
-class SizedStudy(Study):
-    """Study of the package, at one of its sizes.
-
-    name : among the studies of `crosscheck study`; empty of one that is a command of its own
-    """
-
-    size: str = "quick"
-
-    name: ClassVar[str] = ""
-    sizes: ClassVar[Collection[str]] = ()
-
-    @classmethod
-    def of(cls, size: str) -> Self:
-        """Study of a size. Raises InvalidInput where there is no such size."""
-        known("size", size, cls.sizes)
-        return cls(size)
-
-    @property
-    def place(self) -> str:  # type: ignore[override]
-        return f"{self.name}-{self.size}" if self.name else ""
-
-    @property
-    def inputs(self) -> Mapping[str, Any]:
-        return {"name": self.name, "size": self.size} if self.name else {"size": self.size}

@@ -9,11 +9,11 @@ import numpy as np
 import pandas
 from pandas import DataFrame
 from scenes import PAGE, SETS, RandomScene, scenes
+from scoring import of_count
 from tables import replaced, stored, table
 
 from compare import FrictionLaw, Persson
 from compare.models.law.share import FITTED
-from compare.studies.trust.scoring import of_count
 from compare.trustmap.model import NORMAL
 from scene.scales import elastic_contact
 

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 from campaign import solved
+from design import RADIUS, SPEED, between, solid_at
 from scipy.stats import qmc
 from tables import stored
 
@@ -22,7 +23,6 @@ from compare.models.law.share import waves
 from compare.solving.outcome import Outcome
 from compare.solving.task import SceneTask, Task
 from compare.statistics.jackknife import mean_ratio
-from compare.studies.trust.design import RADIUS, SPEED, between, solid_at
 from scene import Plane, Scene, SelfAffine, Slide
 
 PAGE = Path(__file__).parents[1] / "results" / "law" / "planes.md"

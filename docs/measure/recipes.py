@@ -12,16 +12,16 @@ from itertools import product
 from math import log
 from pathlib import Path
 
+import design
 import numpy as np
 from campaign import friction, solved
 from pandas import DataFrame
+from scoring import STATED
 from tables import by_column, replaced, stored
 
 from compare.models.law.parts import LawParts
 from compare.solving.outcome import Outcome
 from compare.solving.task import SceneTask, draws_of
-from compare.studies.trust import design
-from compare.studies.trust.statements import STATED
 from compare.trustmap import table
 from compare.trustmap.model import NAMES, Measurements, Model
 from compare.trustmap.ratio import LAW

@@ -9,16 +9,16 @@ from dataclasses import dataclass, replace
 from math import inf
 from pathlib import Path
 
+import design
 import numpy as np
 from campaign import friction, solved
+from design import drawn_points, scene_at, within
 from tables import stored
 
 from bem3d import BEM
 from compare.models.law.parts import LawParts
 from compare.solving.outcome import Outcome
 from compare.solving.task import SceneTask, draws_of
-from compare.studies.trust import design
-from compare.studies.trust.design import drawn_points, scene_at, within
 from mdr1d import MDR
 from scene import Scene, Slide
 

@@ -61,7 +61,7 @@ VISION = {
 APART, LIGHTER = 15.0, 10.0
 
 # Figures held against every law in each run: an image and a legend, curves with bands and bars; else on demand.
-OFTEN = {"regime_map-figure", "force_depth-figure"}
+OFTEN = {"draw-figure", "force_depth-figure"}
 
 every_figure = pytest.mark.parametrize(
     "name", [pytest.param(each, marks=() if each in OFTEN else pytest.mark.slow) for each in ENTRIES]
@@ -337,12 +337,12 @@ def test_colour_maps_grow_lighter_in_even_steps_for_every_reader(shades_of):
 @pytest.fixture(scope="module")
 def files():
     """A figure as files: with an image, curves and a legend."""
-    return picture(sample("regime_map-figure"), FORMS)
+    return picture(sample("draw-figure"), FORMS)
 
 
 def test_the_same_numbers_give_the_same_files(files):
     assert tuple(files.files) == FORMS
-    assert picture(sample("regime_map-figure"), FORMS) == files
+    assert picture(sample("draw-figure"), FORMS) == files
 
 
 def test_every_font_of_a_pdf_is_inside_as_truetype(files):

@@ -1,20 +1,23 @@
 """What 1D is worth for a scene: limits that must come out, laws of groups and regression, and the campaign."""
 
+import gzip
 from dataclasses import astuple, replace
 from math import exp, log, pi
 
+import design
 import numpy as np
 import pytest
+import scoring
+import trust as campaign
+from contact import Contact
+from pandas import DataFrame
 from scipy.stats import binom
 
-import compare
 from bem3d import BEM
 from bem3d.surface import RoughSurface
 from compare.models.exact import full_contact
 from compare.models.law.bands import Bands
 from compare.solving.outcome import Outcome, Row
-from compare.studies.trust import design, scoring, statements, study
-from compare.studies.trust.contact import Contact
 from compare.trustmap import shipped, table, verdict
 from compare.trustmap.friction_law import FrictionLaw
 from compare.trustmap.groups import FullContact, SmoothReference
@@ -489,43 +492,68 @@ def test_the_models_are_fitted_to_the_tables_they_come_with():
         assert np.nanmedian(np.abs(error)) < 0.03
 
 
+@pytest.mark.parametrize("path", [table.LEARNED, table.HELD_OUT], ids=["learned", "held-out"])
+def test_the_campaign_makes_the_scenes_and_the_text_of_the_tables_that_are_shipped(path):
+    """Scenes of every kind of point have the groups of their rows; rows read are written as they were."""
+    rows = DataFrame(table.read(path))
+    assert gzip.decompress(campaign.written(rows)) == gzip.decompress(path.read_bytes())
+    starts = 0, design.LONG, design.BLUNT, *design.DRAWN
+    for _, kind in rows.groupby(np.searchsorted(starts, rows["point"], side="right")):
+        for _, row in kind.iloc[[0, -1]].iterrows():
+            scene = design.scene(int(row["point"]))
+            made = campaign.row(int(row["point"]), scene, Outcome((Row(reason="not solved here"),)))
+            assert [made[name] for name in NAMES] == pytest.approx(row[list(NAMES)], rel=1e-4, abs=1e-4)
+
+
 HIGH = "as high as the body is deep"
+# What the map is to keep, of each ratio and of the best advice on friction: median error, error of nine in ten.
+WANTED = {
+    "friction": (0.02, 0.08),
+    LAW: (0.02, 0.08),
+    "depth": (0.01, 0.05),
+    "force": (0.01, 0.05),
+    scoring.BEST: (0.012, 0.06),
+}
+# The same of friction on surfaces as they are measured.
+WANTED_MEASURED = 0.04, 0.12
 
 
 @pytest.fixture(scope="module")
 def scores():
     """Scores on the scenes held out, and their groups."""
-    return study.TrustStudy.scored(table.read(table.HELD_OUT), {name: shipped.model(name) for name in RATIOS})
+    return campaign.scores()
 
 
 @pytest.mark.parametrize(
     ("surfaces", "name"),
     [
-        *(("spectrum", name) for name in study.WANTED),
-        *(("as measured", name) for name in ("friction", LAW, statements.BEST)),
+        *(("spectrum", name) for name in WANTED),
+        *(("as measured", name) for name in ("friction", LAW, scoring.BEST)),
     ],
 )
 def test_held_out_scenes_are_foretold_as_well_as_the_map_claims(scores, surfaces, name):
     """The claims of docs/results/trust.md, on scenes that were neither fitted nor chosen by."""
-    score, _ = statements.of_surfaces(scores, surfaces)[name]
+    score, _ = scoring.of_surfaces(scores, surfaces)[name]
     used = score.used
-    half, most = study.WANTED_MEASURED if surfaces == "as measured" else study.WANTED[name]
+    half, most = WANTED_MEASURED if surfaces == "as measured" else WANTED[name]
     # The depth of a third of the scenes is lost in the roughness, and a sixth has none above zero.
     assert score.usable.mean() > {"depth": 0.6}.get(name, 0.8) or surfaces == "as measured"
     assert used.usable.size > 150
     assert not np.any(score.usable & np.isnan(score.measured.logarithm))
     assert np.quantile(np.abs(used.errors), 0.5) < half
     assert np.quantile(np.abs(used.errors), 0.9) < most
-    assert scoring.of_count(int(used.held.sum()), used.usable.size)[1] > statements.PROMISED
+    assert scoring.of_count(int(used.held.sum()), used.usable.size)[1] > scoring.PROMISED
     assert used.covered < 1 or surfaces == "as measured"
+    # 95 % of single surfaces, within what 500 scenes leave open.
+    assert used.surfaces_covered > 0.92
 
 
 def test_no_region_holds_fewer_ratios_than_promised(scores):
     """But one, which is said: forces under roughness as high as the body is deep."""
-    combined, rows = list(statements.coverage_rows(scores)), list(statements.error_rows(scores))
+    combined, rows = list(scoring.coverage_rows(scores)), list(scoring.error_rows(scores))
     assert not any(row["fails"] for row in combined)
     assert [(row["ratio"], row["region"]) for row in rows if row["fails"]] == [("force", HIGH)]
-    assert sum(row["scenes"] >= statements.ENOUGH for row in [*combined, *rows]) > 120
+    assert sum(row["scenes"] >= scoring.ENOUGH for row in [*combined, *rows]) > 120
 
 
 def test_an_interval_that_held_too_few_says_how_many_it_held(scores):
@@ -550,7 +578,7 @@ def test_a_region_fails_where_its_share_is_significantly_below_the_promise(insid
     measured = Measurements(np.zeros((scenes, len(NAMES))), apart, nothing, nothing, every, nothing)
     groups = dict.fromkeys(NAMES, nothing) | {"slides": every > 0, "shape": every}
     score = scoring.Score(measured, Predicted(nothing, 0.03 * every, nothing))
-    (row,) = statements.coverage_rows({"depth": (score, groups)})
+    (row,) = scoring.coverage_rows({"depth": (score, groups)})
     assert (row["body"], row["scenes"], row["fails"]) == ("cone", scenes, fails)
     assert row["least"] < row["in 95 %"] == inside / scenes < row["most"]
 
@@ -596,20 +624,6 @@ def test_a_scene_is_solved_until_its_scatter_is_known_and_its_ratio_is_the_map_s
         found = ratio_of(outcome, name, law)
         worth = getattr(trust(scene), name)
         assert worth.surface_low < exp(found.logarithm) < worth.surface_high
-
-
-@pytest.mark.slow
-def test_the_campaign_solves_judges_and_resumes(tmp_path, monkeypatch):
-    held_out = tuple(design.EVENLY_AGAIN + k for k in range(4))
-    monkeypatch.setattr(study, "_size", lambda name: study.Size((0, 3), held_out, 0.25))
-    monkeypatch.setattr(study.TrustStudy, "models", lambda *_: {name: shipped.model(name) for name in RATIOS})
-    found = compare.study("trust", output=tmp_path, workers=2)
-    assert {each.claim.id for each in found.findings} >= {"trust.friction.median", "trust.force.coverage"}
-    assert (tmp_path / "trust-quick" / "report.html").exists()
-    again = compare.study("trust", output=tmp_path, workers=2)
-    assert again.swept.solved == 0
-    tree = compare.load(tmp_path / "trust-quick")
-    assert tree["held-out"]["groups"].sizes == {"scene": 4, "group": len(NAMES)}
 
 
 def gel(**stated):

@@ -44,8 +44,3 @@ def colours(drawing: Figure | SubFigure, image: ScalarMappable, label: str, **pl
     drawn.set_label(label)
     drawn.outline.set_linewidth(style.width(0.45))
     return drawn
-
-
-def ratio() -> Colormap:
-    """Shades of 1D over 3D: from 3D the larger, over that of the paper where both are equal, to 1D the larger."""
-    return LinearSegmentedColormap.from_list("ratio", [style.COLOUR["BEM"], style.paper(), style.COLOUR["MDR"]])

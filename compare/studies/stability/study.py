@@ -3,16 +3,18 @@
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any, Self
 
 import xarray
 from pandas import DataFrame
 
 from ...report.page import Block, Section, Table, Text
 from ...solving.outcome import Outcome
+from ...solving.suggest import known
 from ...solving.task import Batch, Task
 from ...solving.vocabulary import attributes
 from ...statistics.finding import FAILS, HOLDS, Claim, Finding
-from ..study import Judgement, SizedStudy
+from ..study import Judgement, Study
 from .cases.collection import CASES
 from .cases.examination import Examination
 from .cases.hardcase import SIZES, Check
@@ -34,13 +36,24 @@ whose squares are no numbers, memories beyond 1e150 pixels, contacts of less tha
 
 
 @dataclass(frozen=True)
-class Stability(SizedStudy):
+class Stability(Study):
     """Every hard case at a size: "quick", "standard" or "full"."""
+
+    size: str = "quick"
 
     command = "stability"
     title = "Hard cases"
-    sizes = SIZES
     about = "Contacts in which a solver may fail, each with the law that its answer must keep."
+
+    @classmethod
+    def of(cls, size: str) -> Self:
+        """Hard cases at a size. Raises InvalidInput where there is no such size."""
+        known("size", size, SIZES)
+        return cls(size)
+
+    @property
+    def inputs(self) -> Mapping[str, Any]:
+        return {"size": self.size}
 
     def batches(self) -> Sequence[Batch]:
         return (Batch([Examination(name, self.size) for name in CASES]),)

@@ -5,9 +5,10 @@ else matters: in the linear theory heights may be stretched together, body and r
 ratio of two answers.
 """
 
+from collections import namedtuple
 from dataclasses import replace
 from functools import cache
-from math import log, log10, pi
+from math import ceil, exp, log, log10, pi, sqrt
 
 import numpy as np
 
@@ -23,12 +24,11 @@ from scene import (
     Slide,
     Sphere,
     StandardLinearSolid,
+    Topography,
 )
 from scene.rheology import Elastomer
 from scene.roughness import Roughness
 from scene.scales import elastic_contact
-
-from .maps import Numbers, between, surface
 
 RADIUS, DEPTH, MODULUS, SPEED = 1e-3, 1e-4, 1e6, 1.0
 # Ranges of the groups, from least to greatest.
@@ -64,11 +64,34 @@ DRAWN = {
     WIDE: 37_400,
 }
 SOBOL = 20
-# Surfaces that a point may have.
-SEEDS = 1000
+SEEDS = 1000  # surfaces that a point may have
 # Where waves are many: their number on the radius; pressure over that of full contact, p / (E* h'), which sets
 # their height, and their most over the depth; longest waves over the radius.
 MANY_WAVES, PRESSURES, MOST_HEIGHT, MANY_PERIODS = (20.0, 150.0), (0.03, 3.0), 0.3, (0.5, 4.0)
+# Share of the surfaces that are no maps, but drawn with Gaussian amplitudes.
+GAUSSIAN = 0.2
+# Side of a map over the radius of the contact, pixels to its shortest wave, and pixels along a side.
+SIDES, PIXELS, PIXELS_A_SIDE = (3.0, 12.0), (2.5, 6.0), (32, 256)
+# Side of the map that it is cut from, over its own.
+WHOLE = 1.6
+# Waves in a band, from the longest to the shortest, and widths of a peak in ln q.
+BANDS, PEAKS = (1.2, 6.0), (0.12, 0.6)
+# Shares of the maps with noise of the instrument, heights that are no Gaussian process, and a direction.
+NOISY, BENT, DIRECTED = 0.3, 0.5, 0.3
+NOISES, STRETCHES = (3e-3, 3e-2), (1.0, 1.35)
+# Of z -> sinh((asinh z + skew) / tail): how far heights are skewed, either way, and how long their tails are.
+SKEWS, TAILS = 0.5, (0.75, 1.4)
+TILT = 0.5  # of the rms height over the map, at most
+# Numbers of a surface, each from 0 to 1.
+Numbers = namedtuple(
+    "Numbers", "kind spectrum side pixels first second place noise noisy bent skew tail directed stretch"
+)
+
+
+def between(ends: tuple[float, float], place: float) -> float:
+    """Number at a place, 0 to 1, between two ends, in equal ratios."""
+    low, high = ends
+    return exp(log(low) + place * log(high / low))
 
 
 @cache
@@ -105,10 +128,14 @@ def scene(point: int) -> Scene:
 
 
 def _measured(point: np.ndarray, seed: int) -> Scene:
-    """Scene of a surface as it is measured."""
-    wave, height = RADIUS / between(WAVES, point[10]), DEPTH * between(HEIGHTS, point[9])
+    """Scene of a surface as it is measured: a map, or Gaussian amplitudes."""
+    wave, height = RADIUS / between(WAVES, point[10]), between(HEIGHTS, point[9])
     numbers = Numbers(*point[DIMENSIONS:].tolist())
-    return scene_on(surface(numbers, height, wave, RADIUS, seed), point[:DIMENSIONS], wave)
+    first, second, period, rolled = numbers.first, numbers.second, numbers.side, numbers.place
+    if numbers.kind >= GAUSSIAN:
+        return scene_on(_map(numbers, DEPTH * height, wave, seed), point[:DIMENSIONS], wave)
+    rough = _rough(height, wave, first, ALL_PERIODS, period, rolled, second, seed)
+    return scene_on(replace(rough, amplitudes="gaussian"), point[:DIMENSIONS], wave)
 
 
 def _wide(point: np.ndarray, seed: int) -> Scene:
@@ -225,3 +252,58 @@ def solid_at(kind, loss, spread, tilt, branches, speed, wave) -> Elastomer:
         tuple((MODULUS * (stiffening - 1) * moduli / moduli.sum()).tolist()),
         tuple((10 ** (middle + width * steps)).tolist()),
     )
+
+
+def _map(numbers: Numbers, height: float, wave: float, seed: int) -> Topography:
+    """Map with waves down to about the shortest one, which the pixels show."""
+    least, most = PIXELS_A_SIDE
+    pixel = wave / between(PIXELS, numbers.pixels)
+    count = min(max(round(between(SIDES, numbers.side) * RADIUS / pixel), least), most)
+    draw = np.random.default_rng(seed)
+    found = _parent(numbers, ceil(WHOLE * count), pixel, wave, draw)[:count, :count]
+    found = _heights((found - found.mean()) / found.std(), numbers, draw)
+    found *= height / found.std()
+    tilt = TILT * found.std() * draw.uniform(-1, 1, 2)
+    across = np.linspace(-1, 1, count)
+    return Topography(
+        heights=found + tilt[0] * across + tilt[1] * across[:, None], pixel=(pixel, pixel), seed=seed + 1
+    )
+
+
+def _parent(numbers, count, pixel, wave, draw):
+    """Map (count, count) that repeats, of a spectrum and random phases."""
+    angle = pi * draw.random()
+    stretch = between(STRETCHES, numbers.stretch) if numbers.directed < DIRECTED else 1.0
+    q_x, q_y = 2 * pi * np.fft.rfftfreq(count, pixel), 2 * pi * np.fft.fftfreq(count, pixel)[:, None]
+    along, across = np.cos(angle) * q_x + np.sin(angle) * q_y, np.cos(angle) * q_y - np.sin(angle) * q_x
+    q = np.hypot(along * sqrt(stretch), across / sqrt(stretch))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        density = _density(numbers, q, 2 * pi / wave, 2 * pi / (count * pixel))
+    density[0, 0] = 0.0
+    noise = draw.standard_normal((count, count))
+    return np.fft.irfft2(np.fft.rfft2(noise) * np.sqrt(np.where(density > 0, density, 0.0)), s=(count, count))
+
+
+def _density(numbers, q, shortest, longest):
+    """Density in wave numbers of any size: two straight pieces, a peak, a band, or a roll-off."""
+    inside = q <= shortest * 1.0001
+    middle = between((longest * 1.5, shortest), numbers.place)
+    if numbers.spectrum < 0.3:
+        powers = -2 * numbers.first - 2, -2 * numbers.second - 2
+        return np.where(inside, np.where(q < middle, (q / middle) ** powers[0], (q / middle) ** powers[1]), 0.0)
+    if numbers.spectrum < 0.5:
+        middle = between((max(longest * 4, shortest / 16), shortest / 1.3), numbers.place)
+        return np.exp(-np.square(np.log(q / middle) / between(PEAKS, numbers.first)) / 2)
+    if numbers.spectrum < 0.7:
+        low = max(shortest / between(BANDS, numbers.second), 2 * longest)
+        return np.where(inside & (q >= min(low, 0.8 * shortest)), q ** (-2 * numbers.first - 2), 0.0)
+    return np.where(inside, np.maximum(q / middle, 1.0) ** (-2 * numbers.first - 2), 0.0)
+
+
+def _heights(z, numbers, draw):
+    """Heights of unit rms with the noise of an instrument, or no Gaussian process."""
+    if numbers.bent < BENT:
+        z = np.sinh((np.arcsinh(z) + SKEWS * (2 * numbers.skew - 1)) / between(TAILS, numbers.tail))
+    if numbers.noisy < NOISY:
+        z = z + z.std() * between(NOISES, numbers.noise) * draw.standard_normal(z.shape)
+    return z

@@ -9,13 +9,12 @@ from typing import Any
 import numpy as np
 
 from bem3d import BEM
+from compare.models.law.bands import Bands
+from compare.solving.outcome import Outcome, Row
+from compare.solving.task import SCENES, SceneTask, draws_of
+from compare.trustmap.ratio import FINE, HALF
 from mdr1d import MDR
 from scene import Scene, SelfAffine
-
-from ...models.law.bands import Bands
-from ...solving.outcome import Outcome, Row
-from ...solving.task import SCENES, SceneTask, draws_of
-from ...trustmap.ratio import FINE, HALF
 
 LINE_POINTS, PROFILES, MOST_PROFILES = 4000, 40, 800  # of profiles; solved at once, and at most
 LEAST_POINTS = 128
@@ -62,7 +61,7 @@ class Contact:
     surfaces: int
     grids: Grids = USUAL
     keeps_fields = False
-    packages = ("scene", "mdr1d", "bem3d", "compare.models.law.bands", "compare.studies.trust.contact")
+    packages = ("scene", "mdr1d", "bem3d", "compare.models.law.bands", "contact")
 
     @property
     def label(self) -> str:
@@ -79,8 +78,7 @@ class Contact:
     def question(self) -> Mapping[str, Any]:
         """Scene, and how well it is to be known."""
         (scene,) = SCENES.dump_python((self.scene,), mode="json")
-        told = {"trust": scene, "wanted": self.wanted, "surfaces": self.surfaces}
-        return told if self.grids == USUAL else {**told, "grids": asdict(self.grids)}
+        return {"trust": scene, "wanted": self.wanted, "surfaces": self.surfaces, "grids": asdict(self.grids)}
 
     def solve(self) -> Outcome:
         """Solve until the means are known, or the surfaces are spent."""

@@ -1,0 +1,215 @@
+"""Scores of the trust map on scenes held out: errors, coverage and advice, by region."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, fields
+from functools import cached_property
+from itertools import product
+from typing import Any, TypeAlias
+
+import numpy as np
+from scipy.special import betaincinv, ndtr, ndtri
+
+from compare.trustmap.measured import beyond_measured, limits
+from compare.trustmap.model import NAMES, NORMAL, Measurements, Model, Predicted
+from compare.trustmap.ratio import LAW
+from compare.trustmap.regions import BODIES, COVERED, REGIONS, ROUGHNESS, SPEEDS, SURFACES, Condition, parts
+from compare.trustmap.table import column, measurements
+from compare.trustmap.verdict import MULTIPLY, SOLVE, USE, advice_on
+
+# Scenes of a regime below which nothing is said of its advice.
+FEWEST = 5
+# Scenes of a region from which on it fails if its coverage is below what was promised, with 95 % of confidence.
+ENOUGH, PROMISED = 40, 0.95
+# Of the narrower of two intervals, of 1D and of the law.
+BEST = "best-advice"
+OWN = "own median", "own nine in ten"
+STATED = {**REGIONS, "prescribed": COVERED["prescribed"], "surface": SURFACES}
+# Quantiles of a normal distribution that stand for it.
+_QUANTILES = ndtri((np.arange(99) + 0.5) / 99)
+
+
+@dataclass(frozen=True, eq=False)
+class Score:
+    """Ratios predicted beside measured ones, of scenes with one quantity (N,).
+
+    measured, predicted : of the same scenes; where a mean is not above zero there is no ratio, and no error
+    """
+
+    measured: Measurements
+    predicted: Predicted
+
+    def taken(self, chosen: np.ndarray) -> "Score":
+        """Score of some scenes: a mask or numbers of scenes."""
+        return Score(self.measured.taken(chosen), Predicted(*(each[chosen] for each in self.predicted)))
+
+    def best(self, other: "Score") -> "Score":
+        """Score that takes for each scene the narrower of two intervals, and is usable where either is."""
+        first = np.where(self.usable == other.usable, self.predicted.error <= other.predicted.error, self.usable)
+
+        def picked(ours, theirs):
+            return np.where(first.reshape(-1, *[1] * (ours.ndim - 1)), ours, theirs)
+
+        measured = (
+            picked(getattr(self.measured, each.name), getattr(other.measured, each.name))
+            for each in fields(Measurements)
+        )
+        predicted = (picked(*each) for each in zip(self.predicted, other.predicted, strict=True))
+        return Score(Measurements(*measured), Predicted(*predicted))
+
+    @cached_property
+    def variance(self) -> np.ndarray:
+        """Variance of the measured logarithms (N,)."""
+        return self.measured.variance(self.predicted.scatter)
+
+    @cached_property
+    def advice(self) -> np.ndarray:
+        """Advice on each scene (N,)."""
+        ratio, error = np.exp(self.predicted.logarithm), self.predicted.error
+        return np.array([advice_on(*each) for each in zip(ratio, error, strict=True)])
+
+    @property
+    def usable(self) -> np.ndarray:
+        """Mask of the scenes that get "use" or "multiply" (N,)."""
+        return self.advice != SOLVE
+
+    @property
+    def used(self) -> "Score":
+        """Score of the scenes that are usable and have a ratio: whose errors count."""
+        return self.taken(self.usable & np.isfinite(self.measured.logarithm))
+
+    @cached_property
+    def errors(self) -> np.ndarray:
+        """Relative errors of corrected 1D (N,), the scatter of the truth in them."""
+        return np.expm1(self.measured.logarithm - self.predicted.logarithm)
+
+    @cached_property
+    def own(self) -> np.ndarray:
+        """Errors of the map alone (N, 99), as quantiles: each measured error is split as variances stand."""
+        apart = self.measured.logarithm - self.predicted.logarithm
+        model = self.predicted.error**2
+        share = model / (model + self.variance)
+        return np.expm1((apart * share)[:, None] + np.sqrt(self.variance * share)[:, None] * _QUANTILES)
+
+    @cached_property
+    def held(self) -> np.ndarray:
+        """Mask of the measured ratios within the interval of 95 % (N,), widened by the noise of the truth."""
+        apart = self.measured.logarithm - self.predicted.logarithm
+        return np.abs(apart) < NORMAL * np.sqrt(self.predicted.error**2 + self.variance)
+
+    @property
+    def covered(self) -> float:
+        """Share of the measured ratios within the interval of 95 %."""
+        return float(np.mean(self.held))
+
+    @property
+    def surfaces_covered(self) -> float:
+        """Share of single surfaces within the interval of one surface, where it has one, as they were measured."""
+        if not self.predicted.surface_told.all():
+            return self.taken(self.predicted.surface_told).surfaces_covered
+        apart = self.measured.logarithm - self.predicted.logarithm
+        width = NORMAL * np.hypot(self.predicted.error, self.predicted.scatter)
+        scatter = np.maximum(np.nan_to_num(self.measured.scatter), 1e-9)
+        return float(np.mean(ndtr((width - apart) / scatter) - ndtr((-width - apart) / scatter)))
+
+
+def of_count(held: int, tried: int) -> tuple[float, float]:
+    """Interval of 95 % of a share, from how many of those tried it held for (Clopper and Pearson)."""
+    low = betaincinv(held, tried - held + 1, 0.025) if held else 0.0
+    high = betaincinv(held + 1, tried - held, 0.975) if held < tried else 1.0
+    return float(low), float(high)
+
+
+# A score, and the groups of its scenes by name.
+Scored: TypeAlias = tuple[Score, Mapping[str, np.ndarray]]
+
+
+def scored(held_out: Mapping[str, np.ndarray], models: Mapping[str, Model]) -> dict[str, Scored]:
+    """Score of each model on the scenes of a table, and of the best advice on friction.
+
+    Off the map nothing is known: the advice is to solve.
+    """
+    found: dict[str, Scored] = {}
+    for name, model in models.items():
+        rows, measured = measurements(held_out, name)
+        groups = {each: held_out[each][rows] for each in NAMES}
+        groups["slides"] = held_out[column("friction", "surfaces")][rows] > 0
+        off = np.array([bool(beyond_measured(place)) for place in measured.groups], bool)
+        predicted = model.predicted(np.clip(measured.groups, *limits()))
+        predicted = predicted._replace(error=np.where(off, np.inf, predicted.error))
+        found[name] = Score(measured, predicted), groups
+    line, law = found["friction"], found[LAW]
+    return {**found, BEST: (line[0].best(law[0]), line[1])}
+
+
+def of_surfaces(scores: Mapping[str, Scored], name: str) -> dict[str, Scored]:
+    """Scores on the scenes with surfaces of one kind, see `regions.SURFACES`."""
+    found: dict[str, Scored] = {}
+    for each, (score, groups) in scores.items():
+        here = SURFACES[name](groups)
+        found[each] = score.taken(here), {key: values[here] for key, values in groups.items()}
+    return found
+
+
+def error_rows(scores: Mapping[str, Scored]) -> Iterator[dict[str, Any]]:
+    """Errors as measured and share within the interval, by ratio and region, a kind of region at a time.
+
+    fails : like that of `coverage_rows`; OWN : errors without the scatter of the truth
+    """
+    kinds = {"all": {"all": lambda groups: groups["shape"] == groups["shape"]}, **STATED}
+    for (name, (score, groups)), (kind, regions) in product(scores.items(), kinds.items()):
+        for region, condition in regions.items():
+            here = condition(groups) & np.isfinite(score.measured.logarithm)
+            used = score.taken(here & score.usable)
+            if not used.usable.size:
+                continue
+            half, most = np.quantile(np.abs(used.errors), (0.5, 0.9))
+            row = {"ratio": name, "by": kind, "region": region, "scenes": int(here.sum())}
+            row |= {"usable": float(score.usable[here].mean()), "median": half, "nine in ten": most}
+            row |= dict(zip(OWN, np.quantile(np.abs(used.own), (0.5, 0.9)), strict=True))
+            yield row | _held(used)
+
+
+def _held(used):
+    """Share within the interval with its own, and whether it fails what was promised."""
+    tried = used.usable.size
+    low, high = of_count(int(used.held.sum()), tried)
+    fails = tried >= ENOUGH and high < PROMISED
+    return {"in 95 %": used.covered, "least": low, "most": high, "fails": fails}
+
+
+def coverage_rows(scores: Mapping[str, Scored]) -> Iterator[dict[str, Any]]:
+    """Share of the usable ratios within their interval, by quantity and region, with the interval of the count.
+
+    fails : whether a region of enough scenes has significantly fewer than what was promised
+    """
+    for name, (score, groups) in scores.items():
+        counts = score.usable & np.isfinite(score.measured.logarithm)
+        for named, here in parts(COVERED, groups):
+            used = score.taken(here & counts)
+            if used.usable.size:
+                row = dict(zip(COVERED, named, strict=True)) | {"quantity": name, "scenes": used.usable.size}
+                yield row | _held(used)
+
+
+def advice_rows(
+    scores: Mapping[str, Scored], bodies: Mapping[str, Condition] = BODIES
+) -> Iterator[dict[str, Any]]:
+    """Factor on 1D, half its interval, and share of each advice, by quantity, speed, roughness and body.
+
+    The factor is that of the usable scenes, from the lowest to the highest of nine in ten.
+    """
+    regimes = list(product(SPEEDS.items(), ROUGHNESS.items(), bodies.items()))
+    for (name, (score, groups)), named in product(scores.items(), regimes):
+        here = np.all([condition(groups) for _, condition in named], axis=0)
+        part = score.taken(here)
+        if here.sum() < FEWEST:
+            continue
+        row: dict[str, Any] = dict(zip(("speed", "roughness", "body"), (each for each, _ in named), strict=True))
+        row |= {"quantity": name, "scenes": part.usable.size}
+        row |= {kind: float(np.mean(part.advice == kind)) for kind in (USE, MULTIPLY, SOLVE)}
+        if part.usable.any():
+            known = part.taken(part.usable).predicted
+            low, middle, high = np.quantile(np.exp(-known.logarithm), (0.05, 0.5, 0.95))
+            half = np.median(np.expm1(NORMAL * known.error))
+            row |= {"factor": middle, "from": low, "to": high, "interval": half}
+        yield row
