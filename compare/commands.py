@@ -59,7 +59,7 @@ if TYPE_CHECKING:
 # Allowed values, which a shell completes. Others are refused where they are used.
 Size = Literal["quick", "standard", "full"]
 FigureFormat = Literal["png", "pdf", "svg"] | str  # several, separated by commas
-Diagram = Literal["models", "surfaces", "mdr", "elastic", "sliding", "marching", "precision", "extent", "all"]
+Diagram = Literal["models", "surfaces", "all"]
 Journal = Literal[
     "default",
     "acs",
