@@ -59,7 +59,7 @@ if TYPE_CHECKING:
 # Allowed values, which a shell completes. Others are refused where they are used.
 Size = Literal["quick", "standard", "full"]
 FigureFormat = Literal["png", "pdf", "svg"] | str  # several, separated by commas
-Diagram = Literal["models", "surfaces", "mdr", "elastic", "sliding", "marching", "precision", "extent", "all"]
+Diagram = Literal["models", "surfaces", "all"]
 Journal = Literal[
     "default",
     "acs",
@@ -427,23 +427,15 @@ def trust(scene: SceneLike) -> Advice:
 
 
 @checked
-def plan(
-    scene: SceneLike,
-    figure: str | Path | None = None,
-    interval: str | float | None = None,
-    accuracy: str | float | None = None,
-) -> Plans:
+def plan(scene: SceneLike, figure: str | Path | None = None) -> Plans:
     """Say what a scene costs and what is simulated of it. The status is 2 if no solver can solve it.
 
     scene : file of a scene (TOML), or name of a ready scene. From Python also a Scene or a Case
     figure : file (.png, .pdf or .svg) into which the shear moduli G', G'' of the solid are drawn; if absent, none
-    interval : half-width of the interval of 95 % of means over surfaces, as 2%: also say how many surfaces and how
-        much time it takes, from a pilot of coarse ones
-    accuracy : error in 3D, as 1%: also say which points, tolerance and number of surfaces keep it
     """
     from .studies.plan import plans
 
-    found = plans(scene, interval, accuracy)
+    found = plans(scene)
     _warn(found.doubts)
     if figure is not None:
         found.draw(figure)

@@ -110,41 +110,6 @@ DIAGRAMS = {
         "A rough contact has the mean over surfaces as its answer. The error of a mean is that of the grid, "
         "however many surfaces are solved, and what their scatter leaves, however fine the grid.",
     ),
-    "mdr": About(
-        "One dimension: error against points",
-        "The errors of MDR against what one dimension itself would answer: closed forms of the foundation, or the "
-        "same rough profile on far more points. They say nothing of three dimensions.",
-    ),
-    "elastic": About(
-        "Three dimensions at rest: error against points and tolerance",
-        "BEM at rest, by points at a tight tolerance and by tolerance at fixed points: smooth bodies against "
-        "Hertz and Sneddon, rough ones against the same surface on a finer grid.",
-    ),
-    "sliding": About(
-        "Three dimensions in steady sliding: error against points and tolerance",
-        "BEM in steady sliding: smooth spheres against finer grids and the table of two independent codes, rough "
-        "ones against the same surface refined and, at low speed, against the limit by curvature. That is the "
-        "estimate by curvature on a finer grid: there the joined estimate is tested in its pressure only. All "
-        "estimates of friction come from the same solves, and the solver's own indicator is drawn beside them.",
-    ),
-    "marching": About(
-        "Three dimensions in time: error against points and steps",
-        "BEM marched through a program: a sphere pressed in and drawn back against Lee, Radok and Ting, by "
-        "points, by steps and by both together; and a sphere set in motion, against the steady solver and its "
-        "cost.",
-    ),
-    "precision": About(
-        "Single against double precision",
-        "BEM in single and in double precision by tolerance, on one grid each: against the same grid solved "
-        "tightly in double precision, so that the error of the grid does not enter.",
-    ),
-    "extent": About(
-        "A free surface against a cell that repeats",
-        "BEM of one tip by extent at a fixed pixel: free, where the extent has no error of its own, and as a "
-        "lattice of tips of the same curvature in a cell that repeats, whose neighbours and whose shape part it "
-        "from the free sphere. Where no shape is taken out, that of the wave and its neighbours are not told "
-        "apart.",
-    ),
 }
 
 

@@ -72,19 +72,6 @@ def digits(value: float) -> str:
     return f"{value:g}" if value >= 0.01 else f"{value:.0e}".replace("e-0", "e-")
 
 
-def setting(name: str, value: float) -> str:
-    """A setting with its name: 64 points, tolerance 1e-3."""
-    if name in ("points", "steps"):
-        return f"{digits(value)} {name if value != 1 else name[:-1]}"
-    return f"{name}{' ' if name == 'tolerance' else ' = '}{digits(value)}"
-
-
-def short(value: float) -> str:
-    """Two digits, without powers of ten where there need be none."""
-    rounded = float(f"{value:.2g}")
-    return f"{rounded:.0f}" if 10 <= rounded < 1e6 else f"{rounded:g}"
-
-
 def share_of(name: str, given: Any) -> float:
     """Share between 0 and 1, of a number, one of another library too, or a text as 2%. Raises InvalidInput.
 

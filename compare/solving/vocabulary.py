@@ -59,7 +59,7 @@ tolerance : How far from that number still counts as it.
 scatter_low : Lower end of the interval of 95 % from the scatter of surfaces alone, by leaving out some at a time.
 scatter_high : Upper end of the interval of 95 % from the scatter of surfaces alone, by leaving out some at a time.
 grid_error : Error of discretisation, by which the interval is wider at both ends.
-grid_method : How the error of the grid is known: change on halving the points, extrapolated, exact, or unknown.
+grid_method : How the error of the grid is known: change on halving the points, exact, or unknown.
 draws : Number of rough surfaces behind a number; 0 of smooth bodies. [1]
 regime : Range of the dimensionless groups in which a number was measured.
 plot : Figure that shows it.
@@ -197,7 +197,6 @@ processor : Processor time of one thread from the scene to the result: the least
     a process that has loaded compiled code. [s]
 wall : Least time of repeated solves by the clock. [s]
 memory : By how much a solve raises the peak memory of its process. [byte]
-order : Power of the setting with which the error falls. [1]
 change : Relative change of a quantity from half the points to all. [1]
 repeats : How often the solve was repeated. [1]
 
@@ -249,9 +248,6 @@ Of accuracy and cost.
 ladder : Settings of one solver, each finer than the one before.
 setting : Number that is refined along the ladder: points, or steps in time. [1]
 steps : Number of settings of a ladder, or of steps in time. [1]
-constant : Factor of the power law of the error. [1]
-standard_error : Standard error of the order. [1]
-estimate : Error that the solver itself expects. [1]
 precision : Floating-point numbers of the solve: single or double.
 extent : Side of the grid over the width of the contact. [1]
 reference : Solution that errors are measured against.

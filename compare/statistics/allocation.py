@@ -10,7 +10,7 @@ the last one asked for, keep the level; the tests measure it.
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import ceil, isfinite
-from typing import NamedTuple, Self
+from typing import Self
 
 import numpy as np
 import xarray
@@ -26,19 +26,6 @@ from .levels import pooled
 GROWTH = 4.0  # times the surfaces at most from one look to the next: the scatter of few is known roughly
 MARGIN = 1.1  # surfaces beyond those that just suffice: they spare most of the second looks
 OWN_SHARE = 0.5  # of the wanted width that is left to the scatter at least, however much the grid takes
-
-
-class Enough(NamedTuple):
-    """Surfaces that just suffice at every point (...), NaN where that is not known.
-
-    surfaces : of each stratum (K, ...)
-    scatter : half-width of the interval of 95 % with those that are there, relative
-    grid : what half the points change, relative, which adds to it
-    """
-
-    surfaces: np.ndarray
-    scatter: np.ndarray
-    grid: np.ndarray
 
 
 def needed(
@@ -59,26 +46,12 @@ def needed(
     growth : times the surfaces at most
     """
     now = np.bincount(dataset["stratum"].values, minlength=len(costs))
-    needs, scatter, grid = enough(dataset, above, below, costs, interval)
-    asked = np.where((scatter + grid > interval) & np.isfinite(needs), needs, 0.0)
-    return tuple(map(_more, now.tolist(), asked.reshape(now.size, -1).max(axis=1).tolist(), [growth] * now.size))
-
-
-def rounded(surfaces: float) -> int:
-    """Surfaces that are solved where so many just suffice."""
-    return TOGETHER * ceil(MARGIN * surfaces / TOGETHER)
-
-
-def enough(
-    dataset: xarray.Dataset, above: str, below: str | None, costs: Sequence[float], interval: float
-) -> Enough:
-    """Surfaces of each stratum that just suffice for such intervals, at the least cost; see `needed`."""
     parts, scatter, grid = _errors(dataset, above, below)
-    now = np.bincount(dataset["stratum"].values, minlength=len(costs))
     with np.errstate(invalid="ignore", divide="ignore"):
         least = np.maximum(interval - grid, OWN_SHARE * interval)
         needs = _least_cost(parts, now, np.array(costs), scatter / least)
-    return Enough(needs, scatter, grid)
+    asked = np.where((scatter + grid > interval) & np.isfinite(needs), needs, 0.0)
+    return tuple(map(_more, now.tolist(), asked.reshape(now.size, -1).max(axis=1).tolist(), [growth] * now.size))
 
 
 def unreached(dataset: xarray.Dataset, above: str, below: str | None, interval: float) -> str:
@@ -225,7 +198,8 @@ def _least_cost(parts, drawn, costs, times):
 
 def _more(had, asked, growth):
     """Number of surfaces of a stratum, of which so many are asked for."""
-    return min(max(had, min(rounded(min(asked, MOST_DRAWS)), int(growth * had))), MOST_DRAWS)
+    enough = TOGETHER * ceil(MARGIN * min(asked, MOST_DRAWS) / TOGETHER)
+    return min(max(had, min(enough, int(growth * had))), MOST_DRAWS)
 
 
 def _words(sources, words):

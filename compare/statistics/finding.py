@@ -16,7 +16,7 @@ from . import digits
 
 HOLDS, FAILS, UNDECIDED, REPORTED = VERDICTS = ("holds", "fails", "undecided", "reported")
 # How the share of the grid in an interval is known.
-HALVED, EXTRAPOLATED, EXACT, UNKNOWN = "change on halving", "extrapolated", "exact", "unknown"
+HALVED, EXACT, UNKNOWN = "change on halving", "exact", "unknown"
 BOTH = "1D/3D"
 # Models of which a number is said alone.
 ALONE = ("1D", "1D corrected", "3D")
@@ -101,7 +101,7 @@ class Finding:
     value : number measured, in the unit of the claim
     scatter : (low, high), the interval of 95 % over rough surfaces alone; both ends are the value without any
     grid : error of discretisation, absolute, which widens the interval at both ends; NaN if unknown
-    grid_method : how `grid` is known: "change on halving", "extrapolated", "exact" or "unknown"
+    grid_method : how `grid` is known: "change on halving", "exact" or "unknown"
     where : case, series or diagram in which it was measured
     draws : number of rough surfaces or profiles behind it, of the solver with the fewest; 0 of smooth bodies
     regime : range of the dimensionless groups in which it was measured, in words

@@ -55,7 +55,7 @@ class Planned:
     contacts, seconds : of `crosscheck run`, at most, and its processor time [s]; null where it solves nothing
     reason : why it solves nothing; empty where it does
     doubts, notes : about the scene, and on what was read for it
-    interval, accuracy : what those take, in words; null where they are not asked for
+    interval : of the scene, which takes more contacts than these; null where it states none
     """
 
     solvers: dict[str, Plan | str]
@@ -65,8 +65,7 @@ class Planned:
     reason: str
     doubts: tuple[str, ...]
     notes: tuple[str, ...]
-    interval: str | None
-    accuracy: str | None
+    interval: float | None
 
 
 @dataclass(frozen=True)
@@ -112,8 +111,7 @@ def answer(found: Any) -> Answer:
                 reason="" if cost else str(found.cost),
                 doubts=tuple(found.doubts),
                 notes=tuple(notes(found.scene)),
-                interval=_said(found.interval),
-                accuracy=_said(found.accuracy),
+                interval=found.interval,
             )
         case Listing():
             return Listed({name: Offered(each.title, each.about) for name, each in found.items()})

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from math import isinf
 from pathlib import Path
 from textwrap import fill
-from typing import TYPE_CHECKING, Any, cast
+from typing import cast
 
 from bem3d import BEM
 from mdr1d import MDR
@@ -20,13 +20,10 @@ from scene.reading import InvalidInput
 from ..library.case import Case, NotCompared, doubted
 from ..library.lookup import SceneLike, case_of
 from ..models.table import KNOWN
-from ..solving.amounts import duration, pascals, seconds, share, share_of
+from ..solving.amounts import duration, pascals, seconds, share
 from ..solving.cost import Cost
 from ..trustmap.verdict import Advice, trust
 from .run.curves import corners, curves, models_of
-
-if TYPE_CHECKING:
-    from .accuracy import Forecast, Settings
 
 WIDTH = 100
 WHOLE = {"break_long_words": False, "break_on_hyphens": False}
@@ -42,8 +39,7 @@ class Plans(dict[str, Plan | str | Advice]):
     cost : what all contacts of `crosscheck run` take; the reason where it solves none
     refused : whether that refuses the numbers of a scene of a kind that it compares
     doubts : about the scene, and notes on what was read for it, as sentences
-    interval, accuracy : what those take that were asked for, or why nothing is foretold; None if not asked for
-    stated : interval of the case, which takes more surfaces than those of a first look; None if it has none
+    interval : of the case, which takes more surfaces than those of a first look; None if it has none
     """
 
     def __init__(
@@ -53,13 +49,10 @@ class Plans(dict[str, Plan | str | Advice]):
         cost: Cost | str,
         refused: bool = False,
         doubts: Sequence[str] = (),
-        interval: Forecast | str | None = None,
-        accuracy: Settings | str | None = None,
-        stated: float | None = None,
+        interval: float | None = None,
     ) -> None:
         super().__init__(plans)
-        self.stated = stated
-        self.interval, self.accuracy = interval, accuracy
+        self.interval = interval
         self.scene, self.cost, self.refused, self.doubts = scene, cost, refused, tuple(doubts)
 
     def draw(self, file: str | Path) -> Path:
@@ -112,10 +105,9 @@ class Plans(dict[str, Plan | str | Advice]):
             if self.refused:
                 contacts = "none by crosscheck run, which refuses this scene"
             elif isinstance(self.cost, Cost):
-                more = (
-                    "" if self.stated is None else f", and as many more as intervals of {share(self.stated)} take"
-                )
-                contacts = f"at most {self.cost.contacts:,}, solved by crosscheck run{more}"
+                contacts = f"at most {self.cost.contacts:,}, solved by crosscheck run"
+                if self.interval is not None:
+                    contacts += f", and as many more as intervals of {share(self.interval)} take (run --interval)"
                 time = f"about {duration(self.cost.seconds)} on one processor; "
             yield "contacts", contacts
             yield "time", f"{time}this contact {self._by_dimension(_seconds)}"
@@ -126,9 +118,6 @@ class Plans(dict[str, Plan | str | Advice]):
         if choice := cast(Advice, self["trust"]).choice:
             yield "advice", choice
         yield "modulus", _stiffness(self.scene)
-        for name in ("interval", "accuracy"):
-            if (foretold := getattr(self, name)) is not None:
-                yield name, str(foretold)
         # What refuses all contacts refuses this one too, with values that work for all of them.
         told = self.cost if isinstance(self.cost, str) else ""
         reasons = {name: each for name, each in self.items() if isinstance(each, str)}
@@ -158,27 +147,18 @@ def _stiffness(scene):
     return f"{at_rest}; {pascals(instant)}, {pascals(stiffer * instant)} at the instant"
 
 
-def plans(asked: SceneLike, interval: Any = None, accuracy: Any = None) -> Plans:
+def plans(asked: SceneLike) -> Plans:
     """The plans of a case, of a scene alone, of a file or of a ready scene, whether or not both can solve it.
-
-    interval, accuracy : shares; to foretell what they take, coarse surfaces are solved
 
     Raises InvalidInput.
     """
-    given = {"interval": interval, "accuracy": accuracy}
-    wanted = {name: share_of(name, each) for name, each in given.items() if each is not None}
     case = case_of(asked)
     made: dict[str, Plan | str | Advice] = {
         solver.name: planned(solver, case.scene) for solver in (case.mdr, case.bem)
     }
     cost, refused, doubts = _cost(case)
-    told: dict[str, Any] = {"stated": case.study.interval}
-    if wanted:
-        from . import accuracy as foretold  # slow, and few plans ask for it
-
-        by_name = {"interval": foretold.forecast, "accuracy": foretold.settings}
-        told |= {name: by_name[name](case, each) for name, each in wanted.items()}
-    return Plans(made | {"trust": trust(case.scene)}, case.scene, cost, refused, doubts, **told)
+    made["trust"] = trust(case.scene)
+    return Plans(made, case.scene, cost, refused, doubts, case.study.interval)
 
 
 def planned(solver: MDR | BEM, scene: Scene) -> Plan | str:

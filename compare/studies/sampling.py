@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import islice
 from typing import TYPE_CHECKING
@@ -12,6 +12,24 @@ from ..solving.parameter_grid import LEVELS, Instead, ParameterGrid, on_levels, 
 
 if TYPE_CHECKING:
     import xarray
+
+# Means over draws: of a variable, or of one over another.
+MEANS = {
+    "friction_coefficient": ("friction_force", "normal_force"),
+    "normal_force": ("normal_force", None),
+    "depth_reached": ("depth_reached", None),
+}
+WORDS = {"friction_coefficient": "friction", "normal_force": "force", "depth_reached": "depth"}
+
+
+def wanted(prescribed: str, speeds: tuple[float, ...], slides: bool) -> Iterator[tuple[str, tuple[float, ...]]]:
+    """Names of the means that an interval is asked for, with their speeds: what is not prescribed, and friction.
+
+    slides : whether there is friction to speak of
+    """
+    yield "normal_force" if prescribed == "depth" else "depth_reached", speeds
+    if slides:
+        yield "friction_coefficient", tuple(speed for speed in speeds if speed > 0)
 
 
 def levels(models: Models, grids: Sequence[ParameterGrid], most: int = len(LEVELS)) -> dict[str, dict]:

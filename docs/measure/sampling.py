@@ -4,6 +4,7 @@ All is solved in this process, on one thread. A contact that several half-widths
 """
 
 from dataclasses import replace
+from math import ceil
 from pathlib import Path
 from time import process_time
 
@@ -17,10 +18,10 @@ from compare.report.plots import style
 from compare.report.plots.lettering import lettered
 from compare.solving.parameter_grid import FINE, ParameterGrid, on_two_grids
 from compare.statistics import means
+from compare.statistics.intervals import student
 from compare.statistics.jackknife import mean_ratio
 from compare.statistics.levels import pooled
 from compare.statistics.means import FRICTION
-from compare.studies.accuracy import sufficient
 from compare.studies.sweep.study import Sweep
 from scene import Slide
 
@@ -68,6 +69,14 @@ def _rows(case, speed):
                 count = sufficient(rows[-1]["scatter"], left)
                 row |= {f"{name}_surfaces": count, f"{name}_seconds": count * cost}
             yield {"speed": speed, "points": case.bem.points, "first": first, **row}
+
+
+def sufficient(scatter: float, half: float) -> int:
+    """Fewest surfaces of a scatter whose mean has an interval of 95 % of a half-width, both relative."""
+    count = max(2, ceil((student(0.95, np.inf) * scatter / half) ** 2))
+    while student(0.95, count - 1) * scatter > half * count**0.5:
+        count += 1
+    return count
 
 
 def _drawn(case, seed):

@@ -264,7 +264,7 @@ ASKED = {
     "run": {"scene": SLIDING},
     "study": {"name": "collapse"},
     "paper": {},
-    "workprecision": {"name": "mdr"},
+    "workprecision": {"name": "surfaces"},
     "stability": {},
     "verify": {"model": "mdr"},
     "regress": {},

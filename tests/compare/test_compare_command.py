@@ -142,7 +142,7 @@ def test_a_shell_completes_names_and_values(tmp_path, monkeypatch):
         assert complete(command, "qui") == ["quick-start", "quiet.toml"]
     assert complete("study", "steep-") == ["steep-all-speeds", "steep-and-slow", "steep-on-fine-grids"]
     assert complete("new", "quick") == ["quick-start"]
-    assert complete("workprecision", "ex") == ["extent"]
+    assert complete("workprecision", "su") == ["surfaces"]
     assert complete("redraw", "folder", "--journal", "el") == ["elsevier"]
     assert complete("run", "quick-start", "--figure-f") == ["--figure-format"]
 

@@ -3,7 +3,10 @@
 from dataclasses import replace
 from itertools import product
 
+import numpy as np
+import pint
 import pytest
+import xarray
 from scene_files import HEAD, SCENE, SHARED, TABLES
 from small_cases import PARAMETER_GRID
 from typer.testing import CliRunner
@@ -11,6 +14,7 @@ from typer.testing import CliRunner
 from bem3d import BEM
 from compare.cli.app import app
 from compare.library.case import Case
+from compare.solving.amounts import share_of
 from compare.solving.cost import DAY, MANY_CONTACTS, MOST_CONTACTS, SECONDS, Cost
 from compare.studies.claims.study_file import study_of
 from compare.studies.paper.study import Paper
@@ -120,3 +124,33 @@ def test_so_have_profiles_of_the_paper_and_threads():
         Paper.of(profiles=10**9)
     with pytest.raises(ValueError, match="less than or equal to 1024"):
         BEM(threads=10**9)
+
+
+UNITS = pint.UnitRegistry()
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        "2%",
+        " 2 % ",
+        "0.02",
+        0.02,
+        np.float64(0.02),
+        np.array(0.02),
+        UNITS.Quantity(0.02, ""),
+        UNITS.Quantity(2, "percent"),
+        xarray.DataArray(0.02),
+        xarray.DataArray(2.0, attrs={"units": "%"}),
+    ],
+)
+def test_shares_are_taken_from_text_and_other_libraries(given):
+    assert share_of("interval", given) == pytest.approx(0.02, rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    "given", [UNITS.Quantity(0.02, "m"), np.array([0.02, 0.03]), "two", None, 0.02j, np.True_]
+)
+def test_what_is_no_share_is_refused(given):
+    with pytest.raises(InvalidInput, match="interval = "):
+        share_of("interval", given)

@@ -59,6 +59,13 @@ def test_a_plan_counts_the_contacts_that_a_run_solves(written, tmp_path):
     assert f"contacts   at most {report.study.cost().contacts:,}, " in told(path).output
 
 
+def test_a_plan_names_the_interval_of_a_scene_and_the_option_that_asks_for_another():
+    found = plans("paper-sphere")
+    assert found.interval == 0.05
+    assert "and as many more as intervals of 5 % take (run --interval)" in " ".join(str(found).split())
+    assert "--interval" not in str(plans("quick-start"))
+
+
 # A solid with the shortest time that a number holds.
 FASTEST = """[indenter]
 type = "sphere"

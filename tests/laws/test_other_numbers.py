@@ -24,7 +24,6 @@ from compare.report.plots.journals import JOURNALS
 from compare.report.redraw import in_columns
 from compare.studies.mastercurve.study import Mastercurve
 from compare.studies.mastercurve.temperatures import Constants
-from compare.studies.plan import plans
 from compare.studies.sweep.study import Sweep
 from compare.studies.topography.study import Map
 from mdr1d import MDR, equations, estimates
@@ -314,14 +313,6 @@ def by_accuracy(**given):
         return BEM.for_accuracy(SLIDING, **given)
 
 
-def foretold(name, given):
-    with pytest.MonkeyPatch.context() as patched:
-        patched.setattr("compare.studies.plan.trust", lambda scene: "")
-        for asked_for in ("forecast", "settings"):
-            patched.setattr(f"compare.studies.accuracy.{asked_for}", lambda case, share: share)
-        return getattr(plans(SLIDING, **{name: given}), name)
-
-
 LOADS, SPEEDS = (each.ravel() for each in np.meshgrid(np.geomspace(1, 16, 5), (0.1, 0.2, 0.4)))
 FRICTION = {"mu": 0.3 / (1 + LOADS / SPEEDS / 10), "F_N": LOADS, "v": SPEEDS}
 
@@ -370,10 +361,6 @@ CALLED = [
     Place("compare.sweep(depth)", lambda given: asked(depth=given), (1e-5, 2e-5), "m"),
     Place("compare.redraw(width)", lambda given: in_columns(JOURNALS["default"], given).single, 0.1, "m"),
     Place("compare.sweep(draws)", lambda given: asked(draws=given), 2),
-    *(
-        Place(f"compare.plan({name})", lambda given, name=name: foretold(name, given), 0.1)
-        for name in ("interval", "accuracy")
-    ),
     Place("compare.sweep(interval)", lambda given: Sweep.of(SLIDING, (0.1,), interval=given).interval, 0.1),
     Place("compare.mastercurve(tolerance)", lambda given: Mastercurve.of(FRICTION, given).tolerance, 0.1),
     *(

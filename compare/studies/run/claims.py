@@ -21,9 +21,9 @@ from ...statistics.frictioncurves import SimulatedCurves
 from ...statistics.jackknife import DrawSet, mean
 from ...statistics.levels import pooled
 from ...statistics.means import Compared, compared
-from ..accuracy import MEANS, WORDS
 from ..claims.claims import CLAIMS, TOLERANCE
 from ..claims.points import stacked
+from ..sampling import MEANS, WORDS
 from ..theory import THEORY
 from .curves import (
     CURVES,
@@ -40,7 +40,7 @@ from .curves import (
 )
 
 SLOW = CLAIMS["friction.ratio.smooth-slow"]
-# Of the scene as it stands, by the name of the mean, see `accuracy.MEANS`.
+# Of the scene as it stands, by the name of the mean, see `sampling.MEANS`.
 OWN_RATIOS = {
     "friction_coefficient": CLAIMS["friction.ratio.own"],
     "depth_reached": CLAIMS["own.depth"],
@@ -122,7 +122,7 @@ class CaseFindings:
     def own(self, mean: str) -> dict[str, tuple[float, ...]]:
         """A mean of the scene as it stands, of each model and over that of the reference, with its interval.
 
-        mean : see `accuracy.MEANS`
+        mean : see `sampling.MEANS`
         """
         points = self.points[self.points["curve"] == OWN].set_index("solver")
         ends = [f"{mean}_{end}" for end in ("mean", "low", "high")]

@@ -9,7 +9,7 @@ from ...solving.amounts import capital, off, share
 from ...statistics.digits import interval, with_unit
 from ...statistics.finding import Finding
 from ...trustmap.verdict import CALLED, MULTIPLY, NONE, SMALL, USE, Advice, Correction
-from ..accuracy import WORDS
+from ..sampling import WORDS
 from .claims import CaseFindings, own_means
 from .curves import OWN
 

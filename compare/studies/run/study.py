@@ -33,8 +33,7 @@ from ...statistics.allocation import GROWTH, DrawnSurfaces, needed, unreached
 from ...statistics.finding import Finding
 from ...statistics.means import with_spread
 from ...trustmap.verdict import Advice, trust
-from ..accuracy import MEANS, WORDS
-from ..sampling import answered, unanswered
+from ..sampling import MEANS, WORDS, answered, unanswered
 from ..study import Judgement, Study
 from ..theory import THEORY
 from .claims import ROUGH_FORCE, SMOOTH_FORCE, SMOOTH_SPEED, CaseFindings, draws_of, own_means

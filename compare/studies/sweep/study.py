@@ -30,9 +30,8 @@ from ...statistics.finding import Claim, Finding, said_of, sentences
 from ...statistics.jackknife import DrawSet, mean, measured
 from ...statistics.levels import MOMENTS, pooled
 from ...statistics.means import interval
-from ..accuracy import MEANS, WORDS, wanted
 from ..run.curves import models_of
-from ..sampling import answered, in_strata, unanswered
+from ..sampling import MEANS, WORDS, answered, in_strata, unanswered, wanted
 from ..study import Judgement, Study
 from . import figure as plots
 from .values import Values, values_of

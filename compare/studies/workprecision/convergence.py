@@ -1,7 +1,7 @@
 """Convergence: one contact answered along ladders of settings, its errors and costs as a Dataset."""
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from math import nan
 from typing import Any, Self, cast
 
@@ -9,13 +9,11 @@ import numpy as np
 import xarray
 from pandas import DataFrame, concat, factorize
 
-from bem3d import BEM
 from scene import Scene, Solver
 
 from ...solving.parameter_grid import FAILED, SOLVED
 from ...solving.task import Task
 from ...solving.vocabulary import attributes
-from ...statistics.convergence import MeasuredLadder
 from .reference import Outcomes, Quantity, Reference
 from .timed_solve import COSTS, OnGrid, TimedSolve
 
@@ -23,7 +21,7 @@ from .timed_solve import COSTS, OnGrid, TimedSolve
 SETTINGS = {"points": nan, "tolerance": nan, "steps": nan, "precision": "", "extent": nan}
 # Columns of the table of steps.
 STEPS = (
-    *("contact", "quantity", "solver", "ladder", "title", "label", "estimate", "setting", "value", *SETTINGS),
+    *("contact", "quantity", "solver", "ladder", "title", "label", "setting", "value", *SETTINGS),
     *("relative_error", "reference", "reference_error"),
     *("processor", "wall", "memory", "operator_applications", "status", "reason"),
 )
@@ -50,12 +48,10 @@ class Ladder:
     solves: tuple[TimedSolve, ...]
 
     @classmethod
-    def of(
-        cls, label: str, scene: Scene, solver: OnGrid, setting: str, values: Sequence, keeps: tuple[str, ...] = ()
-    ) -> Self:
-        """Steps that differ in one setting of the solver. keeps : names of the fields that are kept"""
+    def of(cls, label: str, scene: Scene, solver: OnGrid, setting: str, values: Sequence) -> Self:
+        """Steps that differ in one setting of the solver."""
         solvers = (replace(solver, **{setting: value}) for value in values)
-        return cls(label, setting, tuple(values), tuple(TimedSolve.of(each, scene, keeps) for each in solvers))
+        return cls(label, setting, tuple(values), tuple(TimedSolve.of(each, scene) for each in solvers))
 
     @classmethod
     def over(cls, label: str, setting: str, values: Sequence, solve: Callable[[Any], TimedSolve]) -> Self:
@@ -63,27 +59,11 @@ class Ladder:
         return cls(label, setting, tuple(values), tuple(map(solve, values)))
 
 
-def points_and_tolerances(
-    scene: Scene,
-    tight: BEM,
-    points: Sequence[int],
-    grid: int,
-    tolerances: Sequence[float],
-    keeps: tuple[str, ...] = (),
-) -> tuple[Ladder, ...]:
-    """Ladders of BEM: points at a tight tolerance, tolerances on one grid. keeps : fields, see Ladder.of"""
-    return (
-        Ladder.of("BEM, by points", scene, tight, "points", points, keeps),
-        Ladder.of(f"BEM, by tolerance at {grid}²", scene, BEM(points=grid), "tolerance", tolerances, keeps),
-    )
-
-
 @dataclass(frozen=True)
 class Convergence:
     """A contact with the ladders that answer it, and what they are measured against.
 
     name : short, as in file names; title : for people
-    orders : of the errors expected in the number of points, by the quantity's name
     """
 
     name: str
@@ -91,7 +71,6 @@ class Convergence:
     reference: Reference
     quantities: tuple[Quantity, ...]
     ladders: tuple[Ladder, ...]
-    orders: Mapping[str, float] = field(default_factory=dict)
 
     def beside(self, models: Sequence[Solver]) -> "Convergence":
         """The contact with other models: on a quarter of their points, half and all, or once without points."""
@@ -129,14 +108,11 @@ class Convergence:
         solves = [solve for _, _, solve in steps]
         answers = [outcomes[solve] for solve in solves]
         errors = [
-            [known[each.name].error_of(each.measured(answer.rows[0], answer.fields)) for answer in answers]
-            for each in quantities
+            [known[each.name].error_of(each.measured(answer.rows[0])) for answer in answers] for each in quantities
         ]
         by_quantity = {
             "quantity": [each.name for each in quantities],
             "label": [each.label for each in quantities],
-            "estimate": [each.by for each in quantities],
-            "expected_order": [self.orders.get(each.name, nan) for each in quantities],
             "reference_error": [known[each.name].relative_error for each in quantities],
         }
         by_step = {
@@ -190,20 +166,3 @@ def steps_table(node: xarray.DataTree) -> DataFrame:
             rows = dataset.assign(dataset.attrs).to_dataframe(["quantity", "step"]).reset_index()
             found.append(rows.iloc[np.argsort(factorize(rows["ladder"])[0], kind="stable")])
     return concat(found, ignore_index=True)[list(STEPS)] if found else DataFrame(columns=STEPS)
-
-
-def orders_table(found: Sequence[MeasuredLadder]) -> DataFrame:
-    """A row for each ladder and quantity; NaN where too few steps show an error of their own."""
-    names = "contact", "quantity", "solver", "ladder", "setting"
-    return DataFrame(
-        [
-            {name: getattr(each, name) for name in names}
-            | {
-                "order": each.order.order,
-                "standard_error": each.order.deviation,
-                "constant": each.order.constant,
-                "steps": each.order.count,
-            }
-            for each in found
-        ]
-    )

@@ -107,7 +107,7 @@ class Ensemble:
             return ("points", "seed"), np.array(rows, kind)
 
         found = {
-            VARIABLES[each.name]: filled(lambda row, each=each: each.measured(row, {}), nan)
+            VARIABLES[each.name]: filled(lambda row, each=each: each.measured(row), nan)
             for each in self.quantities
         }
         found["status"] = filled(lambda row: SOLVED if row.reason is None else FAILED, NOT_ASKED, object)

@@ -6,13 +6,11 @@ from math import nan
 
 import numpy as np
 
-from bem3d import BEM
-from scene import Scene, Slide
+from scene import Scene
 
-from ...models.exact.slow import mean_lag, slow_friction_by_curvature
 from ...solving.outcome import Outcome, Row
 from ...solving.task import SceneTask, Task
-from ...statistics.finding import EXACT, EXTRAPOLATED, HALVED
+from ...statistics.finding import EXACT, HALVED
 from .timed_solve import OnGrid, work
 
 Outcomes = Mapping[Task, Outcome]
@@ -23,23 +21,21 @@ class Quantity:
     """A number of an answer whose error is asked for.
 
     name : as in tables; label : as in figures, without what it is an error of
-    of : from the row and the fields of an answer that was solved
-    by : which estimate of it, where one answer has several: those of one label are drawn together
+    of : from the row of an answer that was solved
     """
 
     name: str
     label: str
-    of: Callable[[Row, Mapping[str, np.ndarray]], float]
-    by: str = ""
+    of: Callable[[Row], float]
 
-    def measured(self, row: Row, fields: Mapping[str, np.ndarray]) -> float:
+    def measured(self, row: Row) -> float:
         """The number; NaN of a failed solve."""
-        return nan if row.reason is not None else self.of(row, fields)
+        return nan if row.reason is not None else self.of(row)
 
 
-DEPTH = Quantity("depth", "depth", lambda row, _: row.depth)
-FORCE = Quantity("force", "normal force", lambda row, _: row.normal_force)
-FRICTION = Quantity("friction", "friction coefficient", lambda row, _: row.friction_coefficient)
+DEPTH = Quantity("depth", "depth", lambda row: row.depth)
+FORCE = Quantity("force", "normal force", lambda row: row.normal_force)
+FRICTION = Quantity("friction", "friction coefficient", lambda row: row.friction_coefficient)
 
 
 @dataclass(frozen=True)
@@ -90,52 +86,20 @@ def closed_form(source: str, values: Mapping[str, Known]) -> Reference:
     return Reference(source, EXACT, lambda asked, _: values)
 
 
-def finer(
-    scene: Scene, solver: OnGrid, source: str, scale: Mapping[str, float] | None = None, **coarser
-) -> Reference:
-    """Reference by the scene solved far finer; its error is the change from the next coarser grid or setting.
+def finer(scene: Scene, solver: OnGrid, source: str, scale: Mapping[str, float] | None = None) -> Reference:
+    """Reference by the scene solved far finer; its error is the change from half the points.
 
     source : for people, with {} for the points
     scale : by the quantity's name, see Known
-    coarser : settings of the next, if it is not on half the points
     """
-    next_to_it = replace(solver, **coarser or {"points": solver.points // 2})
-    tasks = tuple(SceneTask(each, (scene,), work=work(each)) for each in (solver, next_to_it))
+    coarser = replace(solver, points=solver.points // 2)
+    tasks = tuple(SceneTask(each, (scene,), work=work(each)) for each in (solver, coarser))
 
     def known(quantities, outcomes):
         found = {}
         for each in quantities:
-            value, other = (each.measured(outcomes[task].rows[0], outcomes[task].fields) for task in tasks)
+            value, other = (each.measured(outcomes[task].rows[0]) for task in tasks)
             found[each.name] = Known(value, abs(value - other), (scale or {}).get(each.name))
         return found
 
     return Reference(source.format(solver.points), HALVED, known, tasks)
-
-
-def slow_limit(scene: Scene, solver: BEM) -> Reference:
-    """Friction from the curvature of the surface, weighted with the pressure at rest; to first order in the speed.
-
-    Half the points tell how uncertain the limit is. Ten times the speed, on those too, departs from it by ten
-    times as much as the scene, whose roughness is the same on every grid.
-    """
-    coarser = replace(solver, points=solver.points // 2)
-    tasks = tuple(_moved(scene, *each) for each in ((0.0, solver), (0.0, coarser), (10.0, coarser)))
-
-    def limit(row):
-        curvature = row.measures.get("curvature_by_pressure", nan)
-        return slow_friction_by_curvature(scene.motion.speed, mean_lag(scene.solid), 1.0, curvature)
-
-    def known(_, outcomes):
-        finest, less, faster = (outcomes[task].rows[0] for task in tasks)
-        departure = abs(faster.friction_coefficient / 10 - limit(less)) / 10
-        return {FRICTION.name: Known(limit(finest), abs(limit(finest) - limit(less)) + departure)}
-
-    source = "the limit of low speed by the curvature under the pressure at rest"
-    return Reference(source, EXTRAPOLATED, known, tasks)
-
-
-def _moved(scene, factor, solver):
-    """Task of the scene at its speed times a factor."""
-    motion = scene.motion
-    slid = Slide(speed=factor * motion.speed, **{motion.pressed_by: motion.greatest})
-    return SceneTask(solver, (replace(scene, motion=slid),), work=work(solver))

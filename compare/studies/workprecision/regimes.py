@@ -1,7 +1,8 @@
 """The regimes in which the models are asked for the true answer of three dimensions."""
 
+from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any
+from typing import Any, TypeVar
 
 from bem3d import BEM
 from mdr1d import MDR
@@ -12,8 +13,9 @@ from ..claims import contacts
 from .convergence import Convergence, Ladder
 from .ensemble import Ensemble, corrected_solve
 from .reference import DEPTH, FORCE, FRICTION, Known, closed_form, finer
-from .scenes import FULL, QUICK, at
 
+# quick: few contacts on short ladders; standard: all contacts on short ladders; full: all on long ladders.
+SIZES = QUICK, STANDARD, FULL = "quick", "standard", "full"
 LOAD = 1.0
 SPHERE, CONE = (replace(contacts.kelvin(shape), roughness=None) for shape in ("sphere", "cone"))
 KELVIN = SPHERE.elastomer
@@ -46,6 +48,12 @@ ROUGH: dict[str, dict[str, Any]] = {
 }
 # Where three dimensions need fine grids to resolve the waves.
 STEEP = {"grids": (512, 1024), "surfaces": 12, "paired": 4, "lines": (5000,), "profiles": 1500}
+Values = TypeVar("Values")
+
+
+def at(values: Mapping[str, Values], size: str) -> Values:
+    """Settings of a size: those of "full", or those of "quick" for both smaller sizes."""
+    return values[FULL if size == FULL else QUICK]
 
 
 def smooth(size: str) -> list[Convergence]:

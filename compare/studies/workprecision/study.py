@@ -16,24 +16,12 @@ from ...solving.outcome import Outcome
 from ...solving.task import Batch, Task
 from ...statistics.finding import Finding, sentences
 from ..study import Judgement, Study
-from . import elastic, extent, marching, mdr, models, precision, sliding
+from . import models
 from .convergence import Convergence
-from .diagram import Diagram, convergence
-from .scenes import QUICK, SIZES
+from .diagram import Diagram
+from .regimes import QUICK, SIZES
 
-DIAGRAMS: Mapping[str, Diagram] = {
-    each.name: each
-    for each in (
-        models.MODELS,
-        models.SURFACES,
-        convergence("mdr", mdr.contacts),
-        convergence("elastic", elastic.contacts),
-        convergence("sliding", sliding.contacts, sliding.estimates),
-        convergence("marching", marching.contacts, marching.price),
-        convergence("precision", precision.contacts, precision.saved),
-        convergence("extent", extent.contacts, extent.shape),
-    )
-}
+DIAGRAMS: Mapping[str, Diagram] = {each.name: each for each in (models.MODELS, models.SURFACES)}
 ALL, MODELS = "all", "models"
 ABOUT = """Errors are relative. The reference is a closed form where there is one, elsewhere a far finer solution,
 whose own error is the grey band; points within the band are hollow and are known to be no worse than that.

@@ -37,18 +37,14 @@ class OnGrid(Solver, Protocol):
 class TimedSolve(SceneTask):
     """One scene, solved until its least time is known. It wants a process of its own.
 
-    keeps : names of the fields that are kept
-
     Row.measures has, besides those of the result, processor and wall [s], each the least of the repeats, from the
     scene to the result; memory [bytes], by which the first raised the peak of the process; and repeats.
     """
 
-    keeps: tuple[str, ...] = ()
-
     @classmethod
-    def of(cls, solver: Solver, scene: Scene, keeps: tuple[str, ...] = ()) -> Self:
+    def of(cls, solver: Solver, scene: Scene) -> Self:
         """The scene with the solver, its work as expected."""
-        return cls(solver, (scene,), bool(keeps), work(solver), keeps=keeps)
+        return cls(solver, (scene,), work=work(solver))
 
     @property
     def scene(self) -> Scene:
@@ -68,7 +64,7 @@ class TimedSolve(SceneTask):
         asked = {"scene": scene, "solver": self.solver.name, "settings": asdict(self.solver)}
         if not self.portable:
             asked["source"] = super().question["source"]
-        return {"timed": asked, "keeps": list(self.keeps), "machine": [platform.machine(), platform.node()]}
+        return {"timed": asked, "machine": [platform.machine(), platform.node()]}
 
     @property
     def packages(self) -> tuple[str, ...]:
@@ -83,8 +79,7 @@ class TimedSolve(SceneTask):
         except (Refused, SolveError) as error:
             return Outcome((Row(reason=str(error) or type(error).__name__),))
         found = row(result)
-        fields = {name: result.fields[name] for name in self.keeps}
-        return Outcome((replace(found, measures={**found.measures, **costs}),), fields)
+        return Outcome((replace(found, measures={**found.measures, **costs}),))
 
     def _warm_up(self):
         """Solve the scene on few points, smooth where its roughness is refused on so few; failing is no matter.

@@ -1,7 +1,6 @@
 """Error against processor time: a panel for each contact and quantity, the settings written at the points."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import cycle
 from math import ceil
 from typing import Any
 
@@ -20,80 +19,35 @@ from ....report.plots.prefixes import prefixed
 from ....solving.amounts import digits
 from ....statistics.convergence import MeasuredLadder, ladders
 
-# Columns of panels, their height and that around all of them [inch], and how many a figure of several quantities
-# has at most.
-COLUMNS, HEIGHT, AROUND, MOST = 3, 2.2, 0.6, 9
+# Columns of panels, their height and that around all of them [inch].
+COLUMNS, HEIGHT, AROUND = 3, 2.2, 0.6
 # Errors below are of rounding in sums over thousands of points, those above leave nothing of an answer: both are
 # drawn there.
 ROUNDING, WHOLE = 1e-12, 1.0
 HIDDEN = 0.9  # between ink and paper
 ALONG = "points along x"  # numbers at curves
-# Estimates beside the answer itself: distinct from both dimensions and from one another in grey.
-BESIDE: tuple[dict[str, Any], ...] = (
-    {"color": "#009E73", "marker": "^", "linestyle": ":"},
-    {"color": "#CC79A7", "marker": "v", "linestyle": "-."},
-    {"color": "#56B4E9", "marker": "D", "linestyle": (0, (5, 1, 1, 1, 1, 1))},
-    {"color": "#E69F00", "marker": "P", "linestyle": (0, (3, 1))},
-    {"color": "0.45", "marker": "x", "linestyle": (0, (1, 3))},
-)
 
 
 def plots(name: str, tables: Tables) -> Iterator[Plot]:
-    """Plots of tables, of which the first is of steps.
-
-    One plot of the answers, or of many panels one for friction and one for what else is measured; then one of all
-    estimates where there are several.
-    """
+    """Plot of tables, of which the first is of steps."""
     table, *_ = tables
-    common = {"steps": table}
-    told = (
+    yield Plot(
+        name, figure, tables,
         "Relative error against processor time of one solve, the least of its repeats; numbers, settings at the "
         "ends of curves where there is room. Grey, error of the reference, or of rounding "
         f"({ROUNDING:g}), within which points are hollow; dotted, fitted power of a ladder of points; ↑, errors "
-        "beyond the panel."
-    )
-    alternative = "Panels of falling curves: relative error over processor time."
-    drawn = panels(tables[table])
-    quantities = dict.fromkeys(first.quantity for first, *_ in drawn)
-    kinds = {"friction": ["friction"], "load": [each for each in quantities if each != "friction"]}
-    if len(drawn) <= MOST:
-        yield Plot(name, figure, tables, told, alternative, common)
-    else:
-        for kind, own in kinds.items():
-            if quantities.keys() & own:
-                yield Plot(f"{name}-{kind}", figure, tables, told, alternative, common | {"quantities": own})
-    if panels(tables[table], estimates=True):
-        told += " Every estimate of the first ladder."
-        yield Plot(f"{name}-estimates", figure, tables, told, alternative, common | {"estimates": True})
+        "beyond the panel.",
+        "Panels of falling curves: relative error over processor time.",
+        {"steps": table},
+    )  # fmt: skip
 
 
-def panels(steps: DataFrame, estimates: bool = False) -> list[list[MeasuredLadder]]:
-    """Curves of each contact by each quantity: all ladders by the first estimate, which is the answer.
+def figure(tables: Tables, steps: str) -> Figure:
+    """A panel a contact and quantity, on the same axes as errors and times are compared, and one legend below.
 
-    estimates : the first ladder by every estimate instead, where there are several
+    steps : name of the table
     """
-    groups: dict[tuple[str, str], list[MeasuredLadder]] = {}
-    for each in ladders(steps):
-        groups.setdefault((each.contact, each.label), []).append(each)
-    if estimates:
-        found = ([each for each in own if each.ladder == own[0].ladder] for own in groups.values())
-        return [own for own in found if len(own) > 1]
-    return [[each for each in own if each.estimate == own[0].estimate] for own in groups.values()]
-
-
-def figure(
-    tables: Tables,
-    steps: str,
-    quantities: list[str] | None = None,
-    estimates: bool = False,
-) -> Figure:
-    """All panels, on the same axes as errors and times are compared across them, and one legend below.
-
-    steps : name of the table; quantities : that are shown, all if absent
-    estimates : whether the first ladder by every estimate is shown, in place of every ladder by the answer
-    """
-    drawn = panels(tables[steps], estimates)
-    drawn = [own for own in drawn if quantities is None or own[0].quantity in quantities]
+    drawn = _panels(tables[steps])
     times, unit = prefixed([min(time, 1.0) for panel in drawn for curve in panel for time in curve.processor], "s")
     drawing, all_axes = framed([f"{first.title}\n{first.label}" for first, *_ in drawn], unit)
     looks = _looks(drawn)
@@ -118,6 +72,14 @@ def figure(
     return drawing
 
 
+def _panels(steps: DataFrame) -> list[list[MeasuredLadder]]:
+    """Ladders of each contact by each quantity."""
+    groups: dict[tuple[str, str], list[MeasuredLadder]] = {}
+    for each in ladders(steps):
+        groups.setdefault((each.contact, each.label), []).append(each)
+    return list(groups.values())
+
+
 def framed(titles: Sequence[str], unit: str = "s") -> tuple[Figure, list[Axes]]:
     """Empty panels with letters and titles on the same axes. unit : of time"""
     count = len(titles)
@@ -137,19 +99,11 @@ def framed(titles: Sequence[str], unit: str = "s") -> tuple[Figure, list[Axes]]:
     return drawing, every
 
 
-def _name(curve, panel):
-    """What tells a curve from others in all panels: its ladder, or the estimate beside the answer."""
-    return curve.ladder if curve.estimate == panel[0].estimate else curve.estimate
-
-
 def _looks(drawn) -> Mapping[str, Mapping[str, Any]]:
-    """Colour, marker and line of each curve by its name, the same in all panels."""
+    """Colour, marker and line of each ladder by its label, the same in all panels."""
     solvers: dict[str, dict[str, None]] = {}
-    beside: dict[str, None] = {}
-    for panel in drawn:
-        for curve in panel:
-            solvers.setdefault(curve.solver, {})[curve.ladder] = None
-        beside |= dict.fromkeys(_name(curve, panel) for curve in panel if curve.estimate != panel[0].estimate)
+    for curve in (curve for panel in drawn for curve in panel):
+        solvers.setdefault(curve.solver, {})[curve.ladder] = None
     looks: dict[str, Mapping[str, Any]] = {}
     for solver, labels in solvers.items():
         start = style.SERIES_MARKERS.index(style.MARKER.get(solver, "o"))
@@ -160,8 +114,7 @@ def _looks(drawn) -> Mapping[str, Mapping[str, Any]]:
                 "marker": style.SERIES_MARKERS[(start + 2 * k) % len(style.SERIES_MARKERS)],
                 "linestyle": style.SERIES_LINES[k % len(style.SERIES_LINES)],
             }
-    thin = {"linewidth": style.width(0.7)}
-    return looks | {name: look | thin for name, look in zip(beside, cycle(BESIDE), strict=False)}
+    return looks
 
 
 def _told(curve: MeasuredLadder) -> float:
@@ -173,8 +126,8 @@ def _panel(axes: Axes, panel, looks):
     """Curves, fitted powers and failures of a panel."""
     solved = [curve for curve in panel if np.isfinite(curve.errors).any()]
     for curve in solved:
-        look, errors = dict(looks[_name(curve, panel)]), _shown(curve)
-        marker, hollow = look.pop("marker"), (errors <= _told(panel[0])) & (curve.estimate != "indicator")
+        look, errors = dict(looks[curve.ladder]), _shown(curve)
+        marker, hollow = look.pop("marker"), errors <= _told(panel[0])
         axes.plot(curve.processor, errors, **look)
         for part, face in ((hollow, style.paper()), (~hollow, look["color"])):
             dots = {"marker": marker, "markersize": style.mark(), "color": look["color"], "markerfacecolor": face}
@@ -182,11 +135,10 @@ def _panel(axes: Axes, panel, looks):
     if not solved:
         axes.text(0.5, 0.5, "not solved", transform=axes.transAxes, ha="center", va="center")
         return
-    answers = [curve for curve in panel if curve.estimate == panel[0].estimate]
-    for curve in answers:
+    for curve in panel:
         if _falls(curve):
             axes.plot(*_power(curve), **style.line(0.3, 0.7, linestyle=(0, (1, 1.5)), zorder=1))
-    failed = [f"{curve.setting} {_written(value)}" for curve in answers for value, _ in curve.failures]
+    failed = [f"{curve.setting} {_written(value)}" for curve in panel for value, _ in curve.failures]
     if failed:
         corner(axes, f"failed: {', '.join(failed)}")
 
@@ -245,12 +197,11 @@ def _written(value: float) -> str:
 
 def _letters(axes, panel, looks) -> Iterator[Letter]:
     """Settings at both ends of the answer, errors beyond the panel, then the exponents of the powers."""
-    answers = [curve for curve in panel if curve.estimate == panel[0].estimate]
     for curve in panel:
-        colour, at = looks[_name(curve, panel)]["color"], np.column_stack([curve.processor, _shown(curve)])
+        colour, at = looks[curve.ladder]["color"], np.column_stack([curve.processor, _shown(curve)])
         known = np.flatnonzero(np.isfinite(at).all(axis=1))
         ends = known[[0, -1]] if known.size else known
-        if curve in answers and len(ends):
+        if len(ends):
             texts = [_written(curve.values[k]) for k in ends]
             if np.hypot(*np.diff(axes.transData.transform(at[ends]), axis=0)[0]) < MARKER * axes.figure.dpi / 36:
                 texts = [" to ".join(dict.fromkeys(texts))]
@@ -258,7 +209,7 @@ def _letters(axes, panel, looks) -> Iterator[Letter]:
         for k in ends[-1:]:
             if curve.errors[k] > WHOLE:
                 yield Letter(f"↑ {curve.errors[k]:.3g}", tuple(at[k]), colour)
-    for curve in answers:
+    for curve in panel:
         if _falls(curve):
             x, y = _power(curve)
             yield Letter(f"$n^{{-{curve.order.order:.1f}}}$", (x[-1], y[-1]), style.grey(0.35))
