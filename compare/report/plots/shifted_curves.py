@@ -167,8 +167,8 @@ def _collapse(drawing, grid, k, end, fit, points, colours):
     left.set(title=literal(fit.curves), xlabel="normal force [N]", ylabel="friction coefficient [1]")
     above.set_title(_title(fit))
     above.tick_params(labelbottom=False)
-    title = ": ".join(filter(None, ("off one curve", _missed(fit))))
-    below.set(title=title, xlabel=shifted, ylabel="off [%]")
+    missed = _missed(fit)
+    below.set(title=f"off by {missed}" if missed else "off one curve", xlabel=shifted, ylabel="off [%]")
     if fit.shifted_as in (EXPECTED, UNSHIFTED) and (least := _missed(fit, "least_misfit")):
         told = f"shifted to the least overlap: {least}"
         below.set_title(told, loc="right", fontsize=style.small(), fontweight="normal")
