@@ -96,8 +96,8 @@ def misfit(fit) -> str:
     """Misfit of a fit in words."""
     if not np.isfinite(fit["misfit"]):
         return f"δ unknown, the means miss the curve by {fit['rms']:.1%}"
-    numbers = (100 * fit[f"misfit{end}"] for end in ENDS)
-    return f"δ = {digits.interval(*numbers, FIGURES)} %"
+    value, low, high = (100 * fit[f"misfit{end}"] for end in ENDS)
+    return f"δ = {digits.interval(value, low, high, FIGURES)} %"
 
 
 def shifts(tables: Tables, tolerance: float = 0.05) -> Figure:
@@ -115,8 +115,9 @@ def shifts(tables: Tables, tolerance: float = 0.05) -> Figure:
         ):
             intervals(axes, own["speed"] * apart, own, name, less=less, **look)
         (fit,) = fits[fits["dimension"] == dimension].to_dict("records")
-        told = digits.interval(*(fit[f"exponent{end}"] for end in ENDS), FIGURES)
-        power = f", power of v:\n{told}" if np.isfinite(fit["exponent"]) else ""
+        value, low, high = (fit[f"exponent{end}"] for end in ENDS)
+        told = digits.interval(value, low, high, FIGURES)
+        power = f", power of v:\n{told}" if np.isfinite(value) else ""
         left.plot([], [], **look | {"label": f"{dimension}{power}"})
     grey = style.line(0.45, 0.8, zorder=1)
     left.plot(own["speed"], own["theory"], "-", label="theory, ln p(v)", **grey)
