@@ -139,12 +139,15 @@ def _shown(progress: bool | str | Preparing | None) -> Iterator[Progress | None]
 
 
 def _warn(sentences: Sequence[str]) -> None:
-    """Warn Doubtful of each sentence, as from the line that called a function of this module."""
+    """Warn Doubtful of each sentence, as from the line that called a function of this module.
+
+    Each function is called by `checked`, whose frames are passed over too.
+    """
     from scene import Doubtful
 
     frame: FrameType | None = sys._getframe()
     level = 1
-    while frame is not None and frame.f_globals.get("__name__") == __name__:
+    while frame is not None and frame.f_globals.get("__name__") in (__name__, checked.__module__):
         level, frame = level + 1, frame.f_back
     for each in sentences:
         warnings.warn(each, Doubtful, stacklevel=level)

@@ -66,7 +66,7 @@ class Collapse:
     data : what was fitted; points_left_out, surfaces_left_out : how many were not
     curves : with standard errors, to first order
     log_friction : of every point of every curve, with these errors
-    degree : of the common polynomial
+    degree : of the common polynomial of curves shifted along the load
     straight : misfit of parallel straight lines, one a speed
     unshifted, horizontal, vertical, both : which shifts are fitted
     """
@@ -155,7 +155,7 @@ def collapse(data: FrictionCurves) -> Collapse:
     along = _best(Fit(curves, DEGREE), unmoved)
     lifted, both = _freed(complete, Fit(curves, DEGREE, lifted=True), along)
     level = Fit(curves, lifted.degree)
-    if not _spare(lifted.tangent(both)):
+    if not _spare(lifted.tangent(both)):  # points that shifts along friction would take are free
         level, along = _freed(complete, level, along)
     horizontal = _moved(complete, level, along)
     why = _inseparable(straight)

@@ -19,7 +19,7 @@ WLF, ARRHENIUS = "WLF", "Arrhenius"
 LEVEL, UNLIKELY = 0.95, 0.01  # of intervals; chance of the scatter about a law, below which it is none
 # Values of c2 over the distance of the pole from the lowest temperature, in which its interval is sought.
 REACH = np.concatenate([[0.0], np.geomspace(1e-3, 1e4, 1001)])
-FINER = 6  # times that these are tried closer together, until the interval holds a tenth of them
+FINER = 6  # times at most that they are tried closer together, until a tenth of them lies in the interval
 TWO = "two temperatures: c1 and c2 are told from three at least"
 OPEN = "the shifts leave it open: temperatures farther apart, or a smaller scatter, would tell"
 WRONG = "no law of WLF goes through the shifts"

@@ -284,7 +284,7 @@ ASKED = {
 }
 
 
-OPTIONS = {"workers", "format", "figure_format", "report", "yes"}
+OPTIONS = {"workers", "figure_format", "report", "yes"}
 CALLED = {"table": "a DataFrame", "file": "heights"}  # arguments that messages name otherwise
 
 

@@ -106,21 +106,24 @@ def _fit(judged, solver) -> DataFrame:
     if found is None:
         return DataFrame([{"misfit": np.nan, "reason": "too few points"}])
     lead = _lead(judged, solver)
-    missed = eq23.BOTH if lead is found.both else eq23.COLLAPSE
-    own = [each for each in judged.findings if each.claim.id == missed.id]
-    ends = [each.interval for each in own if each.dimension == SOLVERS[solver]]
-    low, high = ends[0] if ends else lead.misfit.interval()
+    missed = _said(judged, solver, lead.misfit, eq23.BOTH if lead is found.both else eq23.COLLAPSE)
     row = {
-        "misfit": lead.misfit.value,
-        "misfit_low": low,
-        "misfit_high": high,
+        **{f"misfit{end}": each for end, each in zip(ENDS, missed, strict=True)},
         "rms": lead.rms,
-        "degree": found.degree,
+        "degree": found.degree if lead.curve is None else lead.curve.degree(),
         "points_left_out": found.points_left_out,
         "surfaces_left_out": found.surfaces_left_out,
         "reason": lead.reason,
     }
     return DataFrame([row])
+
+
+def _said(judged, solver, number, *claims):
+    """A number and its interval as the first finding on some claims has them; its own where there is none."""
+    findings = {each.claim.id: each for each in judged.findings if each.dimension == SOLVERS[solver]}
+    for each in (findings[claim.id] for claim in claims if claim.id in findings):
+        return each.value, *each.interval
+    return number.value, *number.interval()
 
 
 def shifts(judged: JudgedSeries) -> Plot | None:
@@ -133,7 +136,8 @@ def shifts(judged: JudgedSeries) -> Plot | None:
         dimension, lead = SOLVERS[solver], _lead(judged, solver)
         theory = judged.laws[solver].shifts[[judged.series.speeds.index(speed) for speed in found.speeds.tolist()]]
         moved[dimension,] = found.shifts(lead).assign(theory=theory - theory[len(theory) // 2])
-        numbers = (lead.exponent.value, *lead.exponent.interval())
+        power = eq23.BESIDE if lead is found.both else eq23.ALONE
+        numbers = _said(judged, solver, lead.exponent, eq23.EXPONENT, power)
         fits[dimension,] = DataFrame([{f"exponent{end}": each for end, each in zip(ENDS, numbers, strict=True)}])
     return Plot(
         f"{judged.series.folder}/shifts",

@@ -14,10 +14,13 @@ from ....report.page import Tables
 from ....report.plots import shades, style
 from ....report.plots.curves import intervals
 from ....report.plots.lettering import clear, lettered, literal
+from ....statistics import digits
+from ....statistics.collapse import ENDS
 
 SOLVER = {"1D": "MDR", "3D": "BEM"}
 FITTED, PREDICTED, ALONE = "fitted", "predicted", "not shifted"
 COMMON, LAW = "common curve", "Eq. 19 with p(v)"
+FIGURES = 3  # significant digits of a number without an interval, as in the answer
 # Neighbouring markers are drawn apart by this factor of the speed, either way.
 APART = 1.05
 # Unit of what is prescribed, and what the bar of shades is in.
@@ -93,9 +96,8 @@ def misfit(fit) -> str:
     """Misfit of a fit in words."""
     if not np.isfinite(fit["misfit"]):
         return f"δ unknown, the means miss the curve by {fit['rms']:.1%}"
-    if not np.isfinite(fit["misfit_low"]):
-        return f"δ = {100 * fit['misfit']:.1f} %"
-    return f"δ = {100 * fit['misfit']:.1f} % ({100 * fit['misfit_low']:.1f} to {100 * fit['misfit_high']:.1f})"
+    value, low, high = (100 * fit[f"misfit{end}"] for end in ENDS)
+    return f"δ = {digits.interval(value, low, high, FIGURES)} %"
 
 
 def shifts(tables: Tables, tolerance: float = 0.05) -> Figure:
@@ -113,7 +115,9 @@ def shifts(tables: Tables, tolerance: float = 0.05) -> Figure:
         ):
             intervals(axes, own["speed"] * apart, own, name, less=less, **look)
         (fit,) = fits[fits["dimension"] == dimension].to_dict("records")
-        power = f", $v^{{{fit['exponent']:.2f}}}$" if np.isfinite(fit["exponent"]) else ""
+        value, low, high = (fit[f"exponent{end}"] for end in ENDS)
+        told = digits.interval(value, low, high, FIGURES)
+        power = f", power of v:\n{told}" if np.isfinite(value) else ""
         left.plot([], [], **look | {"label": f"{dimension}{power}"})
     grey = style.line(0.45, 0.8, zorder=1)
     left.plot(own["speed"], own["theory"], "-", label="theory, ln p(v)", **grey)
