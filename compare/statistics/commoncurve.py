@@ -200,8 +200,8 @@ def unfollowed(fit: Fit, guess: np.ndarray, missed: float) -> np.ndarray:
 
     missed : ln mu, root of the sum of squares, by which the fit may miss along the gradient of a number
 
-    Returns (2, S + 1), along load and friction, the exponents last. Where points are no more than the unknowns of a
-    higher degree, the change from a lower one decides alone.
+    Returns (2, S + 1), along load and friction, the exponents last. Where points are no more than the unknowns of
+    a higher degree, the change from a lower one decides alone.
     """
     count = len(fit.curves) - 1
     # Shifts and exponent as sums of increments.
