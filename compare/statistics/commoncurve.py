@@ -195,14 +195,13 @@ def _lever(fit):
     return np.cumsum(logs[:0:-1])[::-1] / (logs @ logs)
 
 
-def unfollowed(fit: Fit, guess: np.ndarray, missed: float = 0.0) -> np.ndarray:
+def unfollowed(fit: Fit, guess: np.ndarray, missed: float) -> np.ndarray:
     """What shifts against the middle speed and their exponents may be off by, as no polynomial is the law.
 
-    missed : rms of ln mu by which that of the fit is known to miss it
+    missed : ln mu, root of the sum of squares, by which the fit may miss along the gradient of a number
 
-    Returns (2, S + 1), along load and friction, the exponents last. A miss of that size moves a number most where
-    it lies along its gradient. Where points are no more than the unknowns of a higher degree, the change from a
-    lower one decides alone.
+    Returns (2, S + 1), along load and friction, the exponents last. Where points are no more than the unknowns of
+    a higher degree, the change from a lower one decides alone.
     """
     count = len(fit.curves) - 1
     # Shifts and exponent as sums of increments.
@@ -218,7 +217,7 @@ def unfollowed(fit: Fit, guess: np.ndarray, missed: float = 0.0) -> np.ndarray:
     after = at(fit.degree + 2) if len(tangent) > tangent.shape[1] + 2 else before
     # The last columns of the tangent are the shifts along the load, those before them the levels.
     inverse = np.linalg.pinv(tangent)[-(1 + fit.lifted) * count :].reshape(-1, count, len(tangent))[::-1]
-    most = missed * np.sqrt(len(tangent)) * np.linalg.norm(sums @ inverse, axis=2)
+    most = missed * np.linalg.norm(sums @ inverse, axis=2)
     return np.maximum(np.pad(most, ((0, 1 - fit.lifted), (0, 0))), unsettled(here - before, here - after))
 
 
