@@ -287,7 +287,7 @@ def test_numbers_alone_load_no_units():
     subprocess.run([sys.executable, "-c", code], check=True)
 
 
-@pytest.mark.parametrize("given", [b"1", bytearray(b"1"), memoryview(b"1"), {1.0: 2.0}], ids=repr)
+@pytest.mark.parametrize("given", [b"1", bytearray(b"1"), memoryview(b"1"), {1.0: 2.0}], ids=type)
 def test_bytes_and_mappings_are_no_numbers(given):
     for read in (q.METRE.value, q.METRE.values, q.METRE.row):
         with pytest.raises(ValueError, match=r"bytes are no numbers|mapping|real numbers|a length"):
