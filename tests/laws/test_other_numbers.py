@@ -160,7 +160,14 @@ MADE = {
 }
 WITHOUT = {"Scene", "Case", "Program", "Plane"}
 # Tested below, with what they need beside them.
-APART = {"Shear.force", "Stage.amplitude", "Stage.frequency", "ParameterGrid.draws", "Finding.parts"}
+APART = {
+    "Shear.force",
+    "Stage.amplitude",
+    "Stage.frequency",
+    "ParameterGrid.draws",
+    "Finding.drawn",
+    "Finding.parts",
+}
 
 
 @dataclass(frozen=True)
