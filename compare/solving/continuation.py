@@ -93,7 +93,7 @@ def _shared(contact):
     """Key that all contacts of a path share: all but the speed, and the grid except its kind."""
     (scene, *others), solver = contact.scenes, contact.solver
     motion = scene.motion
-    alone = others or contact.keeps_fields or contact.apart
+    alone = others or contact.keeps_fields
     if alone or not isinstance(solver, BEM) or isinstance(motion, Program):
         return contact
     rest = Indent(**{motion.pressed_by: motion.greatest})

@@ -12,14 +12,17 @@ from scene.printable import brief
 
 NUMBERS = ("normal_force", "depth", "friction_force", "residual", "operator_applications", "seconds")
 # Names of what stands beside the measures of a model, which may have no other.
-TAKEN = {*NUMBERS, "grid", "speed", "load", "seed", "points", "stratum", "moment", "local_moments"} | {
+TAKEN = {*NUMBERS, "grid", "speed", "load", "seed", "points", "stratum", "variate", "control_variates"} | {
     "friction_coefficient", "depth_reached", "status", "reason"
 }  # fmt: skip
 
 
 @dataclass(frozen=True)
 class Row:
-    """The numbers of one solved scene, as in Result; NaN with a reason where the solve failed."""
+    """The numbers of one solved scene, as in Result; NaN with a reason where the solve failed.
+
+    finer : which of the finer grids of its task answered; 0 where the solver itself did
+    """
 
     normal_force: float = nan
     depth: float = nan
@@ -30,6 +33,7 @@ class Row:
     measures: Mapping[str, float] = field(default_factory=dict)
     settings: Mapping[str, Any] = field(default_factory=dict)
     reason: str | None = None
+    finer: int = 0
 
     @property
     def friction_coefficient(self) -> float:

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
 from math import ceil, inf, nan
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -23,9 +23,9 @@ from scene.quantities import SPEED, WHOLE, argument
 from scene.result import provenance
 from scene.scales import elastic_contact
 
+from ..statistics.control_variates import VARIATES, control_variates
 from .continuation import Continuation, by_contact, joined
 from .cost import MOST_DRAWS, Cost
-from .local_moments import local_moments
 from .outcome import Outcome, Row
 from .task import SceneTask, Task, draws_of, refuse_seed
 from .vocabulary import attributes
@@ -36,15 +36,15 @@ if TYPE_CHECKING:
 FINE, COARSE = "fine", "coarse"
 LEVELS = FINE, COARSE, "coarser", "coarsest"
 LEAST = {"BEM": 32, "MDR": 512}  # points of the coarsest, below which a surface costs hardly less
-# Status of a contact: solved, without a contact at the prescribed depth, without an answer, or never asked for.
-SOLVED, EMPTY, FAILED, NOT_ASKED = ("solved", "no contact", "failed", "not asked")
+# Status of a contact: solved, solved by the next finer grid that can, without a contact at the prescribed depth,
+# without an answer, or never asked for.
+SOLVED, FINER, EMPTY, FAILED, NOT_ASKED = (
+    "solved", "solved on a finer grid", "no contact", "failed", "not asked"
+)  # fmt: skip
 NO_DRAWS = "none"  # of a model that answers for all surfaces at once
 UNASKED = Row()  # of a draw that is not solved on a grid
 ROOM = 1.5  # times the points that a line takes at least: then others of its family do not need more
 MOST_ASKED = 1000  # lines drawn, whether each fits its grid
-# Surfaces on the coarsest grid, of each difference, and of that of the finest of several, which scatters least and
-# costs most, before anything is decided.
-PILOT, DIFFERENCES, FINEST = 32, 8, 4
 TOGETHER = 8  # profiles of a stratum that are one task, so that more of them leave those before as they are
 POINTS = re.compile(r"(?<=points = )\d+")  # that a reason names: those of its solver, and those that would do
 # What a solver gives of every contact, by the names of a Dataset: there `depth` is one that is prescribed, which a
@@ -60,20 +60,6 @@ NUMBERS = {
 }
 
 
-class Instead(NamedTuple):
-    """Contact of a draw that a finer grid answers in place of the next coarser one.
-
-    solver : by name; grid : number of the finer grid; speed, value : [m/s], [N] or [m]
-    seed : of the draw, less that of the scene
-    """
-
-    solver: str
-    grid: int
-    speed: float
-    value: float
-    seed: int
-
-
 @dataclass(frozen=True, kw_only=True)
 class ParameterGrid:
     """Contacts of one scene at every speed and every load or depth, each solver on its grids, on the same draws.
@@ -85,9 +71,8 @@ class ParameterGrid:
     grids : settings of a solver by the name of the grid, by the name of the solver
     draws : number of rough surfaces by the name of the solver, which are solved on all grids; 1 if absent.
         Several numbers are those of strata, one for each grid, from fine to coarse: surfaces of each are solved on
-        that grid and on the next coarser one, see `statistics.levels`
+        that grid and on the next coarser one, see `statistics.multilevel`
     keeps_fields : whether the fields of the first draw on the fine grid are kept, for pictures
-    instead : contacts that are also solved on a finer grid, as the next coarser one has no answer to them
     """
 
     scene: Scene
@@ -96,7 +81,6 @@ class ParameterGrid:
     grids: Mapping[str, Mapping[str, Solver]]
     draws: Mapping[str, int | tuple[int, ...]]
     keeps_fields: bool = False
-    instead: frozenset[Instead] = frozenset()
 
     def __post_init__(self):
         for name, unit in (("speeds", SPEED), ("values", PRESSES[self.prescribed])):
@@ -173,37 +157,7 @@ class ParameterGrid:
         stratum = np.array([k for k, each in enumerate(strata) for _ in each])
         on = np.arange(len(self.grids[name])).reshape(-1, 1, 1, 1)
         asked = (stratum == on) | (stratum == on - 1) | (not self._stratified(name))
-        found = np.repeat(np.repeat(asked, len(self.speeds), axis=1), len(self.values), axis=2)
-        drawn = {seed: number for number, seed in enumerate(seed for each in strata for seed in each)}
-        for each in self.instead:
-            if each.solver == name:
-                place = self.speeds.index(each.speed), self.values.index(each.value), drawn[each.seed]
-                found[each.grid][place] = True
-        return found
-
-    def unanswered(self, datasets: Mapping[str, xarray.Dataset]) -> frozenset[Instead]:
-        """Contacts of strata that a grid has no answer to, to be solved on the next finer one.
-
-        datasets : like those of `datasets`, by the name of the solver
-        """
-        found = []
-        for name in self.grids:
-            if not self._stratified(name):
-                continue
-            seeds = [seed for each in self.strata(name) for seed in each]
-            failed = datasets[name]["status"].transpose("grid", "speed", self.prescribed, "seed").values == FAILED
-            for grid, i, j, k in np.argwhere(failed[1:]).tolist():
-                found.append(Instead(name, grid, self.speeds[i], self.values[j], seeds[k]))
-        return frozenset(found)
-
-    @property
-    def replaced(self) -> frozenset[tuple[Solver, Scene]]:
-        """Coarser grids and scenes to which finer ones answer in their place."""
-        solvers = {name: list(grids.values()) for name, grids in self.grids.items()}
-        return frozenset(
-            (solvers[each.solver][each.grid + 1], draws_of(self.at(each.value, each.speed), [each.seed])[0])
-            for each in self.instead
-        )
+        return np.repeat(np.repeat(asked, len(self.speeds), axis=1), len(self.values), axis=2)
 
     def _stratified(self, name):
         return self.random and isinstance(self.draws.get(name), tuple)
@@ -268,27 +222,20 @@ class ParameterGrid:
                     for start in range(0, len(each), alike)
                 ]
                 first = self.keeps_fields and grid == FINE and (speed, value) == own
+                finer = tuple(reversed([*grids.values()][:k])) if stratified else ()
                 contacts = [
-                    SceneTask(
-                        solver, each, keeps_fields=first and not k, work=len(each) * work_of(solver, each[0])
-                    )
-                    for k, each in enumerate(together)
+                    SceneTask(solver, each, finer, first and not n, len(each) * work_of(solver, each[0]))
+                    for n, each in enumerate(together)
                 ]
-                # These come from coarser strata, whose draws stand behind all others.
-                place = name, k, speed, value
-                asked = {seed for each in seeds for seed in each}
-                for seed in sorted({each.seed for each in self.instead if each[:-1] == place} - asked):
-                    scenes = draws_of(self.at(value, speed), [seed])
-                    contacts.append(SceneTask(solver, scenes, apart=True, work=work_of(solver, scenes[0])))
                 found.append((name, tuple(contacts)))
         return tuple(found)
 
-    def _local_moments(self, name):
-        """Moments (speeds, values, draws, K) of the surfaces on the coarsest grid alone, NaN of all others."""
+    def _control_variates(self, name):
+        """Control variates (speeds, values, draws, K) of the surfaces on the coarsest grid, NaN of all others."""
         *finer, coarsest = self.strata(name)
         solver, first = [*self.grids[name].values()][-1], self.scene.roughness.seed
         scenes = [self.at(value, speed) for speed, value in product(self.speeds, self.values)]
-        found = local_moments(solver, scenes, [first + seed for seed in coarsest])
+        found = control_variates(solver, scenes, [first + seed for seed in coarsest])
         found = np.pad(found, ((0, 0), (sum(map(len, finer)), 0), (0, 0)), constant_values=nan)
         return found.reshape(len(self.speeds), len(self.values), *found.shape[1:])
 
@@ -311,11 +258,13 @@ class ParameterGrid:
                 if row.reason is not None
                 else EMPTY
                 if row.normal_force == 0
+                else FINER
+                if row.finer
                 else SOLVED
             ),
             object,
         )
-        touched = status == SOLVED
+        touched = (status == SOLVED) | (status == FINER)
         values = {own: array(lambda row, of=of: getattr(row, of)) for own, of in NUMBERS.items()}
         for measure in sorted({measure for row in rows for measure in row.measures}):
             values[measure] = array(lambda row, of=measure: row.measures.get(of, nan))
@@ -344,23 +293,13 @@ class ParameterGrid:
 
         made = {label: variable(found, label) for label, found in values.items()}
         made |= {"status": variable(status, "status"), "reason": variable(reasons, "reason")}
-        if self._stratified(name) and (moments := self._local_moments(name)).size:
-            label = "local_moments"
-            made[label] = xarray.Variable([*dims[1:], "moment"], moments, attributes(label, self.scene))
+        if self._stratified(name) and (variates := self._control_variates(name)).size:
+            made[VARIATES] = xarray.Variable([*dims[1:], "variate"], variates, attributes(VARIATES, self.scene))
         about = provenance(self.scene, coordinates.get("seed", ()))
         dataset = xarray.Dataset(made, coordinates, about | {"solver": name})
         for label in dataset.coords:
             dataset[label].attrs = attributes(str(label), self.scene)
         return dataset
-
-
-def pilot(grids: int, least: int = PILOT) -> tuple[int, ...]:
-    """Numbers of surfaces of each stratum before anything is known of their scatter.
-
-    least : of the coarsest, in whose proportion the others are then more
-    """
-    finer = (FINEST,) * (grids > 2) + (DIFFERENCES,) * (grids - 1)
-    return tuple(ceil(each * max(1.0, least / PILOT)) for each in (*finer[: grids - 1], PILOT))
 
 
 def on_two_grids(*solvers: Solver) -> dict[str, dict[str, Solver]]:

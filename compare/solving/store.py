@@ -208,6 +208,7 @@ def _text(task, outcome, fields):
         "absent": [[k for k, row in enumerate(rows) if name not in row.measures] for name in measures],
         "settings": [dict(row.settings) for row in rows],
         "reasons": {k: row.reason for k, row in enumerate(rows) if row.reason is not None},
+        "finer": [row.finer for row in rows],
     }
     if fields is not None:
         content |= {"names": list(outcome.fields), "fields": _digest(fields)}
@@ -227,6 +228,7 @@ def _rows(content):
             {name: column[k] for name, column, absent in taken if k not in absent},
             dict(content["settings"][k]),
             content["reasons"].get(str(k)),
+            int(content["finer"][k]),
         )
         for k in range(count)
     )

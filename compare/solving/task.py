@@ -11,7 +11,7 @@ from typing import Any, NamedTuple, Protocol
 
 from pydantic import TypeAdapter
 
-from scene import EmptyContact, Program, Refused, Scene, SolveError, Solver
+from scene import EmptyContact, Program, Refused, Result, Scene, SolveError, Solver
 from scene.motion import UNITS
 from scene.quantities import MOST_WHOLE
 
@@ -67,16 +67,16 @@ class Batch(NamedTuple):
 class SceneTask:
     """Scenes that differ only in the seed of their roughness, answered by one solver; equal if these are.
 
+    finer : finer grids of the solver, of which the first that can answers where it cannot
     keeps_fields : whether the fields of the first scene are kept, for pictures
     work : rough cost, see `Task`
-    apart : whether it is solved by itself, and not on a path of neighbouring contacts
     """
 
     solver: Solver
     scenes: tuple[Scene, ...]
+    finer: tuple[Solver, ...] = ()
     keeps_fields: bool = field(default=False, compare=False)
     work: float = field(default=1.0, compare=False)
-    apart: bool = field(default=False, compare=False)
 
     @property
     def label(self) -> str:
@@ -95,6 +95,7 @@ class SceneTask:
         """The scenes, and the solver by its name and settings; its source too, where it is in no module."""
         scenes = SCENES.dump_python(self.scenes, mode="json")
         asked = {"scenes": scenes, "solver": self.solver.name, "settings": asdict(self.solver)}
+        asked |= {"finer": [asdict(each) for each in self.finer]} if self.finer else {}
         return asked if self.portable else asked | {"source": _source(type(self.solver))}
 
     @property
@@ -120,22 +121,14 @@ class SceneTask:
         """
         rows, fields = [], {}
         for scene in self.scenes:
-            try:
-                began = process_time()
-                result = self.solver.solve(scene, *trail)
-                seconds = result.seconds if isfinite(result.seconds) else process_time() - began
-                rows.append(row(replace(result, seconds=seconds)))
-            except EmptyContact:
-                depth = scene.motion.greatest if scene.motion.pressed_by == "depth" else nan
-                rows.append(Row(0.0, depth, 0.0, residual=0.0, operator_applications=0.0, seconds=0.0))
-                continue
-            except (Refused, NotImplementedError) as error:
-                rows.append(Row(reason=f"{REFUSED}{' '.join(str(error).split()) or type(error).__name__}"))
-                continue
-            except SolveError as error:
-                rows.append(Row(reason=str(error) or type(error).__name__))
-                continue
-            if self.keeps_fields and len(rows) == 1:
+            found, result = _answer(self.solver, scene, trail)
+            for number, solver in enumerate(self.finer if found.reason is not None else (), 1):
+                other, result = _answer(solver, scene, trail)
+                if other.reason is None:
+                    found = replace(other, finer=number)
+                    break
+            rows.append(found)
+            if self.keeps_fields and len(rows) == 1 and result is not None:
                 fields = dict(result.fields)
         return Outcome(tuple(rows), fields)
 
@@ -146,6 +139,22 @@ class SceneTask:
     def fits(self, outcome: Outcome) -> bool:
         """Whether the outcome has a row for each scene."""
         return len(outcome.rows) == len(self.scenes)
+
+
+def _answer(solver, scene, trail) -> tuple[Row, Result | None]:
+    """Row of a scene, and the result if there is one."""
+    try:
+        began = process_time()
+        result = solver.solve(scene, *trail)
+        seconds = result.seconds if isfinite(result.seconds) else process_time() - began
+        return row(replace(result, seconds=seconds)), result
+    except EmptyContact:
+        depth = scene.motion.greatest if scene.motion.pressed_by == "depth" else nan
+        return Row(0.0, depth, 0.0, residual=0.0, operator_applications=0.0, seconds=0.0), None
+    except (Refused, NotImplementedError) as error:
+        return Row(reason=f"{REFUSED}{' '.join(str(error).split()) or type(error).__name__}"), None
+    except SolveError as error:
+        return Row(reason=str(error) or type(error).__name__), None
 
 
 def _importable(kind) -> bool:

@@ -5,8 +5,6 @@ from collections import Counter
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 
-from scene import Scene, Solver
-
 from .continuation import by_contact
 from .outcome import Outcome
 from .task import SceneTask, Task
@@ -24,14 +22,14 @@ class Unsolved:
     failed, contacts : how many of how many, by the name of the solver
     reasons : one of each kind, by how many contacts have one of that kind, the most frequent first
     own : whether the contact of a scene as it stands is among them
-    replaced : how many others a finer grid answers in their place
+    finer : how many contacts a finer grid answered in place of a coarse one
     """
 
     failed: Mapping[str, int]
     contacts: Mapping[str, int]
     reasons: Mapping[str, int]
     own: bool = False
-    replaced: int = 0
+    finer: int = 0
 
     @classmethod
     def of(
@@ -39,18 +37,11 @@ class Unsolved:
         contacts: Iterable[SceneTask],
         outcomes: Mapping[Task, Outcome],
         own: Collection[SceneTask] = (),
-        replaced: Collection[tuple[Solver, Scene]] = (),
     ):
-        """Count over contacts, each once; one that is not among the outcomes, as its task broke, is no failure.
-
-        replaced : solvers and scenes that a finer grid answers in their place, no failures either
-        """
-        found, rows = by_contact(outcomes), []
-        for each in contacts:
-            for scene, row in zip(each.scenes, found[each].rows, strict=True) if each in found else ():
-                if row.reason is None or (each.solver, scene) not in replaced:
-                    rows.append((each.solver.name, row.reason))
-        failed = [(name, reason) for name, reason in rows if reason is not None]
+        """Count over contacts, each once; one that is not among the outcomes, as its task broke, is no failure."""
+        found = by_contact(outcomes)
+        rows = [(each.solver.name, row) for each in contacts if each in found for row in found[each].rows]
+        failed = [(name, row.reason) for name, row in rows if row.reason is not None]
         kinds = Counter(NUMBER.sub("#", reason) for _, reason in failed)
         first = {NUMBER.sub("#", reason): reason for _, reason in reversed(failed)}
         return cls(
@@ -58,7 +49,7 @@ class Unsolved:
             Counter(name for name, _ in rows),
             {first[kind]: count for kind, count in kinds.most_common()},
             any(each in found and found[each].rows[0].reason is not None for each in own),
-            len(replaced),
+            sum(row.finer > 0 for _, row in rows),
         )
 
     @property
@@ -83,9 +74,9 @@ class Unsolved:
     @property
     def notes(self) -> tuple[str, ...]:
         """A sentence on contacts that a finer grid answers; none without any."""
-        if not self.replaced:
+        if not self.finer:
             return ()
-        many = f"{self.replaced} contacts are" if self.replaced > 1 else "1 contact is"
+        many = f"{self.finer} contacts are" if self.finer > 1 else "1 contact is"
         return (f"{many} too much for a coarse grid, and the next finer one answers in its place.",)
 
 

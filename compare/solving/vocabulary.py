@@ -18,7 +18,7 @@ speed : Speed of sliding that was prescribed, or rate of pressing in; 0 is rest.
 depth : Depth that was prescribed, above zero into the elastomer. [m]
 seed : Seed of the rough surface. [1]
 stratum : Finest grid on which a rough surface is solved, by its number; the next coarser one has it too. [1]
-local_moments : Numbers of the rough surface below the smooth body whose mean over all surfaces is 0. [1]
+control_variates : Numbers of the rough surface below the smooth body whose mean over all surfaces is 0. [1]
 status : Whether a contact was solved, has no contact, failed, or was not asked for.
 reason : Why a solve failed; empty where it did not.
 

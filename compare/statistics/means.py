@@ -12,7 +12,7 @@ from pandas import DataFrame
 from ..solving.parameter_grid import COARSE, EMPTY, FAILED, FINE
 from .intervals import Estimated
 from .jackknife import DrawSet, Source, mean_ratio, resample, strata_of
-from .levels import pooled
+from .multilevel import pooled
 
 # Means of friction: the two forces whose means are divided.
 FRICTION = ("friction_force", "normal_force")
@@ -59,7 +59,7 @@ def means(dataset: xarray.Dataset, both: xarray.Dataset | None = None) -> DataFr
     Each mean has the standard deviation of one draw and an interval of 95 % that counts scatter and grid. Of draws
     in strata that is the deviation on the coarsest grid, which has the most of them.
 
-    both : draws of two grids that `levels.pooled` makes of it, where these are known
+    both : draws of two grids that `multilevel.pooled` makes of it, where these are known
     """
     every = with_spread(dataset)
     drawn, dataset = _most_drawn(every), pooled(every) if both is None else both

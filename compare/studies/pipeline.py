@@ -19,7 +19,7 @@ from ..solving.runner import Progress, SweepResult
 from ..solving.store import Store, Unwritable, make, refuse_impossible
 from ..solving.suggest import known
 from ..solving.workers import counted
-from ..statistics.allocation import GROWTH
+from ..statistics.multilevel import GROWTH
 from .report import SOLVED, Report, faults
 from .study import Study
 

@@ -16,9 +16,9 @@ from ..solving.parameter_grid import ParameterGrid
 from ..solving.task import Batch, SceneTask, Task
 from ..solving.unsolved import Unsolved
 from ..statistics import finding, griderror
-from ..statistics.allocation import GROWTH
 from ..statistics.finding import FAILS, Claim, Finding
 from ..statistics.jackknife import judge
+from ..statistics.multilevel import GROWTH
 
 SETTING = "Setting"
 
@@ -87,9 +87,7 @@ class Study:
 
     def unsolved(self, outcomes: Mapping[Task, Outcome]) -> Unsolved:
         """Contacts of the grids without an answer."""
-        grids = self.grids()
-        replaced = frozenset().union(*(each.replaced for each in grids.values()))
-        return Unsolved.of(parameter_grid.contacts_of(grids), outcomes, self.own, replaced)
+        return Unsolved.of(parameter_grid.contacts_of(self.grids()), outcomes, self.own)
 
     @property
     def inputs(self) -> Mapping[str, Any]:

@@ -20,8 +20,8 @@ from compare.solving.parameter_grid import FINE, ParameterGrid, on_two_grids
 from compare.statistics import means
 from compare.statistics.intervals import student
 from compare.statistics.jackknife import mean_ratio
-from compare.statistics.levels import pooled
 from compare.statistics.means import FRICTION
+from compare.statistics.multilevel import pooled
 from compare.studies.sweep.study import Sweep
 from scene import Slide
 

@@ -7,16 +7,14 @@ import numpy as np
 import pytest
 import xarray
 from small_cases import SLIDING
-from test_compare_levels import answers
+from test_compare_multilevel import answers
 
 import compare
 from bem3d import BEM
 from compare.library.lookup import case_of
 from compare.solving.cost import MOST_DRAWS
-from compare.solving.parameter_grid import DIFFERENCES, FINEST, PILOT, pilot
-from compare.statistics.allocation import GROWTH, needed, unreached
 from compare.statistics.jackknife import mean_ratio
-from compare.statistics.levels import pooled
+from compare.statistics.multilevel import DIFFERENCES, FINEST, GROWTH, PILOT, needed, pilot, pooled, unreached
 from mdr1d import MDR
 from scene import Refused
 from scene.reading import InvalidInput
@@ -145,7 +143,7 @@ def test_a_sweep_reaches_the_interval_resumes_and_agrees_with_fixed_draws(tmp_pa
     assert np.all(half <= 0.12 * friction(found, "mean"))
     again = compare.sweep(**asked, interval=0.12, output=tmp_path / "few")
     xarray.testing.assert_identical(found, again)
-    kept = compare.load(tmp_path / "few")["contacts/BEM"]["local_moments"]
+    kept = compare.load(tmp_path / "few")["contacts/BEM"]["control_variates"]
     assert np.isfinite(kept.sel(seed=kept["stratum"] == kept["stratum"].max())).all()
     fixed = compare.sweep(**asked, draws=24, output=tmp_path / "many")
     apart = abs(friction(found, "mean") - friction(fixed, "mean"))

@@ -4,21 +4,19 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import xarray
 from pandas.testing import assert_frame_equal
 from small_cases import SLIDING
 from test_compare_allocation import COSTS, grown
-from test_compare_levels import answers
+from test_compare_multilevel import answers
 
 import compare
 from bem3d import BEM
 from compare.library.case import Variations
 from compare.library.lookup import case_of
-from compare.solving.parameter_grid import FAILED, NOT_ASKED, PILOT, SOLVED, pilot
-from compare.statistics.allocation import GROWTH, DrawnSurfaces
+from compare.solving.parameter_grid import FINER, NOT_ASKED, SOLVED
 from compare.statistics.finding import FAILS, HOLDS, UNDECIDED, Claim, Finding
 from compare.statistics.jackknife import DrawSet, friction, measured
-from compare.statistics.levels import pooled
+from compare.statistics.multilevel import GROWTH, PILOT, DrawnSurfaces, pilot, pooled
 from mdr1d import MDR
 from scene import SolveError
 from scene.reading import InvalidInput
@@ -121,24 +119,6 @@ def test_verdicts_contradict_the_truth_in_one_study_of_twenty_at_most(variation)
     assert share <= 0.05 + 2 * (0.05 * 0.95 / (2 * studies)) ** 0.5
 
 
-def test_a_surface_that_a_coarse_grid_does_not_hold_has_the_answer_of_the_next_finer_one():
-    """As if the coarse grid had given that answer, in both of its strata."""
-    given = answers(np.random.default_rng(0), (8, 8, 40))
-    force = given["friction_force"]
-    hard = (given["seed"] % 7 == 0) & (given["grid"] == "coarser")
-    finer = answers(np.random.default_rng(5), (8, 8, 40))["friction_force"].sel(grid="fine").fillna(1.01)
-    finer = xarray.where(given["stratum"] == 1, force.sel(grid="coarse"), finer)
-    failed = force.where(~hard)
-    failed = xarray.where((given["grid"] == "coarse") & (given["seed"] % 7 == 0), finer, failed)
-    asked = given["stratum"] >= 1
-    failed = failed.where(asked | (given["grid"] != "coarse"), force).transpose("grid", "load", "seed")
-    filled = xarray.where(hard & asked, failed.sel(grid="coarse"), failed).transpose("grid", "load", "seed")
-    one, other = (pooled(given.assign(friction_force=each))["friction_force"] for each in (failed, filled))
-    assert failed.isnull().sum() > filled.isnull().sum()
-    np.testing.assert_array_equal(one, other)
-    assert np.isfinite(one.sel(grid="fine")).all()
-
-
 def test_what_does_not_touch_adds_nothing_to_either_force():
     given = answers(np.random.default_rng(0), (8, 8, 40))
     dims, status = given["friction_force"].dims, np.full(given["friction_force"].shape, "solved", object)
@@ -191,17 +171,17 @@ def test_hard_surfaces_are_solved_on_the_next_finer_grid_and_told(tmp_path, monk
     report = compare.run(**asked)
     assert report.unsolved.failed == {}
     (note,) = report.unsolved.notes
-    assert (
-        note
-        == f"{report.unsolved.replaced} contacts are too much for a coarse grid, and the next finer one "
-        + ("answers in its place.")
+    assert note == f"{report.unsolved.finer} contacts are too much for a coarse grid, and the next finer one " + (
+        "answers in its place."
     )
     dataset = report.answers["scene/own/BEM"].to_dataset(inherit=False)
     hard, last = dataset["seed"] % 5 == 0, dataset["stratum"] == 1
     status = dataset["status"].isel(speed=0, load=0)
-    assert (status.sel(grid="coarse", seed=hard) == FAILED).all()
-    assert (status.sel(grid="fine", seed=hard) == SOLVED).all()
-    assert (status.sel(grid="fine", seed=~hard & last) == NOT_ASKED).all()
+    assert (status.sel(grid="coarse", seed=hard) == FINER).all()
+    assert (status.sel(grid="coarse", seed=~hard) == SOLVED).all()
+    assert (status.sel(grid="fine", seed=last) == NOT_ASKED).all()
+    friction = dataset["friction_force"].isel(speed=0, load=0).sel(seed=hard & ~last)
+    np.testing.assert_allclose(friction.sel(grid="coarse"), friction.sel(grid="fine"), rtol=1e-3)
     again = compare.run(**asked)
     assert again.swept.solved == 0
     assert again.table.equals(report.table)

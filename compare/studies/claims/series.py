@@ -16,10 +16,8 @@ from ...library.describe import slug
 from ...models import exact
 from ...models.table import PROFILES, ModelLike, Models
 from ...solving.parameter_grid import FINE, ParameterGrid, on_two_grids
-from ...statistics.allocation import DrawnSurfaces
 from ...statistics.jackknife import DrawSet
-from ...statistics.levels import pooled
-from ..sampling import in_strata
+from ...statistics.multilevel import DrawnSurfaces, in_strata, pooled
 from ..theory import THEORIES, with_theory
 
 ROUGH, SMOOTH = BODIES = "rough", "smooth"

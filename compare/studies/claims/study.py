@@ -22,13 +22,12 @@ from ...models.table import ModelLike, listed
 from ...report.page import Block, Findings, Section, Table, Text
 from ...solving.amounts import share_of
 from ...solving.outcome import Outcome
-from ...solving.parameter_grid import Instead, ParameterGrid, refuse
+from ...solving.parameter_grid import ParameterGrid, refuse
 from ...solving.suggest import known
 from ...solving.task import Task
 from ...statistics import eq23
-from ...statistics.allocation import GROWTH
 from ...statistics.finding import REPORTED, VERDICTS, Finding, claimed, sentences
-from ..sampling import answered, unanswered
+from ...statistics.multilevel import GROWTH
 from ..study import Judgement, Study
 from .catalogue import SIZES, STUDIES, ReadyStudy
 from .families import alike, every, family_findings
@@ -70,7 +69,6 @@ class ClaimStudy(Study):
     models, reference : in place of those that its file names, see `Models.of`
     interval : in place of that of the study, see `Series`
     strata : numbers of draws on each grid by model, of each series where they are not fixed
-    instead : then contacts that a finer grid answers, by "series/body"
     """
 
     name: str
@@ -81,7 +79,6 @@ class ClaimStudy(Study):
     reference: str = ""
     interval: float | None = None
     strata: Mapping[str, Mapping[str, tuple[int, ...]]] = field(default_factory=dict)
-    instead: Mapping[str, frozenset[Instead]] = field(default_factory=dict)
 
     command = "study"
 
@@ -146,8 +143,7 @@ class ClaimStudy(Study):
 
     def grids(self) -> Mapping[str, ParameterGrid]:
         """Parameter grids of the rough and of the smooth body of every series, by "series/body"."""
-        found = {name: each for series in self.series for name, each in series.grids.items()}
-        return answered(found, self.instead)
+        return {name: each for series in self.series for name, each in series.grids.items()}
 
     def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
         """Everything that was solved, at /series/body/solver; a series has title and note as attributes."""
@@ -180,9 +176,7 @@ class ClaimStudy(Study):
             had[name] = {model: each.drawn.counts[model] for model in drawn}
         for names in alike(list(sampled.values())):
             asked |= dict.fromkeys(names, _most([asked[name] for name in names]))
-        instead = unanswered(self.grids(), answers)
-        same = asked == had and instead == self.instead
-        return None if same else replace(self, strata=asked, instead=instead)
+        return None if asked == had else replace(self, strata=asked)
 
     def judge(self, answers: xarray.DataTree) -> Judgement:
         """An overview of the verdicts, and findings on several series; then each series.

@@ -14,16 +14,14 @@ from ...library.case import Case
 from ...models.table import FORCE, FRICTION, Model, Models
 from ...solving.parameter_grid import COARSE, FINE
 from ...statistics import eq23, means
-from ...statistics.allocation import DrawnSurfaces
 from ...statistics.collapse import Collapse, collapse
 from ...statistics.finding import HALVED, UNKNOWN, Claim, Finding, said_of
 from ...statistics.frictioncurves import SimulatedCurves
 from ...statistics.jackknife import DrawSet, mean
-from ...statistics.levels import pooled
 from ...statistics.means import Compared, compared
+from ...statistics.multilevel import MEANS, WORDS, DrawnSurfaces, pooled
 from ..claims.claims import CLAIMS, TOLERANCE
 from ..claims.points import stacked
-from ..sampling import MEANS, WORDS
 from ..theory import THEORY
 from .curves import (
     CURVES,

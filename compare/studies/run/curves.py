@@ -14,7 +14,7 @@ from ...library.case import Case
 from ...models import exact
 from ...models.table import PROFILES, ModelLike, Models
 from ...solving.parameter_grid import COARSE, FINE, LEVELS, ParameterGrid, refuse
-from ..sampling import in_strata, levels
+from ...statistics.multilevel import in_strata, levels
 from ..theory import with_theory
 
 OWN, SPEED, LOAD = "own", "friction-speed", "friction-load"

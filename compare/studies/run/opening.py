@@ -8,8 +8,8 @@ from ...report.plots.prefixes import prefixed
 from ...solving.amounts import capital, off, share
 from ...statistics.digits import interval, with_unit
 from ...statistics.finding import Finding
+from ...statistics.multilevel import WORDS
 from ...trustmap.verdict import CALLED, MULTIPLY, NONE, SMALL, USE, Advice, Correction
-from ..sampling import WORDS
 from .claims import CaseFindings, own_means
 from .curves import OWN
 

@@ -25,15 +25,14 @@ from ...solving import parameter_grid
 from ...solving.amounts import share_of
 from ...solving.continuation import by_contact
 from ...solving.outcome import Outcome
-from ...solving.parameter_grid import Instead, ParameterGrid
+from ...solving.parameter_grid import ParameterGrid
 from ...solving.task import SceneTask, Task
 from ...solving.vocabulary import attributes, head
 from ...statistics import eq23, finding
-from ...statistics.allocation import GROWTH, DrawnSurfaces, needed, unreached
 from ...statistics.finding import Finding
 from ...statistics.means import with_spread
+from ...statistics.multilevel import GROWTH, MEANS, WORDS, DrawnSurfaces, needed, unreached
 from ...trustmap.verdict import Advice, trust
-from ..sampling import MEANS, WORDS, answered, unanswered
 from ..study import Judgement, Study
 from ..theory import THEORY
 from .claims import ROUGH_FORCE, SMOOTH_FORCE, SMOOTH_SPEED, CaseFindings, draws_of, own_means
@@ -68,7 +67,6 @@ class Run(Study):
     interval : half-width that is wanted of intervals of 95 %, in place of those of the cases: relative, of the
         scene's own friction, depth or force, and of claims that are not decided; None where the cases say
     strata : then numbers of surfaces on each grid, by case; see `curves.curves`
-    instead : then contacts that a finer grid answers, by "case/curve"
     """
 
     cases: Mapping[str, Case]
@@ -76,7 +74,6 @@ class Run(Study):
     reference: str | None = None
     interval: float | None = None
     strata: Mapping[str, Strata] = field(default_factory=dict)
-    instead: Mapping[str, frozenset[Instead]] = field(default_factory=dict)
 
     command, title = "run", "One dimension against three"
 
@@ -166,12 +163,11 @@ class Run(Study):
 
     @cached_property
     def _grids(self):
-        found = {
+        return {
             f"{self.folders[name]}/{curve}": each
             for name, own in self._curves.items()
             for curve, each in own.items()
         }
-        return answered(found, self.instead)
 
     def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
         """Every curve, the fields of each scene's own contact, and the processor time of each solver."""
@@ -204,9 +200,7 @@ class Run(Study):
         sampled = self._sampled
         asked = {name: self._more(name, answers, findings, growth) for name in sampled}
         had = {name: {shared: dict(each.counts) for shared, each in self._draws(name).items()} for name in sampled}
-        instead = unanswered(self.grids(), answers)
-        same = asked == had and instead == self.instead
-        return None if same else replace(self, strata=asked, instead=instead)
+        return None if asked == had else replace(self, strata=asked)
 
     def _more(self, name, answers, findings, growth):
         """Numbers of surfaces of each model on each grid, of REST and SLIDING of a case."""

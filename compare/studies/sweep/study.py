@@ -23,15 +23,14 @@ from ...report.page import Table
 from ...report.plots.rendering import finished
 from ...solving.amounts import share_of
 from ...solving.cost import MOST_DRAWS
-from ...solving.parameter_grid import COARSE, FINE, LEVELS, Instead, ParameterGrid, on_two_grids
+from ...solving.parameter_grid import COARSE, FINE, LEVELS, ParameterGrid, on_two_grids
 from ...solving.vocabulary import attributes
-from ...statistics.allocation import GROWTH, needed, unreached
+from ...statistics.control_variates import VARIATES
 from ...statistics.finding import Claim, Finding, said_of, sentences
 from ...statistics.jackknife import DrawSet, mean, measured
-from ...statistics.levels import MOMENTS, pooled
 from ...statistics.means import interval
+from ...statistics.multilevel import GROWTH, MEANS, WORDS, in_strata, needed, pooled, unreached, wanted
 from ..run.curves import models_of
-from ..sampling import MEANS, WORDS, answered, in_strata, unanswered, wanted
 from ..study import Judgement, Study
 from . import figure as plots
 from .values import Values, values_of
@@ -49,7 +48,6 @@ class Sweep(Study):
     models : of which each but the reference is compared with that
     interval : half-width of the intervals of 95 % that is wanted of each mean, relative; None of fixed draws
     strata : then numbers of surfaces on each grid by model, see `ParameterGrid`
-    instead : then contacts that a finer grid answers, likewise
     """
 
     case: Case
@@ -59,7 +57,6 @@ class Sweep(Study):
     models: Models
     interval: float | None = None
     strata: Mapping[str, tuple[int, ...]] = field(default_factory=dict)
-    instead: Mapping[str, frozenset[Instead]] = field(default_factory=dict)
 
     command, title = "sweep", "A sweep in one and in three dimensions"
 
@@ -113,7 +110,7 @@ class Sweep(Study):
         return doubted(*(replace(self.case, motion=each.motion) for each in scenes))
 
     def grids(self) -> Mapping[str, ParameterGrid]:
-        return answered({"contacts": self._grid}, self.instead)
+        return {"contacts": self._grid}
 
     @cached_property
     def _grid(self) -> ParameterGrid:
@@ -142,9 +139,7 @@ class Sweep(Study):
                 for quantity, points in self._wanted(name, answers)
             ]
             asked[name] = tuple(map(max, zip(*counts, strict=True)))
-        instead = unanswered(self.grids(), answers)
-        same = asked == had and instead == self.instead
-        return None if same else replace(self, strata=asked, instead=instead)
+        return None if asked == had else replace(self, strata=asked)
 
     @property
     def _sampled(self):
@@ -258,7 +253,7 @@ class Sweep(Study):
             for end, values in interval(pooled(dataset), above, below)._asdict().items():
                 label = f"{name}_{'mean' if end == 'value' else end}"
                 dataset[label] = ("speed", self.case.motion.pressed_by), values, attributes(label)
-        dataset = dataset.drop_vars(MOMENTS, errors="ignore")
+        dataset = dataset.drop_vars(VARIATES, errors="ignore")
         return dataset.reset_coords("points").drop_attrs(deep=False)
 
 

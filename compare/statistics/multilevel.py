@@ -1,31 +1,164 @@
-"""Numbers of surfaces for intervals of a wanted width, from what scatters and what costs, at few looks.
+"""Multilevel means: over many surfaces on coarse grids and few on finer ones, with intervals as narrow as wanted.
+
+The mean on the finest grid is that on the coarsest plus that of each difference between neighbouring grids, each
+over surfaces of its own (Giles, Oper. Res. 56, 607, 2008). The surfaces of one difference are a stratum. A surface
+that a coarse grid cannot solve has the answer of the next finer grid in both strata, so that none is left out.
+`pooled` makes draws of one grid whose mean and scatter are those of the sum, with Welch's degrees of freedom.
 
 The least cost of a variance sum s_k^2 / n_k has n_k as s_k / sqrt(c_k), with s_k the scatter of one surface of a
-stratum and c_k its planned cost (Giles, Oper. Res. 56, 607, 2008): never a measured time, so that equal seeds give
-equal numbers on every machine. Sampling stops when every interval is as narrow as wanted (Chow and Robbins, Ann.
-Math. Stat. 36, 457, 1965). A pilot large enough to show the scatter, and few looks, each after as many surfaces as
-the last one asked for, keep the level; the tests measure it.
+stratum and c_k its planned cost: never a measured time, so that equal seeds give equal numbers on every machine.
+Sampling stops when every interval is as narrow as wanted (Chow and Robbins, Ann. Math. Stat. 36, 457, 1965). A
+pilot large enough to show the scatter, and few looks, keep the level; the tests measure it.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import islice
 from math import ceil, isfinite
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
-import xarray
 
 from ..solving.amounts import duration, share
 from ..solving.cost import MOST_DRAWS, SECONDS
-from ..solving.parameter_grid import TOGETHER, ParameterGrid
+from ..solving.parameter_grid import EMPTY, LEVELS, TOGETHER, ParameterGrid, on_levels, width
 from .collapse import PARTED
+from .control_variates import VARIATES, controlled
 from .finding import UNDECIDED, Finding
 from .jackknife import Source, mean_ratio, off_the_ratio
-from .levels import pooled
 
+if TYPE_CHECKING:
+    import xarray
+
+    from ..models.table import Models
+
+# Means over draws: of a variable, or of one over another.
+MEANS = {
+    "friction_coefficient": ("friction_force", "normal_force"),
+    "normal_force": ("normal_force", None),
+    "depth_reached": ("depth_reached", None),
+}
+WORDS = {"friction_coefficient": "friction", "normal_force": "force", "depth_reached": "depth"}
+# What is spent or left over on a grid, and is no number of the contact.
+SPENT = "seconds", "operator_applications", "residual"
+# Surfaces on the coarsest grid, of each difference, and of that of the finest of several, which scatters least and
+# costs most, before anything is decided.
+PILOT, DIFFERENCES, FINEST = 32, 8, 4
 GROWTH = 4.0  # times the surfaces at most from one look to the next: the scatter of few is known roughly
 MARGIN = 1.1  # surfaces beyond those that just suffice: they spare most of the second looks
 OWN_SHARE = 0.5  # of the wanted width that is left to the scatter at least, however much the grid takes
+
+
+def wanted(prescribed: str, speeds: tuple[float, ...], slides: bool) -> Iterator[tuple[str, tuple[float, ...]]]:
+    """Names of the means that an interval is asked for, with their speeds: what is not prescribed, and friction.
+
+    slides : whether there is friction to speak of
+    """
+    yield "normal_force" if prescribed == "depth" else "depth_reached", speeds
+    if slides:
+        yield "friction_coefficient", tuple(speed for speed in speeds if speed > 0)
+
+
+def levels(models: Models, grids: Sequence[ParameterGrid], most: int = len(LEVELS)) -> dict[str, dict]:
+    """Grids of each model, halved as long as they can solve all of some parameter grids, at most so many."""
+    corners = sorted((corner for each in grids for corner in each.corners), key=lambda each: -width(each))
+    return {each.name: on_levels(each.solver, corners, most) for each in models}
+
+
+def in_strata(
+    grids: Sequence[ParameterGrid],
+    models: Models,
+    strata: Mapping[str, tuple[int, ...]],
+    most: int = len(LEVELS),
+    least: Mapping[str, int] = {},
+) -> list[ParameterGrid]:
+    """Parameter grids that share their surfaces, on all grids that hold them.
+
+    strata : numbers of surfaces on each grid, by model; those of a pilot where absent. Fewer numbers than grids
+        leave out the coarsest
+    most : grids
+    least : numbers of surfaces of a pilot on the coarsest grid, by model, where more than usual are wanted
+    """
+    found = {name: own for name, own in levels(models, grids, most).items() if name in grids[0].grids}
+    drawing = [each.name for each in models.drawn if each.name in found]
+    first = {name: pilot(len(found[name]), least.get(name, 0)) for name in drawing}
+    drawn = {name: strata.get(name, counts) for name, counts in first.items()}
+    kept = {name: dict(islice(each.items(), len(drawn.get(name, each)))) for name, each in found.items()}
+    return [replace(each, grids=kept, draws={**each.draws, **drawn}) for each in grids]
+
+
+def pilot(grids: int, least: int = PILOT) -> tuple[int, ...]:
+    """Numbers of surfaces of each stratum before anything is known of their scatter.
+
+    least : of the coarsest, in whose proportion the others are then more
+    """
+    finer = (FINEST,) * (grids > 2) + (DIFFERENCES,) * (grids - 1)
+    return tuple(ceil(each * max(1.0, least / PILOT)) for each in (*finer[: grids - 1], PILOT))
+
+
+def pooled(dataset: xarray.Dataset) -> xarray.Dataset:
+    """Draws of the fine and of the coarse grid from those of all grids; one without a stratum is returned.
+
+    dataset : grids from fine to coarse; draws of stratum k have answers on the grids k and k + 1, if there is one.
+        Control variates of the draws on the coarsest grid, if it has them, are left out of what is returned
+    """
+    if "stratum" not in dataset.coords:
+        return dataset
+    variates = dataset.get(VARIATES)
+    dataset = dataset.drop_vars(VARIATES, errors="ignore")
+    if "status" in dataset and "friction_force" in dataset:
+        # What does not touch adds nothing to either force.
+        dataset = dataset.assign(friction_force=dataset["friction_force"].where(dataset["status"] != EMPTY, 0.0))
+    drawn = {name: each for name, each in dataset.data_vars.items() if "seed" in each.dims and name not in SPENT}
+    numbers = [name for name, each in drawn.items() if each.dtype.kind == "f"]
+    strata = dataset["stratum"].values
+    made = {}
+    for name in numbers:
+        ordered = dataset[name].transpose("grid", ..., "seed")
+        values = ordered.values.copy()
+        if variates is not None:
+            rows = np.flatnonzero(strata == len(values) - 1)
+            own = variates.transpose(*ordered.dims[1:], "variate").values[..., rows, :]
+            values[-1][..., rows] = controlled(values[-1][..., rows], own)
+        made[name] = np.stack([_draws(values, strata, first) for first in range(len(values))[:2]])
+    both = dataset.isel(grid=slice(2))
+    dims = {name: [each for each in dataset[name].dims if each not in ("grid", "seed")] for name in numbers}
+    return both.assign(
+        {name: (("grid", *dims[name], "seed"), each, dataset[name].attrs) for name, each in made.items()}
+    )
+
+
+def _draws(values, strata, first):
+    """Draws (..., seeds) whose mean is that on one grid: a surface for each, NaN where it has no answer.
+
+    NaN too where a stratum has fewer than two, which tell no scatter.
+
+    values : (grids, ..., seeds); first : number of the grid
+    """
+    mean, changes = 0.0, np.zeros(values.shape[1:])
+    known = np.zeros(values.shape[1:], bool)
+    for stratum in range(len(values)):
+        rows = np.flatnonzero(strata == stratum)
+        if stratum < first:  # of finer grids nothing is seen
+            known[..., rows] = np.isfinite(values[stratum + 1][..., rows])
+            continue
+        part = values[stratum][..., rows]
+        if stratum + 1 < len(values):
+            part = part - values[stratum + 1][..., rows]
+        here = np.isfinite(part)
+        count = here.sum(axis=-1, keepdims=True)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            middle = np.where(here, part, 0.0).sum(axis=-1, keepdims=True) / count
+            # Fewer surfaces move the mean by more each.
+            weight = 1 / np.sqrt(count * (count - 1.0))
+        middle = np.where(count > 1, middle, np.nan)
+        changes[..., rows] = np.where(here, weight * (part - middle), 0.0)
+        known[..., rows] = here
+        mean = mean + middle[..., 0]
+    total = known.sum(axis=-1, keepdims=True)
+    return np.where(known, np.expand_dims(mean, -1) + np.sqrt(total * (total - 1.0)) * changes, np.nan)
 
 
 def needed(

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 import xarray
 
+from compare.statistics.control_variates import ALIKE, controlled
 from compare.statistics.intervals import student
 from compare.statistics.jackknife import DrawSet, friction, mean, mean_ratio, resample, strata_of, welch
-from compare.statistics.levels import ALIKE, controlled, pooled
+from compare.statistics.multilevel import pooled
 
 STUDIES = 2000
 COUNTS = 4, 8, 60
@@ -44,7 +45,7 @@ def answers(rng, counts=COUNTS, variation=0.2, shape=(2,), told=None):
         moments = rng.normal(size=(*normal.shape, 7))
         moments[..., 2] = told * normal + sqrt(1 - told**2) * moments[..., 2]
         moments[..., stratum < len(counts) - 1, :] = np.nan
-        found["local_moments"] = ("load", "seed", "moment"), moments
+        found["control_variates"] = ("load", "seed", "variate"), moments
     return xarray.Dataset(found, coordinates, {"solver": "BEM"})
 
 
@@ -107,7 +108,7 @@ def test_means_stay_those_of_all_surfaces_where_answers_are_no_plane_of_moments(
 def test_moments_leave_less_scatter_of_coarse_surfaces_alone():
     rng = np.random.default_rng(5)
     given = answers(rng, (8, 8, 200), told=0.85)
-    plain, found = pooled(given.drop_vars("local_moments")), pooled(given)
+    plain, found = pooled(given.drop_vars("control_variates")), pooled(given)
     assert set(found.variables) == set(plain.variables)
     strata = given["stratum"].values
     for grid in ("fine", "coarse"):
