@@ -1,81 +1,218 @@
-"""What each effect does, and what it costs: tables of results/effects.md, figures and numbers in results/effects.
-
-What has been solved once is in docs/results/effects/solved. Costs want a quiet machine.
+"""What each effect costs in each solver: the table of results/effects.md, its numbers, and the tables of plans.
 
 python docs/measure/effects.py
 
-What plans multiply costs with, bem3d/effects.csv and mdr1d/effects.csv, is written from the same measurements.
+Each solve is measured alone in a process of its own, on a quiet machine. Plans multiply costs with
+bem3d/effects.csv and mdr1d/effects.csv, which are written from the same measurements.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from math import isfinite, nan
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 from campaign import solved
-from effects_page import costs
-from effects_page.asked import Effect, effects
-from effects_page.catalogue import STUDIES
-from effects_page.chapter import Chapter
-from tables import by_column, replaced, stored, table
+from pydantic import TypeAdapter
+from tables import replaced, stored, table
 
 import bem3d.plan
 import mdr1d.plan
+from bem3d import BEM
+from bem3d.surface import RoughSurface
 from compare.report.manifest import machine, versions
-from compare.report.plots import style
-from compare.report.plots.rendering import rendered
-from scene.costs import two_digits
+from compare.solving.outcome import Outcome, Row
+from compare.solving.task import Task
+from compare.studies.workprecision.timed_solve import TimedSolve
+from mdr1d import MDR
+from scene import Scene, SelfAffine
+from scene.costs import COSTS, two_digits
 
-FOLDER = Path(__file__).parents[1] / "results" / "effects"
-PAGE = FOLDER.with_suffix(".md")
+PAGE = Path(__file__).parents[1] / "results" / "effects.md"
+SOLVERS: Mapping[str, BEM | MDR] = {"3D": BEM(points=256, steps=40), "1D": MDR(points=5000, steps=40)}
 TABLES = {"3D": bem3d.plan.EFFECTS, "1D": mdr1d.plan.EFFECTS}
+COUNTED = {"3D": (), "1D": ("Program",)}  # parts that a plan counts by itself
+SCENES = TypeAdapter(Scene)
+PLAIN: Mapping[str, Any] = {
+    "indenter": {"type": "sphere", "radius": 10e-3},
+    "elastomer": {
+        "type": "standard-linear-solid",
+        "rubbery_modulus": 1e6,
+        "glassy_modulus": 10e6,
+        "relaxation_time": 1e-3,
+    },
+    "motion": {"type": "slide", "speed": 0.1, "load": 1.0},
+}
+ROUGH = {"hurst": 0.8, "rms_height": 5e-6, "longest": 4e-3, "shortest": 0.25e-3, "seed": 1}
+SELF_AFFINE = {"roughness": {"type": "self-affine", **ROUGH}}
+WARM = {"temperature": {"type": "wlf", "temperature": 301.0, "reference": 300.0, "c1": 10.0, "c2": 100.0}}
+RUBBED = {"interface": {"coefficient": 0.3}}
+PRESSED, SLID = {"duration": 1e-3, "load": 1.0}, {"duration": 1e-3, "speed": 0.1}
+PIXELS = 128  # a side of the measured surface; the shortest wave has eight
+
+
+@dataclass(frozen=True)
+class Effect:
+    """One effect, on a plain contact.
+
+    tables : its tables of a scene file, in place of those of PLAIN
+    over : title of the effect that it is added to
+    parts : names of the types whose costs in a plan are multiplied by the cost of this effect
+    """
+
+    title: str
+    tables: Mapping[str, Any] = field(default_factory=dict)
+    over: str | None = None
+    parts: tuple[str, ...] = ()
+
+    @property
+    def scene(self) -> Scene:
+        """The contact that is solved."""
+        return SCENES.validate_python({**PLAIN, **self.tables})
+
+
+@dataclass(frozen=True)
+class Cost:
+    """Cost of one effect in one solver.
+
+    row : NaN with a reason where it was refused or failed
+    over : row of the effect that it is added to; of a plain contact its own
+    """
+
+    effect: Effect
+    row: Row
+    over: Row
+
+    @property
+    def times(self) -> float:
+        """Processor time over that without the effect."""
+        return self.row.measures.get("processor", nan) / self.over.measures.get("processor", nan)
+
+    @property
+    def multiples(self) -> dict[str, float]:
+        """By the names of `scene.costs.COSTS`: over those without the effect; of a program, for one step."""
+        steps = self.row.measures.get("time_steps", 1.0)
+        applications = self.row.operator_applications / self.over.operator_applications
+        return dict(zip(COSTS, (applications / steps, self.times / steps), strict=True))
+
+
+def measured() -> np.ndarray:
+    """Heights (PIXELS, PIXELS) [m] of one period of the self-affine surface, in place of a measured map."""
+    rough = SelfAffine(**ROUGH)
+    places = np.arange(PIXELS) / PIXELS * rough.longest
+    return RoughSurface.of(rough, rough.q_max(rough.longest / PIXELS)).heights(places, places)
+
+
+def effects() -> tuple[Effect, ...]:
+    """All effects, plain contacts first."""
+    map_ = {"heights": measured(), "pixel": ROUGH["longest"] / PIXELS, "repeat": "periodic", "level": "mean"}
+    topography = {"type": "topography", **map_, "shortest_kept": ROUGH["shortest"]}
+    plane = {"indenter": {"type": "plane"}, "motion": {"type": "slide", "speed": 0.1, "pressure": 2e4}}
+    shear = {"motion": {"type": "shear", "load": 1.0, "displacement": 2e-5}}
+    fed_back = {"heating": {"conductivity": 0.2, "feedback": "average"}}
+    return (
+        Effect("steady sliding"),
+        Effect("contact at rest", {"motion": {"type": "indent", "load": 1.0}}),
+        Effect("roughness", SELF_AFFINE, "steady sliding"),
+        Effect("measured topography", {"roughness": topography}, "roughness", ("Topography",)),
+        Effect("plane", plane | SELF_AFFINE, "roughness"),
+        Effect("layer", {"layer": {"thickness": 2e-3}}, "steady sliding", ("Layer",)),
+        Effect("temperature", WARM, "steady sliding", ("WLF", "Arrhenius")),
+        Effect("heating, estimated", {"heating": {"conductivity": 50.0}}, "steady sliding", ("Heating",)),
+        Effect("heating, fed back", WARM | fed_back, "temperature"),
+        Effect("friction in the interface", RUBBED, "steady sliding", ("Coulomb",)),
+        Effect("partial slip", shear | RUBBED, "contact at rest", ("Shear",)),
+        Effect("program", _program(SLID), "contact at rest", ("Program",)),
+        Effect("reversal", _program(SLID, {**SLID, "speed": -0.1}), "program"),
+        Effect("oscillation", _program({**SLID, "amplitude": 0.2, "frequency": 2000.0}), "program"),
+    )
+
+
+def _program(*stages):
+    return {"motion": {"type": "program", "stages": [PRESSED, *stages]}}
+
+
+def tasks() -> dict[tuple[str, str], Task]:
+    """A solve for each dimensionality and title, except for effects that the solver refuses."""
+    return {
+        (name, effect.title): TimedSolve(solver, (effect.scene,), work=_work(solver, effect))
+        for name, solver in SOLVERS.items()
+        for effect in effects()
+        if not solver.refusals(effect.scene)
+    }
+
+
+def _work(solver, effect):
+    steps = 20.0 * solver.steps if effect.scene.motion.type == "program" else 300.0
+    return steps * (solver.points if solver.name == "MDR" else solver.points**2)
+
+
+def costs(outcomes: Mapping[Task, Outcome]) -> dict[str, list[Cost]]:
+    """Costs of all effects, by the keys of SOLVERS."""
+    found, asked = {}, tasks()
+    for name, solver in SOLVERS.items():
+        rows = {
+            effect.title: outcomes[asked[name, effect.title]].rows[0]
+            if (name, effect.title) in asked
+            else Row(reason=f"refused: {'; '.join(solver.refusals(effect.scene))}")
+            for effect in effects()
+        }
+        found[name] = [Cost(each, rows[each.title], rows[each.over or each.title]) for each in effects()]
+    return found
+
+
+def priced(name: str, billed: list[Cost]) -> list[dict]:
+    """Rows of a table that plans multiply costs with: the parts whose cost was measured."""
+    return [
+        {"part": part} | {cost: float(f"{value:.3g}") for cost, value in each.multiples.items()}
+        for each in billed
+        for part in each.effect.parts
+        if isfinite(each.times) and part not in COUNTED[name]
+    ]
+
+
+def sheet(found: Mapping[str, list[Cost]]) -> list[dict]:
+    """Rows of results/effects.csv."""
+    measures = {"seconds": "processor", "wall": "wall", "memory": "memory", "repeats": "repeats"}
+    return [
+        {"dimension": name, "effect": cost.effect.title, "over": cost.effect.over or ""}
+        | {column: cost.row.measures.get(measure, nan) for column, measure in measures.items()}
+        | {"times": cost.times, "operator_applications": cost.row.operator_applications}
+        | {"time_steps": cost.row.measures.get("time_steps", nan), "reason": cost.row.reason or ""}
+        for name, billed in found.items()
+        for cost in billed
+    ]
+
+
+def cells(rows: list[dict]) -> Iterator[tuple[str, ...]]:
+    """Cells of the table of the page, of rows of results/effects.csv: times, or why there are none."""
+    by = {(row["dimension"], row["effect"]): row for row in rows}
+    for effect in effects():
+        both = (by[name, effect.title] for name in ("1D", "3D"))
+        yield effect.title, effect.over or "", *(_cell(row) for row in both)
+
+
+def _cell(row):
+    return row["reason"].split(":")[0] or two_digits(float(row["times"]))
 
 
 def main() -> None:
-    """Solve what is not solved yet, and write the page."""
-    FOLDER.mkdir(exist_ok=True)
-    outcomes = solved(PAGE, [task for study in STUDIES for task in study.tasks()])
-    timed = solved(PAGE, costs.tasks(), fresh=True)
-    billed = costs.costs(timed)
-    for name, rows in costs.tables(billed).items():
-        stored(TABLES[name], rows)
-    with style.applied():
-        for chapter in (*(study.chapter(outcomes) for study in STUDIES), costs.chapter(timed)):
-            _put(chapter)
-    told = ", ".join(f"{name} {number}" for name, number in versions().items())
+    """Measure, and write the tables and the page."""
+    found = costs(solved(PAGE, tasks().values(), fresh=True))
+    for name, billed in found.items():
+        stored(TABLES[name], priced(name, billed))
+    rows = sheet(found)
+    stored(PAGE.with_suffix(".csv"), rows)
     where = "{system}, {machine}, {processors} processors".format(**machine())
-    replaced(PAGE, "machine", f"{where}; {told}.")
-    replaced(PAGE, "effects", table("effect|on top of|in a scene file|1D|times, 1D|3D|times, 3D", _rows(billed)))
-    replaced(PAGE, "refused", "\n".join(_refused()))
-    replaced(PAGE, "costs", costs.said(billed))
-
-
-def _rows(billed) -> Iterator[tuple[str, ...]]:
-    for one, three in zip(billed["1D"], billed["3D"], strict=True):
-        effect = one.effect
-        lines = "<br>".join(f"`{line}`" for line in effect.file.splitlines())
-        cells = (cell for cost, name in ((one, "1D"), (three, "3D")) for cell in _cells(effect, cost, name))
-        yield effect.title, effect.over or "", lines, *cells
-
-
-def _cells(effect: Effect, cost: costs.Cost, name: str) -> Iterator[str]:
-    yield effect.verdict(costs.SOLVERS[name]).split(":")[0]
-    yield two_digits(cost.times) if effect.over and cost.row.reason is None else ""
-
-
-def _refused() -> Iterator[str]:
-    for effect in effects():
-        for name, solver in costs.SOLVERS.items():
-            for reason in solver.refusals(effect.scene):
-                yield f"- {effect.title}, {name}: {reason}."
-
-
-def _put(chapter: Chapter) -> None:
-    """Write figures and numbers of a chapter, and its tables into the page."""
-    for name, figure in chapter.figures.items():
-        (FOLDER / f"{name}.png").write_bytes(rendered(figure, ("png",)).files["png"])
-    for name, rows in chapter.tables.items():
-        replaced(PAGE, name, by_column(rows))
-    for name, rows in chapter.data.items():
-        stored(FOLDER / f"{name}.csv", rows)
+    with_what = ", ".join(f"{name} {number}" for name, number in versions().items())
+    replaced(PAGE, "machine", f"{where}; {with_what}.")
+    replaced(PAGE, "effects", table("effect|added to|1D|3D", cells(rows)))
+    refused = (row for row in rows if row["reason"].startswith("refused: "))
+    lines = (
+        f"- {row['effect']}, {row['dimension']}: {row['reason'].removeprefix('refused: ')}." for row in refused
+    )
+    replaced(PAGE, "refused", "\n".join(lines))
 
 
 if __name__ == "__main__":

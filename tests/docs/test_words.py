@@ -24,10 +24,8 @@ CODE = re.compile(r"^```.*?^```|`[^`\n]*`|^\$\$.*?\$\$|^#.*?$|^\|.*?$", re.DOTAL
 
 
 def pages() -> Iterator[tuple[str, str]]:
-    """Prose of README, CONTRIBUTING and pages: without code, formulas, headings, tables, reports and history."""
-    written = (
-        path for path in sorted((ROOT / "docs").rglob("*.md")) if path.name not in ("report.md", "changelog.md")
-    )
+    """Prose of README, CONTRIBUTING and pages: without code, formulas, headings, tables and history."""
+    written = (path for path in sorted((ROOT / "docs").rglob("*.md")) if path.name != "changelog.md")
     for path in (ROOT / "README.md", ROOT / "CONTRIBUTING.md", *written):
         yield str(path.relative_to(ROOT)), CODE.sub("", path.read_text(encoding="utf-8"))
 

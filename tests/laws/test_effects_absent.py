@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from effects_page.asked import effects
+from effects import effects
 
 from bem3d import BEM
 from mdr1d import MDR

@@ -1,35 +1,46 @@
-"""Every effect as it is asked for, and what it costs: what a page says is computed, and failures are told."""
+"""What every effect costs: plans and the page have the measured costs, and failures are told."""
 
 import csv
-import tomllib
+import re
 from dataclasses import fields
 from math import isnan, nan
-from pathlib import Path
 
-import numpy as np
 import pytest
-from effects_page import costs
-from effects_page.asked import PLAIN, SCENES, effects, measured
+from effects import COUNTED, PAGE, cells, costs, effects, priced, sheet, tasks
 
 import bem3d.plan
 import mdr1d.plan
 from bem3d import BEM
+from bem3d.surface import RoughSurface
 from compare.solving.outcome import Outcome, Row
 from mdr1d import MDR
 from scene import Layer, Program, Scene
 from scene.costs import COSTS, expected, multiples
 from scene.terms import Lacking
 
-PAGE = Path(__file__).parents[2] / "docs" / "results" / "effects" / "effect-costs.csv"
 TITLES = [effect.title for effect in effects()]
 
 
-@pytest.mark.parametrize("title", TITLES)
-def test_the_lines_of_a_file_ask_for_the_scene_that_is_solved(title, tmp_path, monkeypatch):
-    effect = effects()[TITLES.index(title)]
-    np.save(tmp_path / "heights.npy", measured())
-    monkeypatch.chdir(tmp_path)
-    assert SCENES.validate_python({**PLAIN, **tomllib.loads(effect.file)}) == effect.scene
+@pytest.fixture(scope="module")
+def stored():
+    """Rows of the measured costs."""
+    with PAGE.with_suffix(".csv").open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def test_the_page_has_the_measured_costs(stored):
+    page = PAGE.read_text(encoding="utf-8")
+    rows = re.search(r"<!-- effects -->\n.*\n.*\n((?:\|.*\n)*)<!-- end -->", page)[1].splitlines()
+    assert rows == [f"| {' | '.join(row)} |" for row in cells(stored)]
+
+
+def test_the_measured_surface_is_the_drawn_one():
+    # costs of both are compared: the same surface, not one with a plane taken off its period
+    asked = {each.title: each.scene.roughness for each in effects()}
+    map_, drawn = asked["measured topography"], asked["roughness"]
+    surface = RoughSurface.of(drawn, drawn.q_max(0.0))
+    assert map_.rms_height == pytest.approx(surface.rms_height, rel=1e-9)
+    assert map_.waves.rms_slope == pytest.approx(surface.rms_slope, rel=1e-9)
 
 
 def test_every_part_that_a_scene_may_lack_is_asked_for():
@@ -55,13 +66,12 @@ def test_plans_know_the_costs_of_every_part_that_the_solver_has():
 
 
 @pytest.mark.parametrize(("dimension", "table"), [("3D", bem3d.plan.EFFECTS), ("1D", mdr1d.plan.EFFECTS)])
-def test_what_plans_multiply_costs_with_was_measured_together_with_the_page(dimension, table):
-    with PAGE.open(encoding="utf-8", newline="") as file:
-        rows = {row["effect"]: row for row in csv.DictReader(file) if row["dimension"] == dimension}
+def test_what_plans_multiply_costs_with_was_measured_together_with_the_page(stored, dimension, table):
+    rows = {row["effect"]: row for row in stored if row["dimension"] == dimension}
     for effect in effects():
         for part in effect.parts:
             row = rows[effect.title]
-            if row["reason"] or part in costs.COUNTED[dimension]:
+            if row["reason"] or part in COUNTED[dimension]:
                 assert part not in multiples(table)
                 continue
             steps = 1.0 if row["time_steps"] == "nan" else float(row["time_steps"])
@@ -78,20 +88,20 @@ def test_what_plans_multiply_costs_with_was_measured_together_with_the_page(dime
 def outcomes(failed="layer", seconds=1.0):
     """Of all tasks, each effect by its place a second dearer; one fails."""
     solved = {}
-    for rung in costs.tasks():
-        place = next(k for k, effect in enumerate(effects()) if effect.scene == rung.scene)
+    for (_, title), task in tasks().items():
+        place = TITLES.index(title)
         measures = {"processor": seconds * (1 + place), "wall": 1.0, "memory": 1e6, "repeats": 3.0}
-        if isinstance(rung.scene.motion, Program):
+        if isinstance(task.scene.motion, Program):
             measures["time_steps"] = 100.0
         row = Row(1.0, 1.0, 1.0, 0.0, 10.0, 1.0, measures)
-        if TITLES[place] == failed:
+        if title == failed:
             row = Row(reason="did not converge")
-        solved[rung] = Outcome((row,))
+        solved[task] = Outcome((row,))
     return solved
 
 
 def test_times_are_those_of_the_effect_that_it_comes_on_top_of_and_a_solve_that_fails_is_no_cheap_one():
-    found = costs.costs(outcomes())
+    found = costs(outcomes())
     three, one = ({each.effect.title: each for each in found[name]} for name in ("3D", "1D"))
     times = (TITLES.index("partial slip") + 1) / (TITLES.index("contact at rest") + 1)
     assert three["partial slip"].times == times
@@ -99,19 +109,18 @@ def test_times_are_those_of_the_effect_that_it_comes_on_top_of_and_a_solve_that_
     layer = three["layer"]
     assert isnan(layer.times)
     assert layer.row.reason == "did not converge"
-    assert "Layer" not in {row["part"] for row in costs.tables(found)["3D"]}
-    rows = costs.chapter(outcomes()).data[costs.DATA]
-    reasons = {row["dimension"]: row["reason"] for row in rows if row["effect"] == "layer"}
+    assert "Layer" not in {row["part"] for row in priced("3D", found["3D"])}
+    reasons = {row["dimension"]: row["reason"] for row in sheet(found) if row["effect"] == "layer"}
     assert reasons["3D"] == "did not converge"
     assert reasons["1D"].startswith("refused")
 
 
 def test_a_program_is_told_by_the_step_and_only_where_steps_are_not_counted():
-    found = costs.tables(costs.costs(outcomes()))
-    (program,) = (row for row in found["3D"] if row["part"] == "Program")
+    found = costs(outcomes())
+    (program,) = (row for row in priced("3D", found["3D"]) if row["part"] == "Program")
     place, rest = TITLES.index("program") + 1, TITLES.index("contact at rest") + 1
     assert program["seconds"] == pytest.approx(place / rest / 100, rel=1e-2)
-    assert "Program" not in {row["part"] for row in found["1D"]}
+    assert "Program" not in {row["part"] for row in priced("1D", found["1D"])}
 
 
 def test_multiples_of_parts_are_multiplied_and_unknown_ones_are_named(tmp_path):

@@ -1,4 +1,4 @@
-"""Motions in one dimension beside three, and the study of them."""
+"""Motions in one dimension beside three."""
 
 from dataclasses import replace
 
@@ -6,7 +6,6 @@ import changing_motion as motions
 import numpy as np
 import pytest
 from changing_motion import harmonic
-from effects_page.track import Track
 from pydantic import ValidationError
 
 from bem3d import BEM
@@ -75,17 +74,6 @@ def test_a_harmonic_is_found_beside_a_mean_and_a_second_one():
     found = harmonic(time, values, 5.0)
     assert abs(found) == pytest.approx(2.0, rel=1e-9)
     assert np.angle(found) == pytest.approx(0.7, rel=1e-9)
-
-
-def test_a_track_knows_where_friction_comes_to_and_what_it_does():
-    time = np.linspace(0, 10, 1001)
-    track = Track(time, 2 * time, 1 - np.exp(-time))
-    assert track.until(1.0) == pytest.approx(2 * np.log(20), rel=1e-2)
-    assert np.isnan(track.until(5.0))
-    assert track.within(5.0).mean == pytest.approx(1 - (np.exp(-5) - np.exp(-10)) / 5, rel=1e-4)
-    assert track.work == pytest.approx(2 * (9 + np.exp(-10)), rel=1e-4)
-    assert Track(time, time, 0.5 - time).until_zero == pytest.approx(0.5)
-    assert np.isnan(track.within(20.0).mean)
 
 
 def answered(solver, stage):

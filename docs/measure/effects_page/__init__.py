@@ -1,1 +1,0 @@
-"""What each effect does to a contact, asked of the solvers and held against references: the chapters of a page."""
