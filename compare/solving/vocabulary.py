@@ -19,7 +19,7 @@ depth : Depth that was prescribed, above zero into the elastomer. [m]
 seed : Seed of the rough surface. [1]
 stratum : Finest grid on which a rough surface is solved, by its number; the next coarser one has it too. [1]
 control_variates : Numbers of the rough surface below the smooth body whose mean over all surfaces is 0. [1]
-status : Whether a contact was solved, has no contact, failed, or was not asked for.
+status : Whether a contact was solved, here or on a finer grid, has no contact, failed, or was not asked for.
 reason : Why a solve failed; empty where it did not.
 
 Of hard cases and of stored quantities.

@@ -24,8 +24,7 @@ VARIATES = "control_variates"  # name in a Dataset
 EACH = 4  # surfaces for each variate at least: what a regression leaves of few surfaces is known roughly
 ALIKE = 1e-10  # of the largest, below which a direction of the variates is none
 WIDER = 1.15  # places over the smooth contact, around which peaks touch
-ACROSS = 10  # of the shortest waves that count lie across these places: shorter ones average out
-MOST = 64  # waves in a period
+ACROSS, MOST = 10, 64  # shortest waves that count, across these places and in a period: others average out
 TOGETHER = 64  # surfaces at once: 9 MB of waves at most
 
 
@@ -52,7 +51,7 @@ def control_variates(solver: Solver, scenes: Sequence[Scene], seeds: Sequence[in
         for own, places, top in zip(found, below, tops, strict=True):
             if places:
                 low = slice(max(len(power) // 2 - top, 0), len(power) // 2 + top + 1), slice(top + 1)
-                own[first : first + TOGETHER] = _averages(*places, rough.q_min, waves[:, *low], power[low])
+                own[first : first + TOGETHER] = _averages(places, rough.q_min, waves[:, *low], power[low])
     return found
 
 
@@ -84,10 +83,10 @@ def _waves(solver, rough, top, seeds):
     return 2 * np.fft.rfft(heights, norm="forward")[:, None, : waves.size + 1]
 
 
-def _averages(x, y, weight, step, waves, power):
+def _averages(places, step, waves, power):
     """Control variates (seeds, 8) of waves of multiples of a wave number, with their mean squares halved."""
-    rows, k_x = len(power) // 2, np.arange(power.shape[1])
-    k_y = np.arange(len(power)) - rows
+    (x, y, weight), rows = places, len(power) // 2
+    k_x, k_y = np.arange(power.shape[1]), np.arange(len(power)) - rows
     stiffness = np.hypot(k_x, k_y[:, None]) / k_x[-1] if rows else 1.0
     along, across = np.exp(1j * step * np.outer(k_x, x)), np.exp(1j * step * np.outer(y, k_y))
     slope, bend = 1j * k_x / k_x[-1], -np.square(k_x / k_x[-1])

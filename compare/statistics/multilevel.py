@@ -171,9 +171,9 @@ def needed(
 ) -> tuple[int, ...]:
     """Surfaces of each stratum for intervals of 95 % of a half-width, relative; as many as now once it is reached.
 
-    What is nil or not known asks for none. Of no stratum there are more than MOST_DRAWS.
+    What is zero or not known asks for none. Of no stratum there are more than MOST_DRAWS.
 
-    dataset : like that of `levels.pooled`
+    dataset : like that of `pooled`
     above, below : variable whose mean is wanted at every point, over the mean of another if that is named
     costs : planned of one surface of each stratum, on all of its grids
     growth : times the surfaces at most
