@@ -9,7 +9,8 @@ def in_this_process():
     from stand_in_solver import Here
 
     from compare.solving import runner
+    from compare.solving.executors import Workers
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(runner, "_workers", lambda *_: Here())
+        patch.setattr(runner, "_workers", lambda *_: Workers(Here(), 1))
         yield

@@ -6,6 +6,8 @@ import subprocess
 import sys
 import time
 
+from compare.solving.store import FILE
+
 # A machine under load starts processes slowly [s].
 PATIENCE = 120
 
@@ -28,6 +30,15 @@ def start(folder, *arguments, program=("-m", "compare"), output=subprocess.PIPE,
         preexec_fn=heed_signals,
         env=os.environ | {"PYTHONWARNINGS": "error"} | environment,
     )
+
+
+def stored_so_far(folder):
+    """Answers that a run under way has stored, by the file that SQLite writes beside its own meanwhile."""
+    log = folder / f"{FILE}-wal"
+    try:
+        return (log.stat().st_size - 32) // (24 + 4096)  # a head, then at least a page an answer
+    except FileNotFoundError:
+        return 0
 
 
 def finish(process):

@@ -9,9 +9,9 @@ from pathlib import Path
 
 from pydantic.dataclasses import dataclass
 
+from compare.solving.executors import ONE_THREAD
 from compare.solving.runner import SweepProgress
 from compare.solving.task import SceneTask as Task
-from compare.solving.workers import ONE_THREAD, answered
 from scene import Indent, Kelvin, Result, Scene, SolveError, Sphere
 
 SCENE = Scene(Sphere(radius=1e-2), Kelvin(modulus=1e6, relaxation_time=1e-3), Indent(load=1.0))
@@ -79,23 +79,9 @@ class Heard(SweepProgress):
 
 
 class Here:
-    """Workers in this process, for laws that no process of another has a part in."""
+    """An executor in this process, for laws that no process of another has a part in."""
 
-    died, tries = (), 3
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        pass
-
-    def room(self, out):
-        return 1 - out
-
-    def submit(self, packed):
+    def submit(self, function, *given):
         future = Future()
-        future.set_result(answered(packed))
+        future.set_result(function(*given))
         return future
-
-    def call_back(self):
-        pass

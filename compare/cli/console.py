@@ -89,7 +89,7 @@ def said_to_people(output: str, solves: bool) -> Iterator[None]:
     except OSError as error:
         from scene.printable import brief
 
-        from ..solving.store import Unwritable
+        from ..solving.folders import Unwritable
 
         early = isinstance(error, Unwritable) or not solves
         where = f"{output}: " if isinstance(error, Unwritable) else ""

@@ -10,7 +10,7 @@ from scene.files import Unreadable, content
 from scene.printable import brief
 from scene.reading import InvalidInput
 
-from ..solving.store import write
+from ..solving.folders import write
 
 NOT_KNOWN = "nan"
 # Largest table that is read; those of a page have some megabytes and at most some dozens of columns.

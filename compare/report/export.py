@@ -10,8 +10,8 @@ from pandas import DataFrame
 from scene.printable import brief
 from scene.reading import InvalidInput
 
-from ..solving import netcdf, parameter_grid, store
-from ..solving.hold import hold
+from ..solving import folders, netcdf, parameter_grid
+from ..solving.folders import hold
 from ..solving.suggest import known
 from ..solving.vocabulary import entry
 from . import csvfiles, manifest, vtk
@@ -57,8 +57,8 @@ def _surfaces(folder: Path, output: Path) -> list[Path]:
     for node in solved.subtree:
         if content := vtk.content(node.to_dataset(inherit=False)):
             written.append(manifest.inside(output, f"{node.path.strip('/') or folder.stem}{vtk.ENDING}"))
-            store.make(written[-1].parent)
-            store.write(written[-1], methodcaller("write", content))
+            folders.make(written[-1].parent)
+            folders.write(written[-1], methodcaller("write", content))
     if not written:
         raise InvalidInput(f"{folder}: holds no surface that vtk could show: draw has one, and run its fields")
     return written

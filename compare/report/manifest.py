@@ -17,9 +17,10 @@ from pydantic_core import to_json
 from scene.printable import brief
 from scene.reading import InvalidInput
 
+from ..solving.digest import PACKAGES
 from ..solving.folder_format import FORMAT, Stated, finished, read
 from ..solving.folder_format import MANIFEST as NAME
-from ..solving.store import PACKAGES, clear
+from ..solving.folders import clear
 from .csvfiles import write_text
 from .page import Page, Plot
 

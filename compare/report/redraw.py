@@ -17,7 +17,7 @@ from scene.printable import brief
 from scene.quantities import METRE, argument
 from scene.reading import InvalidInput
 
-from ..solving.hold import hold
+from ..solving.folders import hold
 from . import csvfiles, manifest, render
 from .page import Plot
 from .plots import style as looks

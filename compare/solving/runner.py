@@ -3,18 +3,24 @@
 import logging
 import pickle
 import time
+import warnings
 from collections import Counter, deque
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import FIRST_COMPLETED, CancelledError, Future, wait
-from contextlib import AbstractContextManager, nullcontext
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from concurrent.futures import FIRST_COMPLETED, CancelledError, Executor, wait
+from contextlib import AbstractContextManager, nullcontext, suppress
 from dataclasses import dataclass, field
 from typing import Any
 
-from .outcome import Outcome
-from .store import Store, write
-from .task import Task
-from .workers import PULSE, Fault, Processes, VersionMismatch, Workers, caught, counted, solved, unpacked
+from scene import InvalidInput, Refused
 
+from .digest import code_of
+from .executors import Answer, Processes, Workers, caught, counted, solved
+from .folders import write
+from .outcome import Outcome
+from .store import Store
+from .task import Task
+
+PULSE = 0.2  # time after which an interrupt is noticed [s]
 _LOG = logging.getLogger(__name__)
 
 
@@ -81,165 +87,138 @@ class SweepResult:
 
 
 def sweep(
-    tasks: Sequence[Task],
+    tasks: Iterable[Task],
     store: Store,
     workers: int | None = None,
     progress: SweepProgress | None = None,
     fresh: bool = False,
     scheduler: str | None = None,
+    executor: Executor | None = None,
 ) -> SweepResult:
     """Solve tasks, longest first, storing each as it ends.
 
     workers : processes of this machine, one thread each; absent, as many as there are processors
     fresh : whether each task has a process of its own, one after the other
     scheduler : address of a dask scheduler, whose workers then solve the tasks in place of processes
+    executor : that solves the tasks in place of processes, as many at once as `workers` says
 
-    What no other process can import, as the model of a script or a notebook, is solved in this one.
-    The folder is to be held, see `hold`. A task that raises, or that workers die of, has failed: its outcome has
-    the reason in every row, its traceback lies beside the store's file, and the next sweep solves it again. On an
-    interrupt, any signal that raises KeyboardInterrupt, nothing more is started; what is being solved is finished
-    and stored, and KeyboardInterrupt is raised. A second interrupt ends it at once.
+    What no other process can import, as the model of a script or a notebook, or what cannot be sent there is
+    solved in this one. A task that raises, or that workers die of, has failed: its outcome has the reason in each
+    row, its traceback lies beside the store's file, and the next sweep solves it again. On an interrupt, which is
+    any signal that raises KeyboardInterrupt, nothing more is started; what is being solved is finished and stored,
+    and KeyboardInterrupt is raised. A second interrupt ends it at once.
 
     Raises OSError where the store cannot be written (everything before is kept), where processes end as they
-    start, and where a scheduler cannot be reached or is lost; Refused, before anything is solved, where a
-    scheduler is named and its address is none, its library is not installed, or none of its workers has the same
-    code.
+    start, and where a scheduler cannot be reached or is lost; InvalidInput where another run writes the store;
+    Refused of a scheduler whose address is none or whose library is not installed, and of workers with other code.
     """
     progress, start = progress or SweepProgress(), time.perf_counter()
-    stored = _stored(tasks, store)
-    if len(stored) == len(set(tasks)):
-        progress.planned([], len(stored))
-        return SweepResult(stored, 0, len(stored), time.perf_counter() - start)
-    with caught() as interrupts, store.writing():
-        missing = sorted({task: None for task in tasks if task not in stored}, key=lambda task: -task.work)
+    tasks = list(dict.fromkeys(tasks))
+    outcomes = store.stored(tasks)
+    if len(outcomes) == len(tasks):
+        progress.planned([], len(tasks))
+        return SweepResult(outcomes, 0, len(tasks), time.perf_counter() - start)
+    with store.writing():
+        # A damaged file gives more as soon as it is copied.
+        outcomes |= store.stored(task for task in tasks if task not in outcomes)
+        missing = sorted((task for task in tasks if task not in outcomes), key=lambda task: -task.work)
         if other := store.by_other_code(missing):
             progress.said(f"{other} stored tasks were solved by other code: they are solved again")
-        _LOG.info("%d tasks to solve, %d reused from %s", len(missing), len(stored), store.folder)
-        progress.planned(missing, len(stored))
-        with _workers(missing, workers, fresh, scheduler, progress, interrupts) as pool:
-            course = _Course(deque(missing), store, pool, progress, interrupts)
-            outcomes = stored | dict(course.run())
-    return SweepResult(outcomes, len(missing), len(stored), time.perf_counter() - start, course.faults)
+        _LOG.info("%d tasks to solve, %d reused from %s", len(missing), len(outcomes), store.folder)
+        reused = len(outcomes)
+        progress.planned(missing, reused)
+        with _workers(missing, workers, fresh, scheduler, executor, progress) as pool, caught() as interrupts:
+            found, faults = _solve(missing, store, pool, progress, interrupts)
+    return SweepResult(outcomes | found, len(missing), reused, time.perf_counter() - start, faults)
 
 
-def _stored(tasks, store):
-    found = {task: store.get(task) for task in dict.fromkeys(tasks)}
-    return {task: outcome for task, outcome in found.items() if outcome is not None}
-
-
-def _workers(missing, count, fresh, scheduler, progress, interrupts) -> AbstractContextManager[Workers]:
-    if scheduler is None:
-        return Processes(min(counted(count), max(len(missing), 1)), fresh)
+def _workers(missing, count, fresh, scheduler, executor, progress) -> Workers:
+    if executor is not None and not fresh:
+        return Workers(executor, counted(count))
+    if scheduler is None or fresh:
+        return Processes(min(counted(count), len(missing)), fresh)
     from .cluster import Cluster
 
-    packages = sorted({package for task in missing for package in task.packages})
-    return Cluster(scheduler, packages, progress.said, interrupts)
+    packages = {package for task in missing for package in task.packages}
+    return Cluster(scheduler, sorted(packages), progress.said)
 
 
-@dataclass
-class _Course:
-    """One sweep under way.
+def _solve(missing, store, workers, progress, interrupts) -> tuple[dict[Task, Outcome], dict[Task, str]]:
+    """Outcomes of tasks, and why some broke. Raises KeyboardInterrupt, and OSError as `sweep`."""
+    queue, out, outcomes, faults = deque(missing), {}, {}, {}
+    # What a worker died of is suspect with all that was out then, and is tried again alone.
+    suspects, deaths = deque(), Counter()
+    ending = False
 
-    queue : what is to be submitted, in this order; out : what is submitted
-    suspects : tasks whose worker died; each is tried alone, which tells of which of them it died
-    deaths : of workers, by the task that they were at
-    """
-
-    queue: deque[Task]
-    store: Store
-    workers: Workers
-    progress: SweepProgress
-    interrupts: list[int]
-    out: dict["Future[bytes]", Task] = field(default_factory=dict)
-    suspects: deque[Task] = field(default_factory=deque)
-    deaths: Counter = field(default_factory=Counter)
-    faults: dict[Task, str] = field(default_factory=dict)
-
-    def run(self) -> Iterator[tuple[Task, Outcome]]:
-        """Outcome of each task. Raises KeyboardInterrupt, and OSError as sweep."""
-        told: set[Task] = set()
-        winding_up = False
-        while self.queue or self.suspects or self.out:
-            if len(self.interrupts) > 1:
-                raise KeyboardInterrupt
-            if self.interrupts and not winding_up:
-                winding_up = True
-                self.progress.interrupted()
-                self.queue.clear()
-                self.suspects.clear()
-                self.workers.call_back()
-            while (room := self.workers.room(len(self.out))) > 0 and (task := self._next()) is not None:
-                if task not in told:
-                    told.add(task)
-                    self.progress.started(task)
-                yield from self._submit(task)
-            if not self.out:
-                time.sleep(PULSE if room <= 0 else 0.0)
-                continue
-            done, _ = wait(self.out, PULSE, FIRST_COMPLETED)
-            for future in done:
-                yield from self._settle(self.out.pop(future), future)
-        if self.interrupts:
-            raise KeyboardInterrupt
-
-    def _next(self) -> Task | None:
-        """The task to submit now, if any: a suspect goes alone, before all others."""
-        if self.interrupts:
-            return None
-        if self.suspects:
-            return None if self.out else self.suspects.popleft()
-        if any(self.deaths[task] for task in self.out.values()) or not self.queue:
-            return None
-        return self.queue.popleft()
-
-    def _submit(self, task):
-        if not getattr(task, "portable", True):  # its class is known to this process alone
-            yield self._kept(task, solved(task))
-            return
-        try:
-            packed = pickle.dumps(task)
-        except Exception as error:
-            yield self._kept(task, Fault.of(error))
-        else:
-            self.out[self.workers.submit(packed)] = task
-
-    def _settle(self, task, future):
-        try:
-            answer = unpacked(future.result())
-        except self.workers.died:
-            self.workers.lost()
-            self.deaths[task] += 1
-            if self.interrupts:
-                return
-            if self.deaths[task] < self.workers.tries:
-                self.progress.said(f"{task.label}: its worker process died; the task is tried again alone")
-                self.suspects.append(task)
-                return
-            times = f"{self.deaths[task]} times, the last time alone"
-            answer = Fault(f"its worker died {times}, as when memory runs out")
-        except (CancelledError, VersionMismatch):
-            if not self.interrupts:
-                self.queue.appendleft(task)
-            return
-        except Exception as error:
-            answer = Fault.of(error)
-        yield self._kept(task, answer)
-
-    def _kept(self, task, answer: Outcome | Fault) -> tuple[Task, Outcome]:
-        """The outcome, stored; of a fault what failed, with its trace in a file."""
-        note = self.store.trace(task)
-        if isinstance(answer, Outcome):
+    def keep(task, answer):
+        outcome, note = answer.outcome, store.trace(task)
+        if outcome is not None:
             try:
-                self.store.put(task, answer)
+                store.put(task, outcome)
                 note.unlink(missing_ok=True)
-            except OSError:
+            except (InvalidInput, OSError):
                 raise
             except Exception as error:
-                answer = Fault.of(error)
-        if isinstance(answer, Fault):
-            self.faults[task] = answer.reason
+                answer, outcome = Answer.of(error), None
+        if outcome is None:
+            faults[task] = answer.reason
             text = f"{task.label}\n{answer.reason}\n\n{answer.trace}"
             write(note, lambda file: file.write(text.encode()))
-        outcome = task.failed(answer.reason) if isinstance(answer, Fault) else answer
-        self.progress.finished(task, outcome)
-        return task, outcome
+            outcome = task.failed(answer.reason)
+        outcomes[task] = outcome
+        progress.finished(task, outcome)
+        for category, message in answer.warned:
+            warnings.warn(message, category, stacklevel=3)
+
+    while queue or suspects or out:
+        if interrupts and not ending:
+            ending = True
+            progress.interrupted()
+        if ending:
+            queue.clear()
+            suspects.clear()
+        room = workers.room()
+        while len(out) < room:
+            if suspects and not out:
+                task = suspects.popleft()
+            elif queue and not suspects and not any(deaths[each] for each in out.values()):
+                task = queue.popleft()
+            else:
+                break
+            if not deaths[task]:
+                progress.started(task)
+            packed = None
+            with suppress(Exception):  # of what cannot be sent
+                packed = pickle.dumps(task) if getattr(task, "portable", True) else None
+            if packed is None:
+                keep(task, solved(task))
+            else:
+                out[workers.submit(packed, code_of(tuple(task.packages)))] = task
+            if interrupts:
+                break
+        if not room:
+            time.sleep(PULSE)
+        for future in wait(out, PULSE, FIRST_COMPLETED).done:
+            task = out.pop(future)
+            try:
+                answer = pickle.loads(future.result())
+            except workers.died:
+                workers.renew()
+                deaths[task] += 1
+                if deaths[task] < workers.tries:
+                    progress.said(f"{task.label}: its worker process died; the task is tried again alone")
+                    suspects.append(task)
+                    continue
+                times = f"{deaths[task]} times, the last time alone"
+                answer = Answer(reason=f"its worker died {times}, as when memory runs out")
+            except CancelledError:  # by the executor
+                queue.appendleft(task)
+                continue
+            except Refused:
+                raise
+            except Exception as error:
+                answer = Answer.of(error)
+            keep(task, answer)
+    if ending:
+        raise KeyboardInterrupt
+    return outcomes, faults

@@ -14,11 +14,11 @@ from ..report import manifest, render
 from ..report.page import Plot
 from ..solving import netcdf, runner
 from ..solving.amounts import seconds_of
-from ..solving.hold import hold
+from ..solving.executors import counted
+from ..solving.folders import Unwritable, hold, make, refuse_impossible
 from ..solving.runner import Progress, SweepResult
-from ..solving.store import Store, Unwritable, make, refuse_impossible
+from ..solving.store import Store
 from ..solving.suggest import known
-from ..solving.workers import counted
 from ..statistics.multilevel import GROWTH
 from .report import SOLVED, Report, faults
 from .study import Study

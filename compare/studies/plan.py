@@ -63,7 +63,7 @@ class Plans(dict[str, Plan | str | Advice]):
         # Only figures need what draws them.
         from ..report.plots import solid
         from ..report.plots.rendering import FORMS, picture
-        from ..solving.store import write
+        from ..solving.folders import write
 
         path = Path(file)
         form = path.suffix.lower().lstrip(".")

@@ -8,7 +8,7 @@ from pydantic import TypeAdapter
 from pydantic.json_schema import GenerateJsonSchema
 
 from ..solving.docstrings import documented
-from ..solving.store import write
+from ..solving.folders import write
 from ..solving.suggest import known
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"

@@ -166,7 +166,7 @@ def test_more_than_a_day_is_refused_where_a_look_asks_for_it(tmp_path, monkeypat
     monkeypatch.setattr("compare.solving.cost.DAY", 0.6)  # the pilot takes 0.5 s as it is planned
     with pytest.raises(Refused, match="--yes"):
         compare.sweep(CASE, [0.1], interval="0.1%", output=tmp_path, workers=1, report=False)
-    assert (tmp_path / "solved" / "answers.txt").exists()
+    assert (tmp_path / "solved" / "answers.sqlite").exists()
 
 
 @pytest.mark.parametrize("interval", [0, 1, "2 mm", "200%", True, float("nan"), "-1%"])

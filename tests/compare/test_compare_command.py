@@ -9,7 +9,7 @@ from io import BytesIO, TextIOWrapper
 
 import pandas
 import pytest
-from processes import finish, start, wait_for
+from processes import finish, start, stored_so_far, wait_for
 from scene_files import SCENE, SMALL
 from typer.testing import CliRunner
 
@@ -49,7 +49,7 @@ def folder(tmp_path):
 def test_an_interrupted_run_resumes_and_ends_in_a_report(folder):
     process = start(folder, "run", "tiny.toml", "--workers", "1")
     solved = folder / "crosscheck-report" / "solved"
-    wait_for(lambda: len(Store(solved)) >= 3)
+    wait_for(lambda: stored_so_far(solved) >= 20)
     os.killpg(process.pid, signal.SIGSTOP)
     (folder / "other.toml").write_text((SCENE + SMALL).replace("0.1", "0.2"))
     status, said, complained = finish(start(folder, "run", "other.toml"))
@@ -99,7 +99,7 @@ def test_what_broke_is_told_with_its_reason_and_is_no_traceback_but_status_1(fol
 @pytest.mark.parametrize(("number", "status"), [(signal.SIGTERM, 130), (signal.SIGHUP, 130), (signal.SIGKILL, -9)])
 def test_no_worker_outlives_its_parent(folder, number, status):
     process = start(folder, "run", "tiny.toml", "--workers", "2")
-    wait_for(lambda: len(Store(folder / "crosscheck-report" / "solved")) > 0)
+    wait_for(lambda: stored_so_far(folder / "crosscheck-report" / "solved") > 0)
     process.send_signal(number)
     # The output ends when the last process that holds it has ended.
     assert finish(process)[0] == status

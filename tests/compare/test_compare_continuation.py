@@ -10,8 +10,9 @@ from small_cases import PARAMETER_GRID
 from bem3d import BEM
 from compare.solving import continuation
 from compare.solving.continuation import Continuation, by_contact
+from compare.solving.digest import key
 from compare.solving.parameter_grid import contacts_of, on_two_grids, tasks_of
-from compare.solving.store import Store, key
+from compare.solving.store import Store
 from mdr1d import MDR
 from scene import Indent, Program, Stage
 

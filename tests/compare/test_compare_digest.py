@@ -11,8 +11,8 @@ from shutil import copytree
 import pytest
 
 from compare.models.table import THEORIES, Models, model_of
-from compare.solving import store
-from compare.solving.store import code_digest, key, shipped
+from compare.solving import digest
+from compare.solving.digest import code_digest, key, shipped
 from compare.solving.task import SceneTask
 from scene import Indent, Kelvin, Scene, SelfAffine, Slide, Sphere
 
@@ -58,8 +58,8 @@ def forgetful():
     """Digests are read once a process; here whenever they are asked for."""
 
     def forget():
-        store._package_digest.cache_clear()
-        store._code_digest.cache_clear()
+        digest._package_digest.cache_clear()
+        digest._code_digest.cache_clear()
 
     forget()
     yield forget

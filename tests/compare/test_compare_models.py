@@ -13,7 +13,7 @@ from bem3d import BEM
 from compare.cli.app import app
 from compare.library.lookup import case_of
 from compare.models.table import Model, Models
-from compare.solving.store import key
+from compare.solving.digest import key
 from compare.solving.task import SceneTask
 from compare.statistics.finding import FAILS, HOLDS
 from mdr1d import MDR

@@ -16,9 +16,9 @@ from compare.report.plots import style
 from compare.report.redraw import FIGURES
 from compare.solving import netcdf
 from compare.solving.continuation import Continuation
+from compare.solving.folders import Unwritable
 from compare.solving.outcome import Outcome, Row
 from compare.solving.parameter_grid import COARSE, FINE, tasks_of
-from compare.solving.store import Unwritable
 from compare.statistics import finding
 from compare.studies.report import SOLVED
 from compare.studies.run.curves import (

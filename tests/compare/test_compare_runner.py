@@ -7,6 +7,8 @@ import re
 import signal
 import subprocess
 import sys
+import warnings
+from concurrent.futures import BrokenExecutor, Future, ThreadPoolExecutor
 from dataclasses import replace
 from itertools import pairwise
 
@@ -19,21 +21,22 @@ from stand_in_solver import SCENE, Heard, Here, Stand, loads
 
 from bem3d import BEM
 from compare.solving import runner
-from compare.solving.hold import hold
+from compare.solving.digest import code_of
+from compare.solving.executors import ONE_THREAD, STILLBORN, Processes, Workers
+from compare.solving.folders import hold
 from compare.solving.outcome import Outcome, Row
 from compare.solving.runner import sweep
 from compare.solving.store import Store
 from compare.solving.task import SceneTask as Task
 from compare.solving.terminal import SweepBar
-from compare.solving.workers import ONE_THREAD, STILLBORN, Processes
 from mdr1d import MDR
-from scene import EmptyContact, Indent
+from scene import EmptyContact, Indent, Refused, SelfAffine, Slide
 from scene.reading import InvalidInput
 
 
 @pytest.fixture
 def here(monkeypatch):
-    monkeypatch.setattr(runner, "_workers", lambda *_: Here())
+    monkeypatch.setattr(runner, "_workers", lambda *_: Workers(Here(), 1))
 
 
 @pytest.mark.usefixtures("here")
@@ -118,6 +121,8 @@ class Odd:
     def solve(self):
         if self.way == "memory":
             raise MemoryError
+        if self.way == "warns":
+            warnings.warn("odd numbers", stacklevel=1)
         if self.way == "leaves":
             sys.exit(3)
         if self.way == "cannot come back":
@@ -136,7 +141,6 @@ def test_a_task_may_fail_in_any_way(tmp_path):
     ways = {
         "memory": "MemoryError",
         "leaves": "SystemExit: 3",
-        "cannot be sent": "TypeError: cannot pickle it",
         "cannot come back": "Can't pickle",
         "not whole": "ValueError: its answer is not whole: 0 rows, fields []",
     }
@@ -147,6 +151,52 @@ def test_a_task_may_fail_in_any_way(tmp_path):
         assert swept.outcomes[task].rows[0].reason == swept.faults[task]
     assert swept.outcomes[tasks[-1]].rows[0].reason is None
     assert (len(swept.faults), Store(tmp_path).get(tasks[-1]) is not None) == (len(ways), True)
+
+
+def test_what_cannot_be_sent_to_another_process_is_solved_in_this_one(tmp_path):
+    swept = sweep([Odd("cannot be sent")], Store(tmp_path), workers=1)
+    assert swept.faults == {}
+    assert Store(tmp_path).get(Odd("cannot be sent")).rows[0].normal_force == 1.0
+
+
+def test_a_warning_of_a_worker_is_one_of_this_process_and_its_answer_is_kept(tmp_path):
+    with pytest.warns(UserWarning, match="odd numbers"):
+        sweep([Odd("warns")], Store(tmp_path), workers=1)
+    assert Store(tmp_path).get(Odd("warns")) is not None
+
+
+ONE = {"executor": Here(), "workers": 1}
+
+
+def test_any_executor_gives_the_same_digits_whatever_its_size(tmp_path):
+    rough = SelfAffine(hurst=0.5, rms_height=1e-5, longest=1e-2, shortest=1e-3, seed=3)
+    scene = replace(SCENE, motion=Slide(speed=0.1, load=1.0), roughness=rough)
+    tasks = [Task(MDR(points=n), (scene,)) for n in (400, 500, 600, 700)]
+    numbers = set()
+    with ThreadPoolExecutor(3) as threads:
+        for name, options in {"processes": {"workers": 2}, "threads": {"executor": threads}, "one": ONE}.items():
+            outcomes = sweep(tasks, Store(tmp_path / name), **options).outcomes
+            rows = [outcomes[task].rows[0] for task in tasks]
+            numbers.add(tuple((row.normal_force, row.depth, row.friction_force, row.residual) for row in rows))
+    assert len(numbers) == 1
+
+
+def test_an_executor_that_is_broken_is_an_error_and_one_with_other_code_is_refused(tmp_path, monkeypatch):
+    class Broken:
+        def submit(self, *given):
+            future = Future()
+            future.set_exception(BrokenExecutor("a worker died"))
+            return future
+
+    with pytest.raises(ChildProcessError, match="has lost a worker and solves nothing more"):
+        sweep(loads(1.0), Store(tmp_path), executor=Broken())
+    here = code_of(("scene", "stand_in_solver"))
+    other = {"code": here["code"] | {"scene": "x"}, "versions": here["versions"] | {"numpy": "1.0"}}
+    monkeypatch.setattr("compare.solving.executors.code_of", lambda names: other)
+    differs = f"its code of scene is another; its numpy is 1.0, here {np.__version__}"
+    with pytest.raises(Refused, match=f"a worker on .* cannot be used: {differs}"):
+        sweep(loads(1.0), Store(tmp_path), executor=Here())
+    assert len(Store(tmp_path)) == 0
 
 
 @pytest.mark.parametrize("deaths", [1, pytest.param(Processes.tries, marks=pytest.mark.slow)])
@@ -172,10 +222,10 @@ def test_a_worker_that_dies_takes_no_other_with_it_and_its_task_is_tried_again_a
 
 
 def test_workers_that_end_as_they_start_are_an_error_at_once(tmp_path, monkeypatch):
-    monkeypatch.setattr("compare.solving.workers._begin", float)  # what a worker begins with fails
+    monkeypatch.setattr("compare.solving.executors._begin", float)  # what a worker begins with fails
     died = []
-    lost = Processes.lost
-    monkeypatch.setattr(Processes, "lost", lambda self: died.append(0) or lost(self))
+    renew = Processes.renew
+    monkeypatch.setattr(Processes, "renew", lambda self: died.append(0) or renew(self))
     with pytest.raises(ChildProcessError, match="worker processes ended as they started, 3 times"):
         sweep(loads(1.0, 2.0), Store(tmp_path), workers=1)
     assert len(died) == STILLBORN
@@ -198,7 +248,9 @@ TWIN = """
 import sys
 from pathlib import Path
 from stand_in_solver import Here, Stand, loads
-from compare.solving.hold import hold
+from compare.solving.digest import code_of
+from compare.solving.executors import ONE_THREAD, STILLBORN, Processes, Workers
+from compare.solving.folders import hold
 from compare.solving.store import Store
 from compare.solving.runner import sweep
 
@@ -232,7 +284,9 @@ def test_no_process_looks_for_its_first_modules_in_the_working_folder(tmp_path):
 
 def test_a_folder_is_held_until_the_run_that_has_it_ends_or_is_killed(tmp_path):
     other, store, said = twin(tmp_path), Store(tmp_path / "solved"), []
-    wait_for(lambda: len(store))
+    wait_for(lambda: len(list(tmp_path.glob("*-*-*"))) > 2)
+    with pytest.raises(InvalidInput, match=re.escape(f"{store.folder}: another run holds")):
+        len(store)
     for say in (said.append, None):
         with pytest.raises(InvalidInput, match=re.escape(f"{tmp_path}: another run holds")), hold([tmp_path], say):
             pass
@@ -243,13 +297,13 @@ def test_a_folder_is_held_until_the_run_that_has_it_ends_or_is_killed(tmp_path):
     assert said == []
     tasks = loads(*map(float, range(1, 13)), solver=Stand(marks=str(tmp_path), seconds=0.05))
     swept = sweep(tasks, store, workers=1)
-    assert swept.reused >= 1
+    assert swept.reused >= 2
     assert [swept.outcomes[task].rows[0].normal_force for task in tasks] == [task.work for task in tasks]
 
 
 @pytest.mark.usefixtures("here")
 def test_tasks_that_other_code_has_solved_are_said_and_solved_again(tmp_path, monkeypatch):
-    monkeypatch.setattr("compare.solving.store._code_digest", lambda _: "0" * 32)
+    monkeypatch.setattr("compare.solving.digest._code_digest", lambda _: "0" * 32)
     sweep(loads(1.0, 2.0), Store(tmp_path), workers=1)
     monkeypatch.undo()
     heard = Heard()

@@ -11,8 +11,9 @@ import pytest
 
 from bem3d import BEM, contact
 from compare.report.page import Section, Table
+from compare.solving.digest import key
 from compare.solving.outcome import Outcome, Row
-from compare.solving.store import Store, key
+from compare.solving.store import Store
 from compare.statistics.finding import FAILS, HOLDS
 from compare.studies.stability.cases.collection import CASES
 from compare.studies.stability.cases.examination import Examination

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from compare.solving.store import shipped
+from compare.solving.digest import shipped
 
 ROOT = Path(__file__).parents[2]
 SETUP = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["setuptools"]

@@ -5,7 +5,7 @@ from operator import methodcaller
 from pathlib import Path
 from typing import Any
 
-from ...solving.store import write as write_whole
+from ...solving.folders import write as write_whole
 from ...statistics import finding
 from ...statistics.finding import Finding
 from .. import csvfiles

@@ -22,10 +22,10 @@ from scene.quantities import CLOSED, Finite
 from scene.reading import InvalidInput, read
 
 from ...report.page import Block, Findings, Section, Table, Text
-from ...solving.hold import hold
+from ...solving.folders import hold, write
 from ...solving.outcome import Outcome
 from ...solving.runner import sweep
-from ...solving.store import Store, write
+from ...solving.store import Store
 from ...solving.task import Batch, Task
 from ...solving.vocabulary import attributes
 from ...statistics.finding import FAILS, HOLDS, UNDECIDED, Claim, Finding

@@ -1,0 +1,169 @@
+"""Folders that one run holds, and files that are written whole or not at all."""
+
+import errno
+import multiprocessing
+import os
+import sqlite3
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import ExitStack, closing, contextmanager, suppress
+from functools import cache
+from pathlib import Path
+from secrets import token_hex
+from typing import IO, Any
+
+from scene.printable import brief
+from scene.reading import InvalidInput
+
+LOCK = ".crosscheck-lock"  # an empty file, which stays: one that is removed could be locked twice
+PART = ".crosscheck-*.part"  # names of files that are being written
+
+
+class Unwritable(OSError):
+    """A folder or a file cannot be written into; said before anything is solved."""
+
+
+def connect(path: Path, access: str) -> sqlite3.Connection:
+    """Connect to a file of SQLite that is there. access : "rw", or "ro", and what else its address may state."""
+    if "rw" in access and not locks(path.parent):
+        access += "&vfs=unix-none"
+    address = f"{path.absolute().as_uri()}?mode={access}"
+    connection = sqlite3.connect(address, timeout=0.0, isolation_level=None, uri=True)
+    connection.text_factory = bytes
+    return connection
+
+
+def code_of(error: Exception) -> int:
+    """Code of an error of SQLite, without the details; 0 of any other."""
+    return getattr(error, "sqlite_errorcode", 0) & 0xFF
+
+
+@cache
+def locks(folder: Path) -> bool:
+    """Whether files of a folder can be locked, as they cannot on some network drives."""
+    try:
+        with _part(folder) as path, closing(sqlite3.connect(path, timeout=0.0)) as connection:
+            _lock(connection)
+    except sqlite3.OperationalError:
+        return False
+    except OSError:  # nothing can be written there
+        pass
+    return True
+
+
+@contextmanager
+def hold(folders: Iterable[Path], say: Callable[[str], Any] | None = None) -> Iterator[None]:
+    """Folders for this run alone; they are made.
+
+    say : told where nothing keeps other runs out; absent, of whoever only reads, nothing is made, a folder without
+        a lock is free, and several may read it
+
+    SQLite locks an empty file in each; the system takes the lock back, however the process ends. Raises
+    InvalidInput, which names the folder, where another run holds it.
+    """
+    if starting():  # of a script without a guard, run again: its parent has the folder
+        raise SystemExit(1)
+    with ExitStack() as held:
+        for folder in dict.fromkeys(folders):
+            try:
+                if say:
+                    folder.mkdir(parents=True, exist_ok=True)
+                    touch(folder / LOCK)
+                    if not locks(folder):
+                        say("this folder cannot be locked, as on some network drives: run one at a time")
+                        continue
+                lock = held.enter_context(closing(connect(folder / LOCK, "rw" if say else "ro")))
+                if say:
+                    _lock(lock)
+                else:
+                    lock.execute("BEGIN")
+                    lock.execute("SELECT * FROM sqlite_master")
+            except (OSError, sqlite3.Error) as error:
+                if isinstance(error, sqlite3.Error) and code_of(error) == sqlite3.SQLITE_BUSY and locks(folder):
+                    raise held_by_another(folder) from None
+                if say:
+                    say(f"this folder cannot be locked ({error}): run one at a time")
+        yield
+
+
+def _lock(connection):
+    connection.execute("PRAGMA journal_mode = MEMORY")  # no second file
+    connection.execute("BEGIN EXCLUSIVE")
+
+
+def held_by_another(folder: Path) -> InvalidInput:
+    """Refusal of a folder that another run holds."""
+    return InvalidInput(
+        f"{brief(str(folder))}: another run holds this folder until its page is written: wait for it, or name "
+        "another folder"
+    )
+
+
+def starting() -> bool:
+    """Whether this is a worker that still imports the script which asked for workers."""
+    return getattr(multiprocessing.current_process(), "_inheriting", False)
+
+
+def write(path: Path, fill: Callable[[IO[bytes]], Any]) -> None:
+    """Write a file whole or not at all: `fill` gets a temporary file beside it, which then takes the name.
+
+    Raises OSError, which names the file.
+    """
+    with _named(path):
+        if path.exists() and not (path.is_file() or path.is_dir()):  # as a device, which a file would replace
+            raise OSError(errno.EINVAL, "is no regular file, and is not written over")
+        with _part(path.parent) as part:
+            with part.open("wb") as file:
+                fill(file)
+            os.replace(part, path)
+
+
+def make(folder: Path) -> None:
+    """Make a folder, and see whether files can be written into it. Raises OSError, which names it."""
+    folder.mkdir(parents=True, exist_ok=True)
+    with _named(folder), _part(folder):
+        pass
+
+
+def clear(folder: Path) -> None:
+    """Clear a folder, which this run holds, of what killed runs left half written."""
+    for path in folder.glob(PART):
+        with suppress(OSError):
+            path.unlink()
+
+
+def refuse_impossible(path: Path) -> None:
+    """Raise OSError of a path that no file can have."""
+    try:
+        with suppress(OSError):
+            path.lstat()
+    except ValueError as error:  # of zero bytes, and of letters that no file system has
+        raise OSError(errno.EINVAL, "is a name that no file can have", str(path)) from error
+
+
+def touch(path: Path) -> None:
+    """Make an empty file, with the permissions that the user's files have, where there is none."""
+    with suppress(FileExistsError):
+        path.touch(exist_ok=False)
+
+
+@contextmanager
+def _part(folder):
+    """Path of a new, empty file in a folder; it is gone afterwards."""
+    path = folder / PART.replace("*", token_hex(8))
+    path.touch(exist_ok=False)
+    try:
+        yield path
+    finally:
+        with suppress(OSError):
+            path.unlink()
+
+
+@contextmanager
+def _named(path):
+    """Errors of the system name the file that a person knows."""
+    try:
+        yield
+    except OSError as error:
+        if error.errno is None:
+            raise
+        raise OSError(error.errno, error.strerror, str(path)) from error
