@@ -9,6 +9,7 @@ Options of all of them:
 output : folder for the page, the figures and the solved contacts
 workers : number of processes; if absent, one for each processor
 scheduler : address of a dask.distributed scheduler, as tcp://host:8786; its workers then solve the contacts
+executor : object with `submit`, as those of concurrent.futures, that gets as many contacts at once as `workers`
 figure_format : file formats of the figures, separated by commas: png, pdf, svg. A PNG is always written
 report : write the page and its figures. Findings, tables and results are written in any case
 yes : agree to a study of more than a day or of more than 300,000 contacts
@@ -35,6 +36,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack, cast
 from .solving.suggest import checked
 
 if TYPE_CHECKING:
+    from concurrent.futures import Executor
     from types import FrameType
 
     import xarray
@@ -87,6 +89,7 @@ class Options(TypedDict, total=False):
 
     workers: int | None
     scheduler: str | None
+    executor: Executor | None
     figure_format: FigureFormat
     report: bool
     yes: bool
@@ -100,6 +103,7 @@ def solve(
     *,
     workers: int | None = None,
     scheduler: str | None = None,
+    executor: Executor | None = None,
     figure_format: FigureFormat = "png",
     report: bool = True,
     yes: bool = False,
@@ -121,7 +125,7 @@ def solve(
         raise InvalidInput(f"study = {brief(repr(study))}: an object of a class derived from Study is needed")
     _warn(study.doubts)
     with _shown(progress) as told:
-        found = pipeline.run(study, output, workers, scheduler, figure_format, report, yes, budget, told)
+        found = pipeline.run(study, output, workers, scheduler, executor, figure_format, report, yes, budget, told)
     _warn([" ".join(found.unsolved.sentences)] if found.unsolved.failed else [])
     return found
 

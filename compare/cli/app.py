@@ -39,7 +39,7 @@ STAND_INS = {
 # Arguments by their place, though they may be absent.
 PLACED = ("scene", "name", "file", "kind")
 # What a Python call states and a command line cannot.
-PYTHON_ONLY = {"quantities", "progress", "options"}
+PYTHON_ONLY = {"quantities", "progress", "options", "executor"}
 SHARED = {
     name: each
     for name, each in inspect.signature(commands.solve).parameters.items()

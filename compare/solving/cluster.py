@@ -3,19 +3,18 @@
 import asyncio
 import logging
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future, wait
 from contextlib import ExitStack, suppress
 from functools import partial
 from threading import Thread
 from typing import Any
-from uuid import uuid4
 
 from scene import Refused
 from scene.printable import brief
 
 from .digest import code_of
-from .executors import Workers, answered, differences
+from .executors import Workers, differences
 
 EXTRA = "pip install mdr-bem-crosscheck[cluster]"
 # Seconds in which a scheduler answers, after which it is lost, in which it lets go, between two looks at it.
@@ -82,10 +81,6 @@ class Cluster(Workers):
             if before and not self.threads:
                 self.say(f"no worker at {self.address}: waiting for one")
         return self.threads + SPARE if self.threads else 0
-
-    def submit(self, packed: bytes, here: Mapping) -> "Future[bytes]":
-        """Let whichever worker is free answer a pickled task."""
-        return self.executor.submit(answered, packed, here, key=f"solve-{uuid4().hex}")
 
     def renew(self) -> None:
         """The scheduler replaces workers."""

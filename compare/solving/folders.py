@@ -119,7 +119,10 @@ def write(path: Path, fill: Callable[[IO[bytes]], Any]) -> None:
 
 def make(folder: Path) -> None:
     """Make a folder, and see whether files can be written into it. Raises OSError, which names it."""
-    folder.mkdir(parents=True, exist_ok=True)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except ValueError as error:  # of zero bytes, and of letters that no file system has
+        raise OSError(errno.EINVAL, "is a name that no file can have", str(folder)) from error
     with _named(folder), _part(folder):
         pass
 
@@ -129,15 +132,6 @@ def clear(folder: Path) -> None:
     for path in folder.glob(PART):
         with suppress(OSError):
             path.unlink()
-
-
-def refuse_impossible(path: Path) -> None:
-    """Raise OSError of a path that no file can have."""
-    try:
-        with suppress(OSError):
-            path.lstat()
-    except ValueError as error:  # of zero bytes, and of letters that no file system has
-        raise OSError(errno.EINVAL, "is a name that no file can have", str(path)) from error
 
 
 def touch(path: Path) -> None:

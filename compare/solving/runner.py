@@ -6,7 +6,7 @@ import time
 import warnings
 from collections import Counter, deque
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from concurrent.futures import FIRST_COMPLETED, CancelledError, Executor, wait
+from concurrent.futures import FIRST_COMPLETED, CancelledError, Executor, Future, wait
 from contextlib import AbstractContextManager, nullcontext, suppress
 from dataclasses import dataclass, field
 from typing import Any
@@ -145,10 +145,10 @@ def _workers(missing, count, fresh, scheduler, executor, progress) -> Workers:
 
 def _solve(missing, store, workers, progress, interrupts) -> tuple[dict[Task, Outcome], dict[Task, str]]:
     """Outcomes of tasks, and why some broke. Raises KeyboardInterrupt, and OSError as `sweep`."""
-    queue, out, outcomes, faults = deque(missing), {}, {}, {}
+    queue, out = deque(missing), dict[Future[bytes], Task]()
     # What a worker died of is suspect with all that was out then, and is tried again alone.
-    suspects, deaths = deque(), Counter()
-    ending = False
+    suspects, deaths = deque[Task](), Counter[Task]()
+    outcomes, faults, ending = {}, {}, False
 
     def keep(task, answer):
         outcome, note = answer.outcome, store.trace(task)

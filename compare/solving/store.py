@@ -77,15 +77,14 @@ class Store:
         with self.writing(), self._named(), self._open:
             self._open.execute("BEGIN")
             if task.keeps_fields:
-                content["fields"] = [(*self._add(packed), name) for name, packed in fields.items()]
+                insert = "INSERT INTO fields (content) VALUES (?)"
+                content["fields"] = [
+                    (self._open.execute(insert, (packed,)).lastrowid, digest(packed), name)
+                    for name, packed in fields.items()
+                ]
             name, text = key(task).encode(), json.dumps(content).encode()
             row = name, text, _covering(name, text)
             self._open.execute("INSERT INTO answers (key, content, digest) VALUES (?, ?, ?)", row)
-
-    def _add(self, packed: bytes) -> tuple[int, str]:
-        """Add a field; returns its place and its digest."""
-        added = self._open.execute("INSERT INTO fields (content) VALUES (?)", (packed,))
-        return added.lastrowid, digest(packed)
 
     def __len__(self) -> int:
         """Number of outcomes, whatever code they are of."""

@@ -2,12 +2,14 @@
 
 import errno
 import os
+from concurrent.futures import Executor
 from dataclasses import replace
 from math import inf
 from pathlib import Path
 from time import monotonic
 
 from scene import SolveError
+from scene.printable import brief
 from scene.reading import InvalidInput
 
 from ..report import manifest, render
@@ -15,7 +17,7 @@ from ..report.page import Plot
 from ..solving import netcdf, runner
 from ..solving.amounts import seconds_of
 from ..solving.executors import counted
-from ..solving.folders import Unwritable, hold, make, refuse_impossible
+from ..solving.folders import Unwritable, hold, make
 from ..solving.runner import Progress, SweepResult
 from ..solving.store import Store
 from ..solving.suggest import known
@@ -35,6 +37,7 @@ def run(
     output: str | Path,
     workers: int | None = None,
     scheduler: str | None = None,
+    executor: Executor | None = None,
     figure_format: str = "png",
     report: bool = True,
     yes: bool = False,
@@ -46,6 +49,7 @@ def run(
     output : folder of the page and of what has been solved
     workers : processes; as many as processors if absent
     scheduler : address of a scheduler of dask.distributed, whose workers solve then
+    executor : object with `submit`, as those of concurrent.futures, that gets as many tasks at once as `workers`
     figure_format : forms of the figures, "png", "pdf" and "svg", separated by commas; a PNG is always written
     report : whether the page and its figures are written; findings and results always are
     yes : agree to what takes more than a day
@@ -61,6 +65,10 @@ def run(
     for form in forms:
         known("figure_format", form, render.FORMS)
     limit = inf if budget is None else seconds_of("budget", budget)
+    if executor is not None and (scheduler is not None or not callable(getattr(executor, "submit", None))):
+        raise InvalidInput(
+            f"executor = {brief(repr(executor))}: an object with submit, and no scheduler beside it"
+        )
     cost, count = study.cost(), counted(workers)
     cost.refuse(count, yes)
     below = manifest.inside(output, study.place) if study.place else output
@@ -70,12 +78,12 @@ def run(
     with hold((output, below), progress.told):
         if cost.contacts:
             progress.told(str(cost))
-        done = _answered(study, output, workers, scheduler, yes, Clock(limit), progress)
+        done = _answered(study, output, workers, scheduler, executor, yes, Clock(limit), progress)
         path = _write(done, below, forms, report, progress)
         return replace(done, path=path)
 
 
-def _answered(study, output, workers, scheduler, yes, clock, progress) -> Report:
+def _answered(study, output, workers, scheduler, executor, yes, clock, progress) -> Report:
     """Report of a study, of which nothing is written yet."""
     swept, count = SweepResult({}, 0, 0, 0.0), counted(workers)
     more: Study | None = study
@@ -84,7 +92,8 @@ def _answered(study, output, workers, scheduler, yes, clock, progress) -> Report
             more.cost().refuse(count, yes)
             if more is not study:
                 progress.told(f"more surfaces: {more.cost()}")
-            study, swept = more, swept.joined(_solve(more, swept, output, workers, scheduler, progress))
+            found = _solve(more, swept, output, workers, scheduler, executor, progress)
+            study, swept = more, swept.joined(found)
             answers = study.answers(swept.outcomes)
             judged = study.judge(answers)
             # What breaks with few surfaces breaks with more.
@@ -158,8 +167,8 @@ def _whole(swept):
     return {task: outcome for task, outcome in swept.outcomes.items() if task not in swept.faults}
 
 
-def _solve(study, had, output, workers, scheduler, progress) -> SweepResult:
-    """Solve what neither a sweep had nor the folder has. Timed tasks are solved here, whatever the scheduler."""
+def _solve(study, had, output, workers, scheduler, executor, progress) -> SweepResult:
+    """Solve what neither a sweep had nor the folder has. Timed tasks are solved here, whatever the executor."""
     swept = SweepResult({}, 0, 0, 0.0)
     for batch in study.batches():
         batch = batch._replace(tasks=[task for task in batch.tasks if task not in had.outcomes])
@@ -170,7 +179,7 @@ def _solve(study, had, output, workers, scheduler, progress) -> SweepResult:
             if batch.timed:
                 found = runner.sweep(batch.tasks, store, progress=told, fresh=True)
             else:
-                found = runner.sweep(batch.tasks, store, workers, told, scheduler=scheduler)
+                found = runner.sweep(batch.tasks, store, workers, told, False, scheduler, executor)
         swept = swept.joined(found)
     return swept
 
@@ -178,7 +187,6 @@ def _solve(study, had, output, workers, scheduler, progress) -> SweepResult:
 def _make_folders(folder, below, place):
     """Make every folder that is written into. Raises Unwritable."""
     try:
-        refuse_impossible(folder)
         for path in (folder, *(folder / name for name in (*below, place) if name)):
             if path.exists() and not path.is_dir():
                 raise NotADirectoryError(errno.ENOTDIR, "is a file, and no folder", str(path))

@@ -13,15 +13,15 @@ from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
 
-import numpy as np
 import pytest
-from processes import PATIENCE, finish, start, wait_for
+from processes import PATIENCE, finish, start, stored_so_far, wait_for
 from stand_in_solver import Heard, Stand, loads
 
 from compare.solving import cluster as cluster_module
-from compare.solving.cluster import BLAS, Cluster, differences
+from compare.solving.cluster import Cluster
+from compare.solving.executors import ONE_THREAD, differences
 from compare.solving.runner import sweep
-from compare.solving.store import Store, code_of
+from compare.solving.store import Store
 from compare.solving.task import SceneTask as Task
 from mdr1d import MDR
 from scene import Kelvin, Refused, Scene, SelfAffine, Slide, Sphere
@@ -68,7 +68,7 @@ def test_answers_are_those_of_this_machine_bit_for_bit_and_this_process_stores_t
         assert Store(tmp_path / "there").get(task) is not None
     started = [work for step, work, *_ in heard.heard if step == "started"]
     assert started == sorted(started, reverse=True)
-    assert heard.said_lines == []  # workers of a nanny have one thread a task
+    assert heard.said_lines == []
     again = sweep(tasks, Store(tmp_path / "there"), scheduler="tcp://127.0.0.1:1")  # nobody is asked
     assert (again.solved, again.reused) == (0, len(tasks))
 
@@ -127,7 +127,7 @@ def test_a_task_that_kills_every_worker_fails_and_the_rest_is_solved(cluster, tm
 
 
 @pytest.mark.slow
-def test_an_interrupt_calls_back_what_has_not_started_and_waits_for_the_rest(cluster, tmp_path):
+def test_an_interrupt_waits_for_what_is_handed_out_and_no_more_is(cluster, tmp_path):
     class Impatient(Heard):
         def finished(self, task, outcome):
             super().finished(task, outcome)
@@ -174,7 +174,7 @@ def command(folder, address):
 def test_a_client_that_is_killed_leaves_nothing_to_solve_and_its_store_whole(cluster, tmp_path):
     process, tasks = command(tmp_path, cluster.scheduler_address)
     solved = tmp_path / "solved"
-    wait_for(lambda: len(Store(solved)) >= 2)
+    wait_for(lambda: stored_so_far(solved) >= 2)
     process.kill()
     process.communicate()
     marks = len(list(tmp_path.glob("*-*")))
@@ -214,48 +214,49 @@ def join(address, folder, **environment):
 
 
 @pytest.mark.slow
-def test_without_workers_it_says_so_and_waits_and_refuses_those_of_other_code_by_name(scheduler, tmp_path):
+def test_without_workers_it_says_so_and_waits_and_other_code_is_refused_by_name(scheduler, tmp_path):
     copy = tmp_path / "other" / "scene"
     copy.parent.mkdir()
     for package in ("scene", "compare"):
         subprocess.run(["cp", "-r", str(ROOT / package), str(copy.parent / package)], check=True)
     (copy / "plan.py").write_text((copy / "plan.py").read_text() + "# another\n")
-    path = os.pathsep.join([str(copy.parent), HERE["PYTHONPATH"]])
-    joined = []
+    other = {"PYTHONPATH": os.pathsep.join([str(copy.parent), HERE["PYTHONPATH"]])}
+    joined, tasks = [], loads(2.0, 1.0)
 
     class Inviting(Heard):
+        def __init__(self, **environment):
+            super().__init__()
+            self.environment = environment
+
         def said(self, line):
             super().said(line)
-            if "waiting for one" in line:
-                joined.append(join(scheduler.address, tmp_path, PYTHONPATH=path))
-            if "refused" in line and len(joined) < 2:
-                joined.append(join(scheduler.address, tmp_path, OMP_NUM_THREADS="3"))
+            joined.append(join(scheduler.address, tmp_path, **self.environment))
 
-    heard = Inviting()
-    try:
-        tasks = loads(2.0, 1.0)
+    def solve(heard):
         swept = sweep(tasks, Store(tmp_path / "solved"), scheduler=scheduler.address, progress=heard)
-        assert [swept.outcomes[task].rows[0].normal_force for task in tasks] == [2.0, 1.0]
-        joined[1].kill()
-        joined[1].wait()
-        with pytest.raises(Refused, match=r"no worker of tcp.* can be used: tcp.*code of scene is another"):
-            sweep(loads(3.0), Store(tmp_path / "solved"), scheduler=scheduler.address)
+        return [swept.outcomes[task].rows[0].normal_force for task in tasks]
+
+    try:
+        with pytest.raises(Refused, match=r"a worker on .* cannot be used: its code of scene is another"):
+            solve(Inviting(**other))
+        with pytest.raises(Refused, match=r"workers of tcp.* cannot be used: tcp.*: its code of scene is another"):
+            solve(Heard())
+        joined[0].terminate()
+        joined[0].wait()
+        assert solve(heard := Inviting()) == [2.0, 1.0]
     finally:
         for worker in joined:
             worker.kill()
             worker.wait()
-    waits, refuses, threads = heard.said_lines
-    assert waits == f"no worker at {scheduler.address}: waiting for one"
-    assert "is refused: its code of scene is another" in refuses
-    assert "may use more than a thread a task" in threads
+    assert heard.said_lines == [f"no worker at {scheduler.address}: waiting for one"]
 
 
 @pytest.mark.slow
 def test_a_command_that_loses_its_scheduler_says_so_in_a_line_and_goes_on_from_there(scheduler, tmp_path):
-    worker, solved = join(scheduler.address, tmp_path, **BLAS), tmp_path / "solved"
+    worker, solved = join(scheduler.address, tmp_path, **ONE_THREAD), tmp_path / "solved"
     try:
         process, tasks = command(tmp_path, scheduler.address)
-        wait_for(lambda: len(Store(solved)) >= 2)
+        wait_for(lambda: stored_so_far(solved) >= 2)
         scheduler.kill()
         lost = f"crosscheck: the scheduler at {scheduler.address} is lost. Solved contacts are kept.\n"
         assert finish(process) == (1, "", lost)
@@ -305,9 +306,7 @@ STRANGERS = {
 def test_whatever_answers_that_is_no_scheduler_is_named_within_seconds(said, strange, tmp_path, monkeypatch):
     monkeypatch.setattr(cluster_module, "ANSWERS", 0.3)
     address, before, start = strange(said), set(threading.enumerate()), time.monotonic()
-    # An end that comes too soon is taken for a connection that failed.
-    why = {None: "nothing answers within 0.3 s", b"": ""}.get(said, "another program answers there")
-    with pytest.raises(ConnectionError, match=f"^{address} is no scheduler of dask: {why}"):
+    with pytest.raises(ConnectionError, match=f"^{address} is no scheduler of dask that answers within 0.3 s: "):
         sweep(loads(1.0), Store(tmp_path), scheduler=address)
     assert time.monotonic() - start < 10
     wait_for(lambda: set(threading.enumerate()) <= before)
@@ -317,21 +316,21 @@ def test_whatever_answers_that_is_no_scheduler_is_named_within_seconds(said, str
 def test_nobody_and_a_worker_are_no_scheduler(cluster, tmp_path, monkeypatch):
     monkeypatch.setattr(cluster_module, "ANSWERS", 0.5)
     worker = next(iter(cluster.scheduler_info["workers"]))
-    for address, why in {"tcp://127.0.0.1:9": "nothing answers", worker: "another program answers there"}.items():
-        with pytest.raises(ConnectionError, match=f"^{address} is no scheduler of dask: {why}"):
+    for address, why in {"tcp://127.0.0.1:9": "", worker: "another program answers there"}.items():
+        with pytest.raises(ConnectionError, match=f"^{address} is no scheduler of dask that answers .*: {why}"):
             sweep(loads(1.0), Store(tmp_path), scheduler=address)
 
 
-@pytest.mark.parametrize(("seconds", "why"), [(0, "no host has this name"), (2, "nothing answers within 0.3 s")])
+@pytest.mark.parametrize(("seconds", "why"), [(0, "gaierror no host has this name"), (2, "TimeoutError")])
 def test_a_name_is_looked_for_as_long_as_a_scheduler(seconds, why, tmp_path, monkeypatch):
     def unknown(*_, **__):
         time.sleep(seconds)
-        raise socket.gaierror
+        raise socket.gaierror("no host has this name")
 
     monkeypatch.setattr(cluster_module, "ANSWERS", 0.3)
     monkeypatch.setattr(socket, "getaddrinfo", unknown)
     start = time.monotonic()
-    with pytest.raises(ConnectionError, match=f"^tcp://name:1 is no scheduler of dask: {why}"):
+    with pytest.raises(ConnectionError, match=f"^tcp://name:1 is no scheduler of dask .*: {why}"):
         sweep(loads(1.0), Store(tmp_path), scheduler="tcp://name:1")
     assert time.monotonic() - start < 1.5
 
@@ -367,16 +366,12 @@ def test_a_command_ends_as_soon_as_it_knows_that_there_is_no_scheduler(strange, 
     assert time.monotonic() - since < 2 * cluster_module.ANSWERS
 
 
-def test_a_scheduler_that_stands_still_is_lost_and_a_second_interrupt_does_not_wait_for_it(monkeypatch):
+def test_a_scheduler_that_stands_still_is_lost(monkeypatch):
     monkeypatch.setattr(cluster_module, "LOST", 0.1)
-    interrupts = []
-    cluster = Cluster("tcp://x", ("scene",), print, interrupts)
-    cluster.client = SimpleNamespace(nthreads=partial(time.sleep, 2))
+    cluster = Cluster("tcp://x", ("scene",), print)
+    cluster.client = SimpleNamespace(nthreads=partial(time.sleep, 2), status="running")
     with pytest.raises(ConnectionError, match="the scheduler at tcp://x is lost"):
-        cluster._look()
-    interrupts += [signal.SIGTERM, signal.SIGTERM]
-    with pytest.raises(KeyboardInterrupt):
-        cluster._look()
+        cluster.room()
 
 
 def test_without_the_library_it_is_said_how_to_get_it(tmp_path, monkeypatch):
@@ -385,11 +380,5 @@ def test_without_the_library_it_is_said_how_to_get_it(tmp_path, monkeypatch):
         sweep(loads(1.0), Store(tmp_path), scheduler="tcp://127.0.0.1:9")
 
 
-def test_what_differs_is_said_by_name():
-    here = code_of(("scene", "mdr1d"))
-    assert differences(here, here) == ""
-    there = {"code": {**here["code"], "mdr1d": "x"}, "versions": {**here["versions"], "numpy": "1.0"}}
-    assert differences(here, there) == f"its code of mdr1d is another; its numpy is 1.0, here {np.__version__}"
-    assert "ModuleNotFoundError: No module" in differences(here, ModuleNotFoundError("No module named 'compare'"))
-    assert Cluster("tcp://x", ("scene",), print).here == code_of(("scene",))
-    assert threading.active_count() < 50
+def test_a_worker_without_the_packages_does_not_state_its_code():
+    assert "does not state its code" in differences({"code": {"no_such_package": "x"}, "versions": {}})

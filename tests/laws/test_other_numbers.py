@@ -249,7 +249,7 @@ NOT_NUMBERS = {
     *("form", "base", "scene", "settings", "layout", "problem", "grid", "trail", "outcomes", "figures", "figure"),
     *("roughness", "spectrum", "elastomer", "path", "solver", "result", "findings", "answers", "plots"),
     *("output", "options", "folder", "name", "size", "baseline", "update", "quantities", "table", "file", "unit"),
-    *("scheduler", "figure_format", "report", "yes"),
+    *("scheduler", "executor", "figure_format", "report", "yes"),
     *("level", "repeat", "peaks", "kind", "journal", "style", "to", "progress", "dataset", "study"),
 }
 
