@@ -205,6 +205,8 @@ def _solve(missing, store, workers, progress, interrupts) -> tuple[dict[Task, Ou
             except workers.died:
                 workers.renew()
                 deaths[task] += 1
+                if ending:
+                    continue
                 if deaths[task] < workers.tries:
                     progress.said(f"{task.label}: its worker process died; the task is tried again alone")
                     suspects.append(task)

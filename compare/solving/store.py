@@ -5,7 +5,7 @@ import io
 import json
 import os
 import sqlite3
-from collections.abc import Iterable, Iterator
+from collections.abc import Container, Iterable, Iterator
 from contextlib import ExitStack, closing, contextmanager, suppress
 from pathlib import Path
 from typing import Any
@@ -61,8 +61,9 @@ class Store:
         Raises InvalidInput of a file that another run writes or that is no store, OSError.
         """
         with self._reading() as connection:
-            whole = _whole(connection)
-            found = {task: _outcome(task, whole.get(key(task)), connection) for task in tasks}
+            keys = {task: key(task) for task in tasks}
+            whole = _whole(connection, {*keys.values()})
+            found = {task: _outcome(task, whole.get(name), connection) for task, name in keys.items()}
         return {task: outcome for task, outcome in found.items() if outcome is not None}
 
     def put(self, task: Task, outcome: Outcome) -> None:
@@ -163,7 +164,7 @@ class Store:
 
     def _keys(self) -> set[str]:
         with self._reading() as connection:
-            return {*_whole(connection)}
+            return {*_whole(connection, ())}
 
     def _there(self) -> bool:
         """Whether there is a file that is not empty. Raises InvalidInput of one that is no store."""
@@ -224,14 +225,14 @@ def _copy(damaged: sqlite3.Connection, path: str) -> None:
                     copy.executemany(f"INSERT OR IGNORE INTO {table} VALUES ({columns})", rows)
 
 
-def _whole(connection: sqlite3.Connection | None) -> dict[str, bytes]:
-    """Content of each answer in a file that is not damaged, by its key."""
+def _whole(connection: sqlite3.Connection | None, asked: Container[str]) -> dict[str, bytes]:
+    """Each answer in a file that is not damaged, by its key: its content where it is asked for."""
     found = {}
     rows = connection.execute("SELECT key, content, digest FROM answers") if connection else ()
     with suppress(sqlite3.Error):  # of a damaged place, behind which nothing is read
         for name, text, stated in rows:
             if isinstance(name, bytes) and isinstance(text, bytes) and stated == _covering(name, text):
-                found[name.decode()] = text
+                found[name.decode()] = text if name.decode() in asked else b""
     return found
 
 

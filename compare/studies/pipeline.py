@@ -66,9 +66,8 @@ def run(
         known("figure_format", form, render.FORMS)
     limit = inf if budget is None else seconds_of("budget", budget)
     if executor is not None and (scheduler is not None or not callable(getattr(executor, "submit", None))):
-        raise InvalidInput(
-            f"executor = {brief(repr(executor))}: an object with submit, and no scheduler beside it"
-        )
+        needed = "an object with submit is needed, without a scheduler"
+        raise InvalidInput(f"executor = {brief(repr(executor))}: {needed}")
     cost, count = study.cost(), counted(workers)
     cost.refuse(count, yes)
     below = manifest.inside(output, study.place) if study.place else output

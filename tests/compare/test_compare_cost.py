@@ -9,6 +9,7 @@ import pytest
 import xarray
 from scene_files import HEAD, SCENE, SHARED, TABLES
 from small_cases import PARAMETER_GRID
+from stand_in_solver import Here
 from typer.testing import CliRunner
 
 from bem3d import BEM
@@ -116,6 +117,13 @@ def test_a_range_and_a_list_have_a_bound_that_is_said(change, said):
 def test_so_have_workers(tmp_path, workers):
     with pytest.raises(InvalidInput, match=rf"workers = {workers}: a whole number from 1 to 1024"):
         run(Costly(1, 1.0), tmp_path / "out", workers=workers)
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("options", [{"executor": "mine"}, {"executor": Here(), "scheduler": "tcp://name:8786"}])
+def test_what_is_no_executor_is_refused_and_so_is_one_beside_a_scheduler(tmp_path, options):
+    with pytest.raises(InvalidInput, match=r"executor = .*: an object with submit is needed, without a scheduler"):
+        run(Costly(1, 1.0), tmp_path / "out", **options)
     assert not (tmp_path / "out").exists()
 
 
