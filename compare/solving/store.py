@@ -74,7 +74,6 @@ class Store:
         fields = {name: _packed(name, values) for name, values in outcome.fields.items()}
         rows = [vars(row) | {"measures": {**row.measures}, "settings": {**row.settings}} for row in outcome.rows]
         content: dict[str, Any] = {"label": task.label, "rows": rows}
-        json.dumps(content)  # before anything is written
         with self.writing(), self._named(), self._open:
             self._open.execute("BEGIN")
             if task.keeps_fields:

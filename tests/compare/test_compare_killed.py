@@ -23,6 +23,7 @@ from processes import PATIENCE, finish, start, stored_so_far
 import compare
 from compare.report.page import Plot, Table
 from compare.solving.folders import LOCK
+from compare.solving.runner import sweep
 from compare.solving.store import Store
 from compare.statistics.finding import Claim, Finding
 from compare.studies.study import Judgement, Study
@@ -112,10 +113,12 @@ def exactly(outcome):
 
 @pytest.fixture(scope="module")
 def expected(tmp_path_factory):
-    """Answers of an undisturbed solve of each task."""
+    """Answers of an undisturbed sweep, whose workers have one thread as those of the command."""
+    folder = tmp_path_factory.mktemp("undisturbed")
     with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("MARKS", str(tmp_path_factory.mktemp("undisturbed") / "marks"))
-        return {task: exactly(task.solve()) for task in marked_study.tasks()}
+        patch.setenv("MARKS", str(folder / "marks"))
+        outcomes = sweep(marked_study.tasks(), Store(folder), workers=1).outcomes
+        return {task: exactly(outcome) for task, outcome in outcomes.items()}
 
 
 def moment(draw, study):
