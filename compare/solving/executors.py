@@ -27,7 +27,7 @@ MOST = 1024
 ONE_THREAD = {f"{library}_NUM_THREADS": "1" for library in ("OMP", "OPENBLAS", "MKL", "NUMBA")}
 # Python would look for the first modules of a new process in the working folder.
 ENVIRONMENT = ONE_THREAD | {"PYTHONSAFEPATH": "1"}
-_STARTING = threading.Lock()  # of one process after the other, as the environment is that of all threads
+_STARTING = threading.RLock()  # of one process after the other, as the environment is that of all threads
 # Pools that end before a worker of theirs is ready, one after the other, until it is plain that none will be.
 STILLBORN = 3
 # What a terminal sends to every process of a run: workers leave it to their parent.
@@ -118,8 +118,9 @@ class Workers:
     died: tuple[type[BaseException], ...] = (BrokenExecutor,)
     tries = 3
 
-    def __init__(self, executor: Executor, count: int):
-        self.executor, self.count = executor, count
+    def __init__(self, executor: Executor | None, count: int):
+        self.executor: Any = executor
+        self.count = count
 
     def __enter__(self):
         return self
@@ -132,8 +133,11 @@ class Workers:
         return self.count
 
     def submit(self, packed: bytes, here: Mapping) -> "Future[bytes]":
-        """Let a worker answer a pickled task, see `answered`."""
-        return self.executor.submit(answered, packed, here)
+        """Let a worker answer a pickled task, see `answered`. Raises OSError of an executor that takes none."""
+        with suppress(BrokenExecutor):
+            return self.executor.submit(answered, packed, here)
+        self.renew()
+        return self.submit(packed, here)
 
     def renew(self) -> None:
         """Replace workers after a death. Raises OSError where none can be had any more."""
@@ -148,30 +152,26 @@ class Processes(Workers):
     """
 
     def __init__(self, count: int, fresh: bool = False):
-        self.count, self.fresh = 1 if fresh else count, fresh
+        super().__init__(None, 1 if fresh else count)
+        self.fresh, self.stillborn = fresh, 0
         self.context = multiprocessing.get_context("spawn")
-        self.pool: ProcessPoolExecutor | None = None
-        self.stillborn = 0
 
     def __exit__(self, kind, *_):
         self._end(kill=kind is not None)
 
     def submit(self, packed: bytes, here: Mapping) -> "Future[bytes]":
         """Let a process answer a pickled task; the first ones, or each where they are to be fresh, start it."""
-        if self.fresh:
-            self._end()
         with _STARTING, _birth():
-            if self.pool is None:
+            if self.fresh:
+                self._end()
+            if self.executor is None:
                 self.ready = self.context.Value("b", 0, lock=False)
-                self.pool = ProcessPoolExecutor(self.count, self.context, _begin, (self.ready,))
-            with suppress(BrokenExecutor):
-                return self.pool.submit(answered, packed, here)
-        self.renew()
-        return self.submit(packed, here)
+                self.executor = ProcessPoolExecutor(self.count, self.context, _begin, (self.ready,))
+            return super().submit(packed, here)
 
     def renew(self) -> None:
         """End a pool in which a process died. Raises ChildProcessError where all end as they start."""
-        if self.pool is not None:
+        if self.executor is not None:
             self.stillborn = 0 if self.ready.value else self.stillborn + 1
             self._end()
         if self.stillborn >= STILLBORN:
@@ -181,13 +181,13 @@ class Processes(Workers):
             )
 
     def _end(self, kill=False):
-        if self.pool is None:
+        if self.executor is None:
             return
         if kill:
-            for process in list((self.pool._processes or {}).values()):  # public from Python 3.14 on
+            for process in list((self.executor._processes or {}).values()):  # public from Python 3.14 on
                 process.kill()
-        self.pool.shutdown(cancel_futures=True)
-        self.pool = None
+        self.executor.shutdown(cancel_futures=True)
+        self.executor = None
 
 
 def _begin(ready):

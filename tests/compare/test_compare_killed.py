@@ -147,16 +147,14 @@ def test_killed_in_the_middle_a_study_ends_as_an_undisturbed_one(tmp_path, expec
 
 @pytest.mark.slow
 def test_killed_at_twenty_moments_studies_end_as_undisturbed_ones(tmp_path, expected):
-    draw, kills, studies, unstored = random.Random(20), 0, 0, 0
+    draw, kills, studies = random.Random(20), 0, 0
     while kills < 20:
         (tmp_path / str(studies)).mkdir()
         study = Killed(tmp_path / str(studies))
         studies += 1
         while kills < 20 and len(study.stored()) < len(study.tasks):
             kills += study.kill(moment(draw, study))
-            unstored += not study.stored()
         study.finish(expected)
-    print(f"{kills} kills in {studies} studies of {len(study.tasks)} tasks, {unstored} before anything was stored")
 
 
 def blank(tables):
