@@ -222,7 +222,7 @@ COMMANDS = (
     Command(commands.regress),
     Command(commands.mastercurve),
     Command(commands.topography),
-    Command(commands.plan, details="Print settings, grids, kernels, arrays, and the advice on 1D as well."),
+    Command(commands.plan, details="Print settings, grids, kernels, and the advice on 1D as well."),
     Command(commands.scenes, details="Print what each scene and each study is about."),
     Command(commands.new, said=_written_ready),
     Command(commands.schema, said=_schema),
