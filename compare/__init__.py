@@ -11,7 +11,7 @@ verify : a code of contact of your own against what it must hold
 regress : quantities against what is stored; `check` and `update` do so in a test of your own
 mastercurve, topography : friction that you measured, a surface that you measured
 plan : what would be simulated of a scene, and what that costs
-load, export, redraw : what a command left, as xarray has it, as CSV, as figures for a journal
+load, export : what a command left, as xarray has it, as CSV, for ParaView, as figures for a journal
 draw : the contact in 3D and the row of springs; of a program also the forces in time
 scenes, new, schema : scenes and studies to begin with, a copy of one of them, and what may stand in it
 Persson : his theory of rough contact and friction, as published and with its later factor

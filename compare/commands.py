@@ -59,6 +59,7 @@ if TYPE_CHECKING:
 # Allowed values, which a shell completes. Others are refused where they are used.
 Size = Literal["quick", "standard", "full"]
 FigureFormat = Literal["png", "pdf", "svg"] | str  # several, separated by commas
+ExportFormat = Literal["csv", "vtk", "png", "pdf", "svg"] | str  # likewise
 Diagram = Literal["models", "surfaces", "all"]
 Journal = Literal[
     "default",
@@ -497,39 +498,30 @@ def as_json(found: Any) -> str:
 
 
 @checked
-def redraw(
+def export(
     folder: str | Path,
-    journal: Journal = "default",
+    format: ExportFormat | None = None,
+    journal: Journal | None = None,
     style: str | PathLike | Mapping[str, Any] | None = None,
-    output: str | Path | None = None,
     width: str | float | None = None,
+    output: str | Path | None = None,
 ) -> list[Path]:
-    """Draw the figures of a folder again, for a journal. Nothing is solved: the figures are drawn from tables.
-
-    folder : folder that a command has written
-    journal : journal or publisher that sets column widths, smallest text and thinnest lines: default, acs, aip,
-        aps, elsevier, ieee, iop, nature, royal-society, sage, springer, taylor-francis, wiley
-    style : your own matplotlib style: a .mplstyle file or the name of a style. From Python also settings
-    output : folder for the figures; if absent, `figures` in the folder
-    width : width of a column, as 84mm, from 80 mm to 200 mm; figures across the page grow or shrink with it. That
-        of the journal if absent. From Python also a number [m]
-    """
-    from .report.redraw import redraw
-
-    return redraw(folder, journal, style, output, width=width)
-
-
-@checked
-def export(folder: str | Path, to: Literal["csv", "vtk"] = "csv", output: str | Path | None = None) -> list[Path]:
-    """Write tables as CSV, surfaces for ParaView.
+    """Write tables as CSV, surfaces for ParaView, and figures again for a journal. Nothing is solved.
 
     folder : folder that a command has written, or its results.nc
-    to : csv (every digit, units in the heading), or vtk (surfaces for ParaView, which takes the extra vtk)
-    output : folder for the files; if absent, `tables` in the folder
+    format : file formats, separated by commas: csv (every digit, units in the heading), vtk (surfaces for ParaView,
+        which takes the extra vtk), png, pdf, svg (figures, drawn again from their tables). If absent, csv, and of a
+        journal, style or width png,pdf,svg
+    journal : journal or publisher that sets column widths, smallest text and thinnest lines of figures: default,
+        acs, aip, aps, elsevier, ieee, iop, nature, royal-society, sage, springer, taylor-francis, wiley
+    style : your own matplotlib style: a .mplstyle file or the name of a style. From Python also settings
+    width : width of a column, as 84mm, from 80 mm to 200 mm; figures across the page grow or shrink with it. That
+        of the journal if absent. From Python also a number [m]
+    output : folder for the files; if absent, `tables` and `figures` in the folder
     """
     from .report.export import export
 
-    return export(folder, to, output)
+    return export(folder, format, journal, style, width, output)
 
 
 @checked

@@ -226,7 +226,6 @@ COMMANDS = (
     Command(commands.scenes, details="Print what each scene and each study is about."),
     Command(commands.new, said=_written_ready),
     Command(commands.schema, said=_schema),
-    Command(commands.redraw, said=_paths),
     Command(commands.export, said=_paths),
     Command(commands.draw),
 )

@@ -29,8 +29,6 @@ if TYPE_CHECKING:
 
 FINDINGS = "findings"
 VERSIONS = (*PACKAGES, "matplotlib", "pandas", "xarray", "pydantic")
-
-
 # Most items of a list, letters of a name.
 MOST_LISTED, MOST_LETTERS = 10_000, 1000
 # What a run writes beside its page, and the next one on the folder may remove.
@@ -80,14 +78,6 @@ class Manifest(Stated):
     tables: Names
     files: Annotated[tuple[Name, ...], Field(max_length=10 * MOST_LISTED)] = ()
 
-    @property
-    def written(self) -> tuple[str, ...]:
-        """The files; of an earlier version, which did not list them, figures and tables."""
-        return self.files or (
-            *(f"{plot.name}.png" for plot in self.plots),
-            *(f"{name}.csv" for name in self.tables),
-        )
-
 
 @dataclass(frozen=True)
 class Folder:
@@ -105,7 +95,7 @@ def begin(folder: Path, study: "Study", files: Iterable[str]) -> None:
     """
     earlier: tuple[str, ...] = ()
     with suppress(InvalidInput):
-        earlier = read(folder / NAME, Manifest).written
+        earlier = read(folder / NAME, Manifest).files
     listed = list(dict.fromkeys([*earlier, *files]))
     _write(folder, {"finished": False, "command": study.command, "plots": [], "tables": [], "files": listed})
     places = set()

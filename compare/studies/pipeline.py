@@ -12,6 +12,7 @@ from scene.reading import InvalidInput
 
 from ..report import manifest, render
 from ..report.page import Plot
+from ..report.plots.rendering import FORMS
 from ..solving import netcdf, runner
 from ..solving.amounts import seconds_of
 from ..solving.hold import hold
@@ -59,7 +60,7 @@ def run(
     output, progress = Path(output), progress or Progress()
     forms = tuple(dict.fromkeys(["png", *(form.strip() for form in figure_format.split(",") if form.strip())]))
     for form in forms:
-        known("figure_format", form, render.FORMS)
+        known("figure_format", form, FORMS)
     limit = inf if budget is None else seconds_of("budget", budget)
     cost, count = study.cost(), counted(workers)
     cost.refuse(count, yes)

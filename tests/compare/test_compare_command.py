@@ -143,7 +143,7 @@ def test_a_shell_completes_names_and_values(tmp_path, monkeypatch):
     assert complete("study", "steep-") == ["steep-all-speeds", "steep-and-slow", "steep-on-fine-grids"]
     assert complete("new", "quick") == ["quick-start"]
     assert complete("workprecision", "su") == ["surfaces"]
-    assert complete("redraw", "folder", "--journal", "el") == ["elsevier"]
+    assert complete("export", "folder", "--journal", "el") == ["elsevier"]
     assert complete("run", "quick-start", "--figure-f") == ["--figure-format"]
 
 
@@ -168,9 +168,9 @@ MISTAKES = {
     "study mine.toml": "mine.toml: ",
     "workprecision model": "NAME = model: allowed are models, ",
     "new quick-start mine.toml": "is there already, and nothing is overwritten",
-    "redraw nowhere": "nowhere: no such folder",
-    "redraw .": "no manifest.json here",
-    "export . --to word": "to = word: allowed are csv, vtk",
+    "export nowhere --journal acs": "nowhere: no such folder",
+    "export . --format png": "no manifest.json here",
+    "export . --format csv,word": "format = word: allowed are csv, vtk, png, pdf, svg",
 }
 
 

@@ -1,4 +1,4 @@
-"""Pages in their forms, their files, figures drawn again, tables for others, and the one vocabulary."""
+"""Pages in their forms, their files, what is exported of them, and the one vocabulary."""
 
 import hashlib
 import json
@@ -6,6 +6,7 @@ import os
 import re
 import shutil
 from dataclasses import replace
+from functools import partial
 from html.parser import HTMLParser
 from io import BytesIO
 from math import inf, nan
@@ -24,21 +25,19 @@ from pandas import DataFrame
 from pandas.testing import assert_frame_equal
 from PIL import Image
 
-from compare.report import csvfiles, manifest, render
-from compare.report import export as tables
+from compare.report import csvfiles, manifest, render, terminal
+from compare.report.export import export, function
 from compare.report.page import Findings, Page, Plot, Section, Table, Text
 from compare.report.plots import touching
-from compare.report.redraw import function, options, redraw
-from compare.report.render import html, terminal
-from compare.report.render.symbols import symbolic
 from compare.solving import netcdf, vocabulary
+from compare.report.tables import claims
 from compare.statistics import digits
 from compare.statistics.finding import COLUMNS
 from scene.reading import InvalidInput
 
+redraw = partial(export, format="png,pdf,svg")
 STUDY = SimpleNamespace(command="run", inputs={"loads": np.array([1.0, nan])})
 UNITS = {"m", "s", "N", "Pa", "K", "J", "byte", "Hz", "kg", "W", "rad"}
-SAMPLES = Path(__file__).parent / "plots"
 SWEPT = SimpleNamespace(solved=1, reused=2, seconds=3.0)
 
 
@@ -152,7 +151,7 @@ def test_the_page_opens_with_its_answer_then_the_figure_then_tables(folder):
     text = (folder / "report.html").read_text()
     places = [
         text.index(part)
-        for part in ("<h1>", 'id="answer"', "<figure", "<table", 'id="section-A-sphere"', 'id="data"')
+        for part in ("<h1>", 'class="answer"', "<figure", "<table", 'id="section-3"', 'id="made"')
     ]
     assert places == sorted(places)
 
@@ -167,13 +166,6 @@ def test_blocks_stand_in_the_order_of_reading_however_they_are_given(folder):
     assert [type(each) for each in section.blocks] == [Text, Table, Table]
 
 
-def test_symbols_of_sentences_are_in_unicode_on_a_page():
-    assert symbolic("friction grows as xi^1, exit, v tau/a & h_0 of mu-tilde") == (
-        "friction grows as ξ¹, exit, vτ/a & h₀ of μ̃"
-    )
-    assert "Misfit of ξ &lt;i&gt;" in html.fragment(Page("", ["Misfit of xi <i>"], ()))
-
-
 def test_a_page_has_answer_findings_tables_and_figures_escaped(tmp_path):
     text = written(page(), FINDINGS, tmp_path).read_text()
     shown = "".join(Links(text).words)
@@ -185,26 +177,29 @@ def test_a_page_has_answer_findings_tables_and_figures_escaped(tmp_path):
     assert "0.9009009" not in shown  # a long table is a file alone
 
 
-def test_a_regime_stands_in_the_first_row_of_its_place_alone(tmp_path):
+def test_a_claim_stands_in_its_first_row_and_a_regime_in_that_of_its_place():
     slow, fast = (replace(FINDINGS[0], where="sphere", regime=regime) for regime in ("slowly", "fast"))
-    other = replace(slow, where="cone")
-    block = Page("Found", (), (Findings((slow, fast, slow, other, fast)),))
-    text = written(block, [slow, fast, other], tmp_path).read_text()
-    assert (text.count("slowly</div>"), text.count("fast</div>")) == (2, 1)
+    shown = claims((slow, fast, slow, replace(slow, where="cone"), FINDINGS[2], slow))
+    assert [text.partition("\n")[0] for text in shown["Claim"]] == [
+        slow.claim.sentence, "", "", "", FINDINGS[2].claim.sentence, slow.claim.sentence
+    ]  # fmt: skip
+    assert shown["Where"].tolist() == ["sphere\nslowly", "sphere\nfast", "sphere", "cone\nslowly", "rough sphere", "sphere"]
+    assert "Where" not in claims((FINDINGS[3],))
 
 
-def test_the_terminal_shows_a_claim_once_and_its_findings_below():
+def test_the_terminal_shows_a_claim_once_with_all_that_was_found():
     text = terminal.text(page())
-    assert text.count("Depths at rest agree (tested against 1 ± 0.05):") == 1
-    assert "  holds      1D/3D rough sphere: 1.010 (0.986 to 1.034)\n" in text
+    table = [line for line in text.splitlines() if "  1D/3D  " in line]
+    assert [line.split()[0] for line in table] == ["holds", "fails"]
+    assert [text.count(words) for words in ("1.010 (0.986 to 1.034)", "1 ± 0.05")] == [2, 3]
+    assert text.count("Depths at rest agree") == 2  # in the answer and in the table
     assert "Some *words* of code_x & <b>50 %</b> over two lines." in text
-    assert "\n\n- one\n- two, on\n  and on" not in text
-    assert "\n\n- one\n- two, on and on" in text
-    assert all(len(line) <= terminal.WIDTH for line in text.splitlines())
+    assert "\n- one\n- two, on and on" in text
+    assert all(len(line) <= terminal.WIDEST for line in text.splitlines())
 
 
 def test_a_notebook_gets_answer_findings_and_tables_without_links_that_lead_nowhere():
-    found = Links(html.fragment(page()))
+    found = Links(render.fragment(page()))
     assert not found.images
     assert not found.links
     assert "Depths at rest agree" in "".join(found.words)
@@ -212,14 +207,15 @@ def test_a_notebook_gets_answer_findings_and_tables_without_links_that_lead_nowh
 
 def test_a_text_is_paragraphs_and_lists_and_any_mark_in_it_is_text():
     text = "*a* `b`\nc\n- [d](e)\n f\n- g\n\n$h$ <script>"
-    assert Text(text).parts == [["*a* `b` c"], ["- [d](e) f", "- g"], ["$h$ <script>"]]
-    shown = "".join(html.fragment(Page("", (), [Text(text)])).split("\n"))
-    assert "<p>*a* `b` c</p><ul><li>[d](e) f</li><li>g</li></ul><p>$h$ &lt;script&gt;</p>" in shown
+    assert Text(text).lines == ["*a* `b` c", "- [d](e) f", "- g", "$h$ <script>"]
+    shown = "".join(render.fragment(Page("", (), [Text(text)])).split("\n"))
+    item = '<p class="item">• '
+    assert f"<p>*a* `b` c</p>{item}[d](e) f</p>{item}g</p><p>$h$ &lt;script&gt;</p>" in shown
 
 
 def test_the_texts_of_a_stranger_are_no_marks_of_html_and_control_no_terminal(tmp_path):
     whole = written(hostile_page(), [], tmp_path).read_text(encoding="utf-8")
-    for text in (whole, html.fragment(hostile_page())):
+    for text in (whole, render.fragment(hostile_page())):
         found = Links(text)
         assert not re.search(
             r"<(script|svg|iframe|object|link|base|b|details open|meta http-equiv=refresh)\b", text
@@ -236,16 +232,21 @@ def test_the_texts_of_a_stranger_are_no_marks_of_html_and_control_no_terminal(tm
 
 
 def test_a_figure_drawn_again_from_its_table_is_the_same_picture(folder, tmp_path):
-    told = []
-    written = redraw(folder, output=tmp_path, told=told.append)
+    written = redraw(folder, output=tmp_path)
     assert [path.suffix for path in written] == [".png", ".pdf", ".svg"]
-    assert told == ["sphere/friction"]
     assert (tmp_path / "sphere/friction.png").read_bytes() == (folder / "sphere/friction.png").read_bytes()
-    other = redraw(folder, "nature", output=tmp_path / "nature")
-    assert other[0].read_bytes() != written[0].read_bytes()
-    of_a_width, _, _ = redraw(folder, output=tmp_path / "narrow", width="84 mm")
-    with Image.open(of_a_width) as drawn:
-        assert drawn.width == pytest.approx(84 / 25.4 * 300, abs=1)
+
+
+@pytest.mark.parametrize(
+    ("look", "millimetres"),
+    [({"journal": "nature"}, 89), ({"width": "84 mm"}, 84), ({"journal": "wiley", "width": 0.1}, 100)],
+)
+def test_figures_of_a_journal_have_the_width_of_its_column(folder, tmp_path, look, millimetres):
+    for given, forms in (({}, [".png", ".pdf", ".svg"]), ({"format": "svg, png"}, [".png", ".svg"])):
+        written = export(folder, **look, **given, output=tmp_path)
+        assert [path.suffix for path in written] == forms
+    with Image.open(written[0]) as drawn:
+        assert drawn.width == pytest.approx(millimetres / 25.4 * 300, abs=1)
 
 
 def test_a_changed_table_gives_another_picture(folder, tmp_path):
@@ -261,7 +262,7 @@ def test_a_changed_table_gives_another_picture(folder, tmp_path):
 
 FORGED = [
     ({"module": "os"}, "os.figure"),
-    ({"module": "compare.report.render.html"}, "no figure of compare"),
+    ({"module": "compare.report.render"}, "no figure of compare"),
     ({"function": "plot"}, "no figure of compare"),
     ({"function": "DataFrame"}, "no figure of compare"),
     ({"name": "../friction"}, "names no file"),
@@ -273,7 +274,7 @@ FORGED = [
     ({"module": "compare.report.plots.style", "function": "canvas", "options": {"height": 1e9}}, "no figure of"),
     ({"options": {"unheard": 1}}, "option unheard"),
     ({"options": {"figsize": [1e9, 1e9]}}, "option figsize"),
-    ({"module": "compare.studies.draw.figure"}, "option enlarged: Field required"),
+    ({"module": "compare.studies.draw.figure"}, "option enlarged: Missing required argument"),
     ({"module": "compare.studies.draw.figure", "options": {"enlarged": [1], "highest": 1.0}}, "option enlarged"),
     ({"module": "compare.studies.draw.figure", "options": {"enlarged": nan, "highest": 1.0}}, "option enlarged"),
     ({"module": "compare.studies.draw.figure", "options": {"enlarged": 1e300, "highest": 1.0}}, "cannot be drawn"),
@@ -302,7 +303,7 @@ def test_a_folder_of_another_version_says_so_in_one_line(folder, tmp_path, state
     # also where the rest cannot be understood
     for changed in (content, {"plots": "elsewhere"}):
         (tmp_path / "manifest.json").write_text(json.dumps(changed | stated_there))
-        for ask in (redraw, tables.export):
+        for ask in (redraw, export):
             with pytest.raises(
                 InvalidInput, match=rf"manifest\.json: was written by {age} version of this program"
             ):
@@ -316,7 +317,7 @@ def test_a_folder_of_another_version_says_so_in_one_line(folder, tmp_path, state
 )
 def test_results_of_another_version_say_so_in_one_line(tmp_path, label, age):
     sealed(tmp_path / "results.nc", lambda file: file.create_group("a"), label)
-    for ask in (netcdf.load, lambda folder: tables.export(folder / "results.nc")):
+    for ask in (netcdf.load, lambda folder: export(folder / "results.nc")):
         with pytest.raises(InvalidInput, match=rf"results\.nc: was written by {age} version of this program"):
             ask(tmp_path)
 
@@ -353,12 +354,6 @@ def test_a_damaged_table_is_named(folder, tmp_path, damage, said):
         redraw(tmp_path)
 
 
-def test_the_options_of_every_figure_pass_as_they_are():
-    for entry in next(manifest.folders(SAMPLES)).manifest.plots:
-        passed = options(function(entry, SAMPLES), entry, SAMPLES)
-        assert json.loads(json.dumps({name: passed[name] for name in entry.options})) == entry.options
-
-
 @pytest.fixture
 def copied(folder, tmp_path):
     """A folder that a command left, to be damaged."""
@@ -389,9 +384,9 @@ def elsewhere(path):
 
 
 READ = {
-    "manifest.json": [redraw, tables.export],
-    "sphere/friction.csv": [redraw, tables.export],
-    "results.nc": [netcdf.load, lambda folder: tables.export(folder / "results.nc")],
+    "manifest.json": [redraw, export],
+    "sphere/friction.csv": [redraw, export],
+    "results.nc": [netcdf.load, lambda folder: export(folder / "results.nc")],
 }
 
 
@@ -533,8 +528,8 @@ def above(file):
 def test_nothing_is_written_out_of_the_folder(copied, tmp_path):
     sealed(copied / "forged.nc", above)
     with pytest.raises(InvalidInput, match="forged"):
-        tables.export(copied / "forged.nc", output=copied / "tables")
-    for name, write in (("figures", redraw), ("tables", tables.export)):
+        export(copied / "forged.nc", output=copied / "tables")
+    for name, write in (("figures", redraw), ("tables", export)):
         (copied / name).symlink_to(tmp_path)
         with pytest.raises(InvalidInput, match="leads out of"):
             write(copied)
@@ -550,17 +545,19 @@ def test_nothing_is_written_out_of_the_folder(copied, tmp_path):
         ({"style": {"a": 1}}, "a"),
         ({"width": "5 m"}, "width = '5 m': 80 mm to 200 mm"),
         ({"width": "84 s"}, "width = '84 s': a length"),
+        ({"format": "png,word"}, "format = word: allowed are csv, vtk, png, pdf, svg"),
     ],
 )
 def test_a_look_that_does_not_exist_is_refused(folder, tmp_path, given, said):
     with pytest.raises(InvalidInput, match=said):
-        redraw(folder, output=tmp_path, **given)
+        export(folder, output=tmp_path, **given)
+    assert not list(tmp_path.iterdir())
 
 
 def test_exported_csv_has_every_digit_every_unit_and_what_was_solved(folder, tmp_path):
     written = {
         path.relative_to(tmp_path).as_posix(): pandas.read_csv(path)
-        for path in tables.export(folder, "csv", tmp_path)
+        for path in export(folder, output=tmp_path)
     }
     assert set(written) == {
         f"{name}.csv" for name in ("findings", "sphere/rows", "sphere/long", "sphere/friction", "sphere/MDR")
@@ -578,13 +575,11 @@ def test_exported_csv_has_every_digit_every_unit_and_what_was_solved(folder, tmp
 
 
 def test_mistakes_of_an_export_are_said(folder, tmp_path):
-    with pytest.raises(InvalidInput, match="allowed are csv, vtk"):
-        tables.export(folder, "latex")
     with pytest.raises(InvalidInput, match="no such folder"):
-        tables.export(tmp_path / "nowhere")
+        export(tmp_path / "nowhere")
     (tmp_path / "results.nc").write_bytes(b"no netCDF")
     with pytest.raises(InvalidInput, match=r"results\.nc"):
-        tables.export(tmp_path / "results.nc")
+        export(tmp_path / "results.nc")
 
 
 # Vocabulary.

@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 import compare
 from compare.library.case import read_case
 from compare.library.lookup import case_of
-from compare.report import csvfiles, manifest, redraw
+from compare.report import csvfiles, export, manifest
 from compare.studies.claims.study import ClaimStudy
 from compare.studies.mastercurve.study import Mastercurve
 from compare.studies.plan import planned
@@ -214,7 +214,7 @@ MANIFEST = {
 def read_folder(path):
     """Manifest of a folder, and what draws its figures."""
     return [
-        redraw.function(entry, path) for each in manifest.folders(path.parent) for entry in each.manifest.plots
+        export.function(entry, path) for each in manifest.folders(path.parent) for entry in each.manifest.plots
     ]
 
 

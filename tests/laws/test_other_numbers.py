@@ -20,8 +20,7 @@ import mdr1d
 import scene
 from bem3d import BEM
 from compare.library.case import Variations
-from compare.report.plots.journals import JOURNALS
-from compare.report.redraw import in_columns
+from compare.report.plots.journals import journal
 from compare.studies.mastercurve.study import Mastercurve
 from compare.studies.mastercurve.temperatures import Constants
 from compare.studies.sweep.study import Sweep
@@ -366,7 +365,7 @@ CALLED = [
     Place("compare.sweep(speed)", lambda given: asked(speed=given), (0.1, 0.3), "m/s"),
     Place("compare.sweep(load)", lambda given: asked(load=given), (0.1, 0.3), "N"),
     Place("compare.sweep(depth)", lambda given: asked(depth=given), (1e-5, 2e-5), "m"),
-    Place("compare.redraw(width)", lambda given: in_columns(JOURNALS["default"], given).single, 0.1, "m"),
+    Place("compare.export(width)", lambda given: journal("default", given).single, 0.1, "m"),
     Place("compare.sweep(draws)", lambda given: asked(draws=given), 2),
     Place("compare.sweep(interval)", lambda given: Sweep.of(SLIDING, (0.1,), interval=given).interval, 0.1),
     Place("compare.mastercurve(tolerance)", lambda given: Mastercurve.of(FRICTION, given).tolerance, 0.1),

@@ -1,0 +1,72 @@
+"""A page as plain text, which a command prints: doubts, the answer, findings and short tables."""
+
+import io
+import textwrap
+from collections.abc import Iterator
+from pathlib import Path
+
+from pandas import DataFrame
+from rich.console import Console
+from rich.table import Table as Printed
+from rich.text import Text as Words
+
+from scene.printable import printable
+
+from .page import Findings, Page, Plot, Section, Table, Text
+from .tables import claims, shown
+
+WIDTH = 100
+MORE = "Every number stands on the page; -v prints it too, as `report.details` does in Python."
+# Rows of the longest table that is printed, and letters of its lines.
+MOST_ROWS, WIDEST = 100, 140
+
+
+def text(page: Page, path: Path | None = None, whole: bool = True) -> str:
+    """The page; path : of its file, named at the end; whole : whether numbers follow an opening in words"""
+    parts = [
+        _headed(page.title, "="),
+        *map(_filled, (*page.first, *page.opening, *page.answer)),
+        *(_blocks(page.blocks, "-") if whole or not page.opening else [MORE]),
+        *([f"Page: {path.resolve()}"] if path is not None else []),
+    ]
+    return printable("\n\n".join(filter(None, parts)))
+
+
+def _blocks(blocks, rule) -> Iterator[str]:
+    for block in blocks:
+        match block:
+            case Text():
+                yield "\n\n".join(map(_filled, block.lines)).replace("\n\n- ", "\n- ")
+            case Table() if not block.long and len(block.frame) <= MOST_ROWS:
+                yield _captioned(block.caption, shown(block.frame))
+            case Findings(findings, caption):
+                yield _captioned(caption, claims(findings, details=False))
+            case Section(title, inside):
+                if parts := list(filter(None, _blocks(inside, ""))):
+                    yield "\n\n".join([_headed(title, rule), *parts])
+            case Plot() | Table():
+                pass
+
+
+def _captioned(caption: str, frame: DataFrame) -> str:
+    """A table below its caption; long texts are broken into lines."""
+    printed = Printed(box=None, pad_edge=False)
+    for head in frame:
+        printed.add_column(Words(head), overflow="fold")
+    for row in frame.itertuples(index=False, name=None):
+        printed.add_row(*map(Words, row))
+    written = io.StringIO()
+    Console(file=written, width=WIDEST, color_system=None).print(printed)
+    lines = written.getvalue().splitlines()
+    return "\n".join(filter(None, [_filled(caption), *map(str.rstrip, lines)]))
+
+
+def _headed(title, rule):
+    return f"{title}\n{rule * len(title)}" if rule else title
+
+
+def _filled(words):
+    indent = "  " if words.startswith("- ") else ""
+    return textwrap.fill(
+        words, WIDTH, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
+    )
