@@ -506,12 +506,12 @@ def export(
     width: str | float | None = None,
     output: str | Path | None = None,
 ) -> list[Path]:
-    """Write tables as CSV, surfaces for ParaView, and figures again for a journal. Nothing is solved.
+    """Write tables, surfaces for ParaView, figures for a journal. Nothing is solved.
 
     folder : folder that a command has written, or its results.nc
-    format : file formats, separated by commas: csv (every digit, units in the heading), vtk (surfaces for ParaView,
-        which takes the extra vtk), png, pdf, svg (figures, drawn again from their tables). If absent, csv, and of a
-        journal, style or width png,pdf,svg
+    format : file formats, separated by commas: csv (every digit, units in the heading), vtk (surfaces for
+        ParaView, which takes the extra vtk), png, pdf, svg (figures). If absent, csv; with a journal, a style or a
+        width, png,pdf,svg
     journal : journal or publisher that sets column widths, smallest text and thinnest lines of figures: default,
         acs, aip, aps, elsevier, ieee, iop, nature, royal-society, sage, springer, taylor-francis, wiley
     style : your own matplotlib style: a .mplstyle file or the name of a style. From Python also settings

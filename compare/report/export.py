@@ -1,4 +1,4 @@
-"""Results of a folder for others: tables with units in their heads, surfaces for ParaView, figures for a journal."""
+"""Results of a folder for others: tables with units, surfaces for ParaView, figures for a journal."""
 
 import inspect
 import warnings
@@ -128,7 +128,7 @@ def _surfaces(folder) -> dict[str, bytes]:
 
 def _drawn_again(folder, forms) -> dict[str, bytes]:
     """Every figure of a folder, drawn from its tables in the current look, as files by name."""
-    found = {}
+    found: dict[str, bytes] = {}
     for each in manifest.folders(folder):
         place = each.path.relative_to(folder)
         with hold([each.path]):
@@ -173,7 +173,8 @@ def function(entry: manifest.PlotEntry, path: Path) -> Callable[..., Figure]:
             and draw.__annotations__.get("tables") in (Tables, "Tables")
             and not entry.function.startswith("_")
         ):
-            return validate_call(draw, config=ConfigDict(arbitrary_types_allowed=True, allow_inf_nan=False))
+            checked = validate_call(config=ConfigDict(arbitrary_types_allowed=True, allow_inf_nan=False))
+            return checked(draw)
     raise InvalidInput(
         f"{path}: figure {entry.name} is drawn by {brief(f'{entry.module}.{entry.function}')}, which is no "
         f"figure of {PACKAGE}: it cannot be drawn again"

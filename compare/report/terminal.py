@@ -67,6 +67,4 @@ def _headed(title, rule):
 
 def _filled(words):
     indent = "  " if words.startswith("- ") else ""
-    return textwrap.fill(
-        words, WIDTH, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
-    )
+    return textwrap.fill(words, WIDTH, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)

@@ -124,7 +124,9 @@ def test_a_program_is_drawn_in_time_by_the_forces_of_both_and_sections_at_instan
         assert touched["surface"].to_numpy() == pytest.approx(touched["indenter"].to_numpy(), abs=near)
         assert len(touched)
     png = tmp_path / name / f"{program.NAME}.png"
-    (again,) = (path for path in compare.export(png.parent, "png", output=tmp_path / "again") if path.name == png.name)
+    (again,) = (
+        path for path in compare.export(png.parent, "png", output=tmp_path / "again") if path.name == png.name
+    )
     assert again.read_bytes() == png.read_bytes()
 
 

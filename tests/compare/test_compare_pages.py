@@ -26,16 +26,16 @@ from pandas.testing import assert_frame_equal
 from PIL import Image
 
 from compare.report import csvfiles, manifest, render, terminal
-from compare.report.export import export, function
+from compare.report.export import export
 from compare.report.page import Findings, Page, Plot, Section, Table, Text
 from compare.report.plots import touching
-from compare.solving import netcdf, vocabulary
 from compare.report.tables import claims
+from compare.solving import netcdf, vocabulary
 from compare.statistics import digits
 from compare.statistics.finding import COLUMNS
 from scene.reading import InvalidInput
 
-redraw = partial(export, format="png,pdf,svg")
+draw_again = partial(export, format="png,pdf,svg")
 STUDY = SimpleNamespace(command="run", inputs={"loads": np.array([1.0, nan])})
 UNITS = {"m", "s", "N", "Pa", "K", "J", "byte", "Hz", "kg", "W", "rad"}
 SWEPT = SimpleNamespace(solved=1, reused=2, seconds=3.0)
@@ -150,8 +150,7 @@ def test_the_page_needs_nothing_else_and_every_link_leads_somewhere(folder):
 def test_the_page_opens_with_its_answer_then_the_figure_then_tables(folder):
     text = (folder / "report.html").read_text()
     places = [
-        text.index(part)
-        for part in ("<h1>", 'class="answer"', "<figure", "<table", 'id="section-3"', 'id="made"')
+        text.index(part) for part in ("<h1>", 'class="answer"', "<figure", "<table", 'id="section-3"', 'id="made"')
     ]
     assert places == sorted(places)
 
@@ -183,7 +182,14 @@ def test_a_claim_stands_in_its_first_row_and_a_regime_in_that_of_its_place():
     assert [text.partition("\n")[0] for text in shown["Claim"]] == [
         slow.claim.sentence, "", "", "", FINDINGS[2].claim.sentence, slow.claim.sentence
     ]  # fmt: skip
-    assert shown["Where"].tolist() == ["sphere\nslowly", "sphere\nfast", "sphere", "cone\nslowly", "rough sphere", "sphere"]
+    assert shown["Where"].tolist() == [
+        "sphere\nslowly",
+        "sphere\nfast",
+        "sphere",
+        "cone\nslowly",
+        "rough sphere",
+        "sphere",
+    ]
     assert "Where" not in claims((FINDINGS[3],))
 
 
@@ -232,7 +238,7 @@ def test_the_texts_of_a_stranger_are_no_marks_of_html_and_control_no_terminal(tm
 
 
 def test_a_figure_drawn_again_from_its_table_is_the_same_picture(folder, tmp_path):
-    written = redraw(folder, output=tmp_path)
+    written = draw_again(folder, output=tmp_path)
     assert [path.suffix for path in written] == [".png", ".pdf", ".svg"]
     assert (tmp_path / "sphere/friction.png").read_bytes() == (folder / "sphere/friction.png").read_bytes()
 
@@ -242,8 +248,8 @@ def test_a_figure_drawn_again_from_its_table_is_the_same_picture(folder, tmp_pat
     [({"journal": "nature"}, 89), ({"width": "84 mm"}, 84), ({"journal": "wiley", "width": 0.1}, 100)],
 )
 def test_figures_of_a_journal_have_the_width_of_its_column(folder, tmp_path, look, millimetres):
-    for given, forms in (({}, [".png", ".pdf", ".svg"]), ({"format": "svg, png"}, [".png", ".svg"])):
-        written = export(folder, **look, **given, output=tmp_path)
+    for asked, forms in ((None, [".png", ".pdf", ".svg"]), ("svg, png", [".png", ".svg"])):
+        written = export(folder, asked, **look, output=tmp_path)
         assert [path.suffix for path in written] == forms
     with Image.open(written[0]) as drawn:
         assert drawn.width == pytest.approx(millimetres / 25.4 * 300, abs=1)
@@ -255,7 +261,7 @@ def test_a_changed_table_gives_another_picture(folder, tmp_path):
     csvfiles.write_text(
         tmp_path / "sphere/friction.csv", csvfiles.text(MEANS.assign(friction_coefficient_mean=0.3))
     )
-    drawn = redraw(tmp_path)
+    drawn = draw_again(tmp_path)
     assert drawn[0] == tmp_path / "figures/sphere/friction.png"
     assert drawn[0].read_bytes() != (folder / "sphere/friction.png").read_bytes()
 
@@ -291,7 +297,7 @@ def test_a_forged_figure_is_refused_by_name(folder, tmp_path, change, said):
     (tmp_path / "sphere").mkdir()
     (tmp_path / "sphere/friction.csv").write_bytes((folder / "sphere/friction.csv").read_bytes())
     with pytest.raises(InvalidInput, match=re.escape(said)):
-        redraw(tmp_path, output=tmp_path / "out")
+        draw_again(tmp_path, output=tmp_path / "out")
     assert not (tmp_path / "out").exists()
 
 
@@ -303,7 +309,7 @@ def test_a_folder_of_another_version_says_so_in_one_line(folder, tmp_path, state
     # also where the rest cannot be understood
     for changed in (content, {"plots": "elsewhere"}):
         (tmp_path / "manifest.json").write_text(json.dumps(changed | stated_there))
-        for ask in (redraw, export):
+        for ask in (draw_again, export):
             with pytest.raises(
                 InvalidInput, match=rf"manifest\.json: was written by {age} version of this program"
             ):
@@ -334,7 +340,7 @@ def test_a_damaged_manifest_is_named_whatever_is_in_it(tmp_path_factory, content
     path = tmp_path_factory.mktemp("forged")
     (path / "manifest.json").write_bytes(content if isinstance(content, bytes) else json.dumps(content).encode())
     with pytest.raises(InvalidInput, match=r"manifest\.json|no figures"):
-        redraw(path)
+        draw_again(path)
 
 
 @pytest.mark.parametrize(
@@ -351,7 +357,7 @@ def test_a_damaged_table_is_named(folder, tmp_path, damage, said):
     (tmp_path / "sphere").mkdir()
     (tmp_path / "sphere/friction.csv").write_bytes(damage)
     with pytest.raises(InvalidInput, match=said):
-        redraw(tmp_path)
+        draw_again(tmp_path)
 
 
 @pytest.fixture
@@ -384,8 +390,8 @@ def elsewhere(path):
 
 
 READ = {
-    "manifest.json": [redraw, export],
-    "sphere/friction.csv": [redraw, export],
+    "manifest.json": [draw_again, export],
+    "sphere/friction.csv": [draw_again, export],
     "results.nc": [netcdf.load, lambda folder: export(folder / "results.nc")],
 }
 
@@ -529,7 +535,7 @@ def test_nothing_is_written_out_of_the_folder(copied, tmp_path):
     sealed(copied / "forged.nc", above)
     with pytest.raises(InvalidInput, match="forged"):
         export(copied / "forged.nc", output=copied / "tables")
-    for name, write in (("figures", redraw), ("tables", export)):
+    for name, write in (("figures", draw_again), ("tables", export)):
         (copied / name).symlink_to(tmp_path)
         with pytest.raises(InvalidInput, match="leads out of"):
             write(copied)
@@ -556,8 +562,7 @@ def test_a_look_that_does_not_exist_is_refused(folder, tmp_path, given, said):
 
 def test_exported_csv_has_every_digit_every_unit_and_what_was_solved(folder, tmp_path):
     written = {
-        path.relative_to(tmp_path).as_posix(): pandas.read_csv(path)
-        for path in export(folder, output=tmp_path)
+        path.relative_to(tmp_path).as_posix(): pandas.read_csv(path) for path in export(folder, output=tmp_path)
     }
     assert set(written) == {
         f"{name}.csv" for name in ("findings", "sphere/rows", "sphere/long", "sphere/friction", "sphere/MDR")
