@@ -113,7 +113,7 @@ def test_a_level_that_differs_from_load_to_load_is_stated_at_two_with_what_they_
     loads = SERIES.values[0], SERIES.values[-1]
     assert greatest.value / least.value == pytest.approx((loads[1] / loads[0]) ** 0.3, rel=0.02)
     for each, load in zip((least, greatest), loads, strict=True):
-        assert each.regime.startswith(f"F_N {load:.3g} N, xi ")
+        assert each.regime.startswith(f"F_N {load:.3g} N, ξ ")
         assert " to " not in each.regime  # one point
     ratios = of(found, "friction.ratio.slow")
     assert [each.claim.id for each in ratios] == ["friction.ratio.slow-least", "friction.ratio.slow-greatest"]
