@@ -6,13 +6,13 @@ from itertools import chain
 import pandas
 from pandas import DataFrame, Series
 
+from ..solving import amounts
 from ..solving.vocabulary import head
-from ..statistics import digits
 from ..statistics.finding import Finding
 
 # Columns of findings that stand together in one.
 JOINED = {"value": ("low", "high"), "expected": ("tolerance",)}
-WRITTEN = (digits.shown, digits.plus_minus, digits.interval)  # by the number of columns beside a number
+WRITTEN = (amounts.shown, amounts.plus_minus, amounts.interval)  # by the number of columns beside a number
 
 
 def shown(frame: DataFrame) -> DataFrame:
