@@ -3,10 +3,10 @@
 import inspect
 import warnings
 from collections.abc import Callable, Iterator, Mapping
-from importlib import import_module
+from contextlib import suppress
 from os import PathLike
 from pathlib import Path
-from pkgutil import walk_packages
+from pkgutil import resolve_name
 from typing import Any
 
 import xarray
@@ -164,18 +164,16 @@ def _drawn(folder, entry, forms) -> Mapping[str, bytes]:
 
 def function(entry: manifest.PlotEntry, path: Path) -> Callable[..., Figure]:
     """The function that draws a figure, which checks its options; InvalidInput of all that draws none here."""
-    if entry.module in {found.name for found in walk_packages(import_module(PACKAGE).__path__, f"{PACKAGE}.")}:
-        draw = getattr(import_module(entry.module), entry.function, None)
-        if (
-            inspect.isfunction(draw)
-            and draw.__module__ == entry.module
-            and draw.__annotations__.get("return") in (Figure, "Figure")
-            and draw.__annotations__.get("tables") in (Tables, "Tables")
-            and not entry.function.startswith("_")
-        ):
-            checked = validate_call(config=ConfigDict(arbitrary_types_allowed=True, allow_inf_nan=False))
-            return checked(draw)
+    name = f"{entry.module}:{entry.function}"
+    draw: Any = None
+    if entry.module.startswith(f"{PACKAGE}."):
+        with suppress(ImportError, AttributeError, ValueError):
+            draw = resolve_name(name)
+    stated = draw.__annotations__ if inspect.isfunction(draw) and draw.__module__ == entry.module else {}
+    if stated.get("tables") in (Tables, "Tables") and stated.get("return") in (Figure, "Figure"):
+        checked = validate_call(config=ConfigDict(arbitrary_types_allowed=True, allow_inf_nan=False))
+        return checked(draw)
     raise InvalidInput(
-        f"{path}: figure {entry.name} is drawn by {brief(f'{entry.module}.{entry.function}')}, which is no "
-        f"figure of {PACKAGE}: it cannot be drawn again"
+        f"{path}: figure {entry.name} is drawn by {brief(name)}, which is no figure of {PACKAGE}: it cannot be "
+        "drawn again"
     )

@@ -1,6 +1,5 @@
 """Manifest of a folder: what wrote it, with which versions, and what lies in it."""
 
-import json
 import os
 import platform
 from collections.abc import Iterable, Iterator
@@ -134,21 +133,17 @@ def stamp(
         "tasks": {"solved": swept.solved, "reused": swept.reused},
         "seconds": swept.seconds,
         "plots": [_entry(plot) for plot in page.every(Plot)],
-        "tables": table_names(page),
+        "tables": list(dict.fromkeys([FINDINGS, *(name for name, _ in page.tables())])),
         "files": list(files),
         "results": results,
     }
     _write(folder, left)
 
 
-def table_names(page: Page) -> list[str]:
-    """Names of the tables of a page and of its findings, without ending."""
-    return list(dict.fromkeys([FINDINGS, *(name for name, _ in page.tables())]))
-
-
 def _write(folder, left):
-    left = _storable({"format": FORMAT} | left)
-    write_text(folder / NAME, json.dumps(left, indent=1, allow_nan=False, ensure_ascii=False))
+    """Write a manifest as JSON: null for NaN, and what JSON does not have as text."""
+    written = to_json({"format": FORMAT} | left, indent=1, inf_nan_mode="null", fallback=_plain)
+    write_text(folder / NAME, written.decode())
 
 
 def folders(folder: str | Path) -> Iterator[Folder]:
@@ -206,12 +201,7 @@ def _entry(plot):
         function=plot.draw.__name__,
         tables=tuple(plot.tables),
         options=dict(plot.options),
-    ).model_dump()
-
-
-def _storable(value):
-    """Value that JSON can hold: null for NaN, and a value unknown to JSON as its fields or as text."""
-    return json.loads(to_json(value, inf_nan_mode="null", fallback=_plain))
+    )
 
 
 def _plain(value):

@@ -266,7 +266,7 @@ def test_a_changed_table_gives_another_picture(folder, tmp_path):
 
 
 FORGED = [
-    ({"module": "os"}, "os.figure"),
+    ({"module": "os"}, "os:figure"),
     ({"module": "compare.report.render"}, "no figure of compare"),
     ({"function": "plot"}, "no figure of compare"),
     ({"function": "DataFrame"}, "no figure of compare"),
