@@ -25,6 +25,7 @@ from .tables import claims, shown
 
 PAGE = "report.html"
 MOST_ROWS = 400  # a longer table is no reading
+MOST_NARROW = 8  # columns of a table that a printed page holds without breaking words
 # A browser loads nothing for a page, and runs and applies nothing that is not allowed by its digest.
 POLICY = "default-src 'none'; base-uri 'none'; form-action 'none'; img-src data:; style-src"
 
@@ -105,8 +106,10 @@ def _rendered(page, **given) -> str:
 
 def _table(frame: DataFrame) -> Markup:
     """A table of texts, all of which are escaped."""
+    columns = frame.shape[1]
+    wide = "wide" if columns > MOST_NARROW else None
     with pandas.option_context("display.max_colwidth", None):
-        text = frame.to_html(index=False, border=0, justify="left", formatters=[str] * frame.shape[1])
+        text = frame.to_html(index=False, border=0, justify="left", classes=wide, formatters=[str] * columns)
     return Markup(text.replace(' style="text-align: left;"', "", 1))  # a style that the policy forbids
 
 

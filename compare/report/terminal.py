@@ -22,11 +22,17 @@ MOST_ROWS, WIDEST = 100, 140
 
 
 def text(page: Page, path: Path | None = None, whole: bool = True) -> str:
-    """The page; path : of its file, named at the end; whole : whether numbers follow an opening in words"""
+    """The page, or what it begins with: the opening in words, or else the answer with what stands above sections.
+
+    path : of its file, named at the end; whole : whether sections follow, and numbers an opening
+    """
+    above = () if page.opening else (each for each in page.blocks if not isinstance(each, Section))
+    blocks = page.blocks if whole else tuple(above)
     parts = [
         _headed(page.title, "="),
         *map(_filled, (*page.first, *page.opening, *page.answer)),
-        *(_blocks(page.blocks, "-") if whole or not page.opening else [MORE]),
+        *_blocks(blocks, "-"),
+        *([] if len(blocks) == len(page.blocks) else [MORE]),
         *([f"Page: {path.resolve()}"] if path is not None else []),
     ]
     return printable("\n\n".join(filter(None, parts)))
@@ -51,12 +57,16 @@ def _blocks(blocks, rule) -> Iterator[str]:
 def _captioned(caption: str, frame: DataFrame) -> str:
     """A table below its caption; long texts are broken into lines."""
     printed = Printed(box=None, pad_edge=False)
-    for head in frame:
-        printed.add_column(Words(head), overflow="fold")
+    for head, cells in frame.items():
+        one_word = not any(" " in cell for cell in cells)
+        printed.add_column(
+            Words(head), overflow="fold", min_width=max(map(len, cells), default=0) if one_word else None
+        )
     for row in frame.itertuples(index=False, name=None):
         printed.add_row(*map(Words, row))
     written = io.StringIO()
-    Console(file=written, width=WIDEST, color_system=None).print(printed)
+    console = Console(file=written, width=WIDEST, color_system=None, force_jupyter=False)
+    console.print(printed, crop=False)
     lines = written.getvalue().splitlines()
     return "\n".join(filter(None, [_filled(caption), *map(str.rstrip, lines)]))
 

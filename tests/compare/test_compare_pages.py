@@ -203,6 +203,12 @@ def test_the_terminal_shows_a_claim_once_with_all_that_was_found():
     assert all(len(line) <= terminal.WIDEST for line in text.splitlines())
 
 
+def test_in_a_notebook_a_page_is_the_same_text(monkeypatch):
+    told = terminal.text(page())
+    monkeypatch.setattr("rich.console._is_jupyter", lambda: True)
+    assert terminal.text(page()) == told
+
+
 def test_a_notebook_gets_answer_findings_and_tables_without_links_that_lead_nowhere():
     found = Links(render.fragment(page()))
     assert not found.images
