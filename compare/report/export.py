@@ -84,11 +84,10 @@ def _tables(folder: Path) -> Iterator[tuple[str, DataFrame]]:
     """Tables beside the pages of a folder, and everything that was solved, by the names of their files."""
     if not folder.is_file():
         for each in manifest.folders(folder):
-            with hold([each.path]):
-                for name in each.manifest.tables:
-                    frame = csvfiles.read(manifest.inside(each.path, f"{name}.csv"))
-                    if not frame.empty:
-                        yield (each.path.relative_to(folder) / name).as_posix(), frame
+            for name in each.manifest.tables:
+                frame = csvfiles.read(manifest.inside(each.path, f"{name}.csv"))
+                if not frame.empty:
+                    yield (each.path.relative_to(folder) / name).as_posix(), frame
         if not any(folder.rglob(netcdf.NAME)):
             return
     for node in netcdf.load(folder).subtree:
@@ -131,10 +130,9 @@ def _drawn_again(folder, forms) -> dict[str, bytes]:
     found: dict[str, bytes] = {}
     for each in manifest.folders(folder):
         place = each.path.relative_to(folder)
-        with hold([each.path]):
-            for entry in each.manifest.plots:
-                drawn = _drawn(each.path, entry, forms)
-                found |= {f"{(place / entry.name).as_posix()}.{form}": drawn[form] for form in forms}
+        for entry in each.manifest.plots:
+            drawn = _drawn(each.path, entry, forms)
+            found |= {f"{(place / entry.name).as_posix()}.{form}": drawn[form] for form in forms}
     if not found:
         raise InvalidInput(f"{brief(str(folder))}: no command has written figures here")
     return found

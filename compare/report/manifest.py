@@ -18,6 +18,7 @@ from scene.reading import InvalidInput
 
 from ..solving.folder_format import FORMAT, Stated, finished, read
 from ..solving.folder_format import MANIFEST as NAME
+from ..solving.hold import hold
 from ..solving.store import PACKAGES, clear
 from .csvfiles import write_text
 from .page import Page, Plot
@@ -147,9 +148,10 @@ def _write(folder, left):
 
 
 def folders(folder: str | Path) -> Iterator[Folder]:
-    """A folder with a manifest, or those just below it.
+    """A folder with a manifest, or those just below it; each is held while it is looked at.
 
-    Raises InvalidInput of none, of a damaged one, and of one of a run that has not come to its end.
+    Raises InvalidInput of none, of a damaged one, of one that another run holds, and of a run that has not come to
+    its end.
     """
     folder = Path(folder)
     if not folder.is_dir():
@@ -160,7 +162,9 @@ def folders(folder: str | Path) -> Iterator[Folder]:
         raise InvalidInput(
             f"{brief(str(folder))}: no {NAME} here or one level below: no command has written this folder"
         )
-    return (Folder(path.parent, finished(path, Manifest)) for path in paths)
+    for path in paths:
+        with hold([path.parent]):
+            yield Folder(path.parent, finished(path, Manifest))
 
 
 def inside(folder: Path, name: str) -> Path:
