@@ -98,7 +98,7 @@ def _rendered(page, **given) -> str:
         "policy": lambda style: f"{POLICY} 'sha256-{_base64(hashlib.sha256(style.encode()).digest())}'",
         "image": lambda drawn: _base64(drawn.files["png"]),
         "table": lambda block: None if block.long or len(block.frame) > MOST_ROWS else _table(shown(block.frame)),
-        "claims": lambda block: _table(claims(block.findings)),
+        "claims": lambda block: _table(claims(block.findings)) if block.findings else None,
         "contents": [(k, each.title) for k, each in enumerate(page.blocks, 1) if isinstance(each, Section)],
     }
     return printable(environment.get_template("page.html").render(page=page, **functions, **given))

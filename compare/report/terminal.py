@@ -45,7 +45,7 @@ def _blocks(blocks, rule) -> Iterator[str]:
                 yield "\n\n".join(map(_filled, block.lines)).replace("\n\n- ", "\n- ")
             case Table() if not block.long and len(block.frame) <= MOST_ROWS:
                 yield _captioned(block.caption, shown(block.frame))
-            case Findings(findings, caption):
+            case Findings(findings, caption) if findings:
                 yield _captioned(caption, claims(findings, details=False))
             case Section(title, inside):
                 if parts := list(filter(None, _blocks(inside, ""))):
