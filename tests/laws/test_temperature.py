@@ -20,7 +20,6 @@ from scene import (
     KelvinChain,
     Program,
     Prony,
-    Refused,
     Result,
     Scene,
     SelfAffine,
@@ -134,22 +133,6 @@ def test_estimates_are_read_off_one_solve_that_is_the_same(solver):
 
 
 @names
-@pytest.mark.parametrize("feedback", ["average", "flash"])
-def test_a_contact_with_feedback_is_the_contact_at_its_own_temperature(solver, feedback):
-    rough = replace(WARM, roughness=ROUGH)
-    answer = solver.solve(replace(rough, heating=Heating(conductivity=0.2, feedback=feedback)))
-    found = answer.measures
-    own = replace(rough, temperature=replace(LAW, temperature=found["temperature"]))
-    there = solver.solve(replace(own, heating=Heating(conductivity=0.2)))
-    np.testing.assert_array_equal(numbers(answer), numbers(there))
-    rise = there.measures[f"{feedback}_heating"]
-    assert found["temperature"] - 310.0 == pytest.approx(rise, rel=2 * AGREE, abs=1e-9)
-    assert rise > 1.0
-    assert answer.scene.temperature == LAW
-    assert answer.operator_applications >= found["heating_solves"] > 1
-
-
-@names
 def test_feedback_without_speed_or_heat_is_the_answer_without_it(solver):
     for scene, conductivity in (
         (WARM, 1e15),
@@ -238,11 +221,3 @@ def test_friction_of_the_interface_heats_too(solver):
     rise = 2 * total * RUBBERY * there.depth * 0.1 / 5.0
     assert found.measures["average_heating"] == pytest.approx(rise, rel=1e-12)
     assert plain.friction_coefficient > 0.3
-
-
-@names
-def test_a_program_with_heating_is_refused_by_name(solver):
-    program = Program(stages=(Stage(duration=1.0, load=1.0), Stage(duration=1.0, speed=0.1)))
-    heated = replace(WARM, motion=program, heating=Heating(conductivity=1.0))
-    with pytest.raises(Refused, match="heating = Heating: it is estimated of steady sliding, not of a Program"):
-        solver.solve(heated)

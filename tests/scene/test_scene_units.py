@@ -20,11 +20,9 @@ from scene import (
     Heating,
     Kelvin,
     KelvinChain,
-    PowerLaw,
     Prony,
     Scene,
     SelfAffine,
-    Shear,
     Slide,
     Sphere,
     Stage,
@@ -240,23 +238,6 @@ def test_python_takes_what_a_file_takes_and_holds_numbers():
     assert Arrhenius(temperature=300, reference="300 K", activation_energy="50 kJ/mol").activation_energy == 5e4
     for pixel, sides in (("10 um", (1e-5, 1e-5)), (["10 um", 2e-5], (1e-5, 2e-5))):
         assert Topography(heights=np.eye(4), pixel=pixel).pixel == sides
-
-
-def test_units_that_depend_on_others_are_those_of_the_others():
-    swung = {"duration": 1.0, "frequency": 10.0}
-    assert Stage(load="1 N", amplitude="300 mN", **swung).amplitude == 0.3
-    assert Stage(depth="1 mm", amplitude="300 um", **swung).amplitude == 3e-4
-    assert Stage(amplitude=0.3, **swung).amplitude == 0.3
-    for pressed, amplitude in (({"load": 1.0}, "1 um"), ({"depth": 1.0}, "1 N"), ({}, "1 N")):
-        with pytest.raises(ValidationError, match="amplitude"):
-            Stage(amplitude=amplitude, **pressed, **swung)
-    assert Shear(load=1.0, force="3 mN").force == 3e-3
-    assert Shear(line_load=1.0, force="3 N/mm").force == 3e3
-    for pressed, force in (({"load": 1.0}, "3 N/m"), ({"line_load": 1.0}, "3 N")):
-        with pytest.raises(ValidationError, match="force"):
-            Shear(force=force, **pressed)
-    with pytest.raises(ValidationError, match=r"a number \(in m\^\(1-exponent\)\)"):
-        PowerLaw("3 1/m", 2.0)
 
 
 def test_numbers_alone_load_no_units():
