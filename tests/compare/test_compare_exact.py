@@ -1,7 +1,7 @@
 """Closed forms against integrals and derivatives that are written out here."""
 
 from dataclasses import replace
-from math import pi, tan
+from math import pi
 
 import numpy as np
 import pytest
@@ -74,18 +74,6 @@ def test_slow_friction_is_the_integral_of_the_squared_slope_and_twice_it_in_one_
     # Forward differences of step / radius = 1e-6.
     assert three == pytest.approx(0.1 * 1e-3 * 4e6 * integral, rel=1e-4)
     assert exact.slow_friction_1d(*arguments) == 2 * three
-
-
-def test_slow_friction_coefficients_are_those_of_sphere_and_cone():
-    speed, lag, load = 0.1, 1e-4, 0.7
-    for shape, expected in (
-        (Sphere(radius=2e-2), lambda a: speed * lag / 2e-2),
-        (Cone(angle=0.2), lambda a: pi / 2 * tan(0.2) * speed * lag / a),
-    ):
-        profile = shape.mdr_coefficient, shape.exponent
-        radius = radius_under(load, 4e6, shape)
-        mu = exact.slow_friction_3d(speed, radius, lag, 4e6, *profile) / load
-        assert mu == pytest.approx(expected(radius), rel=ROUNDING)
 
 
 def test_mean_lag_is_the_loss_at_low_frequency():

@@ -3,7 +3,6 @@
 import json
 import multiprocessing
 import os
-import random
 import signal
 import threading
 import time
@@ -118,41 +117,11 @@ def expected(tmp_path_factory):
         return {task: exactly(task.solve()) for task in marked_study.tasks()}
 
 
-def moment(draw, study):
-    """A condition: a random time after the start, or after some more answers are stored."""
-    start, more = time.monotonic(), study.count() + draw.randint(1, len(study.tasks) // 4)
-    if draw.random() < 0.3:
-        wait = draw.uniform(0.0, 4.0)
-        return lambda: time.monotonic() - start > wait
-    late, seen = draw.uniform(0.0, 0.1), []
-
-    def due():
-        if study.count() >= more:
-            seen.append(time.monotonic())
-        return bool(seen) and time.monotonic() - seen[0] > late
-
-    return due
-
-
 @pytest.mark.slow
 def test_killed_in_the_middle_a_study_ends_as_an_undisturbed_one(tmp_path, expected):
     study = Killed(tmp_path)
     assert study.kill(lambda: study.count() >= 3)
     study.finish(expected)
-
-
-@pytest.mark.hours
-def test_killed_at_fifty_moments_studies_end_as_undisturbed_ones(tmp_path, expected):
-    draw, kills, studies, unstored = random.Random(50), 0, 0, 0
-    while kills < 50:
-        (tmp_path / str(studies)).mkdir()
-        study = Killed(tmp_path / str(studies))
-        studies += 1
-        while kills < 50 and study.count() < len(study.tasks):
-            kills += study.kill(moment(draw, study))
-            unstored += study.count() == 0
-        study.finish(expected)
-    print(f"{kills} kills in {studies} studies of {len(study.tasks)} tasks, {unstored} before anything was stored")
 
 
 def blank(tables):

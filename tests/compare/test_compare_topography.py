@@ -7,11 +7,11 @@ from math import pi
 import numpy as np
 import pandas
 import pytest
+from maps import sampled
 from scipy.ndimage import gaussian_filter
 from scipy.stats import binom
 
 import compare
-from bem3d.grid import Grid
 from bem3d.surface import RoughSurface
 from compare.report.plots import style
 from compare.statistics import spectra
@@ -25,14 +25,6 @@ from scene.reading import InvalidInput
 L = 4e-3
 ROUGH = SelfAffine(hurst=0.8, rms_height=2e-6, longest=L, shortest=L / 48, rolloff=L / 4, amplitudes="gaussian")
 ROUNDING = 1e-9
-
-
-def sampled(rough, points=128, piece=None, **other):
-    """One period of a surface as a map, or a piece of it."""
-    grid = Grid(points, rough.longest)
-    heights = RoughSurface.of(rough, rough.q_max(0.0)).heights(grid.x, grid.y)[:piece, :piece]
-    stated = {"pixel": grid.pixel, "peaks": "down", "level": "mean", "repeat": "periodic"}
-    return Topography(heights=heights, **(stated | other))
 
 
 def test_a_surface_is_described_as_it_was_drawn():
@@ -254,10 +246,7 @@ REPEATS = {"pixel": 1.0, "repeat": "periodic"}
             'does not state the side of a pixel: give pixel = "1 um", or --pixel "1 um" on the command line',
         ),
         (NOISE, {"pixel": ["1", "2 um"]}, "there is no unit"),
-        (NOISE, REPEATS | {"level": "tilt"}, 'level = "tilt" with repeat = "periodic"'),
         (np.where(np.eye(9) > 0, np.nan, 1.0), REPEATS, "heights[0][0] = nan: every pixel needs a finite height"),
-        (np.full((9, 9), 1j), REPEATS, "an array of type complex128: heights are real numbers [m]"),
-        (np.eye(3), REPEATS, "an array of shape (3, 3): a map has at least 4 rows and columns"),
         (np.ones((9, 9)), REPEATS, "heights are none once level"),
         (CHECKERS, REPEATS, NO_WAVE),
     ],
@@ -270,12 +259,6 @@ def test_a_mistake_is_named_in_a_line_and_leaves_no_folder(tmp_path, heights, st
     assert heights is NOISE or str(path) in str(refused.value)
     assert "\n" not in str(refused.value)
     assert not (tmp_path / "out").exists()
-
-
-@pytest.mark.parametrize(("repeat", "level"), [("periodic", "mean"), ("mirror", "tilt")])
-def test_without_a_level_that_of_what_repeats_is_taken(tmp_path, repeat, level):
-    study = Map.of(saved(tmp_path, sampled(ROUGH, 32).heights.heights), pixel=1.0, unit="m", repeat=repeat)
-    assert f'level: "{level}" taken off; repeat: "{repeat}"' in "".join(study.lines())
 
 
 def test_the_figure_is_a_function_of_its_csv_files():

@@ -156,7 +156,7 @@ def test_stages_take_no_impossible_values(name):
             assert caught.value.errors()[0]["loc"] == (name,)
 
 
-@pytest.mark.parametrize("name", ["duration", "speed", "load", "depth"])
+@pytest.mark.parametrize("name", ["duration", "speed", "load", "depth", "amplitude", "frequency"])
 @pytest.mark.parametrize(
     "solver", [SOLVERS[0], pytest.param(SOLVERS[1], marks=pytest.mark.slow)], ids=["MDR", "BEM"]
 )
@@ -165,7 +165,9 @@ def test_programs_of_extreme_stages_are_followed_or_declined_with_a_reason(name,
     for value in EXTREME:
         try:
             stage = replace(START.stages[0], load=None if name == "depth" else 1.0)
-            program = Program(stages=(replace(stage, **{name: value}), START.stages[1]))
+            shaken = {"amplitude": 0.5, "frequency": 1e3} if name in ("amplitude", "frequency") else {}
+            back = replace(START.stages[1], speed=-value if name == "speed" else 0.1)
+            program = Program(stages=(replace(stage, **shaken | {name: value}), back))
         except ValidationError:
             continue
         answer = answered(solver, replace(BALL, motion=program))
