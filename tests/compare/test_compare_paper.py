@@ -210,20 +210,6 @@ def test_a_point_of_the_law_that_broke_is_left_out():
         law_of("sphere", 3, whole | failed(tasks))
 
 
-def test_rough_planes_as_deep_as_each_place_tell_why_a_cone_has_another_alpha_than_a_sphere():
-    deviations, xi = {}, np.array(law.VARIABLES[6:18:3])
-    for shape in parameters.SHAPES:
-        friction = Planes(shape, law.speeds()[shape][6:18:3]).solve().fields["friction"]
-        deviations[shape] = friction / (np.sqrt(2) * law._slope()) / equations.interpolation(xi) - 1
-    # As simulated on 200 profiles. Planes leave out the slope of the shape, 1 to 2 % of friction, and eight
-    # profiles know it to as much.
-    np.testing.assert_allclose(deviations["cone"], [-0.010, -0.023, -0.039, -0.044], atol=0.03)
-    np.testing.assert_allclose(deviations["sphere"], [0.004, 0.017, 0.002, -0.024], atol=0.03)
-    # Both errors are nearly the same for both shapes.
-    differences = deviations["sphere"] - deviations["cone"]
-    np.testing.assert_allclose(differences, [0.014, 0.040, 0.041, 0.020], atol=0.01)
-
-
 def test_a_rough_plane_alone_at_low_speed_has_the_friction_of_full_contact():
     (friction,) = Planes("sphere", law.speeds()["sphere"][:1]).solve().fields["friction"]
     # Eq. 17, less the 0.1 % of Eq. 19; h0/d = 1/14 of the contact lies at its edge.
@@ -248,6 +234,7 @@ def lossy(monkeypatch):
 
 def test_without_what_the_smooth_body_has_friction_shifts_as_the_loss_does(lossy):
     result = lossy(Loss(0.5, 1e-3))
+    assert not result.points["holds: constant macroscopic modulus"].all()
     whole, rough = (result.collapses[of].horizontal for of in (losses.WHOLE, losses.ROUGH))
     assert result.exponent == -0.75
     assert rough.exponent.value == pytest.approx(-0.75, rel=0.05)
@@ -263,18 +250,6 @@ def test_without_what_the_smooth_body_has_friction_shifts_as_the_loss_does(lossy
     assert found[1].value == rough.exponent.value
     if found[0].verdict == "undecided":
         assert found[0].reason
-
-
-def test_the_shift_is_that_of_the_loss_where_the_macroscopic_modulus_is_constant_and_less_where_it_is_not(lossy):
-    off = {}
-    for time in (1e-3, 1e-14):
-        result = lossy(Loss(0.1, time))
-        assert result.points["holds: constant macroscopic modulus"].all() == (time == 1e-14)
-        off[time] = result.collapses[losses.ROUGH].horizontal.exponent.value / -0.15 - 1
-    # Four profiles scatter by 5 % where friction is little beside that of the smooth body.
-    assert off[1e-14] == pytest.approx(0.0, abs=0.08)
-    assert off[1e-3] < -0.08
-    assert off[1e-14] - off[1e-3] > 0.06
 
 
 def test_curves_that_share_their_profiles_are_not_shifted_without_one_of_them(lossy):

@@ -35,8 +35,6 @@ from scene import (
     Elastic,
     Indent,
     Kelvin,
-    KelvinChain,
-    Layer,
     PowerLaw,
     Program,
     Prony,
@@ -48,7 +46,6 @@ from scene import (
     StandardLinearSolid,
     Tabulated,
     Topography,
-    Wave,
 )
 from scene.scales import elastic_contact
 
@@ -134,7 +131,6 @@ def test_heights_that_grow_together_and_units_change_nothing():
 
 
 STANDARD = StandardLinearSolid(1e6, 1e7, 1e-3)
-INSTANTANEOUS, COMPLIANCES, TIMES = STANDARD.retardation()
 WARMER = WLF(c1=17.4, c2=51.6, reference=300.0, temperature=305.0)
 
 
@@ -142,16 +138,11 @@ WARMER = WLF(c1=17.4, c2=51.6, reference=300.0, temperature=305.0)
     ("scene", "equal", "within"),
     [
         ({"elastomer": STANDARD}, {"elastomer": Prony(1e6, (9e6,), (1e-3,))}, 1e-6),
-        (
-            {"elastomer": STANDARD},
-            {"elastomer": KelvinChain(INSTANTANEOUS, tuple(COMPLIANCES.tolist()), tuple(TIMES.tolist()))},
-            1e-6,
-        ),
         ({"temperature": WARMER}, {"elastomer": Kelvin(1e6, KELVIN.relaxation_time * WARMER.shift)}, 1e-6),
         ({}, {"roughness": replace(ROUGH, seed=77)}, 1e-12),
         ({"motion": Slide(speed=1e-6, load=1.0)}, {"motion": Slide(speed=1e-12, load=1.0)}, 1e-3),
     ],
-    ids=["series", "chain", "temperature", "seed", "slower than slow"],
+    ids=["series", "temperature", "seed", "slower than slow"],
 )
 def test_equal_scenes_are_worth_the_same(scene, equal, within):
     one, other = (trust(replace(PAPER, **changed)).friction for changed in (scene, equal))
@@ -174,10 +165,8 @@ def test_what_is_elastic_has_no_friction():
 @pytest.mark.parametrize(
     ("changed", "said"),
     [
-        ({"layer": Layer(thickness=1e-3)}, "layer = Layer"),
         ({"interface": Coulomb(coefficient=0.3)}, "interface = Coulomb"),
         ({"motion": Program(stages=(Stage(duration=1.0, load=1.0),))}, "motion = Program"),
-        ({"roughness": Wave(amplitude=1e-5, wavelength=1e-3)}, "roughness = Wave"),
         ({"roughness": replace(ROUGH, hurst=0.8, shortest=5e-6)}, "a/λ_c = 1"),
         ({"roughness": replace(ROUGH, rms_height=2e-4)}, "h0/d = "),
         ({"motion": Slide(speed=0.1, depth=1e250)}, ""),
@@ -570,7 +559,12 @@ def test_an_interval_that_held_too_few_says_how_many_it_held(scores):
 
 
 @pytest.mark.parametrize(
-    ("inside", "scenes", "fails"), [(61, 87, True), (76, 87, True), (80, 87, False), (21, 30, False)]
+    ("inside", "scenes", "fails"),
+    [
+        (61, 87, True),
+        (76, 87, True),
+        (80, 87, False),
+    ],
 )
 def test_a_region_fails_where_its_share_is_significantly_below_the_promise(inside, scenes, fails):
     nothing, every = np.zeros(scenes), np.ones(scenes)
