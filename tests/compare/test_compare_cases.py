@@ -78,10 +78,7 @@ def test_what_has_no_friction_has_no_speeds_and_a_smooth_case_one_surface(case):
 
 
 MISTAKES = {
-    "a value of the wrong sign": (SCENE.replace("radius = 1e-2", "radius = -1.0"), "radius = -1.0"),
-    "a value of the wrong type": (SCENE + '[study]\nsurfaces = "many"\n', "study.surfaces = 'many'"),
     "a value that stands there twice": (SCENE + "[study]\nspeeds = [0.1, 0.1]\n", "twice"),
-    "neither load nor depth": (SCENE.replace("load = 1.0", ""), "load [N], depth [m]"),
     "friction of an interface": (SCENE + "[interface]\ncoefficient = 0.3\n", "leave interface out"),
     "a shape that one solver lacks": (
         SCENE.replace('"sphere"', '"cylinder"').replace("load = 1.0", "line_load = 1.0"),

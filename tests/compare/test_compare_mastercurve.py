@@ -79,20 +79,6 @@ def test_the_answer_holds_the_pair_of_shifts_that_was_planted(tmp_path, vertical
         assert not any("is shifted as" in each for each in [first, *others])
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("vertical", [0.0, 0.05])
-def test_shifts_of_friction_are_told_as_often_as_there_are_some(tmp_path, vertical):
-    """Of 60 tables; allowed: three deviations of as many beside 95 %."""
-    held = told = 0
-    for seed in range(60):
-        made = study(tmp_path, table(seed=seed, vertical=vertical))
-        ends = [each.interval() for each in (made.collapse.both.vertical_exponent, made.collapse.both.exponent)]
-        held += all(low <= planted <= high for (low, high), planted in zip(ends, (vertical, -1.5), strict=True))
-        told += made.lead is made.collapse.both
-    assert held >= 60 * (0.95 - 3 * np.sqrt(0.95 * 0.05 / 60))
-    assert told > 48 if vertical else told < 60 * (0.05 + 3 * np.sqrt(0.95 * 0.05 / 60))
-
-
 # Curves of friction, which are one of the load times a power of the speed.
 SHAPES = {
     "knee": lambda x: np.log(0.8) - 2 / 3 * np.log1p(np.exp(x)),

@@ -265,15 +265,6 @@ def test_eq_22_shifts_alike_with_the_loss_of_the_shortest_wave_and_of_every_wave
             assert losses.own_exponent(friction) == pytest.approx(-1.5 * loss.exponent, rel=0.01)
 
 
-def test_lines_between_nodes_have_the_slope_of_their_steps():
-    surface = draw(parameters.LOSS_ROUGH, parameters.POINTS)
-    q, amplitudes = predicted._linear_between_nodes(parameters.LOSS_ROUGH, surface.pixel)
-    slope = np.sqrt(np.sum(np.square(q * amplitudes)) / 2)
-    # Images beyond those kept have 1 / (pi^2 IMAGES) of the square at the highest wave, and none lies above it.
-    assert slope == pytest.approx(surface.rms_slope, rel=1 / (np.pi**2 * predicted.IMAGES))
-    assert slope < surface.rms_slope
-
-
 def test_heights_slopes_and_loads_times_a_number_have_friction_times_that_number():
     small = 0.001
     scenes, points = zip(*((place.scene, place.points) for place in contacts(SMALL)), strict=True)

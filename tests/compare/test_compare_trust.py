@@ -11,7 +11,6 @@ import scoring
 import trust as campaign
 from contact import Contact
 from pandas import DataFrame
-from scipy.stats import binom
 
 from bem3d import BEM
 from bem3d.surface import RoughSurface
@@ -401,13 +400,6 @@ def test_the_points_that_tell_most_know_the_rest_better_than_any_others():
     assert whole.telling(300).tolist() == list(range(300))
 
 
-def test_far_from_every_point_a_process_knows_nothing():
-    process = Process.fitted(*sampled(80))
-    _, near = process.predicted(np.zeros((1, 3)))
-    _, far = process.predicted(np.full((1, 3), 30.0))
-    assert far[0] > 100 * near[0]
-
-
 # What was measured.
 
 
@@ -584,17 +576,6 @@ def test_of_two_intervals_the_narrower_is_taken_and_one_that_is_usable_before_on
     law = scoring.Score(measured, Predicted(every, np.array([0.02, 0.02, 0.02, 0.4]), nothing))
     assert line.best(law).predicted.logarithm.tolist() == [0, 1, 1, 1]
     assert line.best(law).usable.tolist() == [True, True, True, False]
-
-
-@pytest.mark.parametrize(("held", "tried"), [(0, 12), (61, 87), (400, 400)])
-def test_the_interval_of_a_count_leaves_a_fortieth_at_either_end(held, tried):
-    low, high = scoring.of_count(held, tried)
-    assert (held == 0) == (low == 0)
-    assert (held == tried) == (high == 1)
-    if held:
-        assert binom.sf(held - 1, tried, low) == pytest.approx(0.025, rel=1e-6)
-    if held < tried:
-        assert binom.cdf(held, tried, high) == pytest.approx(0.025, rel=1e-6)
 
 
 def test_errors_without_the_scatter_of_the_truth_are_those_that_were_made():

@@ -19,7 +19,7 @@ from strategies import examples
 from compare.studies.topography.study import Map
 from scene import Measured, Scene, Topography
 from scene.form import DEGREES, levelled
-from scene.missing import MOST_FILLED, NEIGHBOURS, filled, outliers, sentinels
+from scene.missing import NEIGHBOURS, filled, outliers, sentinels
 from scene.reading import InvalidInput, read
 
 DIGITS = 1e-12  # what layouts with 15 digits keep
@@ -432,16 +432,6 @@ def test_a_hole_in_a_harmonic_surface_is_filled_in_with_it():
             surface
         )
     assert filled(np.where((x < 3) & (y < 2), NAN, 7.0), (1, 2)) == pytest.approx(7.0)
-
-
-@given(seed=st.integers(0, 10**6), share=st.floats(0.001, MOST_FILLED), scale=st.sampled_from([1e-45, 1.0, 1e45]))
-@examples(20)
-def test_filling_in_changes_no_measured_pixel_and_goes_beyond_none(seed, share, scale):
-    heights = scale * noise((13, 17), seed)
-    holes = np.random.default_rng(seed).random(heights.shape) < share
-    found = filled(np.where(holes, NAN, heights), (1e-6, 3e-6))
-    assert np.array_equal(found[~holes], heights[~holes])
-    assert heights[~holes].min() <= found.min() <= found.max() <= heights[~holes].max()
 
 
 def test_outliers_are_found_on_request_and_counted():

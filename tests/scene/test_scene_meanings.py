@@ -3,8 +3,6 @@
 from copy import deepcopy
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from compare.library.case import Case
@@ -126,43 +124,6 @@ def test_a_hint_says_where_a_name_has_a_value_already_or_takes_another_kind_of_i
     assert hint("elastomer", "times", 1e-3, without="relaxation_times", elastomer=PRONY) == (
         "relaxation_times takes a list"
     )
-
-
-NAMES = sorted({name for _, names in rows() for name in names} | {name for table in TABLES for name in table})
-VALUES = [0.5, 3, True, "5 mm", "3 MPa", "text", [1.0, 2.0], {"type": "kelvin"}]
-
-
-@settings(deadline=None, max_examples=200)
-@given(
-    st.sampled_from(NAMES),
-    st.sampled_from(["{}", "{}s", "{}x", "my_{}", "{}_1"]),
-    st.sampled_from(VALUES),
-    st.sampled_from(["", *WHOLE]),
-    st.sampled_from([{}, {"elastomer": PRONY}, {"elastomer": STANDARD}, {"indenter": CONE}, {"roughness": MAP}]),
-    st.data(),
-)
-def test_no_hint_leads_to_a_value_of_another_kind_or_to_a_second_value(name, written, value, table, parts, data):
-    content = deepcopy(WHOLE | parts)
-    inside = content[table] if table else content
-    left_out = data.draw(st.sampled_from(sorted(inside, key=str) or [None]))
-    if left_out != "type" and table:
-        inside.pop(left_out, None)
-    stated = dict(inside)
-    if (misspelt := written.format(name)) in inside:
-        return
-    inside[misspelt] = value
-    for line in said_of(content):
-        _, asks, meant = line.partition("unknown here; did you mean ")
-        if not asks or not line.startswith(f"{table}.{misspelt}".strip(".")):
-            continue
-        *way, field = meant.partition("?")[0].split(".")
-        assert (field in stated and not way) == ("It has a value already" in line), line
-        if "It has a value already" not in line:
-            place = ".".join([*(way or [table] * bool(table)), field])
-            wrong = [each for each in said_of(content) if each.startswith(f"{place} =")]
-            assert not any(
-                each.endswith(("a valid number", "integer", "string", "a table", "list")) for each in wrong
-            )
 
 
 def test_another_name_of_a_type_is_said_as_the_type():

@@ -56,13 +56,6 @@ def worst(found, expected):
 
 
 @every_solid
-def test_modulus_times_complex_compliance_is_one_over_twenty_decades(solid):
-    instantaneous, compliances, times = solid.retardation()
-    compliance = instantaneous + (compliances / (1 + 1j * FREQUENCIES[:, None] * times)).sum(axis=1)
-    np.testing.assert_allclose(solid.complex_modulus(FREQUENCIES) * compliance, 1.0, rtol=1e-12)
-
-
-@every_solid
 def test_the_modulus_ends_at_the_static_and_the_glassy_one(solid):
     assert solid.complex_modulus(0.0) == pytest.approx(solid.static_modulus, rel=ROUNDING)
     assert solid.relaxation_modulus(1e30) == pytest.approx(solid.static_modulus, rel=ROUNDING)

@@ -79,17 +79,6 @@ def test_a_power_law_over_eight_decades_is_followed_with_few_modes():
     assert len(solid.relaxation()[2]) <= 5 * 8
 
 
-def test_units_of_frequency_and_kind_of_modulus_are_applied():
-    in_shear, rubber = fitted(), table()
-    hertz = replace(rubber, frequency=tuple(OMEGA / (2 * np.pi)))
-    tensile = replace(hertz, storage=np.multiply(2.8, rubber.storage), loss=np.multiply(2.8, rubber.loss))
-    np.testing.assert_allclose(
-        fitted(hertz, frequency_unit="Hz").complex_modulus(OMEGA), in_shear.complex_modulus(OMEGA), rtol=1e-6
-    )
-    stretched = fitted(tensile, frequency_unit="Hz", kind="tensile", poisson_ratio=0.4)
-    np.testing.assert_allclose(stretched.complex_modulus(OMEGA), in_shear.complex_modulus(OMEGA), rtol=1e-6)
-
-
 def test_units_do_not_matter_to_the_fit():
     unit, rubber = 1e20, table()
     scaled = Table(
@@ -105,14 +94,6 @@ def test_a_known_modulus_at_rest_is_kept():
     solid = fitted(glass, equilibrium_modulus=1.2e6)
     assert solid.static_modulus == 1.2e6
     assert solid.rms_error <= 0.1
-
-
-def test_a_liquid_has_no_modulus_at_rest():
-    z = OMEGA * 1e-2
-    liquid = Table(frequency=OMEGA, storage=1e6 * z**2 / (1 + z**2), loss=1e6 * z / (1 + z**2))
-    with pytest.raises(ValidationError, match=r"rest open: it shows a liquid, .* state equilibrium_modulus"):
-        fitted(liquid)
-    assert fitted(liquid, equilibrium_modulus=1e-6).static_modulus == 1e-6
 
 
 def branches(moduli, times):
@@ -216,7 +197,6 @@ def test_scatter_beyond_the_tolerance_is_refused_until_it_is_allowed():
         ({"frequency": (1.0, 2.0)}, r"have \[2, 46, 46\] values"),
         ({"storage": (1e6,) * 45 + (-1.0,)}, r"storage\.45\n.*greater than 0"),
         ({"loss": (1e6,) * 45 + (float("nan"),)}, r"loss\.45\n.*finite"),
-        ({"frequency": (1.0, 2.0, 3.0) * 15 + (1.0,)}, "3 frequencies: at least 4"),
     ],
 )
 def test_a_wrong_table_is_refused_with_its_place(change, said):
