@@ -152,10 +152,7 @@ def test_a_model_that_answers_nothing_is_told_and_takes_no_other_with_it(error, 
         (["bem", object()], None, "frozen dataclass"),
         (["bem", replace(Stiff(), factor=object())], None, "numbers, texts"),
         (["bem", Gridded(points=2**63)], None, f"its `points` = {2**63}: a whole number from 1 to {2**63 - 1}"),
-        *(
-            (["bem", called(name)], None, "its `name` is")
-            for name in ("", "a/b", "\ud800", 3)
-        ),
+        *((["bem", called(name)], None, "its `name` is") for name in ("", "a/b", "\ud800", 3)),
         (["bem", called("a", r"$\frac$")], None, "its `label` is"),
     ],
 )

@@ -417,7 +417,7 @@ def test_a_line_above_the_rows_states_their_temperature(tmp_path, above, kelvin)
     "heading",
     [
         "ω [1/s];G′ [Pa];G′′(ω) [Pa]",
-        "omega;G’;G\"",
+        'omega;G’;G"',
         "Kreisfrequenz in rad/s;Speichermodul in Pa;Verlustmodul in Pa",
         "omega*aT [rad.s-1];Re(G*) [Pa];Im(G*) [Pa]",
         "$\\omega$ (rad/s);$G'$ (Pa);$G''$ (Pa)",
