@@ -40,8 +40,6 @@ INTERFACE = r"interface = Coulomb with motion = Slide: .*; leave interface out"
     [
         ({"motion": PROGRAM}, "motion = Program: crosscheck compares"),
         ({"interface": Coulomb(0.3)}, INTERFACE),
-        ({"interface": Coulomb(0.3), "elastomer": Elastic(modulus=1e6)}, INTERFACE),
-        ({"interface": Coulomb(0.3), "motion": Slide(speed=0.0, load=1.0)}, INTERFACE),
     ],
 )
 def test_what_says_nothing_of_the_elastomer_is_refused_though_both_solvers_take_it(case, change, said):

@@ -137,25 +137,6 @@ def test_a_held_contact_relaxes_as_the_modulus_and_a_held_load_creeps_as_the_com
     assert depth == pytest.approx((7.0 * compliance / b) ** (n / (n + 1)), rel=1e-6)
 
 
-@pytest.mark.parametrize("solid", [SOLID, RUBBER, CHAIN])
-@pytest.mark.parametrize("shape", SHAPES)
-def test_withdrawing_slowly_is_elastic_and_fast_leaves_no_touch(shape, solid):
-    slow = 1e9
-    force, radius = indentation.force_of_depth(
-        shape, solid, [0, slow, 2 * slow], [0, 0.2, 0], [0.5 * slow, 1.5 * slow]
-    )
-    assert force[1] == pytest.approx(force[0], rel=1e-5)
-    assert radius[1] == pytest.approx(radius[0], rel=1e-5)
-    kc, n = shape.mdr_coefficient, shape.exponent
-    assert radius[0] == pytest.approx((0.1 / kc) ** (1 / n), rel=1e-12)
-    elastic = 2 * n / (n + 1) * solid.indentation_modulus * kc * radius[0] ** (n + 1)
-    assert force[0] == pytest.approx(elastic, rel=1e-5)
-    force, radius = indentation.force_of_depth(
-        shape, solid, [0, slow, slow * (1 + 1e-12)], [0, 0.2, 0], [slow * (1 + 1e-12)]
-    )
-    assert (force, radius) == (0, 0)
-
-
 def test_dashpot_of_a_kelvin_body_adds_its_rate():
     """F = B E* (d^m + tau d(d^m)/dt) while the contact grows."""
     force = indentation.loading_force(Sphere(radius=1.0), RUBBER, [0, 2.0], [0, 0.2], [0.5, 2.0])

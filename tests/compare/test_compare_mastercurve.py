@@ -130,19 +130,6 @@ def test_exponent_and_shifts_are_in_their_intervals_whatever_the_shape_of_the_cu
     assert min(map(np.mean, (exponents, shifts, misfits))) >= least, (exponents, shifts, misfits)
 
 
-def test_three_loads_a_speed_leave_the_common_curve_free_to_bend_as_friction_does():
-    """Both shifts of each speed leave hardly a point free, those along the load alone leave eight."""
-    rng = np.random.default_rng(1)
-    f, logs, _ = (
-        each.ravel() for each in np.meshgrid(np.log([1, 8, 64]), np.linspace(0, 7, 6), range(3), indexing="ij")
-    )
-    friction = np.exp(SHAPES["knee"](f + PLANTED * logs) + 0.001 * rng.normal(size=f.size))
-    fit = Mastercurve.of({"mu": friction, "F_N": np.exp(f), "v": np.exp(logs)}, tolerance=0).collapse.horizontal
-    # A polynomial of the fourth degree misses it by 0.4 %.
-    assert fit.misfit.interval()[0] < FOLLOWED
-    assert holds(fit.exponent, PLANTED)
-
-
 def test_one_scatter_stands_behind_all_points(tmp_path):
     lines = [line for index, line in enumerate(table().splitlines()) if index % 3 == 0 or index > 40]
     data = study(tmp_path, "\n".join(lines)).collapse.data

@@ -17,8 +17,7 @@ from compare.studies.paper.parameter_studies import ParameterStudies, contacts, 
 from compare.studies.paper.parameters import Loss
 from compare.studies.paper.planes import Planes
 from compare.studies.paper.study import Paper
-from mdr1d import draw, equations
-from mdr1d import sweep as flow
+from mdr1d import equations
 from mdr1d.ensemble import solve_profiles
 from scene import Cone, Regime, SolveError
 from scene.reading import InvalidInput
@@ -73,25 +72,6 @@ def test_one_parameter_varies_at_a_time():
             scene.elastomer.relaxation_time == reference.elastomer.relaxation_time,
         ]
         assert [name for name, is_same in enumerate(same) if not is_same] in ([place.study], [])
-
-
-@pytest.mark.parametrize("shape", parameters.SHAPES)
-def test_on_half_the_pixel_the_same_line_has_the_same_friction(shape):
-    """The grid has no share in any interval: the body is a line between nodes, and is solved exactly."""
-    scene = parameters.base(shape, speed=0.01)
-    surface, body = draw(scene.roughness, parameters.POINTS), scene.indenter
-    x = (np.arange(parameters.POINTS) - parameters.POINTS // 2) * surface.pixel
-    heights = surface.heights + body.mdr_coefficient * np.abs(x) ** body.exponent
-    between = np.interp(np.arange(0, x.size - 0.5, 0.5), np.arange(x.size), heights)
-    memory = scene.motion.speed * scene.elastomer.relaxation_time
-    depth = heights.min() + 2 * scene.roughness.rms_height
-    whole, halved = flow(heights, surface.pixel, memory, depth), flow(between, surface.pixel / 2, memory, depth)
-    # Rounding of 5000 pixels.
-    assert halved.traction / halved.force == pytest.approx(whole.traction / whole.force, rel=1e-9)
-    assert whole.length < 0.9 * (whole.last - whole.first)
-    # Every second node is another line.
-    coarse = flow(heights[::2], 2 * surface.pixel, memory, depth)
-    assert coarse.traction / coarse.force != pytest.approx(whole.traction / whole.force, rel=1e-3)
 
 
 def test_friction_at_low_speed_collapses_on_slope_one_where_the_conditions_hold(slow):
@@ -281,13 +261,6 @@ def test_heights_slopes_and_loads_times_a_number_have_friction_times_that_number
     # Both loads are met to 1e-10 at least; measured 2e-15.
     np.testing.assert_allclose(gentle.friction / small, steep.friction, rtol=1e-9)
     assert gentle.rms_slope.max() < SMALL_SLOPE < steep.rms_slope.max()
-
-
-def test_the_whole_campaign_takes_three_sweeps_a_contact():
-    found = contacts(ParameterStudies())
-    answers = solve_profiles([place.scene for place in found], [place.points for place in found], seeds=(0,))
-    # Two confirm a neighbour's depth; from the sure start alone each takes five.
-    assert answers.sweeps.mean() <= 3.1
 
 
 def test_conditions_say_what_breaks_and_where():

@@ -221,13 +221,6 @@ def test_where_nobody_asks_for_it_the_theory_is_drawn_and_not_judged(by_default)
         assert "Persson's theory" in lines
 
 
-def test_a_scene_at_a_depth_is_compared_without_it(tmp_path):
-    case = replace(ROUGH_CASE, motion=Slide(speed=0.1, depth=2e-4))
-    report = compare.run(case, tmp_path, models=MODELS, report=False)
-    assert not report.table["dimension"].str.contains("Persson").any()
-    assert set(report.table["dimension"]) >= {"1D", "3D", "1D/3D"}
-
-
 def series(**changed):
     given = {
         "name": "one",

@@ -102,10 +102,6 @@ def test_fields_come_back_and_are_missed_where_they_are_wanted(tmp_path):
     store.put(PICTURE, Outcome((ROW,), {"x": np.arange(3.0)}))
     assert np.array_equal(store.get(PICTURE).fields["x"], np.arange(3.0))
     assert store.get(TASK).fields == {}
-
-
-def test_a_task_whose_fields_are_empty_is_done(tmp_path):
-    store = Store(tmp_path)
     store.put(PICTURE, Outcome((ROW,)))
     assert store.get(PICTURE).fields == {}
 

@@ -11,6 +11,7 @@ import scoring
 import trust as campaign
 from contact import Contact
 from pandas import DataFrame
+from solids import gel
 
 from bem3d import BEM
 from bem3d.surface import RoughSurface
@@ -43,7 +44,6 @@ from scene import (
     Sphere,
     Stage,
     StandardLinearSolid,
-    Tabulated,
     Topography,
 )
 from scene.scales import elastic_contact
@@ -601,14 +601,6 @@ def test_a_scene_is_solved_until_its_scatter_is_known_and_its_ratio_is_the_map_s
         assert worth.surface_low < exp(found.logarithm) < worth.surface_high
 
 
-def gel(**stated):
-    """A table of a power law from 1 to 100 rad/s, which leaves the modulus at rest open."""
-    omega = np.geomspace(1.0, 100.0, 13)
-    modulus = 1e6 * (1j * omega) ** 0.2
-    table = {"omega [rad/s]": omega, "G' [Pa]": modulus.real, "G'' [Pa]": modulus.imag}
-    return Tabulated(table=table, **stated)
-
-
 @pytest.mark.parametrize(
     ("motion", "doubted", "stated"),
     [
@@ -619,17 +611,17 @@ def gel(**stated):
     ids=["slow", "fast", "at rest"],
 )
 def test_there_is_no_advice_on_what_a_table_does_not_show_until_it_is_stated(motion, doubted, stated):
-    found = trust(replace(SMOOTH, elastomer=gel(), motion=motion))
+    found = trust(replace(SMOOTH, elastomer=gel(1.0), motion=motion))
     assert doubted in found.doubts[0].name
     assert {each.advice for each in found.corrections.values()} == {"none"}
     assert all(doubted in each.reason for each in found.corrections.values())
     assert str(found).startswith("doubtful: ")
-    known = trust(replace(SMOOTH, elastomer=gel(**stated), motion=motion))
+    known = trust(replace(SMOOTH, elastomer=gel(1.0, **stated), motion=motion))
     assert "none" not in {each.advice for each in known.corrections.values()}
 
 
 def test_there_is_advice_within_a_table_and_a_little_outside():
     for speed in (1e-2, 0.5):  # v/a = 14 and 600 rad/s
-        found = trust(replace(SMOOTH, elastomer=gel(), motion=Slide(speed=speed, load=1.0)))
+        found = trust(replace(SMOOTH, elastomer=gel(1.0), motion=Slide(speed=speed, load=1.0)))
         assert bool(found.doubts) == (speed == 0.5)
         assert "none" not in {each.advice for each in found.corrections.values()}

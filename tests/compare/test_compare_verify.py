@@ -1,7 +1,5 @@
 """A scorecard finds what is wrong with a model, by the law that names it, and lets pass what is right."""
 
-import subprocess
-import sys
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -227,34 +225,6 @@ def test_models_are_found_by_name_as_class_and_as_object():
     assert model_of(COARSE).solver is COARSE
     assert [model_of(each).dimension for each in (MDR(), BEM(), Hertz())] == ["1D", "3D", "3D"]
     assert [model_of(each).draws for each in (MDR(), BEM(), Hertz())] == ["profiles", "surfaces", "none"]
-
-
-SCRIPT = """
-from dataclasses import dataclass
-
-import compare
-from compare.models.exact import Exact
-
-
-@dataclass(frozen=True)
-class Mine:
-    name = "mine"
-
-    def solve(self, scene):
-        return Exact().solve(scene)
-
-
-if __name__ == "__main__":
-    print(compare.verify(Mine(), "verify", report=False, workers=1))
-"""
-
-
-@pytest.mark.slow
-def test_a_model_of_a_script_is_judged(tmp_path):
-    (tmp_path / "script.py").write_text(SCRIPT)
-    found = subprocess.run([sys.executable, "script.py"], cwd=tmp_path, capture_output=True, text=True, check=True)
-    assert "mine as a model in 3D: " in found.stdout
-    assert ", 0 fail" in found.stdout
 
 
 @pytest.mark.slow

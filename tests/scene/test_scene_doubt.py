@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from solids import gel
 
 from compare.library.lookup import case_of
 from compare.library.ready import ready
@@ -64,14 +65,6 @@ WAVES = np.sin(2 * np.pi * np.arange(64) / 16)
 GROOVES = 1e-6 * (WAVES[:, None] + 0.05 * WAVES[None, :])  # heights vary along y
 SPIKE = 1e-6 * WAVES[:, None] * WAVES[None, :]
 SPIKE[20, 30] = 1e-3
-
-
-def gel(lowest, exponent=0.2, **stated):
-    """A table of two decades from a lowest frequency [rad/s] on, of a power law of the frequency."""
-    omega = lowest * np.geomspace(1.0, 100.0, 13)
-    modulus = 1e6 * (1j * omega) ** exponent
-    table = Table(omega, modulus.real, modulus.imag)
-    return Tabulated(table=table, frequency_unit="rad/s", kind="shear", **stated)
 
 
 # By the number and its end: what breaks the limit.

@@ -148,16 +148,6 @@ def test_a_line_scan_is_the_measured_line_at_its_points(repeat, seed, points):
         assert seed or shifts == [points // 2]
 
 
-def test_the_one_dimensional_contact_is_on_the_measured_line_when_it_is_asked_for():
-    answer = MDR(points=1600, extent=800 * SPACING, spectrum="line-scan").solve(SLIDING)
-    x, profile = answer.fields["x"], answer.fields["profile"]
-    rough = profile - x**2 / SLIDING.indenter.radius
-    places = np.round(x / SPACING).astype(int) + len(HEIGHTS) // 2
-    here = (np.abs(x / SPACING - np.round(x / SPACING)) < 1e-6) & (places >= 0) & (places < len(HEIGHTS))
-    assert here.sum() > 20
-    assert rough[here] == pytest.approx(PROFILE.relief[places[here]], abs=1e-9 * np.ptp(HEIGHTS))
-
-
 def test_peaks_of_an_instrument_point_towards_the_elastomer():
     assert PROFILE.relief == pytest.approx(-replace(PROFILE, peaks="down").relief)
     assert np.argmin(PROFILE.relief) == np.argmax(taken_off(HEIGHTS, 1))

@@ -284,14 +284,6 @@ def test_of_a_body_waves_shorter_than_kept_are_gone_and_longer_ones_and_the_form
     assert np.abs(body.relief - known.relief).max() > 0.5e-9
 
 
-def test_waves_that_a_body_keeps_are_those_that_roughness_keeps():
-    stated = {"heights": noise((12, 15)), "pixel": (1.0, 2.0), "peaks": "down", "shortest_kept": 7.0}
-    body, map_ = Measured(**stated), Topography(**stated, level="curvature")
-    form = stated["heights"] - replace(map_, shortest_kept=None).relief
-    expected = form + summed(map_.waves, *places(map_))
-    np.testing.assert_allclose(body.relief, expected - expected.min(), atol=10 * ROUNDING)
-
-
 def test_a_body_of_short_waves_alone_is_a_plane_without_them():
     body = Measured(heights=wave(4, 12), pixel=SIDES)
     with pytest.raises(ValidationError, match=r"a plane without waves shorter than 0.0002 m"):
