@@ -277,7 +277,7 @@ def test_tables_of_python_give_the_numbers_of_the_file(tmp_path):
     (tmp_path / "ball.csv").write_text(table())
     plain = MeasuredFriction.of(tmp_path / "ball.csv")
     unit = pint.UnitRegistry()
-    frame = pandas.DataFrame({"v [mm/s]": 1e3 * SPEED, "COF": MU, "load [N]": LOAD})
+    frame = pandas.DataFrame({"v [mm/s]": 1e3 * SPEED, "COF": MU, "load [N]": LOAD, "remark": ["a"] * len(MU)})
     for given in (frame, {"mu": MU, "F_N": unit.Quantity(1e3 * LOAD, "mN"), "v": SPEED}):
         read = MeasuredFriction.of(given)
         for name, numbers in plain.data.items():

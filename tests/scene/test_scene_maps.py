@@ -81,6 +81,7 @@ LAYOUTS = {
         ),
         {},
     ),
+    "a quoted heading of all": (lambda h, p: '"Height Sensor(nm)"\n' + text(1e3 * h, "\t"), {"pixel": "stated"}),
     "a unit in brackets": (
         lambda h, p: f"Pixel width (µm) = {p[0]}\nPixel height (µm) = {p[1]}\n\n" + text(h),
         UM,
@@ -212,6 +213,23 @@ WRONG = {
         text(np.column_stack([np.arange(9), np.ones(9), noise(9)])),
         'all y are 1.*type = "profile"',
     ),
+    "points on a diagonal": (text(np.repeat(np.arange(30.0), 3).reshape(30, 3)), "30 points on 30 x 30 places"),
+    "points that are counted, and no heading": (
+        text(np.column_stack([np.arange(30), points(noise((6, 5)), (1, 2))])),
+        "columns 2 and 3 are places on a lattice: write a heading",
+    ),
+    "a line that is neither": (
+        with_axes(noise((5, 5)), (1, 1), "[um]"),
+        r"line 1: '\[um\];3.*is neither a row of",
+    ),
+    "uneven axes": (
+        with_axes(noise((5, 5)), (1, 1), "y").replace("5.0000", "5.3000", 1),
+        "first row .*: coordinates = 5.3 is on no lattice",
+    ),
+    "axes that contradict": (
+        "Width: 10 um\n" + with_axes(noise((5, 5)), (1, 1), "y [um]"),
+        "states pixels of 2e-06 m, and its axes lie 1e-06 m",
+    ),
     "scattered points": (text(noise((200, 3))), "is on no lattice"),
     "a point off its place": (
         text(points(noise((5, 5)), (1, 1)) + np.where(np.arange(75) == 33, 0.2, 0).reshape(25, 3)),
@@ -225,10 +243,6 @@ WRONG = {
     "a first row of numbers that count": (
         text(np.vstack([np.arange(8), noise((6, 8))])),
         "line 1: the first row, 0, 1, 2 .* as coordinates",
-    ),
-    "points with a number each and no heading": (
-        text(np.column_stack([points(noise((6, 5)), (1, 2)), noise(30)])),
-        "columns 1 and 2 are places on a lattice: write a heading",
     ),
     "a side twice": (
         "X axis\nSpacing: 1 um\nY axis\nSpacing: 2 um\n\n" + text(noise((5, 5))),

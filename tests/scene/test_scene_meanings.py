@@ -120,6 +120,7 @@ def test_a_hint_says_where_a_name_has_a_value_already_or_takes_another_kind_of_i
     assert hint("elastomer", "G", 1e6) == "did you mean modulus? It has a value already"
     assert hint("elastomer", "modlus", 1e6) == "did you mean modulus? It has a value already"
     assert hint("roughness", "hurts", "0.5", without="hurst") == "hurst takes a number"
+    assert hint("motion", "my_speed", 0.1, without="speed") == "did you mean speed?"
     assert hint("bem", "resolution", "1 um") == "points takes a whole number"
     assert hint("elastomer", "times", 1e-3, without="relaxation_times", elastomer=PRONY) == (
         "relaxation_times takes a list"

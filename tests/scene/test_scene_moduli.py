@@ -250,6 +250,7 @@ def test_a_heading_of_thousands_of_letters_is_told_in_brief(tmp_path):
         ("omega,G*,delta [deg]", {}, r"column 3 \(delta\): phase = 300 must be below 90 deg"),
         ("G',G'',strain", {}, "no column of the frequency"),
         ("T [C],G',G''", {}, "a sweep of temperature is no table of frequencies"),
+        ("x,G(t),y", {}, "no column of the time"),
         ("t,G(t),J(t)", {}, "both a relaxation modulus and a creep compliance"),
         ("t [s],G(t),y", {"frequency_unit": "Hz"}, "table over time: leave frequency_unit = 'Hz' out"),
     ],

@@ -2,7 +2,7 @@
 
 import difflib
 import tomllib
-from dataclasses import FrozenInstanceError, replace
+from dataclasses import FrozenInstanceError, dataclass, replace
 from math import pi
 
 import numpy as np
@@ -176,6 +176,17 @@ def test_rows_of_numbers_are_not_repeated_to_whoever_wrote_them(tmp_path):
     assert str(raised.value).endswith(
         "roughness.heights: an array of shape (50, 3): a map has at least 4 rows and columns"
     )
+
+
+def test_a_list_that_is_too_short_is_named_with_what_it_lacks(tmp_path):
+    @dataclass(frozen=True)
+    class Ends:
+        pair: tuple[float, float]
+
+    path = tmp_path / "ends.toml"
+    path.write_text("pair = [1.0]\n")
+    with pytest.raises(InvalidInput, match=r"ends.toml: pair.1 = \[1.0\]: Field required"):
+        read(path, Ends)
 
 
 @pytest.mark.parametrize("digits", [301, 4000])

@@ -75,6 +75,7 @@ def test_the_encoding_does_not_matter(tmp_path, encoding):
     [
         [HEADED],
         ["f;G';G''", "Hz;MPa;kPa"],
+        ["f;G';G''", "[Hz];[MPa];[kPa]"],
         ["% f, Hz", '"f / Hz";"G\' / MPa";"G"" / kPa"'],
         ["# f [Hz], G' [MPa], G'' [kPa]"],
         [HEADED, "# " + "-" * 20],
@@ -94,6 +95,10 @@ def test_units_are_those_of_the_heading_wherever_it_stands(tmp_path, above):
     [
         (["f [Hz];G' [MPa];G'' [kPx]", *ROWS], "kPx"),
         (["f [s];G' [MPa];G'' [kPa]", *ROWS], "a frequency, as Hz"),
+        (["f;G';G''", "Hz;MPa", *ROWS], "neither"),
+        (["# all moduli in MPa", *ROWS], "speaks of MPa"),
+        (["1,5", "2,5", "3,5"], "can be read as 1 and 5 and as 1.5"),
+        (["1,5,2,5,3,5", "4,5,5,5,6,5"], "commas may part columns or decimals"),
         (["f [Hz];G' [MPa];G'' [kPa]", "Hz;Pa;Pa", *ROWS], "state one"),
         (["f;G';G'';loss modulus", *(row + ";1" for row in ROWS)], "both loss"),
         (["# storage modulus and loss modulus in MPa", *ROWS], "above the numbers is no heading"),
@@ -146,8 +151,13 @@ def test_a_blank_line_a_comment_or_a_text_ends_a_block(tmp_path):
     assert [each.numbers[0, 0] for each in (one, two, three)] == [1, 5, 7]
 
 
+def test_a_heading_tells_commas_between_columns_from_those_of_decimals(tmp_path):
+    (sheet,) = read_sheets(written(tmp_path, "f,G'\n1,5\n2,5"))
+    np.testing.assert_array_equal(sheet.numbers, [[1, 5], [2, 5]])
+
+
 def test_a_column_that_is_not_known_is_named(tmp_path):
-    text = "f [Hz];status;G' [MPa];strain [%];G'' [kPa]\n1;ok;2;0,1;3\n2;ok;3;0,1;4\n"
+    text = "f [Hz];status;G' [MPa];strain [%];G'' [kPa]\n1;12.03.2024;2;0,1;3\n2;ok;3;0,1;4\n"
     _, notes = chosen(*read_sheets(written(tmp_path, text)), WANTED)
     assert [each.rpartition(": ")[2] for each in notes] == ["column 'strain' is not used"]
 
@@ -169,7 +179,9 @@ def test_many_rows_are_read_at_once_as_they_are_one_by_one(tmp_path):
     text = "\n".join(";".join(f"{each:.6e}".replace(".", ",") for each in row) for row in numbers)
     (fast,) = read_sheets(written(tmp_path, text))
     (slow,) = read_sheets(written(tmp_path, text.replace("e", "d", 1)))  # numpy does not know this exponent
+    (quoted,) = read_sheets(written(tmp_path, text.replace(";", '";"').replace("\n", '"\n"').join('""')))
     np.testing.assert_array_equal(fast.numbers, slow.numbers)
+    np.testing.assert_array_equal(fast.numbers, quoted.numbers)
     with pytest.raises(ValueError, match="at most 300 are read"):
         read_sheets(written(tmp_path, text), most_rows=300)
     with pytest.raises(ValueError, match=r"line 401: 5 columns"):

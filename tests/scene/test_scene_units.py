@@ -109,6 +109,8 @@ def test_a_difference_of_temperatures_has_none_and_a_temperature_is_no_differenc
         ("   ", ""),
         ("5", "no unit"),
         ("inf m", "no number"),
+        ("1e999 m", "range"),
+        ("5 m/", "no unit"),
         ("1e9999999999999999999999999 m", "range"),
         ("1,5 mm", "decimal points"),
         ("5 __import__('os')", "no unit"),
