@@ -5,7 +5,6 @@ from math import pi
 
 import numpy as np
 import pytest
-from scipy.integrate import quad
 
 from compare.models import exact
 from compare.models.exact import Exact
@@ -34,18 +33,6 @@ ROUNDING = 1e-12
 RING_SUM = 3e-3
 
 
-def radius_under(load, stiffness, shape):
-    """Eq. 16 with 2E* for 8G: a^(n+1) = F (n+1) / (2 E* c n)."""
-    c, n = shape.mdr_coefficient, shape.exponent
-    return (load * (n + 1) / (2 * stiffness * c * n)) ** (1 / (n + 1))
-
-
-def g(shape, x):
-    """The MDR profile from its defining integral, with r = x sin(t)."""
-    slope = shape.coefficient * shape.exponent
-    return x * quad(lambda t: slope * (x * np.sin(t)) ** (shape.exponent - 1), 0, pi / 2)[0]
-
-
 @pytest.mark.parametrize("shape", SHAPES)
 def test_pressure_carries_the_load(shape):
     answer = Exact().solve(Scene(shape, RUBBER, Indent(load=1.0)))
@@ -53,17 +40,6 @@ def test_pressure_carries_the_load(shape):
     middle = (p[1:] + p[:-1]) / 2
     assert pi * np.sum(middle * np.diff(r**2)) == pytest.approx(1.0, rel=RING_SUM)
     assert np.all(p >= 0)
-
-
-@pytest.mark.parametrize("shape", SHAPES)
-def test_slow_friction_is_the_integral_of_the_squared_slope_and_twice_it_in_one_dimension(shape):
-    radius, step = 1e-3, 1e-9
-    integral = quad(lambda x: ((g(shape, x + step) - g(shape, x)) / step) ** 2, 0, radius)[0]
-    arguments = (0.1, radius, 1e-3, 4e6, shape.mdr_coefficient, shape.exponent)
-    three = exact.slow_friction_3d(*arguments)
-    # Forward differences of step / radius = 1e-6.
-    assert three == pytest.approx(0.1 * 1e-3 * 4e6 * integral, rel=1e-4)
-    assert exact.slow_friction_1d(*arguments) == 2 * three
 
 
 def test_mean_lag_is_the_loss_at_low_frequency():

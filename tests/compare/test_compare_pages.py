@@ -499,8 +499,6 @@ def test_nothing_is_written_out_of_the_folder(copied, tmp_path):
     ("given", "said"),
     [
         ({"journal": "natur"}, "mean nature"),
-        ({"style": "nowhere"}, "no style"),
-        ({"style": {"a": 1}}, "a"),
         ({"width": "5 m"}, "width = '5 m': 80 mm to 200 mm"),
         ({"width": "84 s"}, "width = '84 s': a length"),
     ],

@@ -113,14 +113,6 @@ def test_the_integral_is_that_of_the_papers(ratio, gamma):
     assert expected != pytest.approx(np.trapezoid(weight * lost, q) / 2, rel=10 * QUADRATURE)
 
 
-def test_the_later_factor_is_none_at_one_and_lowers_friction():
-    scene = plane(0.2)
-    frictions = [Persson(gamma).solve(scene).friction_force for gamma in (0.0, 0.5, 1.0)]
-    assert frictions == sorted(frictions)
-    assert frictions[-1] == Persson().solve(scene).friction_force
-    assert len({Persson().name, Persson(0.5).name, Persson(1.0).name}) == 3
-
-
 @pytest.fixture(scope="module")
 def measured_errors():
     """Of docs/measure: area and friction over those of planes in three dimensions."""

@@ -13,13 +13,11 @@ from scene import (
     WLF,
     Arrhenius,
     Coulomb,
-    Fractional,
     Heating,
     Indent,
     Kelvin,
     KelvinChain,
     Program,
-    Prony,
     Result,
     Scene,
     SelfAffine,
@@ -46,11 +44,7 @@ WARM = replace(PLAIN, temperature=LAW)
 SOLIDS = {
     "standard": STANDARD,
     "kelvin": Kelvin(RUBBERY, TIME),
-    "prony": Prony(RUBBERY, (RUBBERY, 9 * RUBBERY), (10 * TIME, TIME)),
     "chain": KelvinChain(0.1 / RUBBERY, (0.5 / RUBBERY, 0.4 / RUBBERY), (TIME, 30 * TIME)),
-    "fractional": Fractional(
-        modulus=RUBBERY, relaxation_time=TIME, exponent=0.5, lowest_frequency=1.0, highest_frequency=1e5
-    ),
 }
 
 

@@ -145,11 +145,6 @@ def test_of_ready_scenes_that_is_doubted_which_their_departures_or_notes_state(n
     assert [each for each in case.doubts if each.name not in stated] == []
 
 
-def test_a_ready_scene_that_is_changed_is_doubted():
-    case = case_of("paper-sphere")
-    assert replace(case, indenter=Sphere(10.0)).doubts[0].name == "radius of the body"
-
-
 @pytest.mark.parametrize(
     ("changed", "meant"),
     [

@@ -5,11 +5,8 @@ from decimal import Decimal, localcontext
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 from pydantic import ValidationError
 from solids import OF_EACH_TYPE
-from strategies import examples
 
 from scene import Elastic, Fractional, Kelvin, KelvinChain, Prony, StandardLinearSolid
 from scene.modes import Relaxation, Retardation
@@ -327,14 +324,6 @@ def test_a_solid_stated_by_young_s_modulus_is_that_of_its_shear_modulus_to_the_l
     assert solid(**stretched(solid, ratio)) == solid(**IN_SHEAR[solid], poisson_ratio=ratio)
     half = {name: value for name, value in stretched(solid, 0.5).items() if name != "poisson_ratio"}
     assert solid(**half) == solid(**IN_SHEAR[solid])
-
-
-@given(st.floats(1e-3, 1e12), st.integers(-99, 50))
-@examples(100)
-def test_any_young_s_modulus_is_converted_to_within_a_rounding(modulus, hundredths):
-    ratio = hundredths / 100
-    found = Elastic(youngs_modulus=modulus, poisson_ratio=ratio).modulus
-    assert found == pytest.approx(modulus / (2 * (1 + ratio)), rel=4e-16)
 
 
 @pytest.mark.parametrize(
