@@ -90,17 +90,6 @@ def test_no_more_is_handed_out_than_workers_have_threads_and_a_few(cluster, tmp_
 
 
 @pytest.mark.slow
-def test_a_fault_on_the_cluster_is_recorded_as_here(cluster, tmp_path):
-    tasks = loads(2000.0, 200.0, 5.0)
-    swept = sweep(tasks, Store(tmp_path), scheduler=cluster.scheduler_address)
-    reasons = [swept.outcomes[task].rows[0].reason for task in tasks]
-    assert reasons == ["ZeroDivisionError: a fault in the solver", "200 N is too much; press less", None]
-    assert list(swept.faults) == tasks[:1]
-    (note,) = tmp_path.glob("*.fault.txt")
-    assert 'raise ZeroDivisionError("a fault in the solver")' in note.read_text()
-
-
-@pytest.mark.slow
 def test_a_worker_killed_in_the_middle_is_survived_and_its_tasks_are_redone(cluster, tmp_path):
     class Killing(Heard):
         def finished(self, task, outcome):

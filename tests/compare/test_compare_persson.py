@@ -81,16 +81,6 @@ def test_under_light_pressure_the_area_is_proportional_to_it():
     assert twice.friction_coefficient > 1.5 * Persson(0.5).solve(plane(2 * ratio)).friction_coefficient
 
 
-def test_of_waves_that_are_not_seen_nothing_is_out_of_contact():
-    """At the magnification 1 all of the plane touches; each shorter wave takes some of the area away."""
-    scene = plane(0.3)
-    cut = [replace(SURFACE, shortest=shortest, rolloff=SURFACE.longest) for shortest in (4e-3, 2e-3, 1e-3, 5e-4)]
-    found = [Persson().solve(replace(scene, roughness=each)).measures["contact_fraction"] for each in cut]
-    assert found == sorted(found, reverse=True)
-    flat = replace(SURFACE, rms_height=1e-12)
-    assert Persson().solve(replace(scene, roughness=flat)).measures["contact_fraction"] == 1
-
-
 @pytest.mark.parametrize("ratio", [0.05, 0.5, 2.0])
 @pytest.mark.parametrize("gamma", [None, 0.5])
 def test_the_integral_is_that_of_the_papers(ratio, gamma):

@@ -18,7 +18,7 @@ from bem3d.surface import RoughSurface
 from compare.trustmap.verdict import FITTED, trust
 from mdr1d import MDR
 from scene import Kelvin, Profile, Refused, Scene, SelfAffine, Slide, Sphere, linescan
-from scene.periodogram import taken_off
+from scene.periodogram import bins_of, taken_off
 from scene.reading import read
 from scene.roughness import Roughness
 from scene.waves import MOST_WAVES
@@ -102,6 +102,25 @@ def test_without_a_trend_taken_off_the_law_is_that_of_the_line_with_one():
         linescan.fit(trend, SPACING, degree=0).rms_height.value
         > 1.1 * linescan.fit(HEIGHTS, SPACING).rms_height.value
     )
+
+
+def test_laws_on_the_lattice_are_line_scans_of_self_affine_surfaces():
+    laws = linescan._Laws(bins_of(512, 1, False))
+    at = 30, int(np.argmin(np.abs(laws.rolloffs - 5))), int(np.argmin(np.abs(laws.cutoffs - 100)))
+    hurst, rolloff, cutoff = (float(each) for each in laws.numbers(at))
+    # a longest wave far beyond the line; a plateau of one
+    rough = SelfAffine(
+        hurst=hurst, rms_height=1.0, longest=2 * pi * 1e4, rolloff=2 * pi / rolloff, shortest=2 * pi / cutoff
+    )
+    q = np.array([10.0, 20.0, 50.0, 80.0])
+    expected = rough.density_line_scan(q, cutoff) / rough.density_2d(np.array(0.1), cutoff)
+    fall = rolloff ** (2 * hurst + 2)
+    found = 2 * fall * (linescan._tail(hurst, q, q) - linescan._tail(hurst, q, cutoff))
+    assert found == pytest.approx(expected, rel=1e-9)
+    moments = [linescan._moment(power, hurst, rolloff, cutoff) for power in (1, 3)]
+    height = float(np.sqrt(moments[0] / moments[1]))
+    known = replace(rough, longest=2 * pi)
+    assert known.rms_height / known.rms_slope(cutoff) == pytest.approx(height, rel=ROUNDING)
 
 
 @pytest.mark.parametrize("factor", [1e-40, 1e40])
