@@ -23,8 +23,8 @@ from scene.quantities import SPEED, WHOLE, argument
 from scene.result import provenance
 from scene.scales import elastic_contact
 
-from ..statistics.control_variates import VARIATES, control_variates
 from .continuation import Continuation, by_contact, joined
+from .control_variates import VARIATES, control_variates
 from .cost import MOST_DRAWS, Cost
 from .outcome import Outcome, Row
 from .task import SceneTask, Task, draws_of, refuse_seed

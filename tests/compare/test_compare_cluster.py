@@ -15,7 +15,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from processes import PATIENCE, finish, start, wait_for
+from processes import finish, start, wait_for
 from stand_in_solver import Heard, Stand, loads
 
 from compare.solving import cluster as cluster_module
@@ -87,17 +87,6 @@ def test_no_more_is_handed_out_than_workers_have_threads_and_a_few(cluster, tmp_
     tasks = loads(*range(1, 31), solver=Stand(seconds=0.02))
     sweep(tasks, Store(tmp_path), scheduler=cluster.scheduler_address, progress=Counting())
     assert (max(out), out[-1]) == (4 + 2, 0)
-
-
-@pytest.mark.slow
-def test_a_fault_on_the_cluster_is_recorded_as_here(cluster, tmp_path):
-    tasks = loads(2000.0, 200.0, 5.0)
-    swept = sweep(tasks, Store(tmp_path), scheduler=cluster.scheduler_address)
-    reasons = [swept.outcomes[task].rows[0].reason for task in tasks]
-    assert reasons == ["ZeroDivisionError: a fault in the solver", "200 N is too much; press less", None]
-    assert list(swept.faults) == tasks[:1]
-    (note,) = tmp_path.glob("*.fault.txt")
-    assert 'raise ZeroDivisionError("a fault in the solver")' in note.read_text()
 
 
 @pytest.mark.slow
@@ -296,8 +285,6 @@ STRANGERS = {
     "an end at once": b"",
     "the web": b"HTTP/1.0 400 Bad Request\r\n\r\n",
     "noise": bytes(range(255, 0, -1)),
-    "very much to come": (2**62).to_bytes(8, "little"),
-    "nothing": bytes(100),
 }
 
 
@@ -314,14 +301,6 @@ def test_whatever_answers_that_is_no_scheduler_is_named_within_seconds(said, str
     assert not len(Store(tmp_path))
 
 
-def test_nobody_and_a_worker_are_no_scheduler(cluster, tmp_path, monkeypatch):
-    monkeypatch.setattr(cluster_module, "ANSWERS", 0.5)
-    worker = next(iter(cluster.scheduler_info["workers"]))
-    for address, why in {"tcp://127.0.0.1:9": "nothing answers", worker: "another program answers there"}.items():
-        with pytest.raises(ConnectionError, match=f"^{address} is no scheduler of dask: {why}"):
-            sweep(loads(1.0), Store(tmp_path), scheduler=address)
-
-
 @pytest.mark.parametrize(("seconds", "why"), [(0, "no host has this name"), (2, "nothing answers within 0.3 s")])
 def test_a_name_is_looked_for_as_long_as_a_scheduler(seconds, why, tmp_path, monkeypatch):
     def unknown(*_, **__):
@@ -336,10 +315,9 @@ def test_a_name_is_looked_for_as_long_as_a_scheduler(seconds, why, tmp_path, mon
     assert time.monotonic() - start < 1.5
 
 
-NO_ADDRESSES = "nonsense://x|inproc://|inproc://1/2/3||tcp://|tcp://name|tcp://name:0|tcp://name:99999|unix:///x"
-
-
-@pytest.mark.parametrize("address", [*NO_ADDRESSES.split("|"), "tcp://:1", "tcp://[::1:1", f"tcp://{'ä' * 300}:1"])
+@pytest.mark.parametrize(
+    "address", ["inproc://1/2/3", "", "tcp://name", "tcp://name:99999", "tcp://[::1:1", f"tcp://{'ä' * 300}:1"]
+)
 def test_what_is_no_address_is_refused(address, tmp_path):
     with pytest.raises(Refused, match=r"^scheduler = '.*': an address, as tcp://name:8786$"):
         sweep(loads(1.0), Store(tmp_path), scheduler=address)
@@ -354,17 +332,6 @@ def test_an_interrupt_ends_the_wait_for_a_silent_scheduler_at_once(strange, tmp_
     finally:
         signal.signal(signal.SIGTERM, before)
     assert time.monotonic() - start < cluster_module.ANSWERS / 2
-
-
-@pytest.mark.slow
-def test_a_command_ends_as_soon_as_it_knows_that_there_is_no_scheduler(strange, tmp_path):
-    heard = threading.Event()
-    process, _ = command(tmp_path, strange(None, then=heard.set))
-    assert heard.wait(PATIENCE)
-    since = time.monotonic()
-    status, said, told = finish(process)
-    assert (status, said, told.count("\n")) == (1, "", 1)
-    assert time.monotonic() - since < 2 * cluster_module.ANSWERS
 
 
 def test_a_scheduler_that_stands_still_is_lost_and_a_second_interrupt_does_not_wait_for_it(monkeypatch):

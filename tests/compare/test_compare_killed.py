@@ -3,10 +3,8 @@
 import json
 import multiprocessing
 import os
-import random
 import signal
 import threading
-import time
 from collections import Counter
 from dataclasses import dataclass, replace
 from functools import partial
@@ -18,7 +16,7 @@ import pytest
 import xarray
 from matplotlib.figure import Figure
 from pandas import DataFrame
-from processes import PATIENCE, finish, start
+from processes import PATIENCE, finish, start, wait_for
 
 import compare
 from compare.report.page import Plot, Table
@@ -31,74 +29,6 @@ from scene.reading import InvalidInput
 
 ROOT = Path(__file__).parents[2]
 PATHS = os.pathsep.join([str(ROOT), str(ROOT / "tests")])
-
-
-class Killed:
-    """A folder with the study, run by the command in a process group of its own."""
-
-    def __init__(self, folder):
-        self.folder = folder
-        self.marks = folder / "marks"
-        self.tasks = marked_study.tasks()
-        self.store = Store(folder / "crosscheck-study" / "solved")
-
-    def start(self):
-        program = ("-c", "import marked_study; marked_study.command()")
-        environment = {"MARKS": str(self.marks), "PYTHONPATH": PATHS}
-        return start(self.folder, "study", "collapse", "--workers", "2", program=program, **environment)
-
-    def count(self):
-        return len(self.store)
-
-    def stored(self):
-        """Tasks with an answer. Every line that is there is whole."""
-        found = [task for task in self.tasks if self.store.get(task) is not None]
-        assert len(found) == self.count()
-        return found
-
-    def begun(self):
-        """Solves so far, by scene and solver."""
-        return Counter(self.marks.read_text().split()) if self.marks.exists() else Counter()
-
-    def begun_of(self, tasks, begun):
-        return {task: [begun[name] for name in marked_study.names(task)] for task in tasks}
-
-    def kill(self, when):
-        """Start it, kill all of it at a moment, and see that nothing stored is lost or was solved again.
-
-        when : condition that is asked for until it holds. Returns whether the study had not ended before.
-        """
-        before, begun = self.stored(), self.begun()
-        process = self.start()
-        deadline = time.monotonic() + PATIENCE
-        while not when() and process.poll() is None and time.monotonic() < deadline:
-            time.sleep(0.002)
-        ended = process.poll()
-        if ended is None:
-            os.killpg(process.pid, signal.SIGKILL)
-        process.communicate(timeout=PATIENCE)
-        assert ended in (None, 0)
-        assert set(before) <= set(self.stored())
-        assert self.begun_of(before, self.begun()) == self.begun_of(before, begun)
-        return ended is None
-
-    def finish(self, expected):
-        """Run it to its end, and compare with undisturbed answers."""
-        before, begun = self.stored(), self.begun()
-        status, said, complained = finish(self.start())
-        assert (status, complained) == (0, "")
-        solved = self.stored()
-        assert solved == self.tasks
-        assert self.begun_of(before, self.begun()) == self.begun_of(before, begun)
-        fresh = [task for task in self.tasks if task not in before]
-        counts = self.begun_of(fresh, begun), self.begun_of(fresh, self.begun())
-        assert all(counts[1][task] == [count + 1 for count in counts[0][task]] for task in fresh)
-        assert f"{len(fresh)} tasks solved, {len(before)} reused" in said
-        for task in self.tasks:
-            assert exactly(self.store.get(task)) == expected[task]
-        assert {path.name for path in self.folder.rglob(".*") if path.is_file()} == {LOCK}
-        manifest = self.store.folder.parent / "collapse-quick" / "manifest.json"
-        assert json.loads(manifest.read_text())
 
 
 def exactly(outcome):
@@ -118,41 +48,34 @@ def expected(tmp_path_factory):
         return {task: exactly(task.solve()) for task in marked_study.tasks()}
 
 
-def moment(draw, study):
-    """A condition: a random time after the start, or after some more answers are stored."""
-    start, more = time.monotonic(), study.count() + draw.randint(1, len(study.tasks) // 4)
-    if draw.random() < 0.3:
-        wait = draw.uniform(0.0, 4.0)
-        return lambda: time.monotonic() - start > wait
-    late, seen = draw.uniform(0.0, 0.1), []
-
-    def due():
-        if study.count() >= more:
-            seen.append(time.monotonic())
-        return bool(seen) and time.monotonic() - seen[0] > late
-
-    return due
-
-
 @pytest.mark.slow
 def test_killed_in_the_middle_a_study_ends_as_an_undisturbed_one(tmp_path, expected):
-    study = Killed(tmp_path)
-    assert study.kill(lambda: study.count() >= 3)
-    study.finish(expected)
+    """Nothing that is stored is lost or solved again, and what was not is begun once more."""
+    marks, store, tasks = tmp_path / "marks", Store(tmp_path / "crosscheck-study" / "solved"), marked_study.tasks()
 
+    def started():
+        program = ("-c", "import marked_study; marked_study.command()")
+        environment = {"MARKS": str(marks), "PYTHONPATH": PATHS}
+        return start(tmp_path, "study", "collapse", "--workers", "2", program=program, **environment)
 
-@pytest.mark.hours
-def test_killed_at_fifty_moments_studies_end_as_undisturbed_ones(tmp_path, expected):
-    draw, kills, studies, unstored = random.Random(50), 0, 0, 0
-    while kills < 50:
-        (tmp_path / str(studies)).mkdir()
-        study = Killed(tmp_path / str(studies))
-        studies += 1
-        while kills < 50 and study.count() < len(study.tasks):
-            kills += study.kill(moment(draw, study))
-            unstored += study.count() == 0
-        study.finish(expected)
-    print(f"{kills} kills in {studies} studies of {len(study.tasks)} tasks, {unstored} before anything was stored")
+    def begun():
+        marked = Counter(marks.read_text().split())
+        return {task: [marked[name] for name in marked_study.names(task)] for task in tasks}
+
+    process = started()
+    wait_for(lambda: len(store) >= 3)
+    os.killpg(process.pid, signal.SIGKILL)
+    process.communicate(timeout=PATIENCE)
+    kept, before = [task for task in tasks if store.get(task) is not None], begun()
+    assert 3 <= len(store) == len(kept) < len(tasks)
+    status, said, complained = finish(started())
+    assert (status, complained) == (0, "")
+    assert f"{len(tasks) - len(kept)} tasks solved, {len(kept)} reused" in said
+    for task, counts in begun().items():
+        assert exactly(store.get(task)) == expected[task]
+        assert counts == [count + (task not in kept) for count in before[task]]
+    assert {path.name for path in tmp_path.rglob(".*") if path.is_file()} == {LOCK}
+    assert json.loads((store.folder.parent / "collapse-quick" / "manifest.json").read_text())
 
 
 def blank(tables):

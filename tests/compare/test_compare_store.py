@@ -27,7 +27,7 @@ from compare.solving.outcome import NUMBERS, Outcome, Row
 from compare.solving.store import FILE, Store, canonical, key, write
 from compare.solving.task import SceneTask as Task
 from mdr1d import MDR
-from scene import Indent, Kelvin, Prony, Scene, SelfAffine, Slide, Sphere
+from scene import Kelvin, Scene, SelfAffine, Slide, Sphere
 from scene.vocabulary import MEASURES
 
 SCENE = Scene(
@@ -102,10 +102,6 @@ def test_fields_come_back_and_are_missed_where_they_are_wanted(tmp_path):
     store.put(PICTURE, Outcome((ROW,), {"x": np.arange(3.0)}))
     assert np.array_equal(store.get(PICTURE).fields["x"], np.arange(3.0))
     assert store.get(TASK).fields == {}
-
-
-def test_a_task_whose_fields_are_empty_is_done(tmp_path):
-    store = Store(tmp_path)
     store.put(PICTURE, Outcome((ROW,)))
     assert store.get(PICTURE).fields == {}
 
@@ -158,15 +154,6 @@ def test_what_a_kill_left_half_written_is_cut_off_and_costs_nothing_else(tmp_pat
     assert path.read_bytes().endswith(b"\n\n")
 
 
-def test_a_file_of_something_else_holds_nothing(tmp_path):
-    store = Store(tmp_path)
-    for content in (b"", b"{}", b"\n\n\n", b"\0" * 500, np.random.default_rng(0).bytes(9000)):
-        store.path.write_bytes(content)
-        assert Store(tmp_path).get(TASK) is None
-    Store(tmp_path).put(TASK, Outcome((ROW,)))
-    assert Store(tmp_path).get(TASK) is not None
-
-
 def test_fields_that_are_damaged_count_as_absent(tmp_path):
     store = Store(tmp_path)
     store.put(PICTURE, Outcome((ROW,), {"x": np.arange(300.0)}))
@@ -194,8 +181,6 @@ ZEROS, OBJECTS = np.zeros(10**6), np.array([print], object)
 FORGED_FIELDS = {
     "unpacks to more": archive(zipfile.ZIP_DEFLATED, **{"0.npy": ZEROS}),
     "pickled": archive(zipfile.ZIP_STORED, **{"0.npy": OBJECTS}),
-    "too many": archive(zipfile.ZIP_STORED, **{"0.npy": ZEROS[:3], "1.npy": ZEROS[:3]}),
-    "declares more": archive(zipfile.ZIP_STORED, **{"0.npy": ZEROS[:3]}).replace(b"(3,), ", b"(9**9,)")[:400],
 }
 
 
@@ -208,13 +193,10 @@ def test_fields_that_are_forged_under_a_digest_that_fits_count_as_absent(tmp_pat
     assert Store(tmp_path).get(PICTURE) is None
 
 
-FORGED_LINES = [
-    {"rows": 10**9}, {"rows": None}, {"numbers": "AA=="}, {"measures": [[]]},
-    {"settings": {}}, {"reasons": []}, {"absent": None},
-]  # fmt: skip
+FORGED_LINES = [{"rows": 10**9}, {"numbers": "AA=="}, {"absent": None}]
 
 
-@pytest.mark.parametrize("change", [*FORGED_LINES, b"[" * 10**5, b"[]", b"1" * 10**4, b"{}"], ids=str)
+@pytest.mark.parametrize("change", [*FORGED_LINES, b"[" * 10**5, b"[]"], ids=str)
 def test_a_line_that_is_forged_under_a_digest_that_fits_counts_as_absent(tmp_path, change):
     store = Store(tmp_path)
     store.put(PICTURE, Outcome((ROW,), {"x": np.arange(3.0)}))
@@ -224,25 +206,12 @@ def test_a_line_that_is_forged_under_a_digest_that_fits_counts_as_absent(tmp_pat
     assert Store(tmp_path).get(PICTURE) is None
 
 
-def sparse(path):
-    """A file that is too large, of nothing."""
-    path.touch()
-    os.truncate(path, 10**12)
-
-
 def device(path):
     path.symlink_to("/dev/zero")
 
 
-def circle(path):
-    path.symlink_to(path)
-
-
-PLACED = [getattr(os, "mkfifo", os.mkdir), os.mkdir, device, circle, sparse]
-
-
 @pytest.mark.skipif(os.name != "posix", reason="pipes and links")
-@pytest.mark.parametrize("placed", PLACED)
+@pytest.mark.parametrize("placed", [os.mkdir, device])
 def test_what_stands_in_the_place_of_the_file_holds_nothing_and_is_named_before_it_is_written(tmp_path, placed):
     path = tmp_path / FILE
     placed(path)
@@ -403,8 +372,6 @@ def test_of_temporary_files_only_those_that_are_ours_and_left_behind_are_cleared
         f".crosscheck-{there}-{ended.pid}-{now - 6 * 86400}-{letters}",  # of another machine or container
         f".crosscheck-{here}-{ended.pid}-{now}-{letters}.csv",
         f".page.html.{ended.pid}.abcdefgh",
-        f".page.html.{'9' * 30}.abcdefgh",
-        ".hidden",
     ]
     left = [
         f".crosscheck-{here}-{ended.pid}-{now}-{letters}",
@@ -436,18 +403,13 @@ def test_files_and_folders_have_the_permissions_of_the_user_s_others(tmp_path, m
 
 
 def test_the_name_changes_with_everything_that_the_answer_depends_on():
-    prony = Prony(equilibrium_modulus=1e6, moduli=(1e6,), relaxation_times=(1e-3,))
     rough = SCENE.roughness
     others = [
         replace(TASK, scenes=(replace(SCENE, indenter=Sphere(radius=1.0000000000000002e-2)),)),
-        replace(TASK, scenes=(replace(SCENE, elastomer=prony),)),
         replace(TASK, scenes=(replace(SCENE, motion=Slide(speed=0.1, depth=1.0)),)),
-        replace(TASK, scenes=(replace(SCENE, motion=Indent(load=1.0)),)),
-        replace(TASK, scenes=(replace(SCENE, roughness=None),)),
         replace(TASK, scenes=(replace(SCENE, roughness=replace(rough, seed=4)),)),
         replace(TASK, scenes=(SCENE, SCENE)),
         replace(TASK, solver=MDR(points=101)),
-        replace(TASK, solver=MDR(points=100, extent=1e-2)),
         replace(TASK, solver=Exact()),
     ]
     assert len({key(task) for task in [TASK, *others]}) == 1 + len(others)

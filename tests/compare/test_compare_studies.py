@@ -8,7 +8,6 @@ from invented_answers import FEW, SERIES, SLOPE, cut, eq_19, obeying, other, spo
 
 from bem3d import BEM
 from compare.solving import parameter_grid
-from compare.solving.outcome import Outcome, Row
 from compare.solving.parameter_grid import COARSE, FINE
 from compare.statistics.finding import REPORTED
 from compare.statistics.jackknife import friction, mean
@@ -166,16 +165,6 @@ def test_of_one_surface_the_scatter_is_not_known_but_smooth_bodies_need_none(who
     assert (smooth.verdict, smooth.draws, smooth.scatter) == ("fails", 0, (smooth.value, smooth.value))
     least, greatest = of(judge_series(spoiled(whole, np.s_[0, 0], body=SMOOTH)), "friction.ratio.smooth")
     assert (least.verdict, greatest.verdict) == ("undecided", "fails")
-
-
-def test_a_series_of_which_nothing_was_solved_has_no_finding():
-    series = replace(SERIES, speeds=SERIES.speeds[:2], values=SERIES.values[:2])
-    outcomes = {
-        task: Outcome((Row(reason="no"),) * len(task.scenes)) for task in parameter_grid.tasks_of(series.grids)
-    }
-    contacts = Contacts(series, parameter_grid.tree(series.grids, outcomes))
-    assert judge_series(contacts).findings == ()
-    assert set(contacts("BEM")["reason"].values.ravel()) == {"no"}
 
 
 def test_a_family_on_one_law_is_one_curve_and_one_of_two_laws_is_not():
