@@ -366,6 +366,10 @@ def pipe(path):
     os.mkfifo(path)
 
 
+def circle(path):
+    path.symlink_to(path)
+
+
 def elsewhere(path):
     other = path.parent.parent.parent / "other"
     other.write_text("solver\nMDR\n")
@@ -380,7 +384,7 @@ READ = {
 
 
 @pytest.mark.skipif(os.name != "posix", reason="pipes and links")
-@pytest.mark.parametrize("placed", [pipe, elsewhere])
+@pytest.mark.parametrize("placed", [pipe, circle, elsewhere])
 @pytest.mark.parametrize("name", READ)
 def test_what_stands_in_the_place_of_a_file_is_named_and_not_read(copied, name, placed):
     (copied / name).unlink()
@@ -443,8 +447,10 @@ HDF5 = {
     "one text many times": lambda file: file.create_dataset(
         "x", (10**5,), h5py.string_dtype(), fillvalue="x" * 10**4
     ),
-    "another packing": lambda file: file.create_dataset("x", data=np.arange(99), compression="lzf"),
-    "references": lambda file: file.create_dataset("x", data=[file.ref], dtype=h5py.ref_dtype),
+    "group below itself": lambda file: file.create_group("a").update({"b": file}),
+    "nothing": lambda file: file.create_dataset("x", data=h5py.Empty("f8")),
+    "an enumeration": lambda file: file.create_dataset("x", data=1, dtype=h5py.enum_dtype({"a": 1})),
+    "an attribute of bytes": lambda file: file.attrs.update({"units": np.bytes_(b"m")}),
     "no dimensions": lambda file: file.create_dataset("x", data=np.arange(3.0)),
     "a dimension twice": lambda file: spread(file, np.eye(3), "x", "x"),
     "dimensions that are a number": lambda file: spread(file, np.ones(3)).attrs.update({"DIMENSION_LIST": 5}),
