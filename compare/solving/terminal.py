@@ -1,7 +1,7 @@
 """Progress of a run on standard error: a bar on a terminal and in a notebook, else a line every ten seconds."""
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from io import StringIO
 from typing import Any
@@ -16,11 +16,55 @@ from scene.printable import printable
 
 from .amounts import duration
 from .cost import SECONDS
+from .outcome import Outcome
 from .runner import Progress, SweepProgress
 from .task import Task
 
 PAUSE = 10.0  # seconds between lines where there is no terminal to draw a bar on
 LONG = 60.0  # seconds of a task of which compiling is a small part
+
+
+class Solving:
+    """Tasks of a phase, in words: counts, the time left from work done and work planned, and what runs now."""
+
+    def __init__(self, tasks: Sequence[Task], clock: Callable[[], float]) -> None:
+        self.count, self.work, self.clock = len(tasks), sum(task.work for task in tasks), clock
+        self.left = self.work
+        self.running = dict[Task, float]()
+        self.done = self.failed = self.workers = 0
+        # Seconds and work of the tasks that tell the pace.
+        self.spent = self.paced = 0.0
+
+    def start(self, task: Task) -> None:
+        """A task is handed out to a worker."""
+        self.running[task] = self.clock()
+        self.workers = max(self.workers, len(self.running))
+
+    def end(self, task: Task, outcome: Outcome) -> None:
+        """A task is solved, or has failed. The first of each worker compiles too: if short, it tells no pace."""
+        spent = self.clock() - self.running.pop(task, self.clock())
+        seconds = sum(row.seconds for row in outcome.rows if row.seconds > 0) or spent
+        if self.done >= self.workers or seconds > LONG:
+            self.spent += seconds
+            self.paced += task.work
+        self.done += 1
+        self.left -= task.work
+        self.failed += any(row.reason is not None for row in outcome.rows)
+
+    def seconds(self) -> float:
+        """Seconds left at the pace until now; before any is known, at that which `cost` expects."""
+        now, unit, running = self.clock(), self.spent / self.paced if self.paced else SECONDS, self.running.copy()
+        under_way = sum(min(now - began, unit * task.work) for task, began in running.items())
+        return (unit * self.left - under_way) / max(1, len(running))
+
+    def counts(self) -> list[str]:
+        """Counts and the time left, in words."""
+        failed = [f"{self.failed} failed"] if self.failed else []
+        left = [f"{duration(left)} left"] if (left := self.seconds()) >= 0.5 else []
+        return [f"{self.done}/{self.count}", *failed, *left]
+
+    def __str__(self) -> str:
+        return ", ".join([*self.counts(), *(printable(task.label) for task in [*self.running][:1])])
 
 
 class Shown(SweepProgress):
@@ -43,7 +87,7 @@ class Shown(SweepProgress):
             bars.TextColumn("{task.description}"),
             bars.BarColumn(bar_width=24),
             bars.TimeElapsedColumn(),
-            bars.TextColumn("{task.fields[shown]}", markup=False, table_column=last),
+            bars.TextColumn("{task.fields[waits_for]}", markup=False, table_column=last),
             console=self.console,
             get_time=clock,
             expand=True,
@@ -56,6 +100,7 @@ class Shown(SweepProgress):
         self.progress = Progress(self.said, self.solving, self.writing)
         self.output: Any = None  # of a notebook: one for all lines, with the bar below them
         self.told, self.last = list[Text](), clock()
+        self.tasks, self.reused = Solving([], clock), 0
         self._begin("preparing")
 
     def __enter__(self) -> "Shown":
@@ -67,33 +112,12 @@ class Shown(SweepProgress):
         self.bar.live.stop()
         self._begin("")
 
-    def __str__(self) -> str:
-        """What the phase waits for, with counts and the time left."""
-        labels = [printable(task.label) for task in self.running.copy()]
-        return ", ".join([*self._counts(), *labels[:1]]) if self.tasks else self.waits_for
-
-    def _counts(self) -> list[str]:
-        failed = [f"{self.failed} failed"] if self.failed else []
-        left = [f"{duration(left)} left"] if (left := self._left()) >= 0.5 else []
-        return [f"{self.done}/{self.tasks}", *failed, *left]
-
-    def _left(self) -> float:
-        """Seconds left, from the work planned and the pace of the work done; as `cost` expects before any is."""
-        now, unit = self.clock(), self.spent / self.paced if self.paced else SECONDS
-        running = self.running.copy()
-        under_way = sum(min(now - began, unit * task.work) for task, began in running.items())
-        return (unit * (self.work - self.bar.tasks[0].completed) - under_way) / max(1, len(running))
-
-    def _begin(self, phase: str, work: float | None = None) -> None:
-        """Begin a phase with so much work to do, or one without a count."""
-        self.waits_for, self.running = "", dict[Task, float]()
-        self.tasks = self.done = self.failed = self.reused = self.workers = 0
-        # Seconds and work of the tasks that tell the pace.
-        self.spent = self.paced = 0.0
+    def _begin(self, phase: str, total: float | None = None, waits_for: object = "") -> None:
+        """Begin a phase with so much to do, or one without a count."""
         for row in self.bar.task_ids:
             self.bar.remove_task(row)
         if phase:
-            self.row = self.bar.add_task(phase, total=work, shown=self)
+            self.row = self.bar.add_task(phase, total=total, waits_for=waits_for)
 
     def _refresh(self) -> None:
         """In place of drawing a bar: bring the output of a notebook up to date, or print a line of a log."""
@@ -105,7 +129,7 @@ class Shown(SweepProgress):
         elif self.clock() - self.last >= PAUSE:
             self.last = self.clock()
             for task in self.bar.tasks:
-                self.said(f"{task.description} {self}".strip())
+                self.said(f"{task.description} {task.fields['waits_for']}".strip())
 
     def said(self, line: str) -> None:
         """Say a line to a person."""
@@ -120,8 +144,7 @@ class Shown(SweepProgress):
         """Draw so many figures; what it gives is called with the name of each that is drawn."""
 
         def drawn(name: str) -> None:
-            self.waits_for = f"{printable(name)} is drawn"
-            self.bar.advance(self.row)
+            self.bar.update(self.row, advance=1, waits_for=f"{printable(name)} is drawn")
             if self.lines:
                 self.said(f"  figure {name}")
 
@@ -136,33 +159,25 @@ class Shown(SweepProgress):
         try:
             yield self
         finally:
-            of = "" if self.done == self.tasks else f" of {self.tasks}"
-            failed = f", {self.failed} failed" if self.failed else ""
+            done, count, failed = self.tasks.done, self.tasks.count, self.tasks.failed
+            solved = f"{done}{'' if done == count else f' of {count}'} tasks solved, {self.reused} reused"
             took = duration(self.clock() - began)
-            self.said(f"{self.done}{of} tasks solved, {self.reused} reused{failed}, {took}")
+            self.said(", ".join([solved, *([f"{failed} failed"] if failed else []), took]))
             self._begin("judging")
 
-    def planned(self, tasks, reused):
-        self._begin("compiling")
-        self.work, self.tasks, self.reused = sum(task.work for task in tasks), len(tasks), reused
+    def planned(self, tasks: Sequence[Task], reused: int) -> None:
+        self.tasks, self.reused = Solving(tasks, self.clock), reused
+        self._begin("compiling", waits_for=self.tasks)
 
-    def started(self, task):
-        self.running[task] = self.clock()
-        self.workers = max(self.workers, len(self.running))
+    def started(self, task: Task) -> None:
+        self.tasks.start(task)
 
-    def finished(self, task, outcome):
-        spent = self.clock() - self.running.pop(task, self.clock())
-        seconds = sum(row.seconds for row in outcome.rows if row.seconds > 0) or spent
-        # The first task of each worker compiles too: it tells the pace only if it is long.
-        if self.done >= self.workers or seconds > LONG:
-            self.spent += seconds
-            self.paced += task.work
-        self.done += 1
-        self.failed += any(row.reason is not None for row in outcome.rows)
-        self.bar.update(self.row, advance=task.work, total=self.work, description="solving")
+    def finished(self, task: Task, outcome: Outcome) -> None:
+        self.tasks.end(task, outcome)
+        self.bar.update(self.row, advance=task.work, total=self.tasks.work, description="solving")
         if self.lines:
-            self.said(", ".join([*self._counts(), f"solved {task.label}"]))
+            self.said(", ".join([*self.tasks.counts(), f"solved {task.label}"]))
 
-    def interrupted(self):
+    def interrupted(self) -> None:
         self.bar.update(self.row, description="finishing")
         self.said("finishing the tasks under way")

@@ -23,7 +23,9 @@ class Run:
 
     def __init__(self, lines=False, **console):
         self.now, self.file = 0.0, io.StringIO()
-        self.shown = Shown(lines, Console(file=self.file, highlight=False, soft_wrap=True, **console), clock=lambda: self.now)
+        self.shown = Shown(
+            lines, Console(file=self.file, highlight=False, soft_wrap=True, **console), clock=lambda: self.now
+        )
         # No thread draws: what is seen is seen when the test looks.
         self.shown.bar.live.auto_refresh = False
 
@@ -73,7 +75,7 @@ def test_a_bar_says_what_it_waits_for_and_cuts_that_off_where_there_is_little_ro
     with run.shown as shown, shown.solving():
         for _ in solve(run, loads(100.0, 2.0), 100.0):
             shown.bar.refresh()
-    assert "1/2, 2 s left, stand sphere…" in run.text()
+    assert "1/2, 2 s left, stand sphere …" in run.text()
 
 
 @pytest.mark.parametrize("work", [1.0, 1e9], ids=["expected to take no time", "expected to take minutes"])
@@ -88,17 +90,19 @@ def test_the_time_left_is_about_right_however_long_workers_took_to_start_and_to_
         while free:
             run.now = min(free)
             if (task := free.pop(run.now)) is not None:
-                spent = seconds[task.solver] + (compiling if shown.done < 2 else 0.0)
+                spent = seconds[task.solver] + (compiling if shown.tasks.done < 2 else 0.0)
                 shown.finished(task, Outcome((Row(1.0, seconds=spent),)))
             if waiting:
                 task = waiting.pop(0)
                 shown.started(task)
                 free[
-                    run.now + seconds[task.solver] + (compiling if len(shown.running) + shown.done <= 2 else 0)
+                    run.now
+                    + seconds[task.solver]
+                    + (compiling if len(shown.tasks.running) + shown.tasks.done <= 2 else 0)
                 ] = task
             left = max(free, default=run.now) + sum(seconds[each.solver] for each in waiting) / 2 - run.now
-            if shown.done > 3:
-                lines.append((shown._left(), left))
+            if shown.tasks.done > 3:
+                lines.append((shown.tasks.seconds(), left))
     assert all(told == pytest.approx(left, rel=0.4, abs=6.0) for told, left in lines)
     assert all(later[0] < earlier[0] + 6.0 for earlier, later in pairwise(lines))  # it does not jump
 
