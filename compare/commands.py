@@ -31,7 +31,7 @@ from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Unpack, cast
 
-from .cli.options import (
+from .options import (
     Baseline,
     Budget,
     CaseSize,

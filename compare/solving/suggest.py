@@ -34,8 +34,8 @@ def known(option: str, given: str, names: Collection[str], otherwise: str = "") 
 def checked(function: Callable[_P, _T]) -> Callable[_P, _T]:
     """Decorator that refuses arguments of a wrong type before the function begins.
 
-    It checks each argument whose annotation is a name of `cli.options`: paths, texts, named values, True or False,
-    and None. Numbers, scenes and models are checked where they are read. Raises InvalidInput.
+    It checks each argument whose annotation is a name of `compare.options`: paths, texts, named values, truths and
+    None. Numbers, scenes and models are checked where they are read. Raises InvalidInput.
     """
     stated = {name: each.annotation for name, each in signature(function).parameters.items()}
 

@@ -55,7 +55,7 @@ class Solving:
         """Seconds left at the pace until now; before any is known, at that which `cost` expects."""
         now, unit, running = self.clock(), self.spent / self.paced if self.paced else SECONDS, self.running.copy()
         under_way = sum(min(now - began, unit * task.work) for task, began in running.items())
-        return (unit * self.left - under_way) / max(1, len(running))
+        return (unit * self.left - under_way) / max(1, min(self.workers, self.count - self.done))
 
     def counts(self) -> list[str]:
         """Counts and the time left, in words."""

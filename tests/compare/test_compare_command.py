@@ -5,6 +5,8 @@ import json
 import os
 import re
 import signal
+import subprocess
+import sys
 from io import BytesIO, TextIOWrapper
 
 import pandas
@@ -14,7 +16,6 @@ from scene_files import SCENE, SMALL
 from typer.testing import CliRunner
 
 import compare
-from compare import commands
 from compare.cli.app import app
 from compare.cli.console import print_in_any_encoding, say
 from compare.library.ready import ready
@@ -110,48 +111,33 @@ def ask(*arguments):
 
 
 COMMANDS = {each.name: inspect.signature(each.callback).parameters for each in app.registered_commands}
-PYTHON_ONLY = {"progress", "quantities", "options"}
-PRINTED = {"quiet", "verbose", "json"}
 
 
 @pytest.mark.parametrize("name", COMMANDS)
 def test_a_command_has_the_arguments_and_defaults_of_its_function_and_says_what_each_is(name):
-    function = inspect.signature(getattr(compare, name)).parameters
-    shared = commands.Options.__annotations__ if "options" in function else ()
-    solve = inspect.signature(compare.solve).parameters
-    python = {
-        **{each: solve[each].default for each in shared},
-        **{each: function[each].default for each in function},
-    }
-    asked = {each: parameter.default for each, parameter in COMMANDS[name].items()}
-    assert {each: asked[each] for each in asked.keys() - PRINTED} == {
-        each: python[each] for each in python.keys() - PYTHON_ONLY
-    }
+    python = inspect.signature(getattr(compare, name)).parameters
+    if "options" in python:
+        python = {**inspect.signature(compare.solve).parameters, **python}
+    own = COMMANDS[name].keys() - {"quiet", "verbose", "json"}
+    assert all(COMMANDS[name][each].default == python[each].default for each in own)
+    assert python.keys() - own <= {"progress", "quantities", "options", "study", "budget", "output"}
     told = " ".join(ask(name, "--help").output.split())
-    helps = [part.help for each in COMMANDS[name].values() for part in each.annotation.__metadata__[:1]]
-    assert all(each and " ".join(each.split()) in told for each in helps)  # brackets included
+    helps = [each.annotation.__metadata__[0].help for each in COMMANDS[name].values()]
+    assert all(" ".join(each.split()) in told for each in helps)  # brackets included
 
 
-def complete(*words):
-    """What a shell is given for the last word."""
-    asked = {
-        "_CROSSCHECK_COMPLETE": "complete_bash",
-        "COMP_WORDS": " ".join(["crosscheck", *words]),
-        "COMP_CWORD": str(len(words)),
-    }
-    return CliRunner().invoke(app, [], env=asked, prog_name="crosscheck").output.split()
-
-
-def test_a_shell_completes_names_and_values(tmp_path, monkeypatch):
+@pytest.mark.parametrize(
+    ("typed", "names"),
+    [
+        ("crosscheck run qui", ["quick-start", "quiet.toml"]),
+        ("crosscheck study steep-a", ["steep-all-speeds", "steep-and-slow"]),
+    ],
+)
+def test_a_shell_completes_names_and_values(typed, names, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "quiet.toml").touch()
-    for command in ("run", "plan", "trust", "draw"):
-        assert complete(command, "qui") == ["quick-start", "quiet.toml"]
-    assert complete("study", "steep-") == ["steep-all-speeds", "steep-and-slow", "steep-on-fine-grids"]
-    assert complete("new", "quick") == ["quick-start"]
-    assert complete("workprecision", "su") == ["surfaces"]
-    assert complete("redraw", "folder", "--journal", "el") == ["elsevier"]
-    assert complete("run", "quick-start", "--figure-f") == ["--figure-format"]
+    asked = {"_CROSSCHECK_COMPLETE": "complete_bash", "COMP_WORDS": typed, "COMP_CWORD": str(typed.count(" "))}
+    assert CliRunner().invoke(app, [], env=asked, prog_name="crosscheck").output.split() == names
 
 
 @pytest.mark.parametrize("kind", ["scene", "study"])
@@ -236,12 +222,6 @@ def test_nothing_that_a_file_says_controls_a_terminal(tmp_path, command):
         assert all(line.isprintable() for line in answer.output.split("\n"))
 
 
-def test_in_python_without_docstrings_commands_run_as_ever(folder):
-    status, said, complained = finish(start(folder, "scenes", PYTHONOPTIMIZE="2"))
-    assert (status, complained) == (0, "")
-    assert "quick-start" in said
-
-
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="there is no device that is always full")
 @pytest.mark.parametrize("command", ["--help", "scenes"])
 def test_output_onto_a_full_disk_is_one_line_and_status_1(folder, command):
@@ -268,3 +248,78 @@ def test_a_fault_keeps_its_traceback(monkeypatch):
     answer = ask("new", "quick-start")
     assert isinstance(answer.exception, ValueError)
     assert answer.exit_code == 1
+
+
+# What each command imports before it does anything: start-up is counted in modules, not in seconds. Help,
+# versions and lists are asked for again and again, and by shells that complete words.
+# Prints what is imported after each step.
+PROGRAM = """
+import contextlib, io, json, sys
+
+
+def command(*arguments):
+    from compare.cli.app import app
+    with contextlib.redirect_stdout(io.StringIO()):
+        try:
+            app(list(arguments))
+        except SystemExit as end:
+            if end.code:
+                raise
+
+
+for step in json.loads(sys.argv[1]):
+    exec(step)
+    print(json.dumps(sorted(sys.modules)))
+"""
+ON_DISK = {"xarray", "h5netcdf", "h5py"}
+DRAWING = {"matplotlib", "jinja2"}
+SOLVING = {"numba", "scipy", "ducc0", "pyfftw", "bem3d", "mdr1d"}
+HEAVY = {"numpy", "pydantic", "pandas", "pint", "distributed", "dask", "scene", *ON_DISK, *DRAWING, *SOLVING}
+LISTED = HEAVY - {"pydantic"}
+SEARCHES = {"scipy.optimize", "scipy.integrate", "scipy.stats", "scipy.interpolate"}
+PLANNED = {"pint", "pandas", "distributed", "dask", *ON_DISK, *DRAWING, *SEARCHES}
+# Each step, what is there after it, and packages and modules that are not, in one process: from light to heavy.
+STEPS = [
+    ("import compare; dir(compare)", "compare", HEAVY | {"compare.cli.app", "compare.commands"}),
+    ("from compare.library.ready import ready; ready()", "compare.library.ready", HEAVY),
+    ("command('--help')", "typer", HEAVY),
+    ("command('scenes')", "compare.library.ready", LISTED),
+    (
+        "command('plan', 'scene.toml')",
+        "bem3d",
+        PLANNED | {"compare.solving.runner", "compare.solving.store", "compare.studies.pipeline"},
+    ),
+    ("command('trust', 'scene.toml')", "compare.trustmap.shipped", PLANNED | {"compare.solving.runner"}),
+]
+
+
+def modules(folder, *steps):
+    """Names of the modules that are there after each step of a fresh process, of a Python without docstrings."""
+    (folder / "scene.toml").write_text(SCENE)
+    ended = subprocess.run(
+        [sys.executable, "-c", PROGRAM, json.dumps(steps)],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        env=os.environ | {"PYTHONWARNINGS": "error", "PYTHONOPTIMIZE": "2"},
+    )
+    assert ended.returncode == 0, ended.stderr
+    return [set(json.loads(line)) for line in ended.stdout.splitlines()]
+
+
+@pytest.fixture(scope="module")
+def walked(tmp_path_factory):
+    steps = [step for step, *_ in STEPS]
+    return dict(zip(steps, modules(tmp_path_factory.mktemp("here"), *steps), strict=True))
+
+
+@pytest.mark.parametrize(("step", "there", "unneeded"), STEPS, ids=[step for step, *_ in STEPS])
+def test_nothing_is_imported_before_it_is_needed(walked, step, there, unneeded):
+    assert there in walked[step]  # the reader of modules sees what is there
+    assert not walked[step] & unneeded
+
+
+def test_a_scene_imports_no_units_no_suggestions_and_no_results_on_disk(tmp_path):
+    (found,) = modules(tmp_path, "import scene, bem3d, mdr1d")
+    assert "scene" in found
+    assert not found & {"pint", "matplotlib", "compare", *ON_DISK}

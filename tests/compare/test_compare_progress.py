@@ -1,152 +1,116 @@
 """What a person sees of a run: a bar for each phase, the time left, and lines where there is no terminal."""
 
 import io
-import sys
 from dataclasses import replace
-from itertools import pairwise
+from operator import itemgetter
 from types import SimpleNamespace
 
 import pytest
 from rich.console import Console
 from stand_in_solver import Stand, loads
 
-from bem3d import BEM
 from compare.solving.outcome import Outcome, Row
 from compare.solving.terminal import PAUSE, Shown
-from mdr1d import MDR
 
-TERMINAL = {"force_terminal": True, "force_interactive": True, "color_system": None, "width": 100}
+ANSWER = Outcome((Row(1.0),))
 
 
-class Run:
-    """A run that is shown on a console, by a clock that is set."""
+class Seen(Shown):
+    """What is shown on a console, by a clock that is set; no thread draws."""
+
+    now = 0.0
 
     def __init__(self, lines=False, **console):
-        self.now, self.file = 0.0, io.StringIO()
-        self.shown = Shown(
-            lines, Console(file=self.file, highlight=False, soft_wrap=True, **console), clock=lambda: self.now
-        )
-        # No thread draws: what is seen is seen when the test looks.
-        self.shown.bar.live.auto_refresh = False
+        self.file = io.StringIO()
+        super().__init__(lines, Console(file=self.file, color_system=None, width=70, **console), lambda: self.now)
+        self.bar.live.auto_refresh = False
 
-    def phase(self):
-        (row,) = self.shown.bar.tasks
-        return row.description, row.percentage if row.total else None
-
-    def text(self):
-        """What was printed since the last look, without what moves the cursor."""
-        found = self.file.getvalue()
-        self.file.truncate(self.file.seek(0))
-        return found
+    def solve(self, *tasks, seconds):
+        """Solve tasks one by one, each in so many seconds; yields after each start and each end."""
+        with self.solving():
+            self.planned(tasks, 1)
+            for task in tasks:
+                self.started(task)
+                yield self.bar.live.refresh()
+                self.now += seconds
+                self.finished(task, ANSWER)
+                yield self.bar.live.refresh()
 
 
-def solve(run, tasks, seconds=2.0):
-    """Solve tasks one by one, each in so many seconds; yields after each start and each end."""
-    run.shown.planned(tasks, 1)
-    for task in tasks:
-        run.shown.started(task)
-        yield
-        run.now += seconds
-        run.shown.finished(task, Outcome((Row(1.0),)))
-        yield
+def test_each_phase_has_its_bar_which_says_what_it_waits_for_and_grows_with_the_work_that_is_done():
+    phases = []
 
+    def look(*_):
+        (row,) = shown.bar.tasks
+        phases.append((row.description, row.total and row.percentage))
 
-def test_each_phase_has_its_bar_and_that_of_solving_grows_with_the_work_that_is_done():
-    run = Run(**TERMINAL)
-    with run.shown as shown:
-        phases = [run.phase()]
-        with shown.solving():
-            phases += [run.phase() for _ in solve(run, loads(4.0, 2.0))]
-        phases.append(run.phase())
+    with Seen(force_terminal=True, force_interactive=True) as shown:
+        look()
+        for _ in shown.solve(*loads(100.0, 25.0), seconds=100.0):
+            look()
+        look()
         with shown.writing(2) as drawn:
-            for name in ("one", "two"):
-                drawn(name)
-                phases.append(run.phase())
-        phases.append(run.phase())
-    assert phases[:2] == [("preparing", None), ("compiling", None)]
-    assert phases[2:5] == [("solving", pytest.approx(100 * part)) for part in (4 / 6, 4 / 6, 1)]
-    assert phases[5:] == [("judging", None), ("drawing", 50.0), ("drawing", 100.0), ("writing", None)]
-    assert "2 tasks solved, 1 reused, 4 s" in run.text()
-    assert not shown.bar.tasks
+            look(drawn("one"))
+        look()
+    assert phases == [
+        *(("preparing", None), ("compiling", None), ("solving", 80.0), ("solving", 80.0), ("solving", 100.0)),
+        *(("judging", None), ("drawing", 50.0), ("writing", None)),
+    ]
+    said = shown.file.getvalue()
+    assert "1/2, 25 s left, stand sphere…" in said  # cut off where there is no room
+    assert "2 tasks solved, 1 reused, 3 min 20 s" in said
 
 
-def test_a_bar_says_what_it_waits_for_and_cuts_that_off_where_there_is_little_room():
-    run = Run(**TERMINAL | {"width": 70})
-    with run.shown as shown, shown.solving():
-        for _ in solve(run, loads(100.0, 2.0), 100.0):
-            shown.bar.refresh()
-    assert "1/2, 2 s left, stand sphere …" in run.text()
-
-
-@pytest.mark.parametrize("work", [1.0, 1e9], ids=["expected to take no time", "expected to take minutes"])
-def test_the_time_left_is_about_right_however_long_workers_took_to_start_and_to_compile(work):
-    """Two workers start for 6 s and compile for 20 s; then tasks take 9 s of one solver and 2 s of the other."""
-    seconds, run, compiling = {MDR(): 9.0, BEM(): 2.0}, Run(), 20.0
-    pairs = zip(*(loads(*map(float, range(1, 9)), solver=each) for each in seconds), strict=True)
-    waiting = [replace(task, work=work) for pair in pairs for task in pair]
-    free, lines = {6.0: None, 6.001: None}, []
-    with run.shown as shown:
-        shown.planned(list(waiting), 0)
-        while free:
-            run.now = min(free)
-            if (task := free.pop(run.now)) is not None:
-                spent = seconds[task.solver] + (compiling if shown.tasks.done < 2 else 0.0)
-                shown.finished(task, Outcome((Row(1.0, seconds=spent),)))
-            if waiting:
-                task = waiting.pop(0)
-                shown.started(task)
-                free[
-                    run.now
-                    + seconds[task.solver]
-                    + (compiling if len(shown.tasks.running) + shown.tasks.done <= 2 else 0)
-                ] = task
-            left = max(free, default=run.now) + sum(seconds[each.solver] for each in waiting) / 2 - run.now
-            if shown.tasks.done > 3:
-                lines.append((shown.tasks.seconds(), left))
-    assert all(told == pytest.approx(left, rel=0.4, abs=6.0) for told, left in lines)
-    assert all(later[0] < earlier[0] + 6.0 for earlier, later in pairwise(lines))  # it does not jump
+def test_the_time_left_does_not_jump_as_workers_start_and_compile():
+    """Two workers: the first task of each takes 20 s more, then tasks take 9 s and 2 s in turn."""
+    shown, told, under_way = Seen(), [], []
+    tasks = [replace(task, work=1.0) for task in loads(*map(float, range(1, 43)))]
+    shown.planned(tasks, 0)
+    waiting = [*zip([29.0, 22.0, *[9.0, 2.0] * 20], tasks, strict=True)]
+    while waiting or under_way:
+        while waiting and len(under_way) < 2:
+            seconds, task = waiting.pop(0)
+            shown.started(task)
+            under_way.append((shown.now + seconds, task))
+        under_way.sort(key=itemgetter(0))
+        shown.now, task = under_way.pop(0)
+        shown.finished(task, ANSWER)
+        left = sum(seconds for seconds, _ in waiting) + sum(end - shown.now for end, _ in under_way)
+        told.append((shown.tasks.seconds(), left / 2))
+    assert all(said == pytest.approx(left, rel=0.4, abs=3.0) for said, left in told[5:])
 
 
 def test_a_log_has_one_line_every_ten_seconds_and_nothing_that_moves_a_cursor():
-    run = Run()
-    with run.shown as shown:
-        with shown.solving():
-            for _ in solve(run, loads(*[1.0] * 30), 1.0):
-                shown.bar.live.refresh()
+    with Seen() as shown:
+        [*shown.solve(*loads(*[1.0] * 30), seconds=1.0)]
         for _ in range(2):
-            run.now += PAUSE
+            shown.now += PAUSE
             shown.bar.live.refresh()
-    lines = run.text().splitlines()
-    assert [line.split(",")[0] for line in lines] == [
+    assert [line.split(",")[0] for line in shown.file.getvalue().splitlines()] == [
         *("solving 10/30", "solving 20/30", "solving 30/30", "30 tasks solved", "judging", "judging")
     ]
 
 
-def test_in_lines_each_solve_and_each_figure_has_one():
-    run = Run(lines=True, **TERMINAL)
-    with run.shown as shown:
-        with shown.solving():
-            [*solve(run, loads(1.0, 2.0, solver=Stand(name="\x1b[31m")))]
+def test_in_lines_each_solve_and_each_figure_has_one_that_controls_no_terminal():
+    with Seen(lines=True, force_terminal=True) as shown:
+        [*shown.solve(*loads(1.0, solver=Stand(name="\x1b[31m")), seconds=2.0)]
         with shown.writing(1) as drawn:
             drawn("friction")
-    solved, _, counts, figure = run.text().splitlines()
-    assert solved.startswith("1/2, ")
-    assert "solved \\x1b[31m sphere 1 N" in solved
-    assert (counts, figure) == ("2 tasks solved, 1 reused, 4 s", "  figure friction")
+    assert shown.file.getvalue().splitlines() == [
+        "1/1, solved \\x1b[31m sphere 1 N, at rest, smooth",
+        "1 tasks solved, 1 reused, 2 s",
+        "  figure friction",
+    ]
 
 
 def test_a_notebook_has_one_output_with_the_lines_and_a_bar_below_them(monkeypatch):
-    shown = []
-    display = SimpleNamespace(display=lambda display_id: SimpleNamespace(update=shown.append))
-    monkeypatch.setitem(sys.modules, "IPython.display", display)
-    monkeypatch.setitem(sys.modules, "IPython", SimpleNamespace(display=display))
-    run = Run(force_jupyter=True)
-    with run.shown as progress, progress.solving():
-        for _ in solve(run, loads(1.0, 2.0)):
-            progress.bar.live.refresh()
-            printed = Console(file=io.StringIO(), width=100)
-            printed.print(shown[-1])
-            assert printed.file.getvalue().count("/2") == 1
-    printed.print(shown[-1])
-    assert "2 tasks solved, 1 reused, 4 s" in printed.file.getvalue()
-    assert run.text() == ""
+    outputs, states = [], []
+    output = SimpleNamespace(update=states.append)
+    display = pytest.importorskip("IPython.display")
+    monkeypatch.setattr(display, "display", lambda display_id: outputs.append(output) or output)
+    with Seen(force_jupyter=True) as shown:
+        [*shown.solve(*loads(1.0, 2.0), seconds=2.0)]
+    printed = [(seen := Seen()).console.print(each) or seen.file.getvalue() for each in states]
+    assert len(outputs) == 1
+    assert any("solving" in each for each in printed)
+    assert "2 tasks solved, 1 reused, 4 s" in printed[-1]

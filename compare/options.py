@@ -10,17 +10,17 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, TypedDict
 
 from typer import Argument, BadParameter, Option
 
-from ..library import ready as library
+from .library import ready as library
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from ..library.lookup import SceneLike
-    from ..models.table import ModelLike
-    from ..solving.terminal import Shown
-    from ..studies.mastercurve.measurements import Measurements
-    from ..studies.sweep.values import Values
-    from ..studies.topography.study import Surface
+    from .library.lookup import SceneLike
+    from .models.table import ModelLike
+    from .solving.terminal import Shown
+    from .studies.mastercurve.measurements import Measurements
+    from .studies.sweep.values import Values
+    from .studies.topography.study import Surface
 
     File = str | Path
     Amount = str | float
