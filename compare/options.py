@@ -52,12 +52,12 @@ def copies() -> list[str]:
     return [*library.ready()]
 
 
-def number(text: str) -> float:
-    """Number of a text on the command line; one without a point stays whole."""
+def number(given: str | float) -> float:
+    """Number of a text on the command line, or of a default; one without a point stays whole."""
     try:
-        return int(text) if text.isdecimal() else float(text)
+        return int(given) if str(given).isdecimal() else float(given)
     except ValueError:
-        raise BadParameter(f"{text!r} is not a number.") from None
+        raise BadParameter(f"{given!r} is not a number.") from None
 
 
 # All commands that solve.
