@@ -4,7 +4,7 @@ A function that solves returns a `report.Report` and prints nothing: printed, th
 prints; in a notebook it shows tables, and its `figures`. Interrupted or killed, the same call resumes. As worker
 processes are started, a script calls these under `if __name__ == "__main__":`.
 
-Options of all of them:
+The types of arguments are in `compare.options`, with the help of the command. Options of all functions that solve:
 
 output : folder for the page, the figures and the solved contacts
 workers : number of processes; if absent, one for each processor

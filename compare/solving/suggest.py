@@ -31,13 +31,20 @@ def known(option: str, given: str, names: Collection[str], otherwise: str = "") 
         raise InvalidInput(f"{option} = {brief(given)}: allowed are {', '.join(names)}{near}")
 
 
+class _Name(str):
+    """Name of a type, which a signature shows without quotes."""
+
+    __repr__ = str.__str__
+
+
 def checked(function: Callable[_P, _T]) -> Callable[_P, _T]:
     """Decorator that refuses arguments of a wrong type before the function begins.
 
     It checks each argument whose annotation is a name of `compare.options`: paths, texts, named values, truths and
     None. Numbers, scenes and models are checked where they are read. Raises InvalidInput.
     """
-    stated = {name: each.annotation for name, each in signature(function).parameters.items()}
+    found = signature(function)
+    stated = {name: _Name(each.annotation) for name, each in found.parameters.items()}
 
     @wraps(function)
     def called(*args: _P.args, **given: _P.kwargs) -> _T:
@@ -47,6 +54,9 @@ def checked(function: Callable[_P, _T]) -> Callable[_P, _T]:
                 _check(name, value, *get_args(hint))
         return function(*args, **given)
 
+    shown = [each.replace(annotation=stated[name]) for name, each in found.parameters.items()]
+    returned = _Name(found.return_annotation)
+    called.__signature__ = found.replace(parameters=shown, return_annotation=returned)  # type: ignore[attr-defined]
     return called
 
 
