@@ -324,8 +324,8 @@ ExportFormat = Annotated[
     str | None,
     Option(
         help="File formats, separated by commas: csv (every digit, units in the heading), vtk (surfaces for"
-        " ParaView, which takes the extra vtk), png, pdf, svg (figures). If absent, csv; with a journal, a style or"
-        " a width, png,pdf,svg."
+        " ParaView, which takes the extra vtk), png, pdf, svg (figures). If absent, csv; with a journal, a style"
+        " or a width, png,pdf,svg."
     ),
     TEXT,
 ]
