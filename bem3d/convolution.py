@@ -17,7 +17,7 @@ class FreeConvolution:
     def __init__(self, shape, symbol, engine=PLAIN):
         """symbol: see `free_symbol`."""
         self.shape, self.operator_applications = shape, 0
-        self._product = engine.product(symbol, shape, _padded(shape, engine))
+        self._product = engine.product(symbol, shape, free_size(shape, engine))
 
     @classmethod
     def of(cls, kernel, engine=PLAIN):
@@ -33,7 +33,7 @@ class FreeConvolution:
 def free_symbol(kernel, engine=PLAIN):
     """Symbol of a kernel (ny, 2 nx), symmetric in y; column nx + i acts i pixels downstream (see `influence`)."""
     ny, nx = kernel.shape[0], kernel.shape[1] // 2
-    padded = _padded((ny, nx), engine)
+    padded = free_size((ny, nx), engine)
     downstream, upstream = kernel[:, nx:], kernel[:, 1:nx]
     if np.array_equal(downstream[:, 1:], upstream[:, ::-1]):
         return engine.symmetric(downstream, padded)
@@ -49,7 +49,7 @@ class FreePair:
     def __init__(self, kernels, engine=PLAIN):
         """kernels: xx, xy, yy (ny, nx), 0, 1, ... pixels aside and downstream; xy is odd in both, others even."""
         ny, nx = kernels[0].shape
-        padded = _padded((ny, nx), engine)
+        padded = free_size((ny, nx), engine)
         symbols = [
             engine.symmetric(kernel, padded, parity) for kernel, parity in zip(kernels, (1, -1, 1), strict=True)
         ]
@@ -102,7 +102,7 @@ class PeriodicPair:
 def autocorrelation(plane, engine=PLAIN):
     """Sums of products of values i columns and j rows apart, either way: (ny, nx) for i, j = 0, 1, ..."""
     ny, nx = plane.shape
-    padded = _padded(plane.shape, engine)
+    padded = free_size(plane.shape, engine)
     waves = rfft2(plane, s=padded)
     power, rows = np.square(waves.real) + np.square(waves.imag), np.arange(padded[0] // 2 + 1)
     both = engine.symmetric(power[rows] + power[-rows], padded)[:ny, :nx] / prod(padded)
@@ -110,7 +110,8 @@ def autocorrelation(plane, engine=PLAIN):
     return both
 
 
-def _padded(shape, engine):
+def free_size(shape, engine):
+    """Size of the transforms of a plane on a free surface, padded with zeros."""
     return tuple(1 if size == 1 else engine.good_size(2 * size - 1) for size in shape)
 
 

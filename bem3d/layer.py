@@ -9,11 +9,12 @@ make up for what this is short of.
 """
 
 from dataclasses import dataclass, replace
+from math import prod
 
 import numpy as np
 
 from scene import Layer, Plan, Plane, Scene
-from scene.plan import Array, Kernel
+from scene.plan import Kernel
 
 from . import influence
 from .grid import Grid
@@ -227,6 +228,5 @@ class LayerTerm(Term):
         """Plan with the table of what the base takes off; a surface that repeats needs none."""
         if isinstance(scene.indenter, Plane):
             return plan
-        table = Array("what the base takes off", PIECES)
-        kernel = Kernel(table.name, "table", table.shape)
-        return replace(plan, kernels=(*plan.kernels, kernel), arrays=(*plan.arrays, table))
+        table = Kernel("what the base takes off", "table", PIECES)
+        return replace(plan, kernels=(*plan.kernels, table), memory=plan.memory + 8 * prod(PIECES))

@@ -1,22 +1,24 @@
 """Plan of this solver for a scene: grids and kernels as `Problem` builds them, costs as measured."""
 
 from dataclasses import replace
-from math import ceil, log10
+from itertools import pairwise
+from math import ceil, log10, pi, prod
 from pathlib import Path
 
 from scene import Indent, Measured, Plane, Profile, Program, Scene, SelfAffine, Slide
 from scene.costs import at_tolerance, expected, not_known
 from scene.indenter import Axisymmetric
-from scene.plan import PIECE, Array, Kernel, Modes, Plan, by, left_out
+from scene.plan import PIECE, Kernel, Modes, Plan, by, left_out
 from scene.scales import elastic_contact
 from scene.terms import terms_of
 from scene.viscoelastic import Linear
 
 from . import window
-from .arrays import as_drawn, engine_of, in_contact, laying_out, of_roughness, padded, product
+from .convolution import free_size
 from .costs import typical
 from .grid import Grid
 from .marching import places
+from .memory import SMALL
 from .problem import COARSEST, row_width
 from .sliding import Flow
 from .timeline import timeline
@@ -27,6 +29,11 @@ EFFECTS = Path(__file__).with_name("effects.csv")
 PRICED = (Axisymmetric, Linear, Indent, Slide, SelfAffine, Profile)
 HOW = "medians of solves to 1e-7 on the machine where they were measured"
 TIGHT = 1e-7
+TOUCHING, ON_A_ROW = 0.4, 0.6  # of the points, in contact
+SYMMETRIC, GENERAL = 8, 16  # vectors on the points in contact, of conjugate gradients and of GMRES
+MATRICES = 6  # of the points in contact of a sliding row, while it is solved
+SAMPLES = 7  # between two columns, in the mean
+DRAWN = 13  # arrays in which a surface is drawn, each as large as half of its waves
 LEFT_OUT = {
     "roughness": "no spectrum, and nothing is drawn on top of the indenter",
     "layer": "the kernel is that of a half-space: no table and no thickness",
@@ -36,18 +43,11 @@ LEFT_OUT = {
 }
 
 
-def plan_of(solver, scene: Scene) -> Plan:
-    """Plan of a scene for a BEM. Nothing is solved: where a window has to be found, its size is an estimate."""
-    return _plan(solver, scene, _expected)
+def plan_of(solver, scene: Scene, priced: bool = True) -> Plan:
+    """Plan of a scene for a BEM. Nothing is solved: where a window has to be found, its size is an estimate.
 
-
-def memory_of(solver, scene: Scene) -> int:
-    """Most that a solve holds at once [bytes], as planned."""
-    return _plan(solver, scene, lambda *_: not_known("not asked")).memory
-
-
-def _plan(solver, scene, costs):
-    """The plan, with costs by a function of solver, scene, shape and march."""
+    priced : with what it is expected to take; else nothing is said of that
+    """
     terms, shape = terms_of(solver.terms, scene), _shape(solver, scene)
     flow = Flow.of(scene.solid, 0.0 if isinstance(scene.motion, Program) else scene.motion.speed)
     march = _March(solver, scene) if isinstance(scene.motion, Program) else None
@@ -63,9 +63,9 @@ def _plan(solver, scene, costs):
         grids=(*_grids(solver, scene, march),),
         kernels=(*_kernels(scene, flow, shape), *(march.kernels if march else ())),
         modes=Modes.of(times if moving else ()),
-        arrays=_held(solver, scene, flow, shape, march),
+        memory=_memory(solver, scene, flow, shape, march),
         steps=march.steps if march else 0,
-        **costs(solver, scene, shape, march),
+        **(_expected(solver, scene, shape, march) if priced else not_known("not asked")),
         left_out=left_out(scene, LEFT_OUT),
     )
     for term in terms:
@@ -96,21 +96,17 @@ class _March:
             for k, sheet in enumerate(self.sheets, 1)
         ]
 
-    def arrays(self, engine):
-        """Arrays of a program beside the contact of a step."""
-        yield Array("modes in the window", (self.modes, *self.grid.shape))
-        yield Array("what is remembered, and displacements before and after", (3, *self.grid.shape))
-        yield Array("heights and slopes at places within a pixel", (self.places, *self.grid.shape))
-        if self.frames:
-            yield Array("pressure and displacement at instants", (3, self.frames, *self.grid.shape))
-        for k, sheet in enumerate(self.sheets, 1):
-            yield Array(f"modes on sheet {k}", (self.modes, *sheet.shape))
-            yield from product(engine, f"response, sheet {k}", sheet.shape, padded(engine, sheet.shape), real=True)
-        if self.back:
-            # Columns of all modes, of each sheet but the widest.
-            for finer in [self.grid, *self.sheets][: len(self.sheets)]:
-                columns = ceil(self.back / finer.pixel)
-                yield Array(f"left behind {by(finer.shape)} points", (columns, self.modes * finer.rows + PIECE))
+    def memory(self, engine, real):
+        """Bytes beside the contact of a step. real : bytes of a real number of the transforms"""
+        # Planes of the window: its modes; what is remembered, and displacements before and after; heights or
+        # slopes at places within a pixel; pressure and displacements at instants.
+        planes = self.modes + 3 + self.places + 3 * self.frames
+        held = 8 * planes * prod(self.grid.shape)
+        for finer, sheet in pairwise([self.grid, *self.sheets]):
+            columns = ceil(self.back / finer.pixel)  # of all modes, of each sheet but the widest
+            held += 8 * (self.modes * prod(sheet.shape) + columns * (self.modes * finer.rows + PIECE))
+            held += _product(sheet.shape, free_size(sheet.shape, engine), real)
+        return held
 
 
 def likely_grid(solver, scene: Scene) -> Grid:
@@ -171,17 +167,49 @@ def _kernels(scene, flow, shape):
         yield Kernel("loss, from pixel to pixel", form, (rows, 2 * points + 2))
 
 
-def _held(solver, scene, flow, shape, march):
-    """The arrays of the stage that holds most."""
-    engine = engine_of(solver.engine, scene)
-    waves = list(of_roughness(scene, _extent(solver, scene) / solver.points, solver.points))
-    steps = march.arrays(engine) if march else ()
-    stages = (
-        (*waves, *in_contact(engine, scene, flow, shape), *steps),
-        (*waves, *laying_out(engine, scene, flow, shape)),
-        tuple(as_drawn(waves)),
+def _memory(solver, scene, flow, shape, march):
+    """Most that is held at once [bytes]: while the contact is found, a kernel laid out, or a surface drawn."""
+    rows, area, repeats = shape[0], prod(shape), isinstance(scene.indenter, Plane)
+    real = 4 if solver.precision == "single" and rows > 1 else 8  # single rows are solved in double precision
+    sizes = shape if repeats else free_size(shape, solver.engine)
+    touching = ceil((ON_A_ROW if rows == 1 else TOUCHING) * area)
+    # Planes of heights, pressure, gap and the like, and what the solver of a set of contact keeps.
+    if flow.at_rest:
+        values = 9 * area + SYMMETRIC * touching
+    else:
+        values = 11 * area + (MATRICES * touching**2 if rows == 1 else GENERAL * touching)
+    # The kernel between the columns of a small grid, kept for the next solve.
+    sampled = 0 if flow.at_rest or repeats or not 1 < rows <= SMALL else SAMPLES * 2 * area
+    finding = (
+        8 * (values + sampled)
+        + 3 * area  # sets of contact, a byte a point
+        + _product(shape, sizes, real, flow.at_rest)
+        + _product(shape, shape, real)  # the approximate inverse
+        + (march.memory(solver.engine, real) if march else 0)
     )
-    return max(stages, key=lambda stage: sum(array.bytes for array in stage))
+    # Four planes; the kernel as it is and as it is laid out; the symbol and its copies; the waves of a plane.
+    width = sizes[1] // 2 + 1
+    symbols = 3 * (sizes[0] // 2 + 1) * width * (1 if flow.at_rest or repeats else 2)
+    kernel = 0 if repeats else 4 * rows * sizes[1]
+    laying_out = 8 * (4 * area + kernel + sampled + symbols) + 2 * real * rows * width
+    along_x, waves = _waves(scene, _extent(solver, scene) / solver.points)
+    surface = 16 * (waves + 3 * solver.points * along_x)  # amplitudes, and waves along the sides of the grid
+    return max(surface + finding, surface + laying_out, 8 * DRAWN * waves)
+
+
+def _product(shape, sizes, real, even=True):
+    """Bytes of a product by transforms of these sizes: of a symbol, real where it is even, and of waves."""
+    symbol = (sizes[0] // 2 + 1) * (1 if even else 2)
+    return real * (symbol + 2 * shape[0]) * (sizes[1] // 2 + 1)
+
+
+def _waves(scene, pixel):
+    """Waves of a rough surface along x, and all of them; of a smooth one, none. pixel [m]"""
+    rough = scene.roughness
+    if rough is None or rough.flat:
+        return 0, 0
+    top = ceil(rough.period * rough.q_max(pixel) / (2 * pi))
+    return top + 1, (2 * top + 1) * (top + 1)
 
 
 def _expected(solver, scene, shape, march):

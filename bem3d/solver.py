@@ -22,7 +22,7 @@ from .engine import Engine, Library
 from .grid import Grid
 from .history import marched
 from .measures import measured
-from .plan import likely_grid, memory_of, plan_of
+from .plan import likely_grid, plan_of
 from .problem import Problem
 from .terms import TERMS
 from .trail import Trail
@@ -169,7 +169,7 @@ class BEM:
             reasons += window.unresolved(scene, Grid(self.points, scene.roughness.period))
         elif self.extent is not None:
             reasons += window.unresolved(scene, Grid(self.points, self.extent))
-        return reasons or shortage(memory_of(self, scene))
+        return reasons or shortage(plan_of(self, scene, priced=False).memory)
 
     def foreseen(self, scene: Scene) -> list[str]:
         """Reasons why a solve of what is not refused would fail all the same, as far as a coarse contact shows.

@@ -12,7 +12,7 @@ import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 
 from scene import Plane, Result, Scene, SolveError
-from scene.plan import Array, Kernel, Plan
+from scene.plan import Kernel, Plan
 from scene.rubbed import Rubbed
 
 from . import cerruti, stickslip
@@ -53,18 +53,13 @@ class Drawn(Term):
             kernels, products = (Kernel(name, form, (rows, width)),), SINGLE
         else:
             kernels, products = (Kernel("tractions: xx, xy, yy", form, (3, *plan.shape)),), PAIRED
-        found = (
-            Array("tractions, slip and the products of both", (products, *plan.shape)),
-            Array(
-                "vectors of tractions on the points in contact", (VECTORS * components, round(rows * points / 2))
-            ),
-        )
-        whole = sum(array.bytes for array in found) > plan.memory
+        # Of each point tractions, slip and products of both; of half of them, in contact, vectors of tractions.
+        values = products * rows * points + VECTORS * components * round(rows * points / 2)
         return replace(
             plan,
             method=f"{plan.method}; then Newton's steps on sets of slip",
             kernels=(*plan.kernels, *kernels, Kernel("tractions, approximate inverse", "symbol", plan.shape)),
-            arrays=found if whole else plan.arrays,
+            memory=max(plan.memory, 8 * values),
         )
 
     def refusals(self, scene: Scene) -> list[str]:

@@ -11,7 +11,7 @@ verify : a code of contact of your own against what it must hold
 regress : quantities against what is stored; `check` and `update` do so in a test of your own
 mastercurve, topography : friction that you measured, a surface that you measured
 plan : what would be simulated of a scene, and what that costs
-load, export, redraw : what a command left, as xarray has it, as CSV, as figures for a journal
+load, export : what a command left, as xarray has it, as CSV, for ParaView, as figures for a journal
 draw : the contact in 3D and the row of springs; of a program also the forces in time
 scenes, new, schema : scenes and studies to begin with, a copy of one of them, and what may stand in it
 Persson : his theory of rough contact and friction, as published and with its later factor
@@ -26,8 +26,25 @@ tables, and its `figures`. Nothing is imported until it is used.
 """
 
 import logging
+import re
+from importlib import import_module
+from pathlib import Path
+from typing import Any
 
-import lazy_loader
-
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
 logging.getLogger(__name__).addHandler(logging.NullHandler())
+# The module of each public name, from the stub that type checkers read.
+_STUB = Path(__file__).with_suffix(".pyi").read_text(encoding="utf-8")
+_HOMES = {name: home for home, name in re.findall(r"^from (\S+) import (\w+)", _STUB, re.MULTILINE)}
+__all__ = [*_HOMES]
+
+
+def __getattr__(name: str) -> Any:
+    """A public name, imported when it is first used."""
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    globals()[name] = found = getattr(import_module(_HOMES[name], __name__), name)
+    return found
+
+
+def __dir__() -> list[str]:
+    return __all__

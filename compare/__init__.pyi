@@ -6,7 +6,6 @@ from .commands import mastercurve as mastercurve
 from .commands import new as new
 from .commands import paper as paper
 from .commands import plan as plan
-from .commands import redraw as redraw
 from .commands import regress as regress
 from .commands import run as run
 from .commands import scenes as scenes

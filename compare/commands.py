@@ -4,7 +4,7 @@ A function that solves returns a `report.Report` and prints nothing: printed, th
 prints; in a notebook it shows tables, and its `figures`. Interrupted or killed, the same call resumes. As worker
 processes are started, a script calls these under `if __name__ == "__main__":`.
 
-Options of all of them:
+The types of arguments are in `compare.options`, with the help of the command. Options of all functions that solve:
 
 output : folder for the page, the figures and the solved contacts
 workers : number of processes; if absent, one for each processor
@@ -27,12 +27,65 @@ from __future__ import annotations
 
 import sys
 import warnings
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
-from os import PathLike
+from collections.abc import Sequence
+from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack, cast
+from typing import TYPE_CHECKING, Any, Unpack, cast
 
+from .options import (
+    Baseline,
+    Budget,
+    CaseSize,
+    Channel,
+    Crop,
+    Diagram,
+    DiagramSize,
+    Draws,
+    ExportFormat,
+    FigureFormat,
+    FilesFolder,
+    Folder,
+    HeightMap,
+    Interval,
+    Journal,
+    Kind,
+    LengthUnit,
+    Level,
+    LoadsOrDepths,
+    Missing,
+    Model,
+    Models,
+    ModulusFigure,
+    NewFile,
+    Options,
+    Outliers,
+    Output,
+    PaperSize,
+    Peaks,
+    Pixel,
+    ReadyName,
+    Reference,
+    Repeat,
+    SceneFile,
+    SceneFiles,
+    Scheduler,
+    SchemaFile,
+    ShiftC1,
+    ShiftC2,
+    ShiftReference,
+    ShortestKept,
+    Speeds,
+    StudyName,
+    StudySize,
+    Style,
+    Table,
+    Tolerance,
+    Update,
+    Width,
+    WithReport,
+    Workers,
+    Yes,
+)
 from .solving.suggest import checked
 
 if TYPE_CHECKING:
@@ -42,73 +95,29 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
-    from .library.lookup import SceneLike
     from .library.ready import Listing
-    from .models.table import ModelLike
-    from .solving.runner import Progress
-    from .solving.terminal import Preparing
-    from .studies.mastercurve.measurements import Measurements
+    from .solving.terminal import Shown
     from .studies.plan import Plans
     from .studies.regress.quantity import Quantity
     from .studies.report import Report
     from .studies.study import Study
     from .studies.sweep.study import Sweep
-    from .studies.sweep.values import Values
-    from .studies.topography.study import Surface
     from .trustmap.verdict import Advice
-
-
-# Allowed values, which a shell completes. Others are refused where they are used.
-Size = Literal["quick", "standard", "full"]
-FigureFormat = Literal["png", "pdf", "svg"] | str  # several, separated by commas
-Diagram = Literal["models", "surfaces", "all"]
-Journal = Literal[
-    "default",
-    "acs",
-    "aip",
-    "aps",
-    "elsevier",
-    "ieee",
-    "iop",
-    "nature",
-    "royal-society",
-    "sage",
-    "springer",
-    "taylor-francis",
-    "wiley",
-]
-LengthUnit = Literal["m", "mm", "um", "nm"]
-Missing = Literal["refuse", "fill"]
-Level = Literal["mean", "tilt", "curvature", "cubic"]
-Repeat = Literal["mirror", "periodic"]
-Peaks = Literal["up", "down"]
-
-
-class Options(TypedDict, total=False):
-    """Options of every command that solves: those of `solve`."""
-
-    workers: int | None
-    scheduler: str | None
-    executor: Executor | None
-    figure_format: FigureFormat
-    report: bool
-    yes: bool
-    progress: bool | str | Preparing | None
 
 
 @checked
 def solve(
     study: Study,
-    output: str | Path,
+    output: Output,
     *,
-    workers: int | None = None,
-    scheduler: str | None = None,
+    workers: Workers = None,
+    scheduler: Scheduler = None,
     executor: Executor | None = None,
     figure_format: FigureFormat = "png",
-    report: bool = True,
-    yes: bool = False,
-    budget: str | float | None = None,
-    progress: bool | str | Preparing | None = False,
+    report: WithReport = True,
+    yes: Yes = False,
+    budget: Budget = None,
+    progress: bool | str | Shown | None = False,
 ) -> Report:
     """Do a study, one of your own too: solve what the folder has not, judge, and write the page.
 
@@ -124,22 +133,20 @@ def solve(
     if not isinstance(study, Study):
         raise InvalidInput(f"study = {brief(repr(study))}: an object of a class derived from Study is needed")
     _warn(study.doubts)
-    with _shown(progress) as told:
+    with _shown(progress) as shown:
+        told = None if shown is None else shown.progress
         found = pipeline.run(study, output, workers, scheduler, executor, figure_format, report, yes, budget, told)
     _warn([" ".join(found.unsolved.sentences)] if found.unsolved.failed else [])
     return found
 
 
-@contextmanager
-def _shown(progress: bool | str | Preparing | None) -> Iterator[Progress | None]:
-    """Progress that a terminal shows, in lines or as a bar; None where nothing is to be shown."""
+def _shown(progress: bool | str | Shown | None) -> AbstractContextManager[Shown | None]:
+    """What shows how far a run is; None where nothing is to be shown. One that is given is ended by its giver."""
     if not progress:
-        yield None
-        return
-    from .solving.terminal import Preparing, shown
+        return nullcontext()
+    from .solving.terminal import Shown
 
-    with progress if isinstance(progress, Preparing) else Preparing(lines=progress == "lines") as preparing:
-        yield shown(preparing)
+    return nullcontext(progress) if isinstance(progress, Shown) else Shown(lines=progress == "lines")
 
 
 def _warn(sentences: Sequence[str]) -> None:
@@ -159,12 +166,12 @@ def _warn(sentences: Sequence[str]) -> None:
 
 @checked
 def run(
-    scene: SceneLike | Sequence[str | Path] | Mapping[str, SceneLike] | None = None,
-    output: str | Path = "crosscheck-report",
-    models: Sequence[ModelLike] | None = None,
-    reference: str | None = None,
-    interval: str | float | None = None,
-    budget: str | float | None = None,
+    scene: SceneFiles = None,
+    output: Output = "crosscheck-report",
+    models: Models = None,
+    reference: Reference = None,
+    interval: Interval = None,
+    budget: Budget = None,
     **options: Unpack[Options],
 ) -> Report:
     """Solve a scene in 1D and in 3D, compare, and write a report.
@@ -187,13 +194,13 @@ def run(
 
 @checked
 def study(
-    name: str | Path | None = None,
-    size: Size = "quick",
-    output: str | Path = "crosscheck-study",
-    models: Sequence[ModelLike] | None = None,
-    reference: str | None = None,
-    interval: str | float | None = None,
-    budget: str | float | None = None,
+    name: StudyName = None,
+    size: StudySize = "quick",
+    output: Output = "crosscheck-study",
+    models: Models = None,
+    reference: Reference = None,
+    interval: Interval = None,
+    budget: Budget = None,
     **options: Unpack[Options],
 ) -> Report | Listing:
     """Test the paper's claims on many contacts in 1D and 3D.
@@ -212,7 +219,7 @@ def study(
 
 
 @checked
-def paper(size: Size = "full", output: str | Path = "crosscheck-paper", **options: Unpack[Options]) -> Report:
+def paper(size: PaperSize = "full", output: Output = "crosscheck-paper", **options: Unpack[Options]) -> Report:
     """Repeat the paper in 1D: figures, parameter studies, claims.
 
     size : how many rough profiles are averaged: quick (20), standard (50) or full (200, as published)
@@ -224,10 +231,10 @@ def paper(size: Size = "full", output: str | Path = "crosscheck-paper", **option
 
 @checked
 def workprecision(
-    name: Diagram | None = None,
-    size: Size = "quick",
-    output: str | Path = "crosscheck-workprecision",
-    models: Sequence[ModelLike] | None = None,
+    name: Diagram = None,
+    size: DiagramSize = "quick",
+    output: Output = "crosscheck-workprecision",
+    models: Models = None,
     **options: Unpack[Options],
 ) -> Report | Listing:
     """Measure the error and the time of both solvers. Timed contacts are solved one by one on this machine.
@@ -248,7 +255,7 @@ def workprecision(
 
 @checked
 def stability(
-    size: Size = "quick", output: str | Path = "crosscheck-stability", **options: Unpack[Options]
+    size: CaseSize = "quick", output: Output = "crosscheck-stability", **options: Unpack[Options]
 ) -> Report:
     """Solve hard cases and check the law of each. The status is 1 if any case breaks its law.
 
@@ -260,7 +267,7 @@ def stability(
 
 
 @checked
-def verify(model: ModelLike, output: str | Path = "crosscheck-verify", **options: Unpack[Options]) -> Report:
+def verify(model: Model, output: Output = "crosscheck-verify", **options: Unpack[Options]) -> Report:
     """Check a code of contact against what it must hold. The status is 1 if any law fails.
 
     model : name of a model, mdr or bem, or module:NAME of one of your own. From Python also the model itself
@@ -272,10 +279,10 @@ def verify(model: ModelLike, output: str | Path = "crosscheck-verify", **options
 
 @checked
 def regress(
-    baseline: str | Path | None = None,
-    update: bool = False,
+    baseline: Baseline = None,
+    update: Update = False,
     quantities: Sequence[Quantity] | None = None,
-    output: str | Path = "crosscheck-regress",
+    output: Output = "crosscheck-regress",
     **options: Unpack[Options],
 ) -> Report:
     """Compare the accuracy of 1D with stored values. The status is 1 if any value has changed.
@@ -295,12 +302,12 @@ def regress(
 
 @checked
 def mastercurve(
-    table: Measurements,
-    output: str | Path = "mastercurve",
-    tolerance: float = 0.05,
-    c1: float | None = None,
-    c2: str | float | None = None,
-    reference: str | float | None = None,
+    table: Table,
+    output: Output = "mastercurve",
+    tolerance: Tolerance = 0.05,
+    c1: ShiftC1 = None,
+    c2: ShiftC2 = None,
+    reference: ShiftReference = None,
     **options: Unpack[Options],
 ) -> Report:
     """Shift measured friction curves onto one, if they allow it. The curves are friction against load.
@@ -321,18 +328,18 @@ def mastercurve(
 
 @checked
 def topography(
-    file: Surface,
-    pixel: str | float | Sequence[str | float] | None = None,
-    unit: LengthUnit | None = None,
-    channel: str | None = None,
-    crop: Sequence[str | float] | None = None,
-    outliers: float | None = None,
+    file: HeightMap,
+    pixel: Pixel = None,
+    unit: LengthUnit = None,
+    channel: Channel = None,
+    crop: Crop = None,
+    outliers: Outliers = None,
     missing: Missing = "refuse",
-    level: Level | None = None,
-    shortest_kept: str | float | None = None,
+    level: Level = None,
+    shortest_kept: ShortestKept = None,
     repeat: Repeat = "mirror",
     peaks: Peaks = "up",
-    output: str | Path = "topography",
+    output: Output = "topography",
     **options: Unpack[Options],
 ) -> Report:
     """Describe a measured surface: slopes, spectra, exponent H.
@@ -361,16 +368,16 @@ def topography(
 
 @checked
 def sweep(
-    scene: SceneLike,
-    speed: Values | None = None,
-    load: Values | None = None,
-    depth: Values | None = None,
-    draws: int | None = None,
-    output: str | Path = "crosscheck-sweep",
-    models: Sequence[ModelLike] | None = None,
-    reference: str | None = None,
-    interval: str | float | None = None,
-    budget: str | float | None = None,
+    scene: SceneFile,
+    speed: Speeds = None,
+    load: LoadsOrDepths = None,
+    depth: LoadsOrDepths = None,
+    draws: Draws = None,
+    output: Output = "crosscheck-sweep",
+    models: Models = None,
+    reference: Reference = None,
+    interval: Interval = None,
+    budget: Budget = None,
     **options: Unpack[Options],
 ) -> xarray.Dataset:
     """Solve a scene at many speeds and loads, in 1D and 3D.
@@ -403,7 +410,7 @@ def sweep(
 
 
 @checked
-def swept(output: str | Path = "crosscheck-sweep", budget: str | float | None = None, **given: Any) -> Report:
+def swept(output: Output = "crosscheck-sweep", budget: Budget = None, **given: Any) -> Report:
     """Report of a sweep, of the arguments of `sweep`: the command prints it."""
     from .studies.sweep.study import Sweep
 
@@ -420,7 +427,7 @@ def friction_plot(dataset: xarray.Dataset) -> Figure:
 
 
 @checked
-def trust(scene: SceneLike) -> Advice:
+def trust(scene: SceneFile) -> Advice:
     """Say which cheap answer to use, or to solve in 3D. It takes about a second, as nothing rough is solved.
 
     scene : file of a scene (TOML), or name of a ready scene. From Python also a Scene or a Case
@@ -434,7 +441,7 @@ def trust(scene: SceneLike) -> Advice:
 
 
 @checked
-def plan(scene: SceneLike, figure: str | Path | None = None) -> Plans:
+def plan(scene: SceneFile, figure: ModulusFigure = None) -> Plans:
     """Say what a scene costs and what is simulated of it. The status is 2 if no solver can solve it.
 
     scene : file of a scene (TOML), or name of a ready scene. From Python also a Scene or a Case
@@ -450,7 +457,7 @@ def plan(scene: SceneLike, figure: str | Path | None = None) -> Plans:
 
 
 @checked
-def load(folder: str | Path) -> xarray.DataTree:
+def load(folder: Folder) -> xarray.DataTree:
     """Everything that a command solved, with each single draw: a Dataset for each parameter grid and solver.
 
     folder : folder that a command has written, or its results.nc
@@ -468,7 +475,7 @@ def scenes() -> Listing:
 
 
 @checked
-def new(name: str, file: str | Path | None = None) -> Path:
+def new(name: ReadyName, file: NewFile = None) -> Path:
     """Copy a ready scene or study into a file of your own.
 
     name : ready scene or study, see `crosscheck scenes`
@@ -480,10 +487,8 @@ def new(name: str, file: str | Path | None = None) -> Path:
 
 
 @checked
-def schema(
-    kind: Literal["scene", "study", "answers"] = "scene", output: str | Path | None = None
-) -> dict[str, Any]:
-    """Print the JSON schema of scene files, study files or answers.
+def schema(kind: Kind = "scene", output: SchemaFile = None) -> dict[str, Any]:
+    """Print the JSON schema of scenes, studies or answers.
 
     kind : scene or study, by which editors complete and check TOML; answers, the form of what --json prints
     output : file to write beside; if absent, none
@@ -501,43 +506,34 @@ def as_json(found: Any) -> str:
 
 
 @checked
-def redraw(
-    folder: str | Path,
-    journal: Journal = "default",
-    style: str | PathLike | Mapping[str, Any] | None = None,
-    output: str | Path | None = None,
-    width: str | float | None = None,
+def export(
+    folder: Folder,
+    format: ExportFormat = None,
+    journal: Journal = None,
+    style: Style = None,
+    width: Width = None,
+    output: FilesFolder = None,
 ) -> list[Path]:
-    """Draw the figures of a folder again, for a journal. Nothing is solved: the figures are drawn from tables.
-
-    folder : folder that a command has written
-    journal : journal or publisher that sets column widths, smallest text and thinnest lines: default, acs, aip,
-        aps, elsevier, ieee, iop, nature, royal-society, sage, springer, taylor-francis, wiley
-    style : your own matplotlib style: a .mplstyle file or the name of a style. From Python also settings
-    output : folder for the figures; if absent, `figures` in the folder
-    width : width of a column, as 84mm, from 80 mm to 200 mm; figures across the page grow or shrink with it. That
-        of the journal if absent. From Python also a number [m]
-    """
-    from .report.redraw import redraw
-
-    return redraw(folder, journal, style, output, width=width)
-
-
-@checked
-def export(folder: str | Path, to: Literal["csv", "vtk"] = "csv", output: str | Path | None = None) -> list[Path]:
-    """Write tables as CSV, surfaces for ParaView.
+    """Write tables, surfaces for ParaView, figures for a journal. Nothing is solved.
 
     folder : folder that a command has written, or its results.nc
-    to : csv (every digit, units in the heading), or vtk (surfaces for ParaView, which takes the extra vtk)
-    output : folder for the files; if absent, `tables` in the folder
+    format : file formats, separated by commas: csv (every digit, units in the heading), vtk (surfaces for
+        ParaView, which takes the extra vtk), png, pdf, svg (figures). If absent, csv; with a journal, a style or a
+        width, png,pdf,svg
+    journal : journal or publisher that sets column widths, smallest text and thinnest lines of figures: default,
+        acs, aip, aps, elsevier, ieee, iop, nature, royal-society, sage, springer, taylor-francis, wiley
+    style : your own matplotlib style: a .mplstyle file or the name of a style. From Python also settings
+    width : width of a column, as 84mm, from 80 mm to 200 mm; figures across the page grow or shrink with it. That
+        of the journal if absent. From Python also a number [m]
+    output : folder for the files; if absent, `tables` and `figures` in the folder
     """
     from .report.export import export
 
-    return export(folder, to, output)
+    return export(folder, format, journal, style, width, output)
 
 
 @checked
-def draw(scene: SceneLike, output: str | Path = "crosscheck-draw", **options: Unpack[Options]) -> Report:
+def draw(scene: SceneFile, output: Output = "crosscheck-draw", **options: Unpack[Options]) -> Report:
     """Draw the contact in 3D and the row of springs in 1D.
 
     The surface of the elastomer is coloured by pressure, with its wake; beside it stand the forces of both models.

@@ -6,7 +6,7 @@ from pathlib import Path
 from scene import Indent, Profile, Program, Scene, SelfAffine, Slide
 from scene.costs import expected
 from scene.indenter import Axisymmetric
-from scene.plan import PIECE, Array, Modes, Plan, left_out
+from scene.plan import PIECE, Modes, Plan, left_out
 from scene.terms import terms_of
 from scene.viscoelastic import Linear
 
@@ -54,7 +54,7 @@ def plan_of(solver, scene: Scene, layout) -> Plan:
         else (f"{nodes} nodes on {layout.extent:.3g} m",),
         kernels=(),
         modes=Modes.of(elastomer.retardation()[2] if moves else ()),
-        arrays=tuple(_arrays(solver, scene, layout, steps)),
+        memory=_memory(solver, scene, layout, steps),
         steps=steps,
         **_expected(scene, nodes, steps),
         left_out=left_out(scene, LEFT_OUT),
@@ -74,24 +74,22 @@ def _method(scene, modes, steps):
     return f"sweeps along the profile {flow}, exact between nodes, and Newton's steps to the load"
 
 
-def _arrays(solver, scene, layout, steps):
+def _memory(solver, scene, layout, steps):
+    """Most that is held at once [bytes]: by node, by step, and of a rough line while it is drawn."""
     nodes = 2 * layout.half + 1
+    values = 9 * nodes  # profile, displacement, forces, and their copies
     if steps:
         modes = modes_of(scene.solid)
-        states = len(modes.moduli) + len(modes.compliances)
-        yield Array("states of the elements", (nodes - 1, states))
-        yield Array("profile, its slopes, and rates", (12, nodes))
-        yield Array("history", (3 * 14, steps))
-        if solver.frames:
-            yield Array("elements at instants", (4, min(solver.frames, steps), nodes - 1))
+        states = len(modes.moduli) + len(modes.compliances) + 4 * min(solver.frames, steps)
+        # Elements now and at instants; the profile, its slopes, and rates; the history.
+        values = states * (nodes - 1) + 12 * nodes + 3 * 14 * steps
         if scene.motion.reverses:
             passed = ceil(scene.motion.span / layout.pixel)
-            yield Array("elements left behind", (passed, len(modes.compliances) + PIECE))
-    else:
-        yield Array("profile, displacement, forces, and their copies", (9, nodes))
+            values += passed * (len(modes.compliances) + PIECE)
     if layout.period is not None:
         least = 0 if scene.roughness.shortest is None or solver.extent else 8 * nodes_needed(scene.roughness)
-        yield Array("rough line as it is drawn", (7, max(layout.period, least)))
+        values += 7 * max(layout.period, least)
+    return 8 * values
 
 
 def _expected(scene, nodes, steps):

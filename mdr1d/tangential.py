@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from scene import Result, Scene, SolveError
-from scene.plan import Array, Plan
+from scene.plan import Plan
 from scene.rubbed import Rubbed
 
 from .term import Term
@@ -30,8 +30,8 @@ class Drawn(Term):
     """A contact at rest that is drawn along the surface: it sticks in part and slips in part."""
 
     def planned(self, plan: Plan, scene: Scene) -> Plan:
-        springs = Array("tangential springs", (SPRINGS, *plan.shape))
-        return replace(plan, method=f"{plan.method}; then tangential springs", arrays=(*plan.arrays, springs))
+        springs = 8 * SPRINGS * plan.shape[0]
+        return replace(plan, method=f"{plan.method}; then tangential springs", memory=plan.memory + springs)
 
     def completed(self, result: Result) -> Result:
         springs = Springs.of(result)

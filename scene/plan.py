@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields
-from math import prod
 from typing import Any
 
 from .costs import Expected
@@ -43,23 +42,6 @@ class Kernel:
 
 
 @dataclass(frozen=True)
-class Array:
-    """Array that is held while a stage of the solve is at its largest. itemsize : bytes of a value."""
-
-    name: str
-    shape: tuple[int, ...]
-    itemsize: int = 8
-
-    @property
-    def bytes(self) -> int:
-        """Bytes of the whole array."""
-        return prod(self.shape) * self.itemsize
-
-    def __str__(self) -> str:
-        return f"{by(self.shape)}, {size(self.bytes)}"
-
-
-@dataclass(frozen=True)
 class Modes:
     """Modes of the elastomer that are simulated. times : the shortest and the longest [s]; None without modes."""
 
@@ -89,7 +71,7 @@ class Plan:
     grids : in words, all of them
     kernels : built for the finest grid; coarser ones have the same, smaller
     modes : that are followed
-    arrays : those held when most is held; `memory` is their sum
+    memory : most that is held at once [bytes], what the process holds without it excluded
     steps : in time; 0 of what is steady
     operator_applications, seconds : in equivalents of the finest grid, and of processor time
     left_out : what the scene does not ask for, and what therefore is not done
@@ -104,17 +86,12 @@ class Plan:
     grids: tuple[str, ...]
     kernels: tuple[Kernel, ...]
     modes: Modes
-    arrays: tuple[Array, ...]
+    memory: int
     steps: int
     operator_applications: Expected
     seconds: Expected
     left_out: Mapping[str, str] = field(default_factory=dict)
     doubts: tuple[Doubt, ...] = ()
-
-    @property
-    def memory(self) -> int:
-        """Most that is held at once [bytes], what the process holds without it excluded."""
-        return sum(array.bytes for array in self.arrays)
 
     def __str__(self) -> str:
         return "\n".join([f"{self.solver}, {self.settings}", *self._lines()])
@@ -128,7 +105,7 @@ class Plan:
             "kernels": {kernel.name: kernel for kernel in self.kernels},
             "modes": {"": self.modes},
             "steps in time": {"": self.steps or "none"},
-            f"memory, {size(self.memory)}": {array.name: array for array in self.arrays},
+            "memory": {"": size(self.memory)},
             "expected": {"operator_applications": self.operator_applications, "seconds": self.seconds},
             "left out": self.left_out,
         }
@@ -146,7 +123,7 @@ class Plan:
         yield from _table("kernels", {kernel.name: kernel for kernel in self.kernels})
         yield from _list("modes", [self.modes])
         yield from _list("steps in time", [self.steps or "none"])
-        yield from _table(f"memory, {size(self.memory)}", {array.name: array for array in self.arrays})
+        yield from _list("memory", [size(self.memory)])
         yield from _table(
             "expected", {"operator_applications": self.operator_applications, "seconds": self.seconds}
         )

@@ -11,7 +11,7 @@ def noise(shape, seed=0):
     return np.random.default_rng(seed).normal(size=shape)
 
 
-def sampled(rough, points, piece=None, **other):
+def sampled(rough, points=128, piece=None, **other):
     """One period of a surface as a map, or a piece of it: heights at the pixels of a grid."""
     grid = Grid(points, rough.longest)
     heights = RoughSurface.of(rough, rough.q_max(0.0)).heights(grid.x, grid.y)[:piece, :piece]

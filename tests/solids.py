@@ -1,5 +1,7 @@
 """Solids that tests share: one of each type, and some of a unit modulus of indentation at rest, E* = 4G."""
 
+import numpy as np
+
 from scene import (
     Elastic,
     Fractional,
@@ -42,3 +44,11 @@ CYCLES = {
 }
 # Sums of some thousand terms over some hundred steps.
 ROUNDING = 1e-11
+
+
+def gel(lowest, exponent=0.2, **stated):
+    """A table of two decades from a lowest frequency [rad/s] on, of a power law of the frequency."""
+    omega = lowest * np.geomspace(1.0, 100.0, 13)
+    modulus = 1e6 * (1j * omega) ** exponent
+    table = Table(omega, modulus.real, modulus.imag)
+    return Tabulated(table=table, frequency_unit="rad/s", kind="shear", **stated)

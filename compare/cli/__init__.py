@@ -1,1 +1,1 @@
-"""The command line: options from the signatures of compare.commands, progress, completion."""
+"""The command line: the commands, and what people are told."""

@@ -1,23 +1,21 @@
-"""The command `crosscheck`: every function of `compare.commands` as a command, its docstring as the help."""
+"""The command `crosscheck`: every function of `compare.commands` as a command."""
 
 import gc
-import inspect
 import json
 import os
 import re
 import warnings
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import AbstractContextManager, nullcontext
+from inspect import Parameter, Signature, signature
 from pathlib import Path
-from types import NoneType, SimpleNamespace, UnionType
-from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, get_origin
 
 import typer
+from typer import Option
 
 from .. import commands
 from ..library import ready as library
-from ..solving.docstrings import documented
-from .completion import completion
 from .console import FAILED, MISTAKE, print_in_any_encoding, said_to_people, say
 
 # Help is plain text: as markup of rich, what stands in brackets, units too, would be taken for a style and lost.
@@ -28,168 +26,82 @@ app = typer.Typer(
     context_settings={"max_content_width": 100},
 )
 
-# What stands on a command line for types that are slow to import.
-STAND_INS = {
-    "SceneLike": str,
-    "ModelLike": str,
-    "Measurements": Path,
-    "Surface": Path,
-    "Values": Sequence[str],
-}
-# Arguments by their place, though they may be absent.
-PLACED = ("scene", "name", "file", "kind")
-# What a Python call states and a command line cannot.
-PYTHON_ONLY = {"quantities", "progress", "options", "executor"}
-SHARED = {
-    name: each
-    for name, each in inspect.signature(commands.solve).parameters.items()
-    if name in commands.Options.__annotations__ and name not in PYTHON_ONLY
-}
-Quiet = Annotated[bool, typer.Option("-q", "--quiet", help="Print mistakes only.")]
+Quiet = Annotated[bool, Option("-q", "--quiet", help="Print mistakes only.")]
 Verbose = Annotated[
-    bool, typer.Option("-v", "--verbose", help="Print a line for each solve and each figure, and every number.")
+    bool,
+    Option("-v", "--verbose", help="Print every number and detail, and a line for each solve and each figure."),
 ]
-AsJson = Annotated[bool, typer.Option("--json", help="Print the answer as JSON: see crosscheck schema answers.")]
+AsJson = Annotated[bool, Option("--json", help="Print the answer as JSON: see crosscheck schema answers.")]
 
 
-@dataclass(frozen=True)
-class Command:
-    """One command.
+def _add(
+    function: Callable[..., Any],
+    said: Callable[[Any], str] = str,
+    details: bool = False,
+    reported: Callable[..., Any] | None = None,
+) -> None:
+    """Add a function of `compare.commands` as a command of the same name, arguments, options and defaults.
 
-    function : of the same name in Python
-    reported : what returns a report of the same arguments, where the function returns something else
     said : what is printed of what it returns
-    details : help of the option that prints the details of what it returns; empty where it has none
-    brief : whether it ends so soon that no garbage is looked for
+    details : whether what it returns has details to print
+    reported : what returns a report of the same arguments, where the function returns something else
     """
+    parameters = {each.name: each for each in _parameters(function)}
+    solves = "workers" in parameters
+    more = {"quiet": Quiet} if solves else {}
+    more |= {"verbose": Verbose} if solves or details else {}
+    more |= {"json": AsJson} if said is not _schema else {}
+    parameters |= {
+        name: Parameter(name, Parameter.KEYWORD_ONLY, default=False, annotation=hint)
+        for name, hint in more.items()
+    }
 
-    function: Callable[..., Any]
-    said: Callable[[Any], str] = str
-    details: str = ""
-    brief: bool = False
-    reported: Callable[..., Any] | None = None
-
-    @property
-    def title(self) -> str:
-        """Name on the command line, and in Python."""
-        return self.function.__name__
-
-    @property
-    def solves(self) -> bool:
-        """Whether the command has the options of all commands that solve."""
-        return "options" in inspect.signature(self.function).parameters
-
-    @property
-    def tells(self) -> bool:
-        """Whether it can tell how far it is."""
-        return self.solves or "progress" in inspect.signature(self.function).parameters
-
-    def callback(self) -> Callable[..., None]:
-        """Function with a signature that typer turns into arguments and options."""
-        found = inspect.signature(self.function).parameters
-        taken = {name: each for name, each in found.items() if name not in PYTHON_ONLY}
-        if self.solves:
-            taken |= SHARED
-        about, own = documented(self.function.__doc__)
-        texts = documented(commands.__doc__)[1] | own
-        stated = SimpleNamespace(__annotations__={name: each.annotation for name, each in taken.items()})
-        hints = get_type_hints(stated, vars(commands), STAND_INS)
-        parameters = [
-            _parameter(self.title, name, hints[name], each.default, texts.get(name, ""))
-            for name, each in taken.items()
-        ]
-        if self.solves:
-            parameters += [_keyword("quiet", Quiet), _keyword("verbose", Verbose)]
-        elif self.details:
-            details = typer.Option("-v", "--verbose", help=self.details)
-            parameters += [_keyword("verbose", Annotated[bool, details])]
-        if self.said is not _schema:
-            parameters.append(_keyword("json", AsJson))
-
-        def called(**given: Any) -> None:
-            self(**given)
-
-        called.__doc__ = about
-        called.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
-        called.__annotations__ = {each.name: each.annotation for each in parameters}
-        return called
-
-    def __call__(self, quiet: bool = False, verbose: bool = False, json: bool = False, **given: Any) -> None:
-        """Do the command, print what came of it, and end with its status."""
-        output = f"--output {given.get('output')}"
-        with warnings.catch_warnings(), said_to_people(output, solves=self.solves):
+    def called(quiet: bool = False, verbose: bool = False, json: bool = False, **given: Any) -> None:
+        gc.enable()
+        with warnings.catch_warnings(), said_to_people(f"--output {given.get('output')}", solves):
             # What Python is warned of stands at the top of what is printed.
             warnings.filterwarnings("ignore", category=UserWarning, module=re.escape(__name__))
             warnings.showwarning = lambda message, *_: say(f"crosscheck: {message}", error=True)
-            found = self._answer(given, shown=not (quiet or json), lines=verbose)
-        swept = getattr(found, "swept", None)
-        if swept is not None and swept.reused and not swept.solved and not (quiet or json):
-            say(f"0 tasks solved, {swept.reused} reused")
-        for line in getattr(found, "faults", ()):
+            shown: AbstractContextManager[Any] = nullcontext()
+            if solves and not (quiet or json):
+                from ..solving.terminal import Shown  # slow, and only what solves needs it
+
+                shown = given["progress"] = Shown(lines=verbose)
+            with shown:
+                found = (reported or function)(**given)
+        _tell(found, said, quiet, verbose, json)
+
+    called.__signature__ = Signature([*parameters.values()])  # type: ignore[attr-defined]
+    called.__annotations__ = {name: each.annotation for name, each in parameters.items()}
+    app.command(function.__name__, help=(function.__doc__ or "").partition("\n\n")[0])(called)
+
+
+def _parameters(function: Callable[..., Any]) -> Iterator[Parameter]:
+    """Parameters of a function that are annotated as `options` does, and those of `solve` that it hands on."""
+    for each in signature(function).parameters.values():
+        hint = vars(commands).get(each.annotation)
+        if each.kind is each.VAR_KEYWORD:
+            shared = commands.Options.__annotations__
+            yield from (other for other in _parameters(commands.solve) if other.name in shared)
+        elif get_origin(hint) is Annotated:
+            yield each.replace(annotation=hint, kind=each.KEYWORD_ONLY)
+
+
+def _tell(found: Any, said: Callable[[Any], str], quiet: bool, verbose: bool, json: bool) -> None:
+    """Print what a function returned, and end with its status."""
+    for line in getattr(found, "faults", ()):
+        say(f"crosscheck: {line}", error=True)
+    if quiet or json:
+        for line in getattr(getattr(found, "unsolved", None), "sentences", ()):
             say(f"crosscheck: {line}", error=True)
-        if quiet or json:
-            for line in getattr(getattr(found, "unsolved", None), "sentences", ()):
-                say(f"crosscheck: {line}", error=True)
-        if json:
-            say(commands.as_json(found))
-        elif not quiet:
-            say(found.details if verbose and hasattr(found, "details") else self.said(found))
-        if getattr(found, "failed", False):
-            raise typer.Exit(FAILED)
-        if not getattr(found, "feasible", True):
-            raise typer.Exit(MISTAKE)
-
-    def _answer(self, given: dict[str, Any], shown: bool, lines: bool) -> Any:
-        """What the function returns; shown : whether a terminal shows how far it is, in lines or as a bar."""
-        if not self.brief:
-            gc.enable()
-        function = self.reported or self.function
-        if not (self.tells and shown):
-            return function(**given)
-        from ..solving.terminal import Preparing  # slow, and only what solves needs it
-
-        with Preparing(lines=lines) as progress:
-            return function(**given, progress=progress)
-
-
-def _parameter(command: str, name: str, hint: Any, default: Any, text: str) -> inspect.Parameter:
-    """Argument or option of a command.
-
-    text : what the docstring says of it, with more on Python alone; empty in Python without docstrings
-    """
-    kind, values = _on_command_line(hint)
-    text = text.partition(". From Python")[0]
-    about: Any = {
-        "help": text and f"{text[0].upper()}{text[1:]}.",
-        "autocompletion": completion(command, name, values),
-    }
-    if default is inspect.Parameter.empty or name in PLACED:
-        told = typer.Argument(**about)
-    elif kind is bool and not default:
-        told = typer.Option(f"--{name}", **about)  # no --no-NAME beside it
-    else:
-        told = typer.Option(**about)
-    return _keyword(name, Annotated[kind, told], default)
-
-
-def _on_command_line(hint: Any) -> tuple[Any, list[str]]:
-    """Type on a command line of what a function takes, and its values where these are fixed.
-
-    A string stands for all that Python states in other ways too.
-    """
-    members = get_args(hint) if get_origin(hint) in (Union, UnionType) else (hint,)
-    values = [value for each in members if get_origin(each) is Literal for value in get_args(each)]
-    if any(get_origin(each) is Sequence for each in members):
-        kind: Any = list[str]
-    elif Path in members:
-        kind = Path
-    else:
-        kind = members[0] if members[0] in (bool, int, float) else str
-    return (kind | None if NoneType in members else kind), values
-
-
-def _keyword(name, annotation, default=False):
-    return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=annotation)
+    if json:
+        say(commands.as_json(found))
+    elif not quiet:
+        say(found.details if verbose and hasattr(found, "details") else said(found))
+    if getattr(found, "failed", False):
+        raise typer.Exit(FAILED)
+    if not getattr(found, "feasible", True):
+        raise typer.Exit(MISTAKE)
 
 
 def _paths(found: Any) -> str:
@@ -210,28 +122,23 @@ def _schema(found: Mapping[str, Any]) -> str:
     return json.dumps(found, indent=1, ensure_ascii=False)
 
 
-COMMANDS = (
-    Command(commands.run),
-    Command(commands.sweep, reported=commands.swept),
-    Command(commands.trust, brief=True),
-    Command(commands.study),
-    Command(commands.paper),
-    Command(commands.workprecision),
-    Command(commands.stability),
-    Command(commands.verify),
-    Command(commands.regress),
-    Command(commands.mastercurve),
-    Command(commands.topography),
-    Command(commands.plan, details="Print settings, grids, kernels, arrays, and the advice on 1D as well."),
-    Command(commands.scenes, details="Print what each scene and each study is about."),
-    Command(commands.new, said=_written_ready),
-    Command(commands.schema, said=_schema),
-    Command(commands.redraw, said=_paths),
-    Command(commands.export, said=_paths),
-    Command(commands.draw),
-)
-for _each in COMMANDS:
-    app.command(_each.title)(_each.callback())
+_add(commands.run)
+_add(commands.sweep, reported=commands.swept)
+_add(commands.trust)
+_add(commands.study)
+_add(commands.paper)
+_add(commands.workprecision)
+_add(commands.stability)
+_add(commands.verify)
+_add(commands.regress)
+_add(commands.mastercurve)
+_add(commands.topography)
+_add(commands.plan, details=True)
+_add(commands.scenes, details=True)
+_add(commands.new, said=_written_ready)
+_add(commands.schema, said=_schema)
+_add(commands.export, said=_paths)
+_add(commands.draw)
 
 
 def _version(wanted: bool) -> None:
@@ -245,7 +152,7 @@ def _version(wanted: bool) -> None:
 @app.callback()
 def crosscheck(
     version: Annotated[
-        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version.")
+        bool, Option("--version", callback=_version, is_eager=True, help="Print the version.")
     ] = False,
 ) -> None:
     """How far the one-dimensional method can be trusted for rough, viscoelastic contacts."""

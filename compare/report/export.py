@@ -1,81 +1,97 @@
-"""Results of a folder for others: CSV with units in its heads, surfaces for ParaView."""
+"""Results of a folder for others: tables with units, surfaces for ParaView, figures for a journal."""
 
-from collections.abc import Iterator
-from operator import methodcaller
+import inspect
+import warnings
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
+from os import PathLike
 from pathlib import Path
+from pkgutil import resolve_name
+from typing import Any
 
 import xarray
+from matplotlib.figure import Figure
 from pandas import DataFrame
+from pydantic import ConfigDict, ValidationError, validate_call
 
 from scene.printable import brief
 from scene.reading import InvalidInput
 
-from ..solving import folders, netcdf, parameter_grid
+from ..solving import netcdf, parameter_grid
 from ..solving.folders import hold
 from ..solving.suggest import known
-from ..solving.vocabulary import entry
-from . import csvfiles, manifest, vtk
+from ..solving.vocabulary import entry as vocabulary
+from . import csvfiles, manifest, render, vtk
+from .page import Plot, Tables
+from .plots import style as looks
+from .plots.journals import journal as find_journal
+from .plots.rendering import FORMS, picture
 
-FORMS = "csv", "vtk"
-TABLES = "tables"
+FORMATS = ("csv", "vtk", *FORMS)
+TABLES, FIGURES = "tables", "figures"  # folders that are written into
+PACKAGE = __name__.partition(".")[0]
 
 
-def export(folder: str | Path, to: str = "csv", output: str | Path | None = None) -> list[Path]:
-    """Write results into files; returns them.
+def export(
+    folder: str | Path,
+    format: str | None = None,
+    journal: str | None = None,
+    style: str | PathLike | Mapping[str, Any] | None = None,
+    width: str | float | None = None,
+    output: str | Path | None = None,
+) -> list[Path]:
+    """Write results of a folder into files; returns them. The arguments are those of `compare.export`.
 
-    folder : that a command left, or that has such folders, or a file of results
-    to : "csv", every digit and a unit behind each name; or "vtk", the surfaces for ParaView
-    output : where to; `tables` in the folder, or beside the file, if absent
-
-    Raises InvalidInput where there is nothing of the kind, a file is damaged or a run holds the folder, Refused of
-    vtk without its extra, OSError for what cannot be written.
+    Raises InvalidInput where there is nothing of the kind, a file is damaged, a run holds the folder, or a format,
+    journal, style or width is not known; Refused of vtk without its extra; OSError for what cannot be written.
     """
-    known("to", to, FORMS)
-    if to == "vtk":
+    in_a_look = any(each is not None for each in (journal, style, width))
+    formats = [each.strip() for each in (format or (",".join(FORMS) if in_a_look else "csv")).split(",")]
+    for each in formats:
+        known("format", each, FORMATS)
+    if "vtk" in formats:
         vtk.refuse()
+    try:
+        look = looks.Look(find_journal(journal or "default", width), style)
+        look.settings()
+    except ValueError as error:
+        raise InvalidInput(str(error)) from error
     folder = Path(folder)
-    if output is None:
-        output = manifest.inside(folder.parent if folder.is_file() else folder, TABLES)
-    if to == "vtk":
-        return _surfaces(folder, Path(output))
+    below = folder.parent if folder.is_file() else folder
+    tables, figures = (Path(output) if output else manifest.inside(below, each) for each in (TABLES, FIGURES))
+    forms = [each for each in FORMS if each in formats]
     written = []
-    for name, frame in dict(_tables(folder)).items():
-        if not frame.empty:
-            written.append(manifest.inside(Path(output), f"{name}.csv"))
-            headed = frame.rename(columns=lambda column: _head(str(column)))
-            csvfiles.write_text(written[-1], csvfiles.text(headed))
-    if not written:
+    with looks.chosen(look):
+        if "csv" in formats:
+            written += render.write(_csv(folder), tables)
+        if "vtk" in formats:
+            written += render.write(_surfaces(folder), tables)
+        if forms:
+            written += render.write(_drawn_again(folder, forms), figures)
+    return written
+
+
+def _csv(folder) -> dict[str, bytes]:
+    """Every table of a folder, with units in the heads, as files by name."""
+    tables = dict(_tables(folder))
+    if not tables:
         raise InvalidInput(f"{brief(str(folder))}: holds no table")
-    return written
-
-
-def _surfaces(folder: Path, output: Path) -> list[Path]:
-    """Write a file for each Dataset with fields over y and x."""
-    written = []
-    with hold([folder]):
-        solved = netcdf.load(folder)
-    for node in solved.subtree:
-        if content := vtk.content(node.to_dataset(inherit=False)):
-            written.append(manifest.inside(output, f"{node.path.strip('/') or folder.stem}{vtk.ENDING}"))
-            folders.make(written[-1].parent)
-            folders.write(written[-1], methodcaller("write", content))
-    if not written:
-        raise InvalidInput(f"{folder}: holds no surface that vtk could show: draw has one, and run its fields")
-    return written
+    heads = {name: frame.rename(columns=lambda column: _head(str(column))) for name, frame in tables.items()}
+    return {f"{name}.csv": csvfiles.text(frame).encode() for name, frame in heads.items()}
 
 
 def _tables(folder: Path) -> Iterator[tuple[str, DataFrame]]:
     """Tables beside the pages of a folder, and everything that was solved, by the names of their files."""
     if not folder.is_file():
         for each in manifest.folders(folder):
-            place = each.path.relative_to(folder)
-            with hold([each.path]):
-                for name in each.manifest.tables:
-                    yield (place / name).as_posix(), csvfiles.read(manifest.inside(each.path, f"{name}.csv"))
+            for name in each.manifest.tables:
+                frame = csvfiles.read(manifest.inside(each.path, f"{name}.csv"))
+                if not frame.empty:
+                    yield (each.path.relative_to(folder) / name).as_posix(), frame
         if not any(folder.rglob(netcdf.NAME)):
             return
     for node in netcdf.load(folder).subtree:
-        yield from _flat(node.path.strip("/") or Path(folder).stem, node.to_dataset(inherit=False))
+        yield from _flat(node.path.strip("/") or folder.stem, node.to_dataset(inherit=False))
 
 
 def _flat(name: str, dataset: xarray.Dataset) -> Iterator[tuple[str, DataFrame]]:
@@ -84,16 +100,78 @@ def _flat(name: str, dataset: xarray.Dataset) -> Iterator[tuple[str, DataFrame]]
     for variable, values in dataset.data_vars.items():
         families.setdefault(values.dims, []).append(variable)
     for dims, variables in families.items():
-        if not dims:
-            continue
-        frame = dataset[variables].to_dataframe().reset_index()
+        frame = dataset[variables].to_dataframe().reset_index() if dims else DataFrame()
         if "status" in frame:
             frame = frame[frame["status"] != parameter_grid.NOT_ASKED]
         most = len(variables) == max(map(len, families.values()))
-        yield name if most else f"{name}-{'-'.join(map(str, dims))}", frame
+        if not frame.empty:
+            yield name if most else f"{name}-{'-'.join(map(str, dims))}", frame
 
 
 def _head(name: str) -> str:
     """Name of a column with its unit."""
-    found = entry(name)
+    found = vocabulary(name)
     return name if found is None or found.unit in ("", "1") else f"{name} [{found.unit}]"
+
+
+def _surfaces(folder) -> dict[str, bytes]:
+    """A file for each Dataset with fields over y and x, by name."""
+    with hold([folder]):
+        solved = netcdf.load(folder)
+    nodes = {node.path.strip("/") or folder.stem: node.to_dataset(inherit=False) for node in solved.subtree}
+    found = {f"{name}{vtk.ENDING}": content for name, each in nodes.items() if (content := vtk.content(each))}
+    if not found:
+        raise InvalidInput(f"{folder}: holds no surface that vtk could show: draw has one, and run its fields")
+    return found
+
+
+def _drawn_again(folder, forms) -> dict[str, bytes]:
+    """Every figure of a folder, drawn from its tables in the current look, as files by name."""
+    found: dict[str, bytes] = {}
+    for each in manifest.folders(folder):
+        place = each.path.relative_to(folder)
+        for entry in each.manifest.plots:
+            drawn = _drawn(each.path, entry, forms)
+            found |= {f"{(place / entry.name).as_posix()}.{form}": drawn[form] for form in forms}
+    if not found:
+        raise InvalidInput(f"{brief(str(folder))}: no command has written figures here")
+    return found
+
+
+def _drawn(folder, entry, forms) -> Mapping[str, bytes]:
+    """Content of the files of one figure by form."""
+    path = folder / manifest.NAME
+    files = {name: (Path(entry.name).parent / f"{name}.csv").as_posix() for name in entry.tables}
+    draw = function(entry, path)
+    tables = {name: csvfiles.read(manifest.inside(folder, file)) for name, file in files.items()}
+    try:
+        with looks.DRAWING, warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of numbers that no command has left
+            return picture(Plot(entry.name, draw, tables, "", options=entry.options), forms).files
+    except InvalidInput:
+        raise
+    except ValidationError as error:
+        where, reason = (error.errors()[0][each] for each in ("loc", "msg"))
+        option = brief(".".join(map(str, where)))
+        raise InvalidInput(f"{brief(str(path))}: figure {entry.name}: option {option}: {reason}") from error
+    # A function of a table that was changed raises nearly anything.
+    except Exception as error:
+        why = brief(repr(error))
+        raise InvalidInput(f"{folder}: figure {entry.name} cannot be drawn from its tables: {why}") from error
+
+
+def function(entry: manifest.PlotEntry, path: Path) -> Callable[..., Figure]:
+    """The function that draws a figure, which checks its options; InvalidInput of all that draws none here."""
+    name = f"{entry.module}:{entry.function}"
+    draw: Any = None
+    if entry.module.startswith(f"{PACKAGE}."):
+        with suppress(ImportError, AttributeError, ValueError):
+            draw = resolve_name(name)
+    stated = draw.__annotations__ if inspect.isfunction(draw) and draw.__module__ == entry.module else {}
+    if stated.get("tables") in (Tables, "Tables") and stated.get("return") in (Figure, "Figure"):
+        checked = validate_call(config=ConfigDict(arbitrary_types_allowed=True, allow_inf_nan=False))
+        return checked(draw)
+    raise InvalidInput(
+        f"{path}: figure {entry.name} is drawn by {brief(name)}, which is no figure of {PACKAGE}: it cannot be "
+        "drawn again"
+    )

@@ -1,6 +1,5 @@
 """Manifest of a folder: what wrote it, with which versions, and what lies in it."""
 
-import json
 import os
 import platform
 from collections.abc import Iterable, Iterator
@@ -20,7 +19,7 @@ from scene.reading import InvalidInput
 from ..solving.digest import PACKAGES
 from ..solving.folder_format import FORMAT, Stated, finished, read
 from ..solving.folder_format import MANIFEST as NAME
-from ..solving.folders import clear
+from ..solving.folders import clear, hold
 from .csvfiles import write_text
 from .page import Page, Plot
 
@@ -30,8 +29,6 @@ if TYPE_CHECKING:
 
 FINDINGS = "findings"
 VERSIONS = (*PACKAGES, "matplotlib", "pandas", "xarray", "pydantic")
-
-
 # Most items of a list, letters of a name.
 MOST_LISTED, MOST_LETTERS = 10_000, 1000
 # What a run writes beside its page, and the next one on the folder may remove.
@@ -81,14 +78,6 @@ class Manifest(Stated):
     tables: Names
     files: Annotated[tuple[Name, ...], Field(max_length=10 * MOST_LISTED)] = ()
 
-    @property
-    def written(self) -> tuple[str, ...]:
-        """The files; of an earlier version, which did not list them, figures and tables."""
-        return self.files or (
-            *(f"{plot.name}.png" for plot in self.plots),
-            *(f"{name}.csv" for name in self.tables),
-        )
-
 
 @dataclass(frozen=True)
 class Folder:
@@ -106,7 +95,7 @@ def begin(folder: Path, study: "Study", files: Iterable[str]) -> None:
     """
     earlier: tuple[str, ...] = ()
     with suppress(InvalidInput):
-        earlier = read(folder / NAME, Manifest).written
+        earlier = read(folder / NAME, Manifest).files
     listed = list(dict.fromkeys([*earlier, *files]))
     _write(folder, {"finished": False, "command": study.command, "plots": [], "tables": [], "files": listed})
     places = set()
@@ -145,27 +134,24 @@ def stamp(
         "tasks": {"solved": swept.solved, "reused": swept.reused},
         "seconds": swept.seconds,
         "plots": [_entry(plot) for plot in page.every(Plot)],
-        "tables": table_names(page),
+        "tables": list(dict.fromkeys([FINDINGS, *(name for name, _ in page.tables())])),
         "files": list(files),
         "results": results,
     }
     _write(folder, left)
 
 
-def table_names(page: Page) -> list[str]:
-    """Names of the tables of a page and of its findings, without ending."""
-    return list(dict.fromkeys([FINDINGS, *(name for name, _ in page.tables())]))
-
-
 def _write(folder, left):
-    left = _storable({"format": FORMAT} | left)
-    write_text(folder / NAME, json.dumps(left, indent=1, allow_nan=False, ensure_ascii=False))
+    """Write a manifest as JSON: null for NaN, and what JSON does not have as text."""
+    written = to_json({"format": FORMAT} | left, indent=1, inf_nan_mode="null", fallback=_plain)
+    write_text(folder / NAME, written.decode())
 
 
 def folders(folder: str | Path) -> Iterator[Folder]:
-    """A folder with a manifest, or those just below it.
+    """A folder with a manifest, or those just below it; each is held while it is looked at.
 
-    Raises InvalidInput of none, of a damaged one, and of one of a run that has not come to its end.
+    Raises InvalidInput of none, of a damaged one, of one that another run holds, and of a run that has not come to
+    its end.
     """
     folder = Path(folder)
     if not folder.is_dir():
@@ -176,7 +162,9 @@ def folders(folder: str | Path) -> Iterator[Folder]:
         raise InvalidInput(
             f"{brief(str(folder))}: no {NAME} here or one level below: no command has written this folder"
         )
-    return (Folder(path.parent, finished(path, Manifest)) for path in paths)
+    for path in paths:
+        with hold([path.parent]):
+            yield Folder(path.parent, finished(path, Manifest))
 
 
 def inside(folder: Path, name: str) -> Path:
@@ -217,12 +205,7 @@ def _entry(plot):
         function=plot.draw.__name__,
         tables=tuple(plot.tables),
         options=dict(plot.options),
-    ).model_dump()
-
-
-def _storable(value):
-    """Value that JSON can hold: null for NaN, and a value unknown to JSON as its fields or as text."""
-    return json.loads(to_json(value, inf_nan_mode="null", fallback=_plain))
+    )
 
 
 def _plain(value):

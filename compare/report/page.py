@@ -1,5 +1,6 @@
 """Page: what a command has to say, as a list of blocks that every renderer shows in its own way."""
 
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
@@ -19,21 +20,10 @@ class Text:
     text: str
 
     @property
-    def parts(self) -> list[list[str]]:
-        """Paragraphs, each alone, and lists; their lines joined, the marks of a list left."""
-        parts: list[list[str]] = []
-        open_part = False
-        for line in map(str.strip, self.text.splitlines()):
-            if not line:
-                open_part = False
-            elif not open_part or (line.startswith("- ") and not parts[-1][0].startswith("- ")):
-                parts.append([line])
-                open_part = True
-            elif line.startswith("- "):
-                parts[-1].append(line)
-            else:
-                parts[-1][-1] += f" {line}"
-        return parts
+    def lines(self) -> list[str]:
+        """Each paragraph, and each item of a list, as one line."""
+        joined = re.sub(r"\n(?!\s*\n|\s*- )", " ", self.text)
+        return [" ".join(line.split()) for line in joined.splitlines() if line.strip()]
 
 
 @dataclass(frozen=True)

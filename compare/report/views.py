@@ -104,21 +104,14 @@ def view(scene: Scene, bem: BEM, fields: Mapping[str, Fields]) -> View | None:
     return View(scene, line and _prolonged(scene, line, span, fields["MDR"]), space, radius, span, aside)
 
 
-def smooth_radius(scene: Scene, pressed: float | None = None) -> float | None:
-    """Radius of the smooth relaxed contact on a half-space [m], half the width of a line; None without one.
-
-    pressed : load or depth, by default that of the scene
-    """
-    value = scene.motion.greatest if pressed is None else pressed
+def _radius(scene) -> float | None:
+    """Radius of the smooth relaxed contact on a half-space [m], half the width of a line; None without one."""
+    motion = scene.motion
+    value = float(motion.prescribed(motion.duration)) if isinstance(motion, Program) else motion.greatest
     if isinstance(scene.indenter, Plane | Measured) or scene.layer is not None or not value > 0:
         return None
-    held = pressed_in(scene.motion.pressed_by, value)
+    held = pressed_in(motion.pressed_by, value)
     return elastic_contact(replace(scene, motion=held, roughness=None, interface=None)).radius
-
-
-def _radius(scene):
-    motion = scene.motion
-    return smooth_radius(scene, float(motion.prescribed(motion.duration)) if isinstance(motion, Program) else None)
 
 
 def _line(fields):

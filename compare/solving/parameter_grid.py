@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
@@ -23,8 +23,8 @@ from scene.quantities import SPEED, WHOLE, argument
 from scene.result import provenance
 from scene.scales import elastic_contact
 
-from ..statistics.control_variates import VARIATES, control_variates
 from .continuation import Continuation, by_contact, joined
+from .control_variates import VARIATES, control_variates
 from .cost import MOST_DRAWS, Cost
 from .outcome import Outcome, Row
 from .task import SceneTask, Task, draws_of, refuse_seed
@@ -32,6 +32,8 @@ from .vocabulary import attributes
 
 if TYPE_CHECKING:
     import xarray
+
+    from ..models.table import Models
 
 FINE, COARSE = "fine", "coarse"
 LEVELS = FINE, COARSE, "coarser", "coarsest"
@@ -326,6 +328,12 @@ def on_levels(solver: Solver, scenes: Iterable[Scene], most: int = len(LEVELS)) 
                 break
             found.append(coarser)
     return dict(zip(LEVELS, found, strict=False))
+
+
+def levels(models: Models, grids: Sequence[ParameterGrid], most: int = len(LEVELS)) -> dict[str, dict]:
+    """Grids of each model, halved as long as they can solve all of some parameter grids, at most so many."""
+    corners = sorted((corner for each in grids for corner in each.corners), key=lambda each: -width(each))
+    return {each.name: on_levels(each.solver, corners, most) for each in models}
 
 
 def halved(solver: Solver) -> Any:

@@ -1,9 +1,11 @@
 """Names that are given and names that are known, and arguments of a type that no function takes."""
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection
 from functools import wraps
 from inspect import signature
-from typing import Any, Literal, ParamSpec, TypeVar, get_args, get_origin
+from pathlib import Path
+from types import NoneType, UnionType
+from typing import Annotated, Any, Literal, ParamSpec, TypeVar, Union, get_args, get_origin
 
 _P = ParamSpec("_P")
 _T = TypeVar("_T")
@@ -29,46 +31,49 @@ def known(option: str, given: str, names: Collection[str], otherwise: str = "") 
         raise InvalidInput(f"{option} = {brief(given)}: allowed are {', '.join(names)}{near}")
 
 
+class _Name(str):
+    """Name of a type, which a signature shows without quotes."""
+
+    __repr__ = str.__str__
+
+
 def checked(function: Callable[_P, _T]) -> Callable[_P, _T]:
     """Decorator that refuses arguments of a wrong type before the function begins.
 
-    Texts, paths, names and truths are checked by their annotations, and None where nothing may be absent. Numbers,
-    scenes and models are checked where they are read. Raises InvalidInput.
+    It checks each argument whose annotation is a name of `compare.options`: paths, texts, named values, truths and
+    None. Numbers, scenes and models are checked where they are read. Raises InvalidInput.
     """
-    stated = {name: each.annotation for name, each in signature(function).parameters.items()}
+    found = signature(function)
+    stated = {name: _Name(each.annotation) for name, each in found.parameters.items()}
 
     @wraps(function)
     def called(*args: _P.args, **given: _P.kwargs) -> _T:
         for name, value in [*zip(stated, args, strict=False), *given.items()]:
-            if name in stated:
-                _check(name, value, stated[name].split(" | "), function.__globals__)
+            hint = function.__globals__.get(stated.get(name, ""))
+            if get_origin(hint) is Annotated:
+                _check(name, value, *get_args(hint))
         return function(*args, **given)
 
+    shown = [each.replace(annotation=stated[name]) for name, each in found.parameters.items()]
+    returned = _Name(found.return_annotation)
+    called.__signature__ = found.replace(parameters=shown, return_annotation=returned)  # type: ignore[attr-defined]
     return called
 
 
-def _check(name: str, value: Any, kinds: Collection[str], names: Mapping[str, Any]) -> None:
-    """Raise InvalidInput where a value is of none of these types; one that is not checked takes all but None."""
-    allowed = [_allowed(kind, names) for kind in kinds]
-    absent = value is None and "None" not in kinds
-    if absent or all(words and not fits(value) for words, fits in allowed):
+def _check(name: str, value: Any, hint: Any, *marks: Any) -> None:
+    """Raise InvalidInput where a value is not of the type that is stated of it; marks : "text" of a plain text."""
+    kinds = get_args(hint) if get_origin(hint) in (Union, UnionType) else (hint,)
+    if value is None:
+        words = "" if NoneType in kinds else "a value"
+    elif bool in kinds:
+        words = "" if type(value).__name__ in ("bool", "bool_") else "True or False"
+    elif Path in kinds:
+        words = "" if isinstance(value, str) or hasattr(value, "__fspath__") else "a path or a text"
+    else:
+        text = "text" in marks or any(get_origin(each) is Literal for each in kinds)
+        words = "" if not text or isinstance(value, str) else "a text"
+    if words:
         from scene.printable import brief  # slow, and only a mistake needs it
         from scene.reading import InvalidInput
 
-        words = " or ".join(dict.fromkeys(words for words, _ in allowed if words)) or "a value"
         raise InvalidInput(f"{name} = {brief(repr(value))}: {words} is needed")
-
-
-def _allowed(kind: str, names: Mapping[str, Any]) -> tuple[str, Callable[[Any], bool]]:
-    """What a type is in words, empty of one that is not checked, and whether a value is of it."""
-    alias = names.get(kind)
-    if kind == "None":
-        return "None", lambda value: value is None
-    if kind == "bool":
-        return "True or False", lambda value: type(value).__name__ in ("bool", "bool_")
-    if kind in ("Path", "PathLike"):
-        return "a path", lambda value: hasattr(value, "__fspath__")
-    named = any(get_origin(each) is Literal for each in (alias, *get_args(alias)))
-    if kind == "str" or kind.startswith("Literal[") or named:
-        return "a text", lambda value: isinstance(value, str)
-    return "", lambda value: True

@@ -1,15 +1,13 @@
-"""Progress of a run as people see it: bars on a terminal and in a notebook, plain lines elsewhere."""
+"""Progress of a run on standard error: a bar on a terminal and in a notebook, else a line every ten seconds."""
 
 import time
-from collections import defaultdict
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import AbstractContextManager, contextmanager
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from io import StringIO
 from typing import Any
 
 from rich import progress as bars
-from rich.console import Console, Group, RenderableType
-from rich.markup import escape
+from rich.console import Console, Group
 from rich.padding import Padding
 from rich.table import Column
 from rich.text import Text
@@ -22,247 +20,164 @@ from .outcome import Outcome
 from .runner import Progress, SweepProgress
 from .task import Task
 
-# Seconds between lines where there is no terminal to draw a bar on.
-PAUSE = 5.0
-# Seconds that workers take to start, until the first task is solved.
-START = 3.0
+PAUSE = 10.0  # seconds between lines where there is no terminal to draw a bar on
+LONG = 60.0  # seconds of a task of which compiling is a small part
 
 
-class Notebook(Console):
-    """Console of a notebook: one output for all that is said, brought up to date in its place, and a bar below."""
+class Solving:
+    """Tasks of a phase, in words: counts, the time left from work done and work planned, and what runs now."""
 
-    def __init__(self) -> None:
-        super().__init__(force_jupyter=False, force_terminal=False, file=StringIO())
-        self.lines = list[Text]()
-        self.place: Any = None
+    def __init__(self, tasks: Sequence[Task], clock: Callable[[], float]) -> None:
+        self.count, self.work, self.clock = len(tasks), sum(task.work for task in tasks), clock
+        self.left = self.work
+        self.running = dict[Task, float]()
+        self.done = self.failed = self.workers = 0
+        # Seconds and work of the tasks that tell the pace.
+        self.spent = self.paced = 0.0
 
-    def print(self, *said: Any, **look: Any) -> None:
-        """Say one more line, or take the bar away."""
-        self.lines += map(Text, said)
-        self.show()
+    def start(self, task: Task) -> None:
+        """A task is handed out to a worker."""
+        self.running[task] = self.clock()
+        self.workers = max(self.workers, len(self.running))
 
-    def show(self, *below: RenderableType) -> None:
-        """Bring the output up to date: lines, and what stands below them."""
-        from IPython.display import display
+    def end(self, task: Task, outcome: Outcome) -> None:
+        """A task is solved, or has failed. The first of each worker compiles too: if short, it tells no pace."""
+        spent = self.clock() - self.running.pop(task, self.clock())
+        seconds = sum(row.seconds for row in outcome.rows if row.seconds > 0) or spent
+        if self.done >= self.workers or seconds > LONG:
+            self.spent += seconds
+            self.paced += task.work
+        self.done += 1
+        self.left -= task.work
+        self.failed += any(row.reason is not None for row in outcome.rows)
 
-        content = Padding(Group(*self.lines, *below), 0, expand=False)
-        if self.place is None:
-            self.place = display(content, display_id=True)
-        else:
-            self.place.update(content)
+    def seconds(self) -> float:
+        """Seconds left at the pace until now; before any is known, at that which `cost` expects."""
+        now, unit, running = self.clock(), self.spent / self.paced if self.paced else SECONDS, self.running.copy()
+        under_way = sum(min(now - began, unit * task.work) for task, began in running.items())
+        return (unit * self.left - under_way) / max(1, min(self.workers, self.count - self.done))
 
+    def counts(self) -> list[str]:
+        """Counts and the time left, in words."""
+        failed = [f"{self.failed} failed"] if self.failed else []
+        left = [f"{duration(left)} left"] if (left := self.seconds()) >= 0.5 else []
+        return [f"{self.done}/{self.count}", *failed, *left]
 
-class Bar(bars.Progress):
-    """A bar on a terminal or in a notebook. before : brings it up to date each time it is drawn"""
-
-    def __init__(
-        self, console: Console, *columns: Any, shown: bool = True, before: Callable[[], Any] = str, **options: Any
-    ):
-        self.before = before
-        disable = not (shown and (console.is_terminal or isinstance(console, Notebook)))
-        super().__init__(*columns, console=console, transient=True, disable=disable, **options)
-        if isinstance(console, Notebook):
-            self.live.refresh = lambda: console.show(self.get_renderable())  # type: ignore[method-assign]
-
-    def get_renderables(self) -> Iterable[RenderableType]:
-        """Lines to draw now."""
-        self.before()
-        yield from super().get_renderables()
+    def __str__(self) -> str:
+        return ", ".join([*self.counts(), *(printable(task.label) for task in [*self.running][:1])])
 
 
-class SweepBar(SweepProgress):
-    """Progress of a sweep on a console: a context.
+class Shown(SweepProgress):
+    """What a person sees of a run, a bar for each phase: a context.
 
-    pause : seconds between lines where there is no bar; 0 for a line a task, and no bar
+    lines : whether a line is printed for each solve and each figure, in place of a bar
     clock : seconds that grow
     """
 
     def __init__(
-        self, console: Console, pause: float = PAUSE, clock: Callable[[], float] = time.monotonic, bar: bool = True
-    ):
-        self.console, self.pause, self.clock = console, pause, clock
-        self.row: bars.TaskID | None = None
-        # Where there is little room, what is being solved is cut off first, then the bar, never the times.
-        self.bar = Bar(
-            console,
+        self, lines: bool = False, console: Console | None = None, clock: Callable[[], float] = time.monotonic
+    ) -> None:
+        console = console or Console(stderr=True, highlight=False, soft_wrap=True)
+        self.lines, self.clock, self.notebook = lines, clock, console.is_jupyter
+        self.console = Console(file=StringIO(), force_jupyter=False) if self.notebook else console
+        drawn = console.is_interactive and not self.notebook
+        # Where there is little room, the end of the last column is cut off.
+        last = Column(ratio=1, no_wrap=True, overflow="ellipsis")
+        self.bar = bars.Progress(
+            bars.TextColumn("{task.description}"),
             bars.BarColumn(bar_width=24),
-            bars.TextColumn("{task.percentage:3.0f} %", table_column=Column(no_wrap=True, min_width=5)),
-            bars.TimeElapsedColumn(table_column=Column(no_wrap=True, min_width=7)),
-            bars.TextColumn("{task.fields[left]} left", table_column=Column(no_wrap=True, min_width=10)),
-            bars.TextColumn("{task.fields[counts]}", markup=False, table_column=Column(no_wrap=True)),
-            bars.TextColumn(
-                "{task.description}",
-                markup=False,
-                table_column=Column(ratio=1, no_wrap=True, overflow="ellipsis"),
-            ),
-            shown=bar,
-            before=self._move,
+            bars.TimeElapsedColumn(),
+            bars.TextColumn("{task.fields[waits_for]}", markup=False, table_column=last),
+            console=self.console,
             get_time=clock,
             expand=True,
+            transient=True,
+            redirect_stdout=False,
+            refresh_per_second=10 if drawn else 2 if self.notebook else 1 / PAUSE,
         )
-        self.shown = not self.bar.disable
-        self.total = self.done = self.failed = self.reused = 0
-        # Tasks that are solved now, with the times when they were handed out.
-        self.doing, self.running = "", dict[Task, float]()
+        if not drawn:
+            self.bar.live.refresh = self._refresh  # type: ignore[method-assign]
+        self.progress = Progress(self.said, self.solving, self.writing)
+        self.output: Any = None  # of a notebook: one for all lines, with the bar below them
+        self.told, self.last = list[Text](), clock()
+        self.tasks, self.reused = Solving([], clock), 0
+        self._begin("preparing")
 
-    def __enter__(self):
-        self.bar.start()
-        return self
-
-    def __exit__(self, *_):
-        self.bar.stop()
-        if self.done:
-            of = f"{self.done}" if self.done == self.total else f"{self.done} of {self.total}"
-            failed = [f"{self.failed} failed"] if self.failed else []
-            parts = [f"{of} tasks solved", f"{self.reused} reused", *failed, duration(self.clock() - self.start)]
-            self.console.print(", ".join(parts), markup=False)
-
-    def planned(self, tasks: Sequence[Task], reused: int) -> None:
-        """The tasks that have to be solved, and how many more the store has."""
-        if self.row is not None:
-            self.bar.remove_task(self.row)
-        self.total, self.done, self.failed, self.reused = len(tasks), 0, 0, reused
-        self.start = self.last = self.since = self.clock()
-        # Work of all tasks, and of solved ones with the seconds that it took, by solver: their units differ.
-        self.every, self.solved, self.took = (defaultdict[type, float](float) for _ in range(3))
-        for task in tasks:
-            self.every[_solver(task)] += task.work
-        self.reached = 0.0
-        self.row = self.bar.add_task("", total=1.0, counts=self._counts(), left="?")
-        if tasks and not self.shown:
-            self.console.print(f"{len(tasks)} tasks to solve" + (f", {reused} reused" if reused else ""))
-
-    def started(self, task: Task) -> None:
-        """A task is handed out to a worker."""
-        self.running[task] = self.clock()
-        self._tell()
-
-    def finished(self, task: Task, outcome: Outcome) -> None:
-        """A task is solved and stored, or has failed."""
-        now, solver = self.clock(), _solver(task)
-        handed_out = self.running.pop(task, now)
-        took = sum(row.seconds for row in outcome.rows if row.seconds > 0) or now - handed_out
-        if not self.done:  # until then workers were starting
-            self.since = max(self.start, now - took)
-        self.done += 1
-        self.solved[solver] += task.work
-        self.took[solver] += took
-        self.failed += any(row.reason is not None for row in outcome.rows)
-        self._tell()
-        if not self.shown and now - self.last >= self.pause:
-            self.last = now
-            self.said(f"{self._counts()}, {self._left()} left, solved {task.label}")
-
-    def said(self, line: str) -> None:
-        """A line for a person."""
-        self.console.print(printable(line), markup=False)
-
-    def interrupted(self) -> None:
-        """Tell that nothing more is started."""
-        self.doing = "finishing "
-        if not self.shown:
-            self.console.print("finishing the tasks under way")
-        self._tell()
-
-    def _seconds(self):
-        """Seconds that all takes, as known by now, and of each running task those expected and spent.
-
-        A unit of work takes what it took until now, and before any is solved, what it is expected to take.
-        """
-        unit = {each: self.took[each] / self.solved[each] if self.took[each] else SECONDS for each in self.every}
-        now, start = self.clock(), 0.0 if self.done else START
-        running = [
-            (unit[_solver(task)] * task.work + start, now - max(handed_out, self.since))
-            for task, handed_out in list(self.running.items())
-        ]
-        return sum(unit[each] * work for each, work in self.every.items()) or 1.0, running
-
-    def _left(self):
-        """Time left at the pace until now, a quarter more of tasks that are late; not known of late first ones."""
-        now, (whole, running) = self.clock(), self._seconds()
-        if not self.done:
-            left = START + whole / max(len(running), 1) - (now - self.start)
-            return duration(left if left > 0 else None)
-        done = sum(self.took.values()) + sum(spent for _, spent in running)
-        late = sum(max(0.0, 1.25 * spent - expected) for expected, spent in running)
-        return duration((now - self.since) * max(0.0, (whole + late) / done - 1) if done else None)
-
-    def _move(self):
-        """Bring the bar up to date: late tasks go on ever more slowly, so that it neither stops nor is full."""
-        if self.row is not None:
-            whole, running = self._seconds()
-            start = 0.0 if self.done else START
-            shares = (
-                (expected - start) * (part if part < 0.8 else 1 - 0.04 / (part - 0.6))
-                for expected, spent in running
-                for part in [spent / (expected or 1.0)]
-            )
-            self.reached = max(self.reached, (sum(self.took.values()) + sum(shares)) / whole)
-            self.bar.update(self.row, completed=self.reached, left=self._left())
-
-    def _counts(self):
-        return f"{self.done}/{self.total}" + (f", {self.failed} failed" if self.failed else "")
-
-    def _tell(self):
-        if self.row is not None:
-            what = self.doing + printable(next((task.label for task in self.running), ""))
-            self.bar.update(self.row, counts=self._counts(), description=what)
-
-
-def _solver(task):
-    return type(getattr(task, "solver", task))
-
-
-class Preparing:
-    """A bar from the first second, while a command imports, reads and plans; a context, ended by whoever is next.
-
-    lines : whether lines are printed in place of bars
-    """
-
-    def __init__(self, lines: bool = False) -> None:
-        self.lines, self.console = lines, Console(highlight=False, soft_wrap=True)
-        if self.console.is_jupyter and not lines:
-            self.console = Notebook()
-        columns = bars.BarColumn(bar_width=24), bars.TimeElapsedColumn(), bars.TextColumn("{task.description}")
-        self.bar = Bar(self.console, *columns, shown=not lines)
-        self.bar.add_task("preparing", total=None)
-
-    def __enter__(self) -> "Preparing":
-        self.bar.start()
+    def __enter__(self) -> "Shown":
+        if not self.lines:
+            self.bar.live.start()
         return self
 
     def __exit__(self, *_: object) -> None:
-        self.end()
+        self.bar.live.stop()
+        self._begin("")
 
-    def end(self) -> None:
-        """Take the bar away, once or again."""
-        self.bar.stop()
+    def _begin(self, phase: str, total: float | None = None, waits_for: object = "") -> None:
+        """Begin a phase with so much to do, or one without a count."""
+        for row in self.bar.task_ids:
+            self.bar.remove_task(row)
+        if phase:
+            self.row = self.bar.add_task(phase, total=total, waits_for=waits_for)
 
+    def _refresh(self) -> None:
+        """In place of drawing a bar: bring the output of a notebook up to date, or print a line of a log."""
+        if self.notebook:
+            from IPython.display import display
 
-def shown(preparing: Preparing) -> Progress:
-    """Progress that tells a terminal how far a run is: bars, or a line for each solve and each figure.
+            self.output = self.output or display(display_id=True)
+            self.output.update(Padding(Group(*self.told, self.bar.get_renderable()), 0, expand=False))
+        elif self.clock() - self.last >= PAUSE:
+            self.last = self.clock()
+            for task in self.bar.tasks:
+                self.said(f"{task.description} {task.fields['waits_for']}".strip())
 
-    preparing : what is shown until then, on the same terminal
-    """
-    console, lines = preparing.console, preparing.lines
+    def said(self, line: str) -> None:
+        """Say a line to a person."""
+        if self.notebook:
+            self.told.append(Text(printable(line)))
+            self._refresh()
+        else:
+            self.console.print(printable(line), markup=False)
 
-    def solving() -> SweepBar:
-        preparing.end()
-        return SweepBar(console, pause=0.0, bar=False) if lines else SweepBar(console)
+    @contextmanager
+    def writing(self, count: int) -> Iterator[Callable[[str], None]]:
+        """Draw so many figures; what it gives is called with the name of each that is drawn."""
 
-    def writing(count: int) -> AbstractContextManager[Callable[[str], Any]]:
-        preparing.end()
-        return _figures(console, count, lines)
+        def drawn(name: str) -> None:
+            self.bar.update(self.row, advance=1, waits_for=f"{printable(name)} is drawn")
+            if self.lines:
+                self.said(f"  figure {name}")
 
-    return Progress(lambda line: console.print(line, markup=False), solving, writing)
+        self._begin("drawing", count)
+        yield drawn
+        self._begin("writing")
 
+    @contextmanager
+    def solving(self) -> Iterator["Shown"]:
+        """Solve what is planned; the counts are said at the end."""
+        began = self.clock()
+        try:
+            yield self
+        finally:
+            done, count, failed = self.tasks.done, self.tasks.count, self.tasks.failed
+            solved = f"{done}{'' if done == count else f' of {count}'} tasks solved, {self.reused} reused"
+            took = duration(self.clock() - began)
+            self.said(", ".join([solved, *([f"{failed} failed"] if failed else []), took]))
+            self._begin("judging")
 
-@contextmanager
-def _figures(console: Any, count: int, lines: bool) -> Iterator[Callable[[str], Any]]:
-    """A bar over the figures of a page while they are drawn."""
-    if lines:
-        yield lambda name: console.print(f"  figure {printable(name)}", markup=False)
-        return
-    with Bar(console, *bars.Progress.get_default_columns()) as bar:
-        drawn = bar.add_task("Drawing", total=count)
-        yield lambda name: bar.update(drawn, advance=1, description=f"Drawing {escape(printable(name))}")
+    def planned(self, tasks: Sequence[Task], reused: int) -> None:
+        self.tasks, self.reused = Solving(tasks, self.clock), reused
+        self._begin("compiling", waits_for=self.tasks)
+
+    def started(self, task: Task) -> None:
+        self.tasks.start(task)
+
+    def finished(self, task: Task, outcome: Outcome) -> None:
+        self.tasks.end(task, outcome)
+        self.bar.update(self.row, advance=task.work, total=self.tasks.work, description="solving")
+        if self.lines:
+            self.said(", ".join([*self.tasks.counts(), f"solved {task.label}"]))
+
+    def interrupted(self) -> None:
+        self.bar.update(self.row, description="finishing")
+        self.said("finishing the tasks under way")

@@ -15,7 +15,7 @@ from .intervals import Estimated, RmsMisfit
 
 # Largest misfit in ln mu that counts as one curve, and relative error of an exponent that counts as predicted.
 TOLERANCE = 0.05
-_MISFIT = "rms of ln mu about one curve, without what scatter adds"
+_MISFIT = "rms of ln μ about one curve, without what scatter adds"
 _POWER = "Exponent of the horizontal shifts against the speed, least squares."
 
 
@@ -34,7 +34,7 @@ COLLAPSE = _misfit(
 VERTICAL = _misfit(
     "vertical",
     "Eq. 23: no shift along friction is needed",
-    "rms of ln mu of what vertical shifts beside the horizontal ones would take from the misfit.",
+    "rms of ln μ of what vertical shifts beside the horizontal ones would take from the misfit.",
     0.0,
 )
 PREDICTED = _misfit(

@@ -11,8 +11,7 @@ import pandas
 from scene.quantities import BARE, WHOLE, argument
 from scene.signatures import readable
 
-from ..solving.amounts import capital
-from . import digits
+from ..solving import amounts
 
 HOLDS, FAILS, UNDECIDED, REPORTED = VERDICTS = ("holds", "fails", "undecided", "reported")
 # How the share of the grid in an interval is known.
@@ -80,14 +79,14 @@ class Claim:
 
     def said(self, text: str) -> str:
         """A number in words, already to scale, with its unit."""
-        return digits.with_unit(text, "%" if self.percent else self.unit)
+        return amounts.with_unit(text, "%" if self.percent else self.unit)
 
     @property
     def tested(self) -> str:
         """Number that it is tested against, with tolerance and unit in words; empty without a claim."""
         if not isfinite(self.tolerance):
             return ""
-        expected, tolerance = (digits.number(self.scale * each) for each in (self.expected, self.tolerance))
+        expected, tolerance = (amounts.number(self.scale * each) for each in (self.expected, self.tolerance))
         exactly = expected if self.tolerance == 0 else f"{expected} ± {tolerance}"
         return self.said(exactly if isfinite(self.expected) else f"at most {tolerance}")
 
@@ -185,7 +184,7 @@ class Finding:
         """Where the interval leaves the tolerance, in words."""
         low, high = self.interval
         ends = (self.claim.expected + side * self.claim.tolerance for side in (-1, 1))
-        inside = [self.claim.said(digits.number(self.claim.scale * each)) for each in ends if low < each < high]
+        inside = [self.claim.said(amounts.number(self.claim.scale * each)) for each in ends if low < each < high]
         return f"its interval reaches across {' and '.join(inside)}" if inside else ""
 
     @property
@@ -193,12 +192,12 @@ class Finding:
         """Place of the measurement, with the regime, in words."""
         return ", ".join(part for part in (self.where, self.regime) if part)
 
-    def found(self, figures: int = digits.DIGITS) -> str:
+    def found(self, figures: int = amounts.DIGITS) -> str:
         """Value with its interval and unit in words; figures : significant digits of a value without interval"""
         if not isfinite(self.value):
             return "not known"
         value, low, high = (self.claim.scale * each for each in (self.value, *self.interval))
-        return self.claim.said(digits.interval(value, low, high, figures))
+        return self.claim.said(amounts.interval(value, low, high, figures))
 
     @property
     def basis(self) -> str:
@@ -207,7 +206,7 @@ class Finding:
             return ""
         counts = self.drawn or ({self.dimension: self.draws} if self.draws else {})
         drawn = "".join(f"{count} {DRAWS.get(name, f'draws of {name}')}, " for name, count in counts.items())
-        exact = f" {digits.number(self.grid, 2)}" if self.grid else ""
+        exact = f" {amounts.number(self.grid, 2)}" if self.grid else ""
         return f"{drawn}grid{exact} ({self.grid_method})"
 
     @property
@@ -291,7 +290,7 @@ def _verdicts(models) -> str:
         words = ", ".join(f"{verdict} in {model}" for model, verdict in told.items())
     else:
         words = next(iter(told.values()))
-    return f"{capital(words)}: "
+    return f"{amounts.capital(words)}: "
 
 
 def _verdict(findings) -> str:
@@ -309,18 +308,18 @@ def _numbers(findings, named) -> str:
     model = f"in {findings[0].dimension} " if named else ""
     if len(findings) <= SHOWN:
         mixed = len({each.verdict for each in findings}) > 1
-        if len({number(each) for each in findings}) == 1 < len(findings):
-            return f"{model}{number(findings[0])} in {_places(len(findings))}"
+        if len({each.found(3) for each in findings}) == 1 < len(findings):
+            return f"{model}{findings[0].found(3)} in {_places(len(findings))}"
         return model + _listed([_placed(each, mixed) for each in findings])
     known = [claim.scale * each.value for each in findings if isfinite(each.value)]
     count = _places(len(findings)) if len(known) == len(findings) else f"{len(known)} of {len(findings)} places"
     if not known:
-        return f"{model}not measured in {count.replace('0 of ', 'any of ')}"
-    reach = " to ".join(dict.fromkeys(digits.number(end(known), 3) for end in (min, max)))
+        return f"{model}not known in {count.replace('0 of ', 'any of ')}"
+    reach = " to ".join(dict.fromkeys(amounts.number(end(known), 3) for end in (min, max)))
     widest = max(
         ((high - low) / 2 for low, high in (each.interval for each in findings) if low < high), default=0.0
     )
-    about = f" (±{claim.said(digits.number(claim.scale * widest, 2))} at most)" if 0 < widest < inf else ""
+    about = f" (±{claim.said(amounts.number(claim.scale * widest, 2))} at most)" if 0 < widest < inf else ""
     return f"{model}{claim.said(reach)} in {count}{about}"
 
 
@@ -331,17 +330,12 @@ def _places(count: int) -> str:
 def _placed(found: Finding, mixed: bool) -> str:
     at = "at" if found.where[:1].isdigit() or "=" in found.where else "for"
     place = f" {at} {found.where}" if found.where else ""
-    return f"{number(found)}{place}{f' ({found.verdict})' if mixed else ''}"
+    return f"{found.found(3)}{place}{f' ({found.verdict})' if mixed else ''}"
 
 
 def _listed(parts):
     *first, last = parts
     return f"{', '.join(first)} and {last}" if first else last
-
-
-def number(found: Finding) -> str:
-    """Value and interval of a finding in words."""
-    return found.found(3) if isfinite(found.value) else "not measured"
 
 
 def said_of(claim: Claim, beside: str) -> Claim:

@@ -22,10 +22,10 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 
 from ..solving.amounts import duration, share
+from ..solving.control_variates import VARIATES, controlled
 from ..solving.cost import MOST_DRAWS, SECONDS
-from ..solving.parameter_grid import EMPTY, LEVELS, TOGETHER, ParameterGrid, on_levels, width
+from ..solving.parameter_grid import EMPTY, LEVELS, TOGETHER, ParameterGrid, levels
 from .collapse import PARTED
-from .control_variates import VARIATES, controlled
 from .finding import UNDECIDED, Finding
 from .jackknife import Source, mean_ratio, off_the_ratio
 
@@ -59,12 +59,6 @@ def wanted(prescribed: str, speeds: tuple[float, ...], slides: bool) -> Iterator
     yield "normal_force" if prescribed == "depth" else "depth_reached", speeds
     if slides:
         yield "friction_coefficient", tuple(speed for speed in speeds if speed > 0)
-
-
-def levels(models: Models, grids: Sequence[ParameterGrid], most: int = len(LEVELS)) -> dict[str, dict]:
-    """Grids of each model, halved as long as they can solve all of some parameter grids, at most so many."""
-    corners = sorted((corner for each in grids for corner in each.corners), key=lambda each: -width(each))
-    return {each.name: on_levels(each.solver, corners, most) for each in models}
 
 
 def in_strata(

@@ -85,7 +85,7 @@ class Listed:
 
 @dataclass(frozen=True)
 class Written:
-    """JSON answer of `new`, `redraw` and `export`. files : that were written"""
+    """JSON answer of `new` and `export`. files : that were written"""
 
     files: tuple[str, ...]
 

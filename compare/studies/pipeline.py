@@ -14,6 +14,7 @@ from scene.reading import InvalidInput
 
 from ..report import manifest, render
 from ..report.page import Plot
+from ..report.plots.rendering import FORMS
 from ..solving import netcdf, runner
 from ..solving.amounts import seconds_of
 from ..solving.executors import counted
@@ -63,7 +64,7 @@ def run(
     output, progress = Path(output), progress or Progress()
     forms = tuple(dict.fromkeys(["png", *(form.strip() for form in figure_format.split(",") if form.strip())]))
     for form in forms:
-        known("figure_format", form, render.FORMS)
+        known("figure_format", form, FORMS)
     limit = inf if budget is None else seconds_of("budget", budget)
     if executor is not None and (scheduler is not None or not callable(getattr(executor, "submit", None))):
         needed = "an object with submit is needed, without a scheduler"

@@ -80,7 +80,7 @@ class Plans(dict[str, Plan | str | Advice]):
 
     @property
     def details(self) -> str:
-        """Every kernel, array and grid, and what 1D is worth: what `crosscheck plan -v` prints."""
+        """Every kernel and grid, and what 1D is worth: what `crosscheck plan -v` prints."""
         return "\n\n".join([_lines(self._summary()), *map(str, self.values())])
 
     def __str__(self) -> str:

@@ -12,7 +12,7 @@ from pandas import DataFrame
 
 from scene.signatures import readable
 
-from ..report import render
+from ..report import render, terminal
 from ..report.page import Page, Plot
 from ..report.plots.rendering import finished
 from ..report.plots.style import png
@@ -77,17 +77,17 @@ class Report:
         return faults(self.swept, self.output)
 
     def __str__(self) -> str:
-        return render.terminal.text(self.page, self.path, whole=False)
+        return terminal.text(self.page, self.path, whole=False)
 
     __repr__ = __str__
 
     @property
     def details(self) -> str:
         """The whole page as a terminal shows it, with every number."""
-        return render.terminal.text(self.page, self.path)
+        return terminal.text(self.page, self.path)
 
     def _repr_html_(self) -> str:
-        return render.html.fragment(self.page, self.path)
+        return render.fragment(self.page, self.path)
 
 
 @dataclass(frozen=True, repr=False)

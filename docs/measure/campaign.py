@@ -4,14 +4,13 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
-from rich.console import Console
 
 from compare.solving.folders import hold
 from compare.solving.outcome import Outcome, Row
 from compare.solving.runner import sweep
 from compare.solving.store import Store
 from compare.solving.task import Task
-from compare.solving.terminal import SweepBar
+from compare.solving.terminal import Shown
 from compare.statistics.intervals import Estimated
 from compare.statistics.jackknife import mean_ratio
 
@@ -29,5 +28,5 @@ def solved(
 ) -> Mapping[Task, Outcome]:
     """Answers of tasks; what has been solved once lies in the folder `solved` beside the numbers of the page."""
     store = Store(page.with_suffix("") / "solved")
-    with hold([store.folder], print), SweepBar(Console(highlight=False, soft_wrap=True)) as progress:
+    with hold([store.folder], print), Shown() as shown, shown.solving() as progress:
         return sweep(list(tasks), store, workers, progress, fresh=fresh).outcomes

@@ -8,7 +8,6 @@ import pytest
 from planned import FACTOR, KELVIN, LOAD, PRONY, SPHERE, STAGES, STANDARD, all_of_a_scene, held_by
 
 from bem3d import BEM, marching
-from bem3d.arrays import as_drawn, of_roughness
 from bem3d.convolution import FreeConvolution, FreePair, PeriodicFilter, PeriodicPair
 from bem3d.grid import Grid
 from bem3d.halfspace import HalfSpace
@@ -39,6 +38,7 @@ from scene import (
     Wave,
 )
 from scene.costs import multiples
+from scene.plan import size
 
 EXTENT = 3e-3
 ROUGH = SelfAffine(hurst=0.8, rms_height=5e-6, longest=2e-3, shortest=0.25e-3, seed=1)
@@ -209,10 +209,10 @@ def test_the_memory_of_a_plan_is_what_a_solve_holds_at_most(name, points, monkey
 
 
 def test_a_surface_of_many_waves_is_drawn_in_the_memory_that_a_plan_says():
-    scene = replace(SCENES["rough"], roughness=replace(ROUGH, shortest=ROUGH.longest / 128))
-    _, most = held_by(lambda rough: RoughSurface.draw(rough, rough.q_max(0.0)), scene.roughness)
-    (drawn,) = as_drawn([*of_roughness(scene, 1e-6, 64)])
-    assert most / FACTOR < drawn.bytes < most * FACTOR
+    rough = replace(ROUGH, shortest=2e-3 / 128)
+    few = BEM(points=32, extent=2e-4)  # so that nothing on the grid is as large
+    _, most = held_by(lambda drawn: RoughSurface.draw(drawn, drawn.q_max(0.0)), rough)
+    assert most / FACTOR < few.plan(replace(SCENES["rough"], roughness=rough)).memory < most * FACTOR
 
 
 def test_a_plan_draws_no_surface_and_holds_next_to_nothing(monkeypatch):
@@ -337,7 +337,12 @@ def test_a_printed_plan_says_all_of_it():
     plan = solver(SCENES["rough"]).plan(SCENES["rough"])
     page = str(plan)
     assert len({line.index("symbol,") for line in page.splitlines() if "symbol, " in line}) == 1  # in columns
-    for said in (*plan.terms.values(), *plan.left_out.values(), *(kernel.name for kernel in plan.kernels)):
+    for said in (
+        *plan.terms.values(),
+        *plan.left_out.values(),
+        *(kernel.name for kernel in plan.kernels),
+        size(plan.memory),
+    ):
         assert said in page
     for heading in ("simulated", "method", "grids", "kernels", "modes", "memory", "expected", "left out"):
         assert f"\n  {heading}" in page

@@ -276,7 +276,6 @@ ASKED = {
     "load": {"folder": "none"},
     "new": {"name": "hertz"},
     "schema": {},
-    "redraw": {"folder": "none"},
     "export": {"folder": "none"},
     "draw": {"scene": SLIDING},
     "friction_plot": {"dataset": None},

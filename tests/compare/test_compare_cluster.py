@@ -90,17 +90,6 @@ def test_no_more_is_handed_out_than_workers_have_threads_and_a_few(cluster, tmp_
 
 
 @pytest.mark.slow
-def test_a_fault_on_the_cluster_is_recorded_as_here(cluster, tmp_path):
-    tasks = loads(2000.0, 200.0, 5.0)
-    swept = sweep(tasks, Store(tmp_path), scheduler=cluster.scheduler_address)
-    reasons = [swept.outcomes[task].rows[0].reason for task in tasks]
-    assert reasons == ["ZeroDivisionError: a fault in the solver", "200 N is too much; press less", None]
-    assert list(swept.faults) == tasks[:1]
-    (note,) = tmp_path.glob("*.fault.txt")
-    assert 'raise ZeroDivisionError("a fault in the solver")' in note.read_text()
-
-
-@pytest.mark.slow
 def test_a_worker_killed_in_the_middle_is_survived_and_its_tasks_are_redone(cluster, tmp_path):
     class Killing(Heard):
         def finished(self, task, outcome):
@@ -297,8 +286,6 @@ STRANGERS = {
     "an end at once": b"",
     "the web": b"HTTP/1.0 400 Bad Request\r\n\r\n",
     "noise": bytes(range(255, 0, -1)),
-    "very much to come": (2**62).to_bytes(8, "little"),
-    "nothing": bytes(100),
 }
 
 
@@ -335,10 +322,9 @@ def test_a_name_is_looked_for_as_long_as_a_scheduler(seconds, why, tmp_path, mon
     assert time.monotonic() - start < 1.5
 
 
-NO_ADDRESSES = "nonsense://x|inproc://|inproc://1/2/3||tcp://|tcp://name|tcp://name:0|tcp://name:99999|unix:///x"
-
-
-@pytest.mark.parametrize("address", [*NO_ADDRESSES.split("|"), "tcp://:1", "tcp://[::1:1", f"tcp://{'ä' * 300}:1"])
+@pytest.mark.parametrize(
+    "address", ["inproc://1/2/3", "", "tcp://name", "tcp://name:99999", "tcp://[::1:1", f"tcp://{'ä' * 300}:1"]
+)
 def test_what_is_no_address_is_refused(address, tmp_path):
     with pytest.raises(Refused, match=r"^scheduler = '.*': an address, as tcp://name:8786$"):
         sweep(loads(1.0), Store(tmp_path), scheduler=address)

@@ -4,11 +4,9 @@ from dataclasses import replace
 from functools import cache
 
 import numpy as np
-import pandas
 import pytest
 from drawn_scenes import KELVIN, LOAD, ROUGH, STANDARD, TAU, A, G, R
 from drawn_scenes import SCENES as DRAWN
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from bem3d import BEM
 from compare.report.plots import contact_maps, style
@@ -169,19 +167,3 @@ def test_what_has_no_fields_or_is_warmed_by_its_friction_has_no_picture():
     heated = replace(SCENES["rough"], temperature=warm, heating=Heating(conductivity=0.2, feedback="average"))
     for scene, fields in ((SCENES["rough"], {}), (heated, {"BEM": {}})):
         assert contact_maps.plot(view(scene, SPACE, fields)) is None
-
-
-def test_the_figure_from_its_files_is_the_figure(tmp_path):
-    plot = contact_maps.plot(seen("rough"))
-    for name, table in plot.tables.items():
-        table.to_csv(tmp_path / f"{name}.csv", index=False)
-    read = {name: pandas.read_csv(tmp_path / f"{name}.csv") for name in plot.tables}
-    with style.applied():
-        again = replace(plot, tables=read).figure()
-        np.testing.assert_array_equal(rendered(again), rendered(picture("rough")))
-
-
-def rendered(drawing):
-    canvas = FigureCanvasAgg(drawing)
-    canvas.draw()
-    return np.asarray(canvas.buffer_rgba())

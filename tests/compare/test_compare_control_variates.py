@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from bem3d import BEM
+from compare.solving import control_variates as module
+from compare.solving.control_variates import control_variates, controlled
 from compare.solving.task import SceneTask, draws_of
-from compare.statistics import control_variates as module
-from compare.statistics.control_variates import control_variates, controlled
 from compare.trustmap.corrected import CorrectedMDR
 from mdr1d import MDR
 from scene import (

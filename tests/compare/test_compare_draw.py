@@ -100,7 +100,7 @@ def each_spring(collection):
 
 def test_the_picture_is_drawn_again_from_its_tables_to_the_last_byte(drawn, tmp_path):
     folder = drawn["rough"].output
-    again = compare.redraw(folder, output=tmp_path)
+    again = compare.export(folder, format="png", output=tmp_path)
     png = next(path for path in again if path.suffix == ".png")
     assert png.read_bytes() == (folder / "draw.png").read_bytes()
 
@@ -124,7 +124,9 @@ def test_a_program_is_drawn_in_time_by_the_forces_of_both_and_sections_at_instan
         assert touched["surface"].to_numpy() == pytest.approx(touched["indenter"].to_numpy(), abs=near)
         assert len(touched)
     png = tmp_path / name / f"{program.NAME}.png"
-    (again,) = (path for path in compare.redraw(png.parent, output=tmp_path / "again") if path.name == png.name)
+    (again,) = (
+        path for path in compare.export(png.parent, "png", output=tmp_path / "again") if path.name == png.name
+    )
     assert again.read_bytes() == png.read_bytes()
 
 
@@ -151,7 +153,7 @@ def test_a_contact_that_does_not_touch_is_no_picture(tmp_path):
 
 def test_without_meshio_the_extra_is_named_in_one_line(drawn, monkeypatch):
     monkeypatch.setitem(sys.modules, "meshio", None)
-    result = CliRunner().invoke(app, ["export", str(drawn["rest"].output), "--to", "vtk"])
+    result = CliRunner().invoke(app, ["export", str(drawn["rest"].output), "--format", "vtk"])
     assert result.exit_code == 2
     assert vtk.EXTRA in result.output
     assert len(result.output.strip().splitlines()) == 1
@@ -159,7 +161,7 @@ def test_without_meshio_the_extra_is_named_in_one_line(drawn, monkeypatch):
 
 def test_a_surface_for_paraview_holds_the_load_and_what_is_displaced(drawn):
     meshio = pytest.importorskip("meshio")
-    (path,) = compare.export(drawn["rest"].output, to="vtk")
+    (path,) = compare.export(drawn["rest"].output, format="vtk")
     mesh, surface = meshio.read(path), drawn["rest"].answers["surface"].to_dataset()
     pressure = mesh.point_data["pressure [Pa]"]
     pixel = float(surface["x"][1] - surface["x"][0])
@@ -175,4 +177,4 @@ def test_a_folder_without_a_surface_is_no_file_for_paraview(tmp_path):
     pytest.importorskip("meshio")
     compare.sweep(replace(FAST, bem=BEM(points=32)), speed=[0.1], output=tmp_path, workers=1, report=False)
     with pytest.raises(InvalidInput, match="no surface"):
-        compare.export(tmp_path, to="vtk")
+        compare.export(tmp_path, format="vtk")

@@ -98,4 +98,4 @@ def test_many_reported_numbers_are_told_by_their_range_and_how_many_are_known():
     claim = Claim("time", "Time", unit="s")
     known = [Finding(claim, value, dimension="3D") for value in (0.5, 2.0, 1.0, nan, 3.0)]
     assert sentences(known) == ["Time: in 3D 0.5 to 3 s in 4 of 5 places."]
-    assert "not measured in any of 5 places" in sentences([Finding(claim, nan)] * 5)[0]
+    assert "not known in any of 5 places" in sentences([Finding(claim, nan)] * 5)[0]

@@ -1,6 +1,6 @@
 """Looks of figures: widths and texts of journals, styles of one's own, colours that every reader tells apart.
 
-Every figure that a command can leave is drawn from the tables in plots, as `crosscheck redraw` draws it.
+Every figure that a command can leave is drawn from the tables in plots, as `crosscheck export` draws it.
 """
 
 import re
@@ -28,11 +28,11 @@ from matplotlib.text import Text
 from matplotlib.transforms import Bbox
 
 from compare.report import csvfiles, manifest
+from compare.report.export import function
 from compare.report.page import Plot
 from compare.report.plots import lettering, shades, style
 from compare.report.plots.journals import JOURNALS, journal
 from compare.report.plots.rendering import FORMS, picture
-from compare.report.redraw import function
 from scene.reading import InvalidInput
 
 SAMPLES = Path(__file__).parent / "plots"

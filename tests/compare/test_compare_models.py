@@ -149,15 +149,10 @@ def test_a_model_that_answers_nothing_is_told_and_takes_no_other_with_it(error, 
         (["bem", BEM()], None, "two have one name"),
         (["bem"], None, "at least two"),
         (["bem", "mdr"], "exact", "reference = 'exact': one of BEM, MDR"),
-        (["bem", Stiff], None, "frozen dataclass"),
         (["bem", object()], None, "frozen dataclass"),
         (["bem", replace(Stiff(), factor=object())], None, "numbers, texts"),
         (["bem", Gridded(points=2**63)], None, f"its `points` = {2**63}: a whole number from 1 to {2**63 - 1}"),
-        (["bem", Gridded(points="64")], None, "its `points` = '64': a whole number"),
-        *(
-            (["bem", called(name)], None, "its `name` is")
-            for name in ("", "..", "a/b", "$x", "\ud800", "\u202e", 3)
-        ),
+        *((["bem", called(name)], None, "its `name` is") for name in ("", "a/b", "\ud800", 3)),
         (["bem", called("a", r"$\frac$")], None, "its `label` is"),
     ],
 )

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray
 
-from compare.statistics.control_variates import ALIKE, controlled
+from compare.solving.control_variates import ALIKE, controlled
 from compare.statistics.intervals import student
 from compare.statistics.jackknife import DrawSet, friction, mean, mean_ratio, resample, strata_of, welch
 from compare.statistics.multilevel import pooled

@@ -11,9 +11,9 @@ from matplotlib.text import Text
 from pandas import DataFrame
 from small_cases import TINY
 
+from compare.report import terminal
 from compare.report.page import Page, Table
 from compare.report.plots import shifted_curves, style
-from compare.report.render import terminal
 from compare.solving.continuation import Continuation
 from compare.solving.cost import MOST_DRAWS
 from compare.solving.outcome import Outcome, Row
@@ -106,13 +106,12 @@ def test_every_misfit_and_exponent_in_the_figure_of_shifts_is_that_of_a_finding(
     assert len(set().union(*map(numbers, told))) > 2
 
 
-def test_a_table_that_is_too_wide_for_a_terminal_is_printed_in_parts_that_say_where():
+def test_a_table_that_is_too_wide_for_a_terminal_is_broken_into_lines_with_every_digit():
     frame = DataFrame({"speed": [0.1, 1.0]})
     for k, end in product(range(12), ("", "_low", "_high")):
         frame[f"friction_coefficient (model {k}){end}"] = [1 + 0.01 * k, 2 + 0.01 * k]
     frame = frame.assign(**{name: frame[name] * 0.9 for name in frame if name.endswith("_low")})
     text = terminal.text(Page("Models", (), (Table("means", frame, "Means."),)))
-    lines = text.splitlines()
-    assert max(map(len, lines)) <= terminal.WIDEST
-    assert sum(f"(model {k})" in text for k in range(12)) == 12
-    assert sum(line.startswith("speed [m/s]") for line in lines) > 1
+    assert max(map(len, text.splitlines())) <= terminal.WIDEST
+    assert text.count("…") == 0
+    assert text.count("(model") == 12

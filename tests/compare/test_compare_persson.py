@@ -20,8 +20,6 @@ from compare.models.table import Model, Models
 from compare.studies.claims.series import ROUGH, Contacts, Series
 from mdr1d import MDR
 from scene import (
-    Coulomb,
-    CrossedWaves,
     Cylinder,
     Indent,
     Kelvin,
@@ -83,16 +81,6 @@ def test_under_light_pressure_the_area_is_proportional_to_it():
     assert twice.friction_coefficient > 1.5 * Persson(0.5).solve(plane(2 * ratio)).friction_coefficient
 
 
-def test_of_waves_that_are_not_seen_nothing_is_out_of_contact():
-    """At the magnification 1 all of the plane touches; each shorter wave takes some of the area away."""
-    scene = plane(0.3)
-    cut = [replace(SURFACE, shortest=shortest, rolloff=SURFACE.longest) for shortest in (4e-3, 2e-3, 1e-3, 5e-4)]
-    found = [Persson().solve(replace(scene, roughness=each)).measures["contact_fraction"] for each in cut]
-    assert found == sorted(found, reverse=True)
-    flat = replace(SURFACE, rms_height=1e-12)
-    assert Persson().solve(replace(scene, roughness=flat)).measures["contact_fraction"] == 1
-
-
 @pytest.mark.parametrize("ratio", [0.05, 0.5, 2.0])
 @pytest.mark.parametrize("gamma", [None, 0.5])
 def test_the_integral_is_that_of_the_papers(ratio, gamma):
@@ -113,14 +101,6 @@ def test_the_integral_is_that_of_the_papers(ratio, gamma):
     expected = np.trapezoid(weight * kept * lost, q) / 2
     assert Persson(gamma).solve(scene).friction_coefficient == pytest.approx(expected, rel=QUADRATURE)
     assert expected != pytest.approx(np.trapezoid(weight * lost, q) / 2, rel=10 * QUADRATURE)
-
-
-def test_the_later_factor_is_none_at_one_and_lowers_friction():
-    scene = plane(0.2)
-    frictions = [Persson(gamma).solve(scene).friction_force for gamma in (0.0, 0.5, 1.0)]
-    assert frictions == sorted(frictions)
-    assert frictions[-1] == Persson().solve(scene).friction_force
-    assert len({Persson().name, Persson(0.5).name, Persson(1.0).name}) == 3
 
 
 @pytest.fixture(scope="module")
@@ -187,14 +167,11 @@ def test_in_full_contact_all_of_the_smooth_contact_rubs():
     ("changed", "said"),
     [
         ({"motion": Slide(speed=0.1, depth=1e-4)}, "motion.depth = 0.0001: the theory makes no claim"),
-        ({"indenter": Plane(), "motion": Slide(speed=0.1, gap=1e-5)}, "motion.gap = 1e-05"),
         ({"roughness": replace(SURFACE, shortest=None)}, "roughness.shortest is absent"),
         ({"roughness": Wave(amplitude=1e-6, wavelength=1e-3)}, "roughness = Wave.*SelfAffine"),
-        ({"roughness": CrossedWaves(amplitude=1e-6, wavelength=1e-3)}, "roughness = CrossedWaves.*SelfAffine"),
         ({"indenter": Cylinder(radius=1e-2), "motion": Slide(speed=0.1, line_load=1.0)}, "indenter = Cylinder"),
         ({"motion": Program(stages=(Stage(duration=1.0, load=1.0),))}, "motion = Program.*Slide or Indent"),
         ({"layer": Layer(thickness=0.01)}, "layer = Layer"),
-        ({"interface": Coulomb(coefficient=0.1)}, "interface = Coulomb"),
     ],
 )
 def test_what_the_theory_is_not_of_is_refused_by_name(changed, said):
@@ -219,24 +196,11 @@ def test_the_judge_leaves_out_what_the_theory_has_no_claim_on(judged):
     assert found["value"][found["claim"].str.startswith("friction")].notna().all()
 
 
-def test_the_others_keep_their_findings_beside_it(judged, by_default):
-    columns = ["claim", "where", "dimension", "value", "low", "high", "verdict"]
-    pair = judged.table[~judged.table["dimension"].str.contains("Persson")]
-    assert by_default.table[columns].to_csv() == pair[columns].reset_index(drop=True).to_csv()
-
-
 def test_where_nobody_asks_for_it_the_theory_is_drawn_and_not_judged(by_default):
     assert not by_default.table["dimension"].str.contains("Persson").any()
     for name in ("friction-speed", "friction-load"):
         lines = [line.get_label() for line in by_default.figures[f"scene/{name}"].axes[0].get_lines()]
         assert "Persson's theory" in lines
-
-
-def test_a_scene_at_a_depth_is_compared_without_it(tmp_path):
-    case = replace(ROUGH_CASE, motion=Slide(speed=0.1, depth=2e-4))
-    report = compare.run(case, tmp_path, models=MODELS, report=False)
-    assert not report.table["dimension"].str.contains("Persson").any()
-    assert set(report.table["dimension"]) >= {"1D", "3D", "1D/3D"}
 
 
 def series(**changed):

@@ -72,18 +72,6 @@ def test_the_same_contact_has_the_same_ratios_however_it_is_pressed(indenter):
         assert at_depth[name] == pytest.approx(at_load[name], rel=ROUNDING)
 
 
-def test_lengths_and_loads_scaled_alike_leave_every_ratio():
-    k = 7.0
-    larger = Scene(
-        Sphere(radius=k * 2e-2),
-        KELVIN,
-        Slide(speed=k * 0.05, load=k**2 * 2.0),
-        replace(ROUGH, rms_height=k * 2e-6, longest=k * 8e-3, shortest=k * 4e-4),
-    )
-    scaled = ratios(larger, AREA | {"contact_area": k**2 * 1e-7, "pixel": k * 1e-5})
-    assert scaled == pytest.approx(ratios(SCENE, AREA), rel=ROUNDING)
-
-
 def test_the_time_is_that_by_which_the_solid_lags_and_not_its_longest():
     solid = StandardLinearSolid(rubbery_modulus=1e6, glassy_modulus=1e7, relaxation_time=1e-4)
     long = KelvinChain(instantaneous_compliance=0.0, compliances=(1e-6, 1e-12), retardation_times=(1e-3, 1e-1))

@@ -10,10 +10,9 @@ import compare
 from bem3d import BEM
 from compare.library.case import Case, Variations
 from compare.library.ready import ready
-from compare.report.export import TABLES
+from compare.report.export import FIGURES, TABLES
 from compare.report.page import Plot, Table
 from compare.report.plots import style
-from compare.report.redraw import FIGURES
 from compare.solving import netcdf
 from compare.solving.continuation import Continuation
 from compare.solving.folders import Unwritable

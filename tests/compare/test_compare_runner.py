@@ -1,6 +1,5 @@
 """Tasks are solved once, in parallel, and one that fails takes no other with it."""
 
-import io
 import multiprocessing
 import os
 import re
@@ -10,16 +9,13 @@ import sys
 import warnings
 from concurrent.futures import BrokenExecutor, Future, ThreadPoolExecutor
 from dataclasses import replace
-from itertools import pairwise
 
 import numpy as np
 import pytest
 from processes import wait_for
 from pydantic.dataclasses import dataclass
-from rich.console import Console
 from stand_in_solver import SCENE, Heard, Here, Stand, loads
 
-from bem3d import BEM
 from compare.solving import runner
 from compare.solving.digest import code_of
 from compare.solving.executors import ONE_THREAD, STILLBORN, Processes, Workers
@@ -28,7 +24,6 @@ from compare.solving.outcome import Outcome, Row
 from compare.solving.runner import sweep
 from compare.solving.store import Store
 from compare.solving.task import SceneTask as Task
-from compare.solving.terminal import SweepBar
 from mdr1d import MDR
 from scene import EmptyContact, Indent, Refused, SelfAffine, Slide
 from scene.reading import InvalidInput
@@ -369,49 +364,3 @@ def test_a_task_keeps_the_fields_of_its_first_scene_only():
     scenes = tuple(replace(SCENE, motion=Indent(load=load)) for load in (3.0, 4.0))
     assert Task(Stand(), scenes, keeps_fields=True).solve().fields == {"x": [3.0]}
     assert Task(Stand(), scenes).solve().fields == {}
-
-
-def test_a_bar_moves_before_the_first_task_is_solved_never_falls_and_is_full_at_the_end_alone():
-    console = Console(file=io.StringIO(), force_terminal=True, width=100)
-    tasks, now, shown = loads(4.0, 2.0), 0.0, []
-
-    def look():
-        told.bar.refresh()
-        shown.append(told.bar.tasks[0].percentage)
-
-    with SweepBar(console, clock=lambda: now) as told:
-        told.planned(tasks, 0)
-        for task in tasks:
-            told.started(task)
-            for _ in range(20):
-                now += 1.0
-                look()
-            assert shown[-1] < (100 if task is tasks[-1] else 100 * 4 / 6)
-            told.finished(task, Outcome((Row(1.0),)))
-            look()
-    assert shown[0] > 1
-    assert all(earlier < later for earlier, later in pairwise(shown))
-    assert shown[20] == pytest.approx(100 * 4 / 6)
-    assert shown[-1] == pytest.approx(100)
-
-
-@pytest.mark.parametrize("work", [1.0, 1e9], ids=["expected to take no time", "expected to take minutes"])
-def test_the_time_left_is_about_right_however_long_workers_took_to_start_and_tasks_were_expected_to_take(work):
-    """Two workers start for 6 s; then tasks of equal work take 9 s of one solver and 2 s of the other."""
-    seconds = {MDR(): 9.0, BEM(): 2.0}
-    pairs = zip(*(loads(*map(float, range(1, 7)), solver=each) for each in seconds), strict=True)
-    tasks = [replace(task, work=work) for pair in pairs for task in pair]
-    waiting, free, now = list(tasks), {6.0: None, 6.001: None}, 0.0
-    with SweepBar(Console(file=io.StringIO()), clock=lambda: now) as told:
-        told.planned(tasks, 0)
-        while free:
-            now = min(free)
-            if (task := free.pop(now)) is not None:
-                told.finished(task, Outcome((Row(1.0, seconds=seconds[task.solver]),)))
-            if waiting:
-                task = waiting.pop(0)
-                told.started(task)
-                free[now + seconds[task.solver]] = task
-            left = max(free, default=now) + sum(seconds[each.solver] for each in waiting) / 2 - now
-            if told.done > 2 and left > 4:
-                assert int(told._left().removesuffix(" s")) == pytest.approx(left, rel=0.3)

@@ -8,7 +8,6 @@ from invented_answers import FEW, SERIES, SLOPE, cut, eq_19, obeying, other, spo
 
 from bem3d import BEM
 from compare.solving import parameter_grid
-from compare.solving.outcome import Outcome, Row
 from compare.solving.parameter_grid import COARSE, FINE
 from compare.statistics.finding import REPORTED
 from compare.statistics.jackknife import friction, mean
@@ -113,7 +112,7 @@ def test_a_level_that_differs_from_load_to_load_is_stated_at_two_with_what_they_
     loads = SERIES.values[0], SERIES.values[-1]
     assert greatest.value / least.value == pytest.approx((loads[1] / loads[0]) ** 0.3, rel=0.02)
     for each, load in zip((least, greatest), loads, strict=True):
-        assert each.regime.startswith(f"F_N {load:.3g} N, xi ")
+        assert each.regime.startswith(f"F_N {load:.3g} N, ξ ")
         assert " to " not in each.regime  # one point
     ratios = of(found, "friction.ratio.slow")
     assert [each.claim.id for each in ratios] == ["friction.ratio.slow-least", "friction.ratio.slow-greatest"]
@@ -166,16 +165,6 @@ def test_of_one_surface_the_scatter_is_not_known_but_smooth_bodies_need_none(who
     assert (smooth.verdict, smooth.draws, smooth.scatter) == ("fails", 0, (smooth.value, smooth.value))
     least, greatest = of(judge_series(spoiled(whole, np.s_[0, 0], body=SMOOTH)), "friction.ratio.smooth")
     assert (least.verdict, greatest.verdict) == ("undecided", "fails")
-
-
-def test_a_series_of_which_nothing_was_solved_has_no_finding():
-    series = replace(SERIES, speeds=SERIES.speeds[:2], values=SERIES.values[:2])
-    outcomes = {
-        task: Outcome((Row(reason="no"),) * len(task.scenes)) for task in parameter_grid.tasks_of(series.grids)
-    }
-    contacts = Contacts(series, parameter_grid.tree(series.grids, outcomes))
-    assert judge_series(contacts).findings == ()
-    assert set(contacts("BEM")["reason"].values.ravel()) == {"no"}
 
 
 def test_a_family_on_one_law_is_one_curve_and_one_of_two_laws_is_not():

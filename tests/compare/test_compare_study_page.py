@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 import xarray
 from invented_answers import FEW, SERIES, cut, eq_19, obeying, other, spoiled
-from matplotlib.text import Text
 
 from compare.report import csvfiles
 from compare.report.page import Findings, Plot, Section, Table
@@ -17,10 +16,8 @@ from compare.solving.outcome import Outcome, Row
 from compare.solving.parameter_grid import tasks_of
 from compare.statistics.finding import REPORTED
 from compare.studies.claims.catalogue import STUDIES, ReadyStudy
-from compare.studies.claims.judgement import judge_series
 from compare.studies.claims.series import Contacts
 from compare.studies.claims.study import AllStudies, ClaimStudy
-from compare.studies.mastercurve import figures as shift_plots
 from scene import Indent, Program, Stage
 
 NUMBER = re.compile(r"−?\d+(?:\.\d+)?")
@@ -103,19 +100,6 @@ def test_figures_are_functions_of_their_tables_as_files_have_them(page, tmp_path
             tables[table] = csvfiles.read(tmp_path / f"{table}.csv")
         with style.applied():
             assert plot.draw(tables, **plot.options).axes
-
-
-@pytest.mark.parametrize("rise", [0.0, 0.3], ids=["along the load", "along both"])
-def test_misfit_and_exponent_in_figures_of_a_series_are_those_of_its_findings(rise):
-    judged = judge_series(obeying(lambda load, speed: eq_19(load, speed) * speed**rise, FEW, grid=0.02))
-    told = []
-    with style.applied():
-        for plot in (shift_plots.collapse(judged), shift_plots.shifts(judged)):
-            texts = [each.get_text() for each in plot.figure().findobj(Text)]
-            told += [each for each in texts if "δ" in each or "power" in each]
-    known = {number for each in judged.findings for number in NUMBER.findall(each.found(3))}
-    assert {number for text in told for number in NUMBER.findall(text.partition(":")[2] or text)} <= known
-    assert len(told) == 4
 
 
 def test_points_have_means_with_intervals_and_groups_and_failures_their_reason(study, page):

@@ -11,7 +11,7 @@ import scoring
 import trust as campaign
 from contact import Contact
 from pandas import DataFrame
-from scipy.stats import binom
+from solids import gel
 
 from bem3d import BEM
 from bem3d.surface import RoughSurface
@@ -35,8 +35,6 @@ from scene import (
     Elastic,
     Indent,
     Kelvin,
-    KelvinChain,
-    Layer,
     PowerLaw,
     Program,
     Prony,
@@ -46,9 +44,7 @@ from scene import (
     Sphere,
     Stage,
     StandardLinearSolid,
-    Tabulated,
     Topography,
-    Wave,
 )
 from scene.scales import elastic_contact
 
@@ -134,7 +130,6 @@ def test_heights_that_grow_together_and_units_change_nothing():
 
 
 STANDARD = StandardLinearSolid(1e6, 1e7, 1e-3)
-INSTANTANEOUS, COMPLIANCES, TIMES = STANDARD.retardation()
 WARMER = WLF(c1=17.4, c2=51.6, reference=300.0, temperature=305.0)
 
 
@@ -142,16 +137,11 @@ WARMER = WLF(c1=17.4, c2=51.6, reference=300.0, temperature=305.0)
     ("scene", "equal", "within"),
     [
         ({"elastomer": STANDARD}, {"elastomer": Prony(1e6, (9e6,), (1e-3,))}, 1e-6),
-        (
-            {"elastomer": STANDARD},
-            {"elastomer": KelvinChain(INSTANTANEOUS, tuple(COMPLIANCES.tolist()), tuple(TIMES.tolist()))},
-            1e-6,
-        ),
         ({"temperature": WARMER}, {"elastomer": Kelvin(1e6, KELVIN.relaxation_time * WARMER.shift)}, 1e-6),
         ({}, {"roughness": replace(ROUGH, seed=77)}, 1e-12),
         ({"motion": Slide(speed=1e-6, load=1.0)}, {"motion": Slide(speed=1e-12, load=1.0)}, 1e-3),
     ],
-    ids=["series", "chain", "temperature", "seed", "slower than slow"],
+    ids=["series", "temperature", "seed", "slower than slow"],
 )
 def test_equal_scenes_are_worth_the_same(scene, equal, within):
     one, other = (trust(replace(PAPER, **changed)).friction for changed in (scene, equal))
@@ -174,10 +164,8 @@ def test_what_is_elastic_has_no_friction():
 @pytest.mark.parametrize(
     ("changed", "said"),
     [
-        ({"layer": Layer(thickness=1e-3)}, "layer = Layer"),
         ({"interface": Coulomb(coefficient=0.3)}, "interface = Coulomb"),
         ({"motion": Program(stages=(Stage(duration=1.0, load=1.0),))}, "motion = Program"),
-        ({"roughness": Wave(amplitude=1e-5, wavelength=1e-3)}, "roughness = Wave"),
         ({"roughness": replace(ROUGH, hurst=0.8, shortest=5e-6)}, "a/λ_c = 1"),
         ({"roughness": replace(ROUGH, rms_height=2e-4)}, "h0/d = "),
         ({"motion": Slide(speed=0.1, depth=1e250)}, ""),
@@ -412,13 +400,6 @@ def test_the_points_that_tell_most_know_the_rest_better_than_any_others():
     assert whole.telling(300).tolist() == list(range(300))
 
 
-def test_far_from_every_point_a_process_knows_nothing():
-    process = Process.fitted(*sampled(80))
-    _, near = process.predicted(np.zeros((1, 3)))
-    _, far = process.predicted(np.full((1, 3), 30.0))
-    assert far[0] > 100 * near[0]
-
-
 # What was measured.
 
 
@@ -570,7 +551,12 @@ def test_an_interval_that_held_too_few_says_how_many_it_held(scores):
 
 
 @pytest.mark.parametrize(
-    ("inside", "scenes", "fails"), [(61, 87, True), (76, 87, True), (80, 87, False), (21, 30, False)]
+    ("inside", "scenes", "fails"),
+    [
+        (61, 87, True),
+        (76, 87, True),
+        (80, 87, False),
+    ],
 )
 def test_a_region_fails_where_its_share_is_significantly_below_the_promise(inside, scenes, fails):
     nothing, every = np.zeros(scenes), np.ones(scenes)
@@ -590,17 +576,6 @@ def test_of_two_intervals_the_narrower_is_taken_and_one_that_is_usable_before_on
     law = scoring.Score(measured, Predicted(every, np.array([0.02, 0.02, 0.02, 0.4]), nothing))
     assert line.best(law).predicted.logarithm.tolist() == [0, 1, 1, 1]
     assert line.best(law).usable.tolist() == [True, True, True, False]
-
-
-@pytest.mark.parametrize(("held", "tried"), [(0, 12), (61, 87), (400, 400)])
-def test_the_interval_of_a_count_leaves_a_fortieth_at_either_end(held, tried):
-    low, high = scoring.of_count(held, tried)
-    assert (held == 0) == (low == 0)
-    assert (held == tried) == (high == 1)
-    if held:
-        assert binom.sf(held - 1, tried, low) == pytest.approx(0.025, rel=1e-6)
-    if held < tried:
-        assert binom.cdf(held, tried, high) == pytest.approx(0.025, rel=1e-6)
 
 
 def test_errors_without_the_scatter_of_the_truth_are_those_that_were_made():
@@ -626,14 +601,6 @@ def test_a_scene_is_solved_until_its_scatter_is_known_and_its_ratio_is_the_map_s
         assert worth.surface_low < exp(found.logarithm) < worth.surface_high
 
 
-def gel(**stated):
-    """A table of a power law from 1 to 100 rad/s, which leaves the modulus at rest open."""
-    omega = np.geomspace(1.0, 100.0, 13)
-    modulus = 1e6 * (1j * omega) ** 0.2
-    table = {"omega [rad/s]": omega, "G' [Pa]": modulus.real, "G'' [Pa]": modulus.imag}
-    return Tabulated(table=table, **stated)
-
-
 @pytest.mark.parametrize(
     ("motion", "doubted", "stated"),
     [
@@ -644,17 +611,17 @@ def gel(**stated):
     ids=["slow", "fast", "at rest"],
 )
 def test_there_is_no_advice_on_what_a_table_does_not_show_until_it_is_stated(motion, doubted, stated):
-    found = trust(replace(SMOOTH, elastomer=gel(), motion=motion))
+    found = trust(replace(SMOOTH, elastomer=gel(1.0), motion=motion))
     assert doubted in found.doubts[0].name
     assert {each.advice for each in found.corrections.values()} == {"none"}
     assert all(doubted in each.reason for each in found.corrections.values())
     assert str(found).startswith("doubtful: ")
-    known = trust(replace(SMOOTH, elastomer=gel(**stated), motion=motion))
+    known = trust(replace(SMOOTH, elastomer=gel(1.0, **stated), motion=motion))
     assert "none" not in {each.advice for each in known.corrections.values()}
 
 
 def test_there_is_advice_within_a_table_and_a_little_outside():
     for speed in (1e-2, 0.5):  # v/a = 14 and 600 rad/s
-        found = trust(replace(SMOOTH, elastomer=gel(), motion=Slide(speed=speed, load=1.0)))
+        found = trust(replace(SMOOTH, elastomer=gel(1.0), motion=Slide(speed=speed, load=1.0)))
         assert bool(found.doubts) == (speed == 0.5)
         assert "none" not in {each.advice for each in found.corrections.values()}

@@ -107,7 +107,7 @@ def test_a_run_without_its_own_contact_says_so_before_the_answer_and_ends_with_1
     assert places == sorted(places)
     assert "take about 158 points" in text  # what to do
     page = (tmp_path / "report.html").read_text()
-    assert page.index("have no answer") < page.index('id="answer"')
+    assert page.index("have no answer") < page.index('class="answer"')
     quiet = told("-q", "--no-report")
     assert (quiet.exit_code, quiet.stdout) == (1, "")
     assert "crosscheck: " in quiet.stderr

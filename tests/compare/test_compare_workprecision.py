@@ -9,7 +9,7 @@ import xarray
 
 from bem3d import BEM
 from compare.library import ready
-from compare.report.plots import lettering, style
+from compare.report.plots import style
 from compare.solving.outcome import Outcome, Row
 from compare.solving.runner import sweep
 from compare.solving.store import Store
@@ -199,13 +199,3 @@ def test_an_error_of_rounding_is_drawn_hollow_on_the_band_of_rounding():
     hollow = [line for line in axes.lines if line.get_markerfacecolor() == "white" and len(line.get_ydata())]
     assert [y for line in hollow for y in line.get_ydata()] == [ROUNDING, ROUNDING]
     assert axes.patches[0].get_window_extent().y1 == pytest.approx(axes.transData.transform((1, ROUNDING))[1])
-
-
-def test_what_is_written_covers_neither_points_nor_other_texts():
-    figure = drawn([1e-2, 0.9e-2, 0.8e-2, 0.7e-2], seconds=[1.0, 1.05, 1.1, 1.15])
-    (axes,) = figure.axes
-    boxes = [text.get_window_extent() for text in axes.texts]
-    assert len(boxes) >= 2
-    assert not any(a.overlaps(b) for k, a in enumerate(boxes) for b in boxes[:k])
-    marks = list(lettering._markers(axes))
-    assert not any(box.overlaps(mark) for box in boxes for mark in marks)

@@ -16,9 +16,9 @@ from compare.studies.workprecision.convergence import Convergence, Ladder
 from compare.studies.workprecision.ensemble import Ensemble, means, plans_table
 from compare.studies.workprecision.figures.models import means as drawn_means
 from compare.studies.workprecision.models import MODELS, SURFACES
-from compare.studies.workprecision.reference import FORCE, FRICTION, Known, closed_form
+from compare.studies.workprecision.reference import FRICTION, Known, closed_form
 from mdr1d import MDR
-from scene import Elastic, Indent, Kelvin, Scene, SelfAffine, Slide, Sphere
+from scene import Kelvin, Scene, SelfAffine, Slide, Sphere
 
 ROUGH = Scene(
     Sphere(radius=10e-3),
@@ -290,20 +290,6 @@ def test_a_time_of_which_one_surface_failed_is_none():
     costs = asked.datasets(outcomes)["made/BEM"]["processor"]
     assert np.isnan(costs.sel(points=64))
     assert costs.sel(points=128) == SECONDS[128]
-
-
-def test_both_grids_have_the_same_surfaces():
-    """Solved: force at a depth scatters between surfaces, and changes far less with the grid on each of them."""
-    scene = replace(ROUGH, motion=Indent(depth=1e-4), elastomer=Elastic(modulus=1e6))
-    asked = Ensemble("rest", "at rest", scene, (FORCE,), (32, 64), 5, 4, (1000,), 20)
-    found = {task: task.solve() for task in asked.untimed}
-    costs = dict.fromkeys(("processor", "wall", "memory"), 1.0)
-    found |= {task: Outcome((row_of(0.0, measures=costs),)) for task in asked.timed}
-    (solved,) = means(*asked.datasets(found).values())
-    first = solved.plain[0]
-    assert abs(first.bias.value) < 0.1 * first.levels[0].scatter.value
-    corrected = next(each for each in solved.of("BEM") if len(each.levels) == 2)
-    assert corrected.levels[1].scatter.value < 0.1 * first.levels[0].scatter.value
 
 
 @pytest.mark.parametrize("fails", [False, True], ids=["solved", "failed"])

@@ -15,7 +15,7 @@ from scipy.integrate import trapezoid
 import compare
 import scene
 from compare import commands
-from compare.cli.app import COMMANDS
+from compare.cli.app import app
 from scene import SelfAffine
 
 ROOT = Path(__file__).parents[2]
@@ -191,7 +191,7 @@ def test_the_example_of_the_page_on_the_command_asks_for_what_there_is(monkeypat
 def test_the_page_on_the_command_has_every_command_and_function():
     page = (DOCS / "reference" / "command.md").read_text(encoding="utf-8")
     table = re.findall(r"^\| (?:`(\w+)[^`]*`)? ?\| `compare\.(\w+)\(", page, re.MULTILINE)
-    assert {command for command, _ in table if command} == {each.title for each in COMMANDS}
+    assert {command for command, _ in table if command} == {each.name for each in app.registered_commands}
     functions = {name for name in vars(commands) if name in compare.__all__ and name != "Case"}
     assert {function for _, function in table} == functions - {"solve", "friction_plot"}
 

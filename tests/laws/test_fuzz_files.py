@@ -3,7 +3,6 @@
 Up to a thousand files of each kind, see `damage`. A hang is a failure too, and so is memory beyond all measure.
 """
 
-import json
 import tomllib
 import warnings
 from importlib.resources import files
@@ -17,11 +16,9 @@ from hypothesis import strategies as st
 import compare
 from compare.library.case import read_case
 from compare.library.lookup import case_of
-from compare.report import csvfiles, manifest, redraw
 from compare.studies.claims.study import ClaimStudy
 from compare.studies.mastercurve.study import Mastercurve
 from compare.studies.plan import planned
-from compare.studies.regress.study import SHIPPED, read_baseline, shipped
 from compare.studies.topography.study import Map
 from scene import Doubtful, Refused, SolveError
 from scene.reading import InvalidInput
@@ -33,7 +30,6 @@ SCENES = [
     if path.is_file()
 ]
 STUDIES = [path.read_bytes() for path in sorted((files("compare.library") / "studies").iterdir(), key=str)]
-BASELINE = SHIPPED.read_bytes()
 
 
 def reading(read, path, *documented):
@@ -107,16 +103,6 @@ def test_a_study_is_read_or_refused(spoil):
     fuzz(law, either(STUDIES), tries=TRIES // 2)
 
 
-def test_a_baseline_is_read_or_refused(spoil):
-    known = shipped()
-
-    def law(content):
-        values = reading(lambda path: read_baseline(path, known), spoil("baseline.toml", content))
-        assert values is None or np.isfinite(list(values.values())).all()
-
-    fuzz(law, either([BASELINE]))
-
-
 OMEGA = np.geomspace(0.1, 1e4, 12)
 MODULI = 1e6 + 9e6 * (1j * OMEGA / 100) / (1 + 1j * OMEGA / 100)
 LOSS = "frequency, storage, loss\n" + "".join(
@@ -148,11 +134,6 @@ def test_a_table_of_friction_is_read_or_refused(spoil):
         spoilt([FRICTION.encode()]),
         tries=TRIES // 3,
     )
-
-
-def test_a_table_of_a_folder_is_read_or_refused(spoil):
-    tables = [FRICTION.encode(), LOSS.encode(), b'name,holds,"a b"\nx,True,nan\n"y, z",False,1e-3\n']
-    fuzz(lambda content: reading(csvfiles.read, spoil("table.csv", content)), spoilt(tables), tries=TRIES // 3)
 
 
 def _bytes(write, *given, **named):
@@ -195,31 +176,3 @@ def test_a_map_of_heights_is_read_or_refused(spoil, kind):
             reading(lambda path: Map.of(path, pixel=None if kind == "npz" else 1e-5, unit="m"), path)
 
     fuzz(law, spoilt(MAPS[kind]), st.booleans(), seldom, tries=TRIES // len(MAPS))
-
-
-PLOT = {"name": "sphere/friction", "module": "compare.studies.run.figures.friction_curves", "function": "figure"}
-MANIFEST = {
-    "command": "run",
-    "title": "Sphere",
-    "inputs": {"scene": {"a": [1, 2.5, None, {"b": "c"}]}, "size": "quick"},
-    "versions": {"python": "3.12", "numpy": "2"},
-    "solved": "solved",
-    "tasks": {"solved": 3, "reused": 0},
-    "seconds": 1.5,
-    "plots": [PLOT | {"tables": ["friction"], "options": {"wide": True}}],
-    "tables": ["findings", "sphere/friction"],
-}
-
-
-def read_folder(path):
-    """Manifest of a folder, and what draws its figures."""
-    return [
-        redraw.function(entry, path) for each in manifest.folders(path.parent) for entry in each.manifest.plots
-    ]
-
-
-def test_a_manifest_is_read_or_refused(spoil):
-    written = json.dumps(MANIFEST, indent=1).encode()
-    changed = trees([MANIFEST]).map(lambda content: json.dumps(content, default=str).encode())
-
-    fuzz(lambda content: reading(read_folder, spoil(manifest.NAME, content)), changed | spoilt([written]))

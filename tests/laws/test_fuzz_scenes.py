@@ -156,50 +156,12 @@ def broken(result) -> list[str]:
     return [law for law, holds in laws.items() if not holds]
 
 
-# Answers that differ in rounding alone: pressures follow gaps to the tolerance, and edges by the pixel.
-SAME = 1e-4
-
-
-def firmer(scene):
-    """Four times as stiff, under four times the load: so is every force, and every length is the same."""
-    shaken = isinstance(scene.motion, Program) and any(stage.amplitude for stage in scene.motion.stages)
-    return None if shaken else rescaled(scene, modulus=4.0)
-
-
-def harder(scene):
-    """Twice the load, or the depth: the other grows too."""
-    by = scene.motion.pressed_by
-    steady = isinstance(scene.motion, Indent | Slide) and scene.heating is None and by in ("load", "depth")
-    return replace(scene, motion=replace(scene.motion, **{by: 2 * scene.motion.greatest})) if steady else None
-
-
-def beside(change, one, other) -> list[str]:
-    """Laws of two answers of which the second is that of the changed scene."""
-    size = abs(one.depth) + one.measures.get("rms_height", 0.0)
-    if change is harder:
-        laws = {
-            "what presses harder is deeper": other.depth >= one.depth - SAME * size,
-            "what is deeper presses harder": other.normal_force >= one.normal_force * (1 - SAME),
-        }
-    else:
-        least = SAME * one.normal_force
-        laws = {
-            "forces follow moduli": abs(other.normal_force - 4 * one.normal_force) <= 4 * least,
-            "friction follows moduli": abs(other.friction_force - 4 * one.friction_force) <= 4 * least,
-            "depths do not": abs(other.depth - one.depth) <= SAME * size or one.normal_force == 0,
-        }
-    return [law for law, holds in laws.items() if not holds]
-
-
 @pytest.mark.parametrize("name", SOLVERS)
 def test_a_scene_is_answered_by_its_laws_or_refused(name):
     solver = SOLVERS[name]
 
-    def law(scene, change):
+    def law(scene):
         found = answer(solver, scene)
-        wrong = [] if found is None else broken(found)
-        other = found and change and (changed := change(scene)) and answer(solver, changed)
-        wrong += beside(change, found, other) if other else []
-        assert not wrong, "; ".join(wrong)
+        assert not (wrong := [] if found is None else broken(found)), "; ".join(wrong)
 
-    fuzz(law, scenes(), st.sampled_from((None, None, firmer, harder)), tries=SCENES)
+    fuzz(law, scenes(), tries=SCENES)

@@ -1,16 +1,11 @@
 """Motions in one dimension beside three."""
 
-from dataclasses import replace
-
-import changing_motion as motions
 import numpy as np
 import pytest
-from changing_motion import harmonic
-from pydantic import ValidationError
 
 from bem3d import BEM
 from mdr1d import MDR
-from scene import Arrhenius, Kelvin, Layer, Program, Scene, SolveError, Sphere, Stage, StandardLinearSolid
+from scene import Kelvin, Program, Scene, Sphere, Stage, StandardLinearSolid
 
 R, G, A, TAU = 1e-2, 1e6, 1e-3, 1e-3
 DEPTH = A**2 / R
@@ -55,65 +50,3 @@ def test_coming_down_at_an_angle_on_a_quick_solid_friction_is_its_lag_over_the_r
     mu = fields["friction_force"][late] / fields["normal_force"][late]
     # of first order in lag over the time to come down, 1e-3; mu by traction on 10 to 16 pixels of radius
     assert np.median(mu) == pytest.approx(times * lag * speed / R, rel=5e-2)
-
-
-def test_the_closed_form_of_an_oblique_approach_has_its_limits():
-    solid = Kelvin(G, 1e-9)
-    force, friction = motions.oblique(R, solid, 1.0, 1e-3, DEPTH / 1e-3)
-    assert force == pytest.approx(4 / 3 * 4 * G * np.sqrt(R) * DEPTH**1.5, rel=1e-3)
-    assert friction == pytest.approx(2 * 1e-9 / R * force, rel=1e-3)  # twice v tau / R
-    down = motions.oblique(R, Kelvin(G, TAU), 0.0, 0.1, DEPTH / 0.1)
-    # Lee and Radok: B (d^(3/2) + tau d(d^(3/2))/dt)
-    assert down[0] == pytest.approx(4 / 3 * 4 * G * np.sqrt(R * DEPTH) * (DEPTH + 1.5 * TAU * 0.1), rel=1e-12)
-    assert down[1] == pytest.approx(0.0, abs=1e-12 * down[0])
-
-
-def test_a_harmonic_is_found_beside_a_mean_and_a_second_one():
-    time = np.sort(np.random.default_rng(1).random(50))
-    values = 3 + 2 * np.sin(5 * time + 0.7) - np.cos(10 * time)
-    found = harmonic(time, values, 5.0)
-    assert abs(found) == pytest.approx(2.0, rel=1e-9)
-    assert np.angle(found) == pytest.approx(0.7, rel=1e-9)
-
-
-def answered(solver, stage):
-    """The answer, or the reason why there is none."""
-    try:
-        return solver.solve(Scene(Sphere(R), SOLID, Program(stages=(PRESSED, Stage(**stage)))))
-    except (ValidationError, SolveError) as reason:
-        return str(reason)
-
-
-@pytest.mark.parametrize("solver", [MDR(points=60, steps=20), BEM(points=16, steps=10)], ids=["1D", "3D"])
-@pytest.mark.parametrize("value", [5e-324, 1e300])
-def test_extreme_oscillations_and_reversals_are_followed_or_declined_with_a_reason(value, solver):
-    given = (
-        {"speed": -value},
-        {"amplitude": 0.5, "frequency": value},
-        {"amplitude": min(value, 1.0), "frequency": 1 / TAU, "speed": -0.1},
-        {"amplitude": 0.5, "frequency": 1 / value, "duration": value},
-    )
-    for each in given:
-        answer = answered(solver, {"duration": TAU} | each)
-        if isinstance(answer, str):
-            assert len(answer) > 20
-        else:
-            last = float(answer.scene.motion.prescribed(answer.scene.motion.duration))
-            assert answer.normal_force == pytest.approx(last, rel=0.1)
-            assert each.get("speed", 0.0) >= 0 or -1 < answer.friction_coefficient < 1e-3
-
-
-def test_reversal_on_a_warm_layer_is_its_mirror_image_and_that_of_the_shifted_solid():
-    press, way = {"duration": TAU, "load": 0.5}, {"duration": TAU, "speed": 0.5}
-    there = Program(stages=(Stage(**press), Stage(**way), Stage(**way | {"speed": -0.8})))
-    back = replace(there, stages=tuple(replace(stage, speed=-stage.speed) for stage in there.stages))
-    warm = Arrhenius(temperature=310.0, reference=300.0, activation_energy=5e4)
-    scene = Scene(Sphere(R), SOLID, there, layer=Layer(thickness=2e-3), temperature=warm)
-    solver = BEM(points=24, steps=10)
-    one, other = solver.solve(scene), solver.solve(replace(scene, motion=back))
-    assert other.friction_force == pytest.approx(-one.friction_force, rel=1e-9)
-    faster = StandardLinearSolid(G, 5 * G, TAU * warm.shift)
-    shifted = solver.solve(replace(scene, elastomer=faster, temperature=None))
-    assert shifted.friction_force == pytest.approx(one.friction_force, rel=1e-9)
-    plain = solver.solve(replace(scene, layer=None))
-    assert one.depth < 0.9 * plain.depth

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from solids import gel
 
 from compare.library.lookup import case_of
 from compare.library.ready import ready
@@ -64,14 +65,6 @@ WAVES = np.sin(2 * np.pi * np.arange(64) / 16)
 GROOVES = 1e-6 * (WAVES[:, None] + 0.05 * WAVES[None, :])  # heights vary along y
 SPIKE = 1e-6 * WAVES[:, None] * WAVES[None, :]
 SPIKE[20, 30] = 1e-3
-
-
-def gel(lowest, exponent=0.2, **stated):
-    """A table of two decades from a lowest frequency [rad/s] on, of a power law of the frequency."""
-    omega = lowest * np.geomspace(1.0, 100.0, 13)
-    modulus = 1e6 * (1j * omega) ** exponent
-    table = Table(omega, modulus.real, modulus.imag)
-    return Tabulated(table=table, frequency_unit="rad/s", kind="shear", **stated)
 
 
 # By the number and its end: what breaks the limit.
@@ -150,11 +143,6 @@ def test_of_ready_scenes_that_is_doubted_which_their_departures_or_notes_state(n
     case = case_of(name)
     stated = " ".join([*case.departures, *case.notes])
     assert [each for each in case.doubts if each.name not in stated] == []
-
-
-def test_a_ready_scene_that_is_changed_is_doubted():
-    case = case_of("paper-sphere")
-    assert replace(case, indenter=Sphere(10.0)).doubts[0].name == "radius of the body"
 
 
 @pytest.mark.parametrize(

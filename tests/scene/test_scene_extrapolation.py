@@ -169,14 +169,6 @@ def test_friction_and_depth_follow_where_the_law_goes_on(exponent):
         assert found == pytest.approx(slid(gel(exponent), decades), rel=0.03)
 
 
-@pytest.mark.parametrize(("speed", "friction"), [(1e-6, 0.062), (1.0, 0.0232), (10.0, 0.0197)])
-def test_the_gel_of_which_friction_is_known_has_it(speed, friction):
-    answer = MDR().solve(Scene(Sphere(1e-2), table(gel(0.2), extrapolate=True), Slide(speed=speed, load=1.0)))
-    assert answer.friction_coefficient == pytest.approx(friction, rel=0.01)
-    if speed == 1e-6:
-        assert answer.depth == pytest.approx(446e-6, rel=0.01)
-
-
 def test_a_table_that_is_not_continued_is_followed_as_before():
     omega = np.geomspace(1e-2, 1e4, 50)
     found, continued = table(gel(0.2)), table(gel(0.2), extrapolate=True)

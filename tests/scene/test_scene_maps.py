@@ -7,7 +7,6 @@ from types import SimpleNamespace
 
 import numpy as np
 import pandas
-import pint
 import pytest
 import xarray
 from hypothesis import given
@@ -20,7 +19,7 @@ from strategies import examples
 from compare.studies.topography.study import Map
 from scene import Measured, Scene, Topography
 from scene.form import DEGREES, levelled
-from scene.missing import MOST_FILLED, NEIGHBOURS, filled, outliers, sentinels
+from scene.missing import NEIGHBOURS, filled, outliers, sentinels
 from scene.reading import InvalidInput, read
 
 DIGITS = 1e-12  # what layouts with 15 digits keep
@@ -83,39 +82,22 @@ LAYOUTS = {
         {},
     ),
     "a quoted heading of all": (lambda h, p: '"Height Sensor(nm)"\n' + text(1e3 * h, "\t"), {"pixel": "stated"}),
-    "points that count": (
-        lambda h, p: text(points(h, (1, 1))),
-        {"unit": "um", "pixel": "stated"},
-    ),
-    "points of an atomic force microscope": (
-        lambda h, p: "x(um)\ty(um)\tHeight_Sensor(um)\n" + text(points(h, p), "\t"),
-        {},
-    ),
-    "a pixel": (lambda h, p: f"X Pixel size: {p[0]} µm\nY pixel size;{p[1]};um\nZ unit: um\n\n" + text(h), {}),
     "a unit in brackets": (
         lambda h, p: f"Pixel width (µm) = {p[0]}\nPixel height (µm) = {p[1]}\n\n" + text(h),
         UM,
     ),
-    "a sentence": (lambda h, p: "# Heights in um\n" + text(h), {"pixel": "stated"}),
     "headings with a unit": (
         lambda h, p: ";".join(f"z{k} [um]" for k in range(h.shape[1])) + "\n" + text(h),
         {"pixel": "stated"},
     ),
-    "axes": (with_axes, UM),
     "axes with a unit": (lambda h, p: with_axes(h * 1e3, p, "y [um]"), {"unit": "nm"}),
-    "axes with two words": (lambda h, p: with_axes(h, p, "y/x"), UM),
     "falling axes": (lambda h, p: with_axes(h[::-1, ::-1], (-p[0], -p[1])), UM),
-    "points": (lambda h, p: text(points(h, p)), UM),
     "points in any order": (lambda h, p: "x;y;z\n" + text(points(h, p, seed=1)), UM),
     "points with units": (
         lambda h, p: "z [nm]\tx [um]\ty [um]\n" + text(points(h * 1e3, p)[:, [2, 0, 1]], "\t"),
         {},
     ),
     "scan lines": (scan_lines, {}),
-    "points beside other columns": (
-        lambda h, p: "Nr;X;Y;Z\n" + text(np.column_stack([np.arange(h.size), points(h, p)])),
-        UM,
-    ),
 }
 
 
@@ -151,20 +133,13 @@ def pivoted(heights, pixel):
 
 PIXEL = (2e-6, 3e-6)
 ARRAYS = {
-    "rows": lambda h: {"heights": h.tolist(), "pixel": PIXEL},
     "um": lambda h: {"heights": 1e6 * h, "pixel": PIXEL, "unit": "um"},
-    "a quantity": lambda h: {"heights": pint.UnitRegistry().Quantity(1e6 * h, "um"), "pixel": PIXEL},
-    "a DataFrame": lambda h: {"heights": pandas.DataFrame(h), "pixel": PIXEL},
     "a pivoted DataFrame": lambda h: {"heights": pivoted(h, PIXEL)},
-    "a pivoted DataFrame, turned": lambda h: {"heights": pivoted(h, PIXEL).T},
-    "xarray": lambda h: {"heights": labelled(h, PIXEL)},
-    "xarray, turned": lambda h: {"heights": labelled(h, PIXEL).transpose()},
     "xarray in um": lambda h: {"heights": labelled(1e6 * h, (2.0, 3.0), units="um")},
     "a Dataset": lambda h: {
         "heights": xarray.Dataset({"a": labelled(h, PIXEL), "b": labelled(0 * h, PIXEL)}),
         "channel": "a",
     },
-    "points": lambda h: {"heights": pandas.DataFrame(points(h, PIXEL, seed=2), columns=["x", "y", "z"])},
     "points in um": lambda h: {
         "heights": pandas.DataFrame(points(1e6 * h, (2.0, 3.0)), columns=["x (um)", "y (um)", "z (um)"])
     },
@@ -234,17 +209,32 @@ def test_what_a_file_states_may_be_stated_again_and_not_otherwise(tmp_path):
 
 WRONG = {
     "a profile": ("1\n2\n3\n4\n5\n", 'line 1: 1 column of numbers, .* the type = "profile"'),
-    "a profile of x and z": (text(noise((9, 2))), 'type = "profile"'),
     "points on a line": (
         text(np.column_stack([np.arange(9), np.ones(9), noise(9)])),
         'all y are 1.*type = "profile"',
+    ),
+    "points on a diagonal": (text(np.repeat(np.arange(30.0), 3).reshape(30, 3)), "30 points on 30 x 30 places"),
+    "points that are counted, and no heading": (
+        text(np.column_stack([np.arange(30), points(noise((6, 5)), (1, 2))])),
+        "columns 2 and 3 are places on a lattice: write a heading",
+    ),
+    "a line that is neither": (
+        with_axes(noise((5, 5)), (1, 1), "[um]"),
+        r"line 1: '\[um\];3.*is neither a row of",
+    ),
+    "uneven axes": (
+        with_axes(noise((5, 5)), (1, 1), "y").replace("5.0000", "5.3000", 1),
+        "first row .*: coordinates = 5.3 is on no lattice",
+    ),
+    "axes that contradict": (
+        "Width: 10 um\n" + with_axes(noise((5, 5)), (1, 1), "y [um]"),
+        "states pixels of 2e-06 m, and its axes lie 1e-06 m",
     ),
     "scattered points": (text(noise((200, 3))), "is on no lattice"),
     "a point off its place": (
         text(points(noise((5, 5)), (1, 1)) + np.where(np.arange(75) == 33, 0.2, 0).reshape(25, 3)),
         "line 12: x = 2.2",
     ),
-    "points on a diagonal": (text(np.repeat(np.arange(30.0), 3).reshape(30, 3)), "30 points on 30 x 30 places"),
     "a place twice": (
         text(np.vstack([points(noise((5, 5)), (1, 1)), [2, 3, 0.5]])),
         "line 26: a second height at x = 2, y = 3",
@@ -254,42 +244,14 @@ WRONG = {
         text(np.vstack([np.arange(8), noise((6, 8))])),
         "line 1: the first row, 0, 1, 2 .* as coordinates",
     ),
-    "a first column of numbers that count": (
-        text(np.column_stack([np.arange(8), noise((8, 6))])),
-        "the first column, 0, 1, 2",
-    ),
-    "axes beside a number": (
-        with_axes(noise((8, 8)), (1, 2), "0"),
-        "the first row, 0, 3, 4 and so on, is evenly spaced",
-    ),
-    "points with a number each and no heading": (
-        text(np.column_stack([points(noise((6, 5)), (1, 2)), noise(30)])),
-        "columns 1 and 2 are places on a lattice: write a heading",
-    ),
-    "points that are counted, and no heading": (
-        text(np.column_stack([np.arange(30), points(noise((6, 5)), (1, 2))])),
-        "columns 2 and 3 are places on a lattice: write a heading",
-    ),
     "a side twice": (
         "X axis\nSpacing: 1 um\nY axis\nSpacing: 2 um\n\n" + text(noise((5, 5))),
         "'Spacing: 2 um' is another spacing than above",
     ),
     "units in a sentence": ("data in mm\n" + text(noise((5, 5))), "unit = 'um': .*map.txt speaks of mm above"),
-    "a line that is neither": (
-        with_axes(noise((5, 5)), (1, 1), "[um]"),
-        r"line 1: '\[um\];3.*is neither a row of",
-    ),
-    "uneven axes": (
-        with_axes(noise((5, 5)), (1, 1), "y").replace("5.0000", "5.3000", 1),
-        "first row .*: coordinates = 5.3 is on no lattice",
-    ),
     "sides that contradict": (
         "Width: 10 um\nPixel size: 3 um\n\n" + text(noise((5, 5))),
         "pixels of 3e-06 m and a size of 1e-05 m",
-    ),
-    "axes that contradict": (
-        "Width: 10 um\n" + with_axes(noise((5, 5)), (1, 1), "y [um]"),
-        "states pixels of 2e-06 m, and its axes lie 1e-06 m",
     ),
     "a unit of nothing": ("Width: 10 ell\n\n" + text(noise((5, 5))), "'Width: 10 ell'"),
 }
@@ -365,10 +327,8 @@ def test_what_instruments_write_for_no_height_is_missing(tmp_path, mark):
 
 HOLES = {
     "NaN": lambda h, at: np.where(at, NAN, h),
-    "infinite": lambda h, at: np.where(at, np.inf, h),
     "masked": lambda h, at: np.ma.masked_array(h, at),
     "-9999": lambda h, at: np.where(at, -9999.0, h),
-    "-9999 um": lambda h, at: np.where(at, -9999e-6, 1e-6 * h),
     "32767": lambda h, at: np.where(at, 32767.0, np.rint(1000 * h)),
     "1e38": lambda h, at: np.where(at, 1e38, h),
     "one number that no program writes": lambda h, at: np.where(at, 4321.0, h),
@@ -488,16 +448,6 @@ def test_a_hole_in_a_harmonic_surface_is_filled_in_with_it():
     assert filled(np.where((x < 3) & (y < 2), NAN, 7.0), (1, 2)) == pytest.approx(7.0)
 
 
-@given(seed=st.integers(0, 10**6), share=st.floats(0.001, MOST_FILLED), scale=st.sampled_from([1e-45, 1.0, 1e45]))
-@examples(20)
-def test_filling_in_changes_no_measured_pixel_and_goes_beyond_none(seed, share, scale):
-    heights = scale * noise((13, 17), seed)
-    holes = np.random.default_rng(seed).random(heights.shape) < share
-    found = filled(np.where(holes, NAN, heights), (1e-6, 3e-6))
-    assert np.array_equal(found[~holes], heights[~holes])
-    assert heights[~holes].min() <= found.min() <= found.max() <= heights[~holes].max()
-
-
 def test_outliers_are_found_on_request_and_counted():
     y, x = np.mgrid[0:30, 0:40]
     smooth = np.sin(x / 8) + np.cos(y / 6) + 0.02 * noise((30, 40))
@@ -545,12 +495,9 @@ def test_a_crop_is_the_map_of_what_it_keeps():
     assert Topography(**whole | {"heights": heights}, crop=crop) == Topography(**kept)
     for wrong in (
         [5, 20, 3, 13],
-        ["10 um", "12 um", "0 um", "60 um"],
         ["40 um", "10 um", "9 um", "39 um"],
-        crop[:3],
         "10 um",
         [NAN] * 4,
-        ["1 s"] * 4,
     ):
         with pytest.raises(
             ValidationError,
@@ -596,11 +543,6 @@ def test_a_scene_file_states_what_is_done_to_a_map(tmp_path, monkeypatch):
     found = read("scene.toml", Scene).roughness
     assert found.heights.shape == (10, 20)
     assert len(found.notes) == 3
-    (tmp_path / "scene.toml").write_text(FILE + more.replace("missing", "mising").replace('"fill"', '"full"'))
-    with pytest.raises(InvalidInput, match=r"roughness.mising = 'full': unknown here; did you mean missing"):
-        read("scene.toml", Scene)
-    with pytest.raises(InvalidInput, match=r"missing = 'full': 'refuse' or 'fill'"):
-        read("scene.toml", Scene)
     (tmp_path / "scene.toml").write_text(FILE + more.replace('"fill"', '"full"'))
     with pytest.raises(InvalidInput, match=r"missing = 'full': 'refuse' or 'fill'"):
         read("scene.toml", Scene)
@@ -615,7 +557,6 @@ def test_a_file_that_is_not_there_is_named_with_the_folder_in_which_it_was_sough
             "C:\\new\\table.csv",
             "no such file: a backslash in double quotes .* single quotes, or with forward slashes",
         ),
-        ("C:\\data\\map.csv", "is not valid TOML: .* a path with backslashes stands in single quotes"),
         ("C:\\Users\\map.csv", "is not valid TOML: .* a path with backslashes stands in single quotes"),
     ):
         (tmp_path / "scene.toml").write_text(FILE + f'file = "{written_}"\n')

@@ -3,8 +3,6 @@
 from copy import deepcopy
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from compare.library.case import Case
@@ -69,20 +67,12 @@ def test_no_meaning_overrides_a_name_that_a_table_has():
     [
         ("elastomer", "G", "1 MPa", "modulus", {}),
         ("elastomer", "E", "3 MPa", "youngs_modulus", {}),
-        ("elastomer", "Young's modulus", "3 MPa", "youngs_modulus", {}),
-        ("elastomer", "nu", 0.5, "poisson_ratio", {}),
-        ("elastomer", "tau", "1 ms", "relaxation_time", {}),
         ("elastomer", "times", [1e-3], "relaxation_times", {"elastomer": PRONY}),
         ("elastomer", "alpha", [0.2], "g", {"elastomer": SHARES}),
-        ("indenter", "R", "5 mm", "radius", {}),
-        ("motion", "F", "1 N", "load", {}),
         ("motion", "v", 0.1, "speed", {}),
         ("roughness", "H", 0.5, "hurst", {}),
-        ("roughness", "h_rms", 1e-6, "rms_height", {}),
         ("roughness", "Sdq", 0.1, "rms_slope", {"roughness": STEEP}),
-        ("roughness", "lambda_min", 1e-4, "shortest", {}),
         ("roughness", "dx", "1 um", "pixel", {"roughness": MAP}),
-        ("bem", "n", 128, "points", {}),
     ],
 )
 def test_another_name_of_a_field_is_said_as_the_field_and_its_value_is_checked_there(
@@ -99,22 +89,15 @@ def test_another_name_of_a_field_is_said_as_the_field_and_its_value_is_checked_t
     ("table", "name", "value", "field", "said", "parts"),
     [
         ("elastomer", "E", "3 MPa", "rubbery_modulus", "a third of E", {"elastomer": STANDARD}),
-        ("elastomer", "E_star", "3 MPa", "modulus", "a fourth of E*", {}),
         ("elastomer", "stiffness", "3 N/m", "modulus", "shear modulus [Pa]", {}),
         ("elastomer", "viscosity", "1 kPa s", "relaxation_time", "relaxation_time = viscosity / modulus", {}),
-        ("elastomer", "eta", 1e3, "relaxation_time", "(glassy_modulus - rubbery_mod", {"elastomer": STANDARD}),
         ("elastomer", "retardation_time", 1e-2, "relaxation_time", "* rubbery_modulus /", {"elastomer": STANDARD}),
-        ("elastomer", "G0", 1e6, "rubbery_modulus", "the shear modulus at rest", {"elastomer": STANDARD}),
-        ("elastomer", "G_i", [1e6], "moduli", "moduli takes shear moduli [Pa]", {"elastomer": PRONY}),
         ("elastomer", "beta", [10.0], "relaxation_times", "relaxation_times = 1 / beta", {"elastomer": PRONY}),
         ("elastomer", "T", "25 degC", None, "[temperature]", {}),
         ("elastomer", "mu", 1e6, "modulus", "that of [interface]", {}),
         ("indenter", "diameter", "5 mm", "radius", "half of the diameter", {}),
-        ("indenter", "half_angle", "80 deg", "angle", "90 deg less the half angle", {"indenter": CONE}),
         ("motion", "mass", 1.0, "load", "9.81 N", {}),
         ("roughness", "Ra", 1e-6, "rms_height", "1.25 Ra", {}),
-        ("roughness", "Rdq", 0.1, "rms_slope", "root of 2 times Rdq", {"roughness": STEEP}),
-        ("roughness", "q0", 600.0, "longest", "longest = 2 pi / q", {}),
         ("bem", "dx", "1 um", "points", "points = extent / pixel", {}),
     ],
 )
@@ -137,47 +120,11 @@ def test_a_hint_says_where_a_name_has_a_value_already_or_takes_another_kind_of_i
     assert hint("elastomer", "G", 1e6) == "did you mean modulus? It has a value already"
     assert hint("elastomer", "modlus", 1e6) == "did you mean modulus? It has a value already"
     assert hint("roughness", "hurts", "0.5", without="hurst") == "hurst takes a number"
+    assert hint("motion", "my_speed", 0.1, without="speed") == "did you mean speed?"
     assert hint("bem", "resolution", "1 um") == "points takes a whole number"
     assert hint("elastomer", "times", 1e-3, without="relaxation_times", elastomer=PRONY) == (
         "relaxation_times takes a list"
     )
-
-
-NAMES = sorted({name for _, names in rows() for name in names} | {name for table in TABLES for name in table})
-VALUES = [0.5, 3, True, "5 mm", "3 MPa", "text", [1.0, 2.0], {"type": "kelvin"}]
-
-
-@settings(deadline=None, max_examples=200)
-@given(
-    st.sampled_from(NAMES),
-    st.sampled_from(["{}", "{}s", "{}x", "my_{}", "{}_1"]),
-    st.sampled_from(VALUES),
-    st.sampled_from(["", *WHOLE]),
-    st.sampled_from([{}, {"elastomer": PRONY}, {"elastomer": STANDARD}, {"indenter": CONE}, {"roughness": MAP}]),
-    st.data(),
-)
-def test_no_hint_leads_to_a_value_of_another_kind_or_to_a_second_value(name, written, value, table, parts, data):
-    content = deepcopy(WHOLE | parts)
-    inside = content[table] if table else content
-    left_out = data.draw(st.sampled_from(sorted(inside, key=str) or [None]))
-    if left_out != "type" and table:
-        inside.pop(left_out, None)
-    stated = dict(inside)
-    if (misspelt := written.format(name)) in inside:
-        return
-    inside[misspelt] = value
-    for line in said_of(content):
-        _, asks, meant = line.partition("unknown here; did you mean ")
-        if not asks or not line.startswith(f"{table}.{misspelt}".strip(".")):
-            continue
-        *way, field = meant.partition("?")[0].split(".")
-        assert (field in stated and not way) == ("It has a value already" in line), line
-        if "It has a value already" not in line:
-            place = ".".join([*(way or [table] * bool(table)), field])
-            wrong = [each for each in said_of(content) if each.startswith(f"{place} =")]
-            assert not any(
-                each.endswith(("a valid number", "integer", "string", "a table", "list")) for each in wrong
-            )
 
 
 def test_another_name_of_a_type_is_said_as_the_type():

@@ -212,16 +212,6 @@ def test_a_scene_of_several_temperatures_is_stored_and_read_back():
         assert whole.validate_json(whole.dump_json(solid)) == solid
 
 
-@pytest.mark.parametrize(
-    "primes", ["G',G''", "G',G\"", "G′,G″", "G′,G′′", "G’,G’’", "g',g''", "G_prime,G_double_prime"]
-)
-def test_every_kind_of_prime_is_one(primes):
-    law = SOLID.complex_modulus(OMEGA)
-    storage, loss = primes.split(",")
-    found = Tabulated(table={"ω [1/s]": OMEGA, f"{storage} [Pa]": law.real, f"{loss}(ω) [Pa]": law.imag})
-    assert deviation(found) < FITTED
-
-
 def test_arrays_tables_and_datasets_are_read_by_the_same_names():
     stated = some(columns_of(SOLID, OMEGA), "omega", "G'")
     expected = Tabulated(table=Table(*stated.values()), frequency_unit="rad/s", kind="shear")
@@ -240,14 +230,6 @@ def test_arrays_tables_and_datasets_are_read_by_the_same_names():
         Tabulated(table=3.0)
 
 
-def test_a_heading_of_thousands_of_letters_is_told_in_brief(tmp_path):
-    path = tmp_path / "loss.csv"
-    path.write_text(f"{'9' * 500_000}frequency, storage, loss\n0.1, 1e6, 9e3\n10, 2e6, 9e5\n100, 3e6, 9e5\n")
-    with pytest.raises(ValueError, match=r"loss\.csv: the heading") as refused:
-        read_table(path)
-    assert len(str(refused.value)) < 1000
-
-
 @pytest.mark.parametrize(
     ("heading", "stated", "said"),
     [
@@ -255,18 +237,14 @@ def test_a_heading_of_thousands_of_letters_is_told_in_brief(tmp_path):
         ("omega [Hz],G',G''", {}, "angular frequency in 'Hz'"),
         ("f [rad/s],E',E''", {"kind": "shear"}, "kind 'tensile', and kind = 'shear'"),
         ("f,G',G''", {}, "frequency_unit\n.*required"),
-        ("omega,storage modulus,loss modulus", {}, "kind\n.*required"),
         ("omega,G',E''", {}, "moduli of both kinds"),
-        ("omega,G' [mm],G''", {}, "storage, shear in 'mm'"),
         ("omega,G*,delta", {}, "no unit of 'delta': write deg or rad"),
         ("omega,G*,delta [deg]", {}, r"column 3 \(delta\): phase = 300 must be below 90 deg"),
-        ("omega,G',G'", {}, "are both storage, shear"),
         ("G',G'',strain", {}, "no column of the frequency"),
         ("T [C],G',G''", {}, "a sweep of temperature is no table of frequencies"),
-        ("t,G(t),J(t)", {}, "both a relaxation modulus and a creep compliance"),
         ("x,G(t),y", {}, "no column of the time"),
+        ("t,G(t),J(t)", {}, "both a relaxation modulus and a creep compliance"),
         ("t [s],G(t),y", {"frequency_unit": "Hz"}, "table over time: leave frequency_unit = 'Hz' out"),
-        ("t [s],G(t) [1/Pa],y", {}, "relaxation, shear in '1/Pa'"),
     ],
 )
 def test_a_table_that_says_too_little_or_contradicts_is_refused(tmp_path, heading, stated, said):
@@ -341,11 +319,6 @@ LIQUIDS = {
         "t": LIQUID_TIME,
         "J(t)": 1e-6 * (1 + 2 * -np.expm1(-LIQUID_TIME / 1e-3) + LIQUID_TIME / 1e-1),
     },
-    "complex modulus": {
-        "omega": OMEGA,
-        "|G*|": np.abs(1e6 * 1j * OMEGA * 1e-2 / (1 + 1j * OMEGA * 1e-2)),
-        "tan delta": 1 / (OMEGA * 1e-2),
-    },
 }
 
 
@@ -355,10 +328,7 @@ def test_a_liquid_is_refused_in_each_form(form, noise):
     for seed in range(5):
         rng = np.random.default_rng(seed)
         first, *others = LIQUIDS[form].items()
-        scattered = {
-            name: values * np.exp(noise * rng.standard_normal(30 if form != "complex modulus" else 50))
-            for name, values in others
-        }
+        scattered = {name: values * np.exp(noise * rng.standard_normal(30)) for name, values in others}
         with pytest.raises(ValidationError, match="leaves the modulus at rest open"):
             Tabulated(table=dict([first]) | scattered, tolerance=0.3)
 
@@ -381,8 +351,6 @@ def test_a_solid_stays_one_under_noise_and_a_known_modulus_at_rest_is_kept(name)
         ({"modulus": (1.0,) * 5}, "have \\[4, 5\\] values"),
         ({"temperature": (300.0,) * 3}, "temperature has 3 values, time has 4"),
         ({"time": (1.0, 1.0, 2.0, 3.0)}, "3 times: at least 4"),
-        ({"time": (1.0, 1.0, 0.0, 3.0)}, "time.2\n"),
-        ({"temperature": (300.0, -1.0, 1.0, 1.0)}, "temperature.1\n"),
     ],
 )
 def test_a_wrong_table_over_time_is_refused_with_its_place(change, said):
@@ -421,16 +389,6 @@ def test_shift_factors_the_other_way_round_are_refused():
         Tabulated(table=stated | {"aT": 1 / factors})
 
 
-def test_blocks_that_a_line_tells_apart_are_no_one_table(tmp_path):
-    rows = "\n".join(f"{f:g};{1e6 + f:g};1e4" for f in (1, 2, 4, 8, 16))
-    path = tmp_path / "rubber.csv"
-    path.write_text(f"omega;G';G''\n{rows}\n\n{rows}\n")
-    assert len(read_table(path).frequency) == 10
-    path.write_text(f"omega;G';G''\nsample: A\n{rows}\n\nsample: B\n{rows}\n", encoding="utf-8")
-    with pytest.raises(ValueError, match="'sample: B' above line 10 tells one block from another"):
-        read_table(path)
-
-
 @pytest.mark.parametrize(
     ("above", "kelvin"), [("T = 20 °C", 293.15), ("Temperatur: 25,5 °C", 298.65), ("T = hot", 0)]
 )
@@ -451,9 +409,9 @@ def test_a_line_above_the_rows_states_their_temperature(tmp_path, above, kelvin)
 @pytest.mark.parametrize(
     "heading",
     [
+        "ω [1/s];G′ [Pa];G′′(ω) [Pa]",
+        'omega;G’;G"',
         "Kreisfrequenz in rad/s;Speichermodul in Pa;Verlustmodul in Pa",
-        "Pulsation [rad/s];Module de conservation [Pa];Module de perte [Pa]",
-        "omega_rad_s;Gprime_Pa;Gdoubleprime_Pa",
         "omega*aT [rad.s-1];Re(G*) [Pa];Im(G*) [Pa]",
         "$\\omega$ (rad/s);$G'$ (Pa);$G''$ (Pa)",
         "angular frequency;storage modulus;loss modulus\nrad/s;Pa;Pa\nSample A;Sample A;Sample A",

@@ -32,11 +32,6 @@ def test_the_path_is_signed_and_the_length_is_not():
     assert not program({"duration": 1.0, "load": 1.0, "speed": 1.0}, {"duration": 1.0}).reverses
 
 
-def test_forwards_only_path_length_and_span_are_the_same_number():
-    forwards = program(*({"duration": 0.1 * k, "speed": 0.3, "load": 1.0} for k in range(1, 12)))
-    assert forwards.length == forwards.span == forwards.path(forwards.duration)
-
-
 SWUNG = (
     {"duration": 1.0, "depth": 3.0},
     {"duration": 2.0, "depth": 4.0, "amplitude": 0.5, "frequency": 1.3},

@@ -27,7 +27,7 @@ from scene import (
     Stage,
     StandardLinearSolid,
 )
-from scene.reading import DEEPEST, MOST, SAID, InvalidInput, parsed, read
+from scene.reading import DEEPEST, SAID, InvalidInput, parsed, read
 
 INDENTER = '[indenter]\ntype = "sphere"\nradius = 1e-2\n'
 ELASTOMER = '[elastomer]\ntype = "kelvin"\nmodulus = 1e6\nrelaxation_time = 1e-3\n'
@@ -76,14 +76,11 @@ def test_a_file_says_what_python_says(tmp_path):
             'radius = "wide"',
             r"radius = 'wide': Input should be a length, such as \"5 mm\" or 0.005 \(in m\)",
         ),
-        ("radius = 1e-2", "radius = true", r"indenter.radius = True: Input should be a length"),
         ("radius = 1e-2", "", r'indenter.radius: missing, a length, such as "5 mm"'),
         ("radius = 1e-2", "radius = 1\nangle = 1", r"indenter.angle = 1: unknown here; known are radius, type"),
         ('"sphere"', '"ball"', r"indenter.type = 'ball': one of 'sphere', 'cone', 'power-law', 'cylinder'"),
-        ('type = "sphere"', "", r"indenter.type: missing, one of 'sphere', 'cone'"),
         ("load = 1.0", "", r"motion: none given: give exactly one of load \[N\], depth \[m\]"),
         ("load = 1.0", "pressure = 1.0", r"motion.pressure = 1 does not press a Sphere: give load \[N\] or depth"),
-        ("load = 1.0", "load = 1.0\ndepth = 1e-4", r"load = 1, depth = 0.0001: give exactly one"),
         ("[motion]", "[movement]", r"motion: missing, a table"),
         (
             "longest = 1e-2",
@@ -118,12 +115,9 @@ def test_a_program_of_stages_can_be_read(tmp_path):
         ("duration = 2.0", "duration = 0", r"motion.stages.1.duration = 0.*greater than 0"),
         ("duration = 2.0", "", r"motion.stages.1.duration: missing, a time"),
         ("speed = 0.1", "amplitude = 1e-5", r"motion.stages.1: amplitude alone.*give both"),
-        ("speed = 0.1", "sped = 0.1", r"motion.stages.1.sped = 0.1: unknown here; did you mean speed\?"),
         ("speed = 0.1", "load = 1", r"motion: stages prescribe depth and load: give one and the same throughout"),
         ("depth = 1e-4", "", r"motion: stages press nowhere: give one of load \[N\], depth \[m\], line_load"),
         (PROGRAM[26:], "stages = []", r"motion.stages = \[\]: .*at least 1 item"),
-        (PROGRAM[26:], "", r"motion.stages: missing, a list"),
-        (PROGRAM[26:], "stages = [1.0]", r"motion.stages.0 = 1.0: a table"),
         (PROGRAM[26:], "stages = [{duration = 1.0, gap = 1e-6}]", r"^\S*scene.toml: motion.stages.0.gap[^\n]*$"),
     ],
 )
@@ -226,15 +220,10 @@ def lines_of(tmp_path, text):
     ("old", "new", "said"),
     [
         ("modulus =", "modlus =", "elastomer.modlus = 1000000.0: unknown here; did you mean modulus? Known"),
-        ("relaxation_time", "relaxation-time", "elastomer.relaxation-time = 0.001: unknown here; did you mean"),
-        ("radius", "RADIUS", "indenter.RADIUS = 0.01: unknown here; did you mean radius? Known are radius, type"),
         ("[roughness]", "[roughnes]", "roughnes: unknown here; did you mean roughness? Known are indenter, "),
-        ("[motion]", "[Motion]", "Motion: unknown here; did you mean motion?"),
         ('"kelvin"', '"Kelvin"', "elastomer.type = 'Kelvin': one of 'elastic', 'kelvin', "),
         ('type = "slide"', 'typ = "slide"', "motion.typ = 'slide': unknown here; did you mean type?"),
         ("[indenter]", "speed = 0.1\n[indenter]", "speed = 0.1: unknown here"),
-        ("[indenter]", "tolerance = 0.1\n[indenter]", "tolerance = 0.1: unknown here; known are indenter"),
-        ("seed = 1", "hurts = 1", "roughness.hurts = 1: unknown here; did you mean hurst?"),
         ("seed = 1", "fudge = 1", "roughness.fudge = 1: unknown here; known are type, hurst, "),
     ],
 )
@@ -283,10 +272,8 @@ def test_everything_that_is_missing_is_said(tmp_path):
 @pytest.mark.parametrize(
     ("stated", "missing", "instead"),
     [
-        ('type = "elastic"', "elastomer.modulus", ["youngs_modulus"]),
         ('type = "prony"\nmoduli = [1]', "elastomer.relaxation_times", ["tau"]),
         ('type = "prony"\nrelaxation_times = [1]', "elastomer.moduli", ["youngs_moduli", "g"]),
-        ('type = "kelvin-chain"', "elastomer.compliances", ["tensile_compliances"]),
         ('type = "kelvin"\nmodulus = 1', "elastomer.relaxation_time", []),
         (f'{ELASTOMER[12:]}\n[roughness]\ntype = "self-affine"', "roughness.rms_height", ["rms_slope"]),
     ],
@@ -308,12 +295,8 @@ def test_a_name_that_is_called_as_the_type_of_its_table_is_a_name(tmp_path, kind
 
 DEEP = {
     "a header": f"[{'a.' * 500}a]\n",
-    "a header without end": f"[{'a.' * 100_000}a]\n",
     "quoted and spaced": '"a" . ' * 100_000 + "'a' = 1\n",
-    "dotted names": "a." * 5000 + "a = 1\n",
-    "lists": "a = " + "[" * 5000 + "]" * 5000,
     "tables in a line": "a = " + "{a = " * 5000 + "1" + "}" * 5000,
-    "headers within headers": "".join(f"[{'.'.join('a' * k)}]\n" for k in range(1, DEEPEST + 2)),
     "one level too many": "a = " + "[" * DEEPEST + "]" * DEEPEST,
 }
 
@@ -335,10 +318,6 @@ def test_line_ends_and_the_mark_of_an_editor_mean_nothing(tmp_path, end, mark):
     path = tmp_path / "scene.toml"
     path.write_bytes((mark + WHOLE.replace("\n", end)).encode())
     assert read(path, Scene) == scene_from(tmp_path, WHOLE)
-
-
-def test_a_file_that_is_too_large_is_not_read(tmp_path):
-    assert lines_of(tmp_path, "#" * (MOST + 1)) == ["has 1.1 MB, and at most 1 MB are read"]
 
 
 STAGES = INDENTER + ELASTOMER + "[motion]\ntype = 'program'\n"
@@ -389,27 +368,20 @@ ROUGH = SelfAffine(hurst=0.7, rms_height=3e-5, longest=1e-2, shortest=1e-4, seed
     ("make", "said"),
     [
         (lambda: Cone(angle=pi / 2), r"angle\n.*less than 1\.57"),
-        (lambda: Cone(angle=-0.1), r"angle\n.*greater than 0"),
         (lambda: PowerLaw(coefficient=1.0, exponent=0.9), r"exponent\n.*greater than or equal to 1"),
-        (lambda: PowerLaw(coefficient=1.0, exponent=101.0), r"exponent\n.*less than or equal to 100"),
-        (lambda: Elastic(modulus=-1.0), r"modulus\n.*greater than 0"),
         (lambda: Elastic(G, poisson_ratio=0.6), r"poisson_ratio\n.*less than or equal to 0\.5"),
-        (lambda: Elastic(G, poisson_ratio=-1.0), r"poisson_ratio\n.*greater than -1"),
         (lambda: StandardLinearSolid(G, G, 1.0), r"glassy_modulus = 1e\+06 must exceed rubbery_modulus = 1e\+06"),
         (lambda: Prony(G, moduli=(), relaxation_times=()), r"moduli\n.*at least 1"),
         (lambda: Prony(G, (G, G), (1.0,)), "relaxation_times has 1 values, moduli has 2: each modulus"),
         (lambda: Prony(G, moduli=(G, -G), relaxation_times=(1.0, 2.0)), r"moduli\.1\n.*greater than 0"),
         (lambda: KelvinChain(0.0, (1.0,), (1.0, 2.0)), "retardation_times has 2 values, compliances has 1"),
         (lambda: replace(SPRINGPOT, exponent=1.0), r"exponent\n.*less than 1"),
-        (lambda: replace(SPRINGPOT, exponent=0.0), r"exponent\n.*greater than 0"),
         (lambda: replace(SPRINGPOT, tolerance=0.5), r"tolerance\n.*less than or equal to 0\.1"),
         (lambda: replace(SPRINGPOT, highest_frequency=1e-4), r"0\.0001 must exceed lowest_frequency = 0\.0001"),
         (lambda: replace(SPRINGPOT, highest_frequency=1e27), r"highest_frequency = 1e\+27 .* at most 30 decades"),
         (lambda: replace(ROUGH, hurst=1.1), r"hurst\n.*less than or equal to 1"),
-        (lambda: replace(ROUGH, hurst=-0.1), r"hurst\n.*greater than or equal to 0"),
         (lambda: replace(ROUGH, shortest=6e-3), r"shortest = 0\.006 must be at most half of longest = 0\.01"),
         (lambda: replace(ROUGH, seed=-1), r"seed\n.*greater than or equal to 0"),
-        (lambda: replace(ROUGH, rolloff=1e-4), "rolloff = 0.0001 must be more than shortest"),
         (lambda: replace(ROUGH, rolloff=2e-2), "rolloff = 0.02 must be more than shortest .* at most longest"),
         (lambda: replace(ROUGH, amplitudes="rayleigh"), r"amplitudes\n.*'fixed' or 'gaussian'"),
     ],

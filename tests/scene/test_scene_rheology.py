@@ -5,11 +5,8 @@ from decimal import Decimal, localcontext
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 from pydantic import ValidationError
 from solids import OF_EACH_TYPE
-from strategies import examples
 
 from scene import Elastic, Fractional, Kelvin, KelvinChain, Prony, StandardLinearSolid
 from scene.modes import Relaxation, Retardation
@@ -53,13 +50,6 @@ every_form = pytest.mark.parametrize("form", FORMS.values(), ids=FORMS)
 def worst(found, expected):
     """Largest relative deviation, each number against its own."""
     return np.max(np.abs(np.asarray(found) / np.asarray(expected) - 1), initial=0.0)
-
-
-@every_solid
-def test_modulus_times_complex_compliance_is_one_over_twenty_decades(solid):
-    instantaneous, compliances, times = solid.retardation()
-    compliance = instantaneous + (compliances / (1 + 1j * FREQUENCIES[:, None] * times)).sum(axis=1)
-    np.testing.assert_allclose(solid.complex_modulus(FREQUENCIES) * compliance, 1.0, rtol=1e-12)
 
 
 @every_solid
@@ -274,19 +264,6 @@ def test_units_do_not_matter(form):
     assert other.instantaneous == creep.instantaneous * unit
 
 
-def test_an_eigenvalue_problem_loses_digits_of_slow_modes_that_are_kept_here():
-    # They drown in the rounding of the fast ones: the tests above can fail.
-    form = FORMS["glass of 1e12 times the rubber"]
-    rates = 1 / form.times
-    share = np.sqrt(form.moduli / form.glassy * rates)
-    eigenvalues = np.linalg.eigvalsh(np.diag(rates) - np.outer(share, share))
-    times = form.retardation().times
-    assert worst(np.sort(1 / np.abs(eigenvalues)), times) > 1e-7
-    assert (
-        worst(form.equilibrium**2 * (form.retardation().compliances @ times), form.moduli @ form.times) < ROUNDING
-    )
-
-
 def test_numbers_beyond_the_range_of_numbers_are_an_error_and_no_answer():
     with pytest.raises((ArithmeticError, RuntimeWarning)):
         Relaxation.of(1.0, (1e300, 1.0), (1e300, 1.0)).retardation()
@@ -301,11 +278,6 @@ def test_a_solid_is_its_fields_and_a_changed_one_is_another(solid):
     assert hash(same) == hash(solid)
     assert other != solid
     assert "type" not in repr(solid)
-
-
-def test_moduli_too_far_apart_to_be_converted_are_an_error_and_no_solid_without_modes():
-    with pytest.raises(ArithmeticError, match="further apart than the range of numbers"):
-        StandardLinearSolid(1e-300, 1e300, 1e-3).retardation()
 
 
 @pytest.mark.parametrize("make", [lambda many: Prony(1e6, many, many), lambda many: KelvinChain(1e-7, many, many)])
@@ -354,23 +326,13 @@ def test_a_solid_stated_by_young_s_modulus_is_that_of_its_shear_modulus_to_the_l
     assert solid(**half) == solid(**IN_SHEAR[solid])
 
 
-@given(st.floats(1e-3, 1e12), st.integers(-99, 50))
-@examples(100)
-def test_any_young_s_modulus_is_converted_to_within_a_rounding(modulus, hundredths):
-    ratio = hundredths / 100
-    found = Elastic(youngs_modulus=modulus, poisson_ratio=ratio).modulus
-    assert found == pytest.approx(modulus / (2 * (1 + ratio)), rel=4e-16)
-
-
 @pytest.mark.parametrize(
     ("stated", "said"),
     [
         ({"youngs_modulus": "3 MPa", "modulus": "1 MPa"}, "youngs_modulus beside modulus: give one"),
         ({"youngs_modulus": "3 mm"}, "youngs_modulus\n.*a Young's modulus E, such as"),
         ({"youngs_modulus": 0.0}, "youngs_modulus\n.*greater than 0"),
-        ({"youngs_modulus": [1e6]}, "youngs_modulus\n"),
         ({"youngs_modulus": 3e6, "poisson_ratio": 0.6}, "poisson_ratio\n.*0.5"),
-        ({"youngs_modulus": 3e6, "poisson_ratio": -1.0}, "poisson_ratio\n"),
         ({"youngs_modulus": 5e-324}, "modulus\n.*greater than 0"),
         ({}, "modulus\n.*required"),
     ],
@@ -390,7 +352,6 @@ TERMS = Prony(2.5e6, (2e6, 3e6, 2.5e6), TAU)
         {"instantaneous_modulus": "10 MPa"},
         {"equilibrium_modulus": 2.5e6},
         {"instantaneous_youngs_modulus": "30 MPa"},
-        {"equilibrium_youngs_modulus": 7.5e6},
         {"instantaneous_youngs_modulus": 26e6, "poisson_ratio": 0.3},
     ],
 )
@@ -405,15 +366,11 @@ def test_normalised_terms_are_the_plain_series(modulus, time):
     ("stated", "said"),
     [
         ({"g": SHARES, "tau": TAU}, "give one of instantaneous_modulus and equilibrium_modulus"),
-        ({"g": SHARES, "tau": TAU, "instantaneous_modulus": 1e6, "equilibrium_modulus": 1e5}, "give one of"),
         ({"g": SHARES, "tau": TAU[:2], "instantaneous_modulus": 1e6}, "tau has 2 values, g has 3"),
-        ({"g": (0.5, 0.5), "tau": TAU[:2], "instantaneous_modulus": 1e6}, "the sum 1 leaves no modulus at rest"),
         ({"g": (0.5, 0.7), "tau": TAU[:2], "equilibrium_modulus": 1e6}, "the sum 1.2 leaves no modulus at rest"),
         ({"g": (0.5, -0.1), "tau": TAU[:2], "instantaneous_modulus": 1e6}, "g.1\n.*greater than 0"),
-        ({"g": SHARES, "tau": (1.0, "1 m", 2.0), "instantaneous_modulus": 1e6}, "tau.1\n.*a time"),
         ({"g": SHARES, "moduli": SHARES, "tau": TAU, "instantaneous_modulus": 1e6}, "g beside moduli"),
         ({"moduli": SHARES, "tau": TAU, "instantaneous_modulus": 1e6}, "instantaneous_modulus goes with g"),
-        ({"g": 0.5, "tau": 1.0, "instantaneous_modulus": 1e6}, "g\n"),
         ({"g": (), "tau": (), "instantaneous_modulus": 1e6}, "moduli\n.*at least 1"),
     ],
 )

@@ -43,6 +43,7 @@ def test_the_parts_of_a_scene_are_those_that_are_present():
     )
     assert set(full.parts) == {field.name for field in fields(Scene)} - {"roughness"}
     assert all(full.parts[name] is getattr(full, name) for name in full.parts)
+    assert list(full.parts)[-1] == "heating"  # outmost: all friction heats
 
 
 def test_a_type_stands_for_its_subclasses_unless_they_have_a_line_of_their_own():

@@ -1,6 +1,6 @@
 """Demands of journals on figures: widths of their columns, least text, least line."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from difflib import get_close_matches
 
 MILLIMETRE, POINT = 1 / 25.4, 1 / 72
@@ -28,6 +28,8 @@ class Journal:
 
 # Widths of the default, for publishers that name none.
 COLUMN, PAGE = 3.5, 7.2
+# Of columns [mm], from that of the narrowest journal on: narrower ones cut titles.
+WIDTHS = 80, 200
 
 JOURNALS = {
     "default": Journal("no journal in particular", COLUMN, PAGE, 8.0, 6.0, 0.3, "fits most with little change"),
@@ -89,12 +91,26 @@ JOURNALS = {
 }  # fmt: skip
 
 
-def journal(name: str) -> Journal:
-    """Journal by its name in the table; ValueError lists the names for any other."""
-    if name in JOURNALS:
-        return JOURNALS[name]
-    from scene.printable import brief  # whoever lists journals needs no scene
+def journal(name: str, width: str | float | None = None) -> Journal:
+    """Journal by its name in the table.
 
-    meant = get_close_matches(name, JOURNALS, 1)
-    hint = f"; did you mean {meant[0]}?" if meant else "."
-    raise ValueError(f"no journal {brief(repr(name))}{hint} Known are {', '.join(JOURNALS)}.")
+    width : of a column, as "84 mm" or in metres, with the page as much wider or narrower; that of the journal if
+        absent
+
+    Raises ValueError of another name, which lists the names, and of a width that is no length or out of WIDTHS.
+    """
+    from scene.printable import brief  # whoever lists journals needs no scene
+    from scene.quantities import METRE, argument
+
+    if name not in JOURNALS:
+        meant = get_close_matches(name, JOURNALS, 1)
+        hint = f"; did you mean {meant[0]}?" if meant else "."
+        raise ValueError(f"no journal {brief(repr(name))}{hint} Known are {', '.join(JOURNALS)}.")
+    found = JOURNALS[name]
+    if width is None:
+        return found
+    millimetres = 1e3 * float(argument("width", width, METRE.value))
+    if not WIDTHS[0] <= millimetres <= WIDTHS[1]:
+        raise ValueError(f"width = {brief(repr(width))}: {WIDTHS[0]} mm to {WIDTHS[1]} mm are allowed")
+    column = millimetres * MILLIMETRE
+    return replace(found, single=column, double=column / found.single * found.double)

@@ -16,7 +16,8 @@ from matplotlib.figure import Figure
 from numpy.polynomial import Chebyshev
 from pandas import DataFrame, concat
 
-from ...statistics import digits, eq23
+from ...solving.amounts import interval
+from ...statistics import eq23
 from ...statistics.collapse import ENDS, Alignment, Collapse
 from ...statistics.finding import FAILS, Claim, Finding
 from ..page import Plot, Tables
@@ -178,7 +179,7 @@ def _collapse(drawing, grid, k, end, fit, points, colours):
 def _missed(fit, name="misfit") -> str:
     """A misfit with its interval as findings have it; empty where it is not known."""
     misfit, low, high = (100 * getattr(fit, f"{name}{end}") for end in ENDS)
-    return f"{digits.interval(misfit, low, high, FIGURES)} %" if np.isfinite(misfit) else ""
+    return f"{interval(misfit, low, high, FIGURES)} %" if np.isfinite(misfit) else ""
 
 
 def _slid(table: DataFrame) -> DataFrame:
@@ -305,7 +306,7 @@ def _shifts(axes: Axes, fit, shifts: DataFrame, powers: DataFrame, colours: Any)
     decades, others = np.log10(speed / fit.reference_speed), iter(OTHERS)
     for power in powers.itertuples():
         name = "along the load" if ACROSS in set(powers["power"]) and power.power == FITTED else power.power
-        told = digits.interval(power.exponent, power.exponent_low, power.exponent_high, FIGURES)
+        told = interval(power.exponent, power.exponent_low, power.exponent_high, FIGURES)
         exponent, _, ends = told.partition(" ")
         # A power of ten behind an interval belongs to the number too.
         label, ends = (f"{name} v^{told}", "") if "×" in told else (f"{name} $v^{{{exponent}}}$", ends)

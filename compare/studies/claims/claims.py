@@ -25,7 +25,7 @@ _REST_DEPTH = (
 )
 _REST_FORCE = "the force at a depth is the same in 1D and 3D", "rms over depths of ln of the ratio of forces."
 _ON_THE_LAW = (
-    "|ln(measured / S)| over the points at which the roughness has more than 0.3 of the friction, h0 at most "
+    "|ln(measured / S)| over the points at which the roughness has more than 0.3 of the friction, h₀ at most "
     "0.1 d. Measured: friction less that of the smooth body on the contact that roughness widens, over that of "
     "the waves in full contact. The upper end of the interval has in it what scatter of surfaces adds, the lower "
     "has not."
@@ -42,11 +42,11 @@ _TEXTS: dict[tuple[float, float], dict[str, tuple[str, str]]] = {
     (nan, TOLERANCE): {
         "eq17.speed-exponent": (
             "Eq. 17: at low speed friction grows with the speed as the loss at the shortest wave does",
-            "d ln mu / d ln v between the two slowest speeds, mean over the loads or depths.",
+            "d ln μ / d ln v between the two slowest speeds, mean over the loads or depths.",
         ),
         "eq17.load-exponent": (
             "Eqs. 16, 17: at low speed friction falls with the load as F_N^(-n/(n+1))",
-            "d ln mu / d ln F_N at the slowest speed, least squares over the loads or depths. The law leaves out "
+            "d ln μ / d ln F_N at the slowest speed, least squares over the loads or depths. The law leaves out "
             "the slope of the macroscopic shape.",
         ),
     },
@@ -71,11 +71,11 @@ _TEXTS: dict[tuple[float, float], dict[str, tuple[str, str]]] = {
         ),
         "eq19.law": (
             "Eq. 19: friction follows the law at all speeds and loads",
-            "rms over all points of ln mu less that of the law with alpha = 1.5, without what scatter adds.",
+            "rms over all points of ln μ less that of the law with α = 1.5, without what scatter adds.",
         ),
         "eq18.one-curve": (
-            "Eq. 18: friction over its plateau is one function of xi, whatever roughness and solid",
-            "rms of ln mu about one curve through all points of several series, none shifted, without what "
+            "Eq. 18: friction over its plateau is one function of ξ, whatever roughness and solid",
+            "rms of ln μ about one curve through all points of several series, none shifted, without what "
             "scatter adds.",
         ),
     },
@@ -86,7 +86,7 @@ _TEXTS: dict[tuple[float, float], dict[str, tuple[str, str]]] = {
         ),
         "limit.slow": (
             "Friction at the slowest speed is that of the exact limit of low speed",
-            "Not of the paper: mu at the slowest speed over v tau times the mean of d2z/dx2 weighted with the "
+            "Not of the paper: μ at the slowest speed over vτ times the mean of d2z/dx2 weighted with the "
             "pressure at rest (3D), or over Eq. 10 with the contact at rest (1D); geometric mean over the loads "
             "or depths, on the same surfaces. It tells a fault of a solver from the failure of a law. In 3D "
             "friction is found by that mean where the contact trails by less than a quarter of a pixel "
@@ -94,7 +94,7 @@ _TEXTS: dict[tuple[float, float], dict[str, tuple[str, str]]] = {
         ),
         "eq14.slope-exponent": (
             "Eq. 14: friction at the fastest speed goes as the rms slope to the power 1",
-            "d ln mu / d ln of the rms slope, least squares over several rms heights, mean of the loads or depths "
+            "d ln μ / d ln of the rms slope, least squares over several rms heights, mean of the loads or depths "
             "at which all are at that limit, but for what Eq. 19 still lacks of it.",
         ),
     },
@@ -105,7 +105,7 @@ _TEXTS: dict[tuple[float, float], dict[str, tuple[str, str]]] = {
         ),
         "eq17.slope-exponent": (
             "Eq. 17: friction at the slowest speed goes as the rms slope to the power 2",
-            "d ln mu / d ln of the rms slope, least squares over several rms heights, mean of the loads or depths "
+            "d ln μ / d ln of the rms slope, least squares over several rms heights, mean of the loads or depths "
             "at which all are at that limit, but for what Eq. 19 still lacks of it.",
         ),
     },
@@ -120,12 +120,12 @@ _TEXTS: dict[tuple[float, float], dict[str, tuple[str, str]]] = {
         ),
         "eq14.load-exponent": (
             "Eq. 14: at high speed friction does not depend on the load",
-            "d ln mu / d ln F_N at the fastest speed, less that of Eq. 19 there, least squares over the loads or "
-            "depths at which xi is large.",
+            "d ln μ / d ln F_N at the fastest speed, less that of Eq. 19 there, least squares over the loads or "
+            "depths at which ξ is large.",
         ),
         "eq19.load-exponent": (
             "Eq. 19: at the knee friction falls with the load as the law does",
-            "d ln mu / d ln F_N at the speed at which xi is closest to 1, less that of the law there, least "
+            "d ln μ / d ln F_N at the speed at which ξ is closest to 1, less that of the law there, least "
             "squares over the loads or depths.",
         ),
         "law3d.collapse": (
@@ -207,17 +207,17 @@ _LEVELS: dict[float, dict[str, tuple[str, str]]] = {
     1.0: {
         "eq17.level": (
             "Eq. 17: friction at low speed has the level of the law",
-            "mu over the law at the slowest speed, with the rms slope as this dimensionality has it and every "
+            "μ over the law at the slowest speed, with the rms slope as this dimensionality has it and every "
             "wave taken for the shortest.",
         ),
         "eq19.level": (
             "Eq. 19: friction at the knee has the level of the law",
-            "mu over the law with alpha = 1.5 at the speed at which xi is closest to 1.",
+            "μ over the law with α = 1.5 at the speed at which ξ is closest to 1.",
         ),
         "eq14.plateau": (
-            "Eq. 14: at high speed friction is sqrt(2) times the rms slope",
-            "mu over that, times what Eq. 19 has there, at the fastest speed, of the loads or depths at which "
-            "xi is large.",
+            "Eq. 14: at high speed friction is √2 times the rms slope",
+            "μ over that, times what Eq. 19 has there, at the fastest speed, of the loads or depths at which "
+            "ξ is large.",
         ),
         "friction.ratio.slow": ("Rough, at the slowest speed: friction in 1D is that in 3D", _RATIO),
         "friction.ratio.knee": ("Rough, at the knee: friction in 1D is that in 3D", _RATIO),

@@ -14,17 +14,17 @@ from ...models.exact import mean_lag
 
 # Ratios by the order in which words tell them, behind load and speed.
 SYMBOLS = {
-    "depth_over_height": "d/h0",
+    "depth_over_height": "d/h₀",
     "shortest_in_contact": "a q_s",
     "contact_over_period": "2a/L",
     "macro_over_rough": "macro/rough slope",
     "rms_slope": "rms slope",
     "pressure_over_slope": "p/(E* h')",
-    "memory_over_contact": "v tau/a",
-    "memory_over_shortest": "v tau q_s",
+    "memory_over_contact": "vτ/a",
+    "memory_over_shortest": "vτ q_s",
     "contact_fraction": "contact",
 }
-_TOLD = {"load": "F_N", "xi": "xi", **SYMBOLS}
+_TOLD = {"load": "F_N", "xi": "ξ", **SYMBOLS}
 _UNITS = {"load": (1, " N", 3), "contact_fraction": (100, " %", 2)}  # scale, unit and digits of what has any
 
 

@@ -24,7 +24,7 @@ TOGETHER = Claim(
     sentence="Shifts along the speed bring the temperatures together",
     expected=0.0,
     tolerance=eq23.TOLERANCE,
-    meaning="rms of ln mu about one function of load and shifted speed, without what scatter adds. Each "
+    meaning="rms of ln μ about one function of load and shifted speed, without what scatter adds. Each "
     "temperature has one shift along the logarithm of the speed.",
     percent=True,
 )

@@ -23,10 +23,10 @@ from .parameter_studies import Line, SlowFriction, line
 DIMENSION = "1D"
 _EXPONENT = Claim(
     id="paper.eq17.exponent",
-    sentence="Eq. 17: friction at low speed grows as xi^1 where its conditions hold",
+    sentence="Eq. 17: friction at low speed grows as ξ¹ where its conditions hold",
     expected=1.0,
     tolerance=0.02,
-    meaning="Exponent of a power law through points with xi at most 0.05, h_0 at most d/10, 2a below L, and a "
+    meaning="Exponent of a power law through points with ξ at most 0.05, h₀ at most d/10, 2a below L, and a "
     "macroscopic slope of at most a fifth of that of the roughness. Small slopes are not among the conditions: "
     "with heights, the slope of the cone and the load times any number, friction is times that number exactly.",
     dimension=DIMENSION,
@@ -34,41 +34,40 @@ _EXPONENT = Claim(
 _ANY_SLOPE = replace(
     _EXPONENT,
     id="paper.eq17.exponent.any-slope",
-    sentence="Eq. 17: friction at low speed grows as xi^1 whatever the macroscopic slope",
+    sentence="Eq. 17: friction at low speed grows as ξ¹ whatever the macroscopic slope",
     meaning="Exponent without the condition on the macroscopic slope: Eq. 11 drops it, which on a nearly smooth "
     "profile makes all the friction.",
 )
 _SLOPE_KEPT = replace(
     _EXPONENT,
     id="paper.eq17.exponent.slope-kept",
-    sentence="Eq. 17: friction at low speed grows as xi^1 with the macroscopic slope kept as in Eq. 10",
+    sentence="Eq. 17: friction at low speed grows as ξ¹ with the macroscopic slope kept as in Eq. 10",
     meaning="Exponent without the condition on the macroscopic slope, with the mean square of both slopes in "
     "place of that of the roughness.",
 )
 _ALPHA = Claim(
     id="paper.eq19.alpha",
-    sentence="Eq. 19: the exponent alpha that joins low speed and plateau is 1.5",
+    sentence="Eq. 19: the exponent α that joins low speed and plateau is 1.5",
     expected=1.5,
     tolerance=0.1,
-    meaning="Least squares of ln mu over all xi. How it depends on what is made least is in the table of "
-    "exponents.",
+    meaning="Least squares of ln μ over all ξ. How it depends on what is made least is in the table of exponents.",
     dimension=DIMENSION,
 )
 _SAME_ALPHA = Claim(
     id="paper.eq19.alpha.difference",
-    sentence="Eq. 19: alpha does not depend on the shape",
+    sentence="Eq. 19: α does not depend on the shape",
     expected=0.0,
     tolerance=0.1,
-    meaning="Difference of alpha between the shapes, on the same profiles. Places of a cone differ more in depth, "
+    meaning="Difference of α between the shapes, on the same profiles. Places of a cone differ more in depth, "
     "and lose contact over a wider range of speeds.",
     dimension=DIMENSION,
 )
 _PLATEAU = Claim(
     id="paper.eq14.plateau",
-    sentence="Eq. 14: the plateau of friction is sqrt(2) times the rms slope",
+    sentence="Eq. 14: the plateau of friction is √2 times the rms slope",
     expected=1.0,
     tolerance=0.03,
-    meaning="mu-tilde at the greatest xi over Eq. 19 there, with the rms slope by finite differences.",
+    meaning="μ̃ at the greatest ξ over Eq. 19 there, with the rms slope by finite differences.",
     dimension=DIMENSION,
 )
 _MEANINGLESS = "the curves do not collapse, and their shifts have no meaning"
@@ -143,7 +142,7 @@ def _slow(points):
 
 def _regime(law):
     points = law.points
-    return f"xi {between(points['xi'])}, rms slope {between(points['rms_slope'])}"
+    return f"ξ {between(points['xi'])}, rms slope {between(points['rms_slope'])}"
 
 
 def _shifts(losses) -> Iterator[Finding]:

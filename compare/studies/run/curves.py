@@ -13,8 +13,7 @@ from scene.scales import elastic_contact
 from ...library.case import Case
 from ...models import exact
 from ...models.table import PROFILES, ModelLike, Models
-from ...solving.parameter_grid import COARSE, FINE, LEVELS, ParameterGrid, refuse
-from ...statistics.multilevel import in_strata, levels
+from ...solving.parameter_grid import COARSE, FINE, LEVELS, ParameterGrid, levels, refuse
 from ..theory import with_theory
 
 OWN, SPEED, LOAD = "own", "friction-speed", "friction-load"
@@ -91,6 +90,8 @@ def _curves(case, models):
 
 def _in_strata(found, models, strata):
     """The rough curves on all grids that hold them, with so many surfaces on each."""
+    from ...statistics.multilevel import in_strata  # slow, and a plan has no use for it
+
     made = {}
     for shared, names in SHARED.items():
         own = {name: found[name] for name in names if name in found}

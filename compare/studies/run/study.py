@@ -328,7 +328,7 @@ def summary(cases: Sequence[CaseFindings]) -> DataFrame:
 def _cell(found: Sequence[Finding]) -> str:
     """One number with its verdict, or how often each verdict stands."""
     if len(found) == 1:
-        return f"{finding.number(found[0])}, {found[0].verdict}"
+        return f"{found[0].found(3)}, {found[0].verdict}"
     counts = {name: sum(each.verdict == name for each in found) for name in finding.VERDICTS}
     return ", ".join(f"{name} {count} of {len(found)}" for name, count in counts.items() if count)
 

@@ -22,10 +22,10 @@ from ...models.table import ModelLike, Models
 from ...report.page import Table
 from ...report.plots.rendering import finished
 from ...solving.amounts import share_of
+from ...solving.control_variates import VARIATES
 from ...solving.cost import MOST_DRAWS
 from ...solving.parameter_grid import COARSE, FINE, LEVELS, ParameterGrid, on_two_grids
 from ...solving.vocabulary import attributes
-from ...statistics.control_variates import VARIATES
 from ...statistics.finding import Claim, Finding, said_of, sentences
 from ...statistics.jackknife import DrawSet, mean, measured
 from ...statistics.means import interval

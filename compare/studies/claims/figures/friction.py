@@ -14,7 +14,7 @@ from ....report.page import Tables
 from ....report.plots import shades, style
 from ....report.plots.curves import intervals
 from ....report.plots.lettering import clear, lettered, literal
-from ....statistics import digits
+from ....solving.amounts import interval
 from ....statistics.collapse import ENDS
 
 SOLVER = {"1D": "MDR", "3D": "BEM"}
@@ -97,7 +97,7 @@ def misfit(fit) -> str:
     if not np.isfinite(fit["misfit"]):
         return f"δ unknown, the means miss the curve by {fit['rms']:.1%}"
     value, low, high = (100 * fit[f"misfit{end}"] for end in ENDS)
-    return f"δ = {digits.interval(value, low, high, FIGURES)} %"
+    return f"δ = {interval(value, low, high, FIGURES)} %"
 
 
 def shifts(tables: Tables, tolerance: float = 0.05) -> Figure:
@@ -116,7 +116,7 @@ def shifts(tables: Tables, tolerance: float = 0.05) -> Figure:
             intervals(axes, own["speed"] * apart, own, name, less=less, **look)
         (fit,) = fits[fits["dimension"] == dimension].to_dict("records")
         value, low, high = (fit[f"exponent{end}"] for end in ENDS)
-        told = digits.interval(value, low, high, FIGURES)
+        told = interval(value, low, high, FIGURES)
         power = f", power of v:\n{told}" if np.isfinite(value) else ""
         left.plot([], [], **look | {"label": f"{dimension}{power}"})
     grey = style.line(0.45, 0.8, zorder=1)

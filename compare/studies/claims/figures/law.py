@@ -13,7 +13,7 @@ from ....report.page import Plot, Tables
 from ....report.plots import shades, style
 from ....report.plots.curves import intervals
 from ....report.plots.lettering import clear, lettered, literal
-from ....statistics import digits
+from ....solving.amounts import number
 from ....statistics.finding import Finding
 from ....statistics.means import Interval
 from ..claims_law import PLOT, SHALLOW, LawPoints
@@ -161,7 +161,7 @@ def _missed(findings) -> str:
     """Misfit from the law in words; empty where it is not known."""
     told = {"law3d.collapse": "median", "law3d.collapse-most": "nine in ten"}
     own = {each.claim.id: 100 * each.value for each in findings if np.isfinite(each.value)}
-    return ", ".join(f"{word} {digits.number(own[name], 2)} %" for name, word in told.items() if name in own)
+    return ", ".join(f"{word} {number(own[name], 2)} %" for name, word in told.items() if name in own)
 
 
 def _off(points: DataFrame, name: str, expected) -> DataFrame:

@@ -16,7 +16,6 @@ from ....report.page import Plot, Tables
 from ....report.plots import style
 from ....report.plots.lettering import MARKER, Letter, letter, write
 from ....report.plots.prefixes import prefixed
-from ....solving.amounts import digits
 from ....statistics.convergence import MeasuredLadder, ladders
 
 # Columns of panels, their height and that around all of them [inch].
@@ -191,7 +190,8 @@ def _shown(curve):
 
 def _written(value: float) -> str:
     """A setting as it stands in a figure, with a power of ten where it is small."""
-    times, _, power = digits(value).partition("e")
+    text = f"{value:g}" if value >= 0.01 else f"{value:.0e}".replace("e-0", "e-")
+    times, _, power = text.partition("e")
     return rf"$\mathdefault{{{times} · 10^{{{power}}}}}$".replace("1 · ", "") if power else times
 
 

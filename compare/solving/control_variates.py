@@ -18,8 +18,6 @@ from mdr1d import MDR
 from mdr1d.surface import LineFamily, amplitudes
 from scene import Plane, Program, Refused, Scene, SelfAffine, SolveError, Solver
 
-from ..models.law.smooth import SPACE
-
 VARIATES = "control_variates"  # name in a Dataset
 EACH = 4  # surfaces for each variate at least: what a regression leaves of few surfaces is known roughly
 ALIKE = 1e-10  # of the largest, below which a direction of the variates is none
@@ -45,7 +43,7 @@ def control_variates(solver: Solver, scenes: Sequence[Scene], seeds: Sequence[in
     below = [_footprint(replace(each, roughness=None), isinstance(solver, MDR)) for each in scenes]
     tops = [max(int(ACROSS * rough.longest / max(np.ptp(each[0]), narrowest)), 1) if each else 1 for each in below]
     rough = replace(rough, rms_height=1.0)  # heights of any unit have the same variates but for a factor
-    power = np.square(np.abs(_waves(solver, replace(rough, amplitudes="fixed"), max(tops), [rough.seed])[0])) / 2
+    power = np.square(abs(_waves(solver, replace(rough, amplitudes="fixed"), max(tops), [rough.seed])[0])) / 2
     for first in range(0, len(seeds), TOGETHER):
         waves = _waves(solver, rough, max(tops), seeds[first : first + TOGETHER])
         for own, places, top in zip(found, below, tops, strict=True):
@@ -59,7 +57,7 @@ def control_variates(solver: Solver, scenes: Sequence[Scene], seeds: Sequence[in
 def _footprint(scene, line):
     """Places x (X,), y (Y,) [m] around a smooth contact, or on a line, and their share (Y, X) in its force."""
     try:
-        found = SPACE.solve(scene).fields
+        found = BEM(points=64).solve(scene).fields
     except (SolveError, Refused, NotImplementedError):
         return None
     pressed = found["pressure"] > 0

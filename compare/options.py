@@ -1,0 +1,336 @@
+"""Arguments and options of the commands, each with its type and its help.
+
+At run time a type is what a command line gives; a type checker sees all that Python takes.
+"""
+
+from glob import glob
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypedDict
+
+from typer import Argument, BadParameter, Option
+
+from .library import ready as library
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+    from concurrent.futures import Executor
+
+    from .library.lookup import SceneLike
+    from .models.table import ModelLike
+    from .solving.terminal import Shown
+    from .studies.mastercurve.measurements import Measurements
+    from .studies.sweep.values import Values
+    from .studies.topography.study import Surface
+
+    File = str | Path
+    Amount = str | float
+    Amounts = Sequence[str | float]
+    Sides = str | float | Sequence[str | float]
+    SeveralModels = Sequence[ModelLike]
+    SeveralScenes = SceneLike | Sequence[str | Path] | Mapping[str, SceneLike]
+    StyleLike = str | PathLike | Mapping[str, Any]
+else:
+    File = Path
+    SceneLike = ModelLike = Measurements = Surface = Amount = StyleLike = str
+    Values = Amounts = Sides = SeveralModels = SeveralScenes = list[str]
+
+TEXT = "text"  # marks an argument that is a text in Python too: see `solving.suggest.checked`
+
+
+def scenes() -> list[str]:
+    """Ready scenes, and files of this folder that may be scenes: a shell completes them."""
+    return [*(name for name, each in library.ready().items() if each.kind == "scene"), *sorted(glob("*.toml"))]
+
+
+def studies() -> list[str]:
+    """Studies, and files of this folder that may be studies: a shell completes them."""
+    return [*library.studies(), "all", *sorted(glob("*.toml"))]
+
+
+def copies() -> list[str]:
+    """Ready scenes and studies: a shell completes them."""
+    return [*library.ready()]
+
+
+def number(given: str | float) -> float:
+    """Number of a text on the command line, or of a default; one without a point stays whole."""
+    try:
+        return int(given) if str(given).isdecimal() else float(given)
+    except ValueError:
+        raise BadParameter(f"{given!r} is not a number.") from None
+
+
+# All commands that solve.
+Output = Annotated[File, Option(help="Folder for the page, the figures and the solved contacts.")]
+Workers = Annotated[
+    int | None, Option(help="Number of processes; if absent, one for each processor.", parser=number)
+]
+Scheduler = Annotated[
+    str | None,
+    Option(
+        help="Address of a dask.distributed scheduler, as tcp://host:8786; its workers then solve the contacts."
+    ),
+    TEXT,
+]
+FigureFormat = Annotated[
+    str,
+    Option(
+        help="File formats of the figures, separated by commas: png, pdf, svg. A PNG is always written.",
+        autocompletion=lambda: ["png", "pdf", "svg"],
+    ),
+    TEXT,
+]
+WithReport = Annotated[
+    bool,
+    Option(help="Write the page and its figures. Findings, tables and results are written in any case."),
+]
+Yes = Annotated[
+    bool, Option("--yes", help="Agree to a study of more than a day or of more than 300,000 contacts.")
+]
+
+
+class Options(TypedDict, total=False):
+    """Options of every command that solves: those of `compare.solve`."""
+
+    workers: Workers
+    scheduler: Scheduler
+    executor: "Executor | None"
+    figure_format: FigureFormat
+    report: WithReport
+    yes: Yes
+    progress: "bool | str | Shown | None"
+
+
+# Scenes and models.
+SceneFile = Annotated[
+    SceneLike,
+    Argument(help="File of a scene (TOML), or name of a ready scene.", autocompletion=scenes),
+]
+SceneFiles = Annotated[
+    SeveralScenes | None,
+    Argument(
+        help="File of a scene (TOML), or name of a ready scene, or several, which the page then has side by side;"
+        " if absent, the paper's sphere and cone.",
+        autocompletion=scenes,
+    ),
+]
+Model = Annotated[ModelLike, Argument(help="Name of a model, mdr or bem, or module:NAME of one of your own.")]
+Models = Annotated[
+    SeveralModels | None,
+    Option(
+        help="Names of the models, separated by commas: mdr, bem, persson, law, those of installed packages,"
+        " MODULE:NAME; mdr,bem if absent."
+    ),
+]
+Reference = Annotated[
+    str | None,
+    Option(help="Name of the model against which the others are judged; bem, or the last, if absent."),
+    TEXT,
+]
+
+# How much is solved.
+Size = Literal["quick", "standard", "full"]
+StudySize = Annotated[
+    Size,
+    Option(help="How much is solved: quick (minutes), standard (up to an hour) or full (up to a day)."),
+]
+PaperSize = Annotated[
+    Size,
+    Option(help="How many rough profiles are averaged: quick (20), standard (50) or full (200, as published)."),
+]
+DiagramSize = Annotated[
+    Size, Option(help="How much is solved: quick (a minute a diagram), standard or full (hours).")
+]
+CaseSize = Annotated[
+    Size, Option(help="How much is solved: quick (half a minute), standard or full (some minutes).")
+]
+Interval = Annotated[
+    Amount | None,
+    Option(
+        help="Wanted half-width of the intervals of 95 %, relative, as 2%. It takes the place of numbers of"
+        " surfaces and profiles: many are solved on coarse grids, few on finer ones, until every claim is decided"
+        " or every interval is so narrow."
+    ),
+]
+Budget = Annotated[
+    Amount | None,
+    Option(
+        help="Time after which no more surfaces are asked for, as 10min. It alone makes results depend on the"
+        " speed of the machine."
+    ),
+]
+Speeds = Annotated[
+    Values | None,
+    Option(
+        help='Speeds, as "1mm/s,10mm/s", or a range of three to a decade, as "1mm/s..1m/s", or of seven in all, as'
+        ' "1mm/s..1m/s:7"; "0 m/s" is rest. That of the scene if absent.'
+    ),
+]
+LoadsOrDepths = Annotated[
+    Values | None,
+    Option(help='Likewise, as "0.1N..10N" or "10um..100um"; those of the scene if load and depth are absent.'),
+]
+Draws = Annotated[int | None, Option(help="Rough surfaces, and as many profiles; 8 if absent.", parser=number)]
+
+# Studies, diagrams and stored values.
+StudyName = Annotated[
+    File | None,
+    Argument(
+        help="Name of a study, or file of your own study (TOML); if absent, a table of the studies is printed.",
+        autocompletion=studies,
+    ),
+]
+Diagram = Annotated[
+    Literal["models", "surfaces", "all"] | None,
+    Argument(help="Name of a diagram, or all; if absent, a table of the diagrams is printed."),
+]
+Baseline = Annotated[
+    File | None,
+    Option(help="File of stored values (TOML); if absent, the values that come with the package."),
+]
+Update = Annotated[bool, Option("--update", help="Store the values that have changed.")]
+
+# Measured tables and surfaces.
+Table = Annotated[
+    Measurements,
+    Argument(
+        help="CSV file, a measurement a line: friction mu, normal force F_N [N], speed v [m/s]. A heading may give"
+        " another order and other units, as F_N [mN]; friction force F_T in place of mu; temperature T [degC]."
+    ),
+]
+Tolerance = Annotated[
+    float,
+    Option(
+        help="Loads that differ by less, relative, are one load, and so are speeds; their lines are repeats.",
+        parser=number,
+    ),
+]
+ShiftC1 = Annotated[
+    float | None,
+    Option(
+        help="Constant of WLF, by which temperatures are shifted along the speed; if absent, shifts are found.",
+        parser=number,
+    ),
+]
+ShiftC2 = Annotated[Amount | None, Option(help='Constant of WLF, as "101.6 K".')]
+ShiftReference = Annotated[Amount | None, Option(help='Temperature at which c1 and c2 are stated, as "20 degC".')]
+HeightMap = Annotated[
+    Surface,
+    Argument(
+        help="Map of heights: .npy, .npz, .csv, .txt, .tsv, .xyz, or any format that SurfaceTopography reads."
+    ),
+]
+Pixel = Annotated[
+    Sides | None,
+    Option(
+        help='Side of a pixel with its unit, as "1 um". Give it twice, along x and along y, if the sides differ.'
+        " Needed if the file states none."
+    ),
+]
+LengthUnit = Annotated[
+    Literal["m", "mm", "um", "nm"] | None,
+    Option(help="Unit of the heights. Needed if the file states none."),
+]
+Channel = Annotated[str | None, Option(help="Name of the map to take, of a file that holds several."), TEXT]
+Crop = Annotated[
+    Amounts | None,
+    Option(
+        help='Part to keep: give it four times, x from, x to, y from, y to, as "10 um", from the corner of the'
+        " map."
+    ),
+]
+Outliers = Annotated[
+    float | None,
+    Option(
+        help="Heights so many robust standard deviations off the median around them are filled in, 3 or more.",
+        parser=number,
+    ),
+]
+Missing = Annotated[
+    Literal["refuse", "fill"],
+    Option(help="fill fills in missing heights, at most 5 % of the pixels; refuse makes them an error."),
+]
+Level = Annotated[
+    Literal["mean", "tilt", "curvature", "cubic"] | None,
+    Option(
+        help="What is subtracted first: mean, tilt (a plane), curvature (a form of second degree) or cubic (of"
+        " third); if absent, tilt, and mean of a periodic map."
+    ),
+]
+ShortestKept = Annotated[Amount | None, Option(help='Leave out waves shorter than this, as "5 um".')]
+Repeat = Annotated[
+    Literal["mirror", "periodic"],
+    Option(help="How the map continues beyond its sides."),
+]
+Peaks = Annotated[
+    Literal["up", "down"],
+    Option(help="up if the heights grow towards the elastomer, down if they grow away from it."),
+]
+
+# Files that are read and written.
+Folder = Annotated[File, Argument(help="Folder that a command has written, or its results.nc for export.")]
+ModulusFigure = Annotated[
+    File | None,
+    Option(
+        help="File (.png, .pdf or .svg) for the shear moduli G', G'' of the solid; if absent, they are not drawn."
+    ),
+]
+ReadyName = Annotated[
+    str,
+    Argument(help="Ready scene or study, see crosscheck scenes.", autocompletion=copies),
+    TEXT,
+]
+NewFile = Annotated[
+    File | None,
+    Argument(help="File to write; if absent, NAME.toml. A file that exists is never overwritten."),
+]
+Kind = Annotated[
+    Literal["scene", "study", "answers"],
+    Argument(
+        help="scene or study, by which editors complete and check TOML; answers, the form of what --json prints."
+    ),
+]
+SchemaFile = Annotated[File | None, Option(help="File to write as well; if absent, none.")]
+Journal = Annotated[
+    Literal[
+        "default",
+        "acs",
+        "aip",
+        "aps",
+        "elsevier",
+        "ieee",
+        "iop",
+        "nature",
+        "royal-society",
+        "sage",
+        "springer",
+        "taylor-francis",
+        "wiley",
+    ]
+    | None,
+    Option(help="Journal or publisher that sets column widths, smallest text and thinnest lines."),
+]
+Style = Annotated[
+    StyleLike | None,
+    Option(help="Your own matplotlib style: a .mplstyle file or the name of a style."),
+]
+Width = Annotated[
+    Amount | None,
+    Option(
+        help="Width of a column, as 84mm, from 80 mm to 200 mm; figures across the page grow or shrink with it."
+        " That of the journal if absent."
+    ),
+]
+ExportFormat = Annotated[
+    str | None,
+    Option(
+        help="File formats, separated by commas: csv (every digit, units in the heading), vtk (surfaces for"
+        " ParaView, which takes the extra vtk), png, pdf, svg (figures). If absent, csv; with a journal, a style"
+        " or a width, png,pdf,svg."
+    ),
+    TEXT,
+]
+FilesFolder = Annotated[
+    File | None, Option(help="Folder for the files; if absent, `tables` and `figures` in the folder.")
+]

@@ -1,0 +1,116 @@
+"""What a person sees of a run: a bar for each phase, the time left, and lines where there is no terminal."""
+
+import io
+from dataclasses import replace
+from operator import itemgetter
+from types import SimpleNamespace
+
+import pytest
+from rich.console import Console
+from stand_in_solver import Stand, loads
+
+from compare.solving.outcome import Outcome, Row
+from compare.solving.terminal import PAUSE, Shown
+
+ANSWER = Outcome((Row(1.0),))
+
+
+class Seen(Shown):
+    """What is shown on a console, by a clock that is set; no thread draws."""
+
+    now = 0.0
+
+    def __init__(self, lines=False, **console):
+        self.file = io.StringIO()
+        super().__init__(lines, Console(file=self.file, color_system=None, width=70, **console), lambda: self.now)
+        self.bar.live.auto_refresh = False
+
+    def solve(self, *tasks, seconds):
+        """Solve tasks one by one, each in so many seconds; yields after each start and each end."""
+        with self.solving():
+            self.planned(tasks, 1)
+            for task in tasks:
+                self.started(task)
+                yield self.bar.live.refresh()
+                self.now += seconds
+                self.finished(task, ANSWER)
+                yield self.bar.live.refresh()
+
+
+def test_each_phase_has_its_bar_which_says_what_it_waits_for_and_grows_with_the_work_that_is_done():
+    phases = []
+
+    def look(*_):
+        (row,) = shown.bar.tasks
+        phases.append((row.description, row.total and row.percentage))
+
+    with Seen(force_terminal=True, force_interactive=True) as shown:
+        look()
+        for _ in shown.solve(*loads(100.0, 25.0), seconds=100.0):
+            look()
+        look()
+        with shown.writing(2) as drawn:
+            look(drawn("one"))
+        look()
+    assert phases == [
+        *(("preparing", None), ("compiling", None), ("solving", 80.0), ("solving", 80.0), ("solving", 100.0)),
+        *(("judging", None), ("drawing", 50.0), ("writing", None)),
+    ]
+    said = shown.file.getvalue()
+    assert "1/2, 25 s left, stand sphere…" in said  # cut off where there is no room
+    assert "2 tasks solved, 1 reused, 3 min 20 s" in said
+
+
+def test_the_time_left_does_not_jump_as_workers_start_and_compile():
+    """Two workers: the first task of each takes 20 s more, then tasks take 9 s and 2 s in turn."""
+    shown, told, under_way = Seen(), [], []
+    tasks = [replace(task, work=1.0) for task in loads(*map(float, range(1, 43)))]
+    shown.planned(tasks, 0)
+    waiting = [*zip([29.0, 22.0, *[9.0, 2.0] * 20], tasks, strict=True)]
+    while waiting or under_way:
+        while waiting and len(under_way) < 2:
+            seconds, task = waiting.pop(0)
+            shown.started(task)
+            under_way.append((shown.now + seconds, task))
+        under_way.sort(key=itemgetter(0))
+        shown.now, task = under_way.pop(0)
+        shown.finished(task, ANSWER)
+        left = sum(seconds for seconds, _ in waiting) + sum(end - shown.now for end, _ in under_way)
+        told.append((shown.tasks.seconds(), left / 2))
+    assert all(said == pytest.approx(left, rel=0.4, abs=3.0) for said, left in told[5:])
+
+
+def test_a_log_has_one_line_every_ten_seconds_and_nothing_that_moves_a_cursor():
+    with Seen() as shown:
+        [*shown.solve(*loads(*[1.0] * 30), seconds=1.0)]
+        for _ in range(2):
+            shown.now += PAUSE
+            shown.bar.live.refresh()
+    assert [line.split(",")[0] for line in shown.file.getvalue().splitlines()] == [
+        *("solving 10/30", "solving 20/30", "solving 30/30", "30 tasks solved", "judging", "judging")
+    ]
+
+
+def test_in_lines_each_solve_and_each_figure_has_one_that_controls_no_terminal():
+    with Seen(lines=True, force_terminal=True) as shown:
+        [*shown.solve(*loads(1.0, solver=Stand(name="\x1b[31m")), seconds=2.0)]
+        with shown.writing(1) as drawn:
+            drawn("friction")
+    assert shown.file.getvalue().splitlines() == [
+        "1/1, solved \\x1b[31m sphere 1 N, at rest, smooth",
+        "1 tasks solved, 1 reused, 2 s",
+        "  figure friction",
+    ]
+
+
+def test_a_notebook_has_one_output_with_the_lines_and_a_bar_below_them(monkeypatch):
+    outputs, states = [], []
+    output = SimpleNamespace(update=states.append)
+    display = pytest.importorskip("IPython.display")
+    monkeypatch.setattr(display, "display", lambda display_id: outputs.append(output) or output)
+    with Seen(force_jupyter=True) as shown:
+        [*shown.solve(*loads(1.0, 2.0), seconds=2.0)]
+    printed = [(seen := Seen()).console.print(each) or seen.file.getvalue() for each in states]
+    assert len(outputs) == 1
+    assert any("solving" in each for each in printed)
+    assert "2 tasks solved, 1 reused, 4 s" in printed[-1]
