@@ -179,12 +179,3 @@ def test_an_interval_is_a_share(interval, tmp_path):
 def test_draws_and_an_interval_are_not_both_given(tmp_path):
     with pytest.raises(InvalidInput, match="draws, interval: both given"):
         compare.sweep(CASE, [0.1], draws=3, interval="2%", output=tmp_path / "none")
-
-
-@pytest.mark.slow
-def test_digits_do_not_depend_on_the_number_of_workers(tmp_path):
-    one, two = (
-        compare.sweep(CASE, [0.1, 1.0], interval="15%", output=tmp_path / str(count), workers=count, report=False)
-        for count in (1, 2)
-    )
-    xarray.testing.assert_identical(one.drop_vars("seconds"), two.drop_vars("seconds"))

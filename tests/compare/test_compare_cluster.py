@@ -14,7 +14,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
-from processes import PATIENCE, finish, start, stored_so_far, wait_for
+from processes import finish, start, stored_so_far, wait_for
 from stand_in_solver import Heard, Stand, loads
 
 from compare.solving import cluster as cluster_module
@@ -300,14 +300,6 @@ def test_whatever_answers_that_is_no_scheduler_is_named_within_seconds(said, str
     assert not len(Store(tmp_path))
 
 
-def test_nobody_and_a_worker_are_no_scheduler(cluster, tmp_path, monkeypatch):
-    monkeypatch.setattr(cluster_module, "ANSWERS", 0.5)
-    worker = next(iter(cluster.scheduler_info["workers"]))
-    for address, why in {"tcp://127.0.0.1:9": "", worker: "another program answers there"}.items():
-        with pytest.raises(ConnectionError, match=f"^{address} is no scheduler of dask that answers .*: {why}"):
-            sweep(loads(1.0), Store(tmp_path), scheduler=address)
-
-
 @pytest.mark.parametrize(("seconds", "why"), [(0, "gaierror no host has this name"), (2, "TimeoutError")])
 def test_a_name_is_looked_for_as_long_as_a_scheduler(seconds, why, tmp_path, monkeypatch):
     def unknown(*_, **__):
@@ -339,17 +331,6 @@ def test_an_interrupt_ends_the_wait_for_a_silent_scheduler_at_once(strange, tmp_
     finally:
         signal.signal(signal.SIGTERM, before)
     assert time.monotonic() - start < cluster_module.ANSWERS / 2
-
-
-@pytest.mark.slow
-def test_a_command_ends_as_soon_as_it_knows_that_there_is_no_scheduler(strange, tmp_path):
-    heard = threading.Event()
-    process, _ = command(tmp_path, strange(None, then=heard.set))
-    assert heard.wait(PATIENCE)
-    since = time.monotonic()
-    status, said, told = finish(process)
-    assert (status, said, told.count("\n")) == (1, "", 1)
-    assert time.monotonic() - since < 2 * cluster_module.ANSWERS
 
 
 def test_a_scheduler_that_stands_still_is_lost(monkeypatch):
