@@ -149,8 +149,8 @@ def _shown(progress: bool | str | Shown | None) -> AbstractContextManager[Shown 
     return nullcontext(progress) if isinstance(progress, Shown) else Shown(lines=progress == "lines")
 
 
-def _warn(sentences: Sequence[str]) -> None:
-    """Warn Doubtful of each sentence, as from the line that called a function of this module.
+def _warn(messages: Sequence[str | Warning]) -> None:
+    """Warn of each message, Doubtful if it is a text, as from the line that called a function of this module.
 
     Each function is called by `checked`, whose frames are passed over too.
     """
@@ -160,7 +160,7 @@ def _warn(sentences: Sequence[str]) -> None:
     level = 1
     while frame is not None and frame.f_globals.get("__name__") in (__name__, checked.__module__):
         level, frame = level + 1, frame.f_back
-    for each in sentences:
+    for each in messages:
         warnings.warn(each, Doubtful, stacklevel=level)
 
 
@@ -405,7 +405,7 @@ def sweep(
     asked = {"scene": scene, "speed": speed, "load": load, "depth": depth, "draws": draws}
     compared = {"models": models, "reference": reference, "interval": interval}
     report = swept(output, budget, **asked, **compared, **options)
-    griderror.warn(report.answers)
+    _warn(griderror.warnings_of(report.answers))
     return cast("Sweep", report.study).dataset(report.answers)
 
 

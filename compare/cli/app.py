@@ -155,7 +155,7 @@ def crosscheck(
         bool, Option("--version", callback=_version, is_eager=True, help="Print the version.")
     ] = False,
 ) -> None:
-    """How far the one-dimensional method can be trusted for rough, viscoelastic contacts."""
+    """Measure how far the one-dimensional method can be trusted for rough, viscoelastic contacts."""
 
 
 def main() -> None:

@@ -1,6 +1,5 @@
 """Error of friction that grids leave, as the solved contacts state it: a sentence, first where it is much."""
 
-import warnings
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
@@ -63,11 +62,10 @@ def told(answers: "xarray.DataTree", sentences: Sequence[str]) -> list[str]:
     return [*own, *sentences] if much(bounds) else [*sentences, *own]
 
 
-def warn(answers: "xarray.DataTree", level: int = 2) -> None:
-    """Warn UncertainFriction where it is much."""
+def warnings_of(answers: "xarray.DataTree") -> list[Warning]:
+    """UncertainFriction where it is much; empty elsewhere."""
     bounds = stated(answers)
-    if much(bounds):
-        warnings.warn(sentence(bounds), UncertainFriction, stacklevel=level + 1)
+    return [UncertainFriction(sentence(bounds))] if much(bounds) else []
 
 
 def _percent(share):

@@ -5,11 +5,14 @@ from pathlib import Path
 
 import answers
 import numpy as np
+import pandas
 import pictures
 import pytest
 import trust
+import verify
 
 from bem3d import BEM
+from compare.solving.amounts import interval
 from mdr1d import MDR
 from scene import (
     CrossedWaves,
@@ -94,3 +97,13 @@ def test_a_picture_shows_the_numbers_of_the_table_on_its_page():
     (drawn,) = (line for line in pictures.benchmark().axes[0].lines if line.get_label() == "tamaas")
     assert list(drawn.get_xdata()) == [float(points) for points, _ in rows]
     assert list(drawn.get_ydata()) == [float(seconds) for _, seconds in rows]
+
+
+def test_pages_without_a_command_have_the_numbers_of_stored_findings():
+    results = ROOT / "docs" / "results"
+    found = pandas.read_csv(results / "paper" / "findings.csv")
+    shown = re.findall(r"[−\d.]+ \([−\d.]+ to [−\d.]+\)", (results / "paper.md").read_text(encoding="utf-8"))
+    stored = {interval(row.value, row.low, row.high) for row in found.itertuples()}
+    assert len(shown) > 10
+    assert set(shown) <= stored
+    assert verify.PAGE.read_text(encoding="utf-8").endswith(verify.hard())

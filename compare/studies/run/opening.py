@@ -50,7 +50,7 @@ def _number(factor, found, unit):
 
 
 def _apart(label: str, ratio: Finding, reference: str) -> str:
-    """How far a model is from the reference."""
+    """Say how far a model is from the reference."""
     low, high = ratio.interval
     if not (low > 0 and isfinite(high)):
         return f"how far {label} is off is not known"
