@@ -130,6 +130,7 @@ def test_the_fit_scales_with_heights_and_lengths(factor):
     assert other.rms_height.value == pytest.approx(factor * law.rms_height.value, rel=1e-9)
     assert other.rms_slope.value == pytest.approx(3 * factor * law.rms_slope.value, rel=1e-9)
     assert other.rolloff.high == pytest.approx(law.rolloff.high / 3, rel=1e-9)
+    assert 0 < other.beyond == pytest.approx(law.beyond, rel=1e-9)
 
 
 def test_the_surface_is_that_of_the_law_up_to_the_length_of_the_line():
