@@ -183,6 +183,14 @@ def test_a_law_takes_four_rings():
         fit(three, three, three, np.array([0.5, 1.5, 3.0, 6.0]))
 
 
+def test_the_band_of_a_law_has_a_third_of_the_rings():
+    edges = np.geomspace(1.0, 2.0**15, 16)
+    q = np.sqrt(edges[1:] * edges[:-1])
+    law = fit(q, np.minimum(1.0, (q / q[12]) ** -3), np.full(15, 1e3), edges)  # it falls over three rings alone
+    assert law.longest == pytest.approx(2 * pi / q[10])
+    assert law.shortest == pytest.approx(2 * pi / edges[15])
+
+
 CHECKERS = np.indices((8, 8)).sum(axis=0) % 2
 NO_WAVE = "no wave of the map is shorter than"
 
