@@ -50,6 +50,21 @@ EQUIVALENT = {
         "2 * half[s] + 1",
         "(2 * half[s])",
     ): "the last node is a margin that no contact reaches",
+    ("compare/statistics/commoncurve.py", "1e-12", "(2e-12)"): "singular values are of order one, or of rounding",
+    ("bem3d/convolution.py", "kernels[0]", "(kernels[1])"): "only the shape is read, and all kernels have one",
+    ("scene/interconversion.py", "excess > 0", "(excess >= 0)"): "without an excess the root is found",
+    ("mdr1d/elements.py", "r[j] > 0.0", "(r[j] >= 0.0)"): "an element without a stretch relaxes without heat",
+    (
+        "bem3d/topography.py",
+        "abs(along_x / along_y - 1) > SQUARE",
+        "(abs(along_x / along_y - 1) >= SQUARE)",
+    ): "the number is one of rounding",
+    ("compare/statistics/spectra.py", "slope > STEEP", "(slope >= STEEP)"): "the number is a round one of order",
+    (
+        "scene/stylus.py",
+        "abs(float(METRE.scale(written)[0]) - metre) > 1e-9 * metre",
+        "(abs(float(METRE.scale(written)[0]) - metre) >= 1e-09 * metre)",
+    ): "the number is one of rounding",
 }
 
 
