@@ -1,16 +1,12 @@
 """The foundation of the flow: what sinks it, what it gives back, and how few products a sliding contact takes."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from solids import SOLIDS
 
 from bem3d import BEM, kernels
-from bem3d.engine import Engine
 from bem3d.foundation import MERGED, Foundation
 from bem3d.grid import Grid
-from bem3d.problem import Problem
 from bem3d.sliding import Flow
 from scene import Kelvin, Prony, Scene, SelfAffine, Slide, Sphere, StandardLinearSolid
 
@@ -122,20 +118,6 @@ def test_modes_that_last_about_as_long_are_one_and_nothing_is_lost():
     assert len(foundation.kept) == 2
     np.testing.assert_allclose(np.sum(foundation.gained / (1 - foundation.kept)), 0.8, rtol=1e-12)
     assert Foundation.of(Flow.of(SOLIDS["kelvin"], 0.0), GRID) is None
-
-
-def test_a_finer_grid_starts_with_its_foundation_sunk_as_much():
-    scene = Scene(Sphere(1e-2), SOLIDS["kelvin"], Slide(speed=1.0, depth=1e-4))
-    coarse = Grid(32, 3e-3)
-    fine, problem = replace(coarse, points=64), Problem(scene, Engine())
-    pressure = np.maximum(1 - (coarse.x**2 + coarse.y[:, None] ** 2) / 1e-6, 0.0)
-    sunk = pressure.copy()
-    taken = problem.start(coarse, pressure).on(fine, problem.medium.foundation(fine))
-    kernels.sink(sunk, problem.medium.foundation(coarse))
-    there = taken > 0
-    kernels.sink(taken, problem.medium.foundation(fine))
-    assert np.count_nonzero(there) > 1000
-    np.testing.assert_allclose(taken[there], fine.resample(sunk, coarse)[there], rtol=1e-9)
 
 
 # Those of 300 scenes drawn at random, at 256² and at 512², that took most, and quick ones beside.

@@ -18,7 +18,7 @@ from bem3d.history import _Mirrored
 from bem3d.marching import march
 from bem3d.problem import Problem
 from bem3d.timeline import timeline
-from bem3d.upstream import Endless, Repeating, Returning, Sheet
+from bem3d.upstream import Endless, Returning, Sheet
 from compare.models.exact import full_contact
 from scene import (
     CrossedWaves,
@@ -251,16 +251,6 @@ def test_columns_that_come_back_bring_what_they_had_beyond_the_wider_sheets_and_
     assert (len(behind[1]), len(behind[-1])) == (0, 5)
     around.follow(-5.0, 45.0)
     assert len(behind[-1]) == 3
-
-
-def test_a_repeating_surface_wraps_round_both_ways():
-    window = Sheet(Grid(8, 8.0), 1)
-    window.fields[:] = np.arange(8)
-    around = Repeating(window)
-    around.follow(3.0, 0.0)
-    assert list(window.fields[0, 0]) == [5, 6, 7, 0, 1, 2, 3, 4]
-    around.follow(-1.0, 0.0)
-    assert list(window.fields[0, 0]) == [1, 2, 3, 4, 5, 6, 7, 0]
 
 
 HARD = {
