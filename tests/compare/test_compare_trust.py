@@ -324,7 +324,7 @@ def test_it_says_where_the_scene_lies_and_what_was_measured_near_it():
 
 
 def test_waves_in_full_contact_have_the_friction_and_pressure_of_those_that_surface_and_line_are_drawn_from():
-    """Each summed where the group integrates: cells of a lattice are 2 % of a surface, 5 % of the 32 waves of a line.
+    """Each summed where the group integrates: cells are 2 % of a surface, and 5 % of the 32 waves of a line.
 
     Of a line F_x = sum q A^2 / 2 Im E*, and the mean square force is sum A^2 / 2 |E*|^2 a length.
     """
