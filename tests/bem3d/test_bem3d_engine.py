@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
-from bem3d import BEM, influence, kernels
+from bem3d import BEM, cerruti, influence, kernels
 from bem3d.convolution import FreeConvolution, PeriodicFilter
 from bem3d.engine import Engine
+from bem3d.grid import Grid
 from scene import Kelvin, Plane, Scene, SelfAffine, Slide, Sphere
 
 ROUNDING = 1e-12
@@ -16,10 +17,13 @@ BODY = Scene(Sphere(1e-2), Kelvin(1e6, 1e-3), Slide(speed=0.1, load=0.1))
 
 
 def products(engine):
-    """A convolution in flow and a filter, on sides that are even, odd and prime."""
+    """A convolution in flow and a filter, on sides that are even, odd and prime, and pairs of planes."""
     for ny, nx in ((16, 16), (17, 12), (1, 31)):
         yield (ny, nx), FreeConvolution.of(influence.retarded(nx, ny, 3.0, 0.25), engine)
         yield (ny, nx), PeriodicFilter((ny, nx), lambda q_y, q_x: (1 + q_y**2) / (1 + 1j * q_x), engine)
+    for points in (16, 17):
+        for kind in (cerruti.free, cerruti.periodic):
+            yield (2, points, points), kind(Grid(points, 1.0), 0.3, engine)
 
 
 @pytest.mark.parametrize(

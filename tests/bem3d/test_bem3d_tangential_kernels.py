@@ -67,22 +67,6 @@ def test_on_odd_grids_the_approximate_inverse_of_a_cell_is_exact():
     np.testing.assert_allclose(image, given, atol=ROUNDING * 10)
 
 
-@pytest.mark.parametrize(
-    ("other", "accuracy", "points"),
-    [
-        (Engine("fftw"), ROUNDING, 16),
-        (Engine("fftw"), ROUNDING, 17),
-        (Engine(precision="single"), SINGLE, 17),
-    ],
-)
-def test_every_library_gives_the_same_pairs(other, accuracy, points):
-    given, grid = tractions(points), Grid(points, 1.0)
-    for kind in (cerruti.free, cerruti.periodic):
-        expected = kind(grid, NU, Engine())(given)
-        found = kind(grid, NU, other)(given)
-        np.testing.assert_allclose(found, expected, atol=accuracy * np.abs(expected).max())
-
-
 def whole(planes, symbols, padded):
     """Planes through a matrix of symbols, by one transform of each padded plane each way.
 

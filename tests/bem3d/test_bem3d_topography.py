@@ -12,7 +12,7 @@ from bem3d import BEM
 from bem3d.engine import Engine
 from bem3d.grid import Grid
 from bem3d.problem import Problem
-from bem3d.surface import MOST_WAVES, RoughSurface
+from bem3d.surface import RoughSurface
 from scene import (
     Arrhenius,
     Coulomb,
@@ -147,18 +147,6 @@ def test_rectangles_are_roughness_but_no_cell():
     assert answer.normal_force == pytest.approx(0.1)
     with pytest.raises(Refused, match="cell of a Plane is a square: crop"):
         BEM(points=64).solve(replace(PRESSED, roughness=map_))
-
-
-def test_more_waves_than_fit_are_refused_before_they_are_built(monkeypatch):
-    monkeypatch.setattr(scene.topography, "_waves", lambda *_: pytest.fail("waves were built"))
-    map_ = Topography(heights=np.eye(4, MOST_WAVES + 2), pixel=1e-6)
-    refused = f"roughness = Topography has {MOST_WAVES + 1} waves a side, {MOST_WAVES} fit in memory: crop the map"
-    for body, motion in ((BALL, SLIDING.motion), (Plane(), PRESSED.motion)):
-        asked = Scene(body, SOLID, motion, map_)
-        with pytest.raises(Refused, match=refused):
-            BEM(points=32).solve(asked)
-        with pytest.raises(Refused, match=refused):
-            BEM(points=32).plan(asked)
 
 
 def test_a_grid_too_coarse_for_a_map_is_refused():

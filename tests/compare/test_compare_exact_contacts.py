@@ -7,7 +7,7 @@ import pytest
 
 from compare.models.exact import foundation, full_contact, indentation, line_contact, waves
 from mdr1d import MDR
-from scene import Cone, Kelvin, PowerLaw, Prony, Scene, Slide, Sphere, StandardLinearSolid
+from scene import Cone, Kelvin, KelvinChain, PowerLaw, Prony, Scene, Slide, Sphere, StandardLinearSolid
 
 # Sums and powers of a few numbers.
 ROUNDING = 1e-12
@@ -178,3 +178,13 @@ SPHERE = Sphere(radius=1.0)
 def test_what_has_no_closed_form_is_named(form, given, named):
     with pytest.raises(ValueError, match=named):
         form(*given)
+
+
+def test_dashpot_of_a_kelvin_body_adds_its_rate():
+    """F = B E* (d^m + tau d(d^m)/dt) while the contact grows."""
+    force = indentation.loading_force(Sphere(radius=1.0), RUBBER, [0, 2.0], [0, 0.2], [0.5, 2.0])
+    d = np.array([0.05, 0.2])
+    assert force == pytest.approx(4 / 3 * (d**1.5 + 0.3 * 1.5 * np.sqrt(d) * 0.1), rel=1e-12)
+    chain = KelvinChain(instantaneous_compliance=0.0, compliances=(4.0,), retardation_times=(0.3,))
+    again = indentation.loading_force(Sphere(radius=1.0), chain, [0, 2.0], [0, 0.2], [0.5, 2.0])
+    assert again == pytest.approx(force, rel=1e-12)

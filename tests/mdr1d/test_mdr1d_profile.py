@@ -20,7 +20,6 @@ from scene import (
     Scene,
     SelfAffine,
     Slide,
-    SolveError,
     Sphere,
     StandardLinearSolid,
 )
@@ -177,18 +176,6 @@ def test_scenes_of_one_body_share_its_profile_and_no_result_changes_that_of_anot
     assert MDR(points=1000).solve(slow).depth == depth
     with pytest.raises(ValueError, match="read-only"):
         map_profile(slow, grid).heights[0] = 0.0
-
-
-def test_an_extent_that_a_contact_leaves_is_foreseen_with_one_that_holds_it():
-    scene = Scene(Sphere(1e-2), Elastic(1e6), Indent(load=1.0))
-    (reason,) = MDR(points=500, extent=2e-3).foreseen(scene)
-    with pytest.raises(SolveError, match="the contact leaves the grid"):
-        MDR(points=500, extent=2e-3).solve(scene)
-    extent, points = re.search(r"extent = ([\d.e-]+) holds it, with points = (\d+)", reason).groups()
-    wider = MDR(points=int(points), extent=float(extent))
-    assert wider.foreseen(scene) == []
-    assert wider.solve(scene).normal_force == pytest.approx(1.0)
-    assert MDR(points=500).foreseen(scene) == []
 
 
 def test_points_and_waves_that_a_refusal_names_do_for_other_draws_too():
