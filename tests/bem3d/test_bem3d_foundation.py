@@ -46,39 +46,6 @@ def test_a_foundation_that_is_pushed_back_had_that_pressure(flow, wraps):
     assert released == pytest.approx(sunk, abs=1e-9)  # where nothing presses it is the surface that was
 
 
-def by_columns(plane, contact, at_once, kept, gained, states, what, least):
-    """What the compiled loop of `kernels` does, column by column downstream."""
-    for x in range(plane.shape[1]):
-        states *= kept[:, None]
-        known, given = states.sum(axis=0), plane[:, x].copy()
-        if what == kernels.SINK:
-            pressure = given
-            plane[:, x] = known + at_once * pressure
-        else:
-            pressure = np.where(contact[:, x], np.maximum((given - known) / at_once, least), 0.0)
-            plane[:, x] = pressure if what == kernels.PUSH else np.where(contact[:, x], given, known)
-        states += gained[:, None] * pressure
-
-
-@pytest.mark.parametrize("wraps", [False, True])
-@pytest.mark.parametrize("flow", CASES)
-def test_loops_say_what_whole_arrays_say(flow, wraps, monkeypatch):
-    foundation, (contact, values) = Foundation.of(flow, GRID, wraps), drawn()
-
-    def marched():
-        sunk, released, pushed, pressed = (values.copy() for _ in range(4))
-        kernels.sink(sunk, foundation)
-        kernels.release(released, contact, foundation)
-        kernels.push(pushed, contact, foundation)
-        kernels.push(pressed, contact, foundation, least=0.0)
-        return sunk, released, pushed, pressed
-
-    loops = marched()
-    monkeypatch.setattr(kernels, "_lap", by_columns)
-    for loop, arrays in zip(loops, marched(), strict=True):
-        np.testing.assert_allclose(loop, arrays, rtol=1e-9, atol=1e-9 * np.abs(arrays).max())
-
-
 def test_a_step_of_pressure_sinks_as_the_solid_creeps():
     flow = Flow.of(SOLIDS["standard"], 5.0)
     foundation, plane = Foundation.of(flow, GRID), np.ones((1, POINTS))
