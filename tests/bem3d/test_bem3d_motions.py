@@ -125,6 +125,7 @@ def test_after_a_reversal_friction_comes_to_minus_that_of_steady_sliding(indente
     # two discretisations: in the indenter's frame, and on material pixels held for a step
     assert result.friction_force == pytest.approx(-steady.friction_force, rel=5e-3)
     assert result.normal_force == pytest.approx(steady.normal_force, rel=1e-3)
+    assert result.depth == pytest.approx(steady.depth, rel=5e-3)
     assert result.measures["friction_by_work"] == pytest.approx(result.friction_force, rel=1e-2)
     turned = np.searchsorted(result.fields["path"][: np.argmax(result.fields["path"])], 5.7 * length)
     assert result.fields["friction_force"][turned] == pytest.approx(steady.friction_force, rel=5e-3)
