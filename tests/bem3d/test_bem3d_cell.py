@@ -130,15 +130,6 @@ def test_friction_of_a_rough_plane_converges_and_its_disagreement_says_how_far()
     assert fine.measures["friction_disagreement"] < 0.3 * middle.measures["friction_disagreement"]
 
 
-def test_one_transform_over_a_period_is_the_sum_of_its_waves():
-    surface = RoughSurface.of(ROUGH, ROUGH.q_max(0.0))
-    x, y = np.arange(65) * ROUGH.longest / 65 + 1.3e-4, np.arange(64) * ROUGH.longest / 64 - 2e-5
-    # without the last column it is no period any more
-    np.testing.assert_allclose(
-        surface.heights(x, y)[:, :-1], surface.heights(x[:-1], y), atol=1e-12 * ROUGH.rms_height
-    )
-
-
 @pytest.mark.parametrize(
     ("motion", "error", "said"),
     [

@@ -1,11 +1,12 @@
-"""Every library transforms alike, and every compiled loop is what whole arrays say."""
+"""Products are plain sums, whatever the grid and library; every compiled loop is what whole arrays say."""
 
 import numpy as np
 import pytest
 
-from bem3d import BEM, influence, kernels
-from bem3d.convolution import FreeConvolution, PeriodicFilter
+from bem3d import BEM, cerruti, influence, kernels
+from bem3d.convolution import FreeConvolution, PeriodicFilter, autocorrelation
 from bem3d.engine import Engine
+from bem3d.grid import Grid
 from scene import Kelvin, Plane, Scene, SelfAffine, Slide, Sphere
 
 ROUNDING = 1e-12
@@ -16,10 +17,13 @@ BODY = Scene(Sphere(1e-2), Kelvin(1e6, 1e-3), Slide(speed=0.1, load=0.1))
 
 
 def products(engine):
-    """A convolution in flow and a filter, on sides that are even, odd and prime."""
+    """A convolution in flow and a filter, on sides that are even, odd and prime, and pairs of planes."""
     for ny, nx in ((16, 16), (17, 12), (1, 31)):
         yield (ny, nx), FreeConvolution.of(influence.retarded(nx, ny, 3.0, 0.25), engine)
         yield (ny, nx), PeriodicFilter((ny, nx), lambda q_y, q_x: (1 + q_y**2) / (1 + 1j * q_x), engine)
+    for points in (16, 17):
+        for kind in (cerruti.free, cerruti.periodic):
+            yield (2, points, points), kind(Grid(points, 1.0), 0.3, engine)
 
 
 @pytest.mark.parametrize(
@@ -37,7 +41,8 @@ def test_every_library_gives_the_same_products(other, accuracy):
         plane, out = rng.standard_normal(shape), np.empty(shape)
         expected = product(plane)
         np.testing.assert_allclose(another(plane), expected, rtol=0, atol=accuracy * np.abs(expected).max())
-        assert product(plane, out) is out
+        for each in (another, product):
+            assert each(plane, out) is out
         np.testing.assert_array_equal(out, expected)
 
 
@@ -95,3 +100,45 @@ def test_single_precision_keeps_five_digits_of_friction(scene):
 def test_single_precision_cannot_be_asked_for_more_than_it_has():
     with pytest.raises(ValueError, match="1e-07 cannot be reached in single precision: at least 1e-05"):
         BEM(precision="single", tolerance=1e-7)
+
+
+SHAPES = [(8, 8), (7, 11), (13, 6), (1, 5)]
+
+
+@pytest.mark.parametrize("even", [False, True])
+@pytest.mark.parametrize(("ny", "nx"), SHAPES)
+def test_product_equals_the_direct_sum_without_wrapping_around(ny, nx, even):
+    rng = np.random.default_rng(1)
+    kernel, pressure = rng.random((ny, 2 * nx)), rng.random((ny, nx))
+    if even:
+        kernel[:, 1:nx] = kernel[:, :nx:-1]
+    expected = np.zeros((ny, nx))
+    for row in range(ny):
+        for column in range(nx):
+            for j in range(ny):
+                for i in range(nx):
+                    expected[row, column] += kernel[abs(row - j), nx + column - i] * pressure[j, i]
+    convolution = FreeConvolution.of(kernel)
+    np.testing.assert_allclose(convolution(pressure), expected, rtol=ROUNDING)
+    np.testing.assert_allclose(convolution(2 * pressure), 2 * expected, rtol=ROUNDING)
+    assert convolution.operator_applications == 2
+
+
+@pytest.mark.parametrize(("ny", "nx"), SHAPES)
+def test_autocorrelation_is_the_direct_sum_over_pairs_of_points(ny, nx):
+    plane = np.random.default_rng(2).standard_normal((ny, nx))
+    expected = np.zeros((ny, nx))
+    for j in range(ny):
+        for i in range(nx):
+            here, aside, beyond = plane[: ny - j, : nx - i], plane[j:, i:], plane[j:, : nx - i]
+            expected[j, i] = np.sum(here * aside) + (np.sum(plane[: ny - j, i:] * beyond) if j else 0.0)
+    np.testing.assert_allclose(autocorrelation(plane), expected, atol=ROUNDING * nx * ny)
+
+
+def test_periodic_filter_multiplies_each_wave_by_its_symbol():
+    ny, nx = 12, 10
+    y, x = np.mgrid[:ny, :nx]
+    wave = np.cos(2 * np.pi * (3 * x / nx - 2 * y / ny))
+    filtered = PeriodicFilter((ny, nx), lambda q_y, q_x: q_x**2 + q_y**2 + 0j)(wave)
+    q2 = (2 * np.pi * 3 / nx) ** 2 + (2 * np.pi * 2 / ny) ** 2
+    np.testing.assert_allclose(filtered, q2 * wave, atol=ROUNDING)

@@ -1,16 +1,12 @@
 """The foundation of the flow: what sinks it, what it gives back, and how few products a sliding contact takes."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from solids import SOLIDS
 
 from bem3d import BEM, kernels
-from bem3d.engine import Engine
 from bem3d.foundation import MERGED, Foundation
 from bem3d.grid import Grid
-from bem3d.problem import Problem
 from bem3d.sliding import Flow
 from scene import Kelvin, Prony, Scene, SelfAffine, Slide, Sphere, StandardLinearSolid
 
@@ -48,39 +44,6 @@ def test_a_foundation_that_is_pushed_back_had_that_pressure(flow, wraps):
     released = np.where(contact, sunk, 7.0)
     kernels.release(released, contact, foundation)
     assert released == pytest.approx(sunk, abs=1e-9)  # where nothing presses it is the surface that was
-
-
-def by_columns(plane, contact, at_once, kept, gained, states, what, least):
-    """What the compiled loop of `kernels` does, column by column downstream."""
-    for x in range(plane.shape[1]):
-        states *= kept[:, None]
-        known, given = states.sum(axis=0), plane[:, x].copy()
-        if what == kernels.SINK:
-            pressure = given
-            plane[:, x] = known + at_once * pressure
-        else:
-            pressure = np.where(contact[:, x], np.maximum((given - known) / at_once, least), 0.0)
-            plane[:, x] = pressure if what == kernels.PUSH else np.where(contact[:, x], given, known)
-        states += gained[:, None] * pressure
-
-
-@pytest.mark.parametrize("wraps", [False, True])
-@pytest.mark.parametrize("flow", CASES)
-def test_loops_say_what_whole_arrays_say(flow, wraps, monkeypatch):
-    foundation, (contact, values) = Foundation.of(flow, GRID, wraps), drawn()
-
-    def marched():
-        sunk, released, pushed, pressed = (values.copy() for _ in range(4))
-        kernels.sink(sunk, foundation)
-        kernels.release(released, contact, foundation)
-        kernels.push(pushed, contact, foundation)
-        kernels.push(pressed, contact, foundation, least=0.0)
-        return sunk, released, pushed, pressed
-
-    loops = marched()
-    monkeypatch.setattr(kernels, "_lap", by_columns)
-    for loop, arrays in zip(loops, marched(), strict=True):
-        np.testing.assert_allclose(loop, arrays, rtol=1e-9, atol=1e-9 * np.abs(arrays).max())
 
 
 def test_a_step_of_pressure_sinks_as_the_solid_creeps():
@@ -122,20 +85,6 @@ def test_modes_that_last_about_as_long_are_one_and_nothing_is_lost():
     assert len(foundation.kept) == 2
     np.testing.assert_allclose(np.sum(foundation.gained / (1 - foundation.kept)), 0.8, rtol=1e-12)
     assert Foundation.of(Flow.of(SOLIDS["kelvin"], 0.0), GRID) is None
-
-
-def test_a_finer_grid_starts_with_its_foundation_sunk_as_much():
-    scene = Scene(Sphere(1e-2), SOLIDS["kelvin"], Slide(speed=1.0, depth=1e-4))
-    coarse = Grid(32, 3e-3)
-    fine, problem = replace(coarse, points=64), Problem(scene, Engine())
-    pressure = np.maximum(1 - (coarse.x**2 + coarse.y[:, None] ** 2) / 1e-6, 0.0)
-    sunk = pressure.copy()
-    taken = problem.start(coarse, pressure).on(fine, problem.medium.foundation(fine))
-    kernels.sink(sunk, problem.medium.foundation(coarse))
-    there = taken > 0
-    kernels.sink(taken, problem.medium.foundation(fine))
-    assert np.count_nonzero(there) > 1000
-    np.testing.assert_allclose(taken[there], fine.resample(sunk, coarse)[there], rtol=1e-9)
 
 
 # Those of 300 scenes drawn at random, at 256² and at 512², that took most, and quick ones beside.

@@ -1,7 +1,5 @@
 """Error of friction that an answer states: it holds, and friction that a grid does not tell is refused."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -12,11 +10,7 @@ from bem3d.grid import Grid
 from bem3d.spots import Spots
 from scene import (
     Cone,
-    Coulomb,
-    Elastic,
-    Indent,
     Kelvin,
-    Plane,
     PowerLaw,
     Scene,
     SelfAffine,
@@ -129,25 +123,6 @@ def test_the_error_that_is_stated_falls_with_the_pixel(solid, speed, rough):
     ]
     assert stated[1] < 0.5 * stated[0]
     assert 0 < stated[0] < 0.3
-
-
-@pytest.mark.parametrize(
-    "scene",
-    [
-        Scene(Sphere(radius=1e-2), KELVIN, Indent(load=1.0)),
-        slid(Sphere(radius=1e-2), 0.1, Elastic(1e6)),
-        Scene(Plane(), KELVIN, Indent(pressure=1e5), ROUGH),
-    ],
-)
-def test_where_nothing_is_lost_no_error_is_stated(scene):
-    assert "friction_error" not in BEM(points=32).solve(scene).measures
-
-
-def test_friction_of_the_interface_has_no_error_of_the_grid():
-    scene = slid(Sphere(radius=1e-2), 0.1)
-    bare, rubbed = (BEM(points=32).solve(replace(scene, interface=each)) for each in (None, Coulomb(0.3)))
-    absolute = [each.measures["friction_error"] * each.friction_force for each in (bare, rubbed)]
-    assert absolute[0] == pytest.approx(absolute[1], rel=1e-12)
 
 
 def test_units_and_loads_of_another_size_change_nothing():

@@ -7,7 +7,6 @@ import pytest
 from scipy.integrate import quad
 
 from bem3d import influence
-from compare.models.exact import line_contact
 
 KERNEL = 1e-9  # of the kernel's peak: the quadrature here; against panels in extended precision it is 1e-11
 ROUNDING = 1e-12
@@ -47,18 +46,6 @@ def test_retarded_kernel_is_the_elastic_one_remembered_along_the_flow(length):
             for piece in pairwise(breaks)
         )
         assert kernel[j, 16 + i] == pytest.approx(expected, abs=KERNEL * kernel.max())
-
-
-def test_retarded_kernel_tends_to_the_elastic_one_when_the_memory_is_short():
-    elastic = influence.elastic(16, 16)
-    retarded = influence.retarded(16, 16, 1e-8, 0.0)
-    np.testing.assert_allclose(retarded, elastic, rtol=1e-6)
-
-
-def test_far_downstream_a_short_memory_only_delays_the_elastic_kernel_by_its_length():
-    length = 0.5
-    delayed = influence.retarded(40, 4, length, 0.0)[0, 40 + 30]
-    assert delayed == pytest.approx(1 / np.pi / (30 - length), rel=2e-3)
 
 
 LENGTHS = np.geomspace(1e-4, 1e7, 12)
@@ -156,23 +143,3 @@ def test_a_strip_is_a_row_of_pixels_without_end():
 )
 def test_kernels_without_memory_of_direction_are_even_to_the_last_digit(kernel):
     np.testing.assert_array_equal(kernel[:, 151:], kernel[:, 149:0:-1])
-
-
-@pytest.mark.parametrize("memory", [0.05, 30.0])
-def test_line_kernels_hold_under_the_exact_pressure_of_a_sliding_cylinder(memory):
-    """E_g = 4 E_r, a half-width of 200 pixels: one depth throughout, and its slope does the work of friction."""
-    contact = line_contact.sliding(1.0, 1.0, 4.0, 1.0, memory * 0.01, np.pi / 4 * 1e-4)
-    n, pixel = 480, 0.01 / 200
-    x = (np.arange(n) + 0.5) * pixel + contact.edges[0] - 5 * pixel
-    fine = x[:, None] + pixel * (np.arange(16) - 7.5) / 16
-    pressure = contact.pressure(fine).mean(axis=1)
-    pressure *= contact.line_load / (pressure.sum() * pixel)
-
-    def applied(kernel):
-        return np.convolve(pressure, kernel[0, 1:])[n - 1 : 2 * n - 1] * pixel
-
-    displacement = applied(influence.line_flowing(n, 0.25, [0.75], [contact.memory / pixel], 0.0, 1 / pixel))
-    inside = np.abs(x - contact.centre) < 0.95 * contact.half_width
-    assert np.ptp((displacement + x**2 / 2)[inside]) < 3e-5 * contact.half_width**2 / 2
-    friction = pressure @ np.gradient(displacement, pixel) * pixel
-    assert friction == pytest.approx(contact.friction_coefficient * contact.line_load, rel=2e-3)

@@ -200,8 +200,10 @@ def test_enough_points_show_every_layer_and_finer_ones_falsify_less(poisson_rati
 ON_HALF_SPACES = 3e-3  # of the force: what 20 points and more bring there, with contacts of 8 pixels across
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("poisson_ratio", [0.3, 0.45, 0.48, 0.49, 0.493, 0.499, 0.4995, 0.5])
+@pytest.mark.parametrize(
+    "poisson_ratio",
+    [0.49, *(pytest.param(nu, marks=pytest.mark.slow) for nu in (0.3, 0.45, 0.48, 0.493, 0.499, 0.4995, 0.5))],
+)
 def test_a_grid_that_is_not_refused_has_the_force_and_those_twice_as_fine_are_not_refused(poisson_ratio):
     """Contacts of 3 to 90 thicknesses, pixels of 1/8 to 10: some refused ones were up to 20 % off."""
     stated, solid, taken = Layer(thickness=1e-4), Elastic(1e6, poisson_ratio=poisson_ratio), 0
@@ -220,19 +222,6 @@ def test_a_grid_that_is_not_refused_has_the_force_and_those_twice_as_fine_are_no
             taken += 1
             assert found.normal_force == pytest.approx(known.load, rel=FALSIFIED + ON_HALF_SPACES)
     assert taken > 5
-
-
-@pytest.mark.parametrize(("poisson_ratio", "slenderness"), [(0.49, 20), (0.499, 60)])
-def test_a_layer_that_its_pixels_do_not_show_is_refused(poisson_ratio, slenderness):
-    """Their forces would be 2.3 to 3.6 % off."""
-    solid, thickness = Elastic(1e6, poisson_ratio=poisson_ratio), 1e-4
-    stated, radius = Layer(thickness=thickness), slenderness * thickness
-    known = reference.of_radius(SPHERE, stated, solid.indentation_modulus, poisson_ratio, radius)
-    scene = Scene(SPHERE, solid, Indent(depth=known.depth), layer=stated)
-    with pytest.raises(SolveError, match="too thin for pixels") as refused:
-        BEM(points=24).solve(scene)
-    enough = int(str(refused.value).split("points = ")[1].split()[0])
-    assert BEM(points=enough).solve(scene).normal_force == pytest.approx(known.load, rel=FALSIFIED)
 
 
 def test_small_spots_on_a_layer_take_finer_pixels_than_one_contact():

@@ -225,26 +225,6 @@ def test_a_load_taken_away_leaves_no_depth_and_that_is_no_error():
     assert np.isnan(result.friction_coefficient)
 
 
-def test_a_plane_slides_over_its_own_wake_as_the_steady_solver_has_it():
-    waves = CrossedWaves(amplitude=1e-5, wavelength=1e-3)
-    pressure, speed = 0.2 * sqrt(2) * pi * 4 * G * 1e-2, 1e-3 / (2 * pi * TAU)
-    solid = StandardLinearSolid(G, 3 * G, TAU)
-    steady = BEM(64).solve(Scene(Plane(), solid, Slide(speed=speed, pressure=pressure), waves))
-    stages = Stage(duration=TAU, pressure=pressure), Stage(duration=30 * TAU, speed=speed)
-    history = marched(Plane(), solid, Program(stages=stages), 20, 64, 1e-3, waves)
-    assert history.normal_force[-3] == pytest.approx(steady.normal_force, rel=1e-9)
-    assert history.friction_by_traction[-3] == pytest.approx(steady.friction_force, rel=5e-3)
-    assert history.depth[-3] == pytest.approx(steady.depth, rel=5e-3)
-
-
-def test_a_cylinder_slides_as_the_steady_solver_has_it():
-    load, speed = pi * G * A**2 / R, A / TAU
-    steady = BEM(64, EXTENT).solve(Scene(Cylinder(R), GLASSY, Slide(speed=speed, line_load=load)))
-    stages = Stage(duration=TAU, line_load=load), Stage(duration=12 * TAU, speed=speed)
-    history = marched(Cylinder(R), GLASSY, Program(stages=stages), 20, 64, EXTENT)
-    assert history.friction_by_traction[-3] == pytest.approx(steady.friction_force, rel=5e-3)
-
-
 def test_steps_are_pixels_of_path_or_fractions_and_end_with_the_stages():
     stages = Stage(duration=1.0, depth=1.0), Stage(duration=1.03, speed=2.0), Stage(duration=0.5, speed=0.01)
     times = timeline(Program(stages=stages), pixel=0.1, steps=10)
@@ -260,12 +240,6 @@ def test_after_a_ramp_steps_grow_by_a_quarter_to_those_of_the_hold():
     np.testing.assert_allclose(growth[:19], 0.0, atol=1e-9)
     np.testing.assert_allclose(growth[20:-5], np.log(1.25))
     assert np.diff(timeline(ramp, pixel=1.0, steps=10)).max() < 1.001
-
-
-def test_too_many_steps_are_refused_with_what_to_change():
-    stages = Stage(duration=1.0, depth=1.0), Stage(duration=1e3, speed=2.0)
-    with pytest.raises(SolveError, match=r"takes 2e\+07 steps on pixels of 0.0001 m.* shorter path"):
-        timeline(Program(stages=stages), pixel=1e-4, steps=10)
 
 
 def test_a_contact_that_reaches_the_edge_is_an_error():

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from bem3d import BEM
-from bem3d.cell import Cell
 from bem3d.convolution import FreeConvolution
 from bem3d.engine import Engine
 from bem3d.grid import Grid
@@ -17,7 +16,6 @@ from scene import (
     Cone,
     Elastic,
     Kelvin,
-    Plane,
     PowerLaw,
     Prony,
     Scene,
@@ -76,23 +74,6 @@ def test_lengths_of_a_flow_and_how_far_estimates_of_friction_count_in_it():
     assert Flow.of(Kelvin(G, TAU), 0.0).lag(grid) == 0.0
 
 
-def test_rough_elastic_contact_slides_without_friction_which_by_traction_it_has_on_a_coarse_grid():
-    scene = Scene(Sphere(R), Elastic(G), Slide(speed=1.0, depth=D), ROUGH)
-    coarse, fine = (BEM(points=n, extent=6e-3).solve(scene) for n in (48, 192))
-    assert coarse.friction_force == fine.friction_force == coarse.measures["friction_by_loss"] == 0
-    spurious = [abs(r.measures["friction_by_traction"] / r.normal_force) for r in (coarse, fine)]
-    assert 0 < spurious[1] < spurious[0] / 4
-
-
-def test_slow_friction_of_a_rough_contact_is_in_proportion_to_the_speed_over_ten_decades():
-    speeds = np.array([1e-12, 1e-8, 1e-5, 1e-3])
-    scenes = [Scene(Sphere(R), Kelvin(G, TAU), Slide(speed=v, load=1.0), ROUGH) for v in speeds]
-    mu = np.array([BEM(points=64, extent=5e-3).solve(scene).friction_coefficient for scene in scenes])
-    np.testing.assert_allclose(mu[:-1] / speeds[:-1], mu[0] / speeds[0], rtol=1e-3)
-    # a millimetre a second is a hundredth of a pixel of memory
-    assert mu[-1] / speeds[-1] == pytest.approx(mu[0] / speeds[0], rel=0.03)
-
-
 @pytest.mark.parametrize(
     ("memory", "depth", "moment"),
     [(1e-4, 0.099824e-3, 0.045249e-3), (1e-3, 0.091508e-3, 0.157664e-3), (1e-2, 0.070553e-3, 0.041906e-3)],
@@ -104,15 +85,6 @@ def test_sphere_on_a_standard_linear_solid_agrees_with_two_other_codes(memory, d
     result = BEM(points=48).solve(scene)
     assert result.depth == pytest.approx(depth, rel=3e-3)
     assert result.friction_coefficient * R == pytest.approx(moment, rel=5e-3)
-
-
-def test_very_stiff_glass_behaves_as_kelvin():
-    kelvin = BEM(points=64).solve(Scene(Sphere(R), Kelvin(G, TAU), Slide(speed=0.5, load=1.0)))
-    # retardation time equals tau when tau_e = tau G_r/G_g
-    glass = StandardLinearSolid(G, 1e6 * G, TAU * 1e-6)
-    stiff = BEM(points=64).solve(Scene(Sphere(R), glass, Slide(speed=0.5, load=1.0)))
-    assert stiff.friction_force == pytest.approx(kelvin.friction_force, rel=1e-4)
-    assert stiff.depth == pytest.approx(kelvin.depth, rel=1e-4)
 
 
 def test_a_finer_tolerance_changes_the_answer_by_no_more_than_the_looser_one_states():
@@ -184,25 +156,13 @@ def test_the_work_is_bounded_on_512_points_at_every_speed(shape, roughness, soli
 @pytest.mark.parametrize(
     "solid", [Kelvin(1e6, 1e-3), Prony(1e6, (3e6, 1e7), (1e-3, 1e-2))], ids=["kelvin", "prony"]
 )
-@pytest.mark.parametrize("indenter", [Sphere(R), Plane()], ids=["free", "periodic"])
-def test_what_a_pressure_loses_is_its_work_on_the_slope_of_its_displacement(indenter, solid):
-    """By the product with its kernel on a free surface, by the sum over all waves on one that repeats."""
+def test_what_a_pressure_loses_is_its_work_on_the_slope_of_its_displacement(solid):
+    """By the product with its kernel; on a surface that repeats by closed forms of waves in full contact."""
     flow, grid = Flow.of(solid, 2.0), Grid(16, 16e-3)
     pressure = np.random.default_rng(1).random(grid.shape)
-    if isinstance(indenter, Plane):
-        medium, (ny, nx) = Cell(flow, Engine()), grid.shape
-        q = 2 * np.pi * np.stack(np.meshgrid(np.fft.fftfreq(ny), np.fft.fftfreq(nx), indexing="ij"))
-        spectrum, length = np.square(np.abs(np.fft.fft2(pressure))) / pressure.size, np.hypot(*q)
-        length[0, 0] = np.inf
-        lossy = -2 / length * spectrum * np.abs(flow.compliance(np.abs(q[1]), grid.pixel).imag)
-        expected = [-np.sum(lossy * step) for step in (np.abs(q[1]), np.sin(np.abs(q[1])))]
-    else:
-        medium = HalfSpace(flow, Engine())
-        shares, lengths = flow.shares, flow.in_pixels(grid)
-        moved = FreeConvolution.of(flowing(18, 16, 0.0, shares, lengths, 0.0))(
-            np.pad(pressure, ((0, 0), (1, 1)))[:, :]
-        )
-        rates = shares / lengths
-        slope = FreeConvolution.of(flowing(16, 16, rates.sum(), -rates, lengths, 0.0))(pressure)
-        expected = [np.sum(pressure * slope), np.sum(pressure * (moved[:, 2:] - moved[:, :-2]) / 2)]
-    np.testing.assert_allclose(medium.lost(grid, pressure), expected, rtol=1e-10)
+    shares, lengths = flow.shares, flow.in_pixels(grid)
+    moved = FreeConvolution.of(flowing(18, 16, 0.0, shares, lengths, 0.0))(np.pad(pressure, ((0, 0), (1, 1))))
+    rates = shares / lengths
+    slope = FreeConvolution.of(flowing(16, 16, rates.sum(), -rates, lengths, 0.0))(pressure)
+    expected = [np.sum(pressure * slope), np.sum(pressure * (moved[:, 2:] - moved[:, :-2]) / 2)]
+    np.testing.assert_allclose(HalfSpace(flow, Engine()).lost(grid, pressure), expected, rtol=1e-10)

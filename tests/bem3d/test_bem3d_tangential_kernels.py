@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bem3d import cerruti, influence
-from bem3d.engine import Blocked, Engine
+from bem3d.engine import Engine
 from bem3d.grid import Grid
 
 ROUNDING = 1e-12
@@ -65,65 +65,6 @@ def test_on_odd_grids_the_approximate_inverse_of_a_cell_is_exact():
     given -= given.mean(axis=(1, 2), keepdims=True)
     image = cerruti.preconditioner(grid, NU, Engine())(cerruti.periodic(grid, NU, Engine())(given))
     np.testing.assert_allclose(image, given, atol=ROUNDING * 10)
-
-
-@pytest.mark.parametrize(
-    ("other", "accuracy", "points"),
-    [
-        (Engine("fftw"), ROUNDING, 16),
-        (Engine("fftw"), ROUNDING, 17),
-        (Engine(precision="single"), SINGLE, 17),
-    ],
-)
-def test_every_library_gives_the_same_pairs(other, accuracy, points):
-    given, grid = tractions(points), Grid(points, 1.0)
-    for kind in (cerruti.free, cerruti.periodic):
-        expected = kind(grid, NU, Engine())(given)
-        found = kind(grid, NU, other)(given)
-        np.testing.assert_allclose(found, expected, atol=accuracy * np.abs(expected).max())
-
-
-def whole(planes, symbols, padded):
-    """Planes through a matrix of symbols, by one transform of each padded plane each way.
-
-    symbols : rows of (symbol, parity in q_y)
-    """
-    rows = np.minimum(np.arange(padded[0]), padded[0] - np.arange(padded[0]))
-    signs = {1: 1, -1: np.where(np.arange(padded[0]) > padded[0] // 2, -1, 1)[:, None]}
-    axes = (-1,) if padded[0] == 1 else (-2, -1)
-    sizes = padded[-len(axes) :]
-    waves = np.fft.rfftn(planes, sizes, axes)
-    products = [
-        sum(signs[parity] * symbol[rows] * wave for (symbol, parity), wave in zip(row, waves, strict=True))
-        for row in symbols
-    ]
-    return np.fft.irfftn(products, sizes, axes)[..., : planes.shape[-2], : planes.shape[-1]]
-
-
-@pytest.mark.parametrize(("points", "side"), [(16, 32), (17, 34), (17, 17)])
-def test_whole_planes_and_blocks_are_one_product(points, side):
-    rng, given = np.random.default_rng(1), tractions(points)
-    padded, half = (side, side), side // 2 + 1
-    symbols, ends = rng.standard_normal((3, half, half)), [0] if side % 2 else [0, -1]
-    symbols[1, ends] = symbols[1, :, ends] = 0  # odd, and real planes
-    blocked, out = Engine().pair(list(symbols), (points, points), padded), np.empty_like(given)
-    xx, xy, yy = zip(symbols, (1, -1, 1), strict=True)
-    np.testing.assert_allclose(blocked(given), whole(given, ((xx, xy), (xy, yy)), padded), atol=ROUNDING)
-    assert blocked(given, out) is out
-    np.testing.assert_array_equal(out, blocked(given))
-
-
-@pytest.mark.parametrize(("shape", "padded"), [((16, 12), (32, 24)), ((17, 12), (17, 24)), ((9, 12), (1, 12))])
-def test_whole_planes_and_blocks_are_one_product_of_a_single_symbol(shape, padded):
-    rng = np.random.default_rng(1)
-    symbol = rng.standard_normal((padded[0] // 2 + 1, padded[1] // 2 + 1)) + 0j
-    symbol[:, 1:-1] += 1j * rng.standard_normal((len(symbol), padded[1] // 2 - 1))
-    plane, out = rng.standard_normal(shape), np.empty(shape)
-    (expected,) = whole(plane[None], (((symbol, 1),),), padded)
-    for product in (Blocked(symbol, shape, padded, Engine()), Engine().product(symbol, shape, padded)):
-        np.testing.assert_allclose(product(plane), expected, atol=ROUNDING)
-        assert product(plane, out) is out
-        np.testing.assert_array_equal(out, product(plane))
 
 
 @pytest.mark.parametrize("points", [10, 11])

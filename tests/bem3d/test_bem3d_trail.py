@@ -30,25 +30,24 @@ def assert_alike(found, alone):
     np.testing.assert_allclose(found.measures["contact_points"], alone.measures["contact_points"], rtol=0.01)
 
 
-@pytest.mark.parametrize("speeds", [(0.0, 0.01, 0.02), (5.0, 0.01, 500.0)], ids=["near", "far"])
-def test_whatever_was_solved_before_the_answer_is_that_of_a_solve_alone(speeds):
+def smooth(load):
+    return replace(at(0.05, load), roughness=None)
+
+
+@pytest.mark.parametrize(
+    "scenes",
+    [
+        [at(speed) for speed in (0.0, 0.01, 0.02)],
+        [at(speed) for speed in (5.0, 0.01, 500.0)],
+        [at(0.05, load=50.0), SLIDING, replace(SLIDING, indenter=Sphere(radius=1e-3)), SLIDING, CELL, SLIDING],
+        [smooth(1e-9), smooth(50.0)],  # the next grid misses the first contact
+    ],
+    ids=["near", "far", "other bodies and loads", "small and large"],
+)
+def test_whatever_was_solved_before_the_answer_is_that_of_a_solve_alone(scenes):
     trail, solver = Trail(), BEM(points=64)
-    for speed in speeds:
-        assert_alike(solver.solve(at(speed), trail), solver.solve(at(speed)))
-
-
-def test_another_body_or_load_before_changes_no_answer():
-    trail, solver = Trail(), BEM(points=64)
-    for other in (at(0.05, load=50.0), replace(SLIDING, indenter=Sphere(radius=1e-3)), CELL):
-        solver.solve(other, trail)
-        assert_alike(solver.solve(SLIDING, trail), solver.solve(SLIDING))
-
-
-def test_a_contact_so_small_that_the_next_grid_misses_it_starts_nothing():
-    trail, solver = Trail(), BEM(points=64)
-    small, large = (replace(SLIDING, roughness=None, motion=Slide(speed=0.05, load=load)) for load in (1e-9, 50.0))
-    solver.solve(small, trail)
-    assert_alike(solver.solve(large, trail), solver.solve(large))
+    for scene in scenes:
+        assert_alike(solver.solve(scene, trail), solver.solve(scene))
 
 
 def pairs(*answers):

@@ -10,7 +10,7 @@ from bem3d import BEM
 from bem3d.grid import Box, Grid
 from bem3d.surface import RoughSurface
 from bem3d.window import check_resolved
-from mdr1d import draw
+from mdr1d import MDR, draw
 from scene import (
     Cone,
     Cylinder,
@@ -207,13 +207,19 @@ def test_more_waves_than_fit_are_foreseen_with_a_shortest_that_works():
     assert BEM(points=64).foreseen(replace(scene, roughness=replace(scene.roughness, shortest=shortest))) == []
 
 
-def test_an_extent_that_a_contact_leaves_is_foreseen_with_one_that_holds_it():
+@pytest.mark.parametrize(
+    ("solver", "said"),
+    [(BEM(points=64), "edge of extent"), (MDR(points=500), "the contact leaves the grid")],
+    ids=["BEM", "MDR"],
+)
+def test_an_extent_that_a_contact_leaves_is_foreseen_with_one_that_holds_it(solver, said):
+    near = replace(solver, extent=2e-3)
     for scene in (SMOOTH, replace(SMOOTH, roughness=replace(ROUGH, rms_height=2e-5))):
-        (reason,) = BEM(points=64, extent=2e-3).foreseen(scene)
-        with pytest.raises(SolveError, match="edge of extent"):
-            BEM(points=64, extent=2e-3).solve(scene)
+        (reason,) = near.foreseen(scene)
+        with pytest.raises(SolveError, match=said):
+            near.solve(scene)
         extent, points = re.search(r"extent = ([\d.e-]+) holds it, with points = (\d+)", reason).groups()
-        wider = BEM(points=int(points), extent=float(extent))
+        wider = replace(solver, points=int(points), extent=float(extent))
         assert wider.foreseen(scene) == []
         assert wider.solve(scene).normal_force == pytest.approx(1.0)
-        assert BEM(points=64).foreseen(scene) == []
+        assert solver.foreseen(scene) == []

@@ -65,14 +65,6 @@ def test_line_contact_is_hertzian_slow_and_fast(f):
     assert cylinder(f, 0.0)[0].friction_coefficient == 0
 
 
-def test_slow_friction_of_a_cylinder_is_the_lag_over_its_radius():
-    """tau_c - tau_e is f / (1 + f) of tau_c."""
-    for f in (0.1, 1.0, 1e4, inf):
-        contact, slow = cylinder(f, 1e-5)
-        lag = 1e-5 * slow * (1 if f == inf else f / (1 + f))
-        assert contact.friction_coefficient == pytest.approx(lag / RADIUS, rel=1e-3)
-
-
 def test_a_kelvin_cylinder_is_the_limit_of_stiff_glass():
     kelvin, _ = cylinder(inf, 0.7)
     stiff, _ = cylinder(1e10, 0.7)
@@ -137,16 +129,6 @@ def test_a_held_contact_relaxes_as_the_modulus_and_a_held_load_creeps_as_the_com
     assert depth == pytest.approx((7.0 * compliance / b) ** (n / (n + 1)), rel=1e-6)
 
 
-def test_dashpot_of_a_kelvin_body_adds_its_rate():
-    """F = B E* (d^m + tau d(d^m)/dt) while the contact grows."""
-    force = indentation.loading_force(Sphere(radius=1.0), RUBBER, [0, 2.0], [0, 0.2], [0.5, 2.0])
-    d = np.array([0.05, 0.2])
-    assert force == pytest.approx(4 / 3 * (d**1.5 + 0.3 * 1.5 * np.sqrt(d) * 0.1), rel=1e-12)
-    chain = KelvinChain(instantaneous_compliance=0.0, compliances=(4.0,), retardation_times=(0.3,))
-    again = indentation.loading_force(Sphere(radius=1.0), chain, [0, 2.0], [0, 0.2], [0.5, 2.0])
-    assert again == pytest.approx(force, rel=1e-12)
-
-
 STANDARD = StandardLinearSolid(rubbery_modulus=1.0, glassy_modulus=10.0, relaxation_time=1.0)
 BODIES = (Sphere(radius=2.0), Cone(angle=0.4))
 
@@ -196,3 +178,13 @@ SPHERE = Sphere(radius=1.0)
 def test_what_has_no_closed_form_is_named(form, given, named):
     with pytest.raises(ValueError, match=named):
         form(*given)
+
+
+def test_dashpot_of_a_kelvin_body_adds_its_rate():
+    """F = B E* (d^m + tau d(d^m)/dt) while the contact grows."""
+    force = indentation.loading_force(Sphere(radius=1.0), RUBBER, [0, 2.0], [0, 0.2], [0.5, 2.0])
+    d = np.array([0.05, 0.2])
+    assert force == pytest.approx(4 / 3 * (d**1.5 + 0.3 * 1.5 * np.sqrt(d) * 0.1), rel=1e-12)
+    chain = KelvinChain(instantaneous_compliance=0.0, compliances=(4.0,), retardation_times=(0.3,))
+    again = indentation.loading_force(Sphere(radius=1.0), chain, [0, 2.0], [0, 0.2], [0.5, 2.0])
+    assert again == pytest.approx(force, rel=1e-12)

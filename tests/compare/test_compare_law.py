@@ -18,7 +18,6 @@ from compare import FrictionLaw
 from compare.models.exact import slow_friction_3d
 from compare.models.law.bands import FASTER, Bands, FullContact
 from compare.models.law.nominal import GAPS, NominalContact, Rings
-from compare.models.law.parts import LawParts
 from compare.models.law.share import LEAST, MOST, Share, coefficients
 from mdr1d import MDR
 from scene import (
@@ -154,20 +153,6 @@ def test_roughness_that_vanishes_leaves_the_smooth_body():
     assert far.friction_coefficient == pytest.approx(smooth.friction_coefficient, rel=1e-9)
     assert FrictionLaw().solve(replace(SCENE, elastomer=Elastic(1e6))).friction_coefficient == 0.0
     assert FrictionLaw().solve(replace(SCENE, motion=Indent(load=1.0))).friction_coefficient == 0.0
-
-
-def test_the_parts_are_those_of_the_result():
-    answer, parts = FrictionLaw().solve(SCENE), LawParts.of(SCENE)
-    own, rough = (answer.measures[f"friction_of_{name}"] for name in ("shape", "roughness"))
-    load, bare = parts.contact.load, answer.measures["bare_friction"]
-    assert own + rough == pytest.approx(bare * load, rel=1e-12)
-    assert bare / answer.measures["law_ratio"] == pytest.approx(answer.friction_coefficient, rel=1e-12)
-    assert answer.measures["outside"] == 0.0
-    assert (own, rough) == pytest.approx((parts.smooth * load, parts.rough * load), rel=1e-12)
-    assert answer.measures["pressure_ratio"] == parts.x
-    assert answer.measures["nominal_radius"] == parts.radius
-    assert answer.measures["friction_low"] < answer.friction_coefficient < answer.measures["friction_high"]
-    assert isnan(answer.depth)
 
 
 @pytest.mark.parametrize(

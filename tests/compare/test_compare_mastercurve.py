@@ -2,15 +2,15 @@
 
 import os
 import sys
-from io import StringIO
 
 import numpy as np
 import pandas
 import pytest
+from drawn_again import from_files
 
 import compare
 from compare.library.ready import ready
-from compare.report.plots import shifted_curves, style
+from compare.report.plots import shifted_curves
 from compare.statistics.eq23 import NO_SHIFT
 from compare.statistics.finding import FAILS, HOLDS, REPORTED, UNDECIDED
 from compare.studies.mastercurve.measurements import MeasuredFriction
@@ -406,19 +406,12 @@ def test_constants_that_are_none_are_refused(tmp_path, stated, said):
         Mastercurve.of(tmp_path / "plain.csv", c1=8.86, c2=101.6, reference=293.15)
 
 
-def again(plot):
-    """Tables of a plot as their CSV files have them."""
-    return {name: pandas.read_csv(StringIO(frame.to_csv(index=False))) for name, frame in plot.tables.items()}
-
-
 def test_a_name_that_would_be_a_formula_is_drawn_as_it_is(tmp_path):
     path = tmp_path / r"$\frac{$.csv"
     path.write_text(table())
     made = Mastercurve.of(path)
     (plot,) = made.judge(made.answers({})).plots
-    with style.applied():
-        drawing = shifted_curves.figure(again(plot), **plot.options)
-    drawing.canvas.draw()
+    drawing = from_files(plot)
     assert drawing.axes[0].get_title(loc="left") == r"(a) \$\frac{\$"
 
 
@@ -427,9 +420,7 @@ def test_the_figure_is_a_function_of_its_csv_files(tmp_path, text):
     made = study(tmp_path, text)
     told = made.judge(made.answers({}))
     (plot,) = told.plots
-    tables = again(plot)
-    with style.applied():
-        drawing = shifted_curves.figure(tables, **plot.options)
+    drawing = from_files(plot)
     left, middle, below, *shifts, _ = drawing.axes
     points = plot.tables[shifted_curves.NAME]
     for axes, across in ((left, "normal_force"), (middle, "shifted_force"), (below, "shifted_force")):

@@ -541,14 +541,6 @@ def test_exported_csv_has_every_digit_every_unit_and_what_was_solved(folder, tmp
     assert solved["friction_force [N]"].tolist() == [0.1]  # what was not asked for is no row
 
 
-def test_mistakes_of_an_export_are_said(folder, tmp_path):
-    with pytest.raises(InvalidInput, match="no such folder"):
-        export(tmp_path / "nowhere")
-    (tmp_path / "results.nc").write_bytes(b"no netCDF")
-    with pytest.raises(InvalidInput, match=r"results\.nc"):
-        export(tmp_path / "results.nc")
-
-
 # Vocabulary.
 
 # Columns that explain themselves.

@@ -1,15 +1,12 @@
 """The paper's figures show their tables, digit for digit, and are drawn again from the files alone."""
 
-import io
-
 import matplotlib.colors
 import numpy as np
-import pandas
 import pytest
+from drawn_again import from_files
 from matplotlib.collections import PathCollection
 from pandas import DataFrame
 
-from compare.report.plots import style
 from compare.studies.paper import figures, parameters
 from compare.studies.paper.claims import lines
 from compare.studies.paper.conditions import with_conditions
@@ -23,15 +20,6 @@ ROUNDING = 1e-12
 RETURN = 1e-6
 # Exponent of the points that stand for Fig. 3.
 SLOPE = 0.97
-
-
-def drawn(plot):
-    """The figure of a plot, drawn from its tables as their CSV files have them."""
-    tables = {name: pandas.read_csv(io.StringIO(table.to_csv(index=False))) for name, table in plot.tables.items()}
-    with style.applied():
-        drawing = plot.draw(tables, **plot.options)
-        drawing.draw_without_rendering()
-    return drawing
 
 
 def labelled(axes):
@@ -98,7 +86,7 @@ def studies(slow):
 
 @pytest.fixture(scope="module")
 def studies_drawn(studies):
-    return drawn(studies)
+    return from_files(studies)
 
 
 def rule(shape, alpha, slope=2.4, height=0.06):
@@ -127,7 +115,7 @@ def test_every_plot_has_a_short_caption_an_alternative_and_units(touching, studi
     for plot in plots:
         assert len(plot.caption.split()) <= 60
         assert plot.alternative
-    for axes in drawn(plots[-1]).axes:
+    for axes in from_files(plots[-1]).axes:
         assert "[" in axes.get_xlabel() + axes.get_ylabel() + "[" * (not axes.get_xlabel())
 
 
@@ -154,7 +142,7 @@ def test_the_surface_of_the_contact_does_not_enter_the_indenter_and_returns_over
 def test_both_legs_of_a_scale_have_the_length_that_it_says_and_the_close_up_shows_the_solution(touching):
     table, found = contact_tables(touching)
     assert table["conditions_broken"].tolist() == ["h0 << d, small slopes"] * 2
-    drawing = drawn(figures.contacts.plot(table, found))
+    drawing = from_files(figures.contacts.plot(table, found))
     for axes in drawing.axes:
         (scale,) = (line for line in axes.lines if line.get_gid() == "scale")
         (said,) = (text.get_text() for text in axes.texts if text.get_text().endswith("µm"))
@@ -174,11 +162,11 @@ def test_a_contact_without_an_answer_is_left_out(touching):
     lost = touching["cone"].assign(status=touching["cone"]["status"].copy(data=np.full((1,) * 4, "failed")))
     table, found = contact_tables({**touching, "cone": lost})
     assert list(found) == ["sphere"]
-    assert len(drawn(figures.contacts.plot(table, found)).axes) == 2
+    assert len(from_files(figures.contacts.plot(table, found)).axes) == 2
 
 
 def test_the_sketch_is_the_closed_form_of_a_kelvin_solid():
-    left, right = drawn(figures.sketch.plot()).axes
+    left, right = from_files(figures.sketch.plot()).axes
     surface = next(line for line in left.lines if line.get_xdata().size > 500)
     x, u = surface.get_xdata(), -surface.get_ydata()
     step, m, memory = x[1] - x[0], figures.sketch.SLOPE, figures.sketch.MEMORY
@@ -222,7 +210,7 @@ def test_a_point_of_the_studies_without_an_answer_is_left_out(slow, studies):
     lost = slow.points.copy()
     lost.loc[[3, 70], "normalised_friction"] = np.nan
     fits = studies.tables["paper-studies-lines"].iloc[1:]
-    law_of = drawn(figures.studies.plot(lost, fits)).axes[0]
+    law_of = from_files(figures.studies.plot(lost, fits)).axes[0]
     assert len(points(law_of)) == len(lost) - 2
     assert not law_of.texts  # no line through points where the conditions hold, no slope
     assert figures.studies.plot(lost.assign(normalised_friction=np.nan), fits) is None
@@ -230,7 +218,7 @@ def test_a_point_of_the_studies_without_an_answer_is_left_out(slow, studies):
 
 def test_the_law_shows_means_intervals_and_their_deviation_from_eq_19():
     rules = rule("cone", 1.4), rule("sphere", 1.5)
-    above, below = drawn(law_plot(*rules)).axes
+    above, below = from_files(law_plot(*rules)).axes
     for number, (table, fit) in enumerate(rules):
         bars, friction = above.containers[number], table["normalised_friction"].to_numpy()
         np.testing.assert_array_equal(bars[0].get_ydata(), friction)
@@ -250,5 +238,5 @@ def test_the_law_shows_means_intervals_and_their_deviation_from_eq_19():
 
 def test_the_law_is_hollow_where_a_condition_breaks_but_that_of_small_slopes():
     for height, empty in ((0.06, False), (0.2, True)):
-        bars = drawn(law_plot(rule("cone", 1.4, height=height))).axes[0].containers[0]
+        bars = from_files(law_plot(rule("cone", 1.4, height=height))).axes[0].containers[0]
         assert matplotlib.colors.same_color(bars[0].get_markerfacecolor(), "white") == empty

@@ -41,15 +41,18 @@ LATTICE = 0.02
 def test_ratios_of_a_sphere_are_those_of_hertz():
     a = (3 * 2.0 * 2e-2 / (4 * 4e6)) ** (1 / 3)
     d, q_s = a**2 / 2e-2, 2 * pi / 4e-4
+    expected = {
+        "depth_over_height": d / 2e-6,
+        "shortest_in_contact": a * q_s,
+        "pressure_over_slope": 2.0 / (pi * a**2) / (4e6 * 0.1),
+        "memory_over_contact": 0.05 * 1e-3 / a,
+        "memory_over_shortest": 0.05 * 1e-3 * q_s,
+        "contact_fraction": 1e-7 / (pi * a**2),
+        "contact_over_period": 2 * a / 8e-3,
+        "macro_over_rough": 2 * a / 2e-2 / np.sqrt(3) / 0.1,
+    }
     point = ratios(SCENE, AREA)
-    assert point["depth_over_height"] == pytest.approx(d / 2e-6, rel=ROUNDING)
-    assert point["shortest_in_contact"] == pytest.approx(a * q_s, rel=ROUNDING)
-    assert point["pressure_over_slope"] == pytest.approx(2.0 / (pi * a**2) / (4e6 * 0.1), rel=ROUNDING)
-    assert point["memory_over_contact"] == pytest.approx(0.05 * 1e-3 / a, rel=ROUNDING)
-    assert point["memory_over_shortest"] == pytest.approx(0.05 * 1e-3 * q_s, rel=ROUNDING)
-    assert point["contact_fraction"] == pytest.approx(1e-7 / (pi * a**2), rel=ROUNDING)
-    assert point["contact_over_period"] == pytest.approx(2 * a / 8e-3, rel=ROUNDING)
-    assert point["macro_over_rough"] == pytest.approx(2 * a / 2e-2 / np.sqrt(3) / 0.1, rel=ROUNDING)
+    assert {name: point[name] for name in expected} == pytest.approx(expected, rel=ROUNDING)
     assert ratios(SCENE, LENGTH)["contact_fraction"] == pytest.approx(1e-4 / a, rel=ROUNDING)
 
 

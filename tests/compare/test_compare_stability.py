@@ -11,9 +11,7 @@ import pytest
 
 from bem3d import BEM, contact
 from compare.report.page import Section, Table
-from compare.solving.digest import key
 from compare.solving.outcome import Outcome, Row
-from compare.solving.store import Store
 from compare.statistics.finding import FAILS, HOLDS
 from compare.studies.stability.cases.collection import CASES
 from compare.studies.stability.cases.examination import Examination
@@ -116,16 +114,6 @@ def test_a_refusal_asks_for_the_right_error_and_for_every_word():
     assert not refusal("", KeyError, "load", ask, 3).holds
     assert not refusal("", ValueError, "", lambda: 1.0).holds
     assert not Check("nothing", nan, 1.0).holds
-
-
-def test_an_outcome_comes_back_from_the_store_as_it_was(tmp_path):
-    store, tasks = Store(tmp_path), [Examination(name, "quick") for name in ("speed-zero", "no-shapes")]
-    outcomes = {task.case: task.solve() for task in tasks}
-    for task in tasks:
-        store.put(task, outcomes[task.case])
-    stored, found = (judged(each)[0] for each in ({task.case: store.get(task) for task in tasks}, outcomes))
-    assert stored["checks"].to_dataset().identical(found["checks"].to_dataset())
-    assert key(Examination("speed-zero", "full")) != key(tasks[0])
 
 
 def test_a_case_that_raises_is_broken_and_says_why(monkeypatch):

@@ -359,17 +359,6 @@ def test_a_full_disk_is_an_error_that_names_the_file_and_what_is_stored_stays(tm
     assert [task for task in tasks if Store(tmp_path).get(task) is not None] == stored
 
 
-def test_other_code_does_not_answer(tmp_path, monkeypatch):
-    store = Store(tmp_path)
-    monkeypatch.setattr(digest, "_code_digest", lambda _: "0" * 32)
-    store.put(TASK, Outcome((ROW,)))
-    monkeypatch.undo()
-    assert store.get(TASK) is None
-    assert store.by_other_code([TASK, drawn(2)]) == 1
-    store.put(TASK, Outcome((ROW,)))
-    assert (store.by_other_code([TASK]), len(store)) == (0, 2)
-
-
 FORKS = pytest.mark.filterwarnings("ignore:This process:DeprecationWarning")
 
 

@@ -1,19 +1,18 @@
 """Spectra of measured maps: of surfaces whose spectrum is known, and beside another program."""
 
 from dataclasses import replace
-from io import StringIO
 from math import pi
 
 import numpy as np
 import pandas
 import pytest
+from drawn_again import from_files
 from maps import sampled
 from scipy.ndimage import gaussian_filter
 from scipy.stats import binom
 
 import compare
 from bem3d.surface import RoughSurface
-from compare.report.plots import style
 from compare.statistics import spectra
 from compare.statistics.powerlaw import fit
 from compare.statistics.spectra import describe, mapped, rings_of, rows_of
@@ -268,10 +267,7 @@ def test_the_figure_is_a_function_of_its_csv_files():
     found = describe(sampled(ROUGH))
     for each, lines in ((found, 2), (replace(found, law=None), 1)):
         plot = plots.plot(each)
-        files = {name: StringIO(frame.to_csv(index=False)) for name, frame in plot.tables.items()}
-        with style.applied():
-            drawing = plots.figure({name: pandas.read_csv(file) for name, file in files.items()}, **plot.options)
-        left, right = drawing.axes
+        left, right = from_files(plot).axes
         np.testing.assert_allclose(left.lines[0].get_ydata(), found.rings.density, rtol=1e-12)
         nothing = spectra.NOTHING * found.rows.density.max()
         np.testing.assert_allclose(right.lines[0].get_ydata(), found.rows.density, rtol=1e-12, atol=nothing)

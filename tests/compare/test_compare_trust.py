@@ -323,30 +323,25 @@ def test_it_says_where_the_scene_lies_and_what_was_measured_near_it():
     ]
 
 
-def test_waves_in_full_contact_have_the_friction_and_pressure_of_a_drawn_surface():
-    """A surface with these waves, each summed over a lattice where the group integrates: cells are 2 % of them."""
+def test_waves_in_full_contact_have_the_friction_and_pressure_of_those_that_surface_and_line_are_drawn_from():
+    """Each summed where the group integrates: cells are 2 % of a surface, and 5 % of the 32 waves of a line.
+
+    Of a line F_x = sum q A^2 / 2 Im E*, and the mean square force is sum A^2 / 2 |E*|^2 a length.
+    """
     rough = SelfAffine(hurst=0.6, rms_height=1e-6, longest=8e-3, rolloff=2e-3, shortest=2.5e-4, seed=3)
     scene = replace(PAPER, roughness=rough)
     smooth, contact = SmoothReference.of(scene), elastic_contact(scene)
+    found = FullContact.of(scene, smooth, Bands.of(rough))
     x = np.arange(256) * rough.longest / 256
     heights = RoughSurface.of(rough, rough.q_max(0.0)).heights(x, x)
     drawn = heights, (rough.longest, rough.longest), scene.elastomer, scene.motion.speed
     mean = contact.load * smooth.load / (pi * (smooth.radius * contact.radius) ** 2)
-    found = FullContact.of(scene, smooth, Bands.of(rough))
     assert found.friction == pytest.approx(full_contact.friction(*drawn) / mean, rel=0.02)
     assert found.pressure == pytest.approx(np.std(full_contact.pressure(*drawn)) / mean, rel=0.02)
-
-
-def test_waves_in_full_contact_of_the_line_are_those_that_a_line_is_drawn_from():
-    """F_x = sum q A^2 / 2 Im E* and mean square force sum A^2 / 2 |E*|^2 a length; of 32 waves, cells are 5 %."""
-    rough = SelfAffine(hurst=0.6, rms_height=1e-6, longest=8e-3, rolloff=2e-3, shortest=2.5e-4, seed=3)
-    scene = replace(PAPER, roughness=rough)
-    smooth, contact = SmoothReference.of(scene), elastic_contact(scene)
     squares = amplitudes(rough, rough.longest / rough.shortest) ** 2 / 2
     q = rough.q_min * (1 + np.arange(squares.size))
     stiffness = full_contact.complex_stiffness(scene.elastomer, q * scene.motion.speed)
     mean = contact.load * smooth.load * smooth.force / (2 * smooth.line_radius * contact.radius)
-    found = FullContact.of(scene, smooth, Bands.of(rough))
     assert found.line_friction == pytest.approx(np.sum(q * squares * stiffness.imag) / mean, rel=0.05)
     assert found.line_pressure == pytest.approx(np.sqrt(np.sum(squares * abs(stiffness) ** 2)) / mean, rel=0.05)
 
@@ -376,10 +371,9 @@ def test_values_left_out_are_those_foretold_from_all_others():
     scales = Scales(np.zeros(3), np.ones(3), np.array([0.6, 2.0, 5.0]), 1.0, 0.5, 0.05)
     whole = Process(inputs, values, variances, scales)
     errors, spread = whole.left_out()
-    matrix = np.linalg.inv(whole._factor @ whole._factor.T)
+    covariance = whole._factor @ whole._factor.T
     for k in range(12):
         rest = np.arange(12) != k
-        covariance = np.linalg.inv(matrix)
         weights = np.linalg.solve(covariance[np.ix_(rest, rest)], covariance[rest, k])
         centred = values - values.mean()
         assert errors[k] == pytest.approx(centred[k] - weights @ centred[rest], rel=1e-6)

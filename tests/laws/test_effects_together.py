@@ -7,7 +7,20 @@ import pytest
 
 from bem3d import BEM
 from mdr1d import MDR
-from scene import WLF, Coulomb, Heating, Indent, Layer, Scene, SelfAffine, Slide, Sphere, StandardLinearSolid
+from scene import (
+    WLF,
+    Coulomb,
+    Elastic,
+    Heating,
+    Indent,
+    Layer,
+    Plane,
+    Scene,
+    SelfAffine,
+    Slide,
+    Sphere,
+    StandardLinearSolid,
+)
 
 WARM = WLF(temperature=306.0, reference=300.0, c1=10.0, c2=100.0)
 ROUGH = SelfAffine(hurst=0.8, rms_height=2e-6, longest=2e-3, shortest=0.4e-3, seed=1)
@@ -24,6 +37,7 @@ SOLVED = {
     "BEM, heated": (BEM(points=48), replace(TOGETHER, heating=Heating(conductivity=0.5, feedback="average"))),
     "MDR, heated": (MDR(points=1000), replace(TOGETHER, heating=Heating(conductivity=0.5, feedback="average"))),
 }
+solvers = pytest.mark.parametrize("solver", [BEM(points=48), MDR(points=1000)], ids=lambda solver: solver.name)
 ROUNDING = 1e-9  # of the answers: iterations stop at the same places, and add rounding up
 
 
@@ -45,7 +59,22 @@ def test_friction_in_the_interface_is_added_to_whatever_else_there_is(name):
     assert with_it.measures["friction_in_interface"] == pytest.approx(added, rel=ROUNDING)
 
 
-@pytest.mark.parametrize("solver", [BEM(points=48), MDR(points=1000)], ids=lambda solver: solver.name)
+@solvers
+def test_friction_of_the_interface_has_no_error_of_the_grid(solver):
+    bare, rubbed = (solver.solve(replace(PLAIN, interface=each)) for each in (None, Coulomb(STICKS)))
+    absolute = [each.measures["friction_error"] * each.friction_force for each in (bare, rubbed)]
+    assert absolute[0] == pytest.approx(absolute[1], rel=1e-12)
+
+
+@solvers
+def test_where_nothing_is_lost_no_error_is_stated(solver):
+    scenes = [replace(PLAIN, motion=Indent(load=LOAD)), replace(PLAIN, elastomer=Elastic(1e6))]
+    plane = Scene(Plane(), PLAIN.elastomer, Indent(pressure=1e5), ROUGH)
+    for scene in (*scenes, *([] if solver.refusals(plane) else [plane])):
+        assert "friction_error" not in solver.solve(scene).measures
+
+
+@solvers
 def test_an_interface_at_speed_zero_is_that_of_ever_slower_sliding(solver):
     heated = replace(TOGETHER, heating=Heating(conductivity=0.5))
     slow, still = (solver.solve(replace(heated, motion=Slide(speed=speed, load=LOAD))) for speed in (1e-9, 0.0))

@@ -2,19 +2,21 @@
 
 import subprocess
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
 
+import scene.topography
 from bem3d import BEM
 from compare.solving.runner import sweep
 from compare.solving.store import Store
 from compare.solving.task import SceneTask
 from mdr1d import MDR
-from scene import Kelvin, OutOfMemory, Refused, Scene, SelfAffine, Slide, Sphere, machine
+from scene import Kelvin, OutOfMemory, Plane, Refused, Scene, SelfAffine, Slide, Sphere, Topography, machine
 from scene.machine import memory
 from scene.protocol import refuse, trusted
+from scene.waves import MOST_WAVES
 
 SCENE = Scene(Sphere(radius=1e-2), Kelvin(modulus=1e6, relaxation_time=1e-3), Slide(speed=0.1, load=1.0))
 # Waves of which no machine holds the amplitudes, but which each grid alone would not mind.
@@ -39,10 +41,21 @@ def test_plan_and_solve_refuse_with_both_figures_what_the_machine_has_not(monkey
 
 
 def test_what_no_machine_holds_has_no_plan_either():
-    scene = Scene(SCENE.indenter, SCENE.elastomer, SCENE.motion, BROAD)
     for ask in (BEM().plan, BEM().solve):
         with pytest.raises(Refused, match=r"it needs 2.*e\+05 GB of memory"):
-            ask(scene)
+            ask(replace(SCENE, roughness=BROAD))
+
+
+@pytest.mark.parametrize("solver", [BEM(points=32), MDR(), MDR(spectrum="line-scan")], ids=str)
+def test_more_waves_of_a_map_than_fit_are_refused_before_they_are_built(solver, monkeypatch):
+    monkeypatch.setattr(scene.topography, "_waves", lambda *_: pytest.fail("waves were built"))
+    rough = replace(SCENE, roughness=Topography(heights=np.eye(4, MOST_WAVES + 2), pixel=1e-6))
+    plane = replace(rough, indenter=Plane(), motion=Slide(speed=0.1, pressure=1e4))
+    refused = f"roughness = Topography has {MOST_WAVES + 1} waves a side, {MOST_WAVES} fit in memory: crop the map"
+    for asked in (rough, plane) if solver.name == "BEM" else (rough,):
+        for ask in (solver.solve, solver.plan):
+            with pytest.raises(Refused, match=refused):
+                ask(asked)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there is no ulimit")

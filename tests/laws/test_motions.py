@@ -1,21 +1,26 @@
 """Motions in one dimension beside three."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from changing_motion import harmonic, stiffness
+from programs import mirrored, program, slid
 
+import bem3d.timeline
+import mdr1d.timeline
 from bem3d import BEM
 from mdr1d import MDR
-from scene import Kelvin, Program, Scene, Sphere, Stage, StandardLinearSolid
+from scene import Elastic, Kelvin, Prony, Scene, SolveError, Sphere, StandardLinearSolid
 
 R, G, A, TAU = 1e-2, 1e6, 1e-3, 1e-3
 DEPTH = A**2 / R
 SOLID = StandardLinearSolid(G, 5 * G, TAU)
-PRESSED = Stage(duration=TAU, load=1.0)
 LINE, SPACE = MDR(points=1000), BEM(points=48, steps=60)
 
 
 def solved(solver, solid, *stages):
-    return solver.solve(Scene(Sphere(R), solid, Program(stages=tuple(Stage(**stage) for stage in stages)))).fields
+    return solver.solve(Scene(Sphere(R), solid, program(*stages))).fields
 
 
 # Misfits over the greatest force, in the mean and at most: 16 pixels span the radius; a dashpot that touches again
@@ -50,3 +55,98 @@ def test_coming_down_at_an_angle_on_a_quick_solid_friction_is_its_lag_over_the_r
     mu = fields["friction_force"][late] / fields["normal_force"][late]
     # of first order in lag over the time to come down, 1e-3; mu by traction on 10 to 16 pixels of radius
     assert np.median(mu) == pytest.approx(times * lag * speed / R, rel=5e-2)
+
+
+KELVIN, ELASTIC, SERIES = Kelvin(G, TAU), Elastic(G), Prony(G, (2 * G, 20 * G), (TAU, 0.05 * TAU))
+FORTH, BACK, FASTER = (slid(path * A, speed * A / TAU) for path, speed in ((1.2, 0.5), (-2.7, 0.5), (0.9, 1.0)))
+FEW = {"MDR": MDR(points=200, extent=3.2 * A, steps=50), "BEM": BEM(points=32, steps=20)}
+# Of a field over its greatest value: rounding of some hundred steps, and what an iteration makes of it.
+MIRRORED = {"MDR": 1e-11, "BEM": 1e-9}
+
+
+@pytest.mark.parametrize(
+    ("name", "solid", "by"),
+    [("MDR", ELASTIC, "load"), ("MDR", SERIES, "depth"), ("MDR", KELVIN, "load"), ("BEM", SOLID, "load")],
+    ids=str,
+)
+def test_in_a_mirror_friction_and_path_change_their_sign_and_nothing_else(name, solid, by):
+    value = {"load": 0.5, "depth": DEPTH}[by]
+    motion = program({"duration": TAU, by: value}, FORTH, BACK | {by: 0.8 * value}, FASTER)
+    one, other = (FEW[name].solve(Scene(Sphere(R), solid, each)) for each in (motion, mirrored(motion)))
+    signs = dict.fromkeys(("normal_force", "depth", "contact_area"), 1)
+    signs |= dict.fromkeys(("friction_force", "friction_by_work", "path", "speed"), -1)
+    least = 1e-3 * one.fields["normal_force"].max()  # of forces that rounding alone is left of
+    for field in signs.keys() & one.fields.keys():
+        scale = max(np.nanmax(np.abs(one.fields[field])), least if "friction" in field else 0.0)
+        wanted, found = one.fields[field], signs[field] * other.fields[field]
+        np.testing.assert_allclose(found, wanted, atol=MIRRORED[name] * scale, err_msg=field)
+    if name == "BEM":
+        pressure = one.fields["pressure"]
+        np.testing.assert_allclose(other.fields["pressure"][:, ::-1], pressure, atol=1e-9 * pressure.max())
+    assert other.friction_coefficient == pytest.approx(-one.friction_coefficient, rel=1e-9, abs=1e-11)
+    assert solid == ELASTIC or np.nanmax(one.fields["friction_force"] / one.fields["normal_force"]) > 0.01
+
+
+def response(solver, amplitude, omega, solid):
+    """First harmonic of the force over that of the depth, about one held until all has relaxed [N/m], complex."""
+    frequency, held = omega / (2 * np.pi), 20 * TAU
+    periods = 2 + int(omega * TAU * (2 if solver.name == "MDR" else 1))  # the start is forgotten in some times
+    swing = {"duration": periods / frequency, "amplitude": amplitude, "frequency": frequency}
+    fields = solved(solver, solid, {"duration": TAU, "depth": DEPTH}, {"duration": held}, swing)
+    start = TAU + held + (periods - 1) / frequency
+    late = fields["time"] >= start * (1 - 1e-9)
+    # the depth is a sine
+    return harmonic(fields["time"][late] - start, fields["normal_force"][late], omega) / amplitude
+
+
+SWUNG = {
+    "MDR": MDR(points=650, extent=A / np.sqrt(0.1), steps=50),
+    "BEM": BEM(points=48, extent=2.6e-3, steps=20, tolerance=1e-7),
+}
+# By the steps of a period, 200 in one dimension, at whose ends a mode much shorter is half a step late; and 40.
+LATE = {"MDR": 5e-3, "BEM": 3e-3}
+
+
+@pytest.mark.parametrize(
+    ("name", "solid", "omega"),
+    [
+        ("MDR", SERIES, 0.2),
+        ("BEM", SOLID, 1.0),
+        ("BEM", KELVIN, 5.0),
+        *(
+            pytest.param(*each, marks=pytest.mark.slow)
+            for each in (("MDR", SOLID, 5.0), ("BEM", SOLID, 5.0), ("BEM", KELVIN, 1.0), ("BEM", KELVIN, 0.2))
+        ),
+    ],
+    ids=str,
+)
+def test_a_small_oscillation_meets_the_complex_stiffness_of_a_contact_that_keeps_its_radius(name, solid, omega):
+    # the radius of 18 pixels is known to half a percent, 205 in one dimension
+    exact = stiffness(A, solid, omega / TAU)
+    found = response(SWUNG[name], (1e-4 if name == "MDR" else 1e-3) * DEPTH, omega / TAU, solid)
+    assert abs(found) == pytest.approx(abs(exact), rel=5e-3)
+    assert np.angle(found / exact) == pytest.approx(0.0, abs=LATE[name])
+    assert np.angle(exact) > 0.1
+
+
+@pytest.mark.parametrize("name", ["MDR", pytest.param("BEM", marks=pytest.mark.slow)])
+def test_a_large_oscillation_meets_less_than_that(name):
+    solver = FEW["MDR"] if name == "MDR" else SWUNG["BEM"]
+    assert abs(response(solver, 0.1 * DEPTH, 1 / TAU, SOLID)) < 0.97 * abs(stiffness(A, SOLID, 1 / TAU))
+
+
+@pytest.mark.parametrize("timeline", [mdr1d.timeline.timeline, bem3d.timeline.timeline], ids=["MDR", "BEM"])
+def test_an_amplitude_of_zero_costs_no_step(timeline):
+    pressed = {"duration": TAU, "depth": DEPTH}
+    plain, still = program(pressed, FORTH), program(pressed, FORTH | {"amplitude": 0.0, "frequency": 1e6})
+    times = [getattr(found, "times", found) for found in (timeline(each, 1e-4, 20) for each in (plain, still))]
+    assert np.array_equal(*times)
+
+
+@pytest.mark.parametrize(("name", "steps"), [("MDR", r"4e\+08"), ("BEM", r"4e\+07")])
+def test_too_many_periods_are_refused_with_what_to_change(name, steps):
+    pressed, solver = {"duration": TAU, "depth": DEPTH}, replace(FEW[name], extent=3.2 * A)
+    with pytest.raises(SolveError, match=rf"takes {steps} steps .* oscillate for fewer periods"):
+        solved(solver, SOLID, pressed, {"duration": 1.0, "amplitude": 0.1 * DEPTH, "frequency": 1e6})
+    with pytest.raises(SolveError, match="slide a shorter path, take a larger"):
+        solved(solver, SOLID, pressed, slid(-1e4, A / TAU))

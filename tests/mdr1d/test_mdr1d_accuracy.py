@@ -8,9 +8,6 @@ import pytest
 from mdr1d import MDR
 from scene import (
     Cone,
-    Coulomb,
-    Elastic,
-    Indent,
     Kelvin,
     PowerLaw,
     Prony,
@@ -60,23 +57,6 @@ def test_it_falls_with_the_square_of_the_points(solid, rough):
         for points in (600, 9600)
     )
     assert fine["friction_error"] < coarse["friction_error"] / 16
-
-
-@pytest.mark.parametrize(
-    "scene",
-    [
-        replace(SPHERE, motion=Indent(load=1.0)),
-        replace(SPHERE, elastomer=Elastic(1e6)),
-    ],
-)
-def test_where_nothing_is_lost_no_error_is_stated(scene):
-    assert "friction_error" not in MDR(points=500).solve(scene).measures
-
-
-def test_friction_of_the_interface_has_no_error_of_the_grid():
-    bare, rubbed = (MDR(points=500).solve(replace(SPHERE, interface=each)) for each in (None, Coulomb(0.3)))
-    absolute = [each.measures["friction_error"] * each.friction_force for each in (bare, rubbed)]
-    assert absolute[0] == pytest.approx(absolute[1], rel=1e-12)
 
 
 @pytest.mark.parametrize("points", [10, 12, 14, 16])

@@ -201,10 +201,6 @@ def test_the_force_master_curve_is_eq_22(n):
     np.testing.assert_allclose(slope, eq.force_shift_exponent(point["beta"], n), rtol=1e-10)
 
 
-def test_the_shift_exponent_of_the_experiment_gives_a_tenth():
-    assert eq.force_shift_exponent(0.1, 2) == pytest.approx(-0.15, rel=ROUNDING)
-
-
 ROUGH = SelfAffine(hurst=0.4, rms_height=1e-6, longest=1e-3, shortest=1e-4, seed=1)
 
 

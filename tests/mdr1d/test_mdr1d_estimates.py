@@ -1,6 +1,6 @@
 """The paper's side remarks: each against something that does not share its formula."""
 
-from math import log, pi, sqrt
+from math import log, pi
 
 import numpy as np
 import pytest
@@ -69,19 +69,8 @@ def test_the_configuration_of_a_rough_contact_at_a_depth_is_the_same_for_every_m
     assert fast.sum() < 0.9 * first.sum()
 
 
-def test_partial_slip_of_a_sphere_is_cattaneo_and_mindlin():
-    depth, modulus, radius = 1e-4, 1e6, 1e-2
-    load = 16 / 3 * modulus * sqrt(radius) * depth**1.5
-    largest = estimates.largest_displacement(FRICTION, depth)
-    assert largest == pytest.approx(1.5 * FRICTION * depth, rel=ROUNDING)
-    u = np.array([0.0, 0.2, 1.0, 5.0]) * largest
-    force = estimates.partial_slip_force(u, FRICTION, load, depth, 2)
-    expected = FRICTION * load * (1 - np.maximum(1 - u / largest, 0) ** 1.5)
-    np.testing.assert_allclose(force, expected, rtol=ROUNDING)
-    # The first displacement meets the stiffness 8 G a/(2 - nu) of a disc that sticks.
-    step = 1e-7 * largest
-    slope = estimates.partial_slip_force(step, FRICTION, load, depth, 2) / step
-    assert slope == pytest.approx(8 * modulus * sqrt(radius * depth) / 1.5, rel=1e-6)
+def test_a_sphere_slips_throughout_at_one_and_a_half_times_friction_times_depth():
+    assert estimates.largest_displacement(FRICTION, 1e-4) == pytest.approx(1.5 * FRICTION * 1e-4, rel=ROUNDING)
 
 
 @pytest.mark.parametrize("n", [1.0, 3.0])

@@ -61,16 +61,6 @@ def test_the_sweep_agrees_with_a_fine_march(memory, approach):
     assert contact.length == pytest.approx(length, abs=20 * pixel / 200)
 
 
-@pytest.mark.parametrize("memory", [1e-5, 1e-3])
-def test_the_force_is_the_stiffness_times_the_displaced_area(memory):
-    # int f = K int u, since u vanishes on both sides; the wake behind the grid adds l times the last u.
-    heights, pixel = rough_profile(points=20000)
-    contact = sweep(heights, pixel, memory, heights.min() + 2e-5)
-    area = np.trapezoid(contact.displacement, dx=pixel) + memory * contact.displacement[-1]
-    # The trapezoid rule of the exponential wake, (pixel / memory)^2 / 12, and of a kink at each edge.
-    assert contact.force == pytest.approx(area, rel=max((pixel / memory) ** 2, 1e-6))
-
-
 def test_memories_far_below_a_pixel_and_far_above_the_contact_join_their_limits():
     heights, pixel = rough_profile()
     depth = heights.min() + 2e-5

@@ -81,29 +81,6 @@ def test_a_lone_dashpot_is_the_kelvin_foundation(heights, pixel, memory):
     np.testing.assert_array_equal(general.touching, kelvin.touching)
 
 
-@pytest.mark.parametrize(("solid", "speed"), [("standard", 1e-5), ("chain with a dashpot", 3e-5)])
-def test_the_force_is_the_stiffness_times_the_displaced_area(solid, speed):
-    # int f = int u over everything, since each mode starts and ends at rest.
-    heights, pixel = line(points=20000)
-    wake = np.full(int(20 * 10 * speed / pixel) + 1, 1.0)
-    contact = sweep_modes(np.append(heights, wake), pixel, modes_of(SOLIDS[solid]), speed, 2e-5)
-    # The trapezoid rule: (pixel / length)^2 / 12 of an exponential and a kink at each edge.
-    shortest = speed * SOLIDS[solid].retardation()[2].min()
-    tolerance = max((pixel / shortest) ** 2, 1e-6)
-    assert contact.force == pytest.approx(np.trapezoid(contact.displacement, dx=pixel), rel=tolerance)
-
-
-@pytest.mark.parametrize("speed", [1e-6, 1e-4, 1.0])
-def test_equal_moduli_join_the_elastic_foundation(speed):
-    heights, pixel = line()
-    elastic = sweep(heights, pixel, 0.0, 2e-5)
-    solid = StandardLinearSolid(rubbery_modulus=1.0, glassy_modulus=1 + 1e-9, relaxation_time=1.0)
-    contact = sweep_modes(heights, pixel, modes_of(solid), speed, 2e-5)
-    assert contact.force == pytest.approx(elastic.force, rel=2e-9)
-    assert contact.length == pytest.approx(elastic.length, rel=2e-9)
-    assert contact.dissipation <= 1e-9 * slope(heights, pixel) * contact.force
-
-
 def test_extreme_speeds_join_the_rubber_and_the_glass():
     heights, pixel = line()
     elastic = sweep(heights, pixel, 0.0, 2e-5)
@@ -173,42 +150,6 @@ def test_crowded_times_of_unlike_moduli_keep_the_balance_of_energy():
             contact = sweep_modes(heights, pixel, modes_of(solid), 1.0, 2e-5)
             loss = slope(heights, pixel) * contact.force
             assert contact.traction == pytest.approx(contact.dissipation, rel=1e-10, abs=1e-13 * loss)
-
-
-def held_down(rates, moduli, lengths):
-    """Force on flanks of unit width with given rates of u, a row each, and whether it has pulled before that."""
-    t, y, u = np.linspace(0, 1, 201)[1:], np.zeros(lengths.size), 0.0
-    rows, pulled = [], [False]
-    for rate in rates:
-        stretched = y + (lengths * rate - y) * -np.expm1(-t[:, None] / lengths)
-        rows.append(u + rate * t + stretched @ moduli)
-        pulled.append(pulled[-1] or rows[-1].min() < 0)
-        y, u = stretched[-1], u + rate
-    return np.array(rows), np.array(pulled[:-1])
-
-
-def returns(rows):
-    """Whether the force falls below zero and rises above it again within a row."""
-    below = np.logical_or.accumulate(rows < 0, axis=1)
-    return np.any(below & (rows > 1e-12 * np.abs(rows).max()), axis=1)
-
-
-@pytest.mark.slow
-def test_on_a_straight_flank_a_force_that_has_fallen_to_zero_stays_below():
-    # That is why the sign at the end of an interval tells whether there is a release.
-    generator = np.random.default_rng(2)
-    released = recovered = 0
-    for _ in range(2000):
-        count = generator.integers(1, 6)
-        lengths, moduli = 10 ** generator.uniform(-2, 2, count), 10 ** generator.uniform(-1, 2, count)
-        rows, pulled = held_down(generator.normal(size=6), moduli, lengths)
-        pressed_so_far = ~pulled & (rows[:, 0] > 0)
-        assert not returns(rows)[pressed_so_far].any()
-        released += np.count_nonzero(pressed_so_far & (rows[:, -1] < 0))
-        recovered += np.count_nonzero(returns(rows) & pulled)
-    assert released > 500
-    # It takes a foundation that has been pulled to see the contrary.
-    assert recovered > 100
 
 
 @pytest.mark.parametrize("memory", [1e-3, 1.0])

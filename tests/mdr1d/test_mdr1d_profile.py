@@ -20,7 +20,6 @@ from scene import (
     Scene,
     SelfAffine,
     Slide,
-    SolveError,
     Sphere,
     StandardLinearSolid,
 )
@@ -121,16 +120,6 @@ def test_the_regime_is_that_of_the_line_which_is_solved():
 
 
 @pytest.mark.parametrize("scene", [SCENE, PAPER])
-def test_slow_friction_is_the_memory_times_the_mean_square_slope_in_the_contact_at_rest(scene):
-    rest = MDR().solve(replace(scene, motion=Slide(speed=0.0, load=1.0)))
-    memory = 1e-13
-    slow = MDR().solve(replace(scene, motion=Slide(speed=memory / KELVIN.relaxation_time, load=1.0)))
-    static = 4e6 * rest.measures["rms_slope_contact"] ** 2 * rest.measures["contact_length"]
-    # What is left at the trailing edges is of second order in the memory over the size of a spot.
-    assert slow.friction_force / memory == pytest.approx(static, rel=1e-6)
-
-
-@pytest.mark.parametrize("scene", [SCENE, PAPER])
 def test_fast_friction_is_the_mean_square_slope_over_the_mean_slope_of_the_leading_flanks(scene):
     result = MDR().solve(replace(scene, motion=Slide(speed=1e12, load=1.0)))
     # A surface that never recovers is the highest that has passed: it rises on the flanks that it touches alone.
@@ -187,18 +176,6 @@ def test_scenes_of_one_body_share_its_profile_and_no_result_changes_that_of_anot
     assert MDR(points=1000).solve(slow).depth == depth
     with pytest.raises(ValueError, match="read-only"):
         map_profile(slow, grid).heights[0] = 0.0
-
-
-def test_an_extent_that_a_contact_leaves_is_foreseen_with_one_that_holds_it():
-    scene = Scene(Sphere(1e-2), Elastic(1e6), Indent(load=1.0))
-    (reason,) = MDR(points=500, extent=2e-3).foreseen(scene)
-    with pytest.raises(SolveError, match="the contact leaves the grid"):
-        MDR(points=500, extent=2e-3).solve(scene)
-    extent, points = re.search(r"extent = ([\d.e-]+) holds it, with points = (\d+)", reason).groups()
-    wider = MDR(points=int(points), extent=float(extent))
-    assert wider.foreseen(scene) == []
-    assert wider.solve(scene).normal_force == pytest.approx(1.0)
-    assert MDR(points=500).foreseen(scene) == []
 
 
 def test_points_and_waves_that_a_refusal_names_do_for_other_draws_too():

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from sliding import CHAIN, KELVIN, ROUGH, SMOOTH
+from sliding import CHAIN, KELVIN, ROUGH
 
 from mdr1d import MDR, modes_of, sweep_modes
 from scene import Elastic, Indent, KelvinChain, Prony, Slide, StandardLinearSolid
@@ -55,23 +55,6 @@ def test_a_sphere_slides_on_a_standard_solid_as_the_differential_equation_says(m
     # Chords lie above the parabola by up to pixel^2 / 4.
     assert x[0] + contact.first == pytest.approx(-1, abs=SECOND_ORDER_AT_5000)
     assert x[0] + contact.last == pytest.approx(edge, abs=SECOND_ORDER_AT_5000)
-
-
-def test_friction_of_the_sphere_has_its_peak_between_the_rubber_and_the_glass():
-    speeds = HALF / TIME * np.logspace(-4, 4, 33)
-    mu = [
-        MDR(points=1000)
-        .solve(replace(SMOOTH, elastomer=SOLID, motion=Slide(speed=v, load=1.0)))
-        .friction_coefficient
-        for v in speeds
-    ]
-    peak = int(np.argmax(mu))
-    assert np.all(np.diff(mu[: peak + 1]) > 0)
-    assert np.all(np.diff(mu[peak:]) < 0)
-    assert 0.01 < speeds[peak] * TIME / HALF < 1
-    # Rises with the speed and falls with its inverse.
-    assert mu[1] / mu[0] == pytest.approx(10**0.25, rel=0.01)
-    assert mu[-1] / mu[-2] == pytest.approx(10**-0.25, rel=0.01)
 
 
 def test_elements_that_amount_to_kelvin_take_its_sweep():

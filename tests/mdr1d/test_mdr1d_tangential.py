@@ -2,11 +2,10 @@
 
 from dataclasses import replace
 
-import numpy as np
 import pytest
 
 from compare.models.exact import tangential as closed
-from mdr1d import MDR, estimates, tangential
+from mdr1d import MDR, estimates
 from scene import (
     Cone,
     Coulomb,
@@ -14,15 +13,12 @@ from scene import (
     Indent,
     Kelvin,
     PowerLaw,
-    Program,
-    Refused,
     Scene,
     SelfAffine,
     Shear,
     Slide,
     SolveError,
     Sphere,
-    Stage,
 )
 
 G, MU, LOAD = 1e6, 0.4, 1.0
@@ -109,42 +105,10 @@ def test_springs_add_up_and_none_carries_more_than_friction_holds(roughness):
     assert not slip[~answer.fields["contact"]].any()
 
 
-@pytest.mark.parametrize("drawn", [{"force": 0.0}, {"displacement": 0.0}])
-def test_a_pull_of_nothing_is_the_contact_at_rest(drawn):
-    asked = scene(roughness=ROUGH, **drawn)
-    one, other = MDR().solve(at_rest(asked)), MDR().solve(asked)
-    np.testing.assert_array_equal(one.fields["line_force"], other.fields["line_force"])
-    assert other.friction_force == 0
-    assert not other.fields["tangential_line_force"].any()
-    assert other.measures["stick_length"] == pytest.approx(one.measures["contact_length"], rel=ROUNDING)
-    assert (one.depth, one.operator_applications) == (other.depth, other.operator_applications)
-
-
-@pytest.mark.parametrize("motion", [Indent(load=LOAD), Slide(speed=0.1, load=LOAD)])
-def test_friction_without_a_pull_draws_no_springs(motion, monkeypatch):
-    monkeypatch.delattr(tangential, "Springs")
-    plain = Scene(SHAPES["sphere"], Kelvin(G, 1e-3), motion, ROUGH)
-    one, other = (MDR().solve(each) for each in (plain, replace(plain, interface=Coulomb(MU))))
-    for name, field in one.fields.items():
-        np.testing.assert_array_equal(field, other.fields[name])
-    parts = (one.friction_force, MU * one.normal_force if motion.speed else 0.0)
-    assert other.friction_force == sum(parts)
-    if motion.speed:
-        assert tuple(other.measures[f"friction_in_{where}"] for where in ("elastomer", "interface")) == parts
-        assert min(parts) > 0
-
-
 def test_all_slips_in_the_end_and_friction_holds_no_more():
     answer = MDR().solve(scene(roughness=ROUGH, displacement=1.0))
     assert answer.measures["stick_length"] == 0
     assert answer.friction_force == pytest.approx(MU * answer.normal_force, rel=ROUNDING)
-
-
-def test_without_friction_all_slips_at_once():
-    answer = MDR().solve(scene(coefficient=0.0, displacement=1e-6))
-    assert answer.friction_force == 0
-    assert answer.measures["stick_length"] == 0
-    assert (answer.fields["slip"][answer.fields["contact"]] == 1e-6).all()
 
 
 @pytest.mark.parametrize("drawn", [1e-300, 1e-12])
@@ -153,23 +117,6 @@ def test_next_to_nothing_displaces_in_proportion(drawn):
     stiffness = closed.no_slip_stiffness(G, 0.5, answer.measures["contact_length"] / 2)
     # of the grid's outermost pixel, where springs reach up to what friction holds
     assert answer.friction_force == pytest.approx(stiffness * drawn, rel=1e-3)
-
-
-@pytest.mark.parametrize(("drawn", "roughness"), [("displacement", ROUGH), ("force", None)])
-def test_coefficient_and_pull_multiplied_by_one_number_multiply_the_answer(roughness, drawn):
-    pull = {"displacement": 3e-5, "force": 0.6 * MU * LOAD}[drawn]
-    one = MDR().solve(scene(roughness=roughness, **{drawn: pull}))
-    for factor in (1e-250, 1e-12, 1e150):
-        asked = scene(roughness=roughness, coefficient=factor * MU, **{drawn: factor * pull})
-        other = MDR().solve(asked)
-        assert other.friction_force == pytest.approx(factor * one.friction_force, rel=ROUNDING)
-        for name in ("tangential_displacement", "stick_length"):
-            scale = 1.0 if name == "stick_length" else factor
-            assert other.measures[name] == pytest.approx(scale * one.measures[name], rel=1e-10)
-        line_force = one.fields["tangential_line_force"]
-        np.testing.assert_allclose(
-            other.fields["tangential_line_force"] / factor, line_force, rtol=0, atol=1e-9 * line_force.max()
-        )
 
 
 @pytest.mark.parametrize("speed", [0.0, 0.1])
@@ -185,16 +132,3 @@ def test_the_line_as_given_slips_by_its_own_depth():
     answer = MDR(shape="as-given").solve(scene(displacement=1e-5))
     u_max = closed.full_slip_displacement(MU, answer.depth, 0.5)
     assert answer.friction_force == pytest.approx(MU * LOAD * closed.force(1e-5 / u_max), rel=SECOND_ORDER)
-
-
-@pytest.mark.parametrize(("coefficient", "force"), [(MU, MU * LOAD), (0.0, 1e-3)])
-def test_a_force_beyond_friction_slides_and_is_an_error(coefficient, force):
-    # the load itself is met to 1e-13
-    with pytest.raises(SolveError, match=rf"motion.force = {force:g} slides: all that friction holds"):
-        MDR().solve(scene(coefficient=coefficient, force=force * (1 + 1e-9)))
-
-
-def test_a_history_of_partial_slip_is_refused_by_name():
-    asked = replace(scene(force=0.1), motion=Program(stages=(Stage(duration=1.0, load=LOAD),)))
-    with pytest.raises(Refused, match="interface = Coulomb: a history of partial slip is not simulated"):
-        MDR().solve(asked)

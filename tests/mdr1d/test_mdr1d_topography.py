@@ -7,13 +7,11 @@ import numpy as np
 import pytest
 
 import mdr1d.topography
-import scene.topography
 from bem3d.grid import Grid
 from mdr1d import MDR, draw
 from mdr1d.surface import band_of
 from mdr1d.topography import amplitudes
 from scene import Kelvin, Program, Refused, Scene, SelfAffine, Slide, Sphere, Stage, Topography
-from scene.waves import MOST_WAVES
 
 ROUGH = SelfAffine(hurst=0.8, rms_height=2e-6, longest=4e-3, shortest=0.25e-3, seed=3)
 ROUNDING = 1e-12
@@ -176,16 +174,6 @@ def test_a_rectangle_is_as_long_as_its_longer_side_or_its_rows():
     assert band_of(map_, "mapped").period == pytest.approx(30e-3)
     assert band_of(map_, "line-scan").period == pytest.approx(6e-3)
     assert band_of(map_, "line-scan").shortest == pytest.approx(2e-3)
-
-
-def test_more_waves_than_fit_are_refused_before_they_are_built(monkeypatch):
-    monkeypatch.setattr(scene.topography, "_waves", lambda *_: pytest.fail("waves were built"))
-    map_ = Topography(heights=np.eye(4, MOST_WAVES + 2), pixel=1e-6)
-    refused = f"roughness = Topography has {MOST_WAVES + 1} waves a side, {MOST_WAVES} fit in memory: crop the map"
-    for spectrum in ("mapped", "line-scan"):
-        for ask in (MDR(spectrum=spectrum).solve, MDR(spectrum=spectrum).plan):
-            with pytest.raises(Refused, match=refused):
-                ask(replace(SLIDING, roughness=map_))
 
 
 def test_a_grid_too_coarse_for_a_map_is_refused():

@@ -1,0 +1,121 @@
+"""Contacts drawn along the surface in both dimensionalities: what is absent costs nothing, and proportion."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from bem3d import BEM, cerruti, stickslip
+from mdr1d import MDR, tangential
+from scene import (
+    Coulomb,
+    Elastic,
+    Indent,
+    Kelvin,
+    Program,
+    Refused,
+    Scene,
+    SelfAffine,
+    Shear,
+    Slide,
+    SolveError,
+    Sphere,
+    Stage,
+)
+
+G, MU, LOAD = 1e6, 0.4, 1.0
+SPHERE, STICKS = Sphere(radius=10e-3), Coulomb(MU)
+ROUGH = SelfAffine(hurst=0.8, rms_height=1e-5, longest=10e-3, shortest=0.5e-3, seed=1)
+# What a solver calls the size of a contact, where it touches, and what a pull adds.
+SIZE = {"MDR": "length", "BEM": "area"}
+TOUCHES = {"MDR": "contact", "BEM": "pressure"}
+ADDED = {"MDR": ("tangential_line_force", "slip"), "BEM": ("traction_x", "slip_x")}
+solvers = pytest.mark.parametrize("solver", [MDR(), BEM(points=48)], ids=lambda solver: solver.name)
+
+
+def sphere(nu=0.5, roughness=None, coefficient=MU, **drawn):
+    return Scene(SPHERE, Elastic(G, nu), Shear(load=LOAD, **drawn), roughness, interface=Coulomb(coefficient))
+
+
+@pytest.fixture
+def untouched(monkeypatch):
+    """Tangential kernels and products of three dimensions must not be built."""
+    for name in ("free", "periodic", "preconditioner"):
+        monkeypatch.delattr(cerruti, name)
+    monkeypatch.delattr(stickslip, "solve")
+
+
+@solvers
+@pytest.mark.parametrize("motion", [Indent(load=LOAD), Slide(speed=0.1, load=LOAD)])
+def test_friction_without_a_pull_builds_nothing_and_changes_no_field(solver, motion, untouched, monkeypatch):
+    monkeypatch.delattr(tangential, "Springs")
+    plain = Scene(SPHERE, Kelvin(G, 1e-3), motion, ROUGH)
+    one, other = (solver.solve(each) for each in (plain, replace(plain, interface=STICKS)))
+    for name, field in one.fields.items():
+        np.testing.assert_array_equal(field, other.fields[name])
+    for name in ("depth", "operator_applications", "residual"):
+        assert getattr(one, name) == getattr(other, name)
+    parts = (one.friction_force, MU * one.normal_force if motion.speed else 0.0)
+    assert other.friction_force == sum(parts)
+    if motion.speed:
+        assert tuple(other.measures[f"friction_in_{where}"] for where in ("elastomer", "interface")) == parts
+        assert min(parts) > 0
+
+
+@solvers
+@pytest.mark.parametrize("drawn", [{"force": 0.0}, {"displacement": 0.0}])
+def test_a_pull_of_nothing_is_the_contact_at_rest(solver, drawn, untouched):
+    asked = sphere(roughness=ROUGH, **drawn)
+    one, other = (solver.solve(each) for each in (replace(asked, motion=Indent(load=LOAD), interface=None), asked))
+    for name, field in one.fields.items():
+        np.testing.assert_array_equal(field, other.fields[name])
+    assert (one.depth, one.operator_applications) == (other.depth, other.operator_applications)
+    assert other.friction_force == 0
+    assert not any(other.fields[name].any() for name in ADDED[solver.name])
+    size = one.measures[f"contact_{SIZE[solver.name]}"]
+    assert other.measures[f"slip_{SIZE[solver.name]}"] == pytest.approx(0.0, abs=1e-12 * size)
+
+
+@solvers
+def test_without_friction_all_slips_at_once(solver, untouched):
+    answer = solver.solve(sphere(coefficient=0.0, displacement=1e-6))
+    assert answer.friction_force == answer.measures[f"stick_{SIZE[solver.name]}"] == 0
+    _, slip = ADDED[solver.name]
+    assert (answer.fields[slip][answer.fields[TOUCHES[solver.name]] > 0] == 1e-6).all()
+
+
+@solvers
+@pytest.mark.parametrize("nu", [0.0, 0.5])
+@pytest.mark.parametrize("drawn", [{"displacement": 3e-5}, {"force": 0.6 * MU * LOAD}])
+def test_coefficient_and_pull_multiplied_by_one_number_multiply_the_answer(solver, nu, drawn):
+    solver = replace(solver, points=32) if solver.name == "BEM" else solver
+    one = solver.solve(sphere(nu, ROUGH, **drawn))
+    # of 1e-250 to 1e150; powers of two change no digits
+    for factor in (2.0**-830, 2.0**-40, 2.0**498):
+        pull = {name: factor * value for name, value in drawn.items()}
+        other = solver.solve(sphere(nu, ROUGH, factor * MU, **pull))
+        for name in ADDED[solver.name]:
+            np.testing.assert_array_equal(other.fields[name], factor * one.fields[name])
+        assert other.friction_force == factor * one.friction_force
+        assert other.measures["tangential_displacement"] == factor * one.measures["tangential_displacement"]
+        for name in {f"stick_{SIZE[solver.name]}", "tangential_residual", "tangential_applications"} & {
+            *one.measures
+        }:
+            assert other.measures[name] == one.measures[name]
+
+
+@solvers
+@pytest.mark.parametrize(("coefficient", "force"), [(MU, MU * LOAD), (MU, 2.0), (0.0, 1e-3)])
+def test_a_force_beyond_friction_slides_and_is_an_error(solver, coefficient, force):
+    # in one dimension the load itself is met to 1e-13
+    beyond = force * (1 + 1e-9) if solver.name == "MDR" else force
+    most = rf"motion.force = {force:g} slides: .* load = {coefficient * LOAD:g}; use Slide"
+    with pytest.raises(SolveError, match=most):
+        solver.solve(sphere(coefficient=coefficient, force=beyond))
+
+
+@solvers
+def test_a_history_of_partial_slip_is_refused_by_name(solver):
+    program = Program(stages=(Stage(duration=1.0, load=LOAD),))
+    with pytest.raises(Refused, match="interface = Coulomb: a history of partial slip is not simulated"):
+        solver.solve(replace(sphere(force=0.1), motion=program))
