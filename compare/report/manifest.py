@@ -17,9 +17,8 @@ from scene.printable import brief
 from scene.reading import InvalidInput
 
 from ..solving.digest import PACKAGES
-from ..solving.folder_format import FORMAT, Stated, finished, read
-from ..solving.folder_format import MANIFEST as NAME
-from ..solving.folders import clear, hold
+from ..solving.folders import FORMAT, Stated, clear, hold, read
+from ..solving.folders import MANIFEST as NAME
 from .csvfiles import write_text
 from .page import Page, Plot
 
@@ -95,7 +94,7 @@ def begin(folder: Path, study: "Study", files: Iterable[str]) -> None:
     """
     earlier: tuple[str, ...] = ()
     with suppress(InvalidInput):
-        earlier = read(folder / NAME, Manifest).files
+        earlier = read(folder / NAME, Manifest, finished=False).files
     listed = list(dict.fromkeys([*earlier, *files]))
     _write(folder, {"finished": False, "command": study.command, "plots": [], "tables": [], "files": listed})
     places = set()
@@ -164,7 +163,7 @@ def folders(folder: str | Path) -> Iterator[Folder]:
         )
     for path in paths:
         with hold([path.parent]):
-            yield Folder(path.parent, finished(path, Manifest))
+            yield Folder(path.parent, read(path, Manifest))
 
 
 def inside(folder: Path, name: str) -> Path:

@@ -6,15 +6,15 @@ from dataclasses import dataclass, replace
 from bem3d import BEM, Trail
 from scene import Indent, Program, Scene, Solver
 
-from .outcome import Outcome, Row
-from .task import SceneTask, Task
+from .outcome import Outcome
+from .task import Scenes, SceneTask, Task
 
 # Work of a path: about a minute, so that a kill costs no more.
 LONGEST = 1e9
 
 
 @dataclass(frozen=True)
-class Continuation:
+class Continuation(Scenes):
     """Contacts of one body and surface, of which each starts from those before it; equal if these are.
 
     contacts : of one scene each, in the order in which they are solved
@@ -29,7 +29,7 @@ class Continuation:
         return self.contacts[-1].solver
 
     @property
-    def scenes(self) -> tuple[Scene, ...]:
+    def scenes(self) -> tuple[Scene, ...]:  # type: ignore[override]
         """Scene of each contact."""
         return tuple(scene for each in self.contacts for scene in each.scenes)
 
@@ -57,14 +57,6 @@ class Continuation:
         """Solve the contacts in their order, also behind one that fails."""
         trail = Trail()
         return Outcome(tuple(row for each in self.contacts for row in each.solve(trail).rows))
-
-    def failed(self, reason: str) -> Outcome:
-        """Outcome with a row for each contact, each with the reason."""
-        return Outcome((Row(reason=reason),) * len(self.contacts))
-
-    def fits(self, outcome: Outcome) -> bool:
-        """Whether the outcome has a row for each contact."""
-        return len(outcome.rows) == len(self.contacts)
 
 
 def joined(contacts: Iterable[SceneTask]) -> list[SceneTask | Continuation]:

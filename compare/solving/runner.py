@@ -24,8 +24,15 @@ PULSE = 0.2  # time after which an interrupt is noticed [s]
 _LOG = logging.getLogger(__name__)
 
 
-class SweepProgress:
-    """SweepProgress of a sweep while it runs; this one says nothing."""
+class Progress:
+    """What a run tells of how far it is; this one says nothing."""
+
+    def said(self, line: str) -> None:
+        """Remark for people: what a study takes, that a worker died, that there is none."""
+
+    def solving(self) -> AbstractContextManager[Any]:
+        """Begin to solve; what is told meanwhile."""
+        return nullcontext(self)
 
     def planned(self, tasks: Sequence[Task], reused: int) -> None:
         """The tasks that have to be solved, and how many more the store has."""
@@ -36,27 +43,12 @@ class SweepProgress:
     def finished(self, task: Task, outcome: Outcome) -> None:
         """A task is solved and stored, or has failed: then its rows have a reason."""
 
-    def said(self, line: str) -> None:
-        """Remark for people: a worker died, there is none."""
-
     def interrupted(self) -> None:
         """Tell that nothing more is started; the solves under way are waited for."""
 
-
-@dataclass(frozen=True)
-class Progress:
-    """Whom a run tells how far it is.
-
-    told : told what a study takes, before a task is built
-    solving : makes what is told while tasks are solved
-    writing : makes what is told of every figure while the page is written, from their number
-    """
-
-    told: Callable[[str], Any] = str
-    solving: Callable[[], AbstractContextManager[SweepProgress | None]] = nullcontext
-    writing: Callable[[int], AbstractContextManager[Callable[[str], Any]]] = lambda count: nullcontext(
-        lambda name: None
-    )
+    def writing(self, count: int) -> AbstractContextManager[Callable[[str], Any]]:
+        """Draw so many figures; what is told of each by its name."""
+        return nullcontext(str)
 
 
 @dataclass(frozen=True)
@@ -90,7 +82,7 @@ def sweep(
     tasks: Iterable[Task],
     store: Store,
     workers: int | None = None,
-    progress: SweepProgress | None = None,
+    progress: Progress | None = None,
     fresh: bool = False,
     scheduler: str | None = None,
     executor: Executor | None = None,
@@ -112,7 +104,7 @@ def sweep(
     start, and where a scheduler cannot be reached or is lost; InvalidInput where another run writes the store;
     Refused of a scheduler whose address is none or whose library is not installed, and of workers with other code.
     """
-    progress, start = progress or SweepProgress(), time.perf_counter()
+    progress, start = progress or Progress(), time.perf_counter()
     tasks = list(dict.fromkeys(tasks))
     outcomes = store.stored(tasks)
     if len(outcomes) == len(tasks):

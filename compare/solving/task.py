@@ -63,8 +63,22 @@ class Batch(NamedTuple):
     timed: bool = False
 
 
+class Scenes:
+    """What tasks have in common whose outcomes have a row for each scene."""
+
+    scenes: tuple[Scene, ...]
+
+    def failed(self, reason: str) -> Outcome:
+        """Outcome with a row for each scene, each with the reason."""
+        return Outcome((Row(reason=reason),) * len(self.scenes))
+
+    def fits(self, outcome: Outcome) -> bool:
+        """Whether the outcome has a row for each scene."""
+        return len(outcome.rows) == len(self.scenes)
+
+
 @dataclass(frozen=True)
-class SceneTask:
+class SceneTask(Scenes):
     """Scenes that differ only in the seed of their roughness, answered by one solver; equal if these are.
 
     finer : finer grids of the solver, of which the first that can answers where it cannot
@@ -131,14 +145,6 @@ class SceneTask:
             if self.keeps_fields and len(rows) == 1 and result is not None:
                 fields = dict(result.fields)
         return Outcome(tuple(rows), fields)
-
-    def failed(self, reason: str) -> Outcome:
-        """Outcome with a row for each scene, each with the reason."""
-        return Outcome((Row(reason=reason),) * len(self.scenes))
-
-    def fits(self, outcome: Outcome) -> bool:
-        """Whether the outcome has a row for each scene."""
-        return len(outcome.rows) == len(self.scenes)
 
 
 def _answer(solver, scene, trail) -> tuple[Row, Result | None]:

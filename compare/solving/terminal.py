@@ -17,7 +17,7 @@ from scene.printable import printable
 from .amounts import duration
 from .cost import SECONDS
 from .outcome import Outcome
-from .runner import Progress, SweepProgress
+from .runner import Progress
 from .task import Task
 
 PAUSE = 10.0  # seconds between lines where there is no terminal to draw a bar on
@@ -67,7 +67,7 @@ class Solving:
         return ", ".join([*self.counts(), *(printable(task.label) for task in [*self.running][:1])])
 
 
-class Shown(SweepProgress):
+class Shown(Progress):
     """What a person sees of a run, a bar for each phase: a context.
 
     lines : whether a line is printed for each solve and each figure, in place of a bar
@@ -97,7 +97,6 @@ class Shown(SweepProgress):
         )
         if not drawn:
             self.bar.live.refresh = self._refresh  # type: ignore[method-assign]
-        self.progress = Progress(self.said, self.solving, self.writing)
         self.output: Any = None  # of a notebook: one for all lines, with the bar below them
         self.told, self.last = list[Text](), clock()
         self.tasks, self.reused = Solving([], clock), 0

@@ -75,9 +75,9 @@ def run(
     if Path(study.place).parts[:1] == (SOLVED,):
         raise InvalidInput(f"place = {study.place}: this folder holds the solved contacts, choose another place")
     _make_folders(output, [SOLVED] if cost.contacts else [], study.place)
-    with hold((output, below), progress.told):
+    with hold((output, below), progress.said):
         if cost.contacts:
-            progress.told(str(cost))
+            progress.said(str(cost))
         done = _answered(study, output, workers, scheduler, executor, yes, Clock(limit), progress)
         path = _write(done, below, forms, report, progress)
         return replace(done, path=path)
@@ -91,7 +91,7 @@ def _answered(study, output, workers, scheduler, executor, yes, clock, progress)
         while more is not None:
             more.cost().refuse(count, yes)
             if more is not study:
-                progress.told(f"more surfaces: {more.cost()}")
+                progress.said(f"more surfaces: {more.cost()}")
             found = _solve(more, swept, output, workers, scheduler, executor, progress)
             study, swept = more, swept.joined(found)
             answers = study.answers(swept.outcomes)
