@@ -1,4 +1,4 @@
-"""Folders that one run holds, files that are written whole or not at all, and the format of what commands write."""
+"""Folders that one run holds, files that are written whole or not at all, and the format of such folders."""
 
 import errno
 import multiprocessing
