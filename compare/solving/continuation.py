@@ -1,7 +1,8 @@
 """Paths: neighbouring contacts of one body and surface in three dimensions, solved one from the other."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
+from math import inf
 
 from bem3d import BEM, Trail
 from scene import Indent, Program, Scene, Solver
@@ -67,7 +68,8 @@ def joined(contacts: Iterable[SceneTask]) -> list[SceneTask | Continuation]:
     paths: dict[object, list[SceneTask]] = {}
     for each in contacts:
         paths.setdefault(_shared(each), []).append(each)
-    return [task for found in paths.values() for task in _cut(sorted(found, key=_place))]
+    cut = [path for found in paths.values() for path in _cut(sorted(found, key=_place))]
+    return [Continuation(tuple(path)) if len(path) > 1 else path[0] for path in cut]
 
 
 def by_contact(outcomes: Mapping[Task, Outcome]) -> dict[Task, Outcome]:
@@ -96,12 +98,12 @@ def _place(contact):
     return getattr(contact.scenes[0].motion, "speed", 0.0), getattr(contact.solver, "points", 0)
 
 
-def _cut(contacts: list[SceneTask]) -> Iterator[SceneTask | Continuation]:
+def _cut(contacts: list[SceneTask]) -> list[list[SceneTask]]:
     """Paths of LONGEST at most."""
-    while contacts:
-        work, count = 0.0, 0
-        while count < len(contacts) and (not count or work + contacts[count].work <= LONGEST):
-            work += contacts[count].work
-            count += 1
-        first, contacts = contacts[:count], contacts[count:]
-        yield Continuation(tuple(first)) if count > 1 else first[0]
+    paths, work = list[list[SceneTask]](), inf
+    for each in contacts:
+        if work + each.work > LONGEST:
+            paths, work = [*paths, []], 0.0
+        paths[-1].append(each)
+        work += each.work
+    return paths

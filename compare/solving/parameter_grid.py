@@ -113,8 +113,8 @@ class ParameterGrid:
         found = {}
         for name, grids in self.grids.items():
             each = [points * work_of(solver, self.scene) for solver in grids.values()]
-            both = tuple(map(sum, zip(each, [*each[1:], 0.0], strict=True)))
-            found[name] = both if self._stratified(name) else (sum(each),)
+            pairs = [each[k : k + 2] for k in range(len(each))]
+            found[name] = tuple(map(sum, pairs if self._stratified(name) else [each]))
         return found
 
     @property

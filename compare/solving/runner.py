@@ -107,21 +107,20 @@ def sweep(
     progress, start = progress or Progress(), time.perf_counter()
     tasks = list(dict.fromkeys(tasks))
     outcomes = store.stored(tasks)
-    if len(outcomes) == len(tasks):
-        progress.planned([], len(tasks))
-        return SweepResult(outcomes, 0, len(tasks), time.perf_counter() - start)
-    with store.writing():
-        # A damaged file gives more as soon as it is copied.
-        outcomes |= store.stored(task for task in tasks if task not in outcomes)
-        missing = sorted((task for task in tasks if task not in outcomes), key=lambda task: -task.work)
-        if other := store.by_other_code(missing):
-            progress.said(f"{other} stored tasks were solved by other code: they are solved again")
+    missing = sorted((task for task in tasks if task not in outcomes), key=lambda task: -task.work)
+    if other := store.by_other_code(missing):
+        progress.said(f"{other} stored tasks were solved by other code: they are solved again")
+    progress.planned(missing, len(outcomes))
+    found, faults = dict[Task, Outcome](), dict[Task, str]()
+    if missing:
         _LOG.info("%d tasks to solve, %d reused from %s", len(missing), len(outcomes), store.folder)
-        reused = len(outcomes)
-        progress.planned(missing, reused)
-        with _workers(missing, workers, fresh, scheduler, executor, progress) as pool, caught() as interrupts:
+        with (
+            store.writing(),
+            _workers(missing, workers, fresh, scheduler, executor, progress) as pool,
+            caught() as interrupts,
+        ):
             found, faults = _solve(missing, store, pool, progress, interrupts)
-    return SweepResult(outcomes | found, len(missing), reused, time.perf_counter() - start, faults)
+    return SweepResult(outcomes | found, len(missing), len(outcomes), time.perf_counter() - start, faults)
 
 
 def _workers(missing, count, fresh, scheduler, executor, progress) -> Workers:

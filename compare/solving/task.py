@@ -172,19 +172,13 @@ def _importable(kind) -> bool:
 
 
 def _source(kind) -> str:
-    """Source of a class; of one whose source is lost, the code of its methods."""
+    """Source of a class or a function; the code of one whose source is lost."""
     try:
         return getsource(kind)
     except (OSError, TypeError):  # of a notebook: cells are known by function
-        pass
-    methods = {name: each for name, each in vars(kind).items() if hasattr(each, "__code__")}
-    told = []
-    for name, each in methods.items():
-        try:
-            told.append(getsource(each))
-        except (OSError, TypeError):
-            told.append(f"{name} {each.__code__.co_code.hex()} {each.__code__.co_consts!r}")
-    return "\n".join(told)
+        if code := getattr(kind, "__code__", None):
+            return f"{kind.__name__} {code.co_code.hex()} {code.co_consts!r}"
+    return "\n".join(_source(each) for each in vars(kind).values() if hasattr(each, "__code__"))
 
 
 def refuse_seed(scene: Scene, most: int) -> None:
