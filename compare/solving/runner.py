@@ -130,8 +130,7 @@ def _workers(missing, count, fresh, scheduler, executor, progress) -> Workers:
         return Processes(min(counted(count), len(missing)), fresh)
     from .cluster import Cluster
 
-    packages = {package for task in missing for package in task.packages}
-    return Cluster(scheduler, sorted(packages), progress.said)
+    return Cluster(scheduler, progress.said)
 
 
 def _solve(missing, store, workers, progress, interrupts) -> tuple[dict[Task, Outcome], dict[Task, str]]:

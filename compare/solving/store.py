@@ -23,8 +23,6 @@ from .task import Task
 
 FILE = "answers.sqlite"
 TRACE = ".fault.txt"  # of how a task broke, behind its key
-HEAD = b"SQLite format 3\0"
-OURS = 0x6D647262  # the application that a file of SQLite states at byte 68
 MOST_BYTES, MOST_FIELDS = 2**36, 10**9  # of the file, of the fields of an answer
 KINDS = "iufb"  # of the numbers of fields
 ROWS = TypeAdapter(tuple[Row, ...])
@@ -101,13 +99,10 @@ class Store:
             touch(self.path)
             connection = opened.enter_context(closing(connect(self.path, "rw")))
             connection.execute("PRAGMA locking_mode = EXCLUSIVE")  # else WAL needs memory that drives do not share
-            connection.execute("PRAGMA journal_mode = DELETE")
             if not _has_table(connection):
-                with connection:
-                    connection.execute("BEGIN EXCLUSIVE")
-                    connection.execute(f"PRAGMA application_id = {OURS}")
-                    connection.execute(TABLE.decode())
-            if connection.execute("PRAGMA quick_check(1)").fetchone() != (b"ok",):
+                connection.execute(TABLE.decode())
+            connection.execute("PRAGMA journal_mode = DELETE")
+            if connection.execute("PRAGMA integrity_check(1)").fetchone() != (b"ok",):
                 raise sqlite3.DatabaseError("damaged")
             connection.execute("PRAGMA journal_mode = WAL")
             connection.execute("PRAGMA synchronous = NORMAL")
@@ -144,20 +139,11 @@ class Store:
             return {name for (name,) in connection.execute("SELECT key FROM answers")} if connection else set()
 
     def _there(self) -> bool:
-        """Whether there is a file that is not empty. Raises InvalidInput of one that is no store."""
-        if not os.path.lexists(self.path):
-            return False
+        """Whether there is a file that is not empty. Raises InvalidInput of what is none, or too large."""
         try:
-            with files.checked(self.path, MOST_BYTES).open("rb") as file:
-                head = file.read(72)
+            return os.path.lexists(self.path) and files.checked(self.path, MOST_BYTES).stat().st_size > 0
         except files.Unreadable as error:
             raise InvalidInput(str(error)) from error
-        if head and not (head.startswith(HEAD) and head[68:] == OURS.to_bytes(4, "big")):
-            raise self._refused("is no file of solved contacts")
-        return bool(head)
-
-    def _refused(self, why: str) -> InvalidInput:
-        return InvalidInput(f"{brief(str(self.path))}: {why}: move it away, or name another folder")
 
     @contextmanager
     def _named(self):
@@ -169,7 +155,8 @@ class Store:
             if code == sqlite3.SQLITE_BUSY:
                 raise held_by_another(self.folder) from error
             if code in DAMAGED:
-                raise self._refused("is damaged so that nothing can be read") from error
+                why = "is no file of solved contacts, or is damaged: move it away, or name another folder"
+                raise InvalidInput(f"{brief(str(self.path))}: {why}") from error
             number = ERRORS.get(code, errno.EIO)
             reason = os.strerror(number) if code in ERRORS else str(error)
             raise OSError(number, reason, str(self.path)) from error

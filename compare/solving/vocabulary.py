@@ -35,7 +35,6 @@ Of solids.
 omega : Angular frequency. [rad/s]
 storage : Storage modulus G' in shear. [Pa]
 loss : Loss modulus G'' in shear. [Pa]
-modulus : Relaxation modulus G(t) in shear. [Pa]
 compliance : Creep compliance J(t) in shear. [1/Pa]
 
 Of findings.
