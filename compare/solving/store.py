@@ -27,7 +27,7 @@ MOST_BYTES, MOST_FIELDS = 2**36, 10**9  # of the file, of the fields of an answe
 KINDS = "iufb"  # of the numbers of fields
 ROWS = TypeAdapter(tuple[Row, ...])
 # Rows are JSON, fields a file of NumPy; the digest is that of all of an answer.
-TABLE = b"CREATE TABLE answers (key TEXT PRIMARY KEY, content TEXT, fields BLOB, digest TEXT)"
+TABLE = b"CREATE TABLE answers (key TEXT PRIMARY KEY, content TEXT, fields BLOB, digest TEXT) WITHOUT ROWID"
 DAMAGED = (0, sqlite3.SQLITE_ERROR, sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB)
 ERRORS = {sqlite3.SQLITE_FULL: errno.ENOSPC, sqlite3.SQLITE_READONLY: errno.EACCES}
 
@@ -102,7 +102,7 @@ class Store:
             if not _has_table(connection):
                 connection.execute(TABLE.decode())
             connection.execute("PRAGMA journal_mode = DELETE")
-            if connection.execute("PRAGMA integrity_check(1)").fetchone() != (b"ok",):
+            if connection.execute("PRAGMA quick_check(1)").fetchone() != (b"ok",):
                 raise sqlite3.DatabaseError("damaged")
             connection.execute("PRAGMA journal_mode = WAL")
             connection.execute("PRAGMA synchronous = NORMAL")
