@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from math import inf
 
 from bem3d import BEM, Trail
-from scene import Indent, Program, Scene, Solver
+from scene import Indent, Program, Scene
 
 from .outcome import Outcome
 from .task import Scenes, SceneTask, Task
@@ -23,11 +23,6 @@ class Continuation(Scenes):
 
     contacts: tuple[SceneTask, ...]
     keeps_fields = False
-
-    @property
-    def solver(self) -> Solver:
-        """Solver of the last contact."""
-        return self.contacts[-1].solver
 
     @property
     def scenes(self) -> tuple[Scene, ...]:  # type: ignore[override]

@@ -11,7 +11,7 @@ import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor
 from contextlib import contextmanager, nullcontext, suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from multiprocessing.connection import wait
 from typing import Any, Self
 
@@ -72,7 +72,7 @@ def answered(packed: bytes, here: Mapping[str, Mapping[str, str]]) -> bytes:
         with warnings.catch_warnings(record=True) if worker else nullcontext(()) as heard:
             answer = solved(pickle.loads(packed))
         warned = tuple((each.category, str(each.message)) for each in heard)
-        return pickle.dumps(Answer(answer.outcome, answer.reason, answer.trace, warned))
+        return pickle.dumps(replace(answer, warned=warned))
     except Exception as error:
         return pickle.dumps(Answer.of(error))
 
@@ -95,15 +95,12 @@ def differences(here: Mapping[str, Mapping[str, str]]) -> str:
         there = code_of(tuple(here["code"]))
     except Exception as error:
         return f"it does not state its code ({type(error).__name__}: {error})"
-    code = [name for name, digest in here["code"].items() if there["code"][name] != digest]
+    code, versions = (
+        [name for name in here[of] if there[of].get(name) != here[of][name]] for of in ("code", "versions")
+    )
     other = [f"its code of {', '.join(code)} is another"] if code else []
-    found = there["versions"]
-    other += [
-        f"its {name} is {found.get(name)}, here {mine}"
-        for name, mine in here["versions"].items()
-        if found.get(name) != mine
-    ]
-    return "; ".join(other)
+    found, mine = there["versions"], here["versions"]
+    return "; ".join([*other, *(f"its {name} is {found.get(name)}, here {mine[name]}" for name in versions)])
 
 
 class Workers:

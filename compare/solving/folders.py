@@ -67,7 +67,8 @@ def hold(folders: Iterable[Path], say: Callable[[str], Any] | None = None) -> It
     SQLite locks an empty file in each; the system takes the lock back, however the process ends. Raises
     InvalidInput, which names the folder, where another run holds it.
     """
-    if starting():  # of a script without a guard, run again: its parent has the folder
+    # A worker that still imports a script without a guard, which runs again: its parent has the folder.
+    if getattr(multiprocessing.current_process(), "_inheriting", False):
         raise SystemExit(1)
     with ExitStack() as held:
         for folder in dict.fromkeys(folders):
@@ -103,11 +104,6 @@ def held_by_another(folder: Path) -> InvalidInput:
         f"{brief(str(folder))}: another run holds this folder until its page is written: wait for it, or name "
         "another folder"
     )
-
-
-def starting() -> bool:
-    """Whether this is a worker that still imports the script which asked for workers."""
-    return getattr(multiprocessing.current_process(), "_inheriting", False)
 
 
 def write(path: Path, fill: Callable[[IO[bytes]], Any]) -> None:

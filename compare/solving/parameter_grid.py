@@ -87,15 +87,11 @@ class ParameterGrid:
     def __post_init__(self):
         for name, unit in (("speeds", SPEED), ("values", PRESSES[self.prescribed])):
             object.__setattr__(self, name, argument(name, getattr(self, name), unit.row))
-        draws = {
-            solver: argument("draws", count, WHOLE.row if isinstance(count, tuple) else WHOLE.value)
-            for solver, count in self.draws.items()
-        }
-        for name, counts in draws.items():
-            grids = len(self.grids.get(name, ()))
-            if isinstance(counts, tuple) and not (
-                len(counts) == grids and 0 < min(counts) <= max(counts) <= MOST_DRAWS
-            ):
+        draws = {}
+        for name, given in self.draws.items():
+            strata, grids = isinstance(given, tuple), len(self.grids.get(name, ()))
+            draws[name] = counts = argument("draws", given, WHOLE.row if strata else WHOLE.value)
+            if strata and not (len(counts) == grids and 0 < min(counts) <= max(counts) <= MOST_DRAWS):
                 allowed = f"{grids} whole numbers, one for each grid, from 1 to {MOST_DRAWS:,}"
                 raise ValueError(f"draws = {brief(repr(counts))} of {name}: {allowed}")
         object.__setattr__(self, "draws", draws)
@@ -272,12 +268,11 @@ class ParameterGrid:
 
 def _numbers(row):
     """What a Dataset has of a contact; without a force there is no friction."""
-    status = SOLVED if not row.finer else FINER
-    if row.reason is not None or not row.normal_force:
-        status = EMPTY if row.reason is None else FAILED
+    status = (FINER if row.finer else SOLVED) if row.normal_force else EMPTY
+    status = NOT_ASKED if row is UNASKED else status if row.reason is None else FAILED
     numbers = {own: getattr(row, of) for own, of in NUMBERS.items()} | {**row.measures}
     numbers |= {} if row.normal_force else {"friction_force": nan}
-    return numbers | {"status": NOT_ASKED if row is UNASKED else status, "reason": row.reason or ""}
+    return numbers | {"status": status, "reason": row.reason or ""}
 
 
 def on_two_grids(*solvers: Solver) -> dict[str, dict[str, Solver]]:
@@ -295,10 +290,8 @@ def on_levels(solver: Solver, scenes: Iterable[Scene], most: int = len(LEVELS)) 
     first, *others = scenes
     found: list[Any] = [solver]
     with trusted():
-        while len(found) < most:
-            # Half the points tell the error of the grid, however few they are.
-            if len(found) > 1 and found[-1].points < 2 * LEAST.get(solver.name, 1):
-                break
+        # Half the points tell the error of the grid, however few they are.
+        while len(found) < most and (len(found) == 1 or found[-1].points >= 2 * LEAST.get(solver.name, 1)):
             coarser = halved(found[-1])
             if coarser is None or why_not(coarser, first) or any(lacking(coarser, each) for each in others):
                 break

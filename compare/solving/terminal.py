@@ -57,11 +57,14 @@ class Solving:
         under_way = sum(min(now - began, unit * task.work) for task, began in running.items())
         return (unit * self.left - under_way) / max(1, min(self.workers, self.count - self.done))
 
+    def failures(self) -> list[str]:
+        """Number of tasks that failed, in words; none without any."""
+        return [f"{self.failed} failed"] if self.failed else []
+
     def counts(self) -> list[str]:
         """Counts and the time left, in words."""
-        failed = [f"{self.failed} failed"] if self.failed else []
         left = [f"{duration(left)} left"] if (left := self.seconds()) >= 0.5 else []
-        return [f"{self.done}/{self.count}", *failed, *left]
+        return [f"{self.done}/{self.count}", *self.failures(), *left]
 
     def __str__(self) -> str:
         return ", ".join([*self.counts(), *(printable(task.label) for task in [*self.running][:1])])
@@ -158,10 +161,9 @@ class Shown(Progress):
         try:
             yield self
         finally:
-            done, count, failed = self.tasks.done, self.tasks.count, self.tasks.failed
+            done, count = self.tasks.done, self.tasks.count
             solved = f"{done}{'' if done == count else f' of {count}'} tasks solved, {self.reused} reused"
-            took = duration(self.clock() - began)
-            self.said(", ".join([solved, *([f"{failed} failed"] if failed else []), took]))
+            self.said(", ".join([solved, *self.tasks.failures(), duration(self.clock() - began)]))
             self._begin("judging")
 
     def planned(self, tasks: Sequence[Task], reused: int) -> None:
