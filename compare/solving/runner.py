@@ -137,7 +137,7 @@ def _solve(missing, store, workers, progress, interrupts) -> tuple[dict[Task, Ou
     """Outcomes of tasks, and why some broke. Raises KeyboardInterrupt, and OSError as `sweep`."""
     queue, out = deque(missing), dict[Future[bytes], Task]()
     # What a worker died of is suspect with all that was out then, and is tried again alone.
-    suspects, deaths = deque[Task](), Counter[Task]()
+    deaths = Counter[Task]()
     outcomes, faults, ending = {}, {}, False
 
     def keep(task, answer):
@@ -160,21 +160,17 @@ def _solve(missing, store, workers, progress, interrupts) -> tuple[dict[Task, Ou
         for category, message in answer.warned:
             warnings.warn(message, category, stacklevel=3)
 
-    while queue or suspects or out:
-        if interrupts and not ending:
-            ending = True
-            progress.interrupted()
-        if ending:
+    while queue or out:
+        if interrupts:
             queue.clear()
-            suspects.clear()
+            if not ending:
+                progress.interrupted()
+            ending = True
         room = workers.room()
-        while len(out) < room:
-            if suspects and not out:
-                task = suspects.popleft()
-            elif queue and not suspects and not any(deaths[each] for each in out.values()):
-                task = queue.popleft()
-            else:
+        while queue and len(out) < room and not interrupts:
+            if out and any(deaths[each] for each in (queue[0], *out.values())):
                 break
+            task = queue.popleft()
             if not deaths[task]:
                 progress.started(task)
             packed = None
@@ -184,8 +180,6 @@ def _solve(missing, store, workers, progress, interrupts) -> tuple[dict[Task, Ou
                 keep(task, solved(task))
             else:
                 out[workers.submit(packed, code_of(tuple(task.packages)))] = task
-            if interrupts:
-                break
         if not room:
             time.sleep(PULSE)
         for future in wait(out, PULSE, FIRST_COMPLETED).done:
@@ -199,7 +193,7 @@ def _solve(missing, store, workers, progress, interrupts) -> tuple[dict[Task, Ou
                     continue
                 if deaths[task] < workers.tries:
                     progress.said(f"{task.label}: its worker process died; the task is tried again alone")
-                    suspects.append(task)
+                    queue.appendleft(task)
                     continue
                 times = f"{deaths[task]} times, the last time alone"
                 answer = Answer(reason=f"its worker died {times}, as when memory runs out")
