@@ -36,6 +36,7 @@ class Cluster(Workers):
 
     def __init__(self, address: str, say: Callable[[str], Any]):
         self.address, self.say = address, say
+        self.lost = f"the scheduler at {address} is lost"
         self.threads, self.looked = 1, 0.0
 
     def __enter__(self):
@@ -68,7 +69,7 @@ class Cluster(Workers):
     def room(self) -> int:
         """Threads of the workers, and a few; 0 without workers, which is said. Raises ConnectionError."""
         if self.client.status != "running":
-            raise self._lost()
+            raise ConnectionError(self.lost)
         if time.monotonic() - self.looked >= LOOKS:
             before, self.threads = self.threads, sum(self._asked(self.client.nthreads).values())
             self.looked = time.monotonic()
@@ -83,10 +84,7 @@ class Cluster(Workers):
         try:
             return answer_within(LOST, ask)
         except (OSError, TimeoutError, ValueError) as error:
-            raise self._lost() from error
-
-    def _lost(self):
-        return ConnectionError(f"the scheduler at {self.address} is lost")
+            raise ConnectionError(self.lost) from error
 
 
 def _refuse_other(address: str) -> None:

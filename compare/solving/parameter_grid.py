@@ -387,11 +387,8 @@ def tasks_of(grids: Mapping[str, ParameterGrid]) -> list[SceneTask | Continuatio
 
 def contacts_of(grids: Mapping[str, ParameterGrid]) -> list[SceneTask]:
     """Contacts of several grids, each once."""
-    found: dict[SceneTask, SceneTask] = {}
-    for grid in grids.values():
-        for contact in (each for _, contacts in grid.contacts for each in contacts):
-            if contact not in found or contact.keeps_fields:
-                found[contact] = contact
+    every = [each for grid in grids.values() for _, contacts in grid.contacts for each in contacts]
+    found = {each: each for each in every} | {each: each for each in every if each.keeps_fields}
     return list(found.values())
 
 

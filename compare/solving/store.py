@@ -198,8 +198,8 @@ def _packed(fields) -> bytes:
     for name, values in fields.items():
         if values.dtype.kind not in KINDS:
             raise TypeError(f"{name} is of type {values.dtype}, which no file of results can hold")
-        if values.nbytes > MOST_FIELDS - 1000:
-            raise ValueError(f"{name} takes {values.nbytes:.3g} bytes, of which {MOST_FIELDS:.3g} can be stored")
+    if (size := sum(values.nbytes for values in fields.values())) > MOST_FIELDS - 10**6:
+        raise ValueError(f"{', '.join(fields)} takes {size:.3g} bytes, of which {MOST_FIELDS:.3g} can be stored")
     np.savez(packed, *fields.values())
     return packed.getvalue()
 
