@@ -18,8 +18,6 @@ ROUNDING = 1e-9
 SUPERSCRIPT = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 UNKNOWN = "–"
 HOUR = 3600.0
-# Times below the first are written in the unit of the second.
-TIMES = (0.995e-4, 1e-6, "µs"), (0.0995, 1e-3, "ms"), (2 * HOUR, 1.0, "s"), (inf, HOUR, "h")
 
 
 def shown(value: Any, digits: int = DIGITS) -> str:
@@ -102,8 +100,13 @@ def seconds(value: float) -> str:
     """A time in two digits with a unit."""
     if not isfinite(value):
         return "an unknown time"
-    size, unit = next((size, unit) for most, size, unit in TIMES if value < most)
-    return f"{value / size:.2g} {unit}" if value < 99.5 * size else f"{value / size:.0f} {unit}"
+    if value < 0.995e-4:
+        return f"{1e6 * value:.2g} µs"
+    if value < 0.0995:
+        return f"{1e3 * value:.2g} ms"
+    if value < 2 * HOUR:
+        return f"{value:.2g} s" if value < 99.5 else f"{value:.0f} s"
+    return f"{value / HOUR:.2g} h" if value < 99.5 * HOUR else f"{value / HOUR:.0f} h"
 
 
 def duration(seconds: float | None) -> str:

@@ -95,12 +95,15 @@ def differences(here: Mapping[str, Mapping[str, str]]) -> str:
         there = code_of(tuple(here["code"]))
     except Exception as error:
         return f"it does not state its code ({type(error).__name__}: {error})"
-    code, versions = (
-        [name for name in here[of] if there[of].get(name) != here[of][name]] for of in ("code", "versions")
-    )
+    code = [name for name, digest in here["code"].items() if there["code"][name] != digest]
     other = [f"its code of {', '.join(code)} is another"] if code else []
-    found, mine = there["versions"], here["versions"]
-    return "; ".join([*other, *(f"its {name} is {found.get(name)}, here {mine[name]}" for name in versions)])
+    found = there["versions"]
+    other += [
+        f"its {name} is {found.get(name)}, here {mine}"
+        for name, mine in here["versions"].items()
+        if found.get(name) != mine
+    ]
+    return "; ".join(other)
 
 
 class Workers:
