@@ -1,3 +1,9 @@
+from scene import Doubtful as Doubtful
+from scene import InvalidInput as InvalidInput
+from scene import OutOfMemory as OutOfMemory
+from scene import Refused as Refused
+from scene import SolveError as SolveError
+
 from .commands import draw as draw
 from .commands import export as export
 from .commands import friction_plot as friction_plot
@@ -20,11 +26,6 @@ from .commands import verify as verify
 from .commands import workprecision as workprecision
 from .library.case import Case as Case
 from .models.law.persson import Persson as Persson
-from .solving.errors import Doubtful as Doubtful
-from .solving.errors import InvalidInput as InvalidInput
-from .solving.errors import OutOfMemory as OutOfMemory
-from .solving.errors import Refused as Refused
-from .solving.errors import SolveError as SolveError
 from .solving.parameter_grid import ParameterGrid as ParameterGrid
 from .solving.task import SceneTask as SceneTask
 from .statistics.finding import Claim as Claim

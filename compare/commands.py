@@ -134,8 +134,9 @@ def solve(
         raise InvalidInput(f"study = {brief(repr(study))}: an object of a class derived from Study is needed")
     _warn(study.doubts)
     with _shown(progress) as shown:
-        told = None if shown is None else shown.progress
-        found = pipeline.run(study, output, workers, scheduler, executor, figure_format, report, yes, budget, told)
+        found = pipeline.run(
+            study, output, workers, scheduler, executor, figure_format, report, yes, budget, shown
+        )
     _warn([" ".join(found.unsolved.sentences)] if found.unsolved.failed else [])
     return found
 

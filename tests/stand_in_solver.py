@@ -10,7 +10,7 @@ from pathlib import Path
 from pydantic.dataclasses import dataclass
 
 from compare.solving.executors import ONE_THREAD
-from compare.solving.runner import SweepProgress
+from compare.solving.runner import Progress
 from compare.solving.task import SceneTask as Task
 from scene import Indent, Kelvin, Result, Scene, SolveError, Sphere
 
@@ -57,7 +57,7 @@ def loads(*values, solver=None):
     return [Task(solver or Stand(), (replace(SCENE, motion=Indent(load=value)),), work=value) for value in values]
 
 
-class Heard(SweepProgress):
+class Heard(Progress):
     def __init__(self):
         self.said_lines = []
         self.heard = []

@@ -4,10 +4,9 @@ import os
 import platform
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
-from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import numpy as np
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
@@ -17,9 +16,8 @@ from scene.printable import brief
 from scene.reading import InvalidInput
 
 from ..solving.digest import PACKAGES
-from ..solving.folder_format import FORMAT, Stated, finished, read
-from ..solving.folder_format import MANIFEST as NAME
-from ..solving.folders import clear, hold
+from ..solving.folders import FORMAT, Stated, clear, hold, read
+from ..solving.folders import MANIFEST as NAME
 from .csvfiles import write_text
 from .page import Page, Plot
 
@@ -79,8 +77,7 @@ class Manifest(Stated):
     files: Annotated[tuple[Name, ...], Field(max_length=10 * MOST_LISTED)] = ()
 
 
-@dataclass(frozen=True)
-class Folder:
+class Folder(NamedTuple):
     """A folder that a command left, and its manifest."""
 
     path: Path
@@ -95,7 +92,7 @@ def begin(folder: Path, study: "Study", files: Iterable[str]) -> None:
     """
     earlier: tuple[str, ...] = ()
     with suppress(InvalidInput):
-        earlier = read(folder / NAME, Manifest).files
+        earlier = read(folder / NAME, Manifest, finished=False).files
     listed = list(dict.fromkeys([*earlier, *files]))
     _write(folder, {"finished": False, "command": study.command, "plots": [], "tables": [], "files": listed})
     places = set()
@@ -133,7 +130,16 @@ def stamp(
         "solved": Path(solved).as_posix(),
         "tasks": {"solved": swept.solved, "reused": swept.reused},
         "seconds": swept.seconds,
-        "plots": [_entry(plot) for plot in page.every(Plot)],
+        "plots": [
+            {
+                "name": plot.name,
+                "module": plot.draw.__module__,
+                "function": plot.draw.__name__,
+                "tables": list(plot.tables),
+                "options": dict(plot.options),
+            }
+            for plot in page.every(Plot)
+        ],
         "tables": list(dict.fromkeys([FINDINGS, *(name for name, _ in page.tables())])),
         "files": list(files),
         "results": results,
@@ -164,7 +170,7 @@ def folders(folder: str | Path) -> Iterator[Folder]:
         )
     for path in paths:
         with hold([path.parent]):
-            yield Folder(path.parent, finished(path, Manifest))
+            yield Folder(path.parent, read(path, Manifest))
 
 
 def inside(folder: Path, name: str) -> Path:
@@ -196,16 +202,6 @@ def made() -> dict[str, str]:
         "versions": ", ".join(f"{package} {number}" for package, number in versions().items()),
         "machine": f"{where['system']}, {where['machine']}, {where['processors']} processors",
     }
-
-
-def _entry(plot):
-    return PlotEntry(
-        name=plot.name,
-        module=plot.draw.__module__,
-        function=plot.draw.__name__,
-        tables=tuple(plot.tables),
-        options=dict(plot.options),
-    )
 
 
 def _plain(value):

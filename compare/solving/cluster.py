@@ -3,7 +3,7 @@
 import asyncio
 import logging
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from concurrent.futures import Future, wait
 from contextlib import ExitStack, suppress
 from functools import partial
@@ -13,8 +13,7 @@ from typing import Any
 from scene import Refused
 from scene.printable import brief
 
-from .digest import code_of
-from .executors import Workers, differences
+from .executors import Workers
 
 EXTRA = "pip install mdr-bem-crosscheck[cluster]"
 # Seconds in which a scheduler answers, after which it is lost, in which it lets go, between two looks at it.
@@ -24,10 +23,9 @@ NOISE = "distributed", "distributed.client", "distributed.comm", "distributed.co
 
 
 class Cluster(Workers):
-    """Workers of a scheduler, see `Workers`: those that are there first have to have the code of this process.
+    """Workers of a scheduler, see `Workers`.
 
     address : of the scheduler
-    packages : whose code has to be the same there
     say : is told, in a line, when there is no worker
 
     Raises Refused, ConnectionError on entry, see `sweep`. A few more tasks are submitted than the workers have
@@ -36,9 +34,9 @@ class Cluster(Workers):
 
     tries = 2  # as the scheduler tries a task with several workers before it says that they died
 
-    def __init__(self, address: str, packages: Sequence[str], say: Callable[[str], Any]):
+    def __init__(self, address: str, say: Callable[[str], Any]):
         self.address, self.say = address, say
-        self.here = code_of(tuple(packages))
+        self.lost = f"the scheduler at {address} is lost"
         self.threads, self.looked = 1, 0.0
 
     def __enter__(self):
@@ -55,9 +53,6 @@ class Cluster(Workers):
             self.client = self._asked(partial(Client, self.address, timeout=ANSWERS, set_as_default=False))
             stack.callback(self._let_go)
             self.executor = self.client.get_executor(pure=False)
-            found = self._asked(partial(self.client.run, differences, self.here, on_error="return"))
-            if other := [f"{worker}: {differs}" for worker, differs in sorted(found.items()) if differs]:
-                raise Refused(f"workers of {self.address} cannot be used: {'; '.join(other)}")
             self.stack = stack.pop_all()
         return self
 
@@ -74,7 +69,7 @@ class Cluster(Workers):
     def room(self) -> int:
         """Threads of the workers, and a few; 0 without workers, which is said. Raises ConnectionError."""
         if self.client.status != "running":
-            raise self._lost()
+            raise ConnectionError(self.lost)
         if time.monotonic() - self.looked >= LOOKS:
             before, self.threads = self.threads, sum(self._asked(self.client.nthreads).values())
             self.looked = time.monotonic()
@@ -89,10 +84,7 @@ class Cluster(Workers):
         try:
             return answer_within(LOST, ask)
         except (OSError, TimeoutError, ValueError) as error:
-            raise self._lost() from error
-
-    def _lost(self):
-        return ConnectionError(f"the scheduler at {self.address} is lost")
+            raise ConnectionError(self.lost) from error
 
 
 def _refuse_other(address: str) -> None:

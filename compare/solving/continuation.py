@@ -1,20 +1,21 @@
 """Paths: neighbouring contacts of one body and surface in three dimensions, solved one from the other."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
+from math import inf
 
 from bem3d import BEM, Trail
-from scene import Indent, Program, Scene, Solver
+from scene import Indent, Program, Scene
 
-from .outcome import Outcome, Row
-from .task import SceneTask, Task
+from .outcome import Outcome
+from .task import Scenes, SceneTask, Task
 
 # Work of a path: about a minute, so that a kill costs no more.
 LONGEST = 1e9
 
 
 @dataclass(frozen=True)
-class Continuation:
+class Continuation(Scenes):
     """Contacts of one body and surface, of which each starts from those before it; equal if these are.
 
     contacts : of one scene each, in the order in which they are solved
@@ -24,12 +25,7 @@ class Continuation:
     keeps_fields = False
 
     @property
-    def solver(self) -> Solver:
-        """Solver of the last contact."""
-        return self.contacts[-1].solver
-
-    @property
-    def scenes(self) -> tuple[Scene, ...]:
+    def scenes(self) -> tuple[Scene, ...]:  # type: ignore[override]
         """Scene of each contact."""
         return tuple(scene for each in self.contacts for scene in each.scenes)
 
@@ -58,14 +54,6 @@ class Continuation:
         trail = Trail()
         return Outcome(tuple(row for each in self.contacts for row in each.solve(trail).rows))
 
-    def failed(self, reason: str) -> Outcome:
-        """Outcome with a row for each contact, each with the reason."""
-        return Outcome((Row(reason=reason),) * len(self.contacts))
-
-    def fits(self, outcome: Outcome) -> bool:
-        """Whether the outcome has a row for each contact."""
-        return len(outcome.rows) == len(self.contacts)
-
 
 def joined(contacts: Iterable[SceneTask]) -> list[SceneTask | Continuation]:
     """Contacts as tasks: what differs in speed and grid alone as one path, from rest on, from coarse to fine.
@@ -75,7 +63,8 @@ def joined(contacts: Iterable[SceneTask]) -> list[SceneTask | Continuation]:
     paths: dict[object, list[SceneTask]] = {}
     for each in contacts:
         paths.setdefault(_shared(each), []).append(each)
-    return [task for found in paths.values() for task in _cut(sorted(found, key=_place))]
+    cut = [path for found in paths.values() for path in _cut(sorted(found, key=_place))]
+    return [Continuation(tuple(path)) if len(path) > 1 else path[0] for path in cut]
 
 
 def by_contact(outcomes: Mapping[Task, Outcome]) -> dict[Task, Outcome]:
@@ -104,12 +93,12 @@ def _place(contact):
     return getattr(contact.scenes[0].motion, "speed", 0.0), getattr(contact.solver, "points", 0)
 
 
-def _cut(contacts: list[SceneTask]) -> Iterator[SceneTask | Continuation]:
+def _cut(contacts: list[SceneTask]) -> list[list[SceneTask]]:
     """Paths of LONGEST at most."""
-    while contacts:
-        work, count = 0.0, 0
-        while count < len(contacts) and (not count or work + contacts[count].work <= LONGEST):
-            work += contacts[count].work
-            count += 1
-        first, contacts = contacts[:count], contacts[count:]
-        yield Continuation(tuple(first)) if count > 1 else first[0]
+    paths, work = list[list[SceneTask]](), inf
+    for each in contacts:
+        if work + each.work > LONGEST:
+            paths, work = [*paths, []], 0.0
+        paths[-1].append(each)
+        work += each.work
+    return paths

@@ -11,7 +11,7 @@ import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor
 from contextlib import contextmanager, nullcontext, suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from multiprocessing.connection import wait
 from typing import Any, Self
 
@@ -72,7 +72,7 @@ def answered(packed: bytes, here: Mapping[str, Mapping[str, str]]) -> bytes:
         with warnings.catch_warnings(record=True) if worker else nullcontext(()) as heard:
             answer = solved(pickle.loads(packed))
         warned = tuple((each.category, str(each.message)) for each in heard)
-        return pickle.dumps(Answer(answer.outcome, answer.reason, answer.trace, warned))
+        return pickle.dumps(replace(answer, warned=warned))
     except Exception as error:
         return pickle.dumps(Answer.of(error))
 

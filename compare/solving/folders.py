@@ -1,4 +1,4 @@
-"""Folders that one run holds, and files that are written whole or not at all."""
+"""Folders that one run holds, files that are written whole or not at all, and the format of such folders."""
 
 import errno
 import multiprocessing
@@ -9,13 +9,20 @@ from contextlib import ExitStack, closing, contextmanager, suppress
 from functools import cache
 from pathlib import Path
 from secrets import token_hex
-from typing import IO, Any
+from typing import IO, Any, TypeVar
 
+from pydantic import BaseModel, ValidationError
+
+from scene.files import Unreadable, content
 from scene.printable import brief
 from scene.reading import InvalidInput
 
 LOCK = ".crosscheck-lock"  # an empty file, which stays: one that is removed could be locked twice
 PART = ".crosscheck-*.part"  # names of files that are being written
+FORMAT = 2  # of folders: it changes with the names of figures, columns and studies
+UNSTATED = 1  # files of the first format do not state it
+MANIFEST = "manifest.json"
+MOST_BYTES = 2**30  # of a manifest, which has the heights of measured maps in it
 
 
 class Unwritable(OSError):
@@ -60,7 +67,8 @@ def hold(folders: Iterable[Path], say: Callable[[str], Any] | None = None) -> It
     SQLite locks an empty file in each; the system takes the lock back, however the process ends. Raises
     InvalidInput, which names the folder, where another run holds it.
     """
-    if starting():  # of a script without a guard, run again: its parent has the folder
+    # A worker that still imports a script without a guard, which runs again: its parent has the folder.
+    if getattr(multiprocessing.current_process(), "_inheriting", False):
         raise SystemExit(1)
     with ExitStack() as held:
         for folder in dict.fromkeys(folders):
@@ -96,11 +104,6 @@ def held_by_another(folder: Path) -> InvalidInput:
         f"{brief(str(folder))}: another run holds this folder until its page is written: wait for it, or name "
         "another folder"
     )
-
-
-def starting() -> bool:
-    """Whether this is a worker that still imports the script which asked for workers."""
-    return getattr(multiprocessing.current_process(), "_inheriting", False)
 
 
 def write(path: Path, fill: Callable[[IO[bytes]], Any]) -> None:
@@ -161,3 +164,53 @@ def _named(path):
         if error.errno is None:
             raise
         raise OSError(error.errno, error.strerror, str(path)) from error
+
+
+class Stated(BaseModel):
+    """Part of a manifest that all versions have, or leave out.
+
+    format : of the folder
+    finished : whether the run that writes the folder has come to its end
+    results : digest of results.nc; empty where none is stated
+    """
+
+    format: int = UNSTATED
+    finished: bool = True
+    results: str = ""
+
+
+Kind = TypeVar("Kind", bound=Stated)
+
+
+def read(path: Path, kind: type[Kind], finished: bool = True) -> Kind:
+    """A manifest. Raises InvalidInput of one that is damaged, of another version, or of an unfinished run.
+
+    finished : whether the run has to have come to its end
+    """
+    try:
+        text = content(path, MOST_BYTES)
+        refuse_other(path, Stated.model_validate_json(text).format)
+        found = kind.model_validate_json(text)
+    except Unreadable as error:
+        raise InvalidInput(str(error)) from error
+    except ValidationError as error:
+        first = error.errors()[0]
+        reason = ": ".join(filter(None, [brief(".".join(map(str, first["loc"]))), first["msg"]]))
+        why = f"{brief(str(path))}: was not written by this version of the command: {reason}"
+        raise InvalidInput(why) from None
+    if finished and not found.finished:
+        raise InvalidInput(
+            f"{brief(str(path.parent))}: a run that writes this folder has not come to its end, or was killed: "
+            "run the command again, which solves nothing twice"
+        )
+    return found
+
+
+def refuse_other(path: Path, found: int) -> None:
+    """Raise InvalidInput of a file in another format than this version writes."""
+    if found != FORMAT:
+        age = "an earlier" if found < FORMAT else "a later"
+        raise InvalidInput(
+            f"{brief(str(path))}: was written by {age} version of this program, which has other names: run the "
+            "command again, which solves its contacts again"
+        )

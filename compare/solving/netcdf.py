@@ -17,7 +17,7 @@ from scene.printable import brief
 from scene.reading import InvalidInput
 from scene.result import source
 
-from .folder_format import FORMAT, MANIFEST, UNSTATED, Stated, finished, refuse_other
+from .folders import FORMAT, MANIFEST, UNSTATED, Stated, read, refuse_other
 
 NAME = "results.nc"
 # Behind the last byte that HDF5 knows of, which readers pass over: the format of the folder, and a seal, by which
@@ -69,7 +69,7 @@ def load(folder: str | Path) -> xarray.DataTree:
     if folder.is_dir():
         paths = sorted(folder.rglob(NAME))
         places = [place for place in {folder, *(path.parent for path in paths)} if (place / MANIFEST).exists()]
-        stated = {place: finished(place / MANIFEST, Stated).results for place in places}
+        stated = {place: read(place / MANIFEST, Stated).results for place in places}
     if not paths:
         raise InvalidInput(f"{brief(str(folder))}: no command has left results here")
     parts: dict[str, xarray.Dataset] = {}
@@ -85,8 +85,8 @@ def load(folder: str | Path) -> xarray.DataTree:
             label = LABELLED.search(image[-2 * len(LABEL) :])
             refuse_other(path, int(label[1]) if label else UNSTATED)
             with h5py.File(BytesIO(image)) as file:
-                read = _Reader(file, len(image))
-                parts |= {f"{place}{at}".rstrip("/") or "/": dataset for at, dataset in read.datasets(file)}
+                reader = _Reader(file, len(image))
+                parts |= {f"{place}{at}".rstrip("/") or "/": dataset for at, dataset in reader.datasets(file)}
         except Unreadable as error:
             raise InvalidInput(str(error)) from error
         except InvalidInput:

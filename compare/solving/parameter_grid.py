@@ -87,15 +87,11 @@ class ParameterGrid:
     def __post_init__(self):
         for name, unit in (("speeds", SPEED), ("values", PRESSES[self.prescribed])):
             object.__setattr__(self, name, argument(name, getattr(self, name), unit.row))
-        draws = {
-            solver: argument("draws", count, WHOLE.row if isinstance(count, tuple) else WHOLE.value)
-            for solver, count in self.draws.items()
-        }
-        for name, counts in draws.items():
-            grids = len(self.grids.get(name, ()))
-            if isinstance(counts, tuple) and not (
-                len(counts) == grids and 0 < min(counts) <= max(counts) <= MOST_DRAWS
-            ):
+        draws = {}
+        for name, given in self.draws.items():
+            strata, grids = isinstance(given, tuple), len(self.grids.get(name, ()))
+            draws[name] = counts = argument("draws", given, WHOLE.row if strata else WHOLE.value)
+            if strata and not (len(counts) == grids and 0 < min(counts) <= max(counts) <= MOST_DRAWS):
                 allowed = f"{grids} whole numbers, one for each grid, from 1 to {MOST_DRAWS:,}"
                 raise ValueError(f"draws = {brief(repr(counts))} of {name}: {allowed}")
         object.__setattr__(self, "draws", draws)
@@ -113,18 +109,20 @@ class ParameterGrid:
         found = {}
         for name, grids in self.grids.items():
             each = [points * work_of(solver, self.scene) for solver in grids.values()]
-            both = tuple(map(sum, zip(each, [*each[1:], 0.0], strict=True)))
-            found[name] = both if self._stratified(name) else (sum(each),)
+            pairs = [each[k : k + 2] for k in range(len(each))]
+            found[name] = tuple(map(sum, pairs if self._stratified(name) else [each]))
         return found
 
     @property
     def cost(self) -> Cost:
         """Cost of all contacts, by counting."""
-        costs = [
-            Cost(count, count * work_of(solver, self.scene))
+        points = len(self.speeds) * len(self.values)
+        asked = [
+            (points * sum(map(len, seeds)), work_of(solver, self.scene))
             for name, grids in self.grids.items()
-            for solver, count in zip(grids.values(), self._asked(name).sum(axis=(1, 2, 3)).tolist(), strict=True)
+            for solver, seeds in zip(grids.values(), self._seeds(name), strict=True)
         ]
+        costs = (Cost(count, count * work) for count, work in asked)
         fine = (each for grids in self.grids.values() for name, each in grids.items() if name == FINE)
         planes = (each.points**2 for each in fine if self.keeps_fields and isinstance(each, BEM))
         # Pressure and gap, in the store and in the file of results.
@@ -153,13 +151,10 @@ class ParameterGrid:
         on = [" and ".join(points[k : k + 2]) for k in range(len(counts))]
         return ", ".join(f"{count:,} {word} on {grids} points" for count, grids in zip(counts, on, strict=True))
 
-    def _asked(self, name):
-        """Whether each contact is solved (grids, speeds, values, draws)."""
-        strata = self.strata(name)
-        stratum = np.array([k for k, each in enumerate(strata) for _ in each])
-        on = np.arange(len(self.grids[name])).reshape(-1, 1, 1, 1)
-        asked = (stratum == on) | (stratum == on - 1) | (not self._stratified(name))
-        return np.repeat(np.repeat(asked, len(self.speeds), axis=1), len(self.values), axis=2)
+    def _seeds(self, name):
+        """Seeds of the draws on each grid, as `strata`: of a stratum on its grid and on the next coarser one."""
+        strata, grids = self.strata(name), range(len(self.grids[name]))
+        return [strata[max(k - 1, 0) : k + 1] if self._stratified(name) else strata for k in grids]
 
     def _stratified(self, name):
         return self.random and isinstance(self.draws.get(name), tuple)
@@ -214,9 +209,9 @@ class ParameterGrid:
         found = []
         own = self.speeds[0], self.values[0]
         for name, grids in self.grids.items():
-            strata, stratified = self.strata(name), self._stratified(name)
-            for (k, (grid, solver)), speed, value in product(enumerate(grids.items()), self.speeds, self.values):
-                seeds = strata[max(k - 1, 0) : k + 1] if stratified else strata
+            stratified = self._stratified(name)
+            on = [*zip(grids.items(), self._seeds(name), strict=True)]
+            for (k, ((grid, solver), seeds)), speed, value in product(enumerate(on), self.speeds, self.values):
                 alike = 1 if not isinstance(solver, MDR) else TOGETHER if stratified else MOST_DRAWS
                 together = [
                     draws_of(self.at(value, speed), each[start : start + alike])
@@ -232,82 +227,58 @@ class ParameterGrid:
                 found.append((name, tuple(contacts)))
         return tuple(found)
 
-    def _control_variates(self, name):
-        """Control variates (speeds, values, draws, K) of the surfaces on the coarsest grid, NaN of all others."""
-        *finer, coarsest = self.strata(name)
-        solver, first = [*self.grids[name].values()][-1], self.scene.roughness.seed
-        scenes = [self.at(value, speed) for speed, value in product(self.speeds, self.values)]
-        found = control_variates(solver, scenes, [first + seed for seed in coarsest])
-        found = np.pad(found, ((0, 0), (sum(map(len, finer)), 0), (0, 0)), constant_values=nan)
-        return found.reshape(len(self.speeds), len(self.values), *found.shape[1:])
-
     def _dataset(self, name, rows):
+        import pandas
         import xarray
 
-        grids, asked = self.grids[name], self._asked(name)
-        shape = len(grids), len(self.speeds), len(self.values), -1
-        left = iter(rows)
-        rows = [next(left) if each else UNASKED for each in asked.ravel().tolist()]
-
-        def array(number, kind=float):
-            return np.array([number(row) for row in rows], kind).reshape(shape)
-
-        status = array(
-            lambda row: (
-                NOT_ASKED
-                if row is UNASKED
-                else FAILED
-                if row.reason is not None
-                else EMPTY
-                if row.normal_force == 0
-                else FINER
-                if row.finer
-                else SOLVED
-            ),
-            object,
+        grids, seeds = self.grids[name], [seed for each in self.strata(name) for seed in each]
+        asked = np.array([np.isin(seeds, [seed for each in on for seed in each]) for on in self._seeds(name)])
+        shape = len(grids), len(self.speeds), len(self.values), len(seeds)
+        found = np.full(shape, UNASKED)
+        found[np.broadcast_to(asked[:, None, None], shape)] = rows
+        table = pandas.DataFrame([_numbers(row) for row in found.ravel()])
+        names = [*NUMBERS, *sorted({*table} - {*NUMBERS, "status", "reason"}), "status", "reason"]
+        dims = "grid", "speed", self.prescribed, "seed"
+        first = self.scene.roughness.seed if self.random else 0
+        dataset = xarray.Dataset(
+            {label: (dims, table[label].to_numpy(copy=True).reshape(shape)) for label in names},
+            {
+                "grid": list(grids),
+                "speed": list(self.speeds),
+                self.prescribed: list(self.values),
+                "points": ("grid", [getattr(solver, "points", 0) for solver in grids.values()]),
+                "seed": [first + seed for seed in seeds],
+            },
         )
-        touched = (status == SOLVED) | (status == FINER)
-        values = {own: array(lambda row, of=of: getattr(row, of)) for own, of in NUMBERS.items()}
-        for measure in sorted({measure for row in rows for measure in row.measures}):
-            values[measure] = array(lambda row, of=measure: row.measures.get(of, nan))
-        for friction in ("friction_force", "friction_coefficient"):
-            values[friction] = np.where(touched, values[friction], nan)
-        reasons = array(lambda row: row.reason or "", object)
-        random = self.random and getattr(grids[FINE], "draws", "") != NO_DRAWS
-        dims = ["grid", "speed", self.prescribed, "seed"]
-        coordinates = {
-            "grid": list(grids),
-            "speed": list(self.speeds),
-            self.prescribed: list(self.values),
-            "points": ("grid", [getattr(solver, "points", 0) for solver in grids.values()]),
-        }
-        if random:
-            first = self.scene.roughness.seed
-            strata = self.strata(name)
-            coordinates["seed"] = [first + seed for each in strata for seed in each]
-            if self._stratified(name):
-                coordinates["stratum"] = "seed", [k for k, each in enumerate(strata) for _ in each]
-        else:
-            dims = dims[:3]
-
-        def variable(values, label):
-            return xarray.Variable(dims, values if random else values[..., 0], attributes(label, self.scene))
-
-        made = {label: variable(found, label) for label, found in values.items()}
-        made |= {"status": variable(status, "status"), "reason": variable(reasons, "reason")}
-        if self._stratified(name) and (variates := self._control_variates(name)).size:
-            made[VARIATES] = xarray.Variable([*dims[1:], "variate"], variates, attributes(VARIATES, self.scene))
-        about = provenance(self.scene, coordinates.get("seed", ()))
-        dataset = xarray.Dataset(made, coordinates, about | {"solver": name})
-        for label in dataset.coords:
+        if self._stratified(name):
+            dataset.coords["stratum"] = "seed", [k for k, each in enumerate(self.strata(name)) for _ in each]
+            coarsest = dataset["seed"].values[dataset["stratum"] == len(grids) - 1]
+            scenes = [self.at(value, speed) for speed, value in product(self.speeds, self.values)]
+            found = control_variates([*grids.values()][-1], scenes, coarsest.tolist())
+            if found.size:  # NaN of all other surfaces
+                found = found.reshape(*shape[1:3], *found.shape[1:])
+                dataset[VARIATES] = xarray.DataArray(found, {"seed": coarsest}, [*dims[1:], "variate"])
+        if not self.random or getattr(grids[FINE], "draws", "") == NO_DRAWS:
+            dataset = dataset.isel(seed=0, drop=True)
+        for label in dataset.variables:
             dataset[label].attrs = attributes(str(label), self.scene)
-        return dataset
+        drawn = dataset["seed"].values.tolist() if "seed" in dataset else ()
+        return dataset.assign_attrs(provenance(self.scene, drawn) | {"solver": name})
+
+
+def _numbers(row):
+    """What a Dataset has of a contact; without a force there is no friction."""
+    status = (FINER if row.finer else SOLVED) if row.normal_force else EMPTY
+    status = NOT_ASKED if row is UNASKED else status if row.reason is None else FAILED
+    numbers = {own: getattr(row, of) for own, of in NUMBERS.items()} | {**row.measures}
+    numbers |= {} if row.normal_force else {"friction_force": nan}
+    return numbers | {"status": status, "reason": row.reason or ""}
 
 
 def on_two_grids(*solvers: Solver) -> dict[str, dict[str, Solver]]:
     """Settings of solvers on their own grid and on one of half the points, if they have points."""
-    both = {each.name: {FINE: each, COARSE: halved(each)} for each in solvers}
-    return {name: {grid: each for grid, each in grids.items() if each is not None} for name, grids in both.items()}
+    halves = ((each, halved(each)) for each in solvers)
+    return {each.name: {FINE: each} | ({COARSE: half} if half else {}) for each, half in halves}
 
 
 def on_levels(solver: Solver, scenes: Iterable[Scene], most: int = len(LEVELS)) -> dict[str, Solver]:
@@ -319,10 +290,8 @@ def on_levels(solver: Solver, scenes: Iterable[Scene], most: int = len(LEVELS)) 
     first, *others = scenes
     found: list[Any] = [solver]
     with trusted():
-        while len(found) < most:
-            # Half the points tell the error of the grid, however few they are.
-            if len(found) > 1 and found[-1].points < 2 * LEAST.get(solver.name, 1):
-                break
+        # Half the points tell the error of the grid, however few they are.
+        while len(found) < most and (len(found) == 1 or found[-1].points >= 2 * LEAST.get(solver.name, 1)):
             coarser = halved(found[-1])
             if coarser is None or why_not(coarser, first) or any(lacking(coarser, each) for each in others):
                 break
@@ -418,11 +387,8 @@ def tasks_of(grids: Mapping[str, ParameterGrid]) -> list[SceneTask | Continuatio
 
 def contacts_of(grids: Mapping[str, ParameterGrid]) -> list[SceneTask]:
     """Contacts of several grids, each once."""
-    found: dict[SceneTask, SceneTask] = {}
-    for grid in grids.values():
-        for contact in (each for _, contacts in grid.contacts for each in contacts):
-            if contact not in found or contact.keeps_fields:
-                found[contact] = contact
+    every = [each for grid in grids.values() for _, contacts in grid.contacts for each in contacts]
+    found = {each: each for each in every} | {each: each for each in every if each.keeps_fields}
     return list(found.values())
 
 

@@ -24,8 +24,15 @@ PULSE = 0.2  # time after which an interrupt is noticed [s]
 _LOG = logging.getLogger(__name__)
 
 
-class SweepProgress:
-    """SweepProgress of a sweep while it runs; this one says nothing."""
+class Progress:
+    """What a run tells of how far it is; this one says nothing."""
+
+    def said(self, line: str) -> None:
+        """Remark for people: what a study takes, that a worker died, that there is none."""
+
+    def solving(self) -> AbstractContextManager[Any]:
+        """Begin to solve; what is told meanwhile."""
+        return nullcontext(self)
 
     def planned(self, tasks: Sequence[Task], reused: int) -> None:
         """The tasks that have to be solved, and how many more the store has."""
@@ -36,27 +43,12 @@ class SweepProgress:
     def finished(self, task: Task, outcome: Outcome) -> None:
         """A task is solved and stored, or has failed: then its rows have a reason."""
 
-    def said(self, line: str) -> None:
-        """Remark for people: a worker died, there is none."""
-
     def interrupted(self) -> None:
         """Tell that nothing more is started; the solves under way are waited for."""
 
-
-@dataclass(frozen=True)
-class Progress:
-    """Whom a run tells how far it is.
-
-    told : told what a study takes, before a task is built
-    solving : makes what is told while tasks are solved
-    writing : makes what is told of every figure while the page is written, from their number
-    """
-
-    told: Callable[[str], Any] = str
-    solving: Callable[[], AbstractContextManager[SweepProgress | None]] = nullcontext
-    writing: Callable[[int], AbstractContextManager[Callable[[str], Any]]] = lambda count: nullcontext(
-        lambda name: None
-    )
+    def writing(self, count: int) -> AbstractContextManager[Callable[[str], Any]]:
+        """Draw so many figures; what is told of each by its name."""
+        return nullcontext(str)
 
 
 @dataclass(frozen=True)
@@ -90,7 +82,7 @@ def sweep(
     tasks: Iterable[Task],
     store: Store,
     workers: int | None = None,
-    progress: SweepProgress | None = None,
+    progress: Progress | None = None,
     fresh: bool = False,
     scheduler: str | None = None,
     executor: Executor | None = None,
@@ -112,24 +104,23 @@ def sweep(
     start, and where a scheduler cannot be reached or is lost; InvalidInput where another run writes the store;
     Refused of a scheduler whose address is none or whose library is not installed, and of workers with other code.
     """
-    progress, start = progress or SweepProgress(), time.perf_counter()
+    progress, start = progress or Progress(), time.perf_counter()
     tasks = list(dict.fromkeys(tasks))
     outcomes = store.stored(tasks)
-    if len(outcomes) == len(tasks):
-        progress.planned([], len(tasks))
-        return SweepResult(outcomes, 0, len(tasks), time.perf_counter() - start)
-    with store.writing():
-        # A damaged file gives more as soon as it is copied.
-        outcomes |= store.stored(task for task in tasks if task not in outcomes)
-        missing = sorted((task for task in tasks if task not in outcomes), key=lambda task: -task.work)
-        if other := store.by_other_code(missing):
-            progress.said(f"{other} stored tasks were solved by other code: they are solved again")
+    missing = sorted((task for task in tasks if task not in outcomes), key=lambda task: -task.work)
+    if other := store.by_other_code(missing):
+        progress.said(f"{other} stored tasks were solved by other code: they are solved again")
+    progress.planned(missing, len(outcomes))
+    found, faults = dict[Task, Outcome](), dict[Task, str]()
+    if missing:
         _LOG.info("%d tasks to solve, %d reused from %s", len(missing), len(outcomes), store.folder)
-        reused = len(outcomes)
-        progress.planned(missing, reused)
-        with _workers(missing, workers, fresh, scheduler, executor, progress) as pool, caught() as interrupts:
+        with (
+            store.writing(),
+            _workers(missing, workers, fresh, scheduler, executor, progress) as pool,
+            caught() as interrupts,
+        ):
             found, faults = _solve(missing, store, pool, progress, interrupts)
-    return SweepResult(outcomes | found, len(missing), reused, time.perf_counter() - start, faults)
+    return SweepResult(outcomes | found, len(missing), len(outcomes), time.perf_counter() - start, faults)
 
 
 def _workers(missing, count, fresh, scheduler, executor, progress) -> Workers:
@@ -139,15 +130,14 @@ def _workers(missing, count, fresh, scheduler, executor, progress) -> Workers:
         return Processes(min(counted(count), len(missing)), fresh)
     from .cluster import Cluster
 
-    packages = {package for task in missing for package in task.packages}
-    return Cluster(scheduler, sorted(packages), progress.said)
+    return Cluster(scheduler, progress.said)
 
 
 def _solve(missing, store, workers, progress, interrupts) -> tuple[dict[Task, Outcome], dict[Task, str]]:
     """Outcomes of tasks, and why some broke. Raises KeyboardInterrupt, and OSError as `sweep`."""
     queue, out = deque(missing), dict[Future[bytes], Task]()
     # What a worker died of is suspect with all that was out then, and is tried again alone.
-    suspects, deaths = deque[Task](), Counter[Task]()
+    deaths = Counter[Task]()
     outcomes, faults, ending = {}, {}, False
 
     def keep(task, answer):
@@ -170,21 +160,17 @@ def _solve(missing, store, workers, progress, interrupts) -> tuple[dict[Task, Ou
         for category, message in answer.warned:
             warnings.warn(message, category, stacklevel=3)
 
-    while queue or suspects or out:
-        if interrupts and not ending:
-            ending = True
-            progress.interrupted()
-        if ending:
+    while queue or out:
+        if interrupts:
             queue.clear()
-            suspects.clear()
+            if not ending:
+                progress.interrupted()
+            ending = True
         room = workers.room()
-        while len(out) < room:
-            if suspects and not out:
-                task = suspects.popleft()
-            elif queue and not suspects and not any(deaths[each] for each in out.values()):
-                task = queue.popleft()
-            else:
+        while queue and len(out) < room and not interrupts:
+            if out and any(deaths[each] for each in (queue[0], *out.values())):
                 break
+            task = queue.popleft()
             if not deaths[task]:
                 progress.started(task)
             packed = None
@@ -194,8 +180,6 @@ def _solve(missing, store, workers, progress, interrupts) -> tuple[dict[Task, Ou
                 keep(task, solved(task))
             else:
                 out[workers.submit(packed, code_of(tuple(task.packages)))] = task
-            if interrupts:
-                break
         if not room:
             time.sleep(PULSE)
         for future in wait(out, PULSE, FIRST_COMPLETED).done:
@@ -209,7 +193,7 @@ def _solve(missing, store, workers, progress, interrupts) -> tuple[dict[Task, Ou
                     continue
                 if deaths[task] < workers.tries:
                     progress.said(f"{task.label}: its worker process died; the task is tried again alone")
-                    suspects.append(task)
+                    queue.appendleft(task)
                     continue
                 times = f"{deaths[task]} times, the last time alone"
                 answer = Answer(reason=f"its worker died {times}, as when memory runs out")

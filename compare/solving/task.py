@@ -63,8 +63,22 @@ class Batch(NamedTuple):
     timed: bool = False
 
 
+class Scenes:
+    """What tasks have in common whose outcomes have a row for each scene."""
+
+    scenes: tuple[Scene, ...]
+
+    def failed(self, reason: str) -> Outcome:
+        """Outcome with a row for each scene, each with the reason."""
+        return Outcome((Row(reason=reason),) * len(self.scenes))
+
+    def fits(self, outcome: Outcome) -> bool:
+        """Whether the outcome has a row for each scene."""
+        return len(outcome.rows) == len(self.scenes)
+
+
 @dataclass(frozen=True)
-class SceneTask:
+class SceneTask(Scenes):
     """Scenes that differ only in the seed of their roughness, answered by one solver; equal if these are.
 
     finer : finer grids of the solver, of which the first that can answers where it cannot
@@ -132,14 +146,6 @@ class SceneTask:
                 fields = dict(result.fields)
         return Outcome(tuple(rows), fields)
 
-    def failed(self, reason: str) -> Outcome:
-        """Outcome with a row for each scene, each with the reason."""
-        return Outcome((Row(reason=reason),) * len(self.scenes))
-
-    def fits(self, outcome: Outcome) -> bool:
-        """Whether the outcome has a row for each scene."""
-        return len(outcome.rows) == len(self.scenes)
-
 
 def _answer(solver, scene, trail) -> tuple[Row, Result | None]:
     """Row of a scene, and the result if there is one."""
@@ -166,19 +172,13 @@ def _importable(kind) -> bool:
 
 
 def _source(kind) -> str:
-    """Source of a class; of one whose source is lost, the code of its methods."""
+    """Source of a class or a function; the code of one whose source is lost."""
     try:
         return getsource(kind)
     except (OSError, TypeError):  # of a notebook: cells are known by function
-        pass
-    methods = {name: each for name, each in vars(kind).items() if hasattr(each, "__code__")}
-    told = []
-    for name, each in methods.items():
-        try:
-            told.append(getsource(each))
-        except (OSError, TypeError):
-            told.append(f"{name} {each.__code__.co_code.hex()} {each.__code__.co_consts!r}")
-    return "\n".join(told)
+        if code := getattr(kind, "__code__", None):
+            return f"{kind.__name__} {code.co_code.hex()} {code.co_consts!r}"
+    return "\n".join(_source(each) for each in vars(kind).values() if hasattr(each, "__code__"))
 
 
 def refuse_seed(scene: Scene, most: int) -> None:

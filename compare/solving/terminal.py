@@ -17,57 +17,14 @@ from scene.printable import printable
 from .amounts import duration
 from .cost import SECONDS
 from .outcome import Outcome
-from .runner import Progress, SweepProgress
+from .runner import Progress
 from .task import Task
 
 PAUSE = 10.0  # seconds between lines where there is no terminal to draw a bar on
 LONG = 60.0  # seconds of a task of which compiling is a small part
 
 
-class Solving:
-    """Tasks of a phase, in words: counts, the time left from work done and work planned, and what runs now."""
-
-    def __init__(self, tasks: Sequence[Task], clock: Callable[[], float]) -> None:
-        self.count, self.work, self.clock = len(tasks), sum(task.work for task in tasks), clock
-        self.left = self.work
-        self.running = dict[Task, float]()
-        self.done = self.failed = self.workers = 0
-        # Seconds and work of the tasks that tell the pace.
-        self.spent = self.paced = 0.0
-
-    def start(self, task: Task) -> None:
-        """A task is handed out to a worker."""
-        self.running[task] = self.clock()
-        self.workers = max(self.workers, len(self.running))
-
-    def end(self, task: Task, outcome: Outcome) -> None:
-        """A task is solved, or has failed. The first of each worker compiles too: if short, it tells no pace."""
-        spent = self.clock() - self.running.pop(task, self.clock())
-        seconds = sum(row.seconds for row in outcome.rows if row.seconds > 0) or spent
-        if self.done >= self.workers or seconds > LONG:
-            self.spent += seconds
-            self.paced += task.work
-        self.done += 1
-        self.left -= task.work
-        self.failed += any(row.reason is not None for row in outcome.rows)
-
-    def seconds(self) -> float:
-        """Seconds left at the pace until now; before any is known, at that which `cost` expects."""
-        now, unit, running = self.clock(), self.spent / self.paced if self.paced else SECONDS, self.running.copy()
-        under_way = sum(min(now - began, unit * task.work) for task, began in running.items())
-        return (unit * self.left - under_way) / max(1, min(self.workers, self.count - self.done))
-
-    def counts(self) -> list[str]:
-        """Counts and the time left, in words."""
-        failed = [f"{self.failed} failed"] if self.failed else []
-        left = [f"{duration(left)} left"] if (left := self.seconds()) >= 0.5 else []
-        return [f"{self.done}/{self.count}", *failed, *left]
-
-    def __str__(self) -> str:
-        return ", ".join([*self.counts(), *(printable(task.label) for task in [*self.running][:1])])
-
-
-class Shown(SweepProgress):
+class Shown(Progress):
     """What a person sees of a run, a bar for each phase: a context.
 
     lines : whether a line is printed for each solve and each figure, in place of a bar
@@ -97,10 +54,9 @@ class Shown(SweepProgress):
         )
         if not drawn:
             self.bar.live.refresh = self._refresh  # type: ignore[method-assign]
-        self.progress = Progress(self.said, self.solving, self.writing)
         self.output: Any = None  # of a notebook: one for all lines, with the bar below them
         self.told, self.last = list[Text](), clock()
-        self.tasks, self.reused = Solving([], clock), 0
+        self.planned([], 0)
         self._begin("preparing")
 
     def __enter__(self) -> "Shown":
@@ -159,24 +115,54 @@ class Shown(SweepProgress):
         try:
             yield self
         finally:
-            done, count, failed = self.tasks.done, self.tasks.count, self.tasks.failed
-            solved = f"{done}{'' if done == count else f' of {count}'} tasks solved, {self.reused} reused"
-            took = duration(self.clock() - began)
-            self.said(", ".join([solved, *([f"{failed} failed"] if failed else []), took]))
+            solved = f"{self.done}{'' if self.done == self.count else f' of {self.count}'} tasks solved"
+            counts = [solved, f"{self.reused} reused", *self._failures(), duration(self.clock() - began)]
+            self.said(", ".join(counts))
             self._begin("judging")
 
     def planned(self, tasks: Sequence[Task], reused: int) -> None:
-        self.tasks, self.reused = Solving(tasks, self.clock), reused
-        self._begin("compiling", waits_for=self.tasks)
+        self.count, self.work, self.reused = len(tasks), sum(task.work for task in tasks), reused
+        self.left, self.running = self.work, dict[Task, float]()
+        self.done = self.failed = self.workers = 0
+        # Seconds and work of the tasks that tell the pace.
+        self.spent = self.paced = 0.0
+        self._begin("compiling", waits_for=self)
 
     def started(self, task: Task) -> None:
-        self.tasks.start(task)
+        self.running[task] = self.clock()
+        self.workers = max(self.workers, len(self.running))
 
     def finished(self, task: Task, outcome: Outcome) -> None:
-        self.tasks.end(task, outcome)
-        self.bar.update(self.row, advance=task.work, total=self.tasks.work, description="solving")
+        spent = self.clock() - self.running.pop(task, self.clock())
+        seconds = sum(row.seconds for row in outcome.rows if row.seconds > 0) or spent
+        # The first task of each worker compiles too: if short, it tells no pace.
+        if self.done >= self.workers or seconds > LONG:
+            self.spent += seconds
+            self.paced += task.work
+        self.done += 1
+        self.left -= task.work
+        self.failed += any(row.reason is not None for row in outcome.rows)
+        self.bar.update(self.row, advance=task.work, total=self.work, description="solving")
         if self.lines:
-            self.said(", ".join([*self.tasks.counts(), f"solved {task.label}"]))
+            self.said(", ".join([*self._counts(), f"solved {task.label}"]))
+
+    def seconds(self) -> float:
+        """Seconds left at the pace until now; before any is known, at that which `cost` expects."""
+        now, unit, running = self.clock(), self.spent / self.paced if self.paced else SECONDS, self.running.copy()
+        under_way = sum(min(now - began, unit * task.work) for task, began in running.items())
+        return (unit * self.left - under_way) / max(1, min(self.workers, self.count - self.done))
+
+    def _failures(self) -> list[str]:
+        return [f"{self.failed} failed"] if self.failed else []
+
+    def _counts(self) -> list[str]:
+        """Counts and the time left, in words."""
+        left = [f"{duration(left)} left"] if (left := self.seconds()) >= 0.5 else []
+        return [f"{self.done}/{self.count}", *self._failures(), *left]
+
+    def __str__(self) -> str:
+        """Counts, the time left, and what runs now."""
+        return ", ".join([*self._counts(), *(printable(task.label) for task in [*self.running][:1])])
 
     def interrupted(self) -> None:
         self.bar.update(self.row, description="finishing")

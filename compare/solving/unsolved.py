@@ -2,11 +2,11 @@
 
 import re
 from collections import Counter
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from .continuation import by_contact
-from .outcome import Outcome
+from .outcome import Outcome, Row
 from .task import SceneTask, Task
 
 DIMENSIONS = {"MDR": "1D", "BEM": "3D"}
@@ -17,19 +17,14 @@ NUMBER = re.compile(r"\d[\d.]*(e[+-]?\d+)?")
 
 @dataclass(frozen=True)
 class Unsolved:
-    """Contacts that ended without an answer.
+    """Contacts that ended without an answer, and others.
 
-    failed, contacts : how many of how many, by the name of the solver
-    reasons : one of each kind, by how many contacts have one of that kind, the most frequent first
-    own : whether the contact of a scene as it stands is among them
-    finer : how many contacts a finer grid answered in place of a coarse one
+    contacts : of each the name of its solver, and its row
+    own : whether the contact of a scene as it stands has no answer
     """
 
-    failed: Mapping[str, int]
-    contacts: Mapping[str, int]
-    reasons: Mapping[str, int]
+    contacts: Sequence[tuple[str, Row]] = ()
     own: bool = False
-    finer: int = 0
 
     @classmethod
     def of(
@@ -38,46 +33,46 @@ class Unsolved:
         outcomes: Mapping[Task, Outcome],
         own: Collection[SceneTask] = (),
     ):
-        """Count over contacts, each once; one that is not among the outcomes, as its task broke, is no failure."""
+        """Of contacts, each once; one that is not among the outcomes, as its task broke, is no failure."""
         found = by_contact(outcomes)
         rows = [(each.solver.name, row) for each in contacts if each in found for row in found[each].rows]
-        failed = [(name, row.reason) for name, row in rows if row.reason is not None]
-        kinds = Counter(NUMBER.sub("#", reason) for _, reason in failed)
-        first = {NUMBER.sub("#", reason): reason for _, reason in reversed(failed)}
-        return cls(
-            Counter(name for name, _ in failed),
-            Counter(name for name, _ in rows),
-            {first[kind]: count for kind, count in kinds.most_common()},
-            any(each in found and found[each].rows[0].reason is not None for each in own),
-            sum(row.finer > 0 for _, row in rows),
-        )
+        return cls(rows, any(found[each].rows[0].reason is not None for each in own if each in found))
+
+    @property
+    def failed(self) -> list[tuple[str, str]]:
+        """Name of the solver and reason of each contact without an answer."""
+        return [(name, row.reason) for name, row in self.contacts if row.reason is not None]
 
     @property
     def serious(self) -> bool:
         """Whether so many failed, or the scene's own contact, that the command fails."""
-        return self.own or 0 < sum(self.contacts.values()) <= MANY * sum(self.failed.values())
+        return self.own or 0 < len(self.contacts) <= MANY * len(self.failed)
 
     @property
     def sentences(self) -> tuple[str, ...]:
-        """Sentences that say how many contacts have no answer, why, and what to do; none where all have one."""
-        if not self.failed:
+        """Sentences that say how many contacts have no answer, why, and what to do; none where all have one.
+
+        Reasons that differ by their numbers alone are one, of which the first is said.
+        """
+        failed, kinds = self.failed, dict[str, list[str]]()
+        if not failed:
             return ()
-        by_solver = ", ".join(
-            f"{count} of {self.contacts[name]} in {DIMENSIONS.get(name, name)}"
-            for name, count in self.failed.items()
-        )
+        for _, reason in failed:
+            kinds.setdefault(NUMBER.sub("#", reason), []).append(reason)
+        most = sorted(kinds.values(), key=len, reverse=True)[:SHOWN]
+        few, every = (Counter(name for name, _ in each) for each in (failed, self.contacts))
+        by_solver = ", ".join(f"{few[name]} of {every[name]} in {DIMENSIONS.get(name, name)}" for name in few)
         own = ", the scene's own among them" if self.own else ""
-        whole = f"{sum(self.failed.values())} of {sum(self.contacts.values())}"
-        told = [f"{count} of them: {reason}" for reason, count in [*self.reasons.items()][:SHOWN]]
-        return (f"{whole} contacts have no answer{own}: {by_solver}; they are left out.", *told)
+        whole = f"{len(failed)} of {len(self.contacts)} contacts have no answer{own}"
+        return (f"{whole}: {by_solver}; they are left out.", *(f"{len(each)} of them: {each[0]}" for each in most))
 
     @property
     def notes(self) -> tuple[str, ...]:
         """A sentence on contacts that a finer grid answers; none without any."""
-        if not self.finer:
-            return ()
-        many = f"{self.finer} contacts are" if self.finer > 1 else "1 contact is"
-        return (f"{many} too much for a coarse grid, and the next finer one answers in its place.",)
+        finer = sum(row.finer > 0 for _, row in self.contacts)
+        many = f"{finer} contacts are" if finer > 1 else "1 contact is"
+        why = f"{many} too much for a coarse grid, and the next finer one answers in its place."
+        return (why,) if finer else ()
 
 
-NONE_UNSOLVED = Unsolved({}, {}, {})
+NONE_UNSOLVED = Unsolved()

@@ -3,11 +3,10 @@
 import re
 from collections.abc import Mapping
 from dataclasses import replace
+from inspect import cleandoc
 
 from scene import Scene
 from scene.vocabulary import FIELDS, MEASURES, NUMBERS, Entry
-
-from .docstrings import documented
 
 # Words of the judge: a line is "name : text [unit]", without a unit that is not there.
 _WORDS = """
@@ -36,7 +35,6 @@ Of solids.
 omega : Angular frequency. [rad/s]
 storage : Storage modulus G' in shear. [Pa]
 loss : Loss modulus G'' in shear. [Pa]
-modulus : Relaxation modulus G(t) in shear. [Pa]
 compliance : Creep compliance J(t) in shear. [1/Pa]
 
 Of findings.
@@ -252,6 +250,15 @@ precision : Floating-point numbers of the solve: single or double.
 extent : Side of the grid over the width of the contact. [1]
 reference : Solution that errors are measured against.
 """
+
+
+def documented(docstring: str | None) -> tuple[str, dict[str, str]]:
+    """First paragraph of a docstring, and what it says of each field in lines of the form "name : text"."""
+    text = cleandoc(docstring or "")
+    about, fields = re.split(r"\n\s*\n", text)[0], dict[str, str]()
+    for names, said in re.findall(r"^([a-z_0-9]+(?:, [a-z_0-9]+)*) : (.+(?:\n    .*)*)", text, re.MULTILINE):
+        fields |= dict.fromkeys(names.split(", "), " ".join(said.split()))
+    return " ".join(about.split()), fields
 
 
 def _stated(line: str) -> Entry:

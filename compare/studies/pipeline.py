@@ -75,43 +75,41 @@ def run(
     if Path(study.place).parts[:1] == (SOLVED,):
         raise InvalidInput(f"place = {study.place}: this folder holds the solved contacts, choose another place")
     _make_folders(output, [SOLVED] if cost.contacts else [], study.place)
-    with hold((output, below), progress.told):
+    with hold((output, below), progress.said):
         if cost.contacts:
-            progress.told(str(cost))
-        done = _answered(study, output, workers, scheduler, executor, yes, Clock(limit), progress)
+            progress.said(str(cost))
+        done = _answered(study, output, workers, scheduler, executor, yes, limit, progress)
         path = _write(done, below, forms, report, progress)
         return replace(done, path=path)
 
 
-def _answered(study, output, workers, scheduler, executor, yes, clock, progress) -> Report:
+def _answered(study, output, workers, scheduler, executor, yes, limit, progress) -> Report:
     """Report of a study, of which nothing is written yet."""
-    swept, count = SweepResult({}, 0, 0, 0.0), counted(workers)
+    swept, count, began = SweepResult({}, 0, 0, 0.0), counted(workers), monotonic()
     more: Study | None = study
     try:
         while more is not None:
             more.cost().refuse(count, yes)
             if more is not study:
-                progress.told(f"more surfaces: {more.cost()}")
+                progress.said(f"more surfaces: {more.cost()}")
             found = _solve(more, swept, output, workers, scheduler, executor, progress)
             study, swept = more, swept.joined(found)
             answers = study.answers(swept.outcomes)
             judged = study.judge(answers)
             # What breaks with few surfaces breaks with more.
-            more = None if swept.faults else _more(study, answers, judged.findings, clock)
+            more = None if swept.faults else _more(study, answers, judged.findings, limit, began)
         findings, page = judged.findings, judged.page(study.title, answers)
-        unsolved = study.unsolved(_whole(swept))
+        whole = {task: each for task, each in swept.outcomes.items() if task not in swept.faults}
+        unsolved = study.unsolved(whole)
         answer, doubts = (*page.answer, *unsolved.notes), (*study.doubts, *unsolved.sentences)
         page = replace(page, answer=answer, doubts=doubts, notes=study.notes)
     except (SolveError, ValueError, ArithmeticError, LookupError) as error:
         # What is made of NaN alone raises nearly anything, and would hide what matters.
         if not swept.faults:
             raise
-        whole = len(swept.faults) == len(swept.outcomes)
-        what = (
-            "nothing was solved"
-            if whole
-            else f"the solved contacts cannot be judged without the broken ones: {error}"
-        )
+        what = "nothing was solved"
+        if len(swept.faults) < len(swept.outcomes):
+            what = f"the solved contacts cannot be judged without the broken ones: {error}"
         raise Broken("; ".join([what, *faults(swept, output)])) from error
     return Report(study, answers, findings, page, swept, output, None, unsolved)
 
@@ -135,52 +133,30 @@ def _write(done, folder, forms, report, progress) -> Path | None:
     return written[-1] if report else None
 
 
-class Clock:
-    """Time that a study has left, by a clock: what it lets through differs from one machine to another.
+def _more(study, answers, findings, limit, began):
+    """The study with more surfaces, of which as many as fit into the time that is left; None where none do.
 
-    limit : seconds from now on
+    More work takes as long as what was done so far.
     """
-
-    def __init__(self, limit: float):
-        self.limit, self._start = limit, monotonic()
-
-    def lets(self, had: float, more: float) -> bool:
-        """Whether so much more work fits, if it takes as long as what was done so far."""
-        spent = monotonic() - self._start
-        return self.limit == inf or spent * more <= (self.limit - spent) * had
-
-
-def _more(study, answers, findings, clock):
-    """The study with more surfaces, of which as many as fit into the time that is left; None where none do."""
     for growth in GROWTHS:
         more = study.more(answers, findings, growth)
         if more is None:
             return None
-        done = study.cost().work
-        if clock.lets(done, more.cost().work - done):
+        done, spent = study.cost().work, monotonic() - began
+        if limit == inf or spent * (more.cost().work - done) <= (limit - spent) * done:
             return more
     return None
-
-
-def _whole(swept):
-    """Outcomes of the tasks that did not break."""
-    return {task: outcome for task, outcome in swept.outcomes.items() if task not in swept.faults}
 
 
 def _solve(study, had, output, workers, scheduler, executor, progress) -> SweepResult:
     """Solve what neither a sweep had nor the folder has. Timed tasks are solved here, whatever the executor."""
     swept = SweepResult({}, 0, 0, 0.0)
     for batch in study.batches():
-        batch = batch._replace(tasks=[task for task in batch.tasks if task not in had.outcomes])
-        if not batch.tasks:
-            continue
-        store = Store(output / SOLVED)
-        with progress.solving() as told:
-            if batch.timed:
-                found = runner.sweep(batch.tasks, store, progress=told, fresh=True)
-            else:
-                found = runner.sweep(batch.tasks, store, workers, told, False, scheduler, executor)
-        swept = swept.joined(found)
+        if tasks := [task for task in batch.tasks if task not in had.outcomes]:
+            with progress.solving() as told:
+                store = Store(output / SOLVED)
+                found = runner.sweep(tasks, store, workers, told, batch.timed, scheduler, executor)
+            swept = swept.joined(found)
     return swept
 
 

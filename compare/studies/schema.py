@@ -7,9 +7,9 @@ from typing import Any
 from pydantic import TypeAdapter
 from pydantic.json_schema import GenerateJsonSchema
 
-from ..solving.docstrings import documented
 from ..solving.folders import write
 from ..solving.suggest import known
+from ..solving.vocabulary import documented
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 KINDS = {

@@ -228,8 +228,6 @@ def test_without_workers_it_says_so_and_waits_and_other_code_is_refused_by_name(
     try:
         with pytest.raises(Refused, match=r"a worker on .* cannot be used: its code of scene is another"):
             solve(Inviting(**other))
-        with pytest.raises(Refused, match=r"workers of tcp.* cannot be used: tcp.*: its code of scene is another"):
-            solve(Heard())
         joined[0].terminate()
         joined[0].wait()
         assert solve(heard := Inviting()) == [2.0, 1.0]
@@ -335,7 +333,7 @@ def test_an_interrupt_ends_the_wait_for_a_silent_scheduler_at_once(strange, tmp_
 
 def test_a_scheduler_that_stands_still_is_lost(monkeypatch):
     monkeypatch.setattr(cluster_module, "LOST", 0.1)
-    cluster = Cluster("tcp://x", ("scene",), print)
+    cluster = Cluster("tcp://x", print)
     cluster.client = SimpleNamespace(nthreads=partial(time.sleep, 2), status="running")
     with pytest.raises(ConnectionError, match="the scheduler at tcp://x is lost"):
         cluster.room()

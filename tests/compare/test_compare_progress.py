@@ -76,7 +76,7 @@ def test_the_time_left_does_not_jump_as_workers_start_and_compile():
         shown.now, task = under_way.pop(0)
         shown.finished(task, ANSWER)
         left = sum(seconds for seconds, _ in waiting) + sum(end - shown.now for end, _ in under_way)
-        told.append((shown.tasks.seconds(), left / 2))
+        told.append((shown.seconds(), left / 2))
     assert all(said == pytest.approx(left, rel=0.4, abs=3.0) for said, left in told[5:])
 
 

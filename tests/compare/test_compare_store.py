@@ -24,7 +24,7 @@ from compare.solving import digest, folders
 from compare.solving.digest import canonical, key
 from compare.solving.folders import LOCK, clear, hold, make, write
 from compare.solving.outcome import NUMBERS, Outcome, Row
-from compare.solving.store import FILE, Store, _covering, _packed
+from compare.solving.store import FILE, Store, _covering
 from compare.solving.task import SceneTask as Task
 from mdr1d import MDR
 from scene import Kelvin, Scene, SelfAffine, Slide, Sphere
@@ -147,8 +147,8 @@ def test_damage_costs_the_outcome_that_it_hits_and_a_file_that_cannot_be_read_is
         message = ""
         try:
             kept = found(tmp_path, tasks)
-            while lost := {0, 1, 2} - {*found(tmp_path, tasks)}:
-                Store(tmp_path).put(tasks[min(lost)], numbered(min(lost)))
+            for lost in {0, 1, 2} - {*kept}:
+                Store(tmp_path).put(tasks[lost], numbered(lost))
         except InvalidInput as error:
             message, kept = str(error), []
         refused = message.startswith(f"{path}: is ") and path.read_bytes() == damaged
@@ -160,26 +160,35 @@ def test_damage_costs_the_outcome_that_it_hits_and_a_file_that_cannot_be_read_is
 def test_fields_that_are_damaged_count_as_absent(tmp_path):
     store = Store(tmp_path)
     store.put(PICTURE, Outcome((ROW,), {"x": np.arange(300.0)}))
-    whole = _packed("x", np.arange(300.0))
+    ((_, whole),) = stored(store)
     for place in range(0, len(whole), 50):
-        change(store, "fields", content=whole[:place] + bytes([whole[place] ^ 4]) + whole[place + 1 :])
+        change(store, fields=whole[:place] + bytes([whole[place] ^ 4]) + whole[place + 1 :])
         assert store.get(PICTURE) is None
-    change(store, "fields", id=7)
+    change(store, fields=None)
     assert store.get(PICTURE) is None
-    assert store.get(TASK) is not None
+    change(store, fields=whole)
+    assert store.get(PICTURE) is not None
 
 
-def change(store, table, **values):
-    """Forge values of every row of a table."""
+def change(store, **values):
+    """Forge values of every answer."""
     with closing(sqlite3.connect(store.path)) as connection, connection:
         for column, value in values.items():
-            connection.execute(f"UPDATE {table} SET {column} = ?", (value,))
+            connection.execute(f"UPDATE answers SET {column} = ?", (value,))
 
 
-def forge(store, content, task=PICTURE):
-    """Forge the content of an answer, under a digest that fits."""
-    stated = _covering(key(task).encode(), content.encode()).decode()
-    change(store, "answers", content=content, digest=stated)
+def forge(store, content=None, fields=None, task=PICTURE):
+    """Forge the content or the fields of an answer, under a digest that fits."""
+    ((text, packed),) = stored(store)
+    content, fields = content or text, packed if fields is None else fields
+    stated = _covering(key(task), content.encode(), fields)
+    change(store, content=content, fields=fields, digest=stated)
+
+
+def stored(store):
+    """Content and fields of the answers in a file."""
+    with closing(sqlite3.connect(store.path)) as connection:
+        return [*connection.execute("SELECT content, fields FROM answers")]
 
 
 @pytest.mark.parametrize("values", [np.array([print], object), np.zeros(3, "V8"), b"", b"PK"], ids=repr)
@@ -187,19 +196,11 @@ def test_fields_that_are_forged_under_a_digest_that_fits_count_as_absent(tmp_pat
     store, packed = Store(tmp_path), values
     store.put(PICTURE, Outcome((ROW,), {"x": np.arange(3.0)}))
     if not isinstance(values, bytes):
-        np.save(tmp_path / "x.npy", values, allow_pickle=True)
-        packed = (tmp_path / "x.npy").read_bytes()
-    (text,) = content(store)
-    forge(store, json.dumps(json.loads(text) | {"fields": [[1, digest.digest(packed), "x"]]}))
-    change(store, "fields", content=packed)
+        np.savez(tmp_path / "x.npz", values)
+        packed = (tmp_path / "x.npz").read_bytes()
+    forge(store, fields=packed)
     assert store.get(TASK) is not None
     assert store.get(PICTURE) is None
-
-
-def content(store):
-    """Content of the answers in a file."""
-    with closing(sqlite3.connect(store.path)) as connection:
-        return [text for (text,) in connection.execute("SELECT content FROM answers")]
 
 
 FORGED = [
@@ -212,7 +213,8 @@ FORGED = [
 def test_an_answer_that_is_forged_under_a_digest_that_fits_counts_as_absent(tmp_path, change):
     store = Store(tmp_path)
     store.put(TASK, Outcome((ROW,)))
-    forge(store, change if isinstance(change, str) else json.dumps(json.loads(content(store)[0]) | change))
+    ((text, _),) = stored(store)
+    forge(store, change if isinstance(change, str) else json.dumps(json.loads(text) | change))
     assert Store(tmp_path).get(TASK) is None
 
 

@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 from compare.report import csvfiles, manifest
-from compare.solving.folder_format import FORMAT
+from compare.solving.folders import FORMAT
 
 HERE = Path(__file__).parent
 LARGE = "contact_maps"
