@@ -6,7 +6,7 @@ from dataclasses import dataclass, fields
 from scene import Refused
 from scene.plan import size
 
-from .amounts import HOUR, duration
+from ..report.words import HOUR, duration
 from .task import Task
 
 SECONDS = 6e-8  # of processor a unit of work takes, within a factor of two

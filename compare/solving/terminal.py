@@ -14,7 +14,7 @@ from rich.text import Text
 
 from scene.printable import printable
 
-from .amounts import duration
+from ..report.words import duration
 from .cost import SECONDS
 from .outcome import Outcome
 from .runner import Progress, SweepProgress

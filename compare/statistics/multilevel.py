@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
-from ..solving.amounts import duration, share
+from ..report.words import duration, share
 from ..solving.control_variates import VARIATES, controlled
 from ..solving.cost import MOST_DRAWS, SECONDS
 from ..solving.parameter_grid import EMPTY, LEVELS, TOGETHER, ParameterGrid, levels

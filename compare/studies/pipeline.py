@@ -4,19 +4,19 @@ import errno
 import os
 from concurrent.futures import Executor
 from dataclasses import replace
-from math import inf
+from math import inf, nan
 from pathlib import Path
 from time import monotonic
 
 from scene import SolveError
 from scene.printable import brief
+from scene.quantities import SECOND
 from scene.reading import InvalidInput
 
 from ..report import manifest, render
 from ..report.page import Plot
 from ..report.plots.rendering import FORMS
 from ..solving import netcdf, runner
-from ..solving.amounts import seconds_of
 from ..solving.executors import counted
 from ..solving.folders import Unwritable, hold, make
 from ..solving.runner import Progress, SweepResult
@@ -65,7 +65,7 @@ def run(
     forms = tuple(dict.fromkeys(["png", *(form.strip() for form in figure_format.split(",") if form.strip())]))
     for form in forms:
         known("figure_format", form, FORMS)
-    limit = inf if budget is None else seconds_of("budget", budget)
+    limit = inf if budget is None else _seconds(budget)
     if executor is not None and (scheduler is not None or not callable(getattr(executor, "submit", None))):
         needed = "an object with submit is needed, without a scheduler"
         raise InvalidInput(f"executor = {brief(repr(executor))}: {needed}")
@@ -81,6 +81,17 @@ def run(
         done = _answered(study, output, workers, scheduler, executor, yes, Clock(limit), progress)
         path = _write(done, below, forms, report, progress)
         return replace(done, path=path)
+
+
+def _seconds(budget):
+    """Seconds above zero, of a number or a text with a unit. Raises InvalidInput."""
+    try:
+        found = float(SECOND.value(budget))
+    except ValueError:
+        found = nan
+    if not 0 < found < inf:
+        raise InvalidInput(f"budget = {brief(repr(budget))}: a time above zero, as 10min or 600 s")
+    return found
 
 
 def _answered(study, output, workers, scheduler, executor, yes, clock, progress) -> Report:

@@ -20,7 +20,7 @@ from tables import finding, replaced, stored, table
 
 import compare
 from compare.report.csvfiles import write_text
-from compare.solving.amounts import interval, number
+from compare.report.words import interval, number
 from compare.studies.claims.catalogue import STUDIES
 from compare.studies.claims.claims import ENDS
 

@@ -25,12 +25,12 @@ from pandas import DataFrame
 from pandas.testing import assert_frame_equal
 from PIL import Image
 
-from compare.report import csvfiles, manifest, render, terminal
+from compare.report import csvfiles, manifest, render, terminal, words
 from compare.report.export import export
 from compare.report.page import Findings, Page, Plot, Section, Table, Text
 from compare.report.plots import touching
 from compare.report.tables import claims
-from compare.solving import amounts, netcdf, vocabulary
+from compare.solving import netcdf, vocabulary
 from compare.statistics.finding import COLUMNS
 from scene.reading import InvalidInput
 
@@ -63,13 +63,13 @@ def folder(tmp_path_factory):
      (inf, "∞"), (np.int64(-4), "−4"), (True, "yes"), (None, "–"), ("as it is", "as it is")],
 )  # fmt: skip
 def test_a_value_is_shown_as(value, shown):
-    assert amounts.shown(value) == shown
+    assert words.shown(value) == shown
 
 
 @given(st.floats(1e-12, 1e12), st.floats(1e-6, 1.0))
 def test_a_value_and_its_error_are_shown_within_a_twentieth_of_the_error(value, relative):
     error = value * relative
-    told = amounts.plus_minus(value, error).translate(str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-"))
+    told = words.plus_minus(value, error).translate(str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-"))
     middle, half, power = re.fullmatch(r"\(?(\S+) ± ([0-9.]+)\)?(?: × 10(\S+))?", told).groups()
     scale = 10.0 ** int(power or 0)
     assert abs(float(middle) * scale - value) <= 0.051 * error
@@ -77,11 +77,11 @@ def test_a_value_and_its_error_are_shown_within_a_twentieth_of_the_error(value, 
 
 
 def test_ends_of_an_interval_are_shown_to_two_digits_of_its_half_and_not_at_all_where_unknown():
-    assert amounts.interval(1.98292, 1.9735, 1.9924) == "1.9829 (1.9735 to 1.9924)"
-    assert amounts.interval(1e-6, -1e-6, 3e-6) == "1.0 (−1.0 to 3.0) × 10⁻⁶"
-    assert amounts.interval(1.98058, 1.98005, 1.98112) == "1.9806 (1.9801 to 1.9811)"
-    assert amounts.interval(0.3413688752, 0.3413688655, 0.3413688849) == "0.34137"
-    assert amounts.interval(2.0, nan, nan) == amounts.interval(2.0, 2.0, 2.0) == "2"
+    assert words.interval(1.98292, 1.9735, 1.9924) == "1.9829 (1.9735 to 1.9924)"
+    assert words.interval(1e-6, -1e-6, 3e-6) == "1.0 (−1.0 to 3.0) × 10⁻⁶"
+    assert words.interval(1.98058, 1.98005, 1.98112) == "1.9806 (1.9801 to 1.9811)"
+    assert words.interval(0.3413688752, 0.3413688655, 0.3413688849) == "0.34137"
+    assert words.interval(2.0, nan, nan) == words.interval(2.0, 2.0, 2.0) == "2"
 
 
 # Files.
