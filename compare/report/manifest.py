@@ -4,13 +4,11 @@ import os
 import platform
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
-from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-import numpy as np
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, ConfigDict
 from pydantic_core import to_json
 
 from scene.printable import brief
@@ -29,26 +27,19 @@ if TYPE_CHECKING:
 
 FINDINGS = "findings"
 VERSIONS = (*PACKAGES, "matplotlib", "pandas", "xarray", "pydantic")
-# Most items of a list, letters of a name.
-MOST_LISTED, MOST_LETTERS = 10_000, 1000
 # What a run writes beside its page, and the next one on the folder may remove.
 OURS = (".html", ".csv", ".nc", ".png", ".pdf", ".svg")
 
 
 def _of_folder(name: str) -> str:
     """The name of a file below a folder, with slashes between folders. Raises ValueError of any other."""
-    if (
-        not name.isprintable()
-        or not 0 < len(name) <= MOST_LETTERS
-        or set(name) & set("\\:")
-        or {"", ".", ".."} & set(name.split("/"))
-    ):
+    if not name.isprintable() or set(name) & set("\\:") or {"", ".", ".."} & set(name.split("/")):
         raise ValueError(f"{brief(name)} names no file of the folder")
     return name
 
 
 Name = Annotated[str, AfterValidator(_of_folder)]
-Names = Annotated[tuple[Name, ...], Field(max_length=MOST_LISTED)]
+Names = tuple[Name, ...]
 
 
 class PlotEntry(BaseModel):
@@ -74,17 +65,9 @@ class Manifest(Stated):
     model_config = ConfigDict(extra="ignore", frozen=True)
 
     command: str
-    plots: Annotated[tuple[PlotEntry, ...], Field(max_length=MOST_LISTED)]
+    plots: tuple[PlotEntry, ...]
     tables: Names
-    files: Annotated[tuple[Name, ...], Field(max_length=10 * MOST_LISTED)] = ()
-
-
-@dataclass(frozen=True)
-class Folder:
-    """A folder that a command left, and its manifest."""
-
-    path: Path
-    manifest: Manifest
+    files: Names = ()
 
 
 def begin(folder: Path, study: "Study", files: Iterable[str]) -> None:
@@ -133,7 +116,16 @@ def stamp(
         "solved": Path(solved).as_posix(),
         "tasks": {"solved": swept.solved, "reused": swept.reused},
         "seconds": swept.seconds,
-        "plots": [_entry(plot) for plot in page.every(Plot)],
+        "plots": [
+            {
+                "name": plot.name,
+                "module": plot.draw.__module__,
+                "function": plot.draw.__name__,
+                "tables": list(plot.tables),
+                "options": plot.options,
+            }
+            for plot in page.every(Plot)
+        ],
         "tables": list(dict.fromkeys([FINDINGS, *(name for name, _ in page.tables())])),
         "files": list(files),
         "results": results,
@@ -142,13 +134,20 @@ def stamp(
 
 
 def _write(folder, left):
-    """Write a manifest as JSON: null for NaN, and what JSON does not have as text."""
-    written = to_json({"format": FORMAT} | left, indent=1, inf_nan_mode="null", fallback=_plain)
-    write_text(folder / NAME, written.decode())
+    write_text(folder / NAME, json_of({"format": FORMAT} | left))
 
 
-def folders(folder: str | Path) -> Iterator[Folder]:
-    """A folder with a manifest, or those just below it; each is held while it is looked at.
+def json_of(found: Any) -> str:
+    """JSON of anything: null for a number that is not known or not finite, and what JSON does not have as text."""
+    return to_json(found, indent=1, inf_nan_mode="null", fallback=_plain).decode()
+
+
+def _plain(value):
+    return value.tolist() if hasattr(value, "tolist") else str(value)
+
+
+def folders(folder: str | Path) -> Iterator[tuple[Path, Manifest]]:
+    """A folder and its manifest, or those just below it; each is held while it is looked at.
 
     Raises InvalidInput of none, of a damaged one, of one that another run holds, and of a run that has not come to
     its end.
@@ -164,7 +163,7 @@ def folders(folder: str | Path) -> Iterator[Folder]:
         )
     for path in paths:
         with hold([path.parent]):
-            yield Folder(path.parent, finished(path, Manifest))
+            yield path.parent, finished(path, Manifest)
 
 
 def inside(folder: Path, name: str) -> Path:
@@ -196,17 +195,3 @@ def made() -> dict[str, str]:
         "versions": ", ".join(f"{package} {number}" for package, number in versions().items()),
         "machine": f"{where['system']}, {where['machine']}, {where['processors']} processors",
     }
-
-
-def _entry(plot):
-    return PlotEntry(
-        name=plot.name,
-        module=plot.draw.__module__,
-        function=plot.draw.__name__,
-        tables=tuple(plot.tables),
-        options=dict(plot.options),
-    )
-
-
-def _plain(value):
-    return value.tolist() if isinstance(value, np.ndarray | np.generic) else str(value)

@@ -39,15 +39,13 @@ FEW_REASONS = 2
 
 def shown(value: Any, digits: int = DIGITS) -> str:
     """Any value as text: yes or no, integers whole, other numbers to some digits, a dash for what is not known."""
-    if value is None:
-        return UNKNOWN
-    if isinstance(value, str):
-        return value
-    if isinstance(value, bool) or type(value).__name__ in ("bool", "bool_"):
+    if type(value).__name__ in ("bool", "bool_"):
         return "yes" if value else "no"
     if isinstance(value, Integral):
         return _signed(str(int(value)))
-    return number(float(value), digits) if isinstance(value, Real) else str(value)
+    if isinstance(value, Real):
+        return number(float(value), digits)
+    return UNKNOWN if value is None else str(value)
 
 
 def number(value: float, digits: int = DIGITS) -> str:
@@ -68,12 +66,12 @@ def interval(value: float, low: float, high: float, digits: int = DIGITS) -> str
     The number alone where there is no interval, or where it is too narrow for these digits.
     """
     half = (high - low) / 2
-    if not (isfinite(value) and ROUNDING * abs(value) < half < inf):
+    if not _wide(value, half):
         return number(value, digits)
     largest = max(map(abs, (value, low, high)))
     power = _power(largest)
-    decimals = min(_decimals(half / 10.0**power), MOST_DIGITS - 1 - floor(log10(largest / 10.0**power)))
-    middle, below, above = (_signed(f"{each / 10.0**power:.{decimals}f}") for each in (value, low, high))
+    decimals = min(_decimals(half, power), MOST_DIGITS - 1 - floor(log10(largest / 10.0**power)))
+    middle, below, above = _scaled(power, decimals, value, low, high)
     return number(value, MOST_DIGITS) if below == above else f"{middle} ({below} to {above}){_times(power)}"
 
 
@@ -84,13 +82,21 @@ def with_unit(text: str, unit: str) -> str:
 
 def plus_minus(value: float, error: float, digits: int = DIGITS) -> str:
     """value ± error, to two digits of the error; the number alone without one."""
-    if not (isfinite(value) and ROUNDING * abs(value) < error < inf):
+    if not _wide(value, error):
         return number(value, digits)
     error = float(f"{error:.1e}")  # 9.96 is 10
     power = _power(max(abs(value), error))
-    decimals = _decimals(error / 10.0**power)
-    both = f"{_signed(f'{value / 10.0**power:.{decimals}f}')} ± {error / 10.0**power:.{decimals}f}"
+    both = " ± ".join(_scaled(power, _decimals(error, power), value, error))
     return f"({both}){_times(power)}" if power else both
+
+
+def _wide(value, error):
+    """Whether a number is known and its error is more than one of rounding."""
+    return isfinite(value) and ROUNDING * abs(value) < error < inf
+
+
+def _scaled(power, decimals, *values):
+    return [_signed(f"{each / 10.0**power:.{decimals}f}") for each in values]
 
 
 def _power(value):
@@ -98,8 +104,8 @@ def _power(value):
     return 0 if value == 0 or LEAST_PLAIN <= abs(value) < MOST_PLAIN else floor(log10(abs(value)))
 
 
-def _decimals(error):
-    return max(0, 1 - floor(log10(error)))
+def _decimals(error, power):
+    return max(0, 1 - floor(log10(error / 10.0**power)))
 
 
 def _times(power):
@@ -108,9 +114,7 @@ def _times(power):
 
 def _signed(text):
     """A minus that is as wide as a plus; none before zero."""
-    if not text.startswith("-"):
-        return text
-    return f"−{text[1:]}" if text.strip("-0.") else text[1:]
+    return text.replace("-", "−") if text.strip("-0.") else text.lstrip("-")
 
 
 def seconds(value: float) -> str:
@@ -125,12 +129,10 @@ def duration(seconds: float | None) -> str:
     """Seconds as a person says them; a question mark where they are not known."""
     if seconds is None:
         return "?"
-    whole = round(seconds)
-    if whole < 60:
-        return f"{whole} s"
-    if whole < 3600:
-        return f"{whole // 60} min {whole % 60:02d} s"
-    return f"{whole // 3600} h {whole % 3600 // 60:02d} min"
+    minutes, left = divmod(round(seconds), 60)
+    if not minutes:
+        return f"{left} s"
+    return f"{minutes} min {left:02d} s" if minutes < 60 else f"{minutes // 60} h {minutes % 60:02d} min"
 
 
 def pascals(value: float) -> str:

@@ -78,7 +78,7 @@ def run(
     with hold((output, below), progress.told):
         if cost.contacts:
             progress.told(str(cost))
-        done = _answered(study, output, workers, scheduler, executor, yes, Clock(limit), progress)
+        done = _answered(study, output, workers, scheduler, executor, yes, limit, progress)
         path = _write(done, below, forms, report, progress)
         return replace(done, path=path)
 
@@ -94,9 +94,9 @@ def _seconds(budget):
     return found
 
 
-def _answered(study, output, workers, scheduler, executor, yes, clock, progress) -> Report:
+def _answered(study, output, workers, scheduler, executor, yes, limit, progress) -> Report:
     """Report of a study, of which nothing is written yet."""
-    swept, count = SweepResult({}, 0, 0, 0.0), counted(workers)
+    swept, count, start = SweepResult({}, 0, 0, 0.0), counted(workers), monotonic()
     more: Study | None = study
     try:
         while more is not None:
@@ -108,7 +108,7 @@ def _answered(study, output, workers, scheduler, executor, yes, clock, progress)
             answers = study.answers(swept.outcomes)
             judged = study.judge(answers)
             # What breaks with few surfaces breaks with more.
-            more = None if swept.faults else _more(study, answers, judged.findings, clock)
+            more = None if swept.faults else _more(study, answers, judged.findings, limit, monotonic() - start)
         findings, page = judged.findings, judged.page(study.title, answers)
         unsolved = study.unsolved(_whole(swept))
         answer, doubts = (*page.answer, *unsolved.notes), (*study.doubts, *unsolved.sentences)
@@ -146,29 +146,17 @@ def _write(done, folder, forms, report, progress) -> Path | None:
     return written[-1] if report else None
 
 
-class Clock:
-    """Time that a study has left, by a clock: what it lets through differs from one machine to another.
+def _more(study, answers, findings, limit, spent):
+    """The study with more surfaces, of which as many as fit into the time that is left; None where none do.
 
-    limit : seconds from now on
+    limit, spent : seconds in all, which may be infinite, and so far; more work takes as long as what was done
     """
-
-    def __init__(self, limit: float):
-        self.limit, self._start = limit, monotonic()
-
-    def lets(self, had: float, more: float) -> bool:
-        """Whether so much more work fits, if it takes as long as what was done so far."""
-        spent = monotonic() - self._start
-        return self.limit == inf or spent * more <= (self.limit - spent) * had
-
-
-def _more(study, answers, findings, clock):
-    """The study with more surfaces, of which as many as fit into the time that is left; None where none do."""
     for growth in GROWTHS:
         more = study.more(answers, findings, growth)
         if more is None:
             return None
-        done = study.cost().work
-        if clock.lets(done, more.cost().work - done):
+        had = study.cost().work
+        if limit == inf or spent * (more.cost().work - had) <= (limit - spent) * had:
             return more
     return None
 
