@@ -10,8 +10,6 @@ from scene.files import Unreadable, content
 from scene.printable import brief
 from scene.reading import InvalidInput
 
-from ..solving.folders import write
-
 NOT_KNOWN = "nan"
 # Largest table that is read; those of a page have some megabytes and at most some dozens of columns.
 MOST_BYTES, MOST_COLUMNS = 2**28, 1000
@@ -20,12 +18,6 @@ MOST_BYTES, MOST_COLUMNS = 2**28, 1000
 def text(frame: DataFrame) -> str:
     """A table as the text of its file; the index is left out."""
     return frame.to_csv(index=False, na_rep=NOT_KNOWN, lineterminator="\n")
-
-
-def write_text(path: Path, written: str) -> None:
-    """Write a text whole or not at all; the folder is made. Raises OSError."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    write(path, lambda file: file.write(written.encode()))
 
 
 def read(path: Path) -> DataFrame:

@@ -84,10 +84,9 @@ def _tables(folder: Path) -> Iterator[tuple[str, DataFrame]]:
     """Tables beside the pages of a folder, and everything that was solved, by the names of their files."""
     if not folder.is_file():
         for place, left in manifest.folders(folder):
-            for name in left.tables:
-                frame = csvfiles.read(manifest.inside(place, f"{name}.csv"))
-                if not frame.empty:
-                    yield (place.relative_to(folder) / name).as_posix(), frame
+            for path in (manifest.inside(place, name) for name in left.files if name.endswith(".csv")):
+                if not (frame := csvfiles.read(path)).empty:
+                    yield path.relative_to(folder).with_suffix("").as_posix(), frame
         if not any(folder.rglob(netcdf.NAME)):
             return
     for name, dataset in _solved(folder):

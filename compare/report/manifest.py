@@ -5,6 +5,7 @@ import platform
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from importlib.metadata import version
+from operator import methodcaller
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -17,15 +18,13 @@ from scene.reading import InvalidInput
 from ..solving.digest import PACKAGES
 from ..solving.folder_format import FORMAT, Stated, finished, read
 from ..solving.folder_format import MANIFEST as NAME
-from ..solving.folders import clear, hold
-from .csvfiles import write_text
+from ..solving.folders import clear, hold, write
 from .page import Page, Plot
 
 if TYPE_CHECKING:
     from ..solving.runner import SweepResult
     from ..studies.study import Study
 
-FINDINGS = "findings"
 VERSIONS = (*PACKAGES, "matplotlib", "pandas", "xarray", "pydantic")
 # What a run writes beside its page, and the next one on the folder may remove.
 OURS = (".html", ".csv", ".nc", ".png", ".pdf", ".svg")
@@ -58,7 +57,6 @@ class Manifest(Stated):
     """Part of the manifest of a folder that is read; the file has more.
 
     plots : figures that can be drawn again
-    tables : names of the CSV files, without ending
     files : all that the run wrote beside it; of one that has not come to its end, and of those before it
     """
 
@@ -66,7 +64,6 @@ class Manifest(Stated):
 
     command: str
     plots: tuple[PlotEntry, ...]
-    tables: Names
     files: Names = ()
 
 
@@ -80,7 +77,7 @@ def begin(folder: Path, study: "Study", files: Iterable[str]) -> None:
     with suppress(InvalidInput):
         earlier = read(folder / NAME, Manifest).files
     listed = list(dict.fromkeys([*earlier, *files]))
-    _write(folder, {"finished": False, "command": study.command, "plots": [], "tables": [], "files": listed})
+    _write(folder, {"finished": False, "command": study.command, "plots": [], "files": listed})
     places = set()
     for name in earlier:
         with suppress(InvalidInput):  # of one that leads out of the folder by now
@@ -100,7 +97,7 @@ def stamp(
     page: Page,
     swept: "SweepResult",
     solved: str,
-    files: Iterable[str] = (),
+    files: Iterable[str],
     results: str = "",
 ) -> None:
     """Write the manifest of a folder, last of all: what it lists is there. Raises OSError.
@@ -126,7 +123,6 @@ def stamp(
             }
             for plot in page.every(Plot)
         ],
-        "tables": list(dict.fromkeys([FINDINGS, *(name for name, _ in page.tables())])),
         "files": list(files),
         "results": results,
     }
@@ -134,7 +130,7 @@ def stamp(
 
 
 def _write(folder, left):
-    write_text(folder / NAME, json_of({"format": FORMAT} | left))
+    write(folder / NAME, methodcaller("write", json_of({"format": FORMAT} | left).encode()))
 
 
 def json_of(found: Any) -> str:

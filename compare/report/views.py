@@ -147,17 +147,14 @@ def _prolonged(scene, line, span, fields):
 
 def _touched(line, plane):
     """Least and greatest x, and greatest distance from the axis along y [m], of all contact; None without any."""
-    found = []
-    if line is not None and line.touching.any():
-        found.append((*line.x[line.touching][[0, -1]], 0.0))
-    if plane is not None and (plane["pressure"] > 0).any():
+    x, y = [], [0.0]
+    if line is not None:
+        x += line.x[line.touching].tolist()
+    if plane is not None:
         touching = plane["pressure"] > 0
-        x, y = plane["x"][touching.any(axis=0)], plane["y"][touching.any(axis=1)]
-        found.append((x[0], x[-1], np.abs(y).max()))
-    if not found:
-        return None
-    first, last, aside = zip(*found, strict=True)
-    return min(first), max(last), max(aside)
+        x += plane["x"][touching.any(axis=0)].tolist()
+        y += np.abs(plane["y"][touching.any(axis=1)]).tolist()
+    return (min(x), max(x), max(y)) if x else None
 
 
 def _whole(line, plane):

@@ -45,12 +45,13 @@ def folder(tmp_path_factory):
     """What a command leaves: page, figures, tables, results and manifest."""
     path = tmp_path_factory.mktemp("left")
     drawn = []
-    render.write(render.files(page(), FINDINGS, told=drawn.append), path)
+    files = render.files(page(), FINDINGS, told=drawn.append)
+    render.write(files, path)
     assert drawn == ["sphere/friction"]
     values = {"friction_force": ("seed", [0.1, 1 / 3]), "status": ("seed", ["solved", "not asked"])}
     dataset = xarray.Dataset(values, {"seed": [0, 1]})
     (path / netcdf.NAME).write_bytes(netcdf.packed(xarray.DataTree.from_dict({"/sphere/MDR": dataset})))
-    manifest.stamp(path, STUDY, page(), SWEPT, "solved")
+    manifest.stamp(path, STUDY, page(), SWEPT, "solved", files)
     return path
 
 
@@ -94,7 +95,7 @@ TEXTS = st.text(st.characters(codec="utf-8", exclude_characters="\r\0"), min_siz
 def test_what_is_read_back_is_the_same_table(tmp_path_factory, rows):
     frame = DataFrame(rows, columns=["value", "count", "name"])
     path = tmp_path_factory.mktemp("csv") / "table.csv"
-    csvfiles.write_text(path, csvfiles.text(frame))
+    path.write_bytes(csvfiles.text(frame).encode())
     assert_frame_equal(csvfiles.read(path), frame, check_exact=True, check_dtype=False)
 
 
@@ -263,9 +264,8 @@ def test_figures_of_a_journal_have_the_width_of_its_column(folder, tmp_path, loo
 def test_a_changed_table_gives_another_picture(folder, tmp_path):
     (tmp_path / "sphere").mkdir()
     (tmp_path / "manifest.json").write_bytes((folder / "manifest.json").read_bytes())
-    csvfiles.write_text(
-        tmp_path / "sphere/friction.csv", csvfiles.text(MEANS.assign(friction_coefficient_mean=0.3))
-    )
+    changed = csvfiles.text(MEANS.assign(friction_coefficient_mean=0.3))
+    (tmp_path / "sphere/friction.csv").write_text(changed)
     drawn = draw_again(tmp_path)
     assert drawn[0] == tmp_path / "figures/sphere/friction.png"
     assert drawn[0].read_bytes() != (folder / "sphere/friction.png").read_bytes()
