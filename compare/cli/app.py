@@ -38,13 +38,14 @@ def _add(
     function: Callable[..., Any],
     said: Callable[[Any], str] = str,
     details: bool = False,
+    reported: Callable[..., Any] | None = None,
 ) -> None:
     """Add a function of `compare.commands` as a command of the same name, arguments, options and defaults.
 
     said : what is printed of what it returns
     details : whether what it returns has details to print
+    reported : what returns a report of the same arguments, where the function returns something else
     """
-    asked = commands.swept if function is commands.sweep else function  # of a Dataset the report is printed
     parameters = {each.name: each for each in _parameters(function)}
     solves = "workers" in parameters
     more = {"quiet": Quiet} if solves else {}
@@ -67,7 +68,7 @@ def _add(
 
                 shown = given["progress"] = Shown(lines=verbose)
             with shown:
-                found = asked(**given)
+                found = (reported or function)(**given)
         _tell(found, said, quiet, verbose, json)
 
     called.__signature__ = Signature([*parameters.values()])  # type: ignore[attr-defined]
@@ -121,32 +122,23 @@ def _schema(found: Mapping[str, Any]) -> str:
     return json.dumps(found, indent=1, ensure_ascii=False)
 
 
-SAID: dict[Callable[..., Any], Callable[[Any], str]] = {
-    commands.new: _written_ready,
-    commands.schema: _schema,
-    commands.export: _paths,
-}
-DETAILED = commands.plan, commands.scenes
-for function in (
-    commands.run,
-    commands.sweep,
-    commands.trust,
-    commands.study,
-    commands.paper,
-    commands.workprecision,
-    commands.stability,
-    commands.verify,
-    commands.regress,
-    commands.mastercurve,
-    commands.topography,
-    commands.plan,
-    commands.scenes,
-    commands.new,
-    commands.schema,
-    commands.export,
-    commands.draw,
-):
-    _add(function, SAID.get(function, str), function in DETAILED)
+_add(commands.run)
+_add(commands.sweep, reported=commands.swept)
+_add(commands.trust)
+_add(commands.study)
+_add(commands.paper)
+_add(commands.workprecision)
+_add(commands.stability)
+_add(commands.verify)
+_add(commands.regress)
+_add(commands.mastercurve)
+_add(commands.topography)
+_add(commands.plan, details=True)
+_add(commands.scenes, details=True)
+_add(commands.new, said=_written_ready)
+_add(commands.schema, said=_schema)
+_add(commands.export, said=_paths)
+_add(commands.draw)
 
 
 def _version(wanted: bool) -> None:

@@ -10,14 +10,13 @@ from scene.files import Unreadable, content
 from scene.printable import brief
 from scene.reading import InvalidInput
 
-NOT_KNOWN = "nan"
 # Largest table that is read; those of a page have some megabytes and at most some dozens of columns.
 MOST_BYTES, MOST_COLUMNS = 2**28, 1000
 
 
 def text(frame: DataFrame) -> str:
     """A table as the text of its file; the index is left out."""
-    return frame.to_csv(index=False, na_rep=NOT_KNOWN, lineterminator="\n")
+    return frame.to_csv(index=False, na_rep="nan", lineterminator="\n")
 
 
 def read(path: Path) -> DataFrame:

@@ -76,7 +76,7 @@ def write(found: Mapping[str, bytes], folder: Path) -> list[Path]:
 
 def html(page: Page, pictures: Mapping[str, Picture]) -> str:
     """The page as one file; pictures : of the plots, by name"""
-    return _rendered(page, whole=True, pictures=pictures, about={**page.about, **made()})
+    return _rendered(page, whole=True, pictures=pictures, about=made())
 
 
 def fragment(page: Page, path: Path | None = None) -> str:

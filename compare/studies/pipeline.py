@@ -4,6 +4,7 @@ import errno
 import os
 from concurrent.futures import Executor
 from dataclasses import replace
+from functools import partial
 from math import inf, nan
 from pathlib import Path
 from time import monotonic
@@ -29,10 +30,6 @@ from .study import Study
 GROWTHS = GROWTH, 2.0, 1.4  # times the surfaces that are tried in turn where time is limited
 
 
-class Broken(SolveError):
-    """So many tasks broke that nothing can be judged."""
-
-
 def run(
     study: Study,
     output: str | Path,
@@ -47,18 +44,10 @@ def run(
 ) -> Report:
     """Do a study from its tasks to its page; what the folder has is not solved again.
 
-    output : folder of the page and of what has been solved
-    workers : processes; as many as processors if absent
-    scheduler : address of a scheduler of dask.distributed, whose workers solve then
-    executor : object with `submit`, as those of concurrent.futures, that gets as many tasks at once as `workers`
-    figure_format : forms of the figures, "png", "pdf" and "svg", separated by commas; a PNG is always written
-    report : whether the page and its figures are written; findings and results always are
-    yes : agree to what takes more than a day
-    budget : time after which no more surfaces are asked for [s], or as "10min"; None without a limit
-    progress : told how far it is
+    The arguments are those of `compare.solve`; progress : told how far it is
 
     Raises Refused, before a task is built, for more than a day without a yes; Unwritable, before anything is
-    solved, where the folder cannot be written; InvalidInput, where another run holds it; Broken where so many
+    solved, where the folder cannot be written; InvalidInput, where another run holds it; SolveError where so many
     tasks broke that nothing can be judged.
     """
     output, progress = Path(output), progress or Progress()
@@ -74,11 +63,12 @@ def run(
     below = manifest.inside(output, study.place) if study.place else output
     if Path(study.place).parts[:1] == (SOLVED,):
         raise InvalidInput(f"place = {study.place}: this folder holds the solved contacts, choose another place")
+    sweep = partial(runner.sweep, workers=workers, scheduler=scheduler, executor=executor)
     _make_folders(output, [SOLVED] if cost.contacts else [], study.place)
     with hold((output, below), progress.told):
         if cost.contacts:
             progress.told(str(cost))
-        done = _answered(study, output, workers, scheduler, executor, yes, limit, progress)
+        done = _answered(study, output, sweep, count, yes, limit, progress)
         path = _write(done, below, forms, report, progress)
         return replace(done, path=path)
 
@@ -94,16 +84,16 @@ def _seconds(budget):
     return found
 
 
-def _answered(study, output, workers, scheduler, executor, yes, limit, progress) -> Report:
+def _answered(study, output, sweep, count, yes, limit, progress) -> Report:
     """Report of a study, of which nothing is written yet."""
-    swept, count, start = SweepResult({}, 0, 0, 0.0), counted(workers), monotonic()
+    swept, start = SweepResult({}, 0, 0, 0.0), monotonic()
     more: Study | None = study
     try:
         while more is not None:
             more.cost().refuse(count, yes)
             if more is not study:
                 progress.told(f"more surfaces: {more.cost()}")
-            found = _solve(more, swept, output, workers, scheduler, executor, progress)
+            found = _solve(more, swept, output, sweep, progress)
             study, swept = more, swept.joined(found)
             answers = study.answers(swept.outcomes)
             judged = study.judge(answers)
@@ -123,7 +113,7 @@ def _answered(study, output, workers, scheduler, executor, yes, limit, progress)
             if whole
             else f"the solved contacts cannot be judged without the broken ones: {error}"
         )
-        raise Broken("; ".join([what, *faults(swept, output)])) from error
+        raise SolveError("; ".join([what, *faults(swept, output)])) from error
     return Report(study, answers, findings, page, swept, output, None, unsolved)
 
 
@@ -166,7 +156,7 @@ def _whole(swept):
     return {task: outcome for task, outcome in swept.outcomes.items() if task not in swept.faults}
 
 
-def _solve(study, had, output, workers, scheduler, executor, progress) -> SweepResult:
+def _solve(study, had, output, sweep, progress) -> SweepResult:
     """Solve what neither a sweep had nor the folder has. Timed tasks are solved here, whatever the executor."""
     swept = SweepResult({}, 0, 0, 0.0)
     for batch in study.batches():
@@ -178,7 +168,7 @@ def _solve(study, had, output, workers, scheduler, executor, progress) -> SweepR
             if batch.timed:
                 found = runner.sweep(batch.tasks, store, progress=told, fresh=True)
             else:
-                found = runner.sweep(batch.tasks, store, workers, told, False, scheduler, executor)
+                found = sweep(batch.tasks, store, progress=told)
         swept = swept.joined(found)
     return swept
 

@@ -103,7 +103,8 @@ def test_every_table_of_a_page_lies_beside_it_with_every_digit(folder):
     assert_frame_equal(csvfiles.read(folder / "sphere/friction.csv"), MEANS, check_exact=True)
     assert_frame_equal(csvfiles.read(folder / "sphere/rows.csv"), ROWS, check_exact=True)
     assert list(csvfiles.read(folder / "findings.csv")) == list(COLUMNS)
-    listed = json.loads((folder / "manifest.json").read_text())["tables"]
+    files = json.loads((folder / "manifest.json").read_text())["files"]
+    listed = [name.removesuffix(".csv") for name in files if name.endswith(".csv")]
     assert {folder / f"{name}.csv" for name in listed} == set(folder.rglob("*.csv"))
 
 
