@@ -62,10 +62,9 @@ def export(
     forms = [each for each in FORMS if each in formats]
     written = []
     with looks.chosen(look):
-        if "csv" in formats:
-            written += render.write(_csv(folder), tables)
-        if "vtk" in formats:
-            written += render.write(_surfaces(folder), tables)
+        for form, read in (("csv", _csv), ("vtk", _surfaces)):
+            if form in formats:
+                written += render.write(read(folder), tables)
         if forms:
             written += render.write(_drawn_again(folder, forms), figures)
     return written

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from math import floor, inf, isfinite, isnan, log10
 from numbers import Integral, Real
+from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -213,15 +214,19 @@ def sentences(findings: Sequence["Finding"]) -> list[str]:
     cases = {each.where.partition(", ")[0] for each in findings}
     if len(cases) == 1:  # of the only case the place is said alone
         findings = [replace(each, where=each.where.partition(", ")[2]) for each in findings]
-    claims: dict[str, list[Finding]] = {}
+    return [_sentence(*each) for each in _grouped(findings, "claim.sentence").items()]
+
+
+def _grouped(findings, name) -> dict[str, list]:
+    """Findings by an attribute, in their order."""
+    groups: dict[str, list] = {}
     for each in findings:
-        claims.setdefault(each.claim.sentence, []).append(each)
-    return [_sentence(*each) for each in claims.items()]
+        groups.setdefault(attrgetter(name)(each), []).append(each)
+    return groups
 
 
 def _sentence(claimed, findings) -> str:
-    names = dict.fromkeys(each.dimension for each in findings)
-    models = [[each for each in findings if each.dimension == name] for name in names]
+    models = [*_grouped(findings, "dimension").values()]
     numbers = "; ".join(_numbers(here, len(models) > 1 or here[0].dimension in ALONE) for here in models)
     against = {tested(each.claim) for each in findings} - {""}
     last = f", tested against {against.pop()}" if len(against) == 1 else ""

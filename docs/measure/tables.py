@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 from pandas import DataFrame, Series
 
-from compare.report.csvfiles import text, write_text
+from compare.report.csvfiles import text
 
 
 def table(header: str, rows: Iterator[tuple]) -> str:
@@ -26,7 +26,7 @@ def by_column(rows: Iterable[dict]) -> str:
 
 def stored(path: Path, rows: DataFrame | Iterable[dict]) -> None:
     """Write a table, or its rows, with every digit."""
-    write_text(path, text(DataFrame(rows)))
+    path.write_text(text(DataFrame(rows)), encoding="utf-8")
 
 
 def finding(found: DataFrame, claim: str, where: str, dimension: str = "") -> Series:
