@@ -8,7 +8,7 @@ from pandas import DataFrame
 
 from compare.report import render
 from compare.report.page import Findings, Page, Section, Table, Text
-from compare.report.words import sentences
+from compare.solving.words import sentences
 from compare.statistics.finding import HALVED, Claim, Finding
 from compare.studies.sweep import figure as sweep
 

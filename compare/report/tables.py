@@ -6,7 +6,7 @@ from itertools import chain
 import pandas
 from pandas import DataFrame, Series
 
-from ..report import words
+from ..solving import words
 from ..solving.vocabulary import head
 from ..statistics.finding import Finding
 

@@ -49,7 +49,7 @@ def checked(function: Callable[_P, _T]) -> Callable[_P, _T]:
 
     It checks each argument whose annotation is a name of `compare.options`: paths, texts, named values, truths and
     None. Numbers, scenes and models are checked where they are read. Raises InvalidInput. The docstring gets the
-    texts of these options, but for arguments that it has a line on.
+    texts of these options, except for arguments that it has a line on.
     """
     found = signature(function)
     stated = {name: _Name(each.annotation) for name, each in found.parameters.items()}

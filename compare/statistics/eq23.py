@@ -8,7 +8,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from ..report import words
+from ..solving import words
 from .collapse import DEGREE, PARTED, ROUNDING, Alignment, Collapse
 from .commoncurve import LEAST_OVERLAP
 from .finding import EXACT, FAILS, HALVED, UNKNOWN, Claim, Finding

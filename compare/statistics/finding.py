@@ -11,7 +11,7 @@ import pandas
 from scene.quantities import BARE, WHOLE, argument
 from scene.signatures import readable
 
-from ..report.words import FAILS, HOLDS, REPORTED, UNDECIDED, crossed
+from ..solving.words import FAILS, HOLDS, REPORTED, UNDECIDED, crossed
 
 # How the share of the grid in an interval is known.
 HALVED, EXACT, UNKNOWN = "change on halving", "exact", "unknown"

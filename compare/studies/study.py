@@ -8,9 +8,8 @@ import xarray
 
 from scene.signatures import readable
 
-from ..report import words
 from ..report.page import Block, Findings, Page, Plot, Section, Text
-from ..solving import parameter_grid
+from ..solving import parameter_grid, words
 from ..solving.cost import Cost
 from ..solving.outcome import Outcome
 from ..solving.parameter_grid import ParameterGrid

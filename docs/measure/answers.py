@@ -19,7 +19,7 @@ from pandas import DataFrame
 from tables import finding, replaced, stored, table
 
 import compare
-from compare.report.words import interval, number
+from compare.solving.words import interval, number
 from compare.studies.claims.catalogue import STUDIES
 from compare.studies.claims.claims import ENDS
 

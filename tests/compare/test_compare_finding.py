@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from compare.report import words
+from compare.solving.words import crossed, sentences, tested
+from compare.solving.words import found as worded
 from compare.statistics.finding import FAILS, HOLDS, REPORTED, UNDECIDED, Claim, Finding, verdict
 
 FRICTION = Claim("friction.ratio", "Friction in 1D is that in 3D", expected=1.0, tolerance=0.05)
@@ -58,7 +59,7 @@ def test_a_law_states_its_verdict_and_a_number_without_a_claim_is_reported():
 
 
 def test_the_answer_has_every_finding_those_that_contradict_included():
-    (sentence,) = words.sentences([found(where="sphere"), found(value=1.3, where="cone")])
+    (sentence,) = sentences([found(where="sphere"), found(value=1.3, where="cone")])
     assert "sphere" in sentence
     assert "cone" in sentence
     assert "holds" in sentence.lower()
@@ -70,24 +71,24 @@ def test_an_open_claim_says_across_what_its_interval_reaches_and_what_would_deci
     assert open_.why == "its interval reaches across 1.05; some 30 more surfaces would decide it"
     assert found(scatter=0.1).why == "its interval reaches across 0.95 and 1.05"
     assert found(value=1.3, remedy="more").why == found().why == ""
-    (line,) = words.sentences([replace(open_, where="sphere, 1 mm"), found(where="sphere, 2 mm")])
+    (line,) = sentences([replace(open_, where="sphere, 1 mm"), found(where="sphere, 2 mm")])
     assert line.startswith("Holds in 1, undecided in 1 of 2 places: Friction in 1D is that in 3D: ")
     assert line.endswith(f" at 2 mm (holds), tested against 1 ± 0.05. Undecided: {open_.why}.")
     several = [replace(open_, where=f"sphere, {k} mm", remedy=f"some {k} more would decide it") for k in range(3)]
-    (line,) = words.sentences(several)
-    assert line.count(words.crossed(open_)) == 1
+    (line,) = sentences(several)
+    assert line.count(crossed(open_)) == 1
     assert "more would" not in line
 
 
 def test_a_deviation_is_said_in_percent_and_stored_as_it_is():
     share = found(value=0.3, scatter=0.1, grid=0.0)
     share = replace(share, claim=replace(FRICTION, expected=0.0, percent=True))
-    assert (words.found(share), words.tested(share.claim)) == ("30 (20 to 40) %", "0 ± 5 %")
+    assert (worded(share), tested(share.claim)) == ("30 (20 to 40) %", "0 ± 5 %")
     assert (share.row["value"], share.row["unit"]) == (0.3, "1")
 
 
 def test_many_reported_numbers_are_told_by_their_range_and_how_many_are_known():
     claim = Claim("time", "Time", unit="s")
     known = [Finding(claim, value, dimension="3D") for value in (0.5, 2.0, 1.0, nan, 3.0)]
-    assert words.sentences(known) == ["Time: in 3D 0.5 to 3 s in 4 of 5 places."]
-    assert "not known in any of 5 places" in words.sentences([Finding(claim, nan)] * 5)[0]
+    assert sentences(known) == ["Time: in 3D 0.5 to 3 s in 4 of 5 places."]
+    assert "not known in any of 5 places" in sentences([Finding(claim, nan)] * 5)[0]

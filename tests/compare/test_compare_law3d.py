@@ -8,9 +8,9 @@ import pytest
 import xarray
 from invented_answers import SERIES, eq_19, obeying
 
-from compare.report import words
 from compare.report.page import Plot
 from compare.report.plots import style
+from compare.solving import words
 from compare.solving.parameter_grid import FINE
 from compare.statistics.finding import FAILS, HOLDS, REPORTED
 from compare.studies.claims import catalogue

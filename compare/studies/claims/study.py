@@ -21,11 +21,11 @@ from ...library.lookup import located
 from ...library.ready import ready, studies
 from ...models.table import ModelLike, listed
 from ...report.page import Block, Findings, Section, Table, Text
-from ...report.words import VERDICTS, sentences
 from ...solving.outcome import Outcome
 from ...solving.parameter_grid import ParameterGrid, refuse
 from ...solving.suggest import known
 from ...solving.task import Task
+from ...solving.words import VERDICTS, sentences
 from ...statistics import eq23
 from ...statistics.finding import REPORTED, Finding, claimed
 from ...statistics.multilevel import GROWTH

@@ -14,9 +14,9 @@ from scene.protocol import foresee
 
 from ...library.case import Case, doubted
 from ...library.lookup import SceneLike, case_of
-from ...report import words
 from ...report.page import Text
 from ...report.views import View, view
+from ...solving import words
 from ...solving.outcome import Outcome
 from ...solving.parameter_grid import work_of
 from ...solving.task import Batch, SceneTask, Task

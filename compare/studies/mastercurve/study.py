@@ -15,9 +15,9 @@ from scene.reading import InvalidInput
 
 from ...report.page import Block, Findings, Table, Text
 from ...report.plots import shifted_curves
-from ...report.words import capital, sentences
 from ...solving.outcome import Outcome
 from ...solving.task import Batch, Task
+from ...solving.words import capital, sentences
 from ...statistics import eq23
 from ...statistics.collapse import Alignment, Collapse, collapse
 from ...statistics.finding import claimed

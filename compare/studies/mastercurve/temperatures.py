@@ -10,7 +10,7 @@ from pydantic import TypeAdapter, ValidationError
 from scene.reading import InvalidInput, mistakes
 from scene.temperature import WLF
 
-from ...report import words
+from ...solving import words
 from ...statistics import eq23
 from ...statistics.finding import EXACT, FAILS, Claim, Finding
 from ...statistics.measuredcurves import isotherms

@@ -18,11 +18,10 @@ from ...library.case import Case, NotCompared, doubted, share_of
 from ...library.describe import conditions, described, folders
 from ...library.lookup import SceneLike, named_cases
 from ...models.table import ModelLike, Models, listed
-from ...report import words
 from ...report.page import Block, Findings, Plot, Section, Table, Text
 from ...report.plots import contact_maps, shifted_curves
 from ...report.views import view
-from ...solving import parameter_grid
+from ...solving import parameter_grid, words
 from ...solving.continuation import by_contact
 from ...solving.outcome import Outcome
 from ...solving.parameter_grid import ParameterGrid

@@ -21,11 +21,11 @@ from ...library.lookup import SceneLike, case_of
 from ...models.table import ModelLike, Models
 from ...report.page import Table
 from ...report.plots.rendering import finished
-from ...report.words import sentences
 from ...solving.control_variates import VARIATES
 from ...solving.cost import MOST_DRAWS
 from ...solving.parameter_grid import COARSE, FINE, LEVELS, ParameterGrid, on_two_grids
 from ...solving.vocabulary import attributes
+from ...solving.words import sentences
 from ...statistics.finding import Claim, Finding, said_of
 from ...statistics.jackknife import DrawSet, mean, measured
 from ...statistics.means import interval

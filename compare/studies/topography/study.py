@@ -18,10 +18,10 @@ from scene.quantities import METRE, argument
 from scene.reading import InvalidInput, mistakes
 
 from ...report.page import Block, Findings, Text
-from ...report.words import sentences
 from ...solving.outcome import Outcome
 from ...solving.task import Batch, Task
 from ...solving.vocabulary import attributes
+from ...solving.words import sentences
 from ...statistics.finding import EXACT, Claim, Finding
 from ...statistics.spectra import Description, describe
 from ..study import Judgement, Study

@@ -12,9 +12,9 @@ from scene.reading import InvalidInput
 from ...library import ready
 from ...models.table import Model, ModelLike, listed, named
 from ...report.page import Block, Findings, Section, Text
-from ...report.words import sentences
 from ...solving.outcome import Outcome
 from ...solving.task import Batch, Task
+from ...solving.words import sentences
 from ...statistics.finding import Finding
 from ..study import Judgement, Study
 from . import models
