@@ -31,6 +31,7 @@ from compare.report.page import Findings, Page, Plot, Section, Table, Text
 from compare.report.plots import touching
 from compare.report.tables import claims
 from compare.solving import netcdf, vocabulary, words
+from compare.solving.words import interval
 from compare.statistics.finding import COLUMNS
 from scene.reading import InvalidInput
 
@@ -78,11 +79,11 @@ def test_a_value_and_its_error_are_shown_within_a_twentieth_of_the_error(value, 
 
 
 def test_ends_of_an_interval_are_shown_to_two_digits_of_its_half_and_not_at_all_where_unknown():
-    assert words.interval(1.98292, 1.9735, 1.9924) == "1.9829 (1.9735 to 1.9924)"
-    assert words.interval(1e-6, -1e-6, 3e-6) == "1.0 (−1.0 to 3.0) × 10⁻⁶"
-    assert words.interval(1.98058, 1.98005, 1.98112) == "1.9806 (1.9801 to 1.9811)"
-    assert words.interval(0.3413688752, 0.3413688655, 0.3413688849) == "0.34137"
-    assert words.interval(2.0, nan, nan) == words.interval(2.0, 2.0, 2.0) == "2"
+    assert interval(1.98292, 1.9735, 1.9924) == "1.9829 (1.9735 to 1.9924)"
+    assert interval(1e-6, -1e-6, 3e-6) == "1.0 (−1.0 to 3.0) × 10⁻⁶"
+    assert interval(1.98058, 1.98005, 1.98112) == "1.9806 (1.9801 to 1.9811)"
+    assert interval(0.3413688752, 0.3413688655, 0.3413688849) == "0.34137"
+    assert interval(2.0, nan, nan) == interval(2.0, 2.0, 2.0) == "2"
 
 
 # Files.
