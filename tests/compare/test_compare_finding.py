@@ -8,8 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from compare.solving.words import crossed, sentences, tested
+from compare.solving.words import crossed, sentences
 from compare.solving.words import found as worded
+from compare.solving.words import tested as against
 from compare.statistics.finding import FAILS, HOLDS, REPORTED, UNDECIDED, Claim, Finding, verdict
 
 FRICTION = Claim("friction.ratio", "Friction in 1D is that in 3D", expected=1.0, tolerance=0.05)
@@ -81,7 +82,7 @@ def test_an_open_claim_says_across_what_its_interval_reaches_and_what_would_deci
 def test_a_deviation_is_said_in_percent_and_stored_as_it_is():
     share = found(value=0.3, scatter=0.1, grid=0.0)
     share = replace(share, claim=replace(FRICTION, expected=0.0, percent=True))
-    assert (worded(share), tested(share.claim)) == ("30 (20 to 40) %", "0 ± 5 %")
+    assert (worded(share), against(share.claim)) == ("30 (20 to 40) %", "0 ± 5 %")
     assert (share.row["value"], share.row["unit"]) == (0.3, "1")
 
 

@@ -333,9 +333,8 @@ def test_one_temperature_is_told_and_changes_nothing(tmp_path):
     warm = {"mu": MU, "F_N": LOAD, "v": SPEED, "T [degC]": 25 + 0.4 * np.sin(np.arange(96))}
     read, plain = study(tmp_path, written(warm)), study(tmp_path, table(), "plain.csv")
     told, wanted = found(read), found(plain)
-    assert {name: worded(each, 6) for name, each in told.items()} == {
-        name: worded(each, 6) for name, each in wanted.items()
-    }
+    first, second = ({name: worded(each, 6) for name, each in every.items()} for every in (told, wanted))
+    assert first == second
     assert "one temperature, 298.2 K" in read.notes[0]
     assert Mastercurve.of(tmp_path / "ball.csv", c1=8.86, c2="101.6 K", reference="20 degC").shifts is None
 

@@ -46,8 +46,7 @@ def folder(tmp_path_factory):
     """What a command leaves: page, figures, tables, results and manifest."""
     path = tmp_path_factory.mktemp("left")
     drawn = []
-    files = render.files(page(), FINDINGS, told=drawn.append)
-    render.write(files, path)
+    render.write(files := render.files(page(), FINDINGS, told=drawn.append), path)
     assert drawn == ["sphere/friction"]
     values = {"friction_force": ("seed", [0.1, 1 / 3]), "status": ("seed", ["solved", "not asked"])}
     dataset = xarray.Dataset(values, {"seed": [0, 1]})
