@@ -95,7 +95,7 @@ TEXTS = st.text(st.characters(codec="utf-8", exclude_characters="\r\0"), min_siz
 def test_what_is_read_back_is_the_same_table(tmp_path_factory, rows):
     frame = DataFrame(rows, columns=["value", "count", "name"])
     path = tmp_path_factory.mktemp("csv") / "table.csv"
-    path.write_text(csvfiles.text(frame), "utf-8", newline="")
+    path.write_text(csvfiles.text(frame), "utf-8")
     assert_frame_equal(csvfiles.read(path), frame, check_exact=True, check_dtype=False)
 
 
@@ -103,8 +103,11 @@ def test_every_table_of_a_page_lies_beside_it_with_every_digit(folder):
     assert_frame_equal(csvfiles.read(folder / "sphere/friction.csv"), MEANS, check_exact=True)
     assert_frame_equal(csvfiles.read(folder / "sphere/rows.csv"), ROWS, check_exact=True)
     assert list(csvfiles.read(folder / "findings.csv")) == list(COLUMNS)
-    files = json.loads((folder / "manifest.json").read_text())["files"]
-    assert {folder / name for name in files if name.endswith(".csv")} == set(folder.rglob("*.csv"))
+    assert {
+        folder / name
+        for name in json.loads((folder / "manifest.json").read_text())["files"]
+        if name.endswith(".csv")
+    } == set(folder.rglob("*.csv"))
 
 
 def test_two_tables_of_one_name_are_refused_unless_they_are_one():
