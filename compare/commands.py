@@ -4,16 +4,8 @@ A function that solves returns a `report.Report` and prints nothing: printed, th
 prints; in a notebook it shows tables, and its `figures`. Interrupted or killed, the same call resumes. As worker
 processes are started, a script calls these under `if __name__ == "__main__":`.
 
-The types of arguments are in `compare.options`, with the help of the command. Options of all functions that solve:
-
-output : folder for the page, the figures and the solved contacts
-workers : number of processes; if absent, one for each processor
-scheduler : address of a dask.distributed scheduler, as tcp://host:8786; its workers then solve the contacts
-executor : object with `submit`, as those of concurrent.futures, that gets as many contacts at once as `workers`
-figure_format : file formats of the figures, separated by commas: png, pdf, svg. A PNG is always written
-report : write the page and its figures. Findings, tables and results are written in any case
-yes : agree to a study of more than a day or of more than 300,000 contacts
-progress : whether the terminal shows how far it is
+What each argument is, `compare.options` says once: for a command as its help, for a function as a line of its
+docstring. Functions that solve take those of `solve` too, as `options`.
 
 Each warns Doubtful of what is doubtful of a scene before it solves, of contacts without an answer after it: what
 stands before the answer on the page and on a terminal.
@@ -122,7 +114,8 @@ def solve(
     """Do a study, one of your own too: solve what the folder has not, judge, and write the page.
 
     study : an object of a class derived from `compare.Study`
-    budget : time after which no more surfaces are asked for, of a study that asks for them: in seconds, or "10min"
+    executor : object with `submit`, as those of concurrent.futures; it gets as many contacts at once as `workers`
+    progress : whether the terminal shows how far it is
     """
     from scene.printable import brief
     from scene.reading import InvalidInput
@@ -177,16 +170,9 @@ def run(
 ) -> Report:
     """Solve a scene in 1D and in 3D, compare, and write a report.
 
-    scene : file of a scene (TOML), or name of a ready scene, or several, which the page then has side by side; if
-        absent, the paper's sphere and cone. From Python also a Scene or a Case, or several by name
-    models : names of the models, separated by commas: mdr, bem, persson, law, those of installed packages,
-        MODULE:NAME; mdr,bem if absent. From Python also objects, see `scene.Solver`
-    reference : name of the model against which the others are judged; bem, or the last, if absent
     interval : wanted half-width of the intervals of 95 %, relative, as 2%. It takes the place of the numbers of
         surfaces and profiles: many are solved on coarse grids, few on finer ones, until every claim is decided or
         its interval is so narrow, and so are those of the scene's own friction, depth or force
-    budget : time after which no more surfaces are asked for, as 10min. It alone makes results depend on the
-        speed of the machine
     """
     from .studies.run.study import Run
 
@@ -204,12 +190,7 @@ def study(
     budget: Budget = None,
     **options: Unpack[Options],
 ) -> Report | Listing:
-    """Test the paper's claims on many contacts in 1D and 3D.
-
-    name : name of a study, or file of your own study (TOML); if absent, a table of the studies is printed
-    size : how much is solved: quick (minutes), standard (up to an hour) or full (up to a day)
-    models, reference, interval, budget : like those of `run`
-    """
+    """Test the paper's claims on many contacts in 1D and 3D."""
     if name is None:
         from .library.ready import studies
 
@@ -221,10 +202,7 @@ def study(
 
 @checked
 def paper(size: PaperSize = "full", output: Output = "crosscheck-paper", **options: Unpack[Options]) -> Report:
-    """Repeat the paper in 1D: figures, parameter studies, claims.
-
-    size : how many rough profiles are averaged: quick (20), standard (50) or full (200, as published)
-    """
+    """Repeat the paper in 1D: figures, parameter studies, claims."""
     from .studies.paper.study import Paper
 
     return solve(Paper.of(size), output, **options)
@@ -240,8 +218,6 @@ def workprecision(
 ) -> Report | Listing:
     """Measure the error and the time of both solvers. Timed contacts are solved one by one on this machine.
 
-    name : name of a diagram, or all; if absent, a table of the diagrams is printed
-    size : how much is solved: quick (a minute a diagram), standard or full (hours)
     models : names of other models that the diagram `models` measures on smooth bodies, separated by commas. From
         Python also objects, see `scene.Solver`
     """
@@ -258,10 +234,7 @@ def workprecision(
 def stability(
     size: CaseSize = "quick", output: Output = "crosscheck-stability", **options: Unpack[Options]
 ) -> Report:
-    """Solve hard cases and check the law of each. The status is 1 if any case breaks its law.
-
-    size : how much is solved: quick (half a minute), standard or full (some minutes)
-    """
+    """Solve hard cases and check the law of each. The status is 1 if any case breaks its law."""
     from .studies.stability.study import Stability
 
     return solve(Stability.of(size), output, **options)
@@ -269,10 +242,7 @@ def stability(
 
 @checked
 def verify(model: Model, output: Output = "crosscheck-verify", **options: Unpack[Options]) -> Report:
-    """Check a code of contact against what it must hold. The status is 1 if any law fails.
-
-    model : name of a model, mdr or bem, or module:NAME of one of your own. From Python also the model itself
-    """
+    """Check a code of contact against what it must hold. The status is 1 if any law fails."""
     from .studies.verify.study import Verify
 
     return solve(Verify.of(model), output, **options)
@@ -288,8 +258,6 @@ def regress(
 ) -> Report:
     """Compare the accuracy of 1D with stored values. The status is 1 if any value has changed.
 
-    baseline : file of stored values (TOML); if absent, the values that come with the package
-    update : store the values that have changed
     quantities : quantities to measure; if absent, those of the package
     """
     from .studies.regress.study import Regress
@@ -311,16 +279,7 @@ def mastercurve(
     reference: ShiftReference = None,
     **options: Unpack[Options],
 ) -> Report:
-    """Shift measured friction curves onto one, if they allow it. The curves are friction against load.
-
-    table : CSV file, a measurement a line: friction mu, normal force F_N [N], speed v [m/s]. A heading may give
-        another order and other units, as F_N [mN]; friction force F_T in place of mu; temperature T [degC]. From
-        Python also a DataFrame, a Dataset of xarray, or arrays by the names of the columns
-    tolerance : loads that differ by less, relative, are one load, and so are speeds; their lines are repeats
-    c1 : constant of WLF, by which temperatures are shifted along the speed; if absent, the shifts are found
-    c2 : constant of WLF, as "101.6 K"
-    reference : temperature at which c1 and c2 are stated, as "20 degC"
-    """
+    """Shift measured friction curves onto one, if they allow it. The curves are friction against load."""
     from .studies.mastercurve.study import Mastercurve
 
     stated = {"c1": c1, "c2": c2, "reference": reference}
@@ -343,23 +302,7 @@ def topography(
     output: Output = "topography",
     **options: Unpack[Options],
 ) -> Report:
-    """Describe a measured surface: slopes, spectra, exponent H.
-
-    file : map of heights: .npy, .npz, .csv, .txt, .tsv, .xyz, or any format that SurfaceTopography reads. From
-        Python also heights [m] as rows, an array, a DataFrame or an object of xarray
-    pixel : side of a pixel with its unit, as "1 um". Give it twice, along x and along y, if the sides differ.
-        Needed if the file states none. From Python also a number [m]
-    unit : unit of the heights: m, mm, um or nm. Needed if the file states none
-    channel : name of the map to take, of a file that holds several
-    crop : part to keep: give it four times, x from, x to, y from, y to, as "10 um", from the corner of the map
-    outliers : heights so many robust standard deviations off the median around them are filled in, 3 or more
-    missing : fill fills in missing heights, at most 5 % of the pixels; refuse, the default, makes them an error
-    level : what is subtracted first: mean, tilt (a plane), curvature (a form of second degree) or cubic (of
-        third); if absent, tilt, and mean of a periodic map
-    shortest_kept : leave out waves shorter than this, as "5 um"
-    repeat : how the map continues beyond its sides: mirror or periodic
-    peaks : up if the heights grow towards the elastomer, down if they grow away from it
-    """
+    """Describe a measured surface: slopes, spectra, exponent H."""
     from .studies.topography.study import Map
 
     asked = {"unit": unit, "channel": channel, "crop": crop, "outliers": outliers, "missing": missing}
@@ -390,16 +333,9 @@ def sweep(
     `friction_error` bounds what the grid leaves of friction in 95 % of draws; above a tenth UncertainFriction is
     warned.
 
-    scene : file of a scene (TOML), or name of a ready scene. From Python also a Scene or a Case
-    speed : speeds, as "1mm/s,10mm/s", or a range of three to a decade, as "1mm/s..1m/s", or of seven in all, as
-        "1mm/s..1m/s:7"; "0 m/s" is rest. That of the scene if absent. From Python also numbers [m/s]
-    load, depth : likewise, as "0.1N..10N" or "10um..100um"; those of the scene if both are absent. From Python
-        also numbers [N], [m]
-    draws : rough surfaces, and as many profiles; 8 if absent
     interval : in place of draws, the half-width that is wanted of the interval of 95 % of each mean, relative:
         0.02 or "2%". Many surfaces are then solved on coarse grids and few on finer ones, until every interval is
         so narrow; `stratum` tells on which grids. An error of the grid above half of it keeps an interval wider
-    models, reference, budget : like those of `run`
     """
     from .statistics import griderror
 
@@ -429,10 +365,7 @@ def friction_plot(dataset: xarray.Dataset) -> Figure:
 
 @checked
 def trust(scene: SceneFile) -> Advice:
-    """Say which cheap answer to use, or to solve in 3D. It takes about a second, as nothing rough is solved.
-
-    scene : file of a scene (TOML), or name of a ready scene. From Python also a Scene or a Case
-    """
+    """Say which cheap answer to use, or to solve in 3D. It takes about a second, as nothing rough is solved."""
     from .library.lookup import case_of
     from .trustmap.verdict import trust
 
@@ -443,11 +376,7 @@ def trust(scene: SceneFile) -> Advice:
 
 @checked
 def plan(scene: SceneFile, figure: ModulusFigure = None) -> Plans:
-    """Say what a scene costs and what is simulated of it. The status is 2 if no solver can solve it.
-
-    scene : file of a scene (TOML), or name of a ready scene. From Python also a Scene or a Case
-    figure : file (.png, .pdf or .svg) into which the shear moduli G', G'' of the solid are drawn; if absent, none
-    """
+    """Say what a scene costs and what is simulated of it. The status is 2 if no solver can solve it."""
     from .studies.plan import plans
 
     found = plans(scene)
@@ -459,10 +388,7 @@ def plan(scene: SceneFile, figure: ModulusFigure = None) -> Plans:
 
 @checked
 def load(folder: Folder) -> xarray.DataTree:
-    """Everything that a command solved, with each single draw: a Dataset for each parameter grid and solver.
-
-    folder : folder that a command has written, or its results.nc
-    """
+    """Everything that a command solved, with each single draw: a Dataset for each parameter grid and solver."""
     from .solving import netcdf
 
     return netcdf.load(folder)
@@ -477,11 +403,7 @@ def scenes() -> Listing:
 
 @checked
 def new(name: ReadyName, file: NewFile = None) -> Path:
-    """Copy a ready scene or study into a file of your own.
-
-    name : ready scene or study, see `crosscheck scenes`
-    file : file to write; if absent, NAME.toml. A file that exists is never overwritten
-    """
+    """Copy a ready scene or study into a file of your own."""
     from .library.ready import write
 
     return write(name, file or f"{name}.toml")
@@ -489,11 +411,7 @@ def new(name: ReadyName, file: NewFile = None) -> Path:
 
 @checked
 def schema(kind: Kind = "scene", output: SchemaFile = None) -> dict[str, Any]:
-    """Print the JSON schema of scenes, studies or answers.
-
-    kind : scene or study, by which editors complete and check TOML; answers, the form of what --json prints
-    output : file to write beside; if absent, none
-    """
+    """Print the JSON schema of scenes, studies or answers."""
     from .studies.schema import schema
 
     return schema(kind, output)
@@ -515,19 +433,7 @@ def export(
     width: Width = None,
     output: FilesFolder = None,
 ) -> list[Path]:
-    """Write tables, surfaces for ParaView, figures for a journal. Nothing is solved.
-
-    folder : folder that a command has written, or its results.nc
-    format : file formats, separated by commas: csv (every digit, units in the heading), vtk (surfaces for
-        ParaView, which takes the extra vtk), png, pdf, svg (figures). If absent, csv; with a journal, a style or a
-        width, png,pdf,svg
-    journal : journal or publisher that sets column widths, smallest text and thinnest lines of figures: default,
-        acs, aip, aps, elsevier, ieee, iop, nature, royal-society, sage, springer, taylor-francis, wiley
-    style : your own matplotlib style: a .mplstyle file or the name of a style. From Python also settings
-    width : width of a column, as 84mm, from 80 mm to 200 mm; figures across the page grow or shrink with it. That
-        of the journal if absent. From Python also a number [m]
-    output : folder for the files; if absent, `tables` and `figures` in the folder
-    """
+    """Write tables, surfaces for ParaView, figures for a journal. Nothing is solved."""
     from .report.export import export
 
     return export(folder, format, journal, style, width, output)
@@ -539,8 +445,6 @@ def draw(scene: SceneFile, output: Output = "crosscheck-draw", **options: Unpack
 
     The surface of the elastomer is coloured by pressure, with its wake; beside it stand the forces of both models.
     Of a program a second figure shows the forces in time and the contact at a few instants.
-
-    scene : scene as TOML, or the name of a ready one. From Python also a Scene or a Case
     """
     from .studies.draw.study import Drawing
 

@@ -1,6 +1,7 @@
-"""Arguments and options of the commands, each with its type and its help.
+"""Arguments and options of the commands, each with its type, its help and what Python takes besides.
 
-At run time a type is what a command line gives; a type checker sees all that Python takes.
+At run time a type is what a command line gives; a type checker sees all that Python takes. The docstrings of the
+functions get these texts by `solving.suggest.checked`.
 """
 
 from glob import glob
@@ -11,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, TypedDict
 from typer import Argument, BadParameter, Option
 
 from .library import ready as library
+from .solving.suggest import TEXT
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -34,8 +36,6 @@ else:
     File = Path
     SceneLike = ModelLike = Measurements = Surface = Amount = StyleLike = str
     Values = Amounts = Sides = SeveralModels = SeveralScenes = list[str]
-
-TEXT = "text"  # marks an argument that is a text in Python too: see `solving.suggest.checked`
 
 
 def scenes() -> list[str]:
@@ -106,6 +106,7 @@ class Options(TypedDict, total=False):
 SceneFile = Annotated[
     SceneLike,
     Argument(help="File of a scene (TOML), or name of a ready scene.", autocompletion=scenes),
+    "From Python also a Scene or a Case.",
 ]
 SceneFiles = Annotated[
     SeveralScenes | None,
@@ -114,14 +115,20 @@ SceneFiles = Annotated[
         " if absent, the paper's sphere and cone.",
         autocompletion=scenes,
     ),
+    "From Python also a Scene or a Case, or several by name.",
 ]
-Model = Annotated[ModelLike, Argument(help="Name of a model, mdr or bem, or module:NAME of one of your own.")]
+Model = Annotated[
+    ModelLike,
+    Argument(help="Name of a model, mdr or bem, or module:NAME of one of your own."),
+    "From Python also the model itself.",
+]
 Models = Annotated[
     SeveralModels | None,
     Option(
         help="Names of the models, separated by commas: mdr, bem, persson, law, those of installed packages,"
         " MODULE:NAME; mdr,bem if absent."
     ),
+    "From Python also objects, see `scene.Solver`.",
 ]
 Reference = Annotated[
     str | None,
@@ -152,6 +159,7 @@ Interval = Annotated[
         " surfaces and profiles: many are solved on coarse grids, few on finer ones, until every claim is decided"
         " or every interval is so narrow."
     ),
+    "From Python also a number, as 0.02.",
 ]
 Budget = Annotated[
     Amount | None,
@@ -159,6 +167,7 @@ Budget = Annotated[
         help="Time after which no more surfaces are asked for, as 10min. It alone makes results depend on the"
         " speed of the machine."
     ),
+    "From Python also a number [s].",
 ]
 Speeds = Annotated[
     Values | None,
@@ -166,10 +175,12 @@ Speeds = Annotated[
         help='Speeds, as "1mm/s,10mm/s", or a range of three to a decade, as "1mm/s..1m/s", or of seven in all, as'
         ' "1mm/s..1m/s:7"; "0 m/s" is rest. That of the scene if absent.'
     ),
+    "From Python also numbers [m/s].",
 ]
 LoadsOrDepths = Annotated[
     Values | None,
     Option(help='Likewise, as "0.1N..10N" or "10um..100um"; those of the scene if load and depth are absent.'),
+    "From Python also numbers [N], [m].",
 ]
 Draws = Annotated[int | None, Option(help="Rough surfaces, and as many profiles; 8 if absent.", parser=number)]
 
@@ -198,6 +209,7 @@ Table = Annotated[
         help="CSV file, a measurement a line: friction mu, normal force F_N [N], speed v [m/s]. A heading may give"
         " another order and other units, as F_N [mN]; friction force F_T in place of mu; temperature T [degC]."
     ),
+    "From Python also a DataFrame, a Dataset of xarray, or arrays by the names of the columns.",
 ]
 Tolerance = Annotated[
     float,
@@ -220,6 +232,7 @@ HeightMap = Annotated[
     Argument(
         help="Map of heights: .npy, .npz, .csv, .txt, .tsv, .xyz, or any format that SurfaceTopography reads."
     ),
+    "From Python also heights [m] as rows, an array, a DataFrame or an object of xarray.",
 ]
 Pixel = Annotated[
     Sides | None,
@@ -227,6 +240,7 @@ Pixel = Annotated[
         help='Side of a pixel with its unit, as "1 um". Give it twice, along x and along y, if the sides differ.'
         " Needed if the file states none."
     ),
+    "From Python also a number [m].",
 ]
 LengthUnit = Annotated[
     Literal["m", "mm", "um", "nm"] | None,
@@ -314,6 +328,7 @@ Journal = Annotated[
 Style = Annotated[
     StyleLike | None,
     Option(help="Your own matplotlib style: a .mplstyle file or the name of a style."),
+    "From Python also settings.",
 ]
 Width = Annotated[
     Amount | None,
@@ -321,6 +336,7 @@ Width = Annotated[
         help="Width of a column, as 84mm, from 80 mm to 200 mm; figures across the page grow or shrink with it."
         " That of the journal if absent."
     ),
+    "From Python also a number [m].",
 ]
 ExportFormat = Annotated[
     str | None,

@@ -8,7 +8,8 @@ from pandas import DataFrame
 
 from compare.report import render
 from compare.report.page import Findings, Page, Section, Table, Text
-from compare.statistics.finding import HALVED, Claim, Finding, sentences
+from compare.solving.words import sentences
+from compare.statistics.finding import HALVED, Claim, Finding
 from compare.studies.sweep import figure as sweep
 
 DEPTH = Claim("rest.depth", "Depths at rest agree", 1.0, 0.05, "Ratio of depths at one load.", dimension="1D/3D")

@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from dataclasses import fields
 from importlib.resources import as_file, files
-from math import sqrt
+from math import nan, sqrt
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -13,7 +13,7 @@ from pydantic.dataclasses import dataclass
 
 from bem3d import BEM
 from mdr1d import MDR
-from scene import Coulomb, Doubt, Heating, Indent, Layer, Refused, Scene, Slide
+from scene import Coulomb, Doubt, Heating, Indent, Layer, Refused, Scene, Slide, plain
 from scene.doubt import unseen
 from scene.indenter import Indenter
 from scene.motion import Motion
@@ -29,16 +29,35 @@ from scene.signatures import readable
 from scene.temperature import Temperature
 from scene.terms import terms_of
 
-from ..solving.amounts import share_of
 from ..solving.cost import MOST_DRAWS, MOST_VALUES
 
 
 def _share(given: Any) -> float:
-    """Share of a field, whose name stands before what is wrong."""
+    """Share above 0 and below 1, of a number, one of another library too, or a text as 2%. Raises ValueError."""
+    found, why = nan, ""
     try:
-        return share_of("", given)
-    except InvalidInput as error:
-        raise ValueError(str(error).partition(": ")[2]) from None
+        if isinstance(given, str):
+            text = given.strip()
+            found = float(text.removesuffix("%")) / (100 if text.endswith("%") else 1)
+        else:
+            held, unit = plain.bare(given)
+            percent = unit == "%"
+            found = float(plain.number(held if percent else given, None)) / (100 if percent else 1)
+    except plain.NotPlain as reason:
+        why = f"; {reason}" if str(reason) else ""
+    except (ValueError, OverflowError):  # of a text that is no number, and of a number beyond floating point
+        pass
+    if not 0 < found < 1:
+        raise ValueError(f"a share above 0 and below 1, as 2% or 0.02{why}")
+    return found
+
+
+def share_of(name: str, given: Any) -> float:
+    """Share of an argument of that name. Raises InvalidInput."""
+    try:
+        return _share(given)
+    except ValueError as error:
+        raise InvalidInput(f"{name} = {brief(repr(given))}: {error}") from None
 
 
 def _no_module(name: str) -> str:

@@ -10,22 +10,13 @@ from scene.files import Unreadable, content
 from scene.printable import brief
 from scene.reading import InvalidInput
 
-from ..solving.folders import write
-
-NOT_KNOWN = "nan"
 # Largest table that is read; those of a page have some megabytes and at most some dozens of columns.
 MOST_BYTES, MOST_COLUMNS = 2**28, 1000
 
 
 def text(frame: DataFrame) -> str:
     """A table as the text of its file; the index is left out."""
-    return frame.to_csv(index=False, na_rep=NOT_KNOWN, lineterminator="\n")
-
-
-def write_text(path: Path, written: str) -> None:
-    """Write a text whole or not at all; the folder is made. Raises OSError."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    write(path, lambda file: file.write(written.encode()))
+    return frame.to_csv(index=False, na_rep="nan", lineterminator="\n")
 
 
 def read(path: Path) -> DataFrame:

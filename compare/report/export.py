@@ -62,10 +62,9 @@ def export(
     forms = [each for each in FORMS if each in formats]
     written = []
     with looks.chosen(look):
-        if "csv" in formats:
-            written += render.write(_csv(folder), tables)
-        if "vtk" in formats:
-            written += render.write(_surfaces(folder), tables)
+        for form, read in (("csv", _csv), ("vtk", _surfaces)):
+            if form in formats:
+                written += render.write(read(folder), tables)
         if forms:
             written += render.write(_drawn_again(folder, forms), figures)
     return written
@@ -83,15 +82,20 @@ def _csv(folder) -> dict[str, bytes]:
 def _tables(folder: Path) -> Iterator[tuple[str, DataFrame]]:
     """Tables beside the pages of a folder, and everything that was solved, by the names of their files."""
     if not folder.is_file():
-        for each in manifest.folders(folder):
-            for name in each.manifest.tables:
-                frame = csvfiles.read(manifest.inside(each.path, f"{name}.csv"))
-                if not frame.empty:
-                    yield (each.path.relative_to(folder) / name).as_posix(), frame
+        for place, left in manifest.folders(folder):
+            for path in (manifest.inside(place, name) for name in left.files if name.endswith(".csv")):
+                if not (frame := csvfiles.read(path)).empty:
+                    yield path.relative_to(folder).with_suffix("").as_posix(), frame
         if not any(folder.rglob(netcdf.NAME)):
             return
+    for name, dataset in _solved(folder):
+        yield from _flat(name, dataset)
+
+
+def _solved(folder: Path) -> Iterator[tuple[str, xarray.Dataset]]:
+    """Everything that was solved, by name."""
     for node in netcdf.load(folder).subtree:
-        yield from _flat(node.path.strip("/") or folder.stem, node.to_dataset(inherit=False))
+        yield node.path.strip("/") or folder.stem, node.to_dataset(inherit=False)
 
 
 def _flat(name: str, dataset: xarray.Dataset) -> Iterator[tuple[str, DataFrame]]:
@@ -117,22 +121,19 @@ def _head(name: str) -> str:
 def _surfaces(folder) -> dict[str, bytes]:
     """A file for each Dataset with fields over y and x, by name."""
     with hold([folder]):
-        solved = netcdf.load(folder)
-    nodes = {node.path.strip("/") or folder.stem: node.to_dataset(inherit=False) for node in solved.subtree}
-    found = {f"{name}{vtk.ENDING}": content for name, each in nodes.items() if (content := vtk.content(each))}
-    if not found:
+        found = {f"{name}{vtk.ENDING}": vtk.content(each) for name, each in _solved(folder)}
+    if not any(found.values()):
         raise InvalidInput(f"{folder}: holds no surface that vtk could show: draw has one, and run its fields")
-    return found
+    return {name: content for name, content in found.items() if content}
 
 
 def _drawn_again(folder, forms) -> dict[str, bytes]:
     """Every figure of a folder, drawn from its tables in the current look, as files by name."""
     found: dict[str, bytes] = {}
-    for each in manifest.folders(folder):
-        place = each.path.relative_to(folder)
-        for entry in each.manifest.plots:
-            drawn = _drawn(each.path, entry, forms)
-            found |= {f"{(place / entry.name).as_posix()}.{form}": drawn[form] for form in forms}
+    for place, left in manifest.folders(folder):
+        for entry in left.plots:
+            drawn, name = _drawn(place, entry, forms), (place.relative_to(folder) / entry.name).as_posix()
+            found |= {f"{name}.{form}": drawn[form] for form in forms}
     if not found:
         raise InvalidInput(f"{brief(str(folder))}: no command has written figures here")
     return found
@@ -141,23 +142,21 @@ def _drawn_again(folder, forms) -> dict[str, bytes]:
 def _drawn(folder, entry, forms) -> Mapping[str, bytes]:
     """Content of the files of one figure by form."""
     path = folder / manifest.NAME
-    files = {name: (Path(entry.name).parent / f"{name}.csv").as_posix() for name in entry.tables}
-    draw = function(entry, path)
-    tables = {name: csvfiles.read(manifest.inside(folder, file)) for name, file in files.items()}
+    draw, below = function(entry, path), Path(entry.name).parent
+    files = {name: manifest.inside(folder, (below / f"{name}.csv").as_posix()) for name in entry.tables}
+    tables = {name: csvfiles.read(file) for name, file in files.items()}
     try:
         with looks.DRAWING, warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of numbers that no command has left
             return picture(Plot(entry.name, draw, tables, "", options=entry.options), forms).files
     except InvalidInput:
         raise
-    except ValidationError as error:
-        where, reason = (error.errors()[0][each] for each in ("loc", "msg"))
-        option = brief(".".join(map(str, where)))
-        raise InvalidInput(f"{brief(str(path))}: figure {entry.name}: option {option}: {reason}") from error
-    # A function of a table that was changed raises nearly anything.
-    except Exception as error:
-        why = brief(repr(error))
-        raise InvalidInput(f"{folder}: figure {entry.name} cannot be drawn from its tables: {why}") from error
+    except Exception as error:  # options or tables that were changed raise nearly anything
+        where, why = folder, f" cannot be drawn from its tables: {brief(repr(error))}"
+        if isinstance(error, ValidationError):
+            first = error.errors()[0]
+            where, why = path, f": option {brief('.'.join(map(str, first['loc'])))}: {first['msg']}"
+        raise InvalidInput(f"{brief(str(where))}: figure {entry.name}{why}") from error
 
 
 def function(entry: manifest.PlotEntry, path: Path) -> Callable[..., Figure]:
@@ -168,10 +167,7 @@ def function(entry: manifest.PlotEntry, path: Path) -> Callable[..., Figure]:
         with suppress(ImportError, AttributeError, ValueError):
             draw = resolve_name(name)
     stated = draw.__annotations__ if inspect.isfunction(draw) and draw.__module__ == entry.module else {}
-    if stated.get("tables") in (Tables, "Tables") and stated.get("return") in (Figure, "Figure"):
-        checked = validate_call(config=ConfigDict(arbitrary_types_allowed=True, allow_inf_nan=False))
-        return checked(draw)
-    raise InvalidInput(
-        f"{path}: figure {entry.name} is drawn by {brief(name)}, which is no figure of {PACKAGE}: it cannot be "
-        "drawn again"
-    )
+    if not (stated.get("tables") in (Tables, "Tables") and stated.get("return") in (Figure, "Figure")):
+        why = f"is drawn by {brief(name)}, which is no figure of {PACKAGE}: it cannot be drawn again"
+        raise InvalidInput(f"{path}: figure {entry.name} {why}")
+    return validate_call(config=ConfigDict(arbitrary_types_allowed=True, allow_inf_nan=False))(draw)

@@ -5,48 +5,39 @@ import platform
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from importlib.metadata import version
+from operator import methodcaller
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any
 
-import numpy as np
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, ConfigDict
 from pydantic_core import to_json
 
 from scene.printable import brief
 from scene.reading import InvalidInput
 
 from ..solving.digest import PACKAGES
-from ..solving.folders import FORMAT, Stated, clear, hold, read
+from ..solving.folders import FORMAT, Stated, clear, hold, read, write
 from ..solving.folders import MANIFEST as NAME
-from .csvfiles import write_text
 from .page import Page, Plot
 
 if TYPE_CHECKING:
     from ..solving.runner import SweepResult
     from ..studies.study import Study
 
-FINDINGS = "findings"
 VERSIONS = (*PACKAGES, "matplotlib", "pandas", "xarray", "pydantic")
-# Most items of a list, letters of a name.
-MOST_LISTED, MOST_LETTERS = 10_000, 1000
 # What a run writes beside its page, and the next one on the folder may remove.
 OURS = (".html", ".csv", ".nc", ".png", ".pdf", ".svg")
 
 
 def _of_folder(name: str) -> str:
     """The name of a file below a folder, with slashes between folders. Raises ValueError of any other."""
-    if (
-        not name.isprintable()
-        or not 0 < len(name) <= MOST_LETTERS
-        or set(name) & set("\\:")
-        or {"", ".", ".."} & set(name.split("/"))
-    ):
+    if not name.isprintable() or set(name) & set("\\:") or {"", ".", ".."} & set(name.split("/")):
         raise ValueError(f"{brief(name)} names no file of the folder")
     return name
 
 
 Name = Annotated[str, AfterValidator(_of_folder)]
-Names = Annotated[tuple[Name, ...], Field(max_length=MOST_LISTED)]
+Names = tuple[Name, ...]
 
 
 class PlotEntry(BaseModel):
@@ -65,23 +56,14 @@ class Manifest(Stated):
     """Part of the manifest of a folder that is read; the file has more.
 
     plots : figures that can be drawn again
-    tables : names of the CSV files, without ending
     files : all that the run wrote beside it; of one that has not come to its end, and of those before it
     """
 
     model_config = ConfigDict(extra="ignore", frozen=True)
 
     command: str
-    plots: Annotated[tuple[PlotEntry, ...], Field(max_length=MOST_LISTED)]
-    tables: Names
-    files: Annotated[tuple[Name, ...], Field(max_length=10 * MOST_LISTED)] = ()
-
-
-class Folder(NamedTuple):
-    """A folder that a command left, and its manifest."""
-
-    path: Path
-    manifest: Manifest
+    plots: tuple[PlotEntry, ...]
+    files: Names = ()
 
 
 def begin(folder: Path, study: "Study", files: Iterable[str]) -> None:
@@ -94,7 +76,7 @@ def begin(folder: Path, study: "Study", files: Iterable[str]) -> None:
     with suppress(InvalidInput):
         earlier = read(folder / NAME, Manifest, finished=False).files
     listed = list(dict.fromkeys([*earlier, *files]))
-    _write(folder, {"finished": False, "command": study.command, "plots": [], "tables": [], "files": listed})
+    _write(folder, {"finished": False, "command": study.command, "plots": [], "files": listed})
     places = set()
     for name in earlier:
         with suppress(InvalidInput):  # of one that leads out of the folder by now
@@ -114,7 +96,7 @@ def stamp(
     page: Page,
     swept: "SweepResult",
     solved: str,
-    files: Iterable[str] = (),
+    files: Iterable[str],
     results: str = "",
 ) -> None:
     """Write the manifest of a folder, last of all: what it lists is there. Raises OSError.
@@ -136,11 +118,10 @@ def stamp(
                 "module": plot.draw.__module__,
                 "function": plot.draw.__name__,
                 "tables": list(plot.tables),
-                "options": dict(plot.options),
+                "options": plot.options,
             }
             for plot in page.every(Plot)
         ],
-        "tables": list(dict.fromkeys([FINDINGS, *(name for name, _ in page.tables())])),
         "files": list(files),
         "results": results,
     }
@@ -148,13 +129,20 @@ def stamp(
 
 
 def _write(folder, left):
-    """Write a manifest as JSON: null for NaN, and what JSON does not have as text."""
-    written = to_json({"format": FORMAT} | left, indent=1, inf_nan_mode="null", fallback=_plain)
-    write_text(folder / NAME, written.decode())
+    write(folder / NAME, methodcaller("write", json_of({"format": FORMAT} | left).encode()))
 
 
-def folders(folder: str | Path) -> Iterator[Folder]:
-    """A folder with a manifest, or those just below it; each is held while it is looked at.
+def json_of(found: Any) -> str:
+    """JSON of anything: null for a number that is not known or not finite, and what JSON does not have as text."""
+    return to_json(found, indent=1, inf_nan_mode="null", fallback=_plain).decode()
+
+
+def _plain(value):
+    return value.tolist() if hasattr(value, "tolist") else str(value)
+
+
+def folders(folder: str | Path) -> Iterator[tuple[Path, Manifest]]:
+    """A folder and its manifest, or those just below it; each is held while it is looked at.
 
     Raises InvalidInput of none, of a damaged one, of one that another run holds, and of a run that has not come to
     its end.
@@ -170,7 +158,7 @@ def folders(folder: str | Path) -> Iterator[Folder]:
         )
     for path in paths:
         with hold([path.parent]):
-            yield Folder(path.parent, read(path, Manifest))
+            yield path.parent, read(path, Manifest)
 
 
 def inside(folder: Path, name: str) -> Path:
@@ -202,7 +190,3 @@ def made() -> dict[str, str]:
         "versions": ", ".join(f"{package} {number}" for package, number in versions().items()),
         "machine": f"{where['system']}, {where['machine']}, {where['processors']} processors",
     }
-
-
-def _plain(value):
-    return value.tolist() if isinstance(value, np.ndarray | np.generic) else str(value)

@@ -71,14 +71,10 @@ class Plot:
     options: Mapping[str, Any] = field(default_factory=dict)
 
     @property
-    def folder(self) -> str:
-        """Folder of its files below that of the page, with a slash at the end; empty of that folder itself."""
-        return self.name[: self.name.rfind("/") + 1]
-
-    @property
     def files(self) -> Tables:
         """Tables of the plot by the names of their files, without .csv, with the folder."""
-        return {f"{self.folder}{name}": frame for name, frame in self.tables.items()}
+        folder = self.name[: self.name.rfind("/") + 1]
+        return {f"{folder}{name}": frame for name, frame in self.tables.items()}
 
     def figure(self) -> Figure:
         """The figure, drawn from the tables in the style that is applied."""
@@ -113,7 +109,6 @@ class Page:
     title : of the page
     answer : a sentence for each claim, generated from all findings
     blocks : of the page below the answer; those given are put in the order of reading
-    about : facts on how it was made, by name: versions, machine, times
     doubts : sentences that stand before the answer: doubts about what was asked, contacts without an answer
     notes : sentences that follow them, on what was read
     opening : paragraphs before the answer: what a reader came for, in words
@@ -122,7 +117,6 @@ class Page:
     title: str
     answer: Sequence[str]
     blocks: Sequence[Block]
-    about: Mapping[str, str] = field(default_factory=dict)
     doubts: Sequence[str] = ()
     notes: Sequence[str] = ()
     opening: Sequence[str] = ()

@@ -18,8 +18,8 @@ from ..solving.folders import write as write_whole
 from ..statistics import finding
 from ..statistics.finding import Finding
 from . import csvfiles
-from .manifest import FINDINGS, inside, made
-from .page import Page, Plot, Section
+from .manifest import inside, made
+from .page import Page, Plot
 from .plots.rendering import Picture, picture
 from .tables import claims, shown
 
@@ -55,7 +55,7 @@ def files(
 def tables(page: Page, findings: Sequence[Finding]) -> dict[str, bytes]:
     """Every table of a page as CSV, and all findings, as files by name."""
     found: dict[str, bytes] = {}
-    for name, frame in ((FINDINGS, finding.table(findings)), *page.tables()):
+    for name, frame in (("findings", finding.table(findings)), *page.tables()):
         content = csvfiles.text(frame).encode()
         if found.setdefault(f"{name}.csv", content) != content:
             raise ValueError(f"two tables of the page have the name {name!r}")
@@ -76,7 +76,7 @@ def write(found: Mapping[str, bytes], folder: Path) -> list[Path]:
 
 def html(page: Page, pictures: Mapping[str, Picture]) -> str:
     """The page as one file; pictures : of the plots, by name"""
-    return _rendered(page, whole=True, pictures=pictures, about={**page.about, **made()})
+    return _rendered(page, whole=True, pictures=pictures, about=made())
 
 
 def fragment(page: Page, path: Path | None = None) -> str:
@@ -99,7 +99,6 @@ def _rendered(page, **given) -> str:
         "image": lambda drawn: _base64(drawn.files["png"]),
         "table": lambda block: None if block.long or len(block.frame) > MOST_ROWS else _table(shown(block.frame)),
         "claims": lambda block: _table(claims(block.findings)) if block.findings else None,
-        "contents": [(k, each.title) for k, each in enumerate(page.blocks, 1) if isinstance(each, Section)],
     }
     return printable(environment.get_template("page.html").render(page=page, **functions, **given))
 

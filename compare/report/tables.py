@@ -6,13 +6,13 @@ from itertools import chain
 import pandas
 from pandas import DataFrame, Series
 
-from ..solving import amounts
+from ..solving import words
 from ..solving.vocabulary import head
 from ..statistics.finding import Finding
 
 # Columns of findings that stand together in one.
 JOINED = {"value": ("low", "high"), "expected": ("tolerance",)}
-WRITTEN = (amounts.shown, amounts.plus_minus, amounts.interval)  # by the number of columns beside a number
+WRITTEN = (words.shown, words.plus_minus, words.interval)  # by the number of columns beside a number
 
 
 def shown(frame: DataFrame) -> DataFrame:
@@ -46,20 +46,26 @@ def claims(findings: Sequence[Finding], details: bool = True) -> DataFrame:
     for each, before in zip(findings, (None, *findings), strict=False):
         claim, place = each.claim, (each.where, each.dimension, each.regime)
         again = before is not None and before.claim == claim
-        more = (claim.meaning, "" if place in seen else each.regime, each.basis) if details else ("", "", "")
+        more = (
+            (claim.meaning, "" if place in seen else each.regime, words.basis(each)) if details else ("", "", "")
+        )
         rows.append(
             {
                 "Verdict": each.verdict,
                 "Claim": "" if again else _lines(claim.sentence, more[0]),
                 "Model": each.dimension,
                 "Where": _lines(each.where, more[1]),
-                "Found (95 %)": _lines(each.found(), more[2], each.why),
-                "Tested against": claim.tested,
+                "Found (95 %)": _lines(words.found(each), more[2], each.why),
+                "Tested against": words.tested(claim),
             }
         )
         seen.add(place)
     table = DataFrame(rows)
-    return table if len({each.place for each in findings}) > 1 else table.drop(columns="Where", errors="ignore")
+    return (
+        table
+        if len({(each.where, each.regime) for each in findings}) > 1
+        else table.drop(columns="Where", errors="ignore")
+    )
 
 
 def _lines(*parts):

@@ -117,10 +117,10 @@ def _radius(scene) -> float | None:
 def _line(fields):
     """View of the line in 1D; where it touches, the displacement is the depth less the profile."""
     touching = fields["contact"].astype(bool)
-    known = touching.any()
-    depth = float(np.mean((fields["displacement"] + fields["profile"])[touching])) if known else np.nan
     if "depth" in fields:
         depth = float(fields["depth"][-1])
+    else:
+        depth = float((fields["displacement"] + fields["profile"])[touching].mean()) if touching.any() else np.nan
     return Section(fields["x"], fields["profile"] - depth, -fields["displacement"], touching)
 
 
@@ -130,34 +130,31 @@ def _prolonged(scene, line, span, fields):
     """
     if isinstance(scene.motion, Program):
         return line
-    pixel = line.x[1] - line.x[0]
-    before = line.x[0] - pixel * np.arange(int(max(line.x[0] - span[0], 0.0) / pixel) + 1, 0, -1)
-    behind = line.x[-1] + pixel * np.arange(1, int(max(span[1] - line.x[-1], 0.0) / pixel) + 2)
-    flow = Flow.of(scene.solid, scene.motion.speed)
-    felt = fields["line_force"][:-1] @ np.diff(np.exp((line.x - line.x[-1])[:, None] / flow.lengths), axis=0)
-    recovering = np.exp((line.x[-1] - behind)[:, None] / flow.lengths) @ (flow.shares * felt / flow.modulus)
+    first, last, pixel = line.x[0], line.x[-1], line.x[1] - line.x[0]
+    before = first - pixel * np.arange(int(max(first - span[0], 0.0) / pixel) + 1, 0, -1)
+    behind = last + pixel * np.arange(1, int(max(span[1] - last, 0.0) / pixel) + 2)
+    flow, ends = Flow.of(scene.solid, scene.motion.speed), (len(before), len(behind))
+    felt = fields["line_force"][:-1] @ np.diff(np.exp((line.x - last)[:, None] / flow.lengths), axis=0)
+    recovering = np.exp((last - behind)[:, None] / flow.lengths) @ (flow.shares * felt / flow.modulus)
     x = np.concatenate([before, line.x, behind])
-    indenter = np.pad(line.indenter, (len(before), len(behind)), constant_values=np.nan)
+    indenter = np.pad(line.indenter, ends, constant_values=np.nan)
     if scene.roughness is None:
-        tip, n = float(line.indenter.min()), scene.indenter.exponent
-        indenter = tip + (line.indenter[-1] - tip) * np.abs(x / line.x[-1]) ** n
-    surface = np.concatenate([np.zeros(len(before)), line.surface, -recovering])
-    return Section(x, indenter, surface, np.pad(line.touching, (len(before), len(behind))))
+        tip = float(line.indenter.min())
+        indenter = tip + (line.indenter[-1] - tip) * np.abs(x / last) ** scene.indenter.exponent
+    surface = np.concatenate([np.zeros(ends[0]), line.surface, -recovering])
+    return Section(x, indenter, surface, np.pad(line.touching, ends))
 
 
 def _touched(line, plane):
     """Least and greatest x, and greatest distance from the axis along y [m], of all contact; None without any."""
-    found = []
-    if line is not None and line.touching.any():
-        found.append((*line.x[line.touching][[0, -1]], 0.0))
-    if plane is not None and (plane["pressure"] > 0).any():
+    x, y = [], [0.0]
+    if line is not None:
+        x += line.x[line.touching].tolist()
+    if plane is not None:
         touching = plane["pressure"] > 0
-        x, y = plane["x"][touching.any(axis=0)], plane["y"][touching.any(axis=1)]
-        found.append((x[0], x[-1], np.abs(y).max()))
-    if not found:
-        return None
-    first, last, aside = zip(*found, strict=True)
-    return min(first), max(last), max(aside)
+        x += plane["x"][touching.any(axis=0)].tolist()
+        y += np.abs(plane["y"][touching.any(axis=1)]).tolist()
+    return (min(x), max(x), max(y)) if x else None
 
 
 def _whole(line, plane):

@@ -6,8 +6,8 @@ from dataclasses import dataclass, fields
 from scene import Refused
 from scene.plan import size
 
-from .amounts import HOUR, duration
 from .task import Task
+from .words import HOUR, duration
 
 SECONDS = 6e-8  # of processor a unit of work takes, within a factor of two
 STORED = 1000.0  # bytes a contact takes on disk, its place in the file of results included

@@ -14,11 +14,11 @@ from rich.text import Text
 
 from scene.printable import printable
 
-from .amounts import duration
 from .cost import SECONDS
 from .outcome import Outcome
 from .runner import Progress
 from .task import Task
+from .words import duration
 
 PAUSE = 10.0  # seconds between lines where there is no terminal to draw a bar on
 LONG = 60.0  # seconds of a task of which compiling is a small part

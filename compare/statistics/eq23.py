@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from ..solving import words
 from .collapse import DEGREE, PARTED, ROUNDING, Alignment, Collapse
 from .commoncurve import LEAST_OVERLAP
 from .finding import EXACT, FAILS, HALVED, UNKNOWN, Claim, Finding
@@ -196,11 +197,12 @@ def answers(findings: Iterable[Finding]) -> list[str]:
 def answer(across: Finding, along: Finding, alone: Finding, collapsed: Finding) -> str:
     """Both shifts in words, with horizontal ones alone as the alternative."""
     if isfinite(alone.value):
-        other = f"as v^{alone.found(3)}, they miss one by {collapsed.found(3)} (rms)"
+        other = f"as v^{words.found(alone, 3)}, they miss one by {words.found(collapsed, 3)} (rms)"
     else:
         other = "they form none"
     return (
-        f"the curves form one if friction is shifted as v^{across.found(3)} and the load as v^{along.found(3)}; "
+        f"the curves form one if friction is shifted as v^{words.found(across, 3)} and the load as "
+        f"v^{words.found(along, 3)}; "
         f"shifted along the load alone, {other}."
     )
 

@@ -1,9 +1,9 @@
 """Claim and finding: what is claimed, what was measured of it, and the one rule of the verdict."""
 
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from math import inf, isfinite, nan
+from math import isfinite, nan
 from typing import Any
 
 import pandas
@@ -11,20 +11,11 @@ import pandas
 from scene.quantities import BARE, WHOLE, argument
 from scene.signatures import readable
 
-from ..solving import amounts
+from ..solving.words import FAILS, HOLDS, REPORTED, UNDECIDED, crossed
 
-HOLDS, FAILS, UNDECIDED, REPORTED = VERDICTS = ("holds", "fails", "undecided", "reported")
 # How the share of the grid in an interval is known.
 HALVED, EXACT, UNKNOWN = "change on halving", "exact", "unknown"
 BOTH = "1D/3D"
-# Models of which a number is said alone.
-ALONE = ("1D", "1D corrected", "3D")
-# What draws of a solver, or of a model, are called.
-DRAWS = {"MDR": "profiles", "BEM": "surfaces", "1D": "profiles", "1D corrected": "profiles", "3D": "surfaces"}
-# Findings on a claim of one model that a statement tells one by one.
-SHOWN = 4
-# Different reasons of undecided findings that a statement tells whole.
-FEW = 2
 
 
 def verdict(expected: float, tolerance: float, low: float, high: float) -> str:
@@ -76,19 +67,6 @@ class Claim:
     def scale(self) -> float:
         """Factor on its numbers as people read them."""
         return 100.0 if self.percent else 1.0
-
-    def said(self, text: str) -> str:
-        """A number in words, already to scale, with its unit."""
-        return amounts.with_unit(text, "%" if self.percent else self.unit)
-
-    @property
-    def tested(self) -> str:
-        """Number that it is tested against, with tolerance and unit in words; empty without a claim."""
-        if not isfinite(self.tolerance):
-            return ""
-        expected, tolerance = (amounts.number(self.scale * each) for each in (self.expected, self.tolerance))
-        exactly = expected if self.tolerance == 0 else f"{expected} ± {tolerance}"
-        return self.said(exactly if isfinite(self.expected) else f"at most {tolerance}")
 
 
 @readable
@@ -176,38 +154,8 @@ class Finding:
     def why(self) -> str:
         """Reason why there is no verdict and what would give one, or a remark on a stated verdict; else empty."""
         open_ = self.verdict == UNDECIDED
-        told = (self.undecidable or self.crossed, self.remedy) if open_ else (self.reason,)
+        told = (self.undecidable or crossed(self), self.remedy) if open_ else (self.reason,)
         return "; ".join(filter(None, told))
-
-    @property
-    def crossed(self) -> str:
-        """Where the interval leaves the tolerance, in words."""
-        low, high = self.interval
-        ends = (self.claim.expected + side * self.claim.tolerance for side in (-1, 1))
-        inside = [self.claim.said(amounts.number(self.claim.scale * each)) for each in ends if low < each < high]
-        return f"its interval reaches across {' and '.join(inside)}" if inside else ""
-
-    @property
-    def place(self) -> str:
-        """Place of the measurement, with the regime, in words."""
-        return ", ".join(part for part in (self.where, self.regime) if part)
-
-    def found(self, figures: int = amounts.DIGITS) -> str:
-        """Value with its interval and unit in words; figures : significant digits of a value without interval"""
-        if not isfinite(self.value):
-            return "not known"
-        value, low, high = (self.claim.scale * each for each in (self.value, *self.interval))
-        return self.claim.said(amounts.interval(value, low, high, figures))
-
-    @property
-    def basis(self) -> str:
-        """Parts of the interval in words: numbers of profiles and surfaces, and error of the grid."""
-        if not isfinite(self.grid):
-            return ""
-        counts = self.drawn or ({self.dimension: self.draws} if self.draws else {})
-        drawn = "".join(f"{count} {DRAWS.get(name, f'draws of {name}')}, " for name, count in counts.items())
-        exact = f" {amounts.number(self.grid, 2)}" if self.grid else ""
-        return f"{drawn}grid{exact} ({self.grid_method})"
 
     @property
     def row(self) -> dict[str, Any]:
@@ -248,94 +196,6 @@ def table(findings: Iterable[Finding]) -> pandas.DataFrame:
 def claimed(findings: Iterable[Finding]) -> list[Finding]:
     """Findings on claims, without numbers that are only reported."""
     return [each for each in findings if each.verdict != REPORTED]
-
-
-def sentences(findings: Sequence[Finding]) -> list[str]:
-    """A line for each claim, from all of its findings: the verdict, the claim, the numbers, and why it is open.
-
-    Few findings on one model are told one by one, many by the number of places and the range of values.
-    """
-    cases = {each.where.partition(", ")[0] for each in findings}
-    if len(cases) == 1:  # of the only case the place is said alone
-        findings = [replace(each, where=each.where.partition(", ")[2]) for each in findings]
-    found = []
-    for sentence in dict.fromkeys(each.claim.sentence for each in findings):
-        own = [each for each in findings if each.claim.sentence == sentence]
-        names = dict.fromkeys(each.dimension for each in own)
-        models = [[each for each in own if each.dimension == name] for name in names]
-        verdicts = _verdicts(models)
-        numbers = "; ".join(_numbers(here, len(models) > 1 or here[0].dimension in ALONE) for here in models)
-        tested = {each.claim.tested for each in own} - {""}
-        against = f", tested against {tested.pop()}" if len(tested) == 1 else ""
-        open_ = _open([each for each in own if each.verdict == UNDECIDED])
-        found.append(f"{verdicts}{sentence}: {numbers}{against}.{open_}")
-    return found
-
-
-def _open(findings) -> str:
-    """Reasons of the undecided findings and what would decide them; of many different ones the reasons alone."""
-    reasons, more = dict.fromkeys(each.why for each in findings), ""
-    if len(reasons) > FEW:
-        reasons = dict.fromkeys(each.undecidable or each.crossed for each in findings)
-        more = " The table of findings says what would decide each."
-    return f" Undecided: {'. Also: '.join(reasons)}.{more}" if any(reasons) else ""
-
-
-def _verdicts(models) -> str:
-    """Verdicts on a claim, with the models where these differ and a colon; nothing of a number without a claim."""
-    told = {here[0].dimension: _verdict(here) for here in models}
-    if set(told.values()) == {REPORTED}:
-        return ""
-    if len(set(told.values())) > 1:
-        words = ", ".join(f"{verdict} in {model}" for model, verdict in told.items())
-    else:
-        words = next(iter(told.values()))
-    return f"{amounts.capital(words)}: "
-
-
-def _verdict(findings) -> str:
-    """Verdict of all, or how often each stands."""
-    counts = {name: sum(each.verdict == name for each in findings) for name in VERDICTS}
-    counts = {name: count for name, count in counts.items() if count}
-    if len(counts) == 1:
-        return next(iter(counts))
-    return f"{', '.join(f'{name} in {count}' for name, count in counts.items())} of {len(findings)} places"
-
-
-def _numbers(findings, named) -> str:
-    """Numbers of a model on a claim: each with its place, or their range and how many are known."""
-    claim = findings[0].claim
-    model = f"in {findings[0].dimension} " if named else ""
-    if len(findings) <= SHOWN:
-        mixed = len({each.verdict for each in findings}) > 1
-        if len({each.found(3) for each in findings}) == 1 < len(findings):
-            return f"{model}{findings[0].found(3)} in {_places(len(findings))}"
-        return model + _listed([_placed(each, mixed) for each in findings])
-    known = [claim.scale * each.value for each in findings if isfinite(each.value)]
-    count = _places(len(findings)) if len(known) == len(findings) else f"{len(known)} of {len(findings)} places"
-    if not known:
-        return f"{model}not known in {count.replace('0 of ', 'any of ')}"
-    reach = " to ".join(dict.fromkeys(amounts.number(end(known), 3) for end in (min, max)))
-    widest = max(
-        ((high - low) / 2 for low, high in (each.interval for each in findings) if low < high), default=0.0
-    )
-    about = f" (±{claim.said(amounts.number(claim.scale * widest, 2))} at most)" if 0 < widest < inf else ""
-    return f"{model}{claim.said(reach)} in {count}{about}"
-
-
-def _places(count: int) -> str:
-    return "both places" if count == 2 else f"all {count} places"
-
-
-def _placed(found: Finding, mixed: bool) -> str:
-    at = "at" if found.where[:1].isdigit() or "=" in found.where else "for"
-    place = f" {at} {found.where}" if found.where else ""
-    return f"{found.found(3)}{place}{f' ({found.verdict})' if mixed else ''}"
-
-
-def _listed(parts):
-    *first, last = parts
-    return f"{', '.join(first)} and {last}" if first else last
 
 
 def said_of(claim: Claim, beside: str) -> Claim:

@@ -21,10 +21,10 @@ from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
-from ..solving.amounts import duration, share
 from ..solving.control_variates import VARIATES, controlled
 from ..solving.cost import MOST_DRAWS, SECONDS
 from ..solving.parameter_grid import EMPTY, LEVELS, TOGETHER, ParameterGrid, levels
+from ..solving.words import duration, share
 from .collapse import PARTED
 from .finding import UNDECIDED, Finding
 from .jackknife import Source, mean_ratio, off_the_ratio

@@ -6,12 +6,12 @@ from pathlib import Path
 from typing import Any, TypeAlias, cast
 
 from pydantic import Field, create_model
-from pydantic_core import to_json
 
 from scene import notes
 from scene.plan import Plan
 
 from ..library.ready import Listing
+from ..report.manifest import json_of
 from ..report.page import Table
 from ..solving.cost import Cost
 from ..solving.vocabulary import entry
@@ -124,7 +124,7 @@ def answer(found: Any) -> Answer:
 
 def written(found: Any) -> str:
     """JSON of what a command returns; a number that is not known or not finite is null."""
-    return to_json(answer(found), indent=1, inf_nan_mode="null", fallback=_plain).decode()
+    return json_of(answer(found))
 
 
 def _said(found):
@@ -133,7 +133,3 @@ def _said(found):
 
 def _rows(frame):
     return tuple(frame.to_dict("records"))
-
-
-def _plain(value):
-    return value.item() if hasattr(value, "item") else str(value)

@@ -4,19 +4,19 @@ import errno
 import os
 from concurrent.futures import Executor
 from dataclasses import replace
-from math import inf
+from math import inf, nan
 from pathlib import Path
 from time import monotonic
 
 from scene import SolveError
 from scene.printable import brief
+from scene.quantities import SECOND
 from scene.reading import InvalidInput
 
 from ..report import manifest, render
 from ..report.page import Plot
 from ..report.plots.rendering import FORMS
 from ..solving import netcdf, runner
-from ..solving.amounts import seconds_of
 from ..solving.executors import counted
 from ..solving.folders import Unwritable, hold, make
 from ..solving.runner import Progress, SweepResult
@@ -27,10 +27,6 @@ from .report import SOLVED, Report, faults
 from .study import Study
 
 GROWTHS = GROWTH, 2.0, 1.4  # times the surfaces that are tried in turn where time is limited
-
-
-class Broken(SolveError):
-    """So many tasks broke that nothing can be judged."""
 
 
 def run(
@@ -47,25 +43,17 @@ def run(
 ) -> Report:
     """Do a study from its tasks to its page; what the folder has is not solved again.
 
-    output : folder of the page and of what has been solved
-    workers : processes; as many as processors if absent
-    scheduler : address of a scheduler of dask.distributed, whose workers solve then
-    executor : object with `submit`, as those of concurrent.futures, that gets as many tasks at once as `workers`
-    figure_format : forms of the figures, "png", "pdf" and "svg", separated by commas; a PNG is always written
-    report : whether the page and its figures are written; findings and results always are
-    yes : agree to what takes more than a day
-    budget : time after which no more surfaces are asked for [s], or as "10min"; None without a limit
-    progress : told how far it is
+    The arguments are those of `compare.solve`; progress : told how far it is
 
     Raises Refused, before a task is built, for more than a day without a yes; Unwritable, before anything is
-    solved, where the folder cannot be written; InvalidInput, where another run holds it; Broken where so many
+    solved, where the folder cannot be written; InvalidInput, where another run holds it; SolveError where so many
     tasks broke that nothing can be judged.
     """
     output, progress = Path(output), progress or Progress()
     forms = tuple(dict.fromkeys(["png", *(form.strip() for form in figure_format.split(",") if form.strip())]))
     for form in forms:
         known("figure_format", form, FORMS)
-    limit = inf if budget is None else seconds_of("budget", budget)
+    limit = inf if budget is None else _seconds(budget)
     if executor is not None and (scheduler is not None or not callable(getattr(executor, "submit", None))):
         needed = "an object with submit is needed, without a scheduler"
         raise InvalidInput(f"executor = {brief(repr(executor))}: {needed}")
@@ -81,6 +69,17 @@ def run(
         done = _answered(study, output, workers, scheduler, executor, yes, limit, progress)
         path = _write(done, below, forms, report, progress)
         return replace(done, path=path)
+
+
+def _seconds(budget):
+    """Seconds above zero, of a number or a text with a unit. Raises InvalidInput."""
+    try:
+        found = float(SECOND.value(budget))
+    except ValueError:
+        found = nan
+    if not 0 < found < inf:
+        raise InvalidInput(f"budget = {brief(repr(budget))}: a time above zero, as 10min or 600 s")
+    return found
 
 
 def _answered(study, output, workers, scheduler, executor, yes, limit, progress) -> Report:
@@ -110,7 +109,7 @@ def _answered(study, output, workers, scheduler, executor, yes, limit, progress)
         what = "nothing was solved"
         if len(swept.faults) < len(swept.outcomes):
             what = f"the solved contacts cannot be judged without the broken ones: {error}"
-        raise Broken("; ".join([what, *faults(swept, output)])) from error
+        raise SolveError("; ".join([what, *faults(swept, output)])) from error
     return Report(study, answers, findings, page, swept, output, None, unsolved)
 
 

@@ -20,8 +20,8 @@ from scene.reading import InvalidInput
 from ..library.case import Case, NotCompared, doubted
 from ..library.lookup import SceneLike, case_of
 from ..models.table import KNOWN
-from ..solving.amounts import duration, pascals, seconds, share
 from ..solving.cost import Cost
+from ..solving.words import duration, pascals, seconds, share
 from ..trustmap.verdict import Advice, trust
 from .run.curves import corners, curves, models_of
 

@@ -9,13 +9,13 @@ import xarray
 from scene.signatures import readable
 
 from ..report.page import Block, Findings, Page, Plot, Section, Text
-from ..solving import parameter_grid
+from ..solving import parameter_grid, words
 from ..solving.cost import Cost
 from ..solving.outcome import Outcome
 from ..solving.parameter_grid import ParameterGrid
 from ..solving.task import Batch, SceneTask, Task
 from ..solving.unsolved import Unsolved
-from ..statistics import finding, griderror
+from ..statistics import griderror
 from ..statistics.finding import FAILS, Claim, Finding
 from ..statistics.jackknife import judge
 from ..statistics.multilevel import GROWTH
@@ -48,7 +48,7 @@ class Judgement:
 
     def page(self, title: str, answers: xarray.DataTree) -> Page:
         """Page with the answer first, what the grids leave uncertain among it, and the setting last."""
-        told = finding.sentences(self.findings) if self.answer is None else self.answer
+        told = words.sentences(self.findings) if self.answer is None else self.answer
         blocks = [Findings(self.findings)] if self.blocks is None else self.blocks
         last = [Section(SETTING, self.setting)] if self.setting else []
         return Page(title, griderror.told(answers, told), [*blocks, *last], opening=self.opening)

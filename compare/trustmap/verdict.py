@@ -16,7 +16,7 @@ from scene.doubt import beyond_linear, beyond_table
 from scene.scales import elastic_contact
 
 from ..models.law.bands import Bands
-from ..solving.amounts import capital, interval, off, seconds, share
+from ..solving.words import capital, interval, off, seconds, share
 from .groups import LINE, SPACE, SmoothReference
 from .measured import Neighbour, OffTheMap, Place, as_judged, nearest, placed, unmeasured
 from .model import MOST_SCATTER, NORMAL, lost

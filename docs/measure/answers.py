@@ -19,8 +19,7 @@ from pandas import DataFrame
 from tables import finding, replaced, stored, table
 
 import compare
-from compare.report.csvfiles import write_text
-from compare.solving.amounts import interval, number
+from compare.solving.words import interval, number
 from compare.studies.claims.catalogue import STUDIES
 from compare.studies.claims.claims import ENDS
 
@@ -152,7 +151,7 @@ def run_again() -> None:
     report = compare.run(progress="lines")
     stored(RUN, report.table)
     (shown,) = (part for part in str(report).split("\n\n") if part.startswith(SHOWN))
-    write_text(RUN.with_suffix(".txt"), f"{shown}\n")
+    RUN.with_suffix(".txt").write_text(f"{shown}\n", encoding="utf-8")
 
 
 def studies_again() -> None:

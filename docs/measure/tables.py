@@ -7,8 +7,6 @@ from pathlib import Path
 import numpy as np
 from pandas import DataFrame, Series
 
-from compare.report.csvfiles import text, write_text
-
 
 def table(header: str, rows: Iterator[tuple]) -> str:
     """A Markdown table; columns are named in the header, separated by |."""
@@ -26,7 +24,7 @@ def by_column(rows: Iterable[dict]) -> str:
 
 def stored(path: Path, rows: DataFrame | Iterable[dict]) -> None:
     """Write a table, or its rows, with every digit."""
-    write_text(path, text(DataFrame(rows)))
+    DataFrame(rows).to_csv(path, index=False, na_rep="nan")
 
 
 def finding(found: DataFrame, claim: str, where: str, dimension: str = "") -> Series:

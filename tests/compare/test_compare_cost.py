@@ -13,8 +13,7 @@ from typer.testing import CliRunner
 
 from bem3d import BEM
 from compare.cli.app import app
-from compare.library.case import Case
-from compare.solving.amounts import share_of
+from compare.library.case import Case, share_of
 from compare.solving.cost import DAY, MANY_CONTACTS, MOST_CONTACTS, SECONDS, Cost
 from compare.studies.claims.study_file import study_of
 from compare.studies.paper.study import Paper

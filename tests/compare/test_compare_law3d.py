@@ -10,7 +10,7 @@ from invented_answers import SERIES, eq_19, obeying
 
 from compare.report.page import Plot
 from compare.report.plots import style
-from compare.solving import amounts
+from compare.solving import words
 from compare.solving.parameter_grid import FINE
 from compare.statistics.finding import FAILS, HOLDS, REPORTED
 from compare.studies.claims import catalogue
@@ -182,7 +182,7 @@ def test_figures_show_every_point_and_what_is_not_claimed_hollow():
         own = {
             each.claim.id: 100 * each.value for each in (judged[0].findings if "/" in name else several.values())
         }
-        median, most = (amounts.number(own[f"law3d.collapse{end}"], 2) for end in ("", "-most"))
+        median, most = (words.number(own[f"law3d.collapse{end}"], 2) for end in ("", "-most"))
         assert below.get_title(loc="left").partition(" ")[2] == f"median {median} %, nine in ten {most} %"
         drawn = [line for line in right.lines if line.get_marker() not in ("", "None", "_", "|")]
         hollow = sum(line.get_xdata().size for line in drawn if line.get_markerfacecolor() == style.paper())

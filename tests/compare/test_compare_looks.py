@@ -36,7 +36,7 @@ from compare.report.plots.rendering import FORMS, picture
 from scene.reading import InvalidInput
 
 SAMPLES = Path(__file__).parent / "plots"
-ENTRIES = {entry.name.partition("/")[0]: entry for entry in next(manifest.folders(SAMPLES)).manifest.plots}
+ENTRIES = {entry.name.partition("/")[0]: entry for entry in next(manifest.folders(SAMPLES))[1].plots}
 # Figures too large to keep, whose own tests hold them against these laws.
 ELSEWHERE = {"contact_maps", "marching"}
 NARROW, OTHERS = "iop", [name for name in JOURNALS if name != "iop"]

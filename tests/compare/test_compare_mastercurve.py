@@ -11,6 +11,7 @@ from drawn_again import from_files
 import compare
 from compare.library.ready import ready
 from compare.report.plots import shifted_curves
+from compare.solving.words import found as worded
 from compare.statistics.eq23 import NO_SHIFT
 from compare.statistics.finding import FAILS, HOLDS, REPORTED, UNDECIDED
 from compare.studies.mastercurve.measurements import MeasuredFriction
@@ -69,7 +70,7 @@ def test_the_answer_holds_the_pair_of_shifts_that_was_planted(tmp_path, vertical
     if vertical:
         assert (told["vertical-exponent"].verdict, told["vertical"].verdict) == (FAILS, REPORTED)
         assert first.startswith(
-            f"The curves form one if friction is shifted as v^{told['vertical-exponent'].found(3)} and the load"
+            f"The curves form one if friction is shifted as v^{worded(told['vertical-exponent'], 3)} and the load"
         )
         assert "shifted along the load alone, as v^" in first
         assert not any("No shift along friction" in each for each in others)
@@ -332,9 +333,8 @@ def test_one_temperature_is_told_and_changes_nothing(tmp_path):
     warm = {"mu": MU, "F_N": LOAD, "v": SPEED, "T [degC]": 25 + 0.4 * np.sin(np.arange(96))}
     read, plain = study(tmp_path, written(warm)), study(tmp_path, table(), "plain.csv")
     told, wanted = found(read), found(plain)
-    assert {name: each.found(6) for name, each in told.items()} == {
-        name: each.found(6) for name, each in wanted.items()
-    }
+    first, second = ({name: worded(each, 6) for name, each in every.items()} for every in (told, wanted))
+    assert first == second
     assert "one temperature, 298.2 K" in read.notes[0]
     assert Mastercurve.of(tmp_path / "ball.csv", c1=8.86, c2="101.6 K", reference="20 degC").shifts is None
 

@@ -17,6 +17,7 @@ from compare.report.plots import shifted_curves, style
 from compare.solving.continuation import Continuation
 from compare.solving.cost import MOST_DRAWS
 from compare.solving.outcome import Outcome, Row
+from compare.solving.words import found as worded
 from compare.statistics import eq23
 from compare.statistics.collapse import collapse
 from compare.studies.claims.claims_friction import curves
@@ -101,7 +102,7 @@ def test_every_misfit_and_exponent_in_the_figure_of_shifts_is_that_of_a_finding(
         drawing = plot.figure()
     texts = [each.get_text() for each in drawing.findobj(Text)]
     told = [each for each in texts if "%" in each.replace("[%]", "") or "v^" in each] + [plot.alternative]
-    known = {number for each in found for number in numbers(each.found(3))} | numbers(f"{expected:g}")
+    known = {number for each in found for number in numbers(worded(each, 3))} | numbers(f"{expected:g}")
     assert set().union(*map(numbers, told)) - {"95"} <= known
     assert len(set().union(*map(numbers, told))) > 2
 

@@ -30,7 +30,8 @@ from compare.report.export import export
 from compare.report.page import Findings, Page, Plot, Section, Table, Text
 from compare.report.plots import touching
 from compare.report.tables import claims
-from compare.solving import amounts, netcdf, vocabulary
+from compare.solving import netcdf, vocabulary, words
+from compare.solving.words import interval
 from compare.statistics.finding import COLUMNS
 from scene.reading import InvalidInput
 
@@ -45,12 +46,12 @@ def folder(tmp_path_factory):
     """What a command leaves: page, figures, tables, results and manifest."""
     path = tmp_path_factory.mktemp("left")
     drawn = []
-    render.write(render.files(page(), FINDINGS, told=drawn.append), path)
+    render.write(files := render.files(page(), FINDINGS, told=drawn.append), path)
     assert drawn == ["sphere/friction"]
     values = {"friction_force": ("seed", [0.1, 1 / 3]), "status": ("seed", ["solved", "not asked"])}
     dataset = xarray.Dataset(values, {"seed": [0, 1]})
     (path / netcdf.NAME).write_bytes(netcdf.packed(xarray.DataTree.from_dict({"/sphere/MDR": dataset})))
-    manifest.stamp(path, STUDY, page(), SWEPT, "solved")
+    manifest.stamp(path, STUDY, page(), SWEPT, "solved", files)
     return path
 
 
@@ -63,13 +64,13 @@ def folder(tmp_path_factory):
      (inf, "∞"), (np.int64(-4), "−4"), (True, "yes"), (None, "–"), ("as it is", "as it is")],
 )  # fmt: skip
 def test_a_value_is_shown_as(value, shown):
-    assert amounts.shown(value) == shown
+    assert words.shown(value) == shown
 
 
 @given(st.floats(1e-12, 1e12), st.floats(1e-6, 1.0))
 def test_a_value_and_its_error_are_shown_within_a_twentieth_of_the_error(value, relative):
     error = value * relative
-    told = amounts.plus_minus(value, error).translate(str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-"))
+    told = words.plus_minus(value, error).translate(str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-"))
     middle, half, power = re.fullmatch(r"\(?(\S+) ± ([0-9.]+)\)?(?: × 10(\S+))?", told).groups()
     scale = 10.0 ** int(power or 0)
     assert abs(float(middle) * scale - value) <= 0.051 * error
@@ -77,11 +78,11 @@ def test_a_value_and_its_error_are_shown_within_a_twentieth_of_the_error(value, 
 
 
 def test_ends_of_an_interval_are_shown_to_two_digits_of_its_half_and_not_at_all_where_unknown():
-    assert amounts.interval(1.98292, 1.9735, 1.9924) == "1.9829 (1.9735 to 1.9924)"
-    assert amounts.interval(1e-6, -1e-6, 3e-6) == "1.0 (−1.0 to 3.0) × 10⁻⁶"
-    assert amounts.interval(1.98058, 1.98005, 1.98112) == "1.9806 (1.9801 to 1.9811)"
-    assert amounts.interval(0.3413688752, 0.3413688655, 0.3413688849) == "0.34137"
-    assert amounts.interval(2.0, nan, nan) == amounts.interval(2.0, 2.0, 2.0) == "2"
+    assert interval(1.98292, 1.9735, 1.9924) == "1.9829 (1.9735 to 1.9924)"
+    assert interval(1e-6, -1e-6, 3e-6) == "1.0 (−1.0 to 3.0) × 10⁻⁶"
+    assert interval(1.98058, 1.98005, 1.98112) == "1.9806 (1.9801 to 1.9811)"
+    assert interval(0.3413688752, 0.3413688655, 0.3413688849) == "0.34137"
+    assert interval(2.0, nan, nan) == interval(2.0, 2.0, 2.0) == "2"
 
 
 # Files.
@@ -94,7 +95,7 @@ TEXTS = st.text(st.characters(codec="utf-8", exclude_characters="\r\0"), min_siz
 def test_what_is_read_back_is_the_same_table(tmp_path_factory, rows):
     frame = DataFrame(rows, columns=["value", "count", "name"])
     path = tmp_path_factory.mktemp("csv") / "table.csv"
-    csvfiles.write_text(path, csvfiles.text(frame))
+    path.write_text(csvfiles.text(frame), "utf-8")
     assert_frame_equal(csvfiles.read(path), frame, check_exact=True, check_dtype=False)
 
 
@@ -102,8 +103,11 @@ def test_every_table_of_a_page_lies_beside_it_with_every_digit(folder):
     assert_frame_equal(csvfiles.read(folder / "sphere/friction.csv"), MEANS, check_exact=True)
     assert_frame_equal(csvfiles.read(folder / "sphere/rows.csv"), ROWS, check_exact=True)
     assert list(csvfiles.read(folder / "findings.csv")) == list(COLUMNS)
-    listed = json.loads((folder / "manifest.json").read_text())["tables"]
-    assert {folder / f"{name}.csv" for name in listed} == set(folder.rglob("*.csv"))
+    assert {
+        folder / name
+        for name in json.loads((folder / "manifest.json").read_text())["files"]
+        if name.endswith(".csv")
+    } == set(folder.rglob("*.csv"))
 
 
 def test_two_tables_of_one_name_are_refused_unless_they_are_one():
@@ -263,9 +267,7 @@ def test_figures_of_a_journal_have_the_width_of_its_column(folder, tmp_path, loo
 def test_a_changed_table_gives_another_picture(folder, tmp_path):
     (tmp_path / "sphere").mkdir()
     (tmp_path / "manifest.json").write_bytes((folder / "manifest.json").read_bytes())
-    csvfiles.write_text(
-        tmp_path / "sphere/friction.csv", csvfiles.text(MEANS.assign(friction_coefficient_mean=0.3))
-    )
+    (tmp_path / "sphere/friction.csv").write_text(csvfiles.text(MEANS.assign(friction_coefficient_mean=0.3)))
     drawn = draw_again(tmp_path)
     assert drawn[0] == tmp_path / "figures/sphere/friction.png"
     assert drawn[0].read_bytes() != (folder / "sphere/friction.png").read_bytes()

@@ -27,6 +27,7 @@ from compare.solving.parameter_grid import (
     tree,
 )
 from compare.solving.task import draws_of
+from compare.solving.words import basis
 from compare.statistics.finding import Claim
 from compare.statistics.jackknife import DrawSet, friction, judge, mean
 from mdr1d import MDR
@@ -221,7 +222,7 @@ def test_a_claim_is_measured_with_scatter_and_with_the_change_on_halving(answers
     claim = Claim("force", "The force in 1D is that in 3D", 1.0, 0.01, curves=("rough",), measure=ratio)
     found = judge(claim, answers)
     assert (found.value, found.verdict, found.grid, found.draws) == (1.0, "holds", 0.0, 2)
-    assert found.basis == "4 profiles, 2 surfaces, grid (change on halving)"
+    assert basis(found) == "4 profiles, 2 surfaces, grid (change on halving)"
     halved = answers.copy()
     halved["rough/BEM"]["normal_force"].loc[{"grid": "coarse"}] *= 1.25
     assert judge(claim, halved).grid == pytest.approx(0.2)

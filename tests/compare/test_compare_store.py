@@ -20,7 +20,7 @@ from hypothesis.extra.numpy import array_shapes, arrays
 from strategies import examples
 
 from compare.models.exact import Exact
-from compare.solving import digest, folders
+from compare.solving import folders
 from compare.solving.digest import canonical, key
 from compare.solving.folders import LOCK, clear, hold, make, write
 from compare.solving.outcome import NUMBERS, Outcome, Row

@@ -96,7 +96,7 @@ def test_figures_are_functions_of_their_tables_as_files_have_them(page, tmp_path
             continue  # drawn with all figures, from stored tables
         tables = {}
         for table, frame in plot.tables.items():
-            csvfiles.write_text(tmp_path / f"{table}.csv", csvfiles.text(frame))
+            (tmp_path / f"{table}.csv").write_text(csvfiles.text(frame), "utf-8")
             tables[table] = csvfiles.read(tmp_path / f"{table}.csv")
         with style.applied():
             assert plot.draw(tables, **plot.options).axes

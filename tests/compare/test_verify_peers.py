@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import compare
-from compare.statistics.finding import VERDICTS
+from compare.solving.words import VERDICTS
 from compare.studies.verify.study import Verify
 
 PAGE = Path(__file__).parents[2] / "docs" / "howto" / "verify.md"

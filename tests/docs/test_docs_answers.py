@@ -12,7 +12,7 @@ import trust
 import verify
 
 from bem3d import BEM
-from compare.solving.amounts import interval
+from compare.solving.words import interval
 from mdr1d import MDR
 from scene import (
     CrossedWaves,

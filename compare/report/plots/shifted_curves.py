@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from numpy.polynomial import Chebyshev
 from pandas import DataFrame, concat
 
-from ...solving.amounts import interval
+from ...solving.words import interval
 from ...statistics import eq23
 from ...statistics.collapse import ENDS, Alignment, Collapse
 from ...statistics.finding import FAILS, Claim, Finding

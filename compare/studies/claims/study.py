@@ -15,18 +15,19 @@ from pandas import DataFrame
 from scene.printable import printable
 from scene.reading import InvalidInput, text_of
 
+from ...library.case import share_of
 from ...library.describe import described, slug
 from ...library.lookup import located
 from ...library.ready import ready, studies
 from ...models.table import ModelLike, listed
 from ...report.page import Block, Findings, Section, Table, Text
-from ...solving.amounts import share_of
 from ...solving.outcome import Outcome
 from ...solving.parameter_grid import ParameterGrid, refuse
 from ...solving.suggest import known
 from ...solving.task import Task
+from ...solving.words import VERDICTS, sentences
 from ...statistics import eq23
-from ...statistics.finding import REPORTED, VERDICTS, Finding, claimed, sentences
+from ...statistics.finding import REPORTED, Finding, claimed
 from ...statistics.multilevel import GROWTH
 from ..study import Judgement, Study
 from .catalogue import SIZES, STUDIES, ReadyStudy

@@ -16,6 +16,7 @@ from ...library.case import Case, doubted
 from ...library.lookup import SceneLike, case_of
 from ...report.page import Text
 from ...report.views import View, view
+from ...solving import words
 from ...solving.outcome import Outcome
 from ...solving.parameter_grid import work_of
 from ...solving.task import Batch, SceneTask, Task
@@ -134,7 +135,7 @@ class Drawing(Study):
     def judge(self, answers: xarray.DataTree) -> Judgement:
         findings = self._findings(answers)
         said = [Text(f"No row of springs: {self.refused}.")] if self.refused else []
-        answer = [f"{each.claim.sentence}: {each.found()}." for each in findings]
+        answer = [f"{each.claim.sentence}: {words.found(each)}." for each in findings]
         surface, row = _parts(answers)
         shown = [] if surface is None else [plots.plot(self.case.scene, surface, row)]
         if PROGRAM in answers:

@@ -15,12 +15,12 @@ from scene.reading import InvalidInput
 
 from ...report.page import Block, Findings, Table, Text
 from ...report.plots import shifted_curves
-from ...solving.amounts import capital
 from ...solving.outcome import Outcome
 from ...solving.task import Batch, Task
+from ...solving.words import capital, sentences
 from ...statistics import eq23
 from ...statistics.collapse import Alignment, Collapse, collapse
-from ...statistics.finding import claimed, sentences
+from ...statistics.finding import claimed
 from ...statistics.measuredcurves import check, curves_of, in_order
 from ...statistics.pooling import WARMTH, Pooled, pooled
 from ...statistics.shiftlaws import ShiftLaw, law_of

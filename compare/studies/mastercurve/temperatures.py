@@ -10,8 +10,9 @@ from pydantic import TypeAdapter, ValidationError
 from scene.reading import InvalidInput, mistakes
 from scene.temperature import WLF
 
+from ...solving import words
 from ...statistics import eq23
-from ...statistics.finding import EXACT, FAILS, Claim, Finding, sentences
+from ...statistics.finding import EXACT, FAILS, Claim, Finding
 from ...statistics.measuredcurves import isotherms
 from ...statistics.pooling import Pooled
 from ...statistics.shiftlaws import NONE, ShiftLaw
@@ -134,10 +135,10 @@ def unshifted(shifts: TemperatureShifts | None, findings: Sequence[Finding]) -> 
 def sentences_of(shifts: TemperatureShifts, law: ShiftLaw | None, findings: Sequence[Finding]) -> list[str]:
     """Whether the temperatures come together, and by which law of their shifts."""
     named = {each.claim.id: each for each in findings}
-    told = sentences([named[TOGETHER.id]])
+    told = words.sentences([named[TOGETHER.id]])
     if law is None or unshifted(shifts, findings):
         return told
-    c1, c2, energy = (named[claim.id].found(3) for claim in (C1, C2, ENERGY))
+    c1, c2, energy = (words.found(named[claim.id], 3) for claim in (C1, C2, ENERGY))
     at = f"at {law.reference:.5g} K"
     if not law.reason:
         told.append(f"Their shifts follow WLF with c1 = {c1} and c2 = {c2} {at}.")

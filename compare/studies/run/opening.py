@@ -5,7 +5,7 @@ from math import isfinite
 from ...library.describe import conditions
 from ...models.table import Model
 from ...report.plots.prefixes import prefixed
-from ...solving.amounts import capital, interval, off, share, with_unit
+from ...solving.words import capital, interval, off, share, with_unit
 from ...statistics.finding import Finding
 from ...statistics.multilevel import WORDS
 from ...trustmap.verdict import CALLED, MULTIPLY, NONE, SMALL, USE, Advice, Correction

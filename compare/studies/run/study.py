@@ -14,15 +14,14 @@ from pandas import DataFrame
 from scene import Refused, Scene, notes
 from scene.result import labelled, provenance
 
-from ...library.case import Case, NotCompared, doubted
+from ...library.case import Case, NotCompared, doubted, share_of
 from ...library.describe import conditions, described, folders
 from ...library.lookup import SceneLike, named_cases
 from ...models.table import ModelLike, Models, listed
 from ...report.page import Block, Findings, Plot, Section, Table, Text
 from ...report.plots import contact_maps, shifted_curves
 from ...report.views import view
-from ...solving import parameter_grid
-from ...solving.amounts import share_of
+from ...solving import parameter_grid, words
 from ...solving.continuation import by_contact
 from ...solving.outcome import Outcome
 from ...solving.parameter_grid import ParameterGrid
@@ -243,7 +242,7 @@ class Run(Study):
     def judge(self, answers: xarray.DataTree) -> Judgement:
         cases = [self._judged(name, answers) for name in self.cases]
         findings = [each for case in cases for each in case.findings]
-        claims = finding.sentences(finding.claimed(findings))
+        claims = words.sentences(finding.claimed(findings))
         answer = [*claims, *eq23.answers(findings), *self._unreached(answers)]
         blocks: list[Block] = [
             Section(case.case.title or case.name, _blocks(case, answers[case.folder], self.trusts[case.name]))
@@ -328,8 +327,8 @@ def summary(cases: Sequence[CaseFindings]) -> DataFrame:
 def _cell(found: Sequence[Finding]) -> str:
     """One number with its verdict, or how often each verdict stands."""
     if len(found) == 1:
-        return f"{found[0].found(3)}, {found[0].verdict}"
-    counts = {name: sum(each.verdict == name for each in found) for name in finding.VERDICTS}
+        return f"{words.found(found[0], 3)}, {found[0].verdict}"
+    counts = {name: sum(each.verdict == name for each in found) for name in words.VERDICTS}
     return ", ".join(f"{name} {count} of {len(found)}" for name, count in counts.items() if count)
 
 

@@ -16,17 +16,17 @@ from scene.printable import brief
 from scene.reading import InvalidInput, whole
 from scene.result import provenance
 
-from ...library.case import Case, doubted
+from ...library.case import Case, doubted, share_of
 from ...library.lookup import SceneLike, case_of
 from ...models.table import ModelLike, Models
 from ...report.page import Table
 from ...report.plots.rendering import finished
-from ...solving.amounts import share_of
 from ...solving.control_variates import VARIATES
 from ...solving.cost import MOST_DRAWS
 from ...solving.parameter_grid import COARSE, FINE, LEVELS, ParameterGrid, on_two_grids
 from ...solving.vocabulary import attributes
-from ...statistics.finding import Claim, Finding, said_of, sentences
+from ...solving.words import sentences
+from ...statistics.finding import Claim, Finding, said_of
 from ...statistics.jackknife import DrawSet, mean, measured
 from ...statistics.means import interval
 from ...statistics.multilevel import GROWTH, MEANS, WORDS, in_strata, needed, pooled, unreached, wanted

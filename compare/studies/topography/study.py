@@ -21,7 +21,8 @@ from ...report.page import Block, Findings, Text
 from ...solving.outcome import Outcome
 from ...solving.task import Batch, Task
 from ...solving.vocabulary import attributes
-from ...statistics.finding import EXACT, Claim, Finding, sentences
+from ...solving.words import sentences
+from ...statistics.finding import EXACT, Claim, Finding
 from ...statistics.spectra import Description, describe
 from ..study import Judgement, Study
 from . import figure as plots

@@ -7,7 +7,7 @@ from typing import Any
 
 import xarray
 
-from ...solving.amounts import seconds, share
+from ...solving.words import seconds, share
 from ...statistics.convergence import MeasuredLadder, ladders
 from ...statistics.finding import HALVED, UNKNOWN, Claim, Finding
 from ...statistics.sampling import Bias, Effort, SamplingPlan, cheapest

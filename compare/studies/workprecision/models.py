@@ -8,7 +8,7 @@ import xarray
 from pandas import DataFrame
 
 from ...report.page import Plot, Table
-from ...solving.amounts import share
+from ...solving.words import share
 from ...statistics.finding import HALVED, Claim, Finding
 from . import regimes
 from .answers import Regime, answers_table, cells, regimes_of

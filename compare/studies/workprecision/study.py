@@ -14,7 +14,8 @@ from ...models.table import Model, ModelLike, listed, named
 from ...report.page import Block, Findings, Section, Text
 from ...solving.outcome import Outcome
 from ...solving.task import Batch, Task
-from ...statistics.finding import Finding, sentences
+from ...solving.words import sentences
+from ...statistics.finding import Finding
 from ..study import Judgement, Study
 from . import models
 from .convergence import Convergence

@@ -21,9 +21,9 @@ def collect(folders):
     entries = {entry["name"]: entry for entry in json.loads(path.read_text())["plots"]} if path.exists() else {}
     found = {}
     for folder in folders:
-        for each in manifest.folders(folder):
-            for plot in each.manifest.plots:
-                place = each.path / plot.name[: plot.name.rfind("/") + 1]
+        for path_of, left in manifest.folders(folder):
+            for plot in left.plots:
+                place = path_of / plot.name[: plot.name.rfind("/") + 1]
                 files = [place / f"{name}.csv" for name in plot.tables]
                 found.setdefault((plot.module, plot.function), []).append((sum(map(_size, files)), files, plot))
     for (module, function), plots in found.items():

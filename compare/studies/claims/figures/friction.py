@@ -14,7 +14,7 @@ from ....report.page import Tables
 from ....report.plots import shades, style
 from ....report.plots.curves import intervals
 from ....report.plots.lettering import clear, lettered, literal
-from ....solving.amounts import interval
+from ....solving.words import interval
 from ....statistics.collapse import ENDS
 
 SOLVER = {"1D": "MDR", "3D": "BEM"}

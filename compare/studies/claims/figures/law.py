@@ -13,7 +13,7 @@ from ....report.page import Plot, Tables
 from ....report.plots import shades, style
 from ....report.plots.curves import intervals
 from ....report.plots.lettering import clear, lettered, literal
-from ....solving.amounts import number
+from ....solving.words import number
 from ....statistics.finding import Finding
 from ....statistics.means import Interval
 from ..claims_law import PLOT, SHALLOW, LawPoints

@@ -1,0 +1,290 @@
+"""Words: numbers as people read them, intervals, times and errors, and the verdicts on claims.
+
+It imports neither what solves nor what judges, so that both may word what they have to say.
+"""
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import replace
+from math import floor, inf, isfinite, isnan, log10
+from numbers import Integral, Real
+from operator import attrgetter
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from ..statistics.finding import Claim, Finding
+
+# Numbers from the one to below the other are written without a power of ten.
+LEAST_PLAIN, MOST_PLAIN = 1e-3, 1e5
+DIGITS = 4
+MOST_DIGITS = 5  # of a number with its interval, whatever the interval
+# An error this small over its value is one of rounding.
+ROUNDING = 1e-9
+SUPERSCRIPT = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
+UNKNOWN = "–"
+HOUR = 3600.0
+# Units of times with the time from which on the next one is taken, and units of moduli.
+TIMES = (0.995e-4, 1e-6, "µs"), (0.0995, 1e-3, "ms"), (2 * HOUR, 1.0, "s"), (inf, HOUR, "h")
+MODULI = (1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa"), (1.0, "Pa")
+VERDICTS = ("holds", "fails", "undecided", "reported")
+HOLDS, FAILS, UNDECIDED, REPORTED = VERDICTS
+# Models of which a number is said alone.
+ALONE = ("1D", "1D corrected", "3D")
+# What draws of a solver, or of a model, are called.
+DRAWS = {"MDR": "profiles", "BEM": "surfaces", "1D": "profiles", "1D corrected": "profiles", "3D": "surfaces"}
+# Findings on a claim of one model that a sentence has one by one.
+FEW = 4
+# Different reasons of undecided findings that a sentence has whole.
+FEW_REASONS = 2
+
+
+def shown(value: Any, digits: int = DIGITS) -> str:
+    """Any value as text: yes or no, integers whole, other numbers to some digits, a dash for what is not known."""
+    if type(value).__name__ in ("bool", "bool_"):
+        return "yes" if value else "no"
+    if isinstance(value, Integral):
+        return _signed(str(int(value)))
+    if isinstance(value, Real):
+        return number(float(value), digits)
+    return UNKNOWN if value is None else str(value)
+
+
+def number(value: float, digits: int = DIGITS) -> str:
+    """A number to some significant digits, without zeros at its end."""
+    if not isfinite(value):
+        return UNKNOWN if isnan(value) else "∞" if value > 0 else "−∞"
+    value = float(f"{value:.{digits - 1}e}")  # 9.9999 is 10
+    power = _power(value)
+    scaled = value / 10.0**power
+    decimals = digits - 1 - floor(log10(abs(scaled))) if scaled else 0
+    text = f"{scaled:.{max(decimals, 0)}f}"
+    return _signed(text.rstrip("0").rstrip(".") if "." in text else text) + _times(power)
+
+
+def interval(value: float, low: float, high: float, digits: int = DIGITS) -> str:
+    """A number with the ends of its interval, to two digits of half of it, five in all.
+
+    The number alone where there is no interval, or where it is too narrow for these digits.
+    """
+    half = (high - low) / 2
+    if not _wide(value, half):
+        return number(value, digits)
+    largest = max(map(abs, (value, low, high)))
+    power = _power(largest)
+    decimals = min(_decimals(half, power), MOST_DIGITS - 1 - floor(log10(largest / 10.0**power)))
+    middle, below, above = _scaled(power, decimals, value, low, high)
+    return number(value, MOST_DIGITS) if below == above else f"{middle} ({below} to {above}){_times(power)}"
+
+
+def with_unit(text: str, unit: str) -> str:
+    """A number as text with its unit, of which a ratio has none."""
+    return text if unit in ("", "1") else f"{text} {unit}"
+
+
+def plus_minus(value: float, error: float, digits: int = DIGITS) -> str:
+    """value ± error, to two digits of the error; the number alone without one."""
+    if not _wide(value, error):
+        return number(value, digits)
+    error = float(f"{error:.1e}")  # 9.96 is 10
+    power = _power(max(abs(value), error))
+    both = " ± ".join(_scaled(power, _decimals(error, power), value, error))
+    return f"({both}){_times(power)}" if power else both
+
+
+def _wide(value, error):
+    """Whether a number is known and its error is more than one of rounding."""
+    return isfinite(value) and ROUNDING * abs(value) < error < inf
+
+
+def _scaled(power, decimals, *values):
+    return [_signed(f"{each / 10.0**power:.{decimals}f}") for each in values]
+
+
+def _power(value):
+    """Power of ten that is written behind a number; 0 behind one of ordinary size."""
+    return 0 if value == 0 or LEAST_PLAIN <= abs(value) < MOST_PLAIN else floor(log10(abs(value)))
+
+
+def _decimals(error, power):
+    return max(0, 1 - floor(log10(error / 10.0**power)))
+
+
+def _times(power):
+    return f" × 10{str(power).translate(SUPERSCRIPT)}" if power else ""
+
+
+def _signed(text):
+    """A minus that is as wide as a plus; none before zero."""
+    return text.replace("-", "−") if text.strip("-0.") else text.lstrip("-")
+
+
+def seconds(value: float) -> str:
+    """A time in two digits with a unit."""
+    if not isfinite(value):
+        return "an unknown time"
+    one, unit = next((one, unit) for most, one, unit in TIMES if value < most)
+    return f"{value / one:.{'2g' if value < 99.5 * one else '0f'}} {unit}"
+
+
+def duration(seconds: float | None) -> str:
+    """Seconds as a person says them; a question mark where they are not known."""
+    if seconds is None:
+        return "?"
+    minutes, left = divmod(round(seconds), 60)
+    if not minutes:
+        return f"{left} s"
+    return f"{minutes} min {left:02d} s" if minutes < 60 else f"{minutes // 60} h {minutes % 60:02d} min"
+
+
+def pascals(value: float) -> str:
+    """A modulus in three digits, with the prefix in which it reads well."""
+    one, unit = next((each for each in MODULI if value >= 0.9995 * each[0]), MODULI[-1])
+    return f"{value / one:.3g} {unit}"
+
+
+def share(value: float) -> str:
+    """A relative error, per cent while they are readable."""
+    if not isfinite(value):
+        return "an unknown error"
+    if value >= 0.995:
+        return f"{100 * value:.0f} %"
+    return f"{100 * value:.2g} %" if value >= 0.99e-4 else f"{value:.0e}".replace("e-0", "e-")
+
+
+def off(ratio: float) -> str:
+    """A number over what it should be, in words: 39 % too low, 2.6 times as high."""
+    if not isfinite(ratio):
+        return "off by an unknown share"
+    if ratio >= 2:
+        return f"{ratio:.3g} times as high"
+    apart = 100 * (ratio - 1)
+    return f"{abs(apart):.2g} % too {'high' if apart > 0 else 'low'}"
+
+
+def capital(words: str) -> str:
+    """Words with a capital at their beginning."""
+    return words[:1].upper() + words[1:]
+
+
+def amount(claim: "Claim", text: str) -> str:
+    """A number of a claim with its unit; text : the number in words, already to scale"""
+    return with_unit(text, "%" if claim.percent else claim.unit)
+
+
+def tested(claim: "Claim") -> str:
+    """Number that a claim is tested against, with tolerance and unit; empty without a claim."""
+    if not isfinite(claim.tolerance):
+        return ""
+    expected, tolerance = (number(claim.scale * each) for each in (claim.expected, claim.tolerance))
+    if not isfinite(claim.expected):
+        return amount(claim, f"at most {tolerance}")
+    return amount(claim, f"{expected} ± {tolerance}" if claim.tolerance else expected)
+
+
+def found(finding: "Finding", figures: int = DIGITS) -> str:
+    """Value with its interval and unit; figures : significant digits of a value without interval"""
+    if not isfinite(finding.value):
+        return "not known"
+    value, low, high = (finding.claim.scale * each for each in (finding.value, *finding.interval))
+    return amount(finding.claim, interval(value, low, high, figures))
+
+
+def crossed(finding: "Finding") -> str:
+    """Where an interval leaves the tolerance; empty where it does not."""
+    claim, (low, high) = finding.claim, finding.interval
+    ends = (claim.expected - claim.tolerance, claim.expected + claim.tolerance)
+    inside = [amount(claim, number(claim.scale * each)) for each in ends if low < each < high]
+    return f"its interval reaches across {' and '.join(inside)}" if inside else ""
+
+
+def basis(finding: "Finding") -> str:
+    """Parts of an interval: numbers of profiles and surfaces, and error of the grid."""
+    if not isfinite(finding.grid):
+        return ""
+    counts = finding.drawn or ({finding.dimension: finding.draws} if finding.draws else {})
+    drawn = "".join(f"{count} {DRAWS.get(name, f'draws of {name}')}, " for name, count in counts.items())
+    return f"{drawn}grid{f' {number(finding.grid, 2)}' if finding.grid else ''} ({finding.grid_method})"
+
+
+def sentences(findings: Sequence["Finding"]) -> list[str]:
+    """A line for each claim, from all of its findings: the verdict, the claim, the numbers, and why it is open.
+
+    Few findings on one model stand there one by one, many by the number of places and the range of values.
+    """
+    cases = {each.where.partition(", ")[0] for each in findings}
+    if len(cases) == 1:  # of the only case the place is said alone
+        findings = [replace(each, where=each.where.partition(", ")[2]) for each in findings]
+    return [_sentence(*each) for each in _grouped(findings, "claim.sentence").items()]
+
+
+def _grouped(findings, name) -> dict[str, list]:
+    """Findings by an attribute, in their order."""
+    groups: dict[str, list] = {}
+    for each in findings:
+        groups.setdefault(attrgetter(name)(each), []).append(each)
+    return groups
+
+
+def _sentence(claimed, findings) -> str:
+    models = [*_grouped(findings, "dimension").values()]
+    numbers = "; ".join(_numbers(here, len(models) > 1 or here[0].dimension in ALONE) for here in models)
+    against = {tested(each.claim) for each in findings} - {""}
+    last = f", tested against {against.pop()}" if len(against) == 1 else ""
+    return f"{_verdicts(models)}{claimed}: {numbers}{last}.{_open(findings)}"
+
+
+def _open(findings) -> str:
+    """Reasons of the undecided findings and what would decide them; of many different ones the reasons alone."""
+    undecided, more = [each for each in findings if each.verdict == UNDECIDED], ""
+    reasons = dict.fromkeys(each.why for each in undecided)
+    if len(reasons) > FEW_REASONS:
+        reasons = dict.fromkeys(each.undecidable or crossed(each) for each in undecided)
+        more = " The table of findings says what would decide each."
+    return f" Undecided: {'. Also: '.join(reasons)}.{more}" if any(reasons) else ""
+
+
+def _verdicts(models) -> str:
+    """Verdicts on a claim, with the models where these differ and a colon; nothing of a number without a claim."""
+    stated = {here[0].dimension: _verdict(here) for here in models}
+    words, *others = dict.fromkeys(stated.values())
+    if others:
+        words = ", ".join(f"{verdict} in {model}" for model, verdict in stated.items())
+    return "" if words == REPORTED else f"{capital(words)}: "
+
+
+def _verdict(findings) -> str:
+    """Verdict of all, or how often each stands."""
+    counts = Counter(each.verdict for each in findings)
+    if len(counts) == 1:
+        return findings[0].verdict
+    stated = ", ".join(f"{name} in {counts[name]}" for name in VERDICTS if counts[name])
+    return f"{stated} of {len(findings)} places"
+
+
+def _numbers(findings, named) -> str:
+    """Numbers of a model on a claim: each with its place, or their range and how many are known."""
+    claim, count = findings[0].claim, len(findings)
+    model = f"in {findings[0].dimension} " if named else ""
+    places = "both places" if count == 2 else f"all {count} places"
+    if count <= FEW:
+        mixed = len({each.verdict for each in findings}) > 1
+        if len({found(each, 3) for each in findings}) == 1 < count:
+            return f"{model}{found(findings[0], 3)} in {places}"
+        *first, last = (_placed(each, mixed) for each in findings)
+        return model + (f"{', '.join(first)} and {last}" if first else last)
+    known = [claim.scale * each.value for each in findings if isfinite(each.value)]
+    if not known:
+        return f"{model}not known in any of {count} places"
+    if len(known) < count:
+        places = f"{len(known)} of {count} places"
+    reach = " to ".join(dict.fromkeys(number(end(known), 3) for end in (min, max)))
+    halves = ((each.interval[1] - each.interval[0]) / 2 for each in findings)
+    widest = max((half for half in halves if half > 0), default=0.0)
+    about = f" (±{amount(claim, number(claim.scale * widest, 2))} at most)" if 0 < widest < inf else ""
+    return f"{model}{amount(claim, reach)} in {places}{about}"
+
+
+def _placed(finding, mixed) -> str:
+    at = "at" if finding.where[:1].isdigit() or "=" in finding.where else "for"
+    place = f" {at} {finding.where}" if finding.where else ""
+    return f"{found(finding, 3)}{place}{f' ({finding.verdict})' if mixed else ''}"
