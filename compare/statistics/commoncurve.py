@@ -9,7 +9,7 @@ from itertools import pairwise
 
 import numpy as np
 from numpy.polynomial import chebyshev
-from scipy.optimize import least_squares
+from scipy.optimize import least_squares, root
 
 from .frictioncurves import Curve
 
@@ -20,7 +20,9 @@ _LEAST_SINGULAR = 1e-12
 # Increments closer to a bound than this share of the range between the bounds count as at it.
 _CLEAR = 1e-3
 # Steps of Gauss-Newton at most, and the square of the change at which it ends, over the sum of squares.
-_STEPS, _SETTLED = 20, 1e-12
+_STEPS, _SETTLED = 40, 1e-22
+# By how much rounding may raise a sum of squares, relative: every processor settles on the same numbers.
+_ROUNDING = 1e-12
 
 
 @dataclass(frozen=True)
@@ -152,7 +154,7 @@ def near(fit: Projected, guess: np.ndarray) -> np.ndarray:
     for _ in range(_STEPS):
         residuals, jacobian = fit.residuals(at), fit.jacobian(at)
         cost = residuals @ residuals
-        if not cost <= least or np.any((at <= lower) | (at >= upper)):
+        if not cost <= least * (1 + _ROUNDING) or np.any((at <= lower) | (at >= upper)):
             break
         least = cost
         step = np.linalg.lstsq(jacobian, -residuals, rcond=_LEAST_SINGULAR)[0]
@@ -161,9 +163,21 @@ def near(fit: Projected, guess: np.ndarray) -> np.ndarray:
         if gain @ gain <= _SETTLED * (cost + _LEAST_SINGULAR**2):
             return at
     start = within(guess, lower, upper)
-    return least_squares(
-        fit.residuals, start, fit.jacobian, bounds=(lower, upper), xtol=1e-14, ftol=1e-14, gtol=1e-14
-    ).x
+    found = least_squares(fit.residuals, start, fit.jacobian, bounds=(lower, upper), method="dogbox").x
+    free = (lower < found) & (found < upper)
+
+    def moved(values):
+        at = found.copy()
+        at[free] = values
+        return at
+
+    def gradient(values):
+        at = moved(values)
+        return (fit.jacobian(at).T @ fit.residuals(at))[free]
+
+    # About the least of them squares differ by less than rounding; their gradient does not.
+    at = moved(root(gradient, found[free], tol=1e-13).x) if free.any() else found
+    return at if np.all((lower <= at) & (at <= upper)) else found
 
 
 def within(increments: np.ndarray, lower: np.ndarray, upper: np.ndarray) -> np.ndarray:

@@ -31,7 +31,7 @@ CLOSE = 1e-9  # least change that counts, over the size of a number; another pro
 STUDIES = "collapse", "solids", "hurst", "parameters", "regime", "depth"
 # Surfaces and profiles of the scenes of a run, in place of an interval.
 FIXED = {'interval = "5%"': "surfaces = 3\nprofiles = 12"}
-# Share of the normal force of which a friction is rounding.
+# Share of the normal force of which a friction is rounding, and a ratio less one.
 NOTHING = 1e-6
 # Measures that count work or tell the residual of an iteration.
 EFFORT = {"rounds", "transform_pairs", "time_steps", "heating_solves"}
@@ -39,11 +39,12 @@ EFFORT |= {f"tangential_{name}" for name in ("applications", "residual", "rounds
 
 
 def findings(command: Callable, **options) -> pandas.DataFrame:
-    """Findings of a command in an empty folder, compared with the larger of tolerance and half-width."""
+    """Findings of a command in an empty folder, compared with the largest of tolerance, half-width and NOTHING."""
     with tempfile.TemporaryDirectory() as folder:
         found = command(output=folder, report=False, yes=True, **options).table
     half = (found["high"] - found["low"]) / 2
     found["scale"] = np.fmax(found["tolerance"], half.where(np.isfinite(half)))
+    found["scale"] = np.fmax(found["scale"], np.where(found["unit"] == "1", NOTHING, np.nan))
     return found.rename(columns={"dimension": "model"})[COLUMNS]
 
 
@@ -95,13 +96,15 @@ def numbers_of(result) -> Iterator[tuple[str, tuple[float, float]]]:
     """Numbers of a result by name, each with its scale: forces, depth, measures, and one number of each field.
 
     That of a field is its mean under a weight that grows from 1 to 2 along it; its scale, the root mean square.
+    A pressure far above that of the roughness says only that there is hardly any. An error is compared with 1.
     """
     forces = np.append(result.fields.get("normal_force", ()), result.normal_force)
     rounding = NOTHING * float(np.nanmax(np.abs(forces)))
     numbers = {name: getattr(result, name) for name in ("normal_force", "depth", "friction_force")}
     for name, value in (numbers | dict(result.measures)).items():
-        if name not in EFFORT:
-            yield name, (value, rounding if name.startswith("friction_") else nan)
+        if name not in EFFORT and not (name == "pressure_ratio" and value > 1 / NOTHING):
+            scale = 1.0 if name == "friction_error" else rounding if "friction" in name else nan
+            yield name, (value, scale)
     for name, field in result.fields.items():
         values = np.nan_to_num(np.asarray(field, float).ravel())
         weighted = float(values @ np.linspace(1, 2, values.size)) / values.size

@@ -65,6 +65,10 @@ EQUIVALENT = {
         "abs(float(METRE.scale(written)[0]) - metre) > 1e-9 * metre",
         "(abs(float(METRE.scale(written)[0]) - metre) >= 1e-09 * metre)",
     ): "the number is one of rounding",
+    ("compare/statistics/eq23.py", "high < 0", "(high <= 0)"): "no interval ends at nil",
+    ("mdr1d/maxwell.py", "slope < 0.0", "(slope <= 0.0)"): "above a level profile the surface was left before",
+    ("compare/statistics/powerlaw.py", "range(count)", "(range(count - 1))"): "the last ring begins no band",
+    ("scene/mistakes.py", "range(_ROUNDS)", "(range(_ROUNDS - 1))"): "no tables are nine deep",
 }
 
 
