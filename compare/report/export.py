@@ -123,7 +123,7 @@ def _surfaces(folder) -> dict[str, bytes]:
     with hold([folder]):
         found = {f"{name}{vtk.ENDING}": vtk.content(each) for name, each in _solved(folder)}
     if not any(found.values()):
-        raise InvalidInput(f"{folder}: holds no surface that vtk could show: draw has one, and run its fields")
+        raise InvalidInput(f"{folder}: has no surface for vtk: crosscheck draw and crosscheck run write them")
     return {name: content for name, content in found.items() if content}
 
 

@@ -79,9 +79,9 @@ def begin(folder: Path, study: "Study", files: Iterable[str]) -> None:
     _write(folder, {"finished": False, "command": study.command, "plots": [], "files": listed})
     places = set()
     for name in earlier:
-        with suppress(InvalidInput):  # of one that leads out of the folder by now
+        with suppress(InvalidInput, NotADirectoryError):  # of one that by now leads out of the folder, or nowhere
             path = inside(folder, name)
-            if path.suffix in OURS:
+            if path.suffix in OURS and not path.is_dir():
                 path.unlink(missing_ok=True)
                 places.add(path.parent)
     for place in places:

@@ -17,7 +17,7 @@ PLANE = ("y", "x")
 def refuse() -> None:
     """Raise Refused where meshio is not installed."""
     if find_spec("meshio") is None:
-        raise Refused(f"to = vtk: these files are written by meshio, which is not installed: {EXTRA}")
+        raise Refused(f"format = vtk: these files are written by meshio, which is not installed: {EXTRA}")
 
 
 def content(dataset: xarray.Dataset) -> bytes:

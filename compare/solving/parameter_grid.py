@@ -125,8 +125,8 @@ class ParameterGrid:
         costs = (Cost(count, count * work) for count, work in asked)
         fine = (each for grids in self.grids.values() for name, each in grids.items() if name == FINE)
         planes = (each.points**2 for each in fine if self.keeps_fields and isinstance(each, BEM))
-        # Pressure and gap, in the store and in the file of results.
-        return sum(costs, Cost(kept=sum(32 * points for points in planes)))
+        # Heights, pressure and gap, in the store and in the file of results.
+        return sum(costs, Cost(kept=sum(48 * points for points in planes)))
 
     @property
     def random(self) -> bool:
@@ -184,9 +184,9 @@ class ParameterGrid:
         return tasks_of({"": self})
 
     def datasets(self, outcomes: Mapping[Task, Outcome]) -> dict[str, xarray.Dataset]:
-        """Datasets by the name of the solver, with the dimensions grid, speed, load or depth, and draw.
+        """Datasets by the name of the solver, with the dimensions grid, speed, load or depth, and seed.
 
-        A smooth body has no draw. `status` tells failed from not asked, `reason` why a solve failed. Where nothing
+        A smooth body has no seed. `status` tells failed from not asked, `reason` why a solve failed. Where nothing
         touches, the force is 0, and friction and contact are NaN.
         """
         rows: dict[str, list[Row]] = {name: [] for name in self.grids}

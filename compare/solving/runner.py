@@ -25,7 +25,7 @@ _LOG = logging.getLogger(__name__)
 
 
 class Progress:
-    """What a run tells of how far it is; this one says nothing."""
+    """Receiver of the progress of a run; this base class ignores it."""
 
     def said(self, line: str) -> None:
         """Remark for people: what a study takes, that a worker died, that there is none."""
@@ -47,7 +47,7 @@ class Progress:
         """Tell that nothing more is started; the solves under way are waited for."""
 
     def writing(self, count: int) -> AbstractContextManager[Callable[[str], Any]]:
-        """Draw so many figures; what is told of each by its name."""
+        """Context while `count` figures are drawn; gives a function that takes the name of each."""
         return nullcontext(str)
 
 
@@ -108,7 +108,7 @@ def sweep(
     tasks = list(dict.fromkeys(tasks))
     outcomes = store.stored(tasks)
     missing = sorted((task for task in tasks if task not in outcomes), key=lambda task: -task.work)
-    if other := store.by_other_code(missing):
+    if missing and (other := store.by_other_code(missing)):
         progress.said(f"{other} stored tasks were solved by other code: they are solved again")
     progress.planned(missing, len(outcomes))
     found, faults = dict[Task, Outcome](), dict[Task, str]()
@@ -202,6 +202,8 @@ def _solve(missing, store, workers, progress, interrupts) -> tuple[dict[Task, Ou
                 continue
             except Refused:
                 raise
+            except ImportError as error:  # of the answer itself one comes within it
+                raise Refused(f"a worker cannot be used: {error}") from error
             except Exception as error:
                 answer = Answer.of(error)
             keep(task, answer)

@@ -23,11 +23,14 @@ from .task import Task
 
 FILE = "answers.sqlite"
 TRACE = ".fault.txt"  # of how a task broke, behind its key
-MOST_BYTES, MOST_FIELDS = 2**36, 10**9  # of the file, of the fields of an answer
+MOST_BYTES, MOST_FIELD = 2**36, 10**9  # of the file, of a field
 KINDS = "iufb"  # of the numbers of fields
 ROWS = TypeAdapter(tuple[Row, ...])
-# Rows are JSON, fields a file of NumPy; the digest is that of all of an answer.
-TABLE = b"CREATE TABLE answers (key TEXT PRIMARY KEY, content TEXT, fields BLOB, digest TEXT) WITHOUT ROWID"
+# The content of an answer is JSON, with the digests of its fields; these are files of NumPy.
+TABLES = (
+    b"CREATE TABLE answers (key TEXT PRIMARY KEY, content TEXT, digest TEXT) WITHOUT ROWID",
+    b"CREATE TABLE fields (key TEXT, name TEXT, content BLOB, PRIMARY KEY (key, name)) WITHOUT ROWID",
+)
 DAMAGED = (0, sqlite3.SQLITE_ERROR, sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB)
 ERRORS = {sqlite3.SQLITE_FULL: errno.ENOSPC, sqlite3.SQLITE_READONLY: errno.EACCES}
 
@@ -36,7 +39,7 @@ class Store:
     """A folder with a file of outcomes, which one process at a time opens.
 
     An outcome that is damaged counts as absent and touches no other. A kill costs at most the outcome that was
-    being written. A file that is no such store, or damaged as a whole, is refused and left as it is.
+    being written. A file that is no such store, or damaged as a whole, is refused.
     """
 
     def __init__(self, folder: Path):
@@ -62,13 +65,15 @@ class Store:
 
         Raises OSError, which names the file; TypeError, ValueError for what no file can hold.
         """
-        fields = _packed(outcome.fields) if task.keeps_fields else b""
+        fields = {each: _packed(each, values) for each, values in outcome.fields.items() if task.keeps_fields}
         rows = [vars(row) | {"measures": {**row.measures}, "settings": {**row.settings}} for row in outcome.rows]
-        name, text = key(task), json.dumps({"label": task.label, "rows": rows, "fields": [*outcome.fields]})
-        row = name, text, fields, _covering(name, text.encode(), fields)
+        digests = {each: digest(content) for each, content in fields.items()} if task.keeps_fields else None
+        name, text = key(task), json.dumps({"label": task.label, "rows": rows, "fields": digests})
+        answer, arrays = (name, text, _covering(name, text.encode())), [(name, *each) for each in fields.items()]
         with self.writing(), self._named(), self._open:
             self._open.execute("BEGIN")
-            self._open.execute("REPLACE INTO answers VALUES (?, ?, ?, ?)", row)
+            self._open.executemany("REPLACE INTO fields VALUES (?, ?, ?)", arrays)
+            self._open.execute("REPLACE INTO answers VALUES (?, ?, ?)", answer)
 
     def __len__(self) -> int:
         """Number of outcomes, whatever code they are of."""
@@ -99,8 +104,9 @@ class Store:
             touch(self.path)
             connection = opened.enter_context(closing(connect(self.path, "rw")))
             connection.execute("PRAGMA locking_mode = EXCLUSIVE")  # else WAL needs memory that drives do not share
-            if not _has_table(connection):
-                connection.execute(TABLE.decode())
+            if not _has_tables(connection):
+                for each in TABLES:
+                    connection.execute(each.decode())
             connection.execute("PRAGMA journal_mode = DELETE")
             if connection.execute("PRAGMA quick_check(1)").fetchone() != (b"ok",):
                 raise sqlite3.DatabaseError("damaged")
@@ -125,13 +131,13 @@ class Store:
             try:
                 connection = opened.enter_context(closing(connect(self.path, "rw")))
                 connection.execute("PRAGMA locking_mode = EXCLUSIVE")
-                there = _has_table(connection)
+                there = _has_tables(connection)
             except sqlite3.OperationalError as error:
                 if code_of(error) == sqlite3.SQLITE_BUSY:
                     raise
                 # Nobody may write the folder, in which a killed run has left the second file.
                 connection = opened.enter_context(closing(connect(self.path, "ro&immutable=1")))
-                there = _has_table(connection)
+                there = _has_tables(connection)
             yield connection if there else None
 
     def _keys(self) -> set[bytes]:
@@ -155,36 +161,36 @@ class Store:
             if code == sqlite3.SQLITE_BUSY:
                 raise held_by_another(self.folder) from error
             if code in DAMAGED:
-                why = "is no file of solved contacts, or is damaged: move it away, or name another folder"
+                why = "is no file of solved contacts of this version, or is damaged: move it away"
                 raise InvalidInput(f"{brief(str(self.path))}: {why}") from error
             number = ERRORS.get(code, errno.EIO)
             reason = os.strerror(number) if code in ERRORS else str(error)
             raise OSError(number, reason, str(self.path)) from error
 
 
-def _has_table(connection: sqlite3.Connection) -> bool:
-    """Whether a file has the table; else it is empty. Raises sqlite3.DatabaseError of another."""
-    found = connection.execute("SELECT sql FROM sqlite_master WHERE sql NOT NULL").fetchall()
-    if found not in ([], [(TABLE,)]):
+def _has_tables(connection: sqlite3.Connection) -> bool:
+    """Whether a file has the tables; else it is empty. Raises sqlite3.DatabaseError of another."""
+    found = connection.execute("SELECT sql FROM sqlite_master WHERE sql NOT NULL ORDER BY name").fetchall()
+    if found not in ([], [(each,) for each in TABLES]):
         raise sqlite3.DatabaseError("its tables are others")
     return bool(found)
 
 
-def _covering(name: str, text: bytes, fields: bytes) -> str:
+def _covering(name: str, text: bytes) -> str:
     """Digest of an answer."""
-    return digest(b"%b %b %b" % (name.encode(), text, fields))
+    return digest(b"%b %b" % (name.encode(), text))
 
 
 def _outcome(task: Task, connection: sqlite3.Connection) -> Outcome | None:
     """The stored outcome of a task; None where it is absent, damaged or forged, or lacks fields that are kept."""
     name = key(task)
     try:
-        asked = connection.execute("SELECT content, fields, digest FROM answers WHERE key = ?", (name,))
-        text, packed, stated = asked.fetchone()
-        if stated.decode() != _covering(name, text, packed):
+        text, stated = connection.execute("SELECT content, digest FROM answers WHERE key = ?", (name,)).fetchone()
+        if stated.decode() != _covering(name, text):
             return None
         content = json.loads(text)
-        fields = _unpacked(packed, content["fields"]) if task.keeps_fields else {}
+        stated = content["fields"] if task.keeps_fields else {}
+        fields = {each: _field(connection, name, each, digest) for each, digest in stated.items()}
         outcome = Outcome(ROWS.validate_python(content["rows"]), fields)
         return outcome if task.fits(outcome) else None
     # What something else has written here raises nearly anything, and so does what is not there.
@@ -192,22 +198,24 @@ def _outcome(task: Task, connection: sqlite3.Connection) -> Outcome | None:
         return None
 
 
-def _packed(fields) -> bytes:
-    """Arrays as a file of NumPy. Raises TypeError, ValueError of those that are not stored."""
-    fields, packed = {name: np.asarray(values) for name, values in fields.items()}, io.BytesIO()
-    for name, values in fields.items():
-        if values.dtype.kind not in KINDS:
-            raise TypeError(f"{name} is of type {values.dtype}, which no file of results can hold")
-    if (size := sum(values.nbytes for values in fields.values())) > MOST_FIELDS - 10**6:
-        raise ValueError(f"{', '.join(fields)} takes {size:.3g} bytes, of which {MOST_FIELDS:.3g} can be stored")
-    np.savez(packed, *fields.values())
+def _packed(name: str, values: np.ndarray) -> bytes:
+    """An array as a file of NumPy. Raises TypeError, ValueError of one that is not stored."""
+    values, packed = np.asarray(values), io.BytesIO()
+    if values.dtype.kind not in KINDS:
+        raise TypeError(f"{name} is of type {values.dtype}, which no file of results can hold")
+    if values.nbytes > MOST_FIELD - 10**6:
+        raise ValueError(f"{name} takes {values.nbytes:.3g} bytes, of which {MOST_FIELD:.3g} can be stored")
+    np.save(packed, values, allow_pickle=False)
     return packed.getvalue()
 
 
-def _unpacked(packed: bytes, names: Iterable[str]) -> dict[str, np.ndarray]:
-    """Arrays of a file of NumPy by their names. Raises nearly anything of another file."""
-    with np.load(io.BytesIO(packed), allow_pickle=False) as found:
-        fields = dict(zip(names, found.values(), strict=True))
-    if any(values.dtype.kind not in KINDS for values in fields.values()):
-        raise ValueError("fields are numbers")
-    return fields
+def _field(connection: sqlite3.Connection, key: str, name: str, stated: str) -> np.ndarray:
+    """An array of an answer, whose digest is stated. Raises nearly anything where it is absent or another."""
+    asked = connection.execute("SELECT content FROM fields WHERE key = ? AND name = ?", (key, name))
+    (packed,) = asked.fetchone()
+    if digest(packed) != stated:
+        raise ValueError(f"{name} is damaged")
+    values = np.load(io.BytesIO(packed), allow_pickle=False)
+    if values.dtype.kind not in KINDS:
+        raise ValueError(f"{name} is no number")
+    return values

@@ -97,7 +97,7 @@ class Shown(Progress):
 
     @contextmanager
     def writing(self, count: int) -> Iterator[Callable[[str], None]]:
-        """Draw so many figures; what it gives is called with the name of each that is drawn."""
+        """Context while `count` figures are drawn; gives a function that takes the name of each."""
 
         def drawn(name: str) -> None:
             self.bar.update(self.row, advance=1, waits_for=f"{printable(name)} is drawn")
@@ -112,6 +112,7 @@ class Shown(Progress):
     def solving(self) -> Iterator["Shown"]:
         """Solve what is planned; the counts are said at the end."""
         began = self.clock()
+        self.planned([], 0)
         try:
             yield self
         finally:

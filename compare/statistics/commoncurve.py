@@ -177,7 +177,9 @@ def near(fit: Projected, guess: np.ndarray) -> np.ndarray:
 
     # About the least of them squares differ by less than rounding; their gradient does not.
     at = moved(root(gradient, found[free], tol=1e-13).x) if free.any() else found
-    return at if np.all((lower <= at) & (at <= upper)) else found
+    before, now = (np.sum(np.square(fit.residuals(each))) for each in (found, at))
+    better = now <= before * (1 + _ROUNDING) and np.all((lower <= at) & (at <= upper))
+    return at if better else found
 
 
 def within(increments: np.ndarray, lower: np.ndarray, upper: np.ndarray) -> np.ndarray:

@@ -205,8 +205,10 @@ def test_a_new_scene_takes_the_place_of_all_that_the_one_before_it_left_and_of_n
     assert written("three", tmp_path, report=False) == of("three") - {"three/picture.png"} | mine
     manifest = json.loads((tmp_path / "manifest.json").read_text())
     (tmp_path / "outside.csv").touch()
-    forged = manifest | {"files": [*manifest["files"], "inside/outside.csv", "notes.txt"]}
-    (tmp_path / "page").mkdir()
+    forged = manifest | {
+        "files": [*manifest["files"], "inside/outside.csv", "notes.txt", "a.csv", "notes.txt/b.csv"]
+    }
+    (tmp_path / "page/a.csv").mkdir(parents=True)
     (tmp_path / "page/inside").symlink_to(tmp_path)
     (tmp_path / "page/notes.txt").touch()
     (tmp_path / "page/manifest.json").write_text(json.dumps(forged))

@@ -326,7 +326,7 @@ def test_results_of_another_version_say_so_in_one_line(tmp_path, label, age):
             ask(tmp_path)
 
 
-KEYS = ["plots", "command", "inputs", "tables", "solved", "name"]
+KEYS = ["plots", "command", "inputs", "solved", "name"]
 JSON = st.recursive(
     st.none() | st.booleans() | st.floats(allow_nan=False) | st.text(max_size=3),
     lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.sampled_from(KEYS), inner),

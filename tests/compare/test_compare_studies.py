@@ -262,8 +262,8 @@ MANY_TASKS = ("solids", "hurst", "parameters", "regime")
 )
 def test_every_study_can_be_solved_by_both_and_solves_nothing_twice(name):
     study = ClaimStudy.of(name, "quick")
-    tasks = parameter_grid.tasks_of(study.grids())
-    assert len({(task.solver, task.scenes) for task in tasks}) == len(tasks)
-    assert {task.solver.name for task in tasks} - {each.name for each in THEORIES} == {"MDR", "BEM"}
+    contacts = parameter_grid.contacts_of(study.grids())
+    assert len({(each.solver, each.scenes) for each in contacts}) == len(contacts)
+    assert {each.solver.name for each in contacts} - {each.name for each in THEORIES} == {"MDR", "BEM"}
     grids = [each.grids[name] for each in study.grids().values() for name in ("MDR", "BEM")]
     assert all(each[FINE].points == 2 * each[COARSE].points for each in grids)

@@ -36,7 +36,7 @@ def collect(folders):
         for file in files:
             csvfiles.read(file).to_csv(HERE / name / file.name, index=False, na_rep="nan", float_format="%.5g")
         entries[f"{name}/plot"] = plot.model_dump() | {"name": f"{name}/plot"}
-    content = {"format": FORMAT, "command": "run", "inputs": {}, "solved": "", "tables": []}
+    content = {"format": FORMAT, "command": "run", "inputs": {}, "solved": ""}
     content["plots"] = list(entries.values())
     path.write_text(json.dumps(content, indent=1, ensure_ascii=False) + "\n")
 
