@@ -74,7 +74,7 @@ class Cluster(Workers):
             before, self.threads = self.threads, sum(self._asked(self.client.nthreads).values())
             self.looked = time.monotonic()
             if before and not self.threads:
-                self.say(f"no worker at {self.address}: waiting for one")
+                self.say(f"no worker at {self.address}: waiting for one, with this package installed")
         return self.threads + SPARE if self.threads else 0
 
     def renew(self) -> None:

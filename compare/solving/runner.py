@@ -202,8 +202,6 @@ def _solve(missing, store, workers, progress, interrupts) -> tuple[dict[Task, Ou
                 continue
             except Refused:
                 raise
-            except ImportError as error:  # of the answer itself one comes within it
-                raise Refused(f"a worker cannot be used: {error}") from error
             except Exception as error:
                 answer = Answer.of(error)
             keep(task, answer)

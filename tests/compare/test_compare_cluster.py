@@ -235,7 +235,7 @@ def test_without_workers_it_says_so_and_waits_and_other_code_is_refused_by_name(
         for worker in joined:
             worker.kill()
             worker.wait()
-    assert heard.said_lines == [f"no worker at {scheduler.address}: waiting for one"]
+    assert heard.said_lines == [f"no worker at {scheduler.address}: waiting for one, with this package installed"]
 
 
 @pytest.mark.slow
