@@ -29,7 +29,7 @@ ONE_THREAD = {f"{library}_NUM_THREADS": "1" for library in ("OMP", "OPENBLAS", "
 ENVIRONMENT = ONE_THREAD | {"PYTHONSAFEPATH": "1"}
 _STARTING = threading.RLock()  # of one process after the other, as the environment is that of all threads
 # Pools that end before a worker of theirs is ready, one after the other, until it is plain that none will be.
-STILLBORN = 3
+MOST_FAILED_STARTS = 3
 # What a terminal sends to every process of a run: workers leave it to their parent.
 FROM_THE_TERMINAL = {getattr(signal, name) for name in ("SIGINT", "SIGHUP") if hasattr(signal, name)}
 
@@ -153,7 +153,7 @@ class Processes(Workers):
 
     def __init__(self, count: int, fresh: bool = False):
         super().__init__(None, 1 if fresh else count)
-        self.fresh, self.stillborn = fresh, 0
+        self.fresh, self.failed_starts = fresh, 0
         self.context = multiprocessing.get_context("spawn")
 
     def __exit__(self, kind, *_):
@@ -172,12 +172,12 @@ class Processes(Workers):
     def renew(self) -> None:
         """End a pool in which a process died. Raises ChildProcessError where all end as they start."""
         if self.executor is not None:
-            self.stillborn = 0 if self.ready.value else self.stillborn + 1
+            self.failed_starts = 0 if self.ready.value else self.failed_starts + 1
             self._end()
-        if self.stillborn >= STILLBORN:
+        if self.failed_starts >= MOST_FAILED_STARTS:
             raise ChildProcessError(
-                f"worker processes ended as they started, {STILLBORN} times: a script has to call this under "
-                'if __name__ == "__main__":'
+                f"worker processes ended as they started, {MOST_FAILED_STARTS} times: a script has to call this "
+                'under if __name__ == "__main__":'
             )
 
     def _end(self, kill=False):

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.polynomial import Chebyshev
 from pandas import DataFrame
 
-from .commoncurve import Fit, against_middle, bounds, exponents, inside, near, unfollowed, within
+from .commoncurve import Fit, against_middle, bounds, exponent_bias, exponents, inside, near, within
 from .frictioncurves import Curve, FrictionCurves
 from .intervals import Estimated, RmsMisfit
 
@@ -162,10 +162,10 @@ def collapse(data: FrictionCurves) -> Collapse:
     raised = _undecided(lifted, both, why) if why else _moved(complete, lifted, both)
     if not raised.reason:
         # At worst all of the misfit lies along the gradient.
-        raised = _widened(raised, unfollowed(lifted, both, sqrt(count) * _known(raised.misfit)))
+        raised = _widened(raised, exponent_bias(lifted, both, sqrt(count) * _known(raised.misfit)))
     if not horizontal.reason:
         # Of a misfit of any direction as much lies along a gradient, 19 times in 20.
-        horizontal = _widened(horizontal, unfollowed(level, along, 2 * _known(horizontal.misfit)))
+        horizontal = _widened(horizontal, exponent_bias(level, along, 2 * _known(horizontal.misfit)))
     elif not raised.reason:
         horizontal = replace(horizontal, mended=_taken(complete, level, lifted, along, both))
     values = np.concatenate([curve.log_friction for curve in complete.curves])

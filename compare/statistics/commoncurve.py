@@ -211,7 +211,7 @@ def _lever(fit):
     return np.cumsum(logs[:0:-1])[::-1] / (logs @ logs)
 
 
-def unfollowed(fit: Fit, guess: np.ndarray, missed: float) -> np.ndarray:
+def exponent_bias(fit: Fit, guess: np.ndarray, missed: float) -> np.ndarray:
     """What shifts against the middle speed and their exponents may be off by, as no polynomial is the law.
 
     missed : ln mu, root of the sum of squares, by which the fit may miss along the gradient of a number

@@ -18,7 +18,7 @@ from stand_in_solver import SCENE, Heard, Here, Stand, loads
 
 from compare.solving import runner
 from compare.solving.digest import code_of
-from compare.solving.executors import ONE_THREAD, STILLBORN, Processes, Workers
+from compare.solving.executors import MOST_FAILED_STARTS, ONE_THREAD, Processes, Workers
 from compare.solving.folders import hold
 from compare.solving.outcome import Outcome, Row
 from compare.solving.runner import sweep
@@ -223,7 +223,7 @@ def test_workers_that_end_as_they_start_are_an_error_at_once(tmp_path, monkeypat
     monkeypatch.setattr(Processes, "renew", lambda self: died.append(0) or renew(self))
     with pytest.raises(ChildProcessError, match="worker processes ended as they started, 3 times"):
         sweep(loads(1.0, 2.0), Store(tmp_path), workers=1)
-    assert len(died) == STILLBORN
+    assert len(died) == MOST_FAILED_STARTS
 
 
 def test_a_worker_that_runs_the_script_which_asked_for_it_ends_before_it_has_a_folder(tmp_path, monkeypatch):
@@ -244,7 +244,7 @@ import sys
 from pathlib import Path
 from stand_in_solver import Here, Stand, loads
 from compare.solving.digest import code_of
-from compare.solving.executors import ONE_THREAD, STILLBORN, Processes, Workers
+from compare.solving.executors import ONE_THREAD, MOST_FAILED_STARTS, Processes, Workers
 from compare.solving.folders import hold
 from compare.solving.store import Store
 from compare.solving.runner import sweep
