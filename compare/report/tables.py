@@ -60,12 +60,8 @@ def claims(findings: Sequence[Finding], details: bool = True) -> DataFrame:
             }
         )
         seen.add(place)
-    table = DataFrame(rows)
-    return (
-        table
-        if len({(each.where, each.regime) for each in findings}) > 1
-        else table.drop(columns="Where", errors="ignore")
-    )
+    table, places = DataFrame(rows), {(each.where, each.regime) for each in findings}
+    return table if len(places) > 1 else table.drop(columns="Where", errors="ignore")
 
 
 def _lines(*parts):

@@ -33,7 +33,7 @@ class Unsolved:
         outcomes: Mapping[Task, Outcome],
         own: Collection[SceneTask] = (),
     ):
-        """Of contacts, each once; one that is not among the outcomes, as its task broke, is no failure."""
+        """Count contacts, each once; one that is not among the outcomes, as its task broke, is no failure."""
         found = by_contact(outcomes)
         rows = [(each.solver.name, row) for each in contacts if each in found for row in found[each].rows]
         return cls(rows, any(found[each].rows[0].reason is not None for each in own if each in found))

@@ -17,10 +17,8 @@ from compare.statistics.jackknife import mean_ratio
 
 def friction(rows: Sequence[Row]) -> Estimated:
     """Mean friction force over mean normal force of those with an answer."""
-    known = [each for each in rows if each.reason is None]
-    return mean_ratio(
-        np.array([row.friction_force for row in known]), np.array([row.normal_force for row in known])
-    )
+    forces = [(each.friction_force, each.normal_force) for each in rows if each.reason is None]
+    return mean_ratio(*np.reshape(forces, (-1, 2)).T)
 
 
 def solved(
@@ -29,4 +27,4 @@ def solved(
     """Answers of tasks; what has been solved once lies in the folder `solved` beside the numbers of the page."""
     store = Store(page.with_suffix("") / "solved")
     with hold([store.folder], print), Shown() as shown, shown.solving() as progress:
-        return sweep(list(tasks), store, workers, progress, fresh=fresh).outcomes
+        return sweep(tasks, store, workers, progress, fresh=fresh).outcomes

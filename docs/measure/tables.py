@@ -1,14 +1,14 @@
 """Tables of the pages that are measured."""
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 
 import numpy as np
 from pandas import DataFrame, Series
 
 
-def table(header: str, rows: Iterator[tuple]) -> str:
+def table(header: str, rows: Iterable[tuple]) -> str:
     """A Markdown table; columns are named in the header, separated by |."""
     names = header.split("|")
     lines = [" | ".join(names), " | ".join("---" for _ in names)]
@@ -18,8 +18,8 @@ def table(header: str, rows: Iterator[tuple]) -> str:
 
 def by_column(rows: Iterable[dict]) -> str:
     """Rows by the names of their columns as a Markdown table."""
-    first, *others = rows
-    return table("|".join(first), (tuple(map(str, row.values())) for row in (first, *others)))
+    rows = list(rows)
+    return table("|".join(rows[0]), (tuple(map(str, row.values())) for row in rows))
 
 
 def stored(path: Path, rows: DataFrame | Iterable[dict]) -> None:
@@ -30,8 +30,8 @@ def stored(path: Path, rows: DataFrame | Iterable[dict]) -> None:
 def finding(found: DataFrame, claim: str, where: str, dimension: str = "") -> Series:
     """The row on a claim in a place, of one dimensionality where there are several."""
     chosen = found["claim"].eq(claim) & found["where"].eq(where)
-    (row,) = (row for _, row in found[chosen & (found["dimension"].eq(dimension) | (not dimension))].iterrows())
-    return row
+    (place,) = np.flatnonzero(chosen & (found["dimension"].eq(dimension) | (not dimension)))
+    return found.iloc[place]
 
 
 def order(points, errors) -> float:

@@ -20,6 +20,7 @@ import pandas
 
 import compare
 from bem3d import BEM
+from compare.statistics.griderror import LEAST
 from mdr1d import MDR
 from scene import Refused, Scene, SolveError
 
@@ -96,14 +97,15 @@ def numbers_of(result) -> Iterator[tuple[str, tuple[float, float]]]:
     """Numbers of a result by name, each with its scale: forces, depth, measures, and one number of each field.
 
     That of a field is its mean under a weight that grows from 1 to 2 along it; its scale, the root mean square.
-    A pressure far above that of the roughness says only that there is hardly any. An error is compared with 1.
+    A pressure far above that of the roughness says only that there is hardly any. An error that is far below LEAST
+    is only said to be less.
     """
     forces = np.append(result.fields.get("normal_force", ()), result.normal_force)
     rounding = NOTHING * float(np.nanmax(np.abs(forces)))
     numbers = {name: getattr(result, name) for name in ("normal_force", "depth", "friction_force")}
     for name, value in (numbers | dict(result.measures)).items():
         if name not in EFFORT and not (name == "pressure_ratio" and value > 1 / NOTHING):
-            scale = 1.0 if name == "friction_error" else rounding if "friction" in name else nan
+            scale = LEAST if name == "friction_error" else rounding if "friction" in name else nan
             yield name, (value, scale)
     for name, field in result.fields.items():
         values = np.nan_to_num(np.asarray(field, float).ravel())
