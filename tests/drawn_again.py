@@ -4,7 +4,7 @@ from io import StringIO
 
 import pandas
 
-from compare.report.plots import style
+from compare.figures import style
 
 
 def from_files(plot):

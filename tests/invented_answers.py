@@ -61,12 +61,12 @@ def obeying(law, series=SERIES, scatter=0.02, grid=0.0, seed=1, level=1.0, slope
                 "residual": 0.0,
                 "seconds": 1.0,
             }
-            dims = ["grid", "speed", series.prescribed, "seed"]
+            dims = ["level", "speed", series.prescribed, "surface"]
             columns |= {"status": np.array(SOLVED, object), "reason": np.array("", object)}
             variables = {name: (dims, np.broadcast_to(each, mu.shape).copy()) for name, each in columns.items()}
-            places = {"grid": [FINE, COARSE], "speed": [0.0, *series.speeds], "points": ("grid", [64, 32])}
+            places = {"level": [FINE, COARSE], "speed": [0.0, *series.speeds], "points": ("level", [64, 32])}
             dataset = xarray.Dataset(variables, places | {series.prescribed: list(series.values)})
-            dataset = dataset if body == ROUGH else dataset.isel(seed=0, drop=True)
+            dataset = dataset if body == ROUGH else dataset.isel(surface=0, drop=True)
             parts[f"/{series.name}/{body}/{solver}"] = dataset
     return Contacts(series, xarray.DataTree.from_dict(parts))
 
@@ -94,7 +94,7 @@ def cut(contacts, speeds=None, values=None, surfaces=None):
     series, parts = contacts.series, {}
     kept = {"speed": slice(None if speeds is None else speeds + 1), series.prescribed: slice(values)}
     for (solver, body), dataset in contacts.datasets.items():
-        draws = {"seed": slice(surfaces)} if body == ROUGH else {}
+        draws = {"surface": slice(surfaces)} if body == ROUGH else {}
         parts[f"/{series.name}/{body}/{solver}"] = dataset.isel(kept | draws)
     count = surfaces or series.surfaces
     few = {"speeds": series.speeds[:speeds], "values": series.values[:values]}

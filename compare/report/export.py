@@ -17,15 +17,15 @@ from pydantic import ConfigDict, ValidationError, validate_call
 from scene.printable import brief
 from scene.reading import InvalidInput
 
+from ..figures import style as looks
+from ..figures.journals import journal as find_journal
+from ..figures.rendering import FORMS, picture
 from ..solving import netcdf, parameter_grid
 from ..solving.folders import hold
 from ..solving.suggest import known
 from ..solving.vocabulary import entry as vocabulary
 from . import csvfiles, manifest, render, vtk
 from .page import Plot, Tables
-from .plots import style as looks
-from .plots.journals import journal as find_journal
-from .plots.rendering import FORMS, picture
 
 FORMATS = ("csv", "vtk", *FORMS)
 TABLES, FIGURES = "tables", "figures"  # folders that are written into

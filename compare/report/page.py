@@ -56,7 +56,7 @@ class Plot:
 
     name : of its files, without ending, with the folder below that of the page: "sphere/friction-load"
     draw : function of the tables and the options that returns a matplotlib Figure: a module function of
-        `compare.report.plots`, so that it can be drawn again from the files alone
+        `compare.figures`, so that it can be drawn again from the files alone
     tables : by name; a table is written to a CSV file of that name beside the figure
     caption : what it shows, in at most 60 words
     alternative : what is to be seen, for those who cannot see it

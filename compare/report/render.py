@@ -14,13 +14,13 @@ from pandas import DataFrame
 
 from scene.printable import printable
 
+from ..figures.rendering import Picture, picture
 from ..solving.folders import write as write_whole
 from ..statistics import finding
 from ..statistics.finding import Finding
 from . import csvfiles
 from .manifest import inside, made
 from .page import Page, Plot
-from .plots.rendering import Picture, picture
 from .tables import claims, shown
 
 PAGE = "report.html"

@@ -12,7 +12,7 @@ from scene.printable import brief
 
 NUMBERS = ("normal_force", "depth", "friction_force", "residual", "operator_applications", "seconds")
 # Names of what stands beside the measures of a model, which may have no other.
-TAKEN = {*NUMBERS, "grid", "speed", "load", "seed", "points", "stratum", "variate", "control_variates"} | {
+TAKEN = {*NUMBERS, "level", "speed", "load", "surface", "points", "stratum", "variate", "control_variates"} | {
     "friction_coefficient", "depth_reached", "status", "reason"
 }  # fmt: skip
 

@@ -238,31 +238,31 @@ class ParameterGrid:
         found[np.broadcast_to(asked[:, None, None], shape)] = rows
         table = pandas.DataFrame([_numbers(row) for row in found.ravel()])
         names = [*NUMBERS, *sorted({*table} - {*NUMBERS, "status", "reason"}), "status", "reason"]
-        dims = "grid", "speed", self.prescribed, "seed"
+        dims = "level", "speed", self.prescribed, "surface"
         first = self.scene.roughness.seed if self.random else 0
         dataset = xarray.Dataset(
             {label: (dims, table[label].to_numpy(copy=True).reshape(shape)) for label in names},
             {
-                "grid": list(grids),
+                "level": list(grids),
                 "speed": list(self.speeds),
                 self.prescribed: list(self.values),
-                "points": ("grid", [getattr(solver, "points", 0) for solver in grids.values()]),
-                "seed": [first + seed for seed in seeds],
+                "points": ("level", [getattr(solver, "points", 0) for solver in grids.values()]),
+                "surface": [first + seed for seed in seeds],
             },
         )
         if self._stratified(name):
-            dataset.coords["stratum"] = "seed", [k for k, each in enumerate(self.strata(name)) for _ in each]
-            coarsest = dataset["seed"].values[dataset["stratum"] == len(grids) - 1]
+            dataset.coords["stratum"] = "surface", [k for k, each in enumerate(self.strata(name)) for _ in each]
+            coarsest = dataset["surface"].values[dataset["stratum"] == len(grids) - 1]
             scenes = [self.at(value, speed) for speed, value in product(self.speeds, self.values)]
             found = control_variates([*grids.values()][-1], scenes, coarsest.tolist())
             if found.size:  # NaN of all other surfaces
                 found = found.reshape(*shape[1:3], *found.shape[1:])
-                dataset[VARIATES] = xarray.DataArray(found, {"seed": coarsest}, [*dims[1:], "variate"])
+                dataset[VARIATES] = xarray.DataArray(found, {"surface": coarsest}, [*dims[1:], "variate"])
         if not self.random or getattr(grids[FINE], "draws", "") == NO_DRAWS:
-            dataset = dataset.isel(seed=0, drop=True)
+            dataset = dataset.isel(surface=0, drop=True)
         for label in dataset.variables:
             dataset[label].attrs = attributes(str(label), self.scene)
-        drawn = dataset["seed"].values.tolist() if "seed" in dataset else ()
+        drawn = dataset["surface"].values.tolist() if "surface" in dataset else ()
         return dataset.assign_attrs(provenance(self.scene, drawn) | {"solver": name})
 
 

@@ -11,10 +11,11 @@ from scene.vocabulary import FIELDS, MEASURES, NUMBERS, Entry
 # Words of the judge: a line is "name : text [unit]", without a unit that is not there.
 _WORDS = """
 Of Datasets: coordinates, and what scene.vocabulary has under another name.
-grid : Which grid of the solver: fine, as the settings say, coarse, with half the points a side, or coarser still.
+level : Which grid of the model: fine, as its settings say, coarse, with half the points a side, or coarser still.
 points : Points of the grid along a side. [1]
 speed : Speed of sliding that was prescribed, or rate of pressing in; 0 is rest. [m/s]
 depth : Depth that was prescribed, above zero into the elastomer. [m]
+surface : Seed of the rough surface or profile. [1]
 seed : Seed of the rough surface. [1]
 stratum : Finest grid on which a rough surface is solved, by its number; the next coarser one has it too. [1]
 control_variates : Numbers of the rough surface below the smooth body whose mean over all surfaces is 0. [1]

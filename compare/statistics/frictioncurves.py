@@ -48,7 +48,7 @@ class SimulatedCurves:
         load, friction = (
             dataset[name].transpose("speed", pressed, ...).values for name in ("normal_force", "friction_force")
         )
-        strata = strata_of(dataset) if "seed" in dataset.dims else None
+        strata = strata_of(dataset) if "surface" in dataset.dims else None
         return cls(dataset["speed"].values, load, friction, strata, str(dataset.attrs.get("solver", "")))
 
     @property

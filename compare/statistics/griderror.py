@@ -30,9 +30,9 @@ def stated(answers: "xarray.DataTree") -> dict[str, np.ndarray]:
     for node in answers.subtree:
         if MEASURE in node.data_vars:
             bounds = node[MEASURE]
-            bounds = bounds.sel(grid="fine") if "grid" in bounds.dims else bounds
+            bounds = bounds.sel(level="fine") if "level" in bounds.dims else bounds
             # Of a mean over surfaces the bound is the mean of theirs.
-            bounds = bounds.mean("seed") if "seed" in bounds.dims else bounds
+            bounds = bounds.mean("surface") if "surface" in bounds.dims else bounds
             found.setdefault(MODELS.get(str(node.name), str(node.name)), []).append(bounds.values.ravel())
     joined = {model: np.concatenate(parts) for model, parts in sorted(found.items())}
     return {model: each[np.isfinite(each)] for model, each in joined.items() if np.isfinite(each).any()}

@@ -264,7 +264,9 @@ class DrawSet(Mapping[str, xarray.Dataset]):
     def of(cls, answers: xarray.DataTree, names: Iterable[str], grid: str) -> Self:
         """Datasets of some nodes on one of their grids; nodes that were not asked for are left out."""
         nodes = {node.path.strip("/"): node for node in answers.subtree}
-        return cls({name: nodes[name].to_dataset(inherit=False).sel(grid=grid) for name in names if name in nodes})
+        return cls(
+            {name: nodes[name].to_dataset(inherit=False).sel(level=grid) for name in names if name in nodes}
+        )
 
     def __getitem__(self, name: str) -> xarray.Dataset:
         return self.datasets[name]
@@ -280,7 +282,7 @@ class DrawSet(Mapping[str, xarray.Dataset]):
         """Strata of the draws of every Dataset that has any, by the solver."""
         found: dict[str, list[np.ndarray]] = {}
         for name, each in self.items():
-            if "seed" in each.dims:
+            if "surface" in each.dims:
                 found.setdefault(_solver(name, each), []).append(strata_of(each))
         return found
 
@@ -309,7 +311,7 @@ class DrawSet(Mapping[str, xarray.Dataset]):
         key = group.solver, tuple(group.surfaces.tolist())
         if key not in self._left:
             own = [name for name, each in self.items() if _solver(name, each) == group.solver]
-            alike = len({self[name].sizes.get("seed") for name in own} - {None}) < 2
+            alike = len({self[name].sizes.get("surface") for name in own} - {None}) < 2
             shares = 0 if alike else sum(each.solver == group.solver for each in self.groups)
             parted = {name: _without(self[name], group.surfaces, shares) for name in own}
             self._left[key] = DrawSet({**self.datasets, **parted})
@@ -319,7 +321,7 @@ class DrawSet(Mapping[str, xarray.Dataset]):
 def strata_of(dataset: xarray.Dataset) -> np.ndarray:
     """Number of the stratum of each draw."""
     named = "stratum" in dataset.coords
-    return dataset["stratum"].values if named else np.zeros(dataset.sizes["seed"], int)
+    return dataset["stratum"].values if named else np.zeros(dataset.sizes["surface"], int)
 
 
 def _solver(name, dataset):
@@ -327,17 +329,19 @@ def _solver(name, dataset):
 
 
 def _without(dataset, group, shares):
-    if "seed" not in dataset.dims:
+    if "surface" not in dataset.dims:
         return dataset
-    every = np.arange(dataset.sizes["seed"])
-    return dataset.isel(seed=np.delete(every, np.array_split(every, shares)[int(group[0])] if shares else group))
+    every = np.arange(dataset.sizes["surface"])
+    return dataset.isel(
+        surface=np.delete(every, np.array_split(every, shares)[int(group[0])] if shares else group)
+    )
 
 
 def mean(dataset: xarray.Dataset, name: str, below: str | None = None) -> np.ndarray:
     """Mean over draws of a variable, or ratio of two means, NaN where fewer than half of the draws have it."""
     over = _over_draws(dataset.variables[name])
     under = np.ones(()) if below is None else _over_draws(dataset.variables[below])
-    if "seed" not in dataset.variables[name].dims:
+    if "surface" not in dataset.variables[name].dims:
         return over / under
     enough = 2 * np.isfinite(over).sum(axis=-1) >= over.shape[-1]
     return np.where(enough, mean_ratio(over, under).value, nan)
@@ -345,8 +349,8 @@ def mean(dataset: xarray.Dataset, name: str, below: str | None = None) -> np.nda
 
 def _over_draws(variable):
     """Values with the draws last."""
-    drawn = "seed" in variable.dims and variable.dims[-1] != "seed"
-    return variable.transpose(..., "seed").values if drawn else variable.values
+    drawn = "surface" in variable.dims and variable.dims[-1] != "surface"
+    return variable.transpose(..., "surface").values if drawn else variable.values
 
 
 def friction(dataset: xarray.Dataset) -> np.ndarray:

@@ -41,7 +41,7 @@ class Interval(NamedTuple):
 
 def pressed(dataset: xarray.Dataset) -> str:
     """Name of the dimension that is prescribed: load or depth."""
-    return next(name for name in map(str, dataset.dims) if name not in ("grid", "speed", "seed"))
+    return next(name for name in map(str, dataset.dims) if name not in ("level", "speed", "surface"))
 
 
 def with_spread(dataset: xarray.Dataset) -> xarray.Dataset:
@@ -63,7 +63,7 @@ def means(dataset: xarray.Dataset, both: xarray.Dataset | None = None) -> DataFr
     """
     every = with_spread(dataset)
     drawn, dataset = _most_drawn(every), pooled(every) if both is None else both
-    fine, prescribed = dataset.sel(grid=FINE), pressed(dataset)
+    fine, prescribed = dataset.sel(level=FINE), pressed(dataset)
     speed, value = np.meshgrid(dataset["speed"].values, dataset[prescribed].values, indexing="ij")
     columns = {"points": np.full(speed.size, int(fine["points"])), "speed": speed, prescribed: value}
     for name in ESTIMATED:
@@ -72,7 +72,7 @@ def means(dataset: xarray.Dataset, both: xarray.Dataset | None = None) -> DataFr
             continue
         found = interval(dataset, above, below, name in SIZES)
         one = drawn[above] if below is None else drawn[above] / drawn[below].where(drawn[below] != 0)
-        deviation = one.std("seed", ddof=1) if "seed" in one.dims else xarray.full_like(one, nan)
+        deviation = one.std("surface", ddof=1) if "surface" in one.dims else xarray.full_like(one, nan)
         columns |= {
             f"{name}_mean": found.value,
             f"{name}_deviation": deviation.transpose("speed", prescribed).values,
@@ -133,7 +133,7 @@ def failures(dataset: xarray.Dataset) -> DataFrame:
 
 def touches(dataset: xarray.Dataset) -> np.ndarray:
     """Whether anything touches on the fine grid (S, P)."""
-    return _over_draws(dataset["status"].sel(grid=FINE) != EMPTY, "any")
+    return _over_draws(dataset["status"].sel(level=FINE) != EMPTY, "any")
 
 
 def interval(dataset: xarray.Dataset, above: str, below: str | None = None, size: bool = False) -> Interval:
@@ -141,7 +141,7 @@ def interval(dataset: xarray.Dataset, above: str, below: str | None = None, size
 
     size : whether the variable is never negative
     """
-    found = {name: _estimated(dataset.sel(grid=name), above, below) for name in dataset["grid"].values.tolist()}
+    found = {name: _estimated(dataset.sel(level=name), above, below) for name in dataset["level"].values.tolist()}
     fine = found[FINE]
     # A model without points has no error of a grid.
     unknown = 0.0 if "points" in dataset.coords and not dataset["points"].values.any() else nan
@@ -150,10 +150,10 @@ def interval(dataset: xarray.Dataset, above: str, below: str | None = None, size
 
 
 def _estimated(dataset, above, below):
-    order = ("speed", pressed(dataset), *(["seed"] if "seed" in dataset.dims else []))
+    order = ("speed", pressed(dataset), *(["surface"] if "surface" in dataset.dims else []))
     over = dataset[above].transpose(*order).values
     under = np.ones_like(over) if below is None else dataset[below].transpose(*order).values
-    if "seed" in dataset.dims:
+    if "surface" in dataset.dims:
         return mean_ratio(over, under, strata_of(dataset))
     with np.errstate(invalid="ignore", divide="ignore"):
         value = over / under
@@ -163,11 +163,11 @@ def _estimated(dataset, above, below):
 def _most_drawn(dataset):
     """Draws of one grid: all of them, or those of the stratum that is solved on the coarsest grid alone."""
     if "stratum" not in dataset.coords:
-        return dataset.sel(grid=FINE)
-    return dataset.isel(grid=-1, seed=np.flatnonzero(dataset["stratum"] == dataset.sizes["grid"] - 1))
+        return dataset.sel(level=FINE)
+    return dataset.isel(level=-1, surface=np.flatnonzero(dataset["stratum"] == dataset.sizes["level"] - 1))
 
 
 def _over_draws(array, how):
     """A number over the draws of each point (S, P); that of the point where there are none."""
     array = array.transpose("speed", ...)
-    return (getattr(array, how)("seed") if "seed" in array.dims else array).values
+    return (getattr(array, how)("surface") if "surface" in array.dims else array).values

@@ -105,22 +105,24 @@ def pooled(dataset: xarray.Dataset) -> xarray.Dataset:
     if "status" in dataset and "friction_force" in dataset:
         # What does not touch adds nothing to either force.
         dataset = dataset.assign(friction_force=dataset["friction_force"].where(dataset["status"] != EMPTY, 0.0))
-    drawn = {name: each for name, each in dataset.data_vars.items() if "seed" in each.dims and name not in SPENT}
+    drawn = {
+        name: each for name, each in dataset.data_vars.items() if "surface" in each.dims and name not in SPENT
+    }
     numbers = [name for name, each in drawn.items() if each.dtype.kind == "f"]
     strata = dataset["stratum"].values
     made = {}
     for name in numbers:
-        ordered = dataset[name].transpose("grid", ..., "seed")
+        ordered = dataset[name].transpose("level", ..., "surface")
         values = ordered.values.copy()
         if variates is not None:
             rows = np.flatnonzero(strata == len(values) - 1)
             own = variates.transpose(*ordered.dims[1:], "variate").values[..., rows, :]
             values[-1][..., rows] = controlled(values[-1][..., rows], own)
         made[name] = np.stack([_draws(values, strata, first) for first in range(len(values))[:2]])
-    both = dataset.isel(grid=slice(2))
-    dims = {name: [each for each in dataset[name].dims if each not in ("grid", "seed")] for name in numbers}
+    both = dataset.isel(level=slice(2))
+    dims = {name: [each for each in dataset[name].dims if each not in ("level", "surface")] for name in numbers}
     return both.assign(
-        {name: (("grid", *dims[name], "seed"), each, dataset[name].attrs) for name, each in made.items()}
+        {name: (("level", *dims[name], "surface"), each, dataset[name].attrs) for name, each in made.items()}
     )
 
 
@@ -201,12 +203,12 @@ def _errors(dataset, above, below):
     """
     strata, both = dataset["stratum"].values, pooled(dataset)
     # A model without another grid has no error of it.
-    fine, coarse = (_columns(both.isel(grid=k), above, below) for k in (0, -1))
+    fine, coarse = (_columns(both.isel(level=k), above, below) for k in (0, -1))
     found, other = (mean_ratio(over, under, strata) for over, under in (fine, coarse))
     low, high = found.interval()
     size, squares = np.abs(found.value), np.square(off_the_ratio(*fine)[1])
     with np.errstate(invalid="ignore", divide="ignore"):
-        sums = np.array([squares[..., strata == k].sum(axis=-1) for k in range(dataset.sizes["grid"])])
+        sums = np.array([squares[..., strata == k].sum(axis=-1) for k in range(dataset.sizes["level"])])
         parts = sums / sums.sum(axis=0)
         return parts, (high - low) / 2 / size, np.abs(other.value - found.value) / size
 
@@ -339,5 +341,5 @@ def _some(count):
 
 
 def _columns(dataset, above, below):
-    over = dataset[above].transpose(..., "seed").values
-    return over, np.ones_like(over) if below is None else dataset[below].transpose(..., "seed").values
+    over = dataset[above].transpose(..., "surface").values
+    return over, np.ones_like(over) if below is None else dataset[below].transpose(..., "surface").values

@@ -61,8 +61,8 @@ class Plans(dict[str, Plan | str | Advice]):
         Raises InvalidInput for other files, and OSError.
         """
         # Only figures need what draws them.
-        from ..report.plots import solid
-        from ..report.plots.rendering import FORMS, picture
+        from ..figures import solid
+        from ..figures.rendering import FORMS, picture
         from ..solving.folders import write
 
         path = Path(file)

@@ -12,10 +12,10 @@ from pandas import DataFrame
 
 from scene.signatures import readable
 
+from ..figures.rendering import finished
+from ..figures.style import png
 from ..report import render, terminal
 from ..report.page import Page, Plot
-from ..report.plots.rendering import finished
-from ..report.plots.style import png
 from ..solving.runner import SweepResult
 from ..solving.store import TRACE
 from ..solving.unsolved import NONE_UNSOLVED, Unsolved

@@ -6,7 +6,7 @@ from compare.solving.parameter_grid import NUMBERS
 from compare.solving.vocabulary import LABELS, entry
 from scene.vocabulary import FIELDS, MEASURES
 
-COORDINATES = ("grid", "points", "speed", "load", "depth", "seed")
+COORDINATES = ("level", "points", "speed", "load", "depth", "surface")
 OF_EVERY_CONTACT = ("status", "reason", *NUMBERS)
 KINDS = {
     "coordinates": {name: LABELS[name] for name in COORDINATES},

@@ -14,8 +14,8 @@ from pandas import DataFrame
 from tables import finding, replaced, stored, table
 
 import compare
-from compare.report.plots import style
-from compare.report.plots.shades import SPEED, bar, between
+from compare.figures import style
+from compare.figures.shades import SPEED, bar, between
 from compare.solving.parameter_grid import COARSE, FINE
 from compare.statistics import eq23
 from compare.statistics.collapse import collapse
@@ -131,7 +131,7 @@ def _from_the_knee(tree, dimension, body):
     scene, _ = STEEP[body]
     slowest = KNEE * scene.roughness.shortest / (2 * np.pi * scene.elastomer.relaxation_time)
     answers = answers.isel(speed=np.flatnonzero(answers["speed"] >= 0.999 * slowest))
-    fine, coarse = (collapse(SimulatedCurves.of(answers.sel(grid=grid))) for grid in (FINE, COARSE))
+    fine, coarse = (collapse(SimulatedCurves.of(answers.sel(level=grid))) for grid in (FINE, COARSE))
     shifts = -EXPONENT[body] * np.log(fine.speeds)
     for each in eq23.findings(fine, coarse, dimension, shifts, where=body):
         if each.claim.id in COLLAPSE:
@@ -174,8 +174,8 @@ def _end(claim):
 
 def _friction(tree, body):
     """Speeds, loads, and friction of each surface (speeds, loads, surfaces) on the finer grid of a study."""
-    sliding = tree[f"{body}/rough/BEM"].to_dataset(inherit=False).sel(grid="fine").isel(speed=slice(1, None))
-    coefficient = (sliding["friction_force"] / sliding["normal_force"]).transpose("speed", "load", "seed")
+    sliding = tree[f"{body}/rough/BEM"].to_dataset(inherit=False).sel(level="fine").isel(speed=slice(1, None))
+    coefficient = (sliding["friction_force"] / sliding["normal_force"]).transpose("speed", "load", "surface")
     return sliding["speed"].values, sliding["load"].values, coefficient.values
 
 
@@ -194,8 +194,8 @@ def _figure(tree) -> Figure:
     small = {"markersize": style.mark(0.6), "linewidth": style.width(0.8)}
     for column, (body, exponent) in enumerate(EXPONENT.items()):
         for axes, (name, solver) in zip(panels[:, column], SOLVERS.items(), strict=True):
-            sliding = tree[f"{body}/rough/{solver}"].to_dataset(inherit=False).sel(grid="fine")
-            drawn = sliding.isel(speed=slice(1, None)).transpose("speed", "load", "seed", ...)
+            sliding = tree[f"{body}/rough/{solver}"].to_dataset(inherit=False).sel(level="fine")
+            drawn = sliding.isel(speed=slice(1, None)).transpose("speed", "load", "surface", ...)
             speeds, load = drawn["speed"].values, drawn["normal_force"].values
             scale, friction = between(speeds), mean_ratio(drawn["friction_force"].values, load)
             shifted = load.mean(axis=-1) * (speeds[:, None] / speeds[0]) ** -exponent

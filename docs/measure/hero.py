@@ -19,11 +19,11 @@ from PIL import Image
 from tables import stored
 
 from bem3d import BEM, Trail
+from compare.figures import style
+from compare.figures.curves import intervals
+from compare.figures.shades import SPEED, between
 from compare.report.csvfiles import read
 from compare.report.page import Plot
-from compare.report.plots import style
-from compare.report.plots.curves import intervals
-from compare.report.plots.shades import SPEED, between
 from compare.report.views import view
 from compare.solving.task import draws_of
 from compare.statistics.jackknife import mean_ratio

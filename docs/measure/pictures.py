@@ -17,8 +17,8 @@ from matplotlib.figure import Figure
 from pandas import DataFrame
 
 import compare
-from compare.report.plots import style
-from compare.report.plots.lettering import lettered
+from compare.figures import style
+from compare.figures.lettering import lettered
 from scene import Kelvin, Scene, Slide, Sphere
 
 RESULTS = Path(__file__).parents[1] / "results"

@@ -14,8 +14,8 @@ from pandas import DataFrame
 from tables import replaced, stored, table
 
 from bem3d import BEM
-from compare.report.plots import style
-from compare.report.plots.lettering import lettered
+from compare.figures import style
+from compare.figures.lettering import lettered
 from compare.solving.task import SceneTask
 from compare.studies.claims.contacts import STEEP
 from scene import Indent, Slide

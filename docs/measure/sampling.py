@@ -12,10 +12,10 @@ import numpy as np
 from pandas import DataFrame
 from tables import replaced, stored, table
 
+from compare.figures import style
+from compare.figures.lettering import lettered
 from compare.library.case import shipped_cases
 from compare.models.table import Model, Models
-from compare.report.plots import style
-from compare.report.plots.lettering import lettered
 from compare.solving.parameter_grid import FINE, ParameterGrid, on_two_grids
 from compare.statistics import means
 from compare.statistics.intervals import student
@@ -110,10 +110,12 @@ def _sampled(case, speed, wanted, known):
     found = answers["contacts"].children[name].to_dataset(inherit=False)
     both = pooled(found)
     value, low, high = (each.item() for each in means.interval(both, *FRICTION))
-    fine, coarse = (both["friction_force"] / both["normal_force"].mean("seed")).mean("seed").values.ravel()[:2]
-    many = found.isel(grid=-1, seed=np.flatnonzero(found["stratum"] == found.sizes["grid"] - 1))
+    fine, coarse = (
+        (both["friction_force"] / both["normal_force"].mean("surface")).mean("surface").values.ravel()[:2]
+    )
+    many = found.isel(level=-1, surface=np.flatnonzero(found["stratum"] == found.sizes["level"] - 1))
     one = mean_ratio(many["friction_force"].values, many["normal_force"].values)
-    scatter = (one.error / one.value).item() * many.sizes["seed"] ** 0.5
+    scatter = (one.error / one.value).item() * many.sizes["surface"] ** 0.5
     row = {"wanted": wanted, "half_width": (high - low) / 2 / value, "grid": abs(coarse / fine - 1)}
     points = found["points"].values.tolist()
     strata = zip(points, last.grids()["contacts"].strata(name), strict=True)

@@ -15,7 +15,7 @@ from pandas import DataFrame
 from tables import limit, replaced, stored, table
 
 from bem3d import BEM, refined
-from compare.report.plots import shades, style
+from compare.figures import shades, style
 from compare.solving.outcome import Outcome
 from compare.solving.task import SceneTask, draws_of
 from compare.studies.paper import parameters

@@ -30,9 +30,9 @@ def grown(rng, had, counts, variation, told=None):
         return new
     parts = []
     for stratum in range(len(counts)):
-        old, more = (each.isel(seed=np.flatnonzero(each["stratum"] == stratum)) for each in (had, new))
-        parts += [old, more.isel(seed=slice(old.sizes["seed"], None))]
-    return xarray.concat(parts, "seed")
+        old, more = (each.isel(surface=np.flatnonzero(each["stratum"] == stratum)) for each in (had, new))
+        parts += [old, more.isel(surface=slice(old.sizes["surface"], None))]
+    return xarray.concat(parts, "surface")
 
 
 def sampled(rng, variation, interval, told=None):
@@ -57,7 +57,7 @@ def test_intervals_hold_as_often_although_sampling_stops_by_them(variation, inte
     """
     rng, studies, held = np.random.default_rng(7), 500, []
     for _ in range(studies):
-        found = pooled(sampled(rng, variation, interval, told)[0]).sel(grid="fine")
+        found = pooled(sampled(rng, variation, interval, told)[0]).sel(level="fine")
         low, high = mean_ratio(found["friction_force"].values, 1.0, found["stratum"].values).interval()
         held.append(np.mean((low <= 1) & (high >= 1)))
     close = 2 * np.std(held) / studies**0.5
@@ -73,9 +73,9 @@ def test_sampling_stops_with_intervals_as_narrow_as_wanted():
     rng = np.random.default_rng(0)
     for interval in (0.1, 0.05):
         found, looks = sampled(rng, 0.3, interval)
-        fine, coarse = (pooled(found).sel(grid=grid) for grid in ("fine", "coarse"))
+        fine, coarse = (pooled(found).sel(level=grid) for grid in ("fine", "coarse"))
         told = mean_ratio(fine["friction_force"].values, 1.0, fine["stratum"].values)
-        grid = abs(told.value - coarse["friction_force"].mean("seed").values)
+        grid = abs(told.value - coarse["friction_force"].mean("surface").values)
         low, high = told.interval()
         assert np.all((high - low) / 2 + grid <= interval * told.value)
         assert looks <= 5
@@ -102,7 +102,7 @@ def test_an_interval_that_is_not_reached_says_why():
         unreached(found, *FRICTION, 0.05),
     )
     force = found["friction_force"]
-    coarse = found.assign(friction_force=force.where(found["grid"] == "fine", 1.2 * force))
+    coarse = found.assign(friction_force=force.where(found["level"] == "fine", 1.2 * force))
     assert re.fullmatch(
         r"is known to [\d.]+ % only, 10 % are wanted: half the points change it by [12]\d %, take more points",
         unreached(coarse, *FRICTION, 0.1),
@@ -111,7 +111,7 @@ def test_an_interval_that_is_not_reached_says_why():
 
 def test_one_contact_without_an_answer_does_not_stop_the_others():
     found = answers(np.random.default_rng(1), pilot(3), 0.3)
-    known = (found["seed"] != 3) | (found["grid"] != "fine")
+    known = (found["surface"] != 3) | (found["level"] != "fine")
     failed = found.assign(friction_force=found["friction_force"].where(known))
     assert needed(failed, *FRICTION, COSTS, 0.03)[2] > PILOT
 
@@ -144,12 +144,12 @@ def test_a_sweep_reaches_the_interval_resumes_and_agrees_with_fixed_draws(tmp_pa
     again = compare.sweep(**asked, interval=0.12, output=tmp_path / "few")
     xarray.testing.assert_identical(found, again)
     kept = compare.load(tmp_path / "few")["contacts/BEM"]["control_variates"]
-    assert np.isfinite(kept.sel(seed=kept["stratum"] == kept["stratum"].max())).all()
+    assert np.isfinite(kept.sel(surface=kept["stratum"] == kept["stratum"].max())).all()
     fixed = compare.sweep(**asked, draws=24, output=tmp_path / "many")
     apart = abs(friction(found, "mean") - friction(fixed, "mean"))
     assert np.all(apart <= half + (friction(fixed, "high") - friction(fixed, "low")) / 2)
     status = found["status"].sel(solver="BEM", speed=0.1)
-    solved = [(status.sel(grid=grid) == "solved").sum().item() for grid in ("fine", "coarse")]
+    solved = [(status.sel(level=grid) == "solved").sum().item() for grid in ("fine", "coarse")]
     assert solved[0] == DIFFERENCES
     assert solved[1] >= DIFFERENCES + PILOT
 

@@ -101,7 +101,7 @@ def test_figures_are_drawn_when_they_are_taken_out_and_show_themselves(found):
 def test_a_folder_holds_every_draw_with_its_status_and_says_what_wrote_it(folder, found):
     tree = compare.load(folder)
     datasets = [node for node in tree.subtree if "status" in node]
-    assert any("seed" in node.dims for node in datasets)
+    assert any("surface" in node.dims for node in datasets)
     assert {str(each) for node in datasets for each in node.status.values.ravel()} <= {"solved", "no contact"}
     content = json.loads((folder / "manifest.json").read_text())
     assert content["command"] == "run"
@@ -122,14 +122,14 @@ def test_a_sweep_is_a_dataset_of_every_draw_with_means_and_intervals(tmp_path, v
     answers = compare.sweep(
         scene, speed=[0.1, 0.0], load=[0.5, 1.0], draws=2, output=output, workers=1, report=False
     )
-    assert dict(answers.sizes) == {"solver": 2, "grid": 2, "speed": 2, "load": 2, "seed": 2}
+    assert dict(answers.sizes) == {"solver": 2, "level": 2, "speed": 2, "load": 2, "surface": 2}
     assert answers.speed.values.tolist() == [0.0, 0.1]
     assert set(answers.status.values.ravel()) == {"solved"}
-    bem = answers.sel(solver="BEM", grid="fine")
+    bem = answers.sel(solver="BEM", level="fine")
     assert answers.friction_coefficient_mean.sel(solver="BEM").values == pytest.approx(friction(bem))
     assert bem.normal_force.values == pytest.approx(np.broadcast_to([[0.5], [1.0]], (2, 2, 2)), rel=1e-6)
     assert (answers.friction_coefficient_low <= answers.friction_coefficient_mean).all()
-    grid = abs(friction(bem) - friction(answers.sel(solver="BEM", grid="coarse")))
+    grid = abs(friction(bem) - friction(answers.sel(solver="BEM", level="coarse")))
     assert (
         answers.friction_coefficient_high.sel(solver="BEM") - answers.friction_coefficient_mean.sel(solver="BEM")
         >= grid - 1e-12
@@ -170,7 +170,7 @@ def test_a_smooth_sweep_has_no_draws_and_the_grid_alone_in_its_interval(tmp_path
     answers = compare.sweep(
         replace(SLIDING, roughness=None), speed=[0.1], output=tmp_path, workers=1, report=False
     )
-    assert "seed" not in answers.dims
+    assert "surface" not in answers.dims
     assert (answers.friction_coefficient_high > answers.friction_coefficient_mean).all()
 
 
@@ -228,7 +228,7 @@ def test_a_study_of_ones_own_goes_the_same_way(tmp_path):
     report = compare.solve(Twice(), tmp_path, workers=1)
     assert report.table.loc[0, ["claim", "verdict"]].tolist() == ["two", "holds"]
     assert report.path == tmp_path / "report.html"
-    assert compare.load(tmp_path)["smooth/BEM"].sizes["grid"] == 2
+    assert compare.load(tmp_path)["smooth/BEM"].sizes["level"] == 2
     assert compare.solve(Twice(), tmp_path, report=False).path is None
 
 

@@ -161,14 +161,14 @@ def test_units_of_load_friction_and_speed_and_the_order_of_surfaces_change_nothi
 
 def test_a_dataset_gives_the_same_curves_whatever_the_order_of_its_dimensions():
     given = simulated(np.random.default_rng(2), friction(knee), 6, loads=0.1)
-    dims = ("speed", "load", "seed")
+    dims = ("speed", "load", "surface")
     dataset = xarray.Dataset(
         {"normal_force": (dims, given.load), "friction_force": (dims, given.friction_force)},
         {"speed": SPEEDS, "load": LOADS},
     )
-    found = SimulatedCurves.of(dataset.transpose("seed", "load", "speed"))
+    found = SimulatedCurves.of(dataset.transpose("surface", "load", "speed"))
     np.testing.assert_array_equal(found.friction_force, given.friction_force)
-    flat = SimulatedCurves.of(dataset.isel(seed=0, drop=True))
+    flat = SimulatedCurves.of(dataset.isel(surface=0, drop=True))
     assert (flat.load.ndim, flat.surfaces, flat.groups) == (2, 1, [])
 
 

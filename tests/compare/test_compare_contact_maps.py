@@ -9,7 +9,7 @@ from drawn_scenes import KELVIN, LOAD, ROUGH, STANDARD, TAU, A, G, R
 from drawn_scenes import SCENES as DRAWN
 
 from bem3d import BEM
-from compare.report.plots import contact_maps, style
+from compare.figures import contact_maps, style
 from compare.report.views import view
 from mdr1d import MDR
 from scene import (

@@ -98,7 +98,7 @@ def sampled(rng, claim, variation, interval):
     while counts != had:
         had = counts
         known = grown(rng, known, counts, variation)
-        fine, coarse = (DrawSet({"BEM": pooled(known).sel(grid=grid)}) for grid in ("fine", "coarse"))
+        fine, coarse = (DrawSet({"BEM": pooled(known).sel(level=grid)}) for grid in ("fine", "coarse"))
         each = measured(claim, fine, coarse)
         counts = DrawnSurfaces({"BEM": counts}, {"BEM": COSTS}).more([each], interval)["BEM"]
     return each.verdict, had
@@ -125,13 +125,15 @@ def test_what_does_not_touch_adds_nothing_to_either_force():
     status[2, :, -1] = "no contact"  # which is asked for there alone
     empty = given.assign(
         status=(dims, status),
-        friction_force=given["friction_force"].where(given["seed"] != 55),
-        normal_force=given["normal_force"].where(given["seed"] != 55, 0.0).where(given["normal_force"].notnull()),
+        friction_force=given["friction_force"].where(given["surface"] != 55),
+        normal_force=given["normal_force"]
+        .where(given["surface"] != 55, 0.0)
+        .where(given["normal_force"].notnull()),
     )
     nothing = empty.drop_vars("status").assign(friction_force=empty["friction_force"].fillna(0.0))
     nothing = nothing.assign(friction_force=nothing["friction_force"].where(given["normal_force"].notnull()))
     np.testing.assert_allclose(
-        friction(pooled(empty).sel(grid="fine")), friction(pooled(nothing).sel(grid="fine")), rtol=1e-12
+        friction(pooled(empty).sel(level="fine")), friction(pooled(nothing).sel(level="fine")), rtol=1e-12
     )
 
 
@@ -174,13 +176,13 @@ def test_hard_surfaces_are_solved_on_the_next_finer_grid_and_told(tmp_path, monk
     finer = sum(row.finer > 0 for _, row in report.unsolved.contacts)
     assert note == f"{finer} contacts are too much for a coarse grid, and the next finer one answers in its place."
     dataset = report.answers["scene/own/BEM"].to_dataset(inherit=False)
-    hard, last = dataset["seed"] % 5 == 0, dataset["stratum"] == 1
+    hard, last = dataset["surface"] % 5 == 0, dataset["stratum"] == 1
     status = dataset["status"].isel(speed=0, load=0)
-    assert (status.sel(grid="coarse", seed=hard) == FINER).all()
-    assert (status.sel(grid="coarse", seed=~hard) == SOLVED).all()
-    assert (status.sel(grid="fine", seed=last) == NOT_ASKED).all()
-    friction = dataset["friction_force"].isel(speed=0, load=0).sel(seed=hard & ~last)
-    np.testing.assert_allclose(friction.sel(grid="coarse"), friction.sel(grid="fine"), rtol=1e-3)
+    assert (status.sel(level="coarse", surface=hard) == FINER).all()
+    assert (status.sel(level="coarse", surface=~hard) == SOLVED).all()
+    assert (status.sel(level="fine", surface=last) == NOT_ASKED).all()
+    friction = dataset["friction_force"].isel(speed=0, load=0).sel(surface=hard & ~last)
+    np.testing.assert_allclose(friction.sel(level="coarse"), friction.sel(level="fine"), rtol=1e-3)
     again = compare.run(**asked)
     assert (again.swept.solved, again.unsolved.notes) == (0, (note,))
     assert again.table.equals(report.table)

@@ -14,9 +14,9 @@ from typer.testing import CliRunner
 import compare
 from bem3d import BEM
 from compare.cli.app import app
+from compare.figures import style
 from compare.library.lookup import case_of
 from compare.report import vtk
-from compare.report.plots import style
 from compare.studies.draw import figure as draw
 from compare.studies.draw import program
 from compare.studies.draw.study import APART

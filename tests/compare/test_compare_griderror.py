@@ -19,7 +19,7 @@ def answers(three, one=(1e-5, 2e-5)):
 
     def dataset(errors):
         both = np.array([errors, np.full(len(errors), 0.9)])
-        return xarray.Dataset({"friction_error": (("grid", "speed"), both)}, {"grid": ["fine", "coarse"]})
+        return xarray.Dataset({"friction_error": (("level", "speed"), both)}, {"level": ["fine", "coarse"]})
 
     return xarray.DataTree.from_dict({"/contacts/BEM": dataset(three), "/contacts/MDR": dataset(one)})
 
@@ -52,7 +52,7 @@ def test_a_sweep_states_the_error_of_every_contact_and_warns_of_a_great_one(tmp_
     fine = compare.sweep(
         case(Sphere(radius=1e-2), 0.1), speed=[0.1], workers=1, report=False, output=tmp_path / "a"
     )
-    assert (fine["friction_error"].sel(grid="fine") < griderror.MUCH).all()
+    assert (fine["friction_error"].sel(level="fine") < griderror.MUCH).all()
     with pytest.warns(Doubtful) as warned:
         compare.sweep(case(BLUNT, 0.3), speed=[0.3], workers=1, report=False, output=tmp_path / "b")
     (uncertain,) = (each for each in warned if each.category is compare.UncertainFriction)
@@ -70,6 +70,6 @@ def test_a_drawing_of_an_uncertain_contact_says_so_first(tmp_path):
 
 
 def test_of_surfaces_the_mean_is_uncertain_by_the_mean_of_their_bounds():
-    bounds = xarray.Dataset({"friction_error": (("speed", "seed"), [[0.02, 0.2], [0.2, 0.4]])})
+    bounds = xarray.Dataset({"friction_error": (("speed", "surface"), [[0.02, 0.2], [0.2, 0.4]])})
     (found,) = griderror.stated(xarray.DataTree.from_dict({"/contacts/BEM": bounds})).values()
     np.testing.assert_allclose(found, [0.11, 0.3])

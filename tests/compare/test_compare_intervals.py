@@ -142,9 +142,11 @@ def test_an_rms_is_in_its_interval_where_the_grid_is_off_too_and_no_end_is_negat
 def test_every_place_gives_the_same_interval_of_the_same_draws():
     values = drawn("lognormal", 1.0, 12)[0]
     expected = mean_ratio(values).interval()
-    forces = {name: (("speed", "load", "seed"), values[None, None]) for name in ("normal_force", "friction_force")}
-    grids = xarray.Dataset(forces, {"speed": [1.0], "load": [1.0]}).expand_dims(grid=[FINE])
-    told = compared(lambda sample: sample["a"]["normal_force"].mean("seed").values, *_sample(grids))
+    forces = {
+        name: (("speed", "load", "surface"), values[None, None]) for name in ("normal_force", "friction_force")
+    }
+    grids = xarray.Dataset(forces, {"speed": [1.0], "load": [1.0]}).expand_dims(level=[FINE])
+    told = compared(lambda sample: sample["a"]["normal_force"].mean("surface").values, *_sample(grids))
     bias = Bias.of(mean_ratio(values), 0.0)
     curves = SimulatedCurves(np.ones(1), np.ones((1, 1, 12)), values[None, None])
     friction = curves.replicates(1.0, values.mean() * curves.deviations()[:, 0]).estimated.interval()
@@ -159,4 +161,4 @@ def test_every_place_gives_the_same_interval_of_the_same_draws():
 
 
 def _sample(grids):
-    return DrawSet({"a": grids.sel(grid=FINE)}), None
+    return DrawSet({"a": grids.sel(level=FINE)}), None

@@ -8,8 +8,8 @@ import pytest
 import xarray
 from invented_answers import SERIES, eq_19, obeying
 
+from compare.figures import style
 from compare.report.page import Plot
-from compare.report.plots import style
 from compare.solving import words
 from compare.solving.parameter_grid import FINE
 from compare.statistics.finding import FAILS, HOLDS, REPORTED
@@ -37,14 +37,14 @@ def solved(series):
     names = (*MEASURES, "pressure_ratio", "nominal_radius")
 
     def array(number):
-        return ("grid", "speed", "load"), np.array([[[number(each) for each in row] for row in found]])
+        return ("level", "speed", "load"), np.array([[[number(each) for each in row] for row in found]])
 
     columns = {name: array(lambda each, name=name: each.measures[name]) for name in names}
     columns |= {
         name: array(lambda each, name=name: getattr(each, name)) for name in ("normal_force", "friction_force")
     }
     columns["friction_coefficient"] = array(lambda each: each.friction_coefficient)
-    places = {"grid": [FINE], "speed": [0.0, *series.speeds], "load": list(series.values)}
+    places = {"level": [FINE], "speed": [0.0, *series.speeds], "load": list(series.values)}
     return xarray.Dataset(columns, places, {"solver": LAW.name})
 
 
@@ -57,7 +57,7 @@ def answers(series=FEW, times=1.0, scatter=0.0, grid=0.0, seed=1, law=None):
     tree = contacts.answers.copy(deep=True)
     tree[f"/{series.name}/{ROUGH}/{LAW.name}"] = xarray.DataTree(law)
     rough = tree[f"{series.name}/{ROUGH}/BEM"].to_dataset()
-    known = law.isel(grid=0, speed=slice(1, None))
+    known = law.isel(level=0, speed=slice(1, None))
     adds = times * known["share_of_full_contact"] * known["full_contact_friction"]
     shape = rough["friction_force"].shape
     drawn = scatter * np.random.default_rng(seed).standard_normal(shape[1:])

@@ -27,12 +27,12 @@ from matplotlib.patches import Patch
 from matplotlib.text import Text
 from matplotlib.transforms import Bbox
 
+from compare.figures import lettering, shades, style
+from compare.figures.journals import JOURNALS, journal
+from compare.figures.rendering import FORMS, picture
 from compare.report import csvfiles, manifest
 from compare.report.export import function
 from compare.report.page import Plot
-from compare.report.plots import lettering, shades, style
-from compare.report.plots.journals import JOURNALS, journal
-from compare.report.plots.rendering import FORMS, picture
 from scene.reading import InvalidInput
 
 SAMPLES = Path(__file__).parent / "plots"

@@ -9,8 +9,8 @@ import pytest
 from drawn_again import from_files
 
 import compare
+from compare.figures import shifted_curves
 from compare.library.ready import ready
-from compare.report.plots import shifted_curves
 from compare.solving.words import found as worded
 from compare.statistics.eq23 import NO_SHIFT
 from compare.statistics.finding import FAILS, HOLDS, REPORTED, UNDECIDED

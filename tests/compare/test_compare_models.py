@@ -138,7 +138,7 @@ def test_a_model_that_answers_nothing_is_told_and_takes_no_other_with_it(error, 
         report = compare.sweep(SMOOTH, [0.1], draws=1, output=tmp_path, models=models, report=False)
     told = "refused: too steep" if error == "refused" else "too steep"
     assert told in report["reason"].sel(solver="Failing").values
-    assert report["friction_force"].sel(solver="BEM", grid="fine").notnull().all()
+    assert report["friction_force"].sel(solver="BEM", level="fine").notnull().all()
 
 
 @pytest.mark.parametrize(
@@ -175,7 +175,9 @@ def test_a_model_without_draws_has_no_scatter_of_its_own(tmp_path):
     wide = found["friction_coefficient_high"] - found["friction_coefficient_low"]
     assert wide.sel(solver="Averaging").item() == 0
     assert wide.sel(solver="BEM").item() > 0
-    assert found["normal_force"].sel(solver="Averaging", grid="fine", seed=ROUGH.roughness.seed).notnull().all()
+    assert (
+        found["normal_force"].sel(solver="Averaging", level="fine", surface=ROUGH.roughness.seed).notnull().all()
+    )
 
 
 def test_settings_and_source_are_in_the_key():

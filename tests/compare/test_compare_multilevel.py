@@ -31,11 +31,11 @@ def answers(rng, counts=COUNTS, variation=0.2, shape=(2,), told=None):
     ]
     on = np.arange(len(counts))[:, None]
     asked = ((stratum == on) | (stratum == on - 1))[:, None]
-    dims = "grid", "load", "seed"
+    dims = "level", "load", "surface"
     coordinates = {
-        "grid": ["fine", "coarse", "coarser"],
-        "seed": range(stratum.size),
-        "stratum": ("seed", stratum),
+        "level": ["fine", "coarse", "coarser"],
+        "surface": range(stratum.size),
+        "stratum": ("surface", stratum),
     }
     found = {
         "friction_force": (dims, np.where(asked, grids, np.nan)),
@@ -45,7 +45,7 @@ def answers(rng, counts=COUNTS, variation=0.2, shape=(2,), told=None):
         moments = rng.normal(size=(*normal.shape, 7))
         moments[..., 2] = told * normal + sqrt(1 - told**2) * moments[..., 2]
         moments[..., stratum < len(counts) - 1, :] = np.nan
-        found["control_variates"] = ("load", "seed", "variate"), moments
+        found["control_variates"] = ("load", "surface", "variate"), moments
     return xarray.Dataset(found, coordinates, {"solver": "BEM"})
 
 
@@ -56,7 +56,7 @@ def test_draws_of_one_grid_are_the_sum_of_the_differences_of_all_grids():
     parts = *coarse, (values[0] - values[1])[:, stratum == 0]
     found = pooled(given)["friction_force"]
     for grid, some in (("coarse", coarse), ("fine", parts)):
-        here = mean_ratio(found.sel(grid=grid).values, 1.0, stratum)
+        here = mean_ratio(found.sel(level=grid).values, 1.0, stratum)
         np.testing.assert_allclose(here.value, sum(each.mean(axis=1) for each in some), rtol=1e-12)
         variance = sum(each.var(axis=1, ddof=1) / each.shape[1] for each in some)
         np.testing.assert_allclose(here.error, np.sqrt(variance), rtol=1e-12)
@@ -112,7 +112,7 @@ def test_moments_leave_less_scatter_of_coarse_surfaces_alone():
     assert set(found.variables) == set(plain.variables)
     strata = given["stratum"].values
     for grid in ("fine", "coarse"):
-        one, other = (each["friction_force"].sel(grid=grid).values for each in (plain, found))
+        one, other = (each["friction_force"].sel(level=grid).values for each in (plain, found))
         coarse = (each[:, strata == 2].var(axis=-1) for each in (other, one))
         assert np.all(np.divide(*coarse) <= 0.5)
         about = [each - each.mean(axis=-1, keepdims=True) for each in (one, other)]
@@ -120,7 +120,7 @@ def test_moments_leave_less_scatter_of_coarse_surfaces_alone():
 
 
 def test_one_difference_alone_tells_no_interval():
-    found = pooled(answers(np.random.default_rng(1), (1, 4, 9))).sel(grid="fine")
+    found = pooled(answers(np.random.default_rng(1), (1, 4, 9))).sel(level="fine")
     assert np.isnan(found["friction_force"]).all()
 
 
@@ -131,7 +131,7 @@ def test_intervals_of_means_hold_as_often_as_stated(variation, least, most):
     rng = np.random.default_rng(3)
     held, close = 0, 3 * sqrt(0.95 * 0.05 / STUDIES / 2)
     for _ in range(STUDIES):
-        given = pooled(answers(rng, variation=variation)).sel(grid="fine")
+        given = pooled(answers(rng, variation=variation)).sel(level="fine")
         low, high = mean_ratio(given["friction_force"].values, 1.0, strata_of(given)).interval()
         held += np.mean((low <= 1) & (high >= 1)) / STUDIES
     assert least - close <= held <= most + close
@@ -142,7 +142,7 @@ def test_leaving_surfaces_out_of_all_grids_has_the_error_of_the_mean():
     rng = np.random.default_rng(4)
     squares = []
     for _ in range(100):
-        given = pooled(answers(rng)).sel(grid="fine")
+        given = pooled(answers(rng)).sel(level="fine")
         found = resample(lambda sample: {"": friction(sample["BEM"])}, DrawSet({"BEM": given}))[""].estimated
         told = mean_ratio(given["friction_force"].values, given["normal_force"].values, strata_of(given))
         np.testing.assert_allclose(found.value, told.value, rtol=1e-12)
@@ -165,7 +165,7 @@ def test_a_ratio_of_two_models_of_unequal_numbers_of_draws_holds_as_often(counts
 
     def drawn(solver, count, spread):
         values = np.exp(spread * rng.normal(size=(1, count)) - spread**2 / 2)
-        return xarray.Dataset({"normal_force": (("load", "seed"), values)}, attrs={"solver": solver})
+        return xarray.Dataset({"normal_force": (("load", "surface"), values)}, attrs={"solver": solver})
 
     def ratio(sample):
         return {"": mean(sample["BEM"], "normal_force") / mean(sample["MDR"], "normal_force")}

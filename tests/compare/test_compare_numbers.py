@@ -11,9 +11,9 @@ from matplotlib.text import Text
 from pandas import DataFrame
 from small_cases import TINY
 
+from compare.figures import shifted_curves, style
 from compare.report import terminal
 from compare.report.page import Page, Table
-from compare.report.plots import shifted_curves, style
 from compare.solving.continuation import Continuation
 from compare.solving.cost import MOST_DRAWS
 from compare.solving.outcome import Outcome, Row

@@ -65,11 +65,11 @@ def answers():
 
 
 def test_each_solver_has_a_dataset_and_smooth_bodies_have_no_draw(answers):
-    assert dict(answers["rough/MDR"].sizes) == {"grid": 2, "speed": 2, "load": 3, "seed": 4}
-    assert dict(answers["rough/BEM"].sizes) == {"grid": 2, "speed": 2, "load": 3, "seed": 2}
-    assert dict(answers["smooth/BEM"].sizes) == {"grid": 2, "speed": 2, "load": 3}
+    assert dict(answers["rough/MDR"].sizes) == {"level": 2, "speed": 2, "load": 3, "surface": 4}
+    assert dict(answers["rough/BEM"].sizes) == {"level": 2, "speed": 2, "load": 3, "surface": 2}
+    assert dict(answers["smooth/BEM"].sizes) == {"level": 2, "speed": 2, "load": 3}
     assert answers["rough/BEM"].points.values.tolist() == [32, 16]
-    assert answers["rough/BEM"].seed.values.tolist() == [5, 6]
+    assert answers["rough/BEM"].surface.values.tolist() == [5, 6]
 
 
 COARSER = {"fine": MDR(points=400), "coarse": MDR(points=200), "coarser": MDR(points=100)}
@@ -79,10 +79,14 @@ def test_draws_of_a_stratum_are_solved_on_their_grid_and_on_the_next_coarser_one
     few = replace(ROUGH, grids={"MDR": COARSER}, draws={"MDR": (1, 2, 9)})
     found = few.datasets({task: outcome_of(task) for task in few.tasks()})["MDR"]
     assert found["stratum"].values.tolist() == [0] + [1] * 2 + [2] * 9
-    assert np.unique(found["seed"]).size == found.sizes["seed"]
+    assert np.unique(found["surface"]).size == found.sizes["surface"]
     asked = (found["status"] != "not asked").sel(speed=0.1, load=1.0)
-    assert {name: asked.sel(grid=name).sum().item() for name in COARSER} == {"fine": 1, "coarse": 3, "coarser": 11}
-    assert (found["seed_seen"] == found["seed"]).where(asked, True).all()
+    assert {name: asked.sel(level=name).sum().item() for name in COARSER} == {
+        "fine": 1,
+        "coarse": 3,
+        "coarser": 11,
+    }
+    assert (found["seed_seen"] == found["surface"]).where(asked, True).all()
     assert found["normal_force"].where(~asked).isnull().all()
     assert few.cost.contacts == asked.sum() * 6
     assert few.refuse() is None
@@ -108,18 +112,18 @@ def test_more_draws_leave_the_tasks_of_those_before_as_they_are():
 def test_every_number_stands_where_it_was_asked_for(answers):
     rough = answers["rough/MDR"].to_dataset()
     assert (rough.normal_force == rough["load"]).all()
-    assert (rough.seed_seen == rough.seed).all()
+    assert (rough.seed_seen == rough.surface).all()
     assert rough.friction_force.sel(speed=0.1, load=2.0).values == pytest.approx(0.02)
 
 
 def test_a_failed_contact_keeps_its_reason_and_counts_in_no_mean():
     both = {"rough": ROUGH}
     found = tree(both, {task: outcome_of(task, bad=(6,)) for task in tasks_of(both)})["rough/BEM"].to_dataset()
-    assert set(found.status.sel(seed=6).values.ravel()) == {"failed"}
-    assert set(found.reason.sel(seed=6).values.ravel()) == {"too rough"}
-    assert set(found.status.sel(seed=5).values.ravel()) == {"solved"}
-    assert friction(found.sel(grid="fine"))[1] == pytest.approx([0.01] * 3)
-    assert np.isnan(mean(found.sel(grid="fine", seed=[6]), "normal_force")).all()
+    assert set(found.status.sel(surface=6).values.ravel()) == {"failed"}
+    assert set(found.reason.sel(surface=6).values.ravel()) == {"too rough"}
+    assert set(found.status.sel(surface=5).values.ravel()) == {"solved"}
+    assert friction(found.sel(level="fine"))[1] == pytest.approx([0.01] * 3)
+    assert np.isnan(mean(found.sel(level="fine", surface=[6]), "normal_force")).all()
 
 
 def test_a_body_that_does_not_touch_has_no_force_and_no_friction():
@@ -210,7 +214,7 @@ def test_draws_of_each_solver_are_left_out_by_themselves(answers):
     assert sample.drawn == {"MDR": 4, "BEM": 2}
     assert [each.solver for each in sample.groups] == ["MDR"] * 4 + ["BEM"] * 2
     less = sample.without(sample.groups[-1])
-    assert less["rough/BEM"].seed.values.tolist() == [5]
+    assert less["rough/BEM"].surface.values.tolist() == [5]
     assert all(less[name] is sample[name] for name in ("rough/MDR", "smooth/MDR"))
 
 
@@ -224,7 +228,7 @@ def test_a_claim_is_measured_with_scatter_and_with_the_change_on_halving(answers
     assert (found.value, found.verdict, found.grid, found.draws) == (1.0, "holds", 0.0, 2)
     assert basis(found) == "4 profiles, 2 surfaces, grid (change on halving)"
     halved = answers.copy()
-    halved["rough/BEM"]["normal_force"].loc[{"grid": "coarse"}] *= 1.25
+    halved["rough/BEM"]["normal_force"].loc[{"level": "coarse"}] *= 1.25
     assert judge(claim, halved).grid == pytest.approx(0.2)
 
 
@@ -238,7 +242,7 @@ def test_the_largest_seeds_are_told_apart_in_a_file_of_results(tmp_path):
     found = tree({"rough": each}, {task: outcome_of(task) for task in each.tasks()})
     (tmp_path / netcdf.NAME).write_bytes(netcdf.packed(found))
     for made in (found, netcdf.load(tmp_path / netcdf.NAME)):
-        seeds = made["rough/MDR"].seed
+        seeds = made["rough/MDR"].surface
         assert seeds.dtype == np.int64
         assert seeds.values.tolist() == [last + k for k in range(4)]
 

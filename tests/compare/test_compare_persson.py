@@ -232,8 +232,8 @@ def test_a_series_asks_it_for_friction_under_a_load_alone():
 
 def test_a_study_draws_the_theory_where_it_was_solved():
     solved = xarray.Dataset(
-        {"friction_coefficient": (("grid", "speed", "load"), np.ones((1, 3, 2)))},
-        {"grid": ["fine"], "speed": [0.0, 0.1, 1.0], "load": [0.5, 1.0]},
+        {"friction_coefficient": (("level", "speed", "load"), np.ones((1, 3, 2)))},
+        {"level": ["fine"], "speed": [0.0, 0.1, 1.0], "load": [0.5, 1.0]},
     )
     found = Contacts(series(), xarray.DataTree.from_dict({f"/one/{ROUGH}/Persson": solved})).theories
     assert found["Persson"]["speed"].values.tolist() == [0.1, 1.0]

@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 import compare
 from compare import run
 from compare.cli.app import app
-from compare.report.plots import solid, style
+from compare.figures import solid, style
 from compare.solving.parameter_grid import contacts_of
 from compare.studies.plan import plans
 from compare.studies.run.study import Run

@@ -8,11 +8,11 @@ import pytest
 
 import compare
 from bem3d import BEM
+from compare.figures import style
 from compare.library.case import Case, Variations
 from compare.library.ready import ready
 from compare.report.export import FIGURES, TABLES
 from compare.report.page import Plot, Table
-from compare.report.plots import style
 from compare.solving import netcdf
 from compare.solving.continuation import Continuation
 from compare.solving.folders import Unwritable
@@ -202,7 +202,7 @@ def test_a_surface_that_failed_is_left_out_and_listed():
     assert found.loc["friction.ratio.own", "a case"]["value"] == pytest.approx(2)
     (case,) = (run._judged(name, answers) for name in run.cases)
     assert set(case.failures["reason"]) == {"no answer"}
-    assert set(case.failures["seed"]) == {CASE.roughness.seed + 1}
+    assert set(case.failures["surface"]) == {CASE.roughness.seed + 1}
     points = case.points.query("solver == 'BEM' and body == 'rough'")
     assert set(points["failures"]) == {1}
     assert set(points["surfaces"]) == {2}

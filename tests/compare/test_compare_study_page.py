@@ -9,9 +9,9 @@ import pytest
 import xarray
 from invented_answers import FEW, SERIES, cut, eq_19, obeying, other, spoiled
 
+from compare.figures import style
 from compare.report import csvfiles
 from compare.report.page import Findings, Plot, Section, Table
-from compare.report.plots import style
 from compare.solving.outcome import Outcome, Row
 from compare.solving.parameter_grid import tasks_of
 from compare.statistics.finding import REPORTED
@@ -108,7 +108,7 @@ def test_points_have_means_with_intervals_and_groups_and_failures_their_reason(s
     points, contacts = tables["sphere/points"], Contacts(asked.series[0], answers)
     assert len(points) == 2 * 2 * (1 + 6) * 5
     rough = points[(points["dimension"] == "3D") & (points["body"] == "rough")]
-    forces = (contacts("BEM")[name].mean("seed").values for name in ("friction_force", "normal_force"))
+    forces = (contacts("BEM")[name].mean("surface").values for name in ("friction_force", "normal_force"))
     ratio = np.divide(*forces)
     np.testing.assert_allclose(rough["friction_coefficient_mean"].to_numpy().reshape(7, 5), ratio, rtol=1e-12)
     assert (rough["normal_force_low"] <= rough["normal_force_mean"]).all()

@@ -8,8 +8,8 @@ import pytest
 import xarray
 
 from bem3d import BEM
+from compare.figures import style
 from compare.library import ready
-from compare.report.plots import style
 from compare.solving.outcome import Outcome, Row
 from compare.solving.runner import sweep
 from compare.solving.store import Store

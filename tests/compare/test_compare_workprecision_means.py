@@ -8,7 +8,7 @@ import pytest
 import xarray
 
 from bem3d import BEM
-from compare.report.plots import style
+from compare.figures import style
 from compare.solving.outcome import Outcome, Row
 from compare.statistics.sampling import Bias, Level, SamplingPlan, Scatter, cheapest, envelope
 from compare.studies.workprecision.answers import LEVELS, answers_table, cells, regimes_of

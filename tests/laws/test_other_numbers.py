@@ -20,8 +20,8 @@ import compare
 import mdr1d
 import scene
 from bem3d import BEM
+from compare.figures.journals import journal
 from compare.library.case import Variations
-from compare.report.plots.journals import journal
 from compare.studies.mastercurve.study import Mastercurve
 from compare.studies.mastercurve.temperatures import Constants
 from compare.studies.sweep.study import Sweep

@@ -115,8 +115,8 @@ def _one_sided(series, solver, laws) -> Iterator[tuple[str, Callable, Any, float
 
     def over_limit(answers):
         rest = answers.isel(speed=0)
-        force = rest["normal_force"].transpose(..., "seed").values
-        drag = exact.mean_lag(series.scene.solid) * rest[SLOW_DRAG].transpose(..., "seed").values
+        force = rest["normal_force"].transpose(..., "surface").values
+        drag = exact.mean_lag(series.scene.solid) * rest[SLOW_DRAG].transpose(..., "surface").values
         limit = series.speeds[0] * mean_ratio(drag, force).value
         return geometric(mu(answers)[0] / limit)
 

@@ -222,4 +222,4 @@ def _mu(dataset):
 
 def _points(values):
     """Values (speeds, values) of a smooth body, which has no draws."""
-    return values.mean("seed").values if "seed" in values.dims else values.values
+    return values.mean("surface").values if "surface" in values.dims else values.values

@@ -58,7 +58,9 @@ def reduced(members: Sequence[JudgedSeries], solver: str, grid: str = FINE) -> S
     loads, frictions = [], []
     for judged in members:
         answers, laws = sliding(judged.contacts(solver, ROUGH, grid)), judged.laws[solver]
-        force, drag = (answers[name].transpose(..., "seed").values for name in ("normal_force", "friction_force"))
+        force, drag = (
+            answers[name].transpose(..., "surface").values for name in ("normal_force", "friction_force")
+        )
         mean = mean_ratio(force).value[..., None]
         unit = 1 / laws.xi_under(mean[..., 0])[..., None] / mean
         loads.append((force * unit).reshape(-1, force.shape[2]))

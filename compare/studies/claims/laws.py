@@ -137,7 +137,7 @@ def regimes(series: Series, answers: xarray.Dataset) -> dict[str, np.ndarray]:
 def _draws(answers, name):
     """Variable with the draws along the last axis; smooth bodies have one."""
     values = answers[name]
-    return values.transpose(..., "seed").values if "seed" in values.dims else values.values[..., None]
+    return values.transpose(..., "surface").values if "surface" in values.dims else values.values[..., None]
 
 
 def _power(rates):

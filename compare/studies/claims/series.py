@@ -147,7 +147,7 @@ class Contacts:
     def __call__(self, solver: str, body: str = ROUGH, grid: str = FINE) -> xarray.Dataset:
         """Draws of one grid, rest first; a model without another grid has no error of it."""
         found = self._pooled[solver, body]
-        return found.sel(grid=grid if grid in found["grid"] else FINE)
+        return found.sel(level=grid if grid in found["level"] else FINE)
 
     @property
     def labels(self) -> dict[str, str]:
@@ -179,7 +179,7 @@ class Contacts:
         """Rough points that slide of theories beside the models, or of the models that they are, by name."""
         nodes = cast(xarray.DataTree, self.answers[f"{self.series.name}/{ROUGH}"]).children
         names = [each.name for each in THEORIES if each.name in nodes]
-        return {name: sliding(nodes[name].to_dataset(inherit=False).sel(grid=FINE)) for name in names}
+        return {name: sliding(nodes[name].to_dataset(inherit=False).sel(level=FINE)) for name in names}
 
     @cached_property
     def _pooled(self):

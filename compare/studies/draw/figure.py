@@ -13,10 +13,10 @@ from pandas import DataFrame
 
 from scene import Cylinder, Plane, Program, Scene
 
+from ...figures import shades, style, touching
+from ...figures.lettering import clear, letter
+from ...figures.prefixes import prefixed
 from ...report.page import Plot, Tables
-from ...report.plots import shades, style, touching
-from ...report.plots.lettering import clear, letter
-from ...report.plots.prefixes import prefixed
 from . import relief
 
 NAME = "draw"

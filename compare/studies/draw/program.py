@@ -13,10 +13,10 @@ from bem3d import BEM
 from bem3d.wake import heights
 from scene import Cylinder, Scene
 
+from ...figures import style, touching
+from ...figures.lettering import lettered
+from ...figures.prefixes import prefixed
 from ...report.page import Plot, Tables
-from ...report.plots import style, touching
-from ...report.plots.lettering import lettered
-from ...report.plots.prefixes import prefixed
 from ...report.views import Fields
 from ...solving.vocabulary import attributes
 

@@ -15,8 +15,8 @@ from matplotlib.collections import LineCollection
 from matplotlib.colors import Normalize
 from matplotlib.ticker import MaxNLocator
 
-from ...report.plots import style, touching
-from ...report.plots.prefixes import prefixed
+from ...figures import style, touching
+from ...figures.prefixes import prefixed
 
 # Height of the relief as drawn, at most, and of the block below it, as shares of the deeper side of the surface.
 TALL, BLOCK = 0.22, 0.08

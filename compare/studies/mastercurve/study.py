@@ -13,8 +13,8 @@ from scene.printable import brief
 from scene.quantities import BARE, argument
 from scene.reading import InvalidInput
 
+from ...figures import shifted_curves
 from ...report.page import Block, Findings, Table, Text
-from ...report.plots import shifted_curves
 from ...solving.outcome import Outcome
 from ...solving.task import Batch, Task
 from ...solving.words import capital, sentences

@@ -8,10 +8,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from pandas import DataFrame
 
+from ...figures import shades, style
+from ...figures.curves import intervals
+from ...figures.lettering import clear, lettered
 from ...report.page import Plot, Tables
-from ...report.plots import shades, style
-from ...report.plots.curves import intervals
-from ...report.plots.lettering import clear, lettered
 from ...statistics.intervals import student
 from ...statistics.pooling import Pooled
 from ...statistics.shiftlaws import ShiftLaw

@@ -109,8 +109,8 @@ class Law:
 
 def law(shape: str, solved: xarray.Dataset, of_planes: xarray.Dataset) -> Law:
     """One shape from what was solved, except speeds without an answer. Raises SolveError where none has one."""
-    slope, fine = _slope(), solved.sel(grid=FINE).isel(load=0)
-    friction = (fine["friction_force"] / fine["normal_force"]).transpose("speed", "seed").values
+    slope, fine = _slope(), solved.sel(level=FINE).isel(load=0)
+    friction = (fine["friction_force"] / fine["normal_force"]).transpose("speed", "surface").values
     known = np.isfinite(friction).any(axis=1)
     if not known.any():
         raise SolveError(f"Fig. 4, {shape}: nothing was solved: {fine['reason'].values.flat[0]}")

@@ -89,8 +89,8 @@ def lossy(loss: Loss, rough: xarray.Dataset, smooth: xarray.Dataset) -> Lossy:
     Raises SolveError where no profile has an answer at every point, as profiles are shared, or the smooth body has
     none at one.
     """
-    whole = SimulatedCurves.of(rough.sel(grid=FINE))
-    body = SimulatedCurves.of(smooth.sel(grid=FINE))
+    whole = SimulatedCurves.of(rough.sel(level=FINE))
+    body = SimulatedCurves.of(smooth.sel(level=FINE))
     known = np.isfinite(whole.friction_force).all(axis=(0, 1))
     of_body = body.friction_force / body.load
     if not known.any() or not np.isfinite(of_body).all():

@@ -11,8 +11,8 @@ from pandas import DataFrame
 
 from scene.reading import InvalidInput
 
+from ...figures import shifted_curves
 from ...report.page import Block, Findings, Section, Table, Text
-from ...report.plots import shifted_curves
 from ...solving import parameter_grid
 from ...solving.cost import MOST_DRAWS, Cost
 from ...solving.outcome import Outcome

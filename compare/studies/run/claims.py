@@ -266,7 +266,7 @@ class CaseFindings:
         for curve, solver in product(CURVES, dict.fromkeys((*self._labels, THEORY.name, "exact"))):
             place = f"{curve}/{solver}"
             if (dataset := self.answers.get(place)) is not None:
-                rough = "seed" in dataset.dims or (self.case.roughness and "smooth" not in curve)
+                rough = "surface" in dataset.dims or (self.case.roughness and "smooth" not in curve)
                 frames[curve, solver, "rough" if rough else "smooth"] = means.means(
                     dataset, self.datasets[f"{curve}/{solver}"]
                 )
@@ -316,9 +316,9 @@ class CaseFindings:
         # Of a model without points there is no other grid, and its answers have no error of it.
         alone = {name for name in datasets if name in self._labels and not self.models[name].has_grid}
         coarser = {name: FINE if name in alone else COARSE for name in datasets}
-        on_both = all(grid in datasets[name]["grid"].values for name, grid in coarser.items())
-        fine = DrawSet({name: each.sel(grid=FINE) for name, each in datasets.items()})
-        coarse = {name: each.sel(grid=coarser[name]) for name, each in datasets.items()} if on_both else None
+        on_both = all(grid in datasets[name]["level"].values for name, grid in coarser.items())
+        fine = DrawSet({name: each.sel(level=FINE) for name, each in datasets.items()})
+        coarse = {name: each.sel(level=coarser[name]) for name, each in datasets.items()} if on_both else None
         return compared(ratio, fine, coarse, size)
 
     def _deviations(self, claim, curve, above, below, dimension="") -> dict[float, Finding]:
@@ -357,9 +357,9 @@ class CaseFindings:
     def _collapse(self, solver, grid) -> Collapse | None:
         """None with too few speeds or points."""
         dataset = self.datasets.get(f"{LOAD}/{solver}")
-        if dataset is None or grid not in dataset["grid"].values:
+        if dataset is None or grid not in dataset["level"].values:
             return None
         try:
-            return collapse(SimulatedCurves.of(dataset.sel(grid=grid)))
+            return collapse(SimulatedCurves.of(dataset.sel(level=grid)))
         except ValueError:
             return None

@@ -2,9 +2,9 @@
 
 from math import isfinite
 
+from ...figures.prefixes import prefixed
 from ...library.describe import conditions
 from ...models.table import Model
-from ...report.plots.prefixes import prefixed
 from ...solving.words import capital, interval, off, share, with_unit
 from ...statistics.finding import Finding
 from ...statistics.multilevel import WORDS

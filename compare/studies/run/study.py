@@ -14,12 +14,12 @@ from pandas import DataFrame
 from scene import Refused, Scene, notes
 from scene.result import labelled, provenance
 
+from ...figures import contact_maps, shifted_curves
 from ...library.case import Case, NotCompared, doubted, share_of
 from ...library.describe import conditions, described, folders
 from ...library.lookup import SceneLike, named_cases
 from ...models.table import ModelLike, Models, listed
 from ...report.page import Block, Findings, Plot, Section, Table, Text
-from ...report.plots import contact_maps, shifted_curves
 from ...report.views import view
 from ...solving import parameter_grid, words
 from ...solving.continuation import by_contact

@@ -3,10 +3,10 @@
 from matplotlib.figure import Figure
 from pandas import DataFrame
 
+from ...figures import style
+from ...figures.curves import intervals, unanswered
+from ...figures.lettering import clear, lettered
 from ...report.page import Plot, Tables
-from ...report.plots import style
-from ...report.plots.curves import intervals, unanswered
-from ...report.plots.lettering import clear, lettered
 
 UNITS = {"speed": "m/s", "load": "N", "depth": "m"}
 WORDS = {"speed": "speed", "load": "normal force", "depth": "depth"}

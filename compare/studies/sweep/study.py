@@ -16,11 +16,11 @@ from scene.printable import brief
 from scene.reading import InvalidInput, whole
 from scene.result import provenance
 
+from ...figures.rendering import finished
 from ...library.case import Case, doubted, share_of
 from ...library.lookup import SceneLike, case_of
 from ...models.table import ModelLike, Models
 from ...report.page import Table
-from ...report.plots.rendering import finished
 from ...solving.control_variates import VARIATES
 from ...solving.cost import MOST_DRAWS
 from ...solving.parameter_grid import COARSE, FINE, LEVELS, ParameterGrid, on_two_grids
@@ -225,7 +225,7 @@ class Sweep(Study):
     @staticmethod
     def _draws(drawn, grid, solvers):
         return DrawSet(
-            {each: drawn[each].sel(grid=grid if grid in drawn[each]["grid"] else FINE) for each in solvers}
+            {each: drawn[each].sel(level=grid if grid in drawn[each]["level"] else FINE) for each in solvers}
         )
 
     def dataset(self, answers: xarray.DataTree) -> xarray.Dataset:
@@ -242,10 +242,10 @@ class Sweep(Study):
             compat="override",
             join="outer",
         )
-        grids = [grid for grid in LEVELS if grid in joined["grid"]]  # which joining may have sorted
-        seeds = joined["seed"].values if "seed" in joined else ()
+        grids = [grid for grid in LEVELS if grid in joined["level"]]  # which joining may have sorted
+        seeds = joined["surface"].values if "surface" in joined else ()
         about = provenance(self.case.scene, seeds)
-        return joined.sel(grid=grids).assign_attrs(about, prescribed=self.case.motion.pressed_by)
+        return joined.sel(level=grids).assign_attrs(about, prescribed=self.case.motion.pressed_by)
 
     def _with_means(self, dataset):
         """One solver with its means; the points of a grid, which differ between solvers, as a variable."""

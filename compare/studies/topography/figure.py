@@ -6,9 +6,9 @@ import numpy as np
 from matplotlib.figure import Figure
 from pandas import DataFrame
 
+from ...figures import style
+from ...figures.lettering import clear
 from ...report.page import Plot, Tables
-from ...report.plots import style
-from ...report.plots.lettering import clear
 from ...statistics.spectra import NOTHING, Description, mapped
 
 NAME = "topography"

@@ -5,8 +5,8 @@ from typing import Any
 from matplotlib.figure import Figure
 from pandas import DataFrame
 
+from ...figures import style
 from ...report.page import Plot, Tables
-from ...report.plots import style
 
 NAME = "verify"
 LEAST, MOST = 1e-6, 1e3  # of a misfit over its bound, that are shown

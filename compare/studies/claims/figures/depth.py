@@ -4,10 +4,10 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
+from ....figures import shades, style
+from ....figures.curves import intervals
+from ....figures.lettering import clear, lettered
 from ....report.page import Tables
-from ....report.plots import shades, style
-from ....report.plots.curves import intervals
-from ....report.plots.lettering import clear, lettered
 
 SOLVER = {"1D": "MDR", "3D": "BEM"}
 CLOSED = "closed form"

@@ -10,10 +10,10 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import EngFormatter
 from pandas import DataFrame
 
+from ....figures import shades, style
+from ....figures.curves import intervals
+from ....figures.lettering import clear, lettered, literal
 from ....report.page import Tables
-from ....report.plots import shades, style
-from ....report.plots.curves import intervals
-from ....report.plots.lettering import clear, lettered, literal
 from ....solving.words import interval
 from ....statistics.collapse import ENDS
 

@@ -9,10 +9,10 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from pandas import DataFrame, concat
 
+from ....figures import shades, style
+from ....figures.curves import intervals
+from ....figures.lettering import clear, lettered, literal
 from ....report.page import Plot, Tables
-from ....report.plots import shades, style
-from ....report.plots.curves import intervals
-from ....report.plots.lettering import clear, lettered, literal
 from ....solving.words import number
 from ....statistics.finding import Finding
 from ....statistics.means import Interval

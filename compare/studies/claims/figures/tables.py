@@ -209,7 +209,7 @@ def _stiffness(contacts, solver) -> DataFrame:
     def secants(sample):
         rest = resting(sample[solver])
         names = "normal_force", "depth_reached"
-        force, depth = (np.diff(rest[name].transpose(..., "seed").values, axis=0) for name in names)
+        force, depth = (np.diff(rest[name].transpose(..., "surface").values, axis=0) for name in names)
         return mean_ratio(force, depth).value
 
     force = mean(contacts.sample(FINE, ROUGH, solver)[solver], "normal_force")[0]

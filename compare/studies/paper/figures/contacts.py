@@ -9,9 +9,9 @@ from matplotlib.patches import Rectangle
 from matplotlib.ticker import MaxNLocator
 from pandas import DataFrame
 
+from ....figures import style, touching
+from ....figures.lettering import lettered
 from ....report.page import Plot, Tables
-from ....report.plots import style, touching
-from ....report.plots.lettering import lettered
 
 NAME = "paper-contacts"
 # Half the width of the whole picture in radii of the smooth contact, and the width of the close-up [m].

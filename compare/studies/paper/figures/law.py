@@ -8,10 +8,10 @@ from pandas import DataFrame, concat
 
 from mdr1d.equations import interpolation
 
+from ....figures import style
+from ....figures.curves import intervals
+from ....figures.lettering import clear, lettered
 from ....report.page import Plot, Tables
-from ....report.plots import style
-from ....report.plots.curves import intervals
-from ....report.plots.lettering import clear, lettered
 
 NAME = "paper-law"
 ALPHA = f"{NAME}-alpha"

@@ -4,8 +4,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ....figures import style, touching
 from ....report.page import Plot, Tables
-from ....report.plots import style, touching
 
 NAME = "paper-sketch"
 # The cone g = SLOPE |x| at the depth 1 in units of the depth, and the memory of the elastomer, l = v tau.

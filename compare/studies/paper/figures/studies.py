@@ -11,10 +11,10 @@ from pandas import DataFrame
 from mdr1d.equations import interpolation
 from scene.regime import MUCH_LESS_HEIGHT
 
+from ....figures import shades, style
+from ....figures.curves import scatter
+from ....figures.lettering import clear
 from ....report.page import Plot, Tables
-from ....report.plots import shades, style
-from ....report.plots.curves import scatter
-from ....report.plots.lettering import clear
 
 NAME = "paper-studies"
 LINES = f"{NAME}-lines"

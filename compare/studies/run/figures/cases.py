@@ -8,10 +8,10 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from pandas import DataFrame, concat
 
+from ....figures import shades, style
+from ....figures.curves import intervals
+from ....figures.lettering import lettered, literal
 from ....report.page import Plot, Tables
-from ....report.plots import shades, style
-from ....report.plots.curves import intervals
-from ....report.plots.lettering import lettered, literal
 from ....solving.vocabulary import head
 from ..curves import LOAD, SPEED
 from .friction_curves import APART

@@ -9,10 +9,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from pandas import DataFrame, concat
 
+from ....figures import style
+from ....figures.curves import averaged, intervals, of_curves, unanswered
+from ....figures.lettering import lettered
 from ....report.page import Plot, Tables
-from ....report.plots import style
-from ....report.plots.curves import averaged, intervals, of_curves, unanswered
-from ....report.plots.lettering import lettered
 from ....statistics.finding import Finding
 
 NAME = "force-depth"

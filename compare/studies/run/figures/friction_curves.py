@@ -8,10 +8,10 @@ import numpy as np
 from matplotlib.figure import Figure
 from pandas import DataFrame
 
+from ....figures import style
+from ....figures.curves import averaged, intervals, of_curves, unanswered
+from ....figures.lettering import clear, lettered
 from ....report.page import Plot, Tables
-from ....report.plots import style
-from ....report.plots.curves import averaged, intervals, of_curves, unanswered
-from ....report.plots.lettering import clear, lettered
 from ....statistics.finding import Finding
 
 SPEED, LOAD = "friction-speed", "friction-load"

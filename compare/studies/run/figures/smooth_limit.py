@@ -6,10 +6,10 @@ import numpy as np
 from matplotlib.figure import Figure
 from pandas import DataFrame, concat
 
+from ....figures import style
+from ....figures.curves import unanswered
+from ....figures.lettering import clear, lettered
 from ....report.page import Plot, Tables
-from ....report.plots import style
-from ....report.plots.curves import unanswered
-from ....report.plots.lettering import clear, lettered
 
 NAME = "smooth-limit"
 RATIO = f"{NAME}-ratio"

@@ -12,10 +12,10 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from pandas import DataFrame
 
+from ....figures import style
+from ....figures.lettering import MARKER, Letter, letter, write
+from ....figures.prefixes import prefixed
 from ....report.page import Plot, Tables
-from ....report.plots import style
-from ....report.plots.lettering import MARKER, Letter, letter, write
-from ....report.plots.prefixes import prefixed
 from ....statistics.convergence import MeasuredLadder, ladders
 
 # Columns of panels, their height and that around all of them [inch].

@@ -11,8 +11,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from pandas import DataFrame
 
+from ....figures import style
 from ....report.page import Plot, Tables
-from ....report.plots import style
 from ....statistics.sampling import Bias, Level, Mean, SamplingPlan, Scatter, envelope
 from . import errors
 

@@ -9,7 +9,7 @@ from pandas import DataFrame
 
 from scene import CreepTable, Scene, Table, Tabulated
 
-from ..page import Plot, Tables
+from ..report.page import Plot, Tables
 from . import style
 from .lettering import letter
 from .prefixes import prefixed

@@ -10,8 +10,8 @@ from pandas import DataFrame
 
 from scene import Cylinder, Plane, Program
 
-from ..page import Plot, Tables
-from ..views import Section, View
+from ..report.page import Plot, Tables
+from ..report.views import Section, View
 from . import shades, style, touching
 from .lettering import lettered
 from .prefixes import prefixed

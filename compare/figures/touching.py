@@ -11,7 +11,7 @@ from matplotlib.lines import Line2D
 from matplotlib.typing import ColorType
 from pandas import DataFrame
 
-from ..views import Section
+from ..report.views import Section
 from . import style
 from .prefixes import prefixed
 

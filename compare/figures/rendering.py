@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
-from ..page import Plot
+from ..report.page import Plot
 from . import style
 
 FORMS = ("png", "pdf", "svg")

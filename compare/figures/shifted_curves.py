@@ -16,11 +16,11 @@ from matplotlib.figure import Figure
 from numpy.polynomial import Chebyshev
 from pandas import DataFrame, concat
 
-from ...solving.words import interval
-from ...statistics import eq23
-from ...statistics.collapse import ENDS, Alignment, Collapse
-from ...statistics.finding import FAILS, Claim, Finding
-from ..page import Plot, Tables
+from ..report.page import Plot, Tables
+from ..solving.words import interval
+from ..statistics import eq23
+from ..statistics.collapse import ENDS, Alignment, Collapse
+from ..statistics.finding import FAILS, Claim, Finding
 from . import shades, style
 from .curves import intervals, scatter
 from .lettering import clear, lettered, literal
