@@ -20,7 +20,8 @@ from scene.reading import InvalidInput
 from ..figures import style as looks
 from ..figures.journals import journal as find_journal
 from ..figures.rendering import FORMS, picture
-from ..solving import netcdf, parameter_grid
+from ..comparison import curve
+from ..solving import netcdf
 from ..solving.folders import hold
 from ..solving.suggest import known
 from ..solving.vocabulary import entry as vocabulary
@@ -106,7 +107,7 @@ def _flat(name: str, dataset: xarray.Dataset) -> Iterator[tuple[str, DataFrame]]
     for dims, variables in families.items():
         frame = dataset[variables].to_dataframe().reset_index() if dims else DataFrame()
         if "status" in frame:
-            frame = frame[frame["status"] != parameter_grid.NOT_ASKED]
+            frame = frame[frame["status"] != curve.NOT_ASKED]
         most = len(variables) == max(map(len, families.values()))
         if not frame.empty:
             yield name if most else f"{name}-{'-'.join(map(str, dims))}", frame
