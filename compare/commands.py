@@ -359,7 +359,7 @@ def swept(output: Output = "crosscheck-sweep", budget: Budget = None, **given: A
 @checked
 def friction_plot(dataset: xarray.Dataset) -> Figure:
     """Friction of a sweep against speed, or against load, both models with error bars: a matplotlib Figure."""
-    from .comparison.sweep import figure_of
+    from .comparison.plots import figure_of
 
     return figure_of(dataset)
 

@@ -18,11 +18,11 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
     from concurrent.futures import Executor
 
+    from .comparison.values import Values
     from .library.lookup import SceneLike
     from .models.table import ModelLike
     from .solving.terminal import Shown
     from .studies.mastercurve.measurements import Measurements
-    from .comparison.values import Values
     from .studies.topography.study import Surface
 
     File = str | Path

@@ -1,18 +1,21 @@
 """Answers of a series that obey a law of friction, with gaps and scatter as they are asked for."""
 
-from dataclasses import replace
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 
 import numpy as np
 import xarray
 
 from bem3d import BEM
-from compare.solving.parameter_grid import COARSE, FAILED, FINE, SOLVED
+from compare.comparison.answers import Answers
+from compare.comparison.curve import COARSE, FAILED, FINE, NOT_ASKED, SOLVED
+from compare.comparison.rough import ROUGH, SMOOTH, RoughSeries
+from compare.comparison.series import Judged
 from compare.studies.claims import catalogue
-from compare.studies.claims.series import ROUGH, SMOOTH, Contacts, Series
 from mdr1d import MDR, equations
 
 SURFACES = 8
-SERIES = Series(
+SERIES = RoughSeries(
     name="sphere",
     title="Rough sphere",
     scene=catalogue.kelvin("sphere"),
@@ -28,12 +31,36 @@ FEW = replace(SERIES, speeds=SERIES.speeds[::3], values=SERIES.values[::3])
 SLOPE = 0.2
 
 
+@dataclass(frozen=True)
+class Invented:
+    """A series with a Dataset of each of its curves."""
+
+    series: RoughSeries
+    curves: Mapping[str, xarray.Dataset]
+
+    @property
+    def tree(self) -> xarray.DataTree:
+        return xarray.DataTree.from_dict(
+            {f"/{self.series.folder}/{name}": each for name, each in self.curves.items()}
+        )
+
+    @property
+    def answers(self) -> Answers:
+        return self.series.answers(self.tree)
+
+    def __call__(self, model: str, body: str = ROUGH, level: str = FINE) -> xarray.Dataset:
+        return self.answers(body, model, level)
+
+    def judge(self) -> Judged:
+        return self.series.judge(self.answers)
+
+
 def obeying(law, series=SERIES, scatter=0.02, grid=0.0, seed=1, level=1.0, slope=SLOPE):
     """Answers with a friction law(load, speed) on every surface but for scatter common to all points of a surface.
 
     grid : relative error of the coarse grid; level : of three dimensions over one
     """
-    random, parts = np.random.default_rng(seed), {}
+    random, parts = np.random.default_rng(seed), {ROUGH: [], SMOOTH: []}
     loads = np.array(series.values)[:, None]
     speeds = np.array((1e-300, *series.speeds))[:, None, None]
     logs = np.log10(np.maximum(speeds, 1e-3)) / 2
@@ -56,19 +83,36 @@ def obeying(law, series=SERIES, scatter=0.02, grid=0.0, seed=1, level=1.0, slope
                 "rms_slope": slope,
                 "pixel": 1e-5,
                 contact: length if solver == "MDR" else length**2,
-                "curvature_by_pressure": slow,
-                "rms_slope_contact": np.sqrt(slow * loads / 4e6 / length),
                 "residual": 0.0,
                 "seconds": 1.0,
             }
+            if solver == "BEM":
+                columns["curvature_by_pressure"] = slow
+            columns["rms_slope_contact"] = np.sqrt(slow * loads / 4e6 / length)
             dims = ["level", "speed", series.prescribed, "surface"]
             columns |= {"status": np.array(SOLVED, object), "reason": np.array("", object)}
             variables = {name: (dims, np.broadcast_to(each, mu.shape).copy()) for name, each in columns.items()}
-            places = {"level": [FINE, COARSE], "speed": [0.0, *series.speeds], "points": ("level", [64, 32])}
-            dataset = xarray.Dataset(variables, places | {series.prescribed: list(series.values)})
+            places = {
+                "level": [FINE, COARSE],
+                "speed": [0.0, *series.speeds],
+                series.prescribed: list(series.values),
+            }
+            dataset = xarray.Dataset(variables, places | {"surface": np.arange(mu.shape[-1])})
+            dataset = dataset.assign_coords(points=("level", [64, 32]), draws=series.models[solver].draws)
             dataset = dataset if body == ROUGH else dataset.isel(surface=0, drop=True)
-            parts[f"/{series.name}/{body}/{solver}"] = dataset
-    return Contacts(series, xarray.DataTree.from_dict(parts))
+            parts[body].append(dataset.expand_dims(model=[solver]))
+    return Invented(series, {body: joined(each) for body, each in parts.items()})
+
+
+def joined(parts):
+    """Answers of both models in one Dataset."""
+    whole = xarray.concat(parts, "model", data_vars="all", coords="different", compat="equals", join="outer")
+    return whole.assign(
+        {
+            name: whole[name].where(whole[name].notnull(), gap)
+            for name, gap in (("status", NOT_ASKED), ("reason", ""))
+        }
+    )
 
 
 def eq_19(load, speed, alpha=equations.ALPHA, slope=SLOPE):
@@ -78,33 +122,45 @@ def eq_19(load, speed, alpha=equations.ALPHA, slope=SLOPE):
     return equations.plateau(slope) * equations.interpolation(xi, alpha)
 
 
-def spoiled(contacts, place, solver="BEM", body=ROUGH, reason="no"):
+def changed(invented, body=ROUGH, model="BEM", level=FINE, place=..., **numbers):
+    """Answers with other numbers at some speeds, values and surfaces, rest among them."""
+    dataset = invented.curves[body].copy(deep=True)
+    for name, change in numbers.items():
+        own = (
+            dataset[name].loc[{"model": model, "level": level}].transpose("speed", invented.series.prescribed, ...)
+        )
+        values = own.values.copy()
+        values[place] = change(values[place]) if callable(change) else change
+        dataset[name].loc[{"model": model, "level": level}] = xarray.DataArray(values, dims=own.dims)
+    return replace(invented, curves={**invented.curves, body: dataset})
+
+
+def spoiled(invented, place, model="BEM", body=ROUGH, reason="no"):
     """Answers of which some solves of the fine grid failed; place : of (speeds, values, draws) that slide."""
-    answers = contacts.answers.copy(deep=True)
-    dataset = answers[f"{contacts.series.name}/{body}/{solver}"].to_dataset()
-    for name, each in dataset.data_vars.items():
-        value = {"status": FAILED, "reason": reason}.get(name, np.nan)
-        each.values[0, 1:][place] = value
-    answers[f"{contacts.series.name}/{body}/{solver}"] = xarray.DataTree(dataset)
-    return Contacts(contacts.series, answers)
+    first, *others = place if isinstance(place, tuple) else (place,)
+    moved = slice(1, None) if first == slice(None) else first + 1
+    numbers = [name for name, each in invented.curves[body].data_vars.items() if each.dtype.kind == "f"]
+    gaps = dict.fromkeys(numbers, np.nan) | {"status": FAILED, "reason": reason}
+    return changed(invented, body, model, place=(moved, *others), **gaps)
 
 
-def cut(contacts, speeds=None, values=None, surfaces=None):
+def cut(invented, speeds=None, values=None, surfaces=None):
     """Answers at fewer speeds, loads or surfaces, the first ones."""
-    series, parts = contacts.series, {}
+    series = invented.series
     kept = {"speed": slice(None if speeds is None else speeds + 1), series.prescribed: slice(values)}
-    for (solver, body), dataset in contacts.datasets.items():
-        draws = {"surface": slice(surfaces)} if body == ROUGH else {}
-        parts[f"/{series.name}/{body}/{solver}"] = dataset.isel(kept | draws)
+    parts = {
+        body: each.isel(kept | ({"surface": slice(surfaces)} if body == ROUGH else {}))
+        for body, each in invented.curves.items()
+    }
     count = surfaces or series.surfaces
     few = {"speeds": series.speeds[:speeds], "values": series.values[:values]}
     few |= {"surfaces": count, "profiles": count}
-    return Contacts(replace(series, **few), xarray.DataTree.from_dict(parts))
+    return Invented(replace(series, **few), parts)
 
 
-def other(contacts, name, **roughness):
+def other(invented, name, **roughness):
     """The same answers as those of another series, of another roughness."""
-    series = contacts.series
-    rough = replace(series.scene.roughness, **roughness)
-    answers = xarray.DataTree.from_dict({f"/{name}": contacts.answers[series.name]})
-    return Contacts(replace(series, name=name, scene=replace(series.scene, roughness=rough)), answers)
+    rough = replace(invented.series.scene.roughness, **roughness)
+    return replace(
+        invented, series=replace(invented.series, name=name, scene=replace(invented.series.scene, roughness=rough))
+    )

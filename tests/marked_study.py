@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 
 from bem3d import BEM
 from compare.cli.app import main
-from compare.solving.parameter_grid import tasks_of
+from compare.comparison.curve import tasks_of
+from compare.comparison.rough import RoughSeries
 from compare.solving.task import SCENES
 from compare.studies.claims.catalogue import STUDIES, ReadyStudy, kelvin
-from compare.studies.claims.series import Series
 from mdr1d import MDR
 
 
@@ -43,11 +43,11 @@ def series():
     scene = kelvin("sphere")
     scene = replace(scene, roughness=replace(scene.roughness, shortest=2e-3, seed=1))
     solvers = {"bem": MarkedBEM(points=32), "mdr": MarkedMDR(points=500)}
-    return Series("s", "Sphere", scene, (0.05, 0.1), (5.0, 10.0, 20.0), surfaces=4, profiles=2, **solvers)
+    return RoughSeries("s", "Sphere", scene, (0.05, 0.1), (5.0, 10.0, 20.0), surfaces=4, profiles=2, **solvers)
 
 
 def tasks():
-    return tasks_of(series().grids)
+    return tasks_of(series().curves)
 
 
 def names(task):

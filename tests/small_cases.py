@@ -3,9 +3,9 @@
 from dataclasses import replace
 
 from bem3d import BEM
+from compare.comparison.curve import Curve, on_two_levels
 from compare.library.case import Variations
 from compare.library.lookup import case_of
-from compare.solving.parameter_grid import ParameterGrid, on_two_grids
 from mdr1d import MDR
 from scene import Kelvin, Scene, SelfAffine, Slide, Sphere
 
@@ -26,10 +26,10 @@ TINY = replace(
 )
 
 WAVY = SelfAffine(hurst=0.5, rms_height=1e-5, longest=2e-3, shortest=5e-4, seed=3)
-PARAMETER_GRID = ParameterGrid(
+CURVE = Curve(
     scene=Scene(Sphere(radius=1e-2), Kelvin(1e6, 1e-3), Slide(speed=0.1, load=0.5), WAVY),
     speeds=(0.1, 0.0, 0.2),
     values=(0.5, 1.0),
-    grids=on_two_grids(MDR(points=200), BEM(points=64)),
+    levels=on_two_levels(MDR(points=200), BEM(points=64)),
     draws={"MDR": 3, "BEM": 2},
 )

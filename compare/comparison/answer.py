@@ -16,10 +16,10 @@ from ..statistics.finding import REPORTED, UNDECIDED, Finding
 from ..statistics.multilevel import MEANS, WORDS
 from ..trustmap.verdict import CALLED, MULTIPLY, NONE, USE, Advice, Correction
 from .answers import Answers
-from .around import OWN, Around
+from .around import OWN, OWN_RATIOS, Around
 from .claims import SHORT
 
-APART = "the map and these means do not agree within their intervals: solve more surfaces"
+APART = "map and means disagree"
 UNITS = {"depth_reached": ("depth", "m"), "normal_force": ("force", "N"), "friction_coefficient": ("friction", "")}
 ALL = "all"
 MOST_NOTES = 4  # reasons of undecided claims that stand below a table
@@ -27,7 +27,8 @@ MOST_NOTES = 4  # reasons of undecided claims that stand below a table
 
 def scene_table(series: Around, answers: Answers, findings: Sequence[Finding], advice: Advice) -> Table:
     """What each model finds of the scene as it stands, their ratio, and what to do with 1D."""
-    rows, drawn = [], {}
+    rows: list[dict[str, Any]] = []
+    drawn: dict[str, int] = {}
     for name in series.own_means:
         factor, unit, found = _numbers(series, answers, name)
         row: dict[str, Any] = {"": words.with_brackets(UNITS[name][0], unit)}
@@ -36,7 +37,7 @@ def scene_table(series: Around, answers: Answers, findings: Sequence[Finding], a
             row[column] = words.interval(value * factor, low * factor, high * factor, 3)
         cheap = getattr(advice, WORDS[name]) if {"MDR", "BEM"} <= set(series.models.labels) else None
         for each in findings:
-            if each.claim.id in (f"own.{WORDS[name]}", "friction.ratio.own") and _of(each, name):
+            if each.curve == series.place(OWN) and each.claim.id == OWN_RATIOS[name]:
                 row[each.dimension] = words.found(each, 3)
                 drawn |= each.drawn
                 if cheap and each.dimension == "1D/3D" and _contradicts(each, cheap):
@@ -49,10 +50,6 @@ def scene_table(series: Around, answers: Answers, findings: Sequence[Finding], a
     return Table(f"{series.folder}/answer", DataFrame(rows).fillna(""), title)
 
 
-def _of(finding, name):
-    return (finding.claim.id == "friction.ratio.own") == (name == "friction_coefficient")
-
-
 def _numbers(series, answers, name) -> tuple[float, str, Mapping[Model, tuple[float, float, float]]]:
     """Means of a quantity by model with their intervals; the factor and the unit in which they read well.
 
@@ -63,7 +60,9 @@ def _numbers(series, answers, name) -> tuple[float, str, Mapping[Model, tuple[fl
     known = {model.name: np.abs(each.value) for model, each in every.items()}
     size = known.get(series.models.reference, next(iter(known.values())))
     at = np.unravel_index(np.argmax(np.nan_to_num(size)), size.shape)
-    found = {model: tuple(float(each[at]) for each in ends) for model, ends in every.items()}
+    found = {
+        model: (float(ends.value[at]), float(ends.low[at]), float(ends.high[at])) for model, ends in every.items()
+    }
     unit = UNITS[name][1]
     factor, unit = prefixed([value for value, _, _ in found.values()], unit) if unit else (1.0, "")
     return factor, unit, found
@@ -95,7 +94,9 @@ def claims_table(findings: Iterable[Finding], scenes: Mapping[str, str], name: s
     lines: dict[tuple[str, str], list[Finding]] = {}
     for each in findings:
         if each.verdict != REPORTED and each.claim.id in SHORT:
-            scene = next((told for start, told in scenes.items() if f"{each.where}, ".startswith(f"{start}, ")), "")
+            scene = next(
+                (told for start, told in scenes.items() if f"{each.where}, ".startswith(f"{start}, ")), ""
+            )
             lines.setdefault((SHORT[each.claim.id], scene), []).append(each)
     for short in dict.fromkeys(short for short, _ in lines):
         own = {key: each for key, each in lines.items() if key[0] == short}
@@ -118,7 +119,7 @@ def _line(short: str, scene: str, findings: Sequence[Finding]) -> dict[str, str]
     """One line of the table of claims."""
     by_model: dict[str, list[Finding]] = {}
     for each in findings:
-        by_model.setdefault(each.dimension, []).append(each)
+        by_model.setdefault(each.dimension.partition("/")[0], []).append(each)
     tested = dict.fromkeys(filter(None, (words.tested(each.claim) for each in findings)))
     line = {"claim": short, "scene": scene, "tested": " | ".join(tested)}
     line |= {model: _cell(found) for model, found in by_model.items()}
@@ -137,15 +138,19 @@ def _cell(findings: Sequence[Finding]) -> str:
 
 
 def notes(findings: Iterable[Finding]) -> list[str]:
-    """Why claims are undecided and what would decide them; of many the reasons that stand first."""
-    reasons: dict[str, list[str]] = {}
+    """Why claims are undecided and what would decide them, a sentence a claim; of many those that stand first."""
+    reasons: dict[str, list[Finding]] = {}
     for each in findings:
         if each.verdict == UNDECIDED and each.claim.id in SHORT:
-            reasons.setdefault(each.why, []).append(f"{SHORT[each.claim.id]} ({each.where}, {each.dimension})")
-    told = [f"Undecided: {_some(places)}: {why}." for why, places in reasons.items()]
-    more = [f"Also undecided for {len(told) - MOST_NOTES} other reasons, see findings.csv."]
-    return told if len(told) <= MOST_NOTES else [*told[:MOST_NOTES], *more]
+            reasons.setdefault(SHORT[each.claim.id], []).append(each)
+    told = [f"Undecided: {short} ({_places(own)}): {own[0].why}." for short, own in reasons.items()]
+    return told[:MOST_NOTES] + [f"Others undecided: {len(told) - MOST_NOTES}, see findings.csv."] * (
+        len(told) > MOST_NOTES
+    )
 
 
-def _some(places):
-    return places[0] if len(places) == 1 else f"{places[0]} and {len(places) - 1} more"
+def _places(findings):
+    """The first place in words, and the number of others."""
+    first, *others = findings
+    place = f"{first.where}, {first.dimension}".replace(", 1D/3D", "")
+    return f"{place}, and {len(others)} more" if others else place

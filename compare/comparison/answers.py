@@ -14,9 +14,17 @@ from ..statistics.multilevel import pooled
 from .curve import COARSE, FINE, of_model
 
 # Variables that claims are measured on; others are not copied for every surface that is left out.
-MEASURED = ("normal_force", "friction_force", "depth_reached", "friction_spread", "slow_drag") + (
-    "curvature_by_pressure", "rms_slope_contact", "contact_length", "contact_area"
-)  # fmt: skip
+MEASURED = (
+    "normal_force",
+    "friction_force",
+    "depth_reached",
+    "friction_spread",
+    "slow_drag",
+    "curvature_by_pressure",
+    "rms_slope_contact",
+    "contact_length",
+    "contact_area",
+)
 
 
 @dataclass(frozen=True)
@@ -36,7 +44,7 @@ class Answers:
         return curve in self.curves and model in self.curves[curve]["model"].values
 
     def all_levels(self, curve: str, model: str) -> xarray.Dataset:
-        """Answers of a model, every surface by itself on the levels that it was solved on."""
+        """Answers of a model, every surface by itself on its levels."""
 
         def made():
             own = of_model(self.curves[curve], model)

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import isfinite, nan
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 from pydantic import ValidationError
@@ -26,7 +26,7 @@ from ..statistics.collapse import Collapse, collapse
 from ..statistics.finding import UNKNOWN, Claim, Finding, said_of
 from ..statistics.frictioncurves import SimulatedCurves
 from ..statistics.jackknife import mean, measured
-from ..statistics.multilevel import MEANS, WORDS
+from ..statistics.multilevel import WORDS
 from .answers import Answers
 from .claims import CLAIMS, TOLERANCE
 from .curve import COARSE, FINE, LEVELS, Curve, levels, refuse
@@ -37,7 +37,7 @@ OWN, SPEED, LOAD = "own", "friction-speed", "friction-load"
 ROUGH_DEPTH, SMOOTH_DEPTH, SMOOTH_SPEED = "force-depth-rough", "force-depth-smooth", "smooth-speed"
 # Rough curves whose contacts share their surfaces: those of one are as many as those of the others.
 SHARED = {"rest": (ROUGH_DEPTH,), "sliding": (OWN, SPEED, LOAD)}
-# Claims on the scene as it stands by the name of the mean, see `multilevel.MEANS`; on force against depth by curve.
+# Claims on the scene as it stands by the name of its mean; on force against depth by curve.
 OWN_RATIOS = {
     "friction_coefficient": "friction.ratio.own",
     "depth_reached": "own.depth",
@@ -67,7 +67,7 @@ class Around(Series):
     reference: str | None = None
     wanted_interval: float | None = None
     strata: Mapping[str, Counts] = field(default_factory=dict)
-    shared: ClassVar = SHARED
+    shared = SHARED
 
     @property
     def title(self) -> str:  # type: ignore[override]
@@ -125,7 +125,7 @@ class Around(Series):
             *self._grid(answers),
             *self._spread(answers),
         ]
-        return Judged(found, more={"collapses": {name: each for name, (each, _) in shifted.items()}})
+        return Judged(found, {name: each for name, (each, _) in shifted.items()})
 
     def _slow(self, answers: Answers) -> Iterator[Finding]:
         """Friction of the smooth body at its lowest speed."""
@@ -148,9 +148,11 @@ class Around(Series):
             if curve in self.curves and answers.has(curve, self.models.reference):
                 touched = self.touched(answers, curve, self.models.reference)
                 places = {at: f"{depth * 1e6:.3g} µm" for at, depth in touched}
-                yield from (row[2] for row in self.ratios(CLAIMS[name], answers, curve, "normal_force", places, 1.0))
+                yield from (
+                    row[2] for row in self.ratios(CLAIMS[name], answers, curve, "normal_force", places, 1.0)
+                )
 
-    def at_speeds(self, answers: Answers) -> list[tuple[Model, tuple[int, ...], Finding]]:
+    def at_speeds(self, answers: Answers) -> list[tuple[Model, tuple[int, int], Finding]]:
         """Friction of each model over that of the reference at every speed."""
         if SPEED not in self.curves:
             return []

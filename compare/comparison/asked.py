@@ -20,9 +20,7 @@ from ..studies.claims.study_file import study_of
 from .around import Around
 from .comparison import Comparison
 from .curve import refuse
-from .rough import RoughSeries
 from .sweep import SweepSeries
-from .values import Values
 
 ALL = "all"
 ABOUT = (
@@ -53,7 +51,9 @@ def run(
         series = tuple(Around(name, case, chosen, reference, wanted) for name, case in cases.items())
         names = sorted({each.name for one in series for each in one.models})
         inputs = {"cases": {name: case.inputs for name, case in cases.items()}}
-        inputs |= ({} if wanted is None else {"interval": wanted}) | ({} if names == ["BEM", "MDR"] else {"models": names})
+        inputs |= ({} if wanted is None else {"interval": wanted}) | (
+            {} if names == ["BEM", "MDR"] else {"models": names}
+        )
         asked = Comparison(series, stated=inputs)
         asked.grids()
     except Refused as error:
@@ -77,7 +77,10 @@ def study(
     reference: str | None = None,
     interval: float | str | None = None,
 ) -> Comparison:
-    """The study of a name that comes with the package, all of them, or that of a file. Raises InvalidInput, Refused."""
+    """The study of a name that comes with the package, all of them, or that of a file.
+
+    Raises InvalidInput, Refused.
+    """
     known("size", size, SIZES)
     chosen, wanted = listed(models), None if interval is None else share_of("interval", interval)
     source: dict[str, str] = {}

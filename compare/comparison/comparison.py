@@ -23,7 +23,7 @@ from .answer import notes as open_claims
 from .around import OWN, Around
 from .curve import Curve, contacts_of
 from .rough import RoughSeries
-from .series import Series
+from .series import Counts, Series
 from .sweep import SweepSeries
 from .together import alike, members_of, together
 
@@ -74,7 +74,7 @@ class Comparison(Study):
         return [contact for each in self.series for contact in each.own]
 
     def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
-        """A Dataset for each curve, the fields of each scene's own contact, and the processor time of each model."""
+        """A Dataset for each curve, fields of each scene's own contact, and the processor time of each model."""
         tree, outcomes = super().answers(outcomes), by_contact(outcomes)
         for each in self.series:
             below = tree[each.folder] if each.folder else tree
@@ -89,7 +89,7 @@ class Comparison(Study):
     def more(
         self, answers: xarray.DataTree, findings: Sequence[Finding], growth: float = GROWTH
     ) -> "Comparison | None":
-        """The comparison with the surfaces that undecided claims and wide intervals ask for; None where none does."""
+        """The comparison with the surfaces that open claims and wide intervals ask for; None where none does."""
         sampled = {each.name: each for each in self.series if each.sampled}
         asked = {name: each.more(each.answers(answers), findings, growth) for name, each in sampled.items()}
         for names in alike([each for each in sampled.values() if isinstance(each, RoughSeries)]):
@@ -114,7 +114,7 @@ class Comparison(Study):
         claims = claims_table(findings, scenes)
         opening += [claims] if len(claims.frame) else []
         told = [*open_claims(findings), *(why for s, a, _ in every if s.sampled for why in s.unreached(a))]
-        blocks = pages.blocks(every, members, several, answers)
+        blocks = list(pages.blocks(every, members, several, answers))
         return Judgement(findings, told, blocks, pages.setting(self.about, every), opening)
 
     def _told(self, found: Finding) -> Finding:
@@ -125,7 +125,7 @@ class Comparison(Study):
         return found
 
 
-def _most(counts: Sequence[Mapping[str, Mapping[str, tuple[int, ...]]]]) -> dict[str, dict[str, tuple[int, ...]]]:
+def _most(counts: Sequence[Mapping[str, Counts]]) -> dict[str, Counts]:
     """Numbers of surfaces that are enough for all of some series, on the levels that all of them have."""
     return {
         shared: {

@@ -96,8 +96,8 @@ class Curve:
     keeps_fields: bool = False
 
     def __post_init__(self):
-        pressed = PRESSES.get(self.prescribed, PRESSES["depth" if self.prescribed == "displacement" else "load"])
-        for name, unit in (("speeds", SPEED), ("values", pressed)):
+        alike = {"displacement": "depth", "force": "load"}.get(self.prescribed, self.prescribed)
+        for name, unit in (("speeds", SPEED), ("values", PRESSES[alike])):
             object.__setattr__(self, name, argument(name, getattr(self, name), unit.row))
         draws = {}
         for name, given in self.draws.items():
@@ -248,17 +248,22 @@ class Curve:
 
         answers = by_contact(outcomes)
         rows = [row for each in self.contacts for row in self._rows(each, answers[each.task])]
-        places = {"model": list(self.levels), "level": [name for name in LEVELS if self._on(name)]}
-        places |= {} if self.over_time else {"speed": list(self.speeds or (0.0,)), self.prescribed: list(self.values)}
+        on = [name for name in LEVELS if any(name in levels for levels in self.levels.values())]
+        places: dict[str, list[Any]] = {"model": list(self.levels), "level": on}
+        places |= (
+            {} if self.over_time else {"speed": list(self.speeds or (0.0,)), self.prescribed: list(self.values)}
+        )
         frame = pandas.DataFrame(rows).set_index([*places, *(["time"] if self.over_time else []), "surface"])
         dataset = xarray.Dataset.from_dataframe(frame).reindex(places)
         for name, missing in (("status", NOT_ASKED), ("reason", "")):
             dataset[name] = dataset[name].where(dataset[name].notnull(), missing).astype(str)
-        points = [[getattr(own.get(level), "points", 0) for level in places["level"]] for own in self.levels.values()]
+        points = [
+            [getattr(own.get(level), "points", 0) for level in places["level"]] for own in self.levels.values()
+        ]
         draws = [str(getattr(own[FINE], "draws", "")) for own in self.levels.values()]
         dataset = dataset.assign_coords(points=(("model", "level"), points), draws=("model", draws))
         if any(map(self.stratified, self.levels)):
-            first = self.scene.roughness.seed  # type: ignore[union-attr]
+            first = getattr(self.scene.roughness, "seed", 0)
             dataset.coords["stratum"] = "surface", (dataset["surface"].values - first) // MOST_DRAWS
             dataset = self._with_variates(dataset)
         dataset = dataset if self.random else dataset.isel(surface=0, drop=True)
@@ -266,9 +271,6 @@ class Curve:
             dataset[label].attrs = attributes(str(label), self.scene)
         seeds = dataset["surface"].values.tolist() if self.random else ()
         return dataset.assign_attrs(provenance(self.scene, seeds), prescribed=self.prescribed)
-
-    def _on(self, level):
-        return any(level in levels for levels in self.levels.values())
 
     def _rows(self, contact, outcome) -> Iterator[dict[str, Any]]:
         """A row of the Dataset for each surface of a contact, and for each instant of a program."""
@@ -280,7 +282,9 @@ class Curve:
                 continue
             times, fields = np.linspace(0, scene.motion.duration, INSTANTS + 1)[1:], outcome.fields
             found = {
-                name: np.interp(times, fields["time"], fields[NUMBERS[name]]) if fields else np.full(times.size, nan)
+                name: np.interp(times, fields["time"], fields[NUMBERS[name]])
+                if fields
+                else np.full(times.size, nan)
                 for name in OVER_TIME
             }
             shared = {name: value for name, value in _numbers(row).items() if name not in OVER_TIME}
@@ -288,13 +292,15 @@ class Curve:
                 yield own | {"time": time} | shared | {name: each[k] for name, each in found.items()}
 
     def _with_variates(self, dataset):
-        """The Dataset with control variates of the surfaces on the coarsest level of each model that has some."""
+        """The Dataset with control variates of the surfaces on the coarsest level of each model."""
         import xarray
 
         scenes, found = [self.at(value, speed) for speed, value in self.points], []
         for name in filter(self.stratified, self.levels):
             *_, (level, solver) = self.levels[name].items()
-            asked = dataset["status"].sel(model=name, level=level).isel(speed=0, **{self.prescribed: 0}) != NOT_ASKED
+            asked = (
+                dataset["status"].sel(model=name, level=level).isel(speed=0, **{self.prescribed: 0}) != NOT_ASKED
+            )
             own = asked & (dataset["stratum"] == len(self.levels[name]) - 1)
             seeds = dataset["surface"].values[own.values]
             numbers = control_variates(solver, scenes, seeds.tolist())

@@ -1,4 +1,4 @@
-"""Rows of claims on a rough series: where each can be stated, and the number that decides it, a function of answers.
+"""Rows of claims on a rough series: where each can be stated, and what measures it on its answers.
 
 A new claim is a row here with a function of a few lines, and its words in `claims`.
 """
@@ -258,7 +258,11 @@ def law_with_load(here: Here, it: xarray.Dataset) -> float:
 
 FRICTIONS = (
     Row("eq17.speed-exponent", slow_speeds, speed_exponent),
-    Row("eq17.load-exponent", slow_loads(lambda h: h.rule.exponent_of_load), with_load(lambda h, it: friction(it)[1])),
+    Row(
+        "eq17.load-exponent",
+        slow_loads(lambda h: h.rule.exponent_of_load),
+        with_load(lambda h, it: friction(it)[1]),
+    ),
     Row("eq17.contact", slow_loads(nominal_exponent), with_load(cause("contact"))),
     Row("eq17.friction-per-contact", slow_loads(lambda h: None), with_load(cause("drag"))),
     Row("eq17.slope-in-contact", slow_loads(lambda h: None), with_load(cause("slope"))),
@@ -298,7 +302,13 @@ def ratio(here: Here, one: xarray.Dataset, three: xarray.Dataset) -> float:
 
 
 BOTH = tuple(
-    Row(f"friction.ratio.{level}", at_level(level), ratio, pair=True, body="smooth" if level == "smooth" else "rough")
+    Row(
+        f"friction.ratio.{level}",
+        at_level(level),
+        ratio,
+        pair=True,
+        body="smooth" if level == "smooth" else "rough",
+    )
     for level in ("slow", "knee", "fast", "smooth")
 )
 
@@ -318,7 +328,9 @@ def loading(series: RoughSeries, depths: np.ndarray | None = None) -> np.ndarray
     depths : reached [m], (rates, depths); those prescribed if absent. A march answers for the middle of its last
         step, half a step before the end
     """
-    reached = np.broadcast_to(series.values, (len(series.speeds), len(series.values))) if depths is None else depths
+    reached = (
+        np.broadcast_to(series.values, (len(series.speeds), len(series.values))) if depths is None else depths
+    )
     body, solid = series.scene.indenter, series.scene.elastomer
     forces = np.full(reached.shape, nan)
     for place, depth in np.ndenumerate(reached):
@@ -375,7 +387,9 @@ def at_rest(here: Here) -> Iterator[Place]:
 
 def stiffer(here: Here, one: xarray.Dataset, three: xarray.Dataset) -> np.ndarray:
     """ln of the ratio of the stiffness between neighbouring loads or depths."""
-    both = ((np.diff(mean(each, "normal_force")[0]), np.diff(mean(each, "depth_reached")[0])) for each in (one, three))
+    both = (
+        (np.diff(mean(each, "normal_force")[0]), np.diff(mean(each, "depth_reached")[0])) for each in (one, three)
+    )
     (force, depth), (other_force, other_depth) = both
     return np.log(force / depth / (other_force / other_depth))
 
@@ -400,7 +414,8 @@ DEPTHS = (
     Row("smooth.pressed-in", rates, lambda here, it: over_smooth(here, it) - 1, body="smooth"),
 )
 REST = tuple(
-    Row(f"rest.{{quantity}}-{side}", *by_height(side == "deep"), pair=True, quantity="") for side in ("deep", "shallow")
+    Row(f"rest.{{quantity}}-{side}", *by_height(side == "deep"), pair=True, quantity="")
+    for side in ("deep", "shallow")
 )
 MARCHES = (
     Row("rest.stiffness", at_rest, stiffer, pair=True, quantity=""),

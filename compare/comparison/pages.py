@@ -14,7 +14,7 @@ from ..models.table import Models
 from ..report.page import Block, Findings, Section, Table, Text
 from ..statistics.finding import Finding
 from ..trustmap.verdict import trust
-from . import tables
+from . import plots, tables
 from .answers import Answers
 from .around import SHARED, Around
 from .curve import Curve
@@ -34,22 +34,30 @@ def blocks(
     every: Every, members: Sequence[Member], several: Sequence[Finding], tree: xarray.DataTree
 ) -> Iterator[Block]:
     """Figures of several series, then a section of each, then its tables."""
-    if several:
-        yield Section("Several series together", [Findings(several)])
+    points = {series.name: (answers, tables.points(series, answers)) for series, answers, _ in every}
+    together = list(plots.of_several([each for each, _, _ in every], members, points, several))
+    if several or together:
+        yield Section("Several together", [*together, *([Findings(several)] if several else [])])
     for series, answers, judged in every:
-        yield Section(series.title, list(_section(series, answers, judged, tree)))
+        own = points[series.name][1]
+        yield Section(series.title, list(_section(series, answers, judged, own, tree)))
 
 
-def _section(series: Series, answers: Answers, judged: Judged, tree: xarray.DataTree) -> Iterator[Block]:
+def _section(series: Series, answers: Answers, judged: Judged, points, tree: xarray.DataTree) -> Iterator[Block]:
     folder = f"{series.folder}/" if series.folder else ""
+    yield from plots.of_series(series, answers, judged, points, tree)
     if isinstance(series, RoughSeries):
         yield Findings(judged.findings) if judged.findings else Text("No claim can be judged on this series.")
     if isinstance(series, Around):
         trusted = trust(series.scene)
-        yield Table(f"{folder}trust", trusted.table(), "Advice of the trust map on cheap models, predicted.", long=True)
-        found = tree[f"{series.folder}/times"].to_dataset(inherit=False).to_dataframe().reset_index()
+        yield Table(
+            f"{folder}trust", trusted.table(), "Advice of the trust map on cheap models, predicted.", long=True
+        )
+        found = (
+            tree.children[series.folder].children["times"].to_dataset(inherit=False).to_dataframe().reset_index()
+        )
         yield Table(f"{folder}times", found, "Processor time of all solves, those of earlier runs included.")
-    yield Table(f"{folder}points", tables.points(series, answers), "Every point of every curve.", long=True)
+    yield Table(f"{folder}points", points, "Every point of every curve.", long=True)
     if len(failed := tables.failures(answers)):
         yield Table(f"{folder}failures", failed, f"{len(failed)} solves without an answer.", long=True)
 
@@ -92,7 +100,7 @@ def _averaged(curves: Mapping[str, Curve], models: Models) -> str:
 
 
 def in_words(curve: Curve, model: str, word: str) -> str:
-    """Numbers of a model's draws, with the points of their grids where these differ. word : of draws, in the plural"""
+    """Numbers of a model's draws, with the points of their grids where these differ. word : in the plural"""
     counts = [len(each) for each in curve.strata(model)]
     if not curve.stratified(model):
         return f"{counts[0]} {word}"
@@ -114,7 +122,7 @@ def _grids_of(models: Models) -> str:
 
 def _rough_lines(series: RoughSeries, answers: Answers, judged: Judged) -> Iterator[str]:
     """Lines on a series: scene, points, draws and grids; slopes and regime, which were measured."""
-    scene, laws = series.scene, judged.more.get("laws", {})
+    scene, laws = series.scene, judged.laws
     if series.note:
         yield series.note
     yield f"contact: {described(scene.indenter)}; {described(scene.elastomer)}; {described(scene.roughness)}"
@@ -123,7 +131,8 @@ def _rough_lines(series: RoughSeries, answers: Answers, judged: Judged) -> Itera
         kind = "rates of pressing in" if series.pressed_in else "speeds"
         moved = f"{len(series.speeds)} {kind}, {series.speeds[0]:.3g} to {series.speeds[-1]:.3g} m/s, and at rest"
     unit = {"load": "N", "depth": "m"}[series.prescribed]
-    yield f"{moved}; {len(series.values)} {series.prescribed}s, {series.values[0]:.3g} to {series.values[-1]:.3g} {unit}"
+    least, *_, greatest = series.values[0], series.values[-1]
+    yield f"{moved}; {len(series.values)} {series.prescribed}s, {least:.3g} to {greatest:.3g} {unit}"
     for model in series.models:
         points = f" of {getattr(model.solver, 'points', 0)} points, also on half of them" if model.has_grid else ""
         told = in_words(series.curves[ROUGH], model.name, model.draws)

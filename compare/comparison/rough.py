@@ -1,11 +1,10 @@
-"""Rough series of a study: one scene at every speed and every load or depth, rough and smooth, on the same surfaces."""
+"""Rough series of a study: one scene at every speed and load or depth, rough and smooth, on the same surfaces."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import ClassVar
 
-import numpy as np
 import xarray
 
 from bem3d import BEM
@@ -13,6 +12,7 @@ from mdr1d import MDR
 from scene import Program, Scene
 from scene.reading import InvalidInput
 
+from ..library.describe import slug
 from ..models import exact
 from ..models.table import FRICTION as OF_FRICTION
 from ..models.table import PROFILES, ModelLike, Models
@@ -68,7 +68,11 @@ class RoughSeries(Series):
     reference: str = ""
     interval: float | None = None
     strata: Mapping[str, Counts] = field(default_factory=dict)
-    shared: ClassVar = {ROUGH: (ROUGH,)}
+    shared: ClassVar[Mapping[str, tuple[str, ...]]] = {ROUGH: (ROUGH,)}
+
+    @property
+    def folder(self) -> str:
+        return "/".join(map(slug, self.name.split("/")))
 
     @property
     def prescribed(self) -> str:
@@ -174,7 +178,7 @@ class RoughSeries(Series):
         friction = self._found(answers, (*FRICTIONS, *BOTH, *REST), places)
         findings = [*self._asked(COLLAPSE, shifts), *self._asked(FRICTION, friction)]
         collapsed = {name: fine for name, (fine, _) in shifted.items()}
-        return Judged(findings, more={"laws": ruled, "collapses": collapsed})
+        return Judged(findings, collapsed, ruled)
 
     def _asked(self, kind: str, found: Iterable[Finding]) -> list[Finding]:
         """Findings of a kind that is asked; what compares the dimensionalities is a kind of its own."""

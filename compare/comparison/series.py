@@ -1,30 +1,32 @@
-"""Series: one scene with the curves that are solved of it, what is judged on them, and how many surfaces they take."""
+"""Series: one scene with the curves that are solved of it, what is judged on them, and its surfaces."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from math import inf, isfinite
+from math import ceil, inf, isfinite
+from typing import ClassVar
 
-import numpy as np
 import xarray
 
 from scene import Scene
 
 from ..library.describe import slug
 from ..models.table import Model, Models
-from ..report.page import Block, Plot
 from ..solving.task import SceneTask
+from ..statistics.collapse import Collapse
 from ..statistics.finding import HALVED, UNKNOWN, Claim, Finding, said_of
 from ..statistics.jackknife import mean
 from ..statistics.means import Compared, touches
 from ..statistics.multilevel import MEANS, WORDS, DrawnSurfaces, needed, unreached
 from .answers import Answers
 from .curve import LEVELS, Curve, levels
+from .laws import Laws
 
 Counts = Mapping[str, tuple[int, ...]]  # numbers of surfaces on each level, by model
-# Surfaces on the coarsest level, of each difference, and of that of the finest of several, which scatters least and
-# costs most, before anything is decided.
+Places = Mapping[tuple[int, int], str]  # places of speed and value on a curve, in words
+# Surfaces of a pilot on the coarsest level, of each difference, and of that of the finest of several, which scatters
+# least and costs most.
 PILOT, DIFFERENCES, FINEST = 32, 8, 4
 
 
@@ -32,13 +34,14 @@ PILOT, DIFFERENCES, FINEST = 32, 8, 4
 class Judged:
     """What becomes of the claims on a series.
 
-    findings : one by one; plots, blocks : of its part of the page
+    findings : one by one
+    collapses : what shifts of its curves achieve on the fine level, by model
+    laws : of the paper at its points, by model; none of a series that does not slide, or has no answers
     """
 
     findings: Sequence[Finding]
-    plots: Sequence[Plot] = ()
-    blocks: Sequence[Block] = ()
-    more: Mapping[str, object] = field(default_factory=dict)
+    collapses: Mapping[str, Collapse] = field(default_factory=dict)
+    laws: Mapping[str, Laws] = field(default_factory=dict)
 
 
 class Series(ABC):
@@ -48,8 +51,8 @@ class Series(ABC):
     scene : as it stands
     models : that are compared
     interval : half-width that is wanted of intervals of 95 %, relative; None of fixed numbers of surfaces
-    strata : then numbers of surfaces by the curves that share them; those of a pilot where one is not stated. Fewer
-        numbers than levels leave out the coarsest
+    strata : then numbers of surfaces by the curves that share them, else those of a pilot. Fewer numbers than
+        levels leave out the coarsest
     shared : names of the curves that share their surfaces, by a name of them
     """
 
@@ -59,7 +62,7 @@ class Series(ABC):
     models: Models
     interval: float | None
     strata: Mapping[str, Counts]
-    shared: Mapping[str, tuple[str, ...]]
+    shared: ClassVar[Mapping[str, tuple[str, ...]]]
 
     @property
     @abstractmethod
@@ -86,7 +89,7 @@ class Series(ABC):
         return ()
 
     @property
-    def counts(self) -> dict[str, dict[str, tuple[int, ...]]]:
+    def counts(self) -> dict[str, Counts]:
         """Numbers of surfaces of the curves that share them, by model."""
         drawing = [each.name for each in self.models.drawn]
         return {
@@ -97,7 +100,7 @@ class Series(ABC):
     @property
     def folder(self) -> str:
         """Folder of its figures and tables below that of the page."""
-        return "/".join(map(slug, self.name.split("/")))
+        return slug(self.name)
 
     def path(self, curve: str) -> str:
         """Path of a curve in the tree of all answers."""
@@ -120,7 +123,10 @@ class Series(ABC):
     @cached_property
     def drawn(self) -> Mapping[str, DrawnSurfaces]:
         """Surfaces of the curves that share them, by the name of these."""
-        found = {name: [self.curves[each] for each in curves if each in self.curves] for name, curves in self.shared.items()}
+        found = {
+            name: [self.curves[each] for each in curves if each in self.curves]
+            for name, curves in self.shared.items()
+        }
         return {name: DrawnSurfaces.of(curves) for name, curves in found.items() if curves}
 
     def told(self, found: Finding) -> Finding:
@@ -138,7 +144,7 @@ class Series(ABC):
 
     def more(self, answers: Answers, findings: Sequence[Finding], growth: float) -> dict[str, Counts]:
         """Numbers of surfaces that undecided claims and wide intervals ask for, of the curves that share them."""
-        made = {}
+        made: dict[str, Counts] = {}
         for name, drawn in self.drawn.items():
             places = (*map(self.place, self.shared[name]), self.family)
             own = [each for each in findings if each.curve in places]
@@ -146,7 +152,7 @@ class Series(ABC):
             asked = {model: counts[model] for model in self.counts[name]}
             for (curve, mean_name, speeds), model in self._means(name, asked):
                 dataset = answers.all_levels(curve, model).sel(speed=list(speeds))
-                least = needed(dataset, *MEANS[mean_name], drawn.costs[model], self.interval, growth)
+                least = needed(dataset, *MEANS[mean_name], drawn.costs[model], self.interval or inf, growth)
                 asked[model] = tuple(map(max, asked[model], least))
             made[name] = asked
         return made
@@ -156,7 +162,7 @@ class Series(ABC):
         for name in self.drawn:
             for (curve, mean_name, speeds), model in self._means(name, self.models.labels):
                 dataset = answers.all_levels(curve, model).sel(speed=list(speeds))
-                if why := unreached(dataset, *MEANS[mean_name], self.interval):
+                if why := unreached(dataset, *MEANS[mean_name], self.interval or inf):
                     yield f"{self.name}: the {WORDS[mean_name]} in {self.models.labels[model]} {why}."
 
     def _means(self, shared, models):
@@ -192,8 +198,14 @@ class Series(ABC):
         )
 
     def ratios(
-        self, claim: Claim, answers: Answers, curve: str, mean_name: str, places: Mapping[tuple[int, ...], str], less=0.0
-    ) -> list[tuple[Model, tuple[int, ...], Finding]]:
+        self,
+        claim: Claim,
+        answers: Answers,
+        curve: str,
+        mean_name: str,
+        places: Mapping[tuple[int, ...], str],
+        less=0.0,
+    ) -> list[tuple[Model, tuple[int, int], Finding]]:
         """Findings on a mean of each model over that of the reference, at some places of a curve by their words."""
         rows, reference = [], self.models.reference
         for model in answers.judged(curve, WORDS[mean_name]):
@@ -239,7 +251,9 @@ def on_levels_alike(
     first, *_ = curves.values()
     found = {name: own for name, own in levels(models, [*curves.values()], most).items() if name in first.levels}
     pilots = {
-        each.name: pilot(len(found[each.name]), least.get(each.name, 0)) for each in models.drawn if each.name in found
+        each.name: pilot(len(found[each.name]), least.get(each.name, 0))
+        for each in models.drawn
+        if each.name in found
     }
     drawn = {name: strata.get(name, counts) for name, counts in pilots.items()}
     kept = {name: dict(list(each.items())[: len(drawn.get(name, each))]) for name, each in found.items()}
@@ -254,4 +268,4 @@ def pilot(count: int, least: int = PILOT) -> tuple[int, ...]:
     """
     finer = (FINEST,) * (count > 2) + (DIFFERENCES,) * (count - 1)
     scale = max(1.0, least / PILOT)
-    return tuple(int(np.ceil(each * scale)) for each in (*finer[: count - 1], PILOT))
+    return tuple(ceil(each * scale) for each in (*finer[: count - 1], PILOT))

@@ -47,11 +47,11 @@ class SweepSeries(Series):
     speeds: tuple[float, ...]
     values: tuple[float, ...]
     draws: int
-    models: Models  # type: ignore[assignment]
+    models: Models
     interval: float | None = None
     strata: Mapping[str, Counts] = field(default_factory=dict)
     name = title = CONTACTS
-    shared: ClassVar = {CONTACTS: (CONTACTS,)}
+    shared: ClassVar[Mapping[str, tuple[str, ...]]] = {CONTACTS: (CONTACTS,)}
 
     @classmethod
     def of(

@@ -70,9 +70,7 @@ def times(contacts: Sequence[SceneTask], outcomes: Mapping[Task, Outcome]) -> xa
         seconds = float(np.nansum([row.seconds for row in outcomes[each].rows]))
         spent[each.solver.name] = spent.get(each.solver.name, 0.0) + seconds
     models = xarray.Variable("model", list(spent), attributes("model"))
-    return xarray.Dataset(
-        {"seconds": ("model", list(spent.values()), attributes("seconds"))}, {"model": models}
-    )
+    return xarray.Dataset({"seconds": ("model", list(spent.values()), attributes("seconds"))}, {"model": models})
 
 
 def stacked(frames: Mapping[Any, DataFrame], *names: str) -> DataFrame:

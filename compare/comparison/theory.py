@@ -18,7 +18,9 @@ def with_theory(curve: Curve, theories: Sequence[Persson | FrictionLaw] = (THEOR
     """A rough curve with theories beside the models, those that are none of them and answer all of it."""
     if curve.scene.roughness is None or curve.scene.roughness.flat:
         return curve
-    beside = {each.name: {FINE: each} for each in theories if each.name not in curve.levels and _answers(each, curve)}
+    beside = {
+        each.name: {FINE: each} for each in theories if each.name not in curve.levels and _answers(each, curve)
+    }
     return replace(curve, levels={**curve.levels, **beside}) if beside else curve
 
 

@@ -32,7 +32,7 @@ class Member:
 def members_of(series: Sequence[RoughSeries], answers, judged) -> list[Member]:
     """Series that slide and ask for claims on several, with answers of both models."""
     found = zip(series, answers, judged, strict=True)
-    return [Member(own, each, of.more["laws"]) for own, each, of in found if of.more.get("laws") and _asks(own)]
+    return [Member(own, each, of.laws) for own, each, of in found if of.laws and _asks(own)]
 
 
 def _asks(series):

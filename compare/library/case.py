@@ -13,7 +13,7 @@ from pydantic.dataclasses import dataclass
 
 from bem3d import BEM
 from mdr1d import MDR
-from scene import Coulomb, Doubt, Heating, Indent, Layer, Refused, Scene, Slide, plain
+from scene import Coulomb, Doubt, Heating, Layer, Refused, Scene, Slide, plain
 from scene.doubt import unseen
 from scene.indenter import Indenter
 from scene.motion import Motion

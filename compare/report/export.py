@@ -17,10 +17,10 @@ from pydantic import ConfigDict, ValidationError, validate_call
 from scene.printable import brief
 from scene.reading import InvalidInput
 
+from ..comparison import curve
 from ..figures import style as looks
 from ..figures.journals import journal as find_journal
 from ..figures.rendering import FORMS, picture
-from ..comparison import curve
 from ..solving import netcdf
 from ..solving.folders import hold
 from ..solving.suggest import known

@@ -28,12 +28,15 @@ def stated(answers: "xarray.DataTree") -> dict[str, np.ndarray]:
     """
     found: dict[str, list[np.ndarray]] = {}
     for node in answers.subtree:
-        if MEASURE in node.data_vars:
-            bounds = node[MEASURE]
+        every = node[MEASURE] if MEASURE in node.data_vars else None
+        for model in (
+            () if every is None else every["model"].values.tolist() if "model" in every.dims else [node.name]
+        ):
+            bounds = every.sel(model=model) if "model" in every.dims else every
             bounds = bounds.sel(level="fine") if "level" in bounds.dims else bounds
             # Of a mean over surfaces the bound is the mean of theirs.
             bounds = bounds.mean("surface") if "surface" in bounds.dims else bounds
-            found.setdefault(MODELS.get(str(node.name), str(node.name)), []).append(bounds.values.ravel())
+            found.setdefault(MODELS.get(str(model), str(model)), []).append(bounds.values.ravel())
     joined = {model: np.concatenate(parts) for model, parts in sorted(found.items())}
     return {model: each[np.isfinite(each)] for model, each in joined.items() if np.isfinite(each).any()}
 

@@ -20,9 +20,9 @@ from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
+from ..comparison.curve import EMPTY, TOGETHER, Curve
 from ..solving.control_variates import VARIATES, controlled
 from ..solving.cost import MOST_DRAWS, SECONDS
-from ..comparison.curve import EMPTY, TOGETHER, Curve
 from ..solving.words import duration, share
 from .collapse import PARTED
 from .finding import UNDECIDED, Finding
@@ -31,7 +31,6 @@ from .jackknife import Source, mean_ratio, off_the_ratio
 if TYPE_CHECKING:
     import xarray
 
-    from ..models.table import Models
 
 # Means over draws: of a variable, or of one over another.
 MEANS = {

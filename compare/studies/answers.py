@@ -99,7 +99,9 @@ def answer(found: Any) -> Answer:
     match found:
         case Report():
             tables = {each.name: _rows(each.frame) for each in found.page.every(Table) if not each.long}
-            page, told = found.page, (*found.page.opening, *found.page.answer)
+            page = found.page
+            tables |= {each.name: _rows(each.frame) for each in page.opening}
+            told = tuple(page.answer)
             return Reported(_said(found.path), tuple(page.first), told, _rows(found.findings), tables)
         case Plans():
             cost = found.cost if isinstance(found.cost, Cost) else None

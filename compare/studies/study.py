@@ -8,8 +8,8 @@ import xarray
 
 from scene.signatures import readable
 
-from ..report.page import Block, Findings, Page, Plot, Section, Table, Text
 from ..comparison.curve import Curve, contacts_of, tasks_of, tree
+from ..report.page import Block, Findings, Page, Plot, Section, Table, Text
 from ..solving import words
 from ..solving.cost import Cost
 from ..solving.outcome import Outcome

@@ -21,7 +21,7 @@ from tables import finding, replaced, stored, table
 import compare
 from compare.solving.words import interval, number
 from compare.studies.claims.catalogue import STUDIES
-from compare.studies.claims.claims import ENDS
+from compare.comparison.claims import ENDS
 
 PAGE = Path(__file__).parents[1] / "results" / "answers.md"
 DOCS, README = PAGE.parent, PAGE.parents[2] / "README.md"
@@ -149,7 +149,7 @@ def _cell(row, percent: bool = False) -> str:
 def run_again() -> None:
     """Store the findings of the main job, and sentences as a terminal shows them."""
     report = compare.run(progress="lines")
-    stored(RUN, report.table)
+    stored(RUN, report.findings)
     (shown,) = (part for part in str(report).split("\n\n") if part.startswith(SHOWN))
     RUN.with_suffix(".txt").write_text(f"{shown}\n", encoding="utf-8")
 

@@ -16,13 +16,13 @@ from tables import finding, replaced, stored, table
 import compare
 from compare.figures import style
 from compare.figures.shades import SPEED, bar, between
-from compare.solving.parameter_grid import COARSE, FINE
+from compare.comparison.curve import COARSE, FINE
 from compare.statistics import eq23
 from compare.statistics.collapse import collapse
 from compare.statistics.finding import verdict
 from compare.statistics.frictioncurves import SimulatedCurves
 from compare.statistics.jackknife import mean_ratio
-from compare.studies.claims.claims import ENDS
+from compare.comparison.claims import ENDS
 from compare.studies.claims.contacts import STEEP
 
 PAGE = Path(__file__).parents[1] / "results" / "fast.md"
@@ -65,7 +65,7 @@ def main() -> None:
     """Solve what is not solved yet, and write the numbers, the figure and the answers."""
     reports = [compare.study(name, "standard", progress="lines") for name in STUDIES]
     trees = [compare.load(report.path.parent) for report in reports]
-    found, fine = (report.table for report in reports)
+    found, fine = (report.findings for report in reports)
     rows = []
     for body in EXPONENT:
         for dimension in ("1D", "3D"):

@@ -16,7 +16,7 @@ from compare.figures import style
 from compare.figures.lettering import lettered
 from compare.library.case import shipped_cases
 from compare.models.table import Model, Models
-from compare.solving.parameter_grid import FINE, ParameterGrid, on_two_grids
+from compare.comparison.curve import FINE, Curve, on_two_levels
 from compare.statistics import means
 from compare.statistics.intervals import student
 from compare.statistics.jackknife import mean_ratio
@@ -86,9 +86,9 @@ def _drawn(case, seed):
 def _fixed(case, speed, seed, count, halves=True):
     """Processor seconds of a surface on a fixed grid, with half the points too or alone."""
     started, name = process_time(), case.bem.name
-    grids = on_two_grids(case.bem) if halves else {name: {FINE: case.bem}}
+    grids = on_two_levels(case.bem) if halves else {name: {FINE: case.bem}}
     scene = _drawn(case, seed).scene
-    one = ParameterGrid(scene=scene, speeds=(speed,), values=(LOAD,), grids=grids, draws={name: count})
+    one = Curve(scene=scene, speeds=(speed,), values=(LOAD,), grids=grids, draws={name: count})
     one.datasets({task: task.solve() for task in one.tasks()})
     return (process_time() - started) / count
 

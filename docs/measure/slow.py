@@ -35,7 +35,7 @@ LEVELS = "eq17.level-least", "eq17.level-greatest"
 def main() -> None:
     """Solve what is not solved yet, and write the numbers, the figures and the answer."""
     report = compare.study("steep-and-slow", "standard", progress="lines")
-    found = report.table[report.table["claim"].isin(CLAIMS)]
+    found = report.findings[report.findings["claim"].isin(CLAIMS)]
     stored(PAGE.with_suffix(".csv"), found.drop(columns=["meaning", "plot"]))
     for body in BODIES:
         shutil.copy(report.path.parent / body / "behind.png", PAGE.with_name(f"slow-{body}.png"))

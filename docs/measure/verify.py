@@ -75,7 +75,7 @@ def main() -> None:
     with TemporaryDirectory() as folder:
         for model in models(Path(folder)):
             report = compare.verify(model, Path(folder) / model.name, report=False)
-            found = report.table
+            found = report.findings
             laws.append(found.assign(model=model.name))
             for section in SECTIONS:
                 own = found[found["where"] == section]["verdict"]

@@ -148,7 +148,7 @@ def test_a_sweep_reaches_the_interval_resumes_and_agrees_with_fixed_draws(tmp_pa
     fixed = compare.sweep(**asked, draws=24, output=tmp_path / "many")
     apart = abs(friction(found, "mean") - friction(fixed, "mean"))
     assert np.all(apart <= half + (friction(fixed, "high") - friction(fixed, "low")) / 2)
-    status = found["status"].sel(solver="BEM", speed=0.1)
+    status = found["status"].sel(model="BEM", speed=0.1)
     solved = [(status.sel(level=grid) == "solved").sum().item() for grid in ("fine", "coarse")]
     assert solved[0] == DIFFERENCES
     assert solved[1] >= DIFFERENCES + PILOT

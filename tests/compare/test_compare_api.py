@@ -18,11 +18,12 @@ import compare
 from bem3d import BEM
 from compare import commands
 from compare.cli.app import app
-from compare.solving.parameter_grid import ParameterGrid, on_two_grids
+from compare.comparison.curve import Curve, on_two_levels
+from compare.comparison.sweep import SweepSeries
 from compare.statistics.finding import COLUMNS, Claim
 from compare.statistics.jackknife import friction
 from compare.studies import pipeline
-from compare.studies.sweep.study import Sweep
+from compare.studies.study import Study
 from mdr1d import MDR
 from scene import Refused, Scene
 from scene.reading import InvalidInput, made
@@ -79,7 +80,7 @@ def test_a_run_prints_nothing_and_what_it_returns_says_what_the_command_prints(f
     again = compare.run({"tiny": TINY}, folder, report=False)
     assert capfd.readouterr() == ("", "")
     assert (again.swept.solved, again.swept.reused, again.path) == (0, found.swept.solved, None)
-    assert list(again.table.columns) == list(COLUMNS)
+    assert list(again.findings.columns) == list(COLUMNS)
     assert valid(commands.as_json(found))["page"] == str(found.path)
 
 
@@ -122,16 +123,16 @@ def test_a_sweep_is_a_dataset_of_every_draw_with_means_and_intervals(tmp_path, v
     answers = compare.sweep(
         scene, speed=[0.1, 0.0], load=[0.5, 1.0], draws=2, output=output, workers=1, report=False
     )
-    assert dict(answers.sizes) == {"solver": 2, "level": 2, "speed": 2, "load": 2, "surface": 2}
+    assert dict(answers.sizes) == {"model": 2, "level": 2, "speed": 2, "load": 2, "surface": 2}
     assert answers.speed.values.tolist() == [0.0, 0.1]
     assert set(answers.status.values.ravel()) == {"solved"}
-    bem = answers.sel(solver="BEM", level="fine")
-    assert answers.friction_coefficient_mean.sel(solver="BEM").values == pytest.approx(friction(bem))
+    bem = answers.sel(model="BEM", level="fine")
+    assert answers.friction_coefficient_mean.sel(model="BEM").values == pytest.approx(friction(bem))
     assert bem.normal_force.values == pytest.approx(np.broadcast_to([[0.5], [1.0]], (2, 2, 2)), rel=1e-6)
     assert (answers.friction_coefficient_low <= answers.friction_coefficient_mean).all()
-    grid = abs(friction(bem) - friction(answers.sel(solver="BEM", level="coarse")))
+    grid = abs(friction(bem) - friction(answers.sel(model="BEM", level="coarse")))
     assert (
-        answers.friction_coefficient_high.sel(solver="BEM") - answers.friction_coefficient_mean.sel(solver="BEM")
+        answers.friction_coefficient_high.sel(model="BEM") - answers.friction_coefficient_mean.sel(model="BEM")
         >= grid - 1e-12
     ).all()
     drawing = compare.friction_plot(answers)
@@ -146,7 +147,7 @@ def test_a_sweep_is_a_dataset_of_every_draw_with_means_and_intervals(tmp_path, v
     asked = "sweep", scene, "--speed", "0 m/s,10cm/s", "--load", "0.5 N", "--load", "1N"
     told = valid(printed(*asked, "--draws", 2, "--output", output, "--no-report"))
     row = next(each for each in told["tables"]["means-friction"] if each["load"] == 0.5)
-    mean = answers.friction_coefficient_mean.sel(solver="BEM", speed=0.1, load=0.5).item()
+    mean = answers.friction_coefficient_mean.sel(model="BEM", speed=0.1, load=0.5).item()
     assert row["friction_coefficient (3D)"] == mean
     assert row["1D/3D"] == pytest.approx(row["friction_coefficient (1D)"] / mean)
 
@@ -204,18 +205,18 @@ def test_a_mistake_in_a_sweep_is_said_before_anything_is_solved(tmp_path, asked,
     ],
 )
 def test_speeds_are_numbers_texts_with_units_and_ranges_of_three_to_a_decade(given, numbers):
-    assert Sweep.of(SLIDING, given).speeds == pytest.approx(tuple(numbers))
+    assert SweepSeries.of(SLIDING, given).speeds == pytest.approx(tuple(numbers))
 
 
-class Twice(compare.Study):
+class Twice(Study):
     """Whether friction in 1D is twice that in 3D where a smooth sphere slides slowly."""
 
     title = "The factor of two"
 
     def grids(self):
-        grids = on_two_grids(MDR(points=300), BEM(points=48))
+        grids = on_two_levels(MDR(points=300), BEM(points=48))
         smooth = replace(SLIDING, roughness=None)
-        return {"smooth": ParameterGrid(scene=smooth, speeds=(0.005,), values=(1.0,), grids=grids, draws={})}
+        return {"smooth": Curve(scene=smooth, speeds=(0.005,), values=(1.0,), levels=grids, draws={})}
 
     def claims(self):
         def ratio(sample):
@@ -226,7 +227,7 @@ class Twice(compare.Study):
 
 def test_a_study_of_ones_own_goes_the_same_way(tmp_path):
     report = compare.solve(Twice(), tmp_path, workers=1)
-    assert report.table.loc[0, ["claim", "verdict"]].tolist() == ["two", "holds"]
+    assert report.findings.loc[0, ["claim", "verdict"]].tolist() == ["two", "holds"]
     assert report.path == tmp_path / "report.html"
     assert compare.load(tmp_path)["smooth/BEM"].sizes["level"] == 2
     assert compare.solve(Twice(), tmp_path, report=False).path is None

@@ -7,10 +7,10 @@ from scene_files import SCENE
 from typer.testing import CliRunner
 
 from compare.cli.app import app
+from compare.comparison import asked
+from compare.comparison.around import SMOOTH_DEPTH, curves, models_of
 from compare.library.case import read_case
 from compare.library.lookup import case_of
-from compare.studies.run.curves import SMOOTH_DEPTH, curves, models_of
-from compare.studies.run.study import Run
 from scene import Coulomb, Elastic, Indent, Program, Refused, Slide, Stage
 from scene.reading import InvalidInput
 from scene.scales import elastic_contact
@@ -46,14 +46,14 @@ def test_what_says_nothing_of_the_elastomer_is_refused_though_both_solvers_take_
     changed = replace(case, **change)
     assert not changed.mdr.refusals(changed.scene)
     assert not changed.bem.refusals(changed.scene)
-    for ask in (changed.refuse, lambda: Run.of(changed)):
+    for ask in (changed.refuse, lambda: asked.run(changed)):
         with pytest.raises(Refused, match=said):
             ask()
 
 
 def test_friction_of_the_interface_of_what_is_pressed_in_adds_nothing_and_is_compared_with_the_closed_form(case):
     rubbing = replace(case, interface=Coulomb(0.3), motion=Indent(load=1.0))
-    assert set(curves(rubbing, models_of(rubbing))[SMOOTH_DEPTH].grids) == {"MDR", "BEM", "exact"}
+    assert set(curves(rubbing, models_of(rubbing))[SMOOTH_DEPTH].levels) == {"MDR", "BEM", "exact"}
 
 
 def test_the_same_loads_are_meant_where_the_depth_is_prescribed(case):

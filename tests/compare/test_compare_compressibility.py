@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 
 from bem3d import BEM
-from compare.solving import parameter_grid
+from compare.comparison import curve
+from compare.comparison.answers import Answers
+from compare.comparison.laws import laws
+from compare.comparison.rough import RoughSeries
 from compare.solving.outcome import Outcome, Row
-from compare.studies.claims.laws import laws
-from compare.studies.claims.series import Contacts, Series
 from mdr1d import MDR
 from scene import (
     Program,
@@ -105,11 +106,12 @@ def test_the_laws_of_the_paper_take_the_plane_strain_modulus_for_storage_and_los
     def ruled(nu):
         scene = softened(Scene(SPHERE, SOLID, Slide(speed=0.1, load=0.1), ROUGH), nu, (1 - nu) / 0.5)
         grids = {"bem": BEM(points=64), "mdr": MDR(points=200)}
-        series = Series("one", "One", scene, (0.1, 0.3), (0.05, 0.1), surfaces=1, profiles=1, **grids)
+        series = RoughSeries("one", "One", scene, (0.1, 0.3), (0.05, 0.1), surfaces=1, profiles=1, **grids)
         missing = Outcome((Row(reason="not asked for"),))
-        contacts = parameter_grid.contacts_of(series.grids)
+        contacts = curve.contacts_of(series.curves)
         outcomes = {each: each.solve() if each.solver.name == "MDR" else missing for each in contacts}
-        return laws(Contacts(series, parameter_grid.tree(series.grids, outcomes)), "MDR")
+        answers = Answers({name: each.dataset(outcomes) for name, each in series.curves.items()}, series.models)
+        return laws(series, answers, "MDR")
 
     wanted, found = ruled(0.5), ruled(0.0)
     for name in ("xi", "shifts", "slowest_loss", "loss_exponent", "exponent", "plateau"):

@@ -5,20 +5,20 @@ from itertools import product
 
 import numpy as np
 import pytest
-from small_cases import PARAMETER_GRID
+from small_cases import CURVE
 
 from bem3d import BEM
+from compare.comparison.curve import contacts_of, on_two_levels, tasks_of
 from compare.solving import continuation
 from compare.solving.continuation import Continuation, by_contact
 from compare.solving.digest import key
-from compare.solving.parameter_grid import contacts_of, on_two_grids, tasks_of
 from compare.solving.store import Store
 from mdr1d import MDR
 from scene import Indent, Program, Stage
 
 
 def test_a_path_is_all_speeds_of_one_surface_and_load_from_rest_on_and_from_coarse_to_fine():
-    tasks = PARAMETER_GRID.tasks()
+    tasks = CURVE.tasks()
     paths = [each for each in tasks if isinstance(each, Continuation)]
     assert len(paths) == 2 * 2  # loads, surfaces
     for each in paths:
@@ -28,17 +28,17 @@ def test_a_path_is_all_speeds_of_one_surface_and_load_from_rest_on_and_from_coar
     assert {task.solver.name for task in tasks if task not in paths} == {"MDR"}
     on_paths = [one for each in paths for one in each.contacts]
     assert len(on_paths) == len(set(on_paths))
-    assert set(on_paths) == {each for each in contacts_of({"": PARAMETER_GRID}) if each.solver.name == "BEM"}
+    assert set(on_paths) == {each for each in contacts_of({"": CURVE}) if each.solver.name == "BEM"}
 
 
 def test_the_order_of_what_is_asked_changes_no_task():
-    turned = replace(PARAMETER_GRID, speeds=PARAMETER_GRID.speeds[::-1], values=PARAMETER_GRID.values[::-1])
-    assert {key(task) for task in turned.tasks()} == {key(task) for task in PARAMETER_GRID.tasks()}
-    assert len({key(task) for task in PARAMETER_GRID.tasks()}) == len(PARAMETER_GRID.tasks())
+    turned = replace(CURVE, speeds=CURVE.speeds[::-1], values=CURVE.values[::-1])
+    assert {key(task) for task in turned.tasks()} == {key(task) for task in CURVE.tasks()}
+    assert len({key(task) for task in CURVE.tasks()}) == len(CURVE.tasks())
 
 
 def test_a_path_is_cut_where_it_would_take_longer_than_a_minute(monkeypatch):
-    (whole,) = replace(PARAMETER_GRID, values=(0.5,), draws={"BEM": 1}, grids=on_two_grids(BEM(points=64))).tasks()
+    (whole,) = replace(CURVE, values=(0.5,), draws={"BEM": 1}, levels=on_two_levels(BEM(points=64))).tasks()
     monkeypatch.setattr(continuation, "LONGEST", 0.4 * whole.work)
     parts = continuation.joined(whole.contacts)
     assert len(parts) > 2
@@ -49,17 +49,17 @@ def test_a_path_is_cut_where_it_would_take_longer_than_a_minute(monkeypatch):
 
 
 def test_programs_and_contacts_that_keep_fields_stay_alone():
-    program = replace(PARAMETER_GRID.scene, motion=Program(stages=(Stage(duration=1.0, depth=1e-5),)))
-    pressed = replace(PARAMETER_GRID, scene=program, speeds=(1e-5, 1e-4), values=(1e-5,))
+    program = replace(CURVE.scene, motion=Program(stages=(Stage(duration=1.0, depth=1e-5),)))
+    pressed = replace(CURVE, scene=program, speeds=(1e-5, 1e-4), values=(1e-5,))
     assert not [each for each in pressed.tasks() if isinstance(each, Continuation)]
-    kept = [each for each in replace(PARAMETER_GRID, keeps_fields=True).tasks() if each.keeps_fields]
+    kept = [each for each in replace(CURVE, keeps_fields=True).tasks() if each.keeps_fields]
     assert {type(each.solver) for each in kept} == {MDR, BEM}
 
 
 @pytest.fixture(scope="module")
 def solved():
-    finer = on_two_grids(MDR(points=200), BEM(points=128))
-    tasks = replace(PARAMETER_GRID, values=(0.5,), grids=finer).tasks()
+    finer = on_two_levels(MDR(points=200), BEM(points=128))
+    tasks = replace(CURVE, values=(0.5,), levels=finer).tasks()
     return {task: task.solve() for task in tasks}
 
 
@@ -91,13 +91,9 @@ def test_equal_paths_have_equal_digits_and_are_kept_whole(solved, tmp_path):
 
 def test_a_contact_without_an_answer_has_its_reason_and_those_behind_it_are_solved():
     """The last is finer than its waves, the first is not."""
-    fine = replace(PARAMETER_GRID.scene, roughness=replace(PARAMETER_GRID.scene.roughness, shortest=1.5e-4))
+    fine = replace(CURVE.scene, roughness=replace(CURVE.scene.roughness, shortest=1.5e-4))
     (found,) = tasks_of(
-        {
-            "": replace(
-                PARAMETER_GRID, scene=fine, values=(0.5,), draws={"BEM": 1}, grids=on_two_grids(BEM(points=64))
-            )
-        }
+        {"": replace(CURVE, scene=fine, values=(0.5,), draws={"BEM": 1}, levels=on_two_levels(BEM(points=64)))}
     )
     outcome = found.solve()
     reasons = [row.reason is None for row in outcome.rows]
@@ -109,6 +105,6 @@ def test_a_contact_without_an_answer_has_its_reason_and_those_behind_it_are_solv
 
 
 def test_contacts_at_a_depth_and_at_a_load_are_on_different_paths():
-    deep = replace(PARAMETER_GRID, scene=replace(PARAMETER_GRID.scene, motion=Indent(depth=1e-5)), values=(0.5,))
-    both = {"load": replace(PARAMETER_GRID, values=(0.5,)), "depth": deep}
+    deep = replace(CURVE, scene=replace(CURVE.scene, motion=Indent(depth=1e-5)), values=(0.5,))
+    both = {"load": replace(CURVE, values=(0.5,)), "depth": deep}
     assert set(tasks_of(both)) == {task for each in both.values() for task in each.tasks()}

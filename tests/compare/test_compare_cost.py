@@ -7,18 +7,18 @@ import pint
 import pytest
 import xarray
 from scene_files import HEAD, SCENE, SHARED, TABLES
-from small_cases import PARAMETER_GRID
+from small_cases import CURVE
 from stand_in_solver import Here
 from typer.testing import CliRunner
 
 from bem3d import BEM
 from compare.cli.app import app
+from compare.comparison import asked as questions
 from compare.library.case import Case, share_of
 from compare.solving.cost import DAY, MANY_CONTACTS, MOST_CONTACTS, SECONDS, Cost
 from compare.studies.claims.study_file import study_of
 from compare.studies.paper.study import Paper
 from compare.studies.pipeline import run
-from compare.studies.run.study import Run
 from compare.studies.study import Study
 from scene import Refused
 from scene.reading import InvalidInput, read
@@ -40,13 +40,13 @@ class Costly(Study):
 
 
 def test_what_is_counted_is_what_is_built():
-    assert PARAMETER_GRID.cost == replace(Cost.of(PARAMETER_GRID.tasks()), kept=PARAMETER_GRID.cost.kept)
-    assert PARAMETER_GRID.cost.contacts == 3 * 2 * 2 * (3 + 2)  # speeds, loads, grids, draws
-    smooth = replace(PARAMETER_GRID, scene=replace(PARAMETER_GRID.scene, roughness=None))
+    assert CURVE.cost == replace(Cost.of(CURVE.tasks()), kept=CURVE.cost.kept)
+    assert CURVE.cost.contacts == 3 * 2 * 2 * (3 + 2)  # speeds, loads, grids, draws
+    smooth = replace(CURVE, scene=replace(CURVE.scene, roughness=None))
     assert smooth.cost.contacts == 3 * 2 * 2 * 2 == Cost.of(smooth.tasks()).contacts
 
 
-@pytest.mark.parametrize("asked", [Run.of("quick-start"), Paper.of(profiles=3)])
+@pytest.mark.parametrize("asked", [questions.run("quick-start"), Paper.of(profiles=3)])
 def test_of_a_whole_study_it_is_an_upper_bound_as_curves_share_contacts(asked):
     built = Cost.of(task for batch in asked.batches() for task in batch.tasks)
     assert built.contacts <= asked.cost().contacts <= 1.3 * built.contacts

@@ -11,9 +11,9 @@ from test_compare_multilevel import answers
 
 import compare
 from bem3d import BEM
+from compare.comparison.curve import FINER, NOT_ASKED, SOLVED
 from compare.library.case import Variations
 from compare.library.lookup import case_of
-from compare.solving.parameter_grid import FINER, NOT_ASKED, SOLVED
 from compare.statistics.finding import FAILS, HOLDS, UNDECIDED, Claim, Finding
 from compare.statistics.jackknife import DrawSet, friction, measured
 from compare.statistics.multilevel import GROWTH, PILOT, DrawnSurfaces, pilot, pooled
@@ -150,13 +150,13 @@ CASE = replace(
 def test_a_run_stops_with_every_claim_decided_or_narrow_and_resumes(tmp_path):
     asked = {"scene": CASE, "interval": "15%", "report": False, "output": tmp_path}
     report = compare.run(**asked)
-    for each in report.findings:
+    for each in report.judged:
         if each.verdict == UNDECIDED and not each.undecidable:
             low, high = each.interval
             assert (high - low) / 2 <= 0.15 * max(1.0, abs(each.claim.expected))
     again = compare.run(**asked)
     assert (again.swept.solved, again.swept.reused) == (0, report.swept.solved)
-    assert again.table.equals(report.table)
+    assert again.findings.equals(report.findings)
 
 
 @pytest.mark.usefixtures("in_this_process")
@@ -185,7 +185,7 @@ def test_hard_surfaces_are_solved_on_the_next_finer_grid_and_told(tmp_path, monk
     np.testing.assert_allclose(friction.sel(level="coarse"), friction.sel(level="fine"), rtol=1e-3)
     again = compare.run(**asked)
     assert (again.swept.solved, again.unsolved.notes) == (0, (note,))
-    assert again.table.equals(report.table)
+    assert again.findings.equals(report.findings)
 
 
 @pytest.mark.usefixtures("in_this_process")
@@ -193,7 +193,7 @@ def test_a_budget_that_is_spent_asks_for_no_more(tmp_path):
     report = compare.run(CASE, interval="1%", budget="1 ms", report=False, output=tmp_path)
     drawn = {name: each.strata("BEM") for name, each in report.study.grids().items() if each.random}
     assert {sum(map(len, each)) for each in drawn.values()} == {PILOT + 8}
-    assert report.study.more(report.answers, report.findings) is not None
+    assert report.study.more(report.answers, report.judged) is not None
 
 
 def test_an_interval_and_numbers_of_surfaces_are_not_both_stated():
@@ -242,17 +242,17 @@ def test_a_study_stops_likewise_and_series_of_a_family_have_as_many_surfaces(tmp
     path = tmp_path / "heights.toml"
     path.write_text(STUDY)
     report = compare.study(path, output=tmp_path / "study", report=False)
-    for each in report.findings:
+    for each in report.judged:
         if each.verdict == UNDECIDED and not each.undecidable:
             low, high = each.interval
             assert (high - low) / 2 <= 0.3 * max(1.0, abs(each.claim.expected))
     low, high = (each.drawn.counts for each in report.study.series)
     assert low == high
     assert len(low["BEM"]) < 3  # as many grids as the coarser of both has
-    assert any(each.where == "every sphere" for each in report.findings)
+    assert any(each.where == "every sphere" for each in report.judged)
     again = compare.study(path, output=tmp_path / "study", report=False)
     assert again.swept.solved == 0
-    assert_frame_equal(again.table, report.table)
+    assert_frame_equal(again.findings, report.findings)
 
 
 def test_a_study_states_an_interval_or_numbers_of_surfaces(tmp_path):

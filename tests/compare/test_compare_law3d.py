@@ -6,21 +6,17 @@ from functools import cache
 import numpy as np
 import pytest
 import xarray
-from invented_answers import SERIES, eq_19, obeying
+from invented_answers import SERIES, SURFACES, changed, eq_19, joined, obeying
 
-from compare.figures import style
-from compare.report.page import Plot
-from compare.solving import words
-from compare.solving.parameter_grid import FINE
+from compare.comparison.claims_law import EVERY, SHALLOW, LawPoints, law_findings
+from compare.comparison.curve import COARSE, FINE, SOLVED
+from compare.comparison.laws import laws
+from compare.comparison.rough import ROUGH
+from compare.comparison.theory import LAW, with_theory
+from compare.comparison.together import Member
+from compare.comparison.together import together as several
 from compare.statistics.finding import FAILS, HOLDS, REPORTED
 from compare.studies.claims import catalogue
-from compare.studies.claims.claims_law import EVERY, SHALLOW, LawPoints, law_findings
-from compare.studies.claims.families import family_findings
-from compare.studies.claims.figures.tables import plots_of_series, plots_of_study
-from compare.studies.claims.judgement import judge_series
-from compare.studies.claims.laws import laws
-from compare.studies.claims.series import ROUGH, Contacts
-from compare.studies.theory import LAW, with_theory
 from scene import Slide
 
 # Under the first load the roughness is more than a tenth of the depth.
@@ -53,25 +49,27 @@ def answers(series=FEW, times=1.0, scatter=0.0, grid=0.0, seed=1, law=None):
 
     times : (speeds, loads), or one number; scatter : of each point and surface; grid : error of the coarse one
     """
-    law, contacts = solved(series) if law is None else law, obeying(eq_19, series, scatter=0.0)
-    tree = contacts.answers.copy(deep=True)
-    tree[f"/{series.name}/{ROUGH}/{LAW.name}"] = xarray.DataTree(law)
-    rough = tree[f"{series.name}/{ROUGH}/BEM"].to_dataset()
+    law, made = solved(series) if law is None else law, obeying(eq_19, series, scatter=0.0)
     known = law.isel(level=0, speed=slice(1, None))
     adds = times * known["share_of_full_contact"] * known["full_contact_friction"]
-    shape = rough["friction_force"].shape
-    drawn = scatter * np.random.default_rng(seed).standard_normal(shape[1:])
-    off = np.array([1.0, 1 + grid])[:, None, None, None]
-    found = (known["friction_of_shape"] + adds).values[..., None] * np.exp(drawn[1:]) * off
-    rough["friction_force"].values[:, 1:] = found
-    tree[f"{series.name}/{ROUGH}/BEM"] = xarray.DataTree(rough)
-    return Contacts(series, tree)
+    drawn = scatter * np.random.default_rng(seed).standard_normal(
+        (len(series.speeds), len(series.values), SURFACES)
+    )
+    found = (known["friction_of_shape"] + adds).values[..., None] * np.exp(drawn)
+    for level, off in ((FINE, 1.0), (COARSE, 1 + grid)):
+        made = changed(made, level=level, place=np.s_[1:], friction_force=found * off)
+    own = law.expand_dims(model=[LAW.name], surface=[0]).assign(status=SOLVED, reason="")
+    rough = joined(
+        [made.curves[ROUGH], own.assign_coords(draws=("model", ["none"]), points=(("model", "level"), [[0]]))]
+    )
+    return replace(made, curves={**made.curves, ROUGH: rough})
 
 
 def found(contacts):
     """Findings on the master curve by the end of their names."""
-    ruled = {"BEM": laws(contacts, "BEM")}
-    return {each.claim.id.removeprefix("law3d."): each for each in law_findings(contacts, ruled)}
+    known = contacts.answers
+    ruled = {"BEM": laws(contacts.series, known, "BEM")}
+    return {each.claim.id.removeprefix("law3d."): each for each in law_findings(contacts.series, known, ruled)}
 
 
 def test_answers_made_of_the_law_fall_on_its_curve():
@@ -101,7 +99,8 @@ def test_one_point_in_six_that_is_off_is_seen_by_nine_in_ten_and_not_by_the_medi
 
 
 def test_points_of_high_roughness_are_left_out():
-    heights = LawPoints.of(contacts := answers(), {"BEM": laws(contacts, "BEM")}).height
+    series, known = (made := answers()).series, made.answers
+    heights = LawPoints.of(series, known, {"BEM": laws(series, known, "BEM")}).height
     np.testing.assert_array_equal(heights > SHALLOW, [[True, False, False]] * 3)
     times = np.where(heights > SHALLOW, 3.0, 1.0)
     findings = found(answers(times=times))
@@ -139,8 +138,9 @@ def test_intervals_hold_what_points_are_off_without_scatter(off):
 
 
 def together(*contacts):
-    judged = [judge_series(each) for each in contacts]
-    return judged, {each.claim.id: each for each in family_findings(judged) if each.where == EVERY}
+    judged = [each.judge() for each in contacts]
+    members = [Member(each.series, each.answers, one.laws) for each, one in zip(contacts, judged, strict=True)]
+    return judged, {each.claim.id: each for each in several(members) if each.where == EVERY}
 
 
 def test_bodies_together_fall_on_one_curve_or_one_of_them_is_told():
@@ -159,43 +159,20 @@ def test_a_series_alone_has_no_findings_on_several():
 
 @pytest.mark.parametrize(
     "contacts",
-    [obeying(eq_19, FEW), Contacts(replace(FEW, reference="MDR"), answers().answers)],
+    [obeying(eq_19, FEW), replace(answers(), series=replace(FEW, reference="MDR"))],
     ids=["law", "3D"],
 )
 def test_without_the_law_or_three_dimensions_nothing_is_found(contacts):
-    ruled = {name: laws(contacts, name) for name in ("MDR", "BEM")}
-    assert not law_findings(contacts, ruled)
-
-
-def test_figures_show_every_point_and_what_is_not_claimed_hollow():
-    judged, several = together(answers(times=1.05), answers(CONE))
-    figures = {each.name: each for each in plots_of_series(judged[0])} | {
-        each.name: each for each in plots_of_study(judged, list(several.values()))
-    }
-    for name, points in (("sphere/law", 9), ("law", 18)):
-        plot: Plot = figures[name]
-        assert len(plot.tables["law-3d"]) <= points
-        assert len(plot.caption.split()) <= 60
-        with style.applied():
-            drawing = plot.figure()
-        _, right, _, below, *_ = drawing.axes
-        own = {
-            each.claim.id: 100 * each.value for each in (judged[0].findings if "/" in name else several.values())
-        }
-        median, most = (words.number(own[f"law3d.collapse{end}"], 2) for end in ("", "-most"))
-        assert below.get_title(loc="left").partition(" ")[2] == f"median {median} %, nine in ten {most} %"
-        drawn = [line for line in right.lines if line.get_marker() not in ("", "None", "_", "|")]
-        hollow = sum(line.get_xdata().size for line in drawn if line.get_markerfacecolor() == style.paper())
-        assert hollow == (plot.tables["law-3d"]["height_over_depth"] > SHALLOW).sum() > 0
-        assert sum(line.get_xdata().size for line in drawn) == len(plot.tables["law-3d"])
+    ruled = {name: laws(contacts.series, contacts.answers, name) for name in ("MDR", "BEM")}
+    assert not law_findings(contacts.series, contacts.answers, ruled)
 
 
 def test_studies_solve_the_law_under_a_load_and_runs_do_not():
-    rough = SERIES.grids[f"sphere/{ROUGH}"]
-    assert LAW.name in rough.grids
-    plain = replace(rough, grids={name: rough.grids[name] for name in ("MDR", "BEM")})
-    assert LAW.name not in with_theory(plain).grids
+    rough = SERIES.curves[ROUGH]
+    assert LAW.name in rough.levels
+    plain = replace(rough, levels={name: rough.levels[name] for name in ("MDR", "BEM")})
+    assert LAW.name not in with_theory(plain).levels
     at_depth = replace(
         SERIES, scene=replace(SERIES.scene, motion=Slide(speed=1.0, depth=1e-4)), values=(1e-4, 2e-4)
     )
-    assert LAW.name not in at_depth.grids[f"sphere/{ROUGH}"].grids
+    assert LAW.name not in at_depth.curves[ROUGH].levels

@@ -9,6 +9,7 @@ import pytest
 from drawn_again import from_files
 
 import compare
+from compare.comparison import asked
 from compare.figures import shifted_curves
 from compare.library.ready import ready
 from compare.solving.words import found as worded
@@ -16,7 +17,6 @@ from compare.statistics.eq23 import NO_SHIFT
 from compare.statistics.finding import FAILS, HOLDS, REPORTED, UNDECIDED
 from compare.studies.mastercurve.measurements import MeasuredFriction
 from compare.studies.mastercurve.study import NOT_REPEATED, Mastercurve
-from compare.studies.run.study import Run
 from scene.reading import InvalidInput
 
 
@@ -54,7 +54,7 @@ def test_a_file_whose_name_is_no_text_is_named_by_letters_that_stand_for_it(tmp_
         assert r"ball\udcff" in str(left)
         assert r"ball\udcff" in left.study.title
         assert set(compare.export(left.output)) >= {left.output / "tables/findings.csv"}
-    assert list(Run.of(tmp_path / f"{name}.toml").cases) == [r"ball\udcff"]
+    assert [each.name for each in asked.run(tmp_path / f"{name}.toml").series] == [r"ball\udcff"]
 
 
 @pytest.mark.parametrize("noise", [0.0, 0.003, 0.01])
@@ -434,7 +434,7 @@ def test_the_figure_is_a_function_of_its_csv_files(tmp_path, text):
 def test_the_command_leaves_page_figure_tables_and_findings(tmp_path):
     (tmp_path / "ball.csv").write_text(table())
     report = compare.mastercurve(tmp_path / "ball.csv", tmp_path / "out")
-    assert report.table["verdict"].tolist()[:2] == [HOLDS, HOLDS]
+    assert report.findings["verdict"].tolist()[:2] == [HOLDS, HOLDS]
     assert {"report.html", "findings.csv", "results.nc", "shifted-curves.png", "shifted-curves.csv"} <= {
         path.name for path in (tmp_path / "out").iterdir()
     }

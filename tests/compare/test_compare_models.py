@@ -89,7 +89,7 @@ class Failing(Stiff):
 
 
 def found(report, claim, dimension):
-    rows = report.table[(report.table["claim"] == claim) & (report.table["dimension"] == dimension)]
+    rows = report.findings[(report.findings["claim"] == claim) & (report.findings["model"] == dimension)]
     return rows["value"].tolist(), rows["verdict"].tolist()
 
 
@@ -104,16 +104,16 @@ def test_a_model_is_judged_against_the_reference_by_the_claims_of_the_others(jud
     assert values == pytest.approx([0.1] * len(values), abs=0.01)
     assert set(verdicts) == {FAILS}
     assert set(found(judged, "force.ratio.smooth", "1D/3D")[1]) == {HOLDS}
-    told = {each.claim.sentence for each in judged.findings}
+    told = {each.claim.sentence for each in judged.judged}
     assert "The force on the smooth body at the same depth is the same in Stiff and 3D" in told
 
 
 def test_the_numbers_of_the_default_pair_do_not_move(judged, tmp_path):
     alone = compare.run(SMOOTH, tmp_path, report=False)
-    assert {each.solver.name for each in alone.study.models["scene"]} == {"MDR", "BEM"}
-    columns = ["claim", "where", "dimension", "value", "low", "high", "verdict"]
-    pair = judged.table[~judged.table["dimension"].str.contains("Stiff")]
-    assert alone.table[columns].to_csv() == pair[columns].reset_index(drop=True).to_csv()
+    assert {each.solver.name for each in alone.study.series[0].models} == {"MDR", "BEM"}
+    columns = ["claim", "where", "model", "value", "low", "high", "verdict"]
+    pair = judged.findings[~judged.findings["model"].str.contains("Stiff")]
+    assert alone.findings[columns].to_csv() == pair[columns].reset_index(drop=True).to_csv()
 
 
 def test_every_model_has_its_curve_in_every_figure_of_a_run(judged):
@@ -127,7 +127,7 @@ def test_another_reference_turns_the_ratio_around(judged, tmp_path):
     (slow,), _ = found(turned, "friction.ratio.smooth-slow", "3D/1D")
     (straight,), _ = found(judged, "friction.ratio.smooth-slow", "1D/3D")
     assert slow == pytest.approx(1 / straight, rel=1e-12)
-    (claim,) = (each.claim for each in turned.findings if each.claim.id == "friction.ratio.smooth-slow")
+    (claim,) = (each.claim for each in turned.judged if each.claim.id == "friction.ratio.smooth-slow")
     assert claim.expected == 0.5
 
 
@@ -137,8 +137,8 @@ def test_a_model_that_answers_nothing_is_told_and_takes_no_other_with_it(error, 
     with pytest.warns(Doubtful, match="too steep"):
         report = compare.sweep(SMOOTH, [0.1], draws=1, output=tmp_path, models=models, report=False)
     told = "refused: too steep" if error == "refused" else "too steep"
-    assert told in report["reason"].sel(solver="Failing").values
-    assert report["friction_force"].sel(solver="BEM", level="fine").notnull().all()
+    assert told in report["reason"].sel(model="Failing").values
+    assert report["friction_force"].sel(model="BEM", level="fine").notnull().all()
 
 
 @pytest.mark.parametrize(
@@ -173,11 +173,9 @@ def test_a_model_without_draws_has_no_scatter_of_its_own(tmp_path):
     models = ["bem", Averaging(), "corrected"]
     found = compare.sweep(ROUGH, [0.1], draws=3, output=tmp_path, models=models, report=False)
     wide = found["friction_coefficient_high"] - found["friction_coefficient_low"]
-    assert wide.sel(solver="Averaging").item() == 0
-    assert wide.sel(solver="BEM").item() > 0
-    assert (
-        found["normal_force"].sel(solver="Averaging", level="fine", surface=ROUGH.roughness.seed).notnull().all()
-    )
+    assert wide.sel(model="Averaging").item() == 0
+    assert wide.sel(model="BEM").item() > 0
+    assert found["normal_force"].sel(model="Averaging", level="fine", surface=ROUGH.roughness.seed).notnull().all()
 
 
 def test_settings_and_source_are_in_the_key():
@@ -241,12 +239,12 @@ def test_a_study_judges_every_model_against_the_reference(tmp_path):
     (tmp_path / "own.toml").write_text(OWN)
     asked = tmp_path / "own.toml", "quick", tmp_path
     report = compare.study(*asked, models=["mdr", "bem", Stiff()])
-    told = set(report.table["dimension"])
+    told = set(report.findings["model"])
     assert {"1D", "3D", "1D/3D", "Stiff/3D"} <= told
     alone = compare.study(*asked)
-    columns = ["claim", "where", "dimension", "value", "low", "high", "verdict"]
-    pair = report.table[~report.table["dimension"].str.contains("Stiff")]
-    assert alone.table[columns].to_csv() == pair[columns].reset_index(drop=True).to_csv()
+    columns = ["claim", "where", "model", "value", "low", "high", "verdict"]
+    pair = report.findings[~report.findings["model"].str.contains("Stiff")]
+    assert alone.findings[columns].to_csv() == pair[columns].reset_index(drop=True).to_csv()
 
 
 STRANGER = {

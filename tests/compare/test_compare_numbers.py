@@ -11,6 +11,8 @@ from matplotlib.text import Text
 from pandas import DataFrame
 from small_cases import TINY
 
+from compare.comparison import asked
+from compare.comparison.together import Member, together
 from compare.figures import shifted_curves, style
 from compare.report import terminal
 from compare.report.page import Page, Table
@@ -20,10 +22,7 @@ from compare.solving.outcome import Outcome, Row
 from compare.solving.words import found as worded
 from compare.statistics import eq23
 from compare.statistics.collapse import collapse
-from compare.studies.claims.claims_friction import curves
-from compare.studies.claims.families import family_findings
-from compare.studies.claims.judgement import judge_series
-from compare.studies.run.study import Run
+from compare.statistics.frictioncurves import SimulatedCurves
 
 NUMBER = re.compile(r"[\u2212-]?\d+(?:\.\d+)?")
 
@@ -60,7 +59,7 @@ def outside(findings):
 @pytest.mark.parametrize("interval", [None, 0.05], ids=["fixed draws", "draws in strata"])
 def test_a_number_of_a_run_lies_in_its_interval(interval):
     """Over draws in strata a mean is a sum of differences, and that of a size may be negative by chance."""
-    random, run = np.random.default_rng(0), Run({"a case": TINY}, interval=interval)
+    random, run = np.random.default_rng(0), asked.run({"a case": TINY}, interval=interval)
     tasks = [each for batch in run.batches() for each in batch.tasks]
     contacts = (each for task in tasks for each in (task.contacts if isinstance(task, Continuation) else [task]))
     findings = run.judge(run.answers({each: invented(each, random) for each in contacts})).findings
@@ -72,8 +71,10 @@ def test_a_number_of_a_run_lies_in_its_interval(interval):
 def test_a_number_of_a_study_lies_in_its_interval(scatter, grid):
     for seed in range(3):
         whole = obeying(eq_19, FEW, scatter=scatter, grid=grid, seed=seed)
-        series = [judge_series(each) for each in (whole, spoiled(whole, (0, 0, slice(5))))]
-        assert not outside([*(one for each in series for one in each.findings), *family_findings(series)])
+        both = [whole, spoiled(whole, (0, 0, slice(5)))]
+        judged = [each.judge() for each in both]
+        members = [Member(each.series, each.answers, one.laws) for each, one in zip(both, judged, strict=True)]
+        assert not outside([*(one for each in judged for one in each.findings), *together(members)])
 
 
 @pytest.mark.parametrize(
@@ -90,7 +91,9 @@ def test_every_misfit_and_exponent_in_the_figure_of_shifts_is_that_of_a_finding(
     def off(load, speed):  # half the points miss by more at high speed
         return law(load, speed) * (1 + 0.02 * np.log(1 + load * speed))
 
-    fine, coarse = (collapse(curves(obeying(each, FEW), "BEM")) for each in (law, off))
+    fine, coarse = (
+        collapse(SimulatedCurves.of(obeying(each, FEW)("BEM").isel(speed=slice(1, None)))) for each in (law, off)
+    )
     shifts = None if isnan(expected) else expected * np.log(fine.speeds / fine.speeds[fine.speeds.size // 2])
     found = list(eq23.findings(fine, coarse, "3D", shifts, expected, horizontal=horizontal))
     row = shifted_curves.ShiftedCurves(

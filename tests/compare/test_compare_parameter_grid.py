@@ -14,18 +14,18 @@ from typer.testing import CliRunner
 
 from bem3d import BEM
 from compare.cli.app import app
-from compare.solving import netcdf
-from compare.solving.cost import MOST_DRAWS
-from compare.solving.outcome import Outcome, Row
-from compare.solving.parameter_grid import (
+from compare.comparison.curve import (
     LEVELS,
-    ParameterGrid,
+    Curve,
     contacts_of,
     on_levels,
-    on_two_grids,
+    on_two_levels,
     tasks_of,
     tree,
 )
+from compare.solving import netcdf
+from compare.solving.cost import MOST_DRAWS
+from compare.solving.outcome import Outcome, Row
 from compare.solving.task import draws_of
 from compare.solving.words import basis
 from compare.statistics.finding import Claim
@@ -35,11 +35,11 @@ from scene import Indent, Layer, Refused
 from scene.quantities import MOST_WHOLE
 from scene.reading import InvalidInput
 
-ROUGH = ParameterGrid(
+ROUGH = Curve(
     scene=SLIDING,
     speeds=(0.0, 0.1),
     values=(0.5, 1.0, 2.0),
-    grids=on_two_grids(MDR(points=200), BEM(points=32)),
+    levels=on_two_levels(MDR(points=200), BEM(points=32)),
     draws={"MDR": 4, "BEM": 2},
 )
 SMOOTH = replace(ROUGH, scene=replace(SLIDING, roughness=None))
@@ -76,7 +76,7 @@ COARSER = {"fine": MDR(points=400), "coarse": MDR(points=200), "coarser": MDR(po
 
 
 def test_draws_of_a_stratum_are_solved_on_their_grid_and_on_the_next_coarser_one():
-    few = replace(ROUGH, grids={"MDR": COARSER}, draws={"MDR": (1, 2, 9)})
+    few = replace(ROUGH, levels={"MDR": COARSER}, draws={"MDR": (1, 2, 9)})
     found = few.datasets({task: outcome_of(task) for task in few.tasks()})["MDR"]
     assert found["stratum"].values.tolist() == [0] + [1] * 2 + [2] * 9
     assert np.unique(found["surface"]).size == found.sizes["surface"]
@@ -95,7 +95,7 @@ def test_draws_of_a_stratum_are_solved_on_their_grid_and_on_the_next_coarser_one
 @pytest.mark.parametrize("counts", [(8, 8), (8, 8, 0), (8, 8, 10_001)])
 def test_strata_are_one_number_for_each_grid(counts):
     with pytest.raises(ValueError, match=r"draws = .* of MDR: 3 whole numbers, one for each grid, .* 10,000"):
-        replace(ROUGH, grids={"MDR": COARSER}, draws={"MDR": counts})
+        replace(ROUGH, levels={"MDR": COARSER}, draws={"MDR": counts})
 
 
 def test_coarser_grids_end_where_they_pay_no_more_but_half_the_points_are_kept():
@@ -104,7 +104,7 @@ def test_coarser_grids_end_where_they_pay_no_more_but_half_the_points_are_kept()
 
 
 def test_more_draws_leave_the_tasks_of_those_before_as_they_are():
-    few = replace(ROUGH, grids={"MDR": COARSER}, draws={"MDR": (8, 8, 16)})
+    few = replace(ROUGH, levels={"MDR": COARSER}, draws={"MDR": (8, 8, 16)})
     more = replace(few, draws={"MDR": (8, 16, 24)})
     assert set(few.tasks()) < set(more.tasks())
 
@@ -195,8 +195,8 @@ def test_what_a_solver_lacks_is_refused_before_anything_is_solved():
 def test_the_values_that_a_refusal_names_are_enough_for_the_coarser_grid_too(points):
     def refined(settings, shortest):
         rough = replace(SLIDING.roughness, shortest=shortest)
-        scene, grids = replace(SLIDING, roughness=rough), on_two_grids(BEM(points=settings))
-        return replace(ROUGH, scene=scene, grids=grids, draws={"BEM": 1})
+        scene, grids = replace(SLIDING, roughness=rough), on_two_levels(BEM(points=settings))
+        return replace(ROUGH, scene=scene, levels=grids, draws={"BEM": 1})
 
     shortest = SLIDING.roughness.longest / 200
     with pytest.raises(Refused, match="would do") as refused:

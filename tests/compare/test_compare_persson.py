@@ -1,23 +1,22 @@
 """Persson's theory as a model: its limits, the formula as published, planes in three dimensions, and the judge."""
 
 import sys
-from dataclasses import dataclass, replace
-from math import isnan, nan, pi, sqrt
+from dataclasses import replace
+from math import isnan, pi, sqrt
 from pathlib import Path
 
 import numpy as np
 import pytest
-import xarray
 from scipy.special import erf
 
 import compare
 from bem3d import BEM
 from compare import Persson
+from compare.comparison.rough import ROUGH, RoughSeries
 from compare.library.lookup import case_of
 from compare.models.exact.full_contact import complex_stiffness
 from compare.models.law.bands import Bands, FullContact
-from compare.models.table import Model, Models
-from compare.studies.claims.series import ROUGH, Contacts, Series
+from compare.models.table import QUANTITIES
 from mdr1d import MDR
 from scene import (
     Cylinder,
@@ -27,7 +26,6 @@ from scene import (
     Plane,
     Program,
     Refused,
-    Result,
     Scene,
     SelfAffine,
     Slide,
@@ -35,7 +33,6 @@ from scene import (
     Stage,
     Wave,
 )
-from scene.reading import InvalidInput
 
 pytestmark = pytest.mark.usefixtures("in_this_process")
 
@@ -190,14 +187,14 @@ def by_default(tmp_path_factory):
 
 
 def test_the_judge_leaves_out_what_the_theory_has_no_claim_on(judged):
-    found = judged.table[judged.table["dimension"].str.contains("Persson")]
+    found = judged.findings[judged.findings["model"].str.contains("Persson")]
     assert set(found["claim"]) >= {"friction.ratio.own", "friction.ratio.speed", "friction.ratio.smooth-slow"}
     assert not found["claim"].str.contains("force|depth|grid").any()
     assert found["value"][found["claim"].str.startswith("friction")].notna().all()
 
 
 def test_where_nobody_asks_for_it_the_theory_is_drawn_and_not_judged(by_default):
-    assert not by_default.table["dimension"].str.contains("Persson").any()
+    assert not by_default.findings["model"].str.contains("Persson").any()
     for name in ("friction-speed", "friction-load"):
         lines = [line.get_label() for line in by_default.figures[f"scene/{name}"].axes[0].get_lines()]
         assert "Persson's theory" in lines
@@ -215,48 +212,19 @@ def series(**changed):
         "bem": BEM(points=48),
         "mdr": MDR(points=400),
     }
-    return Series(**(given | changed))
+    return RoughSeries(**(given | changed))
 
 
 def test_a_series_asks_it_for_friction_under_a_load_alone():
     asked = series(asked=("mdr", "bem", Persson()))
-    assert [model for model, *_ in Contacts(asked, None).pairs("friction")] == ["MDR", "Persson"]
-    assert [model for model, *_ in Contacts(asked, None).pairs("depth")] == ["MDR"]
+    judged = {
+        quantity: [each.name for each in asked.models.judged if quantity in each.answers]
+        for quantity in QUANTITIES
+    }
+    assert judged == {"friction": ["MDR", "Persson"], "force": ["MDR"], "depth": ["MDR"]}
     at_depth = replace(asked, scene=replace(BODY, motion=Slide(speed=0.1, depth=1e-4)), values=(1e-4, 2e-4))
-    assert set(at_depth.grids[f"one/{ROUGH}"].grids) == {"MDR", "BEM"}
+    assert set(at_depth.curves[ROUGH].levels) == {"MDR", "BEM"}
     at_rest = replace(asked, speeds=())
-    assert set(at_rest.grids[f"one/{ROUGH}"].grids) == {"MDR", "BEM"}
-    assert set(series().grids[f"one/{ROUGH}"].grids) == {"MDR", "BEM", "Persson", "FrictionLaw"}
+    assert set(at_rest.curves[ROUGH].levels) == {"MDR", "BEM"}
+    assert set(series().curves[ROUGH].levels) == {"MDR", "BEM", "Persson", "FrictionLaw"}
     assert set(series().models.labels) == {"MDR", "BEM"}
-
-
-def test_a_study_draws_the_theory_where_it_was_solved():
-    solved = xarray.Dataset(
-        {"friction_coefficient": (("level", "speed", "load"), np.ones((1, 3, 2)))},
-        {"level": ["fine"], "speed": [0.0, 0.1, 1.0], "load": [0.5, 1.0]},
-    )
-    found = Contacts(series(), xarray.DataTree.from_dict({f"/one/{ROUGH}/Persson": solved})).theories
-    assert found["Persson"]["speed"].values.tolist() == [0.1, 1.0]
-    assert not Contacts(series(), xarray.DataTree.from_dict({f"/one/{ROUGH}/MDR": solved})).theories
-
-
-@dataclass(frozen=True)
-class Claiming:
-    """A model with a claim on something."""
-
-    answers: tuple[str, ...] = ("friction",)
-    name = "Claiming"
-
-    def solve(self, scene: Scene) -> Result:
-        return Result(scene, self.name, {}, 1.0, nan)
-
-
-def test_a_claim_is_on_friction_force_or_depth():
-    assert Model.of(BEM()).answers == ("friction", "force", "depth")
-    assert Model.of(Claiming()).tells("load", slides=True)
-    assert not Model.of(Claiming()).tells("load", slides=False)
-    assert not Model.of(Claiming(("friction", "depth"))).tells("depth", slides=True)
-    with pytest.raises(InvalidInput, match="a tuple of friction, force, depth"):
-        Model.of(Claiming(("speed",)))
-    with pytest.raises(InvalidInput, match="none has a claim"):
-        Models.of([Claiming(), Persson()]).telling("depth", slides=True)

@@ -11,11 +11,10 @@ from typer.testing import CliRunner
 import compare
 from compare import run
 from compare.cli.app import app
+from compare.comparison import asked
+from compare.comparison.curve import contacts_of
 from compare.figures import solid, style
-from compare.solving.parameter_grid import contacts_of
 from compare.studies.plan import plans
-from compare.studies.run.study import Run
-from compare.studies.sweep.study import Sweep
 from scene import WLF, Doubtful, Indent, Prony, Scene, Sphere, Tabulated
 
 PLANE = """
@@ -231,16 +230,16 @@ def test_every_command_doubts_the_same_of_a_table_and_run_and_plan_their_curves_
     numbers = {"frequency": omega.tolist(), "storage": modulus.real.tolist(), "loss": modulus.imag.tolist()}
     slow, within = (GEL.format(speed=speed, **numbers) for speed in (1e-6, 0.05))
     path = written(slow)
-    sentences = Run.of(path).doubts
+    sentences = asked.run(path).doubts
     assert sentences[0].startswith("frequencies of the contact below those of the table = 3.1")
     assert sentences[1].startswith("width of the interval of the modulus at rest")
     assert sentences == plans(path).doubts
-    assert sentences[:2] == Sweep.of(path).doubts == tuple(map(str, plans(path)["trust"].doubts))
-    assert Sweep.of(path, speed=1e-2).doubts == ()
+    assert sentences[:2] == asked.sweep(path).doubts == tuple(map(str, plans(path)["trust"].doubts))
+    assert asked.sweep(path, speed=1e-2).doubts == ()
     # The scene is within the table, its curves are not, and indent.
     path = written(within)
     assert plans(path)["trust"].doubts == ()
-    curves = Run.of(path).doubts
+    curves = asked.run(path).doubts
     assert {each.split(" = ")[0] for each in curves} == {
         "frequencies of the contact above those of the table",
         "width of the interval of the modulus at rest over that modulus",

@@ -8,19 +8,8 @@ import pytest
 
 import compare
 from bem3d import BEM
-from compare.figures import style
-from compare.library.case import Case, Variations
-from compare.library.ready import ready
-from compare.report.export import FIGURES, TABLES
-from compare.report.page import Plot, Table
-from compare.solving import netcdf
-from compare.solving.continuation import Continuation
-from compare.solving.folders import Unwritable
-from compare.solving.outcome import Outcome, Row
-from compare.solving.parameter_grid import COARSE, FINE, tasks_of
-from compare.statistics import finding
-from compare.studies.report import SOLVED
-from compare.studies.run.curves import (
+from compare.comparison import asked, tables
+from compare.comparison.around import (
     LOAD,
     OWN,
     ROUGH_DEPTH,
@@ -33,9 +22,34 @@ from compare.studies.run.curves import (
     predicted_exponent,
     slow_friction,
 )
-from compare.studies.run.study import Run
+from compare.comparison.curve import COARSE, FINE, tasks_of
+from compare.figures import style
+from compare.library.case import Case, Variations
+from compare.library.ready import ready
+from compare.report.export import FIGURES, TABLES
+from compare.solving import netcdf
+from compare.solving.continuation import Continuation
+from compare.solving.folders import Unwritable
+from compare.solving.outcome import Outcome, Row
+from compare.statistics import finding
+from compare.studies.report import SOLVED
+from compare.studies.study import Study
 from mdr1d import MDR
-from scene import Cone, Elastic, Indent, Kelvin, Program, Prony, Refused, SelfAffine, Slide, Sphere, Stage
+from scene import (
+    Cone,
+    Coulomb,
+    Elastic,
+    Indent,
+    Kelvin,
+    Program,
+    Prony,
+    Refused,
+    SelfAffine,
+    Shear,
+    Slide,
+    Sphere,
+    Stage,
+)
 from scene.printable import brief
 from scene.reading import InvalidInput
 
@@ -109,8 +123,8 @@ def test_no_scene_is_solved_twice_and_fields_are_kept_of_the_own_contact_alone()
 )
 def test_a_grid_of_half_the_points_is_solved_where_it_has_the_same_surface(case, rough, smooth):
     found = curves(case, models_of(case))
-    assert {name: set(grids) for name, grids in found[OWN].grids.items()}["BEM"] == rough
-    assert set(found[SMOOTH_DEPTH].grids["BEM"]) == smooth
+    assert {name: set(grids) for name, grids in found[OWN].levels.items()}["BEM"] == rough
+    assert set(found[SMOOTH_DEPTH].levels["BEM"]) == smooth
 
 
 # Answers that are known: friction of 3D is v^-0.1 F^-0.2, and twice that in 1D; force is depth, 10 % more in 1D.
@@ -145,7 +159,7 @@ def invented(task, halved=0.0, scatter=0.0, broken=()):
 
 
 def judged(case=CASE, **how):
-    run = Run({"a case": case})
+    run = asked.run({"a case": case})
     answers = run.answers(invented_of(run, **how))
     return run, answers, finding.table(run.judge(answers).findings).set_index(["claim", "where"])
 
@@ -153,17 +167,17 @@ def judged(case=CASE, **how):
 def test_known_answers_are_found():
     _, answers, found = judged()
     own = found.loc["friction.ratio.own", "a case"]
-    assert own[["value", "low", "high", "draws", "verdict"]].tolist() == [pytest.approx(2)] * 3 + [2, "fails"]
-    assert found.loc["friction.ratio.smooth-slow", "a case"][["verdict", "draws"]].tolist() == ["holds", 0]
+    assert own[["value", "low", "high", "surfaces", "verdict"]].tolist() == [pytest.approx(2)] * 3 + [2, "fails"]
+    assert found.loc["friction.ratio.smooth-slow", "a case"][["verdict", "surfaces"]].tolist() == ["holds", 0]
     for claim in ("force.ratio.rough", "force.ratio.smooth"):
         rows = found.loc[claim]
         assert len(rows) == 2  # every depth, none chosen
         np.testing.assert_allclose(rows["value"], FORCE - 1, rtol=1e-12)
         assert set(rows["verdict"]) == {"fails"}
     np.testing.assert_allclose(found.loc["friction.spread"]["value"], 0.02, rtol=1e-12)
-    contacts = [each for task in Run({"a case": CASE}).batches()[0].tasks for each in contacts_on(task)]
+    contacts = [each for task in asked.run({"a case": CASE}).batches()[0].tasks for each in contacts_on(task)]
     scenes = [scene for each in contacts if each.solver.name == "BEM" for scene in each.scenes]
-    assert answers["a-case/times"]["seconds"].sel(solver="BEM") == 2.0 * len(scenes)
+    assert answers["a-case/times"]["seconds"].sel(model="BEM") == 2.0 * len(scenes)
     # a power law collapses by any shift
     shifted = found.loc["eq23.collapse", "a case"]
     assert shifted["verdict"].tolist() == ["undecided"] * 2
@@ -173,12 +187,11 @@ def test_known_answers_are_found():
 def test_the_error_of_the_grid_widens_every_interval_and_scatter_as_much_as_it_should():
     _, _, found = judged(halved=0.02)
     own = found.loc["friction.ratio.own", "a case"]
-    assert own["grid_error"] == pytest.approx(2 * (1 - 1 / 1.02))
-    assert own["high"] - own["value"] == pytest.approx(own["grid_error"])
-    assert own["grid_method"] == "change on halving"
-    assert found.loc["grid.change", "a case"].set_index("dimension")["value"].tolist() == pytest.approx([0, 0.02])
+    assert own["grid"] == pytest.approx(2 * (1 - 1 / 1.02))
+    assert own["high"] - own["value"] == pytest.approx(own["grid"])
+    assert found.loc["grid.change", "a case"].set_index("model")["value"].tolist() == pytest.approx([0, 0.02])
     _, _, wide = judged(scatter=0.1)
-    low, high = wide.loc["friction.ratio.own", "a case"][["scatter_low", "scatter_high"]]
+    low, high = wide.loc["friction.ratio.own", "a case"][["low", "high"]]
     # Two surfaces, 10 % each way: 12.7 standard errors of 10 % of the ratio.
     assert high - low == pytest.approx(2 * 12.706 * 2 * 0.1, rel=0.02)
 
@@ -200,85 +213,113 @@ def test_without_an_error_nothing_is_decided(case, reason):
 def test_a_surface_that_failed_is_left_out_and_listed():
     run, answers, found = judged(broken={1}, case=replace(CASE, study=replace(CASE.study, surfaces=3)))
     assert found.loc["friction.ratio.own", "a case"]["value"] == pytest.approx(2)
-    (case,) = (run._judged(name, answers) for name in run.cases)
-    assert set(case.failures["reason"]) == {"no answer"}
-    assert set(case.failures["surface"]) == {CASE.roughness.seed + 1}
-    points = case.points.query("solver == 'BEM' and body == 'rough'")
+    (series,) = run.series
+    own = series.answers(answers)
+    failed = tables.failures(own)
+    assert set(failed["reason"]) == {"no answer"}
+    assert set(failed["surface"]) == {CASE.roughness.seed + 1}
+    points = tables.points(series, own).query(
+        "model == 'BEM' and curve in ('own', 'friction-speed', 'friction-load')"
+    )
     assert set(points["failures"]) == {1}
     assert set(points["surfaces"]) == {2}
 
 
 def test_points_have_means_deviations_and_intervals():
     run, answers, _ = judged(scatter=0.1)
-    (name,) = run.cases
-    points = run._judged(name, answers).points
-    one = points.query("curve == 'own' and solver == 'BEM'").iloc[0]
+    (series,) = run.series
+    points = tables.points(series, series.answers(answers))
+    one = points.query("curve == 'own' and model == 'BEM'").iloc[0]
     mu = one["friction_coefficient_mean"]
     assert mu == pytest.approx(0.1 * 0.1**-0.1)
     assert one["friction_coefficient_deviation"] == pytest.approx(np.sqrt(2) * 0.1 * mu)
     assert one["friction_coefficient_high"] - mu == pytest.approx(12.706 * 0.1 * mu, rel=1e-3)
-    assert points.query("solver == 'exact'")["normal_force_mean"].notna().all()
+    assert points.query("model == 'exact'")["normal_force_mean"].notna().all()
 
 
 @pytest.mark.parametrize("motion", [CASE.motion, pytest.param(DEEP.motion, marks=pytest.mark.slow)])
 def test_one_value_of_everything_is_drawn_without_a_warning(motion):
     one = Variations(speeds=(0.1,), pressing=(1.0,), load_speeds=(0.1,), depths=(1.0,), surfaces=1, profiles=1)
-    run = Run({"one": replace(CASE, motion=motion, study=one)})
+    run = asked.run({"one": replace(CASE, motion=motion, study=one)})
     answers = run.answers(invented_of(run))
     with style.applied():
         for plot in run.judge(answers).plots:
             plot.figure().draw_without_rendering()
 
 
-def test_several_scenes_stand_side_by_side_in_one_table_and_one_figure():
-    few = Variations(
-        speeds=(0.1, 1.0), pressing=(1.0, 2.0), load_speeds=(0.1, 0.3), depths=(1.0,), surfaces=2, profiles=2
-    )
-    motions = {"at load": CASE.motion, "at depth": DEEP.motion, "at rest": Indent(load=1.0)}
-    run = Run({name: replace(CASE, study=few, motion=motion) for name, motion in motions.items()})
-    answers = run.answers(invented_of(run))
-    page = run.judge(answers).page("", answers)
-    table = next(each.frame for each in page.blocks if isinstance(each, Table)).set_index(["case", "quantity"])
-    assert table.loc["at load"].index.tolist() == ["friction coefficient", "depth reached [m]"]
-    assert table.loc["at rest"].index.tolist() == ["depth reached [m]"]
-    assert table.loc[("at load", "friction coefficient"), "1D/3D"] == pytest.approx(FRICTION)
-    assert table.loc[("at depth", "normal force [N]"), "1D/3D"] == pytest.approx(FORCE)
-    plot = next(each for each in page.blocks if isinstance(each, Plot))
-    assert [set(each["case"]) for each in plot.tables.values()] == 2 * [{"at load", "at depth"}]
-    assert len(plot.tables["cases-friction-load"]) == 8  # two loads, cases and models, at one speed each
-    with style.applied():
-        plot.figure().draw_without_rendering()
-
-
 def test_several_files_are_named_by_themselves_and_two_of_one_name_refused(tmp_path):
-    assert [*Run.of(["paper-cone", "quick-start"]).cases] == ["paper-cone", "quick-start"]
-    assert [*Run.of(["quick-start"]).cases] == [*Run.of("quick-start").cases]
+    assert [each.name for each in asked.run(["paper-cone", "quick-start"]).series] == ["paper-cone", "quick-start"]
+    assert [each.name for each in asked.run(["quick-start"]).series] == ["quick-start"]
     (tmp_path / "quick-start.toml").write_text(ready()["paper-cone"].text)
     with pytest.raises(InvalidInput, match=r"quick-start.toml, .*quick-start.toml: both are called quick-start"):
-        Run.of([tmp_path / "quick-start.toml", "quick-start"])
+        asked.run([tmp_path / "quick-start.toml", "quick-start"])
     with pytest.raises(InvalidInput, match="several have names"):
-        Run.of([CASE, DEEP])
+        asked.run([CASE, DEEP])
 
 
 def opening_of(case, **how):
-    run = Run({"a case": case})
-    (paragraph,) = run.judge(run.answers(invented_of(run, **how))).opening
-    return paragraph
+    """The table of a case as texts, and the advice on its rows."""
+    run = asked.run({"a case": case})
+    table, claims = run.judge(run.answers(invented_of(run, **how))).opening
+    return table, claims, table.frame.set_index("")
 
 
-def test_a_run_opens_with_each_answer_how_far_1d_is_off_the_advice_and_what_stands_behind_it():
-    told = opening_of(CASE)
-    assert told.startswith("a case, 0.1 m/s, 1 N. Friction 0.252 in 1D, 0.126 in 3D: 1D is 2 times as high. ")
-    assert " 1D is within 5 % of 3D. " in told  # the depth, of which both say the same
-    assert told.endswith("Means of 4 profiles in 1D and 2 surfaces in 3D.")
+def test_a_run_opens_with_a_table_of_answers_ratios_and_advice_then_a_line_a_claim():
+    table, claims, told = opening_of(CASE)
+    assert table.caption == "a case, 0.1 m/s, 1 N, 4 profiles, 2 surfaces"
+    assert told.loc["friction", ["1D (MDR)", "3D (BEM)", "1D/3D"]].tolist() == ["0.252", "0.126", "2"]
     advice = compare.trust(CASE.scene)
-    assert f"the trust map multiplies it by {advice.friction.times}" in told
-    assert "The trust map takes 1D as it is." in told
+    assert told.loc["friction", "advice"].startswith(f"multiply 1D by {advice.friction.times}")
+    assert told.loc["depth [µm]", "advice"] == "use 1D"
+    assert claims.frame["claim"].is_unique  # of one scene
+    assert set(claims.frame.query("claim.str.startswith('rough force')")["verdict"]) == {"fails"}
     # twice what the map foretells, whatever the scatter
-    assert "do not agree" in opening_of(replace(CASE, roughness=replace(CASE.roughness, rms_height=2e-5)))
-    assert "how far 1D is off is not known" in opening_of(CASE, scatter=0.5)
-    assert "1D is between " in opening_of(CASE, scatter=0.05)
-    assert "Force 1.1 N in 1D, 1 N in 3D: 1D is 10 % too high." in opening_of(DEEP)
+    *_, other = opening_of(replace(CASE, roughness=replace(CASE.roughness, rms_height=2e-5)))
+    assert "disagree" in other.loc["friction", "advice"]
+    *_, deep = opening_of(DEEP)
+    assert deep.loc["force [N]", ["1D (MDR)", "3D (BEM)", "1D/3D"]].tolist() == ["1.1", "1", "1.1"]
+
+
+def marched(task):
+    """A row of a contact with its history: force grows with the square of time, a tenth more in 1D."""
+    times = np.linspace(0, 2.0, 21)[1:]
+    force = times**2 * (1.1 if task.solver.name == "MDR" else 1.0)
+    fields = {"time": times, "normal_force": force, "depth": times * 1e-5, "friction_force": 0 * force}
+    return Outcome((Row(force[-1], 2e-5, 0.0, 0.0, 1.0, 1.0),), fields)
+
+
+@pytest.mark.parametrize("roughness", [None, CASE.roughness], ids=["smooth", "rough"])
+def test_a_program_is_compared_over_time(roughness):
+    motion = Program(stages=(Stage(duration=1.0, depth=1e-5), Stage(duration=1.0, depth=2e-5)))
+    run = asked.run({"a case": replace(CASE, motion=motion, roughness=roughness)})
+    answers = run.answers({task: marched(task) for task in run.batches()[0].tasks})
+    dims = {"model", "level", "time"} | ({"surface"} if roughness else set())
+    assert set(answers["a-case/own"].dims) == dims
+    judged = run.judge(answers)
+    (found,) = judged.findings
+    assert (found.claim.id, found.verdict) == ("history.force", "fails")
+    assert found.value == pytest.approx(0.1, rel=1e-9)
+    table = judged.opening[0].frame.set_index("")
+    assert table.loc["force [N]", ["1D (MDR)", "3D (BEM)"]].tolist() == [
+        "4.4",
+        "4",
+    ]  # at the end, where it is greatest
+
+
+def test_a_shear_is_compared_over_the_displacement():
+    case = replace(CASE, motion=Shear(load=1.0, displacement=2e-6), interface=Coulomb(0.5), roughness=None)
+    run = asked.run({"a case": case})
+
+    def drawn(task):
+        (scene,) = task.scenes
+        force = 1e4 * scene.motion.displacement * (1.2 if task.solver.name == "MDR" else 1.0)
+        return Outcome((Row(1.0, 1e-4, force, 0.0, 1.0, 1.0),))
+
+    answers = run.answers({each: drawn(each) for task in run.batches()[0].tasks for each in contacts_on(task)})
+    assert dict(answers["a-case/own"].sizes)["displacement"] == 10
+    found = {each.claim.id: each for each in run.judge(answers).findings}
+    assert found["history.friction"].value == pytest.approx(0.2, rel=1e-9)
+    assert found["history.depth"].verdict == "holds"
 
 
 @pytest.mark.parametrize(("body", "exponent"), [(Sphere(radius=1e-2), -1.5), (Cone(angle=0.2), -2.0)])
@@ -291,13 +332,10 @@ def test_laws_of_the_smooth_and_of_the_rough_body(body, exponent):
 
 
 def test_what_cannot_be_compared_is_refused_before_anything_is_solved(tmp_path):
-    program = Program(stages=(Stage(duration=1e-3, load=1.0),))
-    with pytest.raises(Refused, match="motion = Program"):
-        Run.of(replace(CASE, motion=program))
-    with pytest.raises(Refused, match="crosscheck draw shows"):
-        Run.of("there-and-back")
+    with pytest.raises(Refused, match=r"MDR cannot solve this scene.*indenter"):
+        asked.run("rough-plane")
     with pytest.raises(InvalidInput, match="did you mean quick-start"):
-        Run.of("quick-strat")
+        asked.run("quick-strat")
 
 
 SHARED = [("A", "a"), ("é", "e\u0301"), ("日本", "東京"), ("a b", "a-b")]
@@ -320,25 +358,21 @@ def test_a_folder_that_cannot_be_and_words_that_no_file_holds_are_refused_before
         replace(CASE, notes=("\ud800",))
 
 
-def test_no_name_of_a_case_is_a_column_or_a_part_of_another(tmp_path):
+def test_no_name_of_a_case_is_a_part_of_another(tmp_path):
     rest = replace(CASE, elastomer=Elastic(modulus=1e6), motion=Indent(load=1.0), roughness=None)
     rest = replace(rest, title=r"$\frac$ \input{x} <b>")
     names = ["sentence", OWN, r"$\frac{$ \input{x} <b> a/../b"]
-    run = Run.of(dict.fromkeys(names, rest))
+    run = asked.run(dict.fromkeys(names, rest))
     answers = run.answers(invented_of(run))
     made = run.judge(answers)
-    shown = made.page(run.title, answers)
-    (table,) = (frame for name, frame in shown.tables() if name == "summary")
-    assert list(table) == ["sentence", "dimension", "case", "verdict"]
-    assert table["case"].value_counts().to_dict() == dict.fromkeys(names, len(table) // len(names))
     assert {each.where.partition(",")[0] for each in made.findings} == set(names)
     (tmp_path / netcdf.NAME).write_bytes(netcdf.packed(answers))
-    assert set(netcdf.load(tmp_path).children) == set(run.folders.values())
+    assert set(netcdf.load(tmp_path).children) == {each.folder for each in run.series}
 
 
 @pytest.mark.parametrize("place", ["../out", "/elsewhere/out", "a/../..", SOLVED, f"{SOLVED}/a"])
 def test_a_study_of_ones_own_is_written_below_its_folder(tmp_path, place):
-    study = type("Mine", (compare.Study,), {"place": place})()
+    study = type("Mine", (Study,), {"place": place})()
     with pytest.raises(InvalidInput, match=re.escape(place)):
         compare.solve(study, tmp_path / "out")
     assert not list(tmp_path.iterdir())

@@ -4,21 +4,18 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from invented_answers import FEW, SERIES, SLOPE, cut, eq_19, obeying, other, spoiled
+from invented_answers import FEW, SERIES, SLOPE, Invented, changed, cut, eq_19, obeying, other, spoiled
 
 from bem3d import BEM
-from compare.solving import parameter_grid
-from compare.solving.parameter_grid import COARSE, FINE
+from compare.comparison import asked, curve, together
+from compare.comparison.curve import COARSE, FINE
+from compare.comparison.laws import laws
+from compare.comparison.measures import SLOW, loading
+from compare.comparison.rough import SMOOTH, RoughSeries
+from compare.comparison.theory import THEORIES
 from compare.statistics.finding import REPORTED
 from compare.statistics.jackknife import friction, mean
-from compare.studies.claims import catalogue, families
-from compare.studies.claims.claims_depth import loading
-from compare.studies.claims.claims_friction import SLOW
-from compare.studies.claims.judgement import judge_series
-from compare.studies.claims.laws import laws
-from compare.studies.claims.series import SMOOTH, Contacts, Series
-from compare.studies.claims.study import ClaimStudy
-from compare.studies.theory import THEORIES
+from compare.studies.claims import catalogue
 from mdr1d import MDR
 from scene import Indent, Kelvin, Program, Scene, SelfAffine, Slide, Sphere, Stage
 from scene.reading import InvalidInput
@@ -45,7 +42,7 @@ def whole():
 
 @pytest.fixture(scope="module")
 def judged(whole):
-    return judge_series(whole)
+    return whole.judge()
 
 
 def test_answers_that_obey_the_law_are_said_to_in_both_dimensionalities_by_the_same_claims(judged):
@@ -96,7 +93,7 @@ LEVELS = {
     ids=["level", "little vertical", "vertical", "wrong shift", "straight", "grid"],
 )
 def test_answers_that_break_a_law_break_the_claims_on_it(answers, expected):
-    found = judge_series(answers())
+    found = answers().judge()
     three = verdicts(found, "3D")
     assert three | expected == three
     if expected.get(LEVEL) == "fails":
@@ -107,7 +104,7 @@ def test_answers_that_break_a_law_break_the_claims_on_it(answers, expected):
 
 
 def test_a_level_that_differs_from_load_to_load_is_stated_at_two_with_what_they_are():
-    found = judge_series(obeying(lambda load, speed: eq_19(load, speed) * load**0.3))
+    found = obeying(lambda load, speed: eq_19(load, speed) * load**0.3).judge()
     least, greatest = of(found, "eq17.level", "3D")
     loads = SERIES.values[0], SERIES.values[-1]
     assert greatest.value / least.value == pytest.approx((loads[1] / loads[0]) ** 0.3, rel=0.02)
@@ -120,7 +117,7 @@ def test_a_level_that_differs_from_load_to_load_is_stated_at_two_with_what_they_
 
 @pytest.mark.parametrize("place", [np.s_[0, 2], np.s_[0, 2, :5]])
 def test_a_point_without_answer_leaves_undecided_what_needs_it(whole, judged, place):
-    found = judge_series(spoiled(whole, place))
+    found = spoiled(whole, place).judge()
     assert len(of(found, "")) == len(of(judged, ""))
     three = of(found, "", "3D")
     lost = [each for each in three if each.verdict == "undecided"]
@@ -131,10 +128,10 @@ def test_a_point_without_answer_leaves_undecided_what_needs_it(whole, judged, pl
 
 
 def test_a_surface_that_fails_everywhere_is_left_out_and_of_none_shifts_are_not_sought(whole):
-    found = judge_series(spoiled(whole, np.s_[:, :, 3]))
+    found = spoiled(whole, np.s_[:, :, 3]).judge()
     assert found.collapses["BEM"].surfaces_left_out == 1
     assert {name for name, verdict in verdicts(found, "3D").items() if verdict != "holds"} == {DRAG}
-    found = judge_series(spoiled(whole, np.s_[:, :, 1:]))
+    found = spoiled(whole, np.s_[:, :, 1:]).judge()
     assert "BEM" not in found.collapses
     (missing,) = of(found, "eq23", "3D")
     assert (missing.verdict, missing.draws) == ("undecided", SERIES.surfaces)
@@ -149,34 +146,38 @@ def test_an_average_of_fewer_than_half_of_the_surfaces_is_none(whole):
 
 
 def test_friction_that_is_not_positive_on_average_is_no_number(whole):
-    pushed = spoiled(whole, np.s_[0, :0])
-    pushed.answers["sphere/rough/BEM"]["friction_force"].values[0, 1, 0] *= -1
-    (level,) = of(judge_series(pushed), LEVEL, "3D")
+    pushed = changed(whole, place=np.s_[1, 0], friction_force=lambda values: -values)
+    (level,) = of(pushed.judge(), LEVEL, "3D")
     assert (level.verdict, np.isnan(level.value)) == ("undecided", True)
     assert "not positive" in level.reason
 
 
 def test_of_one_surface_the_scatter_is_not_known_but_smooth_bodies_need_none(whole):
-    found = judge_series(cut(whole, surfaces=1))
+    found = cut(whole, surfaces=1).judge()
     rough = [each for each in of(found, "") if each.draws]
     assert {each.verdict for each in rough} == {"undecided"}
     assert all("scatter" in each.reason and "straight" not in each.reason for each in rough)
     smooth, _ = of(found, "friction.ratio.smooth")
     assert (smooth.verdict, smooth.draws, smooth.scatter) == ("fails", 0, (smooth.value, smooth.value))
-    least, greatest = of(judge_series(spoiled(whole, np.s_[0, 0], body=SMOOTH)), "friction.ratio.smooth")
+    least, greatest = of(spoiled(whole, np.s_[0, 0], body=SMOOTH).judge(), "friction.ratio.smooth")
     assert (least.verdict, greatest.verdict) == ("undecided", "fails")
 
 
+def member(invented):
+    return together.Member(invented.series, invented.answers, invented.judge().laws)
+
+
 def test_a_family_on_one_law_is_one_curve_and_one_of_two_laws_is_not():
-    first = judge_series(obeying(eq_19, FEW))
+    answers = obeying(eq_19, FEW)
+    first = member(answers)
     for level, three in ((1.0, "holds"), (1.5, "fails")):
-        second = judge_series(other(obeying(eq_19, FEW, level=level, seed=2), "second", hurst=0.7))
-        one, both = families.family_findings([first, second])
+        second = member(other(obeying(eq_19, FEW, level=level, seed=2), "second", hurst=0.7))
+        one, both = together.together([first, second])
         assert (one.dimension, one.verdict, both.verdict) == ("1D", "holds", three)
     # the same scene twice says nothing of roughness; one on fewer surfaces is no part of a family
-    assert not list(families.family_findings((first, first)))
-    third = judge_series(cut(first.contacts, surfaces=3))
-    assert families.families((third, first, second)) == {"sphere": [first, second]}
+    assert not list(together.together((first, first)))
+    third = member(cut(answers, surfaces=3))
+    assert together.families((third, first, second)) == {"every sphere": [first, second]}
 
 
 def test_friction_that_obeys_the_law_has_its_powers_of_the_slope_near_the_limits_too():
@@ -184,15 +185,15 @@ def test_friction_that_obeys_the_law_has_its_powers_of_the_slope_near_the_limits
     members = []
     for factor in (0.5, 1.0, 2.0):
         slope = factor * SLOPE
-        contacts = obeying(lambda load, speed, slope=slope: eq_19(load, speed, slope=slope), FEW, slope=slope)
+        answers = obeying(lambda load, speed, slope=slope: eq_19(load, speed, slope=slope), FEW, slope=slope)
         height = factor * SERIES.scene.roughness.rms_height
-        members.append(judge_series(other(contacts, f"{factor:g}", rms_height=height)))
+        members.append(member(other(answers, f"{factor:g}", rms_height=height)))
 
-    def powers(judged):
-        return [each for each in families.family_findings(judged) if "slope-exponent" in each.claim.id]
+    def powers(members):
+        return [each for each in together.together(members) if "slope-exponent" in each.claim.id]
 
-    asked = sorted((each.claim.dimension, each.claim.expected, each.verdict) for each in powers(members))
-    assert asked == [(dimension, power, "holds") for dimension in ("1D", "3D") for power in (1.0, 2.0)]
+    found = sorted((each.claim.dimension, each.claim.expected, each.verdict) for each in powers(members))
+    assert found == [(dimension, power, "holds") for dimension in ("1D", "3D") for power in (1.0, 2.0)]
     # where no load is slow for all rms heights, nothing is asked of slow friction
     late = [
         replace(each, laws={name: replace(found, xi=found.xi + SLOW) for name, found in each.laws.items()})
@@ -202,7 +203,7 @@ def test_friction_that_obeys_the_law_has_its_powers_of_the_slope_near_the_limits
 
 
 def test_theory_predicts_its_own_shifts(whole):
-    found = laws(whole, "BEM")
+    found = laws(whole.series, whole.answers, "BEM")
     assert found.exponent == pytest.approx(-1.5, rel=1e-12)
     assert np.ptp(np.diff(found.shifts) / np.diff(np.log(found.speeds))) < 1e-12
     assert np.allclose(found.law, eq_19(*np.meshgrid(SERIES.values, SERIES.speeds)), rtol=1e-12)
@@ -215,9 +216,9 @@ def test_a_series_pressed_by_depth_stays_so_and_is_solved_at_rest_too():
     pressed = replace(sunk, scene=replace(sunk.scene, motion=Program(stages=(Stage(duration=1.0, depth=1e-4),))))
     assert pressed.at(2e-4, 0.1).motion == Program(stages=(Stage(duration=2e-3, depth=2e-4),))
     assert not pressed.slides
-    assert {each.speeds for each in sunk.grids.values()} == {(0.0, *SERIES.speeds)}
+    assert {each.speeds for each in sunk.curves.values()} == {(0.0, *SERIES.speeds)}
     with pytest.raises(InvalidInput, match="has none"):
-        _ = replace(SERIES, scene=replace(SERIES.scene, roughness=None)).grids
+        _ = replace(SERIES, scene=replace(SERIES.scene, roughness=None)).curves
 
 
 def test_pressing_in_is_compared_at_the_depth_that_was_reached():
@@ -237,19 +238,19 @@ def solved():
     """Answers of both solvers to a small series."""
     rough = SelfAffine(hurst=0.2, rms_height=5e-5, longest=1e-2, shortest=2e-3, seed=1)
     scene = Scene(Sphere(radius=1e-2), Kelvin(1e6, 1e-3), Slide(speed=1.0, load=1.0), rough)
-    series = Series("s", "S", scene, (1e-2, 1.5e-2), (4.0,), 4, 4, BEM(points=64), MDR(points=1000))
-    tasks = parameter_grid.tasks_of(series.grids)
-    return Contacts(series, parameter_grid.tree(series.grids, {task: task.solve() for task in tasks}))
+    series = RoughSeries("s", "S", scene, (1e-2, 1.5e-2), (4.0,), 4, 4, BEM(points=64), MDR(points=1000))
+    outcomes = {task: task.solve() for task in curve.tasks_of(series.curves)}
+    return Invented(series, {name: each.dataset(outcomes) for name, each in series.curves.items()})
 
 
 def test_solved_contacts_tell_the_known_truths(solved):
     # at low speed the exact limits hold, and the smooth bodies differ by 2
-    found = judge_series(solved)
+    found = solved.judge()
     assert [each.verdict for each in of(found, "limit.slow")] == ["holds", "holds"]
     (smooth,) = of(found, "friction.ratio.smooth")
     assert smooth.verdict == "holds"
     assert smooth.value == pytest.approx(2, abs=smooth.grid + 0.02)
-    rest = judge_series(cut(solved, speeds=0))
+    rest = cut(solved, speeds=0).judge()
     assert [each.verdict for each in of(rest, "smooth.rest-depth")] == ["holds", "holds"]
 
 
@@ -261,9 +262,9 @@ MANY_TASKS = ("solids", "hurst", "parameters", "regime")
     [pytest.param(name, marks=pytest.mark.slow if name in MANY_TASKS else ()) for name in catalogue.STUDIES],
 )
 def test_every_study_can_be_solved_by_both_and_solves_nothing_twice(name):
-    study = ClaimStudy.of(name, "quick")
-    contacts = parameter_grid.contacts_of(study.grids())
+    study = asked.study(name, "quick")
+    contacts = curve.contacts_of(study.grids())
     assert len({(each.solver, each.scenes) for each in contacts}) == len(contacts)
     assert {each.solver.name for each in contacts} - {each.name for each in THEORIES} == {"MDR", "BEM"}
-    grids = [each.grids[name] for each in study.grids().values() for name in ("MDR", "BEM")]
+    grids = [each.levels[name] for each in study.grids().values() for name in ("MDR", "BEM")]
     assert all(each[FINE].points == 2 * each[COARSE].points for each in grids)

@@ -9,15 +9,14 @@ import pytest
 import xarray
 from invented_answers import FEW, SERIES, cut, eq_19, obeying, other, spoiled
 
+from compare.comparison.claims import SHORT
+from compare.comparison.comparison import Comparison
+from compare.comparison.curve import tasks_of
 from compare.figures import style
 from compare.report import csvfiles
 from compare.report.page import Findings, Plot, Section, Table
 from compare.solving.outcome import Outcome, Row
-from compare.solving.parameter_grid import tasks_of
-from compare.statistics.finding import REPORTED
-from compare.studies.claims.catalogue import STUDIES, ReadyStudy
-from compare.studies.claims.series import Contacts
-from compare.studies.claims.study import AllStudies, ClaimStudy
+from compare.statistics.finding import REPORTED, UNDECIDED
 from scene import Indent, Program, Stage
 
 NUMBER = re.compile(r"−?\d+(?:\.\d+)?")
@@ -32,9 +31,9 @@ def by_depth(name, title, motion, speeds, values):
 
 def of(whole, title="A <question> & more?"):
     """A study of some series, and its answers."""
-    answers = xarray.DataTree.from_dict({f"/{each.series.name}": each.answers[each.series.name] for each in whole})
-    ready = ReadyStudy(title, "About.", lambda size: [each.series for each in whole])
-    return ClaimStudy("mine", ready, "quick"), answers
+    asked = Comparison(tuple(each.series for each in whole), "study", title, "About.", "mine-quick")
+    curves = {each.series.path(name): found for each in whole for name, found in each.curves.items()}
+    return asked, xarray.DataTree.from_dict(curves)
 
 
 @pytest.fixture(scope="module")
@@ -58,41 +57,36 @@ def page(study):
     return asked.judge(answers).page(asked.title, answers)
 
 
-def test_the_answer_has_a_statement_for_each_claim_and_every_verdict_of_it(study, page):
+def test_the_answer_is_a_line_a_claim_with_every_verdict_and_number_of_places(study, page):
     asked, answers = study
-    findings = [each for each in asked.judge(answers).findings if each.verdict != REPORTED]
-    statements = dict.fromkeys(each.claim.sentence for each in findings)
-    for text, sentence in zip(page.answer, statements, strict=True):
-        assert f": {sentence}: " in text
-        for each in findings:
-            if each.claim.sentence == sentence:
-                assert each.verdict in text.lower()
+    (table,) = page.opening
+    frame = table.frame.set_index("claim")
+    assert frame.index.is_unique
+    for short in frame.index:
+        own = [each for each in asked.judge(answers).findings if SHORT.get(each.claim.id) == short]
+        for verdict in {each.verdict for each in own if each.verdict != REPORTED}:
+            assert verdict in frame.loc[short, "verdict"]
+    undecided = [each for each in asked.judge(answers).findings if each.verdict == UNDECIDED]
+    assert any("Undecided: " in each for each in page.answer) == bool(undecided)
 
 
-def test_every_finding_stands_on_the_page_once_and_leads_to_a_plot_that_is_there(study, page):
+def test_every_finding_stands_on_the_page_once(study, page):
     asked, answers = study
-    findings = asked.judge(answers).findings
     shown = [found for block in page.every(Findings) for found in block.findings]
-    assert sorted(map(_place, shown)) == sorted(map(_place, findings))
-    assert {each.plot for each in findings} <= {plot.name for plot in page.every(Plot)}
-    (overview,) = (table for table in page.every(Table) if table.name == "overview")
-    verdicts = Counter(each.verdict for each in findings)
-    for name in ("holds", "fails", "undecided"):
-        assert overview.frame[name].sum() == verdicts[name]
+    assert sorted(map(_place, shown)) == sorted(map(_place, asked.judge(answers).findings))
 
 
 def _place(found):
-    return found.claim.id, found.row["dimension"], found.where, found.plot
+    return found.claim.id, found.dimension, found.where
 
 
 def test_figures_are_functions_of_their_tables_as_files_have_them(page, tmp_path):
     plots = {plot.name: plot for plot in page.every(Plot)}
-    assert {"family", "sphere/collapse", "sphere/shifts", "sphere/levels"} <= set(plots)
-    assert {"rest/depth", "pressed/pressed-in"} <= set(plots)
-    assert "rest/levels" not in plots
+    assert {"family", "sphere/collapse", "sphere/friction-speed", "rest/force-depth"} <= set(plots)
+    assert "rest/friction-speed" not in plots
     for name, plot in plots.items():
         assert 5 < len(plot.caption.split()) <= 60, name
-        if name not in ("family", "sphere/collapse", "pressed/pressed-in"):
+        if name not in ("family", "sphere/collapse", "pressed/force-depth"):
             continue  # drawn with all figures, from stored tables
         tables = {}
         for table, frame in plot.tables.items():
@@ -105,42 +99,46 @@ def test_figures_are_functions_of_their_tables_as_files_have_them(page, tmp_path
 def test_points_have_means_with_intervals_and_groups_and_failures_their_reason(study, page):
     asked, answers = study
     tables = {table.name: table.frame for table in page.every(Table)}
-    points, contacts = tables["sphere/points"], Contacts(asked.series[0], answers)
+    points, known = tables["sphere/points"], asked.series[0].answers(answers)
     assert len(points) == 2 * 2 * (1 + 6) * 5
-    rough = points[(points["dimension"] == "3D") & (points["body"] == "rough")]
-    forces = (contacts("BEM")[name].mean("surface").values for name in ("friction_force", "normal_force"))
+    rough = points[(points["model"] == "BEM") & (points["curve"] == "rough")]
+    forces = (known("rough", "BEM")[name].mean("surface").values for name in ("friction_force", "normal_force"))
     ratio = np.divide(*forces)
     np.testing.assert_allclose(rough["friction_coefficient_mean"].to_numpy().reshape(7, 5), ratio, rtol=1e-12)
     assert (rough["normal_force_low"] <= rough["normal_force_mean"]).all()
     assert rough["memory_over_shortest"].iloc[-1] > 1
     assert rough["surfaces"].min() == SERIES.surfaces - 1
-    (reason,) = tables["sphere/failed"]["reason"]
+    (reason,) = tables["sphere/failures"]["reason"]
     assert reason == "it would not <converge>"
-    assert "smoother/failed" not in tables
+    assert "smoother/failures" not in tables
 
 
 def test_a_series_of_which_nothing_was_solved_has_a_page_that_says_so():
     series = replace(SERIES, speeds=SERIES.speeds[:2], values=SERIES.values[:2])
-    study = ClaimStudy("empty", ReadyStudy("Empty", "About.", lambda size: [series]), "quick")
+    study = Comparison((series,), "study", "Empty", "About.")
     outcomes = {task: Outcome((Row(reason="no"),) * len(task.scenes)) for task in tasks_of(study.grids())}
     answers = study.answers(outcomes)
     page = study.judge(answers).page(study.title, answers)
-    assert list(page.answer) == []
-    (section,) = (block for block in page.blocks if isinstance(block, Section) and block.title.startswith("1."))
+    assert (list(page.answer), page.opening) == ([], [])
+    (section,) = (block for block in page.blocks if isinstance(block, Section) and block.title == series.title)
     assert any("No claim can be judged" in getattr(block, "text", "") for block in section.blocks)
     assert answers["sphere"].attrs["title"] == SERIES.title
 
 
-def test_all_studies_are_one_question_and_the_answer_is_from_all_of_them(monkeypatch):
+def test_all_studies_are_one_comparison_and_each_has_its_own_families():
     first = obeying(eq_19, FEW)
-    asked, answers = of([first, other(first, "smoother", rms_height=2.5e-5)])
-    both = AllStudies((asked, replace(asked, name="second")))
-    tree = xarray.DataTree.from_dict({"/mine": answers, "/second": answers.copy()})
-    findings = both.judge(tree).findings
-    places = Counter(each.where.partition(",")[0] for each in findings)
-    assert places["mine"] == places["second"] == len(findings) / 2
-    page = both.judge(tree).page(both.title, tree)
-    assert len(page.answer) == len({each.claim.sentence for each in findings if each.verdict != REPORTED})
-    assert {"mine/family", "second/family"} <= {plot.name for plot in page.every(Plot)}
-    monkeypatch.setattr(AllStudies, "grids", lambda self: {})  # thousands of scenes
-    assert [each.name for each in ClaimStudy.of("all").studies] == list(STUDIES)
+    both = [first, other(first, "smoother", rms_height=2.5e-5)]
+    whole = [
+        replace(each, series=replace(each.series, name=f"{study}/{each.series.name}"))
+        for study in ("mine", "second")
+        for each in both
+    ]
+    asked, answers = of(whole)
+    judged = asked.judge(answers)
+    places = Counter(each.where.partition("/")[0] for each in judged.findings)
+    assert places["mine"] == places["second"]
+    assert {each.where for each in judged.findings if each.claim.id.startswith("eq18")} == {
+        "mine/every sphere",
+        "second/every sphere",
+    }
+    assert {"mine/sphere/collapse", "second/smoother/collapse"} <= {plot.name for plot in judged.plots}

@@ -5,10 +5,10 @@ from dataclasses import replace
 import pytest
 from scene_files import HEAD, SHARED, TABLES
 
+from compare.comparison import asked
+from compare.comparison.rough import KINDS
 from compare.studies.claims.catalogue import SIZES, STUDIES
-from compare.studies.claims.series import KINDS
 from compare.studies.claims.sizes import between
-from compare.studies.claims.study import ClaimStudy
 from compare.studies.claims.study_file import study_of
 from scene import Cone, Indent, Kelvin, Program, Scene, SelfAffine, Slide, Sphere, Stage
 from scene.reading import InvalidInput
@@ -124,7 +124,7 @@ def test_every_mistake_is_named_at_once():
 def test_a_file_is_a_study_of_the_command_and_a_name_that_is_neither_is_refused(tmp_path):
     path = tmp_path / "mine.toml"
     path.write_text(TEXT, encoding="utf-8")
-    study = ClaimStudy.of(path)
+    study = asked.study(path)
     assert (study.place, study.title, study.inputs["source"]) == ("mine-quick", "Mine", TEXT)
     for name, said in (
         ("colapse", "did you mean collapse"),
@@ -132,10 +132,10 @@ def test_a_file_is_a_study_of_the_command_and_a_name_that_is_neither_is_refused(
         (str(tmp_path / "x.toml"), "no such"),
     ):
         with pytest.raises(InvalidInput, match=said):
-            ClaimStudy.of(name)
+            asked.study(name)
     with pytest.raises(InvalidInput, match="size = paper: allowed are quick, standard, full"):
-        ClaimStudy.of("collapse", "paper")
+        asked.study("collapse", "paper")
     path.write_bytes(b"\xff\xfe")
-    for ask in (lambda: ClaimStudy.of(path), lambda: study_of("x = " + "[" * 100_000, "mine")):
+    for ask in (lambda: asked.study(path), lambda: study_of("x = " + "[" * 100_000, "mine")):
         with pytest.raises(InvalidInput, match=r"no text in UTF-8|deeper than 20 levels"):
             ask()

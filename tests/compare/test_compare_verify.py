@@ -230,4 +230,4 @@ def test_models_are_found_by_name_as_class_and_as_object():
 @pytest.mark.slow
 def test_bem_holds_all_of_its_laws(tmp_path):
     report = compare.verify(BEM(points=128), tmp_path, report=False)
-    assert set(report.table["verdict"]) == {"holds"}
+    assert set(report.findings["verdict"]) == {"holds"}

@@ -40,7 +40,7 @@ def test_the_page_prints_what_it_says(page):
 
 
 def test_the_study_of_the_page_finds_what_it_claims(page):
-    (found,) = page["report"].findings
+    (found,) = page["report"].judged
     assert found.verdict == "holds"
     assert 1.98 < found.interval[0] < found.value < found.interval[1] < 2.0
     assert found.grid_method == "change on halving"

@@ -14,9 +14,9 @@ from damage import TRIES, as_toml, bounded, fuzz, spoilt, trees, unshowable
 from hypothesis import strategies as st
 
 import compare
+from compare.comparison import asked
 from compare.library.case import read_case
 from compare.library.lookup import case_of
-from compare.studies.claims.study import ClaimStudy
 from compare.studies.mastercurve.study import Mastercurve
 from compare.studies.plan import planned
 from compare.studies.topography.study import Map
@@ -99,7 +99,7 @@ def test_a_scene_is_read_and_planned_or_refused(spoil, spoiling):
 
 
 def test_a_study_is_read_or_refused(spoil):
-    law = lambda content: reading(ClaimStudy.of, spoil("study.toml", content), Refused, SolveError)  # noqa: E731
+    law = lambda content: reading(asked.study, spoil("study.toml", content), Refused, SolveError)  # noqa: E731
     fuzz(law, either(STUDIES), tries=TRIES // 2)
 
 

@@ -20,11 +20,12 @@ import compare
 import mdr1d
 import scene
 from bem3d import BEM
+from compare.comparison.curve import Curve
+from compare.comparison.sweep import SweepSeries
 from compare.figures.journals import journal
 from compare.library.case import Variations
 from compare.studies.mastercurve.study import Mastercurve
 from compare.studies.mastercurve.temperatures import Constants
-from compare.studies.sweep.study import Sweep
 from mdr1d import MDR, equations, estimates
 from scene import (
     WLF,
@@ -87,7 +88,7 @@ SLIDING = Scene(Sphere(1e-2), Kelvin(1e6, 1e-3), Slide(speed=0.1, load=1.0))
 ROUGH = SelfAffine(hurst=0.5, rms_height=1e-6, longest=1e-3, shortest=1e-4, rolloff=5e-4, seed=2)
 WARM = (300.0, 300.0, 300.0, 300.0)
 TABLE = Table(FREQUENCY, STORAGE, LOSS, temperature=WARM)
-PARAMETER_GRID = compare.ParameterGrid(scene=SLIDING, speeds=(0.1, 1.0), values=(0.5, 2.0), grids={}, draws={})
+CURVE = Curve(scene=SLIDING, speeds=(0.1, 1.0), values=(0.5, 2.0), levels={}, draws={})
 # Valid objects, in which each field that takes a number has one.
 OBJECTS = [
     WLF(temperature=310.0, reference=300.0, c1=8.0, c2=100.0),
@@ -129,7 +130,7 @@ OBJECTS = [
     ),
     compare.CorrectedMDR(profiles=3),
     compare.Persson(gamma=0.5),
-    PARAMETER_GRID,
+    CURVE,
     compare.Claim("a", "A", expected=1.0, tolerance=0.1),
     compare.Finding(compare.Claim("a", "A"), value=1.0, scatter=(0.5, 1.5), grid=0.1),
     compare.Quantity("a", "A", "depth", compare.SceneTask(MDR(), (SLIDING,)), 2.0, 0.1, "", ""),
@@ -138,8 +139,8 @@ OBJECTS = [
 UNITS = {
     (PowerLaw, "coefficient"): None,
     (Table, "frequency"): None,
-    (compare.ParameterGrid, "speeds"): "m/s",
-    (compare.ParameterGrid, "values"): "N",
+    (Curve, "speeds"): "m/s",
+    (Curve, "values"): "N",
 }
 # What solvers make and hand over, and what holds no numbers itself.
 MADE = {
@@ -163,7 +164,7 @@ APART = {
     "Shear.force",
     "Stage.amplitude",
     "Stage.frequency",
-    "ParameterGrid.draws",
+    "Curve.draws",
     "Finding.drawn",
     "Finding.parts",
 }
@@ -309,7 +310,7 @@ def swept_in_modes(**given):
 
 
 def asked(**given):
-    sweep = Sweep.of(SLIDING, **({"speed": (0.1, 0.2)} | given))
+    sweep = SweepSeries.of(SLIDING, **({"speed": (0.1, 0.2)} | given))
     return *sweep.speeds, *sweep.values, sweep.draws
 
 
@@ -367,7 +368,7 @@ CALLED = [
     Place("compare.sweep(depth)", lambda given: asked(depth=given), (1e-5, 2e-5), "m"),
     Place("compare.export(width)", lambda given: journal("default", given).single, 0.1, "m"),
     Place("compare.sweep(draws)", lambda given: asked(draws=given), 2),
-    Place("compare.sweep(interval)", lambda given: Sweep.of(SLIDING, (0.1,), interval=given).interval, 0.1),
+    Place("compare.sweep(interval)", lambda given: SweepSeries.of(SLIDING, (0.1,), interval=given).interval, 0.1),
     Place("compare.mastercurve(tolerance)", lambda given: Mastercurve.of(FRICTION, given).tolerance, 0.1),
     *(
         Place(f"compare.mastercurve({name})", lambda given, name=name: shifted(**{name: given}), value, unit)
@@ -544,7 +545,7 @@ def test_what_depends_on_others_takes_their_unit(quantity):
 @pytest.mark.parametrize("wrong", [True, 1.5, "many", 1j])
 def test_counts_of_functions_are_whole_numbers(wrong):
     with pytest.raises(ValueError, match="draws"):
-        replace(PARAMETER_GRID, draws={"BEM": wrong})
+        replace(CURVE, draws={"BEM": wrong})
 
 
 class Unyt(np.ndarray):

@@ -11,10 +11,10 @@ from mdr1d import MDR
 from scene import Fractional, Indent, Kelvin, Program, Slide, Stage, StandardLinearSolid
 from scene.scales import elastic_contact
 
+from ...comparison.rough import RoughSeries as Series
 from ...library.ready import CATALOGUE
 from ..paper import parameters
 from .contacts import SHORTEST, STEEP, kelvin, resolved
-from ...comparison.rough import RoughSeries as Series
 from .sizes import Size, between
 
 # Across the knee. In three dimensions friction hardly falls with the load where it is slow: neighbouring speeds

@@ -30,14 +30,14 @@ from scene.reading import InvalidInput, invalid, parsed, validator
 from scene.rheology import Elastomer
 from scene.temperature import Temperature
 
+from ...comparison.curve import refuse
+from ...comparison.rough import KINDS
+from ...comparison.rough import RoughSeries as Series
 from ...library.case import Draws, ModelNames, Share
 from ...library.describe import folders
 from ...library.ready import NotReady, find
 from ...solving.cost import MOST_VALUES
 from .catalogue import SIZES, ReadyStudy
-from ...comparison.curve import refuse
-from ...comparison.rough import KINDS
-from ...comparison.rough import RoughSeries as Series
 from .sizes import Size, between
 
 Several = Annotated[Whole, Field(ge=2, le=MOST_VALUES)]

@@ -12,13 +12,13 @@ from mdr1d import MDR
 from scene import Program, Refused, SolveError, notes
 from scene.protocol import foresee
 
+from ...comparison.curve import work_of
 from ...library.case import Case, doubted
 from ...library.lookup import SceneLike, case_of
 from ...report.page import Text
 from ...report.views import View, view
 from ...solving import words
 from ...solving.outcome import Outcome
-from ...comparison.curve import work_of
 from ...solving.task import Batch, SceneTask, Task
 from ...solving.vocabulary import attributes
 from ...statistics import griderror

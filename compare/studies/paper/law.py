@@ -12,8 +12,8 @@ from scipy.optimize import minimize_scalar
 from mdr1d import MDR, draw, equations
 from scene import SolveError
 
-from ...solving.outcome import Outcome
 from ...comparison.curve import FINE, Curve
+from ...solving.outcome import Outcome
 from ...solving.task import Task
 from ...solving.vocabulary import attributes
 from ...statistics.intervals import Estimated

@@ -14,8 +14,8 @@ from mdr1d import equations
 from mdr1d.ensemble import Answers, solve_profiles
 from scene import Scene, SolveError
 
-from ...solving.outcome import Outcome
 from ...comparison.curve import FAILED, SOLVED
+from ...solving.outcome import Outcome
 from ...solving.task import SCENES, Task
 from ...solving.vocabulary import attributes
 from ...statistics.intervals import Estimated

@@ -11,12 +11,12 @@ from pandas import DataFrame
 
 from scene.reading import InvalidInput
 
+from ...comparison import curve
+from ...comparison.curve import FAILED, Curve
 from ...figures import shifted_curves
 from ...report.page import Block, Findings, Section, Table, Text
-from ...comparison import curve
 from ...solving.cost import MOST_DRAWS, Cost
 from ...solving.outcome import Outcome
-from ...comparison.curve import FAILED, Curve
 from ...solving.task import Batch, Task
 from ...statistics import eq23
 from ...statistics.finding import FAILS
