@@ -327,8 +327,8 @@ def sweep(
 ) -> xarray.Dataset:
     """Solve a scene at many speeds and loads, in 1D and 3D.
 
-    Returns a Dataset with the dimensions solver, level, speed, load or depth, and surface: every single draw with its
-    `status` and `reason`, and the means over draws on the fine grid, `friction_coefficient_mean`,
+    Returns a Dataset with the dimensions model, level, speed, load or depth, and surface: every single draw with
+    its `status` and `reason`, and the means over draws on the fine grid, `friction_coefficient_mean`,
     `normal_force_mean` and `depth_reached_mean`, each with `_low` and `_high` in place of `_mean`: the interval of
     95 % with the scatter of draws and the change on halving the grid.
     `friction_error` bounds what the grid leaves of friction in 95 % of draws; above a tenth UncertainFriction is

@@ -62,7 +62,7 @@ class Answers:
         return found.sel(level=level if level in found["level"] else FINE)
 
     def sample(self, level: str, curve: str, *models: str) -> DrawSet:
-        """Answers by model, of which surfaces can be left out; always the same object, which keeps what it finds."""
+        """Answers by model, of which surfaces can be left out; the same object each time, which keeps them."""
 
         def made():
             found = {each: self(curve, each, level) for each in models}

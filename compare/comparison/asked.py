@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from os.path import lexists
 from pathlib import Path
+from typing import Any
 
 from scene import Refused
 from scene.printable import printable
@@ -50,10 +51,9 @@ def run(
         folders(cases, "case")
         series = tuple(Around(name, case, chosen, reference, wanted) for name, case in cases.items())
         names = sorted({each.name for one in series for each in one.models})
-        inputs = {"cases": {name: case.inputs for name, case in cases.items()}}
-        inputs |= ({} if wanted is None else {"interval": wanted}) | (
-            {} if names == ["BEM", "MDR"] else {"models": names}
-        )
+        inputs: dict[str, Any] = {"cases": {name: case.inputs for name, case in cases.items()}}
+        inputs |= {} if wanted is None else {"interval": wanted}
+        inputs |= {} if names == ["BEM", "MDR"] else {"models": names}
         asked = Comparison(series, stated=inputs)
         asked.grids()
     except Refused as error:

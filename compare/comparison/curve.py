@@ -74,7 +74,7 @@ class Contact(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class Curve:
-    """Contacts of one scene at every speed and every load or depth, each model on its levels, on the same surfaces.
+    """Contacts of one scene at every speed and load or depth, each model on its levels, on the same surfaces.
 
     scene : its motion says what is prescribed; a Program is pressed in from nothing at a constant rate, a Shear is
         drawn to each displacement or force, and every other scene slides steadily or, at speed 0, is at rest
@@ -83,8 +83,8 @@ class Curve:
     values : loads [N], depths [m], displacements [m] or tangential forces [N] that are prescribed
     levels : settings of a model by the name of the level, by the name of the model
     draws : number of rough surfaces by the name of the model, which are solved on all levels; 1 if absent.
-        Several numbers are those of strata, one for each level, from fine to coarse: surfaces of each are solved on
-        that level and on the next coarser one, see `statistics.multilevel`
+        Several numbers are those of strata, one for each level, from fine to coarse: surfaces of each are solved
+        on that level and on the next coarser one, see `statistics.multilevel`
     keeps_fields : whether the fields of the first surface on the fine level are kept, for pictures
     """
 
@@ -179,7 +179,8 @@ class Curve:
         """The scene under one of its values, at rest or at a speed."""
         motion: Any = self.scene.motion
         if isinstance(motion, Shear):
-            return replace(self.scene, motion=replace(motion, **{self.prescribed: value}))
+            drawn: dict[str, Any] = {self.prescribed: value}
+            return replace(self.scene, motion=replace(motion, **drawn))
         if self.over_time:
             return self.scene
         pressed: dict[str, Any] = {self.prescribed: value}
@@ -203,8 +204,8 @@ class Curve:
     def contacts(self) -> tuple[Contact, ...]:
         """Contacts of every model, level, speed and value. Cached: building scenes is slow.
 
-        All profiles of a 1D contact are one task, of strata some of them; each surface in 3D is one, and so is each
-        profile over time.
+        All profiles of a 1D contact are one task, of strata some of them; each surface in 3D is one, and so is
+        each profile over time.
         """
         found = []
         for name, levels in self.levels.items():
@@ -240,8 +241,8 @@ class Curve:
         """All answers, with the dimensions model, level, speed, load or depth, and surface.
 
         A smooth body has no surface, and a program over time has neither speed nor load or depth, but time.
-        `status` tells failed from not asked, `reason` why a solve failed. Where nothing touches, the force is 0, and
-        friction and contact are NaN.
+        `status` tells failed from not asked, `reason` why a solve failed. Where nothing touches, the force is 0,
+        and friction and contact are NaN.
         """
         import pandas
         import xarray

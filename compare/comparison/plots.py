@@ -107,7 +107,7 @@ def _places(series, curve: str, speed: str = "speed") -> dict[str, np.ndarray]:
 
 
 def _along(series, answers: Answers, points: DataFrame, curve: str) -> tuple[DataFrame, DataFrame, DataFrame]:
-    """Points of the models of a curve that slides, their ratios to the reference, and lines of theories beside them."""
+    """Points of the models of a curve that slides, their ratios to the reference, and lines of theories."""
     own = points[(points["curve"] == curve) & (points["speed"] > 0)].dropna(axis=1, how="all")
     beside = ~own["model"].isin([*series.models.labels])
     bodies = {"rough": curve} | ({"smooth": SMOOTH} if curve == ROUGH else {})

@@ -185,7 +185,7 @@ class RoughSeries(Series):
         return [each for each in found if (PAIRS if "/" in each.dimension else kind) in self.claims]
 
     def _found(self, answers: Answers, rows: Iterable[Row], places: list[Here]) -> Iterator[Finding]:
-        """Findings of rows of claims, each where it can be stated: on each model, or on each against the reference."""
+        """Findings of rows of claims where they can be stated, on each model or on each against the reference."""
         (reference,) = (each for each in places if each.model.name == self.models.reference)
         rows = list(rows)
         for here in places:

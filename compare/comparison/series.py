@@ -25,8 +25,8 @@ from .laws import Laws
 
 Counts = Mapping[str, tuple[int, ...]]  # numbers of surfaces on each level, by model
 Places = Mapping[tuple[int, int], str]  # places of speed and value on a curve, in words
-# Surfaces of a pilot on the coarsest level, of each difference, and of that of the finest of several, which scatters
-# least and costs most.
+# Surfaces of a pilot on the coarsest level, of each difference, and of that of the finest of several, which
+# scatters least and costs most.
 PILOT, DIFFERENCES, FINEST = 32, 8, 4
 
 
@@ -203,10 +203,10 @@ class Series(ABC):
         answers: Answers,
         curve: str,
         mean_name: str,
-        places: Mapping[tuple[int, ...], str],
+        places: Places,
         less=0.0,
     ) -> list[tuple[Model, tuple[int, int], Finding]]:
-        """Findings on a mean of each model over that of the reference, at some places of a curve by their words."""
+        """Findings on a mean of each model over that of the reference, at some places of a curve."""
         rows, reference = [], self.models.reference
         for model in answers.judged(curve, WORDS[mean_name]):
             found = answers.compared(curve, (model.name, reference), ratio_of(mean_name, model.name, reference))
