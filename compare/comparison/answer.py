@@ -93,19 +93,19 @@ def claims_table(findings: Iterable[Finding], scenes: Mapping[str, str], name: s
     """
     lines: dict[tuple[str, str], list[Finding]] = {}
     for each in findings:
-        if each.verdict != REPORTED and each.claim.id in SHORT:
+        if each.verdict != REPORTED and each.claim.id not in OWN_RATIOS.values():
             scene = next(
                 (told for start, told in scenes.items() if f"{each.where}, ".startswith(f"{start}, ")), ""
             )
-            lines.setdefault((SHORT[each.claim.id], scene), []).append(each)
+            lines.setdefault((_short(each), scene), []).append(each)
     for short in dict.fromkeys(short for short, _ in lines):
         own = {key: each for key, each in lines.items() if key[0] == short}
         if len(own) > 1 and all(each.verdict == words.HOLDS for found in own.values() for each in found):
             lines = {key: each for key, each in lines.items() if key not in own} | {
                 (short, ALL): [each for found in own.values() for each in found]
             }
-    order = list(dict.fromkeys(SHORT.values()))
-    ordered = sorted(lines.items(), key=lambda line: order.index(line[0][0]))
+    order = {short: place for place, short in reversed([*enumerate(SHORT.values())])}
+    ordered = sorted(lines.items(), key=lambda line: order.get(line[0][0], len(order)))
     frame = DataFrame([_line(*key, found) for key, found in ordered]).fillna("")
     columns = [each for each in ("claim", "scene", "tested", "verdict") if each in frame]
     models = [each for each in frame if each not in columns]
@@ -141,12 +141,17 @@ def notes(findings: Iterable[Finding]) -> list[str]:
     """Why claims are undecided and what would decide them, a sentence a claim; of many those that stand first."""
     reasons: dict[str, list[Finding]] = {}
     for each in findings:
-        if each.verdict == UNDECIDED and each.claim.id in SHORT:
-            reasons.setdefault(SHORT[each.claim.id], []).append(each)
+        if each.verdict == UNDECIDED:
+            reasons.setdefault(_short(each), []).append(each)
     told = [f"Undecided: {short} ({_places(own)}): {own[0].why}." for short, own in reasons.items()]
     return told[:MOST_NOTES] + [f"Others undecided: {len(told) - MOST_NOTES}, see findings.csv."] * (
         len(told) > MOST_NOTES
     )
+
+
+def _short(finding):
+    """A claim in a few words; its sentence where it has none."""
+    return SHORT.get(finding.claim.id, finding.claim.sentence)
 
 
 def _places(findings):

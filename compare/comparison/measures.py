@@ -256,7 +256,7 @@ def law_with_load(here: Here, it: xarray.Dataset) -> float:
     return power(here.force(it)[here.place], here.over_law(it)[here.place])
 
 
-FRICTIONS = (
+FRICTIONS = [
     Row("eq17.speed-exponent", slow_speeds, speed_exponent),
     Row(
         "eq17.load-exponent",
@@ -273,7 +273,7 @@ FRICTIONS = (
     Row("eq14.plateau", on_plateau, over_law),
     Row("eq14.load-exponent", along_plateau, law_with_load),
     Row("eq19.law", everywhere, lambda here, it: np.log(here.over_law(it))),
-)
+]
 
 
 # Friction of one dimensionality over that of the other.
@@ -409,10 +409,10 @@ def pressed_apart(here: Here, one: xarray.Dataset, three: xarray.Dataset) -> flo
     return float(np.log(first / other))
 
 
-DEPTHS = (
+DEPTHS = [
     Row("smooth.rest-{quantity}", everywhere, over_closed_form, body="smooth"),
     Row("smooth.pressed-in", rates, lambda here, it: over_smooth(here, it) - 1, body="smooth"),
-)
+]
 REST = tuple(
     Row(f"rest.{{quantity}}-{side}", *by_height(side == "deep"), pair=True, quantity="")
     for side in ("deep", "shallow")
