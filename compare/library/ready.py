@@ -3,6 +3,7 @@
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from importlib.resources import files
 from pathlib import Path
 from textwrap import wrap
@@ -10,7 +11,6 @@ from typing import Any
 
 from ..solving.suggest import known, suggestion
 
-_TITLE = re.compile(r'^title = "(.+)"$', re.MULTILINE)
 _END = "\n#\n"  # of what a file is about, in the comment with which it begins
 _ALONE = "from Python"  # how it is solved, in the same comment of a scene that cannot be compared
 WIDTH = 100
@@ -23,7 +23,9 @@ SCENES = {
 STUDIES = "Studies: crosscheck study NAME"
 ALL = "`crosscheck study all` does the first six of them."
 MEASURE = "`crosscheck workprecision NAME` measures one; all, every one of them."
-NEW = "`crosscheck new NAME` copies a scene, or a study that is a file, for you to change."
+NEW = "`crosscheck new NAME` copies a scene or a study, for you to change."
+# Studies of the paper's claims, which `crosscheck study all` does.
+CLAIMS = "collapse", "solids", "hurst", "parameters", "regime", "depth"
 
 
 class NotReady(LookupError):
@@ -38,8 +40,8 @@ class Ready:
     """A file to begin with.
 
     name : of the file, without .toml
-    title, about : for people; what it is about stands in its first lines; a scene alone, which
-        has no title, has its first words
+    title, about : for people; of a scene what stands in its first lines, and where it has no title their first
+        words
     kind : "scene" or "study"
     command : of `crosscheck`, by which it is asked: run, study, or plan of a scene that cannot be compared
     text : the file
@@ -60,40 +62,6 @@ class About:
     title: str
     about: str
 
-
-# Studies that are no files. Their texts stand here, as those who list them import no solver.
-CATALOGUE = {
-    "collapse": About(
-        "Does friction collapse on one curve?",
-        "Eq. 23 for the rough sphere and the rough cone of Fig. 1 on a Kelvin solid, across the knee of the "
-        "curve, at prescribed load and at prescribed depth.",
-    ),
-    "solids": About(
-        "Do other solids collapse on one curve too?",
-        "Eq. 23 for the rough sphere and the rough cone of Fig. 1 at prescribed load, on a standard linear solid, "
-        "E_g = 10 E_r, and on a solid whose loss grows as the root of the frequency.",
-    ),
-    "hurst": About(
-        "Hurst exponents from 0.1 to 0.9",
-        "Eq. 23 for rough spheres and cones on a Kelvin solid at prescribed load, of several Hurst exponents, "
-        "with the same rms height and the same waves.",
-    ),
-    "parameters": About(
-        "One parameter at a time",
-        "Eq. 23 for rough spheres and cones on a Kelvin solid at prescribed load, with another rms height, "
-        "another shortest wave, another relaxation time.",
-    ),
-    "regime": About(
-        "The regime of the paper",
-        "Roughness that is small against the depth and steep against the body, which in three dimensions takes "
-        "waves far shorter than the contact: a spectrum rolled off at a q_r of 20 or more.",
-    ),
-    "depth": About(
-        "Force and depth",
-        "The rough sphere and the rough cone of Fig. 1, pressed in to rest, and at constant rates on a standard "
-        "linear solid.",
-    ),
-}
 
 # Diagrams of `crosscheck workprecision`, in the order of its page.
 DIAGRAMS = {
@@ -149,6 +117,7 @@ class Listing(dict[str, Any]):
     __repr__ = __str__
 
 
+@cache
 def ready() -> dict[str, Ready]:
     """Scenes and studies that come as files: scenes, then studies, by name. Nothing is imported for it."""
     found = {}
@@ -161,8 +130,9 @@ def ready() -> dict[str, Ready]:
 
 
 def studies() -> Listing:
-    """Every study that comes with the package: those of the paper's claims, then those of files."""
-    found = CATALOGUE | {name: each for name, each in ready().items() if each.kind == "study"}
+    """Every study that comes with the package: first those of the paper's claims."""
+    every = {name: each for name, each in ready().items() if each.kind == "study"}
+    found = {name: every[name] for name in CLAIMS} | every
     return Listing(found, {STUDIES: list(found)}, ALL)
 
 
@@ -218,6 +188,11 @@ def write(name: str, path: str | Path, schema: str | Path | None = None) -> Path
 def _ready(kind, name, text):
     comment = text.partition("\n\n")[0]
     about = " ".join(line.removeprefix("# ") for line in comment.partition(_END)[0].splitlines())
-    title = _TITLE.search(text)
     command = "study" if kind == "study" else "plan" if _ALONE in comment else "run"
-    return Ready(name, title[1] if title else re.split("[.:]", about)[0], about, kind, command, text)
+    title = _stated("title", text) or re.split("[.:]", about)[0]
+    return Ready(name, title, _stated("about", text) or about, kind, command, text)
+
+
+def _stated(name, text):
+    found = re.search(f'^{name} = "(.+)"$', text, re.MULTILINE)
+    return found and found[1]

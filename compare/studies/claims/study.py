@@ -30,13 +30,12 @@ from ...statistics import eq23
 from ...statistics.finding import REPORTED, Finding, claimed
 from ...statistics.multilevel import GROWTH
 from ..study import Judgement, Study
-from .catalogue import SIZES, STUDIES, ReadyStudy
 from .families import alike, every, family_findings
 from .figures import tables as study_plots
 from .judgement import JudgedSeries, judge_series
 from .points import failures, points
 from .series import ROUGH, Contacts, Series
-from .study_file import study_of
+from .study_file import SIZES, STUDIES, ReadyStudy, study_of
 
 ALL = "all"
 UNMATCHED = (
@@ -139,7 +138,7 @@ class ClaimStudy(Study):
                 interval=self.interval or each.interval,
                 strata=self.strata.get(each.name),
             )
-            for each in self.study.series(SIZES[self.size])
+            for each in self.study.series(self.size)
         )
 
     def grids(self) -> Mapping[str, ParameterGrid]:
