@@ -7,15 +7,15 @@ import xarray
 
 from bem3d import BEM
 from compare.solving.parameter_grid import COARSE, FAILED, FINE, SOLVED
-from compare.studies.claims import catalogue
 from compare.studies.claims.series import ROUGH, SMOOTH, Contacts, Series
+from compare.studies.paper import parameters
 from mdr1d import MDR, equations
 
 SURFACES = 8
 SERIES = Series(
     name="sphere",
     title="Rough sphere",
-    scene=catalogue.kelvin("sphere"),
+    scene=parameters.resolved("sphere"),
     speeds=tuple(float(v) for v in np.geomspace(2e-3, 4.0, 10)),
     values=tuple(float(f) for f in np.geomspace(0.05, 50, 8)),
     surfaces=SURFACES,

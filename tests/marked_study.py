@@ -9,8 +9,9 @@ from bem3d import BEM
 from compare.cli.app import main
 from compare.solving.parameter_grid import tasks_of
 from compare.solving.task import SCENES
-from compare.studies.claims.catalogue import STUDIES, ReadyStudy, kelvin
 from compare.studies.claims.series import Series
+from compare.studies.claims.study_file import STUDIES, ReadyStudy
+from compare.studies.paper.parameters import resolved
 from mdr1d import MDR
 
 
@@ -40,7 +41,7 @@ class MarkedBEM(BEM):
 
 
 def series():
-    scene = kelvin("sphere")
+    scene = resolved("sphere")
     scene = replace(scene, roughness=replace(scene.roughness, shortest=2e-3, seed=1))
     solvers = {"bem": MarkedBEM(points=32), "mdr": MarkedMDR(points=500)}
     return Series("s", "Sphere", scene, (0.05, 0.1), (5.0, 10.0, 20.0), surfaces=4, profiles=2, **solvers)

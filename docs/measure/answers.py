@@ -20,8 +20,8 @@ from tables import finding, replaced, stored, table
 
 import compare
 from compare.solving.words import interval, number
-from compare.studies.claims.catalogue import STUDIES
 from compare.studies.claims.claims import ENDS
+from compare.studies.claims.study_file import STUDIES
 
 PAGE = Path(__file__).parents[1] / "results" / "answers.md"
 DOCS, README = PAGE.parent, PAGE.parents[2] / "README.md"

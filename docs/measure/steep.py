@@ -16,7 +16,7 @@ from tables import stored
 from bem3d import BEM
 from compare.solving.task import SceneTask, draws_of
 from compare.statistics.intervals import student
-from compare.studies.claims.contacts import STEEP
+from compare.studies.claims.study_file import STUDIES
 from compare.trustmap.friction_law import FrictionLaw
 from scene import Scene, Slide
 
@@ -52,13 +52,14 @@ class SteepContact:
 
 def contacts() -> Iterator[SteepContact]:
     """Sphere and cone under the least and the greatest load, at each speed."""
-    for body, (scene, (low, high)) in STEEP.items():
-        rough = replace(scene.roughness, seed=1)
-        unit = rough.shortest / (2 * pi * scene.elastomer.relaxation_time)
+    steep = {each.name: each for each in STUDIES["regime"].series("full")}
+    for body in ("sphere", "cone"):
+        scene, (low, *_, high) = steep[body].scene, steep[body].values
+        unit = scene.roughness.shortest / (2 * pi * scene.elastomer.relaxation_time)
         for speed in SPEEDS:
             for load in (low, high):
                 slides = Slide(speed=speed * unit, load=load)
-                yield SteepContact(body, load, speed, replace(scene, roughness=rough, motion=slides))
+                yield SteepContact(body, load, speed, replace(scene, motion=slides))
 
 
 def main(workers: int | None = None) -> None:

@@ -13,19 +13,19 @@ from compare.report.page import Plot
 from compare.solving import words
 from compare.solving.parameter_grid import FINE
 from compare.statistics.finding import FAILS, HOLDS, REPORTED
-from compare.studies.claims import catalogue
 from compare.studies.claims.claims_law import EVERY, SHALLOW, LawPoints, law_findings
 from compare.studies.claims.families import family_findings
 from compare.studies.claims.figures.tables import plots_of_series, plots_of_study
 from compare.studies.claims.judgement import judge_series
 from compare.studies.claims.laws import laws
 from compare.studies.claims.series import ROUGH, Contacts
+from compare.studies.paper import parameters
 from compare.studies.theory import LAW, with_theory
 from scene import Slide
 
 # Under the first load the roughness is more than a tenth of the depth.
 FEW = replace(SERIES, speeds=(0.03, 0.1, 0.5), values=(0.9, 20.0, 50.0))
-CONE = replace(FEW, name="cone", title="Rough cone", scene=catalogue.kelvin("cone"))
+CONE = replace(FEW, name="cone", title="Rough cone", scene=parameters.resolved("cone"))
 ROUNDING = 1e-9
 MEASURES = "friction_of_shape", "friction_of_roughness", "full_contact_friction", "share_of_full_contact"
 

@@ -12,7 +12,6 @@ from compare.library.case import Case
 from compare.library.lookup import located
 from compare.library.ready import NotReady, find, ready, write
 from compare.solving.cost import MOST_VALUES
-from compare.studies.claims.catalogue import SIZES
 from compare.studies.claims.study import ClaimStudy
 from compare.studies.claims.study_file import StudyFile, study_of
 from compare.studies.plan import plans
@@ -199,7 +198,7 @@ def test_every_file_of_the_page_about_scenes_is_read(text, tmp_path, monkeypatch
     rows = np.column_stack([frequency, moduli.real, moduli.imag])
     np.savetxt("rubber.csv", rows, delimiter=";", header="f [Hz];E' [MPa];E'' [MPa]")
     if "[[series]]" in text:
-        assert study_of(text, "mine").series(SIZES["quick"])
+        assert study_of(text, "mine").series("quick")
         return
     # What a part of a file leaves out is that of a ready scene.
     stated, whole = tomllib.loads(text), tomllib.loads(find("cold-rubber").text)

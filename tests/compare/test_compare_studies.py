@@ -11,13 +11,14 @@ from compare.solving import parameter_grid
 from compare.solving.parameter_grid import COARSE, FINE
 from compare.statistics.finding import REPORTED
 from compare.statistics.jackknife import friction, mean
-from compare.studies.claims import catalogue, families
+from compare.studies.claims import families
 from compare.studies.claims.claims_depth import loading
 from compare.studies.claims.claims_friction import SLOW
 from compare.studies.claims.judgement import judge_series
 from compare.studies.claims.laws import laws
 from compare.studies.claims.series import SMOOTH, Contacts, Series
 from compare.studies.claims.study import ClaimStudy
+from compare.studies.claims.study_file import STUDIES
 from compare.studies.theory import THEORIES
 from mdr1d import MDR
 from scene import Indent, Kelvin, Program, Scene, SelfAffine, Slide, Sphere, Stage
@@ -258,7 +259,7 @@ MANY_TASKS = ("solids", "hurst", "parameters", "regime")
 
 @pytest.mark.parametrize(
     "name",
-    [pytest.param(name, marks=pytest.mark.slow if name in MANY_TASKS else ()) for name in catalogue.STUDIES],
+    [pytest.param(name, marks=pytest.mark.slow if name in MANY_TASKS else ()) for name in STUDIES],
 )
 def test_every_study_can_be_solved_by_both_and_solves_nothing_twice(name):
     study = ClaimStudy.of(name, "quick")

@@ -15,9 +15,9 @@ from compare.report.page import Findings, Plot, Section, Table
 from compare.solving.outcome import Outcome, Row
 from compare.solving.parameter_grid import tasks_of
 from compare.statistics.finding import REPORTED
-from compare.studies.claims.catalogue import STUDIES, ReadyStudy
 from compare.studies.claims.series import Contacts
 from compare.studies.claims.study import AllStudies, ClaimStudy
+from compare.studies.claims.study_file import STUDIES, ReadyStudy
 from scene import Indent, Program, Stage
 
 NUMBER = re.compile(r"−?\d+(?:\.\d+)?")

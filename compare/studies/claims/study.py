@@ -60,7 +60,7 @@ class JudgedStudy:
 
 @dataclass(frozen=True)
 class ClaimStudy(Study):
-    """A study of the catalogue, or of a file, at a size.
+    """A study that comes with the package, or of a file, at a size.
 
     name : of its folder
     study : the question
@@ -209,7 +209,7 @@ class ClaimStudy(Study):
 
 @dataclass(frozen=True)
 class AllStudies(Study):
-    """All studies of the catalogue on one page: the answer, and verdicts; their own pages show every series."""
+    """Studies of the paper's claims on one page: the answer, and verdicts; their own pages show every series."""
 
     studies: tuple[ClaimStudy, ...]
 

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass as plain
 from dataclasses import fields, replace
 from functools import partial
-from typing import Annotated, Any, Generic, Literal, TypeVar
+from typing import Annotated, Any, Generic, Literal, TypeVar, get_args
 
 import numpy as np
 from pydantic import AfterValidator, Discriminator, Field, Tag, ValidationError, model_validator
@@ -12,10 +12,23 @@ from pydantic.dataclasses import dataclass
 
 from bem3d import BEM
 from mdr1d import MDR
-from scene import Cone, Indent, PowerLaw, Program, Refused, Scene, SelfAffine, Slide, SolveError, Sphere, Stage, files
-from scene.mistakes import CHOICE, Mistake, examined
+from scene import (
+    Cone,
+    Indent,
+    PowerLaw,
+    Program,
+    Refused,
+    Scene,
+    SelfAffine,
+    Slide,
+    SolveError,
+    Sphere,
+    Stage,
+    files,
+)
+from scene.mistakes import CHOICE, said
 from scene.quantities import CLOSED, Force, Length, Speed, Whole
-from scene.reading import InvalidInput, invalid, parsed, validator
+from scene.reading import InvalidInput, invalid, made, parsed
 from scene.rheology import Elastomer
 from scene.scales import elastic_contact
 from scene.temperature import Temperature
@@ -24,19 +37,19 @@ from ...library.case import Draws, ModelNames, Share
 from ...library.describe import folders
 from ...library.ready import CLAIMS, find, ready
 from ...solving.cost import MOST_VALUES
-from ...solving.suggest import suggestion
 from .series import KINDS, Series
 
-SIZES = "quick", "standard", "full"
+Size = Literal["quick", "standard", "full"]
+SIZES: tuple[Size, ...] = get_args(Size)
 MOST_SERIES = 100  # of a file
 # Of each pair one is stated: where a series does, it takes the place of the other stated for all.
 INSTEAD = {"loads": "depths", "depths": "loads", "speeds": "rates", "rates": "speeds"}
-TABLES = ("indenter", "elastomer", "roughness", "temperature")  # of a ready scene
-SOLVERS = "bem", "mdr"
+TABLES = "indenter", "elastomer", "roughness", "temperature"  # of a ready scene
 
 Quantity = TypeVar("Quantity")
+Partly = Quantity | dict[str, Any] | None  # a table that others complete
 Body = Annotated[Sphere | Cone | PowerLaw, Field(discriminator="type")]
-Size = Literal["quick", "standard", "full"]
+ReadyScene: Any = Literal[tuple(name for name, each in ready().items() if each.kind == "scene")]
 
 
 @plain(frozen=True)
@@ -64,37 +77,14 @@ class Range(Generic[Quantity]):
     greatest: Quantity | None = None
     count: Annotated[Whole, Field(ge=2, le=MOST_VALUES)] | None = None
 
-    @model_validator(mode="after")
-    def _in_order(self):
-        if None not in (self.least, self.greatest) and not self.least < self.greatest:
-            raise ValueError(f"greatest = {self.greatest:g} must exceed least = {self.least:g}")
-        return self
-
-
-def _in_order(values):
-    if list(values) != sorted(set(values)):
-        raise ValueError("from the least to the greatest, each once")
-    return values
-
-
-def _of_a_scene(name):
-    scenes = [each.name for each in ready().values() if each.kind == "scene"]
-    if name not in scenes:
-        raise ValueError(f"no ready scene{suggestion(name, scenes)}")
-    return name
-
 
 _RANGE, _LIST = f"{CHOICE}range", f"{CHOICE}list"
-_List = Annotated[
-    tuple[Quantity, ...],
-    Field(min_length=1, max_length=MOST_VALUES),
-    AfterValidator(_in_order),
-    Tag(_LIST),
-]
+_List = Annotated[tuple[Quantity, ...], Field(min_length=1, max_length=MOST_VALUES), Tag(_LIST)]
 Numbers = Annotated[
     Annotated[Range[Quantity], Tag(_RANGE)] | _List[Quantity],
     Discriminator(lambda given: _RANGE if isinstance(given, dict | Range) else _LIST),
 ]
+Kind = Literal["collapse", "friction", "depth", "dimensions", "families"]
 
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
@@ -109,12 +99,7 @@ class _Asked:
     surfaces: Draws | None = None
     profiles: Draws | None = None
     interval: Share | None = None
-    claims: (
-        Annotated[
-            tuple[Literal["collapse", "friction", "depth", "dimensions", "families"], ...], Field(min_length=1)
-        ]
-        | None
-    ) = None
+    claims: Annotated[tuple[Kind, ...], Field(min_length=1)] = KINDS
 
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
@@ -137,13 +122,13 @@ class Stated(_Asked):
     bem, mdr : settings of the solvers on the finer grid; the coarser has half the points
     """
 
-    scene: Annotated[str, AfterValidator(_of_a_scene)] | None = None
-    indenter: Body | dict[str, Any] | None = None
-    elastomer: Elastomer | dict[str, Any] | None = None
-    roughness: SelfAffine | dict[str, Any] | None = None
-    temperature: Temperature | dict[str, Any] | None = None
-    bem: BEM | dict[str, Any] | None = None
-    mdr: MDR | dict[str, Any] | None = None
+    scene: ReadyScene = None
+    indenter: Partly[Body] = None
+    elastomer: Partly[Elastomer] = None
+    roughness: Partly[SelfAffine] = None
+    temperature: Partly[Temperature] = None
+    bem: Partly[BEM] = None
+    mdr: Partly[MDR] = None
 
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
@@ -176,6 +161,11 @@ class OwnSeries(Stated):
     sizes: Sizes = Sizes()
 
 
+def _in_own_folders(series):
+    folders([own.name for own in series], "series")
+    return series
+
+
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
 class StudyFile(Stated):
     """A study of one's own: what all series share, and the series.
@@ -192,7 +182,9 @@ class StudyFile(Stated):
     models: ModelNames = ()
     reference: str = ""
     sizes: Sizes = Sizes()
-    series: Annotated[tuple[OwnSeries, ...], Field(min_length=1, max_length=MOST_SERIES)]
+    series: Annotated[
+        tuple[OwnSeries, ...], Field(min_length=1, max_length=MOST_SERIES), AfterValidator(_in_own_folders)
+    ]
 
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
@@ -222,44 +214,40 @@ class _Complete(_Asked):
             yield "speeds, rates: both given, give at most one of them"
         for name in INSTEAD:
             given = getattr(self, name)
-            if isinstance(given, Range) and None in (given.least, given.greatest):
-                yield f"{name}: a range has both least and greatest"
+            values = _numbers(given)
+            if given and (not values or list(values) != sorted(set(values))):
+                yield f"{name}: both ends of a range, or a list, from the least to the greatest, each once"
         if self.rates and self.loads and not self.prescribed:
             yield "rates: a body pressed in at a rate is pressed to depths, give depths"
         if self.rates and self.temperature:
             yield "rates: a pressed-in solid is stated at its own temperature, leave temperature out"
-        if isinstance(self.speeds, tuple) and len(self.speeds) < 2:
+        if self.speeds and len(_numbers(self.speeds)) < 2:
             yield "speeds: at least two, or none for bodies at rest"
-        for solver, least in ((self.bem, 32), (self.mdr, 16)):
-            if solver.points < least:
-                name = solver.name.lower()
-                yield f"{name}.points = {solver.points}: at least {least}, as the coarser grid has half of them"
+        for name, points, least in (("bem", self.bem.points, 32), ("mdr", self.mdr.points, 16)):
+            if points < least:
+                yield f"{name}.points = {points}: at least {least}, as the coarser grid has half of them"
         if (self.speeds or self.rates) and self.elastomer.type == "elastic":
             yield "speeds, rates: an elastic solid loses nothing, whatever the speed, leave them out"
 
     def series(self, own: OwnSeries, shared: StudyFile) -> Series:
         """The series, as it is solved and judged."""
         speeds, values = _numbers(self.speeds or self.rates), _numbers(self.loads or self.depths)
-        scene = Scene(
-            self.indenter,
-            self.elastomer,
-            Indent(**{"load" if self.loads else "depth": values[0]}),
-            self.roughness,
-            temperature=self.temperature,
-        )
+        rest = Indent(depth=1.0)
+        scene = Scene(self.indenter, self.elastomer, rest, self.roughness, temperature=self.temperature)
+        prescribed = "load" if self.loads else "depth"
         if self.loads and self.prescribed:
-            contacts = [elastic_contact(replace(scene, motion=Indent(load=load))) for load in values]
-            values = tuple(each.depth for each in contacts)
-            scene = replace(scene, motion=Indent(depth=values[0]))
-        pressed: dict[str, float] = {scene.motion.pressed_by: values[0]}
+            pressed = (replace(scene, motion=Indent(load=load)) for load in values)
+            values, prescribed = tuple(elastic_contact(each).depth for each in pressed), self.prescribed
+        press = {prescribed: values[0]}
+        motion: Indent | Slide | Program = Indent(**press)
         if self.speeds:
-            scene = replace(scene, motion=Slide(speed=speeds[0], **pressed))
+            motion = Slide(speed=speeds[0], **press)
         elif self.rates:
-            scene = replace(scene, motion=Program(stages=(Stage(duration=1.0, **pressed),)))
+            motion = Program(stages=(Stage(duration=1.0, **press),))
         return Series(
             name=own.name,
             title=own.title or own.name,
-            scene=scene,
+            scene=replace(scene, motion=motion),
             speeds=speeds,
             values=values,
             surfaces=self.surfaces,
@@ -268,7 +256,7 @@ class _Complete(_Asked):
             mdr=self.mdr,
             note=own.note,
             interval=self.interval,
-            claims=self.claims or KINDS,
+            claims=self.claims,
             asked=shared.models,
             reference=shared.reference,
         )
@@ -295,95 +283,66 @@ def study_of(text: str, name: str) -> ReadyStudy:
 
     name : of the file, for mistakes
     """
-    file, wrong, content = _checked(StudyFile, parsed(text, name))
-    lines, found = [each.line for each in wrong], {size: list[Series]() for size in SIZES}
-    for number, own in _series_in(content):
-        for size in SIZES if file is None else file.series[number].only:
-            complete, wrong, _ = _checked(_Complete, _put_together(content, own, size))
-            # What else is wrong with a file has its line already.
-            wrong = [each for each in wrong if file or each.where[:1] and each.where[0] in (*TABLES, *SOLVERS)]
-            lines += [_in_file(each, own, number) for each in wrong]
-            if file and complete:
-                try:
-                    series = complete.series(file.series[number], file)
-                    series.grids  # noqa: B018 - refuses what cannot be solved on two grids
-                    found[size].append(series)
-                except (ValidationError, Refused, SolveError, ArithmeticError) as error:
-                    lines.append(f"series.{number}: {error}")
-    if file:
-        try:
-            folders([own.name for own in file.series], "series")
-        except InvalidInput as error:
-            lines.append(str(error))
-    if file is None or lines:
+    content = parsed(text, name)
+    file: StudyFile = made(content, StudyFile, name)
+    found, lines = {size: list[Series]() for size in SIZES}, []
+    for number, (own, stated) in enumerate(zip(file.series, content["series"], strict=True)):
+        for size in own.only:
+            place = f"series.{number}"
+            try:
+                series = made(_put_together(content, stated, size), _Complete, place).series(own, file)
+                series.grids  # noqa: B018 - refuses what cannot be solved on two grids
+                found[size].append(series)
+            except InvalidInput as error:
+                lines += str(error).splitlines()
+            except ValidationError as error:
+                lines.append(f"{place}: {said(error)}")
+            except (Refused, SolveError, ArithmeticError) as error:
+                lines.append(f"{place}: {error}")
+    if lines:
         raise invalid(name, list(dict.fromkeys(lines)))
     return ReadyStudy(file.title, file.about, found.__getitem__)
 
 
-def _checked(what: Any, content: dict) -> tuple[Any, list[Mistake], dict]:
-    """The content as what it should be, or None; its mistakes; and the content without wrong names."""
-    adapter = validator(what)
-    try:
-        return adapter.validate_python(content), [], content
-    except ValidationError as error:
-        return None, *examined(error, content, adapter)
-
-
-def _series_in(content: dict) -> list[tuple[int, dict]]:
-    """The series that are tables, by their numbers; of more than there may be, the first."""
-    series = content.get("series")
-    numbered = enumerate(series[:MOST_SERIES] if isinstance(series, list) else [])
-    return [(number, each) for number, each in numbered if isinstance(each, dict)]
-
-
 def _put_together(content: dict, own: dict, size: str) -> dict:
-    """Fields of a series at a size: what is usual, what all share, what it states; each at all sizes, then at one."""
+    """Fields of a series at a size: what is usual, what all share, what it states; at all sizes, then at this."""
     whole: dict[str, Any] = {}
     for part in (content, own):
-        whole = _over(_over(whole, part), _table(_table(part, "sizes"), size))
+        whole = _over(_over(whole, part), part.get("sizes", {}).get(size, {}))
     whole = _over(USUAL[size], whole)
-    return {name: whole[name] for name in FIELDS if name in whole and set(_table(whole, name)) != {"count"}}
+    # A range of which nothing but the number is stated is none.
+    none = [name for name in INSTEAD if name in whole and [*whole[name]] == ["count"]]
+    return {name: whole[name] for name in FIELDS if name in whole and name not in none}
 
 
 def _over(below: dict, above: dict) -> dict:
     """Fields over others: tables name by name, unless they state another type."""
     found = {name: value for name, value in below.items() if INSTEAD.get(name) not in above}
-    if (scene := above.get("scene")) in [*ready()]:
-        base = parsed(find(scene).text, scene)
-        found = {name: value for name, value in found.items() if name not in TABLES}
-        found |= {name: base[name] for name in TABLES if name in base}
+    if "scene" in above:
+        base = parsed(find(above["scene"]).text, above["scene"])
+        found |= {name: base.get(name) for name in TABLES}
     for name, value in above.items():
-        under, over = _table(found, name), _table(above, name)
-        same = over.get("type", under.get("type")) == under.get("type")
-        found[name] = under | over if over and same else value
+        under = found.get(name)
+        same = (
+            isinstance(under, dict) and isinstance(value, dict) and value.get("type") in (None, under.get("type"))
+        )
+        found[name] = under | value if same else value
     return found
 
 
-def _table(inside: dict, name: str) -> dict:
-    """A table of a name; an empty one where there is none."""
-    found = inside.get(name)
-    return found if isinstance(found, dict) else {}
-
-
-def _in_file(mistake: Mistake, own: dict, number: int) -> str:
-    """A mistake of a series as one of the file: that of the series, or of what all share."""
-    if not mistake.where:
-        return f"series.{number}: {mistake.line}"
-    return f"series.{number}.{mistake.line}" if mistake.where[0] in own else mistake.line
-
-
 def _numbers(given: Any) -> tuple[float, ...]:
-    """Numbers of a list or a range, none if absent."""
+    """Numbers of a list, of a range that has both ends, or none."""
     if isinstance(given, Range):
-        return tuple(np.geomspace(given.least, given.greatest, given.count).tolist())
+        whole = given.least and given.greatest
+        return tuple(np.geomspace(given.least, given.greatest, given.count).tolist()) if whole else ()
     return given or ()
 
 
-def _ready_series(name: str, size: str) -> Sequence[Series]:
-    """Series of a study that comes with the package, which is read once it is asked for."""
-    return study_of(find(name).text, name).series(size)
+def _ready_series(text: str, name: str, size: str) -> Sequence[Series]:
+    return study_of(text, name).series(size)
 
 
 STUDIES = {
-    name: ReadyStudy(find(name).title, find(name).about, partial(_ready_series, name)) for name in CLAIMS
+    each.name: ReadyStudy(each.title, each.about, partial(_ready_series, each.text, each.name))
+    for each in map(find, CLAIMS)
 }
