@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass as plain
 from dataclasses import fields, replace
 from functools import partial
-from typing import Annotated, Any, Generic, Literal, TypeVar, get_args
+from typing import Annotated, Any, Generic, Literal, TypeAlias, TypeVar, get_args
 
 import numpy as np
 from pydantic import AfterValidator, Discriminator, Field, Tag, ValidationError, model_validator
@@ -37,7 +37,7 @@ from ...library.case import Draws, ModelNames, Share
 from ...library.describe import folders
 from ...library.ready import CLAIMS, find, ready
 from ...solving.cost import MOST_VALUES
-from .series import KINDS, Series
+from .series import Series
 
 Size = Literal["quick", "standard", "full"]
 SIZES: tuple[Size, ...] = get_args(Size)
@@ -47,7 +47,7 @@ INSTEAD = {"loads": "depths", "depths": "loads", "speeds": "rates", "rates": "sp
 TABLES = "indenter", "elastomer", "roughness", "temperature"  # of a ready scene
 
 Quantity = TypeVar("Quantity")
-Partly = Quantity | dict[str, Any] | None  # a table that others complete
+Partly: TypeAlias = Quantity | dict[str, Any] | None  # a table that others complete
 Body = Annotated[Sphere | Cone | PowerLaw, Field(discriminator="type")]
 ReadyScene: Any = Literal[tuple(name for name, each in ready().items() if each.kind == "scene")]
 
@@ -96,10 +96,8 @@ class _Asked:
     loads: Numbers[Force] | None = None
     depths: Numbers[Length] | None = None
     prescribed: Literal["depth"] | None = None
-    surfaces: Draws | None = None
-    profiles: Draws | None = None
     interval: Share | None = None
-    claims: Annotated[tuple[Kind, ...], Field(min_length=1)] = KINDS
+    claims: Annotated[tuple[Kind, ...], Field(min_length=1)] = get_args(Kind)
 
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
@@ -123,6 +121,8 @@ class Stated(_Asked):
     """
 
     scene: ReadyScene = None
+    surfaces: Draws | None = None
+    profiles: Draws | None = None
     indenter: Partly[Body] = None
     elastomer: Partly[Elastomer] = None
     roughness: Partly[SelfAffine] = None
@@ -195,6 +195,8 @@ class _Complete(_Asked):
     elastomer: Elastomer
     roughness: SelfAffine
     temperature: Temperature | None = None
+    surfaces: Draws
+    profiles: Draws
     bem: BEM
     mdr: MDR = MDR()
 
@@ -238,7 +240,7 @@ class _Complete(_Asked):
         if self.loads and self.prescribed:
             pressed = (replace(scene, motion=Indent(load=load)) for load in values)
             values, prescribed = tuple(elastic_contact(each).depth for each in pressed), self.prescribed
-        press = {prescribed: values[0]}
+        press: dict[str, Any] = {prescribed: values[0]}
         motion: Indent | Slide | Program = Indent(**press)
         if self.speeds:
             motion = Slide(speed=speeds[0], **press)
@@ -285,7 +287,8 @@ def study_of(text: str, name: str) -> ReadyStudy:
     """
     content = parsed(text, name)
     file: StudyFile = made(content, StudyFile, name)
-    found, lines = {size: list[Series]() for size in SIZES}, []
+    found: dict[str, list[Series]] = {size: [] for size in SIZES}
+    lines = []
     for number, (own, stated) in enumerate(zip(file.series, content["series"], strict=True)):
         for size in own.only:
             place = f"series.{number}"
@@ -333,8 +336,8 @@ def _over(below: dict, above: dict) -> dict:
 def _numbers(given: Any) -> tuple[float, ...]:
     """Numbers of a list, of a range that has both ends, or none."""
     if isinstance(given, Range):
-        whole = given.least and given.greatest
-        return tuple(np.geomspace(given.least, given.greatest, given.count).tolist()) if whole else ()
+        stated: Any = given.least, given.greatest, given.count
+        return () if None in stated else tuple(np.geomspace(*stated).tolist())
     return given or ()
 
 

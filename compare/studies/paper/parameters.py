@@ -128,8 +128,7 @@ def contact(shape: str) -> Scene:
 
 def resolved(shape: str) -> Scene:
     """A contact of Fig. 1 with a shortest wave that both dimensionalities resolve."""
-    scene = contact(shape)
-    return replace(scene, roughness=replace(scene.roughness, shortest=SHORTEST))
+    return replace(contact(shape), roughness=replace(contact_rough(shape), shortest=SHORTEST))
 
 
 def contact_rough(shape: str) -> SelfAffine:
