@@ -2,7 +2,6 @@
 
 from collections.abc import Iterable
 from dataclasses import fields
-from importlib.resources import as_file, files
 from math import nan, sqrt
 from pathlib import Path
 from typing import Annotated, Any
@@ -277,13 +276,3 @@ def read_case(path: str | Path) -> Case:
     case = read(path, Case)
     case.refuse()
     return case
-
-
-def shipped_cases() -> dict[str, Case]:
-    """The cases that come with the package, by name: the paper's rough sphere and rough cone."""
-    folder = files("compare.library") / "scenes"
-    cases = {}
-    for name in ("paper-sphere", "paper-cone"):
-        with as_file(folder / f"{name}.toml") as path:
-            cases[name] = read_case(path)
-    return cases

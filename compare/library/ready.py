@@ -9,7 +9,7 @@ from pathlib import Path
 from textwrap import wrap
 from typing import Any
 
-from ..solving.suggest import known, suggestion
+from ..solving.suggest import known
 
 _END = "\n#\n"  # of what a file is about, in the comment with which it begins
 _ALONE = "from Python"  # how it is solved, in the same comment of a scene that cannot be compared
@@ -26,13 +26,6 @@ MEASURE = "`crosscheck workprecision NAME` measures one; all, every one of them.
 NEW = "`crosscheck new NAME` copies a scene or a study, for you to change."
 # Studies of the paper's claims, which `crosscheck study all` does.
 CLAIMS = "collapse", "solids", "hurst", "parameters", "regime", "depth"
-
-
-class NotReady(LookupError):
-    """No scene or study of that name comes with the package; the message says which do."""
-
-    def __str__(self) -> str:
-        return str(self.args[0])
 
 
 @dataclass(frozen=True)
@@ -153,14 +146,9 @@ def offered() -> Listing:
 
 
 def find(name: str) -> Ready:
-    """Content of a name. Raises NotReady."""
-    every = ready()
-    if name not in every:
-        from scene.printable import brief  # slow, and only a mistake needs it
-
-        meant = suggestion(name, every) or "."
-        raise NotReady(f"no scene or study is called {brief(repr(name))}{meant} There are {', '.join(every)}")
-    return every[name]
+    """Scene or study of a name. Raises InvalidInput."""
+    known("NAME", name, ready())
+    return ready()[name]
 
 
 def write(name: str, path: str | Path, schema: str | Path | None = None) -> Path:
@@ -170,7 +158,6 @@ def write(name: str, path: str | Path, schema: str | Path | None = None) -> Path
 
     Raises InvalidInput for another name or a file that is there, OSError where it cannot be written.
     """
-    known("NAME", name, ready())
     text, path = find(name).text, Path(path)
     try:
         with path.open("x", encoding="utf-8", newline="\n") as file:

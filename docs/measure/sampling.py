@@ -14,7 +14,7 @@ from tables import replaced, stored, table
 
 from compare.figures import style
 from compare.figures.lettering import lettered
-from compare.library.case import shipped_cases
+from compare.library.lookup import named_cases
 from compare.models.table import Model, Models
 from compare.solving.parameter_grid import FINE, ParameterGrid, on_two_grids
 from compare.statistics import means
@@ -40,7 +40,7 @@ HEADER = "body|v [m/s]|grid|half-width|surfaces by grid|sampled [s]|fixed [s]|sh
 def main() -> None:
     """Measure all, and write the page, its table and its figure."""
     rows = []
-    for name, case in shipped_cases().items():
+    for name, case in named_cases().items():
         for points, speed in ((points, speed) for points in ASKED for speed in SPEEDS):
             scene = replace(case, bem=replace(case.bem, points=points))
             rows += [{"body": name.removeprefix("paper-"), **row} for row in _rows(scene, speed)]

@@ -10,7 +10,7 @@ from damage import places
 from compare import run
 from compare.library.case import Case
 from compare.library.lookup import located
-from compare.library.ready import NotReady, find, ready, write
+from compare.library.ready import find, ready, write
 from compare.solving.cost import MOST_VALUES
 from compare.studies.claims.study import ClaimStudy
 from compare.studies.claims.study_file import StudyFile, study_of
@@ -75,7 +75,7 @@ def test_a_copy_may_name_a_schema_for_editors(tmp_path):
 
 
 def test_a_name_that_is_not_there_is_said_with_what_is():
-    with pytest.raises(NotReady, match=r"'hert'; did you mean hertz\? There are .*paper-sphere"):
+    with pytest.raises(InvalidInput, match=r"NAME = hert: .*paper-sphere.*; did you mean hertz\?"):
         find("hert")
     with pytest.raises(InvalidInput, match=r"NAME = nothing: allowed are cold-rubber"):
         write("nothing", "nowhere.toml")
@@ -213,5 +213,5 @@ def test_a_folder_of_an_earlier_run_does_not_hide_the_ready_scene_it_was_made_fr
     (tmp_path / "quick-start").mkdir()
     (tmp_path / "elsewhere").mkdir()
     assert located("quick-start").name == "quick-start.toml"
-    with pytest.raises(InvalidInput, match="is a folder, and no scene"):
+    with pytest.raises(InvalidInput, match="is a folder, and a file is needed, and no ready scene"):
         located("elsewhere")
