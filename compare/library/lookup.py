@@ -2,11 +2,11 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import fields
-from importlib.resources import files
+from importlib import resources
 from os import PathLike
 from os.path import isdir, isfile
 from pathlib import Path
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from scene import Scene
 from scene.files import Unreadable, checked
@@ -14,10 +14,11 @@ from scene.printable import brief, printable
 from scene.reading import MOST, InvalidInput, parsed, read, text_of
 
 from ..solving.suggest import suggestion
-from .case import Case, read_case
+from .case import Case
 from .ready import FOLDERS, ready
 
 COMMANDS = {"scene": "run", "study": "study"}  # which command takes a file of which kind
+PAPER = "paper-sphere", "paper-cone"
 # A scene as a file, as the name of a ready one, or as an object.
 SceneLike: TypeAlias = str | Path | Case | Scene
 
@@ -29,20 +30,17 @@ def named_cases(
 
     Raises InvalidInput, and Refused of a case that cannot be compared.
     """
-    if asked is None or (isinstance(asked, Sequence) and not asked):
-        asked = "paper-sphere", "paper-cone"
-    if isinstance(asked, str | Path | Sequence):
-        if not isinstance(asked, str | Path) and not all(isinstance(each, str | Path) for each in asked):
-            raise InvalidInput("scene: several have names, as run({name: scene}); a list holds files")
-        found: dict[str, Path] = {}
-        for path in map(located, [asked] if isinstance(asked, str | Path) else asked):
-            if (other := found.setdefault(printable(path.stem), path)) is not path:
+    if asked is None or isinstance(asked, str | Path | Sequence):
+        several: dict[str, Any] = {}
+        files = [asked] if isinstance(asked, str | Path) else asked or PAPER
+        for path in map(located, files):
+            if (other := several.setdefault(printable(path.stem), path)) is not path:
                 raise InvalidInput(
                     f"scene = {brief(str(other))}, {brief(str(path))}: both are called {brief(path.stem)}, which "
                     "their results are named by: rename one, or from Python give names, run({name: file})"
                 )
-        return {name: read_case(path) for name, path in found.items()}
-    several = asked if isinstance(asked, Mapping) else {"scene": asked}
+    else:
+        several = dict(asked) if isinstance(asked, Mapping) else {"scene": asked}
     cases = {name: case_of(each) for name, each in several.items()}
     for case in cases.values():
         case.refuse()
@@ -70,7 +68,7 @@ def located(asked: str | Path, kind: str = "scene") -> Path:
             raise InvalidInput(
                 f"{name}: is a ready {found.kind}, and no {kind}: crosscheck {found.command} {name}"
             )
-        return Path(str(files("compare.library"))) / FOLDERS[kind] / f"{name}.toml"
+        return Path(str(resources.files("compare.library"))) / FOLDERS[kind] / f"{name}.toml"
     try:
         checked(path, MOST)
     except Unreadable as error:

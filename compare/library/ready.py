@@ -1,6 +1,7 @@
 """Scenes and studies to begin with, which come with the package: what there is, and a copy of one of them."""
 
 import re
+import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -173,13 +174,8 @@ def write(name: str, path: str | Path, schema: str | Path | None = None) -> Path
 
 
 def _ready(kind, name, text):
-    comment = text.partition("\n\n")[0]
-    about = " ".join(line.removeprefix("# ") for line in comment.partition(_END)[0].splitlines())
+    content, comment = tomllib.loads(text), text.partition("\n\n")[0]
+    words = " ".join(line.removeprefix("# ") for line in comment.partition(_END)[0].splitlines())
     command = "study" if kind == "study" else "plan" if _ALONE in comment else "run"
-    title = _stated("title", text) or re.split("[.:]", about)[0]
-    return Ready(name, title, _stated("about", text) or about, kind, command, text)
-
-
-def _stated(name, text):
-    found = re.search(f'^{name} = "(.+)"$', text, re.MULTILINE)
-    return found and found[1]
+    title = content.get("title", re.split("[.:]", words)[0])
+    return Ready(name, title, content.get("about", words), kind, command, text)
