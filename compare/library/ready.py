@@ -1,8 +1,7 @@
 """Scenes and studies to begin with, which come with the package: what there is, and a copy of one of them."""
 
 import re
-import tomllib
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
@@ -12,6 +11,7 @@ from typing import Any
 
 from ..solving.suggest import known
 
+_STATED = re.compile(r'^(title|about) = "(.+)"$', re.MULTILINE)
 _END = "\n#\n"  # of what a file is about, in the comment with which it begins
 _ALONE = "from Python"  # how it is solved, in the same comment of a scene that cannot be compared
 WIDTH = 100
@@ -89,22 +89,30 @@ class Listing(dict[str, Any]):
         self.groups, self.end = groups or {"": list(offered)}, end
 
     def __str__(self) -> str:
-        return self._table(lambda name, width: [])
+        return self._table()
 
     @property
     def details(self) -> str:
         """The table with what each is about: what the command prints under -v."""
-        return self._table(lambda name, width: wrap(self[name].about, WIDTH - width, break_on_hyphens=False))
+        return self._table(about=True)
 
-    def _table(self, below: Callable[[str, int], list[str]]) -> str:
-        width = max((len(name) for name in self), default=0) + 2
+    def _table(self, about: bool = False) -> str:
+        width = max(map(len, self), default=0) + 2
         lines = []
         for heading, names in self.groups.items():
             lines += [heading] if heading else []
             lines += [f"{'Name':{width}s}Title", "-" * (width + max(len(self[name].title) for name in names))]
             for name in names:
-                lines += [f"{name:{width}s}{self[name].title}"]
-                lines += [" " * width + line for line in below(name, width)]
+                lines.append(f"{name:{width}s}{self[name].title}")
+                if about:
+                    indent = " " * width
+                    lines += wrap(
+                        self[name].about,
+                        WIDTH,
+                        initial_indent=indent,
+                        subsequent_indent=indent,
+                        break_on_hyphens=False,
+                    )
             lines.append("")
         return "\n".join([*lines, self.end]).strip("\n")
 
@@ -174,8 +182,9 @@ def write(name: str, path: str | Path, schema: str | Path | None = None) -> Path
 
 
 def _ready(kind, name, text):
-    content, comment = tomllib.loads(text), text.partition("\n\n")[0]
+    comment = text.partition("\n\n")[0]
     words = " ".join(line.removeprefix("# ") for line in comment.partition(_END)[0].splitlines())
     command = "study" if kind == "study" else "plan" if _ALONE in comment else "run"
-    title = content.get("title", re.split("[.:]", words)[0])
-    return Ready(name, title, content.get("about", words), kind, command, text)
+    stated = dict(_STATED.findall(text.partition("\n[")[0]))
+    title = stated.get("title", re.split("[.:]", words)[0])
+    return Ready(name, title, stated.get("about", words), kind, command, text)
