@@ -52,9 +52,8 @@ class SteepContact:
 
 def contacts() -> Iterator[SteepContact]:
     """Sphere and cone under the least and the greatest load, at each speed."""
-    steep = {each.name: each for each in STUDIES["regime"].series("full")}
-    for body in ("sphere", "cone"):
-        scene, (low, *_, high) = steep[body].scene, steep[body].values
+    for series in STUDIES["regime"].series("full")[::3]:
+        body, scene, (low, *_, high) = series.name, series.scene, series.values
         unit = scene.roughness.shortest / (2 * pi * scene.elastomer.relaxation_time)
         for speed in SPEEDS:
             for load in (low, high):

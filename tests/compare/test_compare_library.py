@@ -12,7 +12,6 @@ from compare.library.case import Case
 from compare.library.lookup import located
 from compare.library.ready import find, ready, write
 from compare.solving.cost import MOST_VALUES
-from compare.studies.claims.study import ClaimStudy
 from compare.studies.claims.study_file import StudyFile, study_of
 from compare.studies.plan import plans
 from compare.studies.schema import DIALECT, schema
@@ -20,7 +19,6 @@ from scene import Prony, Refused, Scene
 from scene.reading import InvalidInput, made, read
 
 SCENES = [name for name, each in ready().items() if each.kind == "scene"]
-STUDIES = [name for name, each in ready().items() if each.kind == "study"]
 # What only some solvers answer, or what is no steady motion.
 FROM_PYTHON = {"line-contact", "partial-slip", "rough-plane", "shaken-load", "there-and-back", "thin-layer"}
 ONE_SOLVER = {"line-contact", "rough-plane", "thin-layer"}
@@ -46,13 +44,6 @@ def test_every_scene_is_read_and_planned(name, tmp_path):
     assert {solver for solver, plan in found.items() if isinstance(plan, str)} == (
         {"MDR"} if name in ONE_SOLVER else set()
     )
-
-
-@pytest.mark.parametrize("name", STUDIES)
-def test_every_study_is_read_and_can_be_asked(name, tmp_path):
-    study = ClaimStudy.of(written(name, tmp_path))
-    assert study.title == find(name).title
-    assert study.grids()
 
 
 COMPARED = sorted(set(SCENES) - FROM_PYTHON - {"paper-sphere", "paper-cone"})

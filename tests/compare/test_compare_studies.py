@@ -7,6 +7,7 @@ import pytest
 from invented_answers import FEW, SERIES, SLOPE, cut, eq_19, obeying, other, spoiled
 
 from bem3d import BEM
+from compare.library.ready import studies
 from compare.solving import parameter_grid
 from compare.solving.parameter_grid import COARSE, FINE
 from compare.statistics.finding import REPORTED
@@ -18,7 +19,6 @@ from compare.studies.claims.judgement import judge_series
 from compare.studies.claims.laws import laws
 from compare.studies.claims.series import SMOOTH, Contacts, Series
 from compare.studies.claims.study import ClaimStudy
-from compare.studies.claims.study_file import STUDIES
 from compare.studies.theory import THEORIES
 from mdr1d import MDR
 from scene import Indent, Kelvin, Program, Scene, SelfAffine, Slide, Sphere, Stage
@@ -259,10 +259,11 @@ MANY_TASKS = ("solids", "hurst", "parameters", "regime")
 
 @pytest.mark.parametrize(
     "name",
-    [pytest.param(name, marks=pytest.mark.slow if name in MANY_TASKS else ()) for name in STUDIES],
+    [pytest.param(name, marks=pytest.mark.slow if name in MANY_TASKS else ()) for name in studies()],
 )
 def test_every_study_can_be_solved_by_both_and_solves_nothing_twice(name):
     study = ClaimStudy.of(name, "quick")
+    assert (study.title, study.about) == (studies()[name].title, studies()[name].about)
     contacts = parameter_grid.contacts_of(study.grids())
     assert len({(each.solver, each.scenes) for each in contacts}) == len(contacts)
     assert {each.solver.name for each in contacts} - {each.name for each in THEORIES} == {"MDR", "BEM"}
