@@ -11,14 +11,14 @@ from compare.comparison.answers import Answers
 from compare.comparison.curve import COARSE, FAILED, FINE, NOT_ASKED, SOLVED
 from compare.comparison.rough import ROUGH, SMOOTH, RoughSeries
 from compare.comparison.series import Judged
-from compare.studies.claims import catalogue
+from compare.studies.paper import parameters
 from mdr1d import MDR, equations
 
 SURFACES = 8
 SERIES = RoughSeries(
     name="sphere",
     title="Rough sphere",
-    scene=catalogue.kelvin("sphere"),
+    scene=parameters.resolved("sphere"),
     speeds=tuple(float(v) for v in np.geomspace(2e-3, 4.0, 10)),
     values=tuple(float(f) for f in np.geomspace(0.05, 50, 8)),
     surfaces=SURFACES,

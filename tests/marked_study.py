@@ -5,12 +5,14 @@ import json
 import os
 from dataclasses import dataclass, replace
 
+from compare.comparison.study_file import STUDIES, ReadyStudy
+
 from bem3d import BEM
 from compare.cli.app import main
 from compare.comparison.curve import tasks_of
 from compare.comparison.rough import RoughSeries
 from compare.solving.task import SCENES
-from compare.studies.claims.catalogue import STUDIES, ReadyStudy, kelvin
+from compare.studies.paper.parameters import resolved
 from mdr1d import MDR
 
 
@@ -40,7 +42,7 @@ class MarkedBEM(BEM):
 
 
 def series():
-    scene = kelvin("sphere")
+    scene = resolved("sphere")
     scene = replace(scene, roughness=replace(scene.roughness, shortest=2e-3, seed=1))
     solvers = {"bem": MarkedBEM(points=32), "mdr": MarkedMDR(points=500)}
     return RoughSeries("s", "Sphere", scene, (0.05, 0.1), (5.0, 10.0, 20.0), surfaces=4, profiles=2, **solvers)

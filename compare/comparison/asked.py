@@ -16,11 +16,10 @@ from ..library.lookup import SceneLike, located, named_cases
 from ..library.ready import ready, studies
 from ..models.table import ModelLike, listed
 from ..solving.suggest import known
-from ..studies.claims.catalogue import SIZES, STUDIES
-from ..studies.claims.study_file import study_of
 from .around import Around
 from .comparison import Comparison
 from .curve import refuse
+from .study_file import SIZES, STUDIES, study_of
 from .sweep import SweepSeries
 
 ALL = "all"
@@ -104,7 +103,7 @@ def study(
             interval=wanted or each.interval,
         )
         for own, found in asked.items()
-        for each in found.series(SIZES[size])
+        for each in found.series(size)
     )
     inputs = {"name": str(name), "size": size} | ({} if wanted is None else {"interval": wanted}) | source
     made = Comparison(series, "study", title, about, slug(f"{name}-{size}"), inputs)

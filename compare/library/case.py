@@ -2,9 +2,7 @@
 
 from collections.abc import Iterable
 from dataclasses import fields
-from importlib.resources import as_file, files
 from math import nan, sqrt
-from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
@@ -20,7 +18,7 @@ from scene.motion import Motion
 from scene.printable import brief
 from scene.protocol import trusted
 from scene.quantities import CLOSED, ROW, Positive, Speed, Whole
-from scene.reading import InvalidInput, read
+from scene.reading import InvalidInput
 from scene.rheology import Elastomer
 from scene.roughness import Roughness
 from scene.scales import elastic_contact
@@ -90,22 +88,6 @@ class NotCompared(Refused):
     """The scene is of a kind that nothing compares, whatever its numbers; a solver may solve it from Python."""
 
 
-def _distinct(study):
-    for name in ("speeds", "pressing", "load_speeds", "depths"):
-        values = getattr(study, name)
-        if values is not None and len(set(values)) < len(values):
-            raise ValueError(f"{name} = {brief(repr(list(values)))}: a value stands there twice, once is allowed")
-    return study
-
-
-def _either(study):
-    if study.interval is not None and (study.surfaces, study.profiles) != (None, None):
-        raise ValueError(
-            f"interval = {study.interval:g}: it takes the place of surfaces and profiles, leave them out"
-        )
-    return study
-
-
 def _rough(roughness):
     """Roughness of no height is none."""
     return None if roughness is None or roughness.flat else roughness
@@ -133,8 +115,19 @@ class Variations:
     profiles: Draws | None = None
     interval: Share | None = None
 
-    _no_value_twice = model_validator(mode="after")(_distinct)
-    _one_way_to_draw = model_validator(mode="after")(_either)
+    @model_validator(mode="after")
+    def _once_and_one_way_to_draw(self):
+        for name in ("speeds", "pressing", "load_speeds", "depths"):
+            values = getattr(self, name) or ()
+            if len(set(values)) < len(values):
+                raise ValueError(
+                    f"{name} = {brief(repr(list(values)))}: a value stands there twice, once is allowed"
+                )
+        if self.interval is not None and (self.surfaces or self.profiles):
+            raise ValueError(
+                f"interval = {self.interval:g}: it takes the place of surfaces and profiles, leave them out"
+            )
+        return self
 
 
 @dataclass(frozen=True)
@@ -259,20 +252,3 @@ def doubted(*cases: Case, curves: Iterable[Scene] = ()) -> tuple[str, ...]:
     for each in (*(doubt for case in cases for doubt in case.doubts), *beyond):
         told.setdefault((each.name, each.limit), str(each))
     return tuple(told.values())
-
-
-def read_case(path: str | Path) -> Case:
-    """A case from a TOML file; without a title it is called by the file's name. Raises InvalidInput, Refused."""
-    case = read(path, Case)
-    case.refuse()
-    return case
-
-
-def shipped_cases() -> dict[str, Case]:
-    """The cases that come with the package, by name: the paper's rough sphere and rough cone."""
-    folder = files("compare.library") / "scenes"
-    cases = {}
-    for name in ("paper-sphere", "paper-cone"):
-        with as_file(folder / f"{name}.toml") as path:
-            cases[name] = read_case(path)
-    return cases

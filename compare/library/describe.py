@@ -9,7 +9,7 @@ from typing import Any
 
 from matplotlib.ticker import EngFormatter
 
-from scene import Indent, Program, Shear, Slide
+from scene import Program, Shear, Slide
 from scene.motion import PRESSES
 from scene.plan import by
 from scene.printable import brief
@@ -39,11 +39,6 @@ def described(part: Any) -> str:
     """A part of a scene in words with units: Sphere, radius 10 mm; what is absent is not named."""
     name = getattr(part, "type", type(part).__name__)
     kind = KINDS.get(name, name.replace("-", " ").capitalize())
-    if isinstance(part, Indent | Slide):
-        moved = f" at {_quantity(part, 'speed')}" if isinstance(part, Slide) else ""
-        return (
-            f"{kind}{moved} {'to' if part.pressed_by == 'depth' else 'under'} {_quantity(part, part.pressed_by)}"
-        )
     said = [
         f"{WORDS.get(name, name.replace('_', ' '))} {_quantity(part, name)}"
         for name, value in asdict(part).items()
@@ -81,15 +76,15 @@ def folders(names: Iterable[str], what: str) -> dict[str, str]:
     for name in names:
         if not (isinstance(name, str) and name.isprintable()):
             raise InvalidInput(f"{what} {brief(repr(name))}: a name is a text in printable letters")
-        folder, said = slug(name), f"{what} {brief(name)!r}"
-        if folder in TAKEN or len(folder) > MOST_LETTERS:
-            why = f"has more than {MOST_LETTERS} letters" if len(folder) > MOST_LETTERS else "has another use"
-            raise InvalidInput(f"{said}: its folder, {brief(folder)}, {why}: choose another name")
-        if folder in found:
-            raise InvalidInput(
-                f"{said}: has the folder of {brief(found[folder])!r}, {folder}: names must differ in more than "
-                "capitals, accents and what is neither a letter from a to z nor a figure"
-            )
+        folder, why = slug(name), ""
+        if folder in TAKEN:
+            why = f"its folder, {folder}, has another use"
+        elif len(folder) > MOST_LETTERS:
+            why = f"its folder has more than {MOST_LETTERS} letters"
+        elif folder in found:
+            why = f"has the folder of {brief(found[folder])!r}, {folder}"
+        if why:
+            raise InvalidInput(f"{what} {brief(name)!r}: {why}: choose another name")
         found[folder] = name
     return {name: folder for folder, name in found.items()}
 

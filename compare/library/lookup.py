@@ -2,11 +2,11 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import fields
-from importlib.resources import files
+from importlib import resources
 from os import PathLike
-from os.path import isdir, lexists
+from os.path import isdir, isfile
 from pathlib import Path
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from scene import Scene
 from scene.files import Unreadable, checked
@@ -14,10 +14,11 @@ from scene.printable import brief, printable
 from scene.reading import MOST, InvalidInput, parsed, read, text_of
 
 from ..solving.suggest import suggestion
-from .case import Case, read_case, shipped_cases
+from .case import Case
 from .ready import FOLDERS, ready
 
 COMMANDS = {"scene": "run", "study": "study"}  # which command takes a file of which kind
+PAPER = "paper-sphere", "paper-cone"
 # A scene as a file, as the name of a ready one, or as an object.
 SceneLike: TypeAlias = str | Path | Case | Scene
 
@@ -29,20 +30,17 @@ def named_cases(
 
     Raises InvalidInput, and Refused of a case that cannot be compared.
     """
-    if asked is None or (isinstance(asked, Sequence) and not asked):
-        return shipped_cases()
-    if isinstance(asked, str | Path | Sequence):
-        if not isinstance(asked, str | Path) and not all(isinstance(each, str | Path) for each in asked):
-            raise InvalidInput("scene: several have names, as run({name: scene}); a list holds files")
-        found: dict[str, Path] = {}
-        for path in map(located, [asked] if isinstance(asked, str | Path) else asked):
-            if (other := found.setdefault(printable(path.stem), path)) is not path:
+    if asked is None or isinstance(asked, str | Path | Sequence):
+        several: dict[str, Any] = {}
+        files = [asked] if isinstance(asked, str | Path) else asked or PAPER
+        for path in map(located, files):
+            if (other := several.setdefault(printable(path.stem), path)) is not path:
                 raise InvalidInput(
                     f"scene = {brief(str(other))}, {brief(str(path))}: both are called {brief(path.stem)}, which "
                     "their results are named by: rename one, or from Python give names, run({name: file})"
                 )
-        return {name: read_case(path) for name, path in found.items()}
-    several = asked if isinstance(asked, Mapping) else {"scene": asked}
+    else:
+        several = dict(asked) if isinstance(asked, Mapping) else {"scene": asked}
     cases = {name: case_of(each) for name, each in several.items()}
     for case in cases.values():
         case.refuse()
@@ -63,31 +61,25 @@ def located(asked: str | Path, kind: str = "scene") -> Path:
     if not isinstance(asked, str | PathLike):
         others = ", a Scene or a Case" if kind == "scene" else ""
         raise InvalidInput(f"{kind} = {brief(repr(asked))}: a file, the name of a ready {kind}{others} is needed")
-    path, every, name = Path(asked), ready(), brief(str(asked))
+    path, every, name = Path(asked), ready(), str(asked)
     # A folder may be called as a ready one is: that of an earlier run.
-    if not (isdir(path) and str(asked) in every):
-        try:
-            checked(path, MOST)
-        except Unreadable as error:
-            if isdir(path):
-                raise InvalidInput(f"{name}: is a folder, and no {kind}") from error
-            if lexists(path):
-                raise InvalidInput(str(error)) from error
-            # A name is sought among the ready ones too, and in no folder.
-            nowhere = isinstance(error.__cause__, FileNotFoundError)
-            missing = f"{name}: no such file" if nowhere else str(error)
-        else:
-            if (other := _other_kind(path, kind)) is not None:
-                raise InvalidInput(f"{name}: is a {other}, and no {kind}: crosscheck {COMMANDS[other]} {name}")
-            return path
-    known = [each.name for each in every.values() if each.kind == kind]
-    if str(asked) in known:
-        return Path(str(files("compare.library"))) / FOLDERS[kind] / f"{asked}.toml"
-    if str(asked) in every:
-        found = every[str(asked)]
-        raise InvalidInput(f"{asked}: is a ready {found.kind}, and no {kind}: crosscheck {found.command} {asked}")
-    beside = [str(each) for each in path.parent.glob("*.toml")] if isdir(path.parent) else []
-    raise InvalidInput(f"{missing}, and no ready {kind}{suggestion(str(asked), [*known, *beside])}")
+    if (found := every.get(name)) and not isfile(path):
+        if found.kind != kind:
+            raise InvalidInput(
+                f"{name}: is a ready {found.kind}, and no {kind}: crosscheck {found.command} {name}"
+            )
+        return Path(str(resources.files("compare.library"))) / FOLDERS[kind] / f"{name}.toml"
+    try:
+        checked(path, MOST)
+    except Unreadable as error:
+        known = [each.name for each in every.values() if each.kind == kind]
+        beside = [str(each) for each in path.parent.glob("*.toml")] if isdir(path.parent) else []
+        raise InvalidInput(f"{error}, and no ready {kind}{suggestion(name, [*known, *beside])}") from error
+    if (other := _other_kind(path, kind)) is not None:
+        raise InvalidInput(
+            f"{brief(name)}: is a {other}, and no {kind}: crosscheck {COMMANDS[other]} {brief(name)}"
+        )
+    return path
 
 
 def _other_kind(path: Path, kind: str) -> str | None:

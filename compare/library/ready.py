@@ -1,16 +1,17 @@
 """Scenes and studies to begin with, which come with the package: what there is, and a copy of one of them."""
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from importlib.resources import files
 from pathlib import Path
 from textwrap import wrap
 from typing import Any
 
-from ..solving.suggest import known, suggestion
+from ..solving.suggest import known
 
-_TITLE = re.compile(r'^title = "(.+)"$', re.MULTILINE)
+_STATED = re.compile(r'^(title|about) = "(.+)"$', re.MULTILINE)
 _END = "\n#\n"  # of what a file is about, in the comment with which it begins
 _ALONE = "from Python"  # how it is solved, in the same comment of a scene that cannot be compared
 WIDTH = 100
@@ -23,14 +24,9 @@ SCENES = {
 STUDIES = "Studies: crosscheck study NAME"
 ALL = "`crosscheck study all` does the first six of them."
 MEASURE = "`crosscheck workprecision NAME` measures one; all, every one of them."
-NEW = "`crosscheck new NAME` copies a scene, or a study that is a file, for you to change."
-
-
-class NotReady(LookupError):
-    """No scene or study of that name comes with the package; the message says which do."""
-
-    def __str__(self) -> str:
-        return str(self.args[0])
+NEW = "`crosscheck new NAME` copies a scene or a study, for you to change."
+# Studies of the paper's claims, which `crosscheck study all` does.
+CLAIMS = "collapse", "solids", "hurst", "parameters", "regime", "depth"
 
 
 @dataclass(frozen=True)
@@ -38,8 +34,8 @@ class Ready:
     """A file to begin with.
 
     name : of the file, without .toml
-    title, about : for people; what it is about stands in its first lines; a scene alone, which
-        has no title, has its first words
+    title, about : for people; of a scene what stands in its first lines, and where it has no title their first
+        words
     kind : "scene" or "study"
     command : of `crosscheck`, by which it is asked: run, study, or plan of a scene that cannot be compared
     text : the file
@@ -60,40 +56,6 @@ class About:
     title: str
     about: str
 
-
-# Studies that are no files. Their texts stand here, as those who list them import no solver.
-CATALOGUE = {
-    "collapse": About(
-        "Does friction collapse on one curve?",
-        "Eq. 23 for the rough sphere and the rough cone of Fig. 1 on a Kelvin solid, across the knee of the "
-        "curve, at prescribed load and at prescribed depth.",
-    ),
-    "solids": About(
-        "Do other solids collapse on one curve too?",
-        "Eq. 23 for the rough sphere and the rough cone of Fig. 1 at prescribed load, on a standard linear solid, "
-        "E_g = 10 E_r, and on a solid whose loss grows as the root of the frequency.",
-    ),
-    "hurst": About(
-        "Hurst exponents from 0.1 to 0.9",
-        "Eq. 23 for rough spheres and cones on a Kelvin solid at prescribed load, of several Hurst exponents, "
-        "with the same rms height and the same waves.",
-    ),
-    "parameters": About(
-        "One parameter at a time",
-        "Eq. 23 for rough spheres and cones on a Kelvin solid at prescribed load, with another rms height, "
-        "another shortest wave, another relaxation time.",
-    ),
-    "regime": About(
-        "The regime of the paper",
-        "Roughness that is small against the depth and steep against the body, which in three dimensions takes "
-        "waves far shorter than the contact: a spectrum rolled off at a q_r of 20 or more.",
-    ),
-    "depth": About(
-        "Force and depth",
-        "The rough sphere and the rough cone of Fig. 1, pressed in to rest, and at constant rates on a standard "
-        "linear solid.",
-    ),
-}
 
 # Diagrams of `crosscheck workprecision`, in the order of its page.
 DIAGRAMS = {
@@ -127,28 +89,37 @@ class Listing(dict[str, Any]):
         self.groups, self.end = groups or {"": list(offered)}, end
 
     def __str__(self) -> str:
-        return self._table(lambda name, width: [])
+        return self._table()
 
     @property
     def details(self) -> str:
         """The table with what each is about: what the command prints under -v."""
-        return self._table(lambda name, width: wrap(self[name].about, WIDTH - width, break_on_hyphens=False))
+        return self._table(about=True)
 
-    def _table(self, below: Callable[[str, int], list[str]]) -> str:
-        width = max((len(name) for name in self), default=0) + 2
+    def _table(self, about: bool = False) -> str:
+        width = max(map(len, self), default=0) + 2
         lines = []
         for heading, names in self.groups.items():
             lines += [heading] if heading else []
             lines += [f"{'Name':{width}s}Title", "-" * (width + max(len(self[name].title) for name in names))]
             for name in names:
-                lines += [f"{name:{width}s}{self[name].title}"]
-                lines += [" " * width + line for line in below(name, width)]
+                lines.append(f"{name:{width}s}{self[name].title}")
+                if about:
+                    indent = " " * width
+                    lines += wrap(
+                        self[name].about,
+                        WIDTH,
+                        initial_indent=indent,
+                        subsequent_indent=indent,
+                        break_on_hyphens=False,
+                    )
             lines.append("")
         return "\n".join([*lines, self.end]).strip("\n")
 
     __repr__ = __str__
 
 
+@cache
 def ready() -> dict[str, Ready]:
     """Scenes and studies that come as files: scenes, then studies, by name. Nothing is imported for it."""
     found = {}
@@ -161,8 +132,9 @@ def ready() -> dict[str, Ready]:
 
 
 def studies() -> Listing:
-    """Every study that comes with the package: those of the paper's claims, then those of files."""
-    found = CATALOGUE | {name: each for name, each in ready().items() if each.kind == "study"}
+    """Every study that comes with the package: first those of the paper's claims."""
+    every = {name: each for name, each in ready().items() if each.kind == "study"}
+    found = {name: every[name] for name in CLAIMS} | every
     return Listing(found, {STUDIES: list(found)}, ALL)
 
 
@@ -183,14 +155,9 @@ def offered() -> Listing:
 
 
 def find(name: str) -> Ready:
-    """Content of a name. Raises NotReady."""
-    every = ready()
-    if name not in every:
-        from scene.printable import brief  # slow, and only a mistake needs it
-
-        meant = suggestion(name, every) or "."
-        raise NotReady(f"no scene or study is called {brief(repr(name))}{meant} There are {', '.join(every)}")
-    return every[name]
+    """Scene or study of a name. Raises InvalidInput."""
+    known("NAME", name, ready())
+    return ready()[name]
 
 
 def write(name: str, path: str | Path, schema: str | Path | None = None) -> Path:
@@ -200,7 +167,6 @@ def write(name: str, path: str | Path, schema: str | Path | None = None) -> Path
 
     Raises InvalidInput for another name or a file that is there, OSError where it cannot be written.
     """
-    known("NAME", name, ready())
     text, path = find(name).text, Path(path)
     try:
         with path.open("x", encoding="utf-8", newline="\n") as file:
@@ -217,7 +183,8 @@ def write(name: str, path: str | Path, schema: str | Path | None = None) -> Path
 
 def _ready(kind, name, text):
     comment = text.partition("\n\n")[0]
-    about = " ".join(line.removeprefix("# ") for line in comment.partition(_END)[0].splitlines())
-    title = _TITLE.search(text)
+    words = " ".join(line.removeprefix("# ") for line in comment.partition(_END)[0].splitlines())
     command = "study" if kind == "study" else "plan" if _ALONE in comment else "run"
-    return Ready(name, title[1] if title else re.split("[.:]", about)[0], about, kind, command, text)
+    stated = dict(_STATED.findall(text.partition("\n[")[0]))
+    title = stated.get("title", re.split("[.:]", words)[0])
+    return Ready(name, title, stated.get("about", words), kind, command, text)

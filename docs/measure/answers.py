@@ -15,13 +15,13 @@ import pandas
 import slow
 import spectrum
 import trust
+from compare.comparison.study_file import STUDIES
 from pandas import DataFrame
 from tables import finding, replaced, stored, table
 
 import compare
-from compare.solving.words import interval, number
-from compare.studies.claims.catalogue import STUDIES
 from compare.comparison.claims import ENDS
+from compare.solving.words import interval, number
 
 PAGE = Path(__file__).parents[1] / "results" / "answers.md"
 DOCS, README = PAGE.parent, PAGE.parents[2] / "README.md"

@@ -14,16 +14,16 @@ from pandas import DataFrame
 from tables import finding, replaced, stored, table
 
 import compare
+from compare.comparison.claims import ENDS
+from compare.comparison.curve import COARSE, FINE
 from compare.figures import style
 from compare.figures.shades import SPEED, bar, between
-from compare.comparison.curve import COARSE, FINE
 from compare.statistics import eq23
 from compare.statistics.collapse import collapse
 from compare.statistics.finding import verdict
 from compare.statistics.frictioncurves import SimulatedCurves
 from compare.statistics.jackknife import mean_ratio
-from compare.comparison.claims import ENDS
-from compare.studies.claims.contacts import STEEP
+from compare.studies.claims import study_file
 
 PAGE = Path(__file__).parents[1] / "results" / "fast.md"
 LAW = PAGE.with_name("law.md")
@@ -128,7 +128,7 @@ def _plain(found, claim, dimension, body):
 def _from_the_knee(tree, dimension, body):
     """What shifts come to at the speeds from the knee on."""
     answers = tree[f"{body}/rough/{SOLVERS[dimension]}"].to_dataset(inherit=False).isel(speed=slice(1, None))
-    scene, _ = STEEP[body]
+    scene = next(each.scene for each in study_file.STUDIES["regime"].series("full") if each.name == body)
     slowest = KNEE * scene.roughness.shortest / (2 * np.pi * scene.elastomer.relaxation_time)
     answers = answers.isel(speed=np.flatnonzero(answers["speed"] >= 0.999 * slowest))
     fine, coarse = (collapse(SimulatedCurves.of(answers.sel(level=grid))) for grid in (FINE, COARSE))

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Literal
 
 import numpy as np
+from compare.comparison.study_file import STUDIES
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from pandas import DataFrame
@@ -27,7 +28,6 @@ from compare.report.page import Plot
 from compare.report.views import view
 from compare.solving.task import draws_of
 from compare.statistics.jackknife import mean_ratio
-from compare.studies.claims.contacts import STEEP
 from compare.studies.draw import figure as draw
 from compare.studies.draw.study import datasets
 from mdr1d import MDR, equations
@@ -35,7 +35,9 @@ from scene import Slide
 
 PAGE = Path(__file__).parents[1] / "results" / "hero.png"
 NUMBERS, STEEP_CONTACTS = PAGE.with_suffix(".csv"), PAGE.parent / "law" / "steep.csv"
-SCENE, (LEAST, MOST) = STEEP["sphere"]
+STEEP = STUDIES["regime"].series("full")[0]
+SCENE = replace(STEEP.scene, roughness=replace(STEEP.scene.roughness, seed=0))
+LEAST, *_, MOST = STEEP.values
 LOADS, SPEEDS = np.geomspace(LEAST, MOST, 4), (1e-4, 2e-4, 4e-4, 8e-4)
 LINE, SPACE = MDR(points=5000), BEM(points=480)
 DRAWS = {LINE: 30, SPACE: 3}

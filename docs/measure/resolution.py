@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 from campaign import solved
+from compare.comparison.study_file import STUDIES
 from pandas import DataFrame
 from tables import replaced, stored, table
 
@@ -17,7 +18,6 @@ from bem3d import BEM
 from compare.figures import style
 from compare.figures.lettering import lettered
 from compare.solving.task import SceneTask
-from compare.studies.claims.contacts import STEEP
 from scene import Indent, Slide
 
 PAGE = Path(__file__).parents[1] / "results" / "resolution.md"
@@ -33,13 +33,12 @@ HEADER = (
 
 def main() -> None:
     """Solve what is not solved yet, and write the page, its table and its figure."""
-    scene, _ = STEEP["sphere"]
-    rough = replace(scene.roughness, seed=1)
-    wave = rough.shortest / (2 * pi * scene.elastomer.relaxation_time)
+    scene = STUDIES["regime"].series("full")[0].scene  # steep sphere
+    wave = scene.roughness.shortest / (2 * pi * scene.elastomer.relaxation_time)
     tasks = {}
     for speed in SPEEDS:
         motion = Slide(speed=speed * wave, load=LOAD) if speed else Indent(load=LOAD)
-        moving = replace(scene, roughness=rough, motion=motion)
+        moving = replace(scene, motion=motion)
         tasks |= {(speed, points): SceneTask(BEM(points=points), (moving,), work=points**2) for points in POINTS}
     outcomes = solved(PAGE, tasks.values())
     frame = DataFrame([_row(*place, outcomes[task].rows[0]) for place, task in tasks.items()])

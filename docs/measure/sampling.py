@@ -9,20 +9,20 @@ from pathlib import Path
 from time import process_time
 
 import numpy as np
+from compare.studies.sweep.study import Sweep
 from pandas import DataFrame
 from tables import replaced, stored, table
 
+from compare.comparison.curve import FINE, Curve, on_two_levels
 from compare.figures import style
 from compare.figures.lettering import lettered
-from compare.library.case import shipped_cases
+from compare.library.lookup import named_cases
 from compare.models.table import Model, Models
-from compare.comparison.curve import FINE, Curve, on_two_levels
 from compare.statistics import means
 from compare.statistics.intervals import student
 from compare.statistics.jackknife import mean_ratio
 from compare.statistics.means import FRICTION
 from compare.statistics.multilevel import pooled
-from compare.studies.sweep.study import Sweep
 from scene import Slide
 
 PAGE = Path(__file__).parents[1] / "results" / "sampling.md"
@@ -40,7 +40,7 @@ HEADER = "body|v [m/s]|grid|half-width|surfaces by grid|sampled [s]|fixed [s]|sh
 def main() -> None:
     """Measure all, and write the page, its table and its figure."""
     rows = []
-    for name, case in shipped_cases().items():
+    for name, case in named_cases().items():
         for points, speed in ((points, speed) for points in ASKED for speed in SPEEDS):
             scene = replace(case, bem=replace(case.bem, points=points))
             rows += [{"body": name.removeprefix("paper-"), **row} for row in _rows(scene, speed)]

@@ -10,13 +10,13 @@ from math import pi
 
 import numpy as np
 from campaign import friction, solved
+from compare.comparison.study_file import STUDIES
 from planes import PAGE as PLANES
 from tables import stored
 
 from bem3d import BEM
 from compare.solving.task import SceneTask, draws_of
 from compare.statistics.intervals import student
-from compare.studies.claims.contacts import STEEP
 from compare.trustmap.friction_law import FrictionLaw
 from scene import Scene, Slide
 
@@ -52,13 +52,13 @@ class SteepContact:
 
 def contacts() -> Iterator[SteepContact]:
     """Sphere and cone under the least and the greatest load, at each speed."""
-    for body, (scene, (low, high)) in STEEP.items():
-        rough = replace(scene.roughness, seed=1)
-        unit = rough.shortest / (2 * pi * scene.elastomer.relaxation_time)
+    for series in STUDIES["regime"].series("full")[::3]:
+        body, scene, (low, *_, high) = series.name, series.scene, series.values
+        unit = scene.roughness.shortest / (2 * pi * scene.elastomer.relaxation_time)
         for speed in SPEEDS:
             for load in (low, high):
                 slides = Slide(speed=speed * unit, load=load)
-                yield SteepContact(body, load, speed, replace(scene, roughness=rough, motion=slides))
+                yield SteepContact(body, load, speed, replace(scene, motion=slides))
 
 
 def main(workers: int | None = None) -> None:

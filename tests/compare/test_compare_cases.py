@@ -9,8 +9,7 @@ from typer.testing import CliRunner
 from compare.cli.app import app
 from compare.comparison import asked
 from compare.comparison.around import SMOOTH_DEPTH, curves, models_of
-from compare.library.case import read_case
-from compare.library.lookup import case_of
+from compare.library.lookup import case_of, named_cases
 from scene import Coulomb, Elastic, Indent, Program, Refused, Slide, Stage
 from scene.reading import InvalidInput
 from scene.scales import elastic_contact
@@ -20,7 +19,8 @@ from scene.scales import elastic_contact
 def case(tmp_path):
     path = tmp_path / "case.toml"
     path.write_text(SCENE)
-    return read_case(path)
+    (case,) = named_cases(path).values()
+    return case
 
 
 def test_a_scene_alone_is_a_case(case):

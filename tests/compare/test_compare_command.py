@@ -138,7 +138,7 @@ def test_the_schema_is_printed_or_written(tmp_path, kind):
 
 
 MISTAKES = {
-    "run zzzzzz": "zzzzzz: no such file, and no ready scene\n",
+    "run zzzzzz": "the working directory, and no ready scene\n",
     "run two-shapes": "is a ready study, and no scene: crosscheck study two-shapes",
     "run study.toml": "is a study, and no scene: crosscheck study study.toml",
     "run thin-layer": "crosscheck plan says what each solver makes of it",

@@ -6,6 +6,7 @@ from itertools import product
 import pint
 import pytest
 import xarray
+from compare.comparison.study_file import study_of
 from scene_files import HEAD, SCENE, SHARED, TABLES
 from small_cases import CURVE
 from stand_in_solver import Here
@@ -16,7 +17,6 @@ from compare.cli.app import app
 from compare.comparison import asked as questions
 from compare.library.case import Case, share_of
 from compare.solving.cost import DAY, MANY_CONTACTS, MOST_CONTACTS, SECONDS, Cost
-from compare.studies.claims.study_file import study_of
 from compare.studies.paper.study import Paper
 from compare.studies.pipeline import run
 from compare.studies.study import Study

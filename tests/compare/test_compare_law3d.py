@@ -16,12 +16,12 @@ from compare.comparison.theory import LAW, with_theory
 from compare.comparison.together import Member
 from compare.comparison.together import together as several
 from compare.statistics.finding import FAILS, HOLDS, REPORTED
-from compare.studies.claims import catalogue
+from compare.studies.paper import parameters
 from scene import Slide
 
 # Under the first load the roughness is more than a tenth of the depth.
 FEW = replace(SERIES, speeds=(0.03, 0.1, 0.5), values=(0.9, 20.0, 50.0))
-CONE = replace(FEW, name="cone", title="Rough cone", scene=catalogue.kelvin("cone"))
+CONE = replace(FEW, name="cone", title="Rough cone", scene=parameters.resolved("cone"))
 ROUNDING = 1e-9
 MEASURES = "friction_of_shape", "friction_of_roughness", "full_contact_friction", "share_of_full_contact"
 

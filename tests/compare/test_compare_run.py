@@ -253,7 +253,7 @@ def test_several_files_are_named_by_themselves_and_two_of_one_name_refused(tmp_p
     (tmp_path / "quick-start.toml").write_text(ready()["paper-cone"].text)
     with pytest.raises(InvalidInput, match=r"quick-start.toml, .*quick-start.toml: both are called quick-start"):
         asked.run([tmp_path / "quick-start.toml", "quick-start"])
-    with pytest.raises(InvalidInput, match="several have names"):
+    with pytest.raises(InvalidInput, match="a Scene or a Case is needed"):
         asked.run([CASE, DEEP])
 
 

@@ -13,9 +13,9 @@ from compare.comparison.laws import laws
 from compare.comparison.measures import SLOW, loading
 from compare.comparison.rough import SMOOTH, RoughSeries
 from compare.comparison.theory import THEORIES
+from compare.library.ready import studies
 from compare.statistics.finding import REPORTED
 from compare.statistics.jackknife import friction, mean
-from compare.studies.claims import catalogue
 from mdr1d import MDR
 from scene import Indent, Kelvin, Program, Scene, SelfAffine, Slide, Sphere, Stage
 from scene.reading import InvalidInput
@@ -259,10 +259,11 @@ MANY_TASKS = ("solids", "hurst", "parameters", "regime")
 
 @pytest.mark.parametrize(
     "name",
-    [pytest.param(name, marks=pytest.mark.slow if name in MANY_TASKS else ()) for name in catalogue.STUDIES],
+    [pytest.param(name, marks=pytest.mark.slow if name in MANY_TASKS else ()) for name in studies()],
 )
 def test_every_study_can_be_solved_by_both_and_solves_nothing_twice(name):
     study = asked.study(name, "quick")
+    assert (study.title, study.about) == (studies()[name].title, studies()[name].about)
     contacts = curve.contacts_of(study.grids())
     assert len({(each.solver, each.scenes) for each in contacts}) == len(contacts)
     assert {each.solver.name for each in contacts} - {each.name for each in THEORIES} == {"MDR", "BEM"}

@@ -2,18 +2,16 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
+from compare.comparison.study_file import STUDIES, study_of
 from scene_files import HEAD, SHARED, TABLES
 
 from compare.comparison import asked
 from compare.comparison.rough import KINDS
-from compare.studies.claims.catalogue import SIZES, STUDIES
-from compare.studies.claims.sizes import between
-from compare.studies.claims.study_file import study_of
 from scene import Cone, Indent, Kelvin, Program, Scene, SelfAffine, Slide, Sphere, Stage
 from scene.reading import InvalidInput
 
-QUICK = SIZES["quick"]
 SERIES = """
 [[series]]
 name = "a"
@@ -34,7 +32,7 @@ TEXT = HEAD + SHARED + TABLES + SERIES
 KELVIN = '"kelvin"\nmodulus = "1 MPa"\nrelaxation_time = "1 ms"'
 
 
-def asked(text, size=QUICK):
+def asked(text, size="quick"):
     return study_of(text, "mine").series(size)
 
 
@@ -48,7 +46,7 @@ def test_a_file_says_what_python_says():
     first, second = asked(TEXT)
     rough = SelfAffine(hurst=0.2, rms_height=50e-6, longest=10e-3, shortest=2e-3, seed=1)
     assert first.scene == Scene(Sphere(10e-3), Kelvin(1e6, 1e-3), Slide(speed=0.05, load=0.5), rough)
-    assert (first.speeds, first.values) == ((0.05, 0.1, 0.2), between(0.5, 2.0, 4))
+    assert (first.speeds, first.values) == ((0.05, 0.1, 0.2), tuple(np.geomspace(0.5, 2.0, 4)))
     assert (first.surfaces, first.profiles, first.bem.points, first.mdr.points) == (2, 3, 32, 400)
     assert (first.name, first.title, first.note, first.claims) == ("a", "a", "", KINDS)
     assert second.scene == replace(first.scene, indenter=Cone("10 deg"), roughness=replace(rough, hurst=0.6))
@@ -61,13 +59,13 @@ def test_a_file_says_what_python_says():
 def test_what_a_file_leaves_out_follows_from_the_size():
     short = TEXT.replace("surfaces = 2\nprofiles = 3\n", "").replace("[bem]\npoints = 32\n", "")
     short = short.replace(", count = 4", "").replace('["50 mm/s", 0.1, 0.2]', "{ least = 0.05, greatest = 0.2 }")
-    for size in (QUICK, SIZES["standard"]):
+    for size, speeds, values, *draws in (("quick", 6, 4, 3, 12, 128), ("standard", 12, 8, 10, 60, 256)):
         series = asked(short, size)[0]
-        assert (series.surfaces, series.profiles, series.bem.points) == (size.surfaces, size.profiles, size.points)
-        assert (len(series.speeds), len(series.values)) == (size.speeds, size.values)
+        assert [series.surfaces, series.profiles, series.bem.points] == draws
+        assert (len(series.speeds), len(series.values)) == (speeds, values)
         assert series.speeds[0] == 0.05
         assert series.speeds[-1] == pytest.approx(0.2, rel=1e-15)  # of a power
-    assert asked(TEXT, SIZES["standard"]) == asked(TEXT)
+    assert asked(TEXT, "standard") == asked(TEXT)
 
 
 def test_a_ready_scene_may_stand_below_all_tables():
@@ -75,6 +73,33 @@ def test_a_ready_scene_may_stand_below_all_tables():
     (series,) = asked(text)
     assert series.scene.indenter == Sphere(1e-2)
     assert series.scene.roughness == SelfAffine(hurst=0.5, rms_height=5e-5, longest=1e-2, shortest=5e-4, seed=1)
+
+
+def test_what_a_size_states_lies_over_what_is_stated_at_all_and_a_series_has_the_last_word():
+    sizes = """
+    [sizes.standard]
+    surfaces = 5
+    loads = { count = 3 }
+    bem = { points = 48 }
+    interval = "10%"
+    """
+    own = 'only = ["standard", "full"]\nbem.points = 64\nsizes.full.bem.points = 128\nnote ='
+    text = TEXT.replace("[[series]]", f"{sizes}[[series]]", 1).replace("note =", own)
+    quick, standard, full = (asked(text, size) for size in ("quick", "standard", "full"))
+    assert [each.name for each in quick] == ["a"]
+    assert (quick[0].surfaces, len(quick[0].values), quick[0].bem.points, quick[0].interval) == (2, 4, 32, None)
+    assert [(each.surfaces, len(each.values), each.interval) for each in standard] == [(5, 3, 0.1)] * 2
+    assert [each.bem.points for each in standard] == [48, 64]
+    assert [each.bem.points for each in full] == [32, 128]
+
+
+def test_depths_may_be_those_of_the_smooth_relaxed_body_under_loads():
+    series = asked(TEXT.replace('name = "a"', 'name = "a"\nprescribed = "depth"'))[0]
+    modulus = 8 / 3 * 1e6 / 0.5  # 4 E* / 3
+    assert series.prescribed == "depth"
+    assert series.slides
+    expected = (np.geomspace(0.5, 2.0, 4) / (modulus * 0.1)) ** (2 / 3)
+    assert series.values == pytest.approx(expected, rel=1e-9)
 
 
 def test_bodies_rest_without_speeds_and_are_pressed_in_at_rates():
@@ -98,12 +123,20 @@ def test_what_a_series_states_of_its_motion_replaces_what_is_shared():
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
-        ('name = "b"', 'name = "A"', ["series 'A': has the folder of 'a'"]),
+        ('name = "b"', 'name = "A"', ["series: series 'A': has the folder of 'a'"]),
         (", 0.1, 0.2]", "]", ["series.0: speeds: at least two", "series.1: speeds: at least two"]),
-        ("greatest = 2", "greatest = 0.2", ["loads: greatest = 0.2 must exceed least = 0.5"]),
+        (
+            "greatest = 2",
+            "greatest = 0.2",
+            ["series.0: loads: both ends of a range, or a list"],
+        ),
         ("surfaces = 2", "depths = [1e-4]", ["series.0: loads, depths: both given", "series.1: loads, depths"]),
         ("points = 32", "points = 24", ["series.0: bem.points = 24: at least 32", "series.1: bem.points"]),
-        ("hurst = 0.6", "rms_height = 0", ["series.1.roughness.rms_height = 0: a study asks what roughness does"]),
+        (
+            "hurst = 0.6",
+            "rms_height = 0",
+            ["series.1: roughness.rms_height = 0: a study asks"],
+        ),
         (KELVIN, '"elastic"\nmodulus = 1', ["series.0: speeds"]),
         (SERIES, "", ["series: missing, a list"]),
     ],
@@ -115,10 +148,12 @@ def test_a_mistake_is_named_with_its_place(old, new, said):
         assert any(each.startswith(f"mine: {line}") for each in lines), lines
 
 
-def test_every_mistake_is_named_at_once():
-    text = TEXT.replace("surfaces", "surfases").replace('"50 mm/s"', '"50 Pa"').replace('"10 deg"', '"10 m"')
-    named = [line.split(" ")[1] for line in mistakes_in(text)]
-    assert named == ["speeds.0", "surfases", "series.1.indenter.angle"]
+def test_mistakes_are_named_at_once_first_those_of_the_file_then_those_of_contacts_put_together():
+    text = TEXT.replace("hurst = 0.6", "hurst = 6").replace('"10 deg"', '"10 m"')
+    named = [line.split(" = ")[0] for line in mistakes_in(text)]
+    assert named == ["mine: series.1: indenter.angle", "mine: series.1: roughness.hurst"]
+    text = text.replace("surfaces", "surfases").replace('"50 mm/s"', '"50 Pa"')
+    assert [line.split(" ")[1] for line in mistakes_in(text)] == ["speeds.0", "surfases"]
 
 
 def test_a_file_is_a_study_of_the_command_and_a_name_that_is_neither_is_refused(tmp_path):

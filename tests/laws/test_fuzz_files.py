@@ -15,8 +15,7 @@ from hypothesis import strategies as st
 
 import compare
 from compare.comparison import asked
-from compare.library.case import read_case
-from compare.library.lookup import case_of
+from compare.library.lookup import case_of, named_cases
 from compare.studies.mastercurve.study import Mastercurve
 from compare.studies.plan import planned
 from compare.studies.topography.study import Map
@@ -123,7 +122,7 @@ motion = {{type = "slide", speed = "0.1 m/s", load = "1 N"}}
 def test_a_table_of_moduli_is_read_or_refused(spoil):
     def law(content):
         table = spoil("loss.csv", content)
-        reading(read_case, spoil("tabulated.toml", TABULATED.format(table).encode()), Refused)
+        reading(named_cases, spoil("tabulated.toml", TABULATED.format(table).encode()), Refused)
 
     fuzz(law, spoilt([LOSS.encode()]), tries=TRIES // 3)
 

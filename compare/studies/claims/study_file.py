@@ -1,10 +1,13 @@
-"""Study file: series of contacts that a user states in TOML, solved and judged as those of the package."""
+"""Study files: series of contacts stated in TOML, those of the package and a user's own, at each size."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass as plain
-from typing import Annotated, Any, Literal
+from dataclasses import fields, replace
+from functools import partial
+from typing import Annotated, Any, Generic, Literal, TypeAlias, TypeVar, get_args
 
-from pydantic import Discriminator, Field, Tag, ValidationError, model_validator
+import numpy as np
+from pydantic import AfterValidator, Discriminator, Field, Tag, ValidationError, model_validator
 from pydantic.dataclasses import dataclass
 
 from bem3d import BEM
@@ -23,94 +26,83 @@ from scene import (
     Stage,
     files,
 )
-from scene.mistakes import CHOICE, Mistake, examined
-from scene.printable import brief
+from scene.mistakes import CHOICE, said
 from scene.quantities import CLOSED, Force, Length, Speed, Whole
-from scene.reading import InvalidInput, invalid, parsed, validator
+from scene.reading import InvalidInput, invalid, made, parsed
 from scene.rheology import Elastomer
+from scene.scales import elastic_contact
 from scene.temperature import Temperature
 
-from ...comparison.curve import refuse
-from ...comparison.rough import KINDS
 from ...comparison.rough import RoughSeries as Series
 from ...library.case import Draws, ModelNames, Share
 from ...library.describe import folders
-from ...library.ready import NotReady, find
+from ...library.ready import CLAIMS, find, ready
 from ...solving.cost import MOST_VALUES
-from .catalogue import SIZES, ReadyStudy
-from .sizes import Size, between
 
-Several = Annotated[Whole, Field(ge=2, le=MOST_VALUES)]
-Body = Annotated[Sphere | Cone | PowerLaw, Field(discriminator="type")]
-_RANGE, _LIST = f"{CHOICE}range", f"{CHOICE}list"
+Size = Literal["quick", "standard", "full"]
+SIZES: tuple[Size, ...] = get_args(Size)
 MOST_SERIES = 100  # of a file
-_TABLES = ("indenter", "elastomer", "roughness", "temperature")
+# Of each pair one is stated: where a series does, it takes the place of the other stated for all.
+INSTEAD = {"loads": "depths", "depths": "loads", "speeds": "rates", "rates": "speeds"}
+TABLES = "indenter", "elastomer", "roughness", "temperature"  # of a ready scene
+
+Quantity = TypeVar("Quantity")
+Partly: TypeAlias = Quantity | dict[str, Any] | None  # a table that others complete
+Body = Annotated[Sphere | Cone | PowerLaw, Field(discriminator="type")]
+ReadyScene: Any = Literal[tuple(name for name, each in ready().items() if each.kind == "scene")]
 
 
-class _Range:
+@plain(frozen=True)
+class ReadyStudy:
+    """A question, and the series that are solved for it.
+
+    title, about : for people
+    series : by the name of a size
+    """
+
+    title: str
+    about: str
+    series: Callable[[str], Sequence[Series]]
+
+
+@dataclass(frozen=True, config=CLOSED, kw_only=True)
+class Range(Generic[Quantity]):
     """Numbers in equal ratios.
 
     least, greatest : the ends
     count : how many, at most 1000; absent, it follows from the size of the study
     """
 
-    least: float
-    greatest: float
-    count: int | None
-
-    @model_validator(mode="after")
-    def _in_order(self):
-        if not self.least < self.greatest:
-            raise ValueError(f"greatest = {self.greatest:g} must exceed least = {self.least:g}")
-        return self
-
-    def values(self, count: int) -> tuple[float, ...]:
-        """Number that is stated, else the given one."""
-        return between(self.least, self.greatest, self.count or count)
+    least: Quantity | None = None
+    greatest: Quantity | None = None
+    count: Annotated[Whole, Field(ge=2, le=MOST_VALUES)] | None = None
 
 
-@dataclass(frozen=True, config=CLOSED, kw_only=True)
-class SpeedRange(_Range):
-    __doc__ = _Range.__doc__
-    least: Speed
-    greatest: Speed
-    count: Several | None = None
+_RANGE, _LIST = f"{CHOICE}range", f"{CHOICE}list"
+_List = Annotated[tuple[Quantity, ...], Field(min_length=1, max_length=MOST_VALUES), Tag(_LIST)]
+Numbers = Annotated[
+    Annotated[Range[Quantity], Tag(_RANGE)] | _List[Quantity],
+    Discriminator(lambda given: _RANGE if isinstance(given, dict | Range) else _LIST),
+]
+Kind = Literal["collapse", "friction", "depth", "dimensions", "families"]
 
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
-class LoadRange(_Range):
-    __doc__ = _Range.__doc__
-    least: Force
-    greatest: Force
-    count: Several | None = None
+class _Asked:
+    """Fields that are no tables of a scene, and no settings."""
+
+    speeds: Numbers[Speed] | None = None
+    rates: Numbers[Speed] | None = None
+    loads: Numbers[Force] | None = None
+    depths: Numbers[Length] | None = None
+    prescribed: Literal["depth"] | None = None
+    interval: Share | None = None
+    claims: Annotated[tuple[Kind, ...], Field(min_length=1)] = get_args(Kind)
 
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
-class DepthRange(_Range):
-    __doc__ = _Range.__doc__
-    least: Length
-    greatest: Length
-    count: Several | None = None
-
-
-def _choice(given: Any) -> str:
-    return _RANGE if isinstance(given, dict | _Range) else _LIST
-
-
-_SOME = Field(min_length=1, max_length=MOST_VALUES)
-SpeedList = Annotated[tuple[Speed, ...], _SOME, Tag(_LIST)]
-LoadList = Annotated[tuple[Force, ...], _SOME, Tag(_LIST)]
-DepthList = Annotated[tuple[Length, ...], _SOME, Tag(_LIST)]
-Speeds = Annotated[Annotated[SpeedRange, Tag(_RANGE)] | SpeedList, Discriminator(_choice)]
-Loads = Annotated[Annotated[LoadRange, Tag(_RANGE)] | LoadList, Discriminator(_choice)]
-Depths = Annotated[Annotated[DepthRange, Tag(_RANGE)] | DepthList, Discriminator(_choice)]
-Claim = Literal["collapse", "friction", "depth", "dimensions", "families"]
-Claims = Annotated[tuple[Claim, ...], Field(min_length=1)]
-
-
-@dataclass(frozen=True, config=CLOSED, kw_only=True)
-class _Shared:
-    """Fields that a study states for all of its series, or each of them for itself.
+class Stated(_Asked):
+    """Fields that a study states for all of its series, or each of them for itself, at all sizes or at one.
 
     scene : name of a ready scene, from which every table is taken that is not stated
     indenter, elastomer, roughness, temperature : as in a scene; what a series states takes the place of what is
@@ -119,52 +111,69 @@ class _Shared:
     speeds : of sliding [m/s], two at least; with rates absent too, the bodies are at rest
     rates : of pressing in [m/s], to the depths
     loads, depths : what presses [N], [m]: one of them
-    surfaces, profiles : drawn in three and in one dimension, at most 10,000; absent, as many as the size of the
-        study has
-    interval : in place of both, the half-width of intervals of 95 % that is wanted of claims, relative, as "5%"
+    prescribed : "depth": in place of the loads, the depths that the smooth relaxed body has under them
+    surfaces, profiles : drawn in three and in one dimension, at most 10,000; with an interval, at least, on the
+        coarsest grid; absent, as many as the size of the study has
+    interval : the half-width of intervals of 95 % that is wanted of claims, relative, as "5%"
     claims : which are judged: "collapse" (Eq. 23), "friction" (Eqs. 14 to 19), "depth" (at rest, and pressed in),
         "dimensions" (1D against 3D), "families" (several series together); absent, all of them
     bem, mdr : settings of the solvers on the finer grid; the coarser has half the points
     """
 
-    scene: str | None = None
-    indenter: Body | dict[str, Any] | None = None
-    elastomer: Elastomer | dict[str, Any] | None = None
-    roughness: SelfAffine | dict[str, Any] | None = None
-    temperature: Temperature | dict[str, Any] | None = None
-    speeds: Speeds | None = None
-    rates: Speeds | None = None
-    loads: Loads | None = None
-    depths: Depths | None = None
+    scene: ReadyScene = None
     surfaces: Draws | None = None
     profiles: Draws | None = None
-    interval: Share | None = None
-    claims: Claims | None = None
-    bem: BEM | dict[str, Any] | None = None
-    mdr: MDR | dict[str, Any] | None = None
+    indenter: Partly[Body] = None
+    elastomer: Partly[Elastomer] = None
+    roughness: Partly[SelfAffine] = None
+    temperature: Partly[Temperature] = None
+    bem: Partly[BEM] = None
+    mdr: Partly[MDR] = None
 
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
-class OwnSeries(_Shared):
+class Sizes:
+    """What is stated at one size alone, over what is stated at all.
+
+    quick, standard, full : of the option --size
+    """
+
+    quick: Stated | None = None
+    standard: Stated | None = None
+    full: Stated | None = None
+
+
+@dataclass(frozen=True, config=CLOSED, kw_only=True)
+class OwnSeries(Stated):
     """One series of a study.
 
     name : of its folder
     title : for people; the name if absent
     note : what is to be said of it on the page
+    only : sizes at which it is solved; absent, all of them
+    sizes : what it states at one size alone
     """
 
     name: Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_.-]*$")]
     title: str = ""
     note: str = ""
+    only: tuple[Size, ...] = SIZES
+    sizes: Sizes = Sizes()
+
+
+def _in_own_folders(series):
+    folders([own.name for own in series], "series")
+    return series
 
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
-class StudyFile(_Shared):
+class StudyFile(Stated):
     """A study of one's own: what all series share, and the series.
 
     title, about : for people
     models, reference : names of the models that are compared, and of the one against which the others are judged;
         mdr and bem, and bem, if absent
+    sizes : what all series share at one size alone
     series : 1 to 100
     """
 
@@ -172,100 +181,102 @@ class StudyFile(_Shared):
     about: str = ""
     models: ModelNames = ()
     reference: str = ""
-    series: Annotated[tuple[OwnSeries, ...], Field(min_length=1, max_length=MOST_SERIES)]
+    sizes: Sizes = Sizes()
+    series: Annotated[
+        tuple[OwnSeries, ...], Field(min_length=1, max_length=MOST_SERIES), AfterValidator(_in_own_folders)
+    ]
 
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
-class _Contact:
-    """Contact of a series once everything is put together."""
+class _Complete(_Asked):
+    """A series at one size, once everything is put together."""
 
     indenter: Body
     elastomer: Elastomer
     roughness: SelfAffine
     temperature: Temperature | None = None
-    bem: BEM | None = None
-    mdr: MDR | None = None
+    surfaces: Draws
+    profiles: Draws
+    bem: BEM
+    mdr: MDR = MDR()
 
     @model_validator(mode="after")
-    def _is_rough(self):
-        if self.roughness.flat:
-            raise ValueError("roughness.rms_height = 0: a study asks what roughness does")
+    def _fits_together(self):
+        if why := next(self._misfits(), None):
+            raise ValueError(why)
         return self
 
+    def _misfits(self) -> Iterator[str]:
+        """Contradictions between the fields."""
+        if self.roughness.flat:
+            yield "roughness.rms_height = 0: a study asks what roughness does"
+        if (self.loads is None) == (self.depths is None):
+            yield f"loads, depths: {'none' if self.loads is None else 'both'} given, give exactly one of them"
+        if self.speeds and self.rates:
+            yield "speeds, rates: both given, give at most one of them"
+        for name in INSTEAD:
+            given = getattr(self, name)
+            values = _numbers(given)
+            if given and (not values or list(values) != sorted(set(values))):
+                yield f"{name}: both ends of a range, or a list, from the least to the greatest, each once"
+        if self.rates and self.loads and not self.prescribed:
+            yield "rates: a body pressed in at a rate is pressed to depths, give depths"
+        if self.rates and self.temperature:
+            yield "rates: a pressed-in solid is stated at its own temperature, leave temperature out"
+        if self.speeds and len(_numbers(self.speeds)) < 2:
+            yield "speeds: at least two, or none for bodies at rest"
+        for name, points, least in (("bem", self.bem.points, 32), ("mdr", self.mdr.points, 16)):
+            if points < least:
+                yield f"{name}.points = {points}: at least {least}, as the coarser grid has half of them"
+        if (self.speeds or self.rates) and self.elastomer.type == "elastic":
+            yield "speeds, rates: an elastic solid loses nothing, whatever the speed, leave them out"
 
-@plain(frozen=True)
-class _Stated:
-    """A series with what it shares, and its contact put together."""
-
-    own: OwnSeries
-    shared: StudyFile
-    contact: Mapping[str, Any]
-
-    def __getitem__(self, name: str) -> Any:
-        own = getattr(self.own, name)
-        return getattr(self.shared, name) if own is None else own
-
-    def of(self, *names: str) -> dict[str, Any]:
-        """Values that are stated of names of which one excludes the others, by the series if it states any."""
-        for part in (self.own, self.shared):
-            if given := {name: value for name in names if (value := getattr(part, name)) is not None}:
-                return given
-        return {}
-
-    def series(self, size: Size) -> Series:
-        """Series at a size."""
-        made = validator(_Contact).validate_python(dict(self.contact) | {"bem": None, "mdr": None})
-        prescribed, given = next(iter(self.of("loads", "depths").items()))
-        values = _numbers(given, size.values)
-        moved = self.of("speeds", "rates")
-        speeds: tuple[float, ...] = next((_numbers(value, size.speeds) for value in moved.values()), ())
-        press = {prescribed.removesuffix("s"): values[0]}
-        settings: dict[str, Any] = {"points": size.points} | dict(self.contact.get("bem", {}))
+    def series(self, own: OwnSeries, shared: StudyFile) -> Series:
+        """The series, as it is solved and judged."""
+        speeds, values = _numbers(self.speeds or self.rates), _numbers(self.loads or self.depths)
+        rest = Indent(depth=1.0)
+        scene = Scene(self.indenter, self.elastomer, rest, self.roughness, temperature=self.temperature)
+        prescribed = "load" if self.loads else "depth"
+        if self.loads and self.prescribed:
+            pressed = (replace(scene, motion=Indent(load=load)) for load in values)
+            values, prescribed = tuple(elastic_contact(each).depth for each in pressed), self.prescribed
+        press: dict[str, Any] = {prescribed: values[0]}
         motion: Indent | Slide | Program = Indent(**press)
-        if "speeds" in moved:
+        if self.speeds:
             motion = Slide(speed=speeds[0], **press)
-        elif moved:
+        elif self.rates:
             motion = Program(stages=(Stage(duration=1.0, **press),))
         return Series(
-            name=self.own.name,
-            title=self.own.title or self.own.name,
-            scene=Scene(made.indenter, made.elastomer, motion, made.roughness, temperature=made.temperature),
+            name=own.name,
+            title=own.title or own.name,
+            scene=replace(scene, motion=motion),
             speeds=speeds,
             values=values,
-            surfaces=self["surfaces"] or size.surfaces,
-            profiles=self["profiles"] or size.profiles,
-            bem=BEM(**settings),
-            mdr=MDR(**self.contact.get("mdr", {})),
-            note=self.own.note,
-            interval=self["interval"],
-            claims=self["claims"] or KINDS,
-            asked=self.shared.models,
-            reference=self.shared.reference,
+            surfaces=self.surfaces,
+            profiles=self.profiles,
+            bem=self.bem,
+            mdr=self.mdr,
+            note=own.note,
+            interval=self.interval,
+            claims=self.claims,
+            asked=shared.models,
+            reference=shared.reference,
         )
 
-    def misfits(self) -> Iterator[str]:
-        """Contradictions between the fields."""
-        pressing, moved = self.of("loads", "depths"), self.of("speeds", "rates")
-        for given, names, least in ((pressing, "loads, depths", 1), (moved, "speeds, rates", 0)):
-            if not least <= len(given) <= 1:
-                stated = "both given" if given else "none given"
-                yield f"{names}: {stated}, give {'exactly' if least else 'at most'} one of them"
-        if self["interval"] is not None and (self["surfaces"] or self["profiles"]):
-            yield f"interval = {self['interval']:g}: it takes the place of surfaces and profiles, leave them out"
-        for name, values in (pressing | moved).items():
-            if isinstance(values, tuple) and list(values) != sorted(set(values)):
-                yield f"{name} = {brief(repr(list(values)))}: from the least to the greatest, each once"
-        if "rates" in moved and "depths" not in pressing:
-            yield "rates: a body pressed in at a rate is pressed to depths, give depths"
-        if "rates" in moved and "temperature" in self.contact:
-            yield "rates: a pressed-in solid is stated at its own temperature, leave temperature out"
-        if "speeds" in moved and isinstance(moved["speeds"], tuple) and len(moved["speeds"]) < 2:
-            yield "speeds: at least two, or none for bodies at rest"
-        for solver, least in (("bem", 32), ("mdr", 16)):
-            if (points := self.contact.get(solver, {}).get("points", least)) < least:
-                yield f"{solver}.points = {points}: at least {least}, as the coarser grid has half of them"
-        if moved and self.contact["elastomer"].get("type") == "elastic":
-            yield f"{next(iter(moved))}: an elastic solid loses nothing, whatever the speed, leave them out"
+
+def _usual(speeds: int, values: int, surfaces: int, profiles: int, points: int) -> dict[str, Any]:
+    """What holds at a size where a file states nothing else."""
+    counts = {"speeds": speeds, "rates": speeds, "loads": values, "depths": values}
+    ranges = {name: {"count": count} for name, count in counts.items()}
+    return ranges | {"surfaces": surfaces, "profiles": profiles, "bem": {"points": points}}
+
+
+FIELDS = [field.name for field in fields(_Complete)]
+USUAL = {
+    "quick": _usual(speeds=6, values=4, surfaces=3, profiles=12, points=128),
+    "standard": _usual(speeds=12, values=8, surfaces=10, profiles=60, points=256),
+    "full": _usual(speeds=20, values=16, surfaces=40, profiles=200, points=512),
+}
 
 
 @files.reading_once()
@@ -275,94 +286,66 @@ def study_of(text: str, name: str) -> ReadyStudy:
     name : of the file, for mistakes
     """
     content = parsed(text, name)
-    file, said, content = _checked(StudyFile, content)
-    contacts = []
-    for number, own in _series_in(content):
-        contact, wrong = _contact(content, own, number)
-        contacts.append(contact)
-        said += wrong
-    lines = list(dict.fromkeys(each.line for each in said))
-    if file is not None and not lines:
-        stated = [_Stated(own, file, contact) for own, contact in zip(file.series, contacts, strict=True)]
-        lines = [f"series.{number}: {why}" for number, each in enumerate(stated) for why in each.misfits()]
-        try:
-            folders([own.name for own in file.series], "series")
-        except InvalidInput as error:
-            lines.append(str(error))
-        lines = lines or [line for number, each in enumerate(stated) for line in _refused(each, number)]
-    if lines:
-        raise invalid(name, lines)
-    return ReadyStudy(file.title, file.about, lambda size: [each.series(size) for each in stated])
-
-
-def _checked(what: Any, content: dict) -> tuple[Any, list[Mistake], dict]:
-    """The content as what it should be, or None; its mistakes; and the content without wrong names."""
-    adapter = validator(what)
-    try:
-        return adapter.validate_python(content), [], content
-    except ValidationError as error:
-        return None, *examined(error, content, adapter)
-
-
-def _series_in(content):
-    """The series that are tables, by their numbers; of more than there may be, the first."""
-    series = content.get("series")
-    numbered = enumerate(series[:MOST_SERIES]) if isinstance(series, list) else ()
-    return [(number, each) for number, each in numbered if isinstance(each, dict)]
-
-
-def _contact(content, own, number):
-    """The tables of a series put together, and what is wrong with them, where it stands in the file."""
-    merged, said = {}, []
-    for part in (content, own):
-        if isinstance(part.get("scene"), str):
+    file: StudyFile = made(content, StudyFile, name)
+    found: dict[str, list[Series]] = {size: [] for size in SIZES}
+    lines = []
+    for number, (own, stated) in enumerate(zip(file.series, content["series"], strict=True)):
+        for size in own.only:
+            place = f"series.{number}"
             try:
-                base = parsed(find(part["scene"]).text, part["scene"])
-            except NotReady as error:
-                where = ("series", number, "scene") if part is own else ("scene",)
-                said.append(Mistake(where, f"{'.'.join(map(str, where))}: {error}"))
-                continue
-            merged = {name: base[name] for name in _TABLES if name in base}
-        for name in (*_TABLES, "bem", "mdr"):
-            if isinstance(table := part.get(name), dict):
-                merged[name] = _over(merged.get(name, {}), table)
-    if said:
-        return merged, said
-    _, wrong, _ = _checked(_Contact, merged)
-    return merged, [_in_file(mistake, own, number) for mistake in wrong]
+                series = made(_put_together(content, stated, size), _Complete, place).series(own, file)
+                series.curves  # noqa: B018 - refuses what cannot be solved on two grids
+                found[size].append(series)
+            except InvalidInput as error:
+                lines += str(error).splitlines()
+            except ValidationError as error:
+                lines.append(f"{place}: {said(error)}")
+            except (Refused, SolveError, ArithmeticError) as error:
+                lines.append(f"{place}: {error}")
+    if lines:
+        raise invalid(name, list(dict.fromkeys(lines)))
+    return ReadyStudy(file.title, file.about, found.__getitem__)
 
 
-def _over(below, table):
-    """A table over another, name by name, unless it is of another type."""
-    return table if table.get("type", below.get("type")) != below.get("type") else below | table
+def _put_together(content: dict, own: dict, size: str) -> dict:
+    """Fields of a series at a size: what is usual, what all share, what it states; at all sizes, then at this."""
+    whole: dict[str, Any] = {}
+    for part in (content, own):
+        whole = _over(_over(whole, part), part.get("sizes", {}).get(size, {}))
+    whole = _over(USUAL[size], whole)
+    # A range of which nothing but the number is stated is none.
+    none = [name for name in INSTEAD if name in whole and [*whole[name]] == ["count"]]
+    return {name: whole[name] for name in FIELDS if name in whole and name not in none}
 
 
-def _in_file(mistake, own, number):
-    """A mistake of a contact put together: of the series if what is wrong, or lacks something, is its own."""
-    part = own
-    for name in mistake.where[:2]:
-        if not (isinstance(part, dict) and name in part):
-            break
-        part = part[name]
-    else:
-        where = ("series", number, *mistake.where)
-        return Mistake(where, f"series.{number}.{mistake.line}")
-    table = mistake.where[:1]
-    if ": missing, " in mistake.line and (not table or table[0] in own):
-        return Mistake(("series", number, *mistake.where), f"series.{number}.{mistake.line}")
-    return mistake
+def _over(below: dict, above: dict) -> dict:
+    """Fields over others: tables name by name, unless they state another type."""
+    found = {name: value for name, value in below.items() if INSTEAD.get(name) not in above}
+    if "scene" in above:
+        base = parsed(find(above["scene"]).text, above["scene"])
+        found |= {name: base.get(name) for name in TABLES}
+    for name, value in above.items():
+        under = found.get(name)
+        same = (
+            isinstance(under, dict) and isinstance(value, dict) and value.get("type") in (None, under.get("type"))
+        )
+        found[name] = under | value if same else value
+    return found
 
 
-def _refused(stated: _Stated, number: int) -> Iterator[str]:
-    """Refusals of the solvers at the least size."""
-    try:
-        for grid in stated.series(SIZES["quick"]).curves.values():
-            refuse([grid])
-    except ValidationError as error:
-        yield from (f"series.{number}: {each['msg']}" for each in error.errors())
-    except (Refused, SolveError, ArithmeticError) as error:
-        yield f"series.{number}: {error}"
+def _numbers(given: Any) -> tuple[float, ...]:
+    """Numbers of a list, of a range that has both ends, or none."""
+    if isinstance(given, Range):
+        stated: Any = given.least, given.greatest, given.count
+        return () if None in stated else tuple(np.geomspace(*stated).tolist())
+    return given or ()
 
 
-def _numbers(given, count):
-    return given if isinstance(given, tuple) else given.values(count)
+def _ready_series(text: str, name: str, size: str) -> Sequence[Series]:
+    return study_of(text, name).series(size)
+
+
+STUDIES = {
+    each.name: ReadyStudy(each.title, each.about, partial(_ready_series, each.text, each.name))
+    for each in map(find, CLAIMS)
+}

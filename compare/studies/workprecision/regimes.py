@@ -9,7 +9,8 @@ from mdr1d import MDR
 from scene import Indent, Scene, Slide, StandardLinearSolid
 from scene.scales import elastic_contact
 
-from ..claims import contacts
+from ..claims.study_file import STUDIES
+from ..paper import parameters
 from .convergence import Convergence, Ladder
 from .ensemble import Ensemble, corrected_solve
 from .reference import DEPTH, FORCE, FRICTION, Known, closed_form, finer
@@ -17,7 +18,7 @@ from .reference import DEPTH, FORCE, FRICTION, Known, closed_form, finer
 # quick: few contacts on short ladders; standard: all contacts on short ladders; full: all on long ladders.
 SIZES = QUICK, STANDARD, FULL = "quick", "standard", "full"
 LOAD = 1.0
-SPHERE, CONE = (replace(contacts.kelvin(shape), roughness=None) for shape in ("sphere", "cone"))
+SPHERE, CONE = (replace(parameters.resolved(shape), roughness=None) for shape in ("sphere", "cone"))
 KELVIN = SPHERE.elastomer
 LINEAR = StandardLinearSolid(KELVIN.modulus, 10 * KELVIN.modulus, KELVIN.relaxation_time)
 # Name, title, body and speed in contact radii per relaxation time.
@@ -67,11 +68,11 @@ def rough(size: str) -> list[Ensemble]:
     settings = at(ROUGH, size)
     found: list[Ensemble] = []
     for shape in ("sphere", "cone"):
-        scene = contacts.kelvin(shape)
+        scene = parameters.resolved(shape)
         rest = replace(scene, motion=Indent(depth=elastic_contact(scene).depth))
         found.append(Ensemble(f"rough-{shape}-rest", f"rough {shape} at rest", rest, (FORCE,), **settings))
         for speed, factor in SPEEDS.items():
-            motion = Slide(speed=factor * contacts.SHORTEST / KELVIN.relaxation_time, load=LOAD)
+            motion = Slide(speed=factor * parameters.SHORTEST / KELVIN.relaxation_time, load=LOAD)
             title = f"rough {shape}, vτ = {factor:g} λₛ"
             found.append(_sliding(f"rough-{shape}-{speed}", title, replace(scene, motion=motion), settings))
     if size == QUICK:
@@ -96,9 +97,10 @@ def _smooth(name, title, body, flow, points):
 
 def _steep():
     """At the largest load and the speed of the study of the regime of the paper."""
-    scene, (_, load) = contacts.STEEP["sphere"]
-    speed = scene.motion.speed
-    scene = replace(scene, motion=Slide(speed=speed, load=load))
+    series = STUDIES["regime"].series(FULL)[0]
+    scene, speed = series.scene, 1.0
+    rough = replace(scene.roughness, seed=0)
+    scene = replace(scene, roughness=rough, motion=Slide(speed=speed, load=series.values[-1]))
     factor = speed * scene.elastomer.relaxation_time / scene.roughness.shortest
     return _sliding("steep-sphere", f"steep sphere, vτ = {factor:.2g} λₛ", scene, STEEP)
 

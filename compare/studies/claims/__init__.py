@@ -1,1 +1,0 @@
-"""The paper's claims on many contacts: crosscheck study."""
