@@ -23,7 +23,7 @@ from compare.statistics.collapse import collapse
 from compare.statistics.finding import verdict
 from compare.statistics.frictioncurves import SimulatedCurves
 from compare.statistics.jackknife import mean_ratio
-from compare.studies.claims import study_file
+from compare.comparison import study_file
 
 PAGE = Path(__file__).parents[1] / "results" / "fast.md"
 LAW = PAGE.with_name("law.md")
