@@ -29,12 +29,12 @@ def depth_findings(contacts: Contacts) -> list[Finding]:
     ]
     found += rest_findings(contacts, words)
     if not series.speeds and not series.pressed_in and len(series.values) > 2:
-        found += pair_findings("rest.stiffness", _stiffer, contacts, ROUGH, words, "depth", told)
+        found += pair_findings("rest.stiffness", _stiffer, contacts, ROUGH, words, "force-depth", told)
     if series.pressed_in and len(series.speeds) > 1:
         for place, name in ((0, "slow"), (-1, "fast")):
             regime = f"{series.speeds[place]:.2g} m/s; {words}"
             apart = partial(_pressed_apart, series, place)
-            found += pair_findings(f"pressed-in.{name}", apart, contacts, ROUGH, regime, "pressed-in", told)
+            found += pair_findings(f"pressed-in.{name}", apart, contacts, ROUGH, regime, "force-depth", told)
     return found
 
 
@@ -95,11 +95,15 @@ def _smooth(series) -> Iterator[tuple[str, Callable, str]]:
     """Claims on the smooth body by their ids, with what measures them in one dimensionality, and the plot."""
     load, depth = closed_forms(series)
     if series.prescribed == "load":
-        yield "smooth.rest-depth", lambda solver, it: mean(it[solver], "depth_reached")[0] / depth - 1, "depth"
+        yield (
+            "smooth.rest-depth",
+            lambda solver, it: mean(it[solver], "depth_reached")[0] / depth - 1,
+            "force-depth",
+        )
     else:
-        yield "smooth.rest-force", lambda solver, it: mean(it[solver], "normal_force")[0] / load - 1, "depth"
+        yield "smooth.rest-force", lambda solver, it: mean(it[solver], "normal_force")[0] / load - 1, "force-depth"
     if series.pressed_in and series.speeds:
-        yield "smooth.pressed-in", lambda solver, it: _over_smooth(series, it[solver]) - 1, "pressed-in"
+        yield "smooth.pressed-in", lambda solver, it: _over_smooth(series, it[solver]) - 1, "force-depth"
 
 
 def _pressed_apart(series, place, *both):

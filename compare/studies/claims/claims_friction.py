@@ -13,7 +13,7 @@ from ...models.table import FRICTION, PROFILES
 from ...solving.parameter_grid import COARSE, FINE
 from ...statistics import eq23
 from ...statistics.collapse import Collapse, collapse
-from ...statistics.finding import UNDECIDED, Claim, Finding, said_of
+from ...statistics.finding import Claim, Finding, said_of
 from ...statistics.frictioncurves import SimulatedCurves
 from ...statistics.jackknife import friction, mean, mean_ratio, measured
 from .claims import at_ends, claim, geometric, power
@@ -36,7 +36,13 @@ def friction_findings(contacts: Contacts, laws: Mapping[str, Laws]) -> list[Find
         dimension = contacts.labels[solver]
         for name, measure, place, expected in _one_sided(contacts.series, solver, law):
             each = claim(name, partial(lambda of, at, it: of(it[at]), measure, solver), dimension, expected)
-            plot = "collapse" if name == "eq17.load-exponent" else "behind" if name in WHY.values() else "levels"
+            plot = (
+                "collapse"
+                if name == "eq17.load-exponent"
+                else "slow-friction"
+                if name in WHY.values()
+                else "friction-speed"
+            )
             found.append(finding(each, contacts, ROUGH, law.words(place), solver, plot=plot))
     known, everywhere = laws[contacts.series.models.reference], np.full(len(contacts.series.values), True)
     for level, speed, body in _places(known):
@@ -52,7 +58,7 @@ def pair_findings(
     contacts: Contacts,
     body: str,
     regime: str,
-    plot: str = "levels",
+    plot: str = "friction-speed",
     quantity: str = FRICTION,
 ) -> list[Finding]:
     """Findings of a claim on each model against the reference, of those that answer a quantity.
@@ -76,7 +82,7 @@ def _ratio(place, one, three):
 
 
 def finding(
-    each: Claim, contacts: Contacts, body: str, regime: str, *solvers: str, plot: str = "levels"
+    each: Claim, contacts: Contacts, body: str, regime: str, *solvers: str, plot: str = "friction-speed"
 ) -> Finding:
     """Finding of a claim on one body of a series.
 
@@ -211,12 +217,9 @@ def shift_findings(
     """Whether curves fall onto one, with the shifts that are best and with those predicted."""
     series, dimension = contacts.series, contacts.labels[solver]
     words, draws = laws.words(), series.draws[solver]
-    plots = f"{series.folder}/collapse", f"{series.folder}/shifts"
+    plots = (f"{series.folder}/collapse",) * 2
     if both is not None:
         shifts = dict(zip(series.speeds, laws.shifts.tolist(), strict=True))
-        found = list(eq23.findings(*both, dimension, shifts, laws.exponent, series.name, draws, words, plots))
-        # Shifts onto a curve that may be none are not drawn.
-        undecided = found[0].verdict == UNDECIDED and not eq23.raised(*both)
-        yield from (replace(each, plot=plots[0]) if undecided else each for each in found)
+        yield from eq23.findings(*both, dimension, shifts, laws.exponent, series.name, draws, words, plots)
     elif eq23.shiftable(len(series.speeds), len(series.values)):
         yield eq23.too_few(dimension, series.name, draws, words, plots[0])

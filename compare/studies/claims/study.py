@@ -32,8 +32,8 @@ from ...statistics.multilevel import GROWTH
 from ..study import Judgement, Study
 from .catalogue import SIZES, STUDIES, ReadyStudy
 from .families import alike, every, family_findings
-from .figures import tables as study_plots
 from .judgement import JudgedSeries, judge_series
+from .plots import plots_of_series, plots_of_study
 from .points import failures, points
 from .series import ROUGH, Contacts, Series
 from .study_file import study_of
@@ -186,7 +186,7 @@ class ClaimStudy(Study):
         """
         judged = self.judged(answers)
         findings = judged.findings
-        whole = list(study_plots.plots_of_study(judged.series, judged.together))
+        whole = list(plots_of_study(judged.series, judged.together))
         blocks: list[Block] = []
         if overview := list(_overview(findings)):
             blocks.append(
@@ -256,7 +256,7 @@ class AllStudies(Study):
         sections = []
         for each in self.studies:
             judged = each.judged(answers.children[each.name])
-            plots = study_plots.plots_of_study(judged.series, judged.together)
+            plots = plots_of_study(judged.series, judged.together)
             shown = [replace(plot, name=f"{each.name}/{plot.name}") for plot in plots]
             own = [_named(one, each.name) for one in judged.findings]
             findings += own
@@ -317,7 +317,7 @@ def _numbered(number: int, judged: JudgedSeries) -> str:
 def _section(judged: JudgedSeries) -> Iterator[Block]:
     """Figures of a series, its findings, points, and solves that failed."""
     series = judged.series
-    yield from study_plots.plots_of_series(judged)
+    yield from plots_of_series(judged)
     if judged.findings:
         yield Findings(judged.findings)
     else:

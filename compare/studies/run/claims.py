@@ -172,10 +172,14 @@ class CaseFindings:
     @cached_property
     def at_speeds(self) -> list[tuple[str, float, Finding]]:
         """Friction of each model over that of the reference at every speed."""
+        return self.ratios(SPEED)
+
+    def ratios(self, curve: str) -> list[tuple[str, float, Finding]]:
+        """Friction of each model over that of the reference at every speed of a curve."""
         rows = []
-        speeds = self._speeds(SPEED)
-        for model in self._judged(SPEED, FRICTION):
-            beside, found = self.models.beside(model.name), self._friction(SPEED, model.name)
+        speeds = self._speeds(curve)
+        for model in self._judged(curve, FRICTION):
+            beside, found = self.models.beside(model.name), self._friction(curve, model.name)
             claim = said_of(AT_SPEEDS, beside)
             rows += [
                 (model.name, speed, self._at_speed(claim, found, k, speed, beside))

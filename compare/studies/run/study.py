@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
-from functools import cached_property, partial
+from functools import cached_property
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -14,13 +14,11 @@ from pandas import DataFrame
 from scene import Refused, Scene, notes
 from scene.result import labelled, provenance
 
-from ...figures import contact_maps, shifted_curves
 from ...library.case import Case, NotCompared, doubted, share_of
 from ...library.describe import conditions, described, folders
 from ...library.lookup import SceneLike, named_cases
 from ...models.table import ModelLike, Models, listed
-from ...report.page import Block, Findings, Plot, Section, Table, Text
-from ...report.views import view
+from ...report.page import Block, Findings, Section, Table, Text
 from ...solving import parameter_grid, words
 from ...solving.continuation import by_contact
 from ...solving.outcome import Outcome
@@ -33,8 +31,7 @@ from ...statistics.means import with_spread
 from ...statistics.multilevel import GROWTH, MEANS, WORDS, DrawnSurfaces, needed, unreached
 from ...trustmap.verdict import Advice, trust
 from ..study import Judgement, Study
-from ..theory import THEORY
-from .claims import ROUGH_FORCE, SMOOTH_FORCE, SMOOTH_SPEED, CaseFindings, draws_of, own_means
+from .claims import CaseFindings, draws_of, own_means
 from .curves import (
     CURVES,
     OWN,
@@ -43,18 +40,12 @@ from .curves import (
     Strata,
     corners,
     curves,
-    edge_slope,
-    friction_law,
     models_of,
-    predicted_exponent,
-    scaled_speed,
-    slow_friction,
 )
-from .figures import cases as friction_of_cases
-from .figures import force_depth, friction_curves, smooth_limit
 from .opening import opening
+from .plots import friction_of_cases, plots_of_case
 
-FIELDS, TIMES, COLLAPSE = "fields", "times", "collapse"
+FIELDS, TIMES = "fields", "times"
 
 
 @dataclass(frozen=True)
@@ -269,7 +260,7 @@ def _blocks(found: CaseFindings, answers, trusted: Advice) -> list[Block]:
     folder = f"{found.folder}/"
     others = [each for each in found.findings if each.verdict == finding.REPORTED]
     blocks: list[Block] = [
-        *_plots(found, answers),
+        *plots_of_case(found, answers.children.get(FIELDS, xarray.DataTree())),
         Findings(
             finding.claimed(found.findings),
             "Claims: intervals of 95 % with the scatter of surfaces and the error of the grid.",
@@ -300,11 +291,8 @@ def _side_by_side(cases: Sequence[CaseFindings]) -> list[Block]:
             row |= {label: value, f"{label}_low": low, f"{label}_high": high}
         rows.append(row)
     told = "Every scene as it stands: means with intervals of 95 %, and their ratios."
-    drawn = friction_of_cases.plot(
-        {each.name: each.points[each.points["solver"].isin(each.models.labels)] for each in cases},
-        {each.name: each.case.motion.speed for each in cases},
-    )
-    return [Table(friction_of_cases.NAME, DataFrame(rows), told), *([drawn] if drawn else [])]
+    drawn = friction_of_cases(cases)
+    return [Table("cases", DataFrame(rows), told), *([drawn] if drawn else [])]
 
 
 def summary(cases: Sequence[CaseFindings]) -> DataFrame:
@@ -369,70 +357,6 @@ def _grids_of(models: Models) -> str:
 
 def _list(lines: Sequence[str]) -> Text:
     return Text("\n".join(f"- {line}" for line in lines))
-
-
-def _plots(found: CaseFindings, answers) -> list[Plot]:
-    """Figures of a case."""
-    case, folder, points = found.case, f"{found.folder}/", found.points
-    motion, law = case.motion, partial(friction_law, case)
-    beside = points["solver"] == ("" if THEORY.name in found.models.labels else THEORY.name)
-    theory, judged = points[beside], points[~beside]
-    below = answers.children.get(FIELDS, xarray.DataTree()).children
-    fields = {
-        solver: {str(name): each.values for name, each in node.variables.items()} for solver, node in below.items()
-    }
-    load, depth = f"load of {motion.greatest:g} N", f"depth of {motion.greatest * 1e6:g} µm"
-    pressed = load if motion.load is not None else depth
-    forces = [
-        (body, *row)
-        for claim, body in ((ROUGH_FORCE, "rough"), (SMOOTH_FORCE, "smooth"))
-        for row in found.forces(claim)
-    ]
-    plots = [
-        contact_maps.plot(view(case.scene, case.bem, fields), folder),
-        force_depth.plot(points, forces, folder),
-        friction_curves.against_speed(judged, found.at_speeds, law, pressed, theory, folder),
-        friction_curves.against_load(judged, law, theory, folder),
-        _shifted_curves(found),
-        _smooth_limit(found),
-    ]
-    return [each for each in plots if each is not None]
-
-
-def _shifted_curves(found: CaseFindings) -> Plot | None:
-    """Friction against load shifted onto one curve."""
-    expected = predicted_exponent(found.case)
-    rows = [
-        shifted_curves.ShiftedCurves(
-            found.models[each.solver].label,
-            each.collapse,
-            {one.claim.id: one for one in each.findings},
-            expected,
-            lead=eq23.leading(each.collapse, each.findings),
-        )
-        for each in found.shifted
-    ]
-    plot = shifted_curves.plot(rows, COLLAPSE)
-    return plot and replace(plot, name=f"{found.folder}/{COLLAPSE}")
-
-
-def _smooth_limit(found: CaseFindings) -> Plot | None:
-    """Friction of the smooth body from slow to fast."""
-    points = found.points[found.points["curve"] == SMOOTH_SPEED]
-    if points.empty:
-        return None
-    table = DataFrame(
-        {
-            "solver": points["solver"],
-            "v_tau_over_a": [scaled_speed(found.case, speed) for speed in points["speed"]],
-            "speed": points["speed"],
-            "friction_coefficient": points["friction_coefficient_mean"],
-            "friction_over_slope": points["friction_coefficient_mean"] / edge_slope(found.case),
-        }
-    )
-    return smooth_limit.plot(
-        table, slow_friction(found.case, found.models), found.models.reference, f"{found.folder}/"
-    )
 
 
 def _times(contacts: Sequence[SceneTask], outcomes: Mapping[Task, Outcome]) -> xarray.Dataset:

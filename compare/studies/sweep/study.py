@@ -6,6 +6,7 @@ from functools import cached_property
 from itertools import product
 from typing import Any
 
+import numpy as np
 import xarray
 from matplotlib.figure import Figure
 from pandas import DataFrame
@@ -16,11 +17,12 @@ from scene.printable import brief
 from scene.reading import InvalidInput, whole
 from scene.result import provenance
 
+from ...figures import friction_load, friction_speed
 from ...figures.rendering import finished
 from ...library.case import Case, doubted, share_of
 from ...library.lookup import SceneLike, case_of
 from ...models.table import ModelLike, Models
-from ...report.page import Table
+from ...report.page import Plot, Table
 from ...solving.control_variates import VARIATES
 from ...solving.cost import MOST_DRAWS
 from ...solving.parameter_grid import COARSE, FINE, LEVELS, ParameterGrid, on_two_grids
@@ -32,7 +34,6 @@ from ...statistics.means import interval
 from ...statistics.multilevel import GROWTH, MEANS, WORDS, in_strata, needed, pooled, unreached, wanted
 from ..run.curves import models_of
 from ..study import Judgement, Study
-from . import figure as plots
 from .values import Values, values_of
 
 FEW = 8  # draws where nothing is asked
@@ -162,7 +163,7 @@ class Sweep(Study):
     def judge(self, answers: xarray.DataTree) -> Judgement:
         """Friction, else force or depth, of each model over the reference at every contact, without a claim."""
         findings, dataset = list(self._findings(answers)), self.dataset(answers)
-        plot = [plots.plot(means(dataset))] if max(self.speeds) > 0 else []
+        plot = plots_of(means(dataset), self._ratios(findings)) if max(self.speeds) > 0 else []
         answer = [*sentences(findings), *self._unreached(answers)]
         return Judgement(findings, answer, [*plot, *self._tables(dataset, findings)], self.setting)
 
@@ -182,6 +183,18 @@ class Sweep(Study):
                 frame[[beside, f"{beside}_low", f"{beside}_high"]] = rows
             told = f"Mean {WORDS[quantity]} at every contact, with intervals of 95 %."
             yield Table(f"means-{WORDS[quantity]}", frame[frame["speed"].isin(speeds)], told)
+
+    def _ratios(self, findings):
+        """Friction of each model over that of the reference at every contact, from its findings."""
+        names = {self.models.beside(each.name): each.name for each in self.models.judged}
+        places = list(product(self.speeds, self.values))
+        rows = [
+            (names[each.dimension], "rough", *place, each.value, *each.interval)
+            for place, own in zip(places, np.array_split(np.array(findings, object), len(places)), strict=True)
+            for each in own
+        ]
+        columns = ["solver", "body", "speed", self.case.motion.pressed_by, "ratio", "ratio_low", "ratio_high"]
+        return DataFrame(rows, columns=columns)
 
     @property
     def _reference(self):
@@ -267,4 +280,19 @@ def figure_of(dataset: xarray.Dataset) -> Figure:
     """Friction of a sweep against speed, or against load if there is one speed: a matplotlib Figure."""
     if not isinstance(dataset, xarray.Dataset):
         raise InvalidInput(f"dataset = {brief(repr(dataset))}: the Dataset of a sweep is needed")
-    return finished(plots.plot(means(dataset)))
+    return finished(plots_of(means(dataset))[0])
+
+
+def plots_of(means: DataFrame, ratios: DataFrame | None = None) -> list[Plot]:
+    """Friction against speed, and against load or depth, of the means of a sweep."""
+    sliding, pressed = means[means["speed"] > 0], "load" if "load" in means else "depth"
+    caption = (
+        "Coefficient of friction of every model. Bars are intervals of 95 %: scatter of the draws, widened by the "
+        "change on halving the grid."
+    )
+    plots = []
+    if sliding["speed"].nunique() > 1 or means[pressed].nunique() == 1:
+        plots.append(friction_speed.plot(sliding, ratios, caption=caption))
+    if means[pressed].nunique() > 1:
+        plots.append(friction_load.plot(sliding, caption=caption))
+    return [each for each in plots if each]

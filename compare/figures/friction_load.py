@@ -1,0 +1,71 @@
+"""Friction against load or depth, a curve for each speed: a panel for each model, or one for all at one speed."""
+
+from typing import Any
+
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from pandas import DataFrame
+
+from ..report.page import Plot, Tables
+from . import shades, style
+from .curves import intervals, unanswered
+from .friction_speed import THEORY, line_look
+from .lettering import lettered
+from .panels import AXES, CURVES, few, legend, limit, tables_of
+
+NAME = "friction-load"
+LINES = f"{NAME}-lines"
+
+
+def plot(points: DataFrame, lines: DataFrame | None = None, caption: str = "", folder: str = "") -> Plot | None:
+    """Plot of friction against load or depth; None where nothing slides.
+
+    points : solver, speed [m/s], load [N] or depth [m], friction_coefficient_mean, _low and _high
+    lines : solver, speed, load or depth, friction_coefficient, and kind: a theory, which all panels show, or
+        another of `friction_speed.KINDS` of a solver, which its own panel shows
+    """
+    if points.empty or not (points["speed"] > 0).any():
+        return None
+    told = caption or f"Coefficient of friction against load or depth, at up to {CURVES} speeds."
+    alternative = "Friction of each model against load or depth, a curve for each speed."
+    return Plot(f"{folder}{NAME}", figure, tables_of({NAME: points, LINES: lines}), told, alternative)
+
+
+def figure(tables: Tables) -> Figure:
+    """The same axes for all models."""
+    points, lines = tables[NAME], tables.get(LINES)
+    across = "load" if "load" in points else "depth"
+    scale, label = AXES[across]
+    speeds = few(points["speed"][points["speed"] > 0], CURVES)
+    points = points[points["speed"].isin(speeds)].sort_values(across)
+    colours = shades.SPEED(shades.between(speeds)(speeds))
+    looks: dict[float, dict[str, Any]] = {
+        speed: form | {"color": colour, "label": f"{speed:.3g} m/s", "markersize": style.mark(0.8)}
+        for speed, colour, form in zip(speeds.tolist(), colours, style.forms(), strict=False)
+    }
+    several, solvers = len(speeds) > 1, list(points["solver"].unique())
+    drawing = style.canvas("double" if several else "single", 3.3)
+    panels = drawing.subplots(1, len(solvers) if several else 1, sharex=True, sharey=True, squeeze=False)[0]
+    for axes, solver in zip(panels if several else panels.repeat(len(solvers)), solvers, strict=True):
+        axes.set(xscale="log", yscale="log", xlabel=label, title=style.label(solver) if several else "")
+        for speed, own in points[points["solver"] == solver].groupby("speed"):
+            look = looks[speed] if several else style.look(solver)
+            intervals(axes, scale * own[across], own, "friction_coefficient", **look)
+            missing = "" if several else look["label"]
+            unanswered(axes, scale * own[across], own["friction_coefficient_mean"], look["color"], missing)
+        if lines is not None:
+            shown = lines[(lines["kind"] == THEORY) | (lines["solver"] == solver)].sort_values(across)
+            for (kind, name, speed), own in shown[shown["speed"].isin(speeds)].groupby(
+                ["kind", "solver", "speed"]
+            ):
+                colour = {"color": looks[speed]["color"]} if several else {}
+                axes.plot(scale * own[across], own["friction_coefficient"], **line_look(kind, name, **colour))
+    panels[0].set_ylabel("friction coefficient [1]")
+    style.span(panels[0], scale * points[across])
+    limit(panels[0], points, "friction_coefficient")
+    style.decades(*panels)
+    lettered(panels)
+    kinds = lines[["kind", "solver"]].drop_duplicates() if several and lines is not None else DataFrame()
+    grey = [Line2D([], [], **line_look(*each, color=style.grey(0.3))) for each in kinds.to_numpy()]
+    legend(drawing, panels, 5 if several else 2, *grey)
+    return drawing
