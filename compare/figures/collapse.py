@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 from numpy.polynomial import Chebyshev
 from pandas import DataFrame, Series, concat
 
@@ -24,7 +23,7 @@ from ..statistics.finding import FAILS, Claim, Finding
 from . import shades, style
 from .curves import intervals
 from .lettering import lettered, literal
-from .panels import CURVES, few
+from .panels import CURVES, entry, few, legend, speed_key
 
 NAME = "collapse"
 SHIFTS, POWERS, FITS = "-shifts", "-powers", "-fits"
@@ -33,7 +32,8 @@ LOG10 = np.log(10)
 APART = 2
 # Significant digits of a number without an interval, as in the answer.
 FIGURES = 3
-FITTED, EXPECTED, BOTH, UNSHIFTED, ACROSS = "fitted", "expected", "both", "none", "along friction"
+FITTED, EXPECTED, BOTH, UNSHIFTED = "fitted", "expected", "both", "none"
+ALONG, ACROSS = "along the load", "along friction"
 # What is done to the curves, in the words of a title.
 SHIFTED = {
     FITTED: "shifted along the force",
@@ -118,16 +118,13 @@ def plot(rows: Sequence[ShiftedCurves], name: str = NAME, folder: str = "") -> P
 def _tables(row: ShiftedCurves) -> dict[str, DataFrame]:
     """Tables of one row of the figure, by the endings of their names."""
     found, lead = row.collapse, row.lead or row.collapse.horizontal
-    known = bool(np.isfinite(row.shifts).all())
-    along, missed, how = (
-        lead.horizontal.value,
-        eq23.BOTH if row.both else eq23.COLLAPSE,
-        BOTH if row.both else FITTED,
-    )
-    if lead.reason:
-        missed, how = (eq23.PREDICTED, EXPECTED) if known else (eq23.UNSHIFTED, UNSHIFTED)
-        along = row.shifts if known else np.zeros(found.speeds.size)
-    points = found.points(along, lead.vertical.value if row.both else None)
+    along, lifts = lead.horizontal.value, lead.vertical.value if row.both else None
+    missed, how = (eq23.BOTH, BOTH) if row.both else (eq23.COLLAPSE, FITTED)
+    if lead.reason and np.isfinite(row.shifts).all():
+        along, missed, how = row.shifts, eq23.PREDICTED, EXPECTED
+    elif lead.reason:
+        along, missed, how = np.zeros(found.speeds.size), eq23.UNSHIFTED, UNSHIFTED
+    points = found.points(along, lifts)
     friction = "shifted_friction" if row.both else "friction_coefficient"
     load = np.log(points["shifted_force"].to_numpy())
     curve = lead.curve or Chebyshev.fit(load, np.log(points[friction].to_numpy()), APART)
@@ -137,100 +134,94 @@ def _tables(row: ShiftedCurves) -> dict[str, DataFrame]:
         points = points.join(row.conditions.reset_index(drop=True))
     shifts = found.shifts(lead).assign(expected=row.shifts)
     if row.warmth is not None:
-        shifts, counts = _warm(shifts, row.warmth), [each.log_load.size for each in found.curves]
-        points = _warm(points, row.warmth.loc[np.repeat(row.warmth.index, counts)].reset_index(drop=True))
-    fitted = row.found(eq23.EXPONENT, eq23.BESIDE if row.both else eq23.ALONE) if row.decided else (nan, nan, nan)
-    across = row.found(eq23.NOT_SHIFTED) if row.both else (nan, nan, nan)
-    others = {name: (power, nan, nan) for name, power in {EXPECTED: row.expected, **row.powers}.items()}
-    powers = [
-        (name, *each) for name, each in ({FITTED: fitted, ACROSS: across} | others).items() if np.isfinite(each[0])
-    ]
-    fit = dict(zip([f"misfit{end}" for end in ENDS], row.found(missed), strict=True))
-    fit |= {"decided": row.decided, "shifted_as": how, "reference_speed": found.speeds[found.speeds.size // 2]}
-    fit |= {"degree": APART if lead.reason else found.degree}
-    columns = ["power", "exponent", "exponent_low", "exponent_high"]
-    return {"": points, SHIFTS: shifts, POWERS: DataFrame(powers, columns=columns), FITS: DataFrame([fit])}
-
-
-def _warm(table: DataFrame, warmth: DataFrame) -> DataFrame:
-    """A table whose speeds are those to which temperatures shift the measured ones."""
-    return table.rename(columns={"speed": "reduced_speed"}).join(warmth)
+        counts = [each.log_load.size for each in found.curves]
+        each = row.warmth.loc[np.repeat(row.warmth.index, counts)].reset_index(drop=True)
+        points, shifts = (
+            table.rename(columns={"speed": "reduced_speed"}).join(own)
+            for table, own in ((points, each), (shifts, row.warmth))
+        )
+    exponents = {name: (power, nan, nan) for name, power in {EXPECTED: row.expected, **row.powers}.items()}
+    if row.decided:
+        exponents[ALONG] = row.found(eq23.EXPONENT, eq23.BESIDE if row.both else eq23.ALONE)
+    if row.both:
+        exponents[ACROSS] = row.found(eq23.NOT_SHIFTED)
+    powers = DataFrame(exponents, ["exponent", "exponent_low", "exponent_high"]).T.dropna(subset="exponent")
+    fit: dict[str, Any] = dict(zip((f"misfit{end}" for end in ENDS), row.found(missed), strict=True))
+    fit |= {"shifted_as": how, "decided": row.decided, "reference_speed": found.speeds[found.speeds.size // 2]}
+    return {"": points, SHIFTS: shifts, POWERS: powers.reset_index(names="power"), FITS: DataFrame([fit])}
 
 
 def figure(tables: Tables, name: str = NAME) -> Figure:
     """A row for each set of curves: as they are, shifted, and the shifts."""
     points, shifts, powers, fits = (tables[f"{name}{each}"] for each in ("", SHIFTS, POWERS, FITS))
-    along = "speed times $a_T$ [m/s]" if "reduced_speed" in points else "speed [m/s]"
+    label = "speed times $a_T$ [m/s]" if "reduced_speed" in points else "speed [m/s]"
     points, shifts = _few(points), _few(shifts)
     speeds = np.unique(shifts["speed"])
-    scale = shades.between(speeds)
+    colours = dict(zip(speeds.tolist(), shades.SPEED(shades.between(speeds)(speeds)), strict=True))
     drawing = style.canvas("double", 0.6 + 2.4 * len(fits))
     grid = drawing.add_gridspec(2 * len(fits), 3, height_ratios=(3, 1) * len(fits))
     panels: list[Axes] = []
     for k, fit in enumerate(fits.itertuples()):
         own, moved, lines = (each[each["curves"] == fit.curves] for each in (points, shifts, powers))
         known, rows = moved["log_shift"].notna().any(), slice(2 * k, 2 * k + 2)
-        across = slice(1, 2 if known else 3)
         left = drawing.add_subplot(grid[rows, 0])
-        above = drawing.add_subplot(grid[2 * k, across], sharey=left)
-        below = drawing.add_subplot(grid[2 * k + 1, across], sharex=above)
-        _collapse(left, above, below, fit, own, scale)
+        above = drawing.add_subplot(grid[2 * k, 1 : 2 if known else 3], sharey=left)
+        below = drawing.add_subplot(grid[2 * k + 1, 1 : 2 if known else 3], sharex=above)
+        _collapse(left, above, below, fit, own, colours)
         panels += [left, above, below]
         if known:
-            panels.append(drawing.add_subplot(grid[rows, 2], title="shifts", xlabel=along, xscale="log"))
-            _shifts(panels[-1], fit, moved, lines, scale)
+            panels.append(drawing.add_subplot(grid[rows, 2], title="shifts", xlabel=label, xscale="log"))
+            _shifts(panels[-1], fit, moved, lines, colours)
     style.decades(*panels)
     lettered(panels, 3)
-    entries: list[Line2D] = []
-    if len(speeds) > CURVES:
-        place = {"location": "bottom", "aspect": 60, "shrink": 0.7, "fraction": 0.03, "pad": 0.04 / len(fits)}
-        shades.bar(drawing, panels, shades.SPEED, scale, along, **place)
-    else:
-        entries = [_entry(f"{each:.3g}", color=shades.SPEED(scale(each)), marker="o") for each in speeds]
+    entries = speed_key(drawing, panels, speeds, label)
+    title = label if entries else None
     if "temperature" in points:
         warmth = points.drop_duplicates("temperature").sort_values("temperature")
-        entries += [_entry(f"{each.temperature:.4g} K", marker=each.marker) for each in warmth.itertuples()]
-    if entries:
-        title = along if len(speeds) <= CURVES else None
-        style.legend(drawing, entries, "outside lower center", CURVES, title=title)
+        entries += [entry(f"{each.temperature:.4g} K", marker=each.marker) for each in warmth.itertuples()]
+    legend(drawing, (), CURVES, *entries, title=title)
     return drawing
 
 
-def _entry(label: str, **look: Any) -> Line2D:
-    """Entry of a legend."""
-    return Line2D([], [], label=label, linestyle="none", **({"color": style.ink()} | look))
-
-
 def _few(table: DataFrame) -> DataFrame:
-    """Rows of as many speeds of each set of curves as are told apart, with their markers.
+    """Rows of as many speeds of each set of curves as are told apart, with a marker of each temperature.
 
-    A speed is that to which its temperature shifts it, and each temperature has a marker.
+    A speed is that to which its temperature shifts it.
     """
     if "reduced_speed" in table:
         table = table.drop(columns="speed").rename(columns={"reduced_speed": "speed"})
-    warmth = table.get("temperature", Series(0.0, table.index))
-    table = table.assign(marker=warmth.map(dict(zip(np.unique(warmth), cycle(style.SERIES_MARKERS)))))
-    groups = table.groupby("curves", sort=False)
+    warmth = table["temperature"] if "temperature" in table else Series(0.0, table.index)
+    markers = dict(zip(np.unique(warmth), cycle(style.SERIES_MARKERS)))
+    groups = table.assign(marker=warmth.map(markers)).groupby("curves", sort=False)
     return concat(own[own["speed"].isin(few(own["speed"], CURVES))] for _, own in groups)
 
 
-def _collapse(left: Axes, above: Axes, below: Axes, fit, points: DataFrame, scale) -> None:
+def _collapse(left: Axes, above: Axes, below: Axes, fit, points: DataFrame, colours) -> None:
     """Curves of a fit as they are, shifted, and how far they are off one curve."""
     friction = "shifted_friction" if fit.shifted_as == BOTH else "friction_coefficient"
-    _curves(left, points, "normal_force", "friction_coefficient", scale)
-    _curves(above, points, "shifted_force", friction, scale)
-    _curves(below, points, "shifted_force", "deviation", scale, 100.0)
+    for axes, across, up, times in (
+        (left, "normal_force", "friction_coefficient", 1.0),
+        (above, "shifted_force", friction, 1.0),
+        (below, "shifted_force", "deviation", 100.0),
+    ):
+        axes.set_xscale("log")
+        for speed, own in points.groupby("speed"):
+            look: dict[str, Any] = {"color": colours[speed], "marker": own["marker"].iloc[0]}
+            look |= {"markersize": style.mark(0.6), "linewidth": style.width(0.45)}
+            intervals(axes, own[across], own, up, times, elinewidth=style.width(0.8), capsize=0, **look)
+            if "holds" in own:  # hollow where a condition of the laws breaks
+                hollow = own[~own["holds"].astype(bool)]
+                look |= {"linestyle": "none", "markerfacecolor": style.paper(), "zorder": 2.5}
+                axes.plot(hollow[across], times * hollow[up], **look)
     common = points.sort_values("shifted_force")
     curve = common[friction] / (1 + common["deviation"])
     above.plot(common["shifted_force"], curve, **style.line(0.75, 2.0, zorder=1))
-    below.axhline(0, **style.line(0.6, 0.55))
-    labels = {"xlabel": "normal force [N]", "ylabel": "friction coefficient [1]"}
-    left.set(xscale="log", yscale="log", title=literal(fit.curves), **labels)
-    above.set(xscale="log", title=SHIFTED[fit.shifted_as])
     above.tick_params(labelbottom=False)
+    above.set_title(SHIFTED[fit.shifted_as])
+    below.axhline(0, **style.line(0.6, 0.55))
+    left.set(yscale="log", title=literal(fit.curves), xlabel="normal force [N]", ylabel="friction coefficient [1]")
     missed, shifted = _missed(fit), "" if fit.shifted_as == UNSHIFTED else "shifted "
-    title = f"off by {missed}" if missed else "off one curve"
-    below.set(title=title, xlabel=f"{shifted}normal force [N]", ylabel="off [%]")
+    below.set(xlabel=f"{shifted}normal force [N]", ylabel="off [%]", title=f"off by {missed}" if missed else "off")
 
 
 def _missed(fit) -> str:
@@ -239,56 +230,36 @@ def _missed(fit) -> str:
     return f"{interval(misfit, low, high, FIGURES)} %" if np.isfinite(misfit) else ""
 
 
-def _curves(axes: Axes, points: DataFrame, across: str, up: str, scale, times: float = 1.0) -> None:
-    """A curve for each speed with intervals; points filled where the conditions of the laws hold, or none are known."""
-    for speed, own in points.groupby("speed"):
-        look: dict[str, Any] = {"color": shades.SPEED(scale(speed)), "marker": own["marker"].iloc[0]}
-        look |= {"markersize": style.mark(0.6), "markeredgewidth": style.width(0.35)}
-        thin = {"linewidth": style.width(0.45), "elinewidth": style.width(0.8), "capsize": 0}
-        intervals(axes, own[across], own, up, times, **look, **thin)
-        if "holds" in own:
-            hollow = own[~own["holds"].astype(bool)]
-            look |= {"linestyle": "none", "markerfacecolor": style.paper()}
-            axes.plot(hollow[across], times * hollow[up], **look, zorder=2.5)
-
-
-def _shifts(axes: Axes, fit, shifts: DataFrame, powers: DataFrame, scale) -> None:
+def _shifts(axes: Axes, fit, shifts: DataFrame, powers: DataFrame, colours) -> None:
     """Shifts with intervals, hollow where curves do not collapse; fitted exponents in words, others as lines."""
-    told = {each.power: _told(each) for each in powers.itertuples()}
+    told = {each.power: f"{each.power}{_exponent(each)}" for each in powers.itertuples()}
     marks: dict[str, Any] = {"linestyle": "none", "capsize": 0, "markersize": style.mark(0.9)}
-    hollow = {} if fit.decided else {"markerfacecolor": style.paper()}
-    look = (
-        marks
-        | hollow
-        | {"marker": "o", "color": style.grey(0.3), "label": f"along the load{told.pop(FITTED, '')}"}
-    )
+    marks |= {} if fit.decided else {"markerfacecolor": style.paper()}
+    look = marks | {"color": style.grey(0.3), "marker": "o", "label": told.pop(ALONG, ALONG)}
     intervals(axes, shifts["speed"], shifts, "log_shift", 1 / LOG10, **look)
     for speed, own in shifts.groupby("speed"):
-        look = marks | hollow | {"color": shades.SPEED(scale(speed)), "marker": own["marker"].iloc[0]}
-        intervals(axes, own["speed"], own, "log_shift", 1 / LOG10, **look)
+        marker = own["marker"].iloc[0]
+        intervals(axes, own["speed"], own, "log_shift", 1 / LOG10, color=colours[speed], marker=marker, **marks)
     if fit.shifted_as == BOTH:
-        look = marks | {"marker": "s", "color": style.ink(), "label": f"{ACROSS}{told.pop(ACROSS, '')}"}
+        look = marks | {"color": style.ink(), "marker": "s", "label": told.pop(ACROSS, ACROSS)}
         intervals(axes, shifts["speed"], shifts, "log_lift", 1 / LOG10, **look)
     if shifts["expected"].notna().all():
-        label = f"{EXPECTED}{told.pop(EXPECTED, '')}"
-        axes.plot(shifts["speed"], shifts["expected"] / LOG10, **style.line(0, 0.8, linestyle="--", label=label))
+        look = style.line(0, 0.8, linestyle="--", label=told.pop(EXPECTED, EXPECTED))
+        axes.plot(shifts["speed"], shifts["expected"] / LOG10, **look)
     decades = np.log10(shifts["speed"] / fit.reference_speed)
     for power, (colour, line) in zip(powers[powers["power"].isin(told)].itertuples(), OTHERS, strict=False):
-        label = f"{power.power}{told[power.power]}"
-        axes.plot(
-            shifts["speed"], power.exponent * decades, line, color=colour, linewidth=style.width(0.8), label=label
-        )
+        look = {"color": colour, "linestyle": line, "linewidth": style.width(0.8), "label": told[power.power]}
+        axes.plot(shifts["speed"], power.exponent * decades, **look)
     style.span(axes, shifts["speed"])
-    axes.set_ylabel("decades of the shift [1]")
     low, high = axes.get_ylim()
-    axes.set_ylim(low, high + 0.5 * (high - low))
+    axes.set(ylim=(low, high + 0.5 * (high - low)), ylabel="decades of the shift [1]")
     axes.legend(loc="upper right", fontsize=style.tiny(), borderaxespad=0.1, handlelength=1.5)
 
 
-def _told(power) -> str:
+def _exponent(power) -> str:
     """An exponent with its interval as the answer has it."""
     told = interval(power.exponent, power.exponent_low, power.exponent_high, FIGURES)
-    exponent, _, ends = told.partition(" ")
     if "×" in told:  # a power of ten behind an interval belongs to the number too
         return f" v^{told}"
-    return f" $v^{{{exponent}}}$" + (f"\n{ends}" if ends else "")
+    exponent, *ends = told.split(" ", 1)
+    return "\n".join((f" $v^{{{exponent}}}$", *ends))

@@ -1,16 +1,13 @@
 """Friction over that of Eq. 19 against xi: one curve for all series of a shape, if they count through xi alone."""
 
-from typing import Any
-
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 from pandas import DataFrame
 
 from ..report.page import Plot, Tables
 from . import shades, style
 from .curves import intervals
 from .lettering import lettered
-from .panels import legend, limit
+from .panels import entry, legend, limit
 
 NAME = "family"
 
@@ -49,7 +46,5 @@ def figure(tables: Tables) -> Figure:
     lettered(panels)
     style.decades(*panels)
     shades.bar(drawing, panels, shades.PRESS, scale, "normal force [N]", fraction=0.03, pad=0.01, aspect=40)
-    grey: dict[str, Any] = {"linestyle": "none", "color": style.grey(0.3)}
-    handles = [Line2D([], [], marker=marker, label=shape, **grey) for shape, marker in markers.items()]
-    legend(drawing, (), 4, *handles)
+    legend(drawing, (), 4, *(entry(shape, marker=marker) for shape, marker in markers.items()))
     return drawing

@@ -40,8 +40,8 @@ def plot(points: DataFrame, differences: DataFrame, caption: str = "", folder: s
         points = points[points["solver"] != "exact"]
         points = points.assign(closed_form=points["depth"].map(known.get("exact", known.get("BEM", {}))))
     told = caption or (
-        "Force at a depth at rest, rough and of the smooth body in closed form, or else in 3D; off that; 1D off 3D. "
-        "Bars: 95 %."
+        "Force at a depth at rest, rough and of the smooth body in closed form, or else in 3D; off that; 1D off "
+        "3D. Bars: 95 %."
     )
     alternative = "Deviations fall with depth, of rough bodies from the smooth one and of 1D from 3D."
     tables = tables_of({NAME: points, DIFFERENCES: differences})

@@ -4,14 +4,13 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 from pandas import DataFrame
 
 from ..report.page import Plot, Tables
 from . import shades, style
 from .curves import intervals
 from .lettering import lettered, literal
-from .panels import legend, limit
+from .panels import entry, legend, limit, speed_key
 
 NAME, SHARE = "law", "law-share"
 ENDS = ("", "_low", "_high")
@@ -65,10 +64,9 @@ def figure(tables: Tables, missed: str = "") -> Figure:
     below.set(title=missed, xlabel=r"$x = p\,/\,p_\mathrm{rms}$ [1]", ylabel="off S(x) [%]")
     style.decades(*panels)
     lettered(panels)
-    shades.bar(drawing, panels, shades.SPEED, scale, "speed [m/s]", location="bottom", aspect=40, pad=0.02)
-    grey: dict[str, Any] = {"linestyle": "none", "color": style.grey(0.3), "markersize": style.mark(0.75)}
-    handles = [Line2D([], [], marker=marker, label=literal(name), **grey) for name, marker in markers.items()]
+    entries = [entry(literal(name), marker=marker) for name, marker in markers.items()]
     if not points["claimed"].all():
-        handles.append(Line2D([], [], marker="o", label="not claimed", **grey, markerfacecolor=style.paper()))
-    legend(drawing, [above], 2, *handles)
+        entries.append(entry("not claimed", markerfacecolor=style.paper()))
+    entries += speed_key(drawing, panels, np.unique(points["speed"]), "speed [m/s]")
+    legend(drawing, [above], 3, *entries, title="speed [m/s]")
     return drawing

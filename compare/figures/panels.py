@@ -6,10 +6,11 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.ticker import EngFormatter
 from pandas import DataFrame
 
-from . import style
+from . import shades, style
 from .curves import intervals, unanswered
 from .lettering import literal
 
@@ -84,6 +85,22 @@ def compared(axes: Axes, table: DataFrame, across: str, name: str, level: float,
             look |= {"marker": "D", "linestyle": ":", "markerfacecolor": style.paper()}
         intervals(axes, scale * own[across], own, name, times, **look)
         unanswered(axes, scale * own[across], own[name], look["color"])
+
+
+def speed_key(drawing: Figure, panels: Any, speeds: Any, label: str) -> list[Line2D]:
+    """Entries of a legend for the shades of up to CURVES speeds; more have a bar below the panels."""
+    scale = shades.between(speeds)
+    if len(speeds) > CURVES:
+        shades.bar(drawing, panels, shades.SPEED, scale, label, location="bottom", aspect=60, shrink=0.7, pad=0.02)
+        return []
+    return [entry(f"{each:.3g}", color=shades.SPEED(scale(each))) for each in speeds]
+
+
+def entry(label: str, **look: Any) -> Line2D:
+    """Entry of a legend: a marker."""
+    return Line2D(
+        [], [], **({"marker": "o", "linestyle": "none", "color": style.grey(0.3), "label": label} | look)
+    )
 
 
 def legend(drawing: Figure, panels: Iterable[Axes], most: int, *more: Any, **other: Any) -> None:

@@ -22,8 +22,8 @@ def plot(points: DataFrame, folder: str = "") -> Plot:
     """
     caption = (
         "Behind Eq. 17, at the slowest speed, over the numbers under the least load: (a) real contact, a length "
-        "in 1D and an area in 3D; (b) friction over it; (c) rms slope of what touches. Dotted: as the paper derives "
-        "it, contact like the nominal one, the others constant. Bars: 95 %."
+        "in 1D and an area in 3D; (b) friction over it; (c) rms slope of what touches. Dotted: as the paper "
+        "derives it, contact like the nominal one, the others constant. Bars: 95 %."
     )
     return Plot(f"{folder}{NAME}", figure, {NAME: points}, caption, "Three causes against load, in 1D and 3D")
 
