@@ -175,11 +175,10 @@ def figure(tables: Tables, name: str = NAME) -> Figure:
     style.decades(*panels)
     lettered(panels, 3)
     entries = speed_key(drawing, panels, speeds, label)
-    title = label if entries else None
     if "temperature" in points:
         warmth = points.drop_duplicates("temperature").sort_values("temperature")
         entries += [entry(f"{each.temperature:.4g} K", marker=each.marker) for each in warmth.itertuples()]
-    legend(drawing, (), CURVES, *entries, title=title)
+    legend(drawing, (), CURVES, *entries, title=label if entries and "temperature" in points else None)
     return drawing
 
 

@@ -60,7 +60,7 @@ def figure(tables: Tables) -> Figure:
     for (above, middle, below), (place, (title, own)) in zip(panels.T, places.items(), strict=True):
         above.set(xscale="log", yscale="log" if prescribed == "depth" else "linear", title=title)
         closed = own.drop_duplicates(prescribed)
-        line = style.line(0.5, 0.8, zorder=1, label="smooth body, closed form")
+        line = style.line(0.5, 0.8, zorder=1, label="closed form")
         above.plot(scale * closed[prescribed], times * closed["closed_form"], **line)
         _bodies(above, own[own["body"] == "rough"], prescribed, name, times)
         off = own[[f"{name}_{end}" for end in ("mean", "low", "high")]].sub(own["closed_form"], axis=0)

@@ -64,9 +64,9 @@ def figure(tables: Tables, missed: str = "") -> Figure:
     below.set(title=missed, xlabel=r"$x = p\,/\,p_\mathrm{rms}$ [1]", ylabel="off S(x) [%]")
     style.decades(*panels)
     lettered(panels)
-    entries = [entry(literal(name), marker=marker) for name, marker in markers.items()]
+    entries = [entry(literal(name), marker=marker) for name, marker in markers.items() if len(markers) > 1]
     if not points["claimed"].all():
         entries.append(entry("not claimed", markerfacecolor=style.paper()))
     entries += speed_key(drawing, panels, np.unique(points["speed"]), "speed [m/s]")
-    legend(drawing, [above], 3, *entries, title="speed [m/s]")
+    legend(drawing, [above], 3, *entries)
     return drawing

@@ -93,7 +93,7 @@ def speed_key(drawing: Figure, panels: Any, speeds: Any, label: str) -> list[Lin
     if len(speeds) > CURVES:
         shades.bar(drawing, panels, shades.SPEED, scale, label, location="bottom", aspect=60, shrink=0.7, pad=0.02)
         return []
-    return [entry(f"{each:.3g}", color=shades.SPEED(scale(each))) for each in speeds]
+    return [entry(f"{each:.3g} m/s", color=shades.SPEED(scale(each))) for each in speeds]
 
 
 def entry(label: str, **look: Any) -> Line2D:

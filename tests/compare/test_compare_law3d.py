@@ -16,9 +16,9 @@ from compare.statistics.finding import FAILS, HOLDS, REPORTED
 from compare.studies.claims import catalogue
 from compare.studies.claims.claims_law import EVERY, SHALLOW, LawPoints, law_findings
 from compare.studies.claims.families import family_findings
-from compare.studies.claims.figures.tables import plots_of_series, plots_of_study
 from compare.studies.claims.judgement import judge_series
 from compare.studies.claims.laws import laws
+from compare.studies.claims.plots import plots_of_series, plots_of_study
 from compare.studies.claims.series import ROUGH, Contacts
 from compare.studies.theory import LAW, with_theory
 from scene import Slide
@@ -174,20 +174,22 @@ def test_figures_show_every_point_and_what_is_not_claimed_hollow():
     }
     for name, points in (("sphere/law", 9), ("law", 18)):
         plot: Plot = figures[name]
-        assert len(plot.tables["law-3d"]) <= points
+        assert len(plot.tables["law"]) <= points
         assert len(plot.caption.split()) <= 60
         with style.applied():
             drawing = plot.figure()
-        _, right, _, below, *_ = drawing.axes
+        above, below = drawing.axes
         own = {
             each.claim.id: 100 * each.value for each in (judged[0].findings if "/" in name else several.values())
         }
         median, most = (words.number(own[f"law3d.collapse{end}"], 2) for end in ("", "-most"))
-        assert below.get_title(loc="left").partition(" ")[2] == f"median {median} %, nine in ten {most} %"
-        drawn = [line for line in right.lines if line.get_marker() not in ("", "None", "_", "|")]
+        assert (
+            below.get_title(loc="left").partition(" ")[2] == f"off by {median} % (median), {most} % (nine in ten)"
+        )
+        drawn = [line for line in above.lines if line.get_marker() not in ("", "None", "_", "|")]
         hollow = sum(line.get_xdata().size for line in drawn if line.get_markerfacecolor() == style.paper())
-        assert hollow == (plot.tables["law-3d"]["height_over_depth"] > SHALLOW).sum() > 0
-        assert sum(line.get_xdata().size for line in drawn) == len(plot.tables["law-3d"])
+        assert hollow == (plot.tables["law"]["height_over_depth"] > SHALLOW).sum() > 0
+        assert sum(line.get_xdata().size for line in drawn) == len(plot.tables["law"])
 
 
 def test_studies_solve_the_law_under_a_load_and_runs_do_not():

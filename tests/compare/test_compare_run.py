@@ -245,7 +245,7 @@ def test_several_scenes_stand_side_by_side_in_one_table_and_one_figure():
     assert table.loc[("at depth", "normal force [N]"), "1D/3D"] == pytest.approx(FORCE)
     plot = next(each for each in page.blocks if isinstance(each, Plot))
     assert [set(each["case"]) for each in plot.tables.values()] == 2 * [{"at load", "at depth"}]
-    assert len(plot.tables["cases-friction-load"]) == 8  # two loads, cases and models, at one speed each
+    assert len(plot.tables["friction-speed"]) == 8  # two speeds, cases and models
     with style.applied():
         plot.figure().draw_without_rendering()
 

@@ -87,12 +87,12 @@ def _place(found):
 
 def test_figures_are_functions_of_their_tables_as_files_have_them(page, tmp_path):
     plots = {plot.name: plot for plot in page.every(Plot)}
-    assert {"family", "sphere/collapse", "sphere/shifts", "sphere/levels"} <= set(plots)
-    assert {"rest/depth", "pressed/pressed-in"} <= set(plots)
-    assert "rest/levels" not in plots
+    assert {"family", "sphere/collapse", "sphere/friction-speed", "sphere/slow-friction"} <= set(plots)
+    assert {"rest/force-depth", "pressed/force-depth"} <= set(plots)
+    assert "rest/friction-speed" not in plots
     for name, plot in plots.items():
         assert 5 < len(plot.caption.split()) <= 60, name
-        if name not in ("family", "sphere/collapse", "pressed/pressed-in"):
+        if name not in ("family", "sphere/collapse", "pressed/force-depth"):
             continue  # drawn with all figures, from stored tables
         tables = {}
         for table, frame in plot.tables.items():
