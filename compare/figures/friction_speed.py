@@ -44,10 +44,10 @@ def plot(
 
 def figure(tables: Tables) -> Figure:
     """A panel for each load, depth or scene; at most three side by side."""
-    return against(tables, NAME, "speed", (AXES["speed"][1], "friction coefficient [1]"), "friction_coefficient")
+    return against(NAME, tables, "speed", (AXES["speed"][1], "friction coefficient [1]"), "friction_coefficient")
 
 
-def against(tables: Tables, name: str, across: str, labels: Sequence[str], quantity: str) -> Figure:
+def against(name: str, tables: Tables, across: str, labels: Sequence[str], quantity: str) -> Figure:
     """A quantity of every model along an axis; below, over that of the reference where that is known."""
     points, ratios, lines = tables[name], tables.get(f"{name}{RATIOS}"), tables.get(f"{name}{LINES}")
     places = panels_of(points, *PLACES)

@@ -38,7 +38,7 @@ def plot(points: DataFrame, ratios: DataFrame, limits: DataFrame, folder: str = 
 
 def figure(tables: Tables) -> Figure:
     """Above: friction over slope. Below: 1D over 3D."""
-    drawing = against(tables, NAME, "v_tau_over_a", LABELS, "friction_over_slope")
+    drawing = against(NAME, tables, "v_tau_over_a", LABELS, "friction_over_slope")
     if len(drawing.axes) > 1:
         below = drawing.axes[1]
         wide = style.line(0.75, 4.0, zorder=0, label="2, derived for low speed")

@@ -426,7 +426,7 @@ def test_the_figure_is_a_function_of_its_csv_files(tmp_path, text):
     for axes, across in ((left, "normal_force"), (middle, "shifted_force"), (below, "shifted_force")):
         curves = [bars[0] for bars in axes.containers]
         assert len(curves) == len(made.collapse.speeds)
-        shown = np.concatenate([line.get_xdata() for line in curves])
+        shown = np.concatenate([line.get_xdata() for line in curves]).astype(float)
         np.testing.assert_allclose(np.sort(shown), np.sort(points[across]), rtol=1e-12)
     assert bool(shifts) == plot.tables[collapse.NAME + collapse.SHIFTS]["log_shift"].notna().all()
     assert len(plot.caption.split()) <= 60

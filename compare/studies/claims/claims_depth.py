@@ -55,7 +55,7 @@ def rest_findings(contacts: Contacts, words: str) -> list[Finding]:
         for side, places in (("deep", deep), ("shallow", ~deep))
         if places.any()
         for found in pair_findings(
-            f"rest.{what}-{side}", partial(apart, places), contacts, ROUGH, words, "depth", what
+            f"rest.{what}-{side}", partial(apart, places), contacts, ROUGH, words, "force-depth", what
         )
     ]
 
