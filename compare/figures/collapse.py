@@ -41,6 +41,8 @@ SHIFTED = {
     BOTH: "shifted along force and friction",
     UNSHIFTED: "no shift brings them onto one",
 }
+# Height above the shifts that a line of the legend takes, over theirs.
+ROOM = 0.18
 # Lines of other powers of the speed, in the order in which they come.
 OTHERS = (("#009E73", ":"), ("#CC79A7", "-."))
 
@@ -251,7 +253,9 @@ def _shifts(axes: Axes, fit, shifts: DataFrame, powers: DataFrame, colours) -> N
         axes.plot(shifts["speed"], power.exponent * decades, **look)
     style.span(axes, shifts["speed"])
     low, high = axes.get_ylim()
-    axes.set(ylim=(low, high + 0.5 * (high - low)), ylabel="decades of the shift [1]")
+    labels = axes.get_legend_handles_labels()[1]
+    room = ROOM * len("\n".join(labels).split("\n")) * (high - low)
+    axes.set(ylim=(low, high + room), ylabel="decades of the shift [1]")
     axes.legend(loc="upper right", fontsize=style.tiny(), borderaxespad=0.1, handlelength=1.5)
 
 

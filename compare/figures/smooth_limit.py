@@ -41,8 +41,8 @@ def figure(tables: Tables) -> Figure:
     drawing = against(NAME, tables, "v_tau_over_a", LABELS, "friction_over_slope")
     if len(drawing.axes) > 1:
         below = drawing.axes[1]
-        wide = style.line(0.75, 4.0, zorder=0, label="2, derived for low speed")
+        wide = style.line(0.75, 4.0, zorder=0)
         below.plot([tables[NAME]["v_tau_over_a"].min(), SLOW], [2, 2], **wide)
-        below.set_ylim(top=max(2.4, below.get_ylim()[1]), bottom=0)
-        below.legend(loc="lower left")
+        below.set_title(f"{below.get_title(loc='left')} grey: 2, derived for low speed")
+        below.set_ylim(0, max(2.4, below.get_ylim()[1]))
     return drawing

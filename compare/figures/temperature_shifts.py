@@ -60,7 +60,7 @@ def figure(tables: Tables) -> Figure:
     loads = few(counts.index[counts == counts.max()], LOADS)
     middling = loads[loads.size // 2]
     for (load, at), own in points[points["load"].isin(loads)].groupby(["load", "temperature"]):
-        for axes, across in ((left, "speed"), (middle, "reduced_speed"))[load != middling :]:
+        for axes, across in ((left, "speed"), (middle, "reduced_speed"))[int(load != middling) :]:
             intervals(axes, own[across], own, "friction_coefficient", linewidth=style.width(0.5), **looks[at])
         if own["reduced_speed"].max() == points.loc[points["load"] == load, "reduced_speed"].max():
             place = {"xytext": (4, 0), "textcoords": "offset points", "va": "center", "fontsize": style.tiny()}
