@@ -20,7 +20,7 @@ def plot(points: DataFrame) -> Plot:
     caption = (
         "Friction over that of Eq. 19 at the same ξ (Eq. 18) and plateau (Eq. 14), for all roughness and solids "
         "of a shape, by colour of the load. If they count through ξ alone, the points of a shape are one curve. "
-        "Bars: 95 %."
+        "Bars: 95 %, cut at the frame."
     )
     return Plot(NAME, figure, {NAME: points}, caption, "Friction over Eq. 19 against ξ, left 1D, right 3D")
 

@@ -11,9 +11,8 @@ from pandas import DataFrame
 
 from ..report.page import Plot, Tables
 from . import style
-from .curves import intervals, unanswered
 from .lettering import lettered
-from .panels import AXES, at, compared, legend, limit, over, panels_of, tables_of
+from .panels import AXES, at, compared, curve, legend, limit, over, panels_of, tables_of
 
 NAME = "force-depth"
 DIFFERENCES = f"{NAME}-differences"
@@ -84,10 +83,8 @@ def figure(tables: Tables) -> Figure:
 
 def _bodies(axes: Axes, points: DataFrame, prescribed: str, name: str, times: float) -> None:
     """Every model on the rough body, and on the smooth one, hollow."""
-    scale = AXES[prescribed][0]
     for (solver, body), own in points.groupby(["solver", "body"], sort=False):
         look: dict[str, Any] = style.look(solver, label=f"{style.label(solver)}, {body}")
         if body == "smooth":
             look |= {"markerfacecolor": "none", "linestyle": "none"}
-        intervals(axes, scale * own[prescribed], own, name, times, **look)
-        unanswered(axes, scale * own[prescribed], own[f"{name}_mean"], look["color"], look["label"])
+        curve(axes, own, prescribed, name, times, **look)

@@ -8,10 +8,9 @@ from pandas import DataFrame
 
 from ..report.page import Plot, Tables
 from . import shades, style
-from .curves import intervals, unanswered
 from .friction_speed import THEORY, line_look
 from .lettering import lettered
-from .panels import AXES, CURVES, few, legend, limit, tables_of
+from .panels import AXES, CURVES, curve, few, legend, limit, tables_of
 
 NAME = "friction-load"
 LINES = f"{NAME}-lines"
@@ -50,9 +49,7 @@ def figure(tables: Tables) -> Figure:
         axes.set(xscale="log", yscale="log", xlabel=label, title=style.label(solver) if several else "")
         for speed, own in points[points["solver"] == solver].groupby("speed"):
             look = looks[speed] if several else style.look(solver)
-            intervals(axes, scale * own[across], own, "friction_coefficient", **look)
-            missing = "" if several else look["label"]
-            unanswered(axes, scale * own[across], own["friction_coefficient_mean"], look["color"], missing)
+            curve(axes, own, across, "friction_coefficient", **look)
         if lines is not None:
             shown = lines[(lines["kind"] == THEORY) | (lines["solver"] == solver)].sort_values(across)
             for (kind, name, speed), own in shown[shown["speed"].isin(speeds)].groupby(

@@ -9,9 +9,8 @@ from pandas import DataFrame
 
 from ..report.page import Plot, Tables
 from . import style
-from .curves import intervals, unanswered
 from .lettering import lettered
-from .panels import AXES, PANELS, at, compared, legend, limit, over, panels_of, tables_of
+from .panels import AXES, PANELS, at, compared, curve, legend, limit, over, panels_of, tables_of
 
 NAME = "friction-speed"
 RATIOS, LINES = "-ratios", "-lines"
@@ -62,10 +61,8 @@ def against(name: str, tables: Tables, across: str, labels: Sequence[str], quant
         spare.remove()
     for (above, *below), (place, (title, own)) in zip(stacks, places.items(), strict=False):
         above.set(xscale="log", yscale="log", title=title)
-        for solver, curve in own.sort_values(across).groupby("solver", sort=False):
-            look = style.look(str(solver), markersize=style.mark(0.8))
-            intervals(above, curve[across], curve, quantity, **look)
-            unanswered(above, curve[across], curve[f"{quantity}_mean"], look["color"], look["label"])
+        for solver, rows in own.groupby("solver", sort=False):
+            curve(above, rows, across, quantity, **style.look(str(solver), markersize=style.mark(0.8)))
         if lines is not None:
             beside = at(lines, place, *PLACES).sort_values(across)
             for (kind, solver), line in beside.groupby(["kind", "solver"], sort=False):

@@ -73,18 +73,24 @@ def over(table: DataFrame) -> str:
     return "1D / 3D" if set(table["solver"]) <= {"MDR", "BEM", "exact"} else "over reference"
 
 
+def curve(axes: Axes, points: DataFrame, across: str, name: str, times: float = 1.0, **look: Any) -> None:
+    """Points along an axis with intervals, and crosses without an answer. look : of `errorbar`, with a colour"""
+    points = points.sort_values(across)
+    x = AXES.get(across, (1.0, ""))[0] * points[across]
+    intervals(axes, x, points, name, times, **look)
+    unanswered(axes, x, points[name if name in points else f"{name}_mean"], look["color"], look["label"] or "")
+
+
 def compared(axes: Axes, table: DataFrame, across: str, name: str, level: float, times: float = 1.0) -> None:
     """Models against the reference: filled of rough bodies, hollow and dotted of smooth ones, about a level."""
     axes.axhline(level, **style.line(0.6, 0.55))
-    scale = AXES.get(across, (1.0, ""))[0]
     several = table["solver"].nunique() > 1
-    for (solver, body), own in table.sort_values(across).groupby(["solver", "body"], sort=False):
+    for (solver, body), own in table.groupby(["solver", "body"], sort=False):
         look: dict[str, Any] = {"color": style.COLOUR[str(solver)] if several else style.ink(), "marker": "o"}
         look |= {"label": None if several else f"{over(table)}, {body}", "markersize": style.mark(0.9)}
         if body == "smooth":
             look |= {"marker": "D", "linestyle": ":", "markerfacecolor": style.paper()}
-        intervals(axes, scale * own[across], own, name, times, **look)
-        unanswered(axes, scale * own[across], own[name], look["color"])
+        curve(axes, own, across, name, times, **look)
 
 
 def speed_key(drawing: Figure, panels: Any, speeds: Any, label: str) -> list[Line2D]:

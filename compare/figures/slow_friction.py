@@ -22,7 +22,7 @@ def plot(points: DataFrame, folder: str = "") -> Plot:
     """
     caption = (
         "Behind Eq. 17, at the slowest speed, over the numbers under the least load: (a) real contact, a length "
-        "in 1D and an area in 3D; (b) friction over it; (c) rms slope of what touches. Dotted: as the paper "
+        "in 1D and an area in 3D; (b) friction over it; (c) rms slope of what touches. Thin dashes: as the paper "
         "derives it, contact like the nominal one, the others constant. Bars: 95 %."
     )
     return Plot(f"{folder}{NAME}", figure, {NAME: points}, caption, "Three causes against load, in 1D and 3D")
@@ -34,10 +34,10 @@ def figure(tables: Tables) -> Figure:
     drawing = style.canvas("double", 2.7)
     panels = drawing.subplots(1, len(CAUSES), sharex=True)
     for axes, (name, title) in zip(panels, CAUSES.items(), strict=True):
-        for solver, own in points.groupby("solver", sort=False):
+        for k, (solver, own) in enumerate(points.groupby("solver", sort=False)):
             look = style.look(str(solver))
             intervals(axes, own["normal_force"], own, name, **look)
-            law = {"color": look["color"], "linestyle": ":", "label": f"{look['label']}, the paper"}
+            law = {"color": look["color"], "linestyle": (3 * k, (3, 3)), "label": f"{look['label']}, the paper"}
             axes.plot(own["normal_force"], own[f"{name}_law"], linewidth=style.width(0.8), **law)
         axes.set(xscale="log", xlabel="normal force [N]", title=title)
     panels[0].set(yscale="log", ylabel=f"over that at {points['normal_force'].min():.3g} N [1]")

@@ -77,8 +77,8 @@ def figure(tables: Tables) -> Figure:
     for axes in (left, middle):
         axes.set(xscale="log", yscale="log")
     low, high = left.get_xlim()
-    if 10 < high / low < 100:  # too many ticks for a narrow panel, but for two decades and more
-        left.set_xlim(np.sqrt(low * high) / 10, np.sqrt(low * high) * 10)
+    between = np.sqrt(low * high)  # two decades at least: within less there are too many ticks for a narrow panel
+    left.set_xlim(min(low, between / 10), max(high, 10 * between))
     middle.set_xlim(right=30 * points["reduced_speed"].max())
     limit(left, points[points["load"].isin(loads)], "friction_coefficient")
     style.decades(left, middle)
