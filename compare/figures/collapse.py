@@ -234,15 +234,14 @@ def _missed(fit) -> str:
 def _shifts(axes: Axes, fit, shifts: DataFrame, powers: DataFrame, colours) -> None:
     """Shifts with intervals, hollow where curves do not collapse; fitted exponents in words, others as lines."""
     told = {each.power: f"{each.power}{_exponent(each)}" for each in powers.itertuples()}
-    marks: dict[str, Any] = {"linestyle": "none", "capsize": 0, "markersize": style.mark(0.9)}
+    marks: dict[str, Any] = {"linestyle": "none", "markersize": style.mark(0.9)}
     marks |= {} if fit.decided else {"markerfacecolor": style.paper()}
-    look = marks | {"color": style.grey(0.3), "marker": "o", "label": told.pop(ALONG, ALONG)}
-    intervals(axes, shifts["speed"], shifts, "log_shift", 1 / LOG10, **look)
+    axes.plot([], [], "o", color=style.grey(0.3), label=told.pop(ALONG, ALONG), **marks)
     for speed, own in shifts.groupby("speed"):
-        marker = own["marker"].iloc[0]
-        intervals(axes, own["speed"], own, "log_shift", 1 / LOG10, color=colours[speed], marker=marker, **marks)
+        look = marks | {"color": colours[speed], "marker": own["marker"].iloc[0], "capsize": 0}
+        intervals(axes, own["speed"], own, "log_shift", 1 / LOG10, **look)
     if fit.shifted_as == BOTH:
-        look = marks | {"color": style.ink(), "marker": "s", "label": told.pop(ACROSS, ACROSS)}
+        look = marks | {"color": style.ink(), "marker": "s", "capsize": 0, "label": told.pop(ACROSS, ACROSS)}
         intervals(axes, shifts["speed"], shifts, "log_lift", 1 / LOG10, **look)
     if shifts["expected"].notna().all():
         look = style.line(0, 0.8, linestyle="--", label=told.pop(EXPECTED, EXPECTED))
