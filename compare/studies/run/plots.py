@@ -86,8 +86,9 @@ def _eq_19(found: CaseFindings, points: DataFrame, places: DataFrame) -> DataFra
 
 
 def _ratios(found: CaseFindings) -> DataFrame:
+    body = "rough" if found.case.roughness else "smooth"
     rows = [
-        {"solver": solver, "body": "rough", "speed": speed, "ratio": each.value, **_ends("ratio", each)}
+        {"solver": solver, "body": body, "speed": speed, "ratio": each.value, **_ends("ratio", each)}
         for solver, speed, each in found.at_speeds
     ]
     return DataFrame(rows)

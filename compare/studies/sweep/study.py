@@ -187,9 +187,9 @@ class Sweep(Study):
     def _ratios(self, findings):
         """Friction of each model over that of the reference at every contact, from its findings."""
         names = {self.models.beside(each.name): each.name for each in self.models.judged}
-        places = list(product(self.speeds, self.values))
+        places, body = list(product(self.speeds, self.values)), "rough" if self.case.roughness else "smooth"
         rows = [
-            (names[each.dimension], "rough", *place, each.value, *each.interval)
+            (names[each.dimension], body, *place, each.value, *each.interval)
             for place, own in zip(places, np.array_split(np.array(findings, object), len(places)), strict=True)
             for each in own
         ]
