@@ -27,7 +27,7 @@ def plot(points: DataFrame, differences: DataFrame, caption: str = "", folder: s
 
     points : solver, body ("rough", "smooth"), load [N] or depth [m] as prescribed, the other as depth_reached or
         normal_force with _mean, _low and _high, and closed_form, that of the smooth body; without that column that
-        of the solver "exact", else of "BEM", on the smooth body. rate [m/s], 0 at rest, where it is pressed in
+        of the solver "exact", else "BEM" or another, on the smooth body. rate [m/s], 0 at rest, where it is pressed in
     differences : solver, body, load or depth, rate, and difference, _low and _high: force over that of the
         reference less one, or depth less that of the reference [m]
     """
@@ -37,7 +37,8 @@ def plot(points: DataFrame, differences: DataFrame, caption: str = "", folder: s
         smooth = points[points["body"] == "smooth"]
         known = {solver: own.set_index("depth")["normal_force_mean"] for solver, own in smooth.groupby("solver")}
         points = points[points["solver"] != "exact"]
-        points = points.assign(closed_form=points["depth"].map(known.get("exact", known.get("BEM", {}))))
+        solver = next((each for each in ("exact", "BEM", *known) if each in known), None)
+        points = points.assign(closed_form=points["depth"].map(known.get(solver, {})))
     told = caption or (
         "Force at a depth at rest, rough and of the smooth body in closed form, or else in 3D; off that; 1D off "
         "3D. Bars: 95 %."

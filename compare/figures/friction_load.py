@@ -23,7 +23,7 @@ def plot(points: DataFrame, lines: DataFrame | None = None, caption: str = "", f
     lines : solver, speed, load or depth, friction_coefficient, and kind: a theory, which all panels show, or
         another of `friction_speed.KINDS` of a solver, which its own panel shows
     """
-    if points.empty or not (points["speed"] > 0).any():
+    if not (points["speed"] > 0).any():
         return None
     told = caption or f"Coefficient of friction against load or depth, at up to {CURVES} speeds."
     alternative = "Friction of each model against load or depth, a curve for each speed."

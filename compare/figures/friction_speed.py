@@ -33,7 +33,7 @@ def plot(
         reference, in the same panels
     lines : solver, speed, friction_coefficient, and kind, one of KINDS, in the same panels
     """
-    if points.empty or not (points["speed"] > 0).any():
+    if not (points["speed"] > 0).any():
         return None
     told = caption or "Coefficient of friction against speed; below, over that of the reference."
     alternative = "Friction of all models against speed on logarithmic axes; below, their ratio."

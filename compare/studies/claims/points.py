@@ -12,7 +12,7 @@ from ...statistics import means
 from ...statistics.jackknife import friction, mean
 from ...statistics.means import Interval, compared
 from .laws import regimes
-from .series import CONTACT, ROUGH, SOLVERS, Contacts
+from .series import CONTACT, ROUGH, Contacts
 
 # Ratios of a rough point, see `regime.ratios`.
 GROUPS = (
@@ -53,11 +53,6 @@ def stacked(frames: Mapping[Any, DataFrame], *names: str) -> DataFrame:
             frame.insert(place, name, word)
     parts = list(frames.values())
     return concat([each for each in parts if len(each)] or parts[:1], ignore_index=True)
-
-
-def each_dimension(table: Callable[[str], DataFrame]) -> DataFrame:
-    """Tables of the solvers by their names, one below the other, with the dimension in front."""
-    return stacked({(dimension,): table(solver) for solver, dimension in SOLVERS.items()}, "dimension")
 
 
 def interval_columns(name: str, found: Interval) -> dict[str, np.ndarray]:
