@@ -6,11 +6,11 @@ from math import nan
 import numpy as np
 from pandas import DataFrame
 
+from compare.figures import friction_speed
 from compare.report import render
 from compare.report.page import Findings, Page, Section, Table, Text
 from compare.solving.words import sentences
 from compare.statistics.finding import HALVED, Claim, Finding
-from compare.studies.sweep import figure as sweep
 
 DEPTH = Claim("rest.depth", "Depths at rest agree", 1.0, 0.05, "Ratio of depths at one load.", dimension="1D/3D")
 SLOW = Claim("slow", "Friction & <speed> fall as n_1 = 40 %", 0.4, 0.01, dimension="1D")
@@ -46,7 +46,7 @@ def written(page, findings, folder):
 
 
 def page() -> Page:
-    plot = sweep.plot(MEANS)
+    plot = friction_speed.plot(MEANS)
     plot = type(plot)("sphere/friction", plot.draw, plot.tables, plot.caption, plot.alternative)
     blocks = [Text(PROSE), Table("sphere/rows", ROWS, "Rows."), Table("sphere/long", LONG, "All.", long=True)]
     return Page(
@@ -87,7 +87,7 @@ def hostile_page() -> Page:
     text = " ".join(HOSTILE)
     claim = Claim("x", f"{text} xi", 1.0, 0.1, text, dimension="1D")
     found = Finding(claim, 1.0, (0.9, 1.1), nan, where=f"{text} a", draws=3, regime=text, reason=text)
-    plot = sweep.plot(MEANS)
+    plot = friction_speed.plot(MEANS)
     plot = replace(plot, name="friction", caption=text, alternative=text)
     frame = DataFrame({"reason": HOSTILE, text: range(len(HOSTILE)), "body": [each[:9] for each in HOSTILE]})
     blocks = [*(Text(each) for each in HOSTILE), Text("\n".join(f"- {each}" for each in HOSTILE)), plot]

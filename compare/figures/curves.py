@@ -60,7 +60,7 @@ def averaged(points: DataFrame) -> str:
     rough = points[points["body"] == "rough"]
     if rough.empty:
         return "The body is smooth: bars are the change on halving the grid."
-    count = {solver: int(rows["surfaces"].max()) for solver, rows in rough.groupby("solver")}
+    count = {model: int(rows["surfaces"].max()) for model, rows in rough.groupby("model")}
     means = [f"{count.get('MDR', 0)} profiles (1D)", f"{count.get('BEM', 0)} surfaces (3D)"]
     # What answers for all surfaces at once has one.
     others = {name: number for name, number in count.items() if name not in ("MDR", "BEM") and number > 1}

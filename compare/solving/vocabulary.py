@@ -121,11 +121,9 @@ curves : Set of curves that are shifted onto one.
 power : Power of the speed: fitted to the shifts, expected, or that of a law.
 exponent : Exponent of a power of the speed. [1]
 misfit : Rms of ln mu about one curve, without what scatter adds. [1]
-least_misfit : The same, shifted along the load as far as neighbouring curves share the least range. [1]
 decided : Whether the shifts mean anything: not where curves do not collapse, nor where they part.
 shifted_as : Whether a figure shows curves shifted as fitted, or as expected.
 reference_speed : Speed whose curve is not shifted. [m/s]
-degree : Degree of the common polynomial. [1]
 holds : Whether every condition of the laws holds at a point.
 
 Of measured maps.
@@ -135,16 +133,15 @@ density_1d : Two-sided spectral density C_1D of the line scans along x, mean ove
 density_1d_mapped : Spectral density by the rule of the MDR. [m^3]
 waves : Waves of a map in a ring of wave numbers, a wave and its opposite counted as one. [1]
 in_band : Whether a wave number lies in the band in which the power law was fitted.
-ratio : Number in one dimension over that in three. [1]
+ratio : Number in one dimension over that in three, or over that of the reference. [1]
+kind : Line beside the models: a theory, Eq. 19, the smooth body, or its limit at low speed.
+claimed : Whether the law claims a point: where roughness is small against depth.
 friction_ratio : Coefficient of friction in one dimension over that in three, as the trust map predicts it. [1]
 depth_ratio : Depth in one dimension over that in three, as the trust map predicts it. [1]
 force_ratio : Normal force in one dimension over that in three, as the trust map predicts it. [1]
-deviation : Number in one dimension over that in three, less one. [1]
+deviation : Friction over that of the common curve, or a number over that of the reference, less one. [1]
 v_tau_over_a : Speed times retardation time over the radius of the smooth relaxed contact. [1]
 friction_over_slope : Friction over the slope of the body at the edge of the contact. [1]
-friction_over_slope_low_speed : Friction over the slope of the body at the edge of the contact, to first order in
-    the speed. [1]
-eq_19 : Coefficient of friction of Eq. 19 at the same load and speed, in one dimension. [1]
 indenter : Height of the rigid indenter above the undeformed surface. [m]
 surface : Height of the surface of the elastomer above the undeformed one. [m]
 touching : Whether indenter and elastomer touch.
@@ -152,23 +149,9 @@ line_force_1d : Force per length of the springs, mean over a strip along x. [N/m
 line_force_3d : Pressure integrated over y, mean over a strip along x. [N/m]
 
 Of series of contacts, and of the figures of a study.
-off_curve : ln of friction less that of the common curve at the shifted force. [1]
-rms : rms of ln of friction about the common curve, with scatter of surfaces. [1]
-points_left_out : Points that were not fitted, as fewer than half of the surfaces have an answer. [1]
-surfaces_left_out : Surfaces that were not fitted, as a solve failed at some point that is. [1]
-theory : ln of the shift p(v) that the loss at the shortest wave predicts. [1]
-rough : Depth [m] under the load, or force [N] at the depth, of the rough body at rest.
 closed_form : Depth [m] or force [N] of the smooth body in closed form.
-rough_deviation : rough less closed_form: of depths over the rms height, of forces over closed_form. [1]
-smooth_deviation : smooth less closed_form: of depths over the rms height, of forces over closed_form. [1]
-difference : 1D less 3D: of depths over the closed form, of forces over that in 3D. [1]
-rough_difference : Force on the rough body in 1D over that in 3D, less one. [1]
-smooth_difference : Force on the smooth body in 1D over that in 3D, less one. [1]
-stiffness : Difference of forces over difference of depths, between neighbouring contacts. [N/m]
+difference : Model against the reference: of forces their ratio less one [1], of depths their difference [m].
 rate : Rate of pressing in. [m/s]
-smooth_normal_force : Normal force on the body without its roughness. [N]
-friction_1d_over_3d : Coefficient of friction in 1D over that in 3D. [1]
-friction_over_plateau : Friction over that of the plateau. [1]
 over_eq_19 : Friction over that of Eq. 19 at the same ξ and plateau. [1]
 measured_share : Friction that roughness adds, over that in full contact. [1]
 contact_fraction : Real over nominal contact: of the area π a² in 3D, of the length 2a in 1D. [1]

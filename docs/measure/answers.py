@@ -15,12 +15,12 @@ import pandas
 import slow
 import spectrum
 import trust
-from compare.comparison.study_file import STUDIES
 from pandas import DataFrame
 from tables import finding, replaced, stored, table
 
 import compare
 from compare.comparison.claims import ENDS
+from compare.comparison.study_file import STUDIES
 from compare.solving.words import interval, number
 
 PAGE = Path(__file__).parents[1] / "results" / "answers.md"

@@ -14,6 +14,7 @@ from pandas import DataFrame
 from tables import finding, replaced, stored, table
 
 import compare
+from compare.comparison import study_file
 from compare.comparison.claims import ENDS
 from compare.comparison.curve import COARSE, FINE
 from compare.figures import style
@@ -23,7 +24,6 @@ from compare.statistics.collapse import collapse
 from compare.statistics.finding import verdict
 from compare.statistics.frictioncurves import SimulatedCurves
 from compare.statistics.jackknife import mean_ratio
-from compare.comparison import study_file
 
 PAGE = Path(__file__).parents[1] / "results" / "fast.md"
 LAW = PAGE.with_name("law.md")

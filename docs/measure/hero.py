@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import Literal
 
 import numpy as np
-from compare.comparison.study_file import STUDIES
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from pandas import DataFrame
@@ -20,6 +19,7 @@ from PIL import Image
 from tables import stored
 
 from bem3d import BEM, Trail
+from compare.comparison.study_file import STUDIES
 from compare.figures import style
 from compare.figures.curves import intervals
 from compare.figures.shades import SPEED, between

@@ -10,11 +10,11 @@ from pathlib import Path
 
 import numpy as np
 from campaign import solved
-from compare.comparison.study_file import STUDIES
 from pandas import DataFrame
 from tables import replaced, stored, table
 
 from bem3d import BEM
+from compare.comparison.study_file import STUDIES
 from compare.figures import style
 from compare.figures.lettering import lettered
 from compare.solving.task import SceneTask

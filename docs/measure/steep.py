@@ -10,11 +10,11 @@ from math import pi
 
 import numpy as np
 from campaign import friction, solved
-from compare.comparison.study_file import STUDIES
 from planes import PAGE as PLANES
 from tables import stored
 
 from bem3d import BEM
+from compare.comparison.study_file import STUDIES
 from compare.solving.task import SceneTask, draws_of
 from compare.statistics.intervals import student
 from compare.trustmap.friction_law import FrictionLaw

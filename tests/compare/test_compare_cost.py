@@ -6,7 +6,6 @@ from itertools import product
 import pint
 import pytest
 import xarray
-from compare.comparison.study_file import study_of
 from scene_files import HEAD, SCENE, SHARED, TABLES
 from small_cases import CURVE
 from stand_in_solver import Here
@@ -15,6 +14,7 @@ from typer.testing import CliRunner
 from bem3d import BEM
 from compare.cli.app import app
 from compare.comparison import asked as questions
+from compare.comparison.study_file import study_of
 from compare.library.case import Case, share_of
 from compare.solving.cost import DAY, MANY_CONTACTS, MOST_CONTACTS, SECONDS, Cost
 from compare.studies.paper.study import Paper

@@ -9,12 +9,16 @@ import xarray
 from invented_answers import SERIES, SURFACES, changed, eq_19, joined, obeying
 
 from compare.comparison.claims_law import EVERY, SHALLOW, LawPoints, law_findings
+from compare.comparison.comparison import Comparison
 from compare.comparison.curve import COARSE, FINE, SOLVED
 from compare.comparison.laws import laws
 from compare.comparison.rough import ROUGH
 from compare.comparison.theory import LAW, with_theory
 from compare.comparison.together import Member
 from compare.comparison.together import together as several
+from compare.figures import style
+from compare.report.page import Plot
+from compare.solving import words
 from compare.statistics.finding import FAILS, HOLDS, REPORTED
 from compare.studies.paper import parameters
 from scene import Slide
@@ -165,6 +169,29 @@ def test_a_series_alone_has_no_findings_on_several():
 def test_without_the_law_or_three_dimensions_nothing_is_found(contacts):
     ruled = {name: laws(contacts.series, contacts.answers, name) for name in ("MDR", "BEM")}
     assert not law_findings(contacts.series, contacts.answers, ruled)
+
+
+def test_figures_show_every_point_and_what_is_not_claimed_hollow():
+    made = [answers(times=1.05), answers(CONE)]
+    asked = Comparison(tuple(each.series for each in made), "study", "Bodies")
+    curves = {each.series.path(name): found for each in made for name, found in each.curves.items()}
+    judged = asked.judge(xarray.DataTree.from_dict(curves))
+    figures = {each.name: each for each in judged.plots}
+    for name, points, where in (("sphere/law", 9, "sphere"), ("law", 18, EVERY)):
+        plot: Plot = figures[name]
+        assert len(plot.tables["law"]) <= points
+        assert len(plot.caption.split()) <= 60
+        with style.applied():
+            drawing = plot.figure()
+        above, below = drawing.axes
+        own = {each.claim.id: 100 * each.value for each in judged.findings if each.where == where}
+        median, most = (words.number(own[f"law3d.collapse{end}"], 2) for end in ("", "-most"))
+        told = below.get_title(loc="left").partition(" ")[2]
+        assert told == f"off by {median} % (median), {most} % (nine in ten)"
+        drawn = [line for line in above.lines if line.get_marker() not in ("", "None", "_", "|")]
+        hollow = sum(line.get_xdata().size for line in drawn if line.get_markerfacecolor() == style.paper())
+        assert hollow == (plot.tables["law"]["height_over_depth"] > SHALLOW).sum() > 0
+        assert sum(line.get_xdata().size for line in drawn) == len(plot.tables["law"])
 
 
 def test_studies_solve_the_law_under_a_load_and_runs_do_not():

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from compare.comparison.study_file import StudyFile, study_of
 from damage import places
 
 from compare import run
+from compare.comparison.study_file import StudyFile, study_of
 from compare.library.case import Case
 from compare.library.lookup import located
 from compare.library.ready import find, ready, write

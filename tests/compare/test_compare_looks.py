@@ -182,12 +182,12 @@ def test_in_every_journal_texts_are_large_enough_whole_and_apart(name, asked):
 
 def test_texts_too_small_cut_or_over_one_another_are_found(monkeypatch):
     monkeypatch.setitem(JOURNALS, "narrow", replace(JOURNALS["aip"], double=4.0))
-    found = list(laws_of_layout("study_depth-depth", "narrow"))
+    found = list(laws_of_layout("collapse-figure", "narrow"))
     assert any("is cut" in fault or "lies over" in fault for fault in found)
-    drawing, texts, lines = laid_out("study_depth-depth", NARROW)
+    drawing, texts, lines = laid_out("collapse-figure", NARROW)
     texts[0].set_fontsize(7.9)
     monkeypatch.setitem(globals(), "laid_out", lambda *_: (drawing, texts, lines))
-    assert any("has 7.9 points" in fault for fault in laws_of_layout("study_depth-depth", NARROW))
+    assert any("has 7.9 points" in fault for fault in laws_of_layout("collapse-figure", NARROW))
     texts[0].set_fontsize(8)
 
 
@@ -411,7 +411,7 @@ def test_a_file_of_settings_is_a_style(tmp_path):
 
 def test_what_the_machine_has_set_does_not_show():
     with matplotlib.rc_context({"lines.linewidth": 9.0, "font.size": 30, "axes.facecolor": "yellow"}):
-        figure = drawn("friction_curves-speed_figure")
+        figure = drawn("friction_speed-figure")
     assert figure.axes[0].get_facecolor() == (1.0, 1.0, 1.0, 1.0)
     assert max(_widths(figure)) < 2
 
@@ -419,7 +419,7 @@ def test_what_the_machine_has_set_does_not_show():
 def test_text_too_large_for_the_panels_is_refused_with_the_size():
     large = style.Look(sheet={"font.size": 40})
     with style.chosen(large), pytest.raises(InvalidInput, match="text of 40 points"):
-        picture(sample("friction_curves-speed_figure"))
+        picture(sample("collapse-figure"))
 
 
 def test_a_text_is_broken_where_it_would_be_too_wide():
@@ -457,19 +457,19 @@ def test_a_legend_has_as_many_columns_as_fit(inches, expected):
         assert count == 1 or legend.get_window_extent().width <= drawing.bbox.width
 
 
-def test_speeds_without_an_answer_are_crossed_on_the_axis_and_have_no_bar(monkeypatch):
-    monkeypatch.setattr("compare.studies.run.figures.friction_curves.clear", lambda *_: None)  # takes longest
-    tables = {name: frame.copy() for name, frame in sample("friction_curves-speed_figure").tables.items()}
-    points, ratios = tables["friction-speed"], tables["friction-speed-ratio"]
+def test_speeds_without_an_answer_are_crossed_on_the_axis_and_have_no_bar():
+    tables = {name: frame.copy() for name, frame in sample("friction_speed-figure").tables.items()}
+    points, ratios = tables["friction-speed"], tables["friction-speed-ratios"]
     lost = points["speed"].min()
     points.loc[(points["solver"] == "BEM") & (points["speed"] == lost), "friction_coefficient_mean"] = np.nan
     ratios.loc[ratios["speed"] == lost, ["ratio", "ratio_low", "ratio_high"]] = np.nan
     with style.applied():
-        above, below = replace(sample("friction_curves-speed_figure"), tables=tables).figure().axes
+        drawing = replace(sample("friction_speed-figure"), tables=tables).figure()
+    above, below = drawing.axes[0], drawing.axes[3]
     crosses = [[line.get_xdata() for line in axes.lines if line.get_marker() == "x"] for axes in (above, below)]
-    assert [len(each) for each in crosses] == [1, 1]
+    assert [len(each) for each in crosses] == [1, 2]  # below of the rough and of the smooth body
     assert crosses[1][0] == pytest.approx([lost])
-    assert "3D (BEM): no answer" in [text.get_text() for text in above.get_legend().get_texts()]
+    assert "3D (BEM): no answer" in [text.get_text() for text in drawing.legends[0].get_texts()]
     assert np.isnan(style.bars([1.0, 1.0], [0.5, np.nan], [2.0, 2.0])).tolist() == 2 * [[False, True]]
 
 
@@ -490,7 +490,7 @@ def test_a_legend_over_a_curve_is_found_and_given_room():
 def test_threads_that_draw_at_once_draw_as_one_alone():
     def drawn_in(chosen):
         with style.chosen(style.Look(journal(chosen))):
-            return picture(sample("sweep-figure")).files
+            return picture(sample("smooth_limit-figure")).files
 
     asked, outside = ("default", "nature", "default"), dict(matplotlib.rcParams)
     with ThreadPoolExecutor(len(asked)) as threads:

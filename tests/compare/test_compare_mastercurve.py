@@ -10,7 +10,7 @@ from drawn_again import from_files
 
 import compare
 from compare.comparison import asked
-from compare.figures import shifted_curves
+from compare.figures import collapse
 from compare.library.ready import ready
 from compare.solving.words import found as worded
 from compare.statistics.eq23 import NO_SHIFT
@@ -365,7 +365,7 @@ def test_several_temperatures_are_shifted_along_the_speed_and_judged(tmp_path):
     assert "Shifts along the speed bring the temperatures together" in " ".join(made.judge(None).answer)
     assert first.startswith("Holds: Shifts along the load")
     points, shifts = made.judge(None).plots
-    assert set(points.tables["shifted-curves"]["temperature"].round(2)) == {285.15, 293.15, 301.15}
+    assert set(points.tables["collapse"]["temperature"].round(2)) == {285.15, 293.15, 301.15}
     own = shifts.tables["temperature-shifts"]
     np.testing.assert_allclose(
         np.log(own["reduced_speed"] / own["speed"]),
@@ -421,13 +421,14 @@ def test_the_figure_is_a_function_of_its_csv_files(tmp_path, text):
     told = made.judge(made.answers({}))
     (plot,) = told.plots
     drawing = from_files(plot)
-    left, middle, below, *shifts, _ = drawing.axes
-    points = plot.tables[shifted_curves.NAME]
+    left, middle, below, *shifts = drawing.axes
+    points = plot.tables[collapse.NAME]
     for axes, across in ((left, "normal_force"), (middle, "shifted_force"), (below, "shifted_force")):
-        lines = next(each for each in axes.collections if len(each.get_segments()) == len(made.collapse.speeds))
-        shown = np.concatenate(lines.get_segments())[:, 0]
+        curves = [bars[0] for bars in axes.containers]
+        assert len(curves) == len(made.collapse.speeds)
+        shown = np.concatenate([line.get_xdata() for line in curves]).astype(float)
         np.testing.assert_allclose(np.sort(shown), np.sort(points[across]), rtol=1e-12)
-    assert bool(shifts) == plot.tables[shifted_curves.SHIFTS]["log_shift"].notna().all()
+    assert bool(shifts) == plot.tables[collapse.NAME + collapse.SHIFTS]["log_shift"].notna().all()
     assert len(plot.caption.split()) <= 60
 
 
@@ -435,7 +436,7 @@ def test_the_command_leaves_page_figure_tables_and_findings(tmp_path):
     (tmp_path / "ball.csv").write_text(table())
     report = compare.mastercurve(tmp_path / "ball.csv", tmp_path / "out")
     assert report.findings["verdict"].tolist()[:2] == [HOLDS, HOLDS]
-    assert {"report.html", "findings.csv", "results.nc", "shifted-curves.png", "shifted-curves.csv"} <= {
+    assert {"report.html", "findings.csv", "results.nc", "collapse.png", "collapse.csv"} <= {
         path.name for path in (tmp_path / "out").iterdir()
     }
     kept = compare.load(tmp_path / "out")["measured"]

@@ -13,7 +13,8 @@ from small_cases import TINY
 
 from compare.comparison import asked
 from compare.comparison.together import Member, together
-from compare.figures import shifted_curves, style
+from compare.figures import collapse as figure
+from compare.figures import style
 from compare.report import terminal
 from compare.report.page import Page, Table
 from compare.solving.continuation import Continuation
@@ -80,10 +81,10 @@ def test_a_number_of_a_study_lies_in_its_interval(scatter, grid):
 @pytest.mark.parametrize(
     ("law", "expected", "horizontal", "how"),
     [
-        (eq_19, 0.5, True, shifted_curves.FITTED),
-        (eq_19, 0.5, False, shifted_curves.BOTH),
-        (lambda load, speed: load**-0.3 * speed**3, 0.5, False, shifted_curves.EXPECTED),
-        (lambda load, speed: load**-0.3 * speed**3, nan, False, shifted_curves.UNSHIFTED),
+        (eq_19, 0.5, True, figure.FITTED),
+        (eq_19, 0.5, False, figure.BOTH),
+        (lambda load, speed: load**-0.3 * speed**3, 0.5, False, figure.EXPECTED),
+        (lambda load, speed: load**-0.3 * speed**3, nan, False, figure.UNSHIFTED),
     ],
     ids=["along the load", "along both", "as expected", "not at all"],
 )
@@ -96,11 +97,11 @@ def test_every_misfit_and_exponent_in_the_figure_of_shifts_is_that_of_a_finding(
     )
     shifts = None if isnan(expected) else expected * np.log(fine.speeds / fine.speeds[fine.speeds.size // 2])
     found = list(eq23.findings(fine, coarse, "3D", shifts, expected, horizontal=horizontal))
-    row = shifted_curves.ShiftedCurves(
+    row = figure.ShiftedCurves(
         "rough", fine, {each.claim.id: each for each in found}, expected, lead=eq23.leading(fine, found)
     )
-    plot = shifted_curves.plot([row])
-    assert plot.tables[shifted_curves.FITS]["shifted_as"].tolist() == [how]
+    plot = figure.plot([row])
+    assert plot.tables[figure.NAME + figure.FITS]["shifted_as"].tolist() == [how]
     with style.applied():
         drawing = plot.figure()
     texts = [each.get_text() for each in drawing.findobj(Text)]

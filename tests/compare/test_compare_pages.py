@@ -100,7 +100,7 @@ def test_what_is_read_back_is_the_same_table(tmp_path_factory, rows):
 
 
 def test_every_table_of_a_page_lies_beside_it_with_every_digit(folder):
-    assert_frame_equal(csvfiles.read(folder / "sphere/friction.csv"), MEANS, check_exact=True)
+    assert_frame_equal(csvfiles.read(folder / "sphere/friction-speed.csv"), MEANS, check_exact=True)
     assert_frame_equal(csvfiles.read(folder / "sphere/rows.csv"), ROWS, check_exact=True)
     assert list(csvfiles.read(folder / "findings.csv")) == list(COLUMNS)
     assert {
@@ -267,7 +267,7 @@ def test_figures_of_a_journal_have_the_width_of_its_column(folder, tmp_path, loo
 def test_a_changed_table_gives_another_picture(folder, tmp_path):
     (tmp_path / "sphere").mkdir()
     (tmp_path / "manifest.json").write_bytes((folder / "manifest.json").read_bytes())
-    (tmp_path / "sphere/friction.csv").write_text(csvfiles.text(MEANS.assign(friction_coefficient_mean=0.3)))
+    (tmp_path / "sphere/friction-speed.csv").write_text(csvfiles.text(MEANS.assign(friction_coefficient_mean=0.3)))
     drawn = draw_again(tmp_path)
     assert drawn[0] == tmp_path / "figures/sphere/friction.png"
     assert drawn[0].read_bytes() != (folder / "sphere/friction.png").read_bytes()
@@ -293,7 +293,7 @@ def test_a_forged_figure_is_refused_by_name(folder, tmp_path, change, said):
     content["plots"][0] |= change
     (tmp_path / "manifest.json").write_text(json.dumps(content))
     (tmp_path / "sphere").mkdir()
-    (tmp_path / "sphere/friction.csv").write_bytes((folder / "sphere/friction.csv").read_bytes())
+    (tmp_path / "sphere/friction-speed.csv").write_bytes((folder / "sphere/friction-speed.csv").read_bytes())
     with pytest.raises(InvalidInput, match=re.escape(said)):
         draw_again(tmp_path, output=tmp_path / "out")
     assert not (tmp_path / "out").exists()
@@ -347,13 +347,13 @@ def test_a_damaged_manifest_is_named_whatever_is_in_it(tmp_path_factory, content
         (b"", "cannot be drawn"),
         (b"\xff", "not a table"),
         (b"a,b\n1\n1,2,3\n", "not a table"),
-        (b"a\n1\n", "'speed'"),
+        (b"a\n1\n", "'solver'"),
     ],
 )
 def test_a_damaged_table_is_named(folder, tmp_path, damage, said):
     (tmp_path / "manifest.json").write_bytes((folder / "manifest.json").read_bytes())
     (tmp_path / "sphere").mkdir()
-    (tmp_path / "sphere/friction.csv").write_bytes(damage)
+    (tmp_path / "sphere/friction-speed.csv").write_bytes(damage)
     with pytest.raises(InvalidInput, match=said):
         draw_again(tmp_path)
 
@@ -380,7 +380,7 @@ def elsewhere(path):
 
 READ = {
     "manifest.json": [draw_again, export],
-    "sphere/friction.csv": [draw_again, export],
+    "sphere/friction-speed.csv": [draw_again, export],
     "results.nc": [netcdf.load, lambda folder: export(folder / "results.nc")],
 }
 
@@ -531,7 +531,7 @@ def test_exported_csv_has_every_digit_every_unit_and_what_was_solved(folder, tmp
     assert set(written) == {
         f"{name}.csv" for name in ("findings", "sphere/rows", "sphere/long", "sphere/friction", "sphere/MDR")
     }
-    assert list(written["sphere/friction.csv"]) == [
+    assert list(written["sphere/friction-speed.csv"]) == [
         "solver",
         "speed [m/s]",
         "load [N]",

@@ -209,7 +209,7 @@ def test_the_example_of_the_page_on_figures_draws_in_the_style_it_states(tmp_pat
         friction_coefficient_high=lambda frame: 1.1 * frame["friction_coefficient_mean"]
     )
     Path("crosscheck-sweep").mkdir()
-    means.to_csv("crosscheck-sweep/friction.csv", index=False)
+    means.to_csv("crosscheck-sweep/friction-speed.csv", index=False)
     figure = run(DOCS / "howto" / "figures.md", PYTHON)["figure"]
     lines = [bar[0] for bar in figure.axes[0].containers]
     assert [line.get_linewidth() for line in lines] == [3.5, 3.5]

@@ -13,7 +13,8 @@ from scene.printable import brief
 from scene.quantities import BARE, argument
 from scene.reading import InvalidInput
 
-from ...figures import shifted_curves
+from ...figures import collapse as collapsed
+from ...figures import temperature_shifts
 from ...report.page import Block, Findings, Table, Text
 from ...solving.outcome import Outcome
 from ...solving.task import Batch, Task
@@ -26,9 +27,9 @@ from ...statistics.pooling import WARMTH, Pooled, pooled
 from ...statistics.shiftlaws import ShiftLaw, law_of
 from ...statistics.temperatureshifts import TemperatureShifts
 from ..study import Judgement, Study
-from . import temperature_figure as temperature_shifts
 from . import temperatures
 from .measurements import MeasuredFriction, Measurements
+from .temperature_tables import laws_table, points_table, shifts_table
 from .temperatures import Constants
 
 TOLERANCE = (
@@ -153,13 +154,13 @@ class Mastercurve(Study):
         shifts = self.collapse.shifts(self.lead)
         if self.shifts is not None and (warm := self._curves()) is not None:
             shifts = warm.join(shifts.rename(columns={"speed": "reduced_speed"}))
-            tables.append(Table("time-shifts", temperature_shifts.shifts_table(self.shifts), told))
+            tables.append(Table("time-shifts", shifts_table(self.shifts), told))
         tables.append(Table("shifts", shifts, told))
         return Judgement(findings, self._answer(findings), [*self._plots(findings), *tables], self.setting)
 
     def _findings(self):
         """Whether horizontal shifts suffice, or vertical ones are needed, the exponents of both; temperatures."""
-        found, plots = self.collapse, (shifted_curves.NAME,) * 2
+        found, plots = self.collapse, (collapsed.NAME,) * 2
         warm = list(temperatures.findings(self.shifts, self.law, self.friction.name)) if self.shifts else []
         raw = {
             eq23.COLLAPSE.id: found.horizontal.rms,
@@ -200,12 +201,17 @@ class Mastercurve(Study):
     def _plots(self, findings):
         named = {each.claim.id: each for each in findings}
         own = {claim: named[name] for claim, (name, _) in CLAIMS.items() if name in named}
-        shown = shifted_curves.ShiftedCurves(
+        shown = collapsed.ShiftedCurves(
             self.friction.name, self.collapse, own, lead=self.lead, warmth=self._curves()
         )
-        plots = [shifted_curves.plot([shown])]
+        plots = [collapsed.plot([shown])]
         if self.shifts is not None:
-            plots.append(temperature_shifts.plot(self.pooled, self.shifts, self.law))
+            tables = (
+                points_table(self.pooled, self.shifts),
+                shifts_table(self.shifts),
+                laws_table(self.shifts, self.law),
+            )
+            plots.append(temperature_shifts.plot(*tables, "found" if self.shifts.found else "stated"))
         return [each for each in plots if each]
 
     def _curves(self):

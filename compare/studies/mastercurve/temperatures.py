@@ -10,6 +10,7 @@ from pydantic import TypeAdapter, ValidationError
 from scene.reading import InvalidInput, mistakes
 from scene.temperature import WLF
 
+from ...figures import temperature_shifts
 from ...solving import words
 from ...statistics import eq23
 from ...statistics.finding import EXACT, FAILS, Claim, Finding
@@ -17,7 +18,6 @@ from ...statistics.measuredcurves import isotherms
 from ...statistics.pooling import Pooled
 from ...statistics.shiftlaws import NONE, ShiftLaw
 from ...statistics.temperatureshifts import TemperatureShifts, found, stated
-from . import temperature_figure as temperature_shifts
 from .measurements import COLDEST
 
 TOGETHER = Claim(

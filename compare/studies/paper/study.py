@@ -13,7 +13,7 @@ from scene.reading import InvalidInput
 
 from ...comparison import curve
 from ...comparison.curve import FAILED, Curve
-from ...figures import shifted_curves
+from ...figures import collapse
 from ...report.page import Block, Findings, Section, Table, Text
 from ...solving.cost import MOST_DRAWS, Cost
 from ...solving.outcome import Outcome
@@ -157,7 +157,7 @@ class Paper(Study):
 
     def _shifted(self, lossy, findings):
         rows = [
-            shifted_curves.ShiftedCurves(
+            collapse.ShiftedCurves(
                 title=lossy.where(of),
                 collapse=found,
                 findings={each.claim.id: each for each in findings if each.where == lossy.where(of)},
@@ -167,7 +167,7 @@ class Paper(Study):
             )
             for of, found in lossy.collapses.items()
         ]
-        return shifted_curves.plot(rows, f"shifted-curves{lossy.loss.suffix}")
+        return collapse.plot(rows, f"shifted-curves{lossy.loss.suffix}")
 
 
 def _dataset(answers, path):

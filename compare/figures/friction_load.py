@@ -1,0 +1,66 @@
+"""Friction against load or depth, a curve for each speed: a panel for each model, or one for all at one speed."""
+
+from typing import Any
+
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from pandas import DataFrame
+
+from ..report.page import Plot, Tables
+from . import shades, style
+from .friction_speed import THEORY, line_look
+from .lettering import lettered
+from .panels import AXES, CURVES, curve, few, legend, limit, tables_of
+
+NAME = "friction-load"
+LINES = f"{NAME}-lines"
+
+
+def plot(points: DataFrame, lines: DataFrame | None = None, caption: str = "", folder: str = "") -> Plot | None:
+    """Plot of friction against load or depth; None where nothing slides.
+
+    points : model, speed [m/s], load [N] or depth [m], friction_coefficient_mean, _low and _high
+    lines : model, speed, load or depth, friction_coefficient, and kind: a theory, which all panels show, or
+        another of `friction_speed.KINDS` of a model, which its own panel shows
+    """
+    if not (points["speed"] > 0).any():
+        return None
+    told = caption or f"Coefficient of friction against load or depth, at up to {CURVES} speeds."
+    alternative = "Friction of each model against load or depth, a curve for each speed."
+    return Plot(f"{folder}{NAME}", figure, tables_of({NAME: points, LINES: lines}), told, alternative)
+
+
+def figure(tables: Tables) -> Figure:
+    """The same axes for all models."""
+    points, lines = tables[NAME], tables.get(LINES)
+    across = "load" if "load" in points else "depth"
+    scale, label = AXES[across]
+    speeds = few(points["speed"][points["speed"] > 0], CURVES)
+    points = points[points["speed"].isin(speeds)].sort_values(across)
+    colours = shades.SPEED(shades.between(speeds)(speeds))
+    looks: dict[float, dict[str, Any]] = {
+        speed: form | {"color": colour, "label": f"{speed:.3g} m/s", "markersize": style.mark(0.8)}
+        for speed, colour, form in zip(speeds.tolist(), colours, style.forms(), strict=False)
+    }
+    several, models = len(speeds) > 1, list(points["model"].unique())
+    drawing = style.canvas("double" if several else "single", 3.3)
+    panels = drawing.subplots(1, len(models) if several else 1, sharex=True, sharey=True, squeeze=False)[0]
+    for axes, model in zip(panels if several else panels.repeat(len(models)), models, strict=True):
+        axes.set(xscale="log", yscale="log", xlabel=label, title=style.label(model) if several else "")
+        for speed, own in points[points["model"] == model].groupby("speed"):
+            look = looks[speed] if several else style.look(model)
+            curve(axes, own, across, "friction_coefficient", **look)
+        if lines is not None:
+            shown = lines[(lines["kind"] == THEORY) | (lines["model"] == model)].sort_values(across)
+            for (kind, name, speed), own in shown[shown["speed"].isin(speeds)].groupby(["kind", "model", "speed"]):
+                colour = {"color": looks[speed]["color"]} if several else {}
+                axes.plot(scale * own[across], own["friction_coefficient"], **line_look(kind, name, **colour))
+    panels[0].set_ylabel("friction coefficient [1]")
+    style.span(panels[0], scale * points[across])
+    limit(panels[0], points, "friction_coefficient")
+    style.decades(*panels)
+    lettered(panels)
+    kinds = lines[["kind", "model"]].drop_duplicates() if several and lines is not None else DataFrame()
+    grey = [Line2D([], [], **line_look(*each, color=style.grey(0.3))) for each in kinds.to_numpy()]
+    legend(drawing, panels, 5 if several else 2, *grey)
+    return drawing

@@ -1,0 +1,95 @@
+"""Friction against speed of every model, at up to three loads or depths or of several scenes; below, ratios."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from pandas import DataFrame
+
+from ..report.page import Plot, Tables
+from . import style
+from .lettering import lettered
+from .panels import AXES, PANELS, at, compared, curve, legend, limit, over, panels_of, tables_of
+
+NAME = "friction-speed"
+RATIOS, LINES = "-ratios", "-lines"
+PLACES = "case", "load", "depth"
+THEORY, EQ_19, SMOOTH = KINDS = "theory", "Eq. 19", "smooth"
+
+
+def plot(
+    points: DataFrame,
+    ratios: DataFrame | None = None,
+    lines: DataFrame | None = None,
+    caption: str = "",
+    folder: str = "",
+) -> Plot | None:
+    """Plot of friction against speed; None where nothing slides.
+
+    points : model, speed [m/s], friction_coefficient_mean, _low and _high; case (name of a scene), else load [N]
+        or depth [m], where there are several panels
+    ratios : model, body ("rough", "smooth"), speed, ratio, ratio_low and ratio_high: friction over that of the
+        reference, in the same panels
+    lines : model, speed, friction_coefficient, and kind, one of KINDS, in the same panels
+    """
+    if not (points["speed"] > 0).any():
+        return None
+    told = caption or "Coefficient of friction against speed; below, over that of the reference."
+    alternative = "Friction of all models against speed on logarithmic axes; below, their ratio."
+    tables = tables_of({NAME: points, f"{NAME}{RATIOS}": ratios, f"{NAME}{LINES}": lines})
+    return Plot(f"{folder}{NAME}", figure, tables, told, alternative)
+
+
+def figure(tables: Tables) -> Figure:
+    """A panel for each load, depth or scene; at most three side by side."""
+    return against(NAME, tables, "speed", (AXES["speed"][1], "friction coefficient [1]"), "friction_coefficient")
+
+
+def against(name: str, tables: Tables, across: str, labels: Sequence[str], quantity: str) -> Figure:
+    """A quantity of every model along an axis; below, over that of the reference where that is known."""
+    points, ratios, lines = tables[name], tables.get(f"{name}{RATIOS}"), tables.get(f"{name}{LINES}")
+    places = panels_of(points, *PLACES)
+    heights = (1.0,) if ratios is None else (2.2, 1.0)
+    wide = min(len(places), PANELS)
+    deep = -(-len(places) // wide)
+    drawing = style.canvas("single" if wide == 1 else "double", 0.9 + deep * (2.2 if ratios is None else 3.2))
+    shape: dict[str, Any] = {"sharex": True, "sharey": "row", "squeeze": False, "height_ratios": heights * deep}
+    grid = drawing.subplots(deep * len(heights), wide, **shape)
+    stacks = grid.reshape(deep, len(heights), wide).swapaxes(1, 2).reshape(-1, len(heights))
+    for spare in stacks[len(places) :].flat:
+        spare.remove()
+    for (above, *below), (place, (title, own)) in zip(stacks, places.items(), strict=False):
+        above.set(xscale="log", yscale="log", title=title)
+        for model, rows in own.groupby("model", sort=False):
+            curve(above, rows, across, quantity, **style.look(str(model), markersize=style.mark(0.8)))
+        if lines is not None:
+            beside = at(lines, place, *PLACES).sort_values(across)
+            for (kind, model), line in beside.groupby(["kind", "model"], sort=False):
+                above.plot(line[across], line[quantity], **line_look(kind, model))
+        limit(above, points, quantity)
+        if ratios is not None:
+            compared(below[0], at(ratios, place, *PLACES), across, "ratio", 1)
+            below[0].set_ylim(0, 1.1 * np.nanmax([1, *ratios["ratio"], *ratios["ratio_high"]]))
+        (above, *below)[-1].set_xlabel(labels[0])
+    for row, axes in enumerate(grid[:, 0]):
+        axes.set_ylabel(f"{over(points)} [1]" if row % len(heights) else labels[1])
+    panels = [axes for axes in grid.flat if axes.figure]
+    style.span(panels[0], points[across][points[across] > 0])
+    style.decades(*panels)
+    lettered(panels)
+    legend(drawing, panels, 2 if wide == 1 else 5)
+    return drawing
+
+
+def line_look(kind: str, model: str, **other: Any) -> dict[str, Any]:
+    """Look of a line beside the models."""
+    label = style.label(model) if kind == THEORY else f"{style.label(model)}, {kind}"
+    look = style.look(model, marker="", label=label, linewidth=style.width(0.7))
+    if kind == EQ_19:  # dashes of 1D and of 3D lie in the gaps of each other: the laws of both may coincide
+        look["linestyle"] = (0 if model == "MDR" else 3, (3, 3))
+    elif kind == SMOOTH:
+        look |= {"linestyle": "-", "alpha": 0.6}
+    elif model not in style.COLOURS:
+        look |= {"color": style.ink(), "linestyle": ":"}
+    return look | other

@@ -1,0 +1,72 @@
+"""The master curve in three dimensions: what roughness adds to friction, over that in full contact, is S(x)."""
+
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from pandas import DataFrame
+
+from ..report.page import Plot, Tables
+from . import shades, style
+from .curves import intervals
+from .lettering import lettered, literal
+from .panels import entry, legend, limit, speed_key
+
+NAME, SHARE = "law", "law-share"
+ENDS = ("", "_low", "_high")
+
+
+def plot(points: DataFrame, share: DataFrame, missed: str = "", folder: str = "") -> Plot:
+    """Plot of the master curve of one series or of several.
+
+    points : series (title), speed [m/s], pressure_ratio (x), share_of_full_contact (S of x), measured_share,
+        measured_share_low and measured_share_high; claimed, false where the law claims nothing
+    share : pressure_ratio, share_of_full_contact_low and share_of_full_contact_high over all speeds
+    missed : misfit in words
+    """
+    caption = (
+        "What roughness adds to friction in 3D, over that in full contact, against the mean pressure over the rms "
+        "pressure of the roughness there; band, S(x) at all speeds. Below, off it, 5 % in grey. Hollow: too rough "
+        "for the law to claim, without bars. Bars: 95 %."
+    )
+    told = {"missed": missed}
+    return Plot(f"{folder}{NAME}", figure, {NAME: points, SHARE: share}, caption, "Points around S(x)", told)
+
+
+def figure(tables: Tables, missed: str = "") -> Figure:
+    """Above: share of full contact. Below: off S(x). missed : misfit in words"""
+    points, share = tables[NAME], tables[SHARE]
+    drawing = style.canvas("single", 4.6)
+    above, below = panels = drawing.subplots(2, 1, sharex=True, height_ratios=(1.5, 1))
+    scale = shades.between(points["speed"])
+    band = (share[f"share_of_full_contact_{end}"] for end in ("low", "high"))
+    look: dict[str, Any] = {"color": style.grey(0.65), "linewidth": 0, "zorder": 1, "label": "S(x)"}
+    above.fill_between(share["pressure_ratio"], *band, **look)
+    below.axhspan(-5, 5, color=style.grey(0.9), linewidth=0, zorder=0)
+    below.axhline(0, **style.line(0, 0.8, zorder=1))
+    off = {
+        f"off{end}": np.log(points[f"measured_share{end}"].where(points[f"measured_share{end}"] > 0))
+        - np.log(points["share_of_full_contact"])
+        for end in ENDS
+    }
+    unclaimed = [f"{name}{end}" for name in ("measured_share", "off") for end in ENDS[1:]]
+    points = points.assign(**off, body=points["series"].str.partition(", ")[0])
+    points.loc[~points["claimed"], unclaimed] = np.nan
+    markers = dict(zip(points["body"].unique(), style.SERIES_MARKERS, strict=False))
+    for (body, speed, claimed), own in points.groupby(["body", "speed", "claimed"], sort=False):
+        look = {"color": shades.SPEED(scale(speed)), "marker": markers[body], "linestyle": "none", "capsize": 0}
+        look |= {"markersize": style.mark(0.75), "elinewidth": style.width(0.65)}
+        look |= {} if claimed else {"markerfacecolor": style.paper(), "zorder": 1.5}
+        intervals(above, own["pressure_ratio"], own, "measured_share", **look)
+        intervals(below, own["pressure_ratio"], own, "off", 100, **look)
+    above.set(xscale="log", yscale="log", ylabel="share of full contact [1]")
+    limit(above, points, "measured_share")
+    below.set(title=missed, xlabel=r"$x = p\,/\,p_\mathrm{rms}$ [1]", ylabel="off S(x) [%]")
+    style.decades(*panels)
+    lettered(panels)
+    entries = [entry(literal(name), marker=marker) for name, marker in markers.items() if len(markers) > 1]
+    if not points["claimed"].all():
+        entries.append(entry("not claimed", markerfacecolor=style.paper()))
+    entries += speed_key(drawing, panels, np.unique(points["speed"]), "speed [m/s]")
+    legend(drawing, [above], 3, *entries)
+    return drawing

@@ -1,0 +1,87 @@
+"""Friction against speed at several temperatures, shifted along the speed onto a curve a load; the shifts."""
+
+import numpy as np
+from matplotlib.figure import Figure
+from pandas import DataFrame
+
+from ..report.page import Plot, Tables
+from . import shades, style
+from .curves import intervals
+from .lettering import lettered
+from .panels import few, legend, limit
+
+NAME = "temperature-shifts"
+SHIFTS, LAWS = f"{NAME}-shifts", f"{NAME}-laws"
+LOG10 = np.log(10)
+# Most that are drawn, from the lowest to the highest.
+TEMPERATURES, LOADS = len(style.SERIES_MARKERS), 3
+LINES = {"WLF": "-", "Arrhenius": "--"}
+
+
+def plot(points: DataFrame, shifts: DataFrame, laws: DataFrame, how: str) -> Plot:
+    """Plot of points at several temperatures, and of their shifts.
+
+    points : temperature [K], speed [m/s], reduced_speed (times a_T), load [N] that tells the curves apart,
+        friction_coefficient, friction_coefficient_low and friction_coefficient_high
+    shifts : temperature, log_time_shift (ln a_T), log_time_shift_low and log_time_shift_high
+    laws : law ("WLF", "Arrhenius"), temperature, log_time_shift, on lines
+    how : where a_T is from: "found" or "stated"
+    """
+    caption = (
+        f"Friction against speed at one load, a marker for each of at most {TEMPERATURES} temperatures; at up to "
+        f"{LOADS} loads against the speed times a_T, which is {how}; the decades of a_T, and the laws that they "
+        "allow. Bars: 95 %."
+    )
+    alternative = "Friction at several temperatures, shifted onto a curve for each load."
+    return Plot(NAME, figure, {NAME: points, SHIFTS: shifts, LAWS: laws}, caption, alternative)
+
+
+def figure(tables: Tables) -> Figure:
+    """Left: as measured, at one load. Middle: shifted along the speed. Right: the shifts."""
+    points, shifts, laws = (tables[name] for name in (NAME, SHIFTS, LAWS))
+    drawing = style.canvas("double", 2.9)
+    left, middle, right = panels = drawing.subplots(1, 3)
+    middle.sharey(left)
+    warmth = few(shifts["temperature"], TEMPERATURES)
+    looks = {
+        at: {
+            "color": colour,
+            "marker": marker,
+            "markersize": style.mark(0.8),
+            "capsize": 0,
+            "label": f"{at:.4g} K",
+        }
+        for at, colour, marker in zip(
+            warmth.tolist(), shades.SPEED(np.linspace(0, 1, warmth.size)), style.SERIES_MARKERS, strict=False
+        )
+    }
+    points = points[points["temperature"].isin(warmth)]
+    counts = points.groupby("load")["temperature"].nunique()
+    loads = few(counts.index[counts == counts.max()], LOADS)
+    middling = loads[loads.size // 2]
+    for (load, at), own in points[points["load"].isin(loads)].groupby(["load", "temperature"]):
+        for axes, across in ((left, "speed"), (middle, "reduced_speed"))[int(load != middling) :]:
+            intervals(axes, own[across], own, "friction_coefficient", linewidth=style.width(0.5), **looks[at])
+        if own["reduced_speed"].max() == points.loc[points["load"] == load, "reduced_speed"].max():
+            place = {"xytext": (4, 0), "textcoords": "offset points", "va": "center", "fontsize": style.tiny()}
+            end = own.loc[own["reduced_speed"].idxmax()]
+            middle.annotate(f"{load:.3g} N", (end["reduced_speed"], end["friction_coefficient"]), **place)
+    for name, own in laws.groupby("law", sort=False):
+        line = style.line(0.45, 0.8, linestyle=LINES[name], label=name)
+        right.plot(own["temperature"], own["log_time_shift"] / LOG10, **line)
+    for at, own in shifts[shifts["temperature"].isin(warmth)].groupby("temperature"):
+        intervals(right, own["temperature"], own, "log_time_shift", 1 / LOG10, **looks[at])
+    left.set(xlabel="speed [m/s]", ylabel="friction coefficient [1]", title=f"as measured, {middling:.3g} N")
+    middle.set(xlabel="speed times $a_T$ [m/s]", title="shifted")
+    right.set(xlabel="temperature [K]", ylabel="decades of $a_T$ [1]", title="shifts")
+    for axes in (left, middle):
+        axes.set(xscale="log", yscale="log")
+    low, high = left.get_xlim()
+    between = np.sqrt(low * high)  # two decades at least: within less there are too many ticks for a narrow panel
+    left.set_xlim(min(low, between / 10), max(high, 10 * between))
+    middle.set_xlim(right=30 * points["reduced_speed"].max())
+    limit(left, points[points["load"].isin(loads)], "friction_coefficient")
+    style.decades(left, middle)
+    lettered(panels)
+    legend(drawing, [right], 5)
+    return drawing
