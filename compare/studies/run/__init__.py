@@ -1,1 +1,0 @@
-"""Scenes in one and in three dimensions: crosscheck run."""
