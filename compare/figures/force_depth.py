@@ -27,7 +27,7 @@ def plot(points: DataFrame, differences: DataFrame, caption: str = "", folder: s
 
     points : model, body ("rough", "smooth"), load [N] or depth [m] as prescribed, the other as depth_reached or
         normal_force with _mean, _low and _high, and closed_form, that of the smooth body; without that column that
-        of the model "exact", else "BEM" or another, on the smooth body. rate [m/s], 0 at rest, where it is pressed in
+        of the model "exact", else "BEM" or another, on the smooth body. rate [m/s], 0 at rest, where pressed in
     differences : model, body, load or depth, rate, and difference, _low and _high: force over that of the
         reference less one, or depth less that of the reference [m]
     """
@@ -60,7 +60,7 @@ def figure(tables: Tables) -> Figure:
     for (above, middle, below), (place, (title, own)) in zip(panels.T, places.items(), strict=True):
         above.set(xscale="log", yscale="log" if prescribed == "depth" else "linear", title=title)
         closed = own.drop_duplicates(prescribed)
-        line = style.line(0.5, 0.8, zorder=1, label="closed form")
+        line = style.line(0.5, 0.8, zorder=1, label="smooth body")
         above.plot(scale * closed[prescribed], times * closed["closed_form"], **line)
         _bodies(above, own[own["body"] == "rough"], prescribed, name, times)
         off = own[[f"{name}_{end}" for end in ("mean", "low", "high")]].sub(own["closed_form"], axis=0)
