@@ -83,7 +83,7 @@ def load(folder: str | Path) -> xarray.DataTree:
 
 
 def _checked(path: Path) -> bytes:
-    """Bytes of a file of results, with its ending. Raises InvalidInput of a file without it, before HDF5 sees it."""
+    """Bytes of a file of results, with its ending. Raises InvalidInput of one that is damaged before HDF5 sees it."""
     try:
         file = content(path, MOST_BYTES)
     except Unreadable as error:
