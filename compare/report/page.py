@@ -3,6 +3,7 @@
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import PurePosixPath
 from typing import Any, TypeAlias
 
 from matplotlib.figure import Figure
@@ -73,8 +74,7 @@ class Plot:
     @property
     def files(self) -> Tables:
         """Tables of the plot by the names of their files, without .csv, with the folder."""
-        folder = self.name[: self.name.rfind("/") + 1]
-        return {f"{folder}{name}": frame for name, frame in self.tables.items()}
+        return {str(PurePosixPath(self.name).with_name(name)): frame for name, frame in self.tables.items()}
 
     def figure(self) -> Figure:
         """The figure, drawn from the tables in the style that is applied."""
@@ -137,12 +137,9 @@ class Page:
 
     def every(self, kind: type) -> Iterator[Any]:
         """Blocks of one kind, in sections too, in their order."""
+        return (block for block in _each(self.blocks) if isinstance(block, kind))
 
-        def below(blocks):
-            for block in blocks:
-                if isinstance(block, Section):
-                    yield from below(block.blocks)
-                elif isinstance(block, kind):
-                    yield block
 
-        return below(self.blocks)
+def _each(blocks):
+    for block in blocks:
+        yield from _each(block.blocks) if isinstance(block, Section) else [block]

@@ -236,7 +236,7 @@ def test_the_texts_of_a_stranger_are_no_marks_of_html_and_control_no_terminal(tm
         assert all(each[0] == "#" for each in found.links)
         assert all(map(str.isprintable, text.split("\n")))
     (policy,) = re.findall('<meta http-equiv="Content-Security-Policy" content="(.*)">', whole)
-    assert policy.startswith("default-src &#39;none&#39;; ")
+    assert policy.startswith("default-src 'none'; ")
     assert all(map(str.isprintable, terminal.text(hostile_page()).split("\n")))
 
 
@@ -382,11 +382,9 @@ def test_what_stands_in_the_place_of_a_file_is_named_and_not_read(copied, name, 
 
 
 def test_a_table_comes_back_whatever_its_numbers_are(tmp_path):
-    wide = DataFrame({f"c{k}": [1] for k in range(csvfiles.MOST_COLUMNS + 1)})
-    for text, said in ((csvfiles.text(wide), "1001 columns"), ("a,b\n1,2,3\n4,5,6\n", "longer than its head")):
-        (tmp_path / "table.csv").write_text(text)
-        with pytest.raises(InvalidInput, match=said):
-            csvfiles.read(tmp_path / "table.csv")
+    (tmp_path / "table.csv").write_text("a,b\n1,2,3\n4,5,6\n")
+    with pytest.raises(InvalidInput, match="longer than its head"):
+        csvfiles.read(tmp_path / "table.csv")
     (tmp_path / "table.csv").write_text(f"a\n{'1' * 30}\n2\n")
     assert csvfiles.read(tmp_path / "table.csv")["a"].tolist() == [float("1" * 30), 2.0]
 
