@@ -44,7 +44,7 @@ def export(
     Raises InvalidInput where there is nothing of the kind, a file is damaged, a run holds the folder, or a format,
     journal, style or width is not known; Refused of vtk without its extra; OSError for what cannot be written.
     """
-    in_a_look = any(each is not None for each in (journal, style, width))
+    in_a_look = (journal, style, width) != (None, None, None)
     formats = [each.strip() for each in (format or (",".join(FORMS) if in_a_look else "csv")).split(",")]
     for each in formats:
         known("format", each, FORMATS)
@@ -158,7 +158,8 @@ def _drawn(folder, entry, forms) -> Picture:
 
 def function(entry: manifest.PlotEntry, path: Path) -> Callable[..., Figure]:
     """The function that draws a figure, which checks its options; InvalidInput of all that draws none here."""
-    name, draw = f"{entry.module}:{entry.function}", None
+    name = f"{entry.module}:{entry.function}"
+    draw: Any = None
     if name.startswith(f"{PACKAGE}."):
         with suppress(ImportError, AttributeError, ValueError):
             draw = resolve_name(name)

@@ -30,7 +30,7 @@ def shown(frame: DataFrame) -> DataFrame:
 def _beside(name, frame):
     """Columns that hold the interval of another, or its error."""
     for ends in (JOINED.get(name, ()), (f"{name}_low", f"{name}_high"), (f"{name}_error",)):
-        if ends and all(end in frame for end in ends):
+        if ends and {*ends} <= {*frame}:
             return ends
     return ()
 

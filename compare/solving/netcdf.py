@@ -15,30 +15,25 @@ from scene.result import source
 
 from .folders import FORMAT, MANIFEST, Stated, read, refuse_other
 
-NAME = "results.nc"
-MOST_BYTES = 2**31
-# Behind the last byte that HDF5 knows of, which its readers pass over: the format of the folder, and the checksum.
-ENDING = re.compile(rb"crosscheck format (\d{1,9}) (sha256:[0-9a-f]{64})\Z")
-LONGEST_ENDING = 120
+NAME, MOST_BYTES = "results.nc", 2**31
 LARGE = 2**12  # bytes from which on compression saves more than it adds
+# Behind the last byte that HDF5 knows of, which its readers pass over: the format of the folder, and the checksum.
+ENDING, LONGEST = re.compile(rb"crosscheck format (\d{1,9}) (sha256:[0-9a-f]{64})\Z"), 120
 
 
 def packed(answers: xarray.DataTree) -> bytes:
     """Everything that was solved as the bytes of its file; equal answers give equal bytes."""
     tree = answers.copy()
     tree.attrs = {**answers.attrs, "source": source()}
-    encoding = {
-        node.path: {name: _encoding(each) for name, each in node.to_dataset(inherit=False).variables.items()}
-        for node in tree.subtree
-    }
+    parts = {node.path: node.to_dataset(inherit=False).variables for node in tree.subtree}
+    encoding = {path: {name: _encoding(each) for name, each in part.items()} for path, part in parts.items()}
     image = bytes(tree.to_netcdf(engine="h5netcdf", encoding=encoding)) + f"crosscheck format {FORMAT} ".encode()
     return image + checksum(image)
 
 
 def _encoding(variable: xarray.Variable) -> dict[str, Any]:
     """How a variable is stored: texts as characters, as the texts of HDF5 cannot be compressed."""
-    characters = {"dtype": "S1"} if variable.dtype.kind in "UO" else {}
-    return {**characters, "zlib": variable.nbytes >= LARGE}
+    return {"zlib": variable.nbytes >= LARGE} | ({"dtype": "S1"} if variable.dtype.kind in "UO" else {})
 
 
 def checksum(image: bytes) -> bytes:
@@ -52,44 +47,35 @@ def digest(file: bytes) -> str:
 
 
 def load(folder: str | Path) -> xarray.DataTree:
-    """Everything that a command solved, as it left it in a folder: a Dataset for each parameter grid and solver.
-
-    Each single draw is there, with `status` and `reason`; units and definitions are attributes. A folder of
-    several studies has each below its name.
+    """Everything that a command solved, as it left it in a folder; of several studies, each below its name.
 
     Raises InvalidInput where there are no results, or they are damaged, too large, no such file, of another
     version or of another run than the manifest beside them, or where a run has not come to its end.
     """
-    folder = Path(folder)
-    if not folder.exists():
-        raise InvalidInput(f"{brief(str(folder))}: no such file or folder")
-    paths, stated = [folder], {}
-    if folder.is_dir():
-        paths = sorted(folder.rglob(NAME))
-        places = [place for place in {folder, *(path.parent for path in paths)} if (place / MANIFEST).exists()]
-        stated = {place: read(place / MANIFEST, Stated).results for place in places}
+    folder, trees = Path(folder), {}
+    paths = sorted(folder.rglob(NAME)) if folder.is_dir() else [folder]
+    places = {folder, *(path.parent for path in paths)} if folder.is_dir() else set()
+    stated = {place: read(place / MANIFEST, Stated).results for place in places if (place / MANIFEST).exists()}
     if not paths:
         raise InvalidInput(f"{brief(str(folder))}: no command has left results here")
-    trees = {}
     for path in paths:
         file = _checked(path)
         if stated.get(path.parent, "") not in ("", digest(file)):
-            raise InvalidInput(
-                f"{brief(str(path))}: is of another run than {MANIFEST} beside it: run the command again"
-            )
-        place = path.parent.relative_to(folder).as_posix() if folder.is_dir() else "."
+            why = f"is of another run than {MANIFEST} beside it: run the command again"
+            raise InvalidInput(f"{brief(str(path))}: {why}")
+        place = (path.parent if folder.is_dir() else folder).relative_to(folder).as_posix()
         trees["/" if place == "." else place] = xarray.load_datatree(BytesIO(file), engine="h5netcdf")
     return xarray.DataTree.from_dict(trees)
 
 
 def _checked(path: Path) -> bytes:
-    """Bytes of a file of results, with its ending. Raises InvalidInput of one that is damaged before HDF5 sees it."""
+    """Bytes of a file; InvalidInput, before HDF5 sees it, of one without its checksum or of another version."""
     try:
         file = content(path, MOST_BYTES)
     except Unreadable as error:
         raise InvalidInput(str(error)) from error
-    ending = ENDING.search(file, max(0, len(file) - LONGEST_ENDING))
-    if ending is None or ending[2] != checksum(file[: ending.start(2)]):
+    ending = ENDING.search(file[-LONGEST:])
+    if ending is None or ending[2] != checksum(file[: -len(ending[2])]):
         why = "has no checksum at its end" if ending is None else "does not have the checksum at its end"
         raise InvalidInput(f"{brief(str(path))}: is not a file of results, or is damaged: it {why}")
     refuse_other(path, int(ending[1]))
