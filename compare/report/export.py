@@ -69,25 +69,19 @@ def export(
 
 
 def _csv(folder) -> dict[str, bytes]:
-    """Every table of a folder, with units in the heads, as files by name."""
-    tables = dict(_tables(folder))
-    if not tables:
-        raise InvalidInput(f"{brief(str(folder))}: holds no table")
-    return {f"{name}.csv": csvfiles.text(frame.rename(columns=_head)).encode() for name, frame in tables.items()}
-
-
-def _tables(folder: Path) -> Iterator[tuple[str, DataFrame]]:
-    """Tables beside the pages of a folder, and everything that was solved, by the names of their files."""
+    """Tables beside the pages of a folder and of what was solved, with units in the heads, as files by name."""
+    tables: dict[str, DataFrame] = {}
     if folder.is_dir():
         for place, left in manifest.folders(folder):
-            for name in (name for name in left.files if name.endswith(".csv")):
-                frame = csvfiles.read(manifest.inside(place, name))
-                if not frame.empty:
-                    yield (place.relative_to(folder) / name).with_suffix("").as_posix(), frame
-        if not any(folder.rglob(netcdf.NAME)):
-            return
-    for name, dataset in _solved(folder):
-        yield from _flat(name, dataset)
+            paths = [manifest.inside(place, name) for name in left.files if name.endswith(".csv")]
+            tables |= {path.relative_to(folder).as_posix(): csvfiles.read(path) for path in paths}
+    if not folder.is_dir() or any(folder.rglob(netcdf.NAME)):
+        for name, dataset in _solved(folder):
+            tables |= {f"{each}.csv": frame for each, frame in _flat(name, dataset)}
+    filled = {name: frame.rename(columns=_head) for name, frame in tables.items() if not frame.empty}
+    if not filled:
+        raise InvalidInput(f"{brief(str(folder))}: holds no table")
+    return {name: csvfiles.text(frame).encode() for name, frame in filled.items()}
 
 
 def _solved(folder: Path) -> Iterator[tuple[str, xarray.Dataset]]:
@@ -106,8 +100,7 @@ def _flat(name: str, dataset: xarray.Dataset) -> Iterator[tuple[str, DataFrame]]
         frame = dataset[variables].to_dataframe().reset_index() if dims else DataFrame()
         if "status" in frame:
             frame = frame[frame["status"] != parameter_grid.NOT_ASKED]
-        if not frame.empty:
-            yield name if len(variables) == largest else "-".join([name, *dims]), frame
+        yield name if len(variables) == largest else "-".join([name, *dims]), frame
 
 
 def _head(name) -> str:

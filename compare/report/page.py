@@ -81,15 +81,30 @@ class Plot:
         return self.draw(self.tables, **self.options)
 
 
+class _Ordered:
+    """Blocks, put in the order of reading; blocks of one kind keep theirs."""
+
+    blocks: Sequence["Block"]
+
+    def __post_init__(self):
+        found = sorted(self.blocks, key=lambda block: ORDER.index(type(block)))
+        object.__setattr__(self, "blocks", tuple(found))
+
+    def every(self, kind: type) -> Iterator[Any]:
+        """Blocks of one kind, in sections too, in their order."""
+        for block in self.blocks:
+            if isinstance(block, kind):
+                yield block
+            elif isinstance(block, Section):
+                yield from block.every(kind)
+
+
 @dataclass(frozen=True)
-class Section:
+class Section(_Ordered):
     """Blocks under a heading, in the order of reading."""
 
     title: str
     blocks: Sequence["Block"]
-
-    def __post_init__(self):
-        object.__setattr__(self, "blocks", in_order(self.blocks))
 
 
 Block: TypeAlias = Text | Table | Findings | Plot | Section
@@ -97,13 +112,8 @@ Block: TypeAlias = Text | Table | Findings | Plot | Section
 ORDER = (Text, Plot, Findings, Table, Section)
 
 
-def in_order(blocks: Sequence[Block]) -> tuple[Block, ...]:
-    """Blocks in the order of reading; blocks of one kind keep theirs."""
-    return tuple(sorted(blocks, key=lambda block: ORDER.index(type(block))))
-
-
 @dataclass(frozen=True)
-class Page:
+class Page(_Ordered):
     """A page, in the order of reading: doubts, the opening, the answer, figures, findings, other tables, sections.
 
     title : of the page
@@ -121,9 +131,6 @@ class Page:
     notes: Sequence[str] = ()
     opening: Sequence[str] = ()
 
-    def __post_init__(self):
-        object.__setattr__(self, "blocks", in_order(self.blocks))
-
     @property
     def first(self) -> list[str]:
         """Doubts and notes, each with the word that says which it is."""
@@ -134,12 +141,3 @@ class Page:
         yield from ((table.name, table.frame) for table in self.every(Table))
         for plot in self.every(Plot):
             yield from plot.files.items()
-
-    def every(self, kind: type) -> Iterator[Any]:
-        """Blocks of one kind, in sections too, in their order."""
-        return (block for block in _each(self.blocks) if isinstance(block, kind))
-
-
-def _each(blocks):
-    for block in blocks:
-        yield from _each(block.blocks) if isinstance(block, Section) else [block]

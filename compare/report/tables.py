@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from itertools import chain
 
-from pandas import DataFrame
+from pandas import DataFrame, Series
 
 from ..solving import words
 from ..solving.vocabulary import head
@@ -11,7 +11,6 @@ from ..statistics.finding import Finding
 
 # Columns of findings that stand together in one.
 JOINED = {"value": ("low", "high"), "expected": ("tolerance",)}
-COLUMNS = ["Verdict", "Claim", "Model", "Where", "Found (95 %)", "Tested against"]
 WRITTEN = (words.shown, words.plus_minus, words.interval)  # by the number of columns beside a number
 
 
@@ -40,10 +39,7 @@ def claims(findings: Sequence[Finding], details: bool = True) -> DataFrame:
 
     details : whether meaning, regime, and what an interval is made of stand on further lines of the cells
     """
-    places = [(each.where, each.regime) for each in findings]
-    known = DataFrame(
-        [(each.dimension, *place) for each, place in zip(findings, places, strict=True)]
-    ).duplicated()
+    places = Series([(each.where, each.regime, each.dimension) for each in findings])
     rows = [
         {
             "Verdict": each.verdict,
@@ -53,12 +49,11 @@ def claims(findings: Sequence[Finding], details: bool = True) -> DataFrame:
             "Found (95 %)": _lines(words.found(each), details and words.basis(each), each.why),
             "Tested against": words.tested(each.claim),
         }
-        for each, told in zip(findings, known, strict=True)
+        for each, told in zip(findings, places.duplicated(), strict=True)
     ]
-    table = DataFrame(
-        rows, columns=COLUMNS if len({*places}) > 1 else [each for each in COLUMNS if each != "Where"]
-    )
-    return table.assign(Claim=table["Claim"].where(table["Claim"] != table["Claim"].shift(), ""))
+    table = DataFrame(rows)
+    table["Claim"] = table["Claim"].where(table["Claim"] != table["Claim"].shift(), "")
+    return table if len({place[:2] for place in places}) > 1 else table.drop(columns="Where")
 
 
 def _lines(*parts):
