@@ -17,7 +17,7 @@ scenes, new, schema : scenes and studies to begin with, a copy of one of them, a
 Persson : his theory of rough contact and friction, as published and with its later factor
 CorrectedMDR : one dimension, corrected to three by the trust map, where the map knows how
 FrictionLaw : friction in three dimensions from the spectrum, with an interval
-solve : a study of your own, derived from `Study`, with ParameterGrid, Claim, Finding and Judgement
+solve : a Comparison of your own
 InvalidInput, Refused : before anything is solved, of what cannot be read, and of what no solver can do
 SolveError, OutOfMemory : of an answer that cannot be had; Doubtful and UncertainFriction are warnings
 

@@ -24,9 +24,9 @@ from .commands import topography as topography
 from .commands import trust as trust
 from .commands import verify as verify
 from .commands import workprecision as workprecision
+from .comparison.comparison import Comparison as Comparison
 from .library.case import Case as Case
 from .models.law.persson import Persson as Persson
-from .solving.parameter_grid import ParameterGrid as ParameterGrid
 from .solving.task import SceneTask as SceneTask
 from .statistics.finding import Claim as Claim
 from .statistics.finding import Finding as Finding
@@ -36,7 +36,5 @@ from .studies.regress.quantity import Unmeasured as Unmeasured
 from .studies.regress.study import check as check
 from .studies.regress.study import update as update
 from .studies.report import Report as Report
-from .studies.study import Judgement as Judgement
-from .studies.study import Study as Study
 from .trustmap.corrected import CorrectedMDR as CorrectedMDR
 from .trustmap.friction_law import FrictionLaw as FrictionLaw

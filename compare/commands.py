@@ -87,13 +87,14 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
+    from .comparison.comparison import Comparison
+    from .comparison.sweep import SweepSeries
     from .library.ready import Listing
     from .solving.terminal import Shown
     from .studies.plan import Plans
     from .studies.regress.quantity import Quantity
     from .studies.report import Report
     from .studies.study import Study
-    from .studies.sweep.study import Sweep
     from .trustmap.verdict import Advice
 
 
@@ -174,9 +175,9 @@ def run(
         surfaces and profiles: many are solved on coarse grids, few on finer ones, until every claim is decided or
         its interval is so narrow, and so are those of the scene's own friction, depth or force
     """
-    from .studies.run.study import Run
+    from .comparison import asked
 
-    return solve(Run.of(scene, models, reference, interval), output, budget=budget, **options)
+    return solve(asked.run(scene, models, reference, interval), output, budget=budget, **options)
 
 
 @checked
@@ -195,9 +196,9 @@ def study(
         from .library.ready import studies
 
         return studies()
-    from .studies.claims.study import ClaimStudy
+    from .comparison import asked
 
-    return solve(ClaimStudy.of(str(name), size, models, reference, interval), output, budget=budget, **options)
+    return solve(asked.study(str(name), size, models, reference, interval), output, budget=budget, **options)
 
 
 @checked
@@ -265,7 +266,7 @@ def regress(
     asked = Regress.of(baseline, quantities, update)
     report = solve(asked, output, **options)
     if update:
-        asked.store(report.findings)
+        asked.store(report.judged)
     return report
 
 
@@ -343,22 +344,22 @@ def sweep(
     compared = {"models": models, "reference": reference, "interval": interval}
     report = swept(output, budget, **asked, **compared, **options)
     _warn(griderror.warnings_of(report.answers))
-    return cast("Sweep", report.study).dataset(report.answers)
+    return cast("SweepSeries", cast("Comparison", report.study).series[0]).dataset(report.answers)
 
 
 @checked
 def swept(output: Output = "crosscheck-sweep", budget: Budget = None, **given: Any) -> Report:
     """Report of a sweep, of the arguments of `sweep`: the command prints it."""
-    from .studies.sweep.study import Sweep
+    from .comparison import asked
 
     options: Any = {name: given.pop(name) for name in Options.__annotations__ if name in given}
-    return solve(Sweep.of(**given), output, budget=budget, **options)
+    return solve(asked.sweep(**given), output, budget=budget, **options)
 
 
 @checked
 def friction_plot(dataset: xarray.Dataset) -> Figure:
     """Friction of a sweep against speed, or against load, both models with error bars: a matplotlib Figure."""
-    from .studies.sweep.study import figure_of
+    from .comparison.sweep import figure_of
 
     return figure_of(dataset)
 

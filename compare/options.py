@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from .models.table import ModelLike
     from .solving.terminal import Shown
     from .studies.mastercurve.measurements import Measurements
-    from .studies.sweep.values import Values
+    from .comparison.values import Values
     from .studies.topography.study import Surface
 
     File = str | Path

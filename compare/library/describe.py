@@ -9,7 +9,8 @@ from typing import Any
 
 from matplotlib.ticker import EngFormatter
 
-from scene import Indent, Slide
+from scene import Indent, Program, Shear, Slide
+from scene.motion import PRESSES
 from scene.plan import by
 from scene.printable import brief
 from scene.quantities import unit_of
@@ -53,6 +54,12 @@ def described(part: Any) -> str:
 
 def conditions(motion: Any) -> str:
     """Speed, and load or depth, of a motion in words: 0.1 m/s, 1 N."""
+    if isinstance(motion, Program):
+        greatest = EngFormatter(PRESSES[motion.pressed_by].symbol)(motion.greatest)
+        return f"a program of {EngFormatter('s')(motion.duration)}, up to {greatest}"
+    if isinstance(motion, Shear):
+        drawn = "force" if motion.displacement is None else "displacement"
+        return f"{_quantity(motion, motion.pressed_by)}, drawn to {_quantity(motion, drawn)}"
     names = ("speed", motion.pressed_by) if isinstance(motion, Slide) else (motion.pressed_by,)
     return ", ".join(_quantity(motion, name) for name in names)
 

@@ -16,10 +16,11 @@ from pydantic import ConfigDict, ValidationError, validate_call
 from scene.printable import brief
 from scene.reading import InvalidInput
 
+from ..comparison import curve
 from ..figures import style as looks
 from ..figures.journals import journal as find_journal
 from ..figures.rendering import FORMS, Picture, finished, rendered
-from ..solving import netcdf, parameter_grid
+from ..solving import netcdf
 from ..solving.folders import first_mistake
 from ..solving.suggest import known
 from ..solving.vocabulary import entry as vocabulary
@@ -99,7 +100,7 @@ def _flat(name: str, dataset: xarray.Dataset) -> Iterator[tuple[str, DataFrame]]
     for dims, variables in families.items():
         frame = dataset[variables].to_dataframe().reset_index() if dims else DataFrame()
         if "status" in frame:
-            frame = frame[frame["status"] != parameter_grid.NOT_ASKED]
+            frame = frame[frame["status"] != curve.NOT_ASKED]
         yield name if len(variables) == largest else "-".join([name, *dims]), frame
 
 

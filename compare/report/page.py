@@ -121,7 +121,7 @@ class Page(_Ordered):
     blocks : of the page below the answer; those given are put in the order of reading
     doubts : sentences that stand before the answer: doubts about what was asked, contacts without an answer
     notes : sentences that follow them, on what was read
-    opening : paragraphs before the answer: what a reader came for, in words
+    opening : tables before the answer: what a reader came for
     """
 
     title: str
@@ -129,7 +129,7 @@ class Page(_Ordered):
     blocks: Sequence[Block]
     doubts: Sequence[str] = ()
     notes: Sequence[str] = ()
-    opening: Sequence[str] = ()
+    opening: Sequence[Table] = ()
 
     @property
     def first(self) -> list[str]:
@@ -138,6 +138,6 @@ class Page(_Ordered):
 
     def tables(self) -> Iterator[tuple[str, DataFrame]]:
         """Name of its file, without .csv, and frame of every table that is shown or drawn; some come twice."""
-        yield from ((table.name, table.frame) for table in self.every(Table))
+        yield from ((table.name, table.frame) for table in (*self.opening, *self.every(Table)))
         for plot in self.every(Plot):
             yield from plot.files.items()

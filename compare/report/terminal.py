@@ -29,7 +29,9 @@ def text(page: Page, path: Path | None = None, whole: bool = True) -> str:
     blocks = page.blocks if whole else above
     parts = [
         _headed(page.title, "="),
-        *map(_filled, (*page.first, *page.opening, *page.answer)),
+        *map(_filled, page.first),
+        *_blocks(page.opening, "-"),
+        "\n".join(map(_filled, page.answer)),
         *_blocks(blocks, "-"),
         MORE if len(blocks) < len(page.blocks) else "",
         f"Page: {path.resolve()}" if path else "",

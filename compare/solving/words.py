@@ -81,6 +81,19 @@ def with_unit(text: str, unit: str) -> str:
     return text if unit in ("", "1") else f"{text} {unit}"
 
 
+def with_brackets(text: str, unit: str) -> str:
+    """A word with its unit in brackets, of which a ratio has none."""
+    return text if unit in ("", "1") else f"{text} [{unit}]"
+
+
+def counted(findings: Sequence["Finding"]) -> str:
+    """Verdict of all findings, or how often each stands."""
+    counts = Counter(each.verdict for each in findings)
+    if len(counts) == 1:
+        return findings[0].verdict
+    return ", ".join(f"{name} {counts[name]}" for name in VERDICTS if counts[name])
+
+
 def plus_minus(value: float, error: float, digits: int = DIGITS) -> str:
     """value ± error, to two digits of the error; the number alone without one."""
     if not _wide(value, error):

@@ -90,6 +90,7 @@ class Finding:
     parts : share in the scatter by solver and stratum of the surfaces; empty where not told apart
     remedy : what would decide it, in words, where it is undecided; empty where nothing is known that would
     drawn : numbers of surfaces or profiles by solver, which `draws` then follows from
+    curve : place of the curve that it was measured on, whose surfaces are behind it
     """
 
     claim: Claim
@@ -108,6 +109,7 @@ class Finding:
     parts: Mapping[tuple[str, int], float] = field(default_factory=dict, repr=False, compare=False)
     remedy: str = ""
     drawn: Mapping[str, int] = field(default_factory=dict)
+    curve: str = ""
 
     def __post_init__(self):
         object.__setattr__(self, "dimension", self.dimension or self.claim.dimension)
@@ -164,7 +166,7 @@ class Finding:
         return {
             "claim": self.claim.id,
             "where": self.where,
-            "dimension": self.dimension,
+            "model": self.dimension,
             "verdict": self.verdict,
             "value": self.value,
             "low": low,
@@ -172,16 +174,12 @@ class Finding:
             "unit": self.claim.unit,
             "expected": self.claim.expected,
             "tolerance": self.claim.tolerance,
-            "scatter_low": self.scatter[0],
-            "scatter_high": self.scatter[1],
-            "grid_error": self.grid,
-            "grid_method": self.grid_method,
-            "draws": self.draws,
+            "grid": self.grid,
+            "surfaces": self.draws,
             "regime": self.regime,
             "reason": self.why,
             "sentence": self.claim.sentence,
             "meaning": self.claim.meaning,
-            "plot": self.plot,
         }
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import xarray
 from pandas import DataFrame
 
-from ..solving.parameter_grid import COARSE, EMPTY, FAILED, FINE
+from ..comparison.curve import COARSE, EMPTY, FAILED, FINE
 from .intervals import Estimated
 from .jackknife import DrawSet, Source, mean_ratio, resample, strata_of
 from .multilevel import pooled

@@ -15,7 +15,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import islice
 from math import ceil, isfinite
 from typing import TYPE_CHECKING, Self
 
@@ -23,7 +22,7 @@ import numpy as np
 
 from ..solving.control_variates import VARIATES, controlled
 from ..solving.cost import MOST_DRAWS, SECONDS
-from ..solving.parameter_grid import EMPTY, LEVELS, TOGETHER, ParameterGrid, levels
+from ..comparison.curve import EMPTY, TOGETHER, Curve
 from ..solving.words import duration, share
 from .collapse import PARTED
 from .finding import UNDECIDED, Finding
@@ -43,9 +42,6 @@ MEANS = {
 WORDS = {"friction_coefficient": "friction", "normal_force": "force", "depth_reached": "depth"}
 # What is spent or left over on a grid, and is no number of the contact.
 SPENT = "seconds", "operator_applications", "residual"
-# Surfaces on the coarsest grid, of each difference, and of that of the finest of several, which scatters least and
-# costs most, before anything is decided.
-PILOT, DIFFERENCES, FINEST = 32, 8, 4
 GROWTH = 4.0  # times the surfaces at most from one look to the next: the scatter of few is known roughly
 MARGIN = 1.1  # surfaces beyond those that just suffice: they spare most of the second looks
 OWN_SHARE = 0.5  # of the wanted width that is left to the scatter at least, however much the grid takes
@@ -59,37 +55,6 @@ def wanted(prescribed: str, speeds: tuple[float, ...], slides: bool) -> Iterator
     yield "normal_force" if prescribed == "depth" else "depth_reached", speeds
     if slides:
         yield "friction_coefficient", tuple(speed for speed in speeds if speed > 0)
-
-
-def in_strata(
-    grids: Sequence[ParameterGrid],
-    models: Models,
-    strata: Mapping[str, tuple[int, ...]],
-    most: int = len(LEVELS),
-    least: Mapping[str, int] = {},
-) -> list[ParameterGrid]:
-    """Parameter grids that share their surfaces, on all grids that hold them.
-
-    strata : numbers of surfaces on each grid, by model; those of a pilot where absent. Fewer numbers than grids
-        leave out the coarsest
-    most : grids
-    least : numbers of surfaces of a pilot on the coarsest grid, by model, where more than usual are wanted
-    """
-    found = {name: own for name, own in levels(models, grids, most).items() if name in grids[0].grids}
-    drawing = [each.name for each in models.drawn if each.name in found]
-    first = {name: pilot(len(found[name]), least.get(name, 0)) for name in drawing}
-    drawn = {name: strata.get(name, counts) for name, counts in first.items()}
-    kept = {name: dict(islice(each.items(), len(drawn.get(name, each)))) for name, each in found.items()}
-    return [replace(each, grids=kept, draws={**each.draws, **drawn}) for each in grids]
-
-
-def pilot(grids: int, least: int = PILOT) -> tuple[int, ...]:
-    """Numbers of surfaces of each stratum before anything is known of their scatter.
-
-    least : of the coarsest, in whose proportion the others are then more
-    """
-    finer = (FINEST,) * (grids > 2) + (DIFFERENCES,) * (grids - 1)
-    return tuple(ceil(each * max(1.0, least / PILOT)) for each in (*finer[: grids - 1], PILOT))
 
 
 def pooled(dataset: xarray.Dataset) -> xarray.Dataset:
@@ -225,7 +190,7 @@ class DrawnSurfaces:
     costs: Mapping[str, tuple[float, ...]]
 
     @classmethod
-    def of(cls, grids: Iterable[ParameterGrid]) -> Self:
+    def of(cls, grids: Iterable[Curve]) -> Self:
         """Surfaces of grids that have as many."""
         first, *others = grids
         costs = {

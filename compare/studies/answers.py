@@ -100,7 +100,7 @@ def answer(found: Any) -> Answer:
         case Report():
             tables = {each.name: _rows(each.frame) for each in found.page.every(Table) if not each.long}
             page, told = found.page, (*found.page.opening, *found.page.answer)
-            return Reported(_said(found.path), tuple(page.first), told, _rows(found.table), tables)
+            return Reported(_said(found.path), tuple(page.first), told, _rows(found.findings), tables)
         case Plans():
             cost = found.cost if isinstance(found.cost, Cost) else None
             return Planned(

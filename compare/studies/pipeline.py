@@ -122,9 +122,9 @@ def _write(done, folder, forms, report, progress) -> Path | None:
     files = {netcdf.NAME: results}
     if report:
         with progress.writing(len(list(page.every(Plot)))) as told:
-            files |= render.files(page, done.findings, forms, told)
+            files |= render.files(page, done.judged, forms, told)
     else:
-        files |= render.tables(page, done.findings)
+        files |= render.tables(page, done.judged)
     manifest.begin(folder, study, files)
     written = render.write(files, folder)
     solved = os.path.relpath(done.output / SOLVED, folder)

@@ -23,7 +23,7 @@ from ..models.table import KNOWN
 from ..solving.cost import Cost
 from ..solving.words import duration, pascals, seconds, share
 from ..trustmap.verdict import Advice, trust
-from .run.curves import corners, curves, models_of
+from ..comparison.around import corners, curves, models_of
 
 WIDTH = 100
 WHOLE = {"break_long_words": False, "break_on_hyphens": False}

@@ -34,7 +34,7 @@ class Report:
 
     study : the question
     answers : everything that was solved, an xarray.DataTree with a Dataset for each parameter grid and solver
-    findings : one by one; `table` has them as a DataFrame
+    judged : findings one by one; `findings` has them as a DataFrame
     page : the page, with its plots
     swept : number of tasks that were solved and reused, and what broke
     output : folder of the page and of what has been solved
@@ -44,7 +44,7 @@ class Report:
 
     study: Study
     answers: xarray.DataTree
-    findings: Sequence[Finding]
+    judged: Sequence[Finding]
     page: Page
     swept: SweepResult
     output: Path
@@ -52,9 +52,9 @@ class Report:
     unsolved: Unsolved = NONE_UNSOLVED
 
     @property
-    def table(self) -> DataFrame:
-        """Findings as a DataFrame, the same columns whatever command they come from."""
-        return finding.table(self.findings)
+    def findings(self) -> DataFrame:
+        """A row for each finding, the same columns whatever command they come from."""
+        return finding.table(self.judged)
 
     @property
     def figures(self) -> "Figures":
@@ -64,7 +64,7 @@ class Report:
     @property
     def failed(self) -> bool:
         """Whether a task broke, many contacts or a scene's own have no answer, or what has to hold does not."""
-        return bool(self.swept.faults) or self.unsolved.serious or self.study.failed(self.findings)
+        return bool(self.swept.faults) or self.unsolved.serious or self.study.failed(self.judged)
 
     @property
     def doubts(self) -> Sequence[str]:

@@ -8,11 +8,11 @@ import xarray
 
 from scene.signatures import readable
 
-from ..report.page import Block, Findings, Page, Plot, Section, Text
-from ..solving import parameter_grid, words
+from ..report.page import Block, Findings, Page, Plot, Section, Table, Text
+from ..comparison.curve import Curve, contacts_of, tasks_of, tree
+from ..solving import words
 from ..solving.cost import Cost
 from ..solving.outcome import Outcome
-from ..solving.parameter_grid import ParameterGrid
 from ..solving.task import Batch, SceneTask, Task
 from ..solving.unsolved import Unsolved
 from ..statistics import griderror
@@ -32,14 +32,14 @@ class Judgement:
     answer : sentences; one for each claim if absent
     blocks : figures, findings and other tables of the page, alone or in sections; all findings if absent
     setting : what was solved and how it is judged; it stands last on the page
-    opening : paragraphs that stand before the answer: what a reader came for, in words
+    opening : tables that stand before the answer: what a reader came for
     """
 
     findings: Sequence[Finding]
     answer: Sequence[str] | None = None
     blocks: Sequence[Block] | None = None
     setting: Sequence[Block] = ()
-    opening: Sequence[str] = ()
+    opening: Sequence[Table] = ()
 
     @property
     def plots(self) -> tuple[Plot, ...]:
@@ -57,7 +57,7 @@ class Judgement:
 class Study:
     """A question, declared: what is solved for it, what is claimed, and what its answers come to.
 
-    A study overrides what differs: `grids` and `claims` are enough. One whose tasks are no parameter grids
+    A study overrides what differs: `grids` and `claims` are enough. One whose tasks are no curves
     overrides `batches` and `answers`; one that measures claims in its own way, or has figures, `judge`.
 
     command : name of the command, and of the Python function
@@ -87,15 +87,15 @@ class Study:
 
     def unsolved(self, outcomes: Mapping[Task, Outcome]) -> Unsolved:
         """Contacts of the grids without an answer."""
-        return Unsolved.of(parameter_grid.contacts_of(self.grids()), outcomes, self.own)
+        return Unsolved.of(contacts_of(self.grids()), outcomes, self.own)
 
     @property
     def inputs(self) -> Mapping[str, Any]:
         """Inputs of the command, as JSON can hold them."""
         return {}
 
-    def grids(self) -> Mapping[str, ParameterGrid]:
-        """Parameter grids of contacts by name. Raises InvalidInput, Refused."""
+    def grids(self) -> Mapping[str, Curve]:
+        """Curves of contacts by name. Raises InvalidInput, Refused."""
         return {}
 
     def claims(self) -> Sequence[Claim]:
@@ -110,11 +110,11 @@ class Study:
 
     def batches(self) -> Sequence[Batch]:
         """Everything that is solved."""
-        return (Batch(parameter_grid.tasks_of(self.grids())),)
+        return (Batch(tasks_of(self.grids())),)
 
     def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
         """Everything that was solved, labelled."""
-        return parameter_grid.tree(self.grids(), outcomes)
+        return tree(self.grids(), outcomes)
 
     def more(
         self, answers: xarray.DataTree, findings: Sequence[Finding], growth: float = GROWTH

@@ -6,18 +6,6 @@ from math import nan
 
 import numpy as np
 import pytest
-import xarray
-from pydantic import ValidationError
-from scene_files import HEAD, SCENE, SHARED, TABLES
-from small_cases import SLIDING
-from typer.testing import CliRunner
-
-from bem3d import BEM
-from compare.cli.app import app
-from compare.report.export import export
-from compare.solving import netcdf
-from compare.solving.cost import MOST_DRAWS
-from compare.solving.outcome import Outcome, Row
 from compare.solving.parameter_grid import (
     LEVELS,
     ParameterGrid,
@@ -27,6 +15,16 @@ from compare.solving.parameter_grid import (
     tasks_of,
     tree,
 )
+from pydantic import ValidationError
+from scene_files import HEAD, SCENE, SHARED, TABLES
+from small_cases import SLIDING
+from typer.testing import CliRunner
+
+from bem3d import BEM
+from compare.cli.app import app
+from compare.solving import netcdf
+from compare.solving.cost import MOST_DRAWS
+from compare.solving.outcome import Outcome, Row
 from compare.solving.task import draws_of
 from compare.solving.words import basis
 from compare.statistics.finding import Claim
@@ -34,7 +32,6 @@ from compare.statistics.jackknife import DrawSet, friction, judge, mean
 from mdr1d import MDR
 from scene import Indent, Layer, Refused
 from scene.quantities import MOST_WHOLE
-from scene.reading import InvalidInput
 
 ROUGH = ParameterGrid(
     scene=SLIDING,
@@ -133,98 +130,6 @@ def test_a_body_that_does_not_touch_has_no_force_and_no_friction():
     assert set(found.status.values.ravel()) == {"no contact"}
     assert (found.normal_force == 0).all()
     assert found.friction_force.isnull().all()
-
-
-WORDS = np.array([f"{'é' * (k % 5)}{k} µm " for k in range(600)])
-OF_ALL_KINDS = xarray.Dataset(
-    {
-        "holds": (("x", "nameless"), np.eye(2, 3, dtype=bool), {"long_name": "a truth"}),
-        "long": ("nameless_too", np.linspace(0, 1, 1000), {"units": "m"}),
-        "single": ("x", np.array([nan, np.inf], "f4")),
-        "large": ("x", np.array([1, 2**64 - 1], "u8")),
-        "time": ("x", [1.0, 2.0], {"units": "s"}),
-        "whole": ((), 3),
-        "name": ((), "µm"),
-        "reason": ("x", ["", "none at all "]),
-        "empty": ("x", ["", ""]),
-        "words": ("nameless_three", WORDS),
-        "none": ("nothing", np.zeros(0)),
-    },
-    {"x": [1.0, 2.0], "kind": ("x", ["a", "b"]), "beside": ("nameless", [1, 2, 3]), "y": ["ä", "bb"]},
-    {"solver": "BEM", "comment": "", "größe": "é", "count": 3, "low": 0.1},
-)
-
-
-def test_results_come_back_as_they_were_and_xarray_opens_them(answers, tmp_path):
-    parts = {node.path: node.to_dataset(inherit=False) for node in answers.subtree}
-    parts |= {"/": xarray.Dataset(attrs={"title": "all"}), "/all": OF_ALL_KINDS}
-    tree = xarray.DataTree.from_dict(parts)
-    file = netcdf.packed(tree)
-    assert netcdf.packed(tree) == file
-    (tmp_path / netcdf.NAME).write_bytes(file)
-    again = netcdf.load(tmp_path)
-    with xarray.open_datatree(tmp_path / netcdf.NAME, engine="h5netcdf") as opened:
-        xarray.testing.assert_identical(again, opened)
-    assert again.attrs.pop("source").startswith("mdr-bem-crosscheck")
-    assert "source" not in tree.attrs
-    xarray.testing.assert_identical(again, tree)
-    for node in tree.subtree:
-        for name, variable in node.variables.items():
-            found = again[node.path].variables[name]
-            assert found.dtype == (object if variable.dtype.kind == "U" else variable.dtype), name
-
-
-def test_long_numbers_and_texts_are_compressed():
-    long = xarray.Dataset({"zero": ("x", np.zeros(10**5)), "status": ("x", np.full(10**5, "solved"))})
-    assert len(netcdf.packed(xarray.DataTree(long))) < long.nbytes / 50
-
-
-@pytest.mark.parametrize("foreign", [object(), {"a": 1}, print], ids=["object", "dictionary", "function"])
-def test_nothing_but_numbers_and_texts_is_written(foreign):
-    for dataset in (xarray.Dataset(attrs={"a": foreign}), xarray.Dataset({"a": ("x", np.array([foreign]))})):
-        with pytest.raises((TypeError, ValueError)):
-            netcdf.packed(xarray.DataTree(dataset))
-
-
-def refused(path, why):
-    """Whether both readers of a file of results refuse it, name it and say why."""
-    for read in (netcdf.load, export):
-        with pytest.raises(InvalidInput, match=rf"results\.nc: {why}"):
-            read(path)
-
-
-def test_every_changed_or_shortened_file_is_refused_before_hdf5_sees_it(tmp_path, monkeypatch):
-    monkeypatch.setattr(xarray, "load_datatree", None)
-    path = tmp_path / netcdf.NAME
-    whole = netcdf.packed(xarray.DataTree(OF_ALL_KINDS))
-    random = np.random.default_rng(1)
-    damaged = [whole + b" ", whole + whole[-64:], b"", b"x" * 100]
-    for place in random.integers(len(whole), size=100):
-        changed = bytearray(whole)
-        changed[place] ^= 1 << random.integers(8)
-        damaged += [bytes(changed), whole[:place], whole[:place] + whole[place + 1 :]]
-    for file in damaged:
-        path.write_bytes(file)
-        with pytest.raises(InvalidInput, match=r"results\.nc: is not a file of results, or is damaged"):
-            netcdf.load(path)
-
-
-def test_a_file_of_another_program_or_version_is_refused_with_the_reason(tmp_path):
-    path = tmp_path / netcdf.NAME
-    OF_ALL_KINDS.to_netcdf(path, engine="h5netcdf")
-    refused(path, "is not a file of results, or is damaged: it has no checksum at its end")
-    for version, age in ((1, "an earlier"), (1234, "a later")):
-        image = path.read_bytes() + f"crosscheck format {version} ".encode()
-        (tmp_path / "other").mkdir(exist_ok=True)
-        (tmp_path / "other" / netcdf.NAME).write_bytes(image + netcdf.checksum(image))
-        refused(tmp_path / "other" / netcdf.NAME, f"was written by {age} version of this program")
-
-
-def test_a_folder_without_results_is_named(tmp_path):
-    with pytest.raises(InvalidInput, match="no command has left results"):
-        netcdf.load(tmp_path)
-    with pytest.raises(InvalidInput, match="no such file"):
-        netcdf.load(tmp_path / "nowhere")
 
 
 def test_parameter_grids_that_cross_share_their_contacts():

@@ -42,11 +42,11 @@ EFFORT |= {f"tangential_{name}" for name in ("applications", "residual", "rounds
 def findings(command: Callable, **options) -> pandas.DataFrame:
     """Findings of a command in an empty folder, compared with the largest of tolerance, half-width and NOTHING."""
     with tempfile.TemporaryDirectory() as folder:
-        found = command(output=folder, report=False, yes=True, **options).table
+        found = command(output=folder, report=False, yes=True, **options).findings
     half = (found["high"] - found["low"]) / 2
     found["scale"] = np.fmax(found["tolerance"], half.where(np.isfinite(half)))
     found["scale"] = np.fmax(found["scale"], np.where(found["unit"] == "1", NOTHING, np.nan))
-    return found.rename(columns={"dimension": "model"})[COLUMNS]
+    return found[COLUMNS]
 
 
 def run(**options) -> pandas.DataFrame:

@@ -14,7 +14,7 @@ from scene.scales import elastic_contact
 from ...library.ready import CATALOGUE
 from ..paper import parameters
 from .contacts import SHORTEST, STEEP, kelvin, resolved
-from .series import Series
+from ...comparison.rough import RoughSeries as Series
 from .sizes import Size, between
 
 # Across the knee. In three dimensions friction hardly falls with the load where it is slow: neighbouring speeds

@@ -35,7 +35,9 @@ from ...library.describe import folders
 from ...library.ready import NotReady, find
 from ...solving.cost import MOST_VALUES
 from .catalogue import SIZES, ReadyStudy
-from .series import KINDS, Series
+from ...comparison.curve import refuse
+from ...comparison.rough import KINDS
+from ...comparison.rough import RoughSeries as Series
 from .sizes import Size, between
 
 Several = Annotated[Whole, Field(ge=2, le=MOST_VALUES)]
@@ -354,8 +356,8 @@ def _in_file(mistake, own, number):
 def _refused(stated: _Stated, number: int) -> Iterator[str]:
     """Refusals of the solvers at the least size."""
     try:
-        for grid in stated.series(SIZES["quick"]).grids.values():
-            grid.refuse()
+        for grid in stated.series(SIZES["quick"]).curves.values():
+            refuse([grid])
     except ValidationError as error:
         yield from (f"series.{number}: {each['msg']}" for each in error.errors())
     except (Refused, SolveError, ArithmeticError) as error:

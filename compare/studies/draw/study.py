@@ -18,7 +18,7 @@ from ...report.page import Text
 from ...report.views import View, view
 from ...solving import words
 from ...solving.outcome import Outcome
-from ...solving.parameter_grid import work_of
+from ...comparison.curve import work_of
 from ...solving.task import Batch, SceneTask, Task
 from ...solving.vocabulary import attributes
 from ...statistics import griderror

@@ -11,17 +11,17 @@ from mdr1d import MDR
 from scene import Cone, Regime
 from scene.scales import elastic_contact
 
-from ...solving.parameter_grid import FINE, SOLVED, ParameterGrid
+from ...comparison.curve import FINE, SOLVED, Curve
 from ...solving.vocabulary import attributes
 from . import parameters
 
 AT_NODES = ("x", "profile", "displacement", "contact")
 
 
-def contact_grid(shape: str) -> ParameterGrid:
+def contact_grid(shape: str) -> Curve:
     """The one contact of one shape, with its fields."""
     motion = parameters.CONTACT
-    return ParameterGrid(
+    return Curve(
         scene=parameters.contact(shape),
         speeds=(motion.speed,),
         values=(float(motion.load or 0.0),),

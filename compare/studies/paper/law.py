@@ -13,7 +13,7 @@ from mdr1d import MDR, draw, equations
 from scene import SolveError
 
 from ...solving.outcome import Outcome
-from ...solving.parameter_grid import FINE, ParameterGrid
+from ...comparison.curve import FINE, Curve
 from ...solving.task import Task
 from ...solving.vocabulary import attributes
 from ...statistics.intervals import Estimated
@@ -41,9 +41,9 @@ def speeds() -> dict[str, tuple[float, ...]]:
     return found
 
 
-def parameter_grid(shape: str, profiles: int = parameters.PROFILES) -> ParameterGrid:
+def parameter_grid(shape: str, profiles: int = parameters.PROFILES) -> Curve:
     """Contacts of one shape at every speed."""
-    return ParameterGrid(
+    return Curve(
         scene=parameters.base(shape),
         speeds=speeds()[shape],
         values=(parameters.LOAD,),

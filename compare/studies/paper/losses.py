@@ -15,7 +15,7 @@ from pandas import DataFrame
 from mdr1d import MDR, equations
 from scene import Regime, SolveError
 
-from ...solving.parameter_grid import FINE, ParameterGrid
+from ...comparison.curve import FINE, Curve
 from ...statistics.collapse import Collapse, along_load, collapse
 from ...statistics.frictioncurves import SimulatedCurves
 from . import parameters
@@ -29,11 +29,11 @@ STIFFNESS = "macroscopic_modulus"
 WHOLE, ROUGH = "whole friction", "less smooth body"
 
 
-def grids(loss: Loss, profiles: int = parameters.LOSS_PROFILES) -> dict[str, ParameterGrid]:
+def grids(loss: Loss, profiles: int = parameters.LOSS_PROFILES) -> dict[str, Curve]:
     """Contacts of one rubber at each speed and load: rough, and of the smooth body."""
     grids = {"MDR": {FINE: MDR(points=parameters.POINTS)}}
     scene = parameters.lossy(loss, parameters.FORCES[0], parameters.SPEEDS[0])
-    rough = ParameterGrid(
+    rough = Curve(
         scene=scene, speeds=parameters.SPEEDS, values=parameters.FORCES, grids=grids, draws={"MDR": profiles}
     )
     smooth = replace(rough, scene=replace(scene, roughness=None), draws={})

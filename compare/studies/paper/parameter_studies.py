@@ -15,7 +15,7 @@ from mdr1d.ensemble import Answers, solve_profiles
 from scene import Scene, SolveError
 
 from ...solving.outcome import Outcome
-from ...solving.parameter_grid import FAILED, SOLVED
+from ...comparison.curve import FAILED, SOLVED
 from ...solving.task import SCENES, Task
 from ...solving.vocabulary import attributes
 from ...statistics.intervals import Estimated

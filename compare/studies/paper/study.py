@@ -13,10 +13,10 @@ from scene.reading import InvalidInput
 
 from ...figures import shifted_curves
 from ...report.page import Block, Findings, Section, Table, Text
-from ...solving import parameter_grid
+from ...comparison import curve
 from ...solving.cost import MOST_DRAWS, Cost
 from ...solving.outcome import Outcome
-from ...solving.parameter_grid import FAILED, ParameterGrid
+from ...comparison.curve import FAILED, Curve
 from ...solving.task import Batch, Task
 from ...statistics import eq23
 from ...statistics.finding import FAILS
@@ -75,7 +75,7 @@ class Paper(Study):
     def _studies(self) -> ParameterStudies:
         return ParameterStudies(values=self.values, profiles=self.profiles)
 
-    def grids(self) -> Mapping[str, ParameterGrid]:
+    def grids(self) -> Mapping[str, Curve]:
         """Contacts of Fig. 1, of Fig. 4, and of Figs. 5 to 7."""
         return self._grids
 
@@ -94,7 +94,7 @@ class Paper(Study):
 
     def batches(self) -> Sequence[Batch]:
         """Everything that is solved: grids, the parameter studies of Fig. 3, and Fig. 4 of planes."""
-        return (Batch([*self._own, *parameter_grid.tasks_of(self.grids())]),)
+        return (Batch([*self._own, *curve.tasks_of(self.grids())]),)
 
     @cached_property
     def _own(self):
@@ -103,7 +103,7 @@ class Paper(Study):
     def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
         """Everything that was solved: a Dataset for each figure, shape and rubber."""
         grids = self.grids()
-        tree = parameter_grid.tree(grids, outcomes)
+        tree = curve.tree(grids, outcomes)
         parts = {parameter_studies.NODE: self._studies.dataset(outcomes)}
         for shape in parameters.SHAPES:
             parts[f"law-{shape}/planes"] = law.planes_dataset(shape, outcomes)

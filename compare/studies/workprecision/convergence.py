@@ -11,7 +11,7 @@ from pandas import DataFrame, concat, factorize
 
 from scene import Scene, Solver
 
-from ...solving.parameter_grid import FAILED, SOLVED
+from ...comparison.curve import FAILED, SOLVED
 from ...solving.task import Task
 from ...solving.vocabulary import attributes
 from .reference import Outcomes, Quantity, Reference

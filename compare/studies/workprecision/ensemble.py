@@ -12,7 +12,7 @@ from bem3d import BEM
 from mdr1d import MDR
 from scene import Scene
 
-from ...solving.parameter_grid import FAILED, NOT_ASKED, SOLVED
+from ...comparison.curve import FAILED, NOT_ASKED, SOLVED
 from ...solving.task import SceneTask, Task, draws_of
 from ...statistics.intervals import Estimated, skewness
 from ...statistics.jackknife import mean_ratio

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import nan
+from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray
@@ -10,17 +11,20 @@ from scipy.special import ndtri
 
 from scene import SelfAffine
 
-from ...models.law.bands import Bands, FullContact
-from ...models.law.share import Share
-from ...models.table import SURFACES
-from ...solving.parameter_grid import COARSE, FINE
-from ...statistics.finding import HALVED, UNKNOWN, Finding
-from ...statistics.jackknife import DrawSet, friction, resample
-from ..theory import LAW
+from ..models.law.bands import Bands, FullContact
+from ..models.law.share import Share
+from ..models.table import SURFACES
+from ..statistics.finding import HALVED, UNKNOWN, Finding
+from ..statistics.jackknife import DrawSet, friction, resample
+from .answers import Answers
 from .claims import CLAIMS
+from .curve import COARSE, FINE
 from .laws import Laws
 from .regime import words
-from .series import ROUGH, SMOOTH, Contacts
+from .theory import LAW
+
+if TYPE_CHECKING:
+    from .rough import RoughSeries
 
 # Rms height over the depth of the smooth relaxed contact up to which the law is claimed.
 SHALLOW = 0.1
@@ -29,7 +33,7 @@ LEAST_ROUGH = 0.3
 # Coordinates of each finding: at the mean pressure, averaged over that of the body, and raw.
 FINDINGS = {"collapse": "law", "averaged": "averaged", "raw": "bare"}
 QUANTILES = {"": 0.5, "-most": 0.9}
-PLOT, EVERY = "law", "every series"
+EVERY = "every series"
 _UNKNOWN = "the scatter is not known, or at some point roughness does not add to friction"
 
 
@@ -86,15 +90,16 @@ class Coordinates:
 class LawPoints:
     """Points of a series for the master curve, arrays (speeds, values).
 
-    contacts, solver : answers, and the model that is measured
+    series, answers, model : what is judged, and the model that is measured
     law, averaged, bare : coordinates of the law, and raw ones
     curves : S of all waves, by the speed
     height : rms height over the depth of the smooth relaxed contact [1]
     counted : where the roughness has enough of friction, and friction is known on both grids
     """
 
-    contacts: Contacts
-    solver: str
+    series: "RoughSeries"
+    answers: Answers
+    model: str
     law: Coordinates
     averaged: Coordinates
     bare: Coordinates
@@ -103,27 +108,28 @@ class LawPoints:
     counted: np.ndarray
 
     @classmethod
-    def of(cls, contacts: Contacts, laws: Mapping[str, Laws]) -> "LawPoints | None":
+    def of(cls, series: "RoughSeries", answers: Answers, laws: Mapping[str, Laws]) -> "LawPoints | None":
         """Points of the reference, where it is in three dimensions and the law answers; None where it is not."""
-        series, law = contacts.series, contacts.theories.get(LAW.name)
-        solver, roughness = series.models.reference, series.scene.roughness
-        if law is None or "share_of_full_contact" not in law or series.models[solver].draws != SURFACES:
+        model, roughness = series.models.reference, series.scene.roughness
+        law = series.theories(answers).get(LAW.name)
+        if law is None or "share_of_full_contact" not in law or series.models[model].draws != SURFACES:
             return None
         assert isinstance(roughness, SelfAffine)  # the law answers no other
         law = law.transpose("speed", series.prescribed, ...)
         bands = Bands.of(roughness)
         waves = [FullContact.of(bands, series.scene.solid, speed) for speed in series.speeds]
-        known = [np.isfinite(_mu(contacts.sample(grid, ROUGH, solver)[solver])) for grid in (FINE, COARSE)]
+        known = [np.isfinite(_mu(answers.sample(level, "rough", model)[model])) for level in (FINE, COARSE)]
         with np.errstate(invalid="ignore", divide="ignore"):
             own, rough = (law[f"friction_of_{part}"].values for part in ("shape", "roughness"))
             found = cls(
-                contacts=contacts,
-                solver=solver,
+                series=series,
+                answers=answers,
+                model=model,
                 law=Coordinates.of_law(law),
                 averaged=Coordinates.averaged(law),
-                bare=Coordinates.of_bare(contacts(solver, SMOOTH).isel(speed=slice(1, None)), waves),
+                bare=Coordinates.of_bare(answers("smooth", model).isel(speed=slice(1, None)), waves),
                 curves=tuple(map(Share.of, waves)),
-                height=1 / laws[solver].ratios["depth_over_height"],
+                height=1 / laws[model].ratios["depth_over_height"],
                 counted=(rough / (own + rough) > LEAST_ROUGH) & known[0] & known[1],
             )
         return found if found.counted.any() else None
@@ -134,34 +140,23 @@ class LawPoints:
         return self.counted & (self.height <= SHALLOW)
 
 
-def law_findings(contacts: Contacts, laws: Mapping[str, Laws]) -> list[Finding]:
+def law_findings(series: "RoughSeries", answers: Answers, laws: Mapping[str, Laws]) -> list[Finding]:
     """Findings on the master curve of one series; none where the law claims nothing."""
-    found, series = LawPoints.of(contacts, laws), contacts.series
+    found = LawPoints.of(series, answers, laws)
     if found is None:
         return []
-    regime = words({name: each[found.claimed] for name, each in laws[found.solver].ratios.items()})
-    return list(_findings([found], series.name, regime, f"{series.folder}/{PLOT}"))
+    regime = words({name: each[found.claimed] for name, each in laws[found.model].ratios.items()})
+    return [replace(each, curve=series.place("rough")) for each in law_findings_of([found], series.name, regime)]
 
 
-def law_findings_of_all(series: Sequence[tuple[Contacts, Mapping[str, Laws]]]) -> list[Finding]:
-    """Findings on the master curve of several series together."""
-    points = [found for each in series if (found := LawPoints.of(*each))]
-    return list(_findings(points, EVERY, "", PLOT)) if len(points) > 1 else []
-
-
-def _findings(points: Sequence[LawPoints], where, groups, plot) -> Iterator[Finding]:
+def law_findings_of(points: Sequence[LawPoints], where: str = EVERY, groups: str = "") -> Iterator[Finding]:
     """Findings at all points of some series, of which the same surfaces are left out."""
     claimed = np.concatenate([each.law.x[each.claimed] for each in points])
     if not claimed.size:
         return
     fine, coarse = (
-        DrawSet(
-            {
-                each.contacts.series.name: each.contacts.sample(grid, ROUGH, each.solver)[each.solver]
-                for each in points
-            }
-        )
-        for grid in (FINE, COARSE)
+        DrawSet({each.series.name: each.answers.sample(level, "rough", each.model)[each.model] for each in points})
+        for level in (FINE, COARSE)
     )
     regime = f"{claimed.size} points, x {claimed.min():.2g} to {claimed.max():.2g}"
     for found, coordinates in FINDINGS.items():
@@ -173,16 +168,15 @@ def _findings(points: Sequence[LawPoints], where, groups, plot) -> Iterator[Find
             yield replace(
                 _finding(f"law3d.{found}{quantile}", level, off, fine, coarse),
                 where=where,
-                dimension=points[0].contacts.labels[points[0].solver],
+                dimension=points[0].series.models.labels[points[0].model],
                 regime="; ".join(filter(None, (regime, groups))),
-                plot=plot,
             )
 
 
 def _off(points, coordinates, sample):
     """ln of the share measured over S at the points that are claimed."""
     place: Coordinates = getattr(points, coordinates)
-    mu = _mu(sample[points.contacts.series.name])
+    mu = _mu(sample[points.series.name])
     return np.log(place.measured(mu) / place.share)[points.claimed]
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ...statistics.finding import BOTH, Claim
+from ..statistics.finding import BOTH, Claim
 
 # How far from what is claimed still counts as it: what a reader of a diagram over decades of friction would not
 # see, and less than what any measured roughness is known to.
@@ -15,8 +15,9 @@ TOLERANCE = 0.05
 # How close theory and solution are where theory is exact.
 CLOSED = 0.01
 # Claims on relative deviations, by the first part of their names.
-IN_PERCENT = {"force", "grid", "law3d", "pressed-in", "rest", "smooth"}
+IN_PERCENT = {"force", "grid", "history", "law3d", "pressed-in", "rest", "smooth"}
 _OWN = "Ratio of the means over surfaces."
+_HISTORY = "rms over the history of the difference of 1D from 3D, over the rms of 3D, without what scatter adds."
 _RATIO = "Ratio of the coefficients, 1D over 3D."
 _PRESSED = "ln of the ratio of forces, each over that of the smooth body at the depth reached."
 _REST_DEPTH = (
@@ -118,6 +119,9 @@ _TEXTS: dict[tuple[float, float], dict[str, tuple[str, str]]] = {
             "The force on the smooth body at the same depth is the same in 1D and 3D",
             "Force in 1D over 3D less one, at rest, at every depth.",
         ),
+        "history.force": ("The force is the same in 1D and 3D all along", _HISTORY),
+        "history.depth": ("The depth is the same in 1D and 3D all along", _HISTORY),
+        "history.friction": ("The tangential force is the same in 1D and 3D all along", _HISTORY),
         "eq14.load-exponent": (
             "Eq. 14: at high speed friction does not depend on the load",
             "d ln μ / d ln F_N at the fastest speed, less that of Eq. 19 there, least squares over the loads or "
@@ -273,3 +277,54 @@ def at_ends(level: str, places: np.ndarray) -> Iterator[tuple[str, int]]:
     """
     known = np.flatnonzero(places)[[0, -1]]
     return ((f"{level}-{end}", place) for end, place in zip(ENDS, dict.fromkeys(known.tolist()), strict=False))
+
+
+# Claims in a few words, by their ids, in the order in which tables have them; two ids may answer one question.
+SHORT = {
+    "history.force": "force all along, 1D/3D",
+    "history.depth": "depth all along, 1D/3D",
+    "history.friction": "tangential force all along, 1D/3D",
+    "friction.ratio.smooth-slow": "slow smooth friction, 1D/3D",
+    "force.ratio.rough": "rough force at a depth, 1D/3D less one",
+    "force.ratio.smooth": "smooth force at a depth, 1D/3D less one",
+    "eq23.collapse": "Eq. 23: shifted along the load, curves are one",
+    "eq23.vertical": "Eq. 23: no shift along friction",
+    "eq23.vertical-exponent": "Eq. 23: no shift along friction",
+    "eq23.predicted": "Eqs. 22, 23: shifted by p(v), curves are one",
+    "eq23.exponent": "Eqs. 22, 23: p(v) is the power of the loss",
+    "eq18.one-curve": "Eq. 18: one function of ξ",
+    "eq19.law": "Eq. 19: the law at all speeds and loads",
+    **{f"eq19.level-{end}": "Eq. 19: level at the knee" for end in ENDS},
+    "eq19.load-exponent": "Eq. 19: falls with the load at the knee",
+    **{f"eq17.level-{end}": "Eq. 17: level at low speed" for end in ENDS},
+    "eq17.speed-exponent": "Eq. 17: power of the speed",
+    "eq17.load-exponent": "Eq. 17: power of the load",
+    "eq17.slope-exponent": "Eq. 17: power of the rms slope",
+    "eq17.contact": "Eq. 17: contact with the load",
+    "eq17.friction-per-contact": "Eq. 17: friction over the contact",
+    "eq17.slope-in-contact": "Eq. 17: slope in the contact",
+    "limit.slow": "exact limit of low speed",
+    **{f"eq14.plateau-{end}": "Eq. 14: plateau" for end in ENDS},
+    "eq14.load-exponent": "Eq. 14: no load at high speed",
+    "eq14.slope-exponent": "Eq. 14: power of the rms slope",
+    **{
+        f"friction.ratio.{where}-{end}": f"friction, {words}, 1D/3D"
+        for where, words in (
+            ("slow", "slow"), ("knee", "at the knee"), ("fast", "fast"), ("smooth", "smooth and slow")
+        )
+        for end in ENDS
+    },
+    "law3d.collapse": "law in 3D: on S(x), median",
+    "law3d.collapse-most": "law in 3D: on S(x), nine in ten",
+    **{
+        f"rest.{what}-{side}": f"{what} at rest, {side}, 1D/3D"
+        for what in ("depth", "force")
+        for side in ("deep", "shallow")
+    },
+    "rest.stiffness": "stiffness at rest, 1D/3D",
+    "pressed-in.slow": "force, pressed in slowly, 1D/3D",
+    "pressed-in.fast": "force, pressed in fast, 1D/3D",
+    "smooth.rest-depth": "smooth depth at rest, closed form",
+    "smooth.rest-force": "smooth force at rest, closed form",
+    "smooth.pressed-in": "smooth force, pressed in, closed form",
+}  # fmt: skip

@@ -3,16 +3,19 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import nan
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray
 
 from mdr1d import equations
 
-from ...statistics.jackknife import mean_ratio
+from ..statistics.jackknife import mean_ratio
+from .answers import Answers
 from .regime import SYMBOLS, ratios, words
-from .series import Contacts, Series, sliding
+
+if TYPE_CHECKING:
+    from .rough import RoughSeries
 
 # Relative spread of exponents up to which they are one.
 SAME = 0.02
@@ -68,22 +71,22 @@ class Laws:
         return np.where(np.isfinite(xi), self.plateau * equations.interpolation(np.nan_to_num(xi)), nan)
 
 
-def laws(contacts: Contacts, solver: str) -> Laws | None:
+def laws(series: "RoughSeries", answers: Answers, model: str) -> Laws | None:
     """Laws for the rough body that slides; None where no solve has an answer, or none measures the slope.
 
     The load in Eqs. 18 to 23 is that of the answers, that prescribed where every solve failed, the slope the
     solver's own measure.
     """
-    series, answers = contacts.series, sliding(contacts(solver))
-    if not {"rms_slope", "pixel"} <= set(answers.variables):
+    moving = answers("rough", model).isel(speed=slice(1, None))
+    if not {"rms_slope", "pixel"} <= set(moving.variables):
         return None
-    groups = regimes(series, answers)
+    groups = regimes(series, moving)
     if not np.isfinite(groups["depth_over_height"]).any():
         return None
     scene, speeds = series.scene, np.array(series.speeds)
     solid, body = scene.solid, scene.indenter
-    slope = float(np.nanmean(answers["rms_slope"].values))
-    highest = scene.roughness.q_max(float(np.nanmean(answers["pixel"].values)))
+    slope = float(np.nanmean(moving["rms_slope"].values))
+    highest = scene.roughness.q_max(float(np.nanmean(moving["pixel"].values)))
     c, n = body.mdr_coefficient, body.exponent
     # Written for a Poisson ratio of 1/2: E*/4 stands for G, and its loss for that of G.
     modulus = solid.indentation_modulus / 4
@@ -91,7 +94,7 @@ def laws(contacts: Contacts, solver: str) -> Laws | None:
     def loss(omega):
         return modulus / solid.static_modulus * solid.complex_modulus(omega).imag
 
-    load = mean_ratio(_draws(answers, "normal_force")).value
+    load = mean_ratio(_draws(moving, "normal_force")).value
     if series.prescribed == "load":
         load = np.where(np.isfinite(load), load, series.values)
     one = equations.one_frequency_friction(
@@ -116,7 +119,7 @@ def laws(contacts: Contacts, solver: str) -> Laws | None:
     )
 
 
-def regimes(series: Series, answers: xarray.Dataset) -> dict[str, np.ndarray]:
+def regimes(series: "RoughSeries", answers: xarray.Dataset) -> dict[str, np.ndarray]:
     """Groups of each rough contact of one grid by name, (speeds, values), from means over the surfaces.
 
     NaN where it is pressed in at a rate, which has none, and where every solve failed.

@@ -1,0 +1,1 @@
+"""Comparison of models on the same scenes: crosscheck run, sweep and study."""

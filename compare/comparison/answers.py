@@ -1,0 +1,91 @@
+"""Answers of one scene on its curves, by model, and samples of them from which surfaces can be left out."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import xarray
+
+from ..models.table import Model, Models
+from ..statistics import means
+from ..statistics.jackknife import DrawSet
+from ..statistics.means import Compared, Interval, compared
+from ..statistics.multilevel import pooled
+from .curve import COARSE, FINE, of_model
+
+# Variables that claims are measured on; others are not copied for every surface that is left out.
+MEASURED = ("normal_force", "friction_force", "depth_reached", "friction_spread", "slow_drag") + (
+    "curvature_by_pressure", "rms_slope_contact", "contact_length", "contact_area"
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Answers:
+    """Answers of one scene.
+
+    curves : Datasets of its curves by name
+    models : that are compared; others, as theories, have answers too
+    """
+
+    curves: Mapping[str, xarray.Dataset]
+    models: Models
+    _kept: dict[Any, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
+
+    def has(self, curve: str, model: str) -> bool:
+        """Whether a model was asked for answers on a curve."""
+        return curve in self.curves and model in self.curves[curve]["model"].values
+
+    def all_levels(self, curve: str, model: str) -> xarray.Dataset:
+        """Answers of a model, every surface by itself on the levels that it was solved on."""
+
+        def made():
+            own = of_model(self.curves[curve], model)
+            return means.with_spread(own if "speed" in own.dims else own.expand_dims(speed=[0.0], axis=1))
+
+        return self._once(("all", curve, model), made)
+
+    def two_levels(self, curve: str, model: str) -> xarray.Dataset:
+        """Surfaces whose means on the fine and on the coarse level are those of all levels, see `multilevel`."""
+        return self._once(("two", curve, model), lambda: pooled(self.all_levels(curve, model)))
+
+    def __call__(self, curve: str, model: str, level: str = FINE) -> xarray.Dataset:
+        """Answers of a model on one of both levels; those of a model without a grid are the same on both."""
+        found = self.two_levels(curve, model)
+        return found.sel(level=level if level in found["level"] else FINE)
+
+    def sample(self, level: str, curve: str, *models: str) -> DrawSet:
+        """Answers by model, of which surfaces can be left out; always the same object, which keeps what it finds."""
+
+        def made():
+            found = {each: self(curve, each, level) for each in models}
+            return DrawSet({name: each[[own for own in MEASURED if own in each]] for name, each in found.items()})
+
+        return self._once((level, curve, models), made)
+
+    def compared(self, curve: str, models: tuple[str, ...], measure: Any, size: bool = False) -> Compared:
+        """Numbers of a curve, a measure of samples, with scatter and error of the grid.
+
+        The latter is not known where the surface of a model with a grid is another one on half its points.
+        """
+        both = [self.two_levels(curve, each) for each in models]
+        known = all(COARSE in each["level"] or not each["points"].any() for each in both)
+        coarse = self.sample(COARSE, curve, *models) if known else None
+        return compared(measure, self.sample(FINE, curve, *models), coarse, size)
+
+    def interval(self, curve: str, model: str, above: str, below: str | None = None) -> Interval:
+        """Means of a variable, or over those of another, at every place of a curve, with intervals of 95 %."""
+        return means.interval(self.two_levels(curve, model), above, below)
+
+    def claiming(self, curve: str, quantity: str) -> list[Model]:
+        """Models of a curve with a claim on a quantity."""
+        return [each for each in self.models if quantity in each.answers and self.has(curve, each.name)]
+
+    def judged(self, curve: str, quantity: str) -> list[Model]:
+        """Models of a curve that are compared with the reference; none where the reference has no answer."""
+        found = {each.name: each for each in self.claiming(curve, quantity)}
+        return list(found.values()) if found.pop(self.models.reference, None) else []
+
+    def _once(self, key, made):
+        if key not in self._kept:
+            self._kept[key] = made()
+        return self._kept[key]

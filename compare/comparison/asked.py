@@ -1,0 +1,119 @@
+"""Comparisons as the commands ask for them: `crosscheck run`, `sweep` and `study`."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from os.path import lexists
+from pathlib import Path
+
+from scene import Refused
+from scene.printable import printable
+from scene.reading import InvalidInput, text_of
+
+from ..library.case import NotCompared, share_of
+from ..library.describe import folders, slug
+from ..library.lookup import SceneLike, located, named_cases
+from ..library.ready import ready, studies
+from ..models.table import ModelLike, listed
+from ..solving.suggest import known
+from ..studies.claims.catalogue import SIZES, STUDIES
+from ..studies.claims.study_file import study_of
+from .around import Around
+from .comparison import Comparison
+from .curve import refuse
+from .rough import RoughSeries
+from .sweep import SweepSeries
+from .values import Values
+
+ALL = "all"
+ABOUT = (
+    "The claims are those of Popov, Voll, Li, Chai and Popov, Sci. Rep. 4, 3750 (2014). Each is judged in one "
+    "dimension and in three, on the same scenes. A claim holds if its whole interval of 95 % lies within the "
+    "tolerance and fails if none of it does; otherwise, or where an error is unknown, it is undecided. The "
+    "scatter is found by leaving out each surface in turn, at all points at once, and the interval is wider "
+    "at both ends by the change on halving the grid."
+)
+
+
+def run(
+    scene: SceneLike | Sequence[str | Path] | Mapping[str, SceneLike] | None = None,
+    models: Sequence[ModelLike] | None = None,
+    reference: str | None = None,
+    interval: float | str | None = None,
+) -> Comparison:
+    """Scenes with the curves around them: one, several files or by name, or the paper's two.
+
+    Raises InvalidInput, Refused.
+    """
+    if isinstance(scene, Sequence) and not isinstance(scene, str) and len(scene) == 1:
+        scene = scene[0]
+    wanted = None if interval is None else share_of("interval", interval)
+    try:
+        cases, chosen = named_cases(scene), listed(models)
+        folders(cases, "case")
+        series = tuple(Around(name, case, chosen, reference, wanted) for name, case in cases.items())
+        names = sorted({each.name for one in series for each in one.models})
+        inputs = {"cases": {name: case.inputs for name, case in cases.items()}}
+        inputs |= ({} if wanted is None else {"interval": wanted}) | ({} if names == ["BEM", "MDR"] else {"models": names})
+        asked = Comparison(series, stated=inputs)
+        asked.grids()
+    except Refused as error:
+        asked_for = scene if isinstance(scene, str | Path) else "scene"
+        raise (NotCompared if isinstance(error, NotCompared) else Refused)(f"{asked_for}: {error}") from error
+    return asked
+
+
+def sweep(scene: SceneLike, **given) -> Comparison:
+    """Contacts of one scene at speeds and loads or depths of one's own; given : see `SweepSeries.of`."""
+    series = SweepSeries.of(scene, **given)
+    wanted = {"draws": series.draws} if series.interval is None else {"interval": series.interval}
+    inputs = {"speed": series.speeds, series.prescribed: series.values, **wanted}
+    return Comparison((series,), "sweep", "A sweep in one and in three dimensions", stated=inputs)
+
+
+def study(
+    name: str | Path,
+    size: str = "quick",
+    models: Sequence[ModelLike] | None = None,
+    reference: str | None = None,
+    interval: float | str | None = None,
+) -> Comparison:
+    """The study of a name that comes with the package, all of them, or that of a file. Raises InvalidInput, Refused."""
+    known("size", size, SIZES)
+    chosen, wanted = listed(models), None if interval is None else share_of("interval", interval)
+    source: dict[str, str] = {}
+    if name == ALL:
+        asked = {f"{own}/": each for own, each in STUDIES.items()}
+        title, about = "The laws of the paper in one and in three dimensions", ABOUT
+    else:
+        if name in STUDIES:
+            found = STUDIES[str(name)]
+        else:
+            path = _located(name)
+            source = {"source": text_of(path)}
+            found, name = study_of(source["source"], str(path)), printable(path.stem)
+        asked, title, about = {"": found}, found.title, found.about
+    series = tuple(
+        replace(
+            each,
+            name=f"{own}{each.name}",
+            asked=chosen or each.asked,
+            reference=reference or each.reference,
+            interval=wanted or each.interval,
+        )
+        for own, found in asked.items()
+        for each in found.series(SIZES[size])
+    )
+    inputs = {"name": str(name), "size": size} | ({} if wanted is None else {"interval": wanted}) | source
+    made = Comparison(series, "study", title, about, slug(f"{name}-{size}"), inputs)
+    refuse(made.grids().values())
+    return made
+
+
+def _located(name: str | Path) -> Path:
+    """File of a study of one's own. Raises InvalidInput that says what there is."""
+    try:
+        return located(name, "study")
+    except InvalidInput as error:
+        if not lexists(name) and str(name) not in ready():
+            known("NAME", str(name), [*studies(), ALL], str(error))
+        raise

@@ -1,0 +1,136 @@
+"""Comparison: scenes on their curves by several models, what is claimed of them, and what becomes of it."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Any
+
+import xarray
+
+from scene import notes
+from scene.result import labelled, provenance
+
+from ..solving.continuation import by_contact
+from ..solving.outcome import Outcome
+from ..solving.task import SceneTask, Task
+from ..statistics.finding import Finding
+from ..statistics.multilevel import GROWTH
+from ..studies.study import Judgement, Study
+from ..trustmap.verdict import trust
+from . import pages, tables
+from .answer import claims_table, scene_table
+from .answer import notes as open_claims
+from .around import OWN, Around
+from .curve import Curve, contacts_of
+from .rough import RoughSeries
+from .series import Series
+from .sweep import SweepSeries
+from .together import alike, members_of, together
+
+FIELDS, TIMES = "fields", "times"
+
+
+@dataclass(frozen=True)
+class Comparison(Study):
+    """Series of scenes, each on its curves, by the models that are compared.
+
+    series : scenes with their curves
+    command, title, about, place : of the command that asks, see `Study`; stated : its inputs
+    """
+
+    series: tuple[Series, ...]
+    command: str = "run"  # type: ignore[misc]
+    title: str = "One dimension against three"
+    about: str = ""
+    place: str = ""
+    stated: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def inputs(self) -> Mapping[str, Any]:
+        return self.stated
+
+    @cached_property
+    def _curves(self) -> Mapping[str, Curve]:
+        return {each.path(name): curve for each in self.series for name, curve in each.curves.items()}
+
+    def grids(self) -> Mapping[str, Curve]:
+        """Every curve of every series, by "series/curve"."""
+        return self._curves
+
+    @cached_property
+    def doubts(self) -> tuple[str, ...]:
+        """Doubts about every scene and the corners of its curves, with its name where there are several."""
+        found = {each.name: each.doubts for each in self.series}
+        named = len(self.series) > 1
+        return tuple(f"{name}: {each}" if named else each for name, told in found.items() for each in told)
+
+    @cached_property
+    def notes(self) -> tuple[str, ...]:
+        """Notes on what was read for the scenes."""
+        return tuple(dict.fromkeys(note for each in self.series for note in notes(each.scene)))
+
+    @property
+    def own(self) -> Sequence[SceneTask]:
+        return [contact for each in self.series for contact in each.own]
+
+    def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
+        """A Dataset for each curve, the fields of each scene's own contact, and the processor time of each model."""
+        tree, outcomes = super().answers(outcomes), by_contact(outcomes)
+        for each in self.series:
+            below = tree[each.folder] if each.folder else tree
+            below.attrs |= {"title": each.title, "prescribed": each.scene.motion.pressed_by}
+            if isinstance(each, Around):
+                for model, kept in each.curves[OWN].fields(outcomes).items():
+                    fields = labelled(kept, each.scene.indenter.type).assign_attrs(provenance(each.scene))
+                    below[f"{FIELDS}/{model}"] = xarray.DataTree(fields)
+                below[TIMES] = xarray.DataTree(tables.times(contacts_of(each.curves), outcomes))
+        return tree
+
+    def more(
+        self, answers: xarray.DataTree, findings: Sequence[Finding], growth: float = GROWTH
+    ) -> "Comparison | None":
+        """The comparison with the surfaces that undecided claims and wide intervals ask for; None where none does."""
+        sampled = {each.name: each for each in self.series if each.sampled}
+        asked = {name: each.more(each.answers(answers), findings, growth) for name, each in sampled.items()}
+        for names in alike([each for each in sampled.values() if isinstance(each, RoughSeries)]):
+            asked |= dict.fromkeys(names, _most([asked[name] for name in names]))
+        had = {name: each.counts for name, each in sampled.items()}
+        if asked == had:
+            return None
+        return replace(self, series=tuple(replace(s, strata=asked.get(s.name, s.strata)) for s in self.series))  # type: ignore[type-var]
+
+    def judge(self, answers: xarray.DataTree) -> Judgement:
+        own = [each.answers(answers) for each in self.series]
+        judged = [each.judge(known) for each, known in zip(self.series, own, strict=True)]
+        rough = [each for each in self.series if isinstance(each, RoughSeries)]
+        members = members_of(rough, own, judged) if rough else []
+        several = [self._told(each) for each in together(members)]
+        judged = [replace(one, findings=[self._told(each) for each in one.findings]) for one in judged]
+        findings = [*(each for one in judged for each in one.findings), *several]
+        every = list(zip(self.series, own, judged, strict=True))
+        opening = [scene_table(s, a, findings, trust(s.scene)) for s, a, _ in every if isinstance(s, Around)]
+        opening += [table for s, a, _ in every if isinstance(s, SweepSeries) for table in s.tables(a, findings)]
+        scenes = {each.name: each.name for each in self.series if isinstance(each, Around)}
+        claims = claims_table(findings, scenes)
+        opening += [claims] if len(claims.frame) else []
+        told = [*open_claims(findings), *(why for s, a, _ in every if s.sampled for why in s.unreached(a))]
+        blocks = pages.blocks(every, members, several, answers)
+        return Judgement(findings, told, blocks, pages.setting(self.about, every), opening)
+
+    def _told(self, found: Finding) -> Finding:
+        """A finding with what would decide it."""
+        for each in reversed(self.series):
+            if (told := each.told(found)) is not found:
+                return told
+        return found
+
+
+def _most(counts: Sequence[Mapping[str, Mapping[str, tuple[int, ...]]]]) -> dict[str, dict[str, tuple[int, ...]]]:
+    """Numbers of surfaces that are enough for all of some series, on the levels that all of them have."""
+    return {
+        shared: {
+            model: tuple(max(level) for level in zip(*(each[shared][model] for each in counts), strict=False))
+            for model in counts[0][shared]
+        }
+        for shared in counts[0]
+    }

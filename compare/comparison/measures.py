@@ -1,0 +1,409 @@
+"""Rows of claims on a rough series: where each can be stated, and the number that decides it, a function of answers.
+
+A new claim is a row here with a function of a few lines, and its words in `claims`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from math import nan
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import xarray
+
+from scene.regime import MUCH_LESS_HEIGHT
+from scene.scales import elastic_contact
+
+from ..models import exact
+from ..models.exact.indentation import loading_force
+from ..models.table import DEPTH, FORCE, FRICTION, PROFILES, Model
+from ..statistics.jackknife import friction, mean, mean_ratio
+from .claims import at_ends, geometric, power
+from .laws import Laws
+
+if TYPE_CHECKING:
+    from .rough import RoughSeries
+
+# Slow: the loss tangent of the shortest wave, v times the longest time over it, and xi, below which friction is
+# off its limit by less than the tolerance. Above FAST Eq. 19 is within 12 % of its plateau.
+SLOW, FAST = 0.1, 3.0
+# Ratio of xi to 1, or of 1 to xi, up to which the closest speed is at the knee.
+AT_THE_KNEE = 3.0
+CONTACT = {"profiles": "contact_length", "surfaces": "contact_area", "none": "contact_area"}  # [m], [m²]
+SLOW_DRAG = "slow_drag"
+
+# Ending of an id, place of speeds and values, number that the law has there: None of that of the claim.
+Place = tuple[str, Any, float | None]
+
+
+@dataclass(frozen=True)
+class Here:
+    """A place of a rough series at which claims are stated on a model.
+
+    series, model : what is judged; laws : of the model; None of a series that does not slide
+    place : of speeds and values; all where none is chosen
+    """
+
+    series: RoughSeries
+    laws: Laws | None
+    model: Model
+    place: Any = ...
+
+    @property
+    def regime(self) -> str:
+        """Dimensionless groups of the place in words."""
+        if self.laws is not None:
+            return self.laws.words(self.place)
+        over = closed_forms(self.series)[1] / self.series.scene.roughness.rms_height
+        words = f"d/h0 {over.min():.2g} to {over.max():.2g}"
+        return words if self.place is ... else f"{self.series.speeds[self.place]:.2g} m/s; {words}"
+
+    @property
+    def pressed(self) -> str:
+        """What is not prescribed: depth under loads, force at depths."""
+        return DEPTH if self.series.prescribed == "load" else FORCE
+
+    @property
+    def rule(self) -> Laws:
+        """Laws of the model, which slides."""
+        assert self.laws is not None
+        return self.laws
+
+    @property
+    def several(self) -> bool:
+        """Whether there are several loads or depths."""
+        return len(self.series.values) > 1
+
+    @property
+    def everywhere(self) -> np.ndarray:
+        """All loads or depths."""
+        return np.full(len(self.series.values), True)
+
+    @property
+    def slow(self) -> bool:
+        """Whether the slowest speed is in the limit of low speed."""
+        known = self.rule.xi[0][np.isfinite(self.rule.xi[0])]
+        slow = known.size > 0 and known.max() <= SLOW and self.rule.slowest_loss <= SLOW
+        return len(self.rule.speeds) > 1 and bool(slow)
+
+    @property
+    def fast(self) -> np.ndarray:
+        """Loads or depths at which the fastest speed is on the plateau."""
+        return self.rule.xi[-1] >= FAST
+
+    @property
+    def middle(self) -> np.ndarray:
+        """Median of xi at each speed."""
+        known = [row[np.isfinite(row)] for row in self.rule.xi]
+        return np.array([np.exp(np.median(np.log(row))) if row.size else nan for row in known])
+
+    @property
+    def knee(self) -> int | None:
+        """Place of the speed at which xi is closest to 1; None where none is close."""
+        away = np.nan_to_num(np.abs(np.log(self.middle)), nan=np.inf)
+        closest = int(np.argmin(away))
+        return closest if away[closest] <= np.log(AT_THE_KNEE) else None
+
+    def force(self, it: xarray.Dataset) -> np.ndarray:
+        """Mean normal force where it moves, (speeds, values)."""
+        return mean(it, "normal_force")[1:]
+
+    def xi(self, it: xarray.Dataset) -> np.ndarray:
+        """xi where it moves, at the load of the answers."""
+        return self.rule.xi_under(self.force(it))
+
+    def over_law(self, it: xarray.Dataset) -> np.ndarray:
+        """Friction over that of Eq. 19."""
+        return friction(it)[1:] / self.rule.law_of(self.xi(it))
+
+
+@dataclass(frozen=True)
+class Row:
+    """A claim: where it is stated, and what measures it.
+
+    id : of the claim, with {quantity} in place of depth or force, and without the ending of its place
+    where : places at which it can be stated
+    measure : of a place and the answers of one model, or of a model and the reference; a number, or an array of
+        which the root mean square counts
+    pair : whether it compares a model with the reference
+    quantity : that models must have a claim on; depth or force where it is empty
+    body : rough or smooth
+    """
+
+    id: str
+    where: Callable[[Here], Iterator[Place]]
+    measure: Callable[..., Any]
+    pair: bool = False
+    quantity: str = FRICTION
+    body: str = "rough"
+
+
+def everywhere(here: Here) -> Iterator[Place]:
+    """All speeds and values."""
+    yield "", ..., None
+
+
+def ends_of(here: Here, speed: int, places: np.ndarray) -> Iterator[Place]:
+    """The least and the greatest of some loads or depths at one speed."""
+    for name, value in at_ends("", places):
+        yield name, (speed, value), None
+
+
+# Friction of one dimensionality: Eqs. 14 to 19.
+
+
+def slow_speeds(here: Here) -> Iterator[Place]:
+    """The two slowest speeds, in the limit of low speed."""
+    if here.slow:
+        yield "", slice(2), float(here.rule.loss_exponent[0])
+
+
+def speed_exponent(here: Here, it: xarray.Dataset) -> float:
+    slow, next_to_it = friction(it)[1:3]
+    speeds = here.series.speeds
+    return float(np.mean(np.log(next_to_it / slow)) / np.log(speeds[1] / speeds[0]))
+
+
+def slow_loads(expected: Callable[[Here], float | None]) -> Callable[[Here], Iterator[Place]]:
+    """All loads at the slowest speed, in the limit of low speed."""
+
+    def where(here: Here) -> Iterator[Place]:
+        if here.slow and here.several:
+            yield "", 0, expected(here)
+
+    return where
+
+
+def with_load(quantity: Callable[[Here, xarray.Dataset], np.ndarray]) -> Callable[[Here, xarray.Dataset], float]:
+    """Exponent of a quantity at the slowest speed as a power of the load."""
+    return lambda here, it: power(mean(it, "normal_force")[1], quantity(here, it))
+
+
+def nominal_exponent(here: Here) -> float:
+    """d ln of the nominal contact, a length (1D) or an area (3D), over d ln F_N."""
+    return (1 + here.rule.exponent_of_load) * (1 if here.model.draws == PROFILES else 2)
+
+
+def behind(draws: str) -> dict[str, tuple[str, str | None]]:
+    """Causes of the load in slow friction: a variable, or its ratio to another; by what they are called."""
+    return {
+        "contact": (CONTACT[draws], None),
+        "drag": ("friction_force", CONTACT[draws]),
+        "slope": ("rms_slope_contact", None),
+    }
+
+
+def cause(name: str) -> Callable[[Here, xarray.Dataset], np.ndarray]:
+    """One of these at the slowest speed."""
+    return lambda here, it: mean(it, *behind(here.model.draws)[name])[1]
+
+
+def slow_level(here: Here) -> Iterator[Place]:
+    """Least and greatest load at the slowest speed, in the limit of low speed."""
+    if here.slow:
+        yield from ends_of(here, 0, here.everywhere)
+
+
+def over_slow_law(here: Here, it: xarray.Dataset) -> float:
+    return geometric((friction(it)[1:] / (here.rule.plateau * here.xi(it)))[here.place])
+
+
+def slow_solid(here: Here) -> Iterator[Place]:
+    """The slowest speed, where every mode of the solid is fast against it, so that the limit can be seen."""
+    longest = here.series.scene.solid.retardation()[2].max()
+    if here.slow and here.rule.wave_number * here.series.speeds[0] * longest <= SLOW:
+        yield "", 0, None
+
+
+def over_limit(here: Here, it: xarray.Dataset) -> float:
+    rest = it.isel(speed=0)
+    force = rest["normal_force"].transpose(..., "surface").values
+    drag = exact.mean_lag(here.series.scene.solid) * rest[SLOW_DRAG].transpose(..., "surface").values
+    return geometric(friction(it)[1] / (here.series.speeds[0] * mean_ratio(drag, force).value))
+
+
+def at_knee(here: Here) -> Iterator[Place]:
+    """Least and greatest load at the knee."""
+    if here.knee is not None:
+        yield from ends_of(here, here.knee, here.everywhere)
+
+
+def along_knee(here: Here) -> Iterator[Place]:
+    """All loads at the knee."""
+    if here.knee is not None and here.several:
+        yield "", here.knee, None
+
+
+def on_plateau(here: Here) -> Iterator[Place]:
+    """Least and greatest load at the fastest speed, on the plateau."""
+    if here.fast.any():
+        yield from ends_of(here, -1, here.fast)
+
+
+def along_plateau(here: Here) -> Iterator[Place]:
+    """All loads at the fastest speed, on the plateau."""
+    if here.fast.sum() > 1:
+        yield "", (-1, here.fast), None
+
+
+def over_law(here: Here, it: xarray.Dataset) -> float:
+    return geometric(here.over_law(it)[here.place])
+
+
+def law_with_load(here: Here, it: xarray.Dataset) -> float:
+    return power(here.force(it)[here.place], here.over_law(it)[here.place])
+
+
+FRICTIONS = (
+    Row("eq17.speed-exponent", slow_speeds, speed_exponent),
+    Row("eq17.load-exponent", slow_loads(lambda h: h.rule.exponent_of_load), with_load(lambda h, it: friction(it)[1])),
+    Row("eq17.contact", slow_loads(nominal_exponent), with_load(cause("contact"))),
+    Row("eq17.friction-per-contact", slow_loads(lambda h: None), with_load(cause("drag"))),
+    Row("eq17.slope-in-contact", slow_loads(lambda h: None), with_load(cause("slope"))),
+    Row("eq17.level", slow_level, over_slow_law),
+    Row("limit.slow", slow_solid, over_limit),
+    Row("eq19.level", at_knee, over_law),
+    Row("eq19.load-exponent", along_knee, law_with_load),
+    Row("eq14.plateau", on_plateau, over_law),
+    Row("eq14.load-exponent", along_plateau, law_with_load),
+    Row("eq19.law", everywhere, lambda here, it: np.log(here.over_law(it))),
+)
+
+
+# Friction of one dimensionality over that of the other.
+
+
+def at_level(level: str) -> Callable[[Here], Iterator[Place]]:
+    """Least and greatest load at the speed where the median of xi is below, at or above 1, each speed once."""
+
+    def where(here: Here) -> Iterator[Place]:
+        middle, knee, last = here.middle, here.knee, len(here.rule.speeds) - 1
+        speeds = {
+            "slow": 0 if middle[0] < 1 and knee != 0 else None,
+            "knee": knee,
+            "fast": last if middle[last] > 1 and knee != last else None,
+            "smooth": 0,
+        }
+        if (speed := speeds[level]) is not None:
+            yield from ends_of(here, speed, here.everywhere)
+
+    return where
+
+
+def ratio(here: Here, one: xarray.Dataset, three: xarray.Dataset) -> float:
+    """Friction in 1D over 3D."""
+    return geometric(friction(one)[1:][here.place] / friction(three)[1:][here.place])
+
+
+BOTH = tuple(
+    Row(f"friction.ratio.{level}", at_level(level), ratio, pair=True, body="smooth" if level == "smooth" else "rough")
+    for level in ("slow", "knee", "fast", "smooth")
+)
+
+
+# Force and depth: smooth bodies against closed forms, rough ones in one dimension against three.
+
+
+def closed_forms(series: RoughSeries) -> tuple[np.ndarray, np.ndarray]:
+    """Load [N] and depth [m] of the smooth body at rest at each load or depth: Galin and Sneddon."""
+    contacts = [elastic_contact(series.at(value)) for value in series.values]
+    return np.array([contact.load for contact in contacts]), np.array([contact.depth for contact in contacts])
+
+
+def loading(series: RoughSeries, depths: np.ndarray | None = None) -> np.ndarray:
+    """Force [N] on the smooth body pressed in at constant rates, (rates, depths): Lee and Radok.
+
+    depths : reached [m], (rates, depths); those prescribed if absent. A march answers for the middle of its last
+        step, half a step before the end
+    """
+    reached = np.broadcast_to(series.values, (len(series.speeds), len(series.values))) if depths is None else depths
+    body, solid = series.scene.indenter, series.scene.elastomer
+    forces = np.full(reached.shape, nan)
+    for place, depth in np.ndenumerate(reached):
+        if depth > 0:
+            end = float(depth) / series.speeds[place[0]]
+            forces[place] = loading_force(body, solid, (0.0, end), (0.0, float(depth)), (end,))[0]
+    return forces
+
+
+def over_closed_form(here: Here, it: xarray.Dataset) -> np.ndarray:
+    load, depth = closed_forms(here.series)
+    name, known = ("depth_reached", depth) if here.pressed == DEPTH else ("normal_force", load)
+    return mean(it, name)[0] / known - 1
+
+
+def rates(here: Here) -> Iterator[Place]:
+    """All rates of pressing in."""
+    if here.series.pressed_in and here.series.speeds:
+        yield "", ..., None
+
+
+def over_smooth(here: Here, it: xarray.Dataset) -> np.ndarray:
+    """Force over that of the smooth body in closed form, (rates, depths)."""
+    return here.force(it) / loading(here.series, mean(it, "depth_reached")[1:])
+
+
+def deep(here: Here) -> np.ndarray:
+    """Loads or depths at which roughness is small against depth."""
+    return closed_forms(here.series)[1] * MUCH_LESS_HEIGHT >= here.series.scene.roughness.rms_height
+
+
+def by_height(is_deep: bool) -> tuple[Callable[[Here], Iterator[Place]], Callable[..., np.ndarray]]:
+    """Where some places are deep, or not deep, and by how much depth or force there is another in 1D."""
+
+    def where(here: Here) -> Iterator[Place]:
+        if (deep(here) == is_deep).any():
+            yield "", ..., None
+
+    def apart(here: Here, one: xarray.Dataset, three: xarray.Dataset) -> np.ndarray:
+        if here.pressed == DEPTH:
+            off = (mean(one, "depth_reached")[0] - mean(three, "depth_reached")[0]) / closed_forms(here.series)[1]
+        else:
+            off = np.log(mean(one, "normal_force")[0]) - np.log(mean(three, "normal_force")[0])
+        return off[deep(here) == is_deep]
+
+    return where, apart
+
+
+def at_rest(here: Here) -> Iterator[Place]:
+    """Bodies that rest alone, at three loads or depths at least."""
+    if not here.series.speeds and not here.series.pressed_in and len(here.series.values) > 2:
+        yield "", ..., None
+
+
+def stiffer(here: Here, one: xarray.Dataset, three: xarray.Dataset) -> np.ndarray:
+    """ln of the ratio of the stiffness between neighbouring loads or depths."""
+    both = ((np.diff(mean(each, "normal_force")[0]), np.diff(mean(each, "depth_reached")[0])) for each in (one, three))
+    (force, depth), (other_force, other_depth) = both
+    return np.log(force / depth / (other_force / other_depth))
+
+
+def rate(place: int) -> Callable[[Here], Iterator[Place]]:
+    """The slowest or the fastest rate of pressing in."""
+
+    def where(here: Here) -> Iterator[Place]:
+        if here.series.pressed_in and len(here.series.speeds) > 1:
+            yield "", place, None
+
+    return where
+
+
+def pressed_apart(here: Here, one: xarray.Dataset, three: xarray.Dataset) -> float:
+    first, other = (over_smooth(here, each)[here.place, -1] for each in (one, three))
+    return float(np.log(first / other))
+
+
+DEPTHS = (
+    Row("smooth.rest-{quantity}", everywhere, over_closed_form, body="smooth"),
+    Row("smooth.pressed-in", rates, lambda here, it: over_smooth(here, it) - 1, body="smooth"),
+)
+REST = tuple(
+    Row(f"rest.{{quantity}}-{side}", *by_height(side == "deep"), pair=True, quantity="") for side in ("deep", "shallow")
+)
+MARCHES = (
+    Row("rest.stiffness", at_rest, stiffer, pair=True, quantity=""),
+    Row("pressed-in.slow", rate(0), pressed_apart, pair=True, quantity=""),
+    Row("pressed-in.fast", rate(-1), pressed_apart, pair=True, quantity=""),
+)

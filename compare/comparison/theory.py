@@ -1,0 +1,34 @@
+"""Theories that stand beside the models where nobody asks for them: solved, stored and drawn, not judged."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from scene import SolveError
+from scene.protocol import trusted, why_not
+
+from ..models.law.persson import Persson
+from ..models.table import Model
+from ..trustmap.friction_law import FrictionLaw
+from .curve import FINE, Curve
+
+THEORY, LAW = THEORIES = Persson(), FrictionLaw()
+
+
+def with_theory(curve: Curve, theories: Sequence[Persson | FrictionLaw] = (THEORY,)) -> Curve:
+    """A rough curve with theories beside the models, those that are none of them and answer all of it."""
+    if curve.scene.roughness is None or curve.scene.roughness.flat:
+        return curve
+    beside = {each.name: {FINE: each} for each in theories if each.name not in curve.levels and _answers(each, curve)}
+    return replace(curve, levels={**curve.levels, **beside}) if beside else curve
+
+
+def _answers(theory, curve):
+    """Whether a theory answers a curve; not where its numbers are too far apart, which others tell."""
+    motion = curve.scene.motion
+    if not Model.of(theory).tells(motion.pressed_by, motion.speed > 0):
+        return False
+    try:
+        with trusted():
+            return not any(why_not(theory, scene) for scene in curve.corners)
+    except SolveError:
+        return False

@@ -1,0 +1,159 @@
+"""Claims on several rough series together: roughness and rheology count through one variable alone."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..statistics import eq23, jackknife
+from ..statistics.collapse import collapse
+from ..statistics.finding import Finding
+from ..statistics.frictioncurves import SimulatedCurves
+from ..statistics.intervals import RmsMisfit
+from ..statistics.jackknife import DrawSet, mean_ratio, measured, strata_of
+from .answers import Answers
+from .claims import CLAIMS, claim, geometric, power
+from .claims_law import LawPoints, law_findings_of
+from .curve import COARSE, FINE
+from .laws import Laws
+from .measures import FAST, SLOW
+from .rough import FAMILIES, ROUGH, RoughSeries, sliding
+
+
+@dataclass(frozen=True)
+class Member:
+    """A series that slides, with its answers and the laws of its models."""
+
+    series: RoughSeries
+    answers: Answers
+    laws: Mapping[str, Laws]
+
+
+def members_of(series: Sequence[RoughSeries], answers, judged) -> list[Member]:
+    """Series that slide and ask for claims on several, with answers of both models."""
+    found = zip(series, answers, judged, strict=True)
+    return [Member(own, each, of.more["laws"]) for own, each, of in found if of.more.get("laws") and _asks(own)]
+
+
+def _asks(series):
+    return FAMILIES in series.claims
+
+
+def families(members: Sequence[Member]) -> dict[str, list[Member]]:
+    """Members by their family, where roughness or solid differ.
+
+    All of a family have as many surfaces; of several such families of one shape it is the largest.
+    """
+    found: dict[tuple[str, str], list[Member]] = {}
+    for each in members:
+        found.setdefault((each.series.family, str(each.series.drawn[ROUGH].counts)), []).append(each)
+    rising = sorted(found.items(), key=lambda family: len(family[1]))
+    return {family: own for (family, _), own in rising if _differ(own)}
+
+
+def alike(series: Sequence[RoughSeries]) -> list[list[str]]:
+    """Names of series that slide, by their family, which are to have as many surfaces as each other."""
+    found: dict[str, list[str]] = {}
+    for each in series:
+        if each.slides and _asks(each):
+            found.setdefault(each.family, []).append(each.name)
+    return list(found.values())
+
+
+def reduced(members: Sequence[Member], model: str, level: str = FINE) -> SimulatedCurves:
+    """mu over the plateau against 1/xi, a curve for each series; `speeds` count the series."""
+    loads, frictions = [], []
+    for each in members:
+        answers, laws = sliding(each.answers(ROUGH, model, level)), each.laws[model]
+        names = "normal_force", "friction_force"
+        force, drag = (answers[name].transpose(..., "surface").values for name in names)
+        mean = mean_ratio(force).value[..., None]
+        unit = 1 / laws.xi_under(mean[..., 0])[..., None] / mean
+        loads.append((force * unit).reshape(-1, force.shape[2]))
+        frictions.append((drag * unit / laws.plateau).reshape(loads[-1].shape))
+    most = max(map(len, loads))
+    load, friction = (np.array([_filled(each, most) for each in stack]) for stack in (loads, frictions))
+    strata = strata_of(members[0].answers(ROUGH, model))
+    return SimulatedCurves(np.arange(1.0, len(members) + 1), load, friction, strata, model)
+
+
+def together(members: Sequence[Member]) -> Iterator[Finding]:
+    """Findings for each family and dimensionality, then those on all series, whatever their shape."""
+    for family, own in families(members).items():
+        for model in own[0].laws:
+            for each in (_one_curve(own, model), *_slope_exponents(own, model)):
+                yield replace(each, where=family, curve=family)
+    points = [found for each in members if (found := LawPoints.of(each.series, each.answers, each.laws))]
+    if len(points) > 1:
+        yield from law_findings_of(points)
+
+
+def _one_curve(members, model):
+    fine, coarse = (_missed(members, model, level) for level in (FINE, COARSE))
+    unknown = "" if np.isfinite(fine.value + coarse.value) else "too few points or surfaces have an answer"
+    found = eq23.finding(CLAIMS["eq18.one-curve"], fine, coarse, unknown)
+    first, words = members[0].series, _words(members, model)
+    return replace(found, dimension=first.models.labels[model], draws=first.draws[model], regime=words)
+
+
+def _missed(members, model, level):
+    """Misfit of all points to one curve; unknown where there are too few."""
+    try:
+        return collapse(reduced(members, model, level)).unshifted.misfit
+    except ValueError:
+        return RmsMisfit.unknown()
+
+
+def _slope_exponents(members, model):
+    """Findings at the loads or depths where all are slow, or all are fast."""
+    alike = [each for each in members if _but_for_height(each) == _but_for_height(members[0])]
+    if len(alike) < 3:
+        return
+    laws = [each.laws[model] for each in alike]
+    plateaus = np.array([each.plateau for each in laws])
+    # The same surfaces are left out of all series.
+    fine, coarse = (
+        DrawSet({each.series.name: each.answers.sample(level, ROUGH, model)[model] for each in alike})
+        for level in (FINE, COARSE)
+    )
+    slow = np.all([(each.xi[0] <= SLOW) & (each.slowest_loss <= SLOW) for each in laws], axis=0)
+    fast = np.all([each.xi[-1] >= FAST for each in laws], axis=0)
+    for name, place, values, expected in (
+        ("eq17.slope-exponent", 0, slow, 2.0),
+        ("eq14.slope-exponent", -1, fast, 1.0),
+    ):
+        if not values.any():
+            continue
+        # What Eq. 19 still lacks of either limit.
+        lacking = [each.law[place] / (each.plateau * each.xi[place] ** (expected - 1)) for each in laws]
+
+        def exponent(sample, place=place, values=values, lacking=lacking):
+            pairs = zip(sample.values(), lacking, strict=True)
+            levels = [geometric((jackknife.friction(each)[1:][place] / less)[values]) for each, less in pairs]
+            return power(plateaus, np.array(levels))
+
+        asked = claim(name, exponent, members[0].series.models.labels[model])
+        yield measured(asked, fine, coarse, "", _words(alike, model, (place, values)))
+
+
+def _but_for_height(member):
+    """What a series has beside its rms height."""
+    each = member.series
+    rough = replace(each.scene.roughness, rms_height=1.0)
+    return each.speeds, each.values, replace(each.scene, roughness=rough)
+
+
+def _differ(members):
+    """Whether roughness or solid differ between series."""
+    scenes = [each.series.scene for each in members]
+    return any(each.roughness != scenes[0].roughness or each.elastomer != scenes[0].elastomer for each in scenes)
+
+
+def _words(members, model, place=...):
+    """The regimes of all, at some points."""
+    return "; ".join(dict.fromkeys(each.laws[model].words(place) for each in members))
+
+
+def _filled(rows, count):
+    """Series with fewer points end with unknown ones."""
+    return np.vstack([rows, np.full((count - len(rows), rows.shape[1]), np.nan)])
