@@ -93,4 +93,4 @@ def hostile_page() -> Page:
     blocks = [*(Text(each) for each in HOSTILE), Text("\n".join(f"- {each}" for each in HOSTILE)), plot]
     blocks += [Findings([found], text), Findings([found, replace(found, where=text)]), Table("rows", frame, text)]
     sections = [Section(each, [Text(each)]) for each in HOSTILE]
-    return Page(text, HOSTILE, [*blocks, *sections], {"platform": text}, HOSTILE, HOSTILE)
+    return Page(text, HOSTILE, [*blocks, *sections], HOSTILE, HOSTILE, [Table("opening", frame, text)])

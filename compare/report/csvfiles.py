@@ -1,6 +1,7 @@
 """Tables as CSV files: every digit is written, and what is read back is the same table."""
 
 import io
+from contextlib import suppress
 from pathlib import Path
 
 import pandas
@@ -10,8 +11,7 @@ from scene.files import Unreadable, content
 from scene.printable import brief
 from scene.reading import InvalidInput
 
-# Largest table that is read; those of a page have some megabytes and at most some dozens of columns.
-MOST_BYTES, MOST_COLUMNS = 2**28, 1000
+MOST_BYTES = 2**28  # of a table that is read; those of a page have some megabytes
 
 
 def text(frame: DataFrame) -> str:
@@ -22,16 +22,14 @@ def text(frame: DataFrame) -> str:
 def read(path: Path) -> DataFrame:
     """A table from its file, numbers exact.
 
-    Raises InvalidInput where there is none, it is damaged, or it is larger than MOST_BYTES and MOST_COLUMNS.
+    Raises InvalidInput where there is none, it is damaged, or it is larger than MOST_BYTES.
     """
     try:
-        text = content(path, MOST_BYTES).decode()
-        if not text.strip():
+        file = content(path, MOST_BYTES)
+        if not file.strip():
             return DataFrame()
-        if (columns := text.partition("\n")[0].count(",") + 1) > MOST_COLUMNS:
-            raise ValueError(f"{columns} columns, and at most {MOST_COLUMNS} are read")
         # Which digits a reader of numbers keeps differs between versions of pandas; Python keeps all of them.
-        words = pandas.read_csv(io.StringIO(text), dtype=str, keep_default_na=False)
+        words = pandas.read_csv(io.BytesIO(file), dtype=str, keep_default_na=False)
         if not isinstance(words.index, RangeIndex):  # pandas takes what stands in front for names of rows
             raise ValueError("its rows are longer than its head")
         return words.apply(_numbers)
@@ -45,9 +43,7 @@ def _numbers(column: Series) -> Series:
     """A column of words as whole numbers, as numbers or as truth values where all of them are."""
     if set(column) <= {"True", "False"} and len(column):
         return column == "True"
-    for kind, dtype in ((int, "int64"), (float, "float64")):
-        try:
-            return Series([kind(word) for word in column], column.index, dtype, name=column.name)
-        except (ValueError, OverflowError):  # also of whole numbers that are too long
-            continue
+    for dtype in ("int64", "float64"):
+        with suppress(ValueError, OverflowError):  # also of whole numbers that are too long
+            return column.astype(object).astype(dtype)
     return column

@@ -1,6 +1,5 @@
 """Results of a folder for others: tables with units, surfaces for ParaView, figures for a journal."""
 
-import inspect
 import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
@@ -20,13 +19,13 @@ from scene.reading import InvalidInput
 from ..comparison import curve
 from ..figures import style as looks
 from ..figures.journals import journal as find_journal
-from ..figures.rendering import FORMS, picture
+from ..figures.rendering import FORMS, Picture, finished, rendered
 from ..solving import netcdf
-from ..solving.folders import hold
+from ..solving.folders import first_mistake
 from ..solving.suggest import known
 from ..solving.vocabulary import entry as vocabulary
 from . import csvfiles, manifest, render, vtk
-from .page import Plot, Tables
+from .page import Plot
 
 FORMATS = ("csv", "vtk", *FORMS)
 TABLES, FIGURES = "tables", "figures"  # folders that are written into
@@ -46,7 +45,7 @@ def export(
     Raises InvalidInput where there is nothing of the kind, a file is damaged, a run holds the folder, or a format,
     journal, style or width is not known; Refused of vtk without its extra; OSError for what cannot be written.
     """
-    in_a_look = any(each is not None for each in (journal, style, width))
+    in_a_look = (journal, style, width) != (None, None, None)
     formats = [each.strip() for each in (format or (",".join(FORMS) if in_a_look else "csv")).split(",")]
     for each in formats:
         known("format", each, FORMATS)
@@ -60,37 +59,30 @@ def export(
     folder = Path(folder)
     below = folder.parent if folder.is_file() else folder
     tables, figures = (Path(output) if output else manifest.inside(below, each) for each in (TABLES, FIGURES))
-    forms = [each for each in FORMS if each in formats]
-    written = []
-    with looks.chosen(look):
-        for form, read in (("csv", _csv), ("vtk", _surfaces)):
-            if form in formats:
-                written += render.write(read(folder), tables)
-        if forms:
-            written += render.write(_drawn_again(folder, forms), figures)
-    return written
+    found = {} if "csv" not in formats else _csv(folder)
+    if "vtk" in formats:
+        found |= _surfaces(folder)
+    drawn = {}
+    if forms := [each for each in FORMS if each in formats]:
+        with looks.chosen(look):
+            drawn = _drawn_again(folder, forms)
+    return [*render.write(found, tables), *render.write(drawn, figures)]
 
 
 def _csv(folder) -> dict[str, bytes]:
-    """Every table of a folder, with units in the heads, as files by name."""
-    tables = dict(_tables(folder))
-    if not tables:
-        raise InvalidInput(f"{brief(str(folder))}: holds no table")
-    heads = {name: frame.rename(columns=lambda column: _head(str(column))) for name, frame in tables.items()}
-    return {f"{name}.csv": csvfiles.text(frame).encode() for name, frame in heads.items()}
-
-
-def _tables(folder: Path) -> Iterator[tuple[str, DataFrame]]:
-    """Tables beside the pages of a folder, and everything that was solved, by the names of their files."""
-    if not folder.is_file():
+    """Tables beside the pages of a folder and of what was solved, with units in the heads, as files by name."""
+    tables: dict[str, DataFrame] = {}
+    if folder.is_dir():
         for place, left in manifest.folders(folder):
-            for path in (manifest.inside(place, name) for name in left.files if name.endswith(".csv")):
-                if not (frame := csvfiles.read(path)).empty:
-                    yield path.relative_to(folder).with_suffix("").as_posix(), frame
-        if not any(folder.rglob(netcdf.NAME)):
-            return
-    for name, dataset in _solved(folder):
-        yield from _flat(name, dataset)
+            paths = [manifest.inside(place, name) for name in left.files if name.endswith(".csv")]
+            tables |= {path.relative_to(folder).as_posix(): csvfiles.read(path) for path in paths}
+    if not folder.is_dir() or any(folder.rglob(netcdf.NAME)):
+        for name, dataset in _solved(folder):
+            tables |= {f"{each}.csv": frame for each, frame in _flat(name, dataset)}
+    filled = {name: frame.rename(columns=_head) for name, frame in tables.items() if not frame.empty}
+    if not filled:
+        raise InvalidInput(f"{brief(str(folder))}: holds no table")
+    return {name: csvfiles.text(frame).encode() for name, frame in filled.items()}
 
 
 def _solved(folder: Path) -> Iterator[tuple[str, xarray.Dataset]]:
@@ -104,16 +96,15 @@ def _flat(name: str, dataset: xarray.Dataset) -> Iterator[tuple[str, DataFrame]]
     families: dict[tuple, list] = {}
     for variable, values in dataset.data_vars.items():
         families.setdefault(values.dims, []).append(variable)
+    largest = max(map(len, families.values()), default=0)
     for dims, variables in families.items():
         frame = dataset[variables].to_dataframe().reset_index() if dims else DataFrame()
         if "status" in frame:
             frame = frame[frame["status"] != curve.NOT_ASKED]
-        most = len(variables) == max(map(len, families.values()))
-        if not frame.empty:
-            yield name if most else f"{name}-{'-'.join(map(str, dims))}", frame
+        yield name if len(variables) == largest else "-".join([name, *dims]), frame
 
 
-def _head(name: str) -> str:
+def _head(name) -> str:
     """Name of a column with its unit."""
     found = vocabulary(name)
     return name if found is None or found.unit in ("", "1") else f"{name} [{found.unit}]"
@@ -121,11 +112,10 @@ def _head(name: str) -> str:
 
 def _surfaces(folder) -> dict[str, bytes]:
     """A file for each Dataset with fields over y and x, by name."""
-    with hold([folder]):
-        found = {f"{name}{vtk.ENDING}": vtk.content(each) for name, each in _solved(folder)}
-    if not any(found.values()):
-        raise InvalidInput(f"{folder}: has no surface for vtk: crosscheck draw and crosscheck run write them")
-    return {name: content for name, content in found.items() if content}
+    contents = {f"{name}{vtk.ENDING}": vtk.content(each) for name, each in _solved(folder)}
+    if found := {name: content for name, content in contents.items() if content}:
+        return found
+    raise InvalidInput(f"{folder}: has no surface for vtk: crosscheck draw and crosscheck run write them")
 
 
 def _drawn_again(folder, forms) -> dict[str, bytes]:
@@ -133,42 +123,41 @@ def _drawn_again(folder, forms) -> dict[str, bytes]:
     found: dict[str, bytes] = {}
     for place, left in manifest.folders(folder):
         for entry in left.plots:
-            drawn, name = _drawn(place, entry, forms), (place.relative_to(folder) / entry.name).as_posix()
-            found |= {f"{name}.{form}": drawn[form] for form in forms}
+            found |= _drawn(place, entry, forms).named((place.relative_to(folder) / entry.name).as_posix())
     if not found:
         raise InvalidInput(f"{brief(str(folder))}: no command has written figures here")
     return found
 
 
-def _drawn(folder, entry, forms) -> Mapping[str, bytes]:
-    """Content of the files of one figure by form."""
+def _drawn(folder, entry, forms) -> Picture:
+    """One figure, drawn from its tables."""
     path = folder / manifest.NAME
-    draw, below = function(entry, path), Path(entry.name).parent
-    files = {name: manifest.inside(folder, (below / f"{name}.csv").as_posix()) for name in entry.tables}
-    tables = {name: csvfiles.read(file) for name, file in files.items()}
+    draw = function(entry, path)
+    tables = {
+        name: csvfiles.read(manifest.inside(folder, str(Path(entry.name).with_name(f"{name}.csv"))))
+        for name in entry.tables
+    }
     try:
-        with looks.DRAWING, warnings.catch_warnings():
+        with looks.applied(), warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of numbers that no command has left
-            return picture(Plot(entry.name, draw, tables, "", options=entry.options), forms).files
+            return rendered(finished(Plot(entry.name, draw, tables, "", options=entry.options)), forms)
     except InvalidInput:
         raise
+    except ValidationError as error:
+        why = f"option {first_mistake(error)}"
     except Exception as error:  # options or tables that were changed raise nearly anything
-        where, why = folder, f" cannot be drawn from its tables: {brief(repr(error))}"
-        if isinstance(error, ValidationError):
-            first = error.errors()[0]
-            where, why = path, f": option {brief('.'.join(map(str, first['loc'])))}: {first['msg']}"
-        raise InvalidInput(f"{brief(str(where))}: figure {entry.name}{why}") from error
+        why = f"cannot be drawn from its tables: {brief(repr(error))}"
+    raise InvalidInput(f"{brief(str(path))}: figure {entry.name}: {why}")
 
 
 def function(entry: manifest.PlotEntry, path: Path) -> Callable[..., Figure]:
     """The function that draws a figure, which checks its options; InvalidInput of all that draws none here."""
     name = f"{entry.module}:{entry.function}"
     draw: Any = None
-    if entry.module.startswith(f"{PACKAGE}."):
+    if name.startswith(f"{PACKAGE}."):
         with suppress(ImportError, AttributeError, ValueError):
             draw = resolve_name(name)
-    stated = draw.__annotations__ if inspect.isfunction(draw) and draw.__module__ == entry.module else {}
-    if not (stated.get("tables") in (Tables, "Tables") and stated.get("return") in (Figure, "Figure")):
+    if getattr(draw, "__annotations__", {}).get("return") not in (Figure, "Figure"):
         why = f"is drawn by {brief(name)}, which is no figure of {PACKAGE}: it cannot be drawn again"
         raise InvalidInput(f"{path}: figure {entry.name} {why}")
     return validate_call(config=ConfigDict(arbitrary_types_allowed=True, allow_inf_nan=False))(draw)

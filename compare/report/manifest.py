@@ -9,7 +9,8 @@ from operator import methodcaller
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-from pydantic import AfterValidator, BaseModel, ConfigDict
+from pydantic import AfterValidator, ConfigDict
+from pydantic.dataclasses import dataclass
 from pydantic_core import to_json
 
 from scene.printable import brief
@@ -40,10 +41,9 @@ Name = Annotated[str, AfterValidator(_of_folder)]
 Names = tuple[Name, ...]
 
 
-class PlotEntry(BaseModel):
+@dataclass(frozen=True, config=ConfigDict(extra="forbid"))
+class PlotEntry:
     """A figure in a manifest: its name, the function that draws it from its tables, and the options of that."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
 
     name: Name
     module: str
@@ -77,17 +77,14 @@ def begin(folder: Path, study: "Study", files: Iterable[str]) -> None:
         earlier = read(folder / NAME, Manifest, finished=False).files
     listed = list(dict.fromkeys([*earlier, *files]))
     _write(folder, {"finished": False, "command": study.command, "plots": [], "files": listed})
-    places = set()
     for name in earlier:
-        with suppress(InvalidInput, NotADirectoryError):  # of one that by now leads out of the folder, or nowhere
+        with suppress(InvalidInput):  # of one that by now leads out of the folder
             path = inside(folder, name)
-            if path.suffix in OURS and not path.is_dir():
-                path.unlink(missing_ok=True)
-                places.add(path.parent)
-    for place in places:
-        clear(place)
-        with suppress(OSError):
-            place.rmdir()  # where nothing else is in it
+            if path.suffix in OURS and path.is_file():
+                path.unlink()
+            clear(path.parent)
+            with suppress(OSError):
+                path.parent.rmdir()  # where nothing else is in it
 
 
 def stamp(
@@ -113,13 +110,7 @@ def stamp(
         "tasks": {"solved": swept.solved, "reused": swept.reused},
         "seconds": swept.seconds,
         "plots": [
-            {
-                "name": plot.name,
-                "module": plot.draw.__module__,
-                "function": plot.draw.__name__,
-                "tables": list(plot.tables),
-                "options": plot.options,
-            }
+            PlotEntry(plot.name, plot.draw.__module__, plot.draw.__name__, tuple(plot.tables), plot.options)
             for plot in page.every(Plot)
         ],
         "files": list(files),
@@ -181,12 +172,3 @@ def versions() -> dict[str, str]:
 def machine() -> dict[str, Any]:
     """Machine on which the numbers were computed."""
     return {"system": platform.system(), "machine": platform.machine(), "processors": os.cpu_count()}
-
-
-def made() -> dict[str, str]:
-    """Versions and machine that made a page, in words."""
-    where = machine()
-    return {
-        "versions": ", ".join(f"{package} {number}" for package, number in versions().items()),
-        "machine": f"{where['system']}, {where['machine']}, {where['processors']} processors",
-    }

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import PurePosixPath
 from typing import Any, TypeAlias
 
 from matplotlib.figure import Figure
@@ -73,23 +74,37 @@ class Plot:
     @property
     def files(self) -> Tables:
         """Tables of the plot by the names of their files, without .csv, with the folder."""
-        folder = self.name[: self.name.rfind("/") + 1]
-        return {f"{folder}{name}": frame for name, frame in self.tables.items()}
+        return {str(PurePosixPath(self.name).with_name(name)): frame for name, frame in self.tables.items()}
 
     def figure(self) -> Figure:
         """The figure, drawn from the tables in the style that is applied."""
         return self.draw(self.tables, **self.options)
 
 
+class _Ordered:
+    """Blocks, put in the order of reading; blocks of one kind keep theirs."""
+
+    blocks: Sequence["Block"]
+
+    def __post_init__(self):
+        found = sorted(self.blocks, key=lambda block: ORDER.index(type(block)))
+        object.__setattr__(self, "blocks", tuple(found))
+
+    def every(self, kind: type) -> Iterator[Any]:
+        """Blocks of one kind, in sections too, in their order."""
+        for block in self.blocks:
+            if isinstance(block, kind):
+                yield block
+            elif isinstance(block, Section):
+                yield from block.every(kind)
+
+
 @dataclass(frozen=True)
-class Section:
+class Section(_Ordered):
     """Blocks under a heading, in the order of reading."""
 
     title: str
     blocks: Sequence["Block"]
-
-    def __post_init__(self):
-        object.__setattr__(self, "blocks", in_order(self.blocks))
 
 
 Block: TypeAlias = Text | Table | Findings | Plot | Section
@@ -97,13 +112,8 @@ Block: TypeAlias = Text | Table | Findings | Plot | Section
 ORDER = (Text, Plot, Findings, Table, Section)
 
 
-def in_order(blocks: Sequence[Block]) -> tuple[Block, ...]:
-    """Blocks in the order of reading; blocks of one kind keep theirs."""
-    return tuple(sorted(blocks, key=lambda block: ORDER.index(type(block))))
-
-
 @dataclass(frozen=True)
-class Page:
+class Page(_Ordered):
     """A page, in the order of reading: doubts, the opening, the answer, figures, findings, other tables, sections.
 
     title : of the page
@@ -121,9 +131,6 @@ class Page:
     notes: Sequence[str] = ()
     opening: Sequence[Table] = ()
 
-    def __post_init__(self):
-        object.__setattr__(self, "blocks", in_order(self.blocks))
-
     @property
     def first(self) -> list[str]:
         """Doubts and notes, each with the word that says which it is."""
@@ -134,15 +141,3 @@ class Page:
         yield from ((table.name, table.frame) for table in (*self.opening, *self.every(Table)))
         for plot in self.every(Plot):
             yield from plot.files.items()
-
-    def every(self, kind: type) -> Iterator[Any]:
-        """Blocks of one kind, in sections too, in their order."""
-
-        def below(blocks):
-            for block in blocks:
-                if isinstance(block, Section):
-                    yield from below(block.blocks)
-                elif isinstance(block, kind):
-                    yield block
-
-        return below(self.blocks)

@@ -8,26 +8,19 @@ from pathlib import Path
 from typing import Any
 
 import jinja2
-import pandas
-from markupsafe import Markup
-from pandas import DataFrame
 
 from scene.printable import printable
 
-from ..figures.rendering import Picture, picture
+from ..figures.rendering import picture
 from ..solving.folders import write as write_whole
 from ..statistics import finding
 from ..statistics.finding import Finding
 from . import csvfiles
-from .manifest import inside, made
+from .manifest import inside, machine, versions
 from .page import Page, Plot
 from .tables import claims, shown
 
 PAGE = "report.html"
-MOST_ROWS = 400  # a longer table is no reading
-MOST_NARROW = 8  # columns of a table that a printed page holds without breaking words
-# A browser loads nothing for a page, and runs and applies nothing that is not allowed by its digest.
-POLICY = "default-src 'none'; base-uri 'none'; form-action 'none'; img-src data:; style-src"
 
 
 def files(
@@ -49,7 +42,8 @@ def files(
         pictures[plot.name] = picture(plot, forms)
         found |= pictures[plot.name].named(plot.name)
         told(plot.name)
-    return found | {PAGE: html(page, pictures).encode()}
+    text = _rendered(page, whole=True, pictures=pictures, versions=versions(), machine=machine())
+    return found | {PAGE: text.encode()}
 
 
 def tables(page: Page, findings: Sequence[Finding]) -> dict[str, bytes]:
@@ -74,11 +68,6 @@ def write(found: Mapping[str, bytes], folder: Path) -> list[Path]:
     return paths
 
 
-def html(page: Page, pictures: Mapping[str, Picture]) -> str:
-    """The page as one file; pictures : of the plots, by name"""
-    return _rendered(page, whole=True, pictures=pictures, about=made())
-
-
 def fragment(page: Page, path: Path | None = None) -> str:
     """Answer, findings and tables of a page for a notebook, without figures; path : of the page, named last"""
     return _rendered(page, whole=False, pictures={}, path=path and path.resolve())
@@ -93,23 +82,12 @@ def _rendered(page, **given) -> str:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    functions: dict[str, Any] = {
-        "kind": lambda block: type(block).__name__,
-        "policy": lambda style: f"{POLICY} 'sha256-{_base64(hashlib.sha256(style.encode()).digest())}'",
-        "image": lambda drawn: _base64(drawn.files["png"]),
-        "table": lambda block: None if block.long or len(block.frame) > MOST_ROWS else _table(shown(block.frame)),
-        "claims": lambda block: _table(claims(block.findings)) if block.findings else None,
-    }
+    functions = {"base64": _base64, "digest": _digest, "shown": shown, "claims": claims}
     return printable(environment.get_template("page.html").render(page=page, **functions, **given))
 
 
-def _table(frame: DataFrame) -> Markup:
-    """A table of texts, all of which are escaped."""
-    columns = frame.shape[1]
-    wide = "wide" if columns > MOST_NARROW else None
-    with pandas.option_context("display.max_colwidth", None):
-        text = frame.to_html(index=False, border=0, justify="left", classes=wide, formatters=[str] * columns)
-    return Markup(text.replace(' style="text-align: left;"', "", 1))  # a style that the policy forbids
+def _digest(style: str) -> str:
+    return _base64(hashlib.sha256(style.encode()).digest())
 
 
 def _base64(content: bytes) -> str:

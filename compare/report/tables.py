@@ -3,7 +3,6 @@
 from collections.abc import Sequence
 from itertools import chain
 
-import pandas
 from pandas import DataFrame, Series
 
 from ..solving import words
@@ -19,22 +18,20 @@ def shown(frame: DataFrame) -> DataFrame:
     """A table of texts: NAME_low and NAME_high, or NAME_error, stand in the cells of NAME."""
     beside = {name: _beside(name, frame) for name in frame}
     hidden = set(chain.from_iterable(beside.values()))
-    columns = [_column(frame, name, beside[name]) for name in frame if name not in hidden]
-    return pandas.concat(columns, axis=1) if columns else frame
+    texts = {
+        head(str(name)): list(map(WRITTEN[len(ends)], *(frame[each].tolist() for each in (name, *ends))))
+        for name, ends in beside.items()
+        if name not in hidden
+    }
+    return DataFrame(texts, frame.index, dtype=object)
 
 
 def _beside(name, frame):
     """Columns that hold the interval of another, or its error."""
     for ends in (JOINED.get(name, ()), (f"{name}_low", f"{name}_high"), (f"{name}_error",)):
-        if ends and all(end in frame for end in ends):
+        if ends and {*ends} <= {*frame}:
             return ends
     return ()
-
-
-def _column(frame, name, beside):
-    values = (frame[each].tolist() for each in (name, *beside))
-    texts = [WRITTEN[len(beside)](*each) for each in zip(*values, strict=True)]
-    return Series(texts, frame.index, dtype=object, name=head(str(name)))
 
 
 def claims(findings: Sequence[Finding], details: bool = True) -> DataFrame:
@@ -42,26 +39,21 @@ def claims(findings: Sequence[Finding], details: bool = True) -> DataFrame:
 
     details : whether meaning, regime, and what an interval is made of stand on further lines of the cells
     """
-    rows, seen = [], set()
-    for each, before in zip(findings, (None, *findings), strict=False):
-        claim, place = each.claim, (each.where, each.dimension, each.regime)
-        again = before is not None and before.claim == claim
-        more = (
-            (claim.meaning, "" if place in seen else each.regime, words.basis(each)) if details else ("", "", "")
-        )
-        rows.append(
-            {
-                "Verdict": each.verdict,
-                "Claim": "" if again else _lines(claim.sentence, more[0]),
-                "Model": each.dimension,
-                "Where": _lines(each.where, more[1]),
-                "Found (95 %)": _lines(words.found(each), more[2], each.why),
-                "Tested against": words.tested(claim),
-            }
-        )
-        seen.add(place)
-    table, places = DataFrame(rows), {(each.where, each.regime) for each in findings}
-    return table if len(places) > 1 else table.drop(columns="Where", errors="ignore")
+    places = Series([(each.where, each.regime, each.dimension) for each in findings])
+    rows = [
+        {
+            "Verdict": each.verdict,
+            "Claim": _lines(each.claim.sentence, details and each.claim.meaning),
+            "Model": each.dimension,
+            "Where": _lines(each.where, details and not told and each.regime),
+            "Found (95 %)": _lines(words.found(each), details and words.basis(each), each.why),
+            "Tested against": words.tested(each.claim),
+        }
+        for each, told in zip(findings, places.duplicated(), strict=True)
+    ]
+    table = DataFrame(rows)
+    table["Claim"] = table["Claim"].where(table["Claim"] != table["Claim"].shift(), "")
+    return table if len({place[:2] for place in places}) > 1 else table.drop(columns="Where")
 
 
 def _lines(*parts):

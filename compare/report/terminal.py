@@ -1,6 +1,5 @@
 """A page as plain text, which a command prints: doubts, the answer, findings and short tables."""
 
-import io
 import textwrap
 from collections.abc import Iterator
 from pathlib import Path
@@ -12,7 +11,7 @@ from rich.text import Text as Words
 
 from scene.printable import printable
 
-from .page import Findings, Page, Plot, Section, Table, Text
+from .page import Findings, Page, Section, Table, Text
 from .tables import claims, shown
 
 WIDTH = 100
@@ -26,16 +25,16 @@ def text(page: Page, path: Path | None = None, whole: bool = True) -> str:
 
     path : of its file, named at the end; whole : whether sections follow, and numbers an opening
     """
-    above = () if page.opening else (each for each in page.blocks if not isinstance(each, Section))
-    blocks = page.blocks if whole else tuple(above)
+    above = [each for each in page.blocks if not (page.opening or isinstance(each, Section))]
+    blocks = page.blocks if whole else above
     parts = [
         _headed(page.title, "="),
         *map(_filled, page.first),
         *_blocks(page.opening, "-"),
         "\n".join(map(_filled, page.answer)),
         *_blocks(blocks, "-"),
-        *([] if len(blocks) == len(page.blocks) else [MORE]),
-        *([f"Page: {path.resolve()}"] if path is not None else []),
+        MORE if len(blocks) < len(page.blocks) else "",
+        f"Page: {path.resolve()}" if path else "",
     ]
     return printable("\n\n".join(filter(None, parts)))
 
@@ -52,8 +51,6 @@ def _blocks(blocks, rule) -> Iterator[str]:
             case Section(title, inside):
                 if parts := list(filter(None, _blocks(inside, ""))):
                     yield "\n\n".join([_headed(title, rule), *parts])
-            case Plot() | Table():
-                pass
 
 
 def _captioned(caption: str, frame: DataFrame) -> str:
@@ -66,10 +63,10 @@ def _captioned(caption: str, frame: DataFrame) -> str:
         )
     for row in frame.itertuples(index=False, name=None):
         printed.add_row(*map(Words, row))
-    written = io.StringIO()
-    console = Console(file=written, width=WIDEST, color_system=None, force_jupyter=False)
-    console.print(printed, crop=False)
-    lines = written.getvalue().splitlines()
+    console = Console(width=WIDEST, color_system=None, force_jupyter=False)
+    with console.capture() as captured:
+        console.print(printed, crop=False)
+    lines = captured.get().splitlines()
     return "\n".join(filter(None, [_filled(caption), *map(str.rstrip, lines)]))
 
 

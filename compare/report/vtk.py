@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import xarray
+from numpy.lib.stride_tricks import sliding_window_view
 
 from scene import Refused
 
@@ -26,21 +27,20 @@ def content(dataset: xarray.Dataset) -> bytes:
     A displacement is the vector (0, 0, -displacement), by which ParaView's filter Warp By Vector deforms the grid.
     """
     fields = {str(name): each for name, each in dataset.data_vars.items() if each.dims == PLANE}
-    if not fields or min(dataset.sizes[name] for name in PLANE) < 2:
+    if not fields:
         return b""
     import meshio
 
     y, x = np.meshgrid(dataset["y"], dataset["x"], indexing="ij")
     nodes = np.arange(x.size).reshape(x.shape)
-    corners = nodes[:-1, :-1], nodes[:-1, 1:], nodes[1:, 1:], nodes[1:, :-1]
-    quadrilaterals = np.stack([each.ravel() for each in corners], axis=1)
+    corners = sliding_window_view(nodes, (2, 2)).reshape(-1, 4)[:, [0, 1, 3, 2]]  # around each quadrilateral
     data = {}
     for name, each in fields.items():
         values, unit = each.values.astype(float).ravel(), each.attrs.get("units", "1")
         if name == "displacement":
             values = np.outer(-values, (0.0, 0.0, 1.0))
         data[name if unit == "1" else f"{name} [{unit}]"] = values
-    mesh = meshio.Mesh(np.column_stack([x.ravel(), y.ravel(), 0 * x.ravel()]), [("quad", quadrilaterals)], data)
+    mesh = meshio.Mesh(np.column_stack([x.ravel(), y.ravel(), 0 * x.ravel()]), [("quad", corners)], data)
     with tempfile.TemporaryDirectory() as folder:  # meshio writes to paths alone
         path = Path(folder) / f"surface{ENDING}"
         mesh.write(path)

@@ -1,6 +1,5 @@
 """Pages in their forms, their files, what is exported of them, and the one vocabulary."""
 
-import hashlib
 import json
 import os
 import re
@@ -8,12 +7,10 @@ import shutil
 from dataclasses import replace
 from functools import partial
 from html.parser import HTMLParser
-from io import BytesIO
 from math import inf, nan
 from pathlib import Path
 from types import SimpleNamespace
 
-import h5py
 import numpy as np
 import pandas
 import pytest
@@ -239,7 +236,7 @@ def test_the_texts_of_a_stranger_are_no_marks_of_html_and_control_no_terminal(tm
         assert all(each[0] == "#" for each in found.links)
         assert all(map(str.isprintable, text.split("\n")))
     (policy,) = re.findall('<meta http-equiv="Content-Security-Policy" content="(.*)">', whole)
-    assert policy.startswith("default-src &#39;none&#39;; ")
+    assert policy.startswith("default-src 'none'; ")
     assert all(map(str.isprintable, terminal.text(hostile_page()).split("\n")))
 
 
@@ -314,18 +311,6 @@ def test_a_folder_of_another_version_says_so_in_one_line(folder, tmp_path, state
                 ask(tmp_path)
 
 
-@pytest.mark.parametrize(
-    ("label", "age"),
-    [(b"", "an earlier"), (netcdf.LABEL.replace(b"2", b"1234"), "a later")],
-    ids=["none", "later"],
-)
-def test_results_of_another_version_say_so_in_one_line(tmp_path, label, age):
-    sealed(tmp_path / "results.nc", lambda file: file.create_group("a"), label)
-    for ask in (netcdf.load, lambda folder: export(folder / "results.nc")):
-        with pytest.raises(InvalidInput, match=rf"results\.nc: was written by {age} version of this program"):
-            ask(tmp_path)
-
-
 KEYS = ["plots", "command", "inputs", "solved", "name"]
 JSON = st.recursive(
     st.none() | st.booleans() | st.floats(allow_nan=False) | st.text(max_size=3),
@@ -397,11 +382,9 @@ def test_what_stands_in_the_place_of_a_file_is_named_and_not_read(copied, name, 
 
 
 def test_a_table_comes_back_whatever_its_numbers_are(tmp_path):
-    wide = DataFrame({f"c{k}": [1] for k in range(csvfiles.MOST_COLUMNS + 1)})
-    for text, said in ((csvfiles.text(wide), "1001 columns"), ("a,b\n1,2,3\n4,5,6\n", "longer than its head")):
-        (tmp_path / "table.csv").write_text(text)
-        with pytest.raises(InvalidInput, match=said):
-            csvfiles.read(tmp_path / "table.csv")
+    (tmp_path / "table.csv").write_text("a,b\n1,2,3\n4,5,6\n")
+    with pytest.raises(InvalidInput, match="longer than its head"):
+        csvfiles.read(tmp_path / "table.csv")
     (tmp_path / "table.csv").write_text(f"a\n{'1' * 30}\n2\n")
     assert csvfiles.read(tmp_path / "table.csv")["a"].tolist() == [float("1" * 30), 2.0]
 
@@ -416,91 +399,7 @@ def test_a_map_is_no_larger_than_the_grids_that_are_solved():
         touching.unstacked(spread, "x", "y", "pressure")
 
 
-def sealed(path, fill, label=netcdf.LABEL):
-    """A file of results with a seal that fits, as anyone can make one."""
-    image = BytesIO()
-    with h5py.File(image, "w") as file:
-        fill(file)
-    content = image.getvalue() + label
-    path.write_bytes(content + netcdf.SEAL + hashlib.sha256(content).hexdigest().encode())
-
-
-def spread(file, values, *names):
-    """A variable over dimensions of these names, of three points each."""
-    for name in {*names}:
-        file[name] = np.arange(3.0)
-        file[name].make_scale(name)
-    file["v"] = values
-    for axis, name in enumerate(names):
-        file["v"].dims[axis].attach_scale(file[name])
-    return file["v"]
-
-
-def nested(file):
-    for _ in range(2000):
-        file = file.create_group("a")
-
-
-HDF5 = {
-    "soft link": lambda file: file.update({"x": h5py.SoftLink("/y")}),
-    "link to another file": lambda file: file.update({"x": h5py.ExternalLink("/etc/hostname", "/y")}),
-    "numbers of another file": lambda file: file.create_dataset("x", (3,), "u1", external=[("/etc/hosts", 0, 3)]),
-    "numbers that are nowhere": lambda file: file.create_dataset("x", (10**12,), "f8", chunks=(10**6,)),
-    "one text many times": lambda file: file.create_dataset(
-        "x", (10**5,), h5py.string_dtype(), fillvalue="x" * 10**4
-    ),
-    "group below itself": lambda file: file.create_group("a").update({"b": file}),
-    "nothing": lambda file: file.create_dataset("x", data=h5py.Empty("f8")),
-    "an enumeration": lambda file: file.create_dataset("x", data=1, dtype=h5py.enum_dtype({"a": 1})),
-    "an attribute of bytes": lambda file: file.attrs.update({"units": np.bytes_(b"m")}),
-    "no dimensions": lambda file: file.create_dataset("x", data=np.arange(3.0)),
-    "a dimension twice": lambda file: spread(file, np.eye(3), "x", "x"),
-    "dimensions that are a number": lambda file: spread(file, np.ones(3)).attrs.update({"DIMENSION_LIST": 5}),
-    "groups without end": nested,
-    "an attribute that is no UTF-8": lambda file: file.attrs.create("units", b"\xff", dtype=h5py.string_dtype()),
-}
-
-
-@pytest.mark.parametrize("kind", HDF5)
-def test_what_hdf5_can_hold_and_no_command_writes_is_refused(tmp_path, kind):
-    sealed(tmp_path / "results.nc", HDF5[kind])
-    with pytest.raises(InvalidInput, match=r"results\.nc: is not a file of results"):
-        netcdf.load(tmp_path)
-
-
-def test_groups_that_contradict_what_they_stand_in_are_refused(tmp_path):
-    def fill(file):
-        spread(file, np.ones(3), "x")
-        file["below/x"] = np.arange(2.0)
-        file["below/x"].make_scale("x")
-
-    sealed(tmp_path / "results.nc", fill)
-    with pytest.raises(InvalidInput, match=r"results\.nc: its results do not go together"):
-        netcdf.load(tmp_path)
-
-
-def test_texts_come_back_in_parts_as_they_do_at_once(tmp_path, monkeypatch):
-    words = np.array([f"{'x' * (k % 7)}é{k}" for k in range(60)]).reshape(3, 4, 5)
-    tree = xarray.DataTree.from_dict({"/a": xarray.Dataset({"reason": (("p", "q", "r"), words)})})
-    (tmp_path / "results.nc").write_bytes(netcdf.packed(tree))
-    for most in (1, 2, 7, 20, 59, 10**6):
-        monkeypatch.setattr(netcdf, "LEAST_READ", most)
-        monkeypatch.setattr(netcdf, "PACKED", 50)
-        assert (netcdf.load(tmp_path)["a"]["reason"].values == words).all()
-
-
-def above(file):
-    """A dataset in a group that is called as the folder above."""
-    group = file.create_group("..").create_group("..")
-    group["x"], group["y"] = np.arange(3.0), np.arange(3.0)
-    group["x"].make_scale("x")
-    group["y"].dims[0].attach_scale(group["x"])
-
-
 def test_nothing_is_written_out_of_the_folder(copied, tmp_path):
-    sealed(copied / "forged.nc", above)
-    with pytest.raises(InvalidInput, match="forged"):
-        export(copied / "forged.nc", output=copied / "tables")
     for name, write in (("figures", draw_again), ("tables", export)):
         (copied / name).symlink_to(tmp_path)
         with pytest.raises(InvalidInput, match="leads out of"):

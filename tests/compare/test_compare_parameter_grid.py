@@ -6,7 +6,13 @@ from math import nan
 
 import numpy as np
 import pytest
-import xarray
+from compare.solving.parameter_grid import (
+    LEVELS,
+    contacts_of,
+    on_levels,
+    tasks_of,
+    tree,
+)
 from pydantic import ValidationError
 from scene_files import HEAD, SCENE, SHARED, TABLES
 from small_cases import SLIDING
@@ -33,7 +39,6 @@ from compare.statistics.jackknife import DrawSet, friction, judge, mean
 from mdr1d import MDR
 from scene import Indent, Layer, Refused
 from scene.quantities import MOST_WHOLE
-from scene.reading import InvalidInput
 
 ROUGH = Curve(
     scene=SLIDING,
@@ -132,40 +137,6 @@ def test_a_body_that_does_not_touch_has_no_force_and_no_friction():
     assert set(found.status.values.ravel()) == {"no contact"}
     assert (found.normal_force == 0).all()
     assert found.friction_force.isnull().all()
-
-
-def test_results_are_read_as_xarray_reads_them(answers, tmp_path):
-    of_all_kinds = xarray.Dataset(
-        {
-            "holds": (("x", "nameless"), np.eye(2, 3, dtype=bool), {"long_name": "a truth"}),
-            "large": ("nameless_too", np.linspace(0, 1, 1000), {"units": "m"}),
-            "whole": ((), 3),
-            "name": ((), "µm"),
-            "reason": ("x", ["", "none at all"]),
-        },
-        {"x": [1.0, 2.0], "kind": ("x", ["a", "b"]), "beside": ("nameless", [1, 2, 3])},
-        {"solver": "BEM"},
-    )
-    parts = {node.path: node.to_dataset(inherit=False) for node in answers.subtree}
-    parts |= {"/": xarray.Dataset(attrs={"title": "all"}), "/all": of_all_kinds}
-    (tmp_path / "results.nc").write_bytes(netcdf.packed(xarray.DataTree.from_dict(parts)))
-    again = netcdf.load(tmp_path)
-    with xarray.open_datatree(tmp_path / "results.nc", engine="h5netcdf") as expected:
-        xarray.testing.assert_identical(again, expected)
-        for node in expected.subtree:
-            for name, variable in node.variables.items():
-                assert again[node.path].variables[name].dtype == variable.dtype, name
-
-
-def test_damaged_results_and_folders_without_any_are_said(tmp_path):
-    with pytest.raises(InvalidInput, match="no command has left results"):
-        netcdf.load(tmp_path)
-    with pytest.raises(InvalidInput, match="no such file"):
-        netcdf.load(tmp_path / "nowhere")
-    for damage in (b"", b"x" * 100):
-        (tmp_path / "results.nc").write_bytes(damage)
-        with pytest.raises(InvalidInput, match=r"results\.nc"):
-            netcdf.load(tmp_path)
 
 
 def test_parameter_grids_that_cross_share_their_contacts():

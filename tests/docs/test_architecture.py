@@ -24,7 +24,6 @@ DOORS = {  # files outside which a library is not imported, in whichever folder 
     "tomllib": {"reading"},
     "SurfaceTopography": {"heightfile"},
     "pint": {"units"},
-    "h5py": {"netcdf"},
     "distributed": {"cluster"},
     "meshio": {"vtk"},
 }

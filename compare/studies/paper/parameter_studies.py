@@ -76,10 +76,7 @@ class ParameterStudies:
             "points": (DIMS[1:3], np.array([place.points for place in places]).reshape(shape)[0]),
             "seed": list(range(self.profiles)),
         }
-        dataset = xarray.Dataset(made, coordinates, {"solver": "MDR"})
-        for name in (*arrays, "status"):
-            dataset[name].encoding = {"zlib": True, "complevel": 1} | ({"dtype": "S1"} if name == "status" else {})
-        return dataset
+        return xarray.Dataset(made, coordinates, {"solver": "MDR"})
 
 
 @dataclass(frozen=True)
