@@ -1,5 +1,5 @@
 """Figures of the paper."""
 
-from . import contacts, law, sketch, studies
+from . import contacts, law, studies
 
-__all__ = ["contacts", "law", "sketch", "studies"]
+__all__ = ["contacts", "law", "studies"]
