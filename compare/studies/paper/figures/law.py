@@ -16,9 +16,9 @@ from ....report.page import Plot, Tables
 
 NAME = "paper-law"
 ALPHA = f"{NAME}-alpha"
-# Marker, its size, line and colour of the shapes, in the order in which they come: the first, small, is drawn over
+# Marker, its size, line and colour of the shapes as they come, ink without one: the first, small, is drawn over
 # the second.
-LOOKS = (("o", 0.65, "--", "#0072B2"), ("s", 1.15, "-.", "#009E73"))
+LOOKS = (("o", 0.65, "--", ""), ("s", 1.15, "-.", "#009E73"))
 
 
 def plot(points: Sequence[DataFrame], fits: DataFrame) -> Plot:
@@ -45,7 +45,7 @@ def figure(tables: Tables) -> Figure:
     above.plot(xi, interpolation(xi), **style.line(0.5, 0.8, label="Eq. 19, α = 1.5", zorder=1))
     below.axhline(0, **style.line(0.6, 0.45, zorder=0))
     for fit, (marker, size, line, colour) in zip(fits.itertuples(), LOOKS, strict=False):
-        own = points[points["shape"] == fit.shape]
+        own, colour = points[points["shape"] == fit.shape], colour or style.ink()
         off = own.filter(like="normalised_friction").div(interpolation(own["xi"].to_numpy()), axis=0)
         label = f"{fit.shape}: best α = {fit.alpha:.2f} ({fit.alpha_low:.2f} to {fit.alpha_high:.2f})"
         look: dict[str, Any] = {"color": colour, "fmt": marker, "markersize": style.mark(size), "label": label}
