@@ -66,7 +66,7 @@ def test_the_surface_of_the_contact_does_not_enter_the_indenter_and_returns_over
 
 def test_the_close_up_shows_the_solution_and_a_contact_without_an_answer_is_left_out(touching):
     table = sections(touching)["sphere"]
-    whole, close = from_files(figures.contacts.plot({"sphere": table})).axes
+    whole, close = from_files(figures.plot_contacts({"sphere": table})).axes
     low, high = close.get_xlim()
     assert high - low == pytest.approx(200, rel=ROUNDING)
     seen = (low <= table["x"] * 1e6) & (table["x"] * 1e6 <= high)
@@ -75,7 +75,7 @@ def test_the_close_up_shows_the_solution_and_a_contact_without_an_answer_is_left
     for axes in (whole, close):
         np.testing.assert_allclose(axes.lines[-1].get_ydata(), bold, rtol=ROUNDING)
         assert "heights × " in axes.get_title(loc="right")
-    assert figures.contacts.plot({}) is None
+    assert figures.plot_contacts({}) is None
 
 
 def test_every_point_of_the_studies_is_drawn_once_and_hollow_where_a_condition_breaks():
@@ -95,7 +95,7 @@ def test_every_point_of_the_studies_is_drawn_once_and_hollow_where_a_condition_b
         }
     )
     table.loc[[3, 40], "normalised_friction"] = np.nan
-    plot, known = figures.studies.plot(table), table.dropna()
+    plot, known = figures.plot_studies(table), table.dropna()
     assert len(plot.caption.split()) <= 60
     left, right = from_files(plot).axes[:2]
     for empty, own in ((True, known[~known["holds"]]), (False, known[known["holds"]])):
@@ -114,7 +114,7 @@ def rule(shape, alpha, holds=True):
 
 
 def law_panels(*rules):
-    return from_files(figures.law.plot([table for table, _ in rules], DataFrame([fit for _, fit in rules]))).axes
+    return from_files(figures.plot_law([table for table, _ in rules], DataFrame([fit for _, fit in rules]))).axes
 
 
 def test_the_law_shows_means_intervals_and_their_deviation_from_eq_19():

@@ -124,9 +124,9 @@ class Paper(Study):
             [{"shape": each.shape, **parameter_studies.with_ends("alpha", each.alpha)} for each in (cone, sphere)]
         )
         plots = [
-            figures.contacts.plot(sections(answers)),
-            figures.studies.plot(slow.points),
-            figures.law.plot([cone.points, sphere.points], fits),
+            figures.plot_contacts(sections(answers)),
+            figures.plot_studies(slow.points),
+            figures.plot_law([cone.points, sphere.points], fits),
         ]
         for rubber in RUBBERS:
             collapses = rubber.collapses(*(_dataset(answers, name) for name in rubber.grids(self.profiles)))
