@@ -185,6 +185,19 @@ def collapse(data: FrictionCurves) -> Collapse:
     )
 
 
+def along_load(data: FrictionCurves) -> Alignment:
+    """The best horizontal shifts alone, of curves such as those of a law that ask no other question.
+
+    Raises ValueError with fewer than two speeds or fewer points than unknowns.
+    """
+    complete = data.complete()
+    curves = complete.curves
+    if len(curves) < 2 or sum(curve.log_load.size for curve in curves) <= len(curves) + DEGREE:
+        raise ValueError(f"{len(curves)} speeds with too few points for as many shifts: add loads or speeds")
+    fit = Fit(curves, DEGREE)
+    return _moved(complete, fit, _best(fit, np.zeros(len(curves) - 1)))
+
+
 def _with_errors(curves, errors):
     """Curves with the standard errors of all points (N,)."""
     parts = np.split(errors, np.cumsum([curve.log_load.size for curve in curves])[:-1])
