@@ -183,48 +183,22 @@ change : Relative change of a quantity from half the points to all. [1]
 repeats : How often the solve was repeated. [1]
 
 Of the paper.
-contact_span : Distance from the first to the last point of real contact. [m]
 sweeps : Sweeps along the profile. [1]
 study : Parameter that is varied while all others are held.
 step : Number of the value of the parameter. [1]
 parameter : Value of the parameter that is varied, in its SI unit; angles in radians.
 hurst : Hurst exponent of the roughness. [1]
-macroscopic_modulus : Modulus on the scale of the contact over the static one. [1]
-points_fitted : Points that a straight line through the logarithms was fitted to.
 slope : Slope of the line, the exponent of ξ. [1]
-factor : Factor of the power law. [1]
-worst : Largest deviation of μ̃ from ξ, relative. [1]
-deviation_from_eq_19 : Deviation of μ̃ from Eq. 19 with α = 1.5, relative. [1]
-normalised_friction_of_planes : μ̃ where every place of the contact is a rough plane. [1]
-alpha_of_planes : Best α where every place of the contact is a rough plane. [1]
-farthest_from_best_fit : Deviation of the farthest point from Eq. 19 with the best α, relative. [1]
 plateau : μ̃ at the greatest ξ over Eq. 19 there. [1]
 loss_exponent : Power β of the frequency with which the loss modulus grows. [1]
 relaxation_time : Time τ of the elastomer. [s]
-smooth_half_width : Half of the width of the smooth contact at rest. [m]
 smooth_depth : Depth of the smooth contact at rest. [m]
-conditions_broken : Conditions of the laws that break.
 rubber : Number of the elastomer in the study of loss moduli.
 angle : Angle of the side of the cone against the plane. [rad]
 radius : Radius of the sphere. [m]
 modulus : Static shear modulus of the elastomer. [Pa]
 profiles : Number of rough profiles over which a mean is taken. [1]
 count : Number of contacts behind a mean. [1]
-alpha_by_logarithms : Best α by deviations of the logarithm of μ̃. [1]
-alpha_by_differences : Best α by deviations of μ̃ itself. [1]
-alpha_by_chi_square : Best α by deviations over the scatter of profiles. [1]
-alpha_by_worst_point : Best α by the deviation of the farthest point. [1]
-least_modulus : Least modulus on the scale of the contact over the static one. [1]
-greatest_modulus : Greatest modulus on the scale of the contact over the static one. [1]
-exponent_expected : Power of the speed in the shift of Eq. 23. [1]
-exponent_whole : Power of the speed in the shifts of the whole friction. [1]
-exponent_excess : Power of the speed in the shifts of the friction beyond that of the smooth body. [1]
-exponent_of_shortest_wave : Power of the speed in the shifts of Eq. 22 with the shortest wave. [1]
-exponent_of_every_wave : Power of the speed in the shifts of Eq. 22 with every wave. [1]
-exponent_of_every_wave_and_smooth_body : Power of the speed in the shifts of Eq. 22 with every wave and the smooth
-    body. [1]
-collapse_whole : Misfit of the curves of the whole friction about one curve. [1]
-collapse_excess : Misfit of the curves of the friction beyond that of the smooth body. [1]
 
 Of accuracy and cost.
 ladder : Settings of one solver, each finer than the one before.

@@ -5,25 +5,23 @@ python docs/measure/accuracy.py
 The tests hold more closed forms: waves pressed flat, full contact, Ting's solution in one dimension.
 """
 
-from math import inf, pi, radians, sqrt, tan
+from math import pi, radians, sqrt, tan
 from pathlib import Path
 
 import numpy as np
 from tables import order, table, write
 
 from bem3d import BEM
-from compare.models.exact import indentation, line_contact
+from compare.models.exact import indentation
 from compare.models.exact.foundation import sliding_forces
 from mdr1d import MDR
 from scene import (
     Cone,
-    Cylinder,
     Elastic,
     Indent,
     Kelvin,
     Program,
     Scene,
-    SelfAffine,
     Slide,
     Sphere,
     Stage,
@@ -38,7 +36,6 @@ POINTS = (16, 23, 32, 45, 64, 91, 128, 181, 256)
 # In one dimension: nodes, half-width of the static contact [m], and solids.
 NODES, HALF = (101, 201, 401, 801, 1601, 3201), 1e-3
 SOLIDS = {"Kelvin": Kelvin(G, TAU), "standard linear, E_g/E_r = 10": StandardLinearSolid(G, 10 * G, TAU)}
-LINE_LOAD = 10.0  # [N/m]
 
 
 def around(solver: type, a: float, points: int) -> BEM | MDR:
@@ -109,26 +106,6 @@ def standard_linear() -> str:
     return table("v τ_c, mm|points|depth, mm|μR, mm|against reference: depth|μR", rows())
 
 
-def rough() -> str:
-    """One rough sphere of the paper's kind on finer and finer grids."""
-    surface = SelfAffine(hurst=0.2, rms_height=5e-5, longest=1e-2, shortest=5e-4, seed=1)
-
-    def rows():
-        for speed, load in ((0.01, 10.0), (0.1, 1.0), (1.0, 10.0), (10.0, 10.0)):
-            scene = Scene(Sphere(R), Kelvin(G, TAU), Slide(speed=speed, load=load), surface)
-            grids = (64, 128, 256, 512)
-            found = [BEM(points=n, extent=7e-3).solve(scene).friction_coefficient for n in grids]
-            yield (
-                f"{speed:g}",
-                f"{load:g}",
-                *(f"{mu / found[-1] - 1:+.2%}" for mu in found[:-1]),
-                f"{found[-1]:.5f}",
-            )
-
-    waves = "|".join(f"{0.5e-3 / 7e-3 * n:.0f} points a wave" for n in (64, 128, 256))
-    return table(f"speed, m/s|load, N|{waves}|μ on 37 points a wave", rows())
-
-
 def one_dimension() -> str:
     """Steady sliding against the closed forms of the foundation."""
 
@@ -152,33 +129,6 @@ def one_dimension() -> str:
 
 def _errors(errors):
     return f"{errors[0]:.1e}", f"{errors[3]:.1e}", f"{order(NODES, errors):.1f}"
-
-
-def solid(stiffening: float):
-    """Relaxed modulus G, glassy 1 + stiffening times that, retardation time TAU."""
-    if stiffening == inf:
-        return Kelvin(G, TAU)
-    return StandardLinearSolid(G, G * (1 + stiffening), TAU / (1 + stiffening))
-
-
-def lines() -> str:
-    """Friction of a sliding cylinder."""
-    grids = (32, 64, 128, 256, 512, 1024)
-    rest, _ = line_contact.hertz(R, 4 * G, LINE_LOAD)
-
-    def rows():
-        for stiffening in (9.0, inf):
-            for ratio in (1e-2, 1.0, 1e3):
-                speed = ratio * rest / TAU
-                exact = line_contact.sliding(R, 4 * G, 4 * G * (1 + stiffening), TAU, speed, LINE_LOAD)
-                scene = Scene(Cylinder(R), solid(stiffening), Slide(speed=speed, line_load=LINE_LOAD))
-                found = [BEM(points=n).solve(scene).friction_coefficient for n in grids]
-                errors = [abs(mu / exact.friction_coefficient - 1) for mu in found]
-                name = "Kelvin" if stiffening == inf else f"{1 + stiffening:g}"
-                shown = (f"{error:.1e}" for error in errors[1::2])
-                yield name, f"{ratio:g}", *shown, f"{order(grids, errors):.1f}"
-
-    return table("E_g/E_r|v τ_c/a|64 points|256 points|1024 points|observed order", rows())
 
 
 def indentations() -> str:
@@ -205,9 +155,7 @@ SECTIONS = {
     "rest": at_rest,
     "kelvin": kelvin,
     "standard linear": standard_linear,
-    "rough": rough,
     "one dimension": one_dimension,
-    "lines": lines,
     "time": indentations,
 }
 

@@ -1,6 +1,6 @@
 """Measures the 3D solver beside its peers, tamaas and ContactMechanics, for docs/results/benchmark.md.
 
-python docs/measure/benchmark.py [cells] [loads] [threads] [sliding]
+python docs/measure/benchmark.py [cells] [loads] [sliding]
 
 The peers come with the extra `peers`. Every run is alone in a process of one thread.
 """
@@ -9,10 +9,8 @@ import importlib.metadata
 import os
 import platform
 import sys
-import time
 from dataclasses import replace
 from datetime import date
-from itertools import product
 from math import sqrt
 from pathlib import Path
 
@@ -45,7 +43,6 @@ TOLERANCES = (1e-5, 5e-6, 2e-6, 1e-6, 5e-7, 2e-7, 1e-7)  # tried in turn, each c
 REPEATED, REPEATS = 512, 3  # up to this size the least of so many runs counts
 UNANSWERED = (Refused, SolveError)
 PAPER = Sphere(10e-3), SelfAffine(hurst=0.2, rms_height=5e-5, longest=1e-2, shortest=5e-4, seed=1)
-THREADED = 5  # runs
 
 
 def rough_plane(n: int) -> SelfAffine:
@@ -112,28 +109,6 @@ def shown(row, own):
 def rough_cells() -> str:
     """The comparison of the peers by size."""
     return table(f"points|{COLUMNS}", (row for n in GRIDS for row in side_by_side(f"{n}²", *cell(n, PRESSURE))))
-
-
-def wall(scene: Scene, solver: BEM, threads: tuple[int, ...]) -> list[float]:
-    """Least seconds of wall time of a solve by number of threads, measured in turn."""
-    solver.solve(scene)  # compiles
-    seconds = {count: [] for count in threads}
-    for _, count in product(range(THREADED), threads):
-        started = time.perf_counter()
-        replace(solver, threads=count).solve(scene)
-        seconds[count].append(time.perf_counter() - started)
-    return [min(each) for each in seconds.values()]
-
-
-def threads() -> str:
-    """What a second thread of the transforms brings."""
-
-    def rows():
-        for n in GRIDS[1:]:
-            one, two = alone(wall, *cell(n, PRESSURE), (1, 2))
-            yield f"{n}²", f"{one:.3g}", f"{two:.3g}", f"{one / two:.2f}"
-
-    return table("points|s, one thread|s, two|times as fast", rows())
 
 
 def pressure_for(n: int, fraction: float) -> float:
@@ -218,7 +193,6 @@ SECTIONS = {
     "machine": machine,
     "cells": rough_cells,
     "loads": other_loads,
-    "threads": threads,
     "sliding": steady_sliding,
 }
 

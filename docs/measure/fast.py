@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 from pandas import DataFrame
-from tables import finding, replaced, stored, table
+from tables import finding, replaced, said, stored, table
 
 import compare
 from compare.comparison import study_file
@@ -99,12 +99,7 @@ def _master(found):
     """Rows of the table of the master curve in 3D: misfits from S(x), and from the curve of Eq. 23."""
     for claim, words in MASTER.items():
         rows = (_plain(found, claim, "3D", body) for body in EXPONENT)
-        yield words, *(_percent(row) for row in rows)
-
-
-def _percent(row):
-    value, low, high = (f"{100 * row[name]:.1f}" for name in ("value", "low", "high"))
-    return f"{row['verdict']}: {value} % ({low} to {high})"
+        yield words, *(f"{row['verdict']}: {said(row, 1, percent=True)}" for row in rows)
 
 
 def answer(told: DataFrame) -> str:
@@ -181,10 +176,7 @@ def _friction(tree, body):
 
 def _said(told: DataFrame, claim: str, dimension: str, body: str, percent: bool) -> str:
     """Value with its interval."""
-    row = finding(told, claim, body, dimension)
-    scale, digits = (100, 1) if percent else (1, 3)
-    value, low, high = (f"{scale * each:.{digits}f}".replace("-", "−") for each in (row.value, row.low, row.high))
-    return f"{value}{' %' if percent else ''} ({low} to {high})"
+    return said(finding(told, claim, body, dimension), 1 if percent else 3, percent)
 
 
 def _figure(tree) -> Figure:

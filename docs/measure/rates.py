@@ -4,21 +4,19 @@ Friction is drawn with an answer that is known. It takes minutes on one core; ev
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import sqrt
 from pathlib import Path
 
 import numpy as np
-from numpy.polynomial import Chebyshev
 from tables import stored, table, write
 
 from compare.statistics import eq23
 from compare.statistics.collapse import Collapse, collapse
-from compare.statistics.commoncurve import Fit, near
 from compare.statistics.eq23 import TOLERANCE
 from compare.statistics.frictioncurves import SimulatedCurves
 from compare.statistics.intervals import student
-from compare.statistics.jackknife import mean_ratio, resample
+from compare.statistics.jackknife import Group, mean_ratio, resample
 from mdr1d.equations import interpolation
 
 PAGE = Path(__file__).parents[1] / "results" / "rates.md"
@@ -38,14 +36,12 @@ FIELDS = np.array(
 FIELDS /= np.sqrt(np.square(FIELDS).sum(axis=0).mean())
 # Relative: of a surface, and of a point by itself.
 SCATTER, OWN = 0.05, 0.005
-COUNTS, FEW_AND_MANY, SIZES = (3, 5, 10, 20), (3, 10), (0.0, 0.02, 0.05, 0.10)
+COUNTS = 3, 5, 10, 20
 RATIO_SCATTER = 0.4  # of the forces whose ratio is taken
 # Profiles in one dimension for each surface in three, as in the studies.
 PROFILES = 6
-# Degree of the common polynomial where it is not sought: what it mostly is at this scatter.
-DEGREE = 8
 DRAWN, SAMPLED = 20_000, (3, 5, 8, 10, 15, 20, 50)
-CHEAP, REFITS, PIPELINE, SURFACES = 1000, 300, 200, 10
+CHEAP, PIPELINE, SURFACES = 1000, 200, 10
 
 
 @dataclass(frozen=True)
@@ -61,11 +57,11 @@ class Rate:
         return f"{100 * self.hits / self.repeats:.1f} ± {100 * sqrt(share * (1 - share) / self.repeats):.1f}"
 
 
-def drawn(rng: np.random.Generator, exact: np.ndarray, surfaces: int, scatter: float = SCATTER) -> SimulatedCurves:
+def drawn(rng: np.random.Generator, exact: np.ndarray) -> SimulatedCurves:
     """Friction whose mean over all surfaces is exp(exact) (speeds, loads); relative scatter is lognormal."""
-    shared = scatter * np.tensordot(FIELDS, rng.normal(size=(len(FIELDS), surfaces)), axes=(0, 0))
+    shared = SCATTER * np.tensordot(FIELDS, rng.normal(size=(len(FIELDS), SURFACES)), axes=(0, 0))
     own = OWN * rng.normal(size=shared.shape)
-    variance = scatter**2 * np.square(FIELDS).sum(axis=0) + OWN**2
+    variance = SCATTER**2 * np.square(FIELDS).sum(axis=0) + OWN**2
     load = np.broadcast_to(LOADS[:, None], shared.shape)
     return SimulatedCurves(SPEEDS, load, np.exp(exact[..., None] + shared + own - variance[..., None] / 2) * load)
 
@@ -98,24 +94,18 @@ def has(ends: tuple, truth: float) -> bool:
 
 @dataclass(frozen=True)
 class Pair:
-    """Forces in 1D and in 3D, whose surfaces are independent: a share of each is left out together."""
+    """Forces in 1D and in 3D, whose surfaces are independent."""
 
     one: SimulatedCurves
     three: SimulatedCurves
 
     @property
-    def groups(self) -> list[np.ndarray]:
-        return [np.array([k]) for k in range(min(len(self.one.groups), len(self.three.groups)))]
+    def groups(self) -> list[Group]:
+        return [*self.one.groups, *self.three.groups]
 
-    def without(self, group: np.ndarray) -> "Pair":
-        (k,), count = group, len(self.groups)
-        return Pair(
-            *(side.without(np.array_split(np.arange(side.surfaces), count)[k]) for side in (self.one, self.three))
-        )
-
-
-def rms(values: np.ndarray) -> float:
-    return float(np.sqrt(np.mean(np.square(values))))
+    def without(self, group: Group) -> "Pair":
+        name = "one" if group.solver == self.one.solver else "three"
+        return replace(self, **{name: getattr(self, name).without(group)})
 
 
 # Means of skewed draws.
@@ -150,43 +140,12 @@ def ratios(surfaces: int, pair: bool) -> Rate:
     for _ in range(CHEAP):
         three = forces(surfaces)
         one = forces(PROFILES * surfaces) if pair else three
-        sides = [SimulatedCurves(np.ones(1), load[None, None], force[None, None]) for load, force in (one, three)]
+        sides = [
+            SimulatedCurves(np.ones(1), load[None, None], force[None, None], solver=name)
+            for name, (load, force) in (("1D", one), ("3D", three))
+        ]
         hits += has(resample(ratio, Pair(*sides) if pair else sides[0])[""].estimated.interval(), 1.0)
     return Rate(hits, CHEAP)
-
-
-# Sizes of a misfit.
-
-
-def smooth_knee() -> Chebyshev:
-    """Eq. 19 as the common polynomial has it, so that no misfit is nil."""
-    reach = ACROSS[-1] - POWER * ALONG[-1]
-    x = np.linspace(-reach, reach, 400)
-    return Chebyshev.fit(x, knee(x), DEGREE)
-
-
-def sized(surfaces: int, size: float, fitted: bool) -> tuple[float, Rate]:
-    """True misfit, and how often its interval holds it."""
-    rng, law, still = generator(2, surfaces, size, fitted), smooth_knee(), POWER * np.diff(np.log(SPEEDS))
-
-    def best(curves, guess):
-        return near(Fit(curves, DEGREE), guess) if fitted else still
-
-    def missed(curves, guess):
-        return Fit(curves, DEGREE).residuals(best(curves, guess))
-
-    unit = 0.01
-    shape = unit * size / rms(missed(exactly(friction(law, shape=unit)).curves, still))
-    exact = friction(law, shape=shape)
-    truth = rms(missed(exactly(exact).curves, still))
-    repeats, hits = REFITS if fitted else CHEAP, 0
-    for _ in range(repeats):
-        samples = drawn(rng, exact, surfaces)
-        at = best(samples.curves, still)
-        found = resample(lambda part, at=at: {"": missed(part.curves, at)}, samples)[""].rms
-        # What rounding leaves of no misfit.
-        hits += has(found.interval(), truth if size else 0.0)
-    return truth, Rate(hits, repeats)
 
 
 # Verdicts of the whole judge.
@@ -233,23 +192,14 @@ def asked(found: Collapse, theory: float) -> dict[str, tuple[float, str]]:
     return found
 
 
-def answered(fits: list[Collapse], vertical: float) -> tuple[int, int]:
-    """How often both shifts are the answer, and how often its intervals then hold both exponents."""
-    both = [each.both for each in fits if eq23.raised(each)]
-    held = [
-        has(each.exponent.interval(), POWER) and has(each.vertical_exponent.interval(), vertical) for each in both
-    ]
-    return len(both), sum(held)
-
-
 def shares(counted: tuple[int, ...]) -> str:
     return " / ".join(f"{100 * count / sum(counted):g}" for count in counted)
 
 
-def repeated(law: str, surfaces: int = SURFACES, scatter: float = SCATTER) -> list[Collapse]:
+def repeated(law: str) -> list[Collapse]:
     """The judge's fits of a law drawn again and again."""
-    rng, exact = generator(3, list(LAWS).index(law), surfaces, scatter), friction(**LAWS[law])
-    return [collapse(drawn(rng, exact, surfaces, scatter)) for _ in range(PIPELINE)]
+    rng, exact = generator(3, list(LAWS).index(law), SURFACES, SCATTER), friction(**LAWS[law])
+    return [collapse(drawn(rng, exact)) for _ in range(PIPELINE)]
 
 
 @dataclass(frozen=True)
@@ -277,8 +227,9 @@ class Said:
         return f"{number}: {shares(self.counts)}"
 
 
-def verdicts(fits: dict[str, list[Collapse]]) -> dict[str, dict[str, Said]]:
+def verdicts() -> dict[str, dict[str, Said]]:
     """By row and claim."""
+    fits = {law: repeated(law) for law in LAWS}
     exact = {law: collapse(exactly(friction(**LAWS[law]))) for law in LAWS}
     said = {}
     for row, (law, theory) in ROWS.items():
@@ -289,28 +240,6 @@ def verdicts(fits: dict[str, list[Collapse]]) -> dict[str, dict[str, Said]]:
             counts = tuple(kinds.count(kind) for kind in ("holds", "undecided", "fails"))
             said[row][claim] = Said(truth[claim][0], theory if claim == "power of v" else None, counts)
     return said
-
-
-# Where the joint fit is weak.
-
-
-def weak(found: list[Collapse]) -> dict[str, tuple[Rate, float, float]]:
-    """By exponent: how often its interval, if there is one, holds the truth; medians of both."""
-    alone = [each.horizontal for each in found if not each.horizontal.reason]
-    both = [each.both for each in found if not each.both.reason]
-    numbers = {
-        "horizontal alone": ([each.exponent for each in alone], POWER),
-        "horizontal beside vertical": ([each.exponent for each in both], POWER),
-        "vertical": ([each.vertical_exponent for each in both], 0.0),
-    }
-    return {
-        name: (
-            Rate(sum(has(each.interval(), truth) for each in estimates), len(estimates)),
-            float(np.median([each.value for each in estimates])),
-            float(np.median([np.subtract(*each.interval()[::-1]) / 2 for each in estimates])),
-        )
-        for name, (estimates, truth) in numbers.items()
-    }
 
 
 # The page.
@@ -347,20 +276,6 @@ def _ratios(rows) -> str:
     return table("ratio|" + "|".join(f"n = {count}" for count in COUNTS), lines)
 
 
-def _sizes(rows) -> str:
-    lines = []
-    for fitted, kind in ((False, "prescribed"), (True, "fitted")):
-        for size in SIZES:
-            cells = []
-            for surfaces in FEW_AND_MANY:
-                truth, rate = sized(surfaces, size, fitted)
-                case = f"shifts {kind}, delta {size:g}, the judge"
-                rows.append(_row("sizes", case, surfaces, rate.hits, rate.repeats))
-                cells.append(str(rate))
-            lines.append((kind, f"{100 * truth:.1f} %", *cells))
-    return table("shifts|δ|" + "|".join(f"n = {count}" for count in FEW_AND_MANY), lines)
-
-
 def _verdicts(rows, said) -> str:
     lines = []
     for row, claims in said.items():
@@ -376,42 +291,13 @@ def _verdicts(rows, said) -> str:
     return table("law|" + "|".join(CLAIMS), lines) + "\n\n" + told
 
 
-def _weak(rows, fits) -> str:
-    lines = []
-    for surfaces in (3, SURFACES):
-        for scatter in (SCATTER, 4 * SCATTER):
-            known = (surfaces, scatter) == (SURFACES, SCATTER)
-            numbers = weak(fits["right"] if known else repeated("right", surfaces, scatter))
-            cells = []
-            for name, (rate, middle, half) in numbers.items():
-                case = f"exponent {name}, scatter {scatter:g}"
-                rows.append(_row("weak", case, surfaces, rate.hits, rate.repeats))
-                cells.append(f"{rate} of {rate.repeats}: {middle:.2f}, {half:.2f}".replace("-", "−"))
-            lines.append((f"{surfaces}", f"{100 * scatter:g} %", *cells))
-    return table("n|scatter|" + "|".join(numbers), lines)
-
-
-def _both(rows, fits) -> str:
-    lines = []
-    for law in ("right", "v^0.1", "v^0.2", "v^0.33"):
-        asked, held = answered(fits[law], -LAWS[law].get("vertical", 0.0))
-        rows.append(_row("weak", f"{law}, both shifts", SURFACES, asked, PIPELINE, "both shifts are the answer"))
-        rows.append(_row("weak", f"{law}, both shifts", SURFACES, held, asked))
-        lines.append((law, f"{asked} of {PIPELINE}", f"{held} of {asked}"))
-    return table("friction times|both shifts are the answer|of these, both exponents held", lines)
-
-
 def main() -> None:
     """Measure all, and write the tables and the counts."""
     rows = []
-    fits = {law: repeated(law) for law in LAWS}
     sections = {
         "means": lambda: _means(rows),
         "ratios": lambda: _ratios(rows),
-        "sizes": lambda: _sizes(rows),
-        "verdicts": lambda: _verdicts(rows, verdicts(fits)),
-        "weak": lambda: _weak(rows, fits),
-        "both": lambda: _both(rows, fits),
+        "verdicts": lambda: _verdicts(rows, verdicts()),
     }
     write(PAGE, sections)
     stored(PAGE.with_suffix(".csv"), rows)

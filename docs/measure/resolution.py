@@ -5,13 +5,13 @@ been solved once is in docs/results/resolution/solved; from nothing it takes hal
 """
 
 from dataclasses import replace
-from math import log2, nan, pi
+from math import nan, pi
 from pathlib import Path
 
 import numpy as np
 from campaign import solved
 from pandas import DataFrame
-from tables import replaced, stored, table
+from tables import replaced, stored
 
 from bem3d import BEM
 from compare.comparison.study_file import STUDIES
@@ -24,11 +24,7 @@ PAGE = Path(__file__).parents[1] / "results" / "resolution.md"
 POINTS, LOAD = (320, 640, 1280, 2560), 0.4
 # v tau q_s: rest, low speed, the knee, and the fastest of the studies.
 SPEEDS = {0.0: "at rest", 0.03: "slow", 3.0: "at the knee", 35.0: "fast"}
-LEAST_ORDER = 0.5  # of which one can be told from three grids
 ESTIMATES = {"curvature": "by curvature", "traction": "by traction", "loss": "by loss", "friction": "as answered"}
-HEADER = (
-    "points|pixels a wave|pixels across a spot|by curvature|by traction|by loss|as answered|depth|real contact"
-)
 
 
 def main() -> None:
@@ -46,8 +42,6 @@ def main() -> None:
     with style.applied():
         _figure(frame).savefig(PAGE.with_suffix(".png"), dpi=200)
     replaced(PAGE, "summary", _summary(frame))
-    for speed, name in SPEEDS.items():
-        replaced(PAGE, name, f"{_table(frame, speed)}\n\n{_orders(frame, speed)}")
 
 
 def _row(speed, points, row):
@@ -71,41 +65,7 @@ def _row(speed, points, row):
 def _over_the_finest(frame, speed):
     own = frame[frame["speed"] == speed].sort_values("points")
     last = own.iloc[-1]
-    over = dict.fromkeys(ESTIMATES, last["friction"]) | {name: last[name] for name in ("depth", "contact")}
-    return own, own[list(over)] / over
-
-
-def _table(frame, speed):
-    own, over = _over_the_finest(frame, speed)
-    rows = zip(own.itertuples(), over.itertuples(index=False), strict=True)
-    return table(
-        HEADER.removeprefix("|"),
-        (
-            (
-                f"{row.points}",
-                f"{row.pixels_a_wave:.1f}",
-                f"{row.pixels_across_a_spot:.1f}",
-                *("" if not np.isfinite(each) else f"{each:.4f}" for each in ratios),
-            )
-            for row, ratios in rows
-        ),
-    )
-
-
-def _orders(frame, speed):
-    """Order of each estimate that counts there, from the last three grids, and what the finest is then off by."""
-    own, _ = _over_the_finest(frame, speed)
-    last, said = own["friction"].values[-1], []
-    for name in ESTIMATES if speed < 1 else ("traction", "loss", "friction"):
-        first, second = np.diff(own[name].values[-3:])
-        if np.isfinite(first) and second and first / second >= 2**LEAST_ORDER:
-            order = log2(first / second)
-            left = second / (2**order - 1) / last
-            said.append(f"{ESTIMATES[name]} {order:.1f}, which leaves {-left:+.2%} on the finest grid")
-        elif np.isfinite(first):
-            changes = f"{first / last:+.2%} and {second / last:+.2%}"
-            said.append(f"{ESTIMATES[name]} none is seen, the last two changes are {changes}")
-    return f"Order in the pixel, from the last three grids: {'; '.join(said)}."
+    return own, own[list(ESTIMATES)] / last["friction"]
 
 
 def _summary(frame):

@@ -9,7 +9,7 @@ import shutil
 from pathlib import Path
 
 from pandas import DataFrame
-from tables import finding, replaced, stored, table
+from tables import finding, replaced, said, stored, table
 
 import compare
 
@@ -68,9 +68,7 @@ def _regime(found: DataFrame, claim: str, body: str, symbol: str) -> str:
 def _said(found: DataFrame, claim: str, dimension: str, body: str) -> str:
     """Value with its interval."""
     row = finding(found, claim, body, dimension)
-    digits = 1 if row.value > 2 else 3
-    value, low, high = (f"{each:.{digits}f}".replace("-", "−") for each in (row.value, row.low, row.high))
-    return f"{value} ({low} to {high})"
+    return said(row, 1 if row["value"] > 2 else 3)
 
 
 if __name__ == "__main__":

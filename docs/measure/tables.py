@@ -34,6 +34,13 @@ def finding(found: DataFrame, claim: str, where: str, dimension: str = "") -> Se
     return found.iloc[place]
 
 
+def said(row: Series | Mapping, digits: int = 3, percent: bool = False) -> str:
+    """Value of a finding with its interval."""
+    scale, unit = (100, " %") if percent else (1, "")
+    value, low, high = (f"{scale * row[name]:.{digits}f}".replace("-", "−") for name in ("value", "low", "high"))
+    return f"{value}{unit} ({low} to {high})"
+
+
 def order(points, errors) -> float:
     """Observed order: slope of error against points, in logarithms, over all of them."""
     return -np.polyfit(np.log(points), np.log(errors), 1)[0]

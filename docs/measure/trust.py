@@ -127,17 +127,6 @@ def errors(found: Mapping[str, Scored]) -> Iterator[dict[str, str]]:
         }
 
 
-def regions(found: Mapping[str, Scored]) -> Iterator[dict[str, str]]:
-    """A row for each region: errors of friction by 1D, by the law, by the best advice, and the share held."""
-    cells: dict[str, dict[str, str]] = {}
-    for row in error_rows({name: found[name] for name in ("friction", LAW, BEST)}):
-        told = f"{100 * row['median']:.2g} / {100 * row['nine in ten']:.2g}, {100 * row['in 95 %']:.0f}"
-        few = f" ({row['scenes']})" if row["scenes"] < FEW else ""
-        cells.setdefault(f"{row['by']}: {row['region']}", {})[NAMED[row["ratio"]]] = told + few
-    for region, found_there in cells.items():
-        yield {"median / nine in ten, held [%]": region, **found_there}
-
-
 def parts() -> Mapping[tuple[Path, str], str]:
     """Text between two comments, by the page and the name of the comment."""
     found = scores()
@@ -147,7 +136,6 @@ def parts() -> Mapping[tuple[Path, str], str]:
     return {
         (PAGE, "advice"): "\n\n".join(f"**{titles[each]}**\n\n{by_column(advice(rows, each))}" for each in RATIOS),
         (PAGE, "errors"): by_column(errors(found)),
-        (PAGE, "regions"): by_column(regions(found)),
         (README, "friction"): in_short({"friction": drawn["friction"]}),
     }
 

@@ -6,13 +6,6 @@ from math import nan
 
 import numpy as np
 import pytest
-from compare.solving.parameter_grid import (
-    LEVELS,
-    contacts_of,
-    on_levels,
-    tasks_of,
-    tree,
-)
 from pydantic import ValidationError
 from scene_files import HEAD, SCENE, SHARED, TABLES
 from small_cases import SLIDING

@@ -6,14 +6,19 @@ angle is that of the body or of its line (here of the body, mapped), and how val
 geometrically, angles evenly).
 """
 
-from dataclasses import dataclass, replace
-from math import radians
+from collections.abc import Sequence
+from dataclasses import replace
+from math import pi, radians
+from typing import Any
 
 import numpy as np
 from scipy.fft import next_fast_len
 
-from mdr1d import equations
-from scene import Cone, Fractional, Kelvin, Scene, SelfAffine, Slide, Sphere
+from mdr1d import MDR, draw, equations
+from scene import Cone, Fractional, Kelvin, Regime, Scene, SelfAffine, Slide, Sphere
+from scene.scales import elastic_contact
+
+from ...comparison.curve import FINE, Curve
 
 LENGTH, POINTS = 1e-2, 5000
 PROFILES = 200
@@ -33,67 +38,30 @@ LOAD, LOW_SPEED = 10.0, 1e-3
 
 # Figs. 5 to 7: as many speeds as in the experiment, in its range, on the sphere and the modulus of Fig. 4 with a
 # loss that is a power of frequency; rougher at short waves: every force lies in the regime of the laws.
-FORCES = tuple(float(f) for f in np.geomspace(2, 50, 10))
-SPEEDS = tuple(float(v) for v in np.geomspace(5e-4, 0.58, 28))
+FORCES = tuple(np.geomspace(2, 50, 10).tolist())
+SPEEDS = tuple(np.geomspace(5e-4, 0.58, 28).tolist())
 LOSS_ROUGH = SelfAffine(hurst=0.2, rms_height=2e-5, longest=LENGTH)
 LOSS_PROFILES = 24
-
-
-@dataclass(frozen=True)
-class Loss:
-    """A rubber of Figs. 5 to 7, G = G_0 (1 + (i omega tau)^beta): the exponent beta and the time tau [s]."""
-
-    exponent: float
-    relaxation_time: float
-
-    @property
-    def symbols(self) -> str:
-        """Exponent and time of the loss in Greek letters."""
-        return f"β = {self.exponent:g}, τ = {self.relaxation_time:g} s"
-
-    @property
-    def suffix(self) -> str:
-        """Ending of the names of files."""
-        return f"-{self.exponent:g}-{self.relaxation_time:g}"
-
-
-# With the time of Fig. 4 the modulus, which the paper takes for constant, grows with the speed on the scale of the
-# contact too; with the shorter one it grows by less than a tenth there.
-LOSSES = (
-    Loss(0.1, SOLID.relaxation_time),
-    Loss(0.1, 1e-14),
-    Loss(0.5, SOLID.relaxation_time),
-    Loss(0.5, 1e-5),
-)
-
-
-@dataclass(frozen=True)
-class ParameterStudy:
-    """One parameter varied, all others held: its name, unit, and values in SI units."""
-
-    name: str
-    unit: str
-    values: tuple[float, ...]
-
-
-def _pixels():
-    """Twenty spacings from 1e-5 to 1e-7 m, moved by 2 % at most to where transforms over it are fast."""
-    spacings = np.geomspace(1e-5, 1e-7, 20)
-    return tuple(LENGTH / next_fast_len(round(LENGTH / spacing)) for spacing in spacings)
+# Exponent beta and time tau [s] of each loss, G = G_0 (1 + (i omega tau)^beta). With the time of Fig. 4 the
+# modulus, which the paper takes for constant, grows with the speed on the scale of the contact too; with the
+# shorter one it grows by less than a tenth there.
+LOSSES = ((0.1, SOLID.relaxation_time), (0.1, 1e-14), (0.5, SOLID.relaxation_time), (0.5, 1e-5))
 
 
 def _between(low, high):
-    return tuple(float(value) for value in np.geomspace(low, high, 20))
+    return np.geomspace(low, high, 20).tolist()
 
 
-STUDIES = (
-    ParameterStudy("load", "N", _between(1e-1, 1e1)),
-    ParameterStudy("modulus", "Pa", _between(1e5, 1e7)),
-    ParameterStudy("rms height", "m", _between(1e-6, 1e-4)),
-    ParameterStudy("spacing", "m", _pixels()),
-    ParameterStudy("angle", "rad", tuple(radians(degrees) for degrees in np.linspace(5, 75, 20))),
-    ParameterStudy("relaxation time", "s", _between(1e-4, 1e-2)),
-)
+# Fig. 3: part of the scene and parameter that a study varies, and its values in SI units; spacings are moved by
+# 2 % at most, to where transforms over the length are fast.
+STUDIES = {
+    "load": ("motion", "load", _between(1e-1, 1e1)),
+    "modulus": ("elastomer", "modulus", _between(1e5, 1e7)),
+    "rms height": ("roughness", "rms_height", _between(1e-6, 1e-4)),
+    "spacing": ("", "", [LENGTH / next_fast_len(round(LENGTH / spacing)) for spacing in _between(1e-5, 1e-7)]),
+    "angle": ("indenter", "angle", np.radians(np.linspace(5, 75, 20)).tolist()),
+    "relaxation time": ("elastomer", "relaxation_time", _between(1e-4, 1e-2)),
+}
 
 
 def base(shape: str, speed: float = LOW_SPEED, load: float = LOAD) -> Scene:
@@ -101,24 +69,14 @@ def base(shape: str, speed: float = LOW_SPEED, load: float = LOAD) -> Scene:
     return Scene(SHAPES[shape], SOLID, Slide(speed=speed, load=load), ROUGH)
 
 
-def varied(study: ParameterStudy, value: float, hurst: float) -> tuple[Scene, int]:
+def varied(study: str, value: float, hurst: float) -> tuple[Scene, int]:
     """A scene of Fig. 3, a cone, and the points over its length."""
-    rough, points = replace(ROUGH, hurst=hurst), POINTS
-    scene = replace(base("cone"), roughness=rough)
-    match study.name:
-        case "load":
-            scene = replace(scene, motion=Slide(speed=LOW_SPEED, load=value))
-        case "modulus":
-            scene = replace(scene, elastomer=replace(SOLID, modulus=value))
-        case "relaxation time":
-            scene = replace(scene, elastomer=replace(SOLID, relaxation_time=value))
-        case "angle":
-            scene = replace(scene, indenter=Cone(angle=value))
-        case "rms height":
-            scene = replace(scene, roughness=replace(rough, rms_height=value))
-        case "spacing":
-            points = round(LENGTH / value)
-    return scene, points
+    scene = replace(base("cone"), roughness=replace(ROUGH, hurst=hurst))
+    part, name, _ = STUDIES[study]
+    if not part:
+        return scene, round(LENGTH / value)
+    changed: Any = {part: replace(getattr(scene, part), **{name: value})}
+    return replace(scene, **changed), POINTS
 
 
 def contact(shape: str) -> Scene:
@@ -136,18 +94,22 @@ def contact_rough(shape: str) -> SelfAffine:
     return replace(ROUGH, hurst=CONTACT_HURST[shape], seed=CONTACT_SEED[shape])
 
 
-def lossy(loss: Loss, load: float, speed: float) -> Scene:
-    """A point of Figs. 5 to 7: loss G'' ~ omega^beta, Eq. 24, over all frequencies that the profile has."""
-    lowest, highest = SPEEDS[0] / LENGTH, SPEEDS[-1] * np.pi * POINTS / LENGTH
+def lossy(exponent: float, relaxation_time: float) -> Scene:
+    """The first point of Figs. 5 to 7, with a power law of loss, Eq. 24, over all frequencies of the profile."""
     solid = Fractional(
         modulus=SOLID.modulus,
-        relaxation_time=loss.relaxation_time,
-        exponent=loss.exponent,
-        lowest_frequency=lowest,
-        highest_frequency=float(highest),
+        relaxation_time=relaxation_time,
+        exponent=exponent,
+        lowest_frequency=SPEEDS[0] / LENGTH,
+        highest_frequency=SPEEDS[-1] * pi * POINTS / LENGTH,
         tolerance=1e-2,
     )
-    return Scene(SHAPES["sphere"], solid, Slide(speed=speed, load=load), LOSS_ROUGH)
+    return Scene(SHAPES["sphere"], solid, Slide(speed=SPEEDS[0], load=FORCES[0]), LOSS_ROUGH)
+
+
+def rms_slope() -> float:
+    """Rms slope of Fig. 4 by finite differences; waves of fixed amplitude have the same on every profile."""
+    return draw(ROUGH, POINTS).rms_slope
 
 
 def variable(scene: Scene, rms_slope: float) -> float:
@@ -161,4 +123,30 @@ def variable(scene: Scene, rms_slope: float) -> float:
         rms_slope,
         body.mdr_coefficient,
         body.exponent,
+    )
+
+
+def regime(scene: Scene, rms_slope: float) -> Regime:
+    """Ratios of a contact under a load; rms_slope : of its roughness."""
+    body, relaxed = scene.indenter, elastic_contact(scene)
+    profile, contact = (body.mdr_coefficient, body.exponent), (relaxed.radius, relaxed.depth)
+    return Regime.of(profile, contact, scene.roughness.rms_height, LENGTH, rms_slope)
+
+
+def holds(regime: Regime) -> bool:
+    """Whether all conditions hold but that of small slopes, without which the model itself still is one.
+
+    With heights, slopes and loads times any number, friction of the model is times that number exactly.
+    """
+    return all(holds for name, holds in regime.flags.items() if name != "small slopes")
+
+
+def grid(scene: Scene, speeds: Sequence[float], loads: Sequence[float], profiles: int = 1) -> Curve:
+    """Contacts of a scene at some speeds and loads on so many profiles."""
+    return Curve(
+        scene=scene,
+        speeds=tuple(speeds),
+        values=tuple(loads),
+        levels={"MDR": {FINE: MDR(points=POINTS)}},
+        draws={"MDR": profiles},
     )

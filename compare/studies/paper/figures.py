@@ -1,0 +1,176 @@
+"""Figures of the paper: contacts of a rough cone and sphere, slow friction, and the law up to the plateau."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from pandas import DataFrame, concat
+
+from mdr1d.equations import interpolation
+
+from ...figures import shades, style, touching
+from ...figures.curves import intervals, scatter
+from ...figures.lettering import clear, lettered
+from ...figures.prefixes import prefixed
+from ...report.page import Plot, Tables
+
+CONTACTS, STUDIES, LAW = "paper-contacts", "paper-studies", "paper-law"
+ALPHA = f"{LAW}-alpha"
+# Length of the whole picture over that of the contact, and width of the close-up [m].
+SHOWN, CLOSE = 1.5, 2e-4
+BETWEEN = Normalize(0, 1)  # of the Hurst exponent
+MARKERS = ("o", "s", "^", "D", "v", "P")
+# Marker, its size, line and colour of the shapes as they come, ink without one: the first, small, is drawn over
+# the second.
+LOOKS = (("o", 0.65, "--", ""), ("s", 1.15, "-.", "#009E73"))
+
+
+def plot_contacts(sections: Mapping[str, DataFrame]) -> Plot | None:
+    """Fig. 1: some contacts, x, indenter, surface, touching by the name of the shape; None without any."""
+    if not sections:
+        return None
+    return Plot(
+        CONTACTS,
+        draw_contacts,
+        {f"{CONTACTS}-{shape}": table for shape, table in sections.items()},
+        "Rigid rough profile and surface of the elastomer in steady sliding, heights from the undeformed "
+        "surface (dashed). The indenter slides to the left; real contact is bold. Below, "
+        f"{CLOSE * 1e3:g} mm (marked above) in which the elastomer leaves the indenter most often: behind each "
+        "asperity it is free and returns exponentially.",
+        f"The {' and the '.join(sections)} touch with the tips of their roughness, fewer behind than in front.",
+    )
+
+
+def draw_contacts(tables: Tables) -> Figure:
+    """A column for each shape. Above: the contact. Below: where it ends most often."""
+    drawing = style.canvas("double", 4.4)
+    panels = drawing.subplots(2, len(tables), squeeze=False)
+    shown = []
+    for column, (name, table) in zip(panels.T, tables.items(), strict=True):
+        seen = touching.section_of(table)
+        touched = seen.x[seen.touching]
+        margin = (SHOWN - 1) / 2 * np.ptp(touched)
+        whole, close = (touched[0] - margin, touched[-1] + margin), _close_up(seen)
+        for axes, span, title in zip(column, (whole, close), (name.rpartition("-")[2], "close-up"), strict=True):
+            limits = _limits(seen, span)
+            touching.section(axes, seen, "MDR", span, limits)
+            axes.set_title(title)
+            shown.append((axes, span, limits))
+        along = prefixed(whole, "m")[0]
+        column[0].axvspan(along * close[0], along * close[1], **style.line(0.0, 0.4, fill=False, zorder=5))
+    lettered(panels.flat)
+    style.lay_out(drawing)
+    for axes, span, limits in shown:
+        touching.exaggeration(axes, span, limits)
+    return drawing
+
+
+def _limits(seen, span):
+    """Heights [m] around the surface of the elastomer."""
+    shown = seen.surface[(span[0] <= seen.x) & (seen.x <= span[1])]
+    room = float(np.ptp(shown))
+    return shown.min() - 0.35 * room, shown.max() + 0.45 * room
+
+
+def _close_up(seen):
+    """Ends [m] of the stretch with the most ends of contact."""
+    nodes = round(CLOSE / (seen.x[1] - seen.x[0]))
+    ends = np.convolve(np.abs(np.diff(seen.touching.astype(int))), np.ones(nodes), "valid")
+    first = float(seen.x[np.argmax(ends)])
+    return first, first + CLOSE
+
+
+def plot_studies(points: DataFrame) -> Plot:
+    """Fig. 3: slow friction on a rough cone in six studies, and what parts it from Eq. 17."""
+    return Plot(
+        STUDIES,
+        draw_studies,
+        {STUDIES: points.drop(columns="slow")},
+        "Slow friction on a rough cone in six studies of one parameter each. (a) μ̃ against ξ with Eqs. 17 and "
+        "19; hollow where a condition of Eq. 17 breaks. (b) μ̃/ξ against the rms slope of the macroscopic "
+        "profile over that of the roughness, r; Eq. 10 gives 1 + r².",
+        "Friction lies on a line of slope one where the conditions hold, and above it where the macroscopic slope "
+        "counts.",
+    )
+
+
+def draw_studies(tables: Tables) -> Figure:
+    """(a) mu-tilde against xi. (b) Over xi, against the macroscopic slope."""
+    points = tables[STUDIES].dropna()
+    drawing = style.canvas("double", 3.6)
+    left, right = drawing.subplots(1, 2)
+    xi, ratio, friction = (points[name] for name in ("xi", "macro_over_rough", "normalised_friction"))
+    colours = shades.PRESS(BETWEEN(points["hurst"]))
+    studies = dict(zip(points["study"].unique(), MARKERS, strict=False))
+    for study, marker in studies.items():
+        at = points["study"] == study
+        for axes, x, y in ((left, xi, friction), (right, ratio, friction / xi)):
+            look = {"marker": marker, "empty": "none", "rasterized": True, "zorder": 2}
+            scatter(axes, x[at], y[at], points["holds"][at], colours[at], 0.75, 0.3, **look)
+    line, r = np.geomspace(xi.min(), xi.max(), 101), np.geomspace(ratio.min(), ratio.max(), 101)
+    left.plot(line, line, label=r"Eq. 17, $\tilde{\mu} = \xi$", **style.line(0, 0.55, zorder=3))
+    left.plot(line, interpolation(line), "--", label="Eq. 19, α = 1.5", **style.line(0.35, 0.55, zorder=3))
+    right.plot(r, 1 + r**2, **style.line(0, 0.7, zorder=3, label="Eq. 10, 1 + r²"))
+    for axes, across, up, title in (
+        (left, r"$\xi$ [1]", r"$\tilde{\mu}$ [1]", "(a)"),
+        (right, "rms slope, smooth over rough, r [1]", r"$\tilde{\mu}/\xi$ [1]", "(b)"),
+    ):
+        axes.set(xscale="log", yscale="log", xlabel=across, ylabel=up, title=title)
+        axes.legend(loc="upper left")
+    style.span(left, xi)
+    style.span(right, ratio)
+    style.decades(left, right)
+    shades.colours(drawing, ScalarMappable(BETWEEN, shades.PRESS), "Hurst exponent [1]", ax=[left, right])
+    look = {"linestyle": "none", "color": style.grey(0.3)}
+    handles = [Line2D([], [], marker=marker, label=study, **look) for study, marker in studies.items()]
+    handles.append(Line2D([], [], marker="o", markerfacecolor="none", label="a condition breaks", **look))
+    style.legend(drawing, handles, "outside lower center", 7, handletextpad=0.1, columnspacing=1.0)
+    clear(drawing, [left, right])
+    return drawing
+
+
+def plot_law(points: Sequence[DataFrame], fits: DataFrame) -> Plot:
+    """Fig. 4: friction of some shapes against Eq. 19.
+
+    points : of each shape; fits : exponents of Eq. 19, a row for each shape
+    """
+    return Plot(
+        LAW,
+        draw_law,
+        {LAW: concat(points, ignore_index=True), ALPHA: fits},
+        "μ̃ against ξ: means over profiles with intervals of 95 %, and Eq. 19 with α = 1.5. Below: deviation "
+        "from it of the points and of Eq. 19 with the best α of each shape. Hollow: a condition breaks.",
+        "Friction follows one law up to its plateau, with an exponent that depends on the shape.",
+    )
+
+
+def draw_law(tables: Tables) -> Figure:
+    """Above: mu-tilde with Eq. 19. Below: its deviation from Eq. 19 with alpha = 1.5."""
+    points, fits = tables[LAW], tables[ALPHA]
+    drawing = style.canvas("single", 5.0)
+    above, below = drawing.subplots(2, 1, sharex=True, height_ratios=(2, 1.7))
+    xi = np.geomspace(points["xi"].min(), points["xi"].max(), 201)
+    above.plot(xi, interpolation(xi), **style.line(0.5, 0.8, label="Eq. 19, α = 1.5", zorder=1))
+    below.axhline(0, **style.line(0.6, 0.45, zorder=0))
+    for fit, (marker, size, line, colour) in zip(fits.itertuples(), LOOKS, strict=False):
+        own, colour = points[points["shape"] == fit.shape], colour or style.ink()
+        off = own.filter(like="normalised_friction").div(interpolation(own["xi"].to_numpy()), axis=0)
+        label = f"{fit.shape}: best α = {fit.alpha:.2f} ({fit.alpha_low:.2f} to {fit.alpha_high:.2f})"
+        look: dict[str, Any] = {"color": colour, "fmt": marker, "markersize": style.mark(size), "label": label}
+        look |= {"zorder": 3 - size / 2} | ({} if own["holds"].all() else {"markerfacecolor": style.paper()})
+        intervals(above, own["xi"], own, "normalised_friction", **look)
+        intervals(below, own["xi"], off, "normalised_friction", 100, less=1, **look)
+        best = interpolation(xi, fit.alpha) / interpolation(xi) - 1
+        below.plot(xi, 100 * best, line, color=colour, linewidth=style.width(0.8), zorder=1)
+    style.span(above, xi)
+    above.set(xscale="log", yscale="log", ylabel=r"$\tilde{\mu}$ [1]")
+    above.legend(loc="lower right")
+    below.set(xlabel=r"$\xi$ [1]", ylabel="deviation from Eq. 19,\nα = 1.5 [%]")
+    lettered((above, below))
+    style.decades(above, below)
+    clear(drawing, (above,))
+    return drawing
