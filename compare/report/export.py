@@ -18,7 +18,6 @@ from scene.printable import brief
 from scene.reading import InvalidInput
 
 from ..figures import style as looks
-from ..figures.journals import journal as find_journal
 from ..figures.rendering import FORMS, picture
 from ..solving import netcdf, parameter_grid
 from ..solving.folders import hold
@@ -51,22 +50,22 @@ def export(
         known("format", each, FORMATS)
     if "vtk" in formats:
         vtk.refuse()
+    look = looks.Look(journal or "default", style, width)
     try:
-        look = looks.Look(find_journal(journal or "default", width), style)
-        look.settings()
-    except ValueError as error:
-        raise InvalidInput(str(error)) from error
+        with looks.applied(look):
+            pass
+    except (ValueError, KeyError, OSError) as error:
+        raise InvalidInput(f"{error.args[0]}" if isinstance(error, KeyError) else str(error)) from error
     folder = Path(folder)
     below = folder.parent if folder.is_file() else folder
     tables, figures = (Path(output) if output else manifest.inside(below, each) for each in (TABLES, FIGURES))
     forms = [each for each in FORMS if each in formats]
     written = []
-    with looks.chosen(look):
-        for form, read in (("csv", _csv), ("vtk", _surfaces)):
-            if form in formats:
-                written += render.write(read(folder), tables)
-        if forms:
-            written += render.write(_drawn_again(folder, forms), figures)
+    for form, read in (("csv", _csv), ("vtk", _surfaces)):
+        if form in formats:
+            written += render.write(read(folder), tables)
+    if forms:
+        written += render.write(_drawn_again(folder, forms, look), figures)
     return written
 
 
@@ -127,19 +126,19 @@ def _surfaces(folder) -> dict[str, bytes]:
     return {name: content for name, content in found.items() if content}
 
 
-def _drawn_again(folder, forms) -> dict[str, bytes]:
-    """Every figure of a folder, drawn from its tables in the current look, as files by name."""
+def _drawn_again(folder, forms, look) -> dict[str, bytes]:
+    """Every figure of a folder, drawn from its tables in a look, as files by name."""
     found: dict[str, bytes] = {}
     for place, left in manifest.folders(folder):
         for entry in left.plots:
-            drawn, name = _drawn(place, entry, forms), (place.relative_to(folder) / entry.name).as_posix()
+            drawn, name = _drawn(place, entry, forms, look), (place.relative_to(folder) / entry.name).as_posix()
             found |= {f"{name}.{form}": drawn[form] for form in forms}
     if not found:
         raise InvalidInput(f"{brief(str(folder))}: no command has written figures here")
     return found
 
 
-def _drawn(folder, entry, forms) -> Mapping[str, bytes]:
+def _drawn(folder, entry, forms, look) -> Mapping[str, bytes]:
     """Content of the files of one figure by form."""
     path = folder / manifest.NAME
     draw, below = function(entry, path), Path(entry.name).parent
@@ -148,7 +147,7 @@ def _drawn(folder, entry, forms) -> Mapping[str, bytes]:
     try:
         with looks.DRAWING, warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of numbers that no command has left
-            return picture(Plot(entry.name, draw, tables, "", options=entry.options), forms).files
+            return picture(Plot(entry.name, draw, tables, "", options=entry.options), forms, look).files
     except InvalidInput:
         raise
     except Exception as error:  # options or tables that were changed raise nearly anything
