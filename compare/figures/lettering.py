@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from string import ascii_lowercase
+from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -16,7 +17,12 @@ from scene.printable import printable
 from . import style
 
 # Offset of a text from its point [points] and its alignment, in the order in which they are tried.
-PLACES = ((0, 4), "center", "bottom"), ((0, -4), "center", "top"), ((5, 0), "left", "center"), ((-5, 0), "right", "center")
+PLACES = (
+    ((0, 4), "center", "bottom"),
+    ((0, -4), "center", "top"),
+    ((5, 0), "left", "center"),
+    ((-5, 0), "right", "center"),
+)
 MARKER, ROOM = 2.2, 3.0  # around a marker, and between legends and curves [points]
 
 
@@ -59,7 +65,13 @@ def write(axes: Axes, letters: Sequence[Letter], size: float) -> None:
     for each in letters:
         colour = style.mixed(each.colour, style.ink(), 0.35)
         for offset, across, up in PLACES:
-            look = {"textcoords": "offset points", "ha": across, "va": up, "fontsize": size, "color": colour}
+            look: dict[str, Any] = {
+                "textcoords": "offset points",
+                "ha": across,
+                "va": up,
+                "fontsize": size,
+                "color": colour,
+            }
             text = axes.annotate(each.text, each.point, offset, **look)
             box = text.get_window_extent()
             within = Bbox.union([box, inside]).bounds == inside.bounds

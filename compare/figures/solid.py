@@ -1,6 +1,4 @@
-"""Moduli of the solid of a scene against the frequency, beside what was measured of it."""
-
-from typing import Any
+"""Moduli of the solid of a scene against the frequency, and what was measured of it."""
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -11,7 +9,7 @@ from scene import CreepTable, Scene, Table, Tabulated
 
 from ..report.page import Plot, Tables
 from . import style
-from .lettering import letter
+from .lettering import lettered
 from .prefixes import prefixed
 
 NAME = "solid"
@@ -43,7 +41,7 @@ def plot(scene: Scene) -> Plot:
             time = np.geomspace(place[0], place[-1], PLACES) * longer
             tables[TIMES] = DataFrame({"time": time, name: law(time)})
             tables[MEASURED_TIMES] = DataFrame({"time": place * longer, name: numbers})
-        shown += ": lines of the fit, grey beyond the table, points of the table"
+        shown += ": lines of the fit, a guess beyond the table, and points of the table"
     warm = "" if scene.temperature is None else f", at {scene.temperature.temperature:g} K"
     caption = f"{shown}{warm}. Right axis: Young's moduli, by its Poisson ratio of {solid.poisson_ratio:g}."
     alternative = "Storage and loss modulus as two curves against the angular frequency."
@@ -58,33 +56,24 @@ def figure(tables: Tables, stiffer: float = 3.0) -> Figure:
     over_time = TIMES in tables
     drawing = style.canvas("double" if over_time else "single", 2.6)
     panels = drawing.subplots(1, 1 + over_time, squeeze=False)[0]
-    moduli(panels[0], tables[NAME], tables.get(MEASURED), stiffer)
+    _frequencies(panels[0], tables[NAME], tables.get(MEASURED), stiffer)
     if over_time:
-        in_time(panels[1], tables[TIMES], tables[MEASURED_TIMES])
-        for k, axes in enumerate(panels):
-            axes.set_title(f"({letter(k)}) {('moduli of the fit', 'as measured')[k]}")
+        _times(panels[1], tables[TIMES], tables[MEASURED_TIMES])
+        panels[0].set_title("moduli of the fit")
+        panels[1].set_title("as measured")
+        lettered(panels)
     return drawing
 
 
-def moduli(axes: Axes, table: DataFrame, measured: DataFrame | None, stiffer: float) -> None:
+def _frequencies(axes: Axes, table: DataFrame, measured: DataFrame | None, stiffer: float) -> None:
     """Panel of both moduli; a modulus that is zero is left out."""
     up, unit = prefixed(table["storage"].iloc[0], "Pa")
-    seen = np.ones(len(table), bool) if measured is None else table["omega"].between(*_ends(measured["omega"]))
     for name, (line, marker, label) in PARTS.items():
-        if not (table[name] > 0).any():
-            continue
-        if measured is not None:  # beyond it the fit is a guess
-            axes.plot(table["omega"], up * table[name], line, **style.line(0.55, 0.8))
-        axes.plot(table["omega"][seen], up * table[name][seen], line, color=style.ink(), label=label)
+        if (table[name] > 0).any():
+            axes.plot(table["omega"], up * table[name], line, color=style.ink(), label=label)
         if measured is not None:
             filled = style.ink() if name == "storage" else style.paper()
-            look: dict[str, Any] = {
-                "marker": marker,
-                "markersize": style.mark(0.8),
-                "markerfacecolor": filled,
-                "linestyle": "",
-            }
-            axes.plot(measured["omega"], up * measured[name], color=style.ink(), label="measured", **look)
+            _points(axes, measured["omega"], up * measured[name], marker, filled)
     axes.set(xscale="log", yscale="log", xlabel="angular frequency [rad/s]", ylabel=f"shear modulus [{unit}]")
     axes.set_xlim(table["omega"].iloc[0], table["omega"].iloc[-1])
     axes.set_ylim(bottom=max(axes.get_ylim()[0], up * table["storage"].iloc[0] * 10**-DECADES))
@@ -96,23 +85,25 @@ def moduli(axes: Axes, table: DataFrame, measured: DataFrame | None, stiffer: fl
     axes.legend()
 
 
-def in_time(axes: Axes, table: DataFrame, measured: DataFrame) -> None:
+def _times(axes: Axes, table: DataFrame, measured: DataFrame) -> None:
     """Panel of what was measured over time, and of the fit."""
-    name = next(each for each in OVER_TIME if each in table)
+    (name,) = table.columns.drop("time")
     up, unit = prefixed(measured[name] if name == "modulus" else 1 / measured[name], "Pa")
     if name == "compliance":
         up, unit = 1 / up, f"1/{unit}"
     axes.plot(table["time"], up * table[name], "-", color=style.ink(), label="fit")
-    axes.plot(
-        measured["time"], up * measured[name], "o", color=style.ink(), markersize=style.mark(0.8), label="measured"
-    )
+    _points(axes, measured["time"], up * measured[name], "o", style.ink())
     axes.set(xscale="log", yscale="log", xlabel="time [s]", ylabel=f"{OVER_TIME[name]} [{unit}]")
     style.decades(axes)
     axes.legend()
 
 
-def _ends(values):
-    return values.min(), values.max()
+def _points(axes: Axes, x, y, marker: str, filled: str) -> None:
+    """Points of a table."""
+    size = style.mark(0.8)
+    axes.plot(
+        x, y, marker, color=style.ink(), markersize=size, markerfacecolor=filled, label="measured", linestyle=""
+    )
 
 
 def _moduli(omega, modulus):

@@ -14,7 +14,7 @@ from pandas import DataFrame
 from scene import Refused, Scene, notes
 from scene.result import labelled, provenance
 
-from ...figures import contact_maps, shifted_curves
+from ...figures import contact, shifted_curves
 from ...library.case import Case, NotCompared, doubted, share_of
 from ...library.describe import conditions, described, folders
 from ...library.lookup import SceneLike, named_cases
@@ -388,8 +388,9 @@ def _plots(found: CaseFindings, answers) -> list[Plot]:
         for claim, body in ((ROUGH_FORCE, "rough"), (SMOOTH_FORCE, "smooth"))
         for row in found.forces(claim)
     ]
+    seen = view(case.scene, case.bem, fields)
     plots = [
-        contact_maps.plot(view(case.scene, case.bem, fields), folder),
+        contact.plot(case.scene, seen, folder=folder) if seen else None,
         force_depth.plot(points, forces, folder),
         friction_curves.against_speed(judged, found.at_speeds, law, pressed, theory, folder),
         friction_curves.against_load(judged, law, theory, folder),

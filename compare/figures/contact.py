@@ -1,0 +1,221 @@
+"""One contact, 3D beside 1D: pressure from above, force per length, sections of both bodies; a program in time."""
+
+from collections.abc import Mapping, Sequence
+from math import ceil
+from typing import Any
+
+import numpy as np
+import xarray
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from pandas import DataFrame, concat
+
+from scene import Cylinder, Plane, Program, Scene
+
+from ..report.page import Plot, Tables
+from ..report.views import ROW, SURFACE, smooth_radius
+from . import shades, style, touching
+from .lettering import lettered
+from .prefixes import prefixed
+
+NAME = "contact"
+PRESSURE, LINES, PROGRAM = f"{NAME}-pressure", f"{NAME}-line-force", f"{NAME}-program"
+SECTIONS = {"BEM": f"{NAME}-section-3d", "MDR": f"{NAME}-section-1d"}
+SECTION_TITLES = {"BEM": "3D: section y = 0", "MDR": "1D: row of elements"}
+LINE_FORCES = {"line_force_1d": "MDR", "line_force_3d": "BEM"}
+HISTORIES = "normal_force", "friction_force", "depth"
+STRIPS = 112  # along x, over each of which the force per length is averaged
+ELEMENTS = 56  # of the row that are drawn
+ABOVE, BELOW = 0.45, 0.35  # heights above and below what is shown of the surfaces, of their range
+HIGHEST = 99  # percentile of the pressures in contact at which colours end
+MOST_PIXELS = 4096  # of a side of the map
+PANEL, AROUND, LEGEND = 1.75, 1.2, 0.5  # heights of a panel, around a map, and of the legend [inch]
+BESIDE = 0.75  # what stands beside a map [inch]
+DASHES = (0, (5, 3))
+
+
+def plot(scene: Scene, seen: Mapping[str, xarray.Dataset], program: Tables | None = None, folder="") -> Plot:
+    """Plot of a contact, of which something is known.
+
+    seen : "surface" (y, x) and "row" (x), as `report.views.view` returns them
+    program : time, normal_force, friction_force and depth in SI units by the name of the solver
+    """
+    tables: dict[str, DataFrame] = {}
+    options: dict[str, Any] = {"radius": smooth_radius(scene)}
+    if SURFACE in seen:
+        surface, alike = seen[SURFACE], seen[SURFACE].sizes["y"] == 1
+        pixel = float(surface["x"][1] - surface["x"][0])
+        first, last, aside = (float(each) for each in (*surface["x"][[0, -1]], surface["y"].max()))
+        options |= {"span": [first - pixel / 2, last + pixel / 2], "aside": aside + pixel / 2, "pixel": pixel}
+        pressed = surface["pressure"].to_dataframe().reset_index().query("pressure > 0")
+        if len(pressed) and not alike:
+            tables[PRESSURE] = pressed[["x", "y", "pressure"]]
+        lines = line_forces(surface, seen.get(ROW))
+        if alike or "line_force_1d" in lines:
+            tables[LINES] = lines
+        middle = surface.sel(y=0.0, method="nearest").reset_coords(drop=True)
+        height, touched = -middle["displacement"], middle["pressure"] > 0
+        section = xarray.Dataset({"indenter": height + middle["gap"], "surface": height, "touching": touched})
+        tables[SECTIONS["BEM"]] = section.to_dataframe().reset_index()
+    if ROW in seen:
+        row = seen[ROW][["indenter", "surface", "touching"]].reset_coords(drop=True)
+        tables[SECTIONS["MDR"]] = section_1d = row.to_dataframe().reset_index()
+        options.setdefault("span", section_1d["x"].iloc[[0, -1]].tolist())
+    if program:
+        tables[PROGRAM] = concat([each.assign(solver=name) for name, each in program.items()], ignore_index=True)
+        options["unit"] = "N/m" if isinstance(scene.indenter, Cylinder) else "N"
+    motion = scene.motion
+    options["flow"] = touching.flow(motion.stages[-1].speed if isinstance(motion, Program) else motion.speed)
+    told = {
+        "Pressure in 3D, colours cut at the 99th percentile.": PRESSURE in tables,
+        "Force per length: the pressure integrated over y, and the force of the elements in 1D.": ROW in seen,
+        "Sections: rigid indenter (grey) and elastomer, heights exaggerated.": bool(seen),
+        "One cell, which repeats.": isinstance(scene.indenter, Plane),
+        "Each model has a rough surface of its own.": ROW in seen and scene.roughness is not None,
+        "Force and depth in time; what else is shown is the end of the program.": bool(program),
+    }
+    caption = " ".join(sentence for sentence, holds in told.items() if holds)
+    alternative = "Map of pressure, force per length, and sections through indenter and elastomer in 3D and 1D."
+    return Plot(f"{folder}{NAME}", figure, tables, caption, alternative, options)
+
+
+def figure(
+    tables: Tables,
+    span: tuple[float, float] = (0.0, 0.0),
+    aside: float = 0.0,
+    pixel: float = 1.0,
+    radius: float | None = None,
+    flow: str = "",
+    unit: str = "N",
+) -> Figure:
+    """A panel for each table, two a row; of a program two panels, forces and depth.
+
+    span, aside : first and last x, farthest y [m]; pixel : of the map [m]
+    radius : of the smooth relaxed contact [m]; flow : which way the indenter slides, in words
+    unit : of forces in time
+    """
+    count = len(tables) + (PROGRAM in tables)
+    heights = [PANEL] * ceil(count / 2)
+    if PRESSURE in tables:
+        tall = min(1.0, 2 * aside / (span[1] - span[0]))
+        heights[0] = max(PANEL, (style.across("double") / 2 - BESIDE) * tall + AROUND)
+    drawing = style.canvas("double", sum(heights) + LEGEND)
+    panels = drawing.subplots(len(heights), min(2, count), squeeze=False, height_ratios=heights).ravel()
+    free = iter(panels)
+    if PRESSURE in tables:
+        pressure_map(next(free), tables[PRESSURE], span, aside, pixel, radius)
+    if LINES in tables:
+        _line_forces(next(free), tables[LINES], span)
+    sections = {solver: tables[name] for solver, name in SECTIONS.items() if name in tables}
+    for solver, table in sections.items():
+        section(next(free), table, solver, span, heights_of([*sections.values()]))
+    if PROGRAM in tables:
+        _in_time(next(free), tables[PROGRAM], "force", unit, normal_force="", friction_force=": friction")
+        _in_time(next(free), tables[PROGRAM], "depth", "m", depth="")
+    for axes in free:
+        axes.remove()
+    lettered(panels[:count])
+    if len(tables) > (PROGRAM in tables):
+        panels[0].set_title(flow, loc="right", fontsize=style.small(), fontweight="normal")
+    handles = {handle.get_label(): handle for axes in panels for handle in axes.get_legend_handles_labels()[0]}
+    style.legend(drawing, [*handles.values()], "outside lower center", 4)
+    style.lay_out(drawing, passes=2)  # a map of equal scales finds its place in the second pass
+    return drawing
+
+
+def pressure_map(axes: Axes, table: DataFrame, span, aside, pixel, radius) -> None:
+    """Map of the pressure on what touches, with its bar below."""
+    (along, unit), highest = prefixed([*span, aside], "m"), float(np.percentile(table["pressure"], HIGHEST))
+    up, pascal = prefixed(highest, "Pa")
+    ends = np.array([span, (-aside, aside)])
+    bins = [min(MOST_PIXELS, round(length / pixel)) for length in np.ptp(ends, axis=1)]
+    look: dict[str, Any] = {"cmap": "viridis_r", "vmin": 0.0, "vmax": up * highest, "rasterized": True}
+    x, y, pressure = (table[name] for name in ("x", "y", "pressure"))
+    look |= {"range": along * ends, "weights": up * pressure, "cmin": np.finfo(float).tiny}
+    *_, image = axes.hist2d(along * x, along * y, bins, **look)
+    axes.set_facecolor(touching.elastomer())
+    if radius is not None:
+        angle = np.linspace(0, 2 * np.pi, 181)
+        look = style.line(0.0, 0.65, linestyle="--", label="smooth, relaxed contact")
+        axes.plot(along * radius * np.cos(angle), along * radius * np.sin(angle), **look)
+    axes.set(xlim=along * ends[0], ylim=along * ends[1], aspect="equal", anchor="W")
+    axes.set(xlabel=f"x [{unit}]", ylabel=f"y [{unit}]", title="3D: real contact")
+    shades.colours(axes.figure, image, f"pressure [{pascal}]", ax=axes, location="bottom", extend="max", aspect=32)
+
+
+def _line_forces(axes: Axes, lines: DataFrame, span) -> None:
+    """Panel of the force per length of both models, or of the pressure of a contact that is alike along y."""
+    forces = lines.drop(columns="x")
+    quantity, unit = ("force per length", "N/m") if len(forces.columns) > 1 else ("pressure", "Pa")
+    (along, metres), (up, name) = prefixed(span, "m"), prefixed(forces, unit)
+    for column in map(str, forces):
+        look = _broad(LINE_FORCES[column])
+        axes.plot(along * lines["x"], up * lines[column], drawstyle="steps-mid", **look)
+    axes.set(xlim=[along * end for end in span], xlabel=f"x [{metres}]", ylabel=f"{quantity} [{name}]")
+    axes.set_ylim(bottom=0)
+    axes.set_title(quantity)
+
+
+def section(axes: Axes, table: DataFrame, solver: str, span, limits) -> None:
+    """Both bodies over a span of x between two heights [m], real contact in bold; in 1D some of the elements."""
+    (along, x_unit), (up, unit) = prefixed(span, "m"), prefixed(limits, "m")
+    x, ends, touched = along * table["x"], [up * limit for limit in limits], table["touching"].to_numpy(bool)
+    if solver == "MDR":
+        some = table[:: max(1, len(table) // ELEMENTS)]
+        colours = [style.COLOUR[solver] if pressed else touching.skin() for pressed in some["touching"]]
+        axes.vlines(along * some["x"], ends[0], up * some["surface"], color=colours, linewidth=style.width(0.6))
+    axes.axhline(0.0, **style.line(0.35, 0.5, linestyle=DASHES, zorder=1.5, label="undeformed surface"))
+    # A marker, too, since contact may be at one point.
+    bold = {"color": style.COLOUR[solver], "marker": ".", "markersize": style.width(2.2), "markeredgewidth": 0}
+    lines = touching.bodies(axes, x, up * table["indenter"], up * table["surface"], touched, ends, **bold)
+    for line, label in zip(lines, ("surface", f"real contact, {style.label(solver)[:2]}"), strict=True):
+        line.set_label(label)
+    axes.set(xlim=[along * end for end in span], ylim=ends, title=SECTION_TITLES[solver])
+    axes.set(xlabel=f"x [{x_unit}]", ylabel=f"height [{unit}]")
+
+
+def heights_of(sections: Sequence[DataFrame]) -> tuple[float, float]:
+    """(lowest, highest) [m] of panels that show these sections."""
+    seen = np.concatenate([[0.0], *(each["surface"] for each in sections)])
+    low, high = np.nanmin(seen), np.nanmax(seen)
+    room = (high - low) or 1e-9
+    return float(low - BELOW * room), float(high + ABOVE * room)
+
+
+def _in_time(axes: Axes, table: DataFrame, quantity: str, unit: str, **columns: str) -> None:
+    """Panel of a quantity in time, of each model. columns : labels, empty of the first"""
+    (scale, seconds), (up, name) = prefixed(table["time"], "s"), prefixed(table[[*columns]], unit)
+    for solver, own in table.groupby("solver"):
+        for (column, label), dashes in zip(columns.items(), style.SERIES_LINES, strict=False):
+            look = _broad(str(solver)) | {"linestyle": dashes}
+            look["label"] += label
+            axes.plot(scale * own["time"], up * own[column], **look)
+    axes.set(xlabel=f"time [{seconds}]", ylabel=f"{quantity} [{name}]", title=f"{quantity} in time")
+
+
+def _broad(solver: str) -> dict[str, Any]:
+    """Look of a curve; in 1D it is broad and lies below, since both may agree."""
+    width, order = (0.9, 3) if solver == "BEM" else (1.8, 2)
+    return style.look(solver, marker="", linestyle="-", linewidth=style.width(width), zorder=order)
+
+
+def line_forces(surface: xarray.Dataset, row: xarray.Dataset | None) -> DataFrame:
+    """Force per length of both models [N/m], means over strips along x; in 3D the pressure is integrated over y.
+
+    Of a contact that is alike along y it is the force per length and width of the line [N/m²].
+    """
+    x, pressure = surface["x"].values, surface["pressure"].values
+    half, width = (x[1] - x[0]) / 2, 1.0 if surface.sizes["y"] == 1 else float(np.diff(surface["y"].values[:2])[0])
+    ends = np.append(x - half, x[-1] + half)
+    edges = np.linspace(ends[0], ends[-1], STRIPS + 1)
+    found = {"x": (edges[1:] + edges[:-1]) / 2}
+    if row is not None and "line_force" in row:
+        found["line_force_1d"] = _means(row["x"].values, row["line_force"].values[:-1], edges)
+    found["line_force_3d"] = _means(ends, width * pressure.sum(axis=0), edges)
+    return DataFrame(found)
+
+
+def _means(ends, values, edges):
+    """Means between edges of what is constant between ends, and zero beyond."""
+    sums = np.concatenate([[0.0], np.cumsum(values * np.diff(ends))])
+    return np.diff(np.interp(edges, ends, sums)) / np.diff(edges)
