@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from pandas import DataFrame, concat
 
-from scene import Cylinder, Plane, Program, Scene
+from scene import Cylinder, Program, Scene
 
 from ..report.page import Plot, Tables
 from ..report.views import ROW, SURFACE, smooth_radius
@@ -23,6 +23,7 @@ PRESSURE, LINES, PROGRAM = f"{NAME}-pressure", f"{NAME}-line-force", f"{NAME}-pr
 SECTIONS = {"BEM": f"{NAME}-section-3d", "MDR": f"{NAME}-section-1d"}
 SECTION_TITLES = {"BEM": "3D: section y = 0", "MDR": "1D: row of elements"}
 LINE_FORCES = {"line_force_1d": "MDR", "line_force_3d": "BEM"}
+HEIGHTS = "indenter", "surface", "touching"
 HISTORIES = "normal_force", "friction_force", "depth"
 STRIPS = 112  # along x, over each of which the force per length is averaged
 ELEMENTS = 56  # of the row that are drawn
@@ -34,66 +35,61 @@ BESIDE = 0.75  # what stands beside a map [inch]
 DASHES = (0, (5, 3))
 
 
-def plot(scene: Scene, seen: Mapping[str, xarray.Dataset], program: Tables | None = None, folder="") -> Plot:
+def plot(
+    scene: Scene,
+    seen: Mapping[str, xarray.Dataset],
+    program: Mapping[str, xarray.Dataset] | None = None,
+    folder: str = "",
+) -> Plot:
     """Plot of a contact, of which something is known.
 
     seen : "surface" (y, x) and "row" (x), as `report.views.view` returns them
-    program : time, normal_force, friction_force and depth in SI units by the name of the solver
+    program : normal_force, friction_force and depth (time) by the name of the solver
     """
     tables: dict[str, DataFrame] = {}
     options: dict[str, Any] = {"radius": smooth_radius(scene)}
+    sections = {"MDR": seen[ROW]} if ROW in seen else {}
     if SURFACE in seen:
         surface, alike = seen[SURFACE], seen[SURFACE].sizes["y"] == 1
-        pixel = float(surface["x"][1] - surface["x"][0])
-        first, last, aside = (float(each) for each in (*surface["x"][[0, -1]], surface["y"].max()))
-        options |= {"span": [first - pixel / 2, last + pixel / 2], "aside": aside + pixel / 2, "pixel": pixel}
-        pressed = surface["pressure"].to_dataframe().reset_index().query("pressure > 0")
+        pressed, lines = surface["pressure"].to_dataframe().reset_index(), line_forces(surface, seen.get(ROW))
+        pressed = pressed[pressed["pressure"] > 0]
         if len(pressed) and not alike:
-            tables[PRESSURE] = pressed[["x", "y", "pressure"]]
-        lines = line_forces(surface, seen.get(ROW))
+            tables[PRESSURE] = pressed
+            y = surface["y"].values
+            options["aside"] = float(y[-1] + (y[1] - y[0]) / 2)
         if alike or "line_force_1d" in lines:
             tables[LINES] = lines
-        middle = surface.sel(y=0.0, method="nearest").reset_coords(drop=True)
+        middle = surface.sel(y=0.0, method="nearest")
         height, touched = -middle["displacement"], middle["pressure"] > 0
-        section = xarray.Dataset({"indenter": height + middle["gap"], "surface": height, "touching": touched})
-        tables[SECTIONS["BEM"]] = section.to_dataframe().reset_index()
-    if ROW in seen:
-        row = seen[ROW][["indenter", "surface", "touching"]].reset_coords(drop=True)
-        tables[SECTIONS["MDR"]] = section_1d = row.to_dataframe().reset_index()
-        options.setdefault("span", section_1d["x"].iloc[[0, -1]].tolist())
+        sections["BEM"] = middle.assign(indenter=height + middle["gap"], surface=height, touching=touched)
+    for solver in SECTIONS.keys() & sections.keys():
+        tables[SECTIONS[solver]] = sections[solver].to_dataframe().reset_index()[["x", *HEIGHTS]]
     if program:
-        tables[PROGRAM] = concat([each.assign(solver=name) for name, each in program.items()], ignore_index=True)
+        histories = [each.to_dataframe().reset_index().assign(solver=name) for name, each in program.items()]
+        tables[PROGRAM] = concat(histories, ignore_index=True)
         options["unit"] = "N/m" if isinstance(scene.indenter, Cylinder) else "N"
     motion = scene.motion
     options["flow"] = touching.flow(motion.stages[-1].speed if isinstance(motion, Program) else motion.speed)
-    told = {
-        "Pressure in 3D, colours cut at the 99th percentile.": PRESSURE in tables,
-        "Force per length: the pressure integrated over y, and the force of the elements in 1D.": ROW in seen,
-        "Sections: rigid indenter (grey) and elastomer, heights exaggerated.": bool(seen),
-        "One cell, which repeats.": isinstance(scene.indenter, Plane),
-        "Each model has a rough surface of its own.": ROW in seen and scene.roughness is not None,
-        "Force and depth in time; what else is shown is the end of the program.": bool(program),
-    }
-    caption = " ".join(sentence for sentence, holds in told.items() if holds)
+    caption = (
+        "Pressure in 3D, colours cut at the 99th percentile; force per length, in 3D the pressure integrated over "
+        "y; sections, heights exaggerated, the rigid indenter grey."
+    )
+    caption += " Each model has a rough surface of its own." if scene.roughness is not None and ROW in seen else ""
+    caption += " All but force and depth is at the end of the program." if program else ""
     alternative = "Map of pressure, force per length, and sections through indenter and elastomer in 3D and 1D."
     return Plot(f"{folder}{NAME}", figure, tables, caption, alternative, options)
 
 
 def figure(
-    tables: Tables,
-    span: tuple[float, float] = (0.0, 0.0),
-    aside: float = 0.0,
-    pixel: float = 1.0,
-    radius: float | None = None,
-    flow: str = "",
-    unit: str = "N",
+    tables: Tables, aside: float = 1.0, radius: float | None = None, flow: str = "", unit: str = "N"
 ) -> Figure:
     """A panel for each table, two a row; of a program two panels, forces and depth.
 
-    span, aside : first and last x, farthest y [m]; pixel : of the map [m]
-    radius : of the smooth relaxed contact [m]; flow : which way the indenter slides, in words
-    unit : of forces in time
+    aside : farthest y of the map [m]; radius : of the smooth relaxed contact [m]
+    flow : which way the indenter slides, in words; unit : of forces in time
     """
+    sections = {solver: tables[name] for solver, name in SECTIONS.items() if name in tables}
+    span: list[float] = next((table["x"].iloc[[0, -1]].tolist() for table in sections.values()), [])
     count = len(tables) + (PROGRAM in tables)
     heights = [PANEL] * ceil(count / 2)
     if PRESSURE in tables:
@@ -103,10 +99,9 @@ def figure(
     panels = drawing.subplots(len(heights), min(2, count), squeeze=False, height_ratios=heights).ravel()
     free = iter(panels)
     if PRESSURE in tables:
-        pressure_map(next(free), tables[PRESSURE], span, aside, pixel, radius)
+        pressure_map(next(free), tables[PRESSURE], sections["BEM"]["x"], aside, radius)
     if LINES in tables:
         _line_forces(next(free), tables[LINES], span)
-    sections = {solver: tables[name] for solver, name in SECTIONS.items() if name in tables}
     for solver, table in sections.items():
         section(next(free), table, solver, span, heights_of([*sections.values()]))
     if PROGRAM in tables:
@@ -115,7 +110,7 @@ def figure(
     for axes in free:
         axes.remove()
     lettered(panels[:count])
-    if len(tables) > (PROGRAM in tables):
+    if sections:
         panels[0].set_title(flow, loc="right", fontsize=style.small(), fontweight="normal")
     handles = {handle.get_label(): handle for axes in panels for handle in axes.get_legend_handles_labels()[0]}
     style.legend(drawing, [*handles.values()], "outside lower center", 4)
@@ -123,22 +118,22 @@ def figure(
     return drawing
 
 
-def pressure_map(axes: Axes, table: DataFrame, span, aside, pixel, radius) -> None:
-    """Map of the pressure on what touches, with its bar below."""
-    (along, unit), highest = prefixed([*span, aside], "m"), float(np.percentile(table["pressure"], HIGHEST))
+def pressure_map(axes: Axes, table: DataFrame, places, aside: float, radius: float | None) -> None:
+    """Map of the pressure on what touches, with its bar below. places : x of its columns [m]"""
+    (along, unit), highest = prefixed([*places, aside], "m"), float(np.percentile(table["pressure"], HIGHEST))
     up, pascal = prefixed(highest, "Pa")
-    ends = np.array([span, (-aside, aside)])
-    bins = [min(MOST_PIXELS, round(length / pixel)) for length in np.ptp(ends, axis=1)]
+    half = (places.iloc[1] - places.iloc[0]) / 2
+    ends = along * np.array([[places.iloc[0] - half, places.iloc[-1] + half], [-aside, aside]])
     look: dict[str, Any] = {"cmap": "viridis_r", "vmin": 0.0, "vmax": up * highest, "rasterized": True}
-    x, y, pressure = (table[name] for name in ("x", "y", "pressure"))
-    look |= {"range": along * ends, "weights": up * pressure, "cmin": np.finfo(float).tiny}
-    *_, image = axes.hist2d(along * x, along * y, bins, **look)
+    look |= {"range": ends, "weights": up * table["pressure"], "cmin": np.finfo(float).tiny}
+    bins = len(places), min(MOST_PIXELS, round(aside / half))
+    *_, image = axes.hist2d(along * table["x"], along * table["y"], bins, **look)
     axes.set_facecolor(touching.elastomer())
     if radius is not None:
         angle = np.linspace(0, 2 * np.pi, 181)
         look = style.line(0.0, 0.65, linestyle="--", label="smooth, relaxed contact")
         axes.plot(along * radius * np.cos(angle), along * radius * np.sin(angle), **look)
-    axes.set(xlim=along * ends[0], ylim=along * ends[1], aspect="equal", anchor="W")
+    axes.set(xlim=ends[0], ylim=ends[1], aspect="equal", anchor="W")
     axes.set(xlabel=f"x [{unit}]", ylabel=f"y [{unit}]", title="3D: real contact")
     shades.colours(axes.figure, image, f"pressure [{pascal}]", ax=axes, location="bottom", extend="max", aspect=32)
 

@@ -138,7 +138,7 @@ class Drawing(Study):
         answer = [f"{each.claim.sentence}: {words.found(each)}." for each in findings]
         seen = {name: answers[name].to_dataset() for name in (SURFACE, ROW) if name in answers}
         marched = answers[PROGRAM].children if PROGRAM in answers else {}
-        program = {name: each.to_dataset().to_dataframe().reset_index() for name, each in marched.items()}
+        program = {name: each.to_dataset() for name, each in marched.items()}
         shown = contact.plot(self.case.scene, seen, program)
         return Judgement(findings, answer, [shown, *said], self.setting)
 
