@@ -1,6 +1,7 @@
 """One contact, 3D beside 1D: pressure from above, force per length, sections of both bodies; a program in time."""
 
 from collections.abc import Mapping, Sequence
+from itertools import product
 from math import ceil
 from typing import Any
 
@@ -22,7 +23,6 @@ NAME = "contact"
 PRESSURE, LINES, PROGRAM = f"{NAME}-pressure", f"{NAME}-line-force", f"{NAME}-program"
 SECTIONS = {"BEM": f"{NAME}-section-3d", "MDR": f"{NAME}-section-1d"}
 SECTION_TITLES = {"BEM": "3D: section y = 0", "MDR": "1D: row of elements"}
-LINE_FORCES = {"line_force_1d": "MDR", "line_force_3d": "BEM"}
 HEIGHTS = "indenter", "surface", "touching"
 HISTORIES = "normal_force", "friction_force", "depth"
 STRIPS = 112  # along x, over each of which the force per length is averaged
@@ -143,9 +143,16 @@ def _line_forces(axes: Axes, lines: DataFrame, span) -> None:
     forces = lines.drop(columns="x")
     quantity, unit = ("force per length", "N/m") if len(forces.columns) > 1 else ("pressure", "Pa")
     (along, metres), (up, name) = prefixed(span, "m"), prefixed(forces, unit)
-    for column in map(str, forces):
-        look = _broad(LINE_FORCES[column])
-        axes.plot(along * lines["x"], up * lines[column], drawstyle="steps-mid", **look)
+    x, three = along * lines["x"], style.look("BEM", marker="", linestyle="-")
+    if len(forces.columns) > 1:
+        one: dict[str, Any] = {
+            "color": style.COLOUR["MDR"],
+            "alpha": 0.45,
+            "linewidth": 0,
+            "label": style.label("MDR"),
+        }
+        axes.fill_between(x, up * lines["line_force_1d"], step="mid", **one)
+    axes.plot(x, up * lines["line_force_3d"], drawstyle="steps-mid", **three)
     axes.set(xlim=[along * end for end in span], xlabel=f"x [{metres}]", ylabel=f"{quantity} [{name}]")
     axes.set_ylim(bottom=0)
     axes.set_title(quantity)
@@ -163,7 +170,7 @@ def section(axes: Axes, table: DataFrame, solver: str, span, limits) -> None:
     # A marker, too, since contact may be at one point.
     bold = {"color": style.COLOUR[solver], "marker": ".", "markersize": style.width(2.2), "markeredgewidth": 0}
     lines = touching.bodies(axes, x, up * table["indenter"], up * table["surface"], touched, ends, **bold)
-    for line, label in zip(lines, ("surface", f"real contact, {style.label(solver)[:2]}"), strict=True):
+    for line, label in zip(lines, ("surface", "real contact"), strict=True):
         line.set_label(label)
     axes.set(xlim=[along * end for end in span], ylim=ends, title=SECTION_TITLES[solver])
     axes.set(xlabel=f"x [{x_unit}]", ylabel=f"height [{unit}]")
@@ -180,18 +187,12 @@ def heights_of(sections: Sequence[DataFrame]) -> tuple[float, float]:
 def _in_time(axes: Axes, table: DataFrame, quantity: str, unit: str, **columns: str) -> None:
     """Panel of a quantity in time, of each model. columns : labels, empty of the first"""
     (scale, seconds), (up, name) = prefixed(table["time"], "s"), prefixed(table[[*columns]], unit)
-    for solver, own in table.groupby("solver"):
-        for (column, label), dashes in zip(columns.items(), style.SERIES_LINES, strict=False):
-            look = _broad(str(solver)) | {"linestyle": dashes}
-            look["label"] += label
-            axes.plot(scale * own["time"], up * own[column], **look)
+    dashes = iter(style.SERIES_LINES)
+    for (column, label), solver in product(columns.items(), sorted(set(table["solver"]), reverse=True)):
+        own = table[table["solver"] == solver]
+        look = style.look(solver, marker="", linestyle=next(dashes), label=style.label(solver) + label)
+        axes.plot(scale * own["time"], up * own[column], **look)
     axes.set(xlabel=f"time [{seconds}]", ylabel=f"{quantity} [{name}]", title=f"{quantity} in time")
-
-
-def _broad(solver: str) -> dict[str, Any]:
-    """Look of a curve; in 1D it is broad and lies below, since both may agree."""
-    width, order = (0.9, 3) if solver == "BEM" else (1.8, 2)
-    return style.look(solver, marker="", linestyle="-", linewidth=style.width(width), zorder=order)
 
 
 def line_forces(surface: xarray.Dataset, row: xarray.Dataset | None) -> DataFrame:

@@ -24,7 +24,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure, SubFigure
 from matplotlib.font_manager import FontProperties
-from matplotlib.ticker import LogFormatterSciNotation, LogLocator, NullFormatter
+from matplotlib.ticker import LogFormatterSciNotation, LogLocator, MaxNLocator, NullFormatter
 
 from . import journals
 
@@ -263,8 +263,8 @@ def decades(*panels: Axes) -> None:
         if high < ALIKE * low:
             low, high = low / 1.5, 1.5 * high
             getattr(axis.axes, f"set_{axis.axis_name}lim")(low, high)
-        # Where there are fewer than two of them, matplotlib takes even steps.
-        axis.set_major_locator(LogLocator(subs=(1,) if high >= 100 * low else (1, 2, 5)))
+        powers = LogLocator(subs=(1,) if high >= 100 * low else (1, 2, 5))
+        axis.set_major_locator(powers if high >= 5 * low else MaxNLocator(4))
         axis.set_major_formatter(LogFormatterSciNotation(minor_thresholds=(np.inf, np.inf)))  # every tick has one
         axis.set_minor_formatter(NullFormatter())
         axis.set_tick_params(which="minor", label1On=False)  # or empty labels are measured, which takes longest
