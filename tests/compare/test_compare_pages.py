@@ -25,7 +25,6 @@ from pandas import DataFrame
 from pandas.testing import assert_frame_equal
 from PIL import Image
 
-from compare.figures import touching
 from compare.report import csvfiles, manifest, render, terminal
 from compare.report.export import export
 from compare.report.page import Findings, Page, Plot, Section, Table, Text
@@ -281,8 +280,7 @@ FORGED = [
     ({"tables": "friction"}, "plots.0.tables"),
     ({"options": {"unheard": 1}}, "option unheard"),
     ({"options": {"figsize": [1e9, 1e9]}}, "option figsize"),
-    ({"module": "compare.studies.draw.figure"}, "option enlarged: Missing required argument"),
-    ({"module": "compare.studies.draw.figure", "options": {"enlarged": nan, "highest": 1.0}}, "option enlarged"),
+    ({"module": "compare.figures.contact", "options": {"aside": nan}}, "option aside"),
     ({"options": 3}, "plots.0.options"),
 ]
 
@@ -404,16 +402,6 @@ def test_a_table_comes_back_whatever_its_numbers_are(tmp_path):
             csvfiles.read(tmp_path / "table.csv")
     (tmp_path / "table.csv").write_text(f"a\n{'1' * 30}\n2\n")
     assert csvfiles.read(tmp_path / "table.csv")["a"].tolist() == [float("1" * 30), 2.0]
-
-
-def test_a_map_is_no_larger_than_the_grids_that_are_solved():
-    spread = DataFrame({"x": [0.0, 1.0, 2.0], "y": [0.0, 3.0, 1.0], "pressure": 1.0})
-    assert touching.gridded(spread, "pressure", 1.0)[2].shape == (4, 3)
-    for pixel in (1e-9, nan, 0.0, -1.0, 1e-300):
-        with pytest.raises(ValueError, match="in pixels of"):
-            touching.gridded(spread, "pressure", pixel)
-    with pytest.raises(ValueError, match="not known at every"):
-        touching.unstacked(spread, "x", "y", "pressure")
 
 
 def sealed(path, fill, label=netcdf.LABEL):
