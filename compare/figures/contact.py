@@ -133,7 +133,7 @@ def pressure_map(axes: Axes, table: DataFrame, places, aside: float, radius: flo
         angle = np.linspace(0, 2 * np.pi, 181)
         look = style.line(0.0, 0.65, linestyle="--", label="smooth, relaxed contact")
         axes.plot(along * radius * np.cos(angle), along * radius * np.sin(angle), **look)
-    axes.set(xlim=ends[0], ylim=ends[1], aspect="equal", anchor="W")
+    axes.set(xlim=ends[0], ylim=ends[1], aspect="equal", anchor="NW")
     axes.set(xlabel=f"x [{unit}]", ylabel=f"y [{unit}]", title="3D: real contact")
     shades.colours(axes.figure, image, f"pressure [{pascal}]", ax=axes, location="bottom", extend="max", aspect=32)
 

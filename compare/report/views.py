@@ -120,8 +120,12 @@ def _row(scene, fields, span):
     before, behind = (max(int(np.ceil(length / pixel)), 0) for length in missing)
     places = np.concatenate([x[0] + pixel * np.arange(-before, 0), x, x[-1] + pixel * np.arange(1, behind + 1)])
     surface = np.pad(-fields["displacement"], (before, behind))
+    indenter = np.pad(fields["profile"] - depth, (before, behind), constant_values=np.nan)
+    if scene.roughness is None:  # a smooth body is c |x|^n
+        tip = np.nanmin(indenter)
+        indenter = tip + (indenter[before + len(x) - 1] - tip) * np.abs(places / x[-1]) ** scene.indenter.exponent
     columns = {
-        "indenter": np.pad(fields["profile"] - depth, (before, behind), constant_values=np.nan),
+        "indenter": indenter,
         "surface": surface,
         "touching": np.pad(touching, (before, behind)),
     }

@@ -58,7 +58,7 @@ def figure(plot: Plot, numbers: DataFrame, steep: DataFrame) -> Figure:
     """(a) Contact in 3D, (b) row of springs, (c), (d) friction of both over the shifted load, (e) master curve."""
     drawing = style.canvas("double", 4.6)
     upper, lower = drawing.subfigures(2, 1, height_ratios=(1.25, 1))
-    left, right = upper.subplots(1, 2)
+    left, right = upper.subplots(1, 2, width_ratios=(1, 1.6))
     space, row = (plot.tables[contact.SECTIONS[solver]] for solver in ("BEM", "MDR"))
     contact.pressure_map(left, plot.tables[contact.PRESSURE], space["x"], plot.options["aside"], None)
     left.set_title("(a) 3D: pressure")
