@@ -32,7 +32,6 @@ HIGHEST = 99  # percentile of the pressures in contact at which colours end
 MOST_PIXELS = 4096  # of a side of the map
 PANEL, AROUND, LEGEND = 1.75, 1.2, 0.5  # heights of a panel, around a map, and of the legend [inch]
 BESIDE = 0.75  # what stands beside a map [inch]
-DASHES = (0, (5, 3))
 
 
 def plot(
@@ -72,7 +71,7 @@ def plot(
     options["flow"] = touching.flow(motion.stages[-1].speed if isinstance(motion, Program) else motion.speed)
     caption = (
         "Pressure in 3D, colours cut at the 99th percentile; force per length, in 3D the pressure integrated over "
-        "y; sections, heights exaggerated, the rigid indenter grey."
+        "y; sections, heights exaggerated as stated, the rigid indenter grey."
     )
     caption += " Each model has a rough surface of its own." if scene.roughness is not None and ROW in seen else ""
     caption += " All but force and depth is at the end of the program." if program else ""
@@ -89,6 +88,7 @@ def figure(
     flow : which way the indenter slides, in words; unit : of forces in time
     """
     sections = {solver: tables[name] for solver, name in SECTIONS.items() if name in tables}
+    limits = heights_of([*sections.values()])
     span: list[float] = next((table["x"].iloc[[0, -1]].tolist() for table in sections.values()), [])
     count = len(tables) + (PROGRAM in tables)
     heights = [PANEL] * ceil(count / 2)
@@ -102,19 +102,24 @@ def figure(
         pressure_map(next(free), tables[PRESSURE], sections["BEM"]["x"], aside, radius)
     if LINES in tables:
         _line_forces(next(free), tables[LINES], span)
-    for solver, table in sections.items():
-        section(next(free), table, solver, span, heights_of([*sections.values()]))
+    below = dict(zip(sections, free, strict=False))
+    for solver, axes in below.items():
+        seen, elements = touching.section_of(sections[solver]), ELEMENTS * (solver == "MDR")
+        touching.section(axes, seen, solver, span, limits, elements)
+        axes.set_title(SECTION_TITLES[solver])
     if PROGRAM in tables:
         _in_time(next(free), tables[PROGRAM], "force", unit, normal_force="", friction_force=": friction")
         _in_time(next(free), tables[PROGRAM], "depth", "m", depth="")
     for axes in free:
         axes.remove()
     lettered(panels[:count])
-    if sections:
-        panels[0].set_title(flow, loc="right", fontsize=style.small(), fontweight="normal")
     handles = {handle.get_label(): handle for axes in panels for handle in axes.get_legend_handles_labels()[0]}
     style.legend(drawing, [*handles.values()], "outside lower center", 4)
     style.lay_out(drawing, passes=2)  # a map of equal scales finds its place in the second pass
+    for axes in below.values():
+        touching.exaggeration(axes, span, limits)
+    if sections:
+        touching.beside(panels[0], flow)
     return drawing
 
 
@@ -156,24 +161,6 @@ def _line_forces(axes: Axes, lines: DataFrame, span) -> None:
     axes.set(xlim=[along * end for end in span], xlabel=f"x [{metres}]", ylabel=f"{quantity} [{name}]")
     axes.set_ylim(bottom=0)
     axes.set_title(quantity)
-
-
-def section(axes: Axes, table: DataFrame, solver: str, span, limits) -> None:
-    """Both bodies over a span of x between two heights [m], real contact in bold; in 1D some of the elements."""
-    (along, x_unit), (up, unit) = prefixed(span, "m"), prefixed(limits, "m")
-    x, ends, touched = along * table["x"], [up * limit for limit in limits], table["touching"].to_numpy(bool)
-    if solver == "MDR":
-        some = table[:: max(1, len(table) // ELEMENTS)]
-        colours = [style.COLOUR[solver] if pressed else touching.skin() for pressed in some["touching"]]
-        axes.vlines(along * some["x"], ends[0], up * some["surface"], color=colours, linewidth=style.width(0.6))
-    axes.axhline(0.0, **style.line(0.35, 0.5, linestyle=DASHES, zorder=1.5, label="undeformed surface"))
-    # A marker, too, since contact may be at one point.
-    bold = {"color": style.COLOUR[solver], "marker": ".", "markersize": style.width(2.2), "markeredgewidth": 0}
-    lines = touching.bodies(axes, x, up * table["indenter"], up * table["surface"], touched, ends, **bold)
-    for line, label in zip(lines, ("surface", "real contact"), strict=True):
-        line.set_label(label)
-    axes.set(xlim=[along * end for end in span], ylim=ends, title=SECTION_TITLES[solver])
-    axes.set(xlabel=f"x [{x_unit}]", ylabel=f"height [{unit}]")
 
 
 def heights_of(sections: Sequence[DataFrame]) -> tuple[float, float]:

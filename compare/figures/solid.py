@@ -18,8 +18,13 @@ PLACES = 400
 ROOM = 30.0  # beyond the shortest and the longest time of the solid
 ELASTIC = np.geomspace(1.0, 1e3, PLACES)  # angular frequencies [rad/s] for a solid without times
 DECADES = 4.0  # of moduli below the one at rest that are shown
-PARTS = {"storage": ("-", "o", "storage modulus $G'$"), "loss": ("--", "s", "loss modulus $G''$")}
-OVER_TIME = {"modulus": "relaxation modulus $G(t)$", "compliance": "creep compliance $J(t)$"}
+# Line, marker and name of each quantity.
+LOOKS = {
+    "storage": ("-", "o", "storage modulus $G'$"),
+    "loss": ("--", "s", "loss modulus $G''$"),
+    "modulus": ("-", "o", "relaxation modulus $G(t)$"),
+    "compliance": ("-", "o", "creep compliance $J(t)$"),
+}
 
 
 def plot(scene: Scene) -> Plot:
@@ -56,54 +61,42 @@ def figure(tables: Tables, stiffer: float = 3.0) -> Figure:
     over_time = TIMES in tables
     drawing = style.canvas("double" if over_time else "single", 2.6)
     panels = drawing.subplots(1, 1 + over_time, squeeze=False)[0]
-    _frequencies(panels[0], tables[NAME], tables.get(MEASURED), stiffer)
+    up, unit = prefixed(tables[NAME]["storage"].iloc[0], "Pa")
+    _curves(panels[0], tables[NAME], tables.get(MEASURED), up)
+    panels[0].set(xlabel="angular frequency [rad/s]", ylabel=f"shear modulus [{unit}]")
+    panels[0].set_ylim(bottom=max(panels[0].get_ylim()[0], up * tables[NAME]["storage"].iloc[0] * 10**-DECADES))
+    right = panels[0].twinx()
+    right.set_label("<right axis>")
+    right.spines["right"].set_visible(True)
+    limits = [stiffer * end for end in panels[0].get_ylim()]
+    right.set(yscale="log", ylim=limits, ylabel=f"Young's modulus [{unit}]")
+    style.decades(panels[0], right)
     if over_time:
-        _times(panels[1], tables[TIMES], tables[MEASURED_TIMES])
+        fit, measured = tables[TIMES], tables[MEASURED_TIMES]
+        inverse = "compliance" in fit
+        up, unit = prefixed(1 / measured["compliance"] if inverse else measured["modulus"], "Pa")
+        _curves(panels[1], fit, measured, 1 / up if inverse else up)
+        panels[1].set(xlabel="time [s]", ylabel=f"{fit.columns[1]} [{'1/' * inverse}{unit}]")
+        style.decades(panels[1])
         panels[0].set_title("moduli of the fit")
         panels[1].set_title("as measured")
         lettered(panels)
     return drawing
 
 
-def _frequencies(axes: Axes, table: DataFrame, measured: DataFrame | None, stiffer: float) -> None:
-    """Panel of both moduli; a modulus that is zero is left out."""
-    up, unit = prefixed(table["storage"].iloc[0], "Pa")
-    for name, (line, marker, label) in PARTS.items():
-        if (table[name] > 0).any():
-            axes.plot(table["omega"], up * table[name], line, color=style.ink(), label=label)
+def _curves(axes: Axes, fit: DataFrame, measured: DataFrame | None, up: float) -> None:
+    """Lines of the fit and points of the table over its first column; what is zero is left out."""
+    along = fit.columns[0]
+    axes.set(xscale="log", yscale="log", xlim=fit[along].iloc[[0, -1]])
+    for name in fit.columns[1:]:
+        line, marker, label = LOOKS[name]
+        if (fit[name] > 0).any():
+            axes.plot(fit[along], up * fit[name], line, color=style.ink(), label=label)
         if measured is not None:
-            filled = style.ink() if name == "storage" else style.paper()
-            _points(axes, measured["omega"], up * measured[name], marker, filled)
-    axes.set(xscale="log", yscale="log", xlabel="angular frequency [rad/s]", ylabel=f"shear modulus [{unit}]")
-    axes.set_xlim(table["omega"].iloc[0], table["omega"].iloc[-1])
-    axes.set_ylim(bottom=max(axes.get_ylim()[0], up * table["storage"].iloc[0] * 10**-DECADES))
-    right = axes.twinx()
-    right.set_label("<right axis>")
-    right.spines["right"].set_visible(True)
-    right.set(yscale="log", ylim=[stiffer * end for end in axes.get_ylim()], ylabel=f"Young's modulus [{unit}]")
-    style.decades(axes, right)
+            filled = style.paper() if name == "loss" else style.ink()
+            look = style.line(0.0, marker=marker, markersize=style.mark(0.8), markerfacecolor=filled)
+            axes.plot(measured[along], up * measured[name], linestyle="", label="measured", **look)
     axes.legend()
-
-
-def _times(axes: Axes, table: DataFrame, measured: DataFrame) -> None:
-    """Panel of what was measured over time, and of the fit."""
-    (name,) = table.columns.drop("time")
-    up, unit = prefixed(measured[name] if name == "modulus" else 1 / measured[name], "Pa")
-    if name == "compliance":
-        up, unit = 1 / up, f"1/{unit}"
-    axes.plot(table["time"], up * table[name], "-", color=style.ink(), label="fit")
-    _points(axes, measured["time"], up * measured[name], "o", style.ink())
-    axes.set(xscale="log", yscale="log", xlabel="time [s]", ylabel=f"{OVER_TIME[name]} [{unit}]")
-    style.decades(axes)
-    axes.legend()
-
-
-def _points(axes: Axes, x, y, marker: str, filled: str) -> None:
-    """Points of a table."""
-    size = style.mark(0.8)
-    axes.plot(
-        x, y, marker, color=style.ink(), markersize=size, markerfacecolor=filled, label="measured", linestyle=""
-    )
 
 
 def _moduli(omega, modulus):

@@ -18,6 +18,7 @@ from scene.printable import brief
 from scene.reading import InvalidInput
 
 from ..figures import style as looks
+from ..figures.journals import COLUMNS
 from ..figures.rendering import FORMS, picture
 from ..solving import netcdf, parameter_grid
 from ..solving.folders import hold
@@ -51,6 +52,7 @@ def export(
     if "vtk" in formats:
         vtk.refuse()
     look = looks.Look(journal or "default", style, width)
+    known("journal", look.journal, COLUMNS)
     try:
         with looks.applied(look):
             pass
