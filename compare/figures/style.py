@@ -186,7 +186,7 @@ def png(drawing: Figure) -> bytes:
     """A figure as a screen shows it."""
     image = BytesIO()
     with applied(SCREEN):
-        drawing.canvas.print_figure(image, format="png", dpi=rcParams["savefig.dpi"])
+        drawing.canvas.print_figure(image, format="png")
     return image.getvalue()
 
 
