@@ -233,9 +233,11 @@ def test_every_panel_has_its_letter(name):
 
 @every_figure
 def test_a_style_of_ones_own_holds_in_every_figure(name):
-    """A quarter more text, twice the lines, in another font."""
+    """A quarter more text, twice the lines, in another font and on black; the colours of models stay."""
     sheet = {"font.size": 10, "lines.linewidth": 2.2, "lines.markersize": 8, "font.family": "serif"}
-    styled = drawn(name, style.Look(sheet=sheet))
+    styled = drawn(name, style.Look(sheet=sheet | {"axes.facecolor": "black", "text.color": "white"}))
+    for solver in style.COLOURS.values():
+        assert _uses(plain(name), solver) == _uses(styled, solver)
     sizes, larger = (max(text.get_fontsize() for text in _written(each)) for each in (plain(name), styled))
     assert larger == pytest.approx(1.25 * sizes, rel=ROUNDING)
     assert {text.get_fontfamily()[0] for text in _written(styled)} == {"serif"}
@@ -251,13 +253,6 @@ def _widths(drawing):
     """Of curves, not of axes, ticks and edges of markers."""
     lines = (line for axes in drawing.axes for line in axes.lines)
     return [line.get_linewidth() for line in lines if line.get_linestyle() not in ("None", "")]
-
-
-@every_figure
-def test_the_colours_of_both_dimensionalities_stay_whatever_the_style(name):
-    styled = drawn(name, style.Look(sheet="dark_background"))
-    for solver in style.COLOURS.values():
-        assert _uses(plain(name), solver) == _uses(styled, solver)
 
 
 def _uses(drawing, colour):
