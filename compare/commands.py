@@ -442,11 +442,11 @@ def export(
 
 @checked
 def draw(scene: SceneFile, output: Output = "crosscheck-draw", **options: Unpack[Options]) -> Report:
-    """Draw the contact in 3D and the row of springs in 1D.
+    """Draw the contact in 3D and the row of elements in 1D.
 
-    The surface of the elastomer is coloured by pressure, with its wake; beside it stand the forces of both models.
-    Of a program a second figure shows the forces in time and the contact at a few instants.
+    A map of the pressure in 3D, the force per length of both models, and a section of each with its wake. Of a
+    program also forces and depth in time.
     """
-    from .studies.draw.study import Drawing
+    from .studies.draw import Drawing
 
     return solve(Drawing.of(scene), output, **options)

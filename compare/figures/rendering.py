@@ -1,19 +1,22 @@
 """Figures as files: PNG, PDF and SVG, the same bytes for the same tables."""
 
 import io
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from matplotlib import rc_context
+from matplotlib import rcParams
 from matplotlib.figure import Figure
+
+from scene.reading import InvalidInput
 
 from ..report.page import Plot
 from . import style
 
 FORMS = ("png", "pdf", "svg")
-DOTS_PER_INCH = 300
 # What is said of a file, without the date: the same numbers give the same file.
 METADATA: Mapping[str, Mapping[str, None]] = {"pdf": {"CreationDate": None}, "svg": {"Date": None}, "png": {}}
+NO_ROOM = "constrained_layout not applied"
 
 
 @dataclass(frozen=True)
@@ -32,41 +35,37 @@ class Picture:
         return {f"{name}.{form}": content for form, content in self.files.items()}
 
 
-def picture(plot: Plot, forms: Sequence[str] = FORMS[:1]) -> Picture:
-    """Draw a plot in the current look, with a PNG whatever the forms.
+def picture(plot: Plot, forms: Sequence[str] = FORMS[:1], look: style.Look = style.PRINT) -> Picture:
+    """Draw a plot in a look, with a PNG whatever the forms; vector files hold images at the resolution of the PNG.
 
     Raises InvalidInput where the look has text too large for the figure.
-    """
-    with style.applied():
-        return rendered(finished(plot), ("png", *(form for form in forms if form != "png")))
-
-
-def finished(plot: Plot) -> Figure:
-    """The figure of a plot in the current look, laid out for its PNG: whatever saves it later cuts nothing off.
-
-    Raises InvalidInput where the look has text too large for the figure.
-    """
-    with style.applied(), style.fitting(plot.name):
-        drawing = plot.figure()
-        drawing.set_dpi(DOTS_PER_INCH)
-        style.lay_out(drawing)
-        return drawing
-
-
-def rendered(drawing: Figure, forms: Sequence[str] = FORMS) -> Picture:
-    """A figure in some forms, all in one layout; the style has to be applied.
-
-    Vector files hold images, if any, at the resolution of the PNG.
     """
     files = {}
-    drawing.set_dpi(DOTS_PER_INCH)
-    style.lay_out(drawing)
-    # As wide as the journal says, whatever a style of one's own says; a figure with any engine is drawn twice.
-    with rc_context({"savefig.bbox": None, "figure.constrained_layout.use": False}):
-        drawing.set_layout_engine(None)
-        for form in forms:
+    drawing = finished(plot, look)
+    with style.applied(look):
+        # As wide as the journal says, whatever a style of one's own says.
+        whole = drawing.bbox_inches
+        for form in ("png", *(form for form in forms if form != "png")):
             file = io.BytesIO()
-            drawing.savefig(file, format=form, dpi=DOTS_PER_INCH, metadata=dict(METADATA[form]))
+            drawing.savefig(file, format=form, bbox_inches=whole, metadata=dict(METADATA[form]))
             files[form] = file.getvalue()
-    width, height = drawing.get_size_inches()
-    return Picture(files, (float(width), float(height)))
+    return Picture(files, (float(whole.width), float(whole.height)))
+
+
+def finished(plot: Plot, look: style.Look = style.PRINT) -> Figure:
+    """The figure of a plot, laid out for its PNG: whatever saves it later cuts nothing off.
+
+    Raises InvalidInput where the look has text too large for the figure.
+    """
+    with style.applied(look), warnings.catch_warnings():
+        warnings.filterwarnings("error", NO_ROOM, UserWarning)
+        try:
+            drawing = plot.figure()
+            drawing.set_dpi(rcParams["savefig.dpi"])
+            style.lay_out(drawing)
+        except UserWarning as warning:
+            if NO_ROOM not in str(warning):
+                raise
+            text = f"text of {style.size():g} points leaves its panels no room: a lower font.size is needed"
+            raise InvalidInput(f"{plot.name}: {text}") from None
+    return drawing

@@ -1,6 +1,4 @@
-"""Moduli of the solid of a scene against the frequency, beside what was measured of it."""
-
-from typing import Any
+"""Moduli of the solid of a scene against the frequency, and what was measured of it."""
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -11,7 +9,7 @@ from scene import CreepTable, Scene, Table, Tabulated
 
 from ..report.page import Plot, Tables
 from . import style
-from .lettering import letter
+from .lettering import lettered
 from .prefixes import prefixed
 
 NAME = "solid"
@@ -20,8 +18,13 @@ PLACES = 400
 ROOM = 30.0  # beyond the shortest and the longest time of the solid
 ELASTIC = np.geomspace(1.0, 1e3, PLACES)  # angular frequencies [rad/s] for a solid without times
 DECADES = 4.0  # of moduli below the one at rest that are shown
-PARTS = {"storage": ("-", "o", "storage modulus $G'$"), "loss": ("--", "s", "loss modulus $G''$")}
-OVER_TIME = {"modulus": "relaxation modulus $G(t)$", "compliance": "creep compliance $J(t)$"}
+# Line, marker and name of each quantity.
+LOOKS = {
+    "storage": ("-", "o", "storage modulus $G'$"),
+    "loss": ("--", "s", "loss modulus $G''$"),
+    "modulus": ("-", "o", "relaxation modulus $G(t)$"),
+    "compliance": ("-", "o", "creep compliance $J(t)$"),
+}
 
 
 def plot(scene: Scene) -> Plot:
@@ -43,7 +46,7 @@ def plot(scene: Scene) -> Plot:
             time = np.geomspace(place[0], place[-1], PLACES) * longer
             tables[TIMES] = DataFrame({"time": time, name: law(time)})
             tables[MEASURED_TIMES] = DataFrame({"time": place * longer, name: numbers})
-        shown += ": lines of the fit, grey beyond the table, points of the table"
+        shown += ": lines of the fit, a guess beyond the table, and points of the table"
     warm = "" if scene.temperature is None else f", at {scene.temperature.temperature:g} K"
     caption = f"{shown}{warm}. Right axis: Young's moduli, by its Poisson ratio of {solid.poisson_ratio:g}."
     alternative = "Storage and loss modulus as two curves against the angular frequency."
@@ -58,61 +61,42 @@ def figure(tables: Tables, stiffer: float = 3.0) -> Figure:
     over_time = TIMES in tables
     drawing = style.canvas("double" if over_time else "single", 2.6)
     panels = drawing.subplots(1, 1 + over_time, squeeze=False)[0]
-    moduli(panels[0], tables[NAME], tables.get(MEASURED), stiffer)
+    up, unit = prefixed(tables[NAME]["storage"].iloc[0], "Pa")
+    _curves(panels[0], tables[NAME], tables.get(MEASURED), up)
+    panels[0].set(xlabel="angular frequency [rad/s]", ylabel=f"shear modulus [{unit}]")
+    panels[0].set_ylim(bottom=max(panels[0].get_ylim()[0], up * tables[NAME]["storage"].iloc[0] * 10**-DECADES))
+    right = panels[0].twinx()
+    right.set_label("<right axis>")
+    right.spines["right"].set_visible(True)
+    limits = [stiffer * end for end in panels[0].get_ylim()]
+    right.set(yscale="log", ylim=limits, ylabel=f"Young's modulus [{unit}]")
+    style.decades(panels[0], right)
     if over_time:
-        in_time(panels[1], tables[TIMES], tables[MEASURED_TIMES])
-        for k, axes in enumerate(panels):
-            axes.set_title(f"({letter(k)}) {('moduli of the fit', 'as measured')[k]}")
+        fit, measured = tables[TIMES], tables[MEASURED_TIMES]
+        inverse = "compliance" in fit
+        up, unit = prefixed(1 / measured["compliance"] if inverse else measured["modulus"], "Pa")
+        _curves(panels[1], fit, measured, 1 / up if inverse else up)
+        panels[1].set(xlabel="time [s]", ylabel=f"{fit.columns[1]} [{'1/' * inverse}{unit}]")
+        style.decades(panels[1])
+        panels[0].set_title("moduli of the fit")
+        panels[1].set_title("as measured")
+        lettered(panels)
     return drawing
 
 
-def moduli(axes: Axes, table: DataFrame, measured: DataFrame | None, stiffer: float) -> None:
-    """Panel of both moduli; a modulus that is zero is left out."""
-    up, unit = prefixed(table["storage"].iloc[0], "Pa")
-    seen = np.ones(len(table), bool) if measured is None else table["omega"].between(*_ends(measured["omega"]))
-    for name, (line, marker, label) in PARTS.items():
-        if not (table[name] > 0).any():
-            continue
-        if measured is not None:  # beyond it the fit is a guess
-            axes.plot(table["omega"], up * table[name], line, **style.line(0.55, 0.8))
-        axes.plot(table["omega"][seen], up * table[name][seen], line, color=style.ink(), label=label)
+def _curves(axes: Axes, fit: DataFrame, measured: DataFrame | None, up: float) -> None:
+    """Lines of the fit and points of the table over its first column; what is zero is left out."""
+    along = fit.columns[0]
+    axes.set(xscale="log", yscale="log", xlim=fit[along].iloc[[0, -1]])
+    for name in fit.columns[1:]:
+        line, marker, label = LOOKS[name]
+        if (fit[name] > 0).any():
+            axes.plot(fit[along], up * fit[name], line, color=style.ink(), label=label)
         if measured is not None:
-            filled = style.ink() if name == "storage" else style.paper()
-            look: dict[str, Any] = {
-                "marker": marker,
-                "markersize": style.mark(0.8),
-                "markerfacecolor": filled,
-                "linestyle": "",
-            }
-            axes.plot(measured["omega"], up * measured[name], color=style.ink(), label="measured", **look)
-    axes.set(xscale="log", yscale="log", xlabel="angular frequency [rad/s]", ylabel=f"shear modulus [{unit}]")
-    axes.set_xlim(table["omega"].iloc[0], table["omega"].iloc[-1])
-    axes.set_ylim(bottom=max(axes.get_ylim()[0], up * table["storage"].iloc[0] * 10**-DECADES))
-    right = axes.twinx()
-    right.set_label("<right axis>")
-    right.spines["right"].set_visible(True)
-    right.set(yscale="log", ylim=[stiffer * end for end in axes.get_ylim()], ylabel=f"Young's modulus [{unit}]")
-    style.decades(axes, right)
+            filled = style.paper() if name == "loss" else style.ink()
+            look = style.line(0.0, marker=marker, markersize=style.mark(0.8), markerfacecolor=filled)
+            axes.plot(measured[along], up * measured[name], linestyle="", label="measured", **look)
     axes.legend()
-
-
-def in_time(axes: Axes, table: DataFrame, measured: DataFrame) -> None:
-    """Panel of what was measured over time, and of the fit."""
-    name = next(each for each in OVER_TIME if each in table)
-    up, unit = prefixed(measured[name] if name == "modulus" else 1 / measured[name], "Pa")
-    if name == "compliance":
-        up, unit = 1 / up, f"1/{unit}"
-    axes.plot(table["time"], up * table[name], "-", color=style.ink(), label="fit")
-    axes.plot(
-        measured["time"], up * measured[name], "o", color=style.ink(), markersize=style.mark(0.8), label="measured"
-    )
-    axes.set(xscale="log", yscale="log", xlabel="time [s]", ylabel=f"{OVER_TIME[name]} [{unit}]")
-    style.decades(axes)
-    axes.legend()
-
-
-def _ends(values):
-    return values.min(), values.max()
 
 
 def _moduli(omega, modulus):

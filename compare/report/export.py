@@ -18,8 +18,8 @@ from scene.reading import InvalidInput
 
 from ..comparison import curve
 from ..figures import style as looks
-from ..figures.journals import journal as find_journal
-from ..figures.rendering import FORMS, Picture, finished, rendered
+from ..figures.journals import COLUMNS
+from ..figures.rendering import FORMS, Picture, picture
 from ..solving import netcdf
 from ..solving.folders import first_mistake
 from ..solving.suggest import known
@@ -51,21 +51,21 @@ def export(
         known("format", each, FORMATS)
     if "vtk" in formats:
         vtk.refuse()
+    look = looks.Look(journal or "default", style, width)
+    known("journal", look.journal, COLUMNS)
     try:
-        look = looks.Look(find_journal(journal or "default", width), style)
-        look.settings()
-    except ValueError as error:
-        raise InvalidInput(str(error)) from error
+        with looks.applied(look):
+            pass
+    except (ValueError, KeyError, OSError) as error:
+        raise InvalidInput(f"{error.args[0]}" if isinstance(error, KeyError) else str(error)) from error
     folder = Path(folder)
     below = folder.parent if folder.is_file() else folder
     tables, figures = (Path(output) if output else manifest.inside(below, each) for each in (TABLES, FIGURES))
     found = {} if "csv" not in formats else _csv(folder)
     if "vtk" in formats:
         found |= _surfaces(folder)
-    drawn = {}
-    if forms := [each for each in FORMS if each in formats]:
-        with looks.chosen(look):
-            drawn = _drawn_again(folder, forms)
+    forms = [each for each in FORMS if each in formats]
+    drawn = _drawn_again(folder, forms, look) if forms else {}
     return [*render.write(found, tables), *render.write(drawn, figures)]
 
 
@@ -118,18 +118,18 @@ def _surfaces(folder) -> dict[str, bytes]:
     raise InvalidInput(f"{folder}: has no surface for vtk: crosscheck draw and crosscheck run write them")
 
 
-def _drawn_again(folder, forms) -> dict[str, bytes]:
-    """Every figure of a folder, drawn from its tables in the current look, as files by name."""
+def _drawn_again(folder, forms, look) -> dict[str, bytes]:
+    """Every figure of a folder, drawn from its tables in a look, as files by name."""
     found: dict[str, bytes] = {}
     for place, left in manifest.folders(folder):
         for entry in left.plots:
-            found |= _drawn(place, entry, forms).named((place.relative_to(folder) / entry.name).as_posix())
+            found |= _drawn(place, entry, forms, look).named((place.relative_to(folder) / entry.name).as_posix())
     if not found:
         raise InvalidInput(f"{brief(str(folder))}: no command has written figures here")
     return found
 
 
-def _drawn(folder, entry, forms) -> Picture:
+def _drawn(folder, entry, forms, look) -> Picture:
     """One figure, drawn from its tables."""
     path = folder / manifest.NAME
     draw = function(entry, path)
@@ -138,9 +138,9 @@ def _drawn(folder, entry, forms) -> Picture:
         for name in entry.tables
     }
     try:
-        with looks.applied(), warnings.catch_warnings():
+        with looks.DRAWING, warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of numbers that no command has left
-            return rendered(finished(Plot(entry.name, draw, tables, "", options=entry.options)), forms)
+            return picture(Plot(entry.name, draw, tables, "", options=entry.options), forms, look)
     except InvalidInput:
         raise
     except ValidationError as error:

@@ -20,7 +20,7 @@ from tables import stored
 
 from bem3d import BEM, Trail
 from compare.comparison.study_file import STUDIES
-from compare.figures import style
+from compare.figures import contact, style, touching
 from compare.figures.curves import intervals
 from compare.figures.shades import SPEED, between
 from compare.report.csvfiles import read
@@ -28,8 +28,6 @@ from compare.report.page import Plot
 from compare.report.views import view
 from compare.solving.task import draws_of
 from compare.statistics.jackknife import mean_ratio
-from compare.studies.draw import figure as draw
-from compare.studies.draw.study import datasets
 from mdr1d import MDR, equations
 from scene import Slide
 
@@ -50,26 +48,24 @@ def main() -> None:
     if not NUMBERS.exists():
         stored(NUMBERS, solved())
     fields = {solver.name: solver.solve(SHOWN).fields for solver in (LINE, SPACE)}
-    seen = view(SHOWN, SPACE, fields)
     with style.applied():
-        drawing = figure(draw.plot(SHOWN, *datasets(seen, fields["MDR"])), read(NUMBERS), read(STEEP_CONTACTS))
+        shown = contact.plot(SHOWN, view(SHOWN, SPACE, fields))
+        drawing = figure(shown, read(NUMBERS), read(STEEP_CONTACTS))
         image = BytesIO()
         drawing.savefig(image, dpi=WIDTH / drawing.get_figwidth())
     Image.open(image).convert("RGB").save(PAGE, optimize=True)
 
 
 def figure(plot: Plot, numbers: DataFrame, steep: DataFrame) -> Figure:
-    """(a) Surface in 3D, (b) row of springs, (c), (d) friction of both over the shifted load, (e) master curve."""
+    """(a) Contact in 3D, (b) row of springs, (c), (d) friction of both over the shifted load, (e) master curve."""
     drawing = style.canvas("double", 4.6)
     upper, lower = drawing.subfigures(2, 1, height_ratios=(1.25, 1))
-    left, middle = upper.subfigures(1, 2, width_ratios=(1.9, 1))
-    tables, options = plot.tables, plot.options
-    draw.surface(
-        left, left.subplots(), tables[draw.SURFACE], options["enlarged"], options["highest"], 1, "(a) 3D: surface"
-    )
-    springs, lines = middle.subplots(), tables[draw.LINES]
-    draw.row(springs, tables[draw.ROW], lines[lines["x"].abs() < SPAN].iloc[::2], (-SPAN, SPAN))
-    springs.set_title("(b) 1D: springs")
+    left, right = upper.subplots(1, 2, width_ratios=(1, 1.6))
+    space, row = (plot.tables[contact.SECTIONS[solver]] for solver in ("BEM", "MDR"))
+    contact.pressure_map(left, plot.tables[contact.PRESSURE], space["x"], plot.options["aside"], None)
+    left.set_title("(a) 3D: pressure")
+    touching.section(right, touching.section_of(row), "MDR", (-SPAN, SPAN), contact.heights_of([row]), 125)
+    right.set_title("(b) 1D: springs")
     above, below, beside = lower.subplots(1, 3)
     for axes, solver, title in ((above, "MDR", "(c) 1D: one curve"), (below, "BEM", "(d) 3D: no such curve")):
         against_load(axes, numbers[numbers["solver"] == solver], solver)

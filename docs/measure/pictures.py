@@ -78,7 +78,7 @@ def benchmark() -> Figure:
     grids, loads = figure.subplots(1, 2)
     cells, others = section("benchmark", "Rough cells"), section("benchmark", "Other loads")
     for (name, (label, solver)), form in zip(CODES.items(), style.forms(), strict=False):
-        drawn = {"color": style.current().palette[solver] if solver else style.ink(), "label": label, **form}
+        drawn = {"color": style.COLOUR[solver] if solver else style.ink(), "label": label, **form}
         for panel, table, along in ((grids, cells, "points"), (loads, others, "mean pressure / E*")):
             rows = table[(table["code"] == name) & (table["processor s"] != "")]
             panel.loglog(rows[along].str.rstrip("²").astype(float), rows["processor s"].astype(float), **drawn)
@@ -95,7 +95,7 @@ def contact() -> None:
     """The picture of a contact in howto/figures.md, as `crosscheck draw` has it."""
     with TemporaryDirectory() as folder:
         compare.draw(SLIDING, output=folder, workers=1)
-        shutil.copy(Path(folder) / "draw.png", RESULTS / "draw.png")
+        shutil.copy(Path(folder) / "contact.png", RESULTS / "draw.png")
 
 
 def main() -> None:

@@ -2,38 +2,38 @@
 
 import sys
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
-import pandas
 import pytest
-from drawn_scenes import KELVIN, LOAD, SCENES, TAU, A, R
-from matplotlib.collections import LineCollection
-from matplotlib.figure import Figure
+from drawn_scenes import KELVIN, LOAD, ROUGH, SCENES, STANDARD, TAU, A, G, R
 from typer.testing import CliRunner
 
 import compare
 from bem3d import BEM
 from compare.cli.app import app
-from compare.figures import style
+from compare.figures import contact, style
 from compare.library.lookup import case_of
 from compare.report import vtk
-from compare.studies.draw import figure as draw
-from compare.studies.draw import program
-from compare.studies.draw.study import APART
+from compare.report.page import Plot
+from compare.report.views import ROW, SURFACE, view
+from compare.studies.draw import APART
 from mdr1d import MDR
 from scene import (
     WLF,
-    Cylinder,
     Doubtful,
     Heating,
     Indent,
     Layer,
+    Program,
+    Prony,
     Refused,
     Scene,
     SelfAffine,
     Slide,
     SolveError,
     Sphere,
+    Stage,
 )
 from scene.reading import InvalidInput
 
@@ -41,25 +41,121 @@ pytestmark = pytest.mark.usefixtures("in_this_process")
 
 REST = replace(case_of(Scene(Sphere(R), KELVIN, Indent(load=LOAD))), bem=BEM(points=64), mdr=MDR(points=500))
 FAST = replace(REST, motion=Slide(speed=A / TAU, load=LOAD))
-ROUGH = replace(FAST, roughness=SelfAffine(hurst=0.2, rms_height=1e-6, longest=1e-2, shortest=1e-3, seed=5))
-LINE = replace(FAST, indenter=Cylinder(R), motion=Slide(speed=0.1, line_load=100.0))
+MICRONS = replace(FAST, roughness=SelfAffine(hurst=0.2, rms_height=1e-6, longest=1e-2, shortest=1e-3, seed=5))
+LINE, SPACE = MDR(points=500, steps=20), BEM(points=48, steps=20)
+BACK = Program(stages=(Stage(duration=TAU, depth=1e-4, speed=0.5), Stage(duration=TAU, speed=-0.5)))
+CONTACTS = {name: SCENES[name] for name in ("rest", "line", "full", "plane")} | {
+    "rough": Scene(Sphere(R), KELVIN, Slide(speed=0.1, load=LOAD), ROUGH),
+    "layer": Scene(Sphere(R), KELVIN, Slide(speed=0.1, load=LOAD), layer=Layer(thickness=2e-3)),
+    "back": Scene(Sphere(R), STANDARD, BACK, ROUGH),
+    "tiny": Scene(Sphere(1e-9), KELVIN, Indent(depth=1e-12)),
+}
+PANELS = {"rough": 4, "layer": 2, "line": 2, "full": 2, "back": 3}  # without an empty one
+OFTEN = {"rough", "line", "full"}
 
 
 @pytest.fixture(scope="module")
 def drawn(tmp_path_factory):
     """Reports by name, each solved once."""
-    cases = {"rest": REST, "fast": FAST, "rough": ROUGH, "line": LINE}
-    folder = tmp_path_factory.mktemp("drawn")
+    cases, folder = {"rest": REST, "fast": FAST, "rough": MICRONS}, tmp_path_factory.mktemp("drawn")
     return {name: compare.draw(case, output=folder / name, workers=1) for name, case in cases.items()}
 
 
+@cache
+def answered(name):
+    """Fields of a contact by solver."""
+    scene = CONTACTS[name]
+    return {each.name: each.solve(scene).fields for each in (LINE, SPACE) if not each.refusals(scene)}
+
+
+@cache
+def seen(name):
+    return view(CONTACTS[name], SPACE, answered(name))
+
+
 def table(report, name):
-    return next(report.page.every(draw.Plot)).tables[name]
+    return next(report.page.every(Plot)).tables[name]
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=() if name in OFTEN else pytest.mark.slow) for name in CONTACTS]
+)
+def test_every_contact_has_a_picture_with_units_and_no_empty_panel(name):
+    plot = contact.plot(CONTACTS[name], seen(name))
+    with style.applied():
+        drawing = plot.figure()
+        drawing.draw_without_rendering()
+    panels = [axes for axes in drawing.axes if axes.get_label() != "<colorbar>"]
+    assert len(panels) == len(plot.tables) == PANELS.get(name, len(panels))
+    assert all(axes.has_data() and axes.get_title(loc="left") for axes in panels)
+    assert all(axes.get_xlabel().endswith("]") for axes in drawing.axes)
+    assert len(plot.caption.split()) <= 60
+    flow = {"back": "indenter slides →", "rest": "at rest", "tiny": "at rest"}.get(name, "← indenter slides")
+    assert panels[0].get_title(loc="right") == flow
+
+
+def test_the_map_is_the_pressure_of_the_answer_on_what_touches():
+    plot = contact.plot(CONTACTS["rough"], seen("rough"))
+    with style.applied():
+        axes = plot.figure().axes[0]
+    shown, pressure = axes.collections[0].get_array(), answered("rough")["BEM"]["pressure"]
+    assert 1e6 * shown.sum() == pytest.approx(pressure.sum(), rel=1e-12)
+    assert shown.count() == (pressure > 0).sum()
+    circle = next(line for line in axes.lines if line.get_linestyle() == "--")
+    assert np.hypot(*circle.get_data()) == pytest.approx(1e3 * A, rel=1e-9)
+
+
+def test_a_map_is_no_larger_than_the_grids_that_are_solved():
+    plot = contact.plot(CONTACTS["rough"], seen("rough"))
+    with style.applied():
+        axes = plot.draw(plot.tables, **plot.options | {"aside": 1e9}).axes[0]
+    assert axes.collections[0].get_array().shape[0] <= contact.MOST_PIXELS
+
+
+def test_bodies_touch_where_contact_is_bold_and_nowhere_overlap():
+    for name in ("rough", "layer", "line", "plane", "back"):
+        for section in (
+            each for key, each in contact.plot(CONTACTS[name], seen(name)).tables.items() if "sec" in key
+        ):
+            gap, deepest = section["indenter"] - section["surface"], np.ptp(section["surface"])
+            # residual of the contact, and in a program what the depth moves within half a step
+            np.testing.assert_allclose(gap[section["touching"]], 0, atol=1e-4 * deepest)
+            assert np.nanmin(gap) > -1e-4 * deepest
+
+
+def test_full_contact_has_no_gap_of_rounding():
+    surface = seen("full")[SURFACE]
+    assert surface["gap"].max() < 1e-6 * np.ptp(surface["displacement"].values)
+
+
+def test_the_surface_is_deepest_under_the_sphere_and_lower_behind_it_than_before(drawn):
+    surface = drawn["fast"].answers["surface"].to_dataset()
+    middle = surface["displacement"].sel(y=0, method="nearest")
+    assert float(middle.max()) == pytest.approx(float(surface["depth"]), rel=1e-2)
+    behind, before = (float(middle.interp(x=at)) for at in (1.3 * A, -1.3 * A))
+    assert behind > 1.3 * before > 0
+    assert float(surface["x"].max()) > 2 * A
+    rest = drawn["rest"].answers["surface"].to_dataset()["displacement"].sel(y=0, method="nearest")
+    # as far from both edges alike at rest, to the digits of the interpolation
+    assert float(rest.interp(x=1.9 * A)) == pytest.approx(float(rest.interp(x=-1.9 * A)), rel=1e-3)
+
+
+@pytest.mark.parametrize("solid", [KELVIN, STANDARD, Prony(G, (3 * G, 2 * G, G), (TAU / 10, TAU, 10 * TAU))])
+def test_in_one_dimension_the_wake_behind_the_grid_recovers_as_it_does_on_it(solid):
+    scene = Scene(Sphere(R), solid, Slide(speed=3 * A / TAU, load=LOAD))
+    near, far = (
+        view(scene, SPACE, {"MDR": MDR(points=1000, extent=extent).solve(scene).fields})[ROW]["surface"]
+        for extent in (3 * A, 24 * A)
+    )
+    x = np.linspace(2 * A, float(min(near["x"].max(), far["x"].max())), 20)
+    assert x[-1] > 4 * A
+    # of the greatest depression; profiles on pixels of a 40th of the radius
+    np.testing.assert_allclose(near.interp(x=x), far.interp(x=x), rtol=0, atol=1e-3 * float(np.ptp(far.values)))
 
 
 def test_under_a_smooth_sphere_at_rest_the_springs_carry_the_pressure_integrated_over_y(drawn):
     """The force per length of the MDR is the Abel transform of the pressure, which is its integral over y."""
-    lines = table(drawn["rest"], draw.LINES)
+    lines = table(drawn["rest"], contact.LINES)
     assert lines["line_force_1d"].max() == pytest.approx(lines["line_force_3d"].max(), rel=5e-3)
     found = {each.claim.id: each.value for each in drawn["rest"].findings}
     assert found[APART.id] < 0.01 < {each.claim.id: each.value for each in drawn["rough"].findings}[APART.id]
@@ -67,73 +163,39 @@ def test_under_a_smooth_sphere_at_rest_the_springs_carry_the_pressure_integrated
 
 @pytest.mark.parametrize("name", ["rest", "fast", "rough"])
 def test_both_line_forces_sum_up_to_the_load(drawn, name):
-    lines = table(drawn[name], draw.LINES)
+    lines = table(drawn[name], contact.LINES)
     width = lines["x"][1] - lines["x"][0]
     assert lines["line_force_1d"].sum() * width == pytest.approx(LOAD, rel=1e-6)
     assert lines["line_force_3d"].sum() * width == pytest.approx(LOAD, rel=1e-4)  # the tolerance of the solve
 
 
-def test_the_surface_is_deepest_under_the_sphere_and_lower_behind_it_than_before(drawn):
-    surface = drawn["fast"].answers["surface"].to_dataset()
-    middle = surface["displacement"].sel(y=0, method="nearest")
-    assert float(middle.max()) == pytest.approx(float(surface["depth"]), rel=1e-2)
-    behind, before = (float(middle.sel(x=at, method="nearest")) for at in (1.3 * A, -1.3 * A))
-    assert behind > 1.3 * before > 0
-    assert float(surface["x"].max()) > 2 * A
-
-
-def test_springs_are_drawn_where_the_surface_is_known_and_nowhere_beyond():
-    places = np.linspace(-2e-3, 2e-3, draw.STRIPS)
-    known = np.linspace(-5e-4, 1e-3, 301)
-    section = pandas.DataFrame({"x": known, "indenter": known**2, "surface": -1e-6, "touching": False})
-    with style.applied():
-        axes = Figure().subplots()
-        draw.row(axes, section, pandas.DataFrame({"x": places}), (-2e-3, 2e-3))
-    middles = 1e-3 * np.array([np.mean(path[:, 0]) for each in axes.collections for path in each_spring(each)])
-    expected = places[(known[0] < places) & (places < known[-1])]
-    assert (middles.min(), middles.max()) == pytest.approx((expected.min(), expected.max()), abs=1e-4)
-
-
-def each_spring(collection):
-    return collection.get_segments() if isinstance(collection, LineCollection) else []
-
-
 def test_the_picture_is_drawn_again_from_its_tables_to_the_last_byte(drawn, tmp_path):
     folder = drawn["rough"].output
-    again = compare.export(folder, format="png", output=tmp_path)
-    png = next(path for path in again if path.suffix == ".png")
-    assert png.read_bytes() == (folder / "draw.png").read_bytes()
+    (again,) = compare.export(folder, format="png", output=tmp_path)
+    assert again.read_bytes() == (folder / again.name).read_bytes()
 
 
 @pytest.mark.parametrize(
     "name", [pytest.param(name, marks=() if name == "dip" else pytest.mark.slow) for name in ("dip", "lift")]
 )
-def test_a_program_is_drawn_in_time_by_the_forces_of_both_and_sections_at_instants(name, tmp_path):
+def test_a_program_is_drawn_in_time_by_force_and_depth_of_both(name, tmp_path):
     case = replace(case_of(SCENES[name]), bem=BEM(points=64, steps=20), mdr=MDR(points=200, steps=20))
-    report = compare.draw(case, output=tmp_path / name, workers=1)
-    tables = next(each for each in report.page.every(draw.Plot) if each.name == program.NAME).tables
+    report = compare.draw(case, output=tmp_path, workers=1)
+    histories = table(report, contact.PROGRAM)
     for solver in (case.mdr, case.bem):
-        answer = solver.solve(case.scene)
-        forces, sections = (each[each["solver"] == solver.name] for each in tables.values())
-        for force in program.HISTORIES:
-            assert forces[force].to_numpy() == pytest.approx(answer.fields[force], rel=1e-12, abs=1e-15)
-        assert sections["time"].nunique() == program.INSTANTS
-        touched = sections[sections["touching"]]
-        # Over the depth: the tolerance of the contact.
-        near = 1e-4 * np.nanmax(answer.fields["depth"])
-        assert touched["surface"].to_numpy() == pytest.approx(touched["indenter"].to_numpy(), abs=near)
-        assert len(touched)
-    png = tmp_path / name / f"{program.NAME}.png"
-    (again,) = (
-        path for path in compare.export(png.parent, "png", output=tmp_path / "again") if path.name == png.name
-    )
-    assert again.read_bytes() == png.read_bytes()
+        fields, own = solver.solve(case.scene).fields, histories[histories["solver"] == solver.name]
+        for each in contact.HISTORIES:
+            assert own[each].to_numpy() == pytest.approx(fields[each], rel=1e-12, abs=1e-15, nan_ok=True)
+    assert [axes.get_title(loc="left") for axes in report.figures[contact.NAME].axes][-2:] == [
+        "(a) force in time",
+        "(b) depth in time",
+    ]
 
 
 def test_a_layer_has_no_springs_and_that_is_said(tmp_path):
     report = compare.draw(replace(REST, layer=Layer(thickness=2e-3)), output=tmp_path, workers=1)
     assert "No row of springs: MDR" in str(report)
-    assert draw.ROW not in next(report.page.every(draw.Plot)).tables
+    assert contact.SECTIONS["MDR"] not in next(report.page.every(Plot)).tables
 
 
 def test_what_no_picture_shows_is_refused_before_anything_is_solved(tmp_path):
@@ -142,10 +204,11 @@ def test_what_no_picture_shows_is_refused_before_anything_is_solved(tmp_path):
     with pytest.raises(Refused, match=r"heating\.feedback"):
         compare.draw(warm, output=tmp_path / "no")
     assert not (tmp_path / "no").exists()
+    assert not view(warm.scene, SPACE, {"BEM": {}})
 
 
 def test_a_contact_that_does_not_touch_is_no_picture(tmp_path):
-    above = replace(ROUGH, motion=Indent(depth=1e-9), roughness=replace(ROUGH.roughness, rms_height=1e-5))
+    above = replace(MICRONS, motion=Indent(depth=1e-9), roughness=replace(MICRONS.roughness, rms_height=1e-5))
     high = pytest.warns(Doubtful, match="rms height of the roughness over the depth")
     with high, pytest.raises(SolveError, match=r"nothing touches|no contact"):
         compare.draw(above, output=tmp_path, workers=1)

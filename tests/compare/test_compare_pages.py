@@ -22,7 +22,6 @@ from pandas import DataFrame
 from pandas.testing import assert_frame_equal
 from PIL import Image
 
-from compare.figures import touching
 from compare.report import csvfiles, manifest, render, terminal
 from compare.report.export import export
 from compare.report.page import Findings, Page, Plot, Section, Table, Text
@@ -278,8 +277,7 @@ FORGED = [
     ({"tables": "friction"}, "plots.0.tables"),
     ({"options": {"unheard": 1}}, "option unheard"),
     ({"options": {"figsize": [1e9, 1e9]}}, "option figsize"),
-    ({"module": "compare.studies.draw.figure"}, "option enlarged: Missing required argument"),
-    ({"module": "compare.studies.draw.figure", "options": {"enlarged": nan, "highest": 1.0}}, "option enlarged"),
+    ({"module": "compare.figures.contact", "options": {"aside": nan}}, "option aside"),
     ({"options": 3}, "plots.0.options"),
 ]
 

@@ -213,7 +213,7 @@ def test_the_example_of_the_page_on_figures_draws_in_the_style_it_states(tmp_pat
     figure = run(DOCS / "howto" / "figures.md", PYTHON)["figure"]
     lines = [bar[0] for bar in figure.axes[0].containers]
     assert [line.get_linewidth() for line in lines] == [3.5, 3.5]
-    assert [line.get_color() for line in lines] == ["#117733", "#AA4499"]
+    assert [line.get_color() for line in lines] == ["#0072B2", "#D55E00"]
     assert Path("friction.pdf").stat().st_size > 1000
 
 

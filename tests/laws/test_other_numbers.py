@@ -22,7 +22,7 @@ import scene
 from bem3d import BEM
 from compare.comparison.curve import Curve
 from compare.comparison.sweep import SweepSeries
-from compare.figures.journals import journal
+from compare.figures.journals import columns
 from compare.library.case import Variations
 from compare.studies.mastercurve.study import Mastercurve
 from compare.studies.mastercurve.temperatures import Constants
@@ -366,7 +366,7 @@ CALLED = [
     Place("compare.sweep(speed)", lambda given: asked(speed=given), (0.1, 0.3), "m/s"),
     Place("compare.sweep(load)", lambda given: asked(load=given), (0.1, 0.3), "N"),
     Place("compare.sweep(depth)", lambda given: asked(depth=given), (1e-5, 2e-5), "m"),
-    Place("compare.export(width)", lambda given: journal("default", given).single, 0.1, "m"),
+    Place("compare.export(width)", lambda given: columns("default", given)[0], 0.1, "m"),
     Place("compare.sweep(draws)", lambda given: asked(draws=given), 2),
     Place("compare.sweep(interval)", lambda given: SweepSeries.of(SLIDING, (0.1,), interval=given).interval, 0.1),
     Place("compare.mastercurve(tolerance)", lambda given: Mastercurve.of(FRICTION, given).tolerance, 0.1),

@@ -12,6 +12,7 @@ from pandas import DataFrame
 from scene.reading import InvalidInput
 
 from ...comparison import curve
+from ...comparison.curve import FAILED, Curve
 from ...report.page import Block, Findings, Text
 from ...solving.cost import MOST_DRAWS, Cost
 from ...solving.outcome import Outcome
@@ -111,7 +112,7 @@ class Paper(Study):
                 for field in ("x", "profile", "displacement", "contact")
                 if kept
             }
-            tree[name] = xarray.DataTree(tree[name].to_dataset(inherit=False).assign(fields))
+            tree[name] = xarray.DataTree(tree.children[name].to_dataset(inherit=False).assign(fields))
         return tree
 
     def judge(self, answers: xarray.DataTree) -> Judgement:

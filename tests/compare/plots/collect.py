@@ -9,14 +9,10 @@ from compare.report import csvfiles, manifest
 from compare.solving.folders import FORMAT
 
 HERE = Path(__file__).parent
-LARGE = "contact_maps"
 
 
 def collect(folders):
-    """Keep the tables of the smallest figure of each function in a folder named by it, and the manifest of all.
-
-    Maps of contact are left out, as they are too large; they have tests of their own.
-    """
+    """Keep the tables of the smallest figure of each function in a folder named by it, and the manifest of all."""
     path = HERE / manifest.NAME
     entries = {entry["name"]: entry for entry in json.loads(path.read_text())["plots"]} if path.exists() else {}
     found = {}
@@ -27,8 +23,6 @@ def collect(folders):
                 files = [place / f"{name}.csv" for name in plot.tables]
                 found.setdefault((plot.module, plot.function), []).append((sum(map(_size, files)), files, plot))
     for (module, function), plots in found.items():
-        if module.endswith(LARGE):
-            continue
         _, files, plot = min(plots, key=lambda each: each[0])
         name = f"{module.rpartition('.')[2]}-{function}"
         shutil.rmtree(HERE / name, ignore_errors=True)

@@ -1,7 +1,7 @@
 """A contact as a picture: `crosscheck draw`."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -12,22 +12,22 @@ from mdr1d import MDR
 from scene import Program, Refused, SolveError, notes
 from scene.protocol import foresee
 
-from ...comparison.curve import work_of
-from ...library.case import Case, doubted
-from ...library.lookup import SceneLike, case_of
-from ...report.page import Text
-from ...report.views import View, view
-from ...solving import words
-from ...solving.outcome import Outcome
-from ...solving.task import Batch, SceneTask, Task
-from ...solving.vocabulary import attributes
-from ...statistics import griderror
-from ...statistics.finding import Claim, Finding
-from ..study import Judgement, Study
-from . import figure as plots
-from . import program
+from ..comparison.curve import work_of
+from ..figures import contact
+from ..figures.contact import HISTORIES
+from ..library.case import Case, doubted
+from ..library.lookup import SceneLike, case_of
+from ..report.page import Text
+from ..report.views import ROW, SURFACE, view
+from ..solving import words
+from ..solving.outcome import Outcome
+from ..solving.task import Batch, SceneTask, Task
+from ..solving.vocabulary import attributes
+from ..statistics import griderror
+from ..statistics.finding import Claim, Finding
+from .study import Judgement, Study
 
-SURFACE, ROW, PROGRAM = "surface", "row", "program"
+PROGRAM = "program"
 NUMBERS = ("normal_force", "depth", "friction_force")
 APART = Claim(
     "draw.apart",
@@ -91,29 +91,29 @@ class Drawing(Study):
             if outcome.rows[0].reason:
                 raise SolveError(f"{name}: {outcome.rows[0].reason}")
         fields = {name: each.fields for name, each in found.items() if each.fields}
-        seen, parts = view(self.case.scene, self.case.bem, fields), {}
-        if seen is not None and seen.space is not None and seen.space.touching.any():
-            surface, row = datasets(seen, fields.get("MDR", {}))
-            parts = {f"/{SURFACE}": surface} | ({} if row is None else {f"/{ROW}": row})
-        elif not (isinstance(self.case.motion, Program) and "BEM" in fields):
-            raise SolveError("nothing touches in 3D, so there is nothing to draw: press deeper")
+        program = isinstance(self.case.motion, Program)
+        parts = view(self.case.scene, self.case.bem, fields)
+        if SURFACE not in parts or not (parts[SURFACE]["pressure"] > 0).any():
+            if not program or "BEM" not in fields:
+                raise SolveError("nothing touches in 3D, so there is nothing to draw: press deeper")
+            parts = {}
         for dataset, outcome in zip(parts.values(), found.values(), strict=False):
-            for name in NUMBERS:
-                value = getattr(outcome.rows[0], name)
+            numbers = {name: getattr(outcome.rows[0], name) for name in NUMBERS}
+            error = outcome.rows[0].measures.get(griderror.MEASURE)
+            numbers |= {} if error is None else {griderror.MEASURE: error}
+            for name, value in numbers.items():
                 dataset[name] = (), value, attributes(name, self.case.scene)
-            if griderror.MEASURE in outcome.rows[0].measures:
-                error = outcome.rows[0].measures[griderror.MEASURE]
-                dataset[griderror.MEASURE] = (), error, attributes(griderror.MEASURE, self.case.scene)
-        if isinstance(self.case.motion, Program):
+        if program:
             for name, kept in fields.items():
-                parts[f"/{PROGRAM}/{name}"] = program.dataset(self.case.scene, self.case.bem, name, kept)
-        return xarray.DataTree.from_dict(parts)
+                histories = {each: ("time", kept[each], attributes(each)) for each in (*HISTORIES, "time")}
+                parts[f"{PROGRAM}/{name}"] = xarray.Dataset(histories).set_coords("time")
+        return xarray.DataTree.from_dict({f"/{name}": each for name, each in parts.items()})
 
     def _findings(self, answers):
         """What 1D gives over what 3D gives, and how far apart the forces of both stand; nothing is claimed."""
-        surface, row = _parts(answers)
-        if row is None:
+        if ROW not in answers:
             return []
+        surface, row = (answers[name].to_dataset() for name in (SURFACE, ROW))
         ratios = {}
         if surface["normal_force"] > 0 and row["normal_force"] > 0:
             pressed = "normal_force" if self.case.motion.pressed_by == "depth" else "depth"
@@ -127,65 +127,22 @@ class Drawing(Study):
         ]
         values = [*ratios.values()]
         if row.get("line_force", np.zeros(1)).any():
-            lines = plots.line_forces(surface, row).drop(columns="x")
+            lines = contact.line_forces(surface, row).drop(columns="x")
             claims.append(APART)
             values.append(float((lines / lines.sum()).diff(axis=1).iloc[:, 1].abs().sum() / 2))
-        return [Finding(claim, value, plot=plots.NAME) for claim, value in zip(claims, values, strict=True)]
+        return [Finding(claim, value, plot=contact.NAME) for claim, value in zip(claims, values, strict=True)]
 
     def judge(self, answers: xarray.DataTree) -> Judgement:
         findings = self._findings(answers)
         said = [Text(f"No row of springs: {self.refused}.")] if self.refused else []
         answer = [f"{each.claim.sentence}: {words.found(each)}." for each in findings]
-        surface, row = _parts(answers)
-        shown = [] if surface is None else [plots.plot(self.case.scene, surface, row)]
-        if PROGRAM in answers:
-            marched = {name: each.to_dataset() for name, each in answers[PROGRAM].children.items()}
-            shown.append(program.plot(self.case.scene, marched))
-        return Judgement(findings, answer, [*shown, *said], self.setting)
+        seen = {name: answers[name].to_dataset() for name in (SURFACE, ROW) if name in answers}
+        marched = answers[PROGRAM].children if PROGRAM in answers else {}
+        program = {name: each.to_dataset() for name, each in marched.items()}
+        shown = contact.plot(self.case.scene, seen, program)
+        return Judgement(findings, answer, [shown, *said], self.setting)
 
 
 def _task(solver: BEM | MDR, case: Case) -> SceneTask:
-    if isinstance(case.motion, Program):
-        solver = replace(solver, frames=program.INSTANTS)
     foresee(solver, case.scene)
     return SceneTask(solver, (case.scene,), keeps_fields=True, work=work_of(solver, case.scene))
-
-
-def _parts(answers):
-    """Datasets of the surface, and of the row of springs or None."""
-    return tuple(answers[name].to_dataset() if name in answers else None for name in (SURFACE, ROW))
-
-
-def datasets(seen: View, line: Mapping[str, np.ndarray]) -> tuple[xarray.Dataset, xarray.Dataset | None]:
-    """The part of a contact worth seeing: the surface around it, and the row of springs where there is one.
-
-    line : fields of the answer of MDR
-    """
-    return _surface(seen), None if seen.line is None else _row(seen, line)
-
-
-def _surface(seen: View) -> xarray.Dataset:
-    """The part of the surface worth seeing (y, x), x where indenter and surface are seen."""
-    around = seen.space.around
-    fields = {"displacement": around.displacement, "gap": seen.space.gap, "pressure": seen.space.pressure}
-    whole = xarray.Dataset(
-        {name: (("y", "x"), values, attributes(name)) for name, values in fields.items()},
-        {"x": ("x", around.x + around.lag, attributes("x")), "y": ("y", around.y, attributes("y"))},
-    )
-    aside = whole if whole.sizes["y"] == 1 else whole.sel(y=slice(-seen.aside, seen.aside))
-    return aside.sel(x=slice(*seen.span))
-
-
-def _row(seen: View, fields: Mapping[str, np.ndarray]) -> xarray.Dataset:
-    """The row of springs (x): what is known of it beyond its own grid carries no force."""
-    line = seen.line
-    columns = {"indenter": line.indenter, "surface": line.surface, "touching": line.touching}
-    if "line_force" in fields:
-        first = int(np.searchsorted(line.x, fields["x"][0]))
-        after = len(line.x) - first - len(fields["x"])
-        columns["line_force"] = np.pad(fields["line_force"], (first, after))
-    whole = xarray.Dataset(
-        {name: ("x", values, attributes(name)) for name, values in columns.items()},
-        {"x": ("x", line.x, attributes("x"))},
-    )
-    return whole.sel(x=slice(*seen.span))
