@@ -1,1 +1,0 @@
-"""Accuracy over cost: errors, times and memory along ladders of settings."""

@@ -1,0 +1,284 @@
+"""What accuracy costs, for any scene: `crosscheck workprecision`."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, field, replace
+from functools import cached_property
+from itertools import groupby
+from math import isfinite, nan
+from pathlib import Path
+from typing import Any
+
+import xarray
+from pandas import DataFrame
+
+from scene import Refused, Scene, Slide, notes
+from scene.indenter import Axisymmetric
+from scene.motion import Indent
+from scene.scales import elastic_contact
+
+from ..library.case import Case, doubted
+from ..library.describe import folders
+from ..library.lookup import SceneLike, case_of, shipped_cases
+from ..models.exact import Exact
+from ..models.law.persson import Persson
+from ..models.table import Model, ModelLike, listed, named
+from ..report.page import Block, Plot, Table, Text
+from ..solving.outcome import Outcome
+from ..solving.task import Batch, Task
+from ..solving.words import seconds, share
+from ..statistics.finding import Claim, Finding
+from ..statistics.multilevel import GROWTH, MEANS, needed
+from ..studies.study import Judgement, Study
+from ..trustmap.corrected import CorrectedMDR
+from ..trustmap.friction_law import FrictionLaw
+from . import errors, figure
+from .errors import INTERVAL, Way
+from .ladder import Ladder
+
+LEVELS = (0.1, 0.05, 0.02, 0.01)  # wanted errors
+SAID = (0.05, 0.01)  # of these, those that the answer tells
+WANTED = 0.02  # half-width of the interval of the reference that is aimed at, relative
+ABOUT = """Errors are relative, of rough scenes those expected (rms) of a mean over surfaces. The reference is a
+closed form where there is one, else 3D on four times the points of the finest grid that is timed, or on the finest
+that solves; its error is half of its interval of 95 %. 3D is compared with it on the same surfaces, so that the
+error of a grid is known far better than the reference. Times are processor seconds of one thread from the scene to
+the result, the least of several repeats. A setting counts with the largest error of its interval, and as no better
+than all finer ones of its model. The rms error is half of the half-width that --interval states."""
+CLAIMS = {
+    level: Claim(f"workprecision.time-{100 * level:g}-percent", f"Processor time to {share(level)}", unit="s")
+    for level in LEVELS
+}
+
+
+@dataclass(frozen=True)
+class WorkPrecision(Study):
+    """Error against processor time of models on scenes.
+
+    cases : scenes by name, with the settings of the solvers
+    asked : models beside 3D, in place of 1D, 1D corrected, the law and Persson's theory
+    strata : numbers of surfaces of the reference on each grid, by case; those of a pilot where absent
+    """
+
+    cases: Mapping[str, Case]
+    asked: tuple[ModelLike, ...] = ()
+    strata: Mapping[str, tuple[int, ...]] = field(default_factory=dict)
+
+    command, title, about = "workprecision", "What accuracy costs in time", ABOUT
+
+    @classmethod
+    def of(
+        cls,
+        scene: SceneLike | Sequence[str | Path] | Mapping[str, SceneLike] | None = None,
+        models: Sequence[ModelLike] | None = None,
+    ) -> "WorkPrecision":
+        """Study of a scene, of several files or by name, or of the paper's two.
+
+        Raises InvalidInput, and Refused of a scene that nothing can be measured against.
+        """
+        if not isinstance(scene, Mapping):
+            several = [scene] if isinstance(scene, str | Path | Case | Scene) else scene or ()
+            scene = {Path(each).stem if isinstance(each, str | Path) else "scene": each for each in several}
+        study = cls({name: case_of(each) for name, each in scene.items()} or shipped_cases(), listed(models))
+        for name, (reference, *_) in study.ladders.items():
+            if not reference.solvers:
+                reasons = dict.fromkeys(reason for _, reason in reference.refused)
+                raise Refused(f"{name}: 3D, which others are measured against, refuses it: {'; '.join(reasons)}")
+        return study
+
+    @property
+    def inputs(self) -> Mapping[str, Any]:
+        names = sorted({each.model.name for own in self.ladders.values() for each in own})
+        return {"cases": {name: case.inputs for name, case in self.cases.items()}, "models": names}
+
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        return doubted(*self.cases.values())
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        return tuple(dict.fromkeys(note for case in self.cases.values() for note in notes(case.scene)))
+
+    @cached_property
+    def folders(self) -> Mapping[str, str]:
+        """Folders of the cases, by name. Raises InvalidInput where two share one."""
+        return folders(self.cases, "case")
+
+    @cached_property
+    def ladders(self) -> Mapping[str, Sequence[Ladder]]:
+        """Ladders of each case, that first which others are measured against: a closed form, else 3D."""
+        return {name: list(self._ladders(name, case)) for name, case in self.cases.items()}
+
+    def _ladders(self, name, case) -> Iterator[Ladder]:
+        exact, own = Exact(), {"mdr": case.mdr, "bem": case.bem}
+        usual = (case.mdr, CorrectedMDR(case.mdr), FrictionLaw(), Persson(), case.bem)
+        asked = [Model.of(named(each, own) if isinstance(each, str) else each) for each in self.asked or usual]
+        reference = Model.of(case.bem if exact.refusals(case.scene) else exact)
+        yield Ladder.of(reference, case.scene, True, self.strata.get(name, ()))
+        yield from (Ladder.of(each, case.scene) for each in asked if each.name != reference.name)
+
+    def batches(self) -> Sequence[Batch]:
+        """First everything that is not timed; each task once."""
+        every = [each for own in self.ladders.values() for each in own]
+        untimed, timed = (
+            [task for each in every for task in tasks(each)] for tasks in (Ladder.tasks, Ladder.timed)
+        )
+        return Batch(tuple(dict.fromkeys(untimed))), Batch(tuple(dict.fromkeys(timed)), timed=True)
+
+    def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
+        """Answers and times of every model, at /case/model."""
+        return xarray.DataTree.from_dict(
+            {
+                f"/{self.folders[name]}/{each.model.name}": each.dataset(outcomes)
+                for name, own in self.ladders.items()
+                for each in own
+                if each.solvers
+            }
+        )
+
+    def more(
+        self, answers: xarray.DataTree, findings: Sequence[Finding], growth: float = GROWTH
+    ) -> "WorkPrecision | None":
+        """The study with the surfaces that a reference of an interval WANTED takes; None where it has them."""
+        strata = {}
+        for name, (ladder, *_) in self.ladders.items():
+            if ladder.strata:
+                dataset = answers[f"{self.folders[name]}/{ladder.model.name}"].to_dataset(inherit=False)
+                mean = MEANS[errors.QUANTITIES[_quantities(self.cases[name])[0]]]
+                strata[name] = needed(dataset, *mean, ladder.costs, WANTED, growth)
+        now = {name: ladder.strata for name, (ladder, *_) in self.ladders.items() if ladder.strata}
+        return None if strata == now else replace(self, strata=strata)
+
+    def ways(self, answers: xarray.DataTree) -> Iterator[tuple[str, list[Way]]]:
+        """Every way to each quantity of each scene, with a sentence on what they are measured against."""
+        for name, case in self.cases.items():
+            first, *others = self.ladders[name]
+            below = answers[self.folders[name]].children
+            node = {model: each.to_dataset(inherit=False) for model, each in below.items()}
+            for quantity in _quantities(case):
+                at, found, own = (name, quantity), [], node[first.model.name]
+                of = errors.reference(first, own, quantity, _scale(case, quantity))
+                for ladder in self.ladders[name]:
+                    found += _refused(*at, ladder)
+                if of is None:
+                    reasons = [each for each in own["reason"].values.flat if each]
+                    yield f"no answer in 3D: {'; '.join(reasons[:1])}", found
+                    continue
+                for ladder in others:
+                    if ladder.solvers and quantity in ladder.model.answers:
+                        found += _of_model(*at, ladder, node, of)
+                grids = list(errors.ways(*at, first, own, of, of.biases))
+                found += grids
+                if first.strata and len(grids) > 1:
+                    found.append(errors.sampled(grids[0], quantity, first, own, of))
+                size = f"known to {share(of.error)}" if isfinite(of.error) else "whose error is not known"
+                yield f"measured against {of.source}, {size}", found
+
+    def judge(self, answers: xarray.DataTree) -> Judgement:
+        """Times to wanted errors: one figure, one table, and a sentence for each quantity of each scene."""
+        told: list[str] = []
+        findings, rows, every = [], [], []
+        for sentence, ways in self.ways(answers):
+            where = f"{ways[0].case}, {ways[0].quantity}" if ways else ""
+            said = [f"to {share(level)}: {_said(ways, level)}" for level in SAID]
+            told.append(f"{where}: {'; '.join([*said, sentence])}.")
+            for level, claim in CLAIMS.items():
+                best = _cheapest(ways, level)
+                taken, label = (best.effort(level), best.label) if best else (nan, "")
+                findings.append(
+                    Finding(claim, taken, where=where, dimension=label, reason="" if best else _missed(ways))
+                )
+            rows += _rows(ways)
+            every += ways
+        failed = {(way.case, way.label, way.settings): way.reason for way in every if way.reason}
+        blocks: list[Block] = [_plot(every)] if any(isfinite(way.bias) for way in every) else []
+        caption = (
+            "Least processor time of each model to an error, with its settings; the least error that is known."
+        )
+        blocks.append(Table("workprecision-times", DataFrame(rows), caption))
+        if failed:
+            table = DataFrame([(*which, why) for which, why in failed.items()])
+            table.columns = ["case", "model", "settings", "reason"]
+            blocks.append(Table("workprecision-failures", table, "Settings without an answer."))
+        return Judgement(findings, told, blocks, self.setting)
+
+
+def _quantities(case: Case) -> tuple[str, ...]:
+    """Quantities that are not prescribed, friction first."""
+    pressed = "force" if case.motion.pressed_by in ("depth", "gap") else "depth"
+    return ("friction", pressed) if case.slides else (pressed,)
+
+
+def _scale(case: Case, quantity: str) -> float:
+    """Depth of the smooth relaxed contact, as that of a rough one may be nil; NaN for the size of the answer."""
+    known = isinstance(case.indenter, Axisymmetric) and isinstance(case.motion, Indent | Slide)
+    return elastic_contact(case.scene).depth if quantity == "depth" and known else nan
+
+
+def _refused(case, quantity, ladder) -> Iterator[Way]:
+    """Settings that a model refuses, with its reasons; one where it refuses all."""
+    for solver, reason in ladder.refused[: None if ladder.solvers else 1]:
+        points = f"{solver.points} points" if ladder.solvers else ""
+        yield Way(case, quantity, ladder.model.name, ladder.model.label, points, reason=reason)
+
+
+def _of_model(case, quantity, ladder, node, of) -> Iterator[Way]:
+    """Ways of another model. One that corrects 1D by a ratio has any number of profiles once it knows the ratio."""
+    dataset, line, setup = node[ladder.model.name], node.get("MDR"), 0.0
+    if f"{quantity}_ratio" in dataset and line is not None and line.sizes["surface"] > 1:
+        profiles = getattr(ladder.model.solver, "profiles", 1)
+        setup = max(float(dataset["processor"][0]) - profiles * float(line["processor"][0]), 0.0)
+        dataset = errors.corrected(dataset, line, quantity)
+    for way in errors.ways(case, quantity, ladder, dataset, of, errors.against(dataset, quantity, of)):
+        yield replace(way, setup=setup)
+
+
+def _cheapest(ways: Sequence[Way], level: float) -> Way | None:
+    """The way of least effort to an error; None where none reaches it."""
+    best = min(ways, key=lambda way: way.effort(level), default=None)
+    return best if best and isfinite(best.effort(level)) else None
+
+
+def _said(ways, level):
+    """The cheapest way to an error, and the cheapest in 3D where it is another."""
+    both = _cheapest(ways, level), _cheapest([way for way in ways if way.model == "BEM"], level)
+    texts = [_taken(each, level, f" by {each.label}") for each in dict.fromkeys(both) if each]
+    return ", ".join(texts) or _missed(ways)
+
+
+def _missed(ways):
+    best = min((way.most for way in ways if isfinite(way.most)), default=nan)
+    return f"not reached, {share(best)} at best" if isfinite(best) else "not known"
+
+
+def _taken(way: Way | None, level: float, by: str = "") -> str:
+    """Time and settings of a way to an error in words."""
+    if way is None:
+        return "–"
+    count, settings = way.count(level), way.settings
+    if settings == INTERVAL:
+        settings = f"--interval {share(way.half_width(count)).replace(' ', '')}"
+    elif way.scatter:
+        draws = "profiles" if way.label.startswith("1D") else "surfaces"
+        settings = f"{count:,.0f} {draws if count > 1 else draws[:-1]}, {settings}"
+    return f"{seconds(way.effort(level))}{by}{f' ({settings})' if settings else ''}"
+
+
+def _rows(ways: Sequence[Way]) -> Iterator[dict[str, Any]]:
+    """A row for each model, and for intervals: time and settings to each error."""
+    for (label, sampled), group in groupby(ways, lambda way: (way.label, way.settings == INTERVAL)):
+        own = list(group)
+        known = [way.most for way in own if isfinite(way.most)]
+        if known:
+            row = {"case": own[0].case, "quantity": own[0].quantity, "model": f"{label}{', interval' * sampled}"}
+            row |= {f"within {share(level)}": _taken(_cheapest(own, level), level) for level in LEVELS}
+            yield row | {"best_known": share(min(known))}
+
+
+def _plot(ways: Sequence[Way]) -> Plot:
+    return Plot(
+        "workprecision", figure.figure, {"workprecision-ways": DataFrame(map(asdict, ways))},
+        "Relative error over processor time. Smooth: a point a grid. Rough: expected error of means of 1, 10, "
+        "100, ... surfaces, a curve a grid; dashed, beyond those solved; thick, on several grids as intervals "
+        "take them. Grey and hollow: below the error of the reference; 3D of rough scenes shares its surfaces.",
+        "Panels of error over time: 1D is quick and level, 3D slower and falling.",
+    )  # fmt: skip
