@@ -13,6 +13,7 @@ import numpy as np
 import xarray
 
 from ..solving.control_variates import VARIATES, controlled
+from ..solving.parameter_grid import FAILED, FINER
 from ..statistics.intervals import Estimated, student
 from ..statistics.jackknife import mean_ratio, off_the_ratio
 from ..statistics.multilevel import MEANS, pilot
@@ -154,7 +155,10 @@ def ways(
     for k, bias in list(enumerate(biases))[ladder.reference :]:
         most = (max(map(abs, _ends(bias))) + of.left) / of.scale
         worst = max(worst, most) if isfinite(most) else inf if worst else worst
-        points, reasons = int(dataset["points"][k]), [each for each in dataset["reason"].values[k] if each]
+        points, reasons = (
+            int(dataset["points"][k]),
+            [each for each in dataset["reason"].values[k].tolist() if each],
+        )
         yield Way(
             case, quantity, ladder.model.name, ladder.model.label, f"{points} points" if points else "",
             bias=float(bias.value) / of.scale,
@@ -192,7 +196,7 @@ def corrected(dataset: xarray.Dataset, line: xarray.Dataset, quantity: str) -> x
 
 def _known(dataset, quantity):
     """Whether a mean on each grid is one over nearly all surfaces."""
-    failed = (dataset["reason"].values != "").sum(axis=1)
+    failed = dataset["status"].isin([FAILED, FINER]).transpose("level", "surface").values.sum(axis=1)
     solved = np.isfinite(values(dataset, quantity)).sum(axis=1)
     return (solved > 0) & (failed <= MOST_FAILED * (failed + solved))
 

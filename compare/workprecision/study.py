@@ -1,7 +1,7 @@
 """What accuracy costs, for any scene: `crosscheck workprecision`."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 from itertools import groupby
 from math import isfinite, nan
@@ -22,22 +22,21 @@ from ..library.lookup import SceneLike, case_of, shipped_cases
 from ..models.exact import Exact
 from ..models.law.persson import Persson
 from ..models.table import Model, ModelLike, listed, named
-from ..report.page import Block, Plot, Table, Text
+from ..report.page import Block, Plot, Table
 from ..solving.outcome import Outcome
+from ..solving.parameter_grid import ParameterGrid
 from ..solving.task import Batch, Task
 from ..solving.words import seconds, share
 from ..statistics.finding import Claim, Finding
-from ..statistics.multilevel import GROWTH, MEANS, needed
 from ..studies.study import Judgement, Study
 from ..trustmap.corrected import CorrectedMDR
 from ..trustmap.friction_law import FrictionLaw
 from . import errors, figure
 from .errors import INTERVAL, Way
-from .ladder import Ladder
+from .ladder import Ladder, grid_of
 
 LEVELS = (0.1, 0.05, 0.02, 0.01)  # wanted errors
 SAID = (0.05, 0.01)  # of these, those that the answer tells
-WANTED = 0.02  # half-width of the interval of the reference that is aimed at, relative
 ABOUT = """Errors are relative, of rough scenes those expected (rms) of a mean over surfaces. The reference is a
 closed form where there is one, else 3D on four times the points of the finest grid that is timed, or on the finest
 that solves; its error is half of its interval of 95 %. 3D is compared with it on the same surfaces, so that the
@@ -56,12 +55,10 @@ class WorkPrecision(Study):
 
     cases : scenes by name, with the settings of the solvers
     asked : models beside 3D, in place of 1D, 1D corrected, the law and Persson's theory
-    strata : numbers of surfaces of the reference on each grid, by case; those of a pilot where absent
     """
 
     cases: Mapping[str, Case]
     asked: tuple[ModelLike, ...] = ()
-    strata: Mapping[str, tuple[int, ...]] = field(default_factory=dict)
 
     command, title, about = "workprecision", "What accuracy costs in time", ABOUT
 
@@ -79,10 +76,9 @@ class WorkPrecision(Study):
             several = [scene] if isinstance(scene, str | Path | Case | Scene) else scene or ()
             scene = {Path(each).stem if isinstance(each, str | Path) else "scene": each for each in several}
         study = cls({name: case_of(each) for name, each in scene.items()} or shipped_cases(), listed(models))
-        for name, (reference, *_) in study.ladders.items():
-            if not reference.solvers:
-                reasons = dict.fromkeys(reason for _, reason in reference.refused)
-                raise Refused(f"{name}: 3D, which others are measured against, refuses it: {'; '.join(reasons)}")
+        for name, (first, *_) in study.ladders.items():
+            if not first.solvers:
+                raise Refused(f"{name}: 3D, which others are measured against, refuses it: {first.refused[0][1]}")
         return study
 
     @property
@@ -106,56 +102,50 @@ class WorkPrecision(Study):
     @cached_property
     def ladders(self) -> Mapping[str, Sequence[Ladder]]:
         """Ladders of each case, that first which others are measured against: a closed form, else 3D."""
-        return {name: list(self._ladders(name, case)) for name, case in self.cases.items()}
+        return {name: list(self._ladders(case)) for name, case in self.cases.items()}
 
-    def _ladders(self, name, case) -> Iterator[Ladder]:
+    def _ladders(self, case) -> Iterator[Ladder]:
         exact, own = Exact(), {"mdr": case.mdr, "bem": case.bem}
         usual = (case.mdr, CorrectedMDR(case.mdr), FrictionLaw(), Persson(), case.bem)
         asked = [Model.of(named(each, own) if isinstance(each, str) else each) for each in self.asked or usual]
-        reference = Model.of(case.bem if exact.refusals(case.scene) else exact)
-        yield Ladder.of(reference, case.scene, True, self.strata.get(name, ()))
-        yield from (Ladder.of(each, case.scene) for each in asked if each.name != reference.name)
+        first = Model.of(case.bem if exact.refusals(case.scene) else exact)
+        yield Ladder.of(first, case.scene, refers=True)
+        yield from (Ladder.of(each, case.scene) for each in asked if each.name != first.name)
+
+    @cached_property
+    def _grids(self):
+        return {folder: grid_of(self.ladders[name]) for name, folder in self.folders.items()}
+
+    def grids(self) -> Mapping[str, ParameterGrid]:
+        """Contacts of each case."""
+        return self._grids
 
     def batches(self) -> Sequence[Batch]:
-        """First everything that is not timed; each task once."""
-        every = [each for own in self.ladders.values() for each in own]
-        untimed, timed = (
-            [task for each in every for task in tasks(each)] for tasks in (Ladder.tasks, Ladder.timed)
-        )
-        return Batch(tuple(dict.fromkeys(untimed))), Batch(tuple(dict.fromkeys(timed)), timed=True)
+        """First everything that is not timed."""
+        timed = dict.fromkeys(task for own in self.ladders.values() for each in own for task in each.timed)
+        return *super().batches(), Batch(tuple(timed), timed=True)
 
     def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
         """Answers and times of every model, at /case/model."""
+        solved = super().answers(outcomes)
         return xarray.DataTree.from_dict(
             {
-                f"/{self.folders[name]}/{each.model.name}": each.dataset(outcomes)
-                for name, own in self.ladders.items()
-                for each in own
-                if each.solvers
+                f"/{folder}/{each.model.name}": each.with_times(node.to_dataset(inherit=False), outcomes)
+                for name, folder in self.folders.items()
+                for each in self.ladders[name]
+                if (node := solved.children[folder].children.get(each.model.name)) is not None
             }
         )
-
-    def more(
-        self, answers: xarray.DataTree, findings: Sequence[Finding], growth: float = GROWTH
-    ) -> "WorkPrecision | None":
-        """The study with the surfaces that a reference of an interval WANTED takes; None where it has them."""
-        strata = {}
-        for name, (ladder, *_) in self.ladders.items():
-            if ladder.strata:
-                dataset = answers[f"{self.folders[name]}/{ladder.model.name}"].to_dataset(inherit=False)
-                mean = MEANS[errors.QUANTITIES[_quantities(self.cases[name])[0]]]
-                strata[name] = needed(dataset, *mean, ladder.costs, WANTED, growth)
-        now = {name: ladder.strata for name, (ladder, *_) in self.ladders.items() if ladder.strata}
-        return None if strata == now else replace(self, strata=strata)
 
     def ways(self, answers: xarray.DataTree) -> Iterator[tuple[str, list[Way]]]:
         """Every way to each quantity of each scene, with a sentence on what they are measured against."""
         for name, case in self.cases.items():
             first, *others = self.ladders[name]
-            below = answers[self.folders[name]].children
+            below = answers.children[self.folders[name]].children
             node = {model: each.to_dataset(inherit=False) for model, each in below.items()}
             for quantity in _quantities(case):
-                at, found, own = (name, quantity), [], node[first.model.name]
+                at, own = (name, quantity), node[first.model.name]
+                found: list[Way] = []
                 of = errors.reference(first, own, quantity, _scale(case, quantity))
                 for ladder in self.ladders[name]:
                     found += _refused(*at, ladder)
@@ -168,37 +158,34 @@ class WorkPrecision(Study):
                         found += _of_model(*at, ladder, node, of)
                 grids = list(errors.ways(*at, first, own, of, of.biases))
                 found += grids
-                if first.strata and len(grids) > 1:
+                if "stratum" in own.coords and len(grids) > 1:
                     found.append(errors.sampled(grids[0], quantity, first, own, of))
-                size = f"known to {share(of.error)}" if isfinite(of.error) else "whose error is not known"
-                yield f"measured against {of.source}, {size}", found
+                known = f", which leaves {share(of.error)} open" if of.error else ""
+                yield f"measured against {of.source}{known}", found
 
     def judge(self, answers: xarray.DataTree) -> Judgement:
         """Times to wanted errors: one figure, one table, and a sentence for each quantity of each scene."""
-        told: list[str] = []
-        findings, rows, every = [], [], []
+        told, findings = [], []
+        rows: list[dict[str, Any]] = []
+        every: list[Way] = []
         for sentence, ways in self.ways(answers):
-            where = f"{ways[0].case}, {ways[0].quantity}" if ways else ""
+            where = f"{ways[0].case}, {ways[0].quantity}"
             said = [f"to {share(level)}: {_said(ways, level)}" for level in SAID]
             told.append(f"{where}: {'; '.join([*said, sentence])}.")
             for level, claim in CLAIMS.items():
                 best = _cheapest(ways, level)
-                taken, label = (best.effort(level), best.label) if best else (nan, "")
-                findings.append(
-                    Finding(claim, taken, where=where, dimension=label, reason="" if best else _missed(ways))
-                )
+                known = (best.effort(level), best.label, "") if best else (nan, "", _missed(ways))
+                findings.append(Finding(claim, known[0], where=where, dimension=known[1], reason=known[2]))
             rows += _rows(ways)
             every += ways
-        failed = {(way.case, way.label, way.settings): way.reason for way in every if way.reason}
-        blocks: list[Block] = [_plot(every)] if any(isfinite(way.bias) for way in every) else []
-        caption = (
-            "Least processor time of each model to an error, with its settings; the least error that is known."
-        )
+        table = DataFrame(map(asdict, every))
+        failed = table.loc[table["reason"] != "", ["case", "label", "settings", "reason"]].drop_duplicates()
+        blocks: list[Block] = [_plot(table)] if table["bias"].notna().any() else []
+        caption = "Least processor time of each model to an error, with its settings; the least error known."
         blocks.append(Table("workprecision-times", DataFrame(rows), caption))
-        if failed:
-            table = DataFrame([(*which, why) for which, why in failed.items()])
-            table.columns = ["case", "model", "settings", "reason"]
-            blocks.append(Table("workprecision-failures", table, "Settings without an answer."))
+        if len(failed):
+            failed = failed.rename(columns={"label": "model"})
+            blocks.append(Table("workprecision-failures", failed, "Settings without an answer."))
         return Judgement(findings, told, blocks, self.setting)
 
 
@@ -222,7 +209,7 @@ def _refused(case, quantity, ladder) -> Iterator[Way]:
 
 
 def _of_model(case, quantity, ladder, node, of) -> Iterator[Way]:
-    """Ways of another model. One that corrects 1D by a ratio has any number of profiles once it knows the ratio."""
+    """Ways of another model; one that corrects 1D has any number of profiles once it knows the ratio."""
     dataset, line, setup = node[ladder.model.name], node.get("MDR"), 0.0
     if f"{quantity}_ratio" in dataset and line is not None and line.sizes["surface"] > 1:
         profiles = getattr(ladder.model.solver, "profiles", 1)
@@ -274,11 +261,11 @@ def _rows(ways: Sequence[Way]) -> Iterator[dict[str, Any]]:
             yield row | {"best_known": share(min(known))}
 
 
-def _plot(ways: Sequence[Way]) -> Plot:
+def _plot(ways: DataFrame) -> Plot:
     return Plot(
-        "workprecision", figure.figure, {"workprecision-ways": DataFrame(map(asdict, ways))},
+        "workprecision", figure.figure, {"workprecision-ways": ways},
         "Relative error over processor time. Smooth: a point a grid. Rough: expected error of means of 1, 10, "
-        "100, ... surfaces, a curve a grid; dashed, beyond those solved; thick, on several grids as intervals "
-        "take them. Grey and hollow: below the error of the reference; 3D of rough scenes shares its surfaces.",
+        "100, 1000 surfaces, a curve a grid; dashed, beyond those solved; thick, on several grids as intervals take "
+        "them. Grey, hollow: below the error of the reference; 3D of rough scenes shares its surfaces.",
         "Panels of error over time: 1D is quick and level, 3D slower and falling.",
     )  # fmt: skip
