@@ -114,14 +114,14 @@ def values(dataset: xarray.Dataset, quantity: str) -> np.ndarray:
     return np.where(np.isfinite(over), ratio[:, None] + off, nan)
 
 
-def reference(ladder: Ladder, dataset: xarray.Dataset, quantity: str, scale: float) -> Reference | None:
-    """The finest grid that solves, or a closed form; None where there is no answer.
+def reference(ladder: Ladder, dataset: xarray.Dataset, quantity: str, scale: float) -> Reference:
+    """The finest grid that solves, or a closed form; all is NaN where there is no answer.
 
     scale : that errors are relative to; NaN for the size of the answer
     """
     found, known = values(dataset, quantity), _known(dataset, quantity)
     if not known.any():
-        return None
+        return Reference(UNKNOWN, nan, nan, "nothing, as no grid has an answer", (UNKNOWN,) * len(found))
     top = int(np.argmax(known))
     biases = [UNKNOWN] * top + [Estimated.exact(0.0)]
     for k in range(top, len(found) - 1):
@@ -155,10 +155,7 @@ def ways(
     for k, bias in list(enumerate(biases))[ladder.reference :]:
         most = (max(map(abs, _ends(bias))) + of.left) / of.scale
         worst = max(worst, most) if isfinite(most) else inf if worst else worst
-        points, reasons = (
-            int(dataset["points"][k]),
-            [each for each in dataset["reason"].values[k].tolist() if each],
-        )
+        points, reasons = int(dataset["points"][k]), list(filter(None, dataset["reason"].values[k].tolist()))
         yield Way(
             case, quantity, ladder.model.name, ladder.model.label, f"{points} points" if points else "",
             bias=float(bias.value) / of.scale,

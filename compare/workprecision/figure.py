@@ -27,7 +27,8 @@ BAND = 0.88  # between ink and paper
 def figure(tables: Tables) -> Figure:
     """Panels on the same axes, and one legend below."""
     (table,) = tables.values()
-    every = [Way(**row) for row in table.fillna({"settings": "", "reason": ""}).to_dict("records")]
+    texts = table[["settings", "reason"]].astype(object).fillna("")
+    every = [Way(**row) for row in table.assign(**texts).to_dict("records")]
     drawn = [list(own) for _, own in groupby(every, lambda way: (way.case, way.quantity))]
     columns, rows = min(COLUMNS, len(drawn)), ceil(len(drawn) / COLUMNS)
     drawing = style.canvas("double", rows * HEIGHT + AROUND)

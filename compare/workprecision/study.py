@@ -137,8 +137,8 @@ class WorkPrecision(Study):
             }
         )
 
-    def ways(self, answers: xarray.DataTree) -> Iterator[tuple[str, list[Way]]]:
-        """Every way to each quantity of each scene, with a sentence on what they are measured against."""
+    def ways(self, answers: xarray.DataTree) -> Iterator[tuple[str, str, list[Way]]]:
+        """Scene and quantity, what they are measured against, and every way to them."""
         for name, case in self.cases.items():
             first, *others = self.ladders[name]
             below = answers.children[self.folders[name]].children
@@ -149,10 +149,6 @@ class WorkPrecision(Study):
                 of = errors.reference(first, own, quantity, _scale(case, quantity))
                 for ladder in self.ladders[name]:
                     found += _refused(*at, ladder)
-                if of is None:
-                    reasons = [each for each in own["reason"].values.flat if each]
-                    yield f"no answer in 3D: {'; '.join(reasons[:1])}", found
-                    continue
                 for ladder in others:
                     if ladder.solvers and quantity in ladder.model.answers:
                         found += _of_model(*at, ladder, node, of)
@@ -161,15 +157,14 @@ class WorkPrecision(Study):
                 if "stratum" in own.coords and len(grids) > 1:
                     found.append(errors.sampled(grids[0], quantity, first, own, of))
                 known = f", which leaves {share(of.error)} open" if of.error else ""
-                yield f"measured against {of.source}{known}", found
+                yield f"{name}, {quantity}", f"measured against {of.source}{known}", found
 
     def judge(self, answers: xarray.DataTree) -> Judgement:
         """Times to wanted errors: one figure, one table, and a sentence for each quantity of each scene."""
         told, findings = [], []
         rows: list[dict[str, Any]] = []
         every: list[Way] = []
-        for sentence, ways in self.ways(answers):
-            where = f"{ways[0].case}, {ways[0].quantity}"
+        for where, sentence, ways in self.ways(answers):
             said = [f"to {share(level)}: {_said(ways, level)}" for level in SAID]
             told.append(f"{where}: {'; '.join([*said, sentence])}.")
             for level, claim in CLAIMS.items():
@@ -182,7 +177,8 @@ class WorkPrecision(Study):
         failed = table.loc[table["reason"] != "", ["case", "label", "settings", "reason"]].drop_duplicates()
         blocks: list[Block] = [_plot(table)] if table["bias"].notna().any() else []
         caption = "Least processor time of each model to an error, with its settings; the least error known."
-        blocks.append(Table("workprecision-times", DataFrame(rows), caption))
+        if rows:
+            blocks.append(Table("workprecision-times", DataFrame(rows), caption))
         if len(failed):
             failed = failed.rename(columns={"label": "model"})
             blocks.append(Table("workprecision-failures", failed, "Settings without an answer."))
@@ -265,7 +261,7 @@ def _plot(ways: DataFrame) -> Plot:
     return Plot(
         "workprecision", figure.figure, {"workprecision-ways": ways},
         "Relative error over processor time. Smooth: a point a grid. Rough: expected error of means of 1, 10, "
-        "100, 1000 surfaces, a curve a grid; dashed, beyond those solved; thick, on several grids as intervals take "
-        "them. Grey, hollow: below the error of the reference; 3D of rough scenes shares its surfaces.",
+        "100, 1000 surfaces, a curve a grid; dashed, beyond those solved; thick, on several grids as intervals "
+        "take them. Grey, hollow: below the error of the reference; 3D of rough scenes shares its surfaces.",
         "Panels of error over time: 1D is quick and level, 3D slower and falling.",
     )  # fmt: skip
