@@ -219,7 +219,7 @@ def workprecision(
 
     models : if absent, 1D as it is and corrected, the 3D law, Persson's theory and 3D, each on its own grids
     """
-    from .workprecision.study import WorkPrecision
+    from .studies.workprecision.study import WorkPrecision
 
     return solve(WorkPrecision.of(scene, models), output, **options)
 

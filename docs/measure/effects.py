@@ -24,7 +24,7 @@ from bem3d.surface import RoughSurface
 from compare.report.manifest import machine, versions
 from compare.solving.outcome import Outcome, Row
 from compare.solving.task import Task
-from compare.workprecision.timed import TimedSolve
+from compare.studies.workprecision.timed import TimedSolve
 from mdr1d import MDR
 from scene import Scene, SelfAffine
 from scene.costs import COSTS, two_digits

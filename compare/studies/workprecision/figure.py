@@ -11,16 +11,16 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from ..figures import style
-from ..figures.curves import scatter
-from ..figures.lettering import Letter, lettered, literal, write
-from ..report.page import Tables
+from ...figures import style
+from ...figures.curves import scatter
+from ...figures.lettering import Letter, lettered, literal, write
+from ...report.page import Tables
 from .errors import INTERVAL, Way
 
 COLUMNS, HEIGHT, AROUND = 2, 2.5, 0.7  # of panels; of one, and around all [inch]
 LEAST, WHOLE = 1e-6, 1.0  # errors beyond which they are drawn there
 MARKED = 10.0 ** np.arange(4)  # numbers of surfaces
-FORECAST = (0, (3, 2))  # dashes beyond the surfaces that were solved
+THIN = 0.5  # width of lines beyond the surfaces that were solved, in multiples of others
 BAND = 0.88  # between ink and paper
 
 
@@ -83,10 +83,10 @@ def _draw(axes: Axes, ways: Sequence[Way]) -> None:
     for way, colour in _curves(ways):
         look = _look(way.model) | {"color": colour}
         counts = MARKED if way.scatter else MARKED[:1]
-        solved = max(1, way.surfaces)
-        for first, last, line in ((1, solved, "-"), (solved, MARKED[-1], FORECAST)):
+        for first, last, thin in ((1, way.surfaces, 1.0), (way.surfaces, MARKED[-1], THIN)):
             if way.scatter and last > first:
-                axes.plot(*_at(way, np.geomspace(first, last, 60)), **look | {"linestyle": line, "marker": ""})
+                own = look | {"marker": "", "linewidth": style.width(thin)}
+                axes.plot(*_at(way, np.geomspace(first, last, 60)), **own)
         told = ~(way.error(counts) <= way.reference_error) | (way.model == "BEM" and way.scatter > 0)
         x, y = _at(way, counts)
         scatter(axes, x, y, told, colour, 1, 1, marker=look["marker"], zorder=3)

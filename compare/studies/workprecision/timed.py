@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 
 from scene import Refused, SolveError
 
-from ..solving.outcome import Outcome, Row, row
-from ..solving.task import SceneTask
+from ...solving.outcome import Outcome, Row, row
+from ...solving.task import SceneTask
 
 # A solve is repeated until so many seconds have gone, at least and at most as often as said; twice, if it is long.
 SECONDS, LEAST, MOST, LONG = 0.5, 3, 50, 6.0

@@ -10,13 +10,13 @@ import xarray
 from scene import Scene, Solver
 from scene.protocol import why_not
 
-from ..models.table import Model
-from ..solving.cost import SECONDS
-from ..solving.outcome import Outcome
-from ..solving.parameter_grid import LEAST, LEVELS, ParameterGrid, halved, work_of
-from ..solving.task import Task
-from ..statistics.means import pressed
-from ..statistics.multilevel import pilot
+from ...models.table import Model
+from ...solving.cost import SECONDS
+from ...solving.outcome import Outcome
+from ...solving.parameter_grid import LEAST, LEVELS, ParameterGrid, halved, work_of
+from ...solving.task import Task
+from ...statistics.means import pressed
+from ...statistics.multilevel import pilot
 from .timed import TimedSolve
 
 STEPS = 4  # grids that are timed, each with half the points of the one before

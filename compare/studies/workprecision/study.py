@@ -11,26 +11,26 @@ from typing import Any
 import xarray
 from pandas import DataFrame
 
-from scene import Refused, Scene, Slide, notes
+from scene import Refused, Slide, notes
 from scene.indenter import Axisymmetric
 from scene.motion import Indent
 from scene.scales import elastic_contact
 
-from ..library.case import Case, doubted
-from ..library.describe import folders
-from ..library.lookup import SceneLike, case_of, shipped_cases
-from ..models.exact import Exact
-from ..models.law.persson import Persson
-from ..models.table import Model, ModelLike, listed, named
-from ..report.page import Block, Plot, Table
-from ..solving.outcome import Outcome
-from ..solving.parameter_grid import ParameterGrid
-from ..solving.task import Batch, Task
-from ..solving.words import seconds, share
-from ..statistics.finding import Claim, Finding
-from ..studies.study import Judgement, Study
-from ..trustmap.corrected import CorrectedMDR
-from ..trustmap.friction_law import FrictionLaw
+from ...library.case import Case, doubted
+from ...library.describe import folders
+from ...library.lookup import SceneLike, case_of, shipped_cases
+from ...models.exact import Exact
+from ...models.law.persson import Persson
+from ...models.table import Model, ModelLike, listed, named
+from ...report.page import Block, Plot, Table
+from ...solving.outcome import Outcome
+from ...solving.parameter_grid import ParameterGrid
+from ...solving.task import Batch, Task
+from ...solving.words import seconds, share
+from ...statistics.finding import Claim, Finding
+from ...trustmap.corrected import CorrectedMDR
+from ...trustmap.friction_law import FrictionLaw
+from ..study import Judgement, Study
 from . import errors, figure
 from .errors import INTERVAL, Way
 from .ladder import Ladder, grid_of
@@ -73,9 +73,10 @@ class WorkPrecision(Study):
         Raises InvalidInput, and Refused of a scene that nothing can be measured against.
         """
         if not isinstance(scene, Mapping):
-            several = [scene] if isinstance(scene, str | Path | Case | Scene) else scene or ()
+            several = scene if isinstance(scene, list | tuple) else [] if scene is None else [scene]
             scene = {Path(each).stem if isinstance(each, str | Path) else "scene": each for each in several}
-        study = cls({name: case_of(each) for name, each in scene.items()} or shipped_cases(), listed(models))
+        cases = {name: case_of(each) for name, each in scene.items()}
+        study = cls(cases or shipped_cases(), listed(models))
         for name, (first, *_) in study.ladders.items():
             if not first.solvers:
                 raise Refused(f"{name}: 3D, which others are measured against, refuses it: {first.refused[0][1]}")
@@ -261,7 +262,7 @@ def _plot(ways: DataFrame) -> Plot:
     return Plot(
         "workprecision", figure.figure, {"workprecision-ways": ways},
         "Relative error over processor time. Smooth: a point a grid. Rough: expected error of means of 1, 10, "
-        "100, 1000 surfaces, a curve a grid; dashed, beyond those solved; thick, on several grids as intervals "
+        "100, 1000 surfaces, a curve a grid; thin, beyond those solved; thick, on several grids as intervals "
         "take them. Grey, hollow: below the error of the reference; 3D of rough scenes shares its surfaces.",
         "Panels of error over time: 1D is quick and level, 3D slower and falling.",
     )  # fmt: skip

@@ -12,11 +12,11 @@ from math import ceil, inf, isfinite, nan, sqrt
 import numpy as np
 import xarray
 
-from ..solving.control_variates import VARIATES, controlled
-from ..solving.parameter_grid import FAILED, FINER
-from ..statistics.intervals import Estimated, student
-from ..statistics.jackknife import mean_ratio, off_the_ratio
-from ..statistics.multilevel import MEANS, pilot
+from ...solving.control_variates import VARIATES, controlled
+from ...solving.parameter_grid import FAILED, FINER
+from ...statistics.intervals import Estimated, student
+from ...statistics.jackknife import mean_ratio, off_the_ratio
+from ...statistics.multilevel import MEANS, pilot
 from .ladder import Ladder
 
 QUANTITIES = {"friction": "friction_coefficient", "depth": "depth_reached", "force": "normal_force"}
