@@ -180,7 +180,7 @@ def test_truth_and_floor_are_within_their_intervals_as_often_as_they_say():
 
 
 def test_the_bias_of_a_grid_is_found_far_below_the_scatter():
-    """On the same surfaces the grid alone differs: allowed is a tenth of what eight scatter by, its interval a fifth."""
+    """Only the grid differs: allowed is a tenth of what eight surfaces scatter by, a fifth with its interval."""
     of = errors.reference(BEM_LADDER, surfaces(), "friction", nan)
     found = list(errors.ways("made", "friction", BEM_LADDER, surfaces(), of, of.biases))
     for each, expected in zip(found, BIAS[2:], strict=True):

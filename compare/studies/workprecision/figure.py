@@ -36,10 +36,12 @@ def figure(tables: Tables) -> Figure:
     for axes in panels[len(drawn) :]:
         axes.remove()
     panels = panels[: len(drawn)]
-    for axes, ways in zip(panels, drawn, strict=True):
-        axes.set(xscale="log", yscale="log", xlabel="processor time [s]", ylabel="relative error [1]")
+    for k, (axes, ways) in enumerate(zip(panels, drawn, strict=True)):
+        axes.set(xscale="log", yscale="log", ylabel="relative error [1]" if k % columns == 0 else "")
+        if k + columns >= len(drawn):
+            axes.set_xlabel("processor time [s]")
+            axes.tick_params(labelbottom=True)
         axes.set_title(f"{literal(ways[0].case)}: {ways[0].quantity}")
-        axes.label_outer()
         _draw(axes, ways)
     lettered(panels, columns)
     at = np.concatenate([line.get_xydata() for axes in panels for line in axes.lines])
