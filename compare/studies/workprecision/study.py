@@ -73,7 +73,7 @@ class WorkPrecision(Study):
         Raises InvalidInput, and Refused of a scene that nothing can be measured against.
         """
         if not isinstance(scene, Mapping):
-            several = scene if isinstance(scene, list | tuple) else [] if scene is None else [scene]
+            several: Any = scene if isinstance(scene, list | tuple) else [] if scene is None else [scene]
             scene = {Path(each).stem if isinstance(each, str | Path) else "scene": each for each in several}
         cases = {name: case_of(each) for name, each in scene.items()}
         study = cls(cases or shipped_cases(), listed(models))
