@@ -30,8 +30,6 @@ from .options import (
     CaseSize,
     Channel,
     Crop,
-    Diagram,
-    DiagramSize,
     Draws,
     ExportFormat,
     FigureFormat,
@@ -211,24 +209,20 @@ def paper(size: PaperSize = "full", output: Output = "crosscheck-paper", **optio
 
 @checked
 def workprecision(
-    name: Diagram = None,
-    size: DiagramSize = "quick",
+    scene: SceneFiles = None,
     output: Output = "crosscheck-workprecision",
     models: Models = None,
     **options: Unpack[Options],
-) -> Report | Listing:
-    """Measure the error and the time of both solvers. Timed contacts are solved one by one on this machine.
+) -> Report:
+    """Measure what accuracy costs: error against processor time of every model on a scene.
 
-    models : names of other models that the diagram `models` measures on smooth bodies, separated by commas. From
-        Python also objects, see `scene.Solver`
+    Timed contacts are solved one by one on this machine.
+
+    models : if absent, 1D as it is and corrected, the 3D law, Persson's theory and 3D, each on its own grids
     """
-    if name is None:
-        from .library.ready import diagrams
-
-        return diagrams()
     from .studies.workprecision.study import WorkPrecision
 
-    return solve(WorkPrecision.of([name], size, models), output, **options)
+    return solve(WorkPrecision.of(scene, models), output, **options)
 
 
 @checked

@@ -146,9 +146,6 @@ PaperSize = Annotated[
     Size,
     Option(help="How many rough profiles are averaged: quick (20), standard (50) or full (200, as published)."),
 ]
-DiagramSize = Annotated[
-    Size, Option(help="How much is solved: quick (a minute a diagram), standard or full (hours).")
-]
 CaseSize = Annotated[
     Size, Option(help="How much is solved: quick (half a minute), standard or full (some minutes).")
 ]
@@ -184,17 +181,13 @@ LoadsOrDepths = Annotated[
 ]
 Draws = Annotated[int | None, Option(help="Rough surfaces, and as many profiles; 8 if absent.", parser=number)]
 
-# Studies, diagrams and stored values.
+# Studies and stored values.
 StudyName = Annotated[
     File | None,
     Argument(
         help="Name of a study, or file of your own study (TOML); if absent, a table of the studies is printed.",
         autocompletion=studies,
     ),
-]
-Diagram = Annotated[
-    Literal["models", "surfaces", "all"] | None,
-    Argument(help="Name of a diagram, or all; if absent, a table of the diagrams is printed."),
 ]
 Baseline = Annotated[
     File | None,

@@ -249,8 +249,8 @@ class Curve:
 
         answers = by_contact(outcomes)
         rows = [row for each in self.contacts for row in self._rows(each, answers[each.task])]
-        on = [name for name in LEVELS if any(name in levels for levels in self.levels.values())]
-        places: dict[str, list[Any]] = {"model": list(self.levels), "level": on}
+        most = max(self.levels.values(), key=len)
+        places: dict[str, list[Any]] = {"model": list(self.levels), "level": list(most)}
         places |= (
             {} if self.over_time else {"speed": list(self.speeds or (0.0,)), self.prescribed: list(self.values)}
         )

@@ -23,7 +23,6 @@ SCENES = {
 }
 STUDIES = "Studies: crosscheck study NAME"
 ALL = "`crosscheck study all` does the first six of them."
-MEASURE = "`crosscheck workprecision NAME` measures one; all, every one of them."
 NEW = "`crosscheck new NAME` copies a scene or a study, for you to change."
 # Studies of the paper's claims, which `crosscheck study all` does.
 CLAIMS = "collapse", "solids", "hurst", "parameters", "regime", "depth"
@@ -47,32 +46,6 @@ class Ready:
     kind: str
     command: str
     text: str
-
-
-@dataclass(frozen=True)
-class About:
-    """Title of a study, and what it is about, for people."""
-
-    title: str
-    about: str
-
-
-# Diagrams of `crosscheck workprecision`, in the order of its page.
-DIAGRAMS = {
-    "models": About(
-        "Which model for which error",
-        "Both models against the true answer of three dimensions: one is fast and keeps the error of the model, "
-        "the other is slow and converges. Smooth bodies have one answer; that of rough ones is the mean over "
-        "surfaces, so that the scatter between surfaces counts beside the grid. Between them is 1D corrected by "
-        "the trust map: it pays for the map once and keeps the error of the map. Of a smooth body the map solves "
-        "both models, so that nothing is gained; off the map there is no answer.",
-    ),
-    "surfaces": About(
-        "How many surfaces, on how many points",
-        "A rough contact has the mean over surfaces as its answer. The error of a mean is that of the grid, "
-        "however many surfaces are solved, and what their scatter leaves, however fine the grid.",
-    ),
-}
 
 
 class Listing(dict[str, Any]):
@@ -136,11 +109,6 @@ def studies() -> Listing:
     every = {name: each for name, each in ready().items() if each.kind == "study"}
     found = {name: every[name] for name in CLAIMS} | every
     return Listing(found, {STUDIES: list(found)}, ALL)
-
-
-def diagrams() -> Listing:
-    """Every diagram of `crosscheck workprecision`."""
-    return Listing(DIAGRAMS, end=MEASURE)
 
 
 def offered() -> Listing:

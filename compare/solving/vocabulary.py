@@ -80,26 +80,17 @@ curve : Curve that a point belongs to.
 friction : Coefficient of friction: mean friction force over mean normal force. [1]
 friction_coefficient : Coefficient of friction: mean friction force over mean normal force. [1]
 
-Of what accuracy costs: surfaces on several grids, and what an error asks for.
+Of what accuracy costs.
 scatter : Scatter of one surface about the mean, relative. [1]
 least : Lower end of an interval.
 most : Upper end of an interval.
-wanted : Relative error that is wanted. [1]
-model : Dimensionality that reaches the error in the least time.
-settings : Settings that reach the error.
-best_known : Least relative error that was reached. [1]
-floor : Relative error that is left however fine the settings are. [1]
-converges : Whether the error falls without end as settings become finer.
-truth : Best estimate of the true answer, in its unit.
+model : Model, by its name or in words.
+label : Model in words.
+settings : Points of the grid, or several grids, as intervals take them.
+best_known : Least relative error that is known to be reached. [1]
 scale : Number that errors are relative to, in the unit of the answer.
-truth_standard_error : Standard error of the best estimate over surfaces, relative. [1]
-truth_dof : Degrees of freedom of that standard error. [1]
-truth_grid_error : Error of discretisation of the best estimate, relative. [1]
-plan : Sampling plan: points a side, or two grids of which the coarser has most surfaces.
-coarser_points : Points a side of the coarser of two grids; 0 without one. [1]
 bias : Relative error that more surfaces do not take away. [1]
 setup : Processor time before the first surface: that of the trust map. [s]
-scatter_dof : Degrees of freedom of the scatter. [1]
 failed : Solves that ended with an error. [1]
 surfaces : Number of surfaces over which a mean is taken: profiles in 1D, surfaces in 3D. [1]
 failures : Solves that ended with an error and are left out of the means. [1]
@@ -201,7 +192,6 @@ profiles : Number of rough profiles over which a mean is taken. [1]
 count : Number of contacts behind a mean. [1]
 
 Of accuracy and cost.
-ladder : Settings of one solver, each finer than the one before.
 setting : Number that is refined along the ladder: points, or steps in time. [1]
 steps : Number of settings of a ladder, or of steps in time. [1]
 precision : Floating-point numbers of the solve: single or double.

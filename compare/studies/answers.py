@@ -30,7 +30,7 @@ Row: Any = create_model("Row", **_FOUND)
 
 @dataclass(frozen=True)
 class Reported:
-    """JSON answer of a command that solves, `study` and `workprecision` with a name among them.
+    """JSON answer of a command that solves, `study` with a name among them.
 
     page : file of the page; null if none was written
     doubts : doubts and notes, which stand before the answer
@@ -70,7 +70,7 @@ class Planned:
 
 @dataclass(frozen=True)
 class Offered:
-    """Scene, study or diagram that comes with the package. title, about : for people"""
+    """Scene or study that comes with the package. title, about : for people"""
 
     title: str
     about: str
@@ -78,7 +78,7 @@ class Offered:
 
 @dataclass(frozen=True)
 class Listed:
-    """JSON answer of `scenes`, and of `study` and `workprecision` without a name. offered : by name"""
+    """JSON answer of `scenes`, and of `study` without a name. offered : by name"""
 
     offered: dict[str, Offered]
 

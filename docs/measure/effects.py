@@ -24,7 +24,7 @@ from bem3d.surface import RoughSurface
 from compare.report.manifest import machine, versions
 from compare.solving.outcome import Outcome, Row
 from compare.solving.task import Task
-from compare.studies.workprecision.timed_solve import TimedSolve
+from compare.studies.workprecision.timed import TimedSolve
 from mdr1d import MDR
 from scene import Scene, SelfAffine
 from scene.costs import COSTS, two_digits
@@ -174,7 +174,7 @@ def priced(name: str, billed: list[Cost]) -> list[dict]:
 
 def sheet(found: Mapping[str, list[Cost]]) -> list[dict]:
     """Rows of results/effects.csv."""
-    measures = {"seconds": "processor", "wall": "wall", "memory": "memory", "repeats": "repeats"}
+    measures = {"seconds": "processor", "wall": "wall", "repeats": "repeats"}
     return [
         {"dimension": name, "effect": cost.effect.title, "over": cost.effect.over or ""}
         | {column: cost.row.measures.get(measure, nan) for column, measure in measures.items()}

@@ -265,7 +265,7 @@ ASKED = {
     "run": {"scene": SLIDING},
     "study": {"name": "collapse"},
     "paper": {},
-    "workprecision": {"name": "surfaces"},
+    "workprecision": {"scene": SLIDING},
     "stability": {},
     "verify": {"model": "mdr"},
     "regress": {},

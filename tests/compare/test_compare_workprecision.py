@@ -1,201 +1,306 @@
-"""Work-precision diagrams: what a timed solve costs, errors against references, failures as failures."""
+"""Work and precision: times of solves, errors against a reference, times to an error, failures as failures."""
 
 from dataclasses import replace
-from math import isnan, nan
+from math import inf, nan, sqrt
 
 import numpy as np
 import pytest
 import xarray
+from drawn_again import from_files
 
 from bem3d import BEM
+from compare.comparison.curve import SOLVED
 from compare.figures import style
-from compare.library import ready
-from compare.solving.outcome import Outcome, Row
-from compare.solving.runner import sweep
-from compare.solving.store import Store
-from compare.statistics.convergence import MeasuredLadder, ladders, observed
-from compare.studies.workprecision import models, regimes, timed_solve
-from compare.studies.workprecision.convergence import Convergence, Ladder, steps_table
-from compare.studies.workprecision.figures.errors import ROUNDING, plots
-from compare.studies.workprecision.reference import FORCE, FRICTION, Known, closed_form, finer
-from compare.studies.workprecision.study import DIAGRAMS, WorkPrecision
-from compare.studies.workprecision.timed_solve import TimedSolve
+from compare.library.case import Case
+from compare.models.exact import Exact
+from compare.models.table import Model
+from compare.report.page import Table
+from compare.statistics.multilevel import pilot
+from compare.studies.workprecision import errors, ladder, timed
+from compare.studies.workprecision.errors import INTERVAL, Way
+from compare.studies.workprecision.ladder import COARSEST, Ladder
+from compare.studies.workprecision.study import LEVELS, WorkPrecision
+from compare.studies.workprecision.timed import TimedSolve
+from compare.trustmap.corrected import CorrectedMDR
 from mdr1d import MDR
-from scene import Indent, Kelvin, Scene, SelfAffine, Slide, Sphere
+from scene import Indent, Kelvin, Layer, Refused, SelfAffine, Slide, Sphere
 from scene.scales import elastic_contact
 
 SOLID = Kelvin(modulus=1e6, relaxation_time=1e-3)
-PRESSED = Scene(Sphere(radius=10e-3), SOLID, Indent(depth=1e-4))
-SLIDING = replace(PRESSED, motion=Slide(speed=1.0, depth=1e-4))
-HERTZ = closed_form("Hertz", {"force": Known(elastic_contact(PRESSED).load)})
-# Two pixels a wave at least: so many points a side, or a solve ends in an error.
-FINE = SelfAffine(hurst=0.5, rms_height=1e-6, longest=2e-3, shortest=1e-4, seed=1)
-FAILED_BETWEEN = {"errors": [1e-2, nan, 1e-4], "seconds": [0.1, 0.001, 1.0], "reasons": [None, "too steep", None]}
+SMOOTH = Case(indenter=Sphere(radius=1e-2), elastomer=SOLID, motion=Slide(speed=0.1, load=1.0), bem=BEM(points=64))
+ROUGH = replace(SMOOTH, roughness=SelfAffine(hurst=0.2, rms_height=1e-5, longest=1e-2, shortest=1e-3, seed=1))
+TRUE, SCATTER, FLOOR = 0.1, 0.2, 0.5  # friction that is made, its scatter between surfaces, error of 1D
+BIAS = (0.0, 0.0025, 0.01, 0.04)  # relative, of the made grids from fine to coarse, the first two of the reference
+SECONDS = (nan, nan, 0.2, 0.05)
+COUNTS = (*pilot(4)[:-1], COARSEST)
+BEM_LADDER, MDR_LADDER = (
+    Ladder.of(Model.of(BEM(points=128)), ROUGH.scene, True),
+    Ladder.of(Model.of(MDR()), ROUGH.scene),
+)
 
 
 @pytest.fixture(autouse=True)
 def briefly(monkeypatch):
     """Repeats of a timed solve that end at once."""
-    monkeypatch.setattr(timed_solve, "SECONDS", 0.0)
+    monkeypatch.setattr(timed, "SECONDS", 0.0)
 
 
-def made(errors, seconds=None, reasons=None, reference_error=0.0):
-    """A contact of one ladder of points with these errors."""
-    values = tuple(32 * 2**k for k in range(len(errors)))
-    ladder = Ladder.of("BEM, by points", PRESSED, BEM(), "points", values)
-    truth = closed_form("Hertz", {"force": Known(1.0, reference_error)})
-    seconds = np.geomspace(0.01, 1.0, len(errors)) if seconds is None else seconds
-    reasons = reasons or [None] * len(errors)
-    rows = [
-        Row(reason=reason)
-        if reason
-        else Row(1 + error, measures={"processor": spent, "wall": spent, "memory": 1e6})
-        for error, spent, reason in zip(errors, seconds, reasons, strict=True)
-    ]
-    contact = Convergence("sphere", "sphere", truth, (FORCE,), (ladder,))
-    found = contact.datasets({task: Outcome((each,)) for task, each in zip(ladder.solves, rows, strict=True)})
-    return xarray.DataTree.from_dict(found)
-
-
-def measured_of(node):
-    return ladders(steps_table(node))
-
-
-def measured(*arguments, **how) -> MeasuredLadder:
-    return measured_of(made(*arguments, **how))[0]
-
-
-def test_a_timed_solve_has_the_answer_of_its_solver_and_what_that_took():
-    timed = TimedSolve.of(BEM(points=64, tolerance=1e-7), PRESSED)
-    found = timed.solve().rows[0]
-    assert found.normal_force == timed.solver.solve(PRESSED).normal_force
-    # Quick solves are repeated, and the least time is taken.
-    assert found.measures["repeats"] >= 3
-    assert min(found.measures["processor"], found.measures["wall"]) > 0
-
-
-@pytest.mark.slow
-def test_a_solve_alone_in_a_process_shows_its_memory_and_is_not_measured_again(tmp_path):
-    tasks = [TimedSolve.of(BEM(points=n), PRESSED) for n in (64, 512)]
-    for counted in ((2, 0), (0, 2)):
-        swept = sweep(tasks, Store(tmp_path), fresh=True)
-        assert (swept.solved, swept.reused) == counted
-    small, large = (swept.outcomes[task].rows[0].measures["memory"] for task in tasks)
-    # Pressure, gap, heights and kernel alone are planes of eight bytes a point.
-    assert large > max(4 * 8 * 512**2, small)
-
-
-def test_a_page_has_errors_against_the_reference_and_costs_as_measured(monkeypatch):
-    pair = (
-        Ladder.of("BEM", PRESSED, BEM(tolerance=1e-7), "points", (32, 64)),
-        Ladder.of("MDR", PRESSED, MDR(), "points", (64, 128, 256)),
+def dataset(values, processor, points, strata=None):
+    """Answers (level, surface) of a model at a load of 1 N; NaN failed, or was never asked."""
+    values = np.asarray(values, float)
+    failed = np.isnan(values) if strata is None else np.zeros(values.shape, bool)
+    dims = "level", "surface"
+    found = xarray.Dataset(
+        {
+            "friction_force": (dims, values),
+            "normal_force": (dims, np.ones(values.shape)),
+            "status": (dims, np.where(failed, "failed", SOLVED)),
+            "reason": (dims, np.where(failed, "does not converge", "")),
+            "processor": ("level", list(processor)),
+        },
+        {"points": ("level", list(points))},
     )
-    contact = Convergence("sphere", "a sphere", HERTZ, (FORCE,), pair)
-    monkeypatch.setitem(ready.DIAGRAMS, "little", ready.About("Little", "Five steps."))
-    monkeypatch.setitem(DIAGRAMS, "little", replace(models.MODELS, name="little", contacts=lambda size: [contact]))
-    study = WorkPrecision.of("little")
-    untimed, timed = study.batches()
-    assert (untimed.tasks, timed.timed) == ((), True)
-    outcomes = {task: task.solve() for task in timed.tasks}
-    found = study.answers(outcomes)
-    for each, ladder in zip(measured_of(found["little"]), pair, strict=True):
-        rows = [outcomes[task].rows[0] for task in ladder.solves]
-        truth = elastic_contact(PRESSED).load
-        assert each.errors == pytest.approx([abs(row.normal_force / truth - 1) for row in rows], rel=1e-9)
-        assert each.processor.tolist() == [row.measures["processor"] for row in rows]
-        assert each.errors[1] < each.errors[0]
-        assert each.reaching(1.0) == np.argmin(each.processor)
-    judged = study.judge(found)
-    said = {each.claim.id.removeprefix("workprecision.models."): each.verdict for each in judged.findings}
-    assert said == {
-        "1d-within-10-percent": "holds",
-        "1d-within-1-percent": "holds",
-        "time-10-percent": "reported",
-        "time-1-percent": "reported",
-    }
-    (plot,) = judged.plots
-    assert set(plot.tables) == {"workprecision-models-steps-depth", "workprecision-models-answers-depth"}
-    assert len(plot.tables["workprecision-models-steps-depth"]) == 5
+    return found if strata is None else found.assign_coords(stratum=("surface", strata))
 
 
-def test_a_failed_solve_is_nan_with_its_reason_and_reaches_nothing():
-    rough = replace(PRESSED, roughness=FINE)
-    truth = finer(rough, BEM(points=256), "256 points")
-    ladder = Ladder.of("BEM", rough, BEM(), "points", (16, 128))
-    contact = Convergence("rough", "rough", truth, (FORCE,), (ladder,))
-    found = contact.datasets({task: task.solve() for task in (*contact.untimed, *contact.timed)})
-    (each,) = measured_of(xarray.DataTree.from_dict(found))
-    assert isnan(each.processor[0])
-    assert isnan(each.errors[0])
-    assert found["rough"]["status"].values.tolist() == ["failed", "solved"]
-    ((value, reason),) = each.failures
-    assert (value, each.reaching(1.0)) == (16, 1)
-    assert "less than two pixels" in reason
+def surfaces(seed=1, bias=BIAS):
+    """Rough answers of 3D in strata: each surface its own friction, each grid its own bias."""
+    random, strata = np.random.default_rng(seed), np.repeat(range(len(COUNTS)), COUNTS)
+    own = TRUE * (1 + SCATTER * random.standard_normal(strata.size))
+    values = own + TRUE * np.array(bias)[:, None] * (1 + 0.1 * random.standard_normal((len(bias), strata.size)))
+    asked = [(strata == k) | (strata == k - 1) for k in range(len(COUNTS))]
+    return dataset(np.where(asked, values, nan), SECONDS, (512, 256, 128, 64), strata)
 
 
-def test_a_finer_solution_knows_its_own_error():
-    truth = finer(SLIDING, BEM(points=64), "64 points")
-    outcomes = {task: task.solve() for task in truth.tasks}
-    known = truth.values((FORCE, FRICTION), outcomes)
-    values = [outcomes[task].rows[0].friction_coefficient for task in truth.tasks]
-    assert known["friction"].value == values[0]
-    assert known["friction"].error == abs(values[0] - values[1])
-    assert known["friction"].relative_error == pytest.approx(abs(values[1] / values[0] - 1))
+def profiles(seed=2, count=1000):
+    random = np.random.default_rng(seed)
+    return dataset([TRUE * (1 - FLOOR + SCATTER * random.standard_normal(count))], [1e-3], [5000])
 
 
-@pytest.mark.parametrize("size", regimes.SIZES)
-@pytest.mark.parametrize("diagram", DIAGRAMS.values(), ids=lambda diagram: diagram.name)
-def test_no_solver_refuses_any_step(diagram, size):
-    untimed, timed = WorkPrecision.of(diagram.name, size).batches()
-    for task in (*untimed.tasks, *timed.tasks):
-        assert task.solver.refusals(task.scenes[0]) == []
+def smooth(values):
+    """Ways of 3D on one smooth body, with errors made to order on grids from fine to coarse."""
+    own = dataset(np.array(values)[:, None], SECONDS[: len(values)], (512, 256, 128, 64))
+    of = errors.reference(BEM_LADDER, own, "friction", nan)
+    return of, list(errors.ways("made", "friction", BEM_LADDER, own, of, of.biases))
 
 
-def test_an_order_rests_on_no_failed_step_and_on_none_within_the_error_of_the_reference():
-    points, errors = np.array([16, 32, 64, 128, 256, 512]), np.array([nan, 4e-2, 1e-2, 2.5e-3, 1e-4, 2e-4])
-    found = observed(points, errors, reference_error=1e-4)
-    assert found.order == pytest.approx(2.0)
-    np.testing.assert_allclose(found.at(points[1:4]), errors[1:4], rtol=1e-12)
-    assert isnan(observed(points[3:], errors[3:], 1e-4).order)
-    ladder = measured([4e-2, 1e-2, 2.5e-3, 2e-3], reference_error=7e-4)
-    assert ladder.order.order == pytest.approx(2.0)
+def of_line(line, of):
+    return next(errors.ways("made", "friction", MDR_LADDER, line, of, errors.against(line, "friction", of)))
+
+
+def way(bias=0.0, reach=0.0, scatter=0.2, processor=0.1, **others):
+    others = {"model": "BEM", "label": "3D", "settings": "64 points"} | others
+    return Way(
+        "made", "friction", bias=bias, most=abs(bias) + reach, scatter=scatter, processor=processor, **others
+    )
+
+
+def test_a_timed_solve_has_the_answers_of_its_settings_and_what_they_took():
+    settings = BEM(points=32), BEM(points=64, tolerance=1e-7)
+    found = TimedSolve(settings[0], (SMOOTH.scene,), settings[1:]).solve().rows
+    assert [row.friction_force for row in found] == [each.solve(SMOOTH.scene).friction_force for each in settings]
+    assert all(
+        row.measures["repeats"] >= 3 for row in found
+    )  # quick solves are repeated, and the least time is taken
+    assert all(min(row.measures["processor"], row.measures["wall"]) > 0 for row in found)
+
+
+def test_a_setting_that_fails_is_nan_with_its_reason_beside_one_that_does_not():
+    fine = replace(
+        SMOOTH.scene, roughness=SelfAffine(hurst=0.5, rms_height=1e-6, longest=2e-3, shortest=1e-4, seed=1)
+    )
+    task = TimedSolve(BEM(points=16), (fine,), (BEM(points=128),))
+    failed, solved = task.solve().rows
+    assert "less than two pixels" in failed.reason
+    assert np.isnan(failed.friction_force)
+    assert solved.reason is None
+    assert task.fits(task.failed("killed"))
+
+
+def test_the_expected_error_is_that_of_means_of_normal_deviates():
+    """The rms error of 4000 means of 25; allowed: four standard errors of such an rms, 4/sqrt(8000)."""
+    found = 0.03 + 0.2 * np.random.default_rng(2).standard_normal((4000, 25)).mean(axis=1)
+    assert way(bias=0.03).error(25) == pytest.approx(np.sqrt(np.mean(found**2)), rel=0.045)
+
+
+@pytest.mark.parametrize("level", LEVELS)
+def test_a_wanted_error_takes_as_many_surfaces_as_reach_it_and_no_more(level):
+    one = way(bias=0.003, reach=0.001, setup=0.05)
+    count, most = one.count(level), 0.004
+    assert most**2 + 0.2**2 / count <= level**2 < most**2 + 0.2**2 / (count - 1)
+    assert one.effort(level) == pytest.approx(0.05 + 0.1 * count)
 
 
 @pytest.mark.parametrize(
-    ("how", "level", "reached"),
-    [
-        (FAILED_BETWEEN, 1e-2, ("128 points", 1.0)),
-        ({"errors": [1e-2, 1e-3, 1e-4], "reference_error": 5e-4}, 1e-4, None),
-        ({"errors": [1e-2, 1e-3, 1e-4], "reference_error": 5e-4}, 1.1e-2, ("32 points", 0.01)),
-        ({"errors": [1e-2, 1e-3]}, 1e-4, None),
-    ],
-    ids=["failed", "below the reference", "reached", "not reached"],
+    "bad", [{"bias": 0.02}, {"bias": 0.01, "reach": 0.011}, {"bias": nan}, {"processor": nan}]
 )
-def test_a_wanted_error_takes_the_cheapest_step_after_which_all_keep_it(how, level, reached):
-    effort = measured(**how).effort(level)
-    assert (effort and (effort.settings, effort.seconds)) == reached
+def test_no_number_of_surfaces_passes_the_bias_nor_its_interval_and_what_failed_reaches_nothing(bad):
+    assert way(**bad).effort(0.02) == inf
 
 
-def drawn(*arguments, **how):
-    (plot,) = plots("made", {"steps": steps_table(made(*arguments, **how))})
-    return plot.figure()
+def test_a_finer_solution_knows_its_own_error_and_a_closed_form_has_none():
+    of, found = smooth([0.1, 0.1002, 0.101, 0.104])
+    assert of.value.value == pytest.approx(0.1, rel=1e-12)
+    assert of.error == pytest.approx(0.002, rel=1e-9)
+    assert [each.bias for each in found] == pytest.approx([0.01, 0.04], rel=1e-9)
+    assert [each.most for each in found] == pytest.approx([0.012, 0.042], rel=1e-9)
+    exact = Ladder.of(Model.of(Exact()), replace(SMOOTH, motion=Indent(load=1.0)).scene, True)
+    of = errors.reference(exact, dataset([[0.1]], [nan], [0]), "friction", nan)
+    assert (of.error, of.source, exact.timed) == (0.0, "closed form", [])
 
 
-def test_points_within_the_error_of_the_reference_are_hollow_and_failures_are_named():
-    figure = drawn([1e-2, nan, 1e-4], reasons=[None, "too steep", None], reference_error=1e-3)
-    (axes,) = figure.axes
-    marks = [line for line in axes.lines if line.get_linestyle() == "None"]
-    points = [(line.get_markerfacecolor(), y) for line in marks for y in line.get_ydata()]
-    faces = {round(y, 12): face for face, y in points if np.isfinite(y)}
-    assert faces == {1e-2: style.COLOUR["BEM"], 1e-4: "white"}
-    written = {text.get_text() for text in axes.texts}
-    assert {"failed: points 64", "32", "128"} <= written
-    assert "64" not in written
+def test_the_finest_that_solves_is_the_reference_and_says_so():
+    of, found = smooth([nan, nan, 0.1, 0.104])
+    assert of.source == "3D on 128 points, as finer grids have no answer"
+    assert of.error == pytest.approx(0.04)
+    assert found[0].most == pytest.approx(0.04)
+    alone, _ = smooth([nan, nan, 0.1, nan])
+    assert np.isnan(alone.error)
+    own = dataset(np.full((4, 1), nan), SECONDS, (512, 256, 128, 64))
+    assert np.isnan(errors.reference(BEM_LADDER, own, "friction", nan).error)
 
 
-def test_an_error_of_rounding_is_drawn_hollow_on_the_band_of_rounding():
-    figure = drawn([1e-3, 1e-16, 4e-14])
-    (axes,) = figure.axes
-    hollow = [line for line in axes.lines if line.get_markerfacecolor() == "white" and len(line.get_ydata())]
-    assert [y for line in hollow for y in line.get_ydata()] == [ROUNDING, ROUNDING]
-    assert axes.patches[0].get_window_extent().y1 == pytest.approx(axes.transData.transform((1, ROUNDING))[1])
+def test_no_grid_is_better_than_finer_ones_as_it_may_be_by_chance():
+    _, (fine, coarse) = smooth([0.1, 0.1001, 0.11, 0.1])
+    assert coarse.bias == pytest.approx(0.0, abs=1e-12)
+    assert coarse.most == fine.most > 0.1
+
+
+def test_truth_and_floor_are_within_their_intervals_as_often_as_they_say():
+    """Of 200 made ensembles; allowed: 95 % within three standard deviations of a binomial count, 4.6 %."""
+    covered = []
+    for seed in range(200):
+        of = errors.reference(BEM_LADDER, surfaces(seed), "friction", nan)
+        low, high = of.value.interval()
+        line = of_line(profiles(seed + 200), of)
+        covered.append((low <= TRUE <= high, 2 * abs(line.bias) - line.most <= FLOOR <= line.most))
+    scatter, floor = np.mean(covered, axis=0)
+    assert scatter == pytest.approx(0.95, abs=0.046)
+    assert floor >= 0.95 - 0.046
+
+
+def test_the_bias_of_a_grid_is_found_far_below_the_scatter():
+    """Only the grid differs: allowed is a tenth of what eight surfaces scatter by, a fifth with its interval."""
+    of = errors.reference(BEM_LADDER, surfaces(), "friction", nan)
+    found = list(errors.ways("made", "friction", BEM_LADDER, surfaces(), of, of.biases))
+    for each, expected in zip(found, BIAS[2:], strict=True):
+        assert each.bias == pytest.approx(expected * TRUE / of.scale, abs=0.1 * SCATTER / sqrt(8))
+        assert abs(each.bias) < each.most < abs(each.bias) + 0.2 * SCATTER / sqrt(8)
+        assert each.scatter == pytest.approx(SCATTER, rel=0.5)
+
+
+def test_a_mean_that_lacks_surfaces_is_no_truth():
+    """Of 128 surfaces two are less than 2 %, three are more."""
+    for lost, known in ((2, True), (3, False)):
+        own = surfaces()
+        own["status"][3, -lost:] = "failed"
+        own["friction_force"][3, -lost:] = nan
+        of = errors.reference(BEM_LADDER, own, "friction", nan)
+        assert np.isfinite(of.biases[3].value) == known
+
+
+def test_corrected_by_the_true_ratio_1d_keeps_no_error_and_by_a_wrong_one_it_does():
+    of = errors.reference(BEM_LADDER, surfaces(), "friction", nan)
+    own = dataset([[TRUE]], [0.05], [0])
+    for ratio, keeps in ((1 - FLOOR, 0.0), ((1 - FLOOR) * 4 / 3, 0.25)):
+        asked = own.assign(friction_ratio=(("level", "surface"), [[ratio]]))
+        found = of_line(errors.corrected(asked, profiles(), "friction"), of)
+        assert found.most - 2 * of.error - 0.02 <= keeps <= found.most
+        assert found.scatter == pytest.approx(SCATTER / ratio, rel=0.1)
+
+
+def test_no_other_surfaces_on_the_grids_give_a_smaller_error_in_the_same_time():
+    of = errors.reference(BEM_LADDER, surfaces(), "friction", nan)
+    finest = next(errors.ways("made", "friction", BEM_LADDER, surfaces(), of, of.biases))
+    found = errors.sampled(finest, "friction", BEM_LADDER, surfaces(), of)
+    values, strata = errors.values(surfaces(), "friction"), surfaces()["stratum"].values
+    own = [np.std((values[2] - values[3])[strata == 2], ddof=1), np.std(values[3, strata == 3], ddof=1)]
+    costs, time = np.array([0.25, 0.05]), 10 * found.processor
+    assert found.processor == pytest.approx(np.dot(pilot(2), costs))
+    best = min(
+        sqrt(found.bias**2 + sum((np.array(own) / of.scale) ** 2 * costs / (time * np.array([share, 1 - share]))))
+        for share in np.linspace(0.001, 0.999, 999)
+    )
+    assert found.error(10) == pytest.approx(best, rel=1e-4)
+    assert found.error(10) <= best
+
+
+def judged(case, **models):
+    study = WorkPrecision.of({"made": case}, **models)
+    outcomes = {task: task.solve() for batch in study.batches() for task in batch.tasks}
+    found = study.judge(study.answers(outcomes))
+    return study, found, {table.name: table.frame for table in found.page("", xarray.DataTree()).every(Table)}
+
+
+@pytest.fixture(scope="module")
+def layered():
+    """A thin layer, which 1D refuses, with a model that is off the map."""
+    return judged(replace(SMOOTH, layer=Layer(thickness=1e-3), bem=BEM(points=32)))
+
+
+def test_a_page_has_errors_and_times_of_what_solves_and_the_reasons_of_what_does_not(layered):
+    study, found, tables = layered
+    ways = found.plots[0].tables["workprecision-ways"]
+    solved = ways[ways["bias"].notna()]
+    assert set(solved["model"]) == {"BEM"}
+    fine, coarse = (BEM(points=n).solve(study.cases["made"].scene).friction_coefficient for n in (128, 32))
+    (bias,) = solved.loc[solved["quantity"] == "friction", "bias"]
+    assert bias == pytest.approx(coarse / fine - 1, abs=2e-5)  # of other first guesses
+    assert {"1D", "1D corrected", "3D law", "Persson"} == set(tables["workprecision-failures"]["model"])
+    assert "friction: to 5 %: " in found.answer[0]
+    assert "measured against 3D on 128 points" in found.answer[0]
+    assert [each.claim.unit for each in found.findings] == ["s"] * 2 * len(LEVELS)
+    assert list(tables["workprecision-times"]["model"]) == ["3D", "3D"]
+
+
+def test_a_figure_names_what_has_no_answer_and_is_hollow_within_the_error_of_the_reference(layered):
+    _, found, _ = layered
+    (plot,) = found.plots
+    texts = [text.get_text() for axes in from_files(plot).axes for text in axes.texts]
+    assert sum(text.startswith("no answer: 1D, ") for text in texts) == 2
+    for own, face in ((1e-9, style.COLOUR["BEM"]), (0.5, "white")):
+        table = plot.tables["workprecision-ways"].assign(reference_error=own)
+        axes = from_files(replace(plot, tables={"workprecision-ways": table})).axes[0]
+        assert axes.collections[0].get_facecolor() == pytest.approx(
+            np.array([style.matplotlib.colors.to_rgba(face)])
+        )
+
+
+def test_a_rough_scene_has_means_over_surfaces_and_the_curve_of_intervals(monkeypatch):
+    monkeypatch.setattr(ladder, "COARSEST", 16)
+    monkeypatch.setattr(ladder, "PROFILES", 50)
+    _, found, tables = judged(replace(ROUGH, bem=BEM(points=64)), models=[MDR(points=500), CorrectedMDR()])
+    models = list(tables["workprecision-times"]["model"])
+    assert [each for each in models if models.count(each) == 2] == models
+    assert set(models) == {"1D", "1D corrected", "3D", "3D, interval"}
+    ways = found.plots[0].tables["workprecision-ways"]
+    assert (ways.loc[ways["settings"] == INTERVAL, "scatter"] > 0).all()
+    assert (ways.loc[ways["model"] == "CorrectedMDR", "setup"] > 0).all()
+    assert from_files(found.plots[0]).axes
+
+
+def test_errors_at_rest_are_those_of_the_closed_form():
+    _, found, _ = judged(replace(SMOOTH, motion=Indent(load=1.0)), models=["mdr", "bem"])
+    ways = found.plots[0].tables["workprecision-ways"]
+    truth = elastic_contact(replace(SMOOTH, motion=Indent(load=1.0)).scene).depth
+    for solver, settings in ((BEM(points=32), "32 points"), (MDR(points=625), "625 points")):
+        (bias,) = ways.loc[ways["settings"] == settings, "bias"]
+        depth = solver.solve(replace(SMOOTH, motion=Indent(load=1.0)).scene).depth
+        assert bias == pytest.approx(depth / truth - 1, abs=1e-12)
+
+
+def test_a_scene_that_nothing_can_be_measured_against_is_refused():
+    waves = SelfAffine(hurst=0.5, rms_height=1e-9, longest=1e-2, shortest=1e-6, seed=1)
+    with pytest.raises(Refused, match="made: 3D, which others are measured against, refuses it"):
+        WorkPrecision.of({"made": replace(SMOOTH, roughness=waves)})
+
+
+def test_nothing_solved_is_a_page_without_a_figure():
+    study = WorkPrecision.of({"made": SMOOTH}, models=["mdr"])
+    outcomes = {task: task.failed("does not converge") for batch in study.batches() for task in batch.tasks}
+    found = study.judge(study.answers(outcomes))
+    assert found.plots == ()
+    assert "measured against nothing, as no grid has an answer" in found.answer[0]
+    assert {each.reason for each in found.findings} == {"not known"}
+    (table,) = found.page("", xarray.DataTree()).every(Table)
+    assert set(table.frame["reason"]) == {"does not converge"}

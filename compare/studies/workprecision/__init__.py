@@ -1,1 +1,1 @@
-"""Accuracy over cost: errors, times and memory along ladders of settings."""
+"""What accuracy costs: error against processor time, of any models on any scene."""

@@ -1,125 +1,269 @@
-"""Cost of accuracy in time: `crosscheck workprecision`."""
+"""What accuracy costs, for any scene: `crosscheck workprecision`."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any, ClassVar, Self
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
+from functools import cached_property
+from itertools import groupby
+from math import isfinite, nan
+from pathlib import Path
+from typing import Any
 
 import xarray
+from pandas import DataFrame
 
-from scene import Solver
-from scene.reading import InvalidInput
+from scene import Refused, Slide, notes
+from scene.indenter import Axisymmetric
+from scene.motion import Indent
+from scene.scales import elastic_contact
 
-from ...library import ready
+from ...comparison.curve import Curve, of_model
+from ...library.case import Case, doubted
+from ...library.describe import folders
+from ...library.lookup import SceneLike, case_of
+from ...models.exact import Exact
+from ...models.law.persson import Persson
 from ...models.table import Model, ModelLike, listed, named
-from ...report.page import Block, Findings, Section, Text
+from ...report.page import Block, Plot, Table
 from ...solving.outcome import Outcome
 from ...solving.task import Batch, Task
-from ...solving.words import sentences
-from ...statistics.finding import Finding
+from ...solving.words import seconds, share
+from ...statistics.finding import Claim, Finding
+from ...trustmap.corrected import CorrectedMDR
+from ...trustmap.friction_law import FrictionLaw
 from ..study import Judgement, Study
-from . import models
-from .convergence import Convergence
-from .diagram import Diagram
-from .regimes import QUICK, SIZES
+from . import errors, figure
+from .errors import INTERVAL, Way
+from .ladder import Ladder, grid_of
 
-DIAGRAMS: Mapping[str, Diagram] = {each.name: each for each in (models.MODELS, models.SURFACES)}
-ALL, MODELS = "all", "models"
-ABOUT = """Errors are relative. The reference is a closed form where there is one, elsewhere a far finer solution,
-whose own error is the grey band; points within the band are hollow and are known to be no worse than that.
-Times are processor seconds of one thread from the scene to the result, the least of several repeats, each
-solve alone in a process of its own, after one that loads compiled code. A setting reaches an error only if
-all finer ones of its ladder do; no finer one confirms the finest. A solve that fails is NaN, with its
-reason in the table."""
+LEVELS = (0.1, 0.05, 0.02, 0.01)  # wanted errors
+SAID = (0.05, 0.01)  # of these, those that the answer tells
+ABOUT = """Errors are relative, of rough scenes those expected (rms) of a mean over surfaces. The reference is a
+closed form where there is one, else 3D on four times the points of the finest grid that is timed, or on the finest
+that solves; its error is half of its interval of 95 %. 3D is compared with it on the same surfaces, so that the
+error of a grid is known far better than the reference. Times are processor seconds of one thread from the scene to
+the result, the least of several repeats. A setting counts with the largest error of its interval, and as no better
+than all finer ones of its model. The rms error is half of the half-width that --interval states."""
+CLAIMS = {
+    level: Claim(f"workprecision.time-{100 * level:g}-percent", f"Processor time to {share(level)}", unit="s")
+    for level in LEVELS
+}
 
 
 @dataclass(frozen=True)
 class WorkPrecision(Study):
-    """Diagrams of error over time.
+    """Error against processor time of models on scenes.
 
-    names : of DIAGRAMS
-    models : others that are measured too, in the smooth contacts of the diagram of that name
-    size : quick, a few contacts on short ladders, a minute or two a diagram; standard, all contacts on short
-        ladders; full, all contacts on long ladders, hours
+    cases : scenes by name, with the settings of the solvers
+    asked : models beside 3D, in place of 1D, 1D corrected, the law and Persson's theory
     """
 
-    names: tuple[str, ...]
-    size: str = QUICK
-    models: tuple[Solver, ...] = ()
+    cases: Mapping[str, Case]
+    asked: tuple[ModelLike, ...] = ()
 
-    command: ClassVar[str] = "workprecision"
-    title = "What accuracy costs in time"
-    about = ABOUT
+    command, title, about = "workprecision", "What accuracy costs in time", ABOUT
 
     @classmethod
-    def of(cls, names: str | Sequence[str], size: str = QUICK, models: Sequence[ModelLike] | None = None) -> Self:
-        """Diagrams by name, or "all". Raises InvalidInput with what is allowed.
+    def of(
+        cls,
+        scene: SceneLike | Sequence[str | Path] | Mapping[str, SceneLike] | None = None,
+        models: Sequence[ModelLike] | None = None,
+    ) -> "WorkPrecision":
+        """Study of a scene, of several files or by name, or of the paper's two.
 
-        models : beside MDR, CorrectedMDR and BEM, in the smooth contacts of the diagram `models`
+        Raises InvalidInput, and Refused of a scene that nothing can be measured against.
         """
-        asked = (names,) if isinstance(names, str) else tuple(names)
-        for name in asked:
-            if name not in (*DIAGRAMS, ALL):
-                raise InvalidInput(f"NAME = {name}: allowed are {', '.join(DIAGRAMS)} and {ALL}")
-        if size not in SIZES:
-            raise InvalidInput(f"size = {size}: allowed are {', '.join(SIZES)}")
-        chosen = tuple(DIAGRAMS) if ALL in asked else tuple(dict.fromkeys(asked))
-        several = listed(models)
-        if several and MODELS not in chosen:
-            raise InvalidInput(f"models: of the diagram {MODELS} alone, and not of {', '.join(chosen)}")
-        others = (Model.of(named(each, {}) if isinstance(each, str) else each).solver for each in several)
-        return cls(chosen, size, tuple(others))
+        if not isinstance(scene, Mapping):
+            several: Any = scene if isinstance(scene, list | tuple) else [] if scene is None else [scene]
+            scene = {Path(each).stem if isinstance(each, str | Path) else "scene": each for each in several}
+        cases = {name: case_of(each) for name, each in scene.items()}
+        study = cls(cases or named_cases(), listed(models))
+        for name, (first, *_) in study.ladders.items():
+            if not first.solvers:
+                raise Refused(f"{name}: 3D, which others are measured against, refuses it: {first.refused[0][1]}")
+        return study
 
     @property
     def inputs(self) -> Mapping[str, Any]:
-        """Names and size."""
-        others = {"models": [each.name for each in self.models]} if self.models else {}
-        return {"names": list(self.names), "size": self.size} | others
+        names = sorted({each.model.name for own in self.ladders.values() for each in own})
+        return {"cases": {name: case.inputs for name, case in self.cases.items()}, "models": names}
 
     @property
-    def diagrams(self) -> list[Diagram]:
-        """Diagrams in the order they were asked for."""
-        return [DIAGRAMS[name] for name in self.names]
+    def doubts(self) -> tuple[str, ...]:
+        return doubted(*self.cases.values())
 
-    def _contacts(self, diagram):
-        found = diagram.contacts(self.size)
-        others = self.models if diagram.name == MODELS else ()
-        return [each.beside(others) if isinstance(each, Convergence) else each for each in found]
+    @property
+    def notes(self) -> tuple[str, ...]:
+        return tuple(dict.fromkeys(note for case in self.cases.values() for note in notes(case.scene)))
+
+    @cached_property
+    def folders(self) -> Mapping[str, str]:
+        """Folders of the cases, by name. Raises InvalidInput where two share one."""
+        return folders(self.cases, "case")
+
+    @cached_property
+    def ladders(self) -> Mapping[str, Sequence[Ladder]]:
+        """Ladders of each case, that first which others are measured against: a closed form, else 3D."""
+        return {name: list(self._ladders(case)) for name, case in self.cases.items()}
+
+    def _ladders(self, case) -> Iterator[Ladder]:
+        exact, own = Exact(), {"mdr": case.mdr, "bem": case.bem}
+        usual = (case.mdr, CorrectedMDR(case.mdr), FrictionLaw(), Persson(), case.bem)
+        asked = [Model.of(named(each, own) if isinstance(each, str) else each) for each in self.asked or usual]
+        first = Model.of(case.bem if exact.refusals(case.scene) else exact)
+        yield Ladder.of(first, case.scene, refers=True)
+        yield from (Ladder.of(each, case.scene) for each in asked if each.name != first.name)
+
+    @cached_property
+    def _grids(self):
+        return {folder: grid_of(self.ladders[name]) for name, folder in self.folders.items()}
+
+    def grids(self) -> Mapping[str, Curve]:
+        """Contacts of each case."""
+        return self._grids
 
     def batches(self) -> Sequence[Batch]:
-        """First everything that is not timed; each task once."""
-        contacts = [each for diagram in self.diagrams for each in self._contacts(diagram)]
-        untimed = dict.fromkeys(task for each in contacts for task in each.untimed)
-        timed = dict.fromkeys(task for each in contacts for task in each.timed)
-        return Batch(tuple(untimed)), Batch(tuple(timed), timed=True)
+        """First everything that is not timed."""
+        timed = dict.fromkeys(task for own in self.ladders.values() for each in own for task in each.timed)
+        return *super().batches(), Batch(tuple(timed), timed=True)
 
     def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
-        """Datasets of all diagrams at /diagram/contact, of rough means at /diagram/contact/solver."""
+        """Answers and times of every model, at /case/model."""
+        solved = super().answers(outcomes)
         return xarray.DataTree.from_dict(
             {
-                f"/{diagram.name}/{name}": dataset
-                for diagram in self.diagrams
-                for contact in self._contacts(diagram)
-                for name, dataset in contact.datasets(outcomes).items()
+                f"/{folder}/{each.model.name}": each.with_times(of_model(found, each.model.name), outcomes)
+                for name, folder in self.folders.items()
+                for found in [solved.children[folder].to_dataset(inherit=False)]
+                for each in self.ladders[name]
+                if each.solvers
             }
         )
 
-    def judge(self, answers: xarray.DataTree) -> Judgement:
-        """Findings of all diagrams; a section and a statement for each claim of each."""
-        findings: list[Finding] = []
-        answer: list[str] = []
-        blocks: list[Block] = []
-        for each in self.diagrams:
-            own = each.judge(answers.children[each.name])
-            heading = f"{each.title}: " if len(self.diagrams) > 1 else ""
-            answer += [f"{heading}{sentence}" for sentence in sentences(own.findings)]
-            blocks.append(Section(each.title, [*own.plots, *own.tables, Findings(own.findings)]))
-            findings += own.findings
-        return Judgement(findings, answer, blocks, self.setting)
+    def ways(self, answers: xarray.DataTree) -> Iterator[tuple[str, str, list[Way]]]:
+        """Scene and quantity, what they are measured against, and every way to them."""
+        for name, case in self.cases.items():
+            first, *others = self.ladders[name]
+            below = answers.children[self.folders[name]].children
+            node = {model: each.to_dataset(inherit=False) for model, each in below.items()}
+            for quantity in _quantities(case):
+                at, own = (name, quantity), node[first.model.name]
+                found: list[Way] = []
+                of = errors.reference(first, own, quantity, _scale(case, quantity))
+                for ladder in self.ladders[name]:
+                    found += _refused(*at, ladder)
+                for ladder in others:
+                    if ladder.solvers and quantity in ladder.model.answers:
+                        found += _of_model(*at, ladder, node, of)
+                grids = list(errors.ways(*at, first, own, of, of.biases))
+                found += grids
+                if "stratum" in own.coords and len(grids) > 1:
+                    found.append(errors.sampled(grids[0], quantity, first, own, of))
+                known = f", which leaves {share(of.error)} open" if of.error else ""
+                yield f"{name}, {quantity}", f"measured against {of.source}{known}", found
 
-    @property
-    def setting(self) -> Sequence[Block]:
-        """Meaning of errors and times, and the contacts of each diagram."""
-        return [Text(ABOUT)] + [
-            Section(f"Contacts of the diagram: {each.title}", [Text(ready.DIAGRAMS[each.name].about)])
-            for each in self.diagrams
-        ]
+    def judge(self, answers: xarray.DataTree) -> Judgement:
+        """Times to wanted errors: one figure, one table, and a sentence for each quantity of each scene."""
+        told, findings = [], []
+        rows: list[dict[str, Any]] = []
+        every: list[Way] = []
+        for where, sentence, ways in self.ways(answers):
+            said = [f"to {share(level)}: {_said(ways, level)}" for level in SAID]
+            told.append(f"{where}: {'; '.join([*said, sentence])}.")
+            for level, claim in CLAIMS.items():
+                best = _cheapest(ways, level)
+                known = (best.effort(level), best.label, "") if best else (nan, "", _missed(ways))
+                findings.append(Finding(claim, known[0], where=where, dimension=known[1], reason=known[2]))
+            rows += _rows(ways)
+            every += ways
+        table = DataFrame(map(asdict, every))
+        failed = table.loc[table["reason"] != "", ["case", "label", "settings", "reason"]].drop_duplicates()
+        blocks: list[Block] = [_plot(table)] if table["bias"].notna().any() else []
+        caption = "Least processor time of each model to an error, with its settings; the least error known."
+        if rows:
+            blocks.append(Table("workprecision-times", DataFrame(rows), caption))
+        if len(failed):
+            failed = failed.rename(columns={"label": "model"})
+            blocks.append(Table("workprecision-failures", failed, "Settings without an answer."))
+        return Judgement(findings, told, blocks, self.setting)
+
+
+def _quantities(case: Case) -> tuple[str, ...]:
+    """Quantities that are not prescribed, friction first."""
+    pressed = "force" if case.motion.pressed_by in ("depth", "gap") else "depth"
+    return ("friction", pressed) if case.slides else (pressed,)
+
+
+def _scale(case: Case, quantity: str) -> float:
+    """Depth of the smooth relaxed contact, as that of a rough one may be nil; NaN for the size of the answer."""
+    known = isinstance(case.indenter, Axisymmetric) and isinstance(case.motion, Indent | Slide)
+    return elastic_contact(case.scene).depth if quantity == "depth" and known else nan
+
+
+def _refused(case, quantity, ladder) -> Iterator[Way]:
+    """Settings that a model refuses, with its reasons; one where it refuses all."""
+    for solver, reason in ladder.refused[: None if ladder.solvers else 1]:
+        points = f"{solver.points} points" if ladder.solvers else ""
+        yield Way(case, quantity, ladder.model.name, ladder.model.label, points, reason=reason)
+
+
+def _of_model(case, quantity, ladder, node, of) -> Iterator[Way]:
+    """Ways of another model; one that corrects 1D has any number of profiles once it knows the ratio."""
+    dataset, line, setup = node[ladder.model.name], node.get("MDR"), 0.0
+    if f"{quantity}_ratio" in dataset and line is not None and line.sizes["surface"] > 1:
+        profiles = getattr(ladder.model.solver, "profiles", 1)
+        setup = max(float(dataset["processor"][0]) - profiles * float(line["processor"][0]), 0.0)
+        dataset = errors.corrected(dataset, line, quantity)
+    for way in errors.ways(case, quantity, ladder, dataset, of, errors.against(dataset, quantity, of)):
+        yield replace(way, setup=setup)
+
+
+def _cheapest(ways: Sequence[Way], level: float) -> Way | None:
+    """The way of least effort to an error; None where none reaches it."""
+    best = min(ways, key=lambda way: way.effort(level), default=None)
+    return best if best and isfinite(best.effort(level)) else None
+
+
+def _said(ways, level):
+    """The cheapest way to an error, and the cheapest in 3D where it is another."""
+    both = _cheapest(ways, level), _cheapest([way for way in ways if way.model == "BEM"], level)
+    texts = [_taken(each, level, f" by {each.label}") for each in dict.fromkeys(both) if each]
+    return ", ".join(texts) or _missed(ways)
+
+
+def _missed(ways):
+    best = min((way.most for way in ways if isfinite(way.most)), default=nan)
+    return f"not reached, {share(best)} at best" if isfinite(best) else "not known"
+
+
+def _taken(way: Way | None, level: float, by: str = "") -> str:
+    """Time and settings of a way to an error in words."""
+    if way is None:
+        return "–"
+    count, settings = way.count(level), way.settings
+    if settings == INTERVAL:
+        settings = f"--interval {share(way.half_width(count)).replace(' ', '')}"
+    elif way.scatter:
+        draws = "profiles" if way.label.startswith("1D") else "surfaces"
+        settings = f"{count:,.0f} {draws if count > 1 else draws[:-1]}, {settings}"
+    return f"{seconds(way.effort(level))}{by}{f' ({settings})' if settings else ''}"
+
+
+def _rows(ways: Sequence[Way]) -> Iterator[dict[str, Any]]:
+    """A row for each model, and for intervals: time and settings to each error."""
+    for (label, sampled), group in groupby(ways, lambda way: (way.label, way.settings == INTERVAL)):
+        own = list(group)
+        known = [way.most for way in own if isfinite(way.most)]
+        if known:
+            row = {"case": own[0].case, "quantity": own[0].quantity, "model": f"{label}{', interval' * sampled}"}
+            row |= {f"within {share(level)}": _taken(_cheapest(own, level), level) for level in LEVELS}
+            yield row | {"best_known": share(min(known))}
+
+
+def _plot(ways: DataFrame) -> Plot:
+    return Plot(
+        "workprecision", figure.figure, {"workprecision-ways": ways},
+        "Relative error over processor time. Smooth: a point a grid. Rough: expected error of means of 1, 10, "
+        "100, 1000 surfaces, a curve a grid; thin, beyond those solved; thick, on several grids as intervals "
+        "take them. Grey, hollow: below the error of the reference; 3D of rough scenes shares its surfaces.",
+        "Panels of error over time: 1D is quick and level, 3D slower and falling.",
+    )  # fmt: skip

@@ -1,0 +1,99 @@
+"""Ladder: the settings of one model on one scene, from fine to coarse, and the contacts that they solve."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from math import nan
+from typing import Any
+
+import xarray
+
+from scene import Scene, Solver
+from scene.protocol import why_not
+
+from ...comparison.curve import LEAST, LEVELS, Curve, halved, work_of
+from ...comparison.series import pilot
+from ...models.table import Model
+from ...solving.cost import SECONDS
+from ...solving.outcome import Outcome
+from ...solving.task import Task
+from ...statistics.means import pressed
+from .timed import TimedSolve
+
+STEPS = 4  # grids that are timed, each with half the points of the one before
+FINER = 4, 2  # times the points of the finest of them that the reference has
+LONGEST = 300.0  # planned processor time of one solve of the reference [s], beyond which its grid is left out
+PROFILES, SURFACES = 1000, 8  # of models other than the reference
+COARSEST = 128  # surfaces of the reference on its coarsest grid
+NAMES = (*LEVELS, "fifth", "sixth")  # of grids, from fine to coarse
+
+
+class AsItStands(Curve):
+    """The scene itself, also of a motion of which no speed or load is varied."""
+
+    def at(self, value: float, speed: float = 0.0) -> Scene:
+        """The scene."""
+        return self.scene
+
+
+@dataclass(frozen=True)
+class Ladder:
+    """Settings of one model on one scene, from fine to coarse.
+
+    solvers : that can solve the scene, those of the reference first
+    reference : number of those, which are not timed
+    refused : other settings, each with its reason
+    """
+
+    model: Model
+    scene: Scene
+    solvers: tuple[Solver, ...]
+    reference: int
+    refused: tuple[tuple[Solver, str], ...]
+
+    @classmethod
+    def of(cls, model: Model, scene: Scene, refers: bool = False) -> "Ladder":
+        """Settings of a model. refers : whether far finer grids, or what has none, are the reference"""
+        grids, least = [model.solver], LEAST.get(model.name, 1)
+        while len(grids) < STEPS and (half := halved(grids[-1])) is not None and half.points >= least:
+            grids.append(half)
+        finer = [_refined(model.solver, times) for times in FINER] if refers and model.has_grid else []
+        finer = [each for each in finer if SECONDS * work_of(each, scene) < LONGEST]
+        reasons = [(each, "; ".join(why_not(each, scene))) for each in (*finer, *grids)]
+        able = tuple(each for each, reason in reasons if not reason)
+        refused = tuple(pair for pair in reasons[len(finer) :] if pair[1])
+        untimed = finer if model.has_grid else able if refers else ()
+        return cls(model, scene, able, sum(each in untimed for each in able), refused)
+
+    @property
+    def timed(self) -> list[TimedSolve]:
+        """The solves that are timed, of the first surface, as one task; none where every grid is refused."""
+        coarsest_first = self.solvers[self.reference :][::-1]
+        work = 10 * sum(work_of(each, self.scene) for each in coarsest_first)
+        return [TimedSolve(each, (self.scene,), coarsest_first[1:], work=work) for each in coarsest_first[:1]]
+
+    def with_times(self, dataset: xarray.Dataset, outcomes: Mapping[Task, Outcome]) -> xarray.Dataset:
+        """Answers of the scene (level, surface), with the processor times (level,) [s]."""
+        times = [row.measures.get("processor", nan) for task in self.timed for row in outcomes[task].rows[::-1]]
+        found = dataset.isel(dict.fromkeys(("speed", pressed(dataset)), 0))
+        found = found if "surface" in found.dims else found.expand_dims("surface", -1)
+        return found.assign(processor=("level", [nan] * self.reference + times))
+
+
+def grid_of(ladders: Sequence[Ladder]) -> Curve:
+    """Contacts of all models of a scene, of which the first is the reference, its surfaces in strata."""
+    (first, *_), scene = ladders, ladders[0].scene
+    draws: dict[str, Any] = {each.model.name: each.model.count(PROFILES, SURFACES) for each in ladders}
+    if len(first.solvers) > 1:
+        draws[first.model.name] = (*pilot(len(first.solvers))[:-1], COARSEST)
+    return AsItStands(
+        scene=scene,
+        speeds=(getattr(scene.motion, "speed", 0.0),),
+        values=(scene.motion.greatest,),
+        levels={each.model.name: dict(zip(NAMES, each.solvers, strict=False)) for each in ladders if each.solvers},
+        draws=draws,
+    )
+
+
+def _refined(solver, times):
+    steps = {"steps": times * solver.steps} if hasattr(solver, "steps") else {}
+    return replace(solver, points=times * solver.points, **steps)
