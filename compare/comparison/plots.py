@@ -15,7 +15,7 @@ from scene.reading import InvalidInput
 
 from ..figures import (
     collapse,
-    contact_maps,
+    contact,
     family,
     force_depth,
     friction_load,
@@ -215,7 +215,8 @@ def _maps(series: Around, tree: xarray.DataTree) -> Plot | None:
         model: {str(name): each.values for name, each in node.variables.items()}
         for model, node in below.children.items()
     }
-    return contact_maps.plot(view(series.scene, series.case.bem, fields), f"{series.folder}/")
+    seen = view(series.scene, series.case.bem, fields)
+    return contact.plot(series.scene, seen, folder=f"{series.folder}/") if seen else None
 
 
 def _around(series: Around, answers: Answers, judged: Judged, points: DataFrame) -> Iterator[Plot | None]:
@@ -365,8 +366,8 @@ def _depth(series: RoughSeries, answers: Answers, folder: str) -> Plot | None:
         f"{what}, {how}: rough, and of the smooth body in closed form; off that; 1D off 3D. Bars: 95 %. Depth is "
         "that of the macroscopic tip, below zero where only the highest asperities touch."
     )
-    tables = (_stacked(each, "model", "body").drop(columns=moving) for each in (points, less))
-    return force_depth.plot(*tables, caption, folder)
+    both = [_stacked(each, "model", "body").drop(columns=moving) for each in (points, less)]
+    return force_depth.plot(both[0], both[1], caption, folder)
 
 
 def _reduced(members: Sequence[Member], model: str) -> DataFrame:

@@ -387,16 +387,6 @@ def test_a_table_comes_back_whatever_its_numbers_are(tmp_path):
     assert csvfiles.read(tmp_path / "table.csv")["a"].tolist() == [float("1" * 30), 2.0]
 
 
-def test_a_map_is_no_larger_than_the_grids_that_are_solved():
-    spread = DataFrame({"x": [0.0, 1.0, 2.0], "y": [0.0, 3.0, 1.0], "pressure": 1.0})
-    assert touching.gridded(spread, "pressure", 1.0)[2].shape == (4, 3)
-    for pixel in (1e-9, nan, 0.0, -1.0, 1e-300):
-        with pytest.raises(ValueError, match="in pixels of"):
-            touching.gridded(spread, "pressure", pixel)
-    with pytest.raises(ValueError, match="not known at every"):
-        touching.unstacked(spread, "x", "y", "pressure")
-
-
 def test_nothing_is_written_out_of_the_folder(copied, tmp_path):
     for name, write in (("figures", draw_again), ("tables", export)):
         (copied / name).symlink_to(tmp_path)

@@ -19,7 +19,7 @@ from scene.scales import elastic_contact
 from ...comparison.curve import Curve, of_model
 from ...library.case import Case, doubted
 from ...library.describe import folders
-from ...library.lookup import SceneLike, case_of
+from ...library.lookup import SceneLike, case_of, named_cases
 from ...models.exact import Exact
 from ...models.law.persson import Persson
 from ...models.table import Model, ModelLike, listed, named
