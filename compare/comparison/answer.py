@@ -14,7 +14,7 @@ from ..report.page import Table
 from ..solving import words
 from ..statistics.finding import REPORTED, UNDECIDED, Finding
 from ..statistics.multilevel import MEANS, WORDS
-from ..trustmap.verdict import CALLED, MULTIPLY, NONE, USE, Advice, Correction
+from ..trustmap.verdict import CALLED, MULTIPLY, NONE, USE, Correction
 from .answers import Answers
 from .around import OWN, OWN_RATIOS, Around
 from .claims import SHORT
@@ -25,8 +25,9 @@ ALL = "all"
 MOST_NOTES = 4  # reasons of undecided claims that stand below a table
 
 
-def scene_table(series: Around, answers: Answers, findings: Sequence[Finding], advice: Advice) -> Table:
+def scene_table(series: Around, answers: Answers, findings: Sequence[Finding]) -> Table:
     """What each model finds of the scene as it stands, their ratio, and what to do with 1D."""
+    advice = series.advice
     rows: list[dict[str, Any]] = []
     drawn: dict[str, int] = {}
     for name in series.own_means:

@@ -27,6 +27,7 @@ from ..statistics.finding import UNKNOWN, Claim, Finding, said_of
 from ..statistics.frictioncurves import SimulatedCurves
 from ..statistics.jackknife import mean, measured
 from ..statistics.multilevel import WORDS
+from ..trustmap.verdict import Advice, trust
 from .answers import Answers
 from .claims import CLAIMS, TOLERANCE
 from .curve import COARSE, FINE, LEVELS, Curve, levels, refuse
@@ -97,6 +98,11 @@ class Around(Series):
     @cached_property
     def doubts(self) -> Sequence[str]:
         return doubted(self.case, curves=corners(self.curves))
+
+    @cached_property
+    def advice(self) -> Advice:
+        """Advice of the trust map on 1D: predicted, and not from what is solved here."""
+        return trust(self.scene)
 
     @property
     def own_means(self) -> list[str]:

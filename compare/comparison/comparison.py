@@ -16,7 +16,6 @@ from ..solving.task import SceneTask, Task
 from ..statistics.finding import Finding
 from ..statistics.multilevel import GROWTH
 from ..studies.study import Judgement, Study
-from ..trustmap.verdict import trust
 from . import pages, tables
 from .answer import claims_table, scene_table
 from .answer import notes as open_claims
@@ -108,7 +107,7 @@ class Comparison(Study):
         judged = [replace(one, findings=[self._told(each) for each in one.findings]) for one in judged]
         findings = [*(each for one in judged for each in one.findings), *several]
         every = list(zip(self.series, own, judged, strict=True))
-        opening = [scene_table(s, a, findings, trust(s.scene)) for s, a, _ in every if isinstance(s, Around)]
+        opening = [scene_table(s, a, findings) for s, a, _ in every if isinstance(s, Around)]
         opening += [table for s, a, _ in every if isinstance(s, SweepSeries) for table in s.tables(a, findings)]
         scenes = {each.name: each.name for each in self.series if isinstance(each, Around)}
         claims = claims_table(findings, scenes)

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import xarray
+from pandas import DataFrame
 
 from scene import Scene
 
@@ -13,7 +14,6 @@ from ..library.describe import described
 from ..models.table import Models
 from ..report.page import Block, Findings, Section, Table, Text
 from ..statistics.finding import Finding
-from ..trustmap.verdict import trust
 from . import plots, tables
 from .answers import Answers
 from .around import SHARED, Around
@@ -40,23 +40,28 @@ def blocks(
         yield Section("Several together", [*together, *([Findings(several)] if several else [])])
     for series, answers, judged in every:
         own = points[series.name][1]
-        yield Section(series.title, list(_section(series, answers, judged, own, tree)))
+        shown: list[Block] = list(plots.of_series(series, answers, judged, own, tree))
+        if isinstance(series, RoughSeries):
+            none = Text("No claim can be judged on this series.")
+            shown.append(Findings(judged.findings) if judged.findings else none)
+        if shown:
+            yield Section(series.title, shown)
+    data = (each for series, answers, _ in every for each in _data(series, answers, points[series.name][1], tree))
+    yield Section("Data", list(data))
 
 
-def _section(series: Series, answers: Answers, judged: Judged, points, tree: xarray.DataTree) -> Iterator[Block]:
+def _data(series: Series, answers: Answers, points: DataFrame, tree: xarray.DataTree) -> Iterator[Block]:
+    """Tables of a series that lie beside the page."""
     folder = f"{series.folder}/" if series.folder else ""
-    yield from plots.of_series(series, answers, judged, points, tree)
-    if isinstance(series, RoughSeries):
-        yield Findings(judged.findings) if judged.findings else Text("No claim can be judged on this series.")
     if isinstance(series, Around):
-        trusted = trust(series.scene)
+        told = "Advice of the trust map on cheap models, predicted."
+        yield Table(f"{folder}trust", series.advice.table(), told, long=True)
+        spent = tree.children[series.folder].children["times"].to_dataset(inherit=False)
         yield Table(
-            f"{folder}trust", trusted.table(), "Advice of the trust map on cheap models, predicted.", long=True
+            f"{folder}times",
+            spent.to_dataframe().reset_index(),
+            "Processor time of all solves, those of earlier runs included.",
         )
-        found = (
-            tree.children[series.folder].children["times"].to_dataset(inherit=False).to_dataframe().reset_index()
-        )
-        yield Table(f"{folder}times", found, "Processor time of all solves, those of earlier runs included.")
     yield Table(f"{folder}points", points, "Every point of every curve.", long=True)
     if len(failed := tables.failures(answers)):
         yield Table(f"{folder}failures", failed, f"{len(failed)} solves without an answer.", long=True)

@@ -15,7 +15,7 @@ from .page import Findings, Page, Section, Table, Text
 from .tables import claims, shown
 
 WIDTH = 100
-MORE = "Every number stands on the page; -v prints it too, as `report.details` does in Python."
+MORE = "Every number stands in findings.csv; -v prints the whole page, as `report.details` does in Python."
 # Rows of the longest table that is printed, and letters of its lines.
 MOST_ROWS, WIDEST = 100, 140
 
