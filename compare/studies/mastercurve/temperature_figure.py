@@ -13,9 +13,9 @@ from ...figures.curves import intervals
 from ...figures.lettering import clear, lettered
 from ...report.page import Plot, Tables
 from ...statistics.intervals import student
-from ...statistics.pooling import Pooled
-from ...statistics.shiftlaws import ShiftLaw
-from ...statistics.temperatureshifts import TemperatureShifts
+from .pooling import Pooled
+from .shiftlaws import ShiftLaw
+from .temperatureshifts import TemperatureShifts
 
 NAME = "temperature-shifts"
 SHIFTS, LAWS = f"{NAME}-shifts", f"{NAME}-laws"

@@ -13,12 +13,12 @@ from scene.temperature import WLF
 from ...solving import words
 from ...statistics import eq23
 from ...statistics.finding import EXACT, FAILS, Claim, Finding
-from ...statistics.measuredcurves import isotherms
-from ...statistics.pooling import Pooled
-from ...statistics.shiftlaws import NONE, ShiftLaw
-from ...statistics.temperatureshifts import TemperatureShifts, found, stated
 from . import temperature_figure as temperature_shifts
+from .measuredcurves import isotherms
 from .measurements import COLDEST
+from .pooling import Pooled
+from .shiftlaws import NONE, ShiftLaw
+from .temperatureshifts import TemperatureShifts, found, stated
 
 TOGETHER = Claim(
     id="mastercurve.temperatures",

@@ -12,10 +12,19 @@ from math import log, sqrt
 import numpy as np
 from numpy.polynomial import chebyshev
 
-from .collapse import STRAIGHT
-from .commoncurve import LEAST_OVERLAP, Common, Projected, inside, near, scaled_to_one, unsettled, within
-from .intervals import Estimated, RmsMisfit
-from .jackknife import Replicates
+from ...statistics.collapse import STRAIGHT
+from ...statistics.commoncurve import (
+    LEAST_OVERLAP,
+    Common,
+    Projected,
+    inside,
+    near,
+    scaled_to_one,
+    unsettled,
+    within,
+)
+from ...statistics.intervals import Estimated, RmsMisfit
+from ...statistics.jackknife import Replicates
 
 # Degrees of the polynomial, of which the least information criterion has one; a third of the points stays free.
 DEGREES = range(1, 11)

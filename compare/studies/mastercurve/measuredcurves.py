@@ -4,7 +4,7 @@ from itertools import groupby
 
 import numpy as np
 
-from .frictioncurves import Curve, MeasuredCurves
+from ...statistics.frictioncurves import Curve, MeasuredCurves
 from .pooling import Point, Pooled
 from .temperatureshifts import Isotherm, TemperatureShifts
 
