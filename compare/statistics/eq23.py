@@ -11,7 +11,7 @@ import numpy as np
 from ..solving import words
 from .collapse import DEGREE, PARTED, ROUNDING, Alignment, Collapse
 from .commoncurve import LEAST_OVERLAP
-from .finding import EXACT, FAILS, HALVED, UNKNOWN, Claim, Finding
+from .finding import EXACT, FAILS, HALVED, Claim, Finding
 from .intervals import Estimated, RmsMisfit
 
 # Largest misfit in ln mu that counts as one curve, and relative error of an exponent that counts as predicted.
@@ -209,21 +209,9 @@ def answer(across: Finding, along: Finding, alone: Finding, collapsed: Finding) 
 
 def finding(claim: Claim, fine: _Number, coarse: _Number | None = None, reason: str = "") -> Finding:
     """Finding of a number that fits on two grids give; on one, with None, of data that have no grid."""
-    grid = 0.0 if coarse is None else fine.apart(coarse)
-    method = EXACT if coarse is None else HALVED if isfinite(grid) else UNKNOWN
-    low, high = (float(end) for end in fine.interval())
-    known = isfinite(low) and isfinite(high) and isfinite(grid)
-    return Finding(
-        claim=claim,
-        value=float(fine.value),
-        scatter=(low, high),
-        grid=grid,
-        grid_method=method,
-        reason=reason or ("" if known else _UNKNOWN),
-        remedy=CLOSER if reason == PARTED else "",
-        size=isinstance(fine, RmsMisfit),
-        parts={source: float(each) for source, each in fine.parts.items()},
-    )
+    grid, method = (0.0, EXACT) if coarse is None else (fine.apart(coarse), HALVED)
+    remedy = CLOSER if reason == PARTED else ""
+    return Finding.of(claim, fine, grid, _UNKNOWN, method, reason, remedy=remedy)
 
 
 def too_few(dimension: str, where: str = "", draws: int = 0, regime: str = "", plot: str = "") -> Finding:

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from math import inf, nan, sqrt
+from math import inf, nan
 from typing import Any, Self, TypeAlias
 
 import numpy as np
@@ -133,7 +133,7 @@ class SimulatedCurves:
 
     def replicates(self, value: float | np.ndarray, deviations: np.ndarray) -> Replicates:
         """Numbers whose deviations follow from those of the surfaces."""
-        return Replicates.first_order(value, deviations, self._strata[: len(deviations)])
+        return Replicates.first_order(value, deviations, self._strata[: len(deviations)].tolist())
 
 
 @dataclass(frozen=True)
@@ -190,7 +190,7 @@ class MeasuredCurves:
 
     def replicates(self, value: float | np.ndarray, deviations: np.ndarray) -> Replicates:
         """Numbers whose deviations follow from those of independent points."""
-        return Replicates(value, sqrt(len(deviations)) * deviations, self.dof)
+        return Replicates(value, deviations, self.dof)
 
     @property
     def _errors(self):

@@ -7,7 +7,7 @@ function is a polynomial in the logarithms of speed and load, common to all temp
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
-from math import log, sqrt
+from math import log
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -119,7 +119,7 @@ def stated(isotherms: Sequence[Isotherm], shifts: np.ndarray, loads: int, dof: f
     increments = np.diff(shifts)
     surface = _freest(isotherms, loads, lambda each: increments)
     exact = np.zeros((len(shifts), len(shifts))), np.zeros((len(shifts), surface.y.size))
-    return _shifted(surface, increments, Estimated.exact(np.asarray(shifts, float)), *exact, dof, found=False)
+    return _shifted(surface, increments, Estimated(np.asarray(shifts, float)), *exact, dof, found=False)
 
 
 def found(isotherms: Sequence[Isotherm], loads: int, dof: float) -> TemperatureShifts:
@@ -195,7 +195,7 @@ def _misfit(surface, dof, fitted, missed):
     """Misfit of what is missed, where an orthonormal basis of what is fitted takes scatter away."""
     errors = np.concatenate([each.error for each in surface.isotherms])
     deviations = np.diag(errors) - errors[:, None] * fitted @ fitted.T
-    return Replicates(missed, sqrt(len(errors)) * deviations, dof).rms
+    return Replicates(missed, deviations, dof).rms
 
 
 def _orthonormal(basis):
