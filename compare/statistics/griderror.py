@@ -29,7 +29,7 @@ def stated(answers: "xarray.DataTree") -> dict[str, np.ndarray]:
     found: dict[str, np.ndarray] = {}
     for node in answers.subtree:
         if MEASURE in node.data_vars:
-            bounds, model = node[MEASURE], MODELS.get(str(node.name), str(node.name))
+            bounds, model = node.dataset[MEASURE], MODELS.get(str(node.name), str(node.name))
             bounds = bounds.sel(level="fine") if "level" in bounds.dims else bounds
             # Of a mean over surfaces the bound is the mean of theirs.
             values = (bounds.mean("surface") if "surface" in bounds.dims else bounds).values

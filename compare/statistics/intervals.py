@@ -22,6 +22,8 @@ UNSEEN = 1.5
 # longer side is then 1.6 times the other.
 MOST_SKEWED = 0.65
 NO_SKEWNESS = 1e-12
+# Endings of the names of columns: a number, and the ends of its interval.
+ENDS = ("", "_low", "_high")
 
 Value = TypeVar("Value", float, np.ndarray)
 
@@ -68,6 +70,10 @@ class Estimated(Generic[Value]):
     bias: float | np.ndarray = 0.0
     parts: Mapping[tuple[str, int], Any] = field(default_factory=dict)
 
+    def columns(self, name: str) -> dict[str, Any]:
+        """Number and the ends of its interval, by the names of columns."""
+        return dict(zip((f"{name}{end}" for end in ENDS), (self.value, *self.interval()), strict=True))
+
     def interval(self, level: float = 0.95) -> tuple:
         """Ends between which the number is, as often as stated."""
         below, above = sides(level, self.dof, self.skewness)
@@ -82,8 +88,8 @@ class Estimated(Generic[Value]):
         with np.errstate(invalid="ignore", divide="ignore", over="ignore"):  # of a sum that is not positive
             share = self.error / np.asarray(self.value)
             ends = self.value * np.exp([-share * below, share * above])
-        found = np.where(np.asarray(self.value) > 0, ends, self.interval(level))
-        return tuple(np.maximum(each, 0.0) for each in (self.value, *found))
+        low, high = np.where(np.asarray(self.value) > 0, ends, self.interval(level))
+        return tuple(np.maximum(each, 0.0) for each in (self.value, low, high))
 
     def less(self, other: Self) -> "Estimated":
         """Difference from a number of independent draws, with the degrees of freedom of Welch."""

@@ -4,8 +4,9 @@ The same surfaces stand behind all points: each is left out everywhere at once. 
 the scatter of a number and its skewness; percentiles of resampled surfaces are too narrow where there are few.
 """
 
-from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
 from math import inf, nan, sqrt
 from typing import Any, NamedTuple, Self, TypeAlias
 
@@ -110,7 +111,7 @@ def welch(squares: np.ndarray, strata: Sequence[Hashable] | None = None) -> tupl
     if strata is None or not len(squares):
         return {}, len(squares) - 1 if len(squares) else inf
     kinds = list(dict.fromkeys(strata))
-    own = np.array([[each == kind for each in strata] for kind in kinds], float)
+    own = np.eye(len(kinds))[:, list(map(kinds.index, strata))]
     dofs = own.sum(axis=1) - 1
     with np.errstate(invalid="ignore", divide="ignore"):
         sums = np.tensordot(own, squares, 1)
@@ -170,7 +171,7 @@ def _weights(sizes, solver, stratum):
 
 
 def mean_ratio(
-    above: np.ndarray, below: np.ndarray | float = 1.0, strata: np.ndarray | None = None
+    above: np.ndarray | float, below: np.ndarray | float = 1.0, strata: np.ndarray | None = None
 ) -> Estimated[np.ndarray]:
     """Ratio of the means over the surfaces of both, the last axis, which share them; errors to first order.
 
@@ -185,7 +186,9 @@ def mean_ratio(
     return found if strata is not None else replace(found, dof=np.maximum(count - 1, 0))
 
 
-def off_the_ratio(above: np.ndarray, below: np.ndarray | float = 1.0) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def off_the_ratio(
+    above: np.ndarray | float, below: np.ndarray | float = 1.0
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Ratio of the means, its change with each surface, nil of one with a NaN, and the number of others.
 
     The sum of squares of the changes estimates the variance; they are NaN with fewer than two surfaces.
@@ -213,16 +216,12 @@ _ONE = "of one surface the scatter is not known"
 _HALF = "at some point fewer than half of the surfaces have an answer, or the mean is not positive"
 
 
-@dataclass(frozen=True)
-class DrawSet(Mapping[str, xarray.Dataset]):
+class DrawSet(dict[str, xarray.Dataset]):
     """Datasets of one grid by "name/solver", from which draws can be left out.
 
     Draws of different solvers are independent, and are left out by themselves. Where the Datasets of one solver
     differ in their number, shares of each are left out together.
     """
-
-    datasets: Mapping[str, xarray.Dataset]
-    _left: dict[tuple, "DrawSet"] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     @classmethod
     def of(cls, answers: xarray.DataTree, names: Iterable[str], grid: str) -> Self:
@@ -232,14 +231,10 @@ class DrawSet(Mapping[str, xarray.Dataset]):
             {name: nodes[name].to_dataset(inherit=False).sel(level=grid) for name in names if name in nodes}
         )
 
-    def __getitem__(self, name: str) -> xarray.Dataset:
-        return self.datasets[name]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self.datasets)
-
-    def __len__(self) -> int:
-        return len(self.datasets)
+    @cached_property
+    def _left(self) -> dict[tuple, "DrawSet"]:
+        """Samples without a group: every claim on the same Datasets asks for the same ones."""
+        return {}
 
     @property
     def _strata(self) -> dict[str, np.ndarray]:
@@ -262,10 +257,7 @@ class DrawSet(Mapping[str, xarray.Dataset]):
         return [group for solver, strata in self._strata.items() for group in groups(strata, solver)]
 
     def without(self, group: Group) -> "DrawSet":
-        """The sample without one group of draws of a solver.
-
-        It is kept, as every claim on the same Datasets asks for the same ones.
-        """
+        """The sample without one group of draws of a solver."""
 
         def left(name, dataset):
             if "surface" not in dataset.dims or _solver(name, dataset) != group.solver:
@@ -282,8 +274,7 @@ class DrawSet(Mapping[str, xarray.Dataset]):
 
 def strata_of(dataset: xarray.Dataset) -> np.ndarray:
     """Number of the stratum of each draw."""
-    named = "stratum" in dataset.coords
-    return dataset["stratum"].values if named else np.zeros(dataset.sizes["surface"], int)
+    return dataset["stratum"].values if "stratum" in dataset.coords else np.zeros(dataset.sizes["surface"], int)
 
 
 def _solver(name, dataset):
@@ -302,6 +293,14 @@ def draws_of(dataset: xarray.Dataset, name: str) -> np.ndarray:
     variable = dataset.variables[name]
     drawn = "surface" in variable.dims
     return variable.transpose(..., "surface").values if drawn else variable.values[..., None]
+
+
+def estimated(dataset: xarray.Dataset, above: str, below: str | None = None) -> Estimated[np.ndarray]:
+    """Mean over draws of a variable, or ratio of two means, with its error."""
+    over, under = (1.0 if name is None else draws_of(dataset, name) for name in (above, below))
+    if "surface" in dataset.dims:
+        return mean_ratio(over, under, strata_of(dataset))
+    return Estimated(off_the_ratio(over, under)[0])
 
 
 def friction(dataset: xarray.Dataset) -> np.ndarray:

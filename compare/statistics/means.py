@@ -11,7 +11,7 @@ from pandas import DataFrame
 
 from ..solving.parameter_grid import COARSE, EMPTY, FAILED, FINE
 from .intervals import Estimated
-from .jackknife import DrawSet, Source, draws_of, mean_ratio, off_the_ratio, resample, strata_of
+from .jackknife import DrawSet, Source, estimated, resample
 from .multilevel import pooled
 
 # Means of friction: the two forces whose means are divided.
@@ -138,20 +138,13 @@ def interval(dataset: xarray.Dataset, above: str, below: str | None = None, size
 
     size : whether the variable is never negative
     """
-    found = {name: _estimated(dataset.sel(level=name), above, below) for name in dataset["level"].values.tolist()}
+    ordered = dataset.transpose("speed", pressed(dataset), ...)
+    found = {name: estimated(ordered.sel(level=name), above, below) for name in ordered["level"].values.tolist()}
     fine = found[FINE]
     # A model without points has no error of a grid.
     unknown = 0.0 if "points" in dataset.coords and not dataset["points"].values.any() else nan
     grid = np.abs(fine.value - found[COARSE].value) if COARSE in found else unknown
     return Interval.of(fine, grid, size)
-
-
-def _estimated(dataset, above, below):
-    ordered = dataset.transpose("speed", pressed(dataset), ...)
-    over, under = (1.0 if name is None else draws_of(ordered, name) for name in (above, below))
-    if "surface" in dataset.dims:
-        return mean_ratio(over, under, strata_of(dataset))
-    return Estimated(off_the_ratio(over, under)[0])
 
 
 def _most_drawn(dataset):

@@ -27,7 +27,7 @@ from ..solving.parameter_grid import EMPTY, LEVELS, TOGETHER, ParameterGrid, lev
 from ..solving.words import duration, share
 from .collapse import PARTED
 from .finding import UNDECIDED, Finding
-from .jackknife import Source, draws_of, mean_ratio, off_the_ratio
+from .jackknife import Source, estimated, off_the_ratio
 
 if TYPE_CHECKING:
     import xarray
@@ -104,14 +104,11 @@ def pooled(dataset: xarray.Dataset) -> xarray.Dataset:
     if "status" in dataset and "friction_force" in dataset:
         # What does not touch adds nothing to either force.
         dataset = dataset.assign(friction_force=dataset["friction_force"].where(dataset["status"] != EMPTY, 0.0))
-    drawn = {
-        name: each for name, each in dataset.data_vars.items() if "surface" in each.dims and name not in SPENT
-    }
-    numbers = [name for name, each in drawn.items() if each.dtype.kind == "f"]
-    strata = dataset["stratum"].values
-    made, levels = {}, dataset.sizes["level"]
-    for name in numbers:
-        ordered = dataset[name].transpose("level", ..., "surface")
+    strata, levels, made = dataset["stratum"].values, dataset.sizes["level"], {}
+    for name, each in dataset.data_vars.items():
+        if "surface" not in each.dims or name in SPENT or each.dtype.kind != "f":
+            continue
+        ordered = each.transpose("level", ..., "surface")
         values = ordered.values.copy()
         if variates is not None:
             rows = np.flatnonzero(strata == levels - 1)
@@ -120,7 +117,7 @@ def pooled(dataset: xarray.Dataset) -> xarray.Dataset:
         values[:-1] -= values[1:]
         differences = np.moveaxis(values[strata, ..., np.arange(strata.size)], 0, -1)
         draws = np.stack([_draws(differences, strata, range(first, levels)) for first in range(levels)[:2]])
-        made[name] = ("level", *ordered.dims[1:]), draws, dataset[name].attrs
+        made[name] = ordered.dims, draws, each.attrs
     return dataset.isel(level=slice(2)).assign(made)
 
 
@@ -186,12 +183,9 @@ def _errors(dataset, above, below):
 
     The latter are relative.
     """
-    strata, both = dataset["stratum"].values, pooled(dataset)
+    both = pooled(dataset)
     # A model without another grid has no error of it.
-    found, other = (
-        mean_ratio(*(1.0 if name is None else draws_of(grid, name) for name in (above, below)), strata)
-        for grid in (both.isel(level=0), both.isel(level=-1))
-    )
+    found, other = (estimated(both.isel(level=k), above, below) for k in (0, -1))
     low, high = found.interval()
     size = np.abs(found.value)
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -242,7 +236,8 @@ class DrawnSurfaces:
         if not (left > 0 and sources):
             return {}
         known = [(finding.parts[name, k], self.counts[name][k], self.costs[name][k]) for name, k in sources]
-        needs = _least_cost(*np.transpose(known), scatter / left)
+        parts, counts, costs = np.transpose(known)
+        needs = _least_cost(parts, counts, costs, scatter / left)
         return dict(zip(sources, needs.tolist(), strict=True))
 
     def more(

@@ -8,9 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from compare.statistics.frictioncurves import MeasuredCurves
 from compare.studies.mastercurve import shiftlaws
-from compare.studies.mastercurve.measuredcurves import curves_of, isotherms
+from compare.studies.mastercurve.measuredcurves import MeasuredCurves, curves_of, isotherms
 from compare.studies.mastercurve.pooling import pooled
 from compare.studies.mastercurve.temperatureshifts import POWERS, found
 

@@ -121,9 +121,7 @@ def _points(pooled: Pooled, shifts: TemperatureShifts) -> DataFrame:
 
 def shifts_table(shifts: TemperatureShifts) -> DataFrame:
     """Shift ln a_T of each temperature with its interval of 95 %."""
-    low, high = shifts.shifts.interval()
-    names = ("temperature", "log_time_shift", "log_time_shift_low", "log_time_shift_high")
-    return DataFrame(dict(zip(names, (shifts.temperatures, shifts.shifts.value, low, high), strict=True)))
+    return DataFrame({"temperature": shifts.temperatures, **shifts.shifts.columns("log_time_shift")})
 
 
 def _laws(shifts: TemperatureShifts, law: ShiftLaw | None) -> DataFrame:
