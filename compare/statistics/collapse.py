@@ -143,7 +143,11 @@ def collapse(data: FrictionCurves) -> Collapse:
     curves = complete.curves
     count = _counted(curves, 2)
     unmoved = np.zeros(len(curves) - 1)
-    straight = _misfit(complete, Fit(curves, 1, lifted=True), lambda fit: unmoved)
+
+    def still(fit):
+        return unmoved
+
+    straight = _misfit(complete, Fit(curves, 1, lifted=True), still)
     along = _best(Fit(curves, DEGREE), unmoved)
     lifted, both = _freed(complete, Fit(curves, DEGREE, lifted=True), along)
     level = Fit(curves, lifted.degree)
@@ -167,9 +171,9 @@ def collapse(data: FrictionCurves) -> Collapse:
         log_friction=complete.replicates(level.y, complete.deviations()).estimated,
         degree=level.degree,
         straight=straight,
-        unshifted=_still(complete, level),
+        unshifted=_aligned(complete, level, still),
         horizontal=horizontal,
-        vertical=_still(complete, lifted),
+        vertical=_aligned(complete, lifted, still),
         both=raised,
     )
 
@@ -239,11 +243,6 @@ def _spare(tangent):
     """Whether a third of the points stays free with two more coefficients."""
     points, unknowns = tangent.shape
     return points - unknowns - 2 >= points / 3
-
-
-def _still(data, fit):
-    """Curves that are not shifted horizontally."""
-    return _aligned(data, fit, lambda each: np.zeros(len(each.curves) - 1))
 
 
 def _moved(data, fit, guess):

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import nan
 from typing import Any, Self, TypeAlias
 
@@ -62,7 +63,7 @@ class SimulatedCurves:
         """Number of surfaces; 1 of a body without."""
         return self._forces.shape[3]
 
-    @property
+    @cached_property
     def known(self) -> np.ndarray:
         """Points at which any surface has an answer (S, P)."""
         return np.isfinite(self._forces).all(axis=0).any(axis=2)
@@ -74,14 +75,11 @@ class SimulatedCurves:
 
     def without(self, group: Group) -> Self:
         """Curves without some surfaces."""
-        return self._of(np.delete(np.arange(self.surfaces), group.surfaces))
+        kept = np.delete(np.arange(self.surfaces), group.surfaces)
+        load, friction = self.load[..., kept], self.friction_force[..., kept]
+        return replace(self, load=load, friction_force=friction, strata=self._strata[kept])
 
-    def _of(self, surfaces):
-        """Curves of some surfaces."""
-        load, friction = self.load[..., surfaces], self.friction_force[..., surfaces]
-        return replace(self, load=load, friction_force=friction, strata=self._strata[surfaces])
-
-    @property
+    @cached_property
     def _forces(self):
         """Load and friction force (2, S, P, surfaces)."""
         return np.array([np.atleast_3d(self.load), np.atleast_3d(self.friction_force)])

@@ -55,7 +55,7 @@ def skewness(deviations: np.ndarray) -> np.ndarray:
 class Estimated(Generic[Value]):
     """A number or an array of them, with standard errors over surfaces; NaN where they cannot be had.
 
-    Without an error it is exact, as of a body without random surfaces.
+    Without an error it is exact, like a number that no random surface changes.
 
     dof : degrees of freedom of the error
     skewness : third moment of what the number is off by, over the cube of its error

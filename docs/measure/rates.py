@@ -18,7 +18,7 @@ from compare.statistics.commoncurve import Fit, near
 from compare.statistics.eq23 import TOLERANCE
 from compare.statistics.frictioncurves import SimulatedCurves
 from compare.statistics.intervals import student
-from compare.statistics.jackknife import mean_ratio, resample
+from compare.statistics.jackknife import Group, mean_ratio, resample
 from mdr1d.equations import interpolation
 
 PAGE = Path(__file__).parents[1] / "results" / "rates.md"
@@ -98,20 +98,18 @@ def has(ends: tuple, truth: float) -> bool:
 
 @dataclass(frozen=True)
 class Pair:
-    """Forces in 1D and in 3D, whose surfaces are independent: a share of each is left out together."""
+    """Forces in 1D and in 3D, whose surfaces are independent."""
 
     one: SimulatedCurves
     three: SimulatedCurves
 
     @property
-    def groups(self) -> list[np.ndarray]:
-        return [np.array([k]) for k in range(min(len(self.one.groups), len(self.three.groups)))]
+    def groups(self) -> list[Group]:
+        return [*self.one.groups, *self.three.groups]
 
-    def without(self, group: np.ndarray) -> "Pair":
-        (k,), count = group, len(self.groups)
-        return Pair(
-            *(side.without(np.array_split(np.arange(side.surfaces), count)[k]) for side in (self.one, self.three))
-        )
+    def without(self, group: Group) -> "Pair":
+        sides = self.one, self.three
+        return Pair(*(side.without(group) if side.solver == group.solver else side for side in sides))
 
 
 def rms(values: np.ndarray) -> float:
@@ -150,7 +148,10 @@ def ratios(surfaces: int, pair: bool) -> Rate:
     for _ in range(CHEAP):
         three = forces(surfaces)
         one = forces(PROFILES * surfaces) if pair else three
-        sides = [SimulatedCurves(np.ones(1), load[None, None], force[None, None]) for load, force in (one, three)]
+        sides = [
+            SimulatedCurves(np.ones(1), load[None, None], force[None, None], solver=solver)
+            for solver, (load, force) in {"MDR": one, "BEM": three}.items()
+        ]
         hits += has(resample(ratio, Pair(*sides) if pair else sides[0])[""].estimated.interval(), 1.0)
     return Rate(hits, CHEAP)
 
