@@ -140,9 +140,7 @@ def resample(statistic: Callable[[Any], Mapping[str, float | np.ndarray]], sampl
     """
     whole, left_out = statistic(samples), list(samples.groups)
     strata = [(group.solver, group.stratum) for group in left_out]
-    solvers, kinds = (
-        np.array(each) for each in ([solver for solver, _ in strata], list(map(strata.index, strata)))
-    )
+    solvers, kinds = np.array([solver for solver, _ in strata]), np.array([*map(strata.index, strata)])
     same = solvers[:, None] == solvers
     if not left_out or same.sum(axis=1).min() < 2:
         weights, found = np.full((len(left_out), 1), nan), [whole]
