@@ -11,8 +11,9 @@ import numpy as np
 from numpy.polynomial import Chebyshev
 from pandas import DataFrame
 
-from .commoncurve import Fit, against_middle, bounds, exponent_bias, exponents, inside, near, within
+from .commoncurve import Fit, exponent_bias, inside, near, within
 from .frictioncurves import Curve, FrictionCurves
+from .intervals import ENDS as ENDS
 from .intervals import Estimated, RmsMisfit
 
 # Stiff enough not to follow the scatter, and close enough to Eq. 19 over three decades of xi for 1 % in mu. Where
@@ -27,8 +28,6 @@ CHANCE = 0.05
 POWERS, FOLLOWED = np.linspace(-3.0, 3.0, 25), 3
 # Misfit of ln mu that rounding leaves.
 ROUNDING = 1e-9
-# Endings of the names of columns: a number, and the ends of its interval.
-ENDS = ("", "_low", "_high")
 PARALLEL = "straight parallel lines fit: a horizontal shift cannot be told from a vertical one"
 PARTED = "once shifted, curves of neighbouring speeds share too small a range of loads"
 UNSCATTERED = "scatter is not known, nor whether the curves are bent"
@@ -64,8 +63,7 @@ class Collapse:
     """Curves, and how far from one they are for each choice of shifts.
 
     data : what was fitted; points_left_out, surfaces_left_out : how many were not
-    curves : with standard errors, to first order
-    log_friction : of every point of every curve, with these errors
+    log_friction : of every point of every curve, with standard errors to first order
     degree : of the common polynomial of curves shifted along the load
     straight : misfit of parallel straight lines, one a speed
     unshifted, horizontal, vertical, both : which shifts are fitted
@@ -74,7 +72,6 @@ class Collapse:
     data: FrictionCurves = field(repr=False)
     points_left_out: int
     surfaces_left_out: int
-    curves: tuple[Curve, ...] = field(repr=False)
     log_friction: Estimated = field(repr=False)
     degree: int
     straight: RmsMisfit
@@ -91,7 +88,12 @@ class Collapse:
     @property
     def scatter(self) -> float:
         """Rms standard error of ln mu; NaN if unknown."""
-        return _rms(np.concatenate([curve.error for curve in self.curves]))
+        return _rms(self.log_friction.error)
+
+    @property
+    def curves(self) -> tuple[Curve, ...]:
+        """The curves that were fitted."""
+        return self.data.curves
 
     @property
     def inseparable(self) -> str:
@@ -107,37 +109,29 @@ class Collapse:
         counts = [curve.log_load.size for curve in self.curves]
         along = np.repeat(self.horizontal.horizontal.value if shifts is None else shifts, counts)
         load = np.exp(np.concatenate([curve.log_load for curve in self.curves]))
-        friction = self.log_friction.value, *self.log_friction.interval()
-        columns = {
-            "speed": np.repeat(self.speeds, counts),
-            "normal_force": load,
-            "shifted_force": load * np.exp(along),
-        } | {f"friction_coefficient{end}": np.exp(each) for end, each in zip(ENDS, friction, strict=True)}
-        if lifts is not None:
-            by = np.repeat(lifts, counts)
-            columns |= {
-                f"shifted_friction{end}": np.exp(each + by) for end, each in zip(ENDS, friction, strict=True)
-            }
-        return DataFrame(columns)
+        frame = DataFrame({"speed": np.repeat(self.speeds, counts), "normal_force": load})
+        frame["shifted_force"] = load * np.exp(along)
+        for name, by in (("friction_coefficient", 0.0 * self.speeds), ("shifted_friction", lifts)):
+            if by is not None:
+                moved = replace(self.log_friction, value=self.log_friction.value + np.repeat(by, counts))
+                frame = frame.join(np.exp(DataFrame(moved.columns(name))))
+        return frame
 
     def shifts(self, lead: Alignment) -> DataFrame:
         """Shifts of each speed with intervals of 95 %: along the force, of one alignment; along friction."""
-        columns: dict[str, np.ndarray] = {"speed": self.speeds}
-        for name, found in (("log_shift", lead.horizontal), ("log_lift", self.both.vertical)):
-            numbers = zip(ENDS, (found.value, *found.interval()), strict=True)
-            columns |= {f"{name}{end}": each for end, each in numbers}
-        return DataFrame(columns)
+        along, lift = lead.horizontal.columns("log_shift"), self.both.vertical.columns("log_lift")
+        return DataFrame({"speed": self.speeds, **along, **lift})
 
     def misfit_at(self, shifts: np.ndarray) -> RmsMisfit:
         """Misfit of the curves once shifted by b_v (S,), as where a theory predicts ln p(v).
 
         Unknown where that leaves neighbours less than the least overlap.
         """
-        increments = np.diff(shifts)
-        lower, upper = bounds(self.curves)
+        fit, increments = Fit(self.curves, self.degree), np.diff(shifts)
+        lower, upper = fit.bounds
         if not np.all((lower <= increments) & (increments <= upper)):
             return RmsMisfit.unknown()
-        return _misfit(self.data, Fit(self.curves, self.degree), lambda fit: increments)
+        return _misfit(self.data, fit, lambda each: increments)
 
 
 def collapse(data: FrictionCurves) -> Collapse:
@@ -147,11 +141,13 @@ def collapse(data: FrictionCurves) -> Collapse:
     """
     complete = data.complete()
     curves = complete.curves
-    unknowns, count = 2 * (len(curves) - 1) + DEGREE + 1, sum(curve.log_load.size for curve in curves)
-    if len(curves) < 2 or count <= unknowns:
-        raise ValueError(f"{len(curves)} speeds with too few points for {unknowns} unknowns: add loads or speeds")
+    count = _counted(curves, 2)
     unmoved = np.zeros(len(curves) - 1)
-    straight = _misfit(complete, Fit(curves, 1, lifted=True), lambda fit: unmoved)
+
+    def still(fit):
+        return unmoved
+
+    straight = _misfit(complete, Fit(curves, 1, lifted=True), still)
     along = _best(Fit(curves, DEGREE), unmoved)
     lifted, both = _freed(complete, Fit(curves, DEGREE, lifted=True), along)
     level = Fit(curves, lifted.degree)
@@ -168,19 +164,16 @@ def collapse(data: FrictionCurves) -> Collapse:
         horizontal = _widened(horizontal, exponent_bias(level, along, 2 * _known(horizontal.misfit)))
     elif not raised.reason:
         horizontal = replace(horizontal, mended=_taken(complete, level, lifted, along, both))
-    values = np.concatenate([curve.log_friction for curve in complete.curves])
-    friction = complete.replicates(values, complete.deviations()).estimated
     return Collapse(
         data=complete,
         points_left_out=data.points - count,
         surfaces_left_out=data.surfaces - complete.surfaces,
-        curves=_with_errors(curves, friction.error),
-        log_friction=friction,
+        log_friction=complete.replicates(level.y, complete.deviations()).estimated,
         degree=level.degree,
         straight=straight,
-        unshifted=_still(complete, level),
+        unshifted=_aligned(complete, level, still),
         horizontal=horizontal,
-        vertical=_still(complete, lifted),
+        vertical=_aligned(complete, lifted, still),
         both=raised,
     )
 
@@ -191,17 +184,17 @@ def along_load(data: FrictionCurves) -> Alignment:
     Raises ValueError with fewer than two speeds or fewer points than unknowns.
     """
     complete = data.complete()
-    curves = complete.curves
-    if len(curves) < 2 or sum(curve.log_load.size for curve in curves) <= len(curves) + DEGREE:
-        raise ValueError(f"{len(curves)} speeds with too few points for as many shifts: add loads or speeds")
-    fit = Fit(curves, DEGREE)
-    return _moved(complete, fit, _best(fit, np.zeros(len(curves) - 1)))
+    _counted(complete.curves, 1)
+    fit = Fit(complete.curves, DEGREE)
+    return _moved(complete, fit, _best(fit, np.zeros(len(fit.curves) - 1)))
 
 
-def _with_errors(curves, errors):
-    """Curves with the standard errors of all points (N,)."""
-    parts = np.split(errors, np.cumsum([curve.log_load.size for curve in curves])[:-1])
-    return tuple(replace(curve, error=error) for curve, error in zip(curves, parts, strict=True))
+def _counted(curves, kinds):
+    """Number of points of curves. Raises ValueError where they are too few for shifts of so many kinds."""
+    count, unknowns = sum(curve.log_load.size for curve in curves), kinds * (len(curves) - 1) + DEGREE + 1
+    if len(curves) < 2 or count <= unknowns:
+        raise ValueError(f"{len(curves)} speeds with too few points for {unknowns} unknowns: add loads or speeds")
+    return count
 
 
 def _inseparable(straight):
@@ -238,13 +231,12 @@ def _pays(data, fit, increments):
 
     The two components of the misfit are asked whether they are scatter.
     """
-    common, tangent = fit.common(increments), fit.tangent(increments)
+    tangent = fit.tangent(increments)
     if not _spare(tangent):
         return False
-    freer = Fit(fit.curves, fit.degree + 2).common(increments).basis[:, -2:]
-    new = _outside(tangent, freer)
-    missed = data.replicates(new.T @ fit.residuals(increments), data.deviations(common.slopes) @ new)
-    return missed.rms.interval(1 - CHANCE)[0] > ROUNDING
+    new = _outside(tangent, Fit(fit.curves, fit.degree + 2).common(increments).basis[:, -2:])
+    deviations = data.deviations(fit.common(increments).slopes) @ new
+    return data.replicates(new.T @ fit.residuals(increments), deviations).rms.interval(1 - CHANCE)[0] > ROUNDING
 
 
 def _spare(tangent):
@@ -253,18 +245,16 @@ def _spare(tangent):
     return points - unknowns - 2 >= points / 3
 
 
-def _still(data, fit):
-    """Curves that are not shifted horizontally."""
-    return _aligned(data, fit, lambda each: np.zeros(len(each.curves) - 1))
-
-
 def _moved(data, fit, guess):
     """Curves that are, from a guess; where they part, only the misfit that the least overlap leaves is known."""
     best = near(fit, guess)
-    if inside(best, *fit.bounds):
-        return _aligned(data, fit, lambda each: near(each, best))
 
-    return replace(_undecided(fit, best, PARTED), misfit=_misfit(data, fit, lambda each: near(each, best)))
+    def sought(each):
+        return near(each, best)
+
+    if inside(best, *fit.bounds):
+        return _aligned(data, fit, sought)
+    return replace(_undecided(fit, best, PARTED), misfit=_misfit(data, fit, sought))
 
 
 def _taken(data, level, lifted, along, both):
@@ -289,20 +279,17 @@ def _known(misfit):
 
 def _widened(aligned, bias):
     """An alignment whose shifts and exponents may be off by so much along load and friction, exponents last."""
-    along, across = bias
-    by = {
-        "horizontal": along[:-1],
-        "vertical": across[:-1],
-        "exponent": along[-1],
-        "vertical_exponent": across[-1],
-    }
-    return replace(aligned, **{name: replace(getattr(aligned, name), bias=each) for name, each in by.items()})
+    found = {}
+    for name, power, by in zip(("horizontal", "vertical"), ("exponent", "vertical_exponent"), bias, strict=True):
+        found[name] = replace(getattr(aligned, name), bias=by[:-1])
+        found[power] = replace(getattr(aligned, power), bias=by[-1])
+    return replace(aligned, **found)
 
 
 def _undecided(fit, increments, reason):
     """Alignment of which no shift is known."""
-    speeds, unknown = len(fit.curves), RmsMisfit.unknown()
-    number, shifts = Estimated(nan, nan, 0), Estimated(np.full(speeds, nan), np.full(speeds, nan), 0)
+    unknown, number = RmsMisfit.unknown(), Estimated(nan, nan, 0)
+    shifts = replace(number, value=np.full(len(fit.curves), nan))
     missed = _rms(fit.residuals(increments))
     return Alignment(shifts, shifts, number, number, missed, unknown, unknown, None, reason)
 
@@ -314,25 +301,21 @@ def _aligned(data: FrictionCurves, fit: Fit, sought: Callable[[Fit], np.ndarray]
         each = fit.of(part.curves)
         increments = sought(each)
         missed, mending = each.residuals(increments), _outside(each.tangent(increments), each.later)
-        moved, lifted = against_middle(increments), against_middle(each.lifts(increments))
-        along, across = exponents(each, increments)
+        along, across = each.shifts(increments)
         return {
-            "horizontal": moved,
-            "vertical": lifted,
-            "exponent": along,
-            "vertical_exponent": across,
+            "horizontal": along[:-1],
+            "vertical": across[:-1],
+            "exponent": along[-1],
+            "vertical_exponent": across[-1],
             "misfit": missed,
             "mended": mending @ (mending.T @ missed),
         }
 
     found, increments = data.resampled(numbers), sought(fit)
+    misfits = {name: found.pop(name).rms for name in ("misfit", "mended")}
     return Alignment(
-        horizontal=found["horizontal"].estimated,
-        vertical=found["vertical"].estimated,
-        exponent=found["exponent"].estimated,
-        vertical_exponent=found["vertical_exponent"].estimated,
-        misfit=found["misfit"].rms,
-        mended=found["mended"].rms,
+        **{name: each.estimated for name, each in found.items()},
+        **misfits,
         rms=_rms(fit.residuals(increments)),
         curve=_curve(fit, increments),
     )
@@ -341,7 +324,7 @@ def _aligned(data: FrictionCurves, fit: Fit, sought: Callable[[Fit], np.ndarray]
 def _curve(fit, increments):
     """The common polynomial as the curve of the middle speed has it."""
     common = fit.common(increments)
-    along, lift = (-against_middle(each)[0] for each in (increments, fit.lifts(increments)))
+    along, lift = -fit.shifts(increments)[:, 0]
     polynomial = Chebyshev(common.coefficients[: fit.degree + 1], domain=np.array(common.domain) - along)
     return polynomial - lift
 

@@ -5,7 +5,6 @@ Shifts are sought with the polynomial projected out (variable projection; Golub 
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -55,7 +54,10 @@ class Projected:
         self.x, self.y = np.concatenate(places), np.concatenate(heights)
         # An increment moves every later curve.
         self.later = (self.owner[:, None] > np.arange(len(places) - 1)).astype(float)
-        self.bounds = _overlapping(places)
+        low, high = (np.array([end(each) for each in places]) for end in (np.min, np.max))
+        shared = LEAST_OVERLAP * np.minimum((high - low)[:-1], (high - low)[1:])
+        # Least and greatest increments that leave neighbours the least overlap.
+        self.bounds = low[:-1] - high[1:] + shared, high[:-1] - low[1:] - shared
         self._last: tuple[np.ndarray, Common] | None = None
 
     def residuals(self, increments: np.ndarray) -> np.ndarray:
@@ -88,12 +90,11 @@ class Projected:
         """The best function of the places once they are shifted."""
         raise NotImplementedError
 
-    def _projected(self, basis):
+    def projected(self, basis):
         """Orthonormal basis and coefficients of y in a basis; functions that coincide there count as one."""
         left, sizes, right = np.linalg.svd(basis, full_matrices=False)
         told = sizes > _LEAST_SINGULAR * sizes[0]
-        orthonormal = left[:, told]
-        return orthonormal, right[told].T @ (orthonormal.T @ self.y / sizes[told])
+        return left[:, told], right[told].T @ (left[:, told].T @ self.y / sizes[told])
 
 
 class Fit(Projected):
@@ -118,39 +119,39 @@ class Fit(Projected):
         lifts = self.common(increments).coefficients[self.degree + 1 :]
         return lifts if self.lifted else np.zeros(len(increments))
 
+    @property
+    def sums(self) -> np.ndarray:
+        """Weights (S + 1, S - 1) of increments in shifts against the middle speed, and in the exponent of these.
+
+        The exponent is that of the power of the speed that is closest to the shifts, least squares.
+        """
+        logs = np.log([curve.speed for curve in self.curves])
+        logs -= logs.mean()
+        shifts = np.tri(logs.size, logs.size - 1, -1)
+        return np.vstack([shifts - shifts[logs.size // 2], logs @ shifts / (logs @ logs)])
+
+    def shifts(self, increments: np.ndarray) -> np.ndarray:
+        """Shifts against the middle speed along load and friction, the exponents of both last (2, S + 1)."""
+        return np.array([increments, self.lifts(increments)]) @ self.sums.T
+
     def _common(self, x):
         scaled, half = scaled_to_one(x)
         basis = np.hstack([chebyshev.chebvander(scaled, self.degree), -self.levels])
         # Where loads coincide once shifted, fewer polynomials are told apart than there are.
-        orthonormal, coefficients = self._projected(basis)
+        orthonormal, coefficients = self.projected(basis)
         slopes = chebyshev.chebval(scaled, chebyshev.chebder(coefficients[: self.degree + 1])) / half
         return Common(basis, orthonormal, slopes, coefficients, (x.min(), x.max()))
 
 
 def scaled_to_one(x: np.ndarray) -> tuple[np.ndarray, float]:
     """Places between -1 and 1, and half of the range that they had; 1 of a single place."""
-    middle, half = (x.max() + x.min()) / 2, (x.max() - x.min()) / 2 or 1.0
+    middle, half = (x.max() + x.min()) / 2, np.ptp(x) / 2 or 1.0
     return (x - middle) / half, half
-
-
-def bounds(curves: Sequence[Curve]) -> tuple[np.ndarray, np.ndarray]:
-    """Least and greatest increments that leave neighbouring curves the least overlap."""
-    return _overlapping([curve.log_load for curve in curves])
-
-
-def _overlapping(places):
-    lower, upper = [], []
-    for a, b in pairwise(places):
-        shared = LEAST_OVERLAP * min(np.ptp(a), np.ptp(b))
-        lower.append(a.min() - b.max() + shared)
-        upper.append(a.max() - b.min() - shared)
-    return np.array(lower), np.array(upper)
 
 
 def near(fit: Projected, guess: np.ndarray) -> np.ndarray:
     """Increments of least misfit close to a guess (Gauss-Newton), or of a search within the bounds."""
-    lower, upper = fit.bounds
-    at, least = guess, np.inf
+    (lower, upper), at, least = fit.bounds, guess, np.inf
     for _ in range(_STEPS):
         residuals, jacobian = fit.residuals(at), fit.jacobian(at)
         cost = residuals @ residuals
@@ -166,20 +167,13 @@ def near(fit: Projected, guess: np.ndarray) -> np.ndarray:
     found = least_squares(fit.residuals, start, fit.jacobian, bounds=(lower, upper), method="dogbox").x
     free = (lower < found) & (found < upper)
 
-    def moved(values):
-        at = found.copy()
-        at[free] = values
-        return at
-
-    def gradient(values):
-        at = moved(values)
-        return (fit.jacobian(at).T @ fit.residuals(at))[free]
+    def gradient(at):
+        return np.where(free, fit.jacobian(at).T @ fit.residuals(at), at - found)
 
     # About the least of them squares differ by less than rounding; their gradient does not.
-    at = moved(root(gradient, found[free], tol=1e-13).x) if free.any() else found
-    before, now = (np.sum(np.square(fit.residuals(each))) for each in (found, at))
-    better = now <= before * (1 + _ROUNDING) and np.all((lower <= at) & (at <= upper))
-    return at if better else found
+    at = root(gradient, found, tol=1e-13).x
+    before, now = (np.linalg.norm(fit.residuals(each)) for each in (found, at))
+    return at if now <= before * (1 + _ROUNDING) and np.all((lower <= at) & (at <= upper)) else found
 
 
 def within(increments: np.ndarray, lower: np.ndarray, upper: np.ndarray) -> np.ndarray:
@@ -190,25 +184,7 @@ def within(increments: np.ndarray, lower: np.ndarray, upper: np.ndarray) -> np.n
 
 def inside(increments: np.ndarray, lower: np.ndarray, upper: np.ndarray) -> bool:
     """Whether the demand for overlap leaves the increments free."""
-    return bool(np.all(np.minimum(increments - lower, upper - increments) > _CLEAR * (upper - lower)))
-
-
-def against_middle(increments: np.ndarray) -> np.ndarray:
-    """Shifts against the middle speed (S,)."""
-    sums = np.concatenate([[0], np.cumsum(increments)])
-    return sums - sums[sums.size // 2]
-
-
-def exponents(fit: Fit, increments: np.ndarray) -> np.ndarray:
-    """Powers of the speed that are closest to the shifts along load and friction (2,)."""
-    return np.array([increments, fit.lifts(increments)]) @ _lever(fit)
-
-
-def _lever(fit):
-    """Weights of increments of a shift in the exponent of its power of the speed, least squares."""
-    logs = np.log([curve.speed for curve in fit.curves])
-    logs -= logs.mean()
-    return np.cumsum(logs[:0:-1])[::-1] / (logs @ logs)
+    return np.array_equal(within(increments, lower, upper), increments)
 
 
 def exponent_bias(fit: Fit, guess: np.ndarray, missed: float) -> np.ndarray:
@@ -219,21 +195,17 @@ def exponent_bias(fit: Fit, guess: np.ndarray, missed: float) -> np.ndarray:
     Returns (2, S + 1), along load and friction, the exponents last. Where points are no more than the unknowns of
     a higher degree, the change from a lower one decides alone.
     """
-    count = len(fit.curves) - 1
-    # Shifts and exponent as sums of increments.
-    sums = np.vstack([np.transpose([against_middle(each) for each in np.eye(count)]), _lever(fit)])
 
     def at(degree):
         each = Fit(fit.curves, degree, fit.lifted)
-        increments = near(each, guess)
-        return np.array([increments, each.lifts(increments)]) @ sums.T
+        return each.shifts(near(each, guess))
 
     here, before = at(fit.degree), at(fit.degree - 2)
     tangent = fit.tangent(near(fit, guess))
     after = at(fit.degree + 2) if len(tangent) > tangent.shape[1] + 2 else before
     # The last columns of the tangent are the shifts along the load, those before them the levels.
-    inverse = np.linalg.pinv(tangent)[-(1 + fit.lifted) * count :].reshape(-1, count, len(tangent))[::-1]
-    most = missed * np.linalg.norm(sums @ inverse, axis=2)
+    inverse = np.linalg.pinv(tangent)[-(1 + fit.lifted) * guess.size :].reshape(-1, guess.size, len(tangent))[::-1]
+    most = missed * np.linalg.norm(fit.sums @ inverse, axis=2)
     return np.maximum(np.pad(most, ((0, 1 - fit.lifted), (0, 0))), unsettled(here - before, here - after))
 
 

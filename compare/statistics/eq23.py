@@ -1,6 +1,6 @@
 """Claims of Eqs. 22 and 23: what shifts of friction at several speeds, fitted or predicted, come to."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from math import isfinite, nan
 from operator import attrgetter
@@ -11,7 +11,7 @@ import numpy as np
 from ..solving import words
 from .collapse import DEGREE, PARTED, ROUNDING, Alignment, Collapse
 from .commoncurve import LEAST_OVERLAP
-from .finding import EXACT, FAILS, HALVED, UNKNOWN, Claim, Finding
+from .finding import EXACT, FAILS, HALVED, Claim, Finding
 from .intervals import Estimated, RmsMisfit
 
 # Largest misfit in ln mu that counts as one curve, and relative error of an exponent that counts as predicted.
@@ -119,47 +119,40 @@ def findings(
     parted, straight = fine.horizontal.reason, fine.inseparable
     if shifts is not None and not isinstance(shifts, Mapping):
         shifts = dict(zip(fine.speeds.tolist(), shifts, strict=True))
-
-    def predicted(found):
-        return found.misfit_at(np.array([shifts[speed] for speed in found.speeds.tolist()]))
-
     collapsed, plot_of_shifts = plots
-    measured: list[tuple[Claim, Callable[[Collapse], Any], str, str]] = [
-        (COLLAPSE, MISFIT, straight or _unless_beyond(MISFIT(fine), parted), collapsed),
-        (
-            replace(VERTICAL, tolerance=nan) if both else VERTICAL,
-            MENDED,
-            straight or _unless_beyond(MENDED(fine), parted),
-            plot_of_shifts,
-        ),
-    ]
-    if shifts is not None:
-        measured.append((PREDICTED, predicted, "", collapsed))
-    if shifts is not None and isfinite(exponent):
-        claim = replace(EXPONENT, expected=exponent, tolerance=TOLERANCE * abs(exponent))
-        told = "both.exponent" if both else "horizontal.exponent"
-        measured.append((claim, attrgetter(told), straight or ("" if both else parted), plot_of_shifts))
-    measured.append((UNSHIFTED, attrgetter("unshifted.misfit"), "", collapsed))
-    measured.append((VERTICAL_ALONE, attrgetter("vertical.misfit"), "", plot_of_shifts))
-    if not fine.both.reason:
-        measured.append((BOTH, LEFT, "", plot_of_shifts))
-    if both or every:
-        measured += [(*each, plot_of_shifts) for each in _exponents(fine, coarse, both)]
     drawn = fine.data.surfaces if draws is None else draws
-    for claim, number, reason, plot in measured:
+
+    def told(claim, number, reason="", plot=plot_of_shifts):
         found = finding(claim, number(fine), number(coarse) if coarse else None, reason)
-        yield replace(found, dimension=dimension, where=where, draws=drawn, regime=regime, plot=plot)
+        return replace(found, dimension=dimension, where=where, draws=drawn, regime=regime, plot=plot)
 
-
-def _exponents(fine, coarse, both):
-    """Claims on the exponents of horizontal shifts and of both, with what measures them and why they have none."""
-    none, neither = fine.horizontal.reason or _apart(MISFIT, fine, coarse), _neither(fine, coarse)
-    for claim, name, reason in (
-        (ALONE, "horizontal.exponent", none),
-        (BESIDE, "both.exponent", neither),
-        (NOT_SHIFTED if both else replace(NOT_SHIFTED, tolerance=nan), "both.vertical_exponent", neither),
-    ):
-        yield claim, (lambda found: Estimated(nan, nan, 0)) if reason else attrgetter(name), reason
+    yield told(COLLAPSE, MISFIT, straight or _unless_beyond(MISFIT(fine), parted), collapsed)
+    vertical = replace(VERTICAL, tolerance=nan) if both else VERTICAL
+    yield told(vertical, MENDED, straight or _unless_beyond(MENDED(fine), parted))
+    if shifts is not None:
+        known = shifts
+        yield told(
+            PREDICTED,
+            lambda found: found.misfit_at(np.array([known[speed] for speed in found.speeds.tolist()])),
+            plot=collapsed,
+        )
+        if isfinite(exponent):
+            claim = replace(EXPONENT, expected=exponent, tolerance=TOLERANCE * abs(exponent))
+            number = attrgetter("both.exponent" if both else "horizontal.exponent")
+            yield told(claim, number, straight or ("" if both else parted))
+    yield told(UNSHIFTED, attrgetter("unshifted.misfit"), plot=collapsed)
+    yield told(VERTICAL_ALONE, attrgetter("vertical.misfit"))
+    if not fine.both.reason:
+        yield told(BOTH, LEFT)
+    if both or every:
+        none, neither = parted or _apart(MISFIT, fine, coarse), _neither(fine, coarse)
+        across = NOT_SHIFTED if both else replace(NOT_SHIFTED, tolerance=nan)
+        for claim, name, reason in (
+            (ALONE, "horizontal.exponent", none),
+            (BESIDE, "both.exponent", neither),
+            (across, "both.vertical_exponent", neither),
+        ):
+            yield told(claim, (lambda found: Estimated(nan, nan, 0)) if reason else attrgetter(name), reason)
 
 
 def raised(fine: Collapse, coarse: Collapse | None = None) -> bool:
@@ -184,53 +177,43 @@ def leading(found: Collapse, findings: Iterable[Finding]) -> Alignment:
 
 def answers(findings: Iterable[Finding]) -> list[str]:
     """A sentence for each place where friction itself is shifted, with the other answer as the alternative."""
-    places: dict[tuple[str, str], dict[str, Finding]] = {}
+    places: dict[str, dict[str, Finding]] = {}
     for each in findings:
-        places.setdefault((each.where, each.dimension), {})[each.claim.id] = each
+        places.setdefault(f"{each.where}, {each.dimension}", {})[each.claim.id] = each
     return [
-        f"{place}, {dimension}: {answer(*(found[claim.id] for claim in (NOT_SHIFTED, BESIDE, ALONE, COLLAPSE)))}"
-        for (place, dimension), found in places.items()
+        f"{place}: {answer(*(found[claim.id] for claim in (NOT_SHIFTED, BESIDE, ALONE, COLLAPSE)))}"
+        for place, found in places.items()
         if NOT_SHIFTED.id in found
     ]
 
 
 def answer(across: Finding, along: Finding, alone: Finding, collapsed: Finding) -> str:
     """Both shifts in words, with horizontal ones alone as the alternative."""
-    if isfinite(alone.value):
-        other = f"as v^{words.found(alone, 3)}, they miss one by {words.found(collapsed, 3)} (rms)"
-    else:
-        other = "they form none"
+    powers = [f"v^{words.found(each, 3)}" for each in (across, along, alone)]
+    missed = f"as {powers[2]}, they miss one by {words.found(collapsed, 3)} (rms)"
     return (
-        f"the curves form one if friction is shifted as v^{words.found(across, 3)} and the load as "
-        f"v^{words.found(along, 3)}; "
-        f"shifted along the load alone, {other}."
+        f"the curves form one if friction is shifted as {powers[0]} and the load as {powers[1]}; "
+        f"shifted along the load alone, {missed if isfinite(alone.value) else 'they form none'}."
     )
 
 
 def finding(claim: Claim, fine: _Number, coarse: _Number | None = None, reason: str = "") -> Finding:
     """Finding of a number that fits on two grids give; on one, with None, of data that have no grid."""
-    grid = 0.0 if coarse is None else fine.apart(coarse)
-    method = EXACT if coarse is None else HALVED if isfinite(grid) else UNKNOWN
-    low, high = (float(end) for end in fine.interval())
-    known = isfinite(low) and isfinite(high) and isfinite(grid)
-    return Finding(
-        claim=claim,
-        value=float(fine.value),
-        scatter=(low, high),
-        grid=grid,
-        grid_method=method,
-        reason=reason or ("" if known else _UNKNOWN),
-        remedy=CLOSER if reason == PARTED else "",
-        size=isinstance(fine, RmsMisfit),
-        parts={source: float(each) for source, each in fine.parts.items()},
-    )
+    grid, method = (0.0, EXACT) if coarse is None else (fine.apart(coarse), HALVED)
+    remedy = CLOSER if reason == PARTED else ""
+    return Finding.of(claim, fine, grid, _UNKNOWN, method, reason, remedy=remedy)
 
 
 def too_few(dimension: str, where: str = "", draws: int = 0, regime: str = "", plot: str = "") -> Finding:
     """Finding on the collapse where points were asked for that can be shifted, and too few have an answer."""
-    return Finding(
-        COLLAPSE, nan, dimension=dimension, where=where, draws=draws, regime=regime, plot=plot, reason=TOO_FEW
-    )
+    place: dict[str, Any] = {
+        "dimension": dimension,
+        "where": where,
+        "draws": draws,
+        "regime": regime,
+        "plot": plot,
+    }
+    return Finding(COLLAPSE, nan, reason=TOO_FEW, **place)
 
 
 def shiftable(speeds: int, points: int) -> bool:

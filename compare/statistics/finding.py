@@ -4,7 +4,7 @@ import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from math import isfinite, nan
-from typing import Any
+from typing import Any, Self
 
 import pandas
 
@@ -12,6 +12,7 @@ from scene.quantities import BARE, WHOLE, argument
 from scene.signatures import readable
 
 from ..solving.words import FAILS, HOLDS, REPORTED, UNDECIDED, crossed
+from .intervals import Estimated, RmsMisfit
 
 # How the share of the grid in an interval is known.
 HALVED, EXACT, UNKNOWN = "change on halving", "exact", "unknown"
@@ -118,6 +119,36 @@ class Finding:
         for name, unit in (("value", BARE), ("grid", BARE), ("draws", WHOLE)):
             object.__setattr__(self, name, argument(name, getattr(self, name), unit.value))
         object.__setattr__(self, "scatter", argument("scatter", self.scatter, BARE.row))
+
+    @classmethod
+    def of(
+        cls,
+        claim: Claim,
+        found: Estimated[float] | RmsMisfit,
+        grid: float,
+        unknown: str,
+        method: str = HALVED,
+        reason: str = "",
+        **place: Any,
+    ) -> Self:
+        """Finding of a number with its scatter.
+
+        unknown : the reason where the number or one of its errors is not known, unless another is stated
+        place : the other fields
+        """
+        low, high = (float(end) for end in found.interval())
+        known = all(map(isfinite, (found.value, low, high, grid)))
+        return cls(
+            claim,
+            float(found.value),
+            (low, high),
+            grid,
+            method if isfinite(grid) else UNKNOWN,
+            reason=reason or ("" if known else unknown),
+            size=isinstance(found, RmsMisfit),
+            parts=found.parts,
+            **place,
+        )
 
     @property
     def interval(self) -> tuple[float, float]:

@@ -26,31 +26,33 @@ def stated(answers: "xarray.DataTree") -> dict[str, np.ndarray]:
 
     Surfaces of one contact are one: of their mean.
     """
-    found: dict[str, list[np.ndarray]] = {}
+    found: dict[str, np.ndarray] = {}
     for node in answers.subtree:
-        every = node[MEASURE] if MEASURE in node.data_vars else None
-        for model in (
-            () if every is None else every["model"].values.tolist() if "model" in every.dims else [node.name]
-        ):
+        if MEASURE not in node.data_vars:
+            continue
+        every = node.dataset[MEASURE]
+        for model in every["model"].values.tolist() if "model" in every.dims else [str(node.name)]:
             bounds = every.sel(model=model) if "model" in every.dims else every
             bounds = bounds.sel(level="fine") if "level" in bounds.dims else bounds
             # Of a mean over surfaces the bound is the mean of theirs.
-            bounds = bounds.mean("surface") if "surface" in bounds.dims else bounds
-            found.setdefault(MODELS.get(str(model), str(model)), []).append(bounds.values.ravel())
-    joined = {model: np.concatenate(parts) for model, parts in sorted(found.items())}
-    return {model: each[np.isfinite(each)] for model, each in joined.items() if np.isfinite(each).any()}
+            values = (bounds.mean("surface") if "surface" in bounds.dims else bounds).values
+            name = MODELS.get(model, model)
+            found[name] = np.append(found.get(name, []), values[np.isfinite(values)])
+    return {model: each for model, each in sorted(found.items()) if each.size}
 
 
 def sentence(bounds: Mapping[str, np.ndarray]) -> str:
     """What the grids leave uncertain of friction, the model that errs most first; empty without friction."""
-    if not bounds:
-        return ""
     falling = sorted(bounds.items(), key=lambda item: -item[1].max())
+    told = ", ".join(
+        f"{_percent(each.max())} in {model}"
+        + (f" ({_percent(np.median(each))} in the median)" if len(each) > 1 else "")
+        for model, each in falling
+        if each.max() > MUCH or not much(bounds)
+    )
     if much(bounds):
-        told = [_above(model, each) for model, each in falling if each.max() > MUCH]
-        return f"{'; '.join(told)}: take more points (bounds of 95 %)."
-    told = [f"{_percent(each.max())} in {model}{_median(each)}" for model, each in falling]
-    return f"The grid leaves at most {', '.join(told)} of friction uncertain (bounds of 95 %)."
+        return f"Friction may be wrong by up to {told} by the grid: take more points (bounds of 95 %)."
+    return f"The grid leaves at most {told} of friction uncertain (bounds of 95 %)." if told else ""
 
 
 def much(bounds: Mapping[str, np.ndarray]) -> bool:
@@ -73,17 +75,3 @@ def warnings_of(answers: "xarray.DataTree") -> list[Warning]:
 
 def _percent(share):
     return f"{100 * share:.2g} %" if share > LEAST else f"less than {100 * LEAST:g} %"
-
-
-def _median(bounds):
-    return f" ({_percent(np.median(bounds))} in the median)" if len(bounds) > 1 else ""
-
-
-def _above(model, bounds):
-    """Contacts of a model that may be wrong by more than a tenth, in words."""
-    if len(bounds) == 1:
-        return f"Friction in {model} may be wrong by up to {_percent(bounds[0])} by the grid"
-    return (
-        f"Friction of {int((bounds > MUCH).sum())} of {len(bounds)} contacts in {model} may be wrong by more than "
-        f"{_percent(MUCH)} by the grid, by up to {_percent(bounds.max())}{_median(bounds)}"
-    )

@@ -22,44 +22,40 @@ UNSEEN = 1.5
 # longer side is then 1.6 times the other.
 MOST_SKEWED = 0.65
 NO_SKEWNESS = 1e-12
+# Endings of the names of columns: a number, and the ends of its interval.
+ENDS = ("", "_low", "_high")
 
 Value = TypeVar("Value", float, np.ndarray)
 
 
 def student(level: float, dof: float | np.ndarray) -> float:
     """Number of standard errors to either end of an interval that covers as often as stated."""
-    # scipy.stats has the same functions, and takes a second to import.
-    with_errors = np.where(np.asarray(dof) > 0, dof, nan)
-    found = np.where(
-        np.isinf(with_errors), special.ndtri((1 + level) / 2), special.stdtrit(with_errors, (1 + level) / 2)
-    )
-    return found[()]
+    # scipy.stats has the same function, and takes a second to import.
+    return special.stdtrit(np.where(np.asarray(dof) > 0, dof, nan), (1 + level) / 2)
 
 
 def sides(level: float, dof: float | np.ndarray, skewed: float | np.ndarray) -> tuple:
     """Number of standard errors to the lower and to the upper end of such an interval of a skewed number."""
     quantile = student(level, dof)
     most = MOST_SKEWED / np.maximum(quantile, 1.0)
-    seen = skewed * (1 + UNSEEN / np.sqrt(np.asarray(dof) + 1))
+    seen = np.clip(skewed * (1 + UNSEEN / np.sqrt(np.asarray(dof) + 1)), -most, most)
     # Without skewness the limit.
-    skewed = np.where(np.abs(seen) > NO_SKEWNESS, np.clip(seen, -most, most), NO_SKEWNESS)
-
-    def turned(by):
-        """Errors from the number to the end that lies `by` of Student's to its other side."""
-        return 3 * np.expm1(np.log1p(skewed * (by - skewed / 6)) / 3) / skewed
-
-    return turned(quantile), -turned(-quantile)
+    seen = np.where(np.abs(seen) > NO_SKEWNESS, seen, NO_SKEWNESS)
+    lower, upper = (3 * np.expm1(np.log1p(seen * (by - seen / 6)) / 3) / seen for by in (quantile, -quantile))
+    return lower, -upper
 
 
-def skewness(deviations: np.ndarray, axis: int = 0) -> np.ndarray:
-    """Skewness of a sum of independent deviations; nil where there are none."""
-    squares = np.sum(np.square(deviations), axis=axis)
-    return np.sum(deviations**3, axis=axis) / np.where(squares > 0, squares, 1.0) ** 1.5
+def skewness(deviations: np.ndarray) -> np.ndarray:
+    """Skewness of a sum of independent deviations, along the first axis; nil where there are none."""
+    squares = np.sum(np.square(deviations), axis=0)
+    return np.sum(deviations**3, axis=0) / np.where(squares > 0, squares, 1.0) ** 1.5
 
 
 @dataclass(frozen=True)
 class Estimated(Generic[Value]):
     """A number or an array of them, with standard errors over surfaces; NaN where they cannot be had.
+
+    Without an error it is exact, like a number that no random surface changes.
 
     dof : degrees of freedom of the error
     skewness : third moment of what the number is off by, over the cube of its error
@@ -68,16 +64,15 @@ class Estimated(Generic[Value]):
     """
 
     value: Value
-    error: Value
-    dof: float | np.ndarray
+    error: Value | float = 0.0
+    dof: float | np.ndarray = inf
     skewness: float | np.ndarray = 0.0
     bias: float | np.ndarray = 0.0
     parts: Mapping[tuple[str, int], Any] = field(default_factory=dict)
 
-    @classmethod
-    def exact(cls, value: Value) -> Self:
-        """Number of a body without random surfaces, whose error is zero."""
-        return cls(value, value * 0.0, inf)
+    def columns(self, name: str) -> dict[str, Any]:
+        """Number and the ends of its interval, by the names of columns."""
+        return dict(zip((f"{name}{end}" for end in ENDS), (self.value, *self.interval()), strict=True))
 
     def interval(self, level: float = 0.95) -> tuple:
         """Ends between which the number is, as often as stated."""
@@ -89,15 +84,12 @@ class Estimated(Generic[Value]):
 
         A sum of differences may be negative by chance; it is then nil, and its ends are those of the sum.
         """
-        exact, positive = np.asarray(self.error) == 0, np.asarray(self.value) > 0
-        with np.errstate(invalid="ignore", divide="ignore"):
-            share = np.where(exact, 0.0, self.error / np.where(positive, self.value, 1.0))
-        logarithm = Estimated(np.zeros_like(share), share, self.dof, self.skewness)
-        found = [self.value]
-        for of_logarithm, own in zip(logarithm.interval(level), self.interval(level), strict=True):
-            with np.errstate(over="ignore", invalid="ignore"):  # of a sum that is negative
-                found.append(np.where(positive, self.value * np.exp(of_logarithm), own))
-        return tuple(np.maximum(each, 0.0) for each in found)
+        below, above = sides(level, self.dof, self.skewness)
+        with np.errstate(invalid="ignore", divide="ignore", over="ignore"):  # of a sum that is not positive
+            share = self.error / np.asarray(self.value)
+            ends = self.value * np.exp([-share * below, share * above])
+        low, high = np.where(np.asarray(self.value) > 0, ends, self.interval(level))
+        return tuple(np.maximum(each, 0.0) for each in (self.value, low, high))
 
     def less(self, other: Self) -> "Estimated":
         """Difference from a number of independent draws, with the degrees of freedom of Welch."""
@@ -153,7 +145,7 @@ class RmsMisfit:
         quantile of that; both count, added as squares, for the size asked about. Where it is nil the second
         decides: there a jackknife of the square itself sees no derivative. Downwards, what is along stops at zero.
         """
-        if not (np.isfinite(self.noise) and np.isfinite(self.square)):
+        if not np.isfinite(self.noise + self.square):
             return nan, nan
         if self.noise == 0:
             return self.value, self.value
@@ -176,5 +168,5 @@ class RmsMisfit:
 
     def apart(self, other: Self) -> float:
         """Distance from another misfit, by roots with the sign of the square: two of nil need not be equal."""
-        one, two = (np.copysign(sqrt(abs(each.square)), each.square) for each in (self, other))
-        return float(abs(one - two))
+        squares = np.array([self.square, other.square])
+        return float(np.ptp(np.sign(squares) * np.sqrt(np.abs(squares))))

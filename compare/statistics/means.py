@@ -11,7 +11,7 @@ from pandas import DataFrame
 
 from ..comparison.curve import COARSE, EMPTY, FAILED, FINE
 from .intervals import Estimated
-from .jackknife import DrawSet, Source, mean_ratio, resample, strata_of
+from .jackknife import DrawSet, Source, estimated, resample
 from .multilevel import pooled
 
 # Means of friction: the two forces whose means are divided.
@@ -73,18 +73,15 @@ def means(dataset: xarray.Dataset, both: xarray.Dataset | None = None) -> DataFr
         found = interval(dataset, above, below, name in SIZES)
         one = drawn[above] if below is None else drawn[above] / drawn[below].where(drawn[below] != 0)
         deviation = one.std("surface", ddof=1) if "surface" in one.dims else xarray.full_like(one, nan)
-        columns |= {
-            f"{name}_mean": found.value,
-            f"{name}_deviation": deviation.transpose("speed", prescribed).values,
-        }
-        columns |= {f"{name}_low": found.low, f"{name}_high": found.high}
-    for name in AVERAGED:
-        if name in fine:
-            columns[name] = interval(dataset, name, size=True).value
-    columns["residual"] = _over_draws(fine["residual"], "max")
-    columns["seconds"] = _over_draws(fine["seconds"], "sum")
-    columns["surfaces"] = _over_draws(fine["normal_force"].notnull(), "sum")
-    columns["failures"] = _over_draws(fine["status"] == FAILED, "sum")
+        numbers = found.value, deviation.transpose("speed", prescribed).values, found.low, found.high
+        columns |= {f"{name}{end}": each for end, each in zip(ENDS, numbers, strict=True)}
+    columns |= {name: interval(dataset, name, size=True).value for name in AVERAGED if name in fine}
+    columns |= {
+        "residual": _over_draws(fine["residual"], "max"),
+        "seconds": _over_draws(fine["seconds"], "sum"),
+        "surfaces": _over_draws(fine["normal_force"].notnull(), "sum"),
+        "failures": _over_draws(fine["status"] == FAILED, "sum"),
+    }
     return DataFrame({name: np.ravel(values) for name, values in columns.items()})
 
 
@@ -141,23 +138,13 @@ def interval(dataset: xarray.Dataset, above: str, below: str | None = None, size
 
     size : whether the variable is never negative
     """
-    found = {name: _estimated(dataset.sel(level=name), above, below) for name in dataset["level"].values.tolist()}
+    ordered = dataset.transpose("speed", pressed(dataset), ...)
+    found = {name: estimated(ordered.sel(level=name), above, below) for name in ordered["level"].values.tolist()}
     fine = found[FINE]
     # A model without points has no error of a grid.
     unknown = 0.0 if "points" in dataset.coords and not dataset["points"].values.any() else nan
     grid = np.abs(fine.value - found[COARSE].value) if COARSE in found else unknown
     return Interval.of(fine, grid, size)
-
-
-def _estimated(dataset, above, below):
-    order = ("speed", pressed(dataset), *(["surface"] if "surface" in dataset.dims else []))
-    over = dataset[above].transpose(*order).values
-    under = np.ones_like(over) if below is None else dataset[below].transpose(*order).values
-    if "surface" in dataset.dims:
-        return mean_ratio(over, under, strata_of(dataset))
-    with np.errstate(invalid="ignore", divide="ignore"):
-        value = over / under
-    return Estimated.exact(value)
 
 
 def _most_drawn(dataset):

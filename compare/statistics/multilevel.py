@@ -26,7 +26,7 @@ from ..solving.cost import MOST_DRAWS, SECONDS
 from ..solving.words import duration, share
 from .collapse import PARTED
 from .finding import UNDECIDED, Finding
-from .jackknife import Source, mean_ratio, off_the_ratio
+from .jackknife import Source, estimated, off_the_ratio
 
 if TYPE_CHECKING:
     import xarray
@@ -69,54 +69,37 @@ def pooled(dataset: xarray.Dataset) -> xarray.Dataset:
     if "status" in dataset and "friction_force" in dataset:
         # What does not touch adds nothing to either force.
         dataset = dataset.assign(friction_force=dataset["friction_force"].where(dataset["status"] != EMPTY, 0.0))
-    drawn = {
-        name: each for name, each in dataset.data_vars.items() if "surface" in each.dims and name not in SPENT
-    }
-    numbers = [name for name, each in drawn.items() if each.dtype.kind == "f"]
-    strata = dataset["stratum"].values
-    made = {}
-    for name in numbers:
-        ordered = dataset[name].transpose("level", ..., "surface")
+    strata, levels, made = dataset["stratum"].values, dataset.sizes["level"], {}
+    for name, each in dataset.data_vars.items():
+        if "surface" not in each.dims or name in SPENT or each.dtype.kind != "f":
+            continue
+        ordered = each.transpose("level", ..., "surface")
         values = ordered.values.copy()
         if variates is not None:
-            rows = np.flatnonzero(strata == len(values) - 1)
+            rows = np.flatnonzero(strata == levels - 1)
             own = variates.transpose(*ordered.dims[1:], "variate").values[..., rows, :]
             values[-1][..., rows] = controlled(values[-1][..., rows], own)
-        made[name] = np.stack([_draws(values, strata, first) for first in range(len(values))[:2]])
-    both = dataset.isel(level=slice(2))
-    dims = {name: [each for each in dataset[name].dims if each not in ("level", "surface")] for name in numbers}
-    return both.assign(
-        {name: (("level", *dims[name], "surface"), each, dataset[name].attrs) for name, each in made.items()}
-    )
+        values[:-1] -= values[1:]
+        differences = np.moveaxis(values[strata, ..., np.arange(strata.size)], 0, -1)
+        draws = np.stack([_draws(differences, strata, range(first, levels)) for first in range(levels)[:2]])
+        made[name] = ordered.dims, draws, each.attrs
+    return dataset.isel(level=slice(2)).assign(made)
 
 
-def _draws(values, strata, first):
+def _draws(differences, strata, counted):
     """Draws (..., seeds) whose mean is that on one grid: a surface for each, NaN where it has no answer.
 
     NaN too where a stratum has fewer than two, which tell no scatter.
 
-    values : (grids, ..., seeds); first : number of the grid
+    differences : (..., seeds) of each surface between the grid of its stratum and the next; on the last, answers
+    counted : strata of this grid and of coarser ones; of finer grids nothing is seen
     """
-    mean, changes = 0.0, np.zeros(values.shape[1:])
-    known = np.zeros(values.shape[1:], bool)
-    for stratum in range(len(values)):
-        rows = np.flatnonzero(strata == stratum)
-        if stratum < first:  # of finer grids nothing is seen
-            known[..., rows] = np.isfinite(values[stratum + 1][..., rows])
-            continue
-        part = values[stratum][..., rows]
-        if stratum + 1 < len(values):
-            part = part - values[stratum + 1][..., rows]
-        here = np.isfinite(part)
-        count = here.sum(axis=-1, keepdims=True)
-        with np.errstate(invalid="ignore", divide="ignore"):
-            middle = np.where(here, part, 0.0).sum(axis=-1, keepdims=True) / count
-            # Fewer surfaces move the mean by more each.
-            weight = 1 / np.sqrt(count * (count - 1.0))
-        middle = np.where(count > 1, middle, np.nan)
-        changes[..., rows] = np.where(here, weight * (part - middle), 0.0)
-        known[..., rows] = here
-        mean = mean + middle[..., 0]
+    mean, changes = 0.0, np.zeros_like(differences)
+    known = np.isfinite(differences)
+    for stratum in counted:
+        rows = strata == stratum
+        middle, changes[..., rows], count = off_the_ratio(differences[..., rows])
+        mean = mean + np.where(count > 1, middle, np.nan)
     total = known.sum(axis=-1, keepdims=True)
     return np.where(known, np.expand_dims(mean, -1) + np.sqrt(total * (total - 1.0)) * changes, np.nan)
 
@@ -165,15 +148,13 @@ def _errors(dataset, above, below):
 
     The latter are relative.
     """
-    strata, both = dataset["stratum"].values, pooled(dataset)
+    both = pooled(dataset)
     # A model without another grid has no error of it.
-    fine, coarse = (_columns(both.isel(level=k), above, below) for k in (0, -1))
-    found, other = (mean_ratio(over, under, strata) for over, under in (fine, coarse))
+    found, other = (estimated(both.isel(level=k), above, below) for k in (0, -1))
     low, high = found.interval()
-    size, squares = np.abs(found.value), np.square(off_the_ratio(*fine)[1])
+    size = np.abs(found.value)
     with np.errstate(invalid="ignore", divide="ignore"):
-        sums = np.array([squares[..., strata == k].sum(axis=-1) for k in range(dataset.sizes["level"])])
-        parts = sums / sums.sum(axis=0)
+        parts = np.array([found.parts[k] for k in range(dataset.sizes["level"])])
         return parts, (high - low) / 2 / size, np.abs(other.value - found.value) / size
 
 
@@ -204,10 +185,10 @@ class DrawnSurfaces:
         interval : half-width of an interval that is enough without a verdict, relative where more than one is
             expected; None if only a verdict is
         """
-        (low, high), claim, value = finding.scatter, finding.claim, finding.value
         if not _open(finding):
             return {}
-        edges = [claim.expected - claim.tolerance, claim.expected + claim.tolerance]
+        (low, high), claim, value = finding.scatter, finding.claim, finding.value
+        edges = claim.expected - claim.tolerance, claim.expected + claim.tolerance
         edge = min(edges, key=lambda each: abs(each - value))
         scatter = high - value if edge > value else value - low
         left = abs(edge - value) - finding.grid
@@ -219,21 +200,10 @@ class DrawnSurfaces:
         sources = [each for each in finding.parts if each[0] in self.counts]
         if not (left > 0 and sources):
             return {}
-        parts, counts, costs = (
-            np.array([of(*each) for each in sources], float)
-            for of in (
-                lambda solver, k: finding.parts[solver, k],
-                lambda solver, k: self.counts[solver][k],
-                lambda solver, k: self.costs[solver][k],
-            )
-        )
-        return dict(zip(sources, _least_cost(parts, counts, costs, scatter / left).tolist(), strict=True))
-
-    def _cost(self, numbers):
-        """Planned work of numbers of draws beyond those that are there."""
-        return sum(
-            max(count - self.counts[name][k], 0.0) * self.costs[name][k] for (name, k), count in numbers.items()
-        )
+        known = [(finding.parts[name, k], self.counts[name][k], self.costs[name][k]) for name, k in sources]
+        parts, counts, costs = np.transpose(known)
+        needs = _least_cost(parts, counts, costs, scatter / left)
+        return dict(zip(sources, needs.tolist(), strict=True))
 
     def more(
         self, findings: Iterable[Finding], interval: float, growth: float = GROWTH
@@ -255,27 +225,25 @@ class DrawnSurfaces:
         asked = self.deciding(finding)
         if not asked:
             return replace(finding, remedy="its grid leaves too much open: a finer one would have to decide it")
-        more = {source: count - self.counts[source[0]][source[1]] for source, count in asked.items()}
-        more = {source: max(1.0, count) for source, count in more.items() if count > 0}
-        if not all(map(isfinite, more.values())) or max(asked.values()) > MOST_DRAWS:
-            most = f"{MOST_DRAWS:,} {' or '.join(_words(asked, words))}"
-            return replace(finding, remedy=f"only more than {most} would decide it")
-        seconds = SECONDS * self._cost(asked)
-        totals = {
-            word: sum(count for (solver, _), count in more.items() if words.get(solver) == word)
-            for word in _words(more, words)
-        }
+        if not max(asked.values()) <= MOST_DRAWS:
+            drawn = " or ".join(dict.fromkeys(words[name] for name, _ in asked))
+            return replace(finding, remedy=f"only more than {MOST_DRAWS:,} {drawn} would decide it")
+        totals: dict[str, float] = {}
+        work = 0.0
+        for (name, k), count in asked.items():
+            if (more := count - self.counts[name][k]) > 0:
+                totals[words[name]] = totals.get(words[name], 0.0) + max(more, 1.0)
+                work += more * self.costs[name][k]
         said = " and ".join(f"{_some(count)} more {word}" for word, count in totals.items())
-        return replace(
-            finding, remedy=f"some {said}, {duration(max(seconds, 1.0))} of processor time, would decide it"
-        )
+        seconds = duration(max(SECONDS * work, 1.0))
+        return replace(finding, remedy=f"some {said}, {seconds} of processor time, would decide it")
 
 
 def _open(finding):
     """Whether more surfaces may decide a finding: curves that part at the least overlap may miss by too much."""
     parted = finding.reason == PARTED and finding.value > finding.claim.expected + finding.claim.tolerance
-    known = isfinite(finding.value) and all(map(isfinite, finding.interval))
-    return finding.verdict == UNDECIDED and bool(finding.parts) and (parted if finding.reason else True) and known
+    known = all(map(isfinite, (finding.value, *finding.interval)))
+    return finding.verdict == UNDECIDED and bool(finding.parts) and known and (parted or not finding.reason)
 
 
 def _least_cost(parts, drawn, costs, times):
@@ -295,15 +263,6 @@ def _more(had, asked, growth):
     return min(max(had, min(enough, int(growth * had))), MOST_DRAWS)
 
 
-def _words(sources, words):
-    return list(dict.fromkeys(words[solver] for solver, _ in sources))
-
-
 def _some(count):
     """A number that is roughly known, rounded."""
     return f"{ceil(float(f'{count:.1g}' if count < 100 else f'{count:.2g}')):,}"
-
-
-def _columns(dataset, above, below):
-    over = dataset[above].transpose(..., "surface").values
-    return over, np.ones_like(over) if below is None else dataset[below].transpose(..., "surface").values

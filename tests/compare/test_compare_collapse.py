@@ -11,9 +11,10 @@ from compare.statistics import eq23
 from compare.statistics.collapse import PARALLEL, PARTED, UNSCATTERED, collapse
 from compare.statistics.finding import FAILS, HOLDS, UNDECIDED
 from compare.statistics.finding import verdict as decided
-from compare.statistics.frictioncurves import Curve, MeasuredCurves, SimulatedCurves
+from compare.statistics.frictioncurves import Curve, SimulatedCurves
 from compare.statistics.intervals import RmsMisfit
 from compare.statistics.jackknife import Group
+from compare.studies.mastercurve.measuredcurves import MeasuredCurves
 from mdr1d.equations import interpolation
 
 SPEEDS = 0.1 * 2.0 ** np.arange(5)

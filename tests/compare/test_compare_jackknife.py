@@ -76,7 +76,7 @@ def test_one_surface_gives_a_value_and_no_error():
 
 
 def test_what_knows_no_surface_is_exact():
-    assert Estimated.exact(0.7).interval() == (0.7, 0.7)
+    assert Estimated(0.7).interval() == (0.7, 0.7)
     found = Replicates.first_order(np.array([3.0, 4.0]), np.empty((0, 2)))
     assert found.estimated.dof == inf
     np.testing.assert_array_equal(found.estimated.error, 0.0)
@@ -160,7 +160,7 @@ def test_a_misfit_of_points_with_one_pooled_scatter_is_in_its_interval_as_often_
         scatter = 0.2 * sqrt(rng.chisquare(dof) / dof)
         value = truth + 0.2 * rng.normal(size=truth.size)
         for right in kept:
-            error = scatter * (1.0 if right else 0.5) * sqrt(truth.size)
+            error = scatter * (1.0 if right else 0.5)
             low, high = Replicates(value, error * np.eye(truth.size), dof).rms.interval()
             kept[right] += low <= sqrt(0.125) <= high
     assert kept[True] >= LEAST * DRAWS

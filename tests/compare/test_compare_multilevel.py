@@ -151,11 +151,12 @@ def test_leaving_surfaces_out_of_all_grids_has_the_error_of_the_mean():
 
 
 def test_degrees_of_freedom_are_those_of_welch():
-    strata = np.array([0] * 4 + [1] * 8)
-    even = welch(np.repeat([[1.0], [0.5]], [4, 8], axis=0), strata)
+    strata = [0] * 4 + [1] * 8
+    shares, even = welch(np.repeat([[1.0], [0.5]], [4, 8], axis=0), strata)
+    assert shares == {0: 0.5, 1: 0.5}
     assert even == pytest.approx(1 / (0.25 / 3 + 0.25 / 7))
-    assert welch(np.repeat([[1.0], [0.0]], [4, 8], axis=0), strata) == pytest.approx(3)
-    assert welch(np.zeros((12, 1)), strata) == pytest.approx(10)
+    assert welch(np.repeat([[1.0], [0.0]], [4, 8], axis=0), strata)[1] == pytest.approx(3)
+    assert welch(np.zeros((12, 1)), strata)[1] == pytest.approx(10)
     assert student(0.95, even)[0] > student(0.95, 10)
 
 

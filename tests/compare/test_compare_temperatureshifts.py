@@ -8,11 +8,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from compare.statistics import shiftlaws
-from compare.statistics.frictioncurves import MeasuredCurves
-from compare.statistics.measuredcurves import curves_of, isotherms
-from compare.statistics.pooling import pooled
-from compare.statistics.temperatureshifts import POWERS, found
+from compare.studies.mastercurve import shiftlaws
+from compare.studies.mastercurve.measuredcurves import MeasuredCurves, curves_of, isotherms
+from compare.studies.mastercurve.pooling import pooled
+from compare.studies.mastercurve.temperatureshifts import POWERS, found
 
 C1, C2, REFERENCE = 8.86, 101.6, 293.15
 KELVINS = np.array([273.15, 283.15, 293.15, 303.15, 313.15])

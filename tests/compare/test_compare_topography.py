@@ -13,10 +13,10 @@ from scipy.stats import binom
 
 import compare
 from bem3d.surface import RoughSurface
-from compare.statistics import spectra
-from compare.statistics.powerlaw import fit
-from compare.statistics.spectra import describe, mapped, rings_of, rows_of
 from compare.studies.topography import figure as plots
+from compare.studies.topography import spectra
+from compare.studies.topography.powerlaw import fit
+from compare.studies.topography.spectra import describe, mapped, rings_of, rows_of
 from compare.studies.topography.study import Map
 from scene import SelfAffine, Topography
 from scene.reading import InvalidInput

@@ -59,7 +59,11 @@ EQUIVALENT = {
         "abs(along_x / along_y - 1) > SQUARE",
         "(abs(along_x / along_y - 1) >= SQUARE)",
     ): "the number is one of rounding",
-    ("compare/statistics/spectra.py", "slope > STEEP", "(slope >= STEEP)"): "the number is a round one of order",
+    (
+        "compare/studies/topography/spectra.py",
+        "slope > STEEP",
+        "(slope >= STEEP)",
+    ): "the number is a round one of order",
     (
         "scene/stylus.py",
         "abs(float(METRE.scale(written)[0]) - metre) > 1e-9 * metre",
@@ -67,7 +71,11 @@ EQUIVALENT = {
     ): "the number is one of rounding",
     ("compare/statistics/eq23.py", "high < 0", "(high <= 0)"): "no interval ends at nil",
     ("mdr1d/maxwell.py", "slope < 0.0", "(slope <= 0.0)"): "above a level profile the surface was left before",
-    ("compare/statistics/powerlaw.py", "range(count)", "(range(count - 1))"): "the last ring begins no band",
+    (
+        "compare/studies/topography/powerlaw.py",
+        "range(count)",
+        "(range(count - 1))",
+    ): "the last ring begins no band",
     ("scene/mistakes.py", "range(_ROUNDS)", "(range(_ROUNDS - 1))"): "no tables are nine deep",
 }
 
@@ -172,7 +180,7 @@ def near(mutation):
     word = Path(mutation.path).stem if package == "compare" else package
     files = sorted((ROOT / "tests").rglob("test_*.py"))
     if package == "compare":
-        return [str(path) for path in files if f"statistics.{word}" in path.read_text() or word in path.name]
+        return [str(path) for path in files if f".{word} import" in path.read_text() or word in path.name]
     return [str(path) for path in files if word in path.name]
 
 

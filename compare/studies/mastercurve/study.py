@@ -22,15 +22,15 @@ from ...solving.words import capital, sentences
 from ...statistics import eq23
 from ...statistics.collapse import Alignment, Collapse, collapse
 from ...statistics.finding import claimed
-from ...statistics.measuredcurves import check, curves_of, in_order
-from ...statistics.pooling import WARMTH, Pooled, pooled
-from ...statistics.shiftlaws import ShiftLaw, law_of
-from ...statistics.temperatureshifts import TemperatureShifts
 from ..study import Judgement, Study
 from . import temperatures
+from .measuredcurves import check, curves_of, in_order
 from .measurements import MeasuredFriction, Measurements
+from .pooling import WARMTH, Pooled, pooled
+from .shiftlaws import ShiftLaw, law_of
 from .temperature_tables import laws_table, points_table, shifts_table
 from .temperatures import Constants
+from .temperatureshifts import TemperatureShifts
 
 TOLERANCE = (
     0.05  # relative: loads within it are one, and speeds; wider than devices scatter, less than people step

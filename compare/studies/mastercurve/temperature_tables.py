@@ -4,9 +4,9 @@ import numpy as np
 from pandas import DataFrame, concat
 
 from ...statistics.intervals import student
-from ...statistics.pooling import Pooled
-from ...statistics.shiftlaws import ShiftLaw
-from ...statistics.temperatureshifts import TemperatureShifts
+from .pooling import Pooled
+from .shiftlaws import ShiftLaw
+from .temperatureshifts import TemperatureShifts
 
 
 def points_table(pooled: Pooled, shifts: TemperatureShifts) -> DataFrame:

@@ -14,11 +14,11 @@ from ...figures import temperature_shifts
 from ...solving import words
 from ...statistics import eq23
 from ...statistics.finding import EXACT, FAILS, Claim, Finding
-from ...statistics.measuredcurves import isotherms
-from ...statistics.pooling import Pooled
-from ...statistics.shiftlaws import NONE, ShiftLaw
-from ...statistics.temperatureshifts import TemperatureShifts, found, stated
+from .measuredcurves import isotherms
 from .measurements import COLDEST
+from .pooling import Pooled
+from .shiftlaws import NONE, ShiftLaw
+from .temperatureshifts import TemperatureShifts, found, stated
 
 TOGETHER = Claim(
     id="mastercurve.temperatures",

@@ -9,7 +9,7 @@ from pandas import DataFrame
 from ...figures import style
 from ...figures.lettering import clear
 from ...report.page import Plot, Tables
-from ...statistics.spectra import NOTHING, Description, mapped
+from .spectra import NOTHING, Description, mapped
 
 NAME = "topography"
 

@@ -23,9 +23,9 @@ from ...solving.task import Batch, Task
 from ...solving.vocabulary import attributes
 from ...solving.words import sentences
 from ...statistics.finding import EXACT, Claim, Finding
-from ...statistics.spectra import Description, describe
 from ..study import Judgement, Study
 from . import figure as plots
+from .spectra import Description, describe
 
 Side: TypeAlias = str | float
 Surface: TypeAlias = Any  # a path, or heights as an array of any library

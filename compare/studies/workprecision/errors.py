@@ -124,7 +124,7 @@ def reference(ladder: Ladder, dataset: xarray.Dataset, quantity: str, scale: flo
     if not known.any():
         return Reference(UNKNOWN, nan, nan, "nothing, as no grid has an answer", (UNKNOWN,) * len(found))
     top = int(np.argmax(known))
-    biases = [UNKNOWN] * top + [Estimated.exact(0.0)]
+    biases = [UNKNOWN] * top + [Estimated(0.0)]
     for k in range(top, len(found) - 1):
         change = _mean((found[k] - found[k + 1])[_stratum(dataset, k)]) if known[k + 1] else UNKNOWN
         biases.append(biases[-1].less(change))
@@ -217,7 +217,7 @@ def _scatter(sample):
 
 
 def _mean(sample) -> Estimated:
-    return Estimated.exact(float(sample[0])) if sample.size == 1 else mean_ratio(sample)
+    return Estimated(float(sample[0])) if sample.size == 1 else mean_ratio(sample)
 
 
 def _ends(found: Estimated) -> tuple[float, float]:

@@ -12,7 +12,7 @@ from scipy import special
 
 from scene.temperature import GAS_CONSTANT
 
-from .intervals import KNOWN, student
+from ...statistics.intervals import KNOWN, student
 from .temperatureshifts import TemperatureShifts
 
 WLF, ARRHENIUS = "WLF", "Arrhenius"

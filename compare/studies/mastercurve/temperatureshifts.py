@@ -5,17 +5,26 @@ function is a polynomial in the logarithms of speed and load, common to all temp
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
-from math import log, sqrt
+from math import log
 
 import numpy as np
 from numpy.polynomial import chebyshev
 
-from .collapse import STRAIGHT
-from .commoncurve import LEAST_OVERLAP, Common, Projected, inside, near, scaled_to_one, unsettled, within
-from .intervals import Estimated, RmsMisfit
-from .jackknife import Replicates
+from ...statistics.collapse import STRAIGHT
+from ...statistics.commoncurve import (
+    LEAST_OVERLAP,
+    Common,
+    Projected,
+    inside,
+    near,
+    scaled_to_one,
+    unsettled,
+    within,
+)
+from ...statistics.intervals import Estimated, RmsMisfit
+from ...statistics.jackknife import Replicates
 
 # Degrees of the polynomial, of which the least information criterion has one; a third of the points stays free.
 DEGREES = range(1, 11)
@@ -43,8 +52,7 @@ class TemperatureShifts:
 
     isotherms : what was shifted, (K,) by their temperatures
     shifts : ln a_T of each (K,), exact where they were stated
-    covariance : of ln a_T (K, K); zero where they were stated
-    levers : change of ln a_T with ln mu of each point (K, N)
+    levers : change of ln a_T with ln mu of each point (K, N); none where they were stated
     misfit : of ln mu about the one function, without what scatter adds
     unshifted : the same with no shift
     straight : of parallel planes, one a temperature, to ln mu of ln v and ln F
@@ -54,7 +62,6 @@ class TemperatureShifts:
 
     isotherms: tuple[Isotherm, ...] = field(repr=False)
     shifts: Estimated
-    covariance: np.ndarray = field(repr=False)
     levers: np.ndarray = field(repr=False)
     misfit: RmsMisfit
     unshifted: RmsMisfit
@@ -66,6 +73,12 @@ class TemperatureShifts:
     def temperatures(self) -> np.ndarray:
         """(K,) [K], ascending."""
         return np.array([each.temperature for each in self.isotherms])
+
+    @property
+    def covariance(self) -> np.ndarray:
+        """Of ln a_T, where the shifts are found (K, K)."""
+        errors = np.concatenate([each.error for each in self.isotherms])
+        return self.levers * errors**2 @ self.levers.T
 
     @property
     def inseparable(self) -> str:
@@ -87,9 +100,11 @@ class Surface(Projected):
     def __init__(self, isotherms: Sequence[Isotherm], degree: int, loads: int):
         super().__init__([each.log_speed for each in isotherms], [each.log_friction for each in isotherms])
         self.isotherms, self.degree, self.loads = isotherms, degree, loads
+        self.log_load, self.errors = (
+            np.concatenate([getattr(each, name) for each in isotherms]) for name in ("log_load", "error")
+        )
         across = min(degree, loads - 1)
-        scaled, _ = scaled_to_one(np.concatenate([each.log_load for each in isotherms]))
-        self._across = chebyshev.chebvander(scaled, across)
+        self._across = chebyshev.chebvander(scaled_to_one(self.log_load)[0], across)
         self._powers = [(i, k) for k in range(across + 1) for i in range(degree - k + 1)]
 
     def _common(self, x):
@@ -99,7 +114,7 @@ class Surface(Projected):
         slopes = along[:, :-1] @ chebyshev.chebder(np.eye(self.degree + 1)) / half
         i, k = np.transpose(self._powers)
         basis = along[:, i] * self._across[:, k]
-        orthonormal, coefficients = self._projected(basis)
+        orthonormal, coefficients = self.projected(basis)
         return Common(
             basis, orthonormal, slopes[:, i] * self._across[:, k] @ coefficients, coefficients, (x.min(), x.max())
         )
@@ -109,8 +124,8 @@ def stated(isotherms: Sequence[Isotherm], shifts: np.ndarray, loads: int, dof: f
     """What shifts ln a_T (K,) that are stated make of isotherms."""
     increments = np.diff(shifts)
     surface = _freest(isotherms, loads, lambda each: increments)
-    exact = np.zeros((len(shifts), len(shifts))), np.zeros((len(shifts), surface.y.size))
-    return _shifted(surface, increments, Estimated.exact(np.asarray(shifts, float)), *exact, dof, found=False)
+    levers = np.zeros((len(shifts), surface.y.size))
+    return _shifted(surface, increments, Estimated(np.asarray(shifts, float)), levers, dof, found=False)
 
 
 def found(isotherms: Sequence[Isotherm], loads: int, dof: float) -> TemperatureShifts:
@@ -134,11 +149,9 @@ def found(isotherms: Sequence[Isotherm], loads: int, dof: float) -> TemperatureS
     against = np.tri(len(isotherms), len(increments), -1)
     against = against - against[len(isotherms) // 2]
     levers = -against @ np.linalg.pinv(surface.jacobian(increments))
-    errors = np.concatenate([each.error for each in isotherms])
-    covariance = levers * errors**2 @ levers.T
-    bias = _unfollowed(surface, against, increments)
-    shifts = Estimated(against @ increments, np.sqrt(np.diag(covariance)), dof, bias=bias)
-    return _shifted(surface, increments, shifts, covariance, levers, dof, found=True)
+    scattered = Replicates(against @ increments, (levers * surface.errors).T, dof).estimated
+    shifts = replace(scattered, bias=_unfollowed(surface, against, increments))
+    return _shifted(surface, increments, shifts, levers, dof, found=True)
 
 
 def _unfollowed(surface, against, increments):
@@ -153,45 +166,26 @@ def _unfollowed(surface, against, increments):
     return unsettled(before, after if unknowns + len(increments) < surface.y.size else before)
 
 
-def _shifted(surface, increments, shifts, covariance, levers, dof, found):
-    unmoved = np.zeros_like(increments)
+def _shifted(surface, increments, shifts, levers, dof, found):
+    levels = surface.owner[:, None] == np.arange(len(surface.isotherms))
+    unshifted, shifted = (surface.common(each).basis for each in (np.zeros_like(increments), increments))
     return TemperatureShifts(
         tuple(surface.isotherms),
         shifts,
-        covariance,
         levers,
-        _missed(surface, increments, dof, surface.tangent(increments) if found else None),
-        _missed(surface, unmoved, dof),
-        _straight(surface, dof),
-        surface.degree,
-        found,
+        misfit=_misfit(surface, dof, surface.tangent(increments) if found else shifted),
+        unshifted=_misfit(surface, dof, unshifted),
+        straight=_misfit(surface, dof, np.column_stack([levels, surface.x, surface.log_load])),
+        degree=surface.degree,
+        found=found,
     )
 
 
-def _missed(surface, increments, dof, tangent=None):
-    """Misfit of a surface; tangent : of what is fitted, the coefficients alone if None."""
-    basis = surface.common(increments).basis if tangent is None else tangent
-    return _misfit(surface, dof, _orthonormal(basis), surface.residuals(increments))
-
-
-def _straight(surface, dof):
-    """Misfit of parallel planes, one a temperature."""
-    levels = surface.owner[:, None] == np.arange(len(surface.isotherms))
-    loads = np.concatenate([each.log_load for each in surface.isotherms])
-    planes = _orthonormal(np.column_stack([levels, surface.x, loads]))
-    return _misfit(surface, dof, planes, surface.y - planes @ (planes.T @ surface.y))
-
-
-def _misfit(surface, dof, fitted, missed):
-    """Misfit of what is missed, where an orthonormal basis of what is fitted takes scatter away."""
-    errors = np.concatenate([each.error for each in surface.isotherms])
-    deviations = np.diag(errors) - errors[:, None] * fitted @ fitted.T
-    return Replicates(missed, sqrt(len(errors)) * deviations, dof).rms
-
-
-def _orthonormal(basis):
-    left, sizes, _ = np.linalg.svd(basis, full_matrices=False)
-    return left[:, sizes > 1e-12 * sizes[0]]
+def _misfit(surface, dof, fitted):
+    """Misfit to the best sum of functions (N, M), which take scatter away."""
+    basis, _ = surface.projected(fitted)
+    deviations = np.diag(surface.errors) - surface.errors[:, None] * basis @ basis.T
+    return Replicates(surface.y - basis @ (basis.T @ surface.y), deviations, dof).rms
 
 
 def _freest(isotherms, loads, sought):
