@@ -32,7 +32,7 @@ TEXT = HEAD + SHARED + TABLES + SERIES
 KELVIN = '"kelvin"\nmodulus = "1 MPa"\nrelaxation_time = "1 ms"'
 
 
-def asked(text, size="quick"):
+def stated(text, size="quick"):
     return study_of(text, "mine").series(size)
 
 
@@ -43,7 +43,7 @@ def mistakes_in(text):
 
 
 def test_a_file_says_what_python_says():
-    first, second = asked(TEXT)
+    first, second = stated(TEXT)
     rough = SelfAffine(hurst=0.2, rms_height=50e-6, longest=10e-3, shortest=2e-3, seed=1)
     assert first.scene == Scene(Sphere(10e-3), Kelvin(1e6, 1e-3), Slide(speed=0.05, load=0.5), rough)
     assert (first.speeds, first.values) == ((0.05, 0.1, 0.2), tuple(np.geomspace(0.5, 2.0, 4)))
@@ -60,17 +60,17 @@ def test_what_a_file_leaves_out_follows_from_the_size():
     short = TEXT.replace("surfaces = 2\nprofiles = 3\n", "").replace("[bem]\npoints = 32\n", "")
     short = short.replace(", count = 4", "").replace('["50 mm/s", 0.1, 0.2]', "{ least = 0.05, greatest = 0.2 }")
     for size, speeds, values, *draws in (("quick", 6, 4, 3, 12, 128), ("standard", 12, 8, 10, 60, 256)):
-        series = asked(short, size)[0]
+        series = stated(short, size)[0]
         assert [series.surfaces, series.profiles, series.bem.points] == draws
         assert (len(series.speeds), len(series.values)) == (speeds, values)
         assert series.speeds[0] == 0.05
         assert series.speeds[-1] == pytest.approx(0.2, rel=1e-15)  # of a power
-    assert asked(TEXT, "standard") == asked(TEXT)
+    assert stated(TEXT, "standard") == stated(TEXT)
 
 
 def test_a_ready_scene_may_stand_below_all_tables():
     text = HEAD + 'scene = "paper-sphere"\n' + SHARED + "[[series]]\nname = 'a'\n[series.roughness]\nhurst = 0.5\n"
-    (series,) = asked(text)
+    (series,) = stated(text)
     assert series.scene.indenter == Sphere(1e-2)
     assert series.scene.roughness == SelfAffine(hurst=0.5, rms_height=5e-5, longest=1e-2, shortest=5e-4, seed=1)
 
@@ -85,7 +85,7 @@ def test_what_a_size_states_lies_over_what_is_stated_at_all_and_a_series_has_the
     """
     own = 'only = ["standard", "full"]\nbem.points = 64\nsizes.full.bem.points = 128\nnote ='
     text = TEXT.replace("[[series]]", f"{sizes}[[series]]", 1).replace("note =", own)
-    quick, standard, full = (asked(text, size) for size in ("quick", "standard", "full"))
+    quick, standard, full = (stated(text, size) for size in ("quick", "standard", "full"))
     assert [each.name for each in quick] == ["a"]
     assert (quick[0].surfaces, len(quick[0].values), quick[0].bem.points, quick[0].interval) == (2, 4, 32, None)
     assert [(each.surfaces, len(each.values), each.interval) for each in standard] == [(5, 3, 0.1)] * 2
@@ -94,7 +94,7 @@ def test_what_a_size_states_lies_over_what_is_stated_at_all_and_a_series_has_the
 
 
 def test_depths_may_be_those_of_the_smooth_relaxed_body_under_loads():
-    series = asked(TEXT.replace('name = "a"', 'name = "a"\nprescribed = "depth"'))[0]
+    series = stated(TEXT.replace('name = "a"', 'name = "a"\nprescribed = "depth"'))[0]
     modulus = 8 / 3 * 1e6 / 0.5  # 4 E* / 3
     assert series.prescribed == "depth"
     assert series.slides
@@ -103,19 +103,19 @@ def test_depths_may_be_those_of_the_smooth_relaxed_body_under_loads():
 
 
 def test_bodies_rest_without_speeds_and_are_pressed_in_at_rates():
-    rest = asked(TEXT.replace('speeds = ["50 mm/s", 0.1, 0.2]', ""))[0]
+    rest = stated(TEXT.replace('speeds = ["50 mm/s", 0.1, 0.2]', ""))[0]
     assert rest.speeds == ()
     assert rest.scene.motion == Indent(load=0.5)
     pressed = TEXT.replace("speeds =", "rates =").replace("loads = { least", "depths = { least")
     pressed = pressed.replace('"0.5 N", greatest = 2', '"50 um", greatest = 2e-4')
-    series = asked(pressed)[0]
+    series = stated(pressed)[0]
     assert series.scene.motion == Program(stages=(Stage(duration=1.0, depth=50e-6),))
     assert series.speeds == (0.05, 0.1, 0.2)
 
 
 def test_what_a_series_states_of_its_motion_replaces_what_is_shared():
     text = TEXT.replace('name = "a"', 'name = "a"\ndepths = ["50 um"]\nrates = [0.1]')
-    first, second = asked(text)
+    first, second = stated(text)
     assert (first.prescribed, first.slides) == ("depth", False)
     assert (second.prescribed, second.slides) == ("load", True)
 
