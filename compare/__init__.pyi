@@ -24,13 +24,13 @@ from .commands import topography as topography
 from .commands import trust as trust
 from .commands import verify as verify
 from .commands import workprecision as workprecision
-from .comparison.comparison import Comparison as Comparison
 from .library.case import Case as Case
 from .models.law.persson import Persson as Persson
 from .solving.task import SceneTask as SceneTask
 from .statistics.finding import Claim as Claim
 from .statistics.finding import Finding as Finding
 from .statistics.griderror import UncertainFriction as UncertainFriction
+from .studies.comparison.comparison import Comparison as Comparison
 from .studies.regress.quantity import Quantity as Quantity
 from .studies.regress.quantity import Unmeasured as Unmeasured
 from .studies.regress.study import check as check

@@ -85,10 +85,10 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
-    from .comparison.comparison import Comparison
-    from .comparison.sweep import SweepSeries
     from .library.ready import Listing
     from .solving.terminal import Shown
+    from .studies.comparison.comparison import Comparison
+    from .studies.comparison.sweep import SweepSeries
     from .studies.plan import Plans
     from .studies.regress.quantity import Quantity
     from .studies.report import Report
@@ -173,7 +173,7 @@ def run(
         surfaces and profiles: many are solved on coarse grids, few on finer ones, until every claim is decided or
         its interval is so narrow, and so are those of the scene's own friction, depth or force
     """
-    from .comparison import asked
+    from .studies.comparison import asked
 
     return solve(asked.run(scene, models, reference, interval), output, budget=budget, **options)
 
@@ -194,7 +194,7 @@ def study(
         from .library.ready import studies
 
         return studies()
-    from .comparison import asked
+    from .studies.comparison import asked
 
     return solve(asked.study(str(name), size, models, reference, interval), output, budget=budget, **options)
 
@@ -344,7 +344,7 @@ def sweep(
 @checked
 def swept(output: Output = "crosscheck-sweep", budget: Budget = None, **given: Any) -> Report:
     """Report of a sweep, of the arguments of `sweep`: the command prints it."""
-    from .comparison import asked
+    from .studies.comparison import asked
 
     options: Any = {name: given.pop(name) for name in Options.__annotations__ if name in given}
     return solve(asked.sweep(**given), output, budget=budget, **options)
@@ -353,7 +353,7 @@ def swept(output: Output = "crosscheck-sweep", budget: Budget = None, **given: A
 @checked
 def friction_plot(dataset: xarray.Dataset) -> Figure:
     """Friction of a sweep against speed, or against load, both models with error bars: a matplotlib Figure."""
-    from .comparison.plots import figure_of
+    from .studies.comparison.plots import figure_of
 
     return figure_of(dataset)
 

@@ -18,10 +18,10 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
     from concurrent.futures import Executor
 
-    from .comparison.values import Values
     from .library.lookup import SceneLike
     from .models.table import ModelLike
     from .solving.terminal import Shown
+    from .studies.comparison.values import Values
     from .studies.mastercurve.measurements import Measurements
     from .studies.topography.study import Surface
 

@@ -7,10 +7,10 @@ import numpy as np
 import xarray
 
 from bem3d import BEM
-from compare.comparison.answers import Answers
-from compare.comparison.curve import COARSE, FAILED, FINE, NOT_ASKED, SOLVED
-from compare.comparison.rough import ROUGH, SMOOTH, RoughSeries
-from compare.comparison.series import Judged
+from compare.solving.curve import COARSE, FAILED, FINE, NOT_ASKED, SOLVED
+from compare.studies.comparison.answers import Answers
+from compare.studies.comparison.rough import ROUGH, SMOOTH, RoughSeries
+from compare.studies.comparison.series import Judged
 from compare.studies.paper import parameters
 from mdr1d import MDR, equations
 

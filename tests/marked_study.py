@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 
 from bem3d import BEM
 from compare.cli.app import main
-from compare.comparison.curve import tasks_of
-from compare.comparison.rough import RoughSeries
-from compare.comparison.study_file import STUDIES, ReadyStudy
+from compare.solving.curve import tasks_of
 from compare.solving.task import SCENES
+from compare.studies.comparison.rough import RoughSeries
+from compare.studies.comparison.study_file import STUDIES, ReadyStudy
 from compare.studies.paper.parameters import resolved
 from mdr1d import MDR
 

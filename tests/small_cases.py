@@ -3,9 +3,9 @@
 from dataclasses import replace
 
 from bem3d import BEM
-from compare.comparison.curve import Curve, on_two_levels
 from compare.library.case import Variations
 from compare.library.lookup import case_of
+from compare.solving.curve import Curve, on_two_levels
 from mdr1d import MDR
 from scene import Kelvin, Scene, SelfAffine, Slide, Sphere
 

@@ -15,7 +15,6 @@ from matplotlib.figure import Figure
 from numpy.polynomial import Chebyshev
 from pandas import DataFrame, Series, concat
 
-from ..report.page import Plot, Tables
 from ..solving.words import interval
 from ..statistics import eq23
 from ..statistics.collapse import ENDS, Alignment, Collapse
@@ -24,6 +23,7 @@ from . import shades, style
 from .curves import intervals
 from .lettering import lettered, literal
 from .panels import CURVES, entry, few, legend, speed_key
+from .plot import Plot, Tables
 
 NAME = "collapse"
 SHIFTS, POWERS, FITS = "-shifts", "-powers", "-fits"

@@ -13,11 +13,11 @@ from pandas import DataFrame, concat
 
 from scene import Cylinder, Program, Scene
 
-from ..report.page import Plot, Tables
-from ..report.views import ROW, SURFACE, smooth_radius
 from . import shades, style, touching
 from .lettering import lettered
+from .plot import Plot, Tables
 from .prefixes import prefixed
+from .views import ROW, SURFACE, smooth_radius
 
 NAME = "contact"
 PRESSURE, LINES, PROGRAM = f"{NAME}-pressure", f"{NAME}-line-force", f"{NAME}-program"
@@ -42,7 +42,7 @@ def plot(
 ) -> Plot:
     """Plot of a contact, of which something is known.
 
-    seen : "surface" (y, x) and "row" (x), as `report.views.view` returns them
+    seen : "surface" (y, x) and "row" (x), as `views.view` returns them
     program : normal_force, friction_force and depth (time) by the name of the solver
     """
     tables: dict[str, DataFrame] = {}

@@ -3,11 +3,11 @@
 from matplotlib.figure import Figure
 from pandas import DataFrame
 
-from ..report.page import Plot, Tables
 from . import shades, style
 from .curves import intervals
 from .lettering import lettered
 from .panels import entry, legend, limit
+from .plot import Plot, Tables
 
 NAME = "family"
 

@@ -9,10 +9,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from pandas import DataFrame
 
-from ..report.page import Plot, Tables
 from . import style
 from .lettering import lettered
 from .panels import AXES, at, compared, curve, legend, limit, over, panels_of, tables_of
+from .plot import Plot, Tables
 
 NAME = "force-depth"
 DIFFERENCES = f"{NAME}-differences"

@@ -6,11 +6,11 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from pandas import DataFrame
 
-from ..report.page import Plot, Tables
 from . import shades, style
 from .friction_speed import THEORY, line_look
 from .lettering import lettered
 from .panels import AXES, CURVES, curve, few, legend, limit, tables_of
+from .plot import Plot, Tables
 
 NAME = "friction-load"
 LINES = f"{NAME}-lines"

@@ -7,10 +7,10 @@ import numpy as np
 from matplotlib.figure import Figure
 from pandas import DataFrame
 
-from ..report.page import Plot, Tables
 from . import style
 from .lettering import lettered
 from .panels import AXES, PANELS, at, compared, curve, legend, limit, over, panels_of, tables_of
+from .plot import Plot, Tables
 
 NAME = "friction-speed"
 RATIOS, LINES = "-ratios", "-lines"

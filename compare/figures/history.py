@@ -3,10 +3,10 @@
 from matplotlib.figure import Figure
 from pandas import DataFrame
 
-from ..report.page import Plot, Tables
 from . import style
 from .lettering import lettered
 from .panels import legend
+from .plot import Plot, Tables
 
 NAME = "history"
 # Factor and label of an axis across, and of each quantity.

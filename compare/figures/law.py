@@ -6,11 +6,11 @@ import numpy as np
 from matplotlib.figure import Figure
 from pandas import DataFrame
 
-from ..report.page import Plot, Tables
 from . import shades, style
 from .curves import intervals
 from .lettering import lettered, literal
 from .panels import entry, legend, limit, speed_key
+from .plot import Plot, Tables
 
 NAME, SHARE = "law", "law-share"
 ENDS = ("", "_low", "_high")

@@ -10,8 +10,8 @@ from matplotlib.figure import Figure
 
 from scene.reading import InvalidInput
 
-from ..report.page import Plot
 from . import style
+from .plot import Plot
 
 FORMS = ("png", "pdf", "svg")
 # What is said of a file, without the date: the same numbers give the same file.

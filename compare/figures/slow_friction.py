@@ -3,11 +3,11 @@
 from matplotlib.figure import Figure
 from pandas import DataFrame
 
-from ..report.page import Plot, Tables
 from . import style
 from .curves import intervals
 from .lettering import lettered
 from .panels import legend
+from .plot import Plot, Tables
 
 NAME = "slow-friction"
 # Each over its number under the least load.

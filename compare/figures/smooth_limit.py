@@ -3,10 +3,10 @@
 from matplotlib.figure import Figure
 from pandas import DataFrame
 
-from ..report.page import Plot, Tables
 from . import style
 from .friction_speed import LINES, RATIOS, against
 from .panels import tables_of
+from .plot import Plot, Tables
 
 NAME, KIND = "smooth-limit", "slow limit"
 # v tau / a up to which the first order in the speed is drawn.

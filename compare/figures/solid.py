@@ -7,9 +7,9 @@ from pandas import DataFrame
 
 from scene import CreepTable, Scene, Table, Tabulated
 
-from ..report.page import Plot, Tables
 from . import style
 from .lettering import lettered
+from .plot import Plot, Tables
 from .prefixes import prefixed
 
 NAME = "solid"

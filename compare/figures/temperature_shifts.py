@@ -4,11 +4,11 @@ import numpy as np
 from matplotlib.figure import Figure
 from pandas import DataFrame
 
-from ..report.page import Plot, Tables
 from . import shades, style
 from .curves import intervals
 from .lettering import lettered
 from .panels import few, legend, limit
+from .plot import Plot, Tables
 
 NAME = "temperature-shifts"
 SHIFTS, LAWS = f"{NAME}-shifts", f"{NAME}-laws"

@@ -16,16 +16,15 @@ from pydantic import ConfigDict, ValidationError, validate_call
 from scene.printable import brief
 from scene.reading import InvalidInput
 
-from ..comparison import curve
 from ..figures import style as looks
 from ..figures.journals import COLUMNS
+from ..figures.plot import Plot
 from ..figures.rendering import FORMS, Picture, picture
-from ..solving import netcdf
+from ..solving import curve, netcdf
 from ..solving.folders import first_mistake
 from ..solving.suggest import known
 from ..solving.vocabulary import entry as vocabulary
 from . import csvfiles, manifest, render, vtk
-from .page import Plot
 
 FORMATS = ("csv", "vtk", *FORMS)
 TABLES, FIGURES = "tables", "figures"  # folders that are written into

@@ -16,10 +16,11 @@ from pydantic_core import to_json
 from scene.printable import brief
 from scene.reading import InvalidInput
 
+from ..figures.plot import Plot
 from ..solving.digest import PACKAGES
 from ..solving.folders import FORMAT, Stated, clear, hold, read, write
 from ..solving.folders import MANIFEST as NAME
-from .page import Page, Plot
+from .page import Page
 
 if TYPE_CHECKING:
     from ..solving.runner import SweepResult

@@ -11,13 +11,14 @@ import jinja2
 
 from scene.printable import printable
 
+from ..figures.plot import Plot
 from ..figures.rendering import picture
 from ..solving.folders import write as write_whole
 from ..statistics import finding
 from ..statistics.finding import Finding
 from . import csvfiles
 from .manifest import inside, machine, versions
-from .page import Page, Plot
+from .page import Page
 from .tables import claims, shown
 
 PAGE = "report.html"

@@ -9,7 +9,7 @@ import numpy as np
 import xarray
 from pandas import DataFrame
 
-from ..comparison.curve import COARSE, EMPTY, FAILED, FINE
+from ..solving.curve import COARSE, EMPTY, FAILED, FINE
 from .intervals import Estimated
 from .jackknife import DrawSet, Source, estimated, resample
 from .multilevel import pooled

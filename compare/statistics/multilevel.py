@@ -20,9 +20,9 @@ from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
-from ..comparison.curve import EMPTY, TOGETHER, Curve
 from ..solving.control_variates import VARIATES, controlled
 from ..solving.cost import MOST_DRAWS, SECONDS
+from ..solving.curve import EMPTY, TOGETHER, Curve
 from ..solving.words import duration, share
 from .collapse import PARTED
 from .finding import UNDECIDED, Finding

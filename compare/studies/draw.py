@@ -12,14 +12,14 @@ from mdr1d import MDR
 from scene import Program, Refused, SolveError, notes
 from scene.protocol import foresee
 
-from ..comparison.curve import work_of
 from ..figures import contact
 from ..figures.contact import HISTORIES
+from ..figures.views import ROW, SURFACE, view
 from ..library.case import Case, doubted
 from ..library.lookup import SceneLike, case_of
 from ..report.page import Text
-from ..report.views import ROW, SURFACE, view
 from ..solving import words
+from ..solving.curve import work_of
 from ..solving.outcome import Outcome
 from ..solving.task import Batch, SceneTask, Task
 from ..solving.vocabulary import attributes

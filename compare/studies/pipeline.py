@@ -13,9 +13,9 @@ from scene.printable import brief
 from scene.quantities import SECOND
 from scene.reading import InvalidInput
 
+from ..figures.plot import Plot
 from ..figures.rendering import FORMS
 from ..report import manifest, render
-from ..report.page import Plot
 from ..solving import netcdf, runner
 from ..solving.executors import counted
 from ..solving.folders import Unwritable, hold, make

@@ -17,13 +17,13 @@ from scene.printable import brief
 from scene.protocol import foresee, trusted
 from scene.reading import InvalidInput
 
-from ..comparison.around import corners, curves, models_of
 from ..library.case import Case, NotCompared, doubted
 from ..library.lookup import SceneLike, case_of
 from ..models.table import KNOWN
 from ..solving.cost import Cost
 from ..solving.words import duration, pascals, seconds, share
 from ..trustmap.verdict import Advice, trust
+from .comparison.around import corners, curves, models_of
 
 WIDTH = 100
 WHOLE = {"break_long_words": False, "break_on_hyphens": False}

@@ -12,10 +12,11 @@ from pandas import DataFrame
 
 from scene.signatures import readable
 
+from ..figures.plot import Plot
 from ..figures.rendering import finished
 from ..figures.style import png
 from ..report import render, terminal
-from ..report.page import Page, Plot
+from ..report.page import Page
 from ..solving.runner import SweepResult
 from ..solving.store import TRACE
 from ..solving.unsolved import NONE_UNSOLVED, Unsolved

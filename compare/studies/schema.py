@@ -34,8 +34,8 @@ def schema(kind: str, output: str | Path | None = None) -> dict[str, Any]:
         found = TypeAdapter(Answer).json_schema(mode="serialization", schema_generator=_Answers)
     else:
         # Only the schema itself needs what it describes.
-        from ..comparison.study_file import StudyFile
         from ..library.case import Case
+        from .comparison.study_file import StudyFile
 
         what = {"scene": Case, "study": StudyFile}[kind]
         found = _said_in_full(TypeAdapter(what).json_schema(schema_generator=_Documented))

@@ -8,10 +8,11 @@ import xarray
 
 from scene.signatures import readable
 
-from ..comparison.curve import Curve, contacts_of, tasks_of, tree
-from ..report.page import Block, Findings, Page, Plot, Section, Table, Text
+from ..figures.plot import Plot
+from ..report.page import Block, Findings, Page, Section, Table, Text
 from ..solving import words
 from ..solving.cost import Cost
+from ..solving.curve import Curve, contacts_of, tasks_of, tree
 from ..solving.outcome import Outcome
 from ..solving.task import Batch, SceneTask, Task
 from ..solving.unsolved import Unsolved

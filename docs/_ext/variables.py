@@ -2,7 +2,7 @@
 
 from sphinx.util.docutils import SphinxDirective
 
-from compare.comparison.curve import NUMBERS
+from compare.solving.curve import NUMBERS
 from compare.solving.vocabulary import LABELS, entry
 from scene.vocabulary import FIELDS, MEASURES
 

@@ -19,9 +19,9 @@ from pandas import DataFrame
 from tables import finding, replaced, stored, table
 
 import compare
-from compare.comparison.claims import ENDS
-from compare.comparison.study_file import STUDIES
 from compare.solving.words import interval, number
+from compare.studies.comparison.claims import ENDS
+from compare.studies.comparison.study_file import STUDIES
 
 PAGE = Path(__file__).parents[1] / "results" / "answers.md"
 DOCS, README = PAGE.parent, PAGE.parents[2] / "README.md"

@@ -14,16 +14,16 @@ from pandas import DataFrame
 from tables import finding, replaced, said, stored, table
 
 import compare
-from compare.comparison import study_file
-from compare.comparison.claims import ENDS
-from compare.comparison.curve import COARSE, FINE
 from compare.figures import style
 from compare.figures.shades import SPEED, bar, between
+from compare.solving.curve import COARSE, FINE
 from compare.statistics import eq23
 from compare.statistics.collapse import collapse
 from compare.statistics.finding import verdict
 from compare.statistics.frictioncurves import SimulatedCurves
 from compare.statistics.jackknife import mean_ratio
+from compare.studies.comparison import study_file
+from compare.studies.comparison.claims import ENDS
 
 PAGE = Path(__file__).parents[1] / "results" / "fast.md"
 LAW = PAGE.with_name("law.md")

@@ -19,15 +19,15 @@ from PIL import Image
 from tables import stored
 
 from bem3d import BEM, Trail
-from compare.comparison.study_file import STUDIES
 from compare.figures import contact, style, touching
 from compare.figures.curves import intervals
+from compare.figures.plot import Plot
 from compare.figures.shades import SPEED, between
+from compare.figures.views import view
 from compare.report.csvfiles import read
-from compare.report.page import Plot
-from compare.report.views import view
 from compare.solving.task import draws_of
 from compare.statistics.jackknife import mean_ratio
+from compare.studies.comparison.study_file import STUDIES
 from mdr1d import MDR, equations
 from scene import Slide
 

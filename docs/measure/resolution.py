@@ -14,10 +14,10 @@ from pandas import DataFrame
 from tables import replaced, stored
 
 from bem3d import BEM
-from compare.comparison.study_file import STUDIES
 from compare.figures import style
 from compare.figures.lettering import lettered
 from compare.solving.task import SceneTask
+from compare.studies.comparison.study_file import STUDIES
 from scene import Indent, Slide
 
 PAGE = Path(__file__).parents[1] / "results" / "resolution.md"

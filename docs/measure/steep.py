@@ -14,9 +14,9 @@ from planes import PAGE as PLANES
 from tables import stored
 
 from bem3d import BEM
-from compare.comparison.study_file import STUDIES
 from compare.solving.task import SceneTask, draws_of
 from compare.statistics.intervals import student
+from compare.studies.comparison.study_file import STUDIES
 from compare.trustmap.friction_law import FrictionLaw
 from scene import Scene, Slide
 

@@ -18,11 +18,11 @@ import compare
 from bem3d import BEM
 from compare import commands
 from compare.cli.app import app
-from compare.comparison.curve import Curve, on_two_levels
-from compare.comparison.sweep import SweepSeries
+from compare.solving.curve import Curve, on_two_levels
 from compare.statistics.finding import COLUMNS, Claim
 from compare.statistics.jackknife import friction
 from compare.studies import pipeline
+from compare.studies.comparison.sweep import SweepSeries
 from compare.studies.study import Study
 from mdr1d import MDR
 from scene import Refused, Scene

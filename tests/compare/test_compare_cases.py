@@ -7,9 +7,9 @@ from scene_files import SCENE
 from typer.testing import CliRunner
 
 from compare.cli.app import app
-from compare.comparison import asked
-from compare.comparison.around import SMOOTH_DEPTH, curves, models_of
 from compare.library.lookup import case_of, named_cases
+from compare.studies.comparison import asked
+from compare.studies.comparison.around import SMOOTH_DEPTH, curves, models_of
 from scene import Coulomb, Elastic, Indent, Program, Refused, Slide, Stage
 from scene.reading import InvalidInput
 from scene.scales import elastic_contact

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from bem3d import BEM
-from compare.comparison import curve
-from compare.comparison.answers import Answers
-from compare.comparison.laws import laws
-from compare.comparison.rough import RoughSeries
+from compare.solving import curve
 from compare.solving.outcome import Outcome, Row
+from compare.studies.comparison.answers import Answers
+from compare.studies.comparison.laws import laws
+from compare.studies.comparison.rough import RoughSeries
 from mdr1d import MDR
 from scene import (
     Program,

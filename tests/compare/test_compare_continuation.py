@@ -8,9 +8,9 @@ import pytest
 from small_cases import CURVE
 
 from bem3d import BEM
-from compare.comparison.curve import contacts_of, on_two_levels, tasks_of
 from compare.solving import continuation
 from compare.solving.continuation import Continuation, by_contact
+from compare.solving.curve import contacts_of, on_two_levels, tasks_of
 from compare.solving.digest import key
 from compare.solving.store import Store
 from mdr1d import MDR

@@ -13,10 +13,10 @@ from typer.testing import CliRunner
 
 from bem3d import BEM
 from compare.cli.app import app
-from compare.comparison import asked as questions
-from compare.comparison.study_file import study_of
 from compare.library.case import Case, share_of
 from compare.solving.cost import DAY, MANY_CONTACTS, MOST_CONTACTS, SECONDS, Cost
+from compare.studies.comparison import asked as questions
+from compare.studies.comparison.study_file import study_of
 from compare.studies.paper.study import Paper
 from compare.studies.pipeline import run
 from compare.studies.study import Study

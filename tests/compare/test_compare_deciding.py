@@ -11,9 +11,9 @@ from test_compare_multilevel import answers
 
 import compare
 from bem3d import BEM
-from compare.comparison.curve import FINER, NOT_ASKED, SOLVED
 from compare.library.case import Variations
 from compare.library.lookup import case_of
+from compare.solving.curve import FINER, NOT_ASKED, SOLVED
 from compare.statistics.finding import FAILS, HOLDS, UNDECIDED, Claim, Finding
 from compare.statistics.jackknife import DrawSet, friction, measured
 from compare.statistics.multilevel import GROWTH, PILOT, DrawnSurfaces, pilot, pooled

@@ -13,10 +13,10 @@ import compare
 from bem3d import BEM
 from compare.cli.app import app
 from compare.figures import contact, style
+from compare.figures.plot import Plot
+from compare.figures.views import ROW, SURFACE, view
 from compare.library.lookup import case_of
 from compare.report import vtk
-from compare.report.page import Plot
-from compare.report.views import ROW, SURFACE, view
 from compare.studies.draw import APART
 from mdr1d import MDR
 from scene import (

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray
 
-from compare.comparison.curve import FINE
+from compare.solving.curve import FINE
 from compare.statistics.finding import Claim, Finding
 from compare.statistics.frictioncurves import SimulatedCurves
 from compare.statistics.intervals import Estimated, student

@@ -21,7 +21,8 @@ from pandas import DataFrame
 from processes import PATIENCE, finish, start, wait_for
 
 import compare
-from compare.report.page import Plot, Table
+from compare.figures.plot import Plot
+from compare.report.page import Table
 from compare.solving.folders import LOCK
 from compare.solving.runner import sweep
 from compare.solving.store import Store

@@ -8,18 +8,18 @@ import pytest
 import xarray
 from invented_answers import SERIES, SURFACES, changed, eq_19, joined, obeying
 
-from compare.comparison.claims_law import EVERY, SHALLOW, LawPoints, law_findings
-from compare.comparison.comparison import Comparison
-from compare.comparison.curve import COARSE, FINE, SOLVED
-from compare.comparison.laws import laws
-from compare.comparison.rough import ROUGH
-from compare.comparison.theory import LAW, with_theory
-from compare.comparison.together import Member
-from compare.comparison.together import together as several
 from compare.figures import style
-from compare.report.page import Plot
+from compare.figures.plot import Plot
 from compare.solving import words
+from compare.solving.curve import COARSE, FINE, SOLVED
 from compare.statistics.finding import FAILS, HOLDS, REPORTED
+from compare.studies.comparison.claims_law import EVERY, SHALLOW, LawPoints, law_findings
+from compare.studies.comparison.comparison import Comparison
+from compare.studies.comparison.laws import laws
+from compare.studies.comparison.rough import ROUGH
+from compare.studies.comparison.theory import LAW, with_theory
+from compare.studies.comparison.together import Member
+from compare.studies.comparison.together import together as several
 from compare.studies.paper import parameters
 from scene import Slide
 

@@ -8,11 +8,11 @@ import pytest
 from damage import places
 
 from compare import run
-from compare.comparison.study_file import StudyFile, study_of
 from compare.library.case import Case
 from compare.library.lookup import located
 from compare.library.ready import find, ready, write
 from compare.solving.cost import MOST_VALUES
+from compare.studies.comparison.study_file import StudyFile, study_of
 from compare.studies.plan import plans
 from compare.studies.schema import DIALECT, schema
 from scene import Prony, Refused, Scene

@@ -28,10 +28,10 @@ from matplotlib.transforms import Bbox
 
 from compare.figures import curves, lettering, shades, style
 from compare.figures.journals import COLUMNS
+from compare.figures.plot import Plot
 from compare.figures.rendering import FORMS, picture
 from compare.report import csvfiles, manifest
 from compare.report.export import function
-from compare.report.page import Plot
 from scene.reading import InvalidInput
 
 SAMPLES = Path(__file__).parent / "plots"

@@ -9,12 +9,12 @@ import pytest
 from drawn_again import from_files
 
 import compare
-from compare.comparison import asked
 from compare.figures import collapse
 from compare.library.ready import ready
 from compare.solving.words import found as worded
 from compare.statistics.eq23 import NO_SHIFT
 from compare.statistics.finding import FAILS, HOLDS, REPORTED, UNDECIDED
+from compare.studies.comparison import asked
 from compare.studies.mastercurve.measurements import MeasuredFriction
 from compare.studies.mastercurve.study import NOT_REPEATED, Mastercurve
 from scene.reading import InvalidInput

@@ -11,8 +11,6 @@ from matplotlib.text import Text
 from pandas import DataFrame
 from small_cases import TINY
 
-from compare.comparison import asked
-from compare.comparison.together import Member, together
 from compare.figures import collapse as figure
 from compare.figures import style
 from compare.report import terminal
@@ -24,6 +22,8 @@ from compare.solving.words import found as worded
 from compare.statistics import eq23
 from compare.statistics.collapse import collapse
 from compare.statistics.frictioncurves import SimulatedCurves
+from compare.studies.comparison import asked
+from compare.studies.comparison.together import Member, together
 
 NUMBER = re.compile(r"[\u2212-]?\d+(?:\.\d+)?")
 

@@ -22,9 +22,10 @@ from pandas import DataFrame
 from pandas.testing import assert_frame_equal
 from PIL import Image
 
+from compare.figures.plot import Plot
 from compare.report import csvfiles, manifest, render, terminal
 from compare.report.export import export
-from compare.report.page import Findings, Page, Plot, Section, Table, Text
+from compare.report.page import Findings, Page, Section, Table, Text
 from compare.report.tables import claims
 from compare.solving import netcdf, vocabulary, words
 from compare.solving.words import interval

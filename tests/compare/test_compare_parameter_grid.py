@@ -13,7 +13,9 @@ from typer.testing import CliRunner
 
 from bem3d import BEM
 from compare.cli.app import app
-from compare.comparison.curve import (
+from compare.solving import netcdf
+from compare.solving.cost import MOST_DRAWS
+from compare.solving.curve import (
     LEVELS,
     Curve,
     contacts_of,
@@ -22,8 +24,6 @@ from compare.comparison.curve import (
     tasks_of,
     tree,
 )
-from compare.solving import netcdf
-from compare.solving.cost import MOST_DRAWS
 from compare.solving.outcome import Outcome, Row
 from compare.solving.task import draws_of
 from compare.solving.words import basis

@@ -12,11 +12,11 @@ from scipy.special import erf
 import compare
 from bem3d import BEM
 from compare import Persson
-from compare.comparison.rough import ROUGH, RoughSeries
 from compare.library.lookup import case_of
 from compare.models.exact.full_contact import complex_stiffness
 from compare.models.law.bands import Bands, FullContact
 from compare.models.table import QUANTITIES
+from compare.studies.comparison.rough import ROUGH, RoughSeries
 from mdr1d import MDR
 from scene import (
     Cylinder,

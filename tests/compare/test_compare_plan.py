@@ -11,9 +11,9 @@ from typer.testing import CliRunner
 import compare
 from compare import run
 from compare.cli.app import app
-from compare.comparison import asked
-from compare.comparison.curve import contacts_of
 from compare.figures import solid, style
+from compare.solving.curve import contacts_of
+from compare.studies.comparison import asked
 from compare.studies.plan import plans
 from scene import WLF, Doubtful, Indent, Prony, Scene, Sphere, Tabulated
 

@@ -8,8 +8,18 @@ import pytest
 
 import compare
 from bem3d import BEM
-from compare.comparison import asked, tables
-from compare.comparison.around import (
+from compare.figures import style
+from compare.library.case import Case, Variations
+from compare.library.ready import ready
+from compare.report.export import FIGURES, TABLES
+from compare.solving import netcdf
+from compare.solving.continuation import Continuation
+from compare.solving.curve import COARSE, FINE, tasks_of
+from compare.solving.folders import Unwritable
+from compare.solving.outcome import Outcome, Row
+from compare.statistics import finding
+from compare.studies.comparison import asked, tables
+from compare.studies.comparison.around import (
     LOAD,
     OWN,
     ROUGH_DEPTH,
@@ -22,16 +32,6 @@ from compare.comparison.around import (
     predicted_exponent,
     slow_friction,
 )
-from compare.comparison.curve import COARSE, FINE, tasks_of
-from compare.figures import style
-from compare.library.case import Case, Variations
-from compare.library.ready import ready
-from compare.report.export import FIGURES, TABLES
-from compare.solving import netcdf
-from compare.solving.continuation import Continuation
-from compare.solving.folders import Unwritable
-from compare.solving.outcome import Outcome, Row
-from compare.statistics import finding
 from compare.studies.report import SOLVED
 from compare.studies.study import Study
 from mdr1d import MDR

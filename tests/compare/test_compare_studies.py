@@ -7,15 +7,16 @@ import pytest
 from invented_answers import FEW, SERIES, SLOPE, Invented, changed, cut, eq_19, obeying, other, spoiled
 
 from bem3d import BEM
-from compare.comparison import asked, curve, together
-from compare.comparison.curve import COARSE, FINE
-from compare.comparison.laws import laws
-from compare.comparison.measures import SLOW, loading
-from compare.comparison.rough import SMOOTH, RoughSeries
-from compare.comparison.theory import THEORIES
 from compare.library.ready import studies
+from compare.solving import curve
+from compare.solving.curve import COARSE, FINE
 from compare.statistics.finding import REPORTED
 from compare.statistics.jackknife import friction, mean
+from compare.studies.comparison import asked, together
+from compare.studies.comparison.laws import laws
+from compare.studies.comparison.measures import SLOW, loading
+from compare.studies.comparison.rough import SMOOTH, RoughSeries
+from compare.studies.comparison.theory import THEORIES
 from mdr1d import MDR
 from scene import Indent, Kelvin, Program, Scene, SelfAffine, Slide, Sphere, Stage
 from scene.reading import InvalidInput

@@ -9,14 +9,15 @@ import pytest
 import xarray
 from invented_answers import FEW, SERIES, cut, eq_19, obeying, other, spoiled
 
-from compare.comparison.claims import SHORT
-from compare.comparison.comparison import Comparison
-from compare.comparison.curve import tasks_of
 from compare.figures import style
+from compare.figures.plot import Plot
 from compare.report import csvfiles
-from compare.report.page import Findings, Plot, Section, Table
+from compare.report.page import Findings, Section, Table
+from compare.solving.curve import tasks_of
 from compare.solving.outcome import Outcome, Row
 from compare.statistics.finding import REPORTED, UNDECIDED
+from compare.studies.comparison.claims import SHORT
+from compare.studies.comparison.comparison import Comparison
 from scene import Indent, Program, Stage
 
 NUMBER = re.compile(r"−?\d+(?:\.\d+)?")

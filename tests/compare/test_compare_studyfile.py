@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scene_files import HEAD, SHARED, TABLES
 
-from compare.comparison import asked
-from compare.comparison.rough import KINDS
-from compare.comparison.study_file import STUDIES, study_of
+from compare.studies.comparison import asked
+from compare.studies.comparison.rough import KINDS
+from compare.studies.comparison.study_file import STUDIES, study_of
 from scene import Cone, Indent, Kelvin, Program, Scene, SelfAffine, Slide, Sphere, Stage
 from scene.reading import InvalidInput
 

@@ -9,12 +9,12 @@ import xarray
 from drawn_again import from_files
 
 from bem3d import BEM
-from compare.comparison.curve import SOLVED
 from compare.figures import style
 from compare.library.case import Case
 from compare.models.exact import Exact
 from compare.models.table import Model
 from compare.report.page import Table
+from compare.solving.curve import SOLVED
 from compare.statistics.multilevel import pilot
 from compare.studies.workprecision import errors, ladder, timed
 from compare.studies.workprecision.errors import INTERVAL, Way

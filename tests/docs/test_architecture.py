@@ -28,8 +28,11 @@ DOORS = {  # files outside which a library is not imported, in whichever folder 
     "meshio": {"vtk"},
 }
 # What a study may use of the judge: what a user's own study may, and the studies that it builds on.
-STUDIES, FOR_STUDIES = "studies", {"solving", "statistics", "report", "models", "trustmap", "library", "studies"}
-MOST_ROOMS = 10
+STUDIES, FOR_STUDIES = (
+    "studies",
+    {"solving", "statistics", "figures", "report", "models", "trustmap", "library", "studies"},
+)
+MOST_ROOMS = 11
 FILES = sorted(path for package in PACKAGES for path in (ROOT / package).rglob("*.py"))
 JUDGE = [path for path in FILES if path.relative_to(ROOT).parts[0] == "compare"]
 

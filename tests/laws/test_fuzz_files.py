@@ -14,8 +14,8 @@ from damage import TRIES, as_toml, bounded, fuzz, spoilt, trees, unshowable
 from hypothesis import strategies as st
 
 import compare
-from compare.comparison import asked
 from compare.library.lookup import case_of, named_cases
+from compare.studies.comparison import asked
 from compare.studies.mastercurve.study import Mastercurve
 from compare.studies.plan import planned
 from compare.studies.topography.study import Map

@@ -20,10 +20,10 @@ import compare
 import mdr1d
 import scene
 from bem3d import BEM
-from compare.comparison.curve import Curve
-from compare.comparison.sweep import SweepSeries
 from compare.figures.journals import columns
 from compare.library.case import Variations
+from compare.solving.curve import Curve
+from compare.studies.comparison.sweep import SweepSeries
 from compare.studies.mastercurve.study import Mastercurve
 from compare.studies.mastercurve.temperatures import Constants
 from mdr1d import MDR, equations, estimates

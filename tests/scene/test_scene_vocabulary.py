@@ -10,8 +10,8 @@ from strategies import rescaled
 
 import compare
 from bem3d import BEM
-from compare.comparison.theory import THEORIES
 from compare.library.case import Case
+from compare.studies.comparison.theory import THEORIES
 from mdr1d import MDR
 from scene import (
     Coulomb,

@@ -15,8 +15,8 @@ from mdr1d.equations import interpolation
 from ...figures import shades, style, touching
 from ...figures.curves import intervals, scatter
 from ...figures.lettering import clear, lettered
+from ...figures.plot import Plot, Tables
 from ...figures.prefixes import prefixed
-from ...report.page import Plot, Tables
 
 CONTACTS, STUDIES, LAW = "paper-contacts", "paper-studies", "paper-law"
 ALPHA = f"{LAW}-alpha"

@@ -10,7 +10,7 @@ from scipy.optimize import minimize_scalar
 from mdr1d import equations
 from scene import SolveError
 
-from ...comparison.curve import FINE, Curve
+from ...solving.curve import FINE, Curve
 from ...statistics.intervals import Estimated
 from ...statistics.jackknife import Replicates, left_out, mean_ratio
 from . import parameters

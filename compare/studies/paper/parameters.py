@@ -18,7 +18,7 @@ from mdr1d import MDR, draw, equations
 from scene import Cone, Fractional, Kelvin, Regime, Scene, SelfAffine, Slide, Sphere
 from scene.scales import elastic_contact
 
-from ...comparison.curve import FINE, Curve
+from ...solving.curve import FINE, Curve
 
 LENGTH, POINTS = 1e-2, 5000
 PROFILES = 200

@@ -13,9 +13,9 @@ import xarray
 from mdr1d import equations
 from scene.scales import elastic_contact
 
-from ...comparison.curve import FINE, Curve
 from ...figures import collapse as figure
-from ...report.page import Plot
+from ...figures.plot import Plot
+from ...solving.curve import FINE, Curve
 from ...statistics import eq23
 from ...statistics.collapse import Collapse, collapse
 from ...statistics.finding import FAILS, Finding

@@ -11,10 +11,10 @@ from pandas import DataFrame
 
 from scene.reading import InvalidInput
 
-from ...comparison import curve
-from ...comparison.curve import FAILED, Curve
 from ...report.page import Block, Findings, Text
+from ...solving import curve
 from ...solving.cost import MOST_DRAWS, Cost
+from ...solving.curve import FAILED, Curve
 from ...solving.outcome import Outcome
 from ...solving.task import Batch, Task
 from ...solving.vocabulary import attributes

@@ -8,7 +8,7 @@ from pandas import DataFrame
 
 from ...figures import style
 from ...figures.lettering import clear
-from ...report.page import Plot, Tables
+from ...figures.plot import Plot, Tables
 from .spectra import NOTHING, Description, mapped
 
 NAME = "topography"

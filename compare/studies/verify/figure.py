@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 from pandas import DataFrame
 
 from ...figures import style
-from ...report.page import Plot, Tables
+from ...figures.plot import Plot, Tables
 
 NAME = "verify"
 LEAST, MOST = 1e-6, 1e3  # of a misfit over its bound, that are shown

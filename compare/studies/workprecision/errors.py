@@ -12,12 +12,12 @@ from math import ceil, inf, isfinite, nan, sqrt
 import numpy as np
 import xarray
 
-from ...comparison.curve import FAILED, FINER
-from ...comparison.series import pilot
 from ...solving.control_variates import VARIATES, controlled
+from ...solving.curve import FAILED, FINER
 from ...statistics.intervals import Estimated, student
 from ...statistics.jackknife import mean_ratio, off_the_ratio
 from ...statistics.multilevel import MEANS
+from ..comparison.series import pilot
 from .ladder import Ladder
 
 QUANTITIES = {"friction": "friction_coefficient", "depth": "depth_reached", "force": "normal_force"}

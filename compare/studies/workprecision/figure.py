@@ -14,7 +14,7 @@ from matplotlib.patches import Patch
 from ...figures import style
 from ...figures.curves import scatter
 from ...figures.lettering import Letter, lettered, literal, write
-from ...report.page import Tables
+from ...figures.plot import Tables
 from .errors import INTERVAL, Way
 
 COLUMNS, HEIGHT, AROUND = 2, 2.5, 0.7  # of panels; of one, and around all [inch]

@@ -10,13 +10,13 @@ import xarray
 from scene import Scene, Solver
 from scene.protocol import why_not
 
-from ...comparison.curve import LEAST, LEVELS, Curve, halved, work_of
-from ...comparison.series import pilot
 from ...models.table import Model
 from ...solving.cost import SECONDS
+from ...solving.curve import LEAST, LEVELS, Curve, halved, work_of
 from ...solving.outcome import Outcome
 from ...solving.task import Task
 from ...statistics.means import pressed
+from ..comparison.series import pilot
 from .timed import TimedSolve
 
 STEPS = 4  # grids that are timed, each with half the points of the one before

@@ -16,14 +16,15 @@ from scene.indenter import Axisymmetric
 from scene.motion import Indent
 from scene.scales import elastic_contact
 
-from ...comparison.curve import Curve, of_model
+from ...figures.plot import Plot
 from ...library.case import Case, doubted
 from ...library.describe import folders
 from ...library.lookup import SceneLike, case_of, named_cases
 from ...models.exact import Exact
 from ...models.law.persson import Persson
 from ...models.table import Model, ModelLike, listed, named
-from ...report.page import Block, Plot, Table
+from ...report.page import Block, Table
+from ...solving.curve import Curve, of_model
 from ...solving.outcome import Outcome
 from ...solving.task import Batch, Task
 from ...solving.words import seconds, share

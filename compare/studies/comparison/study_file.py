@@ -33,10 +33,10 @@ from scene.rheology import Elastomer
 from scene.scales import elastic_contact
 from scene.temperature import Temperature
 
-from ..library.case import Draws, ModelNames, Share
-from ..library.describe import folders
-from ..library.ready import CLAIMS, find, ready
-from ..solving.cost import MOST_VALUES
+from ...library.case import Draws, ModelNames, Share
+from ...library.describe import folders
+from ...library.ready import CLAIMS, find, ready
+from ...solving.cost import MOST_VALUES
 from .rough import RoughSeries as Series
 
 Size = Literal["quick", "standard", "full"]

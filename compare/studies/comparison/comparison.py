@@ -10,17 +10,17 @@ import xarray
 from scene import notes
 from scene.result import labelled, provenance
 
-from ..solving.continuation import by_contact
-from ..solving.outcome import Outcome
-from ..solving.task import SceneTask, Task
-from ..statistics.finding import Finding
-from ..statistics.multilevel import GROWTH
-from ..studies.study import Judgement, Study
+from ...solving.continuation import by_contact
+from ...solving.curve import Curve, contacts_of
+from ...solving.outcome import Outcome
+from ...solving.task import SceneTask, Task
+from ...statistics.finding import Finding
+from ...statistics.multilevel import GROWTH
+from ..study import Judgement, Study
 from . import pages, tables
 from .answer import claims_table, scene_table
 from .answer import notes as open_claims
 from .around import OWN, Around
-from .curve import Curve, contacts_of
 from .rough import RoughSeries
 from .series import Counts, Series
 from .sweep import SweepSeries

@@ -17,20 +17,20 @@ from mdr1d import equations
 from scene import Indent, Program, Refused, Scene, Shear, SolveError, Solver
 from scene.scales import elastic_contact
 
-from ..library.case import Case, doubted
-from ..models import exact
-from ..models.table import DEPTH, FORCE, FRICTION, PROFILES, Model, ModelLike, Models
-from ..solving.task import SceneTask
-from ..statistics import eq23
-from ..statistics.collapse import Collapse, collapse
-from ..statistics.finding import UNKNOWN, Claim, Finding, said_of
-from ..statistics.frictioncurves import SimulatedCurves
-from ..statistics.jackknife import mean, measured
-from ..statistics.multilevel import WORDS
-from ..trustmap.verdict import Advice, trust
+from ...library.case import Case, doubted
+from ...models import exact
+from ...models.table import DEPTH, FORCE, FRICTION, PROFILES, Model, ModelLike, Models
+from ...solving.curve import COARSE, FINE, LEVELS, Curve, levels, refuse
+from ...solving.task import SceneTask
+from ...statistics import eq23
+from ...statistics.collapse import Collapse, collapse
+from ...statistics.finding import UNKNOWN, Claim, Finding, said_of
+from ...statistics.frictioncurves import SimulatedCurves
+from ...statistics.jackknife import mean, measured
+from ...statistics.multilevel import WORDS
+from ...trustmap.verdict import Advice, trust
 from .answers import Answers
 from .claims import CLAIMS, TOLERANCE
-from .curve import COARSE, FINE, LEVELS, Curve, levels, refuse
 from .series import Counts, Judged, Series, on_levels_alike, ratio_of
 from .theory import with_theory
 

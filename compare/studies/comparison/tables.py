@@ -8,10 +8,10 @@ import numpy as np
 import xarray
 from pandas import DataFrame, concat
 
-from ..solving.outcome import Outcome
-from ..solving.task import SceneTask, Task
-from ..solving.vocabulary import attributes
-from ..statistics import means
+from ...solving.outcome import Outcome
+from ...solving.task import SceneTask, Task
+from ...solving.vocabulary import attributes
+from ...statistics import means
 from .answers import Answers
 from .laws import regimes
 from .measures import CONTACT

@@ -11,16 +11,16 @@ import xarray
 
 from scene import Scene
 
-from ..library.describe import slug
-from ..models.table import Model, Models
-from ..solving.task import SceneTask
-from ..statistics.collapse import Collapse
-from ..statistics.finding import HALVED, UNKNOWN, Claim, Finding, said_of
-from ..statistics.jackknife import mean
-from ..statistics.means import Compared, touches
-from ..statistics.multilevel import MEANS, WORDS, DrawnSurfaces, needed, unreached
+from ...library.describe import slug
+from ...models.table import Model, Models
+from ...solving.curve import LEVELS, Curve, levels
+from ...solving.task import SceneTask
+from ...statistics.collapse import Collapse
+from ...statistics.finding import HALVED, UNKNOWN, Claim, Finding, said_of
+from ...statistics.jackknife import mean
+from ...statistics.means import Compared, touches
+from ...statistics.multilevel import MEANS, WORDS, DrawnSurfaces, needed, unreached
 from .answers import Answers
-from .curve import LEVELS, Curve, levels
 from .laws import Laws
 
 Counts = Mapping[str, tuple[int, ...]]  # numbers of surfaces on each level, by model

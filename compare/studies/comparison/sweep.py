@@ -14,18 +14,18 @@ from scene import Indent, Scene, Slide
 from scene.motion import UNITS
 from scene.reading import InvalidInput, whole
 
-from ..library.case import Case, doubted, share_of
-from ..library.lookup import SceneLike, case_of
-from ..models.table import ModelLike, Models
-from ..report.page import Table
-from ..solving.control_variates import VARIATES
-from ..solving.cost import MOST_DRAWS
-from ..solving.vocabulary import attributes
-from ..statistics.multilevel import MEANS, WORDS, wanted
+from ...library.case import Case, doubted, share_of
+from ...library.lookup import SceneLike, case_of
+from ...models.table import ModelLike, Models
+from ...report.page import Table
+from ...solving.control_variates import VARIATES
+from ...solving.cost import MOST_DRAWS
+from ...solving.curve import Curve, on_two_levels, refuse
+from ...solving.vocabulary import attributes
+from ...statistics.multilevel import MEANS, WORDS, wanted
 from .answers import Answers
 from .around import OWN_RATIOS, models_of
 from .claims import CLAIMS
-from .curve import Curve, on_two_levels, refuse
 from .series import Counts, Judged, Series, on_levels_alike
 from .values import Values, values_of
 

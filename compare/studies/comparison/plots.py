@@ -13,7 +13,7 @@ from mdr1d.equations import interpolation
 from scene.printable import brief
 from scene.reading import InvalidInput
 
-from ..figures import (
+from ...figures import (
     collapse,
     contact,
     family,
@@ -25,20 +25,20 @@ from ..figures import (
     slow_friction,
     smooth_limit,
 )
-from ..figures.rendering import finished
-from ..models.table import FORCE, FRICTION
-from ..report.page import Plot
-from ..report.views import view
-from ..solving.words import number
-from ..statistics import eq23
-from ..statistics.finding import Finding
-from ..statistics.jackknife import mean, mean_ratio
-from ..statistics.means import Interval
+from ...figures.plot import Plot
+from ...figures.rendering import finished
+from ...figures.views import view
+from ...models.table import FORCE, FRICTION
+from ...solving.curve import COARSE, FINE
+from ...solving.words import number
+from ...statistics import eq23
+from ...statistics.finding import Finding
+from ...statistics.jackknife import mean, mean_ratio
+from ...statistics.means import Interval
 from . import around
 from .answers import Answers
 from .around import LOAD, OWN, ROUGH_DEPTH, SMOOTH_DEPTH, SMOOTH_SPEED, SPEED, Around
 from .claims_law import SHALLOW, LawPoints
-from .curve import COARSE, FINE
 from .measures import Here, behind, closed_forms, loading, nominal_exponent
 from .rough import BODIES, ROUGH, SMOOTH, RoughSeries
 from .series import Judged, Series, ratio_of

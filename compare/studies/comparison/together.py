@@ -5,16 +5,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..statistics import eq23, jackknife
-from ..statistics.collapse import collapse
-from ..statistics.finding import Finding
-from ..statistics.frictioncurves import SimulatedCurves
-from ..statistics.intervals import RmsMisfit
-from ..statistics.jackknife import DrawSet, mean_ratio, measured, strata_of
+from ...solving.curve import COARSE, FINE
+from ...statistics import eq23, jackknife
+from ...statistics.collapse import collapse
+from ...statistics.finding import Finding
+from ...statistics.frictioncurves import SimulatedCurves
+from ...statistics.intervals import RmsMisfit
+from ...statistics.jackknife import DrawSet, mean_ratio, measured, strata_of
 from .answers import Answers
 from .claims import CLAIMS, claim, geometric, power
 from .claims_law import LawPoints, law_findings_of
-from .curve import COARSE, FINE
 from .laws import Laws
 from .measures import FAST, SLOW
 from .rough import FAMILIES, ROUGH, RoughSeries, sliding

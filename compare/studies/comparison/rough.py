@@ -12,19 +12,19 @@ from mdr1d import MDR
 from scene import Program, Scene
 from scene.reading import InvalidInput
 
-from ..library.describe import slug
-from ..models import exact
-from ..models.table import FRICTION as OF_FRICTION
-from ..models.table import PROFILES, ModelLike, Models
-from ..statistics import eq23
-from ..statistics.collapse import Collapse, collapse
-from ..statistics.finding import Finding, said_of
-from ..statistics.frictioncurves import SimulatedCurves
-from ..statistics.jackknife import measured
+from ...library.describe import slug
+from ...models import exact
+from ...models.table import FRICTION as OF_FRICTION
+from ...models.table import PROFILES, ModelLike, Models
+from ...solving.curve import COARSE, FINE, Curve, of_model, on_two_levels
+from ...statistics import eq23
+from ...statistics.collapse import Collapse, collapse
+from ...statistics.finding import Finding, said_of
+from ...statistics.frictioncurves import SimulatedCurves
+from ...statistics.jackknife import measured
 from .answers import Answers
 from .claims import claim
 from .claims_law import law_findings
-from .curve import COARSE, FINE, Curve, of_model, on_two_levels
 from .laws import Laws, laws
 from .measures import BOTH, DEPTHS, FRICTIONS, MARCHES, REST, SLOW_DRAG, Here, Row
 from .series import Counts, Judged, Series, on_levels_alike

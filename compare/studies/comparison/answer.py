@@ -7,14 +7,14 @@ from typing import Any
 import numpy as np
 from pandas import DataFrame
 
-from ..figures.prefixes import prefixed
-from ..library.describe import conditions
-from ..models.table import Model
-from ..report.page import Table
-from ..solving import words
-from ..statistics.finding import REPORTED, UNDECIDED, Finding
-from ..statistics.multilevel import MEANS, WORDS
-from ..trustmap.verdict import CALLED, MULTIPLY, NONE, USE, Correction
+from ...figures.prefixes import prefixed
+from ...library.describe import conditions
+from ...models.table import Model
+from ...report.page import Table
+from ...solving import words
+from ...statistics.finding import REPORTED, UNDECIDED, Finding
+from ...statistics.multilevel import MEANS, WORDS
+from ...trustmap.verdict import CALLED, MULTIPLY, NONE, USE, Correction
 from .answers import Answers
 from .around import OWN, OWN_RATIOS, Around
 from .claims import SHORT

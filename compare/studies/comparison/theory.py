@@ -6,10 +6,10 @@ from dataclasses import replace
 from scene import SolveError
 from scene.protocol import trusted, why_not
 
-from ..models.law.persson import Persson
-from ..models.table import Model
-from ..trustmap.friction_law import FrictionLaw
-from .curve import FINE, Curve
+from ...models.law.persson import Persson
+from ...models.table import Model
+from ...solving.curve import FINE, Curve
+from ...trustmap.friction_law import FrictionLaw
 
 THEORY, LAW = THEORIES = Persson(), FrictionLaw()
 

@@ -13,7 +13,7 @@ from scene.printable import brief
 from scene.quantities import SPEED
 from scene.reading import InvalidInput, whole
 
-from ..solving.cost import MOST_VALUES
+from ...solving.cost import MOST_VALUES
 
 # Speeds, loads or depths as they are given: numbers in SI, or texts, see `values_of`.
 Values: TypeAlias = Sequence[str | float] | str | float

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..statistics.finding import BOTH, Claim
+from ...statistics.finding import BOTH, Claim
 
 # How far from what is claimed still counts as it: what a reader of a diagram over decades of friction would not
 # see, and less than what any measured roughness is known to.

@@ -6,12 +6,12 @@ from typing import Any
 
 import xarray
 
-from ..models.table import Model, Models
-from ..statistics import means
-from ..statistics.jackknife import DrawSet
-from ..statistics.means import Compared, Interval, compared
-from ..statistics.multilevel import pooled
-from .curve import COARSE, FINE, of_model
+from ...models.table import Model, Models
+from ...solving.curve import COARSE, FINE, of_model
+from ...statistics import means
+from ...statistics.jackknife import DrawSet
+from ...statistics.means import Compared, Interval, compared
+from ...statistics.multilevel import pooled
 
 # Variables that claims are measured on; others are not copied for every surface that is left out.
 MEASURED = (

@@ -23,12 +23,12 @@ from scene.quantities import SPEED, WHOLE, argument
 from scene.result import provenance
 from scene.scales import elastic_contact
 
-from ..solving.continuation import Continuation, by_contact, joined
-from ..solving.control_variates import VARIATES, control_variates
-from ..solving.cost import MOST_DRAWS, Cost
-from ..solving.outcome import Outcome, Row
-from ..solving.task import SceneTask, Task, draws_of, refuse_seed
-from ..solving.vocabulary import attributes
+from .continuation import Continuation, by_contact, joined
+from .control_variates import VARIATES, control_variates
+from .cost import MOST_DRAWS, Cost
+from .outcome import Outcome, Row
+from .task import SceneTask, Task, draws_of, refuse_seed
+from .vocabulary import attributes
 
 if TYPE_CHECKING:
     import xarray

@@ -10,15 +10,15 @@ from scene import Refused
 from scene.printable import printable
 from scene.reading import InvalidInput, text_of
 
-from ..library.case import NotCompared, share_of
-from ..library.describe import folders, slug
-from ..library.lookup import SceneLike, located, named_cases
-from ..library.ready import ready, studies
-from ..models.table import ModelLike, listed
-from ..solving.suggest import known
+from ...library.case import NotCompared, share_of
+from ...library.describe import folders, slug
+from ...library.lookup import SceneLike, located, named_cases
+from ...library.ready import ready, studies
+from ...models.table import ModelLike, listed
+from ...solving.curve import refuse
+from ...solving.suggest import known
 from .around import Around
 from .comparison import Comparison
-from .curve import refuse
 from .study_file import SIZES, STUDIES, study_of
 from .sweep import SweepSeries
 

@@ -11,14 +11,14 @@ from scipy.special import ndtri
 
 from scene import SelfAffine
 
-from ..models.law.bands import Bands, FullContact
-from ..models.law.share import Share
-from ..models.table import SURFACES
-from ..statistics.finding import HALVED, UNKNOWN, Finding
-from ..statistics.jackknife import DrawSet, friction, resample
+from ...models.law.bands import Bands, FullContact
+from ...models.law.share import Share
+from ...models.table import SURFACES
+from ...solving.curve import COARSE, FINE
+from ...statistics.finding import HALVED, UNKNOWN, Finding
+from ...statistics.jackknife import DrawSet, friction, resample
 from .answers import Answers
 from .claims import CLAIMS
-from .curve import COARSE, FINE
 from .laws import Laws
 from .regime import words
 from .theory import LAW

@@ -10,7 +10,7 @@ import xarray
 
 from mdr1d import equations
 
-from ..statistics.jackknife import mean_ratio
+from ...statistics.jackknife import mean_ratio
 from .answers import Answers
 from .regime import SYMBOLS, ratios, words
 

@@ -10,14 +10,14 @@ from pandas import DataFrame
 
 from scene import Scene
 
-from ..library.describe import described
-from ..models.table import Models
-from ..report.page import Block, Findings, Section, Table, Text
-from ..statistics.finding import Finding
+from ...library.describe import described
+from ...models.table import Models
+from ...report.page import Block, Findings, Section, Table, Text
+from ...solving.curve import Curve
+from ...statistics.finding import Finding
 from . import plots, tables
 from .answers import Answers
 from .around import SHARED, Around
-from .curve import Curve
 from .rough import ROUGH, RoughSeries
 from .series import Judged, Series
 from .together import Member

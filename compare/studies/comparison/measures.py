@@ -16,10 +16,10 @@ import xarray
 from scene.regime import MUCH_LESS_HEIGHT
 from scene.scales import elastic_contact
 
-from ..models import exact
-from ..models.exact.indentation import loading_force
-from ..models.table import DEPTH, FORCE, FRICTION, PROFILES, Model
-from ..statistics.jackknife import friction, mean, mean_ratio
+from ...models import exact
+from ...models.exact.indentation import loading_force
+from ...models.table import DEPTH, FORCE, FRICTION, PROFILES, Model
+from ...statistics.jackknife import friction, mean, mean_ratio
 from .claims import at_ends, geometric, power
 from .laws import Laws
 

@@ -10,7 +10,7 @@ from scene import Indent, Regime, Scene, Slide
 from scene.indenter import Axisymmetric
 from scene.scales import elastic_contact
 
-from ..models.exact import mean_lag
+from ...models.exact import mean_lag
 
 # Ratios by the order in which words tell them, behind load and speed.
 SYMBOLS = {
