@@ -90,7 +90,6 @@ if TYPE_CHECKING:
     from .library.ready import Listing
     from .solving.terminal import Shown
     from .studies.plan import Plans
-    from .studies.regress.quantity import Quantity
     from .studies.report import Report
     from .studies.study import Study
     from .studies.sweep.study import Sweep
@@ -235,34 +234,30 @@ def stability(
     size: CaseSize = "quick", output: Output = "crosscheck-stability", **options: Unpack[Options]
 ) -> Report:
     """Solve hard cases and check the law of each. The status is 1 if any case breaks its law."""
-    from .studies.stability.study import Stability
+    from .checks.study import Checks
 
-    return solve(Stability.of(size), output, **options)
+    return solve(Checks.stability(size), output, **options)
 
 
 @checked
 def verify(model: Model, output: Output = "crosscheck-verify", **options: Unpack[Options]) -> Report:
     """Check a code of contact against what it must hold. The status is 1 if any law fails."""
-    from .studies.verify.study import Verify
+    from .checks.study import Checks
 
-    return solve(Verify.of(model), output, **options)
+    return solve(Checks.verify(model), output, **options)
 
 
 @checked
 def regress(
     baseline: Baseline = None,
     update: Update = False,
-    quantities: Sequence[Quantity] | None = None,
     output: Output = "crosscheck-regress",
     **options: Unpack[Options],
 ) -> Report:
-    """Compare the accuracy of 1D with stored values. The status is 1 if any value has changed.
+    """Compare the accuracy of 1D with stored values. The status is 1 if any value has changed."""
+    from .checks.study import Regress
 
-    quantities : quantities to measure; if absent, those of the package
-    """
-    from .studies.regress.study import Regress
-
-    asked = Regress.of(baseline, quantities, update)
+    asked = Regress.of(baseline, update)
     report = solve(asked, output, **options)
     if update:
         asked.store(report.findings)
