@@ -23,7 +23,10 @@ STEPS = 20
 @cache
 def table() -> Mapping[str, Law]:
     """Every law by its id."""
-    return {law.id: law for law in _every_law()}
+    every = list(_every_law())
+    found = {law.id: law for law in every}
+    assert len(found) == len(every), "two laws have one id"
+    return found
 
 
 def _every_law() -> Iterator[Law]:
