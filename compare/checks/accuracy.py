@@ -2,13 +2,13 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from math import ceil, inf, nan
+from math import ceil, isfinite, nan
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
 import xarray
-from scene.printable import brief
+
 from scene.reading import InvalidInput
 
 from ..library.case import Case
@@ -19,7 +19,7 @@ from ..solving.outcome import Outcome
 from ..solving.parameter_grid import COARSE, FINE, ParameterGrid, on_two_grids
 from ..solving.store import Store
 from ..solving.task import Task
-from ..statistics.finding import FAILS, HOLDS, UNDECIDED, Claim, Finding
+from ..statistics.finding import HOLDS, UNDECIDED, Claim, Finding
 from ..statistics.jackknife import DrawSet, mean, measured
 from ..studies.study import Judgement, Study
 from . import stored
@@ -27,7 +27,6 @@ from . import stored
 SCENE = "scene"
 # Means that are compared: above, and below if it is a ratio.
 MEANS = {"friction": ("friction_force", "normal_force"), "depth": ("depth_reached",), "force": ("normal_force",)}
-NOT_STORED = "there is no stored value of it"
 
 
 @dataclass(frozen=True)
@@ -62,7 +61,9 @@ class Accuracy(Study):
         compared = Models.of(listed(models or case.models), reference, {"mdr": case.mdr, "bem": case.bem})
         has = [*(["friction"] if case.slides else []), "depth" if case.motion.load is not None else "force"]
         if unknown := sorted(within.keys() - set(has)):
-            raise InvalidInput(f"{unknown[0]} = {within[unknown[0]]!r}: the scene has {' and '.join(has)} to compare")
+            raise InvalidInput(
+                f"{unknown[0]} = {within[unknown[0]]!r}: the scene has {' and '.join(has)} to compare"
+            )
         return cls(case, compared, within or dict.fromkeys(has, nan), **draws)
 
     def grids(self) -> Mapping[str, ParameterGrid]:
@@ -85,7 +86,9 @@ class Accuracy(Study):
             beside = self.models.beside(model.name)
             for name, allowed in self.within.items():
                 id = name if len(self.models.judged) == 1 else f"{name}.{model.name}"
-                yield Claim(id, f"{name} {beside}", 1.0, allowed, dimension=beside, measure=self._ratio(name, model.name))
+                yield Claim(
+                    id, f"{name} {beside}", 1.0, allowed, dimension=beside, measure=self._ratio(name, model.name)
+                )
 
     def _ratio(self, name, model):
         def measure(sample):
@@ -111,19 +114,9 @@ def decided_by(found: Finding) -> Finding:
     room = abs(abs(found.value - found.claim.expected) - found.claim.tolerance) - grid
     if room <= 0 or not found.draws:
         return replace(found, remedy="its grid leaves too much open: a finer one would have to decide it")
-    return replace(found, remedy=f"some {ceil(found.draws * (half / room) ** 2)} surfaces of each model would decide it")
-
-
-def held(found: Finding, value: float, share: float) -> Finding:
-    """A finding held against a stored value, within a share of it; undecided where either is not known."""
-    claim = replace(found.claim, expected=value, tolerance=share * abs(value))
-    if not found.value == found.value:
-        reason = found.reason or "the number is not known"
-        return replace(found, claim=claim, stated=UNDECIDED, reason=reason)
-    if not value == value:
-        return replace(found, claim=claim, stated=UNDECIDED, reason=NOT_STORED)
-    moved = abs(found.value - value)
-    return replace(found, claim=claim, stated=HOLDS if moved <= claim.tolerance else FAILS, reason="", remedy="")
+    return replace(
+        found, remedy=f"some {ceil(found.draws * (half / room) ** 2)} surfaces of each model would decide it"
+    )
 
 
 def findings(study: Accuracy, folder: Path) -> list[Finding]:
@@ -197,9 +190,9 @@ class MDRAccuracy:
         moved = {
             id: each
             for id, found in names.items()
-            if (each := held(found, values.get(id, nan), tolerance)).stated != HOLDS
+            if (each := stored.held(found, values.get(id, nan), tolerance)).stated != HOLDS
         }
-        new = {id: each.value for id, each in moved.items() if each.value == each.value}
+        new = {id: each.value for id, each in moved.items() if isfinite(each.value)}
         if new and (self.rewrite or not values.keys() & names.keys()):
             self.file.parent.mkdir(parents=True, exist_ok=True)
             stored.write_values(self.file, values | new, "Written by pytest --mdr-regen: numbers as found.")

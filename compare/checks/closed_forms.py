@@ -11,8 +11,25 @@ from scene import CrossedWaves, Cylinder, Elastic, Indent, Layer, Plane, PowerLa
 from scene.scales import elastic_contact
 
 from ..models.exact import layer, waves
-from .law import BOTH, CLOSED, GRID, LIMIT, LINE, RIM, SPACE, Answers, Bound, Law, Missing, apart, exact, on_shares
-from .law import slug, stated, worst
+from .law import (
+    BOTH,
+    CLOSED,
+    GRID,
+    LIMIT,
+    LINE,
+    RIM,
+    SPACE,
+    Answers,
+    Bound,
+    Law,
+    Missing,
+    apart,
+    exact,
+    on_shares,
+    slug,
+    stated,
+    worst,
+)
 from .ordinary import CONE, DEPTH, ELASTIC, KELVIN, LOAD, MODULUS, RADIUS, SOLID, SPHERE, resting
 
 BODIES: dict[str, Any] = {"sphere": SPHERE, "cone": CONE} | {

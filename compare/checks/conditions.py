@@ -5,7 +5,6 @@ Soc. A 228, 377 (1929). Retarded displacement is that of a pixel left behind, in
 exp(-s/l)/l. Under a flow the gap is seen -arg(J(q))/q behind the pixels' centres, q = pi/pixel (docs, theory).
 """
 
-from itertools import pairwise
 from math import inf
 
 import numpy as np
@@ -123,26 +122,3 @@ def retarded(x, ny, shares, lengths):
         for column, at in enumerate(x):
             total[column] += share * (weights @ influence(at - s, ny))
     return total
-
-
-def kelvin_surface(answer: Result) -> np.ndarray:
-    """Displacement [m] (N,) of a one-dimensional Kelvin foundation under the profile of an answer.
-
-    u(x) = max(0, max_{y <= x} (d - g(y)) exp(-(x - y)/l)), l = v tau, with the maximum inside an interval of a
-    profile that is linear there, where (d - g) + l g' = 0 changes its sign.
-    """
-    scene, heights = answer.scene, answer.fields["profile"]
-    memory = scene.motion.speed * scene.elastomer.relaxation_time
-    pixel, approach = answer.measures["pixel"], answer.depth - heights
-    decay = np.exp(-pixel / memory)
-    surface = np.empty(len(heights))
-    surface[0] = max(approach[0], 0.0)
-    for i, (here, there) in enumerate(pairwise(approach)):
-        reached = [surface[i] * decay, there, 0.0]
-        slope = (there - here) / pixel
-        if slope < 0:
-            top = (-memory * slope - here) / slope  # here + slope t = -memory slope
-            if 0 < top < pixel:
-                reached.append(-memory * slope * np.exp(-(pixel - top) / memory))
-        surface[i + 1] = max(reached)
-    return surface

@@ -20,8 +20,22 @@ from ..models.exact import (
     tangential,
 )
 from .closed_forms import AMPLITUDE, BODIES, ROUND, SOLIDS, WAVELENGTH, WAVES, cell, deep, wavy
-from .law import CLOSED, FORCES, FRICTION, GRID, LINE, SAME, SPACE, Answers, Law, Misfit, apart, exact, slug
-from .law import stated
+from .law import (
+    CLOSED,
+    FORCES,
+    FRICTION,
+    GRID,
+    LINE,
+    SAME,
+    SPACE,
+    Answers,
+    Law,
+    Misfit,
+    apart,
+    exact,
+    slug,
+    stated,
+)
 from .ordinary import (
     DEPTH,
     ELASTIC,

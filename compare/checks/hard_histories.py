@@ -1,20 +1,14 @@
 """Hard cases of histories: marches without drift, separation and return, holds of ages."""
 
-from collections.abc import Iterator
-from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
-from scene import Indent
-
 from ..models.exact import indentation
-from .hardcase import Part, by_dimension, dense, each_of, equal, hard, line, space, square
-from .law import Answer, Answers, apart, worst
+from .hardcase import by_dimension, each_of, equal, hard, line, space, square
+from .law import Answer, apart, worst
 from .ordinary import (
-    CONE,
     DEPTH,
-    ELASTIC,
     KELVIN,
     LOAD,
     PACE,
@@ -54,11 +48,11 @@ def _pull(answer: Answer) -> float:
     "sliding within 0.02, of 400 points; work is energy lost and stored to 1e-10.",
     lambda size: line(size, points=400, extent=2.4 * RADIUS, steps=size.steps),
 )
-def many_steps_1d() -> Iterator[Part]:
+def many_steps_1d():
     """Up to 1e5 steps of sliding: rounding and forgotten memory would add up."""
     scene = program(PRESSED, stage(12 * RADIUS / PACE, speed=PACE))
 
-    def drift(answer: Answer) -> float:
+    def drift(answer):
         quarters = (np.array_split(answer.fields[name], 8) for name in ("normal_force", "friction_force"))
         return worst(apart(float(late[-1].mean()), float(late[-4].mean())) for late in quarters)
 
@@ -73,11 +67,11 @@ def many_steps_1d() -> Iterator[Part]:
     "every step is solved to the tolerance.",
     lambda size: square(size, points=24, extent=3.2 * RADIUS, steps=size.march),
 )
-def many_steps_3d() -> Iterator[Part]:
+def many_steps_3d():
     """Thousands of steps on a small grid."""
     scene = program(PRESSED, stage(8 * RADIUS / (0.1 * PACE), speed=0.1 * PACE))
 
-    def spread(answer: Answer) -> float:
+    def spread(answer):
         friction = np.array_split(answer.fields["friction_force"], 3)[-1]
         return float(np.ptp(friction) / friction.mean())
 
@@ -91,131 +85,42 @@ def many_steps_3d() -> Iterator[Part]:
     lambda size: COARSE[0](size, steps=size.steps // 4),
     partial(COARSE[1], steps=40),
 )
-def held_for_ages() -> Iterator[Part]:
+def held_for_ages():
     """A load put on in a thousandth of the relaxation time and held for a billion of them."""
     scene = program(stage(1e-3 * TIME, load=LOAD), stage(1e9 * TIME))
     yield equal(by_dimension(1e-4, 0.02), (scene, {"depth": DEPTH}))
     yield each_of(lambda answer: max(-np.diff(answer.fields["depth"]).min() / DEPTH, 0.0), 1e-6, scene)
 
 
-@hard("Depth of Lee and Radok within 1e-3, as a load is met once a step.", partial(line, points=1000, steps=200))
-def load_up_hold_up() -> Iterator[Part]:
-    """A load that rises, rests and rises again."""
-    times, loads = (0.0, TIME, 3 * TIME, 4 * TIME), (0.0, LOAD, LOAD, 2 * LOAD)
-
-    def misfit(answer: Answer) -> float:
-        found, at = (answer.fields[name][20::20] for name in ("depth", "time"))
-        return float(np.abs(found / indentation.loading_depth(SPHERE, SOLID, times, loads, at) - 1).max())
-
-    yield each_of(misfit, 1e-3, program(LOADED, stage(2 * TIME), stage(TIME, load=2 * LOAD)))
-
-
-@hard(
-    "Force of Lee, Radok and Ting at every step, within 1e-3 of the greatest in 1D and 0.1 in 3D, of 32 points and "
-    "60 steps; no pull; zero at the end.",
-    partial(line, points=500, steps=100, extent=4 * RADIUS),
-    partial(space, points=32, steps=60, extent=4 * RADIUS),
-)
-def drawn_out() -> Iterator[Part]:
-    """Drawn back faster than the elastomer recovers: contact is lost before depth zero."""
-    times, depths = (0.0, 2 * TIME, 4 * TIME), (0.0, DEPTH, 0.0)
-    for shape in (SPHERE, CONE):
-        scene = program(stage(2 * TIME, depth=DEPTH), stage(2 * TIME, depth=0.0), indenter=shape)
-
-        def misfit(answer: Answer, shape=shape) -> float:
-            known, _ = indentation.force_of_depth(shape, SOLID, times, depths, answer.fields["time"])
-            return float(np.abs(answer.fields["normal_force"] - known).max() / known.max())
-
-        yield each_of(lambda answer: abs(answer["normal_force"]) + _pull(answer), 0.0, scene)
-        yield each_of(misfit, by_dimension(1e-3, 0.1), scene)
-
-
-@hard(
-    "After 1000 relaxation times the force is that of the first time within 1e-3, what is left of it; after one it "
-    "is less.",
-    *_stepping(20, 20),
-)
-def separation_and_return() -> Iterator[Part]:
-    """Pressed in, drawn out, and pressed in again into a surface that has or has not recovered."""
-    out = stage(TIME, depth=0.0)
-    late, soon = (program(PRESSED, out, stage(rest * TIME, depth=0.0), PRESSED) for rest in (1e3, 1.0))
-    yield equal(1e-3, (late, program(PRESSED)))
-    pair = soon, program(PRESSED)
-    yield Part(pair, lambda answers: answers[0]["normal_force"] / answers[1]["normal_force"], 1.0)
-
-
-@hard(
-    "No force beyond 1e-9 of the load while there is none, and the load at the end within 0.03, half of the last "
-    "step in 3D.",
-    *_stepping(100, 60),
-)
-def load_to_zero_and_back() -> Iterator[Part]:
-    """Without load nothing touches, or the indenter just rests on the surface."""
-    scene = program(LOADED, stage(TIME, load=0.0), stage(TIME), LOADED)
-
-    def away(answer: Answer) -> float:
-        force, time = answer.fields["normal_force"], answer.fields["time"]
-        return float(np.abs(force[(time > 2.05 * TIME) & (time < 2.95 * TIME)]).max() / LOAD)
-
-    yield each_of(away, 1e-9, scene)
-    yield each_of(lambda answer: apart(float(answer.fields["normal_force"][-1]), LOAD), 0.03, scene)
-
-
 @hard(
     "Work is energy lost and stored to 1e-10; lost energy never comes back; no pull.",
     partial(line, points=500, extent=4 * RADIUS, steps=40),
 )
-def forty_cycles() -> Iterator[Part]:
+def forty_cycles():
     """A rough body lifted to a fifth and pressed in again forty times, sliding half of the time."""
     cycle = stage(TIME / 5, depth=DEPTH / 5, speed=PACE / 10), stage(TIME / 5, depth=DEPTH)
     scene = program(PRESSED, *cycle * 40, roughness=ROUGH)
     yield each_of(_unbalanced, 1e-10, scene)
     yield each_of(_pull, 0.0, scene)
     lost = "dissipated"
-    yield each_of(lambda answer: max(-np.diff(answer.fields[lost]).min() / answer.fields[lost][-1], 0.0), 1e-12, scene)
+    yield each_of(
+        lambda answer: max(-np.diff(answer.fields[lost]).min() / answer.fields[lost][-1], 0.0), 1e-12, scene
+    )
 
 
 @hard("Friction falls to a hundredth of its greatest at least.", *_stepping(200, 60))
-def stop() -> Iterator[Part]:
+def stop():
     """Sliding that ends at once, and a rest of a thousand relaxation times."""
     scene = program(PRESSED, stage(2 * TIME, speed=PACE), stage(1e3 * TIME))
     friction = "friction_force"
     yield each_of(lambda answer: abs(answer.fields[friction][-1]) / answer.fields[friction].max(), 0.01, scene)
 
 
-@hard("No energy is lost, to 1e-12 of the work.", partial(line, points=500, extent=4 * RADIUS))
-def elastic_march_1d() -> Iterator[Part]:
-    """An elastic solid in time has no modes to follow."""
-    rough = replace(ELASTIC_MARCH, roughness=ROUGH)
-    yield each_of(lambda answer: np.abs(answer.fields["dissipated"]).max() / answer.fields["work"].max(), 1e-12, rough)
-
-
-ELASTIC_MARCH = program(PRESSED, stage(TIME, speed=PACE), stage(TIME, depth=DEPTH / 2), elastomer=ELASTIC)
-
-
-@hard(
-    "Force after all of it as at rest at the depth of the last step, within 1e-4 in 1D and 0.01 in 3D, of the sums "
-    "over pixels.",
-    partial(line, points=500, extent=4 * RADIUS),
-    partial(dense, steps=20),
-)
-def elastic_march() -> Iterator[Part]:
-    """An elastic solid in time forgets how it came to its depth."""
-
-    def misfit(answers: Answers) -> float:
-        last, still = answers
-        # Of a sphere F is as d^1.5: the last step stands half a step before the end.
-        return apart(last["normal_force"], still["normal_force"] * (last["depth"] / (DEPTH / 2)) ** 1.5)
-
-    still = resting(motion=Indent(depth=DEPTH / 2))
-    yield Part((ELASTIC_MARCH, still), misfit, by_dimension(1e-4, 1e-2))
-
-
 @hard(
     "Force at rest in the end, within 1e-4; work is energy lost and stored to 1e-10.",
     partial(line, points=1000, steps=200),
 )
-def dashpot_march() -> Iterator[Part]:
+def dashpot_march():
     """A Kelvin body held after a ramp: its force jumps within a millionth of the relaxation time."""
     scene = program(PRESSED, stage(1e-6 * TIME), stage(50 * TIME), elastomer=KELVIN)
     yield equal(1e-4, (scene, resting()))
@@ -227,13 +132,13 @@ def dashpot_march() -> Iterator[Part]:
     line,
     partial(space, points=24, steps=20),
 )
-def brief_and_long_stages() -> Iterator[Part]:
+def brief_and_long_stages():
     """A stage of 1e-15 s, and one of 1e15 s after it."""
     yield equal(1e-4, (program(stage(1e-15, depth=DEPTH), stage(1e15)), resting()))
 
 
 @hard("Force of Ting within 1e-3 of the grid in 1D; a load is met to 1e-9.", line)
-def history_of_1e_300_s() -> Iterator[Part]:
+def history_of_1e_300_s():
     """Stages of 1e-300 s."""
     times, depths = (0.0, 1e-300, 2e-300), (0.0, DEPTH, DEPTH / 2)
     (known,), _ = indentation.force_of_depth(SPHERE, SOLID, times, depths, 2e-300)

@@ -7,11 +7,25 @@ from typing import Any
 
 import numpy as np
 
-from scene import WLF, Indent, Scene, SelfAffine, Slide, Sphere, StandardLinearSolid
+from scene import WLF, Indent, Scene, SelfAffine, Slide
 
 from .closed_forms import AMPLITUDE, WAVELENGTH, cell, wavy
-from .law import EXACT, FORCES, FRICTION, GRID, INVARIANCE, LIMIT, SAME, SPACE, Law, alike, exact, slug
-from .law import stated, worst
+from .law import (
+    EXACT,
+    FORCES,
+    FRICTION,
+    GRID,
+    INVARIANCE,
+    LIMIT,
+    SAME,
+    SPACE,
+    Law,
+    alike,
+    exact,
+    slug,
+    stated,
+    worst,
+)
 from .ordinary import (
     DEPTH,
     ELASTIC,
@@ -24,6 +38,7 @@ from .ordinary import (
     SPHERE,
     STIFFENING,
     TIME,
+    family,
     moved,
     program,
     resting,
@@ -44,29 +59,14 @@ def laws() -> Iterator[Law]:
         yield from each()
 
 
-def _family(kind: str, length: float = 1.0, modulus: float = 1.0, time: float = 1.0) -> Scene:
-    """A contact in units of length, modulus and time."""
-    solid = StandardLinearSolid(MODULUS * modulus, STIFFENING * MODULUS * modulus, TIME * time)
-    rough = SelfAffine(
-        hurst=0.5,
-        rms_height=DEPTH / 10 * length,
-        longest=2 * RADIUS * length,
-        shortest=RADIUS / 2 * length,
-        seed=1,
-    )
-    slide = Slide(speed=PACE * length / time, depth=DEPTH * length)
-    motion = Indent(depth=DEPTH * length) if "rest" in kind else slide
-    return Scene(Sphere(SPHERE.radius * length), solid, motion, rough if "rough" in kind else None)
-
-
-ROUGH_SLIDE, ROUGH_REST = _family("rough"), _family("rough at rest")
+ROUGH_SLIDE, ROUGH_REST = family("rough"), family("rough at rest")
 
 
 def scales() -> Iterator[Law]:
     """Forces go with the square of lengths and with moduli; times matter only beside one another."""
     for unit, factors in SCALES.items():
         for kind in ("at rest", "sliding", "rough"):
-            pair = _family(kind), _family(kind, *factors)
+            pair = family(kind), family(kind, *factors)
             form = alike(dict.fromkeys(FORCES, factors[0] ** 2 * factors[1]))
             said = f"Forces {kind}: the same in units a thousand times the {unit}"
             yield Law(f"scale.{unit}.{slug(kind)}", INVARIANCE, said, pair, form, SAME)

@@ -14,7 +14,7 @@ def pytest_addoption(parser):
 
 @pytest.fixture
 def mdr_accuracy(request, tmp_path_factory):
-    """Accuracy of one dimension on a scene: `check` against 3D, and `regression` against a file beside the test."""
+    """Accuracy of 1D on a scene: `check` against 3D, and `regression` against a file beside the test."""
     from .accuracy import MDRAccuracy
 
     cache = getattr(request.config, "cache", None)  # absent with -p no:cacheprovider

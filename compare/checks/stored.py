@@ -4,7 +4,7 @@ import json
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from itertools import product
-from math import inf, isfinite, nan, radians
+from math import isfinite, nan, radians
 from pathlib import Path
 from typing import Any
 
@@ -27,15 +27,17 @@ from scene import (
     StandardLinearSolid,
 )
 from scene.quantities import CLOSED, Finite
-from scene.reading import InvalidInput, read
+from scene.reading import read
 from scene.scales import elastic_contact
 
 from ..models.exact import foundation, indentation
 from ..solving.folders import write
 from ..solving.task import draws_of
+from ..statistics.finding import FAILS, HOLDS, UNDECIDED, Finding
 from .law import FORCES, STORED, Answers, Law, stated
 
 SHIPPED = Path(__file__).with_name("baseline.toml")
+NEW = "not in the file of stored numbers"
 DIGITS = 10  # of a stored value: no tolerance is less than these leave
 # Three dimensions are solved closer than by default, so that what is seen is their discretisation.
 SPACE, LINE = BEM(points=128, tolerance=1e-7), MDR(points=2000)
@@ -170,6 +172,17 @@ def _short(solid_name):
 def _depth(shape):
     """Depth at which the smooth static contact has the radius RADIUS."""
     return shape.mdr_coefficient * RADIUS**shape.exponent
+
+
+def held(found: Finding, value: float, share: float) -> Finding:
+    """A finding held against a stored value, within a share of it; undecided where either is not known."""
+    claim = replace(found.claim, expected=value, tolerance=share * abs(value))
+    if not isfinite(found.value):
+        return replace(found, claim=claim, stated=UNDECIDED, reason=found.reason or "the number is not known")
+    if not isfinite(value):
+        return replace(found, claim=claim, stated=UNDECIDED, reason=f"{NEW}: {found.value:.{DIGITS}g}")
+    stated = HOLDS if abs(found.value - value) <= claim.tolerance else FAILS
+    return replace(found, claim=claim, stated=stated, reason="", remedy="")
 
 
 @validated(frozen=True, config=CLOSED)

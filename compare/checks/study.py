@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from math import inf, isfinite, nan
 from pathlib import Path
 from textwrap import shorten
@@ -14,7 +15,7 @@ from scene.printable import printable
 from scene.reading import InvalidInput
 
 from ..models.table import model_of
-from ..report.page import Block, Section, Table, Text
+from ..report.page import Block, Table, Text
 from ..solving.outcome import Outcome
 from ..solving.suggest import known
 from ..solving.task import REFUSED, Batch, Task
@@ -27,18 +28,29 @@ from .table import Examination, table
 
 LEFT_OUT = "left out"
 SHOWN = 40  # laws on the page
-LONGEST = 200  # letters of a reason
-COLUMNS = "group", "law", "model", "outcome", "misfit", "bound", "nearness", "reason", "sentence", "source", "seconds"
+COLUMNS = (
+    "group",
+    "law",
+    "model",
+    "outcome",
+    "misfit",
+    "bound",
+    "nearness",
+    "reason",
+    "sentence",
+    "source",
+    "seconds",
+)
 NEW, GONE = "not in the baseline", "no longer measured"
-ABOUT = """Each law asks one or several scenes of a model and makes one number of the answers, a relative misfit,
-that must not exceed its bound. Bounds say where they come from: the grid, whose points across the contact the model
-measures (`points_across_contact`) or has as a setting, and what a result says is left in its conditions (`residual`).
-No grid excuses more than 5 %. A law that any model may be asked, and that it refuses or for which it gives no number,
-is left out with the reason; a solve that ends without an answer fails it.
+ABOUT = """Each law asks one or several scenes of a model and makes one number of the answers, a relative
+misfit, that must not exceed its bound. Bounds say where they come from: the grid, whose points across the contact
+the model measures (`points_across_contact`) or has as a setting, and what a result says is left in its conditions
+(`residual`). No grid excuses more than 5 %. A law that any model may be asked, and that it refuses or for which it
+gives no number, is left out with the reason; a solve that ends without an answer fails it.
 
 A hard case is a contact in which a solver may fail, in both dimensionalities wherever both can be asked; N is the
-number of points of its grid. Of several numbers the one nearest to its own bound counts, as a share of it. A stored
-number is a ratio of 1D over 3D or over a closed form, which must not move."""
+number of points of its grid. Of several numbers the one nearest to its own bound counts, as a share of it. A
+stored number is a ratio of 1D over 3D or over a closed form, which must not move."""
 
 
 @dataclass(frozen=True)
@@ -75,7 +87,7 @@ class Checks(Study):
     def inputs(self) -> Mapping[str, Any]:
         return self.given
 
-    @property
+    @cached_property
     def laws(self) -> Mapping[str, Law]:
         """Laws that are asked, by their ids."""
         return {task.law_id: task.law for task in self.tasks}
@@ -85,53 +97,49 @@ class Checks(Study):
 
     def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
         """A row for each law and model."""
-        rows = [self._judged(task, outcomes[task].rows[0]) for task in self.tasks]
-        return xarray.DataTree.from_dict({"/laws": DataFrame(rows, columns=list(COLUMNS)).to_xarray()})
+        rows = DataFrame([self._judged(task, outcomes[task].rows[0]) for task in self.tasks])
+        return xarray.DataTree.from_dict({"/laws": rows.to_xarray()})
 
     def _judged(self, task, row):
         law, misfit, bound = self.laws[task.law_id], *(row.measures.get(name, nan) for name in ("misfit", "bound"))
-        reason = row.reason or ""
-        left_out = reason.startswith(REFUSED) and not law.solvers and law.group != STORED
         bound = law.bound.of(()) if law.group == STORED else bound
-        distance = abs(misfit - law.expected)
-        nearness = distance / bound if bound > 0 else 0.0 if distance == 0 else distance / 1e-15
-        holds = distance <= bound
-        return (
-            law.group,
-            law.id,
-            f"{task.solver.name}, {getattr(task.solver, 'points', 'no')} points",
-            LEFT_OUT if left_out else HOLDS if holds else FAILS,
-            misfit,
-            bound,
-            nearness if isfinite(nearness) else nan if left_out else inf,
-            shorten(reason.removeprefix(REFUSED) if left_out else reason and f"no answer: {reason}", LONGEST),
-            law.sentence,
-            law.source,
-            row.seconds,
-        )
+        distance, reason = abs(misfit - law.expected), row.reason or ""
+        left_out = reason.startswith(REFUSED) and not law.solvers and law.group != STORED
+        return {
+            "group": law.group,
+            "law": law.id,
+            "model": f"{task.solver.name}, {getattr(task.solver, 'points', 'no')} points",
+            "outcome": LEFT_OUT if left_out else HOLDS if distance <= bound else FAILS,
+            "misfit": misfit,
+            "bound": bound,
+            "nearness": distance / max(bound, 1e-15) if isfinite(distance) else nan if left_out else inf,
+            "reason": shorten(
+                reason.removeprefix(REFUSED) if left_out else reason and f"no answer: {reason}", 200
+            ),
+            "sentence": law.sentence,
+            "source": law.source,
+            "seconds": row.seconds,
+        }
 
     def judge(self, answers: xarray.DataTree) -> Judgement:
-        """A finding a law; the laws nearest to their bounds, by group; counts, and what is left out."""
+        """A finding a law; counts, the laws nearest to their bounds, and what is left out."""
         laws = answers["laws"].to_dataset().to_dataframe().reset_index(drop=True)
         findings = [self._finding(row) for row in laws.itertuples()]
-        asked = laws[laws["outcome"] != LEFT_OUT]
+        asked, left_out = laws[laws["outcome"] != LEFT_OUT], laws[laws["outcome"] == LEFT_OUT]
         counts = laws.groupby(["group", "outcome"], sort=False).size().unstack(fill_value=0)
         counts = counts.reindex(columns=[HOLDS, FAILS, LEFT_OUT], fill_value=0).reset_index()
-        blocks: list[Block] = [
+        shown = asked.sort_values("nearness", ascending=False, kind="stable")[:SHOWN].sort_index()
+        shown = shown[["group", "law", "model", "sentence", "misfit", "bound", "outcome"]]
+        why = left_out.groupby("reason", sort=False)["law"].count().rename("laws").reset_index()
+        blocks: list[Block] = [figure.plot(asked, self.title)] if len(asked) else []
+        blocks += [
             Table("groups", counts, "Laws by group."),
+            Table("nearest", shown, "Laws that fail, and those nearest to their bound."),
             Table("laws", laws, "Every law with its misfit, its bound and the source of it.", long=True),
         ]
-        nearest = asked.sort_values("nearness", ascending=False, kind="stable")[:SHOWN].sort_index()
-        for group, own in nearest.groupby("group", sort=False):
-            shown = own[["law", "model", "sentence", "misfit", "bound", "outcome"]]
-            named = Table(str(group), shown, "Laws that fail, and those nearest to their bound.")
-            blocks.append(Section(str(group).capitalize(), [named]))
-        reasons = laws[laws["outcome"] == LEFT_OUT].groupby("reason", sort=False)["law"].count()
-        if len(reasons):
-            frame = reasons.rename("laws").reset_index()
-            blocks.append(Section("Left out", [Table("left-out", frame, "Why laws are left out, and how many.")]))
-        plots = [figure.plot(asked, self.title)] if len(asked) else []
-        return Judgement(findings, self.answer(findings), [*plots, *blocks], [Text(ABOUT)])
+        if len(why):
+            blocks.append(Table("left-out", why, "Why laws are left out, and how many."))
+        return Judgement(findings, self.answer(findings), blocks, [Text(ABOUT)])
 
     def _finding(self, row):
         law = self.laws[row.law]
@@ -176,7 +184,7 @@ class Regress(Checks):
         given = {"baseline": printable(path.name)}
         return cls(tasks, "regress", "Has the accuracy moved?", given, path, values, update)
 
-    @property
+    @cached_property
     def laws(self) -> Mapping[str, Law]:
         return {law.id: law for law in stored.laws(self.values)}
 
@@ -184,15 +192,16 @@ class Regress(Checks):
         """As of every law; values that are no longer measured too."""
         made = super().judge(answers)
         gone = sorted(self.values.keys() - self.laws.keys())
-        lost = [Finding(Claim(f"regress.{id}", id, self.values[id]), nan, stated=UNDECIDED, reason=GONE) for id in gone]
+        lost = [
+            Finding(Claim(f"regress.{id}", id, self.values[id]), nan, stated=UNDECIDED, reason=GONE) for id in gone
+        ]
         found = [*made.findings, *lost]
         return replace(made, findings=found, answer=self.answer(found))
 
     def _finding(self, row):
-        found = super()._finding(row)
-        if row.reason or isfinite(found.claim.expected):
-            return found
-        return replace(found, stated=UNDECIDED, reason=f"{NEW}: {row.misfit:.{stored.DIGITS}g}")
+        law = self.laws[row.law]
+        share = law.bound.of(()) / abs(law.expected or 1.0)
+        return stored.held(super()._finding(row), law.expected, share)
 
     def failed(self, findings: Sequence[Finding]) -> bool:
         """Whether anything asks for somebody's attention; after an update, whether something is not stored."""
