@@ -43,7 +43,7 @@ SOLIDS: dict[str, Any] = {
     "standard linear": SOLID,
 }
 AMPLITUDE, WAVELENGTH = 1e-5, 1e-3
-WAVES = {"amplitude": AMPLITUDE, "wavelength": WAVELENGTH}
+WAVES: dict[str, Any] = {"amplitude": AMPLITUDE, "wavelength": WAVELENGTH}
 WAVE_CLOSURE = waves.wave_closure(ELASTIC.indentation_modulus, **WAVES)
 CROSSED_CLOSURE = waves.crossed_closure(ELASTIC.indentation_modulus, **WAVES)
 FEWEST = 7.5  # points across the contact, eight with rounding, from which on a grid shows an order
@@ -84,7 +84,7 @@ def of_revolution() -> Iterator[Law]:
         form = elastic_contact(scene)
         loaded = replace(scene, motion=Indent(load=form.load))
         bound = GRID if body.exponent <= 2 else GRID.times(body.exponent, "steeper at its edge")
-        rows: list[tuple[str, str, Scene, Bound, tuple[str, ...], dict[str, float]]] = [
+        rows: list[tuple[str, str, Scene, Bound, tuple[str, ...], dict[str, Any]]] = [
             ("force", "force at a depth", scene, bound, BOTH, {"normal_force": form.load}),
             ("depth", "depth under a load", loaded, bound, BOTH, {"depth": form.depth}),
         ]

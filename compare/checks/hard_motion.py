@@ -115,7 +115,7 @@ def glassy_friction():
 
 @hard("Closed forms of the foundation for sphere and cone, within 20/N of the grid.", line)
 def all_but_no_glass_1d():
-    """A Kelvin body at speeds to 1e9, and glassy over rubbery moduli of 1e6 and 1e12: force and wake grow with both."""
+    """A Kelvin body at speeds to 1e9, glassy over rubbery moduli of 1e6 and 1e12: force and wake grow."""
     asked = [(KELVIN, pace) for pace in (1e3, 1e6, 1e9)]
     for ratio in (1e6, 1e12):
         asked += [(StandardLinearSolid(MODULUS, ratio * MODULUS, TIME), v) for v in (1e-6, 1e-3, 1.0, 100.0)]
@@ -124,7 +124,7 @@ def all_but_no_glass_1d():
 
 @hard(TOUCHING, dense)
 def all_but_no_glass_3d():
-    """The same in three dimensions: a memory of 1e9 contacts, and one for a share of compliance of all but 1e-6."""
+    """The same in three dimensions: a memory of 1e9 contacts, and one of all but 1e-6 of the compliance."""
     solid = StandardLinearSolid(MODULUS, 1e6 * MODULUS, TIME)
     asked = [(KELVIN, pace) for pace in (1e3, 1e6, 1e9)] + [(solid, pace) for pace in (1e-9, 1e-3, 1.0, 1e9)]
     yield touching(*(sliding(pace, each) for each, pace in asked))

@@ -119,7 +119,8 @@ def balances() -> Iterator[Law]:
     def one(answers):
         return float(answers[0]["normal_force"] == answers[1]["normal_force"])
 
-    other = replace(ROUGH_REST, roughness=replace(ROUGH_REST.roughness, seed=2))
+    rough: Any = ROUGH_REST.roughness
+    other = replace(ROUGH_REST, roughness=replace(rough, seed=2))
     bound, said = stated(0.0, "two surfaces have the same force by no accident"), "Another seed is another surface"
     yield Law("seed", INVARIANCE, said, (ROUGH_REST, other), one, bound)
     bound = stated(1e-6, "a load is a sum over pixels, and met as well as any")

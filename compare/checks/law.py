@@ -81,7 +81,7 @@ def _left(answers):
     return min(ROUNDING + LEFT * sum(each if isfinite(each) else UNKNOWN_LEFT for each in left), MOST_LEFT)
 
 
-def _grid(source: str, line: Misfit, space: Misfit) -> Bound:
+def _grid(source: str, line: Callable[[float], float], space: Callable[[float], float]) -> Bound:
     """Bound of the grid with fewest points across the contact, in 1D and in 3D, and what is left; MOST at most."""
 
     def of(answers):

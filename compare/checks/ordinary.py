@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from math import radians
+from typing import Any
 
 from scene import (
     Cone,
@@ -72,7 +73,7 @@ def family(kind: str, length: float = 1.0, modulus: float = 1.0, time: float = 1
     solid = StandardLinearSolid(MODULUS * modulus, STIFFENING * MODULUS * modulus, TIME * time)
     waves = {name: length * getattr(ROUGH, name) for name in ("rms_height", "longest", "shortest")}
     speed, depth, force = PACE * length / time, DEPTH * length, LOAD * length**2 * modulus
-    motion = Slide(speed=speed, depth=depth)
+    motion: Any = Slide(speed=speed, depth=depth)
     if "rest" in kind:
         motion = Indent(depth=depth)
     elif "load" in kind:

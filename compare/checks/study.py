@@ -28,20 +28,7 @@ from .table import Examination, table
 
 LEFT_OUT = "left out"
 SHOWN = 40  # laws on the page
-COLUMNS = (
-    "group",
-    "law",
-    "model",
-    "outcome",
-    "misfit",
-    "bound",
-    "nearness",
-    "reason",
-    "sentence",
-    "source",
-    "seconds",
-)
-NEW, GONE = "not in the baseline", "no longer measured"
+GONE = "no longer measured"
 ABOUT = """Each law asks one or several scenes of a model and makes one number of the answers, a relative
 misfit, that must not exceed its bound. Bounds say where they come from: the grid, whose points across the contact
 the model measures (`points_across_contact`) or has as a setting, and what a result says is left in its conditions
@@ -101,7 +88,11 @@ class Checks(Study):
         return xarray.DataTree.from_dict({"/laws": rows.to_xarray()})
 
     def _judged(self, task, row):
-        law, misfit, bound = self.laws[task.law_id], *(row.measures.get(name, nan) for name in ("misfit", "bound"))
+        law, misfit, bound = (
+            self.laws[task.law_id],
+            row.measures.get("misfit", nan),
+            row.measures.get("bound", nan),
+        )
         bound = law.bound.of(()) if law.group == STORED else bound
         distance, reason = abs(misfit - law.expected), row.reason or ""
         left_out = reason.startswith(REFUSED) and not law.solvers and law.group != STORED

@@ -1,16 +1,16 @@
-"""The plugin for pytest, in projects of a test or two: what it keeps, what it says, and that it stays out of the way."""
+"""The plugin for pytest, in projects of a test or two: what it keeps, and what it says."""
 
 import re
 import tomllib
 from pathlib import Path
 
 import pytest
+from small_cases import SLIDING
 
 from bem3d import BEM
 from compare.checks.accuracy import Accuracy, findings
 from mdr1d import MDR
 from scene.reading import InvalidInput
-from small_cases import SLIDING
 
 pytest_plugins = ["pytester"]
 ROOT = Path(__file__).parents[2]
@@ -27,9 +27,17 @@ type = "slide"
 speed = 0.1
 load = 1.0
 """
-ROUGH = '[roughness]\ntype = "self-affine"\nhurst = 0.8\nrms_height = 1e-6\nlongest = 1e-2\nshortest = 1e-3\nseed = 5\n'
+ROUGH = """
+[roughness]
+type = "self-affine"
+hurst = 0.8
+rms_height = 1e-6
+longest = 1e-2
+shortest = 1e-3
+seed = 5
+"""
 # Models whose numbers are stated: their friction scatters by surface, and their grid errs by a share over points.
-MODELS = '''
+MODELS = """
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -52,7 +60,7 @@ class Stated:
 
 def pair(ratio=1.0, **others):
     return [Stated("one", 0.1 * ratio, **others), Stated("two")]
-'''
+"""
 
 
 @pytest.fixture(scope="module")
@@ -86,11 +94,15 @@ def test_a_check_passes_only_if_the_whole_interval_lies_inside(project):
     of = 'check("seal.toml", models=pair({}), friction={})'
     project(of.format("1.04", 0.05), of.format("1.06", 0.07)).assert_outcomes(passed=2)
     # the error of the grid is 0.02 here: it makes the interval of 1.04 as wide
-    result = project(of.format("1.06", 0.05), of.format("1.04, grid=0.01", 0.07), of.format("1.04, grid=0.03", 0.06))
+    result = project(
+        of.format("1.06", 0.05), of.format("1.04, grid=0.01", 0.07), of.format("1.04, grid=0.03", 0.06)
+    )
     result.assert_outcomes(passed=1, failed=2)
     told = text(result)
     assert "seal: friction one/two: fails, expected 1 ± 0.05, found 1.06" in told
-    assert re.search(r"seal: friction one/two: undecided, expected 1 ± 0.06, found 1.071 \(1.04\d* to 1.1\d*\)", told)
+    assert re.search(
+        r"seal: friction one/two: undecided, expected 1 ± 0.06, found 1.071 \(1.04\d* to 1.1\d*\)", told
+    )
     assert "a finer one would have to decide it" in told
 
 
@@ -155,7 +167,8 @@ QUIET = """
 import sys
 
 def test_nothing_of_ours_is_imported(request):
-    ours = {name for name in sys.modules if name.partition(".")[0] in ("scene", "mdr1d", "bem3d", "compare", "numpy")}
+    heavy = "scene", "mdr1d", "bem3d", "compare", "numpy"
+    ours = {name for name in sys.modules if name.partition(".")[0] in heavy}
     assert ours == {"compare", "compare.checks", "compare.checks.plugin"}
 """
 
@@ -185,7 +198,9 @@ def test_installed_it_imports_nothing_before_a_fixture_is_used_and_can_be_taken_
 def test_workers_of_xdist_have_a_store_each_and_files_of_their_tests(installed, pytester):
     pytester.makepyfile(models=MODELS)
     pytester.makefile(".toml", seal=SCENE)
-    tests = (f"def test_{k}(mdr_accuracy):\n    mdr_accuracy.regression('seal.toml', models=pair())" for k in range(4))
+    tests = (
+        f"def test_{k}(mdr_accuracy):\n    mdr_accuracy.regression('seal.toml', models=pair())" for k in range(4)
+    )
     pytester.makepyfile(test_mine="\n".join(["from models import pair", *tests]))
     for outcome in ("failed", "passed"):
         installed("-n", "2").assert_outcomes(**{outcome: 4})

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 import compare
-from compare.solving.words import VERDICTS
 from compare.checks.study import Checks
+from compare.solving.words import VERDICTS
 
 PAGE = Path(__file__).parents[2] / "docs" / "howto" / "verify.md"
 # Of the peers, not of ours: without mpi4py, NuMPI warns on import that it stands in for it.

@@ -70,8 +70,16 @@ sought = "motion.depth | {:g} | lowest point"
 # What is asked, of whom, and the words of the error.
 CASES = {
     "few pixels": (resting(motion=Indent(depth=DEPTH * (4.8 / 1000) ** 2)), WIDE[:1], "needed | take more points"),
-    "few pixels in 3D": (resting(motion=Indent(depth=DEPTH * (4.8 / 48) ** 2)), WIDE[1:], "needed | take more points"),
-    "a gap of nearly nothing": (pressed(crossed, gap=1e-14), [SQUARE], "motion.gap | 1e-14 | prescribe the pressure"),
+    "few pixels in 3D": (
+        resting(motion=Indent(depth=DEPTH * (4.8 / 48) ** 2)),
+        WIDE[1:],
+        "needed | take more points",
+    ),
+    "a gap of nearly nothing": (
+        pressed(crossed, gap=1e-14),
+        [SQUARE],
+        "motion.gap | 1e-14 | prescribe the pressure",
+    ),
     "a gap of nothing": (pressed(crossed, gap=1e-305), [SQUARE], "motion.gap | 1e-305 | prescribe the pressure"),
     "hardly a load": (pressed(crossed, pressure=1e-9 * CROSSED_CLOSURE), [SQUARE], "covers | take more points"),
     "no load": (pressed(crossed, pressure=1e-300 * CROSSED_CLOSURE), [SQUARE], "covers | take more points"),
@@ -101,7 +109,11 @@ CASES = {
         (WIDE[0], SPACE),
         f"shortest | {1e-6 * RADIUS:g} | would do",
     ),
-    "nine decades of waves": (resting(roughness=rough(shortest=1e-12)), [LINE], "longest | shortest | raise shortest"),
+    "nine decades of waves": (
+        resting(roughness=rough(shortest=1e-12)),
+        [LINE],
+        "longest | shortest | raise shortest",
+    ),
     "more than memory": (
         pressed(rough(shortest=2 * RADIUS / 4000), pressure=1e4),
         [BEM(points=16384)],
@@ -136,7 +148,11 @@ CASES = {
         for extent, said in ((1e-5, "extent"), (1e4, "take"), (5e-324, "units"), (1e300, "units"))
     },
     "a plane in 1D": (Scene(Plane(), SOLID, Indent(pressure=1e4), ROUGH), [LINE], "Plane | no body of revolution"),
-    "a cylinder in 1D": (Scene(cylinder, SOLID, Indent(line_load=1e3)), [LINE], "Cylinder | no body of revolution"),
+    "a cylinder in 1D": (
+        Scene(cylinder, SOLID, Indent(line_load=1e3)),
+        [LINE],
+        "Cylinder | no body of revolution",
+    ),
     "one wave in 1D": (resting(roughness=Wave(amplitude=1e-6, wavelength=1e-3)), [LINE], "Wave | not isotropic"),
     "a rough cylinder": (
         Scene(cylinder, SOLID, Indent(line_load=1e3), ROUGH),
@@ -150,7 +166,9 @@ CASES = {
 @pytest.mark.parametrize("name", CASES)
 def test_a_contact_without_an_answer_is_refused_by_an_error_that_names_what_to_change(name):
     scene, solvers, words = CASES[name]
-    expected = EmptyContact if "above" in name or name == "never touching in 3D" else (Refused, SolveError, ValueError)
+    expected = (
+        EmptyContact if "above" in name or name == "never touching in 3D" else (Refused, SolveError, ValueError)
+    )
     for solver in solvers:
         with pytest.raises(expected) as told:
             solver.solve(scene)
