@@ -181,7 +181,7 @@ class MDRAccuracy:
         """Fail if a ratio moved by more than a tolerance, relative, from the file that stands beside the test.
 
         The first run writes the file and fails. With --mdr-regen numbers that moved are stored, and it fails.
-        Arguments as of `check`.
+        The arguments are those of `check`.
         """
         draws = {"surfaces": surfaces, "profiles": profiles}
         study = Accuracy.of(self._located(scene), {}, models, reference, **draws)

@@ -41,9 +41,9 @@ HARD = """
 {kept} of {count} hard cases of `crosscheck stability --size full` keep their law, each by each solver that is
 asked. Each is a contact in which a solver may fail, with a law that must hold: a closed form, a limit, exact
 scaling, a balance, or the conditions of contact computed anew by plain sums. [stability.csv](stability.csv) has
-every case with its law, its error and its bound. What has no answer is refused: lines far beyond v τ/a = 10⁴,
-depths whose squares are no numbers, memories beyond 1e150 pixels, and contacts of less than nine pixels in 3D or
-five in 1D.
+every case with its law, its error and its bound. Contacts without an answer are refused: lines far beyond
+v τ/a = 10⁴, depths whose squares are no numbers, memories beyond 1e150 pixels, and contacts of less than nine
+pixels in 3D or five in 1D.
 """
 
 

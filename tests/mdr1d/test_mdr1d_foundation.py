@@ -159,7 +159,10 @@ def greatest_pressed_before(answer):
     Inside an interval, where the profile is linear, (d - g) + l g' = 0 may change its sign: a maximum.
     """
     scene, pixel = answer.scene, answer.measures["pixel"]
-    memory, approach = scene.motion.speed * scene.elastomer.relaxation_time, answer.depth - answer.fields["profile"]
+    memory, approach = (
+        scene.motion.speed * scene.elastomer.relaxation_time,
+        answer.depth - answer.fields["profile"],
+    )
     decay, surface = np.exp(-pixel / memory), np.maximum(approach, 0.0)
     for i, (here, there) in enumerate(pairwise(approach)):
         reached, slope = [surface[i] * decay, there, 0.0], (there - here) / pixel
