@@ -35,7 +35,7 @@ from ..models.exact import foundation, indentation
 from ..solving.folders import write
 from ..solving.task import draws_of
 from ..statistics.finding import FAILS, HOLDS, UNDECIDED, Finding
-from .law import FORCES, STORED, Answers, Law, stated
+from .law import FORCES, STORED, Law, stated
 
 SHIPPED = Path(__file__).with_name("baseline.toml")
 NEW = "not in the file of stored numbers"
@@ -64,21 +64,10 @@ def laws(values: Mapping[str, float] | None = None) -> Iterator[Law]:
         for id, said, of, scenes, line, over, (tolerance, why) in part():
             value = known.get(id, nan)
             bound = stated(tolerance * abs(value), f"{tolerance:g}: {why}")
-            models = (line,) * len(scenes)
-            if isinstance(over, Scene):
-                drawn = draws_of(over, SURFACES)
-                scenes, models = (*scenes, *drawn), (*models, *(SPACE,) * len(drawn))
-                over = len(drawn)
-            yield Law(
-                id,
-                STORED,
-                said,
-                scenes,
-                _ratio(of, over, isinstance(over, int)),
-                bound,
-                models=partial(_as_stated, models),
-                expected=value,
-            )
+            drawn = draws_of(over, SURFACES) if isinstance(over, Scene) else ()
+            models = partial(_as_stated, (line,) * len(scenes) + (SPACE,) * len(drawn))
+            misfit = _ratio(of, len(scenes), over)
+            yield Law(id, STORED, said, (*scenes, *drawn), misfit, bound, models=models, expected=value)
 
 
 def _as_stated(models, _):
@@ -86,14 +75,12 @@ def _as_stated(models, _):
     return models
 
 
-def _ratio(of: str, over: float, counted: bool):
-    """Mean of a number over a known one, or over its mean of the last answers where these are counted."""
+def _ratio(of, count, over):
+    """Mean of a number of so many answers over its mean of the others, or over a known one without others."""
 
-    def misfit(answers: Answers) -> float:
+    def misfit(answers):
         found = [answer[of] for answer in answers]
-        last = len(found) - int(over) if counted else len(found)
-        ratio = np.mean(found[:last]) / (np.mean(found[last:]) if counted else over)
-        return float(ratio)
+        return float(np.mean(found[:count]) / np.mean(found[count:] or [over]))
 
     return misfit
 
