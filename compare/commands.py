@@ -52,6 +52,7 @@ from .options import (
     Options,
     Outliers,
     Output,
+    OwnScene,
     PaperSize,
     Peaks,
     Pixel,
@@ -251,13 +252,18 @@ def verify(model: Model, output: Output = "crosscheck-verify", **options: Unpack
 def regress(
     baseline: Baseline = None,
     update: Update = False,
+    scene: OwnScene = None,
     output: Output = "crosscheck-regress",
     **options: Unpack[Options],
 ) -> Report:
     """Compare the accuracy of 1D with stored values. The status is 1 if any value has changed."""
-    from .checks.study import Regress
+    from .checks import study
 
-    asked = Regress.of(baseline, update)
+    asked: study.Regress | study.OwnScene
+    if scene is None:
+        asked = study.Regress.of(baseline, update)
+    else:
+        asked = study.OwnScene.stored(scene, baseline, update)
     report = solve(asked, output, **options)
     if update:
         asked.store(report.findings)

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from math import ceil, isfinite, nan
 from os import PathLike
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 import xarray
 
@@ -54,7 +54,7 @@ class Accuracy(Study):
         models: Sequence[ModelLike] | None = None,
         reference: str | None = None,
         **draws: int | None,
-    ) -> "Accuracy":
+    ) -> Self:
         """Study of a scene; of all of its quantities where none is named. Raises InvalidInput, Refused."""
         case = case_of(scene)
         case.refuse()
@@ -186,7 +186,7 @@ class MDRAccuracy:
         draws = {"surfaces": surfaces, "profiles": profiles}
         study = Accuracy.of(self._located(scene), {}, models, reference, **draws)
         values = stored.read_values(self.file) if self.file.exists() else {}
-        names = {f"{_name(scene)}.{each.claim.id}": each for each in findings(study, self.folder)}
+        names = {f"{named(scene)}.{each.claim.id}": each for each in findings(study, self.folder)}
         moved = {
             id: each
             for id, found in names.items()
@@ -205,7 +205,7 @@ class MDRAccuracy:
 
     def _fail(self, scene, wrong: Sequence[Finding], hint: str = "") -> None:
         lines = [
-            f"{_name(scene)}: {each.claim.sentence}: {each.verdict}, expected {words.tested(each.claim)}, "
+            f"{named(scene)}: {each.claim.sentence}: {each.verdict}, expected {words.tested(each.claim)}, "
             f"found {words.found(each)}{f'; {each.why}' if each.why else ''}"
             for each in wrong
         ]
@@ -213,6 +213,6 @@ class MDRAccuracy:
             raise AssertionError("\n".join(lines) + hint)
 
 
-def _name(scene: Any) -> str:
+def named(scene: Any) -> str:
     """Name of a scene, by which its numbers are stored."""
     return Path(scene).stem if isinstance(scene, str | PathLike) else getattr(scene, "title", "") or SCENE

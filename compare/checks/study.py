@@ -22,6 +22,7 @@ from ..solving.task import REFUSED, Batch, Task
 from ..statistics.finding import FAILS, HOLDS, REPORTED, UNDECIDED, Claim, Finding
 from ..studies.study import Judgement, Study
 from . import figure, stored
+from .accuracy import Accuracy, named
 from .hardcase import SIZES
 from .law import GROUPS, STORED, Law
 from .table import Examination, table
@@ -194,12 +195,12 @@ class Regress(Checks):
         share = law.bound.of(()) / abs(law.expected or 1.0)
         return stored.held(super()._finding(row), law.expected, share)
 
-    def failed(self, findings: Sequence[Finding]) -> bool:
+    def failed(self: Any, findings: Sequence[Finding]) -> bool:
         """Whether anything asks for somebody's attention; after an update, whether something is not stored."""
         wrong = [each for each in findings if each.stated != HOLDS]
         return any(not self.update or (not isfinite(each.value) and each.reason != GONE) for each in wrong)
 
-    def store(self, findings: Sequence[Finding]) -> None:
+    def store(self: Any, findings: Sequence[Finding]) -> None:
         """Store what has moved, is new or is gone, and nothing else; what has failed keeps its value.
 
         What moved within its tolerance stays as it is stored: many small steps do not pass unseen.
@@ -209,3 +210,39 @@ class Regress(Checks):
         values = kept | {id: each.value for id, each in wrong.items() if isfinite(each.value)}
         if values != self.values:
             stored.write_values(self.path, values, "Written by `crosscheck regress --update`: numbers as found.")
+
+
+@dataclass(frozen=True)
+class OwnScene(Accuracy):
+    """Ratios of 1D over 3D of a scene of one's own held against the values of a file, as `Regress`.
+
+    tolerance : relative, of each ratio
+    """
+
+    name: str = ""
+    path: Path = stored.SHIPPED
+    values: Mapping[str, float] = field(default_factory=dict)
+    update: bool = False
+    tolerance: float = 1e-3
+
+    command, title = "regress", "Has the accuracy of the scene moved?"
+    failed, store = Regress.failed, Regress.store
+
+    @classmethod
+    def stored(cls, scene: Any, baseline: str | Path | None, update: bool = False) -> Self:
+        """Study of a scene and a file; one to be updated need not be there yet. Raises InvalidInput."""
+        found = cls.of(scene, {})
+        if baseline is None:
+            raise InvalidInput("baseline = None: the numbers of a scene of your own need a file, name one")
+        path = Path(baseline)
+        values = {} if update and not path.exists() else stored.read_values(path)
+        return replace(found, name=named(scene), path=path, values=values, update=update)
+
+    def judge(self, answers: xarray.DataTree) -> Judgement:
+        """A finding a ratio, held against its stored value."""
+        found = []
+        for each in super().judge(answers).findings:
+            id = f"{self.name}.{each.claim.id}"
+            one = replace(each, claim=replace(each.claim, id=f"regress.{id}"))
+            found.append(stored.held(one, self.values.get(id, nan), self.tolerance))
+        return Judgement(found)
