@@ -8,7 +8,7 @@ paper : simulate the paper again in one dimension
 workprecision : what accuracy costs in time
 stability : the named hard cases, each with its law
 verify : a code of contact of your own against what it must hold
-regress : quantities against what is stored; `check` and `update` do so in a test of your own
+regress : ratios of 1D over 3D against those stored; the fixture `mdr_accuracy` of pytest does so in your tests
 mastercurve, topography : friction that you measured, a surface that you measured
 plan : what would be simulated of a scene, and what that costs
 load, export : what a command left, as xarray has it, as CSV, for ParaView, as figures for a journal

@@ -31,10 +31,6 @@ from .statistics.finding import Claim as Claim
 from .statistics.finding import Finding as Finding
 from .statistics.griderror import UncertainFriction as UncertainFriction
 from .studies.comparison.comparison import Comparison as Comparison
-from .studies.regress.quantity import Quantity as Quantity
-from .studies.regress.quantity import Unmeasured as Unmeasured
-from .studies.regress.study import check as check
-from .studies.regress.study import update as update
 from .studies.report import Report as Report
 from .trustmap.corrected import CorrectedMDR as CorrectedMDR
 from .trustmap.friction_law import FrictionLaw as FrictionLaw

@@ -50,6 +50,7 @@ from .options import (
     Options,
     Outliers,
     Output,
+    OwnScene,
     PaperSize,
     Peaks,
     Pixel,
@@ -90,7 +91,6 @@ if TYPE_CHECKING:
     from .studies.comparison.comparison import Comparison
     from .studies.comparison.sweep import SweepSeries
     from .studies.plan import Plans
-    from .studies.regress.quantity import Quantity
     from .studies.report import Report
     from .studies.study import Study
     from .trustmap.verdict import Advice
@@ -230,34 +230,32 @@ def stability(
     size: CaseSize = "quick", output: Output = "crosscheck-stability", **options: Unpack[Options]
 ) -> Report:
     """Solve hard cases and check the law of each. The status is 1 if any case breaks its law."""
-    from .studies.stability.study import Stability
+    from .studies.checks.study import Checks
 
-    return solve(Stability.of(size), output, **options)
+    return solve(Checks.stability(size), output, **options)
 
 
 @checked
 def verify(model: Model, output: Output = "crosscheck-verify", **options: Unpack[Options]) -> Report:
     """Check a code of contact against what it must hold. The status is 1 if any law fails."""
-    from .studies.verify.study import Verify
+    from .studies.checks.study import Checks
 
-    return solve(Verify.of(model), output, **options)
+    return solve(Checks.verify(model), output, **options)
 
 
 @checked
 def regress(
     baseline: Baseline = None,
     update: Update = False,
-    quantities: Sequence[Quantity] | None = None,
+    scene: OwnScene = None,
     output: Output = "crosscheck-regress",
     **options: Unpack[Options],
 ) -> Report:
-    """Compare the accuracy of 1D with stored values. The status is 1 if any value has changed.
+    """Compare the accuracy of 1D with stored values. The status is 1 if any value has changed."""
+    from .studies.checks import study
 
-    quantities : quantities to measure; if absent, those of the package
-    """
-    from .studies.regress.study import Regress
-
-    asked = Regress.of(baseline, quantities, update)
+    own = None if scene is None else study.OwnScene.stored(scene, baseline, update)
+    asked = own or study.Regress.of(baseline, update)
     report = solve(asked, output, **options)
     if update:
         asked.store(report.judged)

@@ -22,16 +22,6 @@ control_variates : Numbers of the rough surface below the smooth body whose mean
 status : Whether a contact was solved, here or on a finer grid, has no contact, failed, or was not asked for.
 reason : Why a solve failed; empty where it did not.
 
-Of hard cases and of stored quantities.
-check : Number measured of a hard case, which must not exceed its bound.
-found : Number of a check; of a refusal, how many of the words it must say are missing. [1]
-allowed : Bound of a check, from the law of the case. [1]
-message : Error that came of what must be refused; in brackets what came instead of one.
-quantity : Name of a ratio of two answers to one question.
-side : Which of the two answers: numerator or denominator of the ratio.
-measured : Number of one answer that a ratio is made of, in its SI unit.
-stored : Ratio as the baseline has it. [1]
-
 Of solids.
 omega : Angular frequency. [rad/s]
 storage : Storage modulus G' in shear. [Pa]

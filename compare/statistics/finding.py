@@ -43,7 +43,6 @@ class Claim:
         tolerance of NaN the number is reported without a claim
     meaning : how the number is measured, and what a deviation from it says
     dimension : "1D", "3D", or "1D/3D" of a comparison
-    curves : names of the grids that it is measured on
     measure : function of one sample of these grids, see `statistics.jackknife.Sample`, that returns a number,
         or an array of which the root mean square counts
     percent : whether people read the number in percent
@@ -56,7 +55,6 @@ class Claim:
     meaning: str = ""
     unit: str = "1"
     dimension: str = BOTH
-    curves: tuple[str, ...] = ()
     measure: Callable[[Mapping[str, Any]], Any] | None = None
     percent: bool = False
 

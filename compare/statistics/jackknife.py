@@ -4,7 +4,7 @@ The same surfaces stand behind all points: each is left out everywhere at once. 
 the scatter of a number and its skewness; percentiles of resampled surfaces are too narrow where there are few.
 """
 
-from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import inf, nan, sqrt
@@ -209,25 +209,16 @@ def left_out(samples: np.ndarray) -> np.ndarray:
 
 # Claims on Datasets.
 
-DIMENSIONS = {"1D": ("MDR",), "3D": ("BEM",), "1D/3D": ("MDR", "BEM")}
 _ONE = "of one surface the scatter is not known"
 _HALF = "at some point fewer than half of the surfaces have an answer, or the mean is not positive"
 
 
 class DrawSet(dict[str, xarray.Dataset]):
-    """Datasets of one grid by "name/solver", from which draws can be left out.
+    """Datasets of one level by the name of the model or of a series, from which draws can be left out.
 
     Draws of different solvers are independent, and are left out by themselves. Where the Datasets of one solver
     differ in their number, shares of each are left out together.
     """
-
-    @classmethod
-    def of(cls, answers: xarray.DataTree, names: Iterable[str], grid: str) -> Self:
-        """Datasets of some nodes on one of their grids; nodes that were not asked for are left out."""
-        nodes = {node.path.strip("/"): node for node in answers.subtree}
-        return cls(
-            {name: nodes[name].to_dataset(inherit=False).sel(level=grid) for name in names if name in nodes}
-        )
 
     @cached_property
     def _left(self) -> dict[tuple, "DrawSet"]:
@@ -304,16 +295,6 @@ def estimated(dataset: xarray.Dataset, above: str, below: str | None = None) -> 
 def friction(dataset: xarray.Dataset) -> np.ndarray:
     """Coefficient of friction: mean friction force over mean normal force."""
     return mean(dataset, "friction_force", "normal_force")
-
-
-def judge(claim: Claim, answers: xarray.DataTree, where: str = "", regime: str = "", plot: str = "") -> Finding:
-    """Measure a claim on the fine grid, its scatter by leaving draws out, its error of the grid on the coarse one.
-
-    An array counts by its root mean square, without what scatter adds.
-    """
-    names = [f"{curve}/{solver}" for curve in claim.curves for solver in DIMENSIONS[claim.dimension]]
-    fine, coarse = (DrawSet.of(answers, names, grid) for grid in ("fine", "coarse"))
-    return measured(claim, fine, coarse, where, regime, plot)
 
 
 def measured(

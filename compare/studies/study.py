@@ -17,8 +17,7 @@ from ..solving.outcome import Outcome
 from ..solving.task import Batch, SceneTask, Task
 from ..solving.unsolved import Unsolved
 from ..statistics import griderror
-from ..statistics.finding import FAILS, Claim, Finding
-from ..statistics.jackknife import judge
+from ..statistics.finding import FAILS, Finding
 from ..statistics.multilevel import GROWTH
 
 SETTING = "Setting"
@@ -58,8 +57,7 @@ class Judgement:
 class Study:
     """A question, declared: what is solved for it, what is claimed, and what its answers come to.
 
-    A study overrides what differs: `grids` and `claims` are enough. One whose tasks are no curves
-    overrides `batches` and `answers`; one that measures claims in its own way, or has figures, `judge`.
+    A study overrides `grids` and `judge`; one whose tasks are no curves `batches` and `answers` too.
 
     command : name of the command, and of the Python function
     title, about : for people
@@ -99,10 +97,6 @@ class Study:
         """Curves of contacts by name. Raises InvalidInput, Refused."""
         return {}
 
-    def claims(self) -> Sequence[Claim]:
-        """Claims that are measured on the grids."""
-        return ()
-
     def cost(self) -> Cost:
         """Upper bound of the cost of all solves; grids are counted before their tasks are built."""
         if grids := self.grids():
@@ -128,7 +122,7 @@ class Study:
 
     def judge(self, answers: xarray.DataTree) -> Judgement:
         """What the answers come to: once for the same answers, and all of it."""
-        return Judgement([judge(claim, answers) for claim in self.claims()], setting=self.setting)
+        return Judgement((), setting=self.setting)
 
     @property
     def setting(self) -> Sequence[Block]:

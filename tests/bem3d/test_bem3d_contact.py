@@ -1,78 +1,218 @@
-"""The complementarity solver against dense problems whose conditions are checked by plain matrix products."""
+"""The complementarity solver on dense problems, checked by plain products: ties, plateaus, poor starts, cycles."""
 
+from functools import partial
 from itertools import cycle
 
 import numpy as np
 import pytest
 from scipy.optimize import nnls
 
-from bem3d import contact, influence
+from bem3d import contact
 from bem3d.krylov import conjugate_gradients
+from compare.studies.checks.conditions import collocation, influence, retarded
 
-TOLERANCE = 1e-8
-N = 12
-
-
-def dense(kernel):
-    """The convolution as a matrix, point by point."""
-    ny, nx = kernel.shape[0], kernel.shape[1] // 2
-    y, x = (a.ravel() for a in np.mgrid[:ny, :nx])
-    return kernel[np.abs(y[:, None] - y[None, :]), nx + x[:, None] - x[None, :]]
+FINE = 1e-9  # tolerance of the contacts, and of their conditions by a plain product
+OF_PEAK = 1e-6  # of a pressure whose contact is solved to FINE
 
 
 class Matrix:
-    """A matrix as an operator on planes."""
+    """The influence of ny x nx square pixels on one another as a matrix; an operator on planes.
 
-    def __init__(self, matrix):
-        self.matrix = matrix
+    memory : of a Kelvin body [pixel], 0 at rest
+    """
+
+    def __init__(self, ny, nx, memory=0.0):
+        share, lengths = np.ones(int(memory > 0)), np.full(int(memory > 0), memory)
+        instantaneous = float(memory == 0)
+        x = np.arange(1 - nx, nx) + collocation(instantaneous, share, lengths)
+        kernel = instantaneous * influence(x, ny) + retarded(x, ny, share, lengths)
+        row, column = (index.ravel() for index in np.indices((ny, nx)))
+        self.values = kernel[nx - 1 + column[:, None] - column, np.abs(row[:, None] - row)]
+        self.shape, self.symmetric = (ny, nx), memory == 0
 
     def __call__(self, plane, out=None):
-        image = (self.matrix @ plane.ravel()).reshape(plane.shape)
+        image = (self.values @ plane.ravel()).reshape(self.shape)
         if out is None:
             return image
         out[:] = image
         return out
 
 
-def rough_heights(seed):
-    y, x = np.mgrid[:N, :N] - (N - 1) / 2
-    return (x**2 + y**2) / 60 + 0.1 * np.random.default_rng(seed).standard_normal((N, N))
+class Ring(Matrix):
+    """Points in rings of three, each pushed by the next: positive definite for a coupling below 2.
+
+    From 1 on, dropping and adding at once passes round each ring for ever.
+    """
+
+    def __init__(self, copies, coupling):
+        self.values = np.kron(np.eye(copies), np.eye(3) + coupling * np.roll(np.eye(3), 1, axis=1))
+        self.shape, self.symmetric = (copies, 3), False
 
 
-def problem(length, seed=0):
-    kernel = influence.elastic(N, N) if length == 0 else influence.retarded(N, N, length, 0.5 * np.tanh(length))
-    matrix, z = dense(kernel), rough_heights(seed)
-    return matrix, z, Matrix(matrix)
+def solved(matrix, heights, start=None, **given):
+    """The contact at a depth or a load [pixel], from where the surfaces overlap; its conditions are checked."""
+    if start is None:
+        start = contact.first_guess(heights, heights.size // 4)
+    found = contact.solve(matrix, heights, start, FINE, symmetric=matrix.symmetric, **given)
+    gap = (matrix.values @ found.pressure.ravel()).reshape(matrix.shape) + heights - found.depth
+    touched = found.pressure > 0
+    scale = max(found.depth, heights[touched].max()) - heights.min() or np.ptp(heights) or 1.0
+    assert found.pressure.min() >= 0
+    assert gap.min() >= -FINE * scale
+    assert np.abs(gap[touched]).max() <= FINE * scale
+    return found
 
 
-def test_symmetric_problem_agrees_with_nonnegative_least_squares():
-    # min p'Ap/2 - t'p over p >= 0 is least squares with A = L L', b = L^-1 t: another algorithm, not ours
-    matrix, z, operator = problem(0)
-    root = np.linalg.cholesky(matrix)
-    expected, _ = nnls(root.T, np.linalg.solve(root, (0.3 - z).ravel()), maxiter=10_000)
-    found = contact.solve(operator, z, np.where(z < 0.3, 1.0, 0.0), 1e-10, depth=0.3, symmetric=True)
-    np.testing.assert_allclose(found.pressure.ravel(), expected, atol=1e-7 * expected.max())
+def rough(n, seed):
+    return np.random.default_rng(seed).standard_normal((n, n))
+
+
+def from_the_middle(n):
+    """Square of the distance from the middle of a square of n points a side."""
+    y, x = np.mgrid[:n, :n] - (n - 1) / 2
+    return x**2 + y**2
+
+
+def alike(found, known):
+    np.testing.assert_allclose(found.ravel(), known.ravel(), rtol=0, atol=OF_PEAK * known.max())
+
+
+CHECKERBOARD = np.indices((14, 14)).sum(axis=0) % 2 * 1.0
+CASES = {
+    "a flat punch of ties in a flow": (Matrix(10, 13, 5.0), np.zeros((10, 13)), {"load": 1.0}),
+    **{
+        f"a checkerboard, memory {memory:g}, {load:g}": (Matrix(14, 14, memory), CHECKERBOARD, {"load": load})
+        for memory in (0.0, 3.0)
+        for load in (0.5, 50.0)
+    },
+    **{
+        f"rough and fast, {memory:g} pixels, seed {seed}": (
+            Matrix(24, 24, memory),
+            from_the_middle(24) / 120 + 0.3 * rough(24, seed),
+            {"depth": 0.5},
+        )
+        for memory in (1.0, 100.0, 1e4)
+        for seed in (0, 1)
+    },
+    **{
+        f"{ny} x {nx}, memory {memory:g}": (
+            Matrix(ny, nx, memory),
+            np.random.default_rng(ny).standard_normal((ny, nx)),
+            {"load": 3.0},
+        )
+        for ny, nx in ((3, 40), (40, 3), (7, 13), (1, 60))
+        for memory in (0.0, 4.0)
+    },
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_conditions_of_contact_hold_by_a_plain_product(name):
+    matrix, heights, given = CASES[name]
+    solved(matrix, heights, **given)
+
+
+def test_a_flat_punch_has_the_pressure_of_elimination():
+    matrix, heights = Matrix(10, 13), np.zeros((10, 13))
+    known = np.linalg.solve(matrix.values, np.ones(heights.size))
+    alike(solved(matrix, heights, load=1.0).pressure, known / known.sum())
+
+
+@pytest.mark.parametrize("depth", [0.25, 1.0, 2.0])
+def test_terraces_have_the_pressure_of_nonnegative_least_squares(depth):
+    n = 16
+    heights = np.floor(from_the_middle(n) / 30) + np.random.default_rng(3).integers(0, 2, (n, n)) / 4
+    matrix = Matrix(n, n)
+    root = np.linalg.cholesky(matrix.values)
+    known, _ = nnls(root.T, np.linalg.solve(root, (depth - heights).ravel()), maxiter=10_000)
+    alike(solved(matrix, heights, start=np.maximum(depth - heights, 0.0), depth=depth).pressure, known)
+
+
+@pytest.mark.parametrize("load", [1e-12, 1e-3, 0.1])
+def test_a_spike_touches_alone_and_sinks_by_its_influence_on_itself(load):
+    matrix, heights = Matrix(12, 12), np.ones((12, 12))
+    heights[5, 7] = 0.0
+    found = solved(matrix, heights, load=load)
+    assert found.depth == pytest.approx(load * matrix.values[0, 0], rel=1e-12)  # rounding
+    assert np.count_nonzero(found.pressure) == 1
+
+
+@pytest.mark.parametrize("turned", [np.fliplr, np.transpose])
+def test_ties_are_not_broken_by_order(turned):
+    matrix, heights = Matrix(15, 15), np.round(rough(15, 5))
+    alike(
+        solved(matrix, turned(heights).copy(), load=20.0).pressure,
+        turned(solved(matrix, heights, load=20.0).pressure),
+    )
+
+
+@pytest.mark.parametrize("memory", [0.0, 8.0])
+def test_the_pressure_is_the_same_from_any_start(memory):
+    heights, matrix = rough(16, seed=7), Matrix(16, 16, memory)
+    known = solved(matrix, heights, load=5.0).pressure
+    starts = {
+        "the highest point": heights == heights.max(),
+        "all points": heights < np.inf,
+        "what will not touch": heights > 0.5,
+    }
+    for start in (*starts.values(), 1e150 * (heights < 0), 1e-300 * (heights < 0)):
+        alike(solved(matrix, heights, start=start * 1.0, load=5.0).pressure, known)
+
+
+def rounds_at_once(matrix, heights, depth, most, touched):
+    """Rounds of dropping and adding at once until the set of contact stays, each exact; most for a cycle."""
+    for count in range(most):
+        pressure, where = np.zeros(heights.size), np.flatnonzero(touched)
+        pressure[where] = np.linalg.solve(matrix.values[np.ix_(where, where)], (depth - heights).ravel()[where])
+        gap = (matrix.values @ pressure).reshape(heights.shape) + heights - depth
+        after = np.where(touched, pressure.reshape(heights.shape) > 0, gap < 0)
+        if np.array_equal(after, touched):
+            return count
+        touched = after
+    return most
+
+
+def test_sets_that_cycle_at_once_are_settled_only_as_they_are_joined(monkeypatch):
+    ring = Ring(copies=8, coupling=1.5)
+    heights, start = np.zeros(ring.shape) + 1e-3 * np.arange(3), np.zeros(ring.shape)
+    start[:, 0] = 1.0
+    assert rounds_at_once(ring, heights, 1.0, 50, start > 0) == 50
+    solved(ring, heights, start=start, depth=1.0)
+    monkeypatch.setattr(contact, "PATIENCE", 10**9)
+    with pytest.raises(contact.NotConverged, match="violation"):
+        solved(ring, heights, start=start, depth=1.0)
+
+
+def _rounded(matrix, plane, out):
+    out[:] = matrix(plane.astype(np.float32)).astype(np.float32)
+    return out
+
+
+def _attracting(matrix, plane, out):
+    out[:] = -matrix(plane)
+    return out
+
+
+@pytest.mark.parametrize(
+    ("operator", "tolerance", "symmetric"),
+    [(_rounded, 1e-13, True), (_attracting, FINE, True), (_attracting, FINE, False)],
+)
+def test_what_does_not_settle_is_refused_with_the_violation_that_was_left(operator, tolerance, symmetric):
+    heights = rough(12, seed=2)
+    start, asked = np.maximum(1.0 - heights, 0.0), partial(operator, Matrix(12, 12))
+    with pytest.raises(contact.NotConverged, match="violation") as told:
+        contact.solve(asked, heights, start, tolerance, depth=1.0, symmetric=symmetric)
+    assert f"{tolerance:.2e}" in str(told.value)
 
 
 def test_conjugate_gradients_take_as_many_steps_as_the_square_root_of_the_condition_says():
-    matrix, _, operator = problem(0)
-    on_set = contact._OnSet(operator, None, None, False, (N, N))
-    on_set.turn_to(np.ones((N, N), bool))
-    b, root = np.random.default_rng(0).standard_normal(N * N), np.sqrt(np.linalg.cond(matrix))
+    n, operator = 12, Matrix(12, 12)
+    on_set, matrix = contact._OnSet(operator, None, None, False, (n, n)), operator.values
+    on_set.turn_to(np.ones((n, n), bool))
+    b, root = np.random.default_rng(0).standard_normal(n * n), np.sqrt(np.linalg.cond(matrix))
     steps = int(np.ceil(np.log(2 * root / 1e-8) / np.log((root + 1) / (root - 1))))
     found = conjugate_gradients(on_set, b, 1e-12, 0.0, steps)
     assert np.linalg.norm(matrix @ found - b) < 1e-8 * np.linalg.norm(b)
-
-
-@pytest.mark.parametrize("length", [0, 30.0])
-def test_the_start_does_not_matter(length):
-    _, z, operator = problem(length, seed=3)
-    starts = (np.ones((N, N)), np.where(z == z.min(), 1.0, 0.0), np.random.default_rng(0).random((N, N)))
-    answers = [
-        contact.solve(operator, z, start, TOLERANCE, depth=0.3, symmetric=length == 0).pressure for start in starts
-    ]
-    for other in answers[1:]:
-        np.testing.assert_allclose(other, answers[0], atol=1e-5 * answers[0].max())
 
 
 @pytest.mark.parametrize("shape", [(1, 40), (5, 300)])
@@ -84,5 +224,5 @@ def test_the_sets_tried_before_giving_up_grow_with_the_grid_and_the_error_carrie
     sign = cycle([-1, 1])
     given_up = rf"after {contact.ROUNDS + shape[1]} sets of contact the violation is \d"
     with pytest.raises(contact.NotConverged, match=given_up) as error:
-        contact.solve(noise, np.zeros(shape), np.ones(shape), TOLERANCE, depth=1.0, symmetric=True)
-    assert f"wanted {TOLERANCE:.2e}" in str(error.value)
+        contact.solve(noise, np.zeros(shape), np.ones(shape), 1e-8, depth=1.0, symmetric=True)
+    assert "wanted 1.00e-08" in str(error.value)

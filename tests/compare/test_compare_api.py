@@ -18,12 +18,12 @@ import compare
 from bem3d import BEM
 from compare import commands
 from compare.cli.app import app
-from compare.solving.curve import Curve, on_two_levels
-from compare.statistics.finding import COLUMNS, Claim
+from compare.library.lookup import case_of
+from compare.statistics.finding import COLUMNS
 from compare.statistics.jackknife import friction
 from compare.studies import pipeline
+from compare.studies.comparison import asked
 from compare.studies.comparison.sweep import SweepSeries
-from compare.studies.study import Study
 from mdr1d import MDR
 from scene import Refused, Scene
 from scene.reading import InvalidInput, made
@@ -144,8 +144,8 @@ def test_a_sweep_is_a_dataset_of_every_draw_with_means_and_intervals(tmp_path, v
     answers.to_netcdf(tmp_path / "copy.nc", engine="h5netcdf")
     with xarray.open_dataset(tmp_path / "copy.nc", engine="h5netcdf") as copy:
         xarray.testing.assert_identical(copy.load(), answers)
-    asked = "sweep", scene, "--speed", "0 m/s,10cm/s", "--load", "0.5 N", "--load", "1N"
-    told = valid(printed(*asked, "--draws", 2, "--output", output, "--no-report"))
+    words = "sweep", scene, "--speed", "0 m/s,10cm/s", "--load", "0.5 N", "--load", "1N"
+    told = valid(printed(*words, "--draws", 2, "--output", output, "--no-report"))
     row = next(each for each in told["tables"]["means-friction"] if each["load"] == 0.5)
     mean = answers.friction_coefficient_mean.sel(model="BEM", speed=0.1, load=0.5).item()
     assert row["friction_coefficient (3D)"] == mean
@@ -154,10 +154,10 @@ def test_a_sweep_is_a_dataset_of_every_draw_with_means_and_intervals(tmp_path, v
 
 def test_a_dataset_names_its_scene_version_and_seeds_and_its_axes_have_names_and_units(folder, found):
     tree, fields = compare.load(folder), BEM(points=32).solve(SLIDING).to_xarray()
-    stored, source = tree["tiny/friction-speed/BEM"], f"mdr-bem-crosscheck {version('mdr-bem-crosscheck')}"
+    stored, source = tree["tiny/friction-speed"], f"mdr-bem-crosscheck {version('mdr-bem-crosscheck')}"
     for attributes, seeds in ((fields.attrs, "5"), (stored.attrs, "5 to 6")):
-        asked = made(json.loads(attributes["scene"]), Scene, "scene")
-        assert replace(asked, motion=SLIDING.motion) == SLIDING
+        scene = made(json.loads(attributes["scene"]), Scene, "scene")
+        assert replace(scene, motion=SLIDING.motion) == SLIDING
         assert (attributes["source"], attributes["seeds"]) == (source, seeds)
     assert tree.attrs == {"source": source}
     assert provenance(SLIDING, [1, 2, 3, 5, 10_001])["seeds"] == "1 to 3, 5, 10001"
@@ -208,29 +208,14 @@ def test_speeds_are_numbers_texts_with_units_and_ranges_of_three_to_a_decade(giv
     assert SweepSeries.of(SLIDING, given).speeds == pytest.approx(tuple(numbers))
 
 
-class Twice(Study):
-    """Whether friction in 1D is twice that in 3D where a smooth sphere slides slowly."""
-
-    title = "The factor of two"
-
-    def grids(self):
-        grids = on_two_levels(MDR(points=300), BEM(points=48))
-        smooth = replace(SLIDING, roughness=None)
-        return {"smooth": Curve(scene=smooth, speeds=(0.005,), values=(1.0,), levels=grids, draws={})}
-
-    def claims(self):
-        def ratio(sample):
-            return float(friction(sample["smooth/MDR"])[0, 0] / friction(sample["smooth/BEM"])[0, 0])
-
-        return [Claim("two", "Friction in 1D is twice that in 3D", 2.0, 0.2, curves=("smooth",), measure=ratio)]
-
-
-def test_a_study_of_ones_own_goes_the_same_way(tmp_path):
-    report = compare.solve(Twice(), tmp_path, workers=1)
-    assert report.findings.loc[0, ["claim", "verdict"]].tolist() == ["two", "holds"]
+def test_a_comparison_goes_the_same_way(tmp_path):
+    case = replace(case_of(SLIDING), roughness=None, mdr=MDR(points=300), bem=BEM(points=48))
+    comparison = asked.sweep(case, speed=0.005)
+    report = compare.solve(comparison, tmp_path, workers=1)
+    assert report.findings["value"].tolist() == pytest.approx([2.0], rel=0.05)
     assert report.path == tmp_path / "report.html"
-    assert compare.load(tmp_path)["smooth/BEM"].sizes["level"] == 2
-    assert compare.solve(Twice(), tmp_path, report=False).path is None
+    assert compare.load(tmp_path)["contacts"].sizes["level"] == 2
+    assert compare.solve(comparison, tmp_path, report=False).path is None
 
 
 def test_a_scene_shows_the_fields_of_its_parts_with_their_units():
@@ -280,7 +265,7 @@ ASKED = {
     "export": {"folder": "none"},
     "draw": {"scene": SLIDING},
     "friction_plot": {"dataset": None},
-    "solve": {"study": Twice(), "output": "out"},
+    "solve": {"study": asked.sweep(SLIDING), "output": "out"},
 }
 
 

@@ -9,7 +9,7 @@ import pytest
 
 import compare
 from compare.solving.words import VERDICTS
-from compare.studies.verify.study import Verify
+from compare.studies.checks.study import Checks
 
 PAGE = Path(__file__).parents[2] / "docs" / "howto" / "verify.md"
 # Of the peers, not of ours: without mpi4py, NuMPI warns on import that it stands in for it.
@@ -44,7 +44,7 @@ def test_tamaas_holds_the_laws_of_planes_at_rest(peers, tmp_path):
 
 def test_contact_mechanics_holds_the_laws_of_bodies_at_rest(peers):
     pytest.importorskip("ContactMechanics", exc_type=ImportError)
-    study = Verify.of(peers.ContactMechanics(points=32))
+    study = Checks.verify(peers.ContactMechanics(points=32))
     outcomes = {task: task.solve() for batch in study.batches() for task in batch.tasks}
     found = by_verdict(study.judge(study.answers(outcomes)).findings)
     assert not found["fails"]

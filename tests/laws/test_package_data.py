@@ -15,7 +15,7 @@ READ = (
     *(f"{package}/py.typed" for package in PACKAGES),
     *("bem3d/costs.csv", "bem3d/effects.csv", "bem3d/friction_error.csv", "mdr1d/effects.csv"),
     *("compare/__init__.pyi", "compare/library/scenes/hertz.toml", "compare/library/studies/two-shapes.toml"),
-    *("compare/studies/regress/baseline.toml", "compare/trustmap/fitted.json"),
+    *("compare/studies/checks/baseline.toml", "compare/trustmap/fitted.json"),
 )
 
 

@@ -1,6 +1,7 @@
 """The sweep along a rough profile against a plain fine march, its limits, and contact within one interval."""
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -150,3 +151,33 @@ def test_a_free_surface_lands_where_it_meets_the_profile(memory):
             assert height == pytest.approx(u * np.exp(-t / memory), rel=1e-12)
             assert height == pytest.approx(here - slope * t, rel=1e-10, abs=1e-12)
     assert landed > 50
+
+
+def greatest_pressed_before(answer):
+    """Displacement [m] of a Kelvin foundation, u(x) = max(0, max_{y <= x} (d - g(y)) exp(-(x - y)/l)), l = v tau.
+
+    Inside an interval, where the profile is linear, (d - g) + l g' = 0 may change its sign: a maximum.
+    """
+    scene, pixel = answer.scene, answer.measures["pixel"]
+    memory, approach = (
+        scene.motion.speed * scene.elastomer.relaxation_time,
+        answer.depth - answer.fields["profile"],
+    )
+    decay, surface = np.exp(-pixel / memory), np.maximum(approach, 0.0)
+    for i, (here, there) in enumerate(pairwise(approach)):
+        reached, slope = [surface[i] * decay, there, 0.0], (there - here) / pixel
+        if slope < 0 and 0 < (top := -memory - here / slope) < pixel:
+            reached.append(-memory * slope * np.exp(-(pixel - top) / memory))
+        surface[i + 1] = max(reached)
+    return surface
+
+
+@pytest.mark.parametrize("hurst", [0.0, 1.0])
+@pytest.mark.parametrize("ratio", [1e-3, 1.0, 1e3])
+def test_on_the_roughest_lines_displacement_is_the_greatest_of_what_was_pressed_before(hurst, ratio):
+    radius, depth = 1e-3, 1e-4
+    rough = SelfAffine(hurst=hurst, rms_height=depth, longest=2 * radius, shortest=radius / 2, seed=1)
+    slide = Slide(speed=ratio * radius / TIME, depth=depth)
+    answer = MDR(points=1000).solve(Scene(Sphere(radius**2 / depth), Kelvin(MODULUS, TIME), slide, rough))
+    apart = np.abs(greatest_pressed_before(answer) - answer.fields["displacement"]).max()
+    assert apart < 1e-12 * answer.depth  # rounding

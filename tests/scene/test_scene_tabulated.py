@@ -79,6 +79,14 @@ def test_a_power_law_over_eight_decades_is_followed_with_few_modes():
     assert len(solid.relaxation()[2]) <= 5 * 8
 
 
+def test_rows_in_any_order_are_the_same_solid_and_each_of_them_twice_nearly_so():
+    rows, found = np.array(columns(table())), fitted().complex_modulus(OMEGA)
+    shuffled = rows[:, np.random.default_rng(4).permutation(rows.shape[1])]
+    assert np.array_equal(fitted(Table(*shuffled)).complex_modulus(OMEGA), found)
+    twice = fitted(Table(*np.concatenate([rows, rows], axis=1)))
+    np.testing.assert_allclose(twice.complex_modulus(OMEGA), found, rtol=1e-6)  # of the fit
+
+
 def test_units_do_not_matter_to_the_fit():
     unit, rubber = 1e20, table()
     scaled = Table(

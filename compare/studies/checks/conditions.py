@@ -5,33 +5,28 @@ Soc. A 228, 377 (1929). Retarded displacement is that of a pixel left behind, in
 exp(-s/l)/l. Under a flow the gap is seen -arg(J(q))/q behind the pixels' centres, q = pi/pixel (docs, theory).
 """
 
-from itertools import pairwise
+from math import inf
 
 import numpy as np
 
 from bem3d.surface import RoughSurface
 from scene import Plane, Result
 
-from .hardcase import Check
-
 FAR = 300.0  # pixels from which 1/r and its first correction have more digits than the exact form
 NODES = np.polynomial.legendre.leggauss(20)
 
 
-def conditions(answer: Result, allowed: float, where: str = "3D") -> tuple[Check, ...]:
-    """Conditions of contact of an answer in three dimensions: p >= 0, gap >= 0, p gap = 0, each over its scale.
+def violation(answer: Result) -> float:
+    """What an answer in three dimensions leaves of gap >= 0 and p gap = 0, point by point, over their scale.
 
-    allowed : over the depth of the lowest height, or what the heights in contact span where that is more
+    The scale is the depth of the lowest height, or what the heights in contact span where that is more. Infinite
+    where there is suction.
     """
     pressure = answer.fields["pressure"]
     heights, gap = _gap(answer)
     touched = pressure > 0
     scale = max(answer.depth, float(heights[touched].max())) - float(heights.min())
-    return (
-        Check(f"{where}: suction over peak pressure", max(-pressure.min() / pressure.max(), 0.0), 0.0),
-        Check(f"{where}: penetration, point by point", max(-gap.min() / scale, 0.0), allowed),
-        Check(f"{where}: gap under pressure, point by point", np.abs(gap[touched]).max() / scale, allowed),
-    )
+    return inf if pressure.min() < 0 else float(max(-gap.min(), np.abs(gap[touched]).max()) / scale)
 
 
 def flow(answer: Result) -> tuple[float, np.ndarray, np.ndarray]:
@@ -127,26 +122,3 @@ def retarded(x, ny, shares, lengths):
         for column, at in enumerate(x):
             total[column] += share * (weights @ influence(at - s, ny))
     return total
-
-
-def kelvin_surface(answer: Result) -> np.ndarray:
-    """Displacement [m] (N,) of a one-dimensional Kelvin foundation under the profile of an answer.
-
-    u(x) = max(0, max_{y <= x} (d - g(y)) exp(-(x - y)/l)), l = v tau, with the maximum inside an interval of a
-    profile that is linear there, where (d - g) + l g' = 0 changes its sign.
-    """
-    scene, heights = answer.scene, answer.fields["profile"]
-    memory = scene.motion.speed * scene.elastomer.relaxation_time
-    pixel, approach = answer.measures["pixel"], answer.depth - heights
-    decay = np.exp(-pixel / memory)
-    surface = np.empty(len(heights))
-    surface[0] = max(approach[0], 0.0)
-    for i, (here, there) in enumerate(pairwise(approach)):
-        reached = [surface[i] * decay, there, 0.0]
-        slope = (there - here) / pixel
-        if slope < 0:
-            top = (-memory * slope - here) / slope  # here + slope t = -memory slope
-            if 0 < top < pixel:
-                reached.append(-memory * slope * np.exp(-(pixel - top) / memory))
-        surface[i + 1] = max(reached)
-    return surface

@@ -19,8 +19,10 @@ from compare.solving.curve import (
     LEVELS,
     Curve,
     contacts_of,
+    of_model,
     on_levels,
     on_two_levels,
+    refuse,
     tasks_of,
     tree,
 )
@@ -28,7 +30,7 @@ from compare.solving.outcome import Outcome, Row
 from compare.solving.task import draws_of
 from compare.solving.words import basis
 from compare.statistics.finding import Claim
-from compare.statistics.jackknife import DrawSet, friction, judge, mean
+from compare.statistics.jackknife import DrawSet, friction, mean, measured
 from mdr1d import MDR
 from scene import Indent, Layer, Refused
 from scene.quantities import MOST_WHOLE
@@ -62,12 +64,19 @@ def answers():
     return tree(both, {task: outcome_of(task) for task in tasks_of(both)})
 
 
-def test_each_solver_has_a_dataset_and_smooth_bodies_have_no_draw(answers):
-    assert dict(answers["rough/MDR"].sizes) == {"level": 2, "speed": 2, "load": 3, "surface": 4}
-    assert dict(answers["rough/BEM"].sizes) == {"level": 2, "speed": 2, "load": 3, "surface": 2}
-    assert dict(answers["smooth/BEM"].sizes) == {"level": 2, "speed": 2, "load": 3}
-    assert answers["rough/BEM"].points.values.tolist() == [32, 16]
-    assert answers["rough/BEM"].surface.values.tolist() == [5, 6]
+def of(tree, curve, model):
+    return of_model(tree[curve].to_dataset(), model)
+
+
+def test_a_curve_is_one_dataset_and_each_model_has_its_own_part_of_it(answers):
+    whole = {"model": 2, "level": 2, "speed": 2, "load": 3}
+    assert dict(answers["rough"].sizes) == whole | {"surface": 4}
+    assert dict(answers["smooth"].sizes) == whole
+    assert dict(of(answers, "rough", "BEM").sizes) == {"level": 2, "speed": 2, "load": 3, "surface": 2}
+    assert of(answers, "rough", "BEM").points.values.tolist() == [32, 16]
+    assert of(answers, "rough", "BEM").surface.values.tolist() == [5, 6]
+    asked = answers["rough"].status.sel(model="BEM", surface=[7, 8])
+    assert set(asked.values.ravel()) == {"not asked"}
 
 
 COARSER = {"fine": MDR(points=400), "coarse": MDR(points=200), "coarser": MDR(points=100)}
@@ -75,7 +84,7 @@ COARSER = {"fine": MDR(points=400), "coarse": MDR(points=200), "coarser": MDR(po
 
 def test_draws_of_a_stratum_are_solved_on_their_grid_and_on_the_next_coarser_one():
     few = replace(ROUGH, levels={"MDR": COARSER}, draws={"MDR": (1, 2, 9)})
-    found = few.datasets({task: outcome_of(task) for task in few.tasks()})["MDR"]
+    found = few.dataset({task: outcome_of(task) for task in few.tasks()}).sel(model="MDR")
     assert found["stratum"].values.tolist() == [0] + [1] * 2 + [2] * 9
     assert np.unique(found["surface"]).size == found.sizes["surface"]
     asked = (found["status"] != "not asked").sel(speed=0.1, load=1.0)
@@ -87,12 +96,12 @@ def test_draws_of_a_stratum_are_solved_on_their_grid_and_on_the_next_coarser_one
     assert (found["seed_seen"] == found["surface"]).where(asked, True).all()
     assert found["normal_force"].where(~asked).isnull().all()
     assert few.cost.contacts == asked.sum() * 6
-    assert few.refuse() is None
+    assert refuse([few]) is None
 
 
 @pytest.mark.parametrize("counts", [(8, 8), (8, 8, 0), (8, 8, 10_001)])
 def test_strata_are_one_number_for_each_grid(counts):
-    with pytest.raises(ValueError, match=r"draws = .* of MDR: 3 whole numbers, one for each grid, .* 10,000"):
+    with pytest.raises(ValueError, match=r"draws = .* of MDR: 3 whole numbers, one for each level, .* 10,000"):
         replace(ROUGH, levels={"MDR": COARSER}, draws={"MDR": counts})
 
 
@@ -108,7 +117,7 @@ def test_more_draws_leave_the_tasks_of_those_before_as_they_are():
 
 
 def test_every_number_stands_where_it_was_asked_for(answers):
-    rough = answers["rough/MDR"].to_dataset()
+    rough = of(answers, "rough", "MDR")
     assert (rough.normal_force == rough["load"]).all()
     assert (rough.seed_seen == rough.surface).all()
     assert rough.friction_force.sel(speed=0.1, load=2.0).values == pytest.approx(0.02)
@@ -116,7 +125,7 @@ def test_every_number_stands_where_it_was_asked_for(answers):
 
 def test_a_failed_contact_keeps_its_reason_and_counts_in_no_mean():
     both = {"rough": ROUGH}
-    found = tree(both, {task: outcome_of(task, bad=(6,)) for task in tasks_of(both)})["rough/BEM"].to_dataset()
+    found = of(tree(both, {task: outcome_of(task, bad=(6,)) for task in tasks_of(both)}), "rough", "BEM")
     assert set(found.status.sel(surface=6).values.ravel()) == {"failed"}
     assert set(found.reason.sel(surface=6).values.ravel()) == {"too rough"}
     assert set(found.status.sel(surface=5).values.ravel()) == {"solved"}
@@ -126,13 +135,13 @@ def test_a_failed_contact_keeps_its_reason_and_counts_in_no_mean():
 
 def test_a_body_that_does_not_touch_has_no_force_and_no_friction():
     empty = {task: Outcome((Row(0.0, nan, 0.0),) * len(task.scenes)) for task in ROUGH.tasks()}
-    found = ROUGH.datasets(empty)["BEM"]
+    found = of_model(ROUGH.dataset(empty), "BEM")
     assert set(found.status.values.ravel()) == {"no contact"}
     assert (found.normal_force == 0).all()
     assert found.friction_force.isnull().all()
 
 
-def test_parameter_grids_that_cross_share_their_contacts():
+def test_curves_that_cross_share_their_contacts():
     line = replace(ROUGH, speeds=(0.1,), values=(1.0,))
     assert set(tasks_of({"a": ROUGH, "b": line})) == set(ROUGH.tasks())
     both = {"a": ROUGH, "b": replace(line, keeps_fields=True)}
@@ -144,7 +153,7 @@ def test_parameter_grids_that_cross_share_their_contacts():
 
 def test_depths_are_prescribed_where_the_scene_prescribes_one():
     rest = replace(ROUGH, scene=replace(SLIDING, motion=Indent(depth=1e-5)), speeds=(0.0,), values=(1e-5, 2e-5))
-    found = rest.datasets({task: Outcome((Row(1.0, 1e-5, 0.0),) * len(task.scenes)) for task in rest.tasks()})
+    found = rest.dataset({task: Outcome((Row(1.0, 1e-5, 0.0),) * len(task.scenes)) for task in rest.tasks()})
     assert "depth" in found["BEM"].dims
     assert {"depth_reached", "normal_force"} <= set(found["BEM"].data_vars)
 
@@ -152,7 +161,7 @@ def test_depths_are_prescribed_where_the_scene_prescribes_one():
 def test_what_a_solver_lacks_is_refused_before_anything_is_solved():
     layered = replace(SMOOTH.scene, layer=Layer(thickness=1e-3))
     with pytest.raises(Refused, match="MDR"):
-        replace(SMOOTH, scene=layered).refuse()
+        refuse([replace(SMOOTH, scene=layered)])
 
 
 @pytest.mark.parametrize("points", [32, 64, 96])
@@ -164,36 +173,43 @@ def test_the_values_that_a_refusal_names_are_enough_for_the_coarser_grid_too(poi
 
     shortest = SLIDING.roughness.longest / 200
     with pytest.raises(Refused, match="would do") as refused:
-        refined(points, shortest).refuse()
+        refuse([refined(points, shortest)])
     enough, longer = (
         re.search(rf"{name} = ([\d.e-]+) would do", str(refused.value))[1] for name in ("points", "shortest")
     )
-    assert refined(int(enough), shortest).refuse() is None
-    assert refined(points, float(longer)).refuse() is None
+    assert refuse([refined(int(enough), shortest)]) is None
+    assert refuse([refined(points, float(longer))]) is None
 
 
-def test_draws_of_each_solver_are_left_out_by_themselves(answers):
-    sample = DrawSet.of(answers, ["rough/MDR", "rough/BEM", "smooth/MDR", "gone/MDR"], "fine")
-    assert set(sample) == {"rough/MDR", "rough/BEM", "smooth/MDR"}
-    assert sample.drawn == {"MDR": 4, "BEM": 2}
-    assert [each.solver for each in sample.groups] == ["MDR"] * 4 + ["BEM"] * 2
-    less = sample.without(sample.groups[-1])
+def sample(answers, level="fine"):
+    parts = {(curve, model): of(answers, curve, model).sel(level=level) for curve, model in PARTS}
+    return DrawSet({"/".join(names): each for names, each in parts.items()})
+
+
+PARTS = ("rough", "MDR"), ("rough", "BEM"), ("smooth", "MDR")
+
+
+def test_draws_of_each_model_are_left_out_by_themselves(answers):
+    whole = sample(answers)
+    assert whole.drawn == {"MDR": 4, "BEM": 2}
+    assert [each.solver for each in whole.groups] == ["MDR"] * 4 + ["BEM"] * 2
+    less = whole.without(whole.groups[-1])
     assert less["rough/BEM"].surface.values.tolist() == [5]
-    assert all(less[name] is sample[name] for name in ("rough/MDR", "smooth/MDR"))
+    assert all(less[name] is whole[name] for name in ("rough/MDR", "smooth/MDR"))
 
 
 def test_a_claim_is_measured_with_scatter_and_with_the_change_on_halving(answers):
     def ratio(sample):
-        one, three = (mean(sample[f"rough/{solver}"], "normal_force") for solver in ("MDR", "BEM"))
+        one, three = (mean(sample[f"rough/{model}"], "normal_force") for model in ("MDR", "BEM"))
         return float((one / three)[0, 0])
 
-    claim = Claim("force", "The force in 1D is that in 3D", 1.0, 0.01, curves=("rough",), measure=ratio)
-    found = judge(claim, answers)
+    claim = Claim("force", "The force in 1D is that in 3D", 1.0, 0.01, measure=ratio)
+    fine, coarse = sample(answers), sample(answers, "coarse")
+    found = measured(claim, fine, coarse)
     assert (found.value, found.verdict, found.grid, found.draws) == (1.0, "holds", 0.0, 2)
     assert basis(found) == "4 profiles, 2 surfaces, grid (change on halving)"
-    halved = answers.copy()
-    halved["rough/BEM"]["normal_force"].loc[{"level": "coarse"}] *= 1.25
-    assert judge(claim, halved).grid == pytest.approx(0.2)
+    coarse["rough/BEM"] = coarse["rough/BEM"].assign(normal_force=1.25 * coarse["rough/BEM"].normal_force)
+    assert measured(claim, fine, coarse).grid == pytest.approx(0.2)
 
 
 def seeded(seed):
@@ -206,7 +222,7 @@ def test_the_largest_seeds_are_told_apart_in_a_file_of_results(tmp_path):
     found = tree({"rough": each}, {task: outcome_of(task) for task in each.tasks()})
     (tmp_path / netcdf.NAME).write_bytes(netcdf.packed(found))
     for made in (found, netcdf.load(tmp_path / netcdf.NAME)):
-        seeds = made["rough/MDR"].surface
+        seeds = of(made, "rough", "MDR").surface
         assert seeds.dtype == np.int64
         assert seeds.values.tolist() == [last + k for k in range(4)]
 

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from math import radians
+from typing import Any
 
 from scene import (
     Cone,
@@ -62,3 +63,23 @@ def program(*stages: Stage, elastomer=SOLID, **changed) -> Scene:
 def moved(scene: Scene, **motion) -> Scene:
     """A scene with some values of its motion replaced."""
     return replace(scene, motion=replace(scene.motion, **motion))
+
+
+def family(kind: str, length: float = 1.0, modulus: float = 1.0, time: float = 1.0) -> Scene:
+    """The contact in units of length, modulus and time over those of the ordinary one.
+
+    kind : "at rest", "sliding", under a "load", or a "program"; of a "rough" body where that word is among them
+    """
+    solid = StandardLinearSolid(MODULUS * modulus, STIFFENING * MODULUS * modulus, TIME * time)
+    waves = {name: length * getattr(ROUGH, name) for name in ("rms_height", "longest", "shortest")}
+    speed, depth, force = PACE * length / time, DEPTH * length, LOAD * length**2 * modulus
+    motion: Any = Slide(speed=speed, depth=depth)
+    if "rest" in kind:
+        motion = Indent(depth=depth)
+    elif "load" in kind:
+        motion = Slide(speed=speed, load=force)
+    elif "program" in kind:
+        away = stage(2 * TIME * time, speed=speed / 8)
+        motion = Program(stages=(stage(TIME * time, load=force), away, stage(TIME * time, load=force / 10)))
+    rough = replace(ROUGH, **waves) if "rough" in kind else None
+    return Scene(Sphere(SPHERE.radius * length), solid, motion, rough)

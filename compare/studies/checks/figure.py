@@ -17,21 +17,21 @@ def plot(laws: DataFrame, model: str) -> Plot:
     return Plot(
         NAME,
         figure,
-        {NAME: laws[["section", "law", "outcome", "nearness"]]},
+        {NAME: laws[["group", "law", "outcome", "nearness"]]},
         f"Misfit of {model} in each law over the bound of that law. Right of the line a law fails; those below "
         "1e-6 and above 1000 are shown there.",
-        "Rows of points, one a section, left and right of a vertical line at one.",
+        "Rows of points, one a group, left and right of a vertical line at one.",
     )
 
 
 def figure(tables: Tables) -> Figure:
-    """A row of points a section; open where a law fails."""
+    """A row of points a group; open where a law fails."""
     laws = tables[NAME]
-    sections = list(dict.fromkeys(laws["section"]))
-    drawing = style.canvas("double", 0.8 + 0.28 * max(len(sections), 1))
+    groups = list(dict.fromkeys(laws["group"]))
+    drawing = style.canvas("double", 0.8 + 0.28 * max(len(groups), 1))
     axes = drawing.subplots()
-    for row, section in enumerate(sections):
-        own = laws[laws["section"] == section]
+    for row, group in enumerate(groups):
+        own = laws[laws["group"] == group]
         for outcome, marker in (("holds", "o"), ("fails", "X")):
             shown = own[own["outcome"] == outcome]["nearness"].clip(LEAST, MOST)
             inside = style.ink() if outcome == "fails" else "none"
@@ -43,6 +43,6 @@ def figure(tables: Tables) -> Figure:
             }
             axes.plot(shown, [row] * len(shown), **look)
     axes.axvline(1.0, **style.line(0.4))
-    axes.set_yticks(range(len(sections)), sections)
-    axes.set(xscale="log", xlabel="misfit over bound [1]", ylim=(len(sections) - 0.5, -0.5))
+    axes.set_yticks(range(len(groups)), groups)
+    axes.set(xscale="log", xlabel="misfit over bound [1]", ylim=(len(groups) - 0.5, -0.5))
     return drawing

@@ -1,1 +1,0 @@
-"""Hard cases: crosscheck stability."""

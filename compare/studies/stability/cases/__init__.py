@@ -1,1 +1,0 @@
-"""Contacts in which a solver may fail, each with the law that its answer must keep."""

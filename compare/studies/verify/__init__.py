@@ -1,1 +1,0 @@
-"""Scorecard of a code of contact: `crosscheck verify`."""

@@ -1,0 +1,410 @@
+"""The table of laws: solvers keep it, a model that is wrong fails the laws that name what is wrong."""
+
+from dataclasses import dataclass, replace
+from math import isfinite, nan
+from pathlib import Path
+
+import numpy as np
+import pandas
+import pytest
+from small_cases import TINY
+
+import compare
+from bem3d import BEM
+from compare.models.table import model_of
+from compare.solving.outcome import Outcome, Row
+from compare.statistics.finding import FAILS, HOLDS, REPORTED, UNDECIDED
+from compare.studies.checks import stored
+from compare.studies.checks.hardcase import SIZES
+from compare.studies.checks.law import GROUPS, HARD, STORED
+from compare.studies.checks.study import GONE, LEFT_OUT, SHOWN, Checks, Regress
+from compare.studies.checks.table import Examination, table
+from mdr1d import MDR
+from scene import Indent, Refused, Result, Scene, SolveError
+from scene.indenter import Axisymmetric
+from scene.reading import InvalidInput
+from scene.scales import elastic_contact
+
+COARSE, LINE = BEM(points=64, tolerance=1e-7), MDR(points=1000)
+QUICK = SIZES["quick"]
+# Laws of a few contacts each, of every group that a smooth sphere has.
+FEW = (
+    "sphere.force",
+    "sphere.depth",
+    "slow.sphere.kelvin",
+    "slow.sphere.standard-linear",
+    "coulomb",
+    "scale.modulus.sliding",
+    "same.rest",
+    "same.sliding",
+    "load.sliding",
+    "rises.depth",
+    "seed",
+    "rest.elastic-at-nu-0.3",
+    "friction.opposes",
+    "friction.lossless",
+    "limit.fast",
+    "order.sphere",
+)
+# Hard cases that cost little, one of each kind of law; the command and the slow tests examine all.
+SAMPLE = {
+    *("speed-to-zero", "all-but-no-glass-1d", "ends-of-the-spectrum", "ends-of-hurst-in-a-flow", "whole-domain"),
+    *("nearly-full-contact", "force-rises-with-depth", "needle", "loads-in-all-units"),
+    *("prime-periods-in-full-contact", "lines-off-the-period", "nearly-a-flat-punch"),
+    *("history-of-1e-300-s", "height-zero", "forty-cycles", "tip-of-a-cone", "named-and-general"),
+}
+
+
+def asked():
+    """Every law with each model that pytest asks."""
+    for law in table().values():
+        if law.group == STORED:
+            models, quick = [LINE], law.id.split(".")[0] in ("foundation", "withdrawal", "law")
+        elif law.solvers:
+            models, quick = [build(QUICK) for build in law.solvers], law.id in SAMPLE
+        else:
+            models = [model for model in (LINE, COARSE) if model_of(model).dimension in law.kinds]
+            quick = law.id in FEW
+        marks = () if quick else pytest.mark.slow
+        for number, model in enumerate(models):
+            yield pytest.param(Examination(law.id, model), marks=marks, id=f"{law.id}-{model.name}-{number}")
+
+
+@pytest.mark.parametrize("task", list(asked()))
+def test_a_law_is_kept(task):
+    # bounds are those of each law, with where they come from
+    (row,) = task.solve().rows
+    assert row.reason is None
+    assert abs(row.measures["misfit"] - task.law.expected) <= row.measures["bound"], task.law.source
+
+
+def test_laws_have_names_of_their_own_groups_and_sources():
+    laws = table().values()
+    assert {law.group for law in laws} == set(GROUPS)
+    assert table().keys() >= SAMPLE
+    assert all(law.source and law.sentence and law.sentence[-1] != "." for law in laws)
+    assert all(isinstance(scene, Scene) for law in laws for scene in law.scenes)
+    assert all(law.solvers or law.id.startswith("hard.") for law in laws if law.group == HARD)
+    said = [law.sentence for law in laws if law.solvers]
+    assert len(set(said)) == len(said)
+
+
+def test_the_stored_scorecard_has_each_law_in_the_words_of_today():
+    found = pandas.read_csv(Path(__file__).parents[2] / "docs" / "results" / "verify.csv")
+    said = {(f"verify.{law.id}", law.sentence, law.group) for law in table().values()}
+    assert {*zip(found["claim"], found["sentence"], found["where"], strict=True)} <= said
+
+
+DRAW = np.random.default_rng(1)
+
+
+def lost(result):
+    """No answer."""
+    raise SolveError("it went astray")
+
+
+# What is wrong with a model, by what it makes of a result, or of a scene before.
+RESULTS = {
+    "friction of the wrong sign": lambda it: replace(it, friction_force=-it.friction_force),
+    "a force that is two percent too high": lambda it: replace(it, normal_force=1.02 * it.normal_force),
+    "friction of one dimension": lambda it: replace(it, friction_force=2 * it.friction_force),
+    "another answer at every call": lambda it: replace(
+        it, normal_force=it.normal_force * (1 + 1e-12 * DRAW.random())
+    ),
+    "a pascal too much over a square centimetre": lambda it: replace(it, normal_force=it.normal_force + 1e-4),
+    "an error that no finer grid takes away": lambda it: replace(it, normal_force=1.005 * it.normal_force),
+    "no measures": lambda it: replace(it, measures={}),
+    "no answer": lost,
+    "a depth that is too small": lambda it: replace(it, depth=0.99 * it.depth),
+    # by rounding, and differently in each scene
+    "rounding by the scene": lambda it: replace(
+        it, normal_force=it.normal_force * (1 + 1e-12 * np.log(it.normal_force))
+    ),
+    "force by the words of the scene": lambda it: replace(
+        it, normal_force=it.normal_force * (1 + 1e-3 * len(repr(it.scene)))
+    ),
+}
+SCENES = {
+    "roughness is not looked at": {"roughness": None},
+    "friction of the interface is not looked at": {"interface": None},
+}
+INCOMPRESSIBLE = "Poisson's ratio is not looked at"
+
+
+@dataclass(frozen=True)
+class Broken:
+    """A model that answers as another one but for one thing, without refusals of its own."""
+
+    wrong: str = ""
+    points: int = 64
+    name = "broken"
+
+    def solve(self, scene):
+        taken = replace(scene, **SCENES.get(self.wrong, {}))
+        if self.wrong == INCOMPRESSIBLE:
+            taken = replace(taken, elastomer=replace(taken.elastomer, poisson_ratio=0.5))
+        return RESULTS.get(self.wrong, lambda it: it)(replace(COARSE, points=self.points).solve(taken))
+
+
+@dataclass(frozen=True)
+class Hertz:
+    """A model of a few lines: smooth bodies at rest, refused in `solve` where they are not."""
+
+    name = "Hertz"
+    draws = "none"
+
+    def solve(self, scene):
+        plain = isinstance(scene.motion, Indent) and isinstance(scene.indenter, Axisymmetric)
+        if not plain or scene.parts.keys() - {"indenter", "elastomer", "motion"}:
+            raise Refused("only smooth bodies of revolution at rest")
+        contact = elastic_contact(scene)
+        area = {"contact_area": np.pi * contact.radius**2}
+        return Result(scene, self.name, {}, contact.load, contact.depth, 0.0, 0.0, 0.0, 0.0, measures=area)
+
+
+def judged(model, names=FEW):
+    """A study of some laws, or of all, and its findings by the names of the laws; solved here, without workers."""
+    study = Checks.verify(model, names)
+    answers = study.answers({task: task.solve() for batch in study.batches() for task in batch.tasks})
+    return study, {each.claim.id.removeprefix("verify."): each for each in study.judge(answers).findings}
+
+
+def failed(findings):
+    return {name for name, each in findings.items() if each.verdict == FAILS}
+
+
+@pytest.mark.parametrize(
+    ("wrong", "laws"),
+    [
+        ("friction of the wrong sign", {"friction.opposes", "slow.sphere.kelvin", "slow.sphere.standard-linear"}),
+        ("a force that is two percent too high", {"sphere.force", "load.sliding"}),
+        ("friction of one dimension", {"slow.sphere.kelvin", "slow.sphere.standard-linear"}),
+        ("another answer at every call", {"same.rest", "same.sliding"}),
+        ("a pascal too much over a square centimetre", {"scale.modulus.sliding", "load.sliding"}),
+        ("roughness is not looked at", {"seed"}),
+        (INCOMPRESSIBLE, {"rest.elastic-at-nu-0.3"}),
+        ("friction of the interface is not looked at", {"coulomb"}),
+        ("an error that no finer grid takes away", {"order.sphere", "load.sliding"}),
+    ],
+)
+def test_what_is_broken_fails_the_laws_that_name_it(wrong, laws):
+    study, found = judged(Broken(wrong))
+    assert laws <= failed(found)
+    assert study.failed(found.values())
+    # Nothing else fails but what the same number enters.
+    touched = {"coulomb", "rest.elastic-at-nu-0.3"} | {
+        name for name in FEW if name.split(".")[0] in ("sphere", "slow", "order", "limit")
+    }
+    assert failed(found) - laws <= touched
+
+
+@pytest.mark.parametrize(
+    ("wrong", "names"),
+    [
+        ("a force that is two percent too high", ("all-but-no-glass-1d", "needle")),
+        ("friction of the wrong sign", ("speed-to-zero",)),
+        ("a depth that is too small", ("tip-of-a-cone",)),
+        ("rounding by the scene", ("powers-of-two",)),
+        ("force by the words of the scene", ("named-and-general",)),
+    ],
+)
+def test_a_wrong_answer_breaks_the_hard_case(monkeypatch, wrong, names):
+    for solver in (MDR, BEM):
+        honest = solver.solve
+        monkeypatch.setattr(solver, "solve", lambda self, scene, of=honest: RESULTS[wrong](of(self, scene)))
+    for name in names:
+        (row,) = Examination(name, table()[name].solvers[0](QUICK)).solve().rows
+        assert not row.measures["misfit"] <= row.measures["bound"]
+
+
+def test_what_is_right_holds_all_of_them_without_refusals_too():
+    study, found = judged(Broken())
+    assert failed(found) == set()
+    assert not study.failed(found.values())
+
+
+def test_a_model_of_a_few_lines_holds_its_laws_and_leaves_out_what_it_refuses():
+    study, found = judged(Hertz(), None)
+    assert failed(found) == set()
+    held = {name for name, each in found.items() if each.verdict == HOLDS}
+    assert {"sphere.force", "cone.depth", "sphere.area", "rises.load"} <= held
+    assert found["coulomb"].reason == f"{LEFT_OUT}: only smooth bodies of revolution at rest"
+    assert found["wave.gap.0.5"].reason == f"{LEFT_OUT}: the model draws no surfaces"
+    assert found["order.sphere"].reason.endswith("no field points to refine")
+    assert "sphere.length" not in found  # of one dimension
+    told = study.answer(list(found.values()))[0]
+    assert told.startswith(f"Scorecard of Hertz as a model in 3D: {len(held)} of {len(found)} laws hold, 0 fail")
+
+
+def test_a_measure_that_a_model_does_not_give_is_left_out_and_a_solve_without_an_answer_fails():
+    _, found = judged(Broken("no measures"), ("sphere.area", "sphere.force"))
+    area = found["sphere.area"]
+    assert (area.verdict, area.reason) == (REPORTED, f"{LEFT_OUT}: the model does not give contact_area")
+    assert found["sphere.force"].verdict == HOLDS
+    study, found = judged(Broken("no answer"), ("sphere.force",))
+    assert (found["sphere.force"].verdict, found["sphere.force"].reason) == (FAILS, "no answer: it went astray")
+    assert "sphere.force fails" in study.answer(list(found.values()))[1]
+
+
+def test_a_page_has_few_laws_and_its_tables_have_all(tmp_path):
+    report = compare.verify(MDR(points=500), tmp_path, workers=1)
+    tables = dict(report.page.tables())
+    groups = tables["groups"]
+    assert groups[[HOLDS, FAILS, LEFT_OUT]].to_numpy().sum() == len(tables["laws"]) == len(report.findings)
+    assert 0 < len(tables["nearest"]) <= SHOWN
+    assert (tmp_path / "verify.png").exists()
+    assert not report.failed
+    again = compare.verify(MDR(points=500), tmp_path, workers=1, report=False)
+    assert (again.swept.solved, again.swept.reused) == (0, report.swept.solved)
+
+
+def test_hard_cases_are_asked_of_both_solvers_and_those_that_broke_have_failed_each_with_the_reason():
+    study = Checks.stability("quick")
+    (batch,) = study.batches()
+    assert {task.solver.name for task in batch.tasks} == {"MDR", "BEM"}
+    assert {task.law_id for task in batch.tasks} == {law.id for law in table().values() if law.solvers}
+    made = (
+        Outcome((Row(measures={"misfit": 2.0, "bound": 1.0}),)),
+        Outcome((Row(measures=dict.fromkeys(("misfit", "bound"), 0.0)),)),
+    )
+    outcomes = {task: task.failed("refused: a fault") for task in batch.tasks} | dict(
+        zip(batch.tasks, made, strict=False)
+    )
+    assert all(task.fits(each) for task, each in outcomes.items())
+    found = study.judge(study.answers(outcomes)).findings
+    assert [each.verdict for each in found[:3]] == [FAILS, HOLDS, FAILS]
+    assert [each.reason for each in found[:3]] == ["", "", "no answer: refused: a fault"]
+    assert (found[0].value, found[0].claim.tolerance, found[0].claim.expected) == (2.0, 1.0, 0.0)
+    assert study.answer(found)[0].startswith(f"Hard cases: 1 of {len(found)} laws hold")
+    assert "stability.speed-zero fails (MDR, 1000 points): misfit 2, allowed 1" in study.answer(found)[1]
+    with pytest.raises(InvalidInput, match="size = small: allowed are quick, standard, full"):
+        Checks.stability("small")
+
+
+# Stored numbers.
+
+
+def held(values, found, update=False, path=Path("mine.toml")):
+    """Study of stored values and its findings by id; found : ratios by id, the others are as they are stored."""
+    study = replace(Regress.of(), values=values, update=update, path=path)
+    rows = {
+        task: Row(measures={"misfit": number, "bound": nan}) if isfinite(number) else Row(reason="it went astray")
+        for task in study.tasks
+        for number in [found.get(task.law_id, KNOWN[task.law_id])]
+    }
+    answers = study.answers({task: Outcome((row,)) for task, row in rows.items()})
+    findings = study.judge(answers).findings
+    return study, {each.claim.id.removeprefix("regress."): each for each in findings}
+
+
+KNOWN = stored.read_values(stored.SHIPPED)
+REST, FIG_4 = "rest.cone.force", "law.cone.1.friction"
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+@pytest.mark.parametrize(("moved_by", "verdict"), [(0, HOLDS), (0.99, HOLDS), (1.01, FAILS)])
+def test_a_stored_number_may_move_by_its_tolerance_and_no_further(moved_by, sign, verdict):
+    study, found = held(KNOWN, {REST: KNOWN[REST] * (1 + sign * moved_by * stored.AT_REST[0])})
+    assert {each.verdict for id, each in found.items() if id != REST} == {HOLDS}
+    assert found[REST].verdict == verdict
+    assert found[REST].claim.expected == KNOWN[REST]
+    assert found[REST].claim.tolerance == pytest.approx(stored.AT_REST[0] * KNOWN[REST], rel=1e-12)
+    assert study.failed(found.values()) == (verdict == FAILS)
+
+
+def test_what_is_new_gone_or_without_an_answer_is_told_and_the_file_changes_only_where_it_must(tmp_path):
+    path = tmp_path / "mine.toml"
+    before = {id: value for id, value in KNOWN.items() if id != FIG_4} | {"old": 1.0, "rest.sphere.force": 0.5}
+    ratios = {REST: nan, "rest.quartic.force": KNOWN["rest.quartic.force"] * (1 + 1e-7)}
+    stored.write_values(path, before, "of a test")
+    for update in (False, True):
+        study, found = held(stored.read_values(path), ratios, update, path)
+        assert (found["old"].verdict, found["old"].reason) == (UNDECIDED, GONE)
+        assert (found[FIG_4].verdict, found[FIG_4].reason) == (UNDECIDED, f"{stored.NEW}: {KNOWN[FIG_4]:.10g}")
+        assert (found[REST].verdict, found[REST].reason) == (UNDECIDED, "no answer: it went astray")
+        assert study.failed(found.values())  # what went astray cannot be stored
+    study.store(list(found.values()))
+    assert stored.read_values(path) == KNOWN  # a number within its tolerance stays as it was
+    changed = path.stat().st_mtime_ns
+    study, found = held(stored.read_values(path), ratios, True, path)
+    study.store(list(found.values()))
+    assert path.stat().st_mtime_ns == changed
+
+
+def test_the_command_holds_a_scene_of_ones_own_against_a_file_of_ones_own(tmp_path):
+    scene, file = replace(TINY, roughness=None, mdr=MDR(points=512)), tmp_path / "mine.toml"
+
+    def failed(**given):
+        return compare.regress(file, scene=scene, output=tmp_path / "out", workers=1, report=False, **given).failed
+
+    assert not failed(update=True)
+    values = stored.read_values(file)
+    assert values.keys() == {f"{TINY.title}.friction", f"{TINY.title}.depth"}
+    assert not failed()
+    stored.write_values(file, {id: 1.01 * value for id, value in values.items()}, "of a test")
+    assert failed()
+    with pytest.raises(InvalidInput, match="need a file, name one"):
+        compare.regress(scene=scene)
+
+
+@pytest.mark.parametrize(
+    ("text", "complaint"),
+    [
+        ("", "values: missing"),
+        ("[values]\nforce = nan", "values.force = nan"),
+        ("[values]\n'some other' = 2.0", "'some other' is no number of this one"),
+    ],
+)
+def test_a_broken_or_foreign_file_is_named(tmp_path, text, complaint):
+    path = tmp_path / "baseline.toml"
+    path.write_text(text)
+    for updating in (False, True):
+        with pytest.raises(InvalidInput) as raised:
+            Regress.of(path, updating)
+        assert str(path) in str(raised.value)
+        assert complaint in str(raised.value)
+    # without a file one is begun only where that is asked for
+    path.unlink()
+    assert Regress.of(path, update=True).values == {}
+    with pytest.raises(InvalidInput, match=r"baseline\.toml: no such file"):
+        Regress.of(path)
+
+
+@pytest.mark.parametrize(
+    ("part", "limit", "bound", "count"),
+    [
+        # 2, 1 of theory, Eq. 8; the paper's own bound on its law; within what a grid of 128 points leaves
+        (r"slide\.(cone|sphere)\..*\.1e-2\.friction", 2, 0.015, 4),
+        (r"withdrawal\.", 1, 1e-5, 4),
+        (r"foundation\.", 1, 1e-5, 8),
+        (r"law\.", 1, 0.05, 6),
+        (r"rest\.(cone|sphere|quartic)\.", 1, 1e-4, 3),
+    ],
+)
+def test_the_stored_values_are_what_theory_says_where_it_says_something(part, limit, bound, count):
+    values = pandas.Series(KNOWN).filter(regex=f"^{part}").tolist()
+    assert values == pytest.approx([limit] * count, rel=bound)
+
+
+@pytest.mark.parametrize(
+    ("asked", "said"),
+    [
+        ("mdr2", "no model of that name"),
+        ("no_such_module:Model", "No module named 'no_such_module'"),
+        ("bem3d:Nothing", "has no attribute 'Nothing'"),
+        ("scene:Scene", "cannot be made without settings"),
+        ("scene.motion:UNITS", "frozen dataclass"),
+        ("bem3d:Trail", "frozen dataclass"),
+    ],
+)
+def test_what_is_no_model_is_told_in_a_line(asked, said):
+    with pytest.raises(InvalidInput, match=said) as told:
+        model_of(asked)
+    assert "\n" not in str(told.value)
+
+
+def test_models_are_found_by_name_as_class_and_as_object():
+    assert model_of("MDR") == model_of("mdr1d:MDR") == model_of(MDR) == model_of(MDR())
+    assert model_of(COARSE).solver is COARSE
+    assert [model_of(each).dimension for each in (MDR(), BEM(), Hertz())] == ["1D", "3D", "3D"]
+    assert [model_of(each).draws for each in (MDR(), BEM(), Hertz())] == ["profiles", "surfaces", "none"]
