@@ -89,8 +89,8 @@ def parts() -> Mapping[tuple[Path, str], str]:
 
 
 def _of_run(found: DataFrame) -> Iterator[tuple[str, ...]]:
-    for (claim, dimension), words in OF_RUN.items():
-        yield words, *(_cell(finding(found, claim, scene, dimension)) for scene in SCENES)
+    for (claim, model), words in OF_RUN.items():
+        yield words, *(_cell(finding(found, claim, scene, model)) for scene in SCENES)
     for depth, place in (("shallow", 0), ("deep", -1)):
         forces = [found[found["claim"].eq("force.ratio.rough") & found["where"].str.startswith(s)] for s in SCENES]
         cells = (_cell(each.iloc[place], percent=True) for each in forces)
@@ -108,10 +108,10 @@ def _of_paper(found: DataFrame) -> Iterator[tuple[str, ...]]:
 
 def _of_study(slow_found: DataFrame, fast_found: DataFrame) -> Iterator[tuple[str, ...]]:
     found = pandas.read_csv(STANDARD / "collapse.csv")
-    places = [(body, dimension) for dimension in ("1D", "3D") for body in BODIES]
+    places = [(body, model) for model in ALONE for body in BODIES]
     for claims, judged in ((OF_STUDY, found), (IN_REGIME, slow_found), (AT_SPEED, fast_found)):
         for claim, words in claims.items():
-            yield words, *(_cell(finding(judged, claim, body, dimension)) for body, dimension in places)
+            yield words, *(_cell(finding(judged, claim, body, model)) for body, model in places)
 
 
 def _answer(run: DataFrame, slow_found: DataFrame, fast_found: DataFrame) -> str:
@@ -157,8 +157,8 @@ def run_again() -> None:
 def studies_again() -> None:
     """Do the six studies at size standard, as far as they are not solved, and store their findings."""
     for name in STUDIES:
-        found = compare.study(name, "standard", progress="lines").table
-        stored(STANDARD / f"{name}.csv", found.drop(columns=["regime", "meaning", "plot", "sentence"]))
+        found = compare.study(name, "standard", progress="lines").findings
+        stored(STANDARD / f"{name}.csv", found.drop(columns=["regime", "meaning", "sentence"]))
 
 
 def main(first: str = "") -> None:

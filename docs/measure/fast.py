@@ -16,7 +16,7 @@ from tables import finding, replaced, said, stored, table
 import compare
 from compare.figures import style
 from compare.figures.shades import SPEED, bar, between
-from compare.solving.curve import COARSE, FINE
+from compare.solving.curve import COARSE, FINE, of_model
 from compare.statistics import eq23
 from compare.statistics.collapse import collapse
 from compare.statistics.finding import verdict
@@ -30,7 +30,7 @@ LAW = PAGE.with_name("law.md")
 SOLVERS = {"1D": "MDR", "3D": "BEM"}
 STUDIES = "steep-all-speeds", "steep-on-fine-grids"
 EXPONENT = {"sphere": 1.5, "cone": 2.0}  # (n + 1)/n: p(v) of a Kelvin solid is v to the power of minus that
-COLUMNS = "claim", "where", "dimension", "value", "low", "high", "draws", "verdict"
+COLUMNS = "claim", "where", "model", "value", "low", "high", "surfaces", "verdict"
 COLLAPSE = {
     "eq23.collapse": "misfit, shifted along the load at best",
     "eq23.predicted": "misfit, shifted by p(v) of Eq. 22",
@@ -68,20 +68,20 @@ def main() -> None:
     found, fine = (report.findings for report in reports)
     rows = []
     for body in EXPONENT:
-        for dimension in ("1D", "3D"):
-            rows += [_plain(found, claim, dimension, body) for claim in COLLAPSE]
-            rows += _from_the_knee(trees[0], dimension, body)
+        for model in ("1D", "3D"):
+            rows += [_plain(found, claim, model, body) for claim in COLLAPSE]
+            rows += _from_the_knee(trees[0], model, body)
             rows += [
-                _plain(found, claim, dimension, body)
-                if dimension == "1D"
+                _plain(found, claim, model, body)
+                if model == "1D"
                 else _corrected(found, fine, trees, claim, place, body)
                 for claim, (_, place) in CORRECTED.items()
             ]
     told = DataFrame(rows)
     stored(PAGE.with_suffix(".csv"), told)
-    columns = [(dimension, body) for body in EXPONENT for dimension in ("1D", "3D")]
+    columns = [(model, body) for body in EXPONENT for model in ("1D", "3D")]
     words = COLLAPSE | FROM_KNEE | {claim: name for claim, (name, _) in CORRECTED.items()}
-    header = "|".join(["", *(f"{body}, {dimension}" for dimension, body in columns)])
+    header = "|".join(["", *(f"{body}, {model}" for model, body in columns)])
     cells = (
         (name, *(_said(told, claim, *place, claim.startswith("eq23")) for place in columns))
         for claim, name in words.items()
@@ -115,20 +115,20 @@ def answer(told: DataFrame) -> str:
     return ANSWER.format(*in_1d, *in_3d, *levels)
 
 
-def _plain(found, claim, dimension, body):
+def _plain(found, claim, model, body):
     """A finding as it stands."""
-    return finding(found, claim, body, dimension)[[*COLUMNS]].to_dict()
+    return finding(found, claim, body, model)[[*COLUMNS]].to_dict()
 
 
-def _from_the_knee(tree, dimension, body):
+def _from_the_knee(tree, model, body):
     """What shifts come to at the speeds from the knee on."""
-    answers = tree[f"{body}/rough/{SOLVERS[dimension]}"].to_dataset(inherit=False).isel(speed=slice(1, None))
+    answers = _sliding(tree, body, SOLVERS[model])
     scene = next(each.scene for each in study_file.STUDIES["regime"].series("full") if each.name == body)
     slowest = KNEE * scene.roughness.shortest / (2 * np.pi * scene.elastomer.relaxation_time)
     answers = answers.isel(speed=np.flatnonzero(answers["speed"] >= 0.999 * slowest))
     fine, coarse = (collapse(SimulatedCurves.of(answers.sel(level=grid))) for grid in (FINE, COARSE))
     shifts = -EXPONENT[body] * np.log(fine.speeds)
-    for each in eq23.findings(fine, coarse, dimension, shifts, where=body):
+    for each in eq23.findings(fine, coarse, model, shifts, where=body):
         if each.claim.id in COLLAPSE:
             row = each.row
             yield {name: row[name] for name in COLUMNS} | {"claim": f"{each.claim.id}{BEYOND}"}
@@ -148,16 +148,17 @@ def _corrected(found, fine, trees, claim, place, body):
     moved = mean_ratio(each)
     changed = np.array([moved.value, *moved.interval()])
     value, *ends = many["value"] + changed if claim.endswith("exponent") else many["value"] * np.exp(changed)
-    scatter = many["scatter_low"] - many["value"], many["scatter_high"] - many["value"]
-    below, above = (hypot(one, end - value) + few["grid_error"] for one, end in zip(scatter, ends, strict=True))
+    # Ends without the share of the grid, from the value.
+    scatter = many["low"] + many["grid"] - many["value"], many["high"] - many["grid"] - many["value"]
+    below, above = (hypot(one, end - value) + few["grid"] for one, end in zip(scatter, ends, strict=True))
     return {
         "claim": claim,
         "where": body,
-        "dimension": "3D",
+        "model": "3D",
         "value": value,
         "low": value - below,
         "high": value + above,
-        "draws": many["draws"],
+        "surfaces": many["surfaces"],
         "verdict": verdict(many["expected"], many["tolerance"], value - below, value + above),
     }
 
@@ -167,16 +168,21 @@ def _end(claim):
     return -1 if claim.endswith(ENDS[-1]) else 0
 
 
+def _sliding(tree, body, solver):
+    """Answers of a solver to the rough body, without the slowest speed, which holds the limit of low speed."""
+    return of_model(tree[f"{body}/rough"].to_dataset(inherit=False), solver).isel(speed=slice(1, None))
+
+
 def _friction(tree, body):
     """Speeds, loads, and friction of each surface (speeds, loads, surfaces) on the finer grid of a study."""
-    sliding = tree[f"{body}/rough/BEM"].to_dataset(inherit=False).sel(level="fine").isel(speed=slice(1, None))
+    sliding = _sliding(tree, body, "BEM").sel(level=FINE)
     coefficient = (sliding["friction_force"] / sliding["normal_force"]).transpose("speed", "load", "surface")
     return sliding["speed"].values, sliding["load"].values, coefficient.values
 
 
-def _said(told: DataFrame, claim: str, dimension: str, body: str, percent: bool) -> str:
+def _said(told: DataFrame, claim: str, model: str, body: str, percent: bool) -> str:
     """Value with its interval."""
-    return said(finding(told, claim, body, dimension), 1 if percent else 3, percent)
+    return said(finding(told, claim, body, model), 1 if percent else 3, percent)
 
 
 def _figure(tree) -> Figure:
@@ -186,8 +192,7 @@ def _figure(tree) -> Figure:
     small = {"markersize": style.mark(0.6), "linewidth": style.width(0.8)}
     for column, (body, exponent) in enumerate(EXPONENT.items()):
         for axes, (name, solver) in zip(panels[:, column], SOLVERS.items(), strict=True):
-            sliding = tree[f"{body}/rough/{solver}"].to_dataset(inherit=False).sel(level="fine")
-            drawn = sliding.isel(speed=slice(1, None)).transpose("speed", "load", "surface", ...)
+            drawn = _sliding(tree, body, solver).sel(level=FINE).transpose("speed", "load", "surface", ...)
             speeds, load = drawn["speed"].values, drawn["normal_force"].values
             scale, friction = between(speeds), mean_ratio(drawn["friction_force"].values, load)
             shifted = load.mean(axis=-1) * (speeds[:, None] / speeds[0]) ** -exponent

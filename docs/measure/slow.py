@@ -14,7 +14,7 @@ from tables import finding, replaced, said, stored, table
 import compare
 
 PAGE = Path(__file__).parents[1] / "results" / "slow.md"
-BODIES, DIMENSIONS = ("sphere", "cone"), ("1D", "3D")
+BODIES, MODELS = ("sphere", "cone"), ("1D", "3D")
 CLAIMS = {
     "eq17.load-exponent": "exponent of the load: friction",
     "eq17.level-least": "friction over Eq. 17, least load",
@@ -36,13 +36,12 @@ def main() -> None:
     """Solve what is not solved yet, and write the numbers, the figures and the answer."""
     report = compare.study("steep-and-slow", "standard", progress="lines")
     found = report.findings[report.findings["claim"].isin(CLAIMS)]
-    stored(PAGE.with_suffix(".csv"), found.drop(columns=["meaning", "plot"]))
+    stored(PAGE.with_suffix(".csv"), found.drop(columns=["meaning"]))
     for body in BODIES:
         shutil.copy(report.path.parent / body / "behind.png", PAGE.with_name(f"slow-{body}.png"))
-    columns = [(body, dimension) for body in BODIES for dimension in DIMENSIONS]
+    columns = [(body, model) for body in BODIES for model in MODELS]
     rows = (
-        (words, *(_said(found, claim, dimension, body) for body, dimension in columns))
-        for claim, words in CLAIMS.items()
+        (words, *(_said(found, claim, model, body) for body, model in columns)) for claim, words in CLAIMS.items()
     )
     replaced(PAGE, "numbers", table("|".join(["", *(f"{body}, {dim}" for body, dim in columns)]), rows))
     replaced(PAGE, "slow", answer(found))
@@ -65,9 +64,9 @@ def _regime(found: DataFrame, claim: str, body: str, symbol: str) -> str:
     return re.search(rf"{re.escape(symbol)} ([\d.e-]+)", regime)[1]
 
 
-def _said(found: DataFrame, claim: str, dimension: str, body: str) -> str:
+def _said(found: DataFrame, claim: str, model: str, body: str) -> str:
     """Value with its interval."""
-    row = finding(found, claim, body, dimension)
+    row = finding(found, claim, body, model)
     return said(row, 1 if row["value"] > 2 else 3)
 
 

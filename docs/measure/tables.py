@@ -27,10 +27,10 @@ def stored(path: Path, rows: DataFrame | Iterable[dict]) -> None:
     DataFrame(rows).to_csv(path, index=False, na_rep="nan")
 
 
-def finding(found: DataFrame, claim: str, where: str, dimension: str = "") -> Series:
-    """The row on a claim in a place, of one dimensionality where there are several."""
+def finding(found: DataFrame, claim: str, where: str, model: str = "") -> Series:
+    """The row on a claim in a place, of one model where there are several."""
     chosen = found["claim"].eq(claim) & found["where"].eq(where)
-    (place,) = np.flatnonzero(chosen & (found["dimension"].eq(dimension) | (not dimension)))
+    (place,) = np.flatnonzero(chosen & (found["model"].eq(model) | (not model)))
     return found.iloc[place]
 
 
