@@ -19,7 +19,7 @@ from scene.reading import InvalidInput
 
 LOCK = ".crosscheck-lock"  # an empty file, which stays: one that is removed could be locked twice
 PART = ".crosscheck-*.part"  # names of files that are being written
-FORMAT = 2  # of folders: it changes with the names of figures, columns and studies
+FORMAT = 3  # of folders: it changes with the names of figures, columns and studies
 UNSTATED = 1  # files of the first format do not state it
 MANIFEST = "manifest.json"
 MOST_BYTES = 2**30  # of a manifest, which has the heights of measured maps in it
