@@ -310,7 +310,7 @@ class Curve:
                 dims = "speed", self.prescribed, "surface", "variate"
                 array = xarray.DataArray(numbers.reshape(shape), {"surface": seeds, "model": name}, dims)
                 found.append(array)
-        return dataset.assign({VARIATES: xarray.concat(found, "model")}) if found else dataset
+        return dataset.assign({VARIATES: xarray.concat(found, "model", join="outer")}) if found else dataset
 
 
 INSTANTS = 100  # of a program, alike apart, at which answers are compared

@@ -155,7 +155,9 @@ class RoughSeries(Series):
                 drag.append(exact.slow_friction_by_slope(1.0, 1.0, modulus, slope, length))
         if not drag:
             return dataset
-        return dataset.assign({SLOW_DRAG: xarray.concat(drag, "model", coords="minimal", compat="override")})
+        return dataset.assign(
+            {SLOW_DRAG: xarray.concat(drag, "model", join="outer", coords="minimal", compat="override")}
+        )
 
     def theories(self, answers: Answers) -> Mapping[str, xarray.Dataset]:
         """Rough points that slide of theories beside the models, or of the models that they are, by name."""
