@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from pandas import DataFrame
 
+from compare.solving.curve import of_model
 from compare.solving.outcome import Outcome, Row
 from compare.statistics.finding import EXACT
 from compare.statistics.intervals import Estimated
@@ -148,8 +149,8 @@ def test_the_law_of_fig_4_has_its_exponent_back(alpha):
 
 def law_of(shape, profiles, outcomes=None):
     """Law of a shape from answers of its tasks, solved if there are none."""
-    grid = law.parameter_grid(shape, profiles)
-    return law.law(shape, grid.datasets(outcomes or solved(grid.tasks()))["MDR"])
+    asked = law.curve(shape, profiles)
+    return law.law(shape, of_model(asked.dataset(outcomes or solved(asked.tasks())), "MDR"))
 
 
 def test_fig_4_follows_the_law_and_reaches_its_plateau():
@@ -164,7 +165,7 @@ def test_fig_4_follows_the_law_and_reaches_its_plateau():
 
 
 def test_a_point_of_the_law_that_broke_is_left_out():
-    asked, scatter = law.parameter_grid("sphere", 3).tasks(), 1 + 1e-3 * np.array([-1, 0, 1])
+    asked, scatter = law.curve("sphere", 3).tasks(), 1 + 1e-3 * np.array([-1, 0, 1])
     level = equations.plateau(parameters.rms_slope()) * equations.interpolation(law.VARIABLES)
     whole = {
         task: Outcome(tuple(Row(10.0, 1e-4, 10.0 * friction * factor) for factor in scatter))

@@ -309,8 +309,6 @@ def _curves(case, models):
         drawn = motion.displacement or motion.force or 0.0
         return {OWN: own((0.0,), tuple(drawn * k / STEPS for k in range(1, STEPS + 1)) if drawn else (0.0,))}
     found = {OWN: own((motion.speed,), (motion.greatest,), keeps_fields=True)}
-    if case.interface is not None:
-        return found
     smooth = replace(scene, roughness=None)
     depths = tuple(factor * elastic_contact(scene).depth for factor in plan.depths)
     indented = Indent(depth=depths[0])
