@@ -184,7 +184,7 @@ def test_without_what_the_smooth_body_has_friction_shifts_as_the_loss_does(monke
     monkeypatch.setattr(parameters, "FORCES", parameters.FORCES[::2])
     rubber = Rubber(0.5, 1e-3)
     collapses = rubber.collapses(
-        *(each.datasets(solved(each.tasks()))["MDR"] for each in rubber.grids(4).values())
+        *(of_model(each.dataset(solved(each.tasks())), "MDR") for each in rubber.grids(4).values())
     )
     whole, rough = (collapses[of].horizontal for of in (WHOLE, ROUGH))
     assert rubber.shift == -0.75

@@ -225,11 +225,13 @@ def test_the_command_describes_a_map(tmp_path):
     stated = {"unit": "um", "pixel": [map_.pixel[0]], "repeat": "periodic", "peaks": "down"}
     report = compare.topography(path, output=tmp_path / "out", **stated)
     expected = describe(replace(map_, heights=1e-6 * (1e6 * map_.heights.heights)))
-    told = {each.claim.id.removeprefix("topography."): each for each in report.findings}
-    assert told["rms-height"].value == expected.rms_height
-    assert told["hurst"].interval == (expected.law.low, expected.law.high)
-    assert (told["hurst"].value, told["hurst"].regime) == (expected.law.hurst, expected.band)
-    assert {each.verdict for each in report.findings} == {"reported"}
+    told = (
+        report.findings.assign(name=report.findings["claim"].str.removeprefix("topography.")).set_index("name").T
+    )
+    assert told["rms-height"]["value"] == expected.rms_height
+    hurst = expected.law.hurst, expected.law.low, expected.law.high, expected.band
+    assert (*told["hurst"][["value", "low", "high", "regime"]],) == hurst
+    assert set(report.findings["verdict"]) == {"reported"}
     table = pandas.read_csv(tmp_path / "out" / "topography.csv")
     np.testing.assert_allclose(table["density_2d"], expected.rings.density, rtol=1e-12)
     np.testing.assert_array_equal(compare.load(tmp_path / "out")["rings"]["q"], expected.rings.q)
