@@ -74,6 +74,7 @@ label : Model in words.
 settings : Points of the grid, or several grids, as intervals take them.
 best_known : Least relative error that is known to be reached. [1]
 scale : Number that errors are relative to, in the unit of the answer.
+quantity : Friction, depth or force, whose error is measured.
 bias : Relative error that more surfaces do not take away. [1]
 setup : Processor time before the first surface: that of the trust map. [s]
 failed : Solves that ended with an error. [1]

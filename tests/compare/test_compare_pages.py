@@ -144,7 +144,7 @@ def test_the_page_needs_nothing_else_and_every_link_leads_somewhere(folder):
     for name in re.findall(r"<code>([^<]+\.(?:csv|png))</code>", (folder / "report.html").read_text()):
         assert (folder / name).is_file()
     assert [image["src"][:22] for image in found.images] == ["data:image/png;base64,"]
-    assert found.images[0]["alt"].startswith("Friction of both models")
+    assert found.images[0]["alt"].startswith("Friction of all models")
 
 
 def test_the_page_opens_with_its_answer_then_the_figure_then_tables(folder):
