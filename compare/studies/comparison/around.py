@@ -7,7 +7,7 @@ against friction in its interface, has one curve: over time, or over the displac
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from math import isfinite, nan
+from math import isfinite
 from typing import Any
 
 import numpy as np
@@ -19,14 +19,11 @@ from scene.scales import elastic_contact
 
 from ...library.case import Case, doubted
 from ...models import exact
-from ...models.table import DEPTH, FORCE, FRICTION, PROFILES, Model, ModelLike, Models
+from ...models.table import DEPTH, FORCE, FRICTION, PROFILES, ModelLike, Models
 from ...solving.curve import COARSE, FINE, LEVELS, Curve, levels, refuse
 from ...solving.task import SceneTask
-from ...statistics import eq23
-from ...statistics.collapse import Collapse, collapse
-from ...statistics.finding import UNKNOWN, Claim, Finding, said_of
-from ...statistics.frictioncurves import SimulatedCurves
-from ...statistics.jackknife import mean, measured
+from ...statistics.finding import Finding
+from ...statistics.jackknife import mean
 from ...statistics.multilevel import WORDS
 from ...trustmap.verdict import Advice, trust
 from .answers import Answers
@@ -44,6 +41,8 @@ OWN_RATIOS = {
     "depth_reached": "own.depth",
     "normal_force": "own.force",
 }
+SLOW_RATIO, SPREAD, EXACT = "friction.ratio.smooth-slow", "friction_spread", "exact"
+MU = "friction_coefficient"
 FORCES = {ROUGH_DEPTH: "force.ratio.rough", SMOOTH_DEPTH: "force.ratio.smooth"}
 STEPS = 10  # displacements, or tangential forces, to which a shear is drawn
 
@@ -108,7 +107,7 @@ class Around(Series):
     def own_means(self) -> list[str]:
         """Means of the scene's own contact that tell what it is: friction, and what is not prescribed."""
         friction = ["friction_coefficient"] if self.case.slides and self.case.motion.speed > 0 else []
-        return [*friction, "normal_force" if self.case.motion.load is None else "depth_reached"]
+        return [*friction, "normal_force" if self.case.motion.pressed_by == "depth" else "depth_reached"]
 
     @property
     def wanted(self) -> Iterator[tuple[str, str, tuple[float, ...]]]:
@@ -116,161 +115,109 @@ class Around(Series):
             yield from ((OWN, name, self.curves[OWN].speeds) for name in self.own_means)
 
     def judge(self, answers: Answers) -> Judged:
-        shifted = dict(self._shifted(answers))
-        collapsed = [each for _, findings in shifted.values() for each in findings]
         if self.curves[OWN].axis in ("time", "displacement", "force"):
             return Judged([*self._history(answers)])
+        shifted = {}
+        if LOAD in self.curves:
+            exponent = predicted_exponent(self.case)
+            shifts = {speed: exponent * float(np.log(speed)) for speed in self.curves[LOAD].speeds}
+            for model in answers.claiming(LOAD, FRICTION):
+                shifted[model.name] = self.shifted(answers, LOAD, model, shifts, exponent)
         found = [
             *self._slow(answers),
-            *(each for name in self.own_means for _, _, each in self._own(answers, name)),
+            *(each for name in self.own_means for each in self._own(answers, name)),
             *self._forces(answers),
-            *collapsed,
-            *self._unshifted(answers, shifted),
-            *(each for _, _, each in self.at_speeds(answers)),
-            *self._closed_form(answers),
-            *self._grid(answers),
+            *(each for _, findings in shifted.values() for each in findings),
+            *self._at_speeds(answers),
             *self._spread(answers),
+            *self._grid(answers),
         ]
-        return Judged(found, {name: each for name, (each, _) in shifted.items()})
+        return Judged(found, {name: fine for name, (fine, _) in shifted.items() if fine is not None})
 
     def _slow(self, answers: Answers) -> Iterator[Finding]:
-        """Friction of the smooth body at its lowest speed."""
+        """Friction of the smooth body at its lowest speed: 2 of one dimension over three."""
         if SMOOTH_SPEED not in self.curves:
             return
-        speeds, reference = self.curves[SMOOTH_SPEED].speeds, self.models[self.models.reference]
-        lowest = int(np.argmin(speeds))
+        speeds = self.curves[SMOOTH_SPEED].speeds
+        lowest, label = int(np.argmin(speeds)), self.models.labels[self.models.reference]
         regime = f"v τ / a = {scaled_speed(self.case, speeds[lowest]):.2g}"
-        for model, _, found in self.ratios(
-            CLAIMS["friction.ratio.smooth-slow"], answers, SMOOTH_SPEED, "friction_coefficient", {(lowest, 0): ""}
-        ):
-            yield replace(found, claim=slow_claim(model, reference), regime=regime)
+        factors = {each.label: each.slow_factor for each in self.models}
+        for each in self.ratios(SLOW_RATIO, answers, SMOOTH_SPEED, MU, {(lowest, 0): ""}, regime=regime):
+            other, _, _ = each.dimension.partition("/")
+            factor, claim = factors[other] / factors[label], each.claim
+            if factor != claim.expected:
+                sentence = f"Slow friction of the smooth body in {other} is {factor:g} times that in {label}"
+                claim = replace(claim, sentence=sentence, expected=factor, tolerance=factor * TOLERANCE)
+            yield replace(each, claim=claim)
 
-    def _own(self, answers, name):
-        return self.ratios(CLAIMS[OWN_RATIOS[name]], answers, OWN, name, {(0, 0): ""})
+    def _own(self, answers: Answers, name: str) -> Iterator[Finding]:
+        """A mean of the scene as it stands."""
+        return self.ratios(OWN_RATIOS[name], answers, OWN, name, {(0, 0): ""})
 
     def _forces(self, answers: Answers) -> Iterator[Finding]:
-        """Force of each model over that of the reference less one, at every depth at which that one touches."""
+        """Force of each model over that of the reference, and over the closed form, less one, at every depth."""
         for curve, name in FORCES.items():
             if curve in self.curves and answers.has(curve, self.models.reference):
-                touched = self.touched(answers, curve, self.models.reference)
-                places = {at: f"{depth * 1e6:.3g} µm" for at, depth in touched}
-                yield from (
-                    row[2] for row in self.ratios(CLAIMS[name], answers, curve, "normal_force", places, 1.0)
-                )
+                places = self._depths(answers, curve, self.models.reference)
+                yield from self.ratios(name, answers, curve, "normal_force", places, 1.0)
+        if answers.has(SMOOTH_DEPTH, EXACT):
+            places, claim = self._depths(answers, SMOOTH_DEPTH, EXACT), CLAIMS["force.closed-form"]
+            for model in answers.claiming(SMOOTH_DEPTH, FORCE):
+                both = model.name, EXACT
+                over = ratio_of("normal_force", *both, less=1.0)
+                yield from self.compared(answers, claim, SMOOTH_DEPTH, both, over, places, dimension=model.label)
 
-    def at_speeds(self, answers: Answers) -> list[tuple[Model, tuple[int, int], Finding]]:
+    def _depths(self, answers, curve, model):
+        """Places at which a model touches, in words."""
+        return {at: f"{depth * 1e6:.3g} µm" for at, depth in self.touched(answers, curve, model)}
+
+    def _speeds(self):
+        """Places on the curve of friction against speed, in words; none without that curve."""
+        speeds = self.curves[SPEED].speeds if SPEED in self.curves else ()
+        return {(k, 0): f"v = {speed:.3g} m/s" for k, speed in enumerate(speeds)}
+
+    def _at_speeds(self, answers: Answers) -> Iterator[Finding]:
         """Friction of each model over that of the reference at every speed."""
-        if SPEED not in self.curves:
-            return []
-        places = {(k, 0): f"v = {speed:.3g} m/s" for k, speed in enumerate(self.curves[SPEED].speeds)}
-        return self.ratios(CLAIMS["friction.ratio.speed"], answers, SPEED, "friction_coefficient", places)
+        if places := self._speeds():
+            yield from self.ratios("friction.ratio.speed", answers, SPEED, MU, places)
 
-    def _closed_form(self, answers: Answers) -> Iterator[Finding]:
-        """Force on the smooth body over the closed form, less one."""
-        if not answers.has(SMOOTH_DEPTH, "exact"):
-            return
-        for model in answers.claiming(SMOOTH_DEPTH, FORCE):
-            both = model.name, "exact"
-            found = answers.compared(SMOOTH_DEPTH, both, ratio_of("normal_force", *both))
-            for at, depth in self.touched(answers, SMOOTH_DEPTH, "exact"):
-                each = self.finding(
-                    CLAIMS["force.closed-form"], found, at, SMOOTH_DEPTH, f"{depth * 1e6:.3g} µm", 1.0
-                )
-                yield replace(each, dimension=model.label)
+    def _spread(self, answers: Answers) -> Iterator[Finding]:
+        """Spread of both estimates of friction in three dimensions, at every speed at which it is known."""
+        for model in answers.claiming(SPEED, FRICTION):
+            if SPREAD in answers.two_levels(SPEED, model.name):
+                measure = lambda sample, name=model.name: mean(sample[name], SPREAD)  # noqa: E731
+                found = self.compared(
+                    answers, CLAIMS["friction.spread"], SPEED, (model.name,), measure, self._speeds(),
+                    size=True, dimension=model.label,
+                )  # fmt: skip
+                yield from (each for each in found if isfinite(each.value))
 
     def _grid(self, answers: Answers) -> Iterator[Finding]:
         """Change of the scene's own answer from half the points to all."""
-        first = self.own_means[0]
+        first, claim = self.own_means[0], CLAIMS["grid.change"]
         for model in answers.claiming(OWN, WORDS[first]):
             if model.has_grid:
-                found = answers.compared(OWN, (model.name,), ratio_of(first, model.name))
-                value = float((found.grid / np.abs(found.value))[0, 0])
-                yield Finding(
-                    CLAIMS["grid.change"], value, where=self.name, drawn=found.drawn, dimension=model.label
-                )
-
-    def _spread(self, answers: Answers) -> Iterator[Finding]:
-        """Spread of both estimates of friction in three dimensions, at every speed."""
-        for model in answers.claiming(SPEED, FRICTION) if SPEED in self.curves else ():
-            if "friction_spread" in answers.two_levels(SPEED, model.name):
-                measure = lambda sample, name=model.name: mean(sample[name], "friction_spread")  # noqa: E731
-                found = answers.compared(SPEED, (model.name,), measure, size=True)
-                for k, speed in enumerate(self.curves[SPEED].speeds):
-                    if isfinite(found.value[k, 0]):
-                        place = f"v = {speed:.3g} m/s"
-                        each = self.finding(CLAIMS["friction.spread"], found, (k, 0), SPEED, place, size=True)
-                        yield replace(each, dimension=model.label)
+                measure = ratio_of(first, model.name)
+                for each in self.compared(answers, claim, OWN, (model.name,), measure, {(0, 0): ""}):
+                    change = float(np.divide(each.grid, abs(each.value)))
+                    yield Finding(claim, change, where=self.name, drawn=each.drawn, dimension=model.label)
 
     def _history(self, answers: Answers) -> Iterator[Finding]:
         """How far apart models are over time, or over the displacement, each from the reference."""
-        pressed, motion, reference = DEPTH, self.case.motion, self.models.reference
-        pressed = DEPTH if motion.pressed_by in ("load", "line_load", "pressure") else FORCE
+        motion, reference = self.case.motion, self.models.reference
         moves = isinstance(motion, Shear) or motion.length > 0
-        for quantity in (pressed, *([FRICTION] if moves else [])):
+        pressed = FORCE if motion.pressed_by in ("depth", "gap") else DEPTH
+        for quantity in (pressed, FRICTION)[: 1 + moves]:
+
+            def apart(one, three, name=HISTORIES[quantity]):
+                one, three = mean(one, name).ravel(), mean(three, name).ravel()
+                return (one - three) / np.sqrt(np.mean(np.square(three)))
+
             for model in answers.judged(OWN, quantity):
-                both, name = (model.name, reference), HISTORIES[quantity]
-
-                def apart(sample, both=both, name=name):
-                    one, three = (mean(sample[each], name).ravel() for each in both)
-                    return (one - three) / np.sqrt(np.mean(np.square(three)))
-
-                beside = self.models.beside(model.name)
-                claim = replace(said_of(CLAIMS[f"history.{quantity}"], beside), measure=apart, dimension=beside)
-                fine, coarse = (answers.sample(level, OWN, *both) for level in (FINE, COARSE))
-                yield replace(measured(claim, fine, coarse, self.name), curve=self.place(OWN))
-
-    def _shifted(self, answers: Answers) -> Iterator[tuple[str, tuple[Collapse, list[Finding]]]]:
-        """Curves of friction against load shifted onto one, of each model where there are points enough."""
-        for model in answers.claiming(LOAD, FRICTION) if LOAD in self.curves else ():
-            fine, coarse = (_collapse(answers, model.name, level) for level in (FINE, COARSE))
-            if fine is None:
-                continue
-            exponent = predicted_exponent(self.case)
-            shifts = exponent * np.log(fine.speeds / fine.speeds[fine.speeds.size // 2])
-            draws = 0 if self.case.roughness is None else fine.data.surfaces
-            found = eq23.findings(
-                fine, coarse, model.label, shifts, exponent, self.name, draws, horizontal=coarse is None
-            )
-            if coarse is None:  # for want of an answer: data without a grid are exact, this is not
-                found = (replace(each, grid=nan, grid_method=UNKNOWN) for each in found)
-            yield model.name, (fine, [replace(each, curve=self.place(LOAD)) for each in found])
-
-    def _unshifted(self, answers, shifted) -> Iterator[Finding]:
-        """Curves that cannot be shifted for want of answers."""
-        own = self.curves.get(LOAD)
-        if own and self.models.reference in own.levels and eq23.shiftable(len(own.speeds), len(own.values)):
-            for each in answers.claiming(LOAD, FRICTION):
-                if each.name not in shifted:
-                    yield eq23.too_few(each.label, self.name)
+                yield self.measured(answers, f"history.{quantity}", OWN, (model.name, reference), apart)
 
 
 HISTORIES = {FORCE: "normal_force", DEPTH: "depth_reached", FRICTION: "friction_force"}
-
-
-def slow_claim(model: Model, reference: Model) -> Claim:
-    """What slow friction of the smooth body is over that of the reference: 2 of one dimension over three."""
-    claim, factor = CLAIMS["friction.ratio.smooth-slow"], model.slow_factor / reference.slow_factor
-    if factor == claim.expected:
-        return said_of(claim, f"{model.label}/{reference.label}")
-    words = "the same in" if factor == 1.0 else "half as high in"
-    return replace(
-        claim,
-        sentence=f"Slow friction of the smooth body is {words} {model.label} as in {reference.label}",
-        expected=factor,
-        tolerance=factor * TOLERANCE,
-        meaning=f"Friction in {model.label} over {reference.label} at the lowest speed; it tends to {factor:g}.",
-    )
-
-
-def _collapse(answers: Answers, model: str, level: str) -> Collapse | None:
-    """None with too few speeds or points, and where the level was not solved."""
-    found = answers.two_levels(LOAD, model)
-    if level not in found["level"]:
-        return None
-    try:
-        return collapse(SimulatedCurves.of(found.sel(level=level)))
-    except ValueError:
-        return None
 
 
 def curves(case: Case, models: Models, strata: Mapping[str, Counts] | None = None) -> dict[str, Curve]:

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import ClassVar
 
 import xarray
@@ -15,15 +15,11 @@ from scene.reading import InvalidInput
 from ...library.describe import slug
 from ...models import exact
 from ...models.table import FRICTION as OF_FRICTION
-from ...models.table import PROFILES, ModelLike, Models
-from ...solving.curve import COARSE, FINE, Curve, of_model, on_two_levels
-from ...statistics import eq23
-from ...statistics.collapse import Collapse, collapse
-from ...statistics.finding import Finding, said_of
-from ...statistics.frictioncurves import SimulatedCurves
-from ...statistics.jackknife import measured
+from ...models.table import PROFILES, Model, ModelLike, Models
+from ...solving.curve import FINE, Curve, of_model, on_two_levels
+from ...statistics.collapse import Collapse
+from ...statistics.finding import Finding
 from .answers import Answers
-from .claims import claim
 from .claims_law import law_findings
 from .laws import Laws, laws
 from .measures import BOTH, DEPTHS, FRICTIONS, MARCHES, REST, SLOW_DRAG, Here, Row
@@ -173,14 +169,18 @@ class RoughSeries(Series):
         ruled = {model: each for model, each in found.items() if each is not None}
         if self.models.reference not in ruled or not set(found) & set(SOLVERS) <= set(ruled):
             return Judged(())
-        shifted = {name: both for name in ruled if (both := collapses(answers, name)) is not None}
-        shifts = [each for name in ruled for each in self._shifts(name, shifted.get(name), ruled[name])]
+        shifted = {name: self._shifts(answers, self.models[name], own) for name, own in ruled.items()}
+        shifts = [each for _, findings in shifted.values() for each in findings]
         shifts += law_findings(self, answers, ruled)
         places = [Here(self, ruled[name], self.models[name]) for name in ruled]
         friction = self._found(answers, (*FRICTIONS, *BOTH, *REST), places)
         findings = [*self._asked(COLLAPSE, shifts), *self._asked(FRICTION, friction)]
-        collapsed = {name: fine for name, (fine, _) in shifted.items()}
-        return Judged(findings, collapsed, ruled)
+        return Judged(findings, {name: fine for name, (fine, _) in shifted.items() if fine is not None}, ruled)
+
+    def _shifts(self, answers: Answers, model: Model, own: Laws) -> tuple[Collapse | None, list[Finding]]:
+        """Whether curves fall onto one, with the shifts that are best and with those predicted."""
+        shifts = dict(zip(self.speeds, own.shifts.tolist(), strict=True))
+        return self.shifted(answers, ROUGH, model, shifts, own.exponent, own.words())
 
     def _asked(self, kind: str, found: Iterable[Finding]) -> list[Finding]:
         """Findings of a kind that is asked; what compares the dimensionalities is a kind of its own."""
@@ -202,38 +202,11 @@ class RoughSeries(Series):
                         yield from self._row(answers, row, reference, model.name, reference.model.name)
 
     def _row(self, answers, row: Row, here: Here, *models: str) -> Iterator[Finding]:
-        beside = self.models.beside(models[0]) if row.pair else here.model.label
         for suffix, place, expected in row.where(here):
             there = replace(here, place=place)
-
-            def measure(sample, there=there):
-                return row.measure(there, *(sample[each] for each in models))
-
             name = row.id.format(quantity=here.pressed) + suffix
-            asked = claim(name, measure, beside, expected)
-            asked = said_of(asked, beside) if row.pair else asked
-            fine, coarse = (answers.sample(level, row.body, *models) for level in (FINE, COARSE))
-            yield replace(measured(asked, fine, coarse, self.name, there.regime), curve=self.place(row.body))
-
-    def _shifts(self, model: str, both: tuple[Collapse, Collapse] | None, own: Laws) -> Iterator[Finding]:
-        """Whether curves fall onto one, with the shifts that are best and with those predicted."""
-        label, words, draws = self.models.labels[model], own.words(), self.draws[model]
-        if both is not None:
-            shifts = dict(zip(self.speeds, own.shifts.tolist(), strict=True))
-            found = eq23.findings(*both, label, shifts, own.exponent, self.name, draws, words)
-            yield from (replace(each, curve=self.place(ROUGH)) for each in found)
-        elif eq23.shiftable(len(self.speeds), len(self.values)):
-            yield eq23.too_few(label, self.name, draws, words)
-
-
-def collapses(answers: Answers, model: str) -> tuple[Collapse, Collapse] | None:
-    """Collapse of the curves of the rough body on both levels; None where points are too few."""
-    both = (SimulatedCurves.of(sliding(answers(ROUGH, model, level))) for level in (FINE, COARSE))
-    try:
-        fine, coarse = map(collapse, both)
-    except ValueError:
-        return None
-    return fine, coarse
+            measure = partial(row.measure, there)
+            yield self.measured(answers, name, row.body, models, measure, expected, there.regime)
 
 
 def sliding(dataset: xarray.Dataset) -> xarray.Dataset:

@@ -1,11 +1,11 @@
 """Series: one scene with the curves that are solved of it, what is judged on them, and its surfaces."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from math import ceil, inf, isfinite
-from typing import ClassVar
+from math import ceil, inf, isfinite, nan
+from typing import Any, ClassVar
 
 import xarray
 
@@ -13,14 +13,17 @@ from scene import Scene
 
 from ...library.describe import slug
 from ...models.table import Model, Models
-from ...solving.curve import LEVELS, Curve, levels
+from ...solving.curve import COARSE, FINE, LEVELS, Curve, levels
 from ...solving.task import SceneTask
-from ...statistics.collapse import Collapse
+from ...statistics import eq23
+from ...statistics.collapse import Collapse, collapse
 from ...statistics.finding import HALVED, UNKNOWN, Claim, Finding, said_of
-from ...statistics.jackknife import mean
-from ...statistics.means import Compared, touches
+from ...statistics.frictioncurves import SimulatedCurves
+from ...statistics.jackknife import mean, measured
+from ...statistics.means import touches
 from ...statistics.multilevel import MEANS, WORDS, DrawnSurfaces, needed, unreached
 from .answers import Answers
+from .claims import CLAIMS, claim
 from .laws import Laws
 
 Counts = Mapping[str, tuple[int, ...]]  # numbers of surfaces on each level, by model
@@ -170,52 +173,98 @@ class Series(ABC):
         wanted = [each for each in self.wanted if each[0] in self.shared[shared] and each[0] in self.curves]
         return [(each, model) for model in drawing for each in wanted if model in self.curves[each[0]].levels]
 
-    def finding(
+    def compared(
         self,
+        answers: Answers,
         claim: Claim,
-        found: Compared,
-        at: tuple[int, ...],
         curve: str,
-        place: str = "",
-        less: float = 0.0,
-        regime: str = "",
-        size: bool = False,
-    ) -> Finding:
-        """Finding of a claim on one of some numbers of a curve. less : what is taken off them"""
-        value, low, high, grid = (float(each[at]) for each in (found.value, found.low, found.high, found.grid))
-        return Finding(
-            claim=claim,
-            value=value - less,
-            scatter=(low - less, high - less),
-            grid=grid,
-            grid_method=HALVED if isfinite(grid) else UNKNOWN,
-            where=f"{self.name}, {place}" if place else self.name,
-            drawn=found.drawn,
-            regime=regime,
-            size=size,
-            parts={source: float(each[at]) for source, each in found.parts.items()},
-            curve=self.place(curve),
-        )
+        models: Sequence[str],
+        measure,
+        places: Places,
+        **told: Any,
+    ) -> Iterator[Finding]:
+        """Findings of a claim on numbers of one or more models at some places of a curve; told : other fields"""
+        found = answers.compared(curve, tuple(models), measure, told.get("size", False))
+        for at, words in places.items():
+            value, low, high, grid = (float(each[at]) for each in (found.value, found.low, found.high, found.grid))
+            place = {
+                "scatter": (low, high),
+                "grid": grid,
+                "grid_method": HALVED if isfinite(grid) else UNKNOWN,
+                "where": ", ".join(filter(None, (self.name, words))),
+                "drawn": found.drawn,
+                "parts": {source: float(each[at]) for source, each in found.parts.items()},
+                "curve": self.place(curve),
+            }
+            yield Finding(claim, value, **(place | told))
 
     def ratios(
         self,
-        claim: Claim,
+        name: str,
         answers: Answers,
         curve: str,
         mean_name: str,
         places: Places,
-        less=0.0,
-    ) -> list[tuple[Model, tuple[int, int], Finding]]:
-        """Findings on a mean of each model over that of the reference, at some places of a curve."""
-        rows, reference = [], self.models.reference
+        less: float = 0.0,
+        **told: Any,
+    ) -> Iterator[Finding]:
+        """Findings on a mean of each model over that of the reference, less a number, at some places of a curve."""
         for model in answers.judged(curve, WORDS[mean_name]):
-            found = answers.compared(curve, (model.name, reference), ratio_of(mean_name, model.name, reference))
-            own = said_of(claim, beside := self.models.beside(model.name))
-            rows += [
-                (model, at, replace(self.finding(own, found, at, curve, words, less), dimension=beside))
-                for at, words in places.items()
-            ]
-        return rows
+            both, beside = (model.name, self.models.reference), self.models.beside(model.name)
+            own, over = said_of(CLAIMS[name], beside), ratio_of(mean_name, *both, less=less)
+            yield from self.compared(answers, own, curve, both, over, places, dimension=beside, **told)
+
+    def measured(
+        self,
+        answers: Answers,
+        name: str,
+        curve: str,
+        models: Sequence[str],
+        measure: Callable[..., Any],
+        expected: float | None = None,
+        regime: str = "",
+    ) -> Finding:
+        """Finding of a claim on a whole curve, of one model or of two that are compared.
+
+        measure : of their answers; a number, or an array of which the root mean square counts
+        """
+        pair = len(models) > 1
+        beside = self.models.beside(models[0]) if pair else self.models.labels[models[0]]
+        asked = claim(name, lambda sample: measure(*(sample[each] for each in models)), beside, expected)
+        fine, coarse = (answers.sample(level, curve, *models) for level in (FINE, COARSE))
+        found = measured(said_of(asked, beside) if pair else asked, fine, coarse, self.name, regime)
+        return replace(found, curve=self.place(curve))
+
+    def shifted(
+        self,
+        answers: Answers,
+        curve: str,
+        model: Model,
+        shifts: Mapping[float, float],
+        exponent: float,
+        regime: str = "",
+    ) -> tuple[Collapse | None, list[Finding]]:
+        """Findings on curves of friction that are shifted onto one, and the collapse, where points are enough.
+
+        shifts, exponent : ln p(v) that Eq. 23 predicts by speed, and its exponent; NaN where it is no power
+        """
+        own = self.curves[curve]
+        drawn = sum(map(len, own.strata(model.name))) if own.random else 0
+        levels = answers.two_levels(curve, model.name)
+        known = COARSE in levels["level"] or not levels["points"].any()
+        every = (answers(curve, model.name, level) for level in ((FINE, COARSE) if known else (FINE,)))
+        try:
+            fine, *coarse = [collapse(SimulatedCurves.of(each.sel(speed=each["speed"] > 0))) for each in every]
+        except ValueError:
+            few = eq23.shiftable(len(shifts), len(own.values))
+            return None, [eq23.too_few(model.label, self.name, drawn, regime)] * few
+        told = eq23.findings(
+            fine, coarse[0] if known else None, model.label, shifts, exponent, self.name, drawn, regime,
+            horizontal=not known,
+        )  # fmt: skip
+        # Data without a grid are exact, a surface that has no other grid is not.
+        unknown: dict[str, Any] = {} if known else {"grid": nan, "grid_method": UNKNOWN}
+        return fine, [replace(each, curve=self.place(curve), **unknown) for each in told]
 
     def touched(self, answers: Answers, curve: str, model: str) -> Iterator[tuple[tuple[int, int], float]]:
         """Places at rest, each with its depth, at which a model touches."""
@@ -224,12 +273,12 @@ class Series(ABC):
         yield from (((0, k), depth) for k, depth in enumerate(depths) if seen[k])
 
 
-def ratio_of(mean_name: str, *models: str):
-    """Measure of the mean of a model, or of that of one over that of another, at every place."""
+def ratio_of(mean_name: str, *models: str, less: float = 0.0):
+    """Measure of the mean of a model, or of that of one over that of another, less a number, at every place."""
 
     def measure(sample):
         values = [mean(sample[model], *MEANS[mean_name]) for model in models]
-        return values[0] / values[1] if len(values) > 1 else values[0]
+        return values[0] / values[1] - less if len(values) > 1 else values[0]
 
     return measure
 

@@ -25,7 +25,6 @@ from ...solving.vocabulary import attributes
 from ...statistics.multilevel import MEANS, WORDS, wanted
 from .answers import Answers
 from .around import OWN_RATIOS, models_of
-from .claims import CLAIMS
 from .series import Counts, Judged, Series, on_levels_alike
 from .values import Values, values_of
 
@@ -130,12 +129,12 @@ class SweepSeries(Series):
     def judge(self, answers: Answers) -> Judged:
         """Friction, else force or depth, of each model over the reference at every contact, without a claim."""
         name = "friction_coefficient" if max(self.speeds) > 0 else next(self.wanted)[1]
-        claim = CLAIMS["friction.ratio.speed" if WORDS[name] == "friction" else OWN_RATIOS[name]]
+        claim = _claim_on(name)
         places = {
             (i, j): f"{speed:g} m/s, {value:g} {UNITS[self.prescribed]}"
             for (i, speed), (j, value) in product(enumerate(self.speeds), enumerate(self.values))
         }
-        found = [each for _, _, each in self.ratios(claim, answers, CONTACTS, name, places)]
+        found = self.ratios(claim, answers, CONTACTS, name, places)
         return Judged([replace(each, where=each.where.removeprefix(f"{self.name}, ")) for each in found])
 
     def tables(self, answers: Answers, findings) -> Iterator[Table]:
@@ -147,7 +146,7 @@ class SweepSeries(Series):
                 found = answers.interval(CONTACTS, model.name, *MEANS[name])
                 for end, values in zip(("", "_low", "_high"), found, strict=True):
                     frame[f"{name} ({model.label}){end}"] = np.ravel(values)
-            own = [each for each in findings if _judges(each, name)]
+            own = [each for each in findings if each.claim.id == _claim_on(name)]
             for beside in dict.fromkeys(each.dimension for each in own):
                 rows = [(each.value, *each.interval) for each in own if each.dimension == beside]
                 frame[[beside, f"{beside}_low", f"{beside}_high"]] = rows
@@ -167,9 +166,9 @@ class SweepSeries(Series):
         return dataset
 
 
-def _judges(finding, name):
-    own = "friction.ratio.speed" if WORDS[name] == "friction" else OWN_RATIOS[name]
-    return finding.claim.id == own
+def _claim_on(name):
+    """Id of the claim on a mean, which is reported and not claimed."""
+    return "friction.ratio.speed" if WORDS[name] == "friction" else OWN_RATIOS[name]
 
 
 def means(dataset: xarray.Dataset) -> DataFrame:
