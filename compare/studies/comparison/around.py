@@ -90,6 +90,10 @@ class Around(Series):
         return curves(self.case, self.models, None if self.interval is None else self.strata)
 
     @property
+    def remarks(self) -> Sequence[str]:
+        return (*self.case.departures, *self.case.notes)
+
+    @property
     def own(self) -> Sequence[SceneTask]:
         first = {each.model: each.task for each in reversed(self.curves[OWN].contacts) if each.level == FINE}
         return list(first.values())

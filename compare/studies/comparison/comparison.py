@@ -26,7 +26,7 @@ from .series import Counts, Series
 from .sweep import SweepSeries
 from .together import alike, members_of, together
 
-FIELDS, TIMES = "fields", "times"
+FIELDS = "fields"
 
 
 @dataclass(frozen=True)
@@ -82,7 +82,7 @@ class Comparison(Study):
                 for model, kept in each.curves[OWN].fields(outcomes).items():
                     fields = labelled(kept, each.scene.indenter.type).assign_attrs(provenance(each.scene))
                     below[f"{FIELDS}/{model}"] = xarray.DataTree(fields)
-                below[TIMES] = xarray.DataTree(tables.times(contacts_of(each.curves), outcomes))
+                below[tables.TIMES] = xarray.DataTree(tables.times(contacts_of(each.curves), outcomes))
         return tree
 
     def more(
@@ -109,7 +109,7 @@ class Comparison(Study):
         every = list(zip(self.series, own, judged, strict=True))
         opening = [scene_table(s, a, findings) for s, a, _ in every if isinstance(s, Around)]
         opening += [table for s, a, _ in every if isinstance(s, SweepSeries) for table in s.tables(a, findings)]
-        scenes = {each.name: each.name for each in self.series if isinstance(each, Around)}
+        scenes = [each.name for each in self.series if isinstance(each, Around)]
         claims = claims_table(findings, scenes)
         opening += [claims] if len(claims.frame) else []
         told = [*open_claims(findings), *(why for s, a, _ in every if s.sampled for why in s.unreached(a))]

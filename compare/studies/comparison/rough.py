@@ -1,6 +1,6 @@
 """Rough series of a study: one scene at every speed and load or depth, rough and smooth, on the same surfaces."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from typing import ClassVar
@@ -80,9 +80,12 @@ class RoughSeries(Series):
         """Number of profiles or surfaces by the name of the model."""
         return {each.name: sum(map(len, self.curves[ROUGH].strata(each.name))) for each in self.models}
 
+    @property
+    def remarks(self) -> Sequence[str]:
+        return (self.note,) * bool(self.note)
+
     @cached_property
-    def every_model(self) -> Models:
-        """Models that are asked for. Raises InvalidInput."""
+    def every_model(self) -> Models:  # type: ignore[override]
         return Models.of(self.asked or None, self.reference or None, {"mdr": self.mdr, "bem": self.bem})
 
     @cached_property

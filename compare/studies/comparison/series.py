@@ -87,6 +87,16 @@ class Series(ABC):
         return ()
 
     @property
+    def every_model(self) -> Models:
+        """Models that are asked for, those among them that claim nothing here."""
+        return self.models
+
+    @property
+    def remarks(self) -> Sequence[str]:
+        """Sentences that its file has for people."""
+        return ()
+
+    @property
     def doubts(self) -> Sequence[str]:
         """Doubts about the scene and the corners of its curves."""
         return ()
@@ -106,8 +116,8 @@ class Series(ABC):
         return slug(self.name)
 
     def path(self, curve: str) -> str:
-        """Path of a curve in the tree of all answers."""
-        return f"{self.folder}/{curve}"
+        """Path of a curve in the tree of all answers, or of a table or figure below the page."""
+        return f"{self.folder}/{curve}" if self.folder else curve
 
     def answers(self, tree: xarray.DataTree) -> Answers:
         """Its part of all answers."""
@@ -208,7 +218,7 @@ class Series(ABC):
         less: float = 0.0,
         **told: Any,
     ) -> Iterator[Finding]:
-        """Findings on a mean of each model over that of the reference, less a number, at some places of a curve."""
+        """Findings on a mean of each model over that of the reference, less a number, at places of a curve."""
         for model in answers.judged(curve, WORDS[mean_name]):
             both, beside = (model.name, self.models.reference), self.models.beside(model.name)
             own, over = said_of(CLAIMS[name], beside), ratio_of(mean_name, *both, less=less)

@@ -95,8 +95,9 @@ class SweepSeries(Series):
     def folder(self) -> str:
         return ""
 
-    def path(self, curve: str) -> str:
-        return curve
+    @property
+    def remarks(self) -> Sequence[str]:
+        return self.case.notes
 
     @property
     def doubts(self) -> Sequence[str]:

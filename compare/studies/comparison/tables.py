@@ -18,6 +18,7 @@ from .measures import CONTACT
 from .rough import ROUGH, RoughSeries
 from .series import Series
 
+TIMES = "times"
 # Ratios of a rough point, see `regime.ratios`.
 GROUPS = (
     "depth_over_height",
