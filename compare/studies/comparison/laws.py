@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray
+from pandas import DataFrame, Series
 
 from mdr1d import equations
 
-from ...statistics.jackknife import mean_ratio
+from ...statistics.jackknife import draws_of, off_the_ratio
 from .answers import Answers
 from .regime import SYMBOLS, ratios, words
 
@@ -84,38 +85,37 @@ def laws(series: "RoughSeries", answers: Answers, model: str) -> Laws | None:
     if not np.isfinite(groups["depth_over_height"]).any():
         return None
     scene, speeds = series.scene, np.array(series.speeds)
-    solid, body = scene.solid, scene.indenter
-    slope = float(np.nanmean(moving["rms_slope"].values))
-    highest = scene.roughness.q_max(float(np.nanmean(moving["pixel"].values)))
-    c, n = body.mdr_coefficient, body.exponent
+    solid, shape = scene.solid, (scene.indenter.mdr_coefficient, scene.indenter.exponent)
+    slope, pixel = (float(np.nanmean(moving[name].values)) for name in ("rms_slope", "pixel"))
+    highest = scene.roughness.q_max(pixel)
     # Written for a Poisson ratio of 1/2: E*/4 stands for G, and its loss for that of G.
     modulus = solid.indentation_modulus / 4
 
     def loss(omega):
         return modulus / solid.static_modulus * solid.complex_modulus(omega).imag
 
-    load = mean_ratio(_draws(moving, "normal_force")).value
+    def rates(values):
+        return np.diff(np.log(values)) / np.diff(np.log(speeds))
+
+    load, _, _ = off_the_ratio(draws_of(moving, "normal_force"))
     if series.prescribed == "load":
         load = np.where(np.isfinite(load), load, series.values)
-    one = equations.one_frequency_friction(
-        np.nan_to_num(load, nan=1.0), modulus, loss, highest, speeds[:, None], slope, c, n
-    )
-    xi = np.where(np.isfinite(load), one / equations.plateau(slope), nan)
-    shift = equations.force_shift(speeds, modulus, loss, highest, slope, c, n)
-    rates = np.diff(np.log(shift)) / np.diff(np.log(speeds))
-    slowest = solid.complex_modulus(highest * speeds[0])
+    of_rough = modulus, loss, highest
+    one = equations.one_frequency_friction(np.nan_to_num(load, nan=1.0), *of_rough, speeds[:, None], slope, *shape)
+    shift = equations.force_shift(speeds, *of_rough, slope, *shape)
+    powers, slowest = rates(shift), solid.complex_modulus(highest * speeds[0])
     return Laws(
         speeds=speeds,
         ratios=groups,
         load=load,
-        exponent_of_load=-n / (n + 1),
-        xi=xi,
+        exponent_of_load=-shape[1] / (shape[1] + 1),
+        xi=np.where(np.isfinite(load), one / equations.plateau(slope), nan),
         wave_number=highest,
         slowest_loss=float(slowest.imag / slowest.real),
-        loss_exponent=np.diff(np.log(loss(highest * speeds))) / np.diff(np.log(speeds)),
+        loss_exponent=rates(loss(highest * speeds)),
         plateau=float(equations.plateau(slope)),
         shifts=np.log(shift),
-        exponent=_power(rates),
+        exponent=float(powers.mean()) if powers.size and np.ptp(powers) <= SAME * abs(powers.mean()) else nan,
     )
 
 
@@ -124,25 +124,10 @@ def regimes(series: "RoughSeries", answers: xarray.Dataset) -> dict[str, np.ndar
 
     NaN where it is pressed in at a rate, which has none, and where every solve failed.
     """
-    force = _draws(answers, "normal_force")
-    measures = {name: _draws(answers, name) for name in GROUPED if name in answers}
-    found = {name: np.full(force.shape[:2], nan) for name in SYMBOLS}
-    for i, speed in enumerate(answers["speed"].values.tolist()):
-        for j, value in enumerate(series.values):
-            known = np.isfinite(force[i, j])
-            if known.any() and not (speed and series.pressed_in):
-                here = {name: float(values[i, j][known].mean()) for name, values in measures.items()}
-                for name, ratio in ratios(series.at(value, speed), here).items():
-                    found[name][i, j] = ratio
-    return found
-
-
-def _draws(answers, name):
-    """Variable with the draws along the last axis; smooth bodies have one."""
-    values = answers[name]
-    return values.transpose(..., "surface").values if "surface" in values.dims else values.values[..., None]
-
-
-def _power(rates):
-    """The exponent, where it is the same between all speeds."""
-    return float(rates.mean()) if rates.size and np.ptp(rates) <= SAME * abs(rates.mean()) else nan
+    known = answers[[name for name in GROUPED if name in answers]].where(answers["normal_force"].notnull())
+    means = (known.mean("surface") if "surface" in known.dims else known).to_dataframe()[[*known]]
+    found = DataFrame(nan, index=means.index, columns=[*SYMBOLS])
+    for (speed, value), measures in means.dropna(how="all").iterrows():
+        if not (speed and series.pressed_in):
+            found.loc[speed, value] = Series(ratios(series.at(value, speed), measures))
+    return {name: each.unstack().to_numpy() for name, each in found.items()}

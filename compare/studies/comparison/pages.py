@@ -73,7 +73,7 @@ def setting(about: str, every: Every) -> list[Block]:
 
 def _contacts(series: Series, judged: Judged) -> Iterator[str]:
     """Scene in words, speeds and loads of its curves, draws and grids of each model, regime, and notes."""
-    parts = (getattr(series.scene, each.name) for each in fields(Scene))
+    parts = (getattr(series.scene, each.name) for each in fields(Scene) if each.name != "motion")
     yield from (described(part) for part in parts if part is not None)
     for name, curve in series.curves.items():
         reach = [(curve.speeds, "m/s")] * bool(curve.speeds) + [(curve.values, UNITS.get(curve.prescribed, ""))]

@@ -1,8 +1,8 @@
 """Tables of a series: every point of its curves with intervals, solves that failed, and processor time."""
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 from math import nan
-from typing import Any
 
 import numpy as np
 import xarray
@@ -34,19 +34,16 @@ GROUPS = (
 
 def points(series: Series, answers: Answers) -> DataFrame:
     """A row for each curve, model, speed, and load or depth: means, intervals of 95 %, dimensionless groups."""
-    frames = {(curve, model): _points(series, answers, curve, model) for curve, model in _solved(answers)}
-    every = stacked(frames, "curve", "model")
+    every = _stacked(answers, partial(_points, series, answers))
     first = [name for name in ("curve", "model", "points", "speed", "load", "depth") if name in every]
-    return every[[*first, *(name for name in every if name not in first)]]
+    return every[[*first, *every.columns.difference(first, sort=False)]]
 
 
 def _points(series, answers, curve, model):
     dataset = answers.all_levels(curve, model)
     known = {each.name: each.draws for each in series.models}
     touching = CONTACT[known.get(model, "none")]
-    if touching in dataset:
-        dataset = dataset.assign(contact=dataset[touching])
-    found = means.means(dataset)
+    found = means.means(dataset.assign(contact=dataset[touching]) if touching in dataset else dataset)
     if isinstance(series, RoughSeries):
         rough = curve == ROUGH and {"rms_slope", "pixel"} <= {*dataset.data_vars}
         groups = regimes(series, answers(curve, model)) if rough else {}
@@ -56,12 +53,14 @@ def _points(series, answers, curve, model):
 
 def failures(answers: Answers) -> DataFrame:
     """Every solve that failed, with its reason."""
-    found = {place: means.failures(answers.all_levels(*place)) for place in _solved(answers)}
-    return stacked(found, "curve", "model")
+    return _stacked(answers, lambda *place: means.failures(answers.all_levels(*place)))
 
 
-def _solved(answers):
-    return [(curve, model) for curve, each in answers.curves.items() for model in each["model"].values.tolist()]
+def _stacked(answers, table):
+    """Tables of every model on every curve, one below the other, with both names in the first columns."""
+    every = ((name, model) for name, each in answers.curves.items() for model in each["model"].values.tolist())
+    frames = [DataFrame({"curve": place[0], "model": place[1]} | dict(table(*place))) for place in every]
+    return concat([each for each in frames if len(each)] or frames[:1], ignore_index=True)
 
 
 def times(contacts: Sequence[SceneTask], outcomes: Mapping[Task, Outcome]) -> xarray.Dataset:
@@ -72,12 +71,3 @@ def times(contacts: Sequence[SceneTask], outcomes: Mapping[Task, Outcome]) -> xa
         spent[each.solver.name] = spent.get(each.solver.name, 0.0) + seconds
     models = xarray.Variable("model", list(spent), attributes("model"))
     return xarray.Dataset({"seconds": ("model", list(spent.values()), attributes("seconds"))}, {"model": models})
-
-
-def stacked(frames: Mapping[Any, DataFrame], *names: str) -> DataFrame:
-    """Tables one below the other, with the words that name each of them in its first columns."""
-    for words, frame in frames.items():
-        for place, (name, word) in enumerate(zip(names, words, strict=True)):
-            frame.insert(place, name, word)
-    parts = list(frames.values())
-    return concat([each for each in parts if len(each)] or parts[:1], ignore_index=True)
