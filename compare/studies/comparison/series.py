@@ -9,10 +9,10 @@ from typing import Any, ClassVar
 
 import xarray
 
-from scene import Scene
+from scene import Scene, Solver
 
 from ...library.describe import slug
-from ...models.table import Model, Models
+from ...models.table import NONE, Model, Models
 from ...solving.curve import COARSE, FINE, LEVELS, Curve, levels
 from ...solving.task import SceneTask
 from ...statistics import eq23
@@ -104,11 +104,7 @@ class Series(ABC):
     @property
     def counts(self) -> dict[str, Counts]:
         """Numbers of surfaces of the curves that share them, by model."""
-        drawing = [each.name for each in self.models.drawn]
-        return {
-            name: {model: each.counts[model] for model in drawing if model in each.counts}
-            for name, each in self.drawn.items()
-        }
+        return {name: dict(each.counts) for name, each in self.drawn.items()}
 
     @property
     def folder(self) -> str:
@@ -135,19 +131,13 @@ class Series(ABC):
 
     @cached_property
     def drawn(self) -> Mapping[str, DrawnSurfaces]:
-        """Surfaces of the curves that share them, by the name of these."""
-        found = {
-            name: [self.curves[each] for each in curves if each in self.curves]
-            for name, curves in self.shared.items()
-        }
-        return {name: DrawnSurfaces.of(curves) for name, curves in found.items() if curves}
-
-    def told(self, found: Finding) -> Finding:
-        """A finding with what would decide it."""
-        words = {each.name: each.draws for each in self.models}
-        for name, curves in self.shared.items():
-            if name in self.drawn and found.curve in (*map(self.place, curves), self.family):
-                return self.drawn[name].told(found, words)
+        """Surfaces of the curves that share them, by the name of these, of models that draw any."""
+        drawing, found = [each.name for each in self.models.drawn], {}
+        for shared, names in self.shared.items():
+            if own := [self.curves[each] for each in names if each in self.curves]:
+                every = DrawnSurfaces.of(own)
+                counts = {name: count for name, count in every.counts.items() if name in drawing}
+                found[shared] = replace(every, counts=counts)
         return found
 
     @property
@@ -155,33 +145,42 @@ class Series(ABC):
         """Place of findings on it together with others; empty without any."""
         return ""
 
+    def behind(self, found: Finding) -> str | None:
+        """Name of the curves whose surfaces are behind a finding; None where there are none."""
+        places = {name: (*map(self.place, curves), self.family) for name, curves in self.shared.items()}
+        return next((name for name in self.drawn if found.curve in places[name]), None)
+
+    def told(self, found: Finding) -> Finding:
+        """A finding with what would decide it."""
+        name = self.behind(found)
+        words = {each.name: each.draws for each in self.models}
+        return found if name is None else self.drawn[name].told(found, words)
+
     def more(self, answers: Answers, findings: Sequence[Finding], growth: float) -> dict[str, Counts]:
         """Numbers of surfaces that undecided claims and wide intervals ask for, of the curves that share them."""
         made: dict[str, Counts] = {}
+        interval = self.interval or inf
         for name, drawn in self.drawn.items():
-            places = (*map(self.place, self.shared[name]), self.family)
-            own = [each for each in findings if each.curve in places]
-            counts = drawn.more(own, self.interval or inf, growth)
-            asked = {model: counts[model] for model in self.counts[name]}
-            for (curve, mean_name, speeds), model in self._means(name, asked):
-                dataset = answers.all_levels(curve, model).sel(speed=list(speeds))
-                least = needed(dataset, *MEANS[mean_name], drawn.costs[model], self.interval or inf, growth)
-                asked[model] = tuple(map(max, asked[model], least))
-            made[name] = asked
+            counts = drawn.more([each for each in findings if self.behind(each) == name], interval, growth)
+            for model, mean_name, dataset in self._means(name, answers):
+                least = needed(dataset, *MEANS[mean_name], drawn.costs[model], interval, growth)
+                counts[model] = tuple(map(max, counts[model], least))
+            made[name] = counts
         return made
 
     def unreached(self, answers: Answers) -> Iterator[str]:
         """Sentences on means whose intervals are wider than wanted."""
         for name in self.drawn:
-            for (curve, mean_name, speeds), model in self._means(name, self.models.labels):
-                dataset = answers.all_levels(curve, model).sel(speed=list(speeds))
+            for model, mean_name, dataset in self._means(name, answers):
                 if why := unreached(dataset, *MEANS[mean_name], self.interval or inf):
                     yield f"{self.name}: the {WORDS[mean_name]} in {self.models.labels[model]} {why}."
 
-    def _means(self, shared, models):
-        drawing = [each.name for each in self.models.drawn if each.name in models]
-        wanted = [each for each in self.wanted if each[0] in self.shared[shared] and each[0] in self.curves]
-        return [(each, model) for model in drawing for each in wanted if model in self.curves[each[0]].levels]
+    def _means(self, shared, answers):
+        """Model, name and answers of each mean that an interval is wanted of, on curves that share surfaces."""
+        for model in self.drawn[shared].counts:
+            for curve, mean_name, speeds in self.wanted:
+                if curve in self.shared[shared] and model in self.curves[curve].levels:
+                    yield model, mean_name, answers.all_levels(curve, model).sel(speed=list(speeds))
 
     def compared(
         self,
@@ -308,15 +307,14 @@ def on_levels_alike(
     least : numbers of surfaces of a pilot on the coarsest level, by model, where more than usual are wanted
     """
     first, *_ = curves.values()
-    found = {name: own for name, own in levels(models, [*curves.values()], most).items() if name in first.levels}
-    pilots = {
-        each.name: pilot(len(found[each.name]), least.get(each.name, 0))
-        for each in models.drawn
-        if each.name in found
-    }
-    drawn = {name: strata.get(name, counts) for name, counts in pilots.items()}
-    kept = {name: dict(list(each.items())[: len(drawn.get(name, each))]) for name, each in found.items()}
-    return {name: replace(each, levels=kept, draws={**each.draws, **drawn}) for name, each in curves.items()}
+    kept: dict[str, Mapping[str, Solver]] = {}
+    draws: dict[str, tuple[int, ...]] = {}
+    for name, own in levels(models, [*curves.values()], most).items():
+        if name in first.levels:
+            if models[name].draws != NONE:
+                draws[name] = strata.get(name) or pilot(len(own), least.get(name, 0))
+            kept[name] = dict(list(own.items())[: len(draws.get(name, own))])
+    return {name: replace(each, levels=kept, draws={**each.draws, **draws}) for name, each in curves.items()}
 
 
 def pilot(count: int, least: int = PILOT) -> tuple[int, ...]:

@@ -18,6 +18,7 @@ from .claims_law import LawPoints, law_findings_of
 from .laws import Laws
 from .measures import FAST, SLOW
 from .rough import FAMILIES, ROUGH, RoughSeries, sliding
+from .series import Series
 
 
 @dataclass(frozen=True)
@@ -27,16 +28,6 @@ class Member:
     series: RoughSeries
     answers: Answers
     laws: Mapping[str, Laws]
-
-
-def members_of(series: Sequence[RoughSeries], answers, judged) -> list[Member]:
-    """Series that slide and ask for claims on several, with answers of both models."""
-    found = zip(series, answers, judged, strict=True)
-    return [Member(own, each, of.laws) for own, each, of in found if of.laws and _asks(own)]
-
-
-def _asks(series):
-    return FAMILIES in series.claims
 
 
 def families(members: Sequence[Member]) -> dict[str, list[Member]]:
@@ -51,11 +42,11 @@ def families(members: Sequence[Member]) -> dict[str, list[Member]]:
     return {family: own for (family, _), own in rising if _differ(own)}
 
 
-def alike(series: Sequence[RoughSeries]) -> list[list[str]]:
+def alike(series: Sequence[Series]) -> list[list[str]]:
     """Names of series that slide, by their family, which are to have as many surfaces as each other."""
     found: dict[str, list[str]] = {}
     for each in series:
-        if each.slides and _asks(each):
+        if isinstance(each, RoughSeries) and each.slides and FAMILIES in each.claims:
             found.setdefault(each.family, []).append(each.name)
     return list(found.values())
 
