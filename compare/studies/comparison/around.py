@@ -4,11 +4,10 @@ The scene as it stands, force against depth, friction against speed and against 
 against friction in its interface, has one curve: over time, or over the displacement.
 """
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 from math import isfinite
-from typing import Any
 
 import numpy as np
 from pydantic import ValidationError
@@ -20,7 +19,7 @@ from scene.scales import elastic_contact
 from ...library.case import Case, doubted
 from ...models import exact
 from ...models.table import DEPTH, FORCE, FRICTION, PROFILES, ModelLike, Models
-from ...solving.curve import COARSE, FINE, LEVELS, Curve, levels, refuse
+from ...solving.curve import FINE, LEVELS, Curve, levels, refuse
 from ...solving.task import SceneTask
 from ...statistics.finding import Finding
 from ...statistics.jackknife import mean
@@ -233,12 +232,11 @@ def curves(case: Case, models: Models, strata: Mapping[str, Counts] | None = Non
     """
     try:
         found = _curves(case, models)
-        if strata is not None and case.roughness:
-            most = _most_levels(case.scene)
-            for shared, names in SHARED.items():
-                if own := {name: found[name] for name in names if name in found and not found[name].over_time}:
-                    found |= on_levels_alike(own, models, strata.get(shared, {}), most)
-        found |= {name: with_theory(found[name]) for name in (SPEED, LOAD) if name in found}
+        for shared, names in SHARED.items() if strata is not None and case.roughness else ():
+            if own := {name: found[name] for name in names if name in found and not found[name].over_time}:
+                found |= on_levels_alike(own, models, strata.get(shared, {}), _most_levels(case.scene))
+        if case.roughness:
+            found |= {name: with_theory(found[name]) for name in (SPEED, LOAD) if name in found}
         refuse(found.values())
     except (ArithmeticError, SolveError, ValidationError) as error:
         # The case is valid; what follows from it is not.
@@ -253,29 +251,26 @@ def corners(found: Mapping[str, Curve]) -> Iterator[Scene]:
 
 def _curves(case, models):
     plan, scene, motion = case.plan(), case.scene, case.motion
-    own: Callable[..., Curve] = lambda *given, **other: _curve(case, models, scene, *given, **other)  # noqa: E731
-    if isinstance(motion, Program):
-        return {OWN: own((), (motion.greatest,), keeps_fields=True)}
     if isinstance(motion, Shear):
         drawn = motion.displacement or motion.force or 0.0
-        return {OWN: own((0.0,), tuple(drawn * k / STEPS for k in range(1, STEPS + 1)) if drawn else (0.0,))}
-    found = {OWN: own((motion.speed,), (motion.greatest,), keeps_fields=True)}
-    smooth = replace(scene, roughness=None)
+        steps = tuple(drawn * k / STEPS for k in range(1, STEPS + 1)) if drawn else (0.0,)
+        return {OWN: _curve(case, models, scene, (0.0,), steps)}
+    own, greatest = partial(_curve, case, models), (motion.greatest,)
+    over_time = isinstance(motion, Program)
+    found = {OWN: own(scene, () if over_time else (motion.speed,), greatest, keeps_fields=True)}
+    if over_time or case.interface is not None:
+        return found
     depths = tuple(factor * elastic_contact(scene).depth for factor in plan.depths)
-    indented = Indent(depth=depths[0])
+    smooth, indented = replace(scene, roughness=None), Indent(depth=depths[0])
     if case.roughness:
-        found[ROUGH_DEPTH] = _curve(case, models, replace(scene, motion=indented), (0.0,), depths)
-    pressed = _curve(case, models, replace(smooth, motion=indented), (0.0,), depths)
-    closed_form = exact.Exact()
-    if closed_form.name not in pressed.levels and not closed_form.refusals(pressed.scene):
-        known: dict[str, Any] = {closed_form.name: {FINE: closed_form, COARSE: closed_form}}
-        pressed = replace(pressed, levels={**pressed.levels, **known})
-    found[SMOOTH_DEPTH] = pressed
+        found[ROUGH_DEPTH] = own(replace(scene, motion=indented), (0.0,), depths)
+    pressed = own(replace(smooth, motion=indented), (0.0,), depths)
+    found[SMOOTH_DEPTH] = with_theory(pressed, (exact.Exact(),))
     if plan.speeds:
-        found[SPEED] = own(plan.speeds, (motion.greatest,))
-        found[LOAD] = own(plan.load_speeds, tuple(motion.greatest * factor for factor in plan.pressing))
+        found[SPEED] = own(scene, plan.speeds, greatest)
+        found[LOAD] = own(scene, plan.load_speeds, tuple(motion.greatest * factor for factor in plan.pressing))
     if plan.smooth_speeds:
-        found[SMOOTH_SPEED] = _curve(case, models, smooth, plan.smooth_speeds, (motion.greatest,))
+        found[SMOOTH_SPEED] = own(smooth, plan.smooth_speeds, greatest)
     return found
 
 

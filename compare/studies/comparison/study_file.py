@@ -246,22 +246,10 @@ class _Complete(_Asked):
             motion = Slide(speed=speeds[0], **press)
         elif self.rates:
             motion = Program(stages=(Stage(duration=1.0, **press),))
-        return Series(
-            name=own.name,
-            title=own.title or own.name,
-            scene=replace(scene, motion=motion),
-            speeds=speeds,
-            values=values,
-            surfaces=self.surfaces,
-            profiles=self.profiles,
-            bem=self.bem,
-            mdr=self.mdr,
-            note=own.note,
-            interval=self.interval,
-            claims=self.claims,
-            asked=shared.models,
-            reference=shared.reference,
-        )
+        stated = ("surfaces", "profiles", "bem", "mdr", "interval", "claims")
+        others = {"note": own.note, "asked": shared.models, "reference": shared.reference}
+        others |= {name: getattr(self, name) for name in stated}
+        return Series(own.name, own.title or own.name, replace(scene, motion=motion), speeds, values, **others)
 
 
 def _usual(speeds: int, values: int, surfaces: int, profiles: int, points: int) -> dict[str, Any]:
