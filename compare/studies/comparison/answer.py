@@ -9,52 +9,52 @@ from pandas import DataFrame
 
 from ...figures.prefixes import prefixed
 from ...library.describe import conditions
-from ...models.table import Model
 from ...report.page import Table
 from ...solving import words
 from ...statistics.finding import BOTH, REPORTED, UNDECIDED, Finding
-from ...statistics.means import Interval
-from ...statistics.multilevel import MEANS, WORDS
+from ...statistics.multilevel import WORDS
 from ...trustmap.verdict import CALLED, MULTIPLY, NONE, SOLVE, USE, Correction
 from .answers import Answers
 from .around import OWN, OWN_RATIOS, Around
 from .claims import SHORT
 
+ENDS = "_mean", "_low", "_high"
 UNITS = {"depth_reached": "m", "normal_force": "N"}
 ALL = "all"
 MOST_NOTES = 4  # reasons of undecided claims that stand below a table
 
 
-def scene_table(series: Around, answers: Answers, findings: Sequence[Finding]) -> Table:
-    """What each model finds of the scene as it stands, their ratio, and what to do with 1D."""
+def scene_table(series: Around, answers: Answers, points: DataFrame, findings: Sequence[Finding]) -> Table:
+    """What each model finds of the scene as it stands, their ratio, and what to do with 1D.
+
+    points : every point of its curves; of a history it is that where the reference has most
+    """
     advice, rows, drawn = series.advice, [], {}
+    own = points[points["curve"] == OWN].set_index("model")
     for name in series.own_means:
         models = answers.claiming(OWN, WORDS[name])
-        found = _numbers([answers.interval(OWN, each.name, *MEANS[name]) for each in models], models, series)
-        factor, unit = prefixed([ends[0] for ends in found], UNITS[name]) if name in UNITS else (1.0, "")
+        numbers = {each: own.loc[[each.name], [f"{name}{end}" for end in ENDS]].to_numpy() for each in models}
+        first = next((each for each in models if each.name == series.models.reference), models[0])
+        at = int(np.argmax(np.nan_to_num(np.abs(numbers[first][:, 0]))))
+        values = [found[at, 0] for found in numbers.values()]
+        factor, unit = prefixed(values, UNITS[name]) if name in UNITS else (1.0, "")
         row: dict[str, Any] = {"": words.with_brackets(WORDS[name], unit)}
-        for model, ends in zip(models, found, strict=True):
+        for model, found in numbers.items():
             column = model.label if model.label == model.name else f"{model.label} ({model.name})"
-            row[column] = words.interval(*(factor * end for end in ends), 3)
-        own = [each for each in findings if (each.curve, each.claim.id) == (series.place(OWN), OWN_RATIOS[name])]
-        row |= {each.dimension: words.found(each, 3) for each in own}
-        drawn |= {model: count for each in own for model, count in each.drawn.items()}
+            row[column] = words.interval(*(factor * found[at]).tolist(), 3)
+        ratios = [
+            each for each in findings if (each.curve, each.claim.id) == (series.place(OWN), OWN_RATIOS[name])
+        ]
+        row |= {each.dimension: words.found(each, 3) for each in ratios}
+        drawn |= {model: count for each in ratios for model, count in each.drawn.items()}
         if {"MDR", "BEM"} <= set(series.models.labels) and (cheap := getattr(advice, WORDS[name])):
-            apart = any(each.dimension == BOTH and _contradicts(each, cheap) for each in own)
+            apart = any(each.dimension == BOTH and _contradicts(each, cheap) for each in ratios)
             law = None if apart or cheap is not advice.friction else advice.law
             row["advice"] = _advised(cheap, law) + ("; map and means disagree" if apart else "")
         rows.append(row)
     surfaces = ", ".join(f"{count} {words.DRAWS.get(name, 'surfaces')}" for name, count in drawn.items())
     title = ", ".join(filter(None, [series.title, conditions(series.case.motion), surfaces]))
     return Table(series.path("answer"), DataFrame(rows).fillna(""), title)
-
-
-def _numbers(found: Sequence[Interval], models: Sequence[Model], series: Around) -> list[tuple[float, ...]]:
-    """A mean of each model with its interval; of a history where the reference, else the first, has most of it."""
-    first = next((k for k, each in enumerate(models) if each.name == series.models.reference), 0)
-    size = np.nan_to_num(np.abs(found[first].value))
-    at = np.unravel_index(np.argmax(size), size.shape)
-    return [tuple(float(end[at]) for end in each) for each in found]
 
 
 def _advised(cheap: Correction, law: Correction | None) -> str:

@@ -34,7 +34,7 @@ OWN, SPEED, LOAD = "own", "friction-speed", "friction-load"
 ROUGH_DEPTH, SMOOTH_DEPTH, SMOOTH_SPEED = "force-depth-rough", "force-depth-smooth", "smooth-speed"
 # Rough curves whose contacts share their surfaces: those of one are as many as those of the others.
 SHARED = {"rest": (ROUGH_DEPTH,), "sliding": (OWN, SPEED, LOAD)}
-# Claims on the scene as it stands by the name of its mean; on force against depth by curve.
+# Claims on the scene as it stands by the name of its mean; of force against depth, with their curves.
 OWN_RATIOS = {
     "friction_coefficient": "friction.ratio.own",
     "depth_reached": "own.depth",
@@ -42,7 +42,7 @@ OWN_RATIOS = {
 }
 SLOW_RATIO, SPREAD, EXACT = "friction.ratio.smooth-slow", "friction_spread", "exact"
 MU = "friction_coefficient"
-FORCES = {ROUGH_DEPTH: "force.ratio.rough", SMOOTH_DEPTH: "force.ratio.smooth"}
+FORCES = {"force.ratio.rough": ROUGH_DEPTH, "force.ratio.smooth": SMOOTH_DEPTH}
 STEPS = 10  # displacements, or tangential forces, to which a shear is drawn
 
 
@@ -126,12 +126,17 @@ class Around(Series):
             shifts = {speed: exponent * float(np.log(speed)) for speed in self.curves[LOAD].speeds}
             for model in answers.claiming(LOAD, FRICTION):
                 shifted[model.name] = self.shifted(answers, LOAD, model, shifts, exponent)
+        rows: list[tuple] = [(OWN_RATIOS[name], OWN, name, {(0, 0): ""}) for name in self.own_means]
+        for name, curve in FORCES.items():
+            if curve in self.curves and answers.has(curve, self.models.reference):
+                places = self._depths(answers, curve, self.models.reference)
+                rows.append((name, curve, "normal_force", places, 1.0))
+        rows += [("friction.ratio.speed", SPEED, MU, self._speeds())] * (SPEED in self.curves)
         found = [
             *self._slow(answers),
-            *(each for name in self.own_means for each in self._own(answers, name)),
-            *self._forces(answers),
+            *(each for name, *row in rows for each in self.ratios(name, answers, *row)),
             *(each for _, findings in shifted.values() for each in findings),
-            *self._at_speeds(answers),
+            *self._closed_form(answers),
             *self._spread(answers),
             *self._grid(answers),
         ]
@@ -141,48 +146,31 @@ class Around(Series):
         """Friction of the smooth body at its lowest speed: 2 of one dimension over three."""
         if SMOOTH_SPEED not in self.curves:
             return
-        speeds = self.curves[SMOOTH_SPEED].speeds
-        lowest, label = int(np.argmin(speeds)), self.models.labels[self.models.reference]
+        speeds, factors = self.curves[SMOOTH_SPEED].speeds, {each.label: each.slow_factor for each in self.models}
+        lowest = int(np.argmin(speeds))
         regime = f"v τ / a = {scaled_speed(self.case, speeds[lowest]):.2g}"
-        factors = {each.label: each.slow_factor for each in self.models}
         for each in self.ratios(SLOW_RATIO, answers, SMOOTH_SPEED, MU, {(lowest, 0): ""}, regime=regime):
-            other, _, _ = each.dimension.partition("/")
-            factor, claim = factors[other] / factors[label], each.claim
-            if factor != claim.expected:
-                sentence = f"Slow friction of the smooth body in {other} is {factor:g} times that in {label}"
-                claim = replace(claim, sentence=sentence, expected=factor, tolerance=factor * TOLERANCE)
+            one, _, other = each.dimension.partition("/")
+            factor = factors[one] / factors[other]
+            claim = replace(each.claim, expected=factor, tolerance=factor * TOLERANCE)
             yield replace(each, claim=claim)
 
-    def _own(self, answers: Answers, name: str) -> Iterator[Finding]:
-        """A mean of the scene as it stands."""
-        return self.ratios(OWN_RATIOS[name], answers, OWN, name, {(0, 0): ""})
-
-    def _forces(self, answers: Answers) -> Iterator[Finding]:
-        """Force of each model over that of the reference, and over the closed form, less one, at every depth."""
-        for curve, name in FORCES.items():
-            if curve in self.curves and answers.has(curve, self.models.reference):
-                places = self._depths(answers, curve, self.models.reference)
-                yield from self.ratios(name, answers, curve, "normal_force", places, 1.0)
+    def _closed_form(self, answers: Answers) -> Iterator[Finding]:
+        """Force on the smooth body over the closed form, less one, at every depth."""
         if answers.has(SMOOTH_DEPTH, EXACT):
             places, claim = self._depths(answers, SMOOTH_DEPTH, EXACT), CLAIMS["force.closed-form"]
             for model in answers.claiming(SMOOTH_DEPTH, FORCE):
-                both = model.name, EXACT
+                both, told = (model.name, EXACT), {"dimension": model.label}
                 over = ratio_of("normal_force", *both, less=1.0)
-                yield from self.compared(answers, claim, SMOOTH_DEPTH, both, over, places, dimension=model.label)
+                yield from self.compared(answers, claim, SMOOTH_DEPTH, both, over, places, **told)
 
     def _depths(self, answers, curve, model):
         """Places at which a model touches, in words."""
         return {at: f"{depth * 1e6:.3g} µm" for at, depth in self.touched(answers, curve, model)}
 
     def _speeds(self):
-        """Places on the curve of friction against speed, in words; none without that curve."""
-        speeds = self.curves[SPEED].speeds if SPEED in self.curves else ()
-        return {(k, 0): f"v = {speed:.3g} m/s" for k, speed in enumerate(speeds)}
-
-    def _at_speeds(self, answers: Answers) -> Iterator[Finding]:
-        """Friction of each model over that of the reference at every speed."""
-        if places := self._speeds():
-            yield from self.ratios("friction.ratio.speed", answers, SPEED, MU, places)
+        """Places on the curve of friction against speed, in words."""
+        return {(k, 0): f"v = {speed:.3g} m/s" for k, speed in enumerate(self.curves[SPEED].speeds)}
 
     def _spread(self, answers: Answers) -> Iterator[Finding]:
         """Spread of both estimates of friction in three dimensions, at every speed at which it is known."""

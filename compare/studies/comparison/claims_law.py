@@ -53,23 +53,6 @@ class Coordinates:
     full: np.ndarray
 
     @classmethod
-    def of_law(cls, law: xarray.Dataset) -> "Coordinates":
-        """Coordinates of the law: without waves that carry the contact, which roughness widens."""
-        load = law["normal_force"].values
-        return cls(
-            x=law["pressure_ratio"].values,
-            share=law["share_of_full_contact"].values,
-            smooth=law["friction_of_shape"].values / load,
-            full=law["full_contact_friction"].values / load,
-        )
-
-    @classmethod
-    def averaged(cls, law: xarray.Dataset) -> "Coordinates":
-        """Coordinates of the law, with S at the pressure of each place, as S is bent and pressure peaks."""
-        share = law["friction_of_roughness"].values / law["full_contact_friction"].values
-        return replace(cls.of_law(law), share=share)
-
-    @classmethod
     def of_bare(cls, smooth: xarray.Dataset, waves: Sequence[FullContact]) -> "Coordinates":
         """Raw coordinates: all waves in full contact at each speed, on the contact of the bare smooth body."""
         load, drag, area = (_points(smooth[name]) for name in ("normal_force", "friction_force", "contact_area"))
@@ -119,14 +102,18 @@ class LawPoints:
         bands = Bands.of(roughness)
         waves = [FullContact.of(bands, series.scene.solid, speed) for speed in series.speeds]
         known = [np.isfinite(_mu(answers.sample(level, "rough", model)[model])) for level in (FINE, COARSE)]
+        names = "friction_of_shape", "friction_of_roughness", "full_contact_friction", "normal_force"
+        own, rough, full, load = (law[name].values for name in names)
+        x, share = (law[name].values for name in ("pressure_ratio", "share_of_full_contact"))
         with np.errstate(invalid="ignore", divide="ignore"):
-            own, rough = (law[f"friction_of_{part}"].values for part in ("shape", "roughness"))
+            # Without waves that carry the contact, which roughness widens.
+            coordinates = Coordinates(x, share, own / load, full / load)
             found = cls(
                 series=series,
                 answers=answers,
                 model=model,
-                law=Coordinates.of_law(law),
-                averaged=Coordinates.averaged(law),
+                law=coordinates,
+                averaged=replace(coordinates, share=rough / full),  # as S is bent and the pressure peaks
                 bare=Coordinates.of_bare(answers("smooth", model).isel(speed=slice(1, None)), waves),
                 curves=tuple(map(Share.of, waves)),
                 height=1 / laws[model].ratios["depth_over_height"],

@@ -6,13 +6,14 @@ from functools import cached_property
 from typing import Any
 
 import xarray
+from pandas import DataFrame
 
 from scene import notes
 from scene.result import labelled, provenance
 
 from ...report.page import Table
 from ...solving.continuation import by_contact
-from ...solving.curve import Curve, contacts_of
+from ...solving.curve import Curve
 from ...solving.outcome import Outcome
 from ...solving.task import SceneTask, Task
 from ...statistics.finding import Finding
@@ -75,7 +76,7 @@ class Comparison(Study):
         return [contact for each in self.series for contact in each.own]
 
     def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
-        """A Dataset for each curve, fields of each scene's own contact, and the processor time of each model."""
+        """A Dataset for each curve, and the fields of each scene's own contact."""
         tree, outcomes = super().answers(outcomes), by_contact(outcomes)
         for each in self.series:
             below = tree[each.folder] if each.folder else tree
@@ -84,7 +85,6 @@ class Comparison(Study):
                 for model, kept in each.curves[OWN].fields(outcomes).items():
                     fields = labelled(kept, each.scene.indenter.type).assign_attrs(provenance(each.scene))
                     below[f"{FIELDS}/{model}"] = xarray.DataTree(fields)
-                below[tables.TIMES] = xarray.DataTree(tables.times(contacts_of(each.curves), outcomes))
         return tree
 
     def more(
@@ -106,24 +106,26 @@ class Comparison(Study):
             judged = series.judge(own)
             judged = replace(judged, findings=[*map(series.told, judged.findings)])
             singles += judged.findings
-            every.append((series, own, judged))
+            every.append((series, own, judged, tables.points(series, own)))
             if judged.laws and isinstance(series, RoughSeries) and FAMILIES in series.claims:
                 members.append(Member(series, own, judged.laws))
         by_family = {each.series.family: each.series for each in members}
         several = [by_family[each.curve].told(each) if each.curve else each for each in together(members)]
         findings = [*singles, *several]
-        opening = [table for s, a, _ in every for table in opening_of(s, a, findings)]
+        opening = [table for s, a, _, points in every for table in opening_of(s, a, points, findings)]
         claims = claims_table(findings, [each.name for each in self.series if isinstance(each, Around)])
         opening += [claims] if len(claims.frame) else []
-        told = [*open_claims(findings), *(why for s, a, _ in every if s.sampled for why in s.unreached(a))]
+        told = [*open_claims(findings), *(why for s, a, *_ in every if s.sampled for why in s.unreached(a))]
         blocks = list(pages.blocks(every, members, several, answers))
         return Judgement(findings, told, blocks, pages.setting(self.about, every), opening)
 
 
-def opening_of(series: Series, answers: Answers, findings: Sequence[Finding]) -> Sequence[Table]:
+def opening_of(
+    series: Series, answers: Answers, points: DataFrame, findings: Sequence[Finding]
+) -> Sequence[Table]:
     """Tables that answer what was asked of a scene; none of a series of a study."""
     if isinstance(series, Around):
-        return [scene_table(series, answers, findings)]
+        return [scene_table(series, answers, points, findings)]
     return [*series.tables(answers, findings)] if isinstance(series, SweepSeries) else []
 
 

@@ -7,7 +7,6 @@ import xarray
 from pandas import DataFrame
 
 from scene import Scene
-from scene.motion import UNITS
 
 from ...library.describe import described
 from ...report.page import Block, Findings, Section, Table, Text
@@ -19,7 +18,7 @@ from .rough import RoughSeries
 from .series import Judged, Series
 from .together import Member
 
-Every = Sequence[tuple[Series, Answers, Judged]]
+Every = Sequence[tuple[Series, Answers, Judged, DataFrame]]  # the points of each series last
 UNMATCHED = (
     "The roughness is a line in 1D and a surface in 3D. The rule of the method, "
     "C_1D = π q C_2D, ties their spectra; it keeps the rms height and the rms of the full "
@@ -31,41 +30,33 @@ def blocks(
     every: Every, members: Sequence[Member], several: Sequence[Finding], tree: xarray.DataTree
 ) -> Iterator[Block]:
     """Figures of several series, then a section of each, then its tables."""
-    points = {series.name: (answers, tables.points(series, answers)) for series, answers, _ in every}
-    together: list[Block] = list(plots.of_several([each for each, _, _ in every], members, points, several))
+    points = {series.name: (answers, each) for series, answers, _, each in every}
+    together: list[Block] = list(plots.of_several([row[0] for row in every], members, points, several))
     if several or together:
         yield Section("Several together", together + [Findings(several)] * bool(several))
     data: list[Block] = []
-    for series, answers, judged in every:
-        own = points[series.name][1]
+    for series, answers, judged, own in every:
         shown: list[Block] = list(plots.of_series(series, answers, judged, own, tree))
         if isinstance(series, RoughSeries):
             none = Text("No claim can be judged on this series.")
             shown.append(Findings(judged.findings) if judged.findings else none)
         if shown:
             yield Section(series.title, shown)
-        data += _data(series, answers, own, tree)
+        data.append(Table(series.path("points"), own, "Every point of every curve.", long=True))
+        if len(failed := tables.failures(answers)):
+            told = f"{len(failed)} solves without an answer."
+            data.append(Table(series.path("failures"), failed, told, long=True))
+        if isinstance(series, Around):
+            told = "Advice of the trust map on cheap models, predicted."
+            data.append(Table(series.path("trust"), series.advice.table(), told, long=True))
     yield Section("Data", data)
-
-
-def _data(series: Series, answers: Answers, points: DataFrame, tree: xarray.DataTree) -> Iterator[Table]:
-    """Tables of a series that lie beside the page."""
-    if isinstance(series, Around):
-        told = "Advice of the trust map on cheap models, predicted."
-        yield Table(series.path("trust"), series.advice.table(), told, long=True)
-        spent = tree[series.path(tables.TIMES)].to_dataset(inherit=False).to_dataframe().reset_index()
-        told = "Processor time of all solves, those of earlier runs included."
-        yield Table(series.path(tables.TIMES), spent, told)
-    yield Table(series.path("points"), points, "Every point of every curve.", long=True)
-    if len(failed := tables.failures(answers)):
-        yield Table(series.path("failures"), failed, f"{len(failed)} solves without an answer.", long=True)
 
 
 def setting(about: str, every: Every) -> list[Block]:
     """What was asked, and the contacts of each series."""
-    said = [about] + [UNMATCHED] * any(isinstance(each, RoughSeries) for each, _, _ in every)
+    said = [about] + [UNMATCHED] * any(isinstance(row[0], RoughSeries) for row in every)
     found: list[Block] = [Text(text) for text in said if text]
-    for series, _, judged in every:
+    for series, _, judged, _ in every:
         lines = (f"- {line}" for line in _contacts(series, judged))
         found.append(Section(f"Contacts: {series.title}", [Text("\n".join(lines))]))
     return found
@@ -76,8 +67,7 @@ def _contacts(series: Series, judged: Judged) -> Iterator[str]:
     parts = (getattr(series.scene, each.name) for each in fields(Scene) if each.name != "motion")
     yield from (described(part) for part in parts if part is not None)
     for name, curve in series.curves.items():
-        reach = [(curve.speeds, "m/s")] * bool(curve.speeds) + [(curve.values, UNITS.get(curve.prescribed, ""))]
-        told = [f"{len(given)} from {min(given):.3g} to {max(given):.3g} {unit}" for given, unit in reach]
+        told = [f"{len(curve.speeds or (0.0,))} speeds, {len(curve.values)} {curve.prescribed}s"]
         for model in (each for each in series.models if each.name in curve.levels):
             drawn = " and ".join(f"{len(each):,}" for each in curve.strata(model.name))
             points = ", ".join(str(getattr(each, "points", "")) for each in curve.levels[model.name].values())

@@ -1,16 +1,10 @@
 """Tables of a series: every point of its curves with intervals, solves that failed, and processor time."""
 
-from collections.abc import Mapping, Sequence
 from functools import partial
 from math import nan
 
-import numpy as np
-import xarray
 from pandas import DataFrame, concat
 
-from ...solving.outcome import Outcome
-from ...solving.task import SceneTask, Task
-from ...solving.vocabulary import attributes
 from ...statistics import means
 from .answers import Answers
 from .laws import regimes
@@ -18,7 +12,6 @@ from .measures import CONTACT
 from .rough import ROUGH, RoughSeries
 from .series import Series
 
-TIMES = "times"
 # Ratios of a rough point, see `regime.ratios`.
 GROUPS = (
     "depth_over_height",
@@ -61,13 +54,3 @@ def _stacked(answers, table):
     every = ((name, model) for name, each in answers.curves.items() for model in each["model"].values.tolist())
     frames = [DataFrame({"curve": place[0], "model": place[1]} | dict(table(*place))) for place in every]
     return concat([each for each in frames if len(each)] or frames[:1], ignore_index=True)
-
-
-def times(contacts: Sequence[SceneTask], outcomes: Mapping[Task, Outcome]) -> xarray.Dataset:
-    """Processor time of all solves by model, each contact once."""
-    spent: dict[str, float] = {}
-    for each in contacts:
-        seconds = float(np.nansum([row.seconds for row in outcomes[each].rows]))
-        spent[each.solver.name] = spent.get(each.solver.name, 0.0) + seconds
-    models = xarray.Variable("model", list(spent), attributes("model"))
-    return xarray.Dataset({"seconds": ("model", list(spent.values()), attributes("seconds"))}, {"model": models})
