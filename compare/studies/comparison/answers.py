@@ -19,7 +19,6 @@ MEASURED = (
     "friction_force",
     "depth_reached",
     "friction_spread",
-    "slow_drag",
     "curvature_by_pressure",
     "rms_slope_contact",
     "contact_length",

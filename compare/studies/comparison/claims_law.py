@@ -14,7 +14,7 @@ from scene import SelfAffine
 from ...models.law.bands import Bands, FullContact
 from ...models.law.share import Share
 from ...models.table import SURFACES
-from ...solving.curve import COARSE, FINE
+from ...solving.curve import COARSE, FINE, of_model
 from ...statistics.finding import HALVED, UNKNOWN, Finding
 from ...statistics.jackknife import DrawSet, friction, resample
 from .answers import Answers
@@ -94,8 +94,10 @@ class LawPoints:
     def of(cls, series: "RoughSeries", answers: Answers, laws: Mapping[str, Laws]) -> "LawPoints | None":
         """Points of the reference, where it is in three dimensions and the law answers; None where it is not."""
         model, roughness = series.models.reference, series.scene.roughness
-        law = series.theories(answers).get(LAW.name)
-        if law is None or "share_of_full_contact" not in law or series.models[model].draws != SURFACES:
+        if not answers.has("rough", LAW.name) or series.models[model].draws != SURFACES:
+            return None
+        law = of_model(answers.curves["rough"], LAW.name).sel(level=FINE).isel(speed=slice(1, None))
+        if "share_of_full_contact" not in law:
             return None
         assert isinstance(roughness, SelfAffine)  # the law answers no other
         law = law.transpose("speed", series.prescribed, ...)

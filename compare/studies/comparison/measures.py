@@ -33,7 +33,7 @@ SLOW, FAST = 0.1, 3.0
 # Ratio of xi to 1, or of 1 to xi, up to which the closest speed is at the knee.
 AT_THE_KNEE = 3.0
 CONTACT = {"profiles": "contact_length", "surfaces": "contact_area", "none": "contact_area"}  # [m], [m²]
-SLOW_DRAG = "slow_drag"
+SLOW_CAUSES = "curvature_by_pressure", "rms_slope_contact", "contact_length"  # of slow friction
 
 # Ending of an id, place of speeds and values, number that the law has there: None of that of the claim.
 Place = tuple[str, Any, float | None]
@@ -221,10 +221,16 @@ def slow_solid(here: Here) -> bool:
 
 
 def over_limit(here: Here, it: xarray.Dataset) -> float:
-    rest = it.isel(speed=0)
-    drag = exact.mean_lag(here.series.scene.solid) * draws_of(rest, SLOW_DRAG)
-    slow, _, _ = off_the_ratio(drag, draws_of(rest, "normal_force"))
-    return geometric(friction(it)[1] / (here.series.speeds[0] * slow))
+    """Friction at the slowest speed over what the contact at rest gives in the limit of low speed."""
+    rest, solid = it.isel(speed=0), here.series.scene.solid
+    lagged = here.series.speeds[0], exact.mean_lag(solid)
+    force, *causes = (draws_of(rest, name) if name in rest else nan for name in ("normal_force", *SLOW_CAUSES))
+    curvature, slope, length = causes
+    if here.model.draws == PROFILES or "curvature_by_pressure" not in rest:
+        drag = exact.slow_friction_by_slope(*lagged, solid.indentation_modulus, slope, length)
+    else:
+        drag = exact.slow_friction_by_curvature(*lagged, force, curvature)
+    return geometric(friction(it)[1] / off_the_ratio(drag, force)[0])
 
 
 def over_law(here: Here, it: xarray.Dataset) -> float:
