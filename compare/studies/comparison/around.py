@@ -310,15 +310,14 @@ def scaled_speed(case: Case, speed: float) -> float:
 
 def slow_friction(case: Case, models: Models) -> Mapping[str, float]:
     """Friction of the smooth body over the slope at the contact's edge, per v tau / a at low speed, by model."""
-    contact = elastic_contact(case.scene)
-    shape = (case.indenter.mdr_coefficient, case.indenter.exponent)
-    speed = contact.radius / float(case.scene.solid.retardation()[2][0])
-    lag, modulus = exact.mean_lag(case.scene.solid), case.scene.solid.indentation_modulus
-    in_one, in_three = (
-        law(speed, contact.radius, lag, modulus, *shape) / contact.load / edge_slope(case)
-        for law in (exact.slow_friction_1d, exact.slow_friction_3d)
-    )
-    return {each.name: in_one if each.draws == PROFILES else in_three for each in models}
+    contact, solid, body = elastic_contact(case.scene), case.scene.solid, case.indenter
+    speed = contact.radius / float(solid.retardation()[2][0])
+    given = speed, contact.radius, exact.mean_lag(solid), solid.indentation_modulus
+    laws = {
+        each.name: exact.slow_friction_1d if each.draws == PROFILES else exact.slow_friction_3d for each in models
+    }
+    unit = contact.load * edge_slope(case)
+    return {name: law(*given, body.mdr_coefficient, body.exponent) / unit for name, law in laws.items()}
 
 
 def edge_slope(case: Case) -> float:

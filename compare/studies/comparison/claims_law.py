@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import nan
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray
@@ -15,8 +15,8 @@ from ...models.law.bands import Bands, FullContact
 from ...models.law.share import Share
 from ...models.table import SURFACES
 from ...solving.curve import COARSE, FINE, of_model
-from ...statistics.finding import HALVED, UNKNOWN, Finding
-from ...statistics.jackknife import DrawSet, friction, resample
+from ...statistics.finding import HALVED, UNKNOWN, Claim, Finding
+from ...statistics.jackknife import DrawSet, friction, mean, resample
 from .answers import Answers
 from .claims import CLAIMS
 from .laws import Laws
@@ -55,11 +55,8 @@ class Coordinates:
     @classmethod
     def of_bare(cls, smooth: xarray.Dataset, waves: Sequence[FullContact]) -> "Coordinates":
         """Raw coordinates: all waves in full contact at each speed, on the contact of the bare smooth body."""
-        load, drag, area = (_points(smooth[name]) for name in ("normal_force", "friction_force", "contact_area"))
-        force, rms = (
-            np.array([number(each) for each in waves])[:, None]
-            for number in (lambda each: each.friction.sum(), lambda each: each.pressure[-1])
-        )
+        load, drag, area = (mean(smooth, name) for name in ("normal_force", "friction_force", "contact_area"))
+        force, rms = np.array([(each.friction.sum(), each.pressure[-1]) for each in waves]).T[..., None]
         x = load / area / rms
         shares = [Share.of(each)(row) for each, row in zip(waves, x, strict=True)]
         return cls(x=x, share=np.array(shares), smooth=drag / load, full=force * area / load)
@@ -135,31 +132,36 @@ def law_findings(series: "RoughSeries", answers: Answers, laws: Mapping[str, Law
     if found is None:
         return []
     regime = words({name: each[found.claimed] for name, each in laws[found.model].ratios.items()})
-    return [replace(each, curve=series.place("rough")) for each in law_findings_of([found], series.name, regime)]
+    return [*law_findings_of([found], series.name, regime, series.place("rough"))]
 
 
-def law_findings_of(points: Sequence[LawPoints], where: str = EVERY, groups: str = "") -> Iterator[Finding]:
+def law_findings_of(
+    points: Sequence[LawPoints], where: str = EVERY, groups: str = "", curve: str = ""
+) -> Iterator[Finding]:
     """Findings at all points of some series, of which the same surfaces are left out."""
     claimed = np.concatenate([each.law.x[each.claimed] for each in points])
     if not claimed.size:
         return
-    fine, coarse = (
-        DrawSet({each.series.name: each.answers.sample(level, "rough", each.model)[each.model] for each in points})
-        for level in (FINE, COARSE)
+    model = points[0].model
+    label, samples = (
+        points[0].series.models.labels[model],
+        [drawn_of(points, model, each) for each in (FINE, COARSE)],
     )
     regime = f"{claimed.size} points, x {claimed.min():.2g} to {claimed.max():.2g}"
+    place = {"where": where, "curve": curve, "regime": "; ".join(filter(None, (regime, groups)))}
     for found, coordinates in FINDINGS.items():
 
         def off(sample, coordinates=coordinates):
             return np.concatenate([_off(each, coordinates, sample) for each in points])
 
         for quantile, level in QUANTILES.items():
-            yield replace(
-                _finding(f"law3d.{found}{quantile}", level, off, fine, coarse),
-                where=where,
-                dimension=points[0].series.models.labels[points[0].model],
-                regime="; ".join(filter(None, (regime, groups))),
-            )
+            claim = replace(CLAIMS[f"law3d.{found}{quantile}"], dimension=label)
+            yield _finding(claim, level, off, *samples, **place)
+
+
+def drawn_of(members: Sequence[Any], model: str, level: str) -> DrawSet:
+    """Answers of a model to the rough bodies of several series, by the name of these."""
+    return DrawSet({each.series.name: each.answers.sample(level, "rough", model)[model] for each in members})
 
 
 def _off(points, coordinates, sample):
@@ -169,7 +171,7 @@ def _off(points, coordinates, sample):
     return np.log(place.measured(mu) / place.share)[points.claimed]
 
 
-def _finding(name: str, level: float, off: Callable, fine: DrawSet, coarse: DrawSet) -> Finding:
+def _finding(claim: Claim, level: float, off: Callable, fine: DrawSet, coarse: DrawSet, **place: str) -> Finding:
     """Finding on a quantile of the sizes of what points are off by.
 
     Scatter makes sizes larger: the upper end of the interval has that in it, the lower end is of what they are
@@ -187,7 +189,7 @@ def _finding(name: str, level: float, off: Callable, fine: DrawSet, coarse: Draw
         grid = abs(float(both(coarse)[0] - found.value[0]))
     known = np.all(np.isfinite([low, high, grid]))
     return Finding(
-        claim=CLAIMS[name],
+        claim=claim,
         value=float(found.value[0]),
         scatter=(max(float(low), 0.0), float(high)) if known else (nan, nan),
         grid=grid,
@@ -196,13 +198,9 @@ def _finding(name: str, level: float, off: Callable, fine: DrawSet, coarse: Draw
         reason="" if known else _UNKNOWN,
         size=True,
         parts={source: float(each[0]) for source, each in found.parts.items()},
+        **place,
     )
 
 
 def _mu(dataset):
     return friction(dataset)[1:]
-
-
-def _points(values):
-    """Values (speeds, values) of a smooth body, which has no draws."""
-    return values.mean("surface").values if "surface" in values.dims else values.values

@@ -290,21 +290,18 @@ def closed_forms(series: RoughSeries) -> tuple[np.ndarray, np.ndarray]:
     return np.array([contact.load for contact in contacts]), np.array([contact.depth for contact in contacts])
 
 
-def loading(series: RoughSeries, depths: np.ndarray | None = None) -> np.ndarray:
+def loading(series: RoughSeries, reached: np.ndarray) -> np.ndarray:
     """Force [N] on the smooth body pressed in at constant rates, (rates, depths): Lee and Radok.
 
-    depths : reached [m], (rates, depths); those prescribed if absent. A march answers for the middle of its last
-        step, half a step before the end
+    reached : depths [m], (rates, depths). A march answers for the middle of its last step, half a step before the
+        end
     """
-    reached = (
-        np.broadcast_to(series.values, (len(series.speeds), len(series.values))) if depths is None else depths
-    )
     body, solid = series.scene.indenter, series.scene.elastomer
     forces = np.full(reached.shape, nan)
-    for place, depth in np.ndenumerate(reached):
+    for (row, column), depth in np.ndenumerate(reached):
         if depth > 0:
-            end = float(depth) / series.speeds[place[0]]
-            forces[place] = loading_force(body, solid, (0.0, end), (0.0, float(depth)), (end,))[0]
+            times = 0.0, float(depth) / series.speeds[row]
+            forces[row, column] = loading_force(body, solid, times, (0.0, float(depth)), times[1:])[0]
     return forces
 
 

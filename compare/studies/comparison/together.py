@@ -11,10 +11,10 @@ from ...statistics.collapse import collapse
 from ...statistics.finding import Finding
 from ...statistics.frictioncurves import SimulatedCurves
 from ...statistics.intervals import RmsMisfit
-from ...statistics.jackknife import DrawSet, draws_of, friction, measured, off_the_ratio, strata_of
+from ...statistics.jackknife import draws_of, friction, measured, off_the_ratio, strata_of
 from .answers import Answers
 from .claims import CLAIMS, claim, geometric, power
-from .claims_law import LawPoints, law_findings_of
+from .claims_law import LawPoints, drawn_of, law_findings_of
 from .laws import Laws
 from .measures import FAST, SLOW
 from .rough import FAMILIES, ROUGH, RoughSeries, sliding
@@ -118,11 +118,6 @@ def _slope_exponents(members, model):
         if values.any():
             asked = claim(name, exponent, members[0].series.models.labels[model])
             yield measured(asked, fine, coarse, "", _words(alike, model, (place, values)))
-
-
-def drawn_of(members, model, level):
-    """Answers of a model to the rough bodies of several series, by the name of these."""
-    return DrawSet({each.series.name: each.answers.sample(level, ROUGH, model)[model] for each in members})
 
 
 def _but_for_height(member):
