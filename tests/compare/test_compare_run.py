@@ -26,7 +26,7 @@ from compare.studies.comparison.around import (
     SMOOTH_DEPTH,
     SMOOTH_SPEED,
     SPEED,
-    curves,
+    Around,
     friction_law,
     models_of,
     predicted_exponent,
@@ -73,7 +73,7 @@ DEEP = replace(CASE, motion=Slide(speed=0.1, depth=1e-4))
 
 
 def contacts(case):
-    return {name: (each.speeds, each.values) for name, each in curves(case, models_of(case)).items()}
+    return {name: (each.speeds, each.values) for name, each in Around("a case", case).curves.items()}
 
 
 REST = {OWN, ROUGH_DEPTH, SMOOTH_DEPTH}
@@ -95,14 +95,14 @@ def test_only_curves_that_mean_something_are_solved(change, left):
 
 
 def test_depth_stays_prescribed_where_the_scene_prescribes_it():
-    assert all(each.prescribed == "depth" for each in curves(DEEP, models_of(DEEP)).values())
+    assert all(each.prescribed == "depth" for each in Around("a case", DEEP).curves.values())
     assert contacts(DEEP)[LOAD][1] == pytest.approx((0.3e-4, 1e-4, 3e-4, 1e-3))
 
 
 def test_no_scene_is_solved_twice_and_fields_are_kept_of_the_own_contact_alone():
     found, every = (
-        tasks_of(curves(CASE, models_of(CASE))),
-        [task for each in curves(CASE, models_of(CASE)).values() for task in each.tasks()],
+        tasks_of(Around("a case", CASE).curves),
+        [task for each in Around("a case", CASE).curves.values() for task in each.tasks()],
     )
     asked, everywhere = ([each for task in tasks for each in contacts_on(task)] for tasks in (found, every))
     solved = [(each.solver, scene) for each in asked for scene in each.scenes]
@@ -122,7 +122,7 @@ def test_no_scene_is_solved_twice_and_fields_are_kept_of_the_own_contact_alone()
     ids=["resolved", "cut off by the grid", "too few points to halve"],
 )
 def test_a_grid_of_half_the_points_is_solved_where_it_has_the_same_surface(case, rough, smooth):
-    found = curves(case, models_of(case))
+    found = Around("a case", case).curves
     assert {name: set(grids) for name, grids in found[OWN].levels.items()}["BEM"] == rough
     assert set(found[SMOOTH_DEPTH].levels["BEM"]) == smooth
 

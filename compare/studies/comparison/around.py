@@ -27,7 +27,7 @@ from ...statistics.multilevel import WORDS
 from ...trustmap.verdict import Advice, trust
 from .answers import Answers
 from .claims import CLAIMS, TOLERANCE
-from .series import Counts, Judged, Series, on_levels_alike, ratio_of
+from .series import Counts, Judged, Series, ratio_of
 from .theory import with_theory
 
 OWN, SPEED, LOAD = "own", "friction-speed", "friction-load"
@@ -86,7 +86,19 @@ class Around(Series):
 
     @cached_property
     def curves(self) -> Mapping[str, Curve]:
-        return curves(self.case, self.models, None if self.interval is None else self.strata)
+        """Curves by name, all of which every model can solve, as far as that is known beforehand.
+
+        Raises Refused, also where what follows from the numbers of the case is beyond the range of numbers.
+        """
+        try:
+            found = self.with_strata(_curves(self.case, self.models), _most_levels(self.scene))
+            if self.case.roughness:
+                found |= {name: with_theory(found[name]) for name in (SPEED, LOAD) if name in found}
+            refuse(found.values())
+        except (ArithmeticError, SolveError, ValidationError) as error:
+            # The case is valid; what follows from it is not.
+            raise Refused("its numbers are so far apart that the contact leaves their range") from error
+        return found
 
     @property
     def remarks(self) -> Sequence[str]:
@@ -99,7 +111,7 @@ class Around(Series):
 
     @cached_property
     def doubts(self) -> Sequence[str]:
-        return doubted(self.case, curves=corners(self.curves))
+        return doubted(self.case, curves=(corner for each in self.curves.values() for corner in each.corners))
 
     @cached_property
     def advice(self) -> Advice:
@@ -211,32 +223,6 @@ class Around(Series):
 HISTORIES = {FORCE: "normal_force", DEPTH: "depth_reached", FRICTION: "friction_force"}
 
 
-def curves(case: Case, models: Models, strata: Mapping[str, Counts] | None = None) -> dict[str, Curve]:
-    """Curves of a case by name, all of which every model can solve, as far as that is known beforehand.
-
-    strata : numbers of surfaces on each level by model, of the curves that share them, where these are not fixed
-
-    Raises Refused, also where what follows from the numbers of the case is beyond the range of numbers.
-    """
-    try:
-        found = _curves(case, models)
-        for shared, names in SHARED.items() if strata is not None and case.roughness else ():
-            if own := {name: found[name] for name in names if name in found and not found[name].over_time}:
-                found |= on_levels_alike(own, models, strata.get(shared, {}), _most_levels(case.scene))
-        if case.roughness:
-            found |= {name: with_theory(found[name]) for name in (SPEED, LOAD) if name in found}
-        refuse(found.values())
-    except (ArithmeticError, SolveError, ValidationError) as error:
-        # The case is valid; what follows from it is not.
-        raise Refused("its numbers are so far apart that the contact leaves their range") from error
-    return found
-
-
-def corners(found: Mapping[str, Curve]) -> Iterator[Scene]:
-    """Contacts at the ends of all curves."""
-    return (corner for each in found.values() for corner in each.corners)
-
-
 def _curves(case, models):
     plan, scene, motion = case.plan(), case.scene, case.motion
     if isinstance(motion, Shear):
@@ -313,11 +299,11 @@ def slow_friction(case: Case, models: Models) -> Mapping[str, float]:
     contact, solid, body = elastic_contact(case.scene), case.scene.solid, case.indenter
     speed = contact.radius / float(solid.retardation()[2][0])
     given = speed, contact.radius, exact.mean_lag(solid), solid.indentation_modulus
-    laws = {
-        each.name: exact.slow_friction_1d if each.draws == PROFILES else exact.slow_friction_3d for each in models
-    }
-    unit = contact.load * edge_slope(case)
-    return {name: law(*given, body.mdr_coefficient, body.exponent) / unit for name, law in laws.items()}
+    one, three = (
+        law(*given, body.mdr_coefficient, body.exponent) / contact.load / edge_slope(case)
+        for law in (exact.slow_friction_1d, exact.slow_friction_3d)
+    )
+    return {each.name: one if each.draws == PROFILES else three for each in models}
 
 
 def edge_slope(case: Case) -> float:

@@ -142,11 +142,8 @@ def law_findings_of(
     claimed = np.concatenate([each.law.x[each.claimed] for each in points])
     if not claimed.size:
         return
-    model = points[0].model
-    label, samples = (
-        points[0].series.models.labels[model],
-        [drawn_of(points, model, each) for each in (FINE, COARSE)],
-    )
+    model, labels = points[0].model, points[0].series.models.labels
+    samples = [drawn_of(points, model, level) for level in (FINE, COARSE)]
     regime = f"{claimed.size} points, x {claimed.min():.2g} to {claimed.max():.2g}"
     place = {"where": where, "curve": curve, "regime": "; ".join(filter(None, (regime, groups)))}
     for found, coordinates in FINDINGS.items():
@@ -155,7 +152,7 @@ def law_findings_of(
             return np.concatenate([_off(each, coordinates, sample) for each in points])
 
         for quantile, level in QUANTILES.items():
-            claim = replace(CLAIMS[f"law3d.{found}{quantile}"], dimension=label)
+            claim = replace(CLAIMS[f"law3d.{found}{quantile}"], dimension=labels[model])
             yield _finding(claim, level, off, *samples, **place)
 
 

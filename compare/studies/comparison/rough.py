@@ -23,7 +23,7 @@ from .answers import Answers
 from .claims_law import law_findings
 from .laws import Laws, laws
 from .measures import BOTH, DEPTHS, FRICTIONS, MARCHES, REST, Here, Row
-from .series import Counts, Judged, Series, on_levels_alike
+from .series import Counts, Judged, Series
 from .theory import THEORIES, with_theory
 
 ROUGH, SMOOTH = BODIES = "rough", "smooth"
@@ -122,10 +122,8 @@ class RoughSeries(Series):
             draws=counts,
         )
         smooth = replace(rough, scene=replace(self.scene, roughness=None))
-        if self.interval is not None:
-            strata = self.strata.get(ROUGH, {})
-            rough = on_levels_alike({ROUGH: rough}, self.models, strata, least=counts)[ROUGH]
-        return {ROUGH: with_theory(rough, THEORIES) if self.slides else rough, SMOOTH: smooth}
+        found = self.with_strata({ROUGH: rough, SMOOTH: smooth}, least=counts)
+        return found | ({ROUGH: with_theory(found[ROUGH], THEORIES)} if self.slides else {})
 
     def at(self, value: float, speed: float = 0.0) -> Scene:
         """The rough scene under one load or depth, at rest or at a speed."""

@@ -123,7 +123,29 @@ class Series(ABC):
     @property
     def sampled(self) -> bool:
         """Whether its numbers of surfaces follow from a wanted interval."""
-        return self.interval is not None and self.scene.roughness is not None
+        return self.interval is not None and hasattr(self.scene.roughness, "seed")
+
+    def with_strata(
+        self, curves: Mapping[str, Curve], most: int = len(LEVELS), least: Mapping[str, int] = {}
+    ) -> dict[str, Curve]:
+        """Curves with as many surfaces as is asked for, those that share them on all levels that hold them.
+
+        most : levels
+        least : numbers of surfaces of a pilot on the coarsest level, by model, where more than usual are wanted
+        """
+        made = dict(curves)
+        for shared, names in self.shared.items() if self.sampled else ():
+            own = {name: curves[name] for name in names if name in curves and not curves[name].over_time}
+            known, strata = next(iter(own.values()), None), self.strata.get(shared, {})
+            kept: dict[str, Mapping[str, Solver]] = {}
+            draws: dict[str, tuple[int, ...]] = {}
+            for name, each in levels(self.models, [*own.values()], most).items() if known else ():
+                if name in known.levels:
+                    if self.models[name].draws != NONE:
+                        draws[name] = strata.get(name) or pilot(len(each), least.get(name, 0))
+                    kept[name] = dict(list(each.items())[: len(draws.get(name, each))])
+            made |= {name: replace(each, levels=kept, draws={**each.draws, **draws}) for name, each in own.items()}
+        return made
 
     def place(self, curve: str) -> str:
         """Name of a curve among those of all series."""
@@ -290,31 +312,6 @@ def ratio_of(mean_name: str, *models: str, less: float = 0.0):
         return values[0] / values[1] - less if len(values) > 1 else values[0]
 
     return measure
-
-
-def on_levels_alike(
-    curves: Mapping[str, Curve],
-    models: Models,
-    strata: Counts,
-    most: int = len(LEVELS),
-    least: Mapping[str, int] = {},
-) -> dict[str, Curve]:
-    """Curves that share their surfaces, on all levels that hold them.
-
-    strata : numbers of surfaces on each level, by model; those of a pilot where absent. Fewer numbers than levels
-        leave out the coarsest
-    most : levels
-    least : numbers of surfaces of a pilot on the coarsest level, by model, where more than usual are wanted
-    """
-    first, *_ = curves.values()
-    kept: dict[str, Mapping[str, Solver]] = {}
-    draws: dict[str, tuple[int, ...]] = {}
-    for name, own in levels(models, [*curves.values()], most).items():
-        if name in first.levels:
-            if models[name].draws != NONE:
-                draws[name] = strata.get(name) or pilot(len(own), least.get(name, 0))
-            kept[name] = dict(list(own.items())[: len(draws.get(name, own))])
-    return {name: replace(each, levels=kept, draws={**each.draws, **draws}) for name, each in curves.items()}
 
 
 def pilot(count: int, least: int = PILOT) -> tuple[int, ...]:

@@ -25,7 +25,7 @@ from ...solving.vocabulary import attributes
 from ...statistics.multilevel import MEANS, WORDS, wanted
 from .answers import Answers
 from .around import OWN_RATIOS, models_of
-from .series import Counts, Judged, Series, on_levels_alike
+from .series import Counts, Judged, Series
 from .values import Values, values_of
 
 FEW = 8  # draws where nothing is asked
@@ -118,9 +118,7 @@ class SweepSeries(Series):
             levels=on_two_levels(*(each.solver for each in self.models)),
             draws={each.name: each.count(self.draws, self.draws) for each in self.models},
         )
-        if self.interval is None or not fixed.random:
-            return {CONTACTS: fixed}
-        return on_levels_alike({CONTACTS: fixed}, self.models, self.strata.get(CONTACTS, {}))
+        return self.with_strata({CONTACTS: fixed})
 
     @property
     def wanted(self) -> Iterator[tuple[str, str, tuple[float, ...]]]:
