@@ -165,7 +165,7 @@ def judged(case=CASE, **how):
 
 
 def test_known_answers_are_found():
-    _, answers, found = judged()
+    _, _, found = judged()
     own = found.loc["friction.ratio.own", "a case"]
     assert own[["value", "low", "high", "surfaces", "verdict"]].tolist() == [pytest.approx(2)] * 3 + [2, "fails"]
     assert found.loc["friction.ratio.smooth-slow", "a case"][["verdict", "surfaces"]].tolist() == ["holds", 0]
@@ -175,9 +175,6 @@ def test_known_answers_are_found():
         np.testing.assert_allclose(rows["value"], FORCE - 1, rtol=1e-12)
         assert set(rows["verdict"]) == {"fails"}
     np.testing.assert_allclose(found.loc["friction.spread"]["value"], 0.02, rtol=1e-12)
-    contacts = [each for task in asked.run({"a case": CASE}).batches()[0].tasks for each in contacts_on(task)]
-    scenes = [scene for each in contacts if each.solver.name == "BEM" for scene in each.scenes]
-    assert answers["a-case/times"]["seconds"].sel(model="BEM") == 2.0 * len(scenes)
     # a power law collapses by any shift
     shifted = found.loc["eq23.collapse", "a case"]
     assert shifted["verdict"].tolist() == ["undecided"] * 2

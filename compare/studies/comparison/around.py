@@ -65,7 +65,7 @@ class Around(Series):
     asked: tuple[ModelLike, ...] = ()
     reference: str | None = None
     wanted_interval: float | None = None
-    strata: Mapping[str, Counts] = field(default_factory=dict)
+    strata: Mapping[str, Counts] = field(default_factory=dict, hash=False)
     shared = SHARED
 
     @property
@@ -143,7 +143,8 @@ class Around(Series):
             if curve in self.curves and answers.has(curve, self.models.reference):
                 places = self._depths(answers, curve, self.models.reference)
                 rows.append((name, curve, "normal_force", places, 1.0))
-        rows += [("friction.ratio.speed", SPEED, MU, self._speeds())] * (SPEED in self.curves)
+        if SPEED in self.curves:
+            rows.append(("friction.ratio.speed", SPEED, MU, self._speeds()))
         found = [
             *self._slow(answers),
             *(each for name, *row in rows for each in self.ratios(name, answers, *row)),

@@ -63,7 +63,7 @@ class RoughSeries(Series):
     asked: tuple[ModelLike, ...] = ()
     reference: str = ""
     interval: float | None = None
-    strata: Mapping[str, Counts] = field(default_factory=dict)
+    strata: Mapping[str, Counts] = field(default_factory=dict, hash=False)
     shared: ClassVar[Mapping[str, tuple[str, ...]]] = {ROUGH: (ROUGH,)}
 
     @property

@@ -49,7 +49,7 @@ class SweepSeries(Series):
     draws: int
     models: Models
     interval: float | None = None
-    strata: Mapping[str, Counts] = field(default_factory=dict)
+    strata: Mapping[str, Counts] = field(default_factory=dict, hash=False)
     name = title = CONTACTS
     shared: ClassVar[Mapping[str, tuple[str, ...]]] = {CONTACTS: (CONTACTS,)}
 
