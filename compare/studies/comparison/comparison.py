@@ -51,13 +51,9 @@ class Comparison(Study):
     def inputs(self) -> Mapping[str, Any]:
         return self.stated
 
-    @cached_property
-    def _curves(self) -> Mapping[str, Curve]:
-        return {each.path(name): curve for each in self.series for name, curve in each.curves.items()}
-
     def grids(self) -> Mapping[str, Curve]:
         """Every curve of every series, by "series/curve"."""
-        return self._curves
+        return {each.path(name): curve for each in self.series for name, curve in each.curves.items()}
 
     @cached_property
     def doubts(self) -> tuple[str, ...]:

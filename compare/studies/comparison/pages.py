@@ -63,17 +63,15 @@ def setting(about: str, every: Every) -> list[Block]:
 
 
 def _contacts(series: Series, judged: Judged) -> Iterator[str]:
-    """Scene in words, speeds and loads of its curves, draws and grids of each model, regime, and notes."""
+    """Scene in words, draws and grids of each model, regime, and notes."""
     parts = (getattr(series.scene, each.name) for each in fields(Scene) if each.name != "motion")
     yield from (described(part) for part in parts if part is not None)
-    for name, curve in series.curves.items():
-        told = [f"{len(curve.speeds or (0.0,))} speeds, {len(curve.values)} {curve.prescribed}s"]
-        for model in (each for each in series.models if each.name in curve.levels):
-            drawn = " and ".join(f"{len(each):,}" for each in curve.strata(model.name))
-            points = ", ".join(str(getattr(each, "points", "")) for each in curve.levels[model.name].values())
-            drawn = f"{drawn} {model.draws}" if curve.random else "one smooth body"
-            told.append(f"{model.label} {drawn}" + (f" on {points} points" if model.has_grid else ""))
-        yield f"{name}: {'; '.join(told)}"
+    for name, drawn in series.drawn.items() if series.scene.roughness else ():
+        for model, counts in drawn.counts.items():
+            told = " and ".join(f"{each:,}" for each in counts)
+            yield f"{name}, {series.models.labels[model]}: {told} {series.models[model].draws}"
+    for model in (each for each in series.models if each.has_grid):
+        yield f"{model.label}: {getattr(model.solver, 'points', 0)} points, and coarser grids"
     yield from (each.claim for each in series.every_model if each.claim)
     yield from (f"{series.models.labels[name]}: {each.words()}" for name, each in judged.laws.items())
     yield from series.remarks
