@@ -1,7 +1,7 @@
 """Answer of a comparison as tables: what each model finds of a scene, and what becomes of each claim."""
 
 from collections.abc import Iterable, Sequence
-from math import isfinite
+from math import isfinite, nan
 from typing import Any
 
 import numpy as np
@@ -13,7 +13,7 @@ from ...report.page import Table
 from ...solving import words
 from ...statistics.finding import BOTH, REPORTED, UNDECIDED, Finding
 from ...statistics.multilevel import WORDS
-from ...trustmap.verdict import CALLED, MULTIPLY, NONE, SOLVE, USE, Correction
+from ...trustmap.verdict import CALLED, MULTIPLY, NONE, SOLVE, USE, Advice, Correction
 from .answers import Answers
 from .around import OWN, OWN_RATIOS, Around
 from .claims import SHORT
@@ -27,51 +27,47 @@ MOST_NOTES = 4  # reasons of undecided claims that stand below a table
 def scene_table(series: Around, answers: Answers, points: DataFrame, findings: Sequence[Finding]) -> Table:
     """What each model finds of the scene as it stands, their ratio, and what to do with 1D.
 
-    points : every point of its curves; of a history it is that where the reference has most
+    points : every point of its curves; of a history it is that where the reference, else the first, has most
     """
-    advice, rows, drawn = series.advice, [], {}
-    own = points[points["curve"] == OWN].set_index("model")
+    own, rows, names = points[points["curve"] == OWN].set_index("model"), [], series.models.labels
     for name in series.own_means:
-        models = answers.claiming(OWN, WORDS[name])
-        numbers = {each: own.loc[[each.name], [f"{name}{end}" for end in ENDS]].to_numpy() for each in models}
-        first = next((each for each in models if each.name == series.models.reference), models[0])
-        at = int(np.argmax(np.nan_to_num(np.abs(numbers[first][:, 0]))))
-        values = [found[at, 0] for found in numbers.values()]
+        models = [each.name for each in answers.claiming(OWN, WORDS[name])]
+        ends = own[[f"{name}{end}" for end in ENDS]]
+        first = series.models.reference if series.models.reference in models else models[0]
+        at = int(np.argmax(np.nan_to_num(ends.loc[[first], f"{name}_mean"].abs())))
+        numbers = {each: ends.loc[[each]].iloc[at].to_numpy() for each in models}
+        values = [each[0] for each in numbers.values()]
         factor, unit = prefixed(values, UNITS[name]) if name in UNITS else (1.0, "")
+        place = series.place(OWN), OWN_RATIOS[name]
+        ratios = {each.dimension: each for each in findings if (each.curve, each.claim.id) == place}
         row: dict[str, Any] = {"": words.with_brackets(WORDS[name], unit)}
         for model, found in numbers.items():
-            column = model.label if model.label == model.name else f"{model.label} ({model.name})"
-            row[column] = words.interval(*(factor * found[at]).tolist(), 3)
-        ratios = [
-            each for each in findings if (each.curve, each.claim.id) == (series.place(OWN), OWN_RATIOS[name])
-        ]
-        row |= {each.dimension: words.found(each, 3) for each in ratios}
-        drawn |= {model: count for each in ratios for model, count in each.drawn.items()}
-        if {"MDR", "BEM"} <= set(series.models.labels) and (cheap := getattr(advice, WORDS[name])):
-            apart = any(each.dimension == BOTH and _contradicts(each, cheap) for each in ratios)
-            law = None if apart or cheap is not advice.friction else advice.law
-            row["advice"] = _advised(cheap, law) + ("; map and means disagree" if apart else "")
+            column = model if names[model] == model else f"{names[model]} ({model})"
+            value, low, high = (factor * found).tolist()
+            row[column] = words.interval(value, low, high, 3)
+        row |= {beside: words.found(each, 3) for beside, each in ratios.items()}
+        if {"MDR", "BEM"} <= {*names} and (cheap := getattr(series.advice, WORDS[name])):
+            row["advice"] = _advised(cheap, series.advice, ratios.get(BOTH))
         rows.append(row)
-    surfaces = ", ".join(f"{count} {words.DRAWS.get(name, 'surfaces')}" for name, count in drawn.items())
-    title = ", ".join(filter(None, [series.title, conditions(series.case.motion), surfaces]))
+    drawn = series.drawn["sliding"].counts if series.curves[OWN].random else {}
+    surfaces = (f"{sum(counts)} {series.models[name].draws}" for name, counts in drawn.items())
+    title = ", ".join(filter(None, [series.title, conditions(series.case.motion), *surfaces]))
     return Table(series.path("answer"), DataFrame(rows).fillna(""), title)
 
 
-def _advised(cheap: Correction, law: Correction | None) -> str:
-    """What the trust map says of the answer of 1D."""
+def _advised(cheap: Correction, advice: Advice, solved: Finding | None) -> str:
+    """What the trust map says of the answer of 1D, and whether means over surfaces contradict it."""
+    low, high = solved.interval if solved is not None and solved.draws else (nan, nan)
+    apart = low > cheap.high or high < cheap.low
+    law = advice.law if cheap is advice.friction and not apart else None
     other = f", or {CALLED[law.model]}" if law is not None and law.advice == USE else ""
-    return {
+    told = {
         NONE: f"none: {cheap.reason}",
         USE: "use 1D",
         MULTIPLY: f"multiply 1D by {cheap.times}{other}",
         SOLVE: "solve in 3D",
-    }[cheap.advice]
-
-
-def _contradicts(solved: Finding, foretold: Correction) -> bool:
-    """Whether means over surfaces and what the trust map foretells of 1D have no ratio in common."""
-    low, high = solved.interval
-    return solved.draws > 0 and (low > foretold.high or high < foretold.low)
+    }
+    return told[cheap.advice] + ("; map and means disagree" if apart else "")
 
 
 def claims_table(findings: Iterable[Finding], scenes: Iterable[str], name: str = "claims") -> Table:
@@ -88,7 +84,7 @@ def claims_table(findings: Iterable[Finding], scenes: Iterable[str], name: str =
     frame.loc[holds & (claims["scene"].transform("nunique") > 1), "scene"] = ALL
     order = {short: place for place, short in reversed([*enumerate(SHORT.values())])}
     frame = frame.sort_values("claim", kind="stable", key=lambda own: own.map(order).fillna(len(order)))
-    lines = [_line(*key, own) for key, own in frame.groupby(["claim", "scene"], sort=False)]
+    lines = [_line(short, scene, own) for (short, scene), own in frame.groupby(["claim", "scene"], sort=False)]
     table = DataFrame(lines).fillna("")
     if lines:
         table["verdict"] = table.pop("verdict")  # behind all models

@@ -143,9 +143,9 @@ def law_findings_of(
     if not claimed.size:
         return
     model, labels = points[0].model, points[0].series.models.labels
-    samples = [drawn_of(points, model, level) for level in (FINE, COARSE)]
+    fine, coarse = (drawn_of(points, model, level) for level in (FINE, COARSE))
     regime = f"{claimed.size} points, x {claimed.min():.2g} to {claimed.max():.2g}"
-    place = {"where": where, "curve": curve, "regime": "; ".join(filter(None, (regime, groups)))}
+    place: dict[str, Any] = {"where": where, "curve": curve, "regime": "; ".join(filter(None, (regime, groups)))}
     for found, coordinates in FINDINGS.items():
 
         def off(sample, coordinates=coordinates):
@@ -153,7 +153,7 @@ def law_findings_of(
 
         for quantile, level in QUANTILES.items():
             claim = replace(CLAIMS[f"law3d.{found}{quantile}"], dimension=labels[model])
-            yield _finding(claim, level, off, *samples, **place)
+            yield _finding(claim, level, off, fine, coarse, **place)
 
 
 def drawn_of(members: Sequence[Any], model: str, level: str) -> DrawSet:
@@ -168,7 +168,7 @@ def _off(points, coordinates, sample):
     return np.log(place.measured(mu) / place.share)[points.claimed]
 
 
-def _finding(claim: Claim, level: float, off: Callable, fine: DrawSet, coarse: DrawSet, **place: str) -> Finding:
+def _finding(claim: Claim, level: float, off: Callable, fine: DrawSet, coarse: DrawSet, **place: Any) -> Finding:
     """Finding on a quantile of the sizes of what points are off by.
 
     Scatter makes sizes larger: the upper end of the interval has that in it, the lower end is of what they are

@@ -96,7 +96,7 @@ class Comparison(Study):
         return replace(self, series=tuple(replace(s, strata=asked.get(s.name, s.strata)) for s in self.series))  # type: ignore[type-var]
 
     def judge(self, answers: xarray.DataTree) -> Judgement:
-        every, singles, members = [], [], []
+        every, members, singles = [], [], list[Finding]()
         for series in self.series:
             own = series.answers(answers)
             judged = series.judge(own)

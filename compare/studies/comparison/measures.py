@@ -321,6 +321,11 @@ def deep(here: Here) -> np.ndarray:
     return closed_forms(here.series)[1] * MUCH_LESS_HEIGHT >= here.series.scene.roughness.rms_height
 
 
+def reaches(here: Here, is_deep: bool) -> bool:
+    """Whether some loads or depths are deep, or not."""
+    return bool((deep(here) == is_deep).any())
+
+
 def depth_apart(here: Here, one: xarray.Dataset, three: xarray.Dataset, is_deep: bool) -> np.ndarray:
     """By how much depth or force there is another in 1D, where it is deep, or not."""
     if here.pressed == DEPTH:
@@ -360,7 +365,7 @@ DEPTHS = [
 REST = [
     Row(
         f"rest.{{quantity}}-{side}",
-        at(..., lambda here, is_deep=is_deep: (deep(here) == is_deep).any()),
+        at(..., partial(reaches, is_deep=is_deep)),
         partial(depth_apart, is_deep=is_deep),
         pair=True,
         quantity="",

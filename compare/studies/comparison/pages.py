@@ -68,10 +68,10 @@ def _contacts(series: Series, judged: Judged) -> Iterator[str]:
     yield from (described(part) for part in parts if part is not None)
     for name, drawn in series.drawn.items() if series.scene.roughness else ():
         for model, counts in drawn.counts.items():
-            told = " and ".join(f"{each:,}" for each in counts)
+            told = " and ".join(f"{count:,}" for count in counts)
             yield f"{name}, {series.models.labels[model]}: {told} {series.models[model].draws}"
-    for model in (each for each in series.models if each.has_grid):
-        yield f"{model.label}: {getattr(model.solver, 'points', 0)} points, and coarser grids"
+    for each in series.models:
+        yield from [f"{each.label}: {getattr(each.solver, 'points', 0)} points, and coarser grids"] * each.has_grid
     yield from (each.claim for each in series.every_model if each.claim)
     yield from (f"{series.models.labels[name]}: {each.words()}" for name, each in judged.laws.items())
     yield from series.remarks

@@ -85,7 +85,7 @@ class RoughSeries(Series):
         return (self.note,) * bool(self.note)
 
     @cached_property
-    def every_model(self) -> Models:  # type: ignore[override]
+    def every_model(self) -> Models:
         return Models.of(self.asked or None, self.reference or None, {"mdr": self.mdr, "bem": self.bem})
 
     @cached_property
@@ -140,11 +140,10 @@ class RoughSeries(Series):
             return Judged(())
         places = [Here(self, found, self.models[name]) for name, found in ruled.items()]
         friction = self._found(answers, FRICTION, (*FRICTIONS, *BOTH, *REST), places)
-        if COLLAPSE not in self.claims:
-            return Judged([*friction], laws=ruled)
-        shifted = {name: self._shifts(answers, self.models[name], own) for name, own in ruled.items()}
+        asked = ruled if COLLAPSE in self.claims else {}
+        shifted = {name: self._shifts(answers, self.models[name], own) for name, own in asked.items()}
         findings = [each for _, found in shifted.values() for each in found]
-        findings += [*law_findings(self, answers, ruled), *friction]
+        findings += [*(law_findings(self, answers, asked) if asked else ()), *friction]
         return Judged(findings, {name: fine for name, (fine, _) in shifted.items() if fine is not None}, ruled)
 
     def _shifts(self, answers: Answers, model: Model, own: Laws) -> tuple[Collapse | None, list[Finding]]:

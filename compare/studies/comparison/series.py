@@ -218,7 +218,7 @@ class Series(ABC):
         found = answers.compared(curve, tuple(models), measure, told.get("size", False))
         for at, words in places.items():
             value, low, high, grid = (float(each[at]) for each in (found.value, found.low, found.high, found.grid))
-            place = {
+            place: dict[str, Any] = {
                 "scatter": (low, high),
                 "grid": grid,
                 "grid_method": HALVED if isfinite(grid) else UNKNOWN,
@@ -281,8 +281,7 @@ class Series(ABC):
         """
         own = self.curves[curve]
         drawn = sum(map(len, own.strata(model.name))) if own.random else 0
-        levels = answers.two_levels(curve, model.name)
-        known = COARSE in levels["level"] or not levels["points"].any()
+        known = answers.halved(curve, model.name)
         every = (answers(curve, model.name, level) for level in ((FINE, COARSE) if known else (FINE,)))
         try:
             fine, *coarse = [collapse(SimulatedCurves.of(each.sel(speed=each["speed"] > 0))) for each in every]

@@ -248,7 +248,7 @@ class _Complete(_Asked):
         elif self.rates:
             motion = Program(stages=(Stage(duration=1.0, **press),))
         stated = ("surfaces", "profiles", "bem", "mdr", "interval", "claims")
-        others = {"note": own.note, "asked": shared.models, "reference": shared.reference}
+        others: dict[str, Any] = {"note": own.note, "asked": shared.models, "reference": shared.reference}
         others |= {name: getattr(self, name) for name in stated}
         return Series(own.name, own.title or own.name, replace(scene, motion=motion), speeds, values, **others)
 
@@ -316,8 +316,8 @@ def _over(below: dict, above: dict) -> dict:
 def _numbers(given: Any, usual: int = 2) -> tuple[float, ...]:
     """Numbers of a list, of a range that has both ends, or none. usual : how many, where a range states none"""
     if isinstance(given, Range):
-        ends: Any = given.least, given.greatest
-        return () if None in ends else tuple(np.geomspace(*ends, given.count or usual).tolist())
+        ends: Any = given.least, given.greatest, given.count or usual
+        return () if None in ends else tuple(np.geomspace(*ends).tolist())
     return given or ()
 
 

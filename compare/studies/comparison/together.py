@@ -62,10 +62,11 @@ def reduced(members: Sequence[Member], model: str, level: str = FINE) -> Simulat
         rows.append(np.array([force * unit, drag * unit / laws.plateau]).reshape(2, -1, force.shape[-1]))
     # Series with fewer points end with unknown ones.
     both = np.full((2, len(rows), max(each.shape[1] for each in rows), rows[0].shape[2]), np.nan)
-    for k, each in enumerate(rows):
-        both[:, k, : each.shape[1]] = each
+    for k, row in enumerate(rows):
+        both[:, k, : row.shape[1]] = row
     strata = strata_of(members[0].answers(ROUGH, model))
-    return SimulatedCurves(np.arange(1.0, len(members) + 1), *both, strata, model)
+    load, drag = both
+    return SimulatedCurves(np.arange(1.0, len(members) + 1), load, drag, strata, model)
 
 
 def together(members: Sequence[Member]) -> Iterator[Finding]:
