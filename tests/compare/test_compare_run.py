@@ -18,7 +18,7 @@ from compare.solving.curve import COARSE, FINE, tasks_of
 from compare.solving.folders import Unwritable
 from compare.solving.outcome import Outcome, Row
 from compare.statistics import finding
-from compare.studies.comparison import asked, tables
+from compare.studies.comparison import asked, pages
 from compare.studies.comparison.around import (
     LOAD,
     OWN,
@@ -212,10 +212,10 @@ def test_a_surface_that_failed_is_left_out_and_listed():
     assert found.loc["friction.ratio.own", "a case"]["value"] == pytest.approx(2)
     (series,) = run.series
     own = series.answers(answers)
-    failed = tables.failures(own)
+    failed = pages.failures(own)
     assert set(failed["reason"]) == {"no answer"}
     assert set(failed["surface"]) == {CASE.roughness.seed + 1}
-    points = tables.points(series, own).query(
+    points = pages.points(series, own).query(
         "model == 'BEM' and curve in ('own', 'friction-speed', 'friction-load')"
     )
     assert set(points["failures"]) == {1}
@@ -225,7 +225,7 @@ def test_a_surface_that_failed_is_left_out_and_listed():
 def test_points_have_means_deviations_and_intervals():
     run, answers, _ = judged(scatter=0.1)
     (series,) = run.series
-    points = tables.points(series, series.answers(answers))
+    points = pages.points(series, series.answers(answers))
     one = points.query("curve == 'own' and model == 'BEM'").iloc[0]
     mu = one["friction_coefficient_mean"]
     assert mu == pytest.approx(0.1 * 0.1**-0.1)

@@ -19,8 +19,7 @@ from ...statistics.finding import HALVED, UNKNOWN, Claim, Finding
 from ...statistics.jackknife import DrawSet, friction, mean, resample
 from .answers import Answers
 from .claims import CLAIMS
-from .laws import Laws
-from .regime import words
+from .laws import Laws, words
 from .theory import LAW
 
 if TYPE_CHECKING:

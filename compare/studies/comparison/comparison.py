@@ -19,7 +19,7 @@ from ...solving.task import SceneTask, Task
 from ...statistics.finding import Finding
 from ...statistics.multilevel import GROWTH
 from ..study import Judgement, Study
-from . import pages, tables
+from . import pages
 from .answer import claims_table, scene_table
 from .answer import notes as open_claims
 from .answers import Answers
@@ -102,7 +102,7 @@ class Comparison(Study):
             judged = series.judge(own)
             judged = replace(judged, findings=[*map(series.told, judged.findings)])
             singles += judged.findings
-            every.append((series, own, judged, tables.points(series, own)))
+            every.append((series, own, judged, pages.points(series, own)))
             if judged.laws and isinstance(series, RoughSeries) and FAMILIES in series.claims:
                 members.append(Member(series, own, judged.laws))
         by_family = {each.series.family: each.series for each in members}

@@ -2,23 +2,39 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import fields
+from functools import partial
+from math import nan
 
 import xarray
-from pandas import DataFrame
+from pandas import DataFrame, concat
 
 from scene import Scene
 
 from ...library.describe import described
 from ...report.page import Block, Findings, Section, Table, Text
+from ...statistics import means
 from ...statistics.finding import Finding
-from . import plots, tables
+from . import plots
 from .answers import Answers
 from .around import Around
-from .rough import RoughSeries
+from .laws import regimes
+from .measures import CONTACT
+from .rough import ROUGH, RoughSeries
 from .series import Judged, Series
 from .together import Member
 
 Every = Sequence[tuple[Series, Answers, Judged, DataFrame]]  # the points of each series last
+# Ratios of a rough point, see `regime.ratios`.
+GROUPS = (
+    "depth_over_height",
+    "shortest_in_contact",
+    "pressure_over_slope",
+    "memory_over_contact",
+    "memory_over_shortest",
+    "contact_fraction",
+    "contact_over_period",
+    "macro_over_rough",
+)
 UNMATCHED = (
     "The roughness is a line in 1D and a surface in 3D. The rule of the method, "
     "C_1D = π q C_2D, ties their spectra; it keeps the rms height and the rms of the full "
@@ -43,7 +59,7 @@ def blocks(
         if shown:
             yield Section(series.title, shown)
         data.append(Table(series.path("points"), own, "Every point of every curve.", long=True))
-        if len(failed := tables.failures(answers)):
+        if len(failed := failures(answers)):
             told = f"{len(failed)} solves without an answer."
             data.append(Table(series.path("failures"), failed, told, long=True))
         if isinstance(series, Around):
@@ -75,3 +91,34 @@ def _contacts(series: Series, judged: Judged) -> Iterator[str]:
     yield from (each.claim for each in series.every_model if each.claim)
     yield from (f"{series.models.labels[name]}: {each.words()}" for name, each in judged.laws.items())
     yield from series.remarks
+
+
+def points(series: Series, answers: Answers) -> DataFrame:
+    """A row for each curve, model, speed, and load or depth: means, intervals of 95 %, dimensionless groups."""
+    every = _stacked(answers, partial(_points, series, answers))
+    first = [name for name in ("curve", "model", "points", "speed", "load", "depth") if name in every]
+    return every[[*first, *every.columns.difference(first, sort=False)]]
+
+
+def _points(series, answers, curve, model):
+    dataset = answers.all_levels(curve, model)
+    known = {each.name: each.draws for each in series.models}
+    touching = CONTACT[known.get(model, "none")]
+    found = means.means(dataset.assign(contact=dataset[touching]) if touching in dataset else dataset)
+    if isinstance(series, RoughSeries):
+        rough = curve == ROUGH and {"rms_slope", "pixel"} <= {*dataset.data_vars}
+        groups = regimes(series, answers(curve, model)) if rough else {}
+        found = found.assign(**{name: groups[name].ravel() if groups else nan for name in GROUPS})
+    return found
+
+
+def failures(answers: Answers) -> DataFrame:
+    """Every solve that failed, with its reason."""
+    return _stacked(answers, lambda *place: means.failures(answers.all_levels(*place)))
+
+
+def _stacked(answers, table):
+    """Tables of every model on every curve, one below the other, with both names in the first columns."""
+    every = ((name, model) for name, each in answers.curves.items() for model in each["model"].values.tolist())
+    frames = [DataFrame({"curve": place[0], "model": place[1]} | dict(table(*place))) for place in every]
+    return concat([each for each in frames if len(each)] or frames[:1], ignore_index=True)
