@@ -165,8 +165,12 @@ class Around(Series):
         for each in self.ratios(SLOW_RATIO, answers, SMOOTH_SPEED, MU, {(lowest, 0): ""}, regime=regime):
             one, _, other = each.dimension.partition("/")
             factor = factors[one] / factors[other]
-            claim = replace(each.claim, expected=factor, tolerance=factor * TOLERANCE)
-            yield replace(each, claim=claim)
+            if factor != each.claim.expected:
+                sentence = f"Slow friction of the smooth body in {one} is {factor:g} times that in {other}"
+                meaning = f"Friction in {one} over {other} at the lowest speed; it tends to {factor:g}."
+                law = {"sentence": sentence, "meaning": meaning, "expected": factor}
+                each = replace(each, claim=replace(each.claim, tolerance=factor * TOLERANCE, **law))
+            yield each
 
     def _closed_form(self, answers: Answers) -> Iterator[Finding]:
         """Force on the smooth body over the closed form, less one, at every depth."""

@@ -101,9 +101,8 @@ _TEXTS: dict[tuple[float, float], dict[str, tuple[str, str]]] = {
     },
     (2.0, 2 * TOLERANCE): {
         "friction.ratio.smooth-slow": (
-            "Slow friction of the smooth body in 1D over 3D is that of the closed forms",
-            "Friction in 1D over 3D at the lowest speed; as the speed tends to zero it tends to 2 of one "
-            "dimension over three, to 1 of two models of the same.",
+            "Slow friction of the smooth body is twice as high in 1D as in 3D",
+            "Friction in 1D over 3D at the lowest speed; as the speed tends to zero it tends to 2.",
         ),
         "eq17.slope-exponent": (
             "Eq. 17: friction at the slowest speed goes as the rms slope to the power 2",
