@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from math import isfinite
+from typing import Any
 
 import numpy as np
 from pydantic import ValidationError
@@ -168,7 +169,7 @@ class Around(Series):
             if factor != each.claim.expected:
                 sentence = f"Slow friction of the smooth body in {one} is {factor:g} times that in {other}"
                 meaning = f"Friction in {one} over {other} at the lowest speed; it tends to {factor:g}."
-                law = {"sentence": sentence, "meaning": meaning, "expected": factor}
+                law: dict[str, Any] = {"sentence": sentence, "meaning": meaning, "expected": factor}
                 each = replace(each, claim=replace(each.claim, tolerance=factor * TOLERANCE, **law))
             yield each
 
