@@ -49,7 +49,7 @@ def blocks(
     points = {series.name: (answers, each) for series, answers, _, each in every}
     together: list[Block] = list(plots.of_several([row[0] for row in every], members, points, several))
     if several or together:
-        yield Section("Several together", together + [Findings(several)] * bool(several))
+        yield Section("Several together", [*together, *([Findings(several)] if several else [])])
     data: list[Block] = []
     for series, answers, judged, own in every:
         shown: list[Block] = list(plots.of_series(series, answers, judged, own, tree))
@@ -70,8 +70,8 @@ def blocks(
 
 def setting(about: str, every: Every) -> list[Block]:
     """What was asked, and the contacts of each series."""
-    said = [about] + [UNMATCHED] * any(isinstance(row[0], RoughSeries) for row in every)
-    found: list[Block] = [Text(text) for text in said if text]
+    rough = any(isinstance(row[0], RoughSeries) for row in every)
+    found: list[Block] = [Text(text) for text in (about, UNMATCHED if rough else "") if text]
     for series, _, judged, _ in every:
         lines = (f"- {line}" for line in _contacts(series, judged))
         found.append(Section(f"Contacts: {series.title}", [Text("\n".join(lines))]))
@@ -87,7 +87,8 @@ def _contacts(series: Series, judged: Judged) -> Iterator[str]:
             told = " and ".join(f"{count:,}" for count in counts)
             yield f"{name}, {series.models.labels[model]}: {told} {series.models[model].draws}"
     for each in series.models:
-        yield from [f"{each.label}: {getattr(each.solver, 'points', 0)} points, and coarser grids"] * each.has_grid
+        if each.has_grid:
+            yield f"{each.label}: {getattr(each.solver, 'points', 0)} points, and coarser grids"
     yield from (each.claim for each in series.every_model if each.claim)
     yield from (f"{series.models.labels[name]}: {each.words()}" for name, each in judged.laws.items())
     yield from series.remarks

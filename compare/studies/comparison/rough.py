@@ -82,7 +82,7 @@ class RoughSeries(Series):
 
     @property
     def remarks(self) -> Sequence[str]:
-        return (self.note,) * bool(self.note)
+        return (self.note,) if self.note else ()
 
     @cached_property
     def every_model(self) -> Models:
@@ -136,7 +136,7 @@ class RoughSeries(Series):
             return Judged([*self._found(answers, DEPTH, (*DEPTHS, *REST, *MARCHES), places)])
         rubbing = [each.name for each in self.models if OF_FRICTION in each.answers]
         ruled = {name: found for name in rubbing if (found := laws(self, answers, name)) is not None}
-        if not {self.models.reference, *{*SOLVERS} & {*rubbing}} <= {*ruled}:
+        if not {self.models.reference} | (set(SOLVERS) & set(rubbing)) <= set(ruled):
             return Judged(())
         places = [Here(self, found, self.models[name]) for name, found in ruled.items()]
         friction = self._found(answers, FRICTION, (*FRICTIONS, *BOTH, *REST), places)
@@ -164,7 +164,8 @@ class RoughSeries(Series):
             if not row.pair:
                 yield from self._row(answers, row, here, here.model.name)
         for row, model in product(rows, self.models.judged):
-            if row.pair and {row.quantity or reference.pressed} <= {*model.answers} & {*reference.model.answers}:
+            quantity = row.quantity or reference.pressed
+            if row.pair and quantity in model.answers and quantity in reference.model.answers:
                 yield from self._row(answers, row, reference, model.name, reference.model.name)
 
     def _row(self, answers, row: Row, here: Here, *models: str) -> Iterator[Finding]:

@@ -286,8 +286,8 @@ class Series(ABC):
         try:
             fine, *coarse = [collapse(SimulatedCurves.of(each.sel(speed=each["speed"] > 0))) for each in every]
         except ValueError:
-            few = eq23.shiftable(len(shifts), len(own.values))
-            return None, [eq23.too_few(model.label, self.name, drawn, regime)] * few
+            enough = eq23.shiftable(len(shifts), len(own.values))
+            return None, [eq23.too_few(model.label, self.name, drawn, regime)] if enough else []
         told = eq23.findings(
             fine, coarse[0] if known else None, model.label, shifts, exponent, self.name, drawn, regime,
             horizontal=not known,
