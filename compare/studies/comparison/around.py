@@ -238,7 +238,7 @@ def _curves(case, models):
     own, greatest = partial(_curve, case, models), (motion.greatest,)
     over_time = isinstance(motion, Program)
     found = {OWN: own(scene, () if over_time else (motion.speed,), greatest, keeps_fields=True)}
-    if over_time or case.interface is not None:
+    if over_time:
         return found
     depths = tuple(factor * elastic_contact(scene).depth for factor in plan.depths)
     smooth, indented = replace(scene, roughness=None), Indent(depth=depths[0])
