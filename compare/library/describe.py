@@ -7,8 +7,6 @@ from dataclasses import asdict
 from math import degrees
 from typing import Any
 
-from matplotlib.ticker import EngFormatter
-
 from scene import Program, Shear, Slide
 from scene.motion import PRESSES
 from scene.plan import by
@@ -50,8 +48,8 @@ def described(part: Any) -> str:
 def conditions(motion: Any) -> str:
     """Speed, and load or depth, of a motion in words: 0.1 m/s, 1 N."""
     if isinstance(motion, Program):
-        greatest = EngFormatter(PRESSES[motion.pressed_by].symbol)(motion.greatest)
-        return f"a program of {EngFormatter('s')(motion.duration)}, up to {greatest}"
+        greatest = _prefixed(motion.greatest, PRESSES[motion.pressed_by].symbol)
+        return f"a program of {_prefixed(motion.duration, 's')}, up to {greatest}"
     if isinstance(motion, Shear):
         drawn = "force" if motion.displacement is None else "displacement"
         return f"{_quantity(motion, motion.pressed_by)}, drawn to {_quantity(motion, drawn)}"
@@ -106,4 +104,11 @@ def _written(value, unit):
         return str(value)
     if unit == "rad":
         return f"{degrees(value):.4g}°"
-    return EngFormatter(unit)(value) if unit in PREFIXED else f"{value:.6g} {unit or ''}".strip()
+    return _prefixed(value, unit) if unit in PREFIXED else f"{value:.6g} {unit or ''}".strip()
+
+
+def _prefixed(value, unit):
+    """A number with its unit under a prefix of SI."""
+    from matplotlib.ticker import EngFormatter  # only where something is described
+
+    return EngFormatter(unit)(value)

@@ -157,8 +157,8 @@ def test_under_a_smooth_sphere_at_rest_the_springs_carry_the_pressure_integrated
     """The force per length of the MDR is the Abel transform of the pressure, which is its integral over y."""
     lines = table(drawn["rest"], contact.LINES)
     assert lines["line_force_1d"].max() == pytest.approx(lines["line_force_3d"].max(), rel=5e-3)
-    found = {each.claim.id: each.value for each in drawn["rest"].findings}
-    assert found[APART.id] < 0.01 < {each.claim.id: each.value for each in drawn["rough"].findings}[APART.id]
+    rest, rough = (drawn[name].findings.set_index("claim")["value"][APART.id] for name in ("rest", "rough"))
+    assert rest < 0.01 < rough
 
 
 @pytest.mark.parametrize("name", ["rest", "fast", "rough"])

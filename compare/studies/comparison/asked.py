@@ -58,7 +58,10 @@ def run(
         asked.grids()
     except Refused as error:
         asked_for = scene if isinstance(scene, str | Path) else "scene"
-        raise (NotCompared if isinstance(error, NotCompared) else Refused)(f"{asked_for}: {error}") from error
+        why = f"{asked_for}: {error}"
+        if isinstance(error, NotCompared):
+            raise NotCompared(f"{why}; crosscheck plan says what each solver makes of it") from error
+        raise Refused(why) from error
     return asked
 
 
