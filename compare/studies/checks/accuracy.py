@@ -57,9 +57,7 @@ class Accuracy(Comparison):
         contact = replace(contact, profiles=profiles or plan.profiles)
         has = {WORDS[mean]: mean for _, mean, _ in contact.wanted}
         if unknown := sorted(within.keys() - has.keys()):
-            raise InvalidInput(
-                f"{unknown[0]} = {within[unknown[0]]!r}: the scene has {' and '.join(has)} to compare"
-            )
+            raise InvalidInput(f"{unknown[0]}: the scene has {' and '.join(has)} to compare")
         asked = {has[each]: within.get(each, nan) for each in within or has}
         return cls((contact,), within=asked, **others)
 

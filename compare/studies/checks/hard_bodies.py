@@ -214,12 +214,13 @@ def windows_of_odd_grids():
 
 @hard(
     "Depth, force and friction scale by powers of two to the last bit; of a load to 1e-12, as powers other than "
-    "squares round; by other factors and in steps of a program to 1e-9, as rounding is carried through.",
+    "squares round; by other factors and in steps of a program to 1e-9, as rounding is carried through. Stretched "
+    "by 2^40 force and depth grow by as much, friction by its square, to 1e-12.",
     partial(line, steps=20),
     partial(dense, extent=None, steps=20),
 )
 def other_units():
-    """Picometres and kilometres, 1 Pa and 1 TPa, 1e-15 and 1e9 s; inches and psi."""
+    """Picometres and kilometres, 1 Pa and 1 TPa, 1e-15 and 1e9 s; inches and psi; slopes of 1e11, beyond sense."""
     for kind, allowed, every in (
         ("rough-sliding", 0.0, SMALL_AND_LARGE),
         ("rough-load", 1e-12, SMALL_AND_LARGE),
@@ -230,3 +231,5 @@ def other_units():
             force = length**2 * modulus
             form = alike(depth=length, normal_force=force, friction_force=force)
             yield Part((family(kind), family(kind, length, modulus, time)), form, allowed)
+    form = alike(depth=2.0**40, normal_force=2.0**40, friction_force=2.0**80)
+    yield Part((family("rough-sliding"), family("rough-sliding", steep=2.0**40)), form, 1e-12)

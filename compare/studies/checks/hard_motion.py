@@ -115,8 +115,7 @@ def lifted_off_in_a_flow():
 def all_but_no_glass_1d():
     """A Kelvin body at speeds to 1e9, glassy over rubbery moduli of 1e6 and 1e12: force and wake grow."""
     asked = [*product([KELVIN], (1e3, 1e6, 1e9)), *product(map(ratio, (1e6, 1e12)), (1e-6, 1e-3, 1.0, 100.0))]
-    every = product(ROUND.values(), asked)
-    yield from equal(over_points(20), *(founded(shape, *solid_and_pace) for shape, solid_and_pace in every))
+    yield from equal(over_points(20), *(founded(shape, *each) for shape in ROUND.values() for each in asked))
     known = {"friction_coefficient": CONE.mdr_coefficient}
     yield from equal(1e-9, *((deep(CONE, KELVIN, pace), known) for pace in (1.5, 1e3, 1e6)))
 
@@ -166,8 +165,7 @@ def barely_relaxing():
 def thirty_modes_over_fifteen_decades():
     """Thirty Maxwell modes from 1e-12 to 1e3 s, of moduli four decades apart."""
     moduli = MODULUS * 10.0 ** (np.arange(30) % 5 - 2)
-    times = np.geomspace(1e-12, 1e3, 30)
-    solid = Prony(MODULUS, moduli, times)
+    solid = Prony(MODULUS, moduli, np.geomspace(1e-12, 1e3, 30))
     yield touching(*(sliding(speed / PACE, solid) for speed in (1e-9, 1.0, 1e9)))
 
 

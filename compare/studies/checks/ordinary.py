@@ -61,13 +61,14 @@ def program(*stages: Stage, elastomer=SOLID, **changed) -> Scene:
     return resting(elastomer=elastomer, motion=Program(stages=stages), **changed)
 
 
-def family(kind: str, length: float = 1.0, modulus: float = 1.0, time: float = 1.0) -> Scene:
+def family(kind: str, length: float = 1.0, modulus: float = 1.0, time: float = 1.0, steep: float = 1.0) -> Scene:
     """The contact in units of length, modulus and time over those of the ordinary one.
 
     kind : "at-rest", "sliding", "load", or "program"; after "rough-" of a rough body
+    steep : heights and depths over those of the contact
     """
     solid = StandardLinearSolid(MODULUS * modulus, STIFFENING * MODULUS * modulus, TIME * time)
-    speed, depth, force = PACE * length / time, DEPTH * length, LOAD * length**2 * modulus
+    speed, depth, force = PACE * length / time, DEPTH * length * steep, LOAD * length**2 * modulus
     stages = {"load": force}, {"duration": 2 * TIME * time, "speed": speed / 8}, {"load": force / 10}
     motions: dict[str, Any] = {
         "at-rest": Indent(depth=depth),
@@ -75,6 +76,7 @@ def family(kind: str, length: float = 1.0, modulus: float = 1.0, time: float = 1
         "load": Slide(speed=speed, load=force),
         "program": Program(stages=tuple(Stage(**{"duration": TIME * time} | each) for each in stages)),
     }
-    rough = {name: length * getattr(ROUGH, name) for name in ("rms_height", "longest", "shortest")}
+    rough = {name: length * getattr(ROUGH, name) for name in ("longest", "shortest")}
+    rough |= {"rms_height": length * steep * ROUGH.rms_height}
     body = replace(ROUGH, **rough) if kind.startswith("rough") else None
-    return Scene(Sphere(SPHERE.radius * length), solid, motions[kind.removeprefix("rough-")], body)
+    return Scene(Sphere(SPHERE.radius * length / steep), solid, motions[kind.removeprefix("rough-")], body)

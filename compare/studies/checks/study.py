@@ -130,8 +130,7 @@ class Regress(Stored, Checks):
         for unknown in sorted(values.keys() - set(ids)):
             raise InvalidInput(f"{path}: {unknown!r} is no number of this collection, or no longer: take it out")
         tasks, given = tuple(Examination(id, stored.SPACE) for id in ids), {"baseline": printable(path.name)}
-        title = "Has the accuracy moved?"
-        return cls(tasks, "regress", title, given, path=path, values=values, update=update)
+        return cls(tasks, "regress", "Has the accuracy moved?", given, path=path, values=values, update=update)
 
     def _finding(self, row):
         found = replace(super()._finding(row), where="")
