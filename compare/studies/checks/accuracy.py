@@ -20,6 +20,7 @@ from ...solving.task import Task
 from ...statistics.finding import HOLDS, Claim, Finding
 from ...statistics.multilevel import WORDS
 from ..comparison.comparison import Comparison
+from ..comparison.series import ratio_of
 from ..comparison.sweep import CONTACTS, SweepSeries
 from ..study import Judgement
 from .stored import Stored, held, read_values
@@ -64,13 +65,16 @@ class Accuracy(Comparison):
     def judge(self, answers: xarray.DataTree) -> Judgement:
         """A finding a ratio, with what would decide it."""
         found, (series,) = [], self.series
+        known = series.answers(answers)
         for mean, allowed in self.within.items():
-            claim = Claim(WORDS[mean], f"{WORDS[mean]} 1D/3D", 1.0, allowed)
-            rows = series.ratios(claim, series.answers(answers), CONTACTS, mean, {(0, 0): ""})
-            for model, _, each in rows:
-                id = claim.id if len(rows) == 1 else f"{claim.id}.{model.name}"
-                told = series.told(replace(each, claim=replace(each.claim, id=id)))
-                found.append(told if told.remedy or told.undecidable else replace(told, remedy=FINER))
+            judged = known.judged(CONTACTS, WORDS[mean])
+            for model in judged:
+                both, beside = (model.name, series.models.reference), series.models.beside(model.name)
+                id = WORDS[mean] if len(judged) == 1 else f"{WORDS[mean]}.{model.name}"
+                claim = Claim(id, f"{WORDS[mean]} {beside}", 1.0, allowed, dimension=beside)
+                for each in series.compared(known, claim, CONTACTS, both, ratio_of(mean, *both), {(0, 0): ""}):
+                    told = series.told(each)
+                    found.append(told if told.remedy or told.undecidable else replace(told, remedy=FINER))
         return Judgement(found)
 
 
