@@ -252,10 +252,10 @@ def regress(
     **options: Unpack[Options],
 ) -> Report:
     """Compare the accuracy of 1D with stored values. The status is 1 if any value has changed."""
-    from .studies.checks import study
+    from .studies.checks.accuracy import OwnScene
+    from .studies.checks.study import Regress
 
-    own = None if scene is None else study.OwnScene.stored(scene, baseline, update)
-    asked = own or study.Regress.of(baseline, update)
+    asked = Regress.of(baseline, update) if scene is None else OwnScene.stored(scene, baseline, update)
     report = solve(asked, output, **options)
     if update:
         asked.store(report.judged)

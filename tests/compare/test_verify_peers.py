@@ -36,7 +36,7 @@ def by_verdict(findings):
 def test_tamaas_holds_the_laws_of_planes_at_rest(peers, tmp_path):
     pytest.importorskip("tamaas", exc_type=ImportError)
     report = compare.verify(peers.Tamaas(points=64), tmp_path / "verify", workers=1, report=False)
-    found = by_verdict(report.findings)
+    found = by_verdict(report.judged)
     assert not found["fails"]
     assert {"verify.wave.gap.0.5", "verify.crossed.fraction.0.3", "verify.symmetry.turn"} <= found["holds"]
     assert "verify.sphere.force" in found["reported"]

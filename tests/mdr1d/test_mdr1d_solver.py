@@ -136,10 +136,11 @@ def test_a_depth_that_does_not_reach_the_indenter_is_an_error():
         MDR(points=400, extent=4e-3).solve(replace(scene, roughness=replace(scene.roughness, seed=seed)))
 
 
-def test_roughness_repeats_over_an_extent_of_several_periods():
+@pytest.mark.parametrize(("extent", "points"), [(5e-3, 10000), (2**0.5 * 5e-3, 9973)])
+def test_roughness_repeats_over_an_extent_of_several_periods(extent, points):
     short = replace(ROUGH, roughness=replace(ROUGH.roughness, longest=5e-4, shortest=5e-5))
     one = MDR().solve(short)
-    wide = MDR(extent=5e-3, points=10000).solve(short)
+    wide = MDR(extent=extent, points=points).solve(short)
     step = round(5e-4 / wide.settings["pixel"])
     roughness = wide.fields["profile"] - wide.fields["x"] ** 2 / 1e-2
     np.testing.assert_allclose(roughness[step:], roughness[:-step], atol=1e-15)

@@ -1,62 +1,96 @@
-"""Closed forms of contacts at rest, and the order at which a model converges to them."""
+"""Closed forms of contacts at rest, of friction and of histories, and the order of convergence to them."""
 
-from collections.abc import Callable, Iterator
 from dataclasses import replace
+from itertools import product
 from math import pi
 from typing import Any
 
 import numpy as np
 
-from scene import CrossedWaves, Cylinder, Elastic, Indent, Layer, Plane, PowerLaw, Scene, Slide, Topography, Wave
+from scene import (
+    Coulomb,
+    CrossedWaves,
+    Cylinder,
+    Elastic,
+    Indent,
+    Plane,
+    PowerLaw,
+    Program,
+    Scene,
+    Shear,
+    Slide,
+    Topography,
+    Wave,
+)
 from scene.scales import elastic_contact
 
-from ...models.exact import layer, waves
+from ...models.exact import (
+    foundation,
+    full_contact,
+    indentation,
+    line_contact,
+    mean_lag,
+    slow_friction_3d,
+    tangential,
+    waves,
+)
 from .law import (
-    BOTH,
-    CLOSED,
+    FORCES,
+    FRICTION,
     GRID,
     LIMIT,
     LINE,
     RIM,
+    SAME,
     SPACE,
     Answers,
-    Bound,
-    Law,
+    Misfit,
     Missing,
     apart,
-    exact,
+    laws,
     on_shares,
-    slug,
     stated,
     worst,
 )
-from .ordinary import CONE, DEPTH, ELASTIC, KELVIN, LOAD, MODULUS, RADIUS, SOLID, SPHERE, resting
+from .ordinary import (
+    CONE,
+    DEPTH,
+    ELASTIC,
+    KELVIN,
+    LOAD,
+    MODULUS,
+    PACE,
+    RADIUS,
+    SOLID,
+    SPHERE,
+    STIFFENING,
+    TIME,
+    deep,
+    loaded,
+    program,
+    resting,
+    stage,
+)
 
-BODIES: dict[str, Any] = {"sphere": SPHERE, "cone": CONE} | {
-    f"r^{n:g}": PowerLaw(DEPTH / RADIUS**n, n) for n in (1.5, 3.0, 4.0)
-}
-ROUND = "sphere", "cone"
-SOLIDS: dict[str, Any] = {
-    "elastic": ELASTIC,
-    "elastic at nu = 0.3": Elastic(MODULUS, 0.3),
-    "Kelvin": KELVIN,
-    "standard linear": SOLID,
-}
+ROUND: dict[str, Any] = {"sphere": SPHERE, "cone": CONE}
+BODIES = ROUND | {f"r^{n:g}": PowerLaw(DEPTH / RADIUS**n, n) for n in (1.5, 3.0, 4.0)}
+LOSSY: dict[str, Any] = {"kelvin": KELVIN, "standard-linear": SOLID}
 AMPLITUDE, WAVELENGTH = 1e-5, 1e-3
 WAVES: dict[str, Any] = {"amplitude": AMPLITUDE, "wavelength": WAVELENGTH}
+CELL = WAVELENGTH**2
 WAVE_CLOSURE = waves.wave_closure(ELASTIC.indentation_modulus, **WAVES)
 CROSSED_CLOSURE = waves.crossed_closure(ELASTIC.indentation_modulus, **WAVES)
+LINE_LOAD = LOAD / RADIUS
 FEWEST = 7.5  # points across the contact, eight with rounding, from which on a grid shows an order
 ROUNDED = 1e-12  # of an error: rounding alone
 # Sizes of grids: points over those of the model. Of three grids the largest error counts: the rim of a contact
 # moves by whole pixels, so that single errors scatter.
 SHARES = 0.25, 0.3, 0.35, 0.7, 0.85, 1.0
-
-
-def deep(body: Any, elastomer: Any = ELASTIC, **changed: Any) -> Scene:
-    """A body at rest at the depth at which its contact has RADIUS."""
-    depth = body.mdr_coefficient * RADIUS**body.exponent
-    return Scene(body, elastomer, Indent(depth=depth), **changed)
+SLOW = 1e-3  # v tau/a: friction departs from its limit by about as much
+SLOW_ONES = ("sphere", "kelvin"), ("sphere", "standard-linear"), ("cone", "kelvin"), ("r^3", "kelvin")
+RUBBING = Coulomb(coefficient=0.3)
+STEPS = 200  # in time, of a program
+PERIOD = stated(0.01, "10/n² of the grid at the 32 points a period that a model has at least")
 
 
 def wavy(pressure: float, rough: Any, elastomer: Any = ELASTIC, speed: float = 0.0) -> Scene:
@@ -71,97 +105,192 @@ def cell(heights: Any) -> Topography:
     return Topography(**given, repeat="periodic", peaks="down")
 
 
-def laws() -> Iterator[Law]:
-    """All of them."""
-    for each in (of_revolution, on_layers, on_waves, on_lines, orders):
-        yield from each()
+def away(name: str, value: float, scale: float = 1.0) -> Misfit:
+    """Distance of a number from a known one, over a scale that stays where the number falls to 0."""
+    return lambda answers: abs(answers[0][name] - value) / scale
 
 
-def of_revolution() -> Iterator[Law]:
-    """Galin and Sneddon: force at a depth, depth under a load, and what touches."""
+# At rest.
+
+
+@laws(GRID)
+def galin_and_sneddon():
+    """Body of revolution at rest: force at a depth, and depth under a load, of Galin and Sneddon."""
     for name, body in BODIES.items():
         scene = deep(body)
-        form = elastic_contact(scene)
-        loaded = replace(scene, motion=Indent(load=form.load))
-        bound = GRID if body.exponent <= 2 else GRID.times(body.exponent, "steeper at its edge")
-        rows: list[tuple[str, str, Scene, Bound, tuple[str, ...], dict[str, Any]]] = [
-            ("force", "force at a depth", scene, bound, BOTH, {"normal_force": form.load}),
-            ("depth", "depth under a load", loaded, bound, BOTH, {"depth": form.depth}),
-        ]
-        if name in ROUND:
-            area, length = {"contact_area": pi * form.radius**2}, {"contact_length": 2 * form.radius}
-            rows += [
-                ("area", "area of contact", scene, RIM.times(2, "an area"), SPACE, area),
-                ("length", "length of contact", scene, RIM, LINE, length),
-            ]
-        for id, what, asked, allowed, kinds, numbers in rows:
-            yield exact(f"{name}.{id}", f"{name}: {what} of Galin and Sneddon", asked, allowed, kinds, **numbers)
-    for name, solid in SOLIDS.items():
-        if solid is not ELASTIC:
-            scene, said = resting(elastomer=solid), f"Force at rest by the modulus at rest: {name}"
-            yield exact(f"rest.{slug(name)}", said, scene, GRID, normal_force=elastic_contact(scene).load)
+        load = elastic_contact(scene).load
+        bound = GRID.wider(
+            "steeper at its edge by the exponent", times=body.exponent if body.exponent > 2 else 1.0
+        )
+        yield f"{name}.force", scene, {"normal_force": load}, bound
+        yield f"{name}.depth", replace(scene, motion=Indent(load=load)), {"depth": scene.motion.depth}, bound
 
 
-def on_layers() -> Iterator[Law]:
-    """A sphere on an elastic layer of its own thickness, thicker and thinner."""
-    bases: tuple[Any, ...] = "bonded", "frictionless"
-    for base in bases:
-        for ratio in (0.3, 1.0, 3.0):
-            under = Layer(thickness=RADIUS / ratio, base=base)
-            form = layer.of_radius(SPHERE, under, ELASTIC.indentation_modulus, ELASTIC.poisson_ratio, RADIUS)
-            scene = resting(layer=under, motion=Indent(depth=form.depth))
-            said = f"Sphere on a {base} layer, radius over thickness {ratio:g}: force of Lebedev and Ufliand"
-            bound = GRID.times(1 + ratio, "steeper at its edge as the layer is thinner")
-            yield exact(f"layer.{base}.{ratio:g}", said, scene, bound, SPACE, normal_force=form.load)
+@laws(RIM.wider("twice, an area", times=2), SPACE)
+def areas():
+    """Body of revolution at rest: area of contact of Galin and Sneddon."""
+    for name, body in ROUND.items():
+        yield f"{name}.area", deep(body), {"contact_area": pi * RADIUS**2}
 
 
-def on_waves() -> Iterator[Law]:
-    """Westergaard: mean gap of one wave, and what touches; of crossed waves a solution on a fine grid."""
+@laws(RIM, LINE)
+def lengths():
+    """Body of revolution at rest: length of contact of Galin and Sneddon."""
+    for name, body in ROUND.items():
+        yield f"{name}.length", deep(body), {"contact_length": 2 * RADIUS}
+
+
+@laws(GRID)
+def solids_at_rest():
+    """Sphere on a compressible or viscoelastic solid: force by the modulus at rest."""
+    compressible = {f"elastic-at-nu-{nu:g}": Elastic(MODULUS, nu) for nu in (0.3, -0.999999)}
+    for name, solid in (LOSSY | compressible).items():
+        scene = resting(elastomer=solid)
+        yield f"rest.{name}", scene, {"normal_force": elastic_contact(scene).load}
+
+
+@laws(RIM, SPACE)
+def on_waves():
+    """Westergaard: mean gap of one wave, and what touches; of crossed waves a solution on 512 x 512 points."""
     for part in (0.2, 0.5, 0.8):
-        scene, said = wavy(part * WAVE_CLOSURE, Wave(**WAVES)), f"One wave at p/p* = {part:g}: {{}} of Westergaard"
-        gap, fraction = waves.wave_mean_gap(part) * AMPLITUDE, float(waves.wave_contact_fraction(part))
-        yield _away(f"wave.gap.{part:g}", said.format("mean gap"), scene, GRID, "depth", -float(gap), AMPLITUDE)
-        words = said.format("fraction in contact")
-        yield _away(f"wave.fraction.{part:g}", words, scene, RIM, "contact_fraction", fraction)
+        scene, gap = wavy(part * WAVE_CLOSURE, Wave(**WAVES)), waves.wave_mean_gap(part)
+        yield f"wave.gap.{part:g}", scene, away("depth", -gap * AMPLITUDE, AMPLITUDE), GRID
+        yield f"wave.fraction.{part:g}", scene, away("contact_fraction", waves.wave_contact_fraction(part))
     for part in (0.3, 0.7):
-        scene, fraction = wavy(part * CROSSED_CLOSURE, CrossedWaves(**WAVES)), waves.CROSSED_FRACTIONS[part]
-        said = f"Crossed waves at p/p* = {part:g}: fraction in contact on 512 x 512 points"
-        yield _away(f"crossed.fraction.{part:g}", said, scene, RIM, "contact_fraction", fraction)
+        scene = wavy(part * CROSSED_CLOSURE, CrossedWaves(**WAVES))
+        yield f"crossed.fraction.{part:g}", scene, away("contact_fraction", waves.CROSSED_FRACTIONS[part])
 
 
-def _away(id, said, scene, bound, name, value, scale=1.0) -> Law:
-    """Law on the difference of a number from a known one, over a scale that stays where the number falls to 0."""
-
-    def misfit(answers: Answers) -> float:
-        return abs(answers[0][name] - value) / scale
-
-    return Law(id, CLOSED, said, (scene,), misfit, bound, SPACE, drawn=True)
-
-
-def on_lines() -> Iterator[Law]:
-    """A cylinder: Hertz."""
-    scene = Scene(Cylinder(SPHERE.radius), ELASTIC, Indent(line_load=LOAD / RADIUS))
-    form, wide = elastic_contact(scene), RIM.times(2, "two edges")
-    yield exact("line.depth", "Cylinder: depth of Hertz", scene, GRID, SPACE, depth=form.depth)
-    yield exact("line.width", "Cylinder: width of Hertz", scene, wide, SPACE, contact_area=2 * form.radius)
+@laws(GRID, SPACE)
+def hertz_on_a_line():
+    """Cylinder at rest: depth and width of Hertz."""
+    scene = Scene(Cylinder(SPHERE.radius), ELASTIC, Indent(line_load=LINE_LOAD))
+    form = elastic_contact(scene)
+    yield "line.depth", scene, {"depth": form.depth}
+    yield "line.width", scene, {"contact_area": 2 * form.radius}, RIM.wider("twice, two edges", times=2)
 
 
-def orders() -> Iterator[Law]:
-    """The error of the force falls with the pixel, to first order at least."""
+@laws(stated(0.5, "a half: of first order in the pixel"), group=LIMIT, models=on_shares(*SHARES))
+def orders():
+    """Error of the force on three grids over that on three with half the points."""
     for name in ("sphere", "cone", "r^4"):
         scene = deep(BODIES[name])
-        bound = stated(0.5, "a half: of first order in the pixel")
-        said = f"{name}: error of the force on three grids over that on three with half the points"
-        scenes, misfit = (scene,) * len(SHARES), _falling(elastic_contact(scene).load)
-        yield Law(f"order.{name}", LIMIT, said, scenes, misfit, bound, models=on_shares(*SHARES))
+        yield f"order.{name}", (scene,) * len(SHARES), _falling(elastic_contact(scene).load)
 
 
-def _falling(load: float) -> Callable[[Answers], float]:
+def _falling(load: float) -> Misfit:
     def misfit(answers: Answers) -> float:
         if answers[0].across < FEWEST:
-            raise Missing(f"a quarter of the points are {answers[0].across:.3g} across the contact: no order yet")
+            raise Missing("a quarter of the points are too few across the contact: no order yet")
         errors = [apart(answer["normal_force"], load) for answer in answers]
         coarse, fine = worst(errors[:3]), worst(errors[3:])
         return fine / coarse if fine > ROUNDED else 0.0
 
     return misfit
+
+
+# In motion.
+
+
+@laws(FRICTION.wider("0.01, ten v tau/a, by which friction departs from its limit", more=10 * SLOW))
+def slow():
+    """Slow body on a viscoelastic solid: friction is v tau E* int g'^2 dx, and twice as high in 1D."""
+    for name, solid in SLOW_ONES:
+        body, elastomer = BODIES[name], LOSSY[solid]
+        motion = Slide(speed=SLOW * RADIUS / mean_lag(elastomer), load=elastic_contact(deep(body, elastomer)).load)
+        scene = Scene(body, elastomer, motion)
+        yield f"slow.{name}.{solid}", scene, slow_friction(scene)
+
+
+def slow_friction(scene: Scene) -> Misfit:
+    """Deviation of friction from the limit of low speed of a contact of RADIUS, twice as high in 1D."""
+    body, solid = scene.indenter, scene.solid
+    lag, shape = mean_lag(solid), (body.mdr_coefficient, body.exponent)
+    force = slow_friction_3d(scene.motion.speed, RADIUS, lag, solid.indentation_modulus, *shape)
+
+    def misfit(answers):
+        return apart(answers[0]["friction_force"], force * (2 if answers[0].dimension == "1D" else 1))
+
+    return misfit
+
+
+@laws(FRICTION, SPACE)
+def hunter():
+    """Cylinder sliding on a standard linear solid: friction of Hunter."""
+    soft = SOLID.indentation_modulus
+    for pace in (1e-6, 0.1, 1.0, 10.0, 1000.0):
+        scene = Scene(Cylinder(SPHERE.radius), SOLID, Slide(speed=pace * PACE, line_load=LINE_LOAD))
+        solid = soft, STIFFENING * soft, STIFFENING * TIME
+        form = line_contact.sliding(SPHERE.radius, *solid, pace * PACE, LINE_LOAD)
+        yield f"line.hunter.{pace:g}", scene, {"friction_coefficient": form.friction_coefficient}
+
+
+@laws(FRICTION, LINE)
+def on_foundation():
+    """Sphere or cone sliding on a viscoelastic foundation: both forces."""
+    for solid, shape, pace in product(LOSSY, ROUND, (0.1, 1.0, 10.0)):
+        yield f"foundation.{solid}.{shape}.{pace:g}", *founded(ROUND[shape], LOSSY[solid], pace)
+
+
+def founded(body: Any, elastomer: Any, pace: float) -> tuple[Scene, dict[str, Any]]:
+    """A body that slides on a foundation, and both forces."""
+    scene = deep(body, elastomer, pace)
+    forces = foundation.sliding_forces(body, elastomer, pace * PACE, scene.motion.greatest)
+    return scene, dict(zip(FORCES, forces, strict=True))
+
+
+@laws(PERIOD, SPACE)
+def in_full_contact():
+    """Wavy plane that touches everywhere: friction is the loss of the wave."""
+    one = Wave, full_contact.wave_friction
+    crossed = CrossedWaves, full_contact.crossed_friction
+    for (kind, friction), pace in [(one, 0.01), (one, 0.1), (one, 1.0), (crossed, 0.1)]:
+        moved: dict[str, Any] = WAVES | {"elastomer": SOLID, "speed": pace * PACE}
+        scene = wavy(3 * full_contact.crossed_closure(**moved), kind(**WAVES), SOLID, pace * PACE)
+        yield f"full.{kind.__name__.lower()}.{pace:g}", scene, {"friction_force": friction(**moved) * CELL}
+
+
+@laws(SAME)
+def of_interface():
+    """Friction of the interface: of Coulomb in sliding, of Cattaneo and Mindlin before it."""
+    mu = RUBBING.coefficient
+    yield "coulomb", loaded(1.0, ELASTIC, interface=RUBBING), {"friction_coefficient": mu}, FRICTION
+
+    def added(answers):
+        both, one = (answer["friction_coefficient"] for answer in answers)
+        return apart(both - one, mu)
+
+    yield "coulomb.added", (loaded(1.0, KELVIN, interface=RUBBING), loaded(1.0, KELVIN)), added
+    bound = GRID.wider("twice, two contacts, one less the other", times=2)
+    whole = tangential.full_slip_displacement(mu, DEPTH, 0.0)
+    for part in (0.2, 0.5, 0.9):
+        motion = Shear(depth=DEPTH, displacement=part * whole)
+        scene = resting(elastomer=Elastic(MODULUS, 0.0), motion=motion, interface=RUBBING)
+        drawn = tangential.force(part, SPHERE.exponent) * mu
+        yield f"mindlin.sphere.{part:g}", scene, {"friction_coefficient": drawn}, bound
+
+
+@laws(GRID.wider(f"{4 / STEPS:g}, of first order in {STEPS} steps, twice, as force falls fast", more=4 / STEPS))
+def at_depth():
+    """Pressed to a depth, held and withdrawn: force of Lee and Radok, and of Ting."""
+    press, hold, lift = (TIME, DEPTH), (TIME, DEPTH), (0.2 * TIME, 0.9 * DEPTH)
+    paths = {"loading": [press], "held": [press, hold], "withdrawn": [press, lift]}
+    for (name, path), shape in product(paths.items(), ROUND):
+        yield f"history.{name}.{shape}", *pressed(ROUND[shape], SOLID, *path)
+
+
+def pressed(body: Any, solid: Any, *path: tuple[float, float]) -> tuple[Scene, dict[str, Any]]:
+    """A body that is pressed through stages of a duration and a depth, and the force in the end."""
+    durations, depths = zip((0.0, 0.0), *path, strict=True)
+    times = np.cumsum(durations)
+    (force,), _ = indentation.force_of_depth(body, solid, times, depths, times[-1])
+    stages = tuple(stage(duration, depth=depth) for duration, depth in path)
+    return Scene(body, solid, Program(stages=stages)), {"normal_force": force}
+
+
+@laws(GRID.wider(f"{2 / STEPS:g}, of first order in {STEPS} steps", more=2 / STEPS))
+def under_load():
+    """A load that is held: depth of Lee and Radok."""
+    times, loads = (0.0, TIME, 2 * TIME), (0.0, LOAD, LOAD)
+    (depth,) = indentation.loading_depth(SPHERE, SOLID, times, loads, 2 * TIME)
+    yield "history.creep", program(stage(TIME, load=LOAD), stage(TIME)), {"depth": depth}

@@ -5,15 +5,18 @@ Soc. A 228, 377 (1929). Retarded displacement is that of a pixel left behind, in
 exp(-s/l)/l. Under a flow the gap is seen -arg(J(q))/q behind the pixels' centres, q = pi/pixel (docs, theory).
 """
 
+from itertools import product
 from math import inf
 
 import numpy as np
+from scipy.signal import convolve
 
 from bem3d.surface import RoughSurface
 from scene import Plane, Result
 
 FAR = 300.0  # pixels from which 1/r and its first correction have more digits than the exact form
 NODES = np.polynomial.legendre.leggauss(20)
+PANELS = 60  # beside those of pixels, in each of which exp(-s/l) and 1/s hardly change
 
 
 def violation(answer: Result) -> float:
@@ -22,42 +25,34 @@ def violation(answer: Result) -> float:
     The scale is the depth of the lowest height, or what the heights in contact span where that is more. Infinite
     where there is suction.
     """
-    pressure = answer.fields["pressure"]
-    heights, gap = _gap(answer)
-    touched = pressure > 0
-    scale = max(answer.depth, float(heights[touched].max())) - float(heights.min())
+    scene, fields, pixel = answer.scene, answer.fields, answer.measures["pixel"]
+    response = flow(answer)
+    shift = collocation(*response)
+    x, y, pressure = fields["x"] + shift * pixel, fields["y"], fields["pressure"]
+    heights = scene.indenter.height(x[None, :], y[:, None])
+    if scene.roughness is not None:
+        heights = heights + RoughSurface.of(scene.roughness, scene.roughness.q_max(pixel)).heights(x, y)
+    displaced = _repeating if isinstance(scene.indenter, Plane) else _free
+    moved = displaced(pressure / scene.solid.indentation_modulus, *response, shift) * pixel
+    gap, touched = moved + heights - answer.depth, pressure > 0
+    scale = max(answer.depth, heights[touched].max()) - heights.min()
     return inf if pressure.min() < 0 else float(max(-gap.min(), np.abs(gap[touched]).max()) / scale)
 
 
 def flow(answer: Result) -> tuple[float, np.ndarray, np.ndarray]:
     """Modes of the elastomer: share of compliance that follows at once, shares (K,) and memories (K,) [pixel]."""
-    scene, pixel = answer.scene, answer.measures["pixel"]
+    scene = answer.scene
     instantaneous, compliances, times = scene.solid.retardation()
     relaxed = instantaneous + compliances.sum()
-    lengths = scene.motion.speed * times / pixel
-    if scene.motion.speed == 0 or not len(times):
+    if scene.motion.speed == 0:
         return 1.0, np.empty(0), np.empty(0)
-    return instantaneous / relaxed, compliances / relaxed, lengths
+    return instantaneous / relaxed, compliances / relaxed, scene.motion.speed * times / answer.measures["pixel"]
 
 
 def collocation(instantaneous, shares, lengths) -> float:
     """Distance behind a pixel's centre at which the gap is seen [pixel]."""
     compliance = instantaneous + np.sum(shares / (1 + 1j * np.pi * lengths))
     return float(-np.angle(compliance) / np.pi)
-
-
-def _gap(answer):
-    """Heights and gap [m] at the points of collocation."""
-    scene, fields, pixel = answer.scene, answer.fields, answer.measures["pixel"]
-    response = flow(answer)
-    shift = collocation(*response)
-    x, y = fields["x"] + shift * pixel, fields["y"]
-    heights = scene.indenter.height(x[None, :], y[:, None])
-    if scene.roughness is not None:
-        heights = heights + RoughSurface.of(scene.roughness, scene.roughness.q_max(pixel)).heights(x, y)
-    pressure = fields["pressure"] / scene.solid.indentation_modulus
-    displaced = _repeating if isinstance(scene.indenter, Plane) else _free
-    return heights, displaced(pressure, *response, shift) * pixel + heights - answer.depth
 
 
 def _repeating(pressure, instantaneous, shares, lengths, shift):
@@ -73,32 +68,24 @@ def _free(pressure, instantaneous, shares, lengths, shift):
     """Displacement of a free half-space [pixel], as a plain sum over pixels."""
     ny, nx = pressure.shape
     x = np.arange(1 - nx, nx) + shift
-    kernel = instantaneous * influence(x, ny)
-    if len(lengths):
-        kernel = kernel + retarded(x, ny, shares, lengths)
-    displaced = np.zeros(pressure.shape)
-    for row, other in np.ndindex(ny, ny):
-        if pressure[other].any():
-            displaced[row] += np.convolve(pressure[other], kernel[:, abs(row - other)])[nx - 1 : 2 * nx - 1]
-    return displaced
+    kernel = instantaneous * influence(x, ny) + retarded(x, ny, shares, lengths)
+    both_sides = np.concatenate([kernel[:, :0:-1], kernel], axis=1)
+    return convolve(both_sides, pressure.T, mode="valid", method="direct").T
 
 
 def influence(x, ny) -> np.ndarray:
     """Displacement over p/E* [pixel] by a square pixel at the origin: x of any shape, y = 0..ny-1 -> (..., ny)."""
-    x, y = np.broadcast_arrays(np.asarray(x)[..., None], np.arange(ny, dtype=float))
+    x, y = np.asarray(x)[..., None], np.arange(ny, dtype=float)
     r = np.hypot(x, y)
-    near = sum(along * across * _corner(x + along / 2, y + across / 2) for along in (-1, 1) for across in (-1, 1))
-    with np.errstate(divide="ignore"):
-        far = 1 / r + 1 / (24 * r**3)
-    return np.where(r < FAR, near, far) / np.pi
+    corners = product((-1, 1), repeat=2)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        near = sum(along * across * _corner(x + along / 2, y + across / 2) for along, across in corners)
+        return np.where(r < FAR, near, 1 / r + 1 / (24 * r**3)) / np.pi
 
 
 def _corner(x, y):
-    """Double primitive of 1/r."""
-    with np.errstate(divide="ignore", invalid="ignore"):
-        along = np.where(x == 0, 0.0, x * np.arcsinh(y / np.abs(x)))
-        across = np.where(y == 0, 0.0, y * np.arcsinh(x / np.abs(y)))
-    return along + across
+    """Double primitive of 1/r, whose terms are nothing on the axes."""
+    return sum(np.nan_to_num(a * np.arcsinh(b / np.abs(a))) for a, b in ((x, y), (y, x)))
 
 
 def retarded(x, ny, shares, lengths):
@@ -107,18 +94,15 @@ def retarded(x, ny, shares, lengths):
     The kernel has kinks at the pixels' edges, which lie alike in every pixel for all x; panels end there.
     """
     total = np.zeros((*x.shape, ny))
+    edges = np.arange(np.ceil(x.max() + 2)) + (x[0] + 0.5) % 1
+    t, w = (NODES[0] + 1) / 2, NODES[1] / 2
+    # Dense at both ends of a panel, where the kernel has its kinks.
+    t, w = t**3 * (10 - 15 * t + 6 * t**2), w * 30 * t**2 * (1 - t) ** 2
     for share, length in zip(shares, lengths, strict=True):
-        edges = np.arange(np.ceil(x.max() + 2)) + (x[0] + 0.5) % 1
-        doubled = length * 2.0 ** np.arange(-12, 6)
-        beyond = 2.0 ** np.arange(np.log2(x.max() + 2), np.log2(max(40 * length, x.max() + 4)))
-        cuts = np.unique(np.concatenate([[0.0, 40 * length], edges, doubled, beyond]))
-        cuts = cuts[cuts <= 40 * length]
-        t, w = (NODES[0] + 1) / 2, NODES[1] / 2
-        # Dense at both ends of a panel, where the kernel has its kinks.
-        t, w = t**3 * (10 - 15 * t + 6 * t**2), w * 30 * t**2 * (1 - t) ** 2
+        farther = np.geomspace(min(length / 4096, x.max() + 2), 40 * length, PANELS)
+        cuts = np.unique([0.0, *edges[edges < 40 * length], *farther])
         widths = np.diff(cuts)[:, None]
         s = (cuts[:-1, None] + widths * t).ravel()
         weights = (widths * w).ravel() * np.exp(-s / length) / length
-        for column, at in enumerate(x):
-            total[column] += share * (weights @ influence(at - s, ny))
+        total += share * np.array([weights @ influence(at - s, ny) for at in x])
     return total

@@ -1,15 +1,14 @@
 """Laws that need no closed form: scales, symmetries, balances, signs and limits."""
 
-from collections.abc import Callable, Iterator
 from dataclasses import replace
-from itertools import pairwise
-from typing import Any
+from itertools import product
 
 import numpy as np
+from scipy.ndimage import gaussian_filter
 
-from scene import WLF, Indent, Scene, SelfAffine, Slide
+from scene import WLF, Indent, Slide
 
-from .closed_forms import AMPLITUDE, WAVELENGTH, cell, wavy
+from .closed_forms import AMPLITUDE, CELL, WAVELENGTH, cell, wavy
 from .law import (
     EXACT,
     FORCES,
@@ -19,199 +18,143 @@ from .law import (
     LIMIT,
     SAME,
     SPACE,
-    Law,
+    Misfit,
     alike,
-    exact,
-    slug,
+    laws,
     stated,
     worst,
 )
 from .ordinary import (
     DEPTH,
-    ELASTIC,
     KELVIN,
     LOAD,
     MODULUS,
     PACE,
     RADIUS,
+    ROUGH,
     SOLID,
-    SPHERE,
-    STIFFENING,
-    TIME,
     family,
-    moved,
-    program,
+    loaded,
     resting,
     sliding,
-    stage,
 )
 
 POINTS = 32  # of a map
 PRESSURE = MODULUS * AMPLITUDE / WAVELENGTH * 4  # on a map
 SAME_PIXELS = stated(1e-4, "a grid has its pixels at the same places of both surfaces; contact within 1e-5")
+MET = stated(1e-6, "a load is a sum over pixels, and met as well as any")
 # Factors on lengths, moduli and times.
 SCALES = {"length": (1e3, 1.0, 1.0), "modulus": (1.0, 1e3, 1.0), "time": (1.0, 1.0, 1e3)}
+ROUGH_SLIDE, ROUGH_REST = sliding(1.0, roughness=ROUGH), resting(elastomer=SOLID, roughness=ROUGH)
+UNCHANGED = alike(depth=1.0, normal_force=1.0, friction_force=1.0)
 
 
-def laws() -> Iterator[Law]:
-    """All of them."""
-    for each in (scales, symmetries, balances, signs, limits):
-        yield from each()
-
-
-ROUGH_SLIDE, ROUGH_REST = family("rough"), family("rough at rest")
-
-
-def scales() -> Iterator[Law]:
-    """Forces go with the square of lengths and with moduli; times matter only beside one another."""
-    for unit, factors in SCALES.items():
-        for kind in ("at rest", "sliding", "rough"):
-            pair = family(kind), family(kind, *factors)
-            form = alike(dict.fromkeys(FORCES, factors[0] ** 2 * factors[1]))
-            said = f"Forces {kind}: the same in units a thousand times the {unit}"
-            yield Law(f"scale.{unit}.{slug(kind)}", INVARIANCE, said, pair, form, SAME)
-    warm, form = WLF(temperature=310.0, reference=300.0, c1=8.86, c2=101.6), alike(dict.fromkeys(FORCES, 1.0))
-    pair = sliding(warm.shift), replace(sliding(1.0), temperature=warm)
-    said = "Forces of a warm solid are those of a cold one at the speed that is shifted"
-    yield Law("scale.temperature", INVARIANCE, said, pair, form, SAME)
+@laws(SAME, group=INVARIANCE)
+def scales():
+    """Forces are the same in units a thousand times as large, and warm at the speed that is shifted."""
+    for unit, kind in product(SCALES, ("at-rest", "sliding", "rough-sliding")):
+        length, modulus, _ = SCALES[unit]
+        form = alike(**dict.fromkeys(FORCES, length**2 * modulus))
+        yield f"scale.{unit}.{kind}", (family(kind), family(kind, *SCALES[unit])), form
+    warm = WLF(temperature=310.0, reference=300.0, c1=8.86, c2=101.6)
+    pair = sliding(warm.shift), sliding(1.0, temperature=warm)
+    yield "scale.temperature", pair, alike(normal_force=1.0, friction_force=1.0)
 
 
 def _map() -> np.ndarray:
     """Heights of a small periodic map, of waves of many directions that no symmetry relates."""
-    along = 2 * np.pi * np.arange(POINTS) / POINTS
-    y, x = np.meshgrid(along, along, indexing="ij")
-    draw = np.random.default_rng(7)
-    waves = ((i, j) for i in range(-3, 4) for j in range(4) if (i, j) != (0, 0))
-    return AMPLITUDE / 6 * np.sum([np.cos(i * y + j * x + 6.3 * draw.random()) for i, j in waves], axis=0)
+    smoothed = gaussian_filter(np.random.default_rng(7).standard_normal((POINTS, POINTS)), 3.0, mode="wrap")
+    return AMPLITUDE * smoothed / smoothed.std()
 
 
-def symmetries() -> Iterator[Law]:
-    """A mirrored, turned, shifted or raised surface has the same mean gap and the same friction."""
-    heights = _map()
-    same = {
-        "mirror-along": (heights[:, ::-1], False, "mirrored along the motion, at rest"),
-        "mirror-across": (heights[::-1], True, "mirrored across the motion, sliding"),
-        "turn": (heights.T, False, "turned by 90 degrees, at rest"),
-        "shift": (np.roll(heights, POINTS // 4, axis=(0, 1)), False, "shifted by a quarter, at rest"),
-        "raise": (heights + 3 * AMPLITUDE, False, "raised, at rest"),
-    }
-    for name, (other, slides, words) in same.items():
-        speed = PACE * WAVELENGTH / RADIUS if slides else 0.0
-        scenes = tuple(wavy(PRESSURE, cell(each), SOLID, speed) for each in (heights, other))
-        form = alike({"depth": 1.0} | ({"friction_force": 1.0} if slides else {}))
-        said = f"A surface {words}: the same mean gap{' and friction' if slides else ''}"
+@laws(SAME_PIXELS, SPACE, INVARIANCE)
+def symmetries():
+    """Surface mirrored, turned, shifted or raised: the same mean gap, across the motion the same friction.
+
+    The pressure on its cell comes out as force.
+    """
+    heights, gap = _map(), alike(depth=1.0)
+    for name, other in {
+        "mirror-along": heights[:, ::-1],
+        "turn": heights.T,
+        "shift": np.roll(heights, POINTS // 4, axis=(0, 1)),
+        "raise": heights + 3 * AMPLITUDE,
+    }.items():
         # Moved by a quarter, the pixels of some grids lie elsewhere on the surface.
         bound = GRID if name == "shift" else SAME_PIXELS
-        yield Law(f"symmetry.{name}", INVARIANCE, said, scenes, form, bound, SPACE, drawn=True)
-    to_and_fro = tuple(program(stage(TIME, depth=DEPTH), stage(TIME, speed=speed)) for speed in (PACE, -PACE))
-    said = "Friction backwards is friction forwards with the other sign"
-    form = alike({"normal_force": 1.0, "friction_force": -1.0})
-    yield Law("symmetry.reversal", INVARIANCE, said, to_and_fro, form, FRICTION)
+        yield f"symmetry.{name}", [wavy(PRESSURE, cell(each), SOLID) for each in (heights, other)], gap, bound
+    speed = PACE * WAVELENGTH / RADIUS
+    moved = [wavy(PRESSURE, cell(each), SOLID, speed) for each in (heights, heights[::-1])]
+    yield "load.plane", wavy(PRESSURE, cell(heights)), {"normal_force": PRESSURE * CELL}, MET
+    yield "symmetry.mirror-across", moved, alike(depth=1.0, friction_force=1.0)
 
 
-def balances() -> Iterator[Law]:
-    """Equal questions have equal answers, and the load that goes in comes out."""
-    for name, scene in (("rest", ROUGH_REST), ("sliding", ROUGH_SLIDE)):
-        said = f"Asked twice, a rough contact has the same answer: {name}"
-        form = alike(dict.fromkeys((*FORCES, "depth"), 1.0))
-        yield Law(f"same.{name}", INVARIANCE, said, (scene, scene), form, EXACT)
-
-    def one(answers):
-        return float(answers[0]["normal_force"] == answers[1]["normal_force"])
-
-    rough: Any = ROUGH_REST.roughness
-    other = replace(ROUGH_REST, roughness=replace(rough, seed=2))
-    bound, said = stated(0.0, "two surfaces have the same force by no accident"), "Another seed is another surface"
-    yield Law("seed", INVARIANCE, said, (ROUGH_REST, other), one, bound)
-    bound = stated(1e-6, "a load is a sum over pixels, and met as well as any")
-    loads = {
-        "rest": resting(motion=Indent(load=LOAD)),
-        "sliding": moved(sliding(1.0), depth=None, load=LOAD),
-        "rough": replace(ROUGH_SLIDE, motion=Slide(speed=PACE, load=LOAD)),
-    }
-    for name, scene in loads.items():
-        said = f"The load that goes in comes out, {name}"
-        yield exact(f"load.{name}", said, scene, bound, group=INVARIANCE, normal_force=LOAD)
-    said, force = "The pressure on a cell comes out as force", PRESSURE * WAVELENGTH**2
-    scene = wavy(PRESSURE, cell(_map()))
-    yield exact("load.plane", said, scene, bound, SPACE, INVARIANCE, normal_force=force)
+@laws(EXACT, group=INVARIANCE)
+def repeats():
+    """Asked twice, a rough contact has the same answer; another seed is another surface."""
+    yield "same.rest", (ROUGH_REST, ROUGH_REST), UNCHANGED
+    yield "same.sliding", (ROUGH_SLIDE, ROUGH_SLIDE), UNCHANGED
+    yield (
+        "seed",
+        (ROUGH_REST, replace(ROUGH_REST, roughness=replace(ROUGH, seed=2))),
+        lambda answers: float(UNCHANGED(answers) == 0.0),
+    )
 
 
-def _falls(name: str) -> Callable:
-    """Greatest fall of a number from an answer to the next, over the last."""
+@laws(MET, group=INVARIANCE)
+def loads():
+    """The load that goes in comes out."""
+    yield "load.rest", resting(motion=Indent(load=LOAD)), {"normal_force": LOAD}
+    yield "load.sliding", loaded(1.0), {"normal_force": LOAD}
+    yield "load.rough", loaded(1.0, roughness=ROUGH), {"normal_force": LOAD}
+
+
+def falls(name: str) -> Misfit:
+    """Greatest fall of a number from an answer to the next, over the smallest."""
 
     def misfit(answers):
-        values = [answer[name] for answer in answers]
-        return worst(max(before - after, 0.0) / abs(values[-1]) for before, after in pairwise(values))
+        values = np.array([answer[name] for answer in answers])
+        return worst(-np.diff(values) / np.abs(values).min())
 
     return misfit
 
 
-def _drives(answers):
-    return worst(max(-answer["friction_coefficient"], 0.0) for answer in answers)
+@laws(SAME, group=INVARIANCE)
+def rises():
+    """Force rises with depth, and depth with load."""
+    motions = [Indent(depth=DEPTH * (1 + 0.05 * k)) for k in range(5)]
+    yield "rises.depth", [resting(motion=each) for each in motions], falls("normal_force")
+    yield "rises.rough", [replace(ROUGH_SLIDE, motion=each) for each in motions], falls("normal_force")
+    heavier = [resting(motion=Indent(load=part * LOAD)) for part in (1.0, 1.1, 1.2, 1.3)]
+    yield "rises.load", heavier, falls("depth")
 
 
-def signs() -> Iterator[Law]:
-    """What never falls and what is never below zero."""
-    depths = [DEPTH * (1 + 0.05 * k) for k in range(5)]
-    paces = [10.0**k for k in range(-4, 5, 2)]
-    wide = [10.0**k for k in (-9, -7, -5, *range(-4, 5, 2), 5, 7, 9)]
-    falls, opposes = _falls("normal_force"), "Friction never drives, at any speed"
-    rough = tuple(replace(ROUGH_SLIDE, motion=Slide(speed=pace * PACE, load=LOAD)) for pace in paces)
-    rows: tuple[tuple[str, str, Any, Callable, Any], ...] = (
-        ("rises.depth", "Force rises with depth", [resting(motion=Indent(depth=d)) for d in depths], falls, SAME),
-        (
-            "rises.rough",
-            "Force of a rough body rises with depth",
-            [replace(ROUGH_SLIDE, motion=Indent(depth=depth)) for depth in depths],
-            falls,
-            SAME,
-        ),
-        (
-            "rises.load",
-            "Depth rises with load",
-            [resting(motion=Indent(load=part * LOAD)) for part in (1.0, 1.1, 1.2, 1.3)],
-            _falls("depth"),
-            SAME,
-        ),
-        ("rises.speed", "Force at a depth rises with speed", [sliding(pace) for pace in paces], falls, GRID),
-        ("friction.opposes", opposes, [moved(sliding(v), depth=None, load=LOAD) for v in wide], _drives, EXACT),
-        ("friction.opposes.rough", "Friction of a rough body never drives", rough, _drives, EXACT),
-    )
-    for id, said, scenes, misfit, bound in rows:
-        yield Law(id, INVARIANCE, said, tuple(scenes), misfit, bound)
+@laws(EXACT, group=INVARIANCE)
+def opposes():
+    """Friction never drives, at any speed, and an elastic solid has none."""
 
-    def driven(answers):
-        return abs(answers[0]["friction_coefficient"])
+    def drives(answers):
+        return worst(max(-answer["friction_coefficient"], 0.0) for answer in answers)
 
-    lossless = resting(motion=Slide(speed=PACE, load=LOAD))
-    yield Law("friction.lossless", INVARIANCE, "An elastic solid has no friction", (lossless,), driven, SAME)
+    yield "friction.opposes", [loaded(10.0**k) for k in (-9, -7, -5, *range(-4, 5, 2), 5, 7, 9)], drives
+    rough = [loaded(10.0**k, roughness=ROUGH) for k in range(-4, 5, 2)]
+    yield "friction.opposes.rough", rough, drives
+    yield "friction.lossless", resting(motion=Slide(speed=PACE, load=LOAD)), {"friction_coefficient": 0.0}, SAME
 
 
-def limits() -> Iterator[Law]:
-    """Between rubber and glass; friction in proportion to slow speeds, and to the inverse of fast ones."""
-    soft, hard = resting(), resting(elastomer=replace(ELASTIC, modulus=STIFFENING * MODULUS))
-    scenes = (soft, *(sliding(pace) for pace in (1e-3, 0.1, 1.0, 10.0, 1e3)), hard)
-    said = "Force at a depth lies between that of rubber and that of glass"
-    yield Law("limit.between", LIMIT, said, scenes, outside, GRID)
-    for name, body in (("sphere", None), ("rough", ROUGH_SLIDE.roughness)):
-        pair = tuple(Scene(SPHERE, KELVIN, Slide(speed=pace * PACE, load=LOAD), body) for pace in (1e-5, 1e-4))
-        said = f"Friction of a slow {name} body is in proportion to the speed"
-        bound = FRICTION.and_(1e-2, "v tau over the shortest wave, ten times")
-        yield Law(f"limit.slow.{name}", LIMIT, said, pair, alike({"friction_force": 10.0}), bound)
-    fast = tuple(sliding(pace) for pace in (1e4, 1e5))
-    said = "Friction of a fast body on a standard linear solid goes with the inverse of the speed"
-    bound = FRICTION.and_(3e-3, "30 a/(v tau), what relaxes in passing")
-    yield Law("limit.fast", LIMIT, said, fast, alike({"friction_force": 0.1}), bound)
-    smooth = resting(motion=Indent(load=LOAD))
-    faint = SelfAffine(hurst=0.5, rms_height=DEPTH / 1e4, longest=2 * RADIUS, shortest=RADIUS / 2, seed=1)
-    said = "Faint roughness changes the depth by no more than its heights"
-    bound = GRID.and_(4e-4, "four rms heights over the depth")
-    pair = smooth, replace(smooth, roughness=faint)
-    yield Law("limit.smooth", LIMIT, said, pair, alike({"depth": 1.0}), bound)
+@laws(FRICTION.wider("0.01, v tau over the shortest wave, ten times", more=1e-2), group=LIMIT)
+def slow_and_fast():
+    """Friction is in proportion to slow speeds, and on a standard linear solid to the inverse of fast ones."""
+    for name, body in (("sphere", None), ("rough", ROUGH)):
+        pair = [loaded(pace, KELVIN, roughness=body) for pace in (1e-5, 1e-4)]
+        yield f"limit.slow.{name}", pair, alike(friction_force=10.0)
+    fast = FRICTION.wider("0.003, 30 a/(v tau), what relaxes in passing", more=3e-3)
+    yield "limit.fast", [sliding(pace) for pace in (1e4, 1e5)], alike(friction_force=0.1), fast
 
 
-def outside(answers) -> float:
-    """By how much, relative, forces between the first and the last answer lie outside of theirs."""
-    low, *between, high = (answer["normal_force"] for answer in answers)
-    return worst(max(low / force - 1, force / high - 1, 0.0) for force in between)
+@laws(GRID.wider("0.0004, four rms heights over the depth", more=4e-4), group=LIMIT)
+def smooth():
+    """Faint roughness changes the depth by no more than its heights."""
+    scene = resting(motion=Indent(load=LOAD))
+    faint = replace(ROUGH, rms_height=DEPTH / 1e4)
+    yield "limit.smooth", (scene, replace(scene, roughness=faint)), alike(depth=1.0)

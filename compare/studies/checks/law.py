@@ -1,10 +1,12 @@
 """A law: scenes, the number that their answers must keep small, and the bound with its source."""
 
-import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from math import inf, isfinite
+from itertools import repeat
+from math import inf, isfinite, isnan
 from typing import Any
+
+import numpy as np
 
 from scene import Result, Scene
 
@@ -32,16 +34,10 @@ class Answer:
 
     def __getitem__(self, name: str) -> float:
         """A number of the result, or a measure. Raises Missing."""
-        if name in self.result.measures:
-            return self.result.measures[name]
-        if not hasattr(self.result, name):
+        found = self.result.measures.get(name, getattr(self.result, name, None))
+        if found is None:
             raise Missing(f"the model does not give {name}")
-        return getattr(self.result, name)
-
-    @property
-    def fields(self) -> Mapping[str, Any]:
-        """Arrays of the result."""
-        return self.result.fields
+        return found
 
     @property
     def points(self) -> float:
@@ -66,14 +62,9 @@ class Bound:
     source: str
     of: Misfit
 
-    def and_(self, more: float, why: str) -> "Bound":
-        """This bound, and a number more for a reason."""
-        return Bound(f"{self.source}; {more:g}, {why}", lambda answers: self.of(answers) + more)
-
-    def times(self, factor: float, why: str) -> "Bound":
-        """This bound so many times, for a reason; MOST at most."""
-        source = f"{factor:g} times, {why}: {self.source}"
-        return Bound(source, lambda answers: min(factor * self.of(answers), MOST))
+    def wider(self, why: str, more: float = 0.0, times: float = 1.0) -> "Bound":
+        """This bound so many times, MOST at most, and a number more, for a reason."""
+        return Bound(f"{self.source}; {why}", lambda answers: min(times * self.of(answers), MOST) + more)
 
 
 def _left(answers):
@@ -128,9 +119,8 @@ class Law:
     misfit : of the answers; a number not below zero, or one that is stored. Raises Missing
     bound : that the misfit, or its distance from `expected`, must not exceed; its source says why
     kinds : dimensions of the models that must hold it
-    drawn : whether a model must draw surfaces
     solvers : of a hard case, functions of a size that make the solvers that are asked; empty: any model is asked
-    models : function of the model that gives that of each scene; absent, the model itself
+    models : function of the model that gives that of each scene
     expected : 0, or the number that is stored
     """
 
@@ -141,15 +131,43 @@ class Law:
     misfit: Misfit
     bound: Bound
     kinds: tuple[str, ...] = BOTH
-    drawn: bool = False
     solvers: tuple[Callable[[Any], Any], ...] = ()
-    models: Callable[[Any], tuple[Any, ...]] | None = None
+    models: Callable[[Any], Iterable[Any]] = repeat
     expected: float = 0.0
 
-    @property
-    def source(self) -> str:
-        """Where the bound comes from."""
-        return self.bound.source
+
+@dataclass(frozen=True)
+class Laws:
+    """Laws that are made when they are asked for.
+
+    make : function without arguments that yields them
+    """
+
+    make: Callable[[], Iterator[Law]]
+
+
+def laws(bound: Bound, kinds: tuple[str, ...] = BOTH, group: str = CLOSED, **others: Any) -> Callable:
+    """Decorator of a function whose docstring says what laws hold, and which yields a row for each.
+
+    A row has the id, a scene or several, the misfit or the numbers that are known of every answer, and where the
+    law has a bound of its own that bound. others : fields of each law
+    """
+
+    def decorated(rows):
+        def make():
+            for id, asked, misfit, *own in rows():
+                scenes = (asked,) if isinstance(asked, Scene) else tuple(asked)
+                form = misfit if callable(misfit) else known(**misfit)
+                yield Law(id, group, f"{sentence(rows)}: {id}", scenes, form, *own or [bound], kinds, **others)
+
+        return Laws(make)
+
+    return decorated
+
+
+def sentence(function: Callable) -> str:
+    """Docstring of a function as a sentence without a full stop."""
+    return " ".join((function.__doc__ or "").split()).removesuffix(".")
 
 
 def apart(found: float, known: float) -> float:
@@ -159,68 +177,29 @@ def apart(found: float, known: float) -> float:
     return abs(found - known) / abs(known) if known else abs(found)
 
 
-def exact(
-    id: str,
-    sentence: str,
-    scene: Scene,
-    bound: Bound,
-    kinds: tuple[str, ...] = BOTH,
-    group: str = CLOSED,
-    **numbers: float,
-) -> Law:
-    """Law that numbers of one answer are known: the largest of their relative deviations."""
-    drawn = type(scene.indenter).__name__ == "Plane"
-    return Law(id, group, sentence, (scene,), rows_misfit([(scene, numbers)]), bound, kinds, drawn)
-
-
-def alike(factors: Mapping[str, float]) -> Misfit:
-    """Largest relative deviation of numbers of the second answer from those of the first times factors."""
-
-    def misfit(answers: Answers) -> float:
-        first, second = answers
-        return worst(apart(second[name], factor * first[name]) for name, factor in factors.items())
-
-    return misfit
-
-
-def rows_misfit(rows: Sequence[tuple], of: Sequence[str] = ("normal_force",)) -> Misfit:
-    """Largest relative deviation of rows: a scene, and another one or known numbers by their names.
-
-    Answers are in the order in which the scenes stand in the rows. of : numbers of two scenes that are compared
-    """
-
-    def misfit(answers: Answers) -> float:
-        rest, found = iter(answers), []
-        for _, other in rows:
-            answer = next(rest)
-            known: Any = next(rest) if isinstance(other, Scene) else other
-            names = of if isinstance(other, Scene) else other
-            found += [apart(answer[name], known[name]) for name in names]
-        return worst(found)
-
-    return misfit
-
-
 def worst(values: Iterable[float]) -> float:
-    """The largest; infinite where one is no number."""
-    every = list(values)
-    return max(every, default=0.0) if all(map(isfinite, every)) else inf
+    """The largest, 0 at least; infinite where one is no number."""
+    found = float(np.max([0.0, *values]))
+    return inf if isnan(found) else found
+
+
+def known(**numbers: float) -> Misfit:
+    """Largest relative deviation of any answer from numbers by their names."""
+    return lambda answers: worst(apart(each[name], numbers[name]) for each in answers for name in numbers)
+
+
+def alike(**factors: float) -> Misfit:
+    """Largest relative deviation of numbers of the second answer from those of the first times factors."""
+    return lambda answers: worst(apart(answers[1][name], factors[name] * answers[0][name]) for name in factors)
 
 
 def on_shares(*shares: float) -> Callable[[Any], tuple[Any, ...]]:
     """Models on shares of the points of a model. They raise Missing where it has no points, or too few."""
 
     def models(model):
-        if not hasattr(model, "points"):
-            raise Missing("the model has no field points to refine")
         try:
             return tuple(replace(model, points=int(model.points * each + 1e-6)) for each in shares)
-        except (TypeError, ValueError):
-            raise Missing(f"the model refuses a part of its {model.points} points") from None
+        except (AttributeError, TypeError, ValueError):
+            raise Missing("the model cannot be asked on a part of its points") from None
 
     return models
-
-
-def slug(words: str) -> str:
-    """Words as part of the name of a law: letters of an alphabet, digits, points and hyphens."""
-    return "-".join(re.findall(r"[a-z0-9.^]+", words.lower()))

@@ -39,15 +39,16 @@ def sliding(speed: float, elastomer=SOLID, **changed) -> Scene:
     return resting(elastomer=elastomer, motion=Slide(speed=speed * PACE, depth=DEPTH), **changed)
 
 
-def at_paces(*paces: float, elastomer=SOLID, **changed) -> dict[str, Scene]:
-    """The contact sliding at several speeds, by name."""
-    return {f"v tau/a = {pace:g}": sliding(pace, elastomer, **changed) for pace in paces}
+def loaded(speed: float, elastomer=SOLID, **changed) -> Scene:
+    """The contact under its load, sliding at a speed in units of PACE, with what is changed."""
+    return resting(elastomer=elastomer, motion=Slide(speed=speed * PACE, load=LOAD), **changed)
 
 
-def to_radius(indenter, elastomer, pace: float) -> Scene:
-    """Another indenter sliding at the depth at which its contact at rest, of the 1D theory, has RADIUS."""
-    depth = indenter.mdr_coefficient * RADIUS**indenter.exponent
-    return Scene(indenter, elastomer, Slide(speed=pace * PACE, depth=depth))
+def deep(body: Any, elastomer=ELASTIC, pace: float | None = None, **changed) -> Scene:
+    """A body at the depth at which its contact at rest, of the 1D theory, has RADIUS: at rest or sliding."""
+    depth = body.mdr_coefficient * RADIUS**body.exponent
+    motion = Indent(depth=depth) if pace is None else Slide(speed=pace * PACE, depth=depth)
+    return Scene(body, elastomer, motion, **changed)
 
 
 def stage(duration: float, **values) -> Stage:
@@ -60,26 +61,22 @@ def program(*stages: Stage, elastomer=SOLID, **changed) -> Scene:
     return resting(elastomer=elastomer, motion=Program(stages=stages), **changed)
 
 
-def moved(scene: Scene, **motion) -> Scene:
-    """A scene with some values of its motion replaced."""
-    return replace(scene, motion=replace(scene.motion, **motion))
-
-
-def family(kind: str, length: float = 1.0, modulus: float = 1.0, time: float = 1.0) -> Scene:
+def family(kind: str, length: float = 1.0, modulus: float = 1.0, time: float = 1.0, steep: float = 1.0) -> Scene:
     """The contact in units of length, modulus and time over those of the ordinary one.
 
-    kind : "at rest", "sliding", under a "load", or a "program"; of a "rough" body where that word is among them
+    kind : "at-rest", "sliding", "load", or "program"; after "rough-" of a rough body
+    steep : heights and depths over those of the contact
     """
     solid = StandardLinearSolid(MODULUS * modulus, STIFFENING * MODULUS * modulus, TIME * time)
-    waves = {name: length * getattr(ROUGH, name) for name in ("rms_height", "longest", "shortest")}
-    speed, depth, force = PACE * length / time, DEPTH * length, LOAD * length**2 * modulus
-    motion: Any = Slide(speed=speed, depth=depth)
-    if "rest" in kind:
-        motion = Indent(depth=depth)
-    elif "load" in kind:
-        motion = Slide(speed=speed, load=force)
-    elif "program" in kind:
-        away = stage(2 * TIME * time, speed=speed / 8)
-        motion = Program(stages=(stage(TIME * time, load=force), away, stage(TIME * time, load=force / 10)))
-    rough = replace(ROUGH, **waves) if "rough" in kind else None
-    return Scene(Sphere(SPHERE.radius * length), solid, motion, rough)
+    speed, depth, force = PACE * length / time, DEPTH * length * steep, LOAD * length**2 * modulus
+    stages = {"load": force}, {"duration": 2 * TIME * time, "speed": speed / 8}, {"load": force / 10}
+    motions: dict[str, Any] = {
+        "at-rest": Indent(depth=depth),
+        "sliding": Slide(speed=speed, depth=depth),
+        "load": Slide(speed=speed, load=force),
+        "program": Program(stages=tuple(Stage(**{"duration": TIME * time} | each) for each in stages)),
+    }
+    rough = {name: length * getattr(ROUGH, name) for name in ("longest", "shortest")}
+    rough |= {"rms_height": length * steep * ROUGH.rms_height}
+    body = replace(ROUGH, **rough) if kind.startswith("rough") else None
+    return Scene(Sphere(SPHERE.radius * length / steep), solid, motions[kind.removeprefix("rough-")], body)

@@ -1,42 +1,32 @@
 """The table of laws, and the task that asks one of them of a model."""
 
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cache
 from typing import Any
 
-from scene import Program, Refused, SolveError
+from scene import Refused, Scene, SolveError
 from scene.protocol import why_not
 
 from ...models.table import SURFACES, Model
 from ...solving.outcome import Outcome, Row
 from ...solving.task import REFUSED, SceneTask
-from . import closed_forms, friction, hard_bodies, hard_histories, hard_motion, invariances, stored
-from .hardcase import HardCase
-from .law import Answer, Law, Missing
+from . import closed_forms, hard_bodies, hard_histories, hard_motion, invariances, stored
+from .law import Answer, Law, Laws, Missing
 
-WORK = 1e6  # of a contact; STEPS times, of a history
-STEPS = 20
+WORK = 1e6  # of a contact
+MODULES = closed_forms, invariances, hard_motion, hard_bodies, hard_histories
 
 
 @cache
 def table() -> Mapping[str, Law]:
     """Every law by its id."""
-    every = list(_every_law())
+    families = [each for module in MODULES for each in vars(module).values() if isinstance(each, Laws)]
+    every = [*(law for each in families for law in each.make()), *stored.laws()]
     found = {law.id: law for law in every}
     assert len(found) == len(every), "two laws have one id"
     return found
-
-
-def _every_law() -> Iterator[Law]:
-    for module in (closed_forms, friction, invariances):
-        yield from module.laws()
-    for hard in (hard_motion, hard_bodies, hard_histories):
-        for case in vars(hard).values():
-            if isinstance(case, HardCase):
-                yield from case.laws()
-    yield from stored.laws()
 
 
 @dataclass(frozen=True)
@@ -57,23 +47,23 @@ class Examination:
         return table()[self.law_id]
 
     @property
-    def scenes(self) -> tuple:
+    def scenes(self) -> tuple[Scene, ...]:
         """Scenes of the law."""
         return self.law.scenes
 
-    @cached_property
+    @property
     def _asked(self) -> SceneTask:
         return SceneTask(self.solver, self.scenes)
 
     @property
     def label(self) -> str:
-        """Model, group and name of the law."""
-        return f"{self.solver.name}, {self.law.group}: {self.law_id}"
+        """Model and name of the law."""
+        return f"{self.solver.name}: {self.law_id}"
 
     @property
     def work(self) -> float:
-        """Rough cost; histories take longest."""
-        return sum(WORK * (STEPS if isinstance(scene.motion, Program) else 1) for scene in self.scenes)
+        """Rough cost."""
+        return WORK * len(self.scenes)
 
     @property
     def portable(self) -> bool:
@@ -83,7 +73,7 @@ class Examination:
     @property
     def question(self) -> Mapping[str, Any]:
         """The law, and its scenes and the model."""
-        return {"law": self.law_id, "sentence": self.law.sentence} | self._asked.question
+        return {"law": self.law_id} | self._asked.question
 
     @property
     def packages(self) -> tuple[str, ...]:
@@ -93,22 +83,24 @@ class Examination:
 
     def solve(self) -> Outcome:
         """Solve every scene, and hold the answers against the law."""
-        start, law, measures, reason = time.process_time(), self.law, {}, None
-        model = Model.of(self.solver)
+        start, measures, reason = time.process_time(), {}, None
         try:
-            if law.drawn and model.draws != SURFACES:
-                raise Missing("the model draws no surfaces")
-            models = law.models(self.solver) if law.models else (self.solver,) * len(law.scenes)
-            asked = list(zip(models, law.scenes, strict=True))
-            if reasons := [why for each in asked for why in why_not(*each)]:
-                raise Refused(reasons[0])
-            answers = [Answer(each.solve(scene), model.dimension) for each, scene in asked]
-            measures = {"misfit": float(law.misfit(answers)), "bound": float(law.bound.of(answers))}
+            measures = self._measures()
         except (Refused, NotImplementedError, Missing) as error:
-            reason = f"{REFUSED}{' '.join(str(error.args[0] if error.args else type(error).__name__).split())}"
+            reason = REFUSED + (" ".join(str(error).split()) or type(error).__name__)
         except SolveError as error:
             reason = str(error) or type(error).__name__
         return Outcome((Row(seconds=time.process_time() - start, measures=measures, reason=reason),))
+
+    def _measures(self):
+        law, model = self.law, Model.of(self.solver)
+        if model.draws != SURFACES and any(scene.indenter.type == "plane" for scene in law.scenes):
+            raise Missing("the model draws no surfaces")
+        asked = list(zip(law.models(self.solver), law.scenes, strict=False))
+        for reason in (why for each in asked for why in why_not(*each)):
+            raise Refused(reason)
+        answers = [Answer(each.solve(scene), model.dimension) for each, scene in asked]
+        return {"misfit": float(law.misfit(answers)), "bound": float(law.bound.of(answers))}
 
     def failed(self, reason: str) -> Outcome:
         """Outcome of a law that could not be asked."""

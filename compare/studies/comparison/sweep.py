@@ -39,7 +39,7 @@ class SweepSeries(Series):
 
     case : the scene with the settings of both solvers; its motion says whether a load or a depth is prescribed
     speeds, values : [m/s]; [N] or [m]
-    draws : rough surfaces, and as many profiles
+    draws, profiles : rough surfaces, and profiles; as many if absent
     models : of which each but the reference is compared with that
     """
 
@@ -50,6 +50,7 @@ class SweepSeries(Series):
     models: Models
     interval: float | None = None
     strata: Mapping[str, Counts] = field(default_factory=dict, hash=False)
+    profiles: int | None = None
     name = title = CONTACTS
     shared: ClassVar[Mapping[str, tuple[str, ...]]] = {CONTACTS: (CONTACTS,)}
 
@@ -116,7 +117,7 @@ class SweepSeries(Series):
             speeds=self.speeds,
             values=self.values,
             levels=on_two_levels(*(each.solver for each in self.models)),
-            draws={each.name: each.count(self.draws, self.draws) for each in self.models},
+            draws={each.name: each.count(self.profiles or self.draws, self.draws) for each in self.models},
         )
         return self.with_strata({CONTACTS: fixed})
 
