@@ -133,7 +133,8 @@ def test_the_first_run_writes_a_file_beside_the_test_and_later_ones_hold_against
     project(asked.format(1.6), options=["--mdr-regen"]).assert_outcomes(passed=1)
 
 
-def test_what_is_solved_is_kept_in_the_cache_or_for_the_session(project, pytester):
+def test_what_is_solved_is_kept_in_the_cache_or_for_the_session(project, pytester, monkeypatch):
+    monkeypatch.delenv("PYTEST_XDIST_WORKER", raising=False)
     asked = 'check("seal.toml", models=pair(), friction=0.05, depth=0.05)'
     solved = pytester.path / "solved.txt"
     for options, count in (((), 4), ((), 4), (("-p", "no:cacheprovider"), 8)):

@@ -200,9 +200,9 @@ def test_the_example_of_the_page_on_figures_draws_in_the_style_it_states(tmp_pat
     monkeypatch.chdir(tmp_path)
     Path("mine.mplstyle").write_text("lines.linewidth: 3.5", encoding="utf-8")
     rows = [
-        {"solver": solver, "speed": speed, "load": 1.0}
+        {"model": model, "speed": speed, "load": 1.0}
         | {"friction_coefficient_mean": speed, "friction_coefficient_low": 0.9 * speed}
-        for solver in ("MDR", "BEM")
+        for model in ("MDR", "BEM")
         for speed in (0.1, 1.0)
     ]
     means = pandas.DataFrame(rows).assign(
