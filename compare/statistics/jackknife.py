@@ -297,17 +297,33 @@ def friction(dataset: xarray.Dataset) -> np.ndarray:
     return mean(dataset, "friction_force", "normal_force")
 
 
-def measured(
-    claim: Claim, fine: DrawSet, coarse: DrawSet, where: str = "", regime: str = "", plot: str = ""
-) -> Finding:
+def measured(claim: Claim, fine: DrawSet, coarse: DrawSet, where: str = "", regime: str = "") -> Finding:
     """Finding of a claim from samples on two grids. Raises ValueError for a claim without a measure."""
     measure: Callable[[Any], Any] | None = claim.measure
     if measure is None:
         raise ValueError(f"claim {claim.id} has no measure")
     # What has no logarithm is not known, and the finding says so.
     with np.errstate(invalid="ignore", divide="ignore"):
-        replicates = resample(lambda sample: {"": measure(sample)}, fine)[""]
-        found = replicates.rms if np.ndim(replicates.value) else replicates.estimated
-        grid = float(np.sqrt(np.mean(np.square(np.asarray(measure(coarse)) - replicates.value))))
+        replicates, change = _on_both(measure, fine, coarse)
+        found = replicates.rms if np.ndim(change) else replicates.estimated
+        found = replace(found, grid=float(np.sqrt(np.mean(np.square(change)))))
         unknown = _ONE if 1 in fine.drawn.values() else _HALF
-        return Finding.of(claim, found, grid, unknown, where=where, drawn=fine.drawn, regime=regime, plot=plot)
+        return Finding.of(claim, found, unknown, where=where, drawn=fine.drawn, regime=regime)
+
+
+def compared(
+    statistic: Callable[[Any], np.ndarray], fine: DrawSet, coarse: DrawSet | None, size: bool = False
+) -> Estimated[np.ndarray]:
+    """Numbers that a statistic of Datasets gives; `coarse` are those on half the points, None if not solved.
+
+    size : whether the numbers are never negative
+    """
+    with np.errstate(invalid="ignore", divide="ignore"):
+        replicates, change = _on_both(statistic, fine, coarse)
+        return replace(replicates.estimated, grid=change, size=size, drawn=fine.drawn)
+
+
+def _on_both(statistic, fine, coarse):
+    """A statistic with its scatter, and by how much it changes from half the points to all; NaN if unknown."""
+    found = resample(lambda sample: {"": statistic(sample)}, fine)[""]
+    return found, np.abs((nan if coarse is None else statistic(coarse)) - found.value)

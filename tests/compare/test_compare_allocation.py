@@ -14,7 +14,8 @@ from bem3d import BEM
 from compare.library.lookup import case_of
 from compare.solving.cost import MOST_DRAWS
 from compare.statistics.jackknife import mean_ratio
-from compare.statistics.multilevel import DIFFERENCES, FINEST, GROWTH, PILOT, needed, pilot, pooled, unreached
+from compare.statistics.multilevel import GROWTH, pooled, unreached
+from compare.studies.comparison.series import DIFFERENCES, FINEST, PILOT, pilot
 from mdr1d import MDR
 from scene import Refused
 from scene.reading import InvalidInput

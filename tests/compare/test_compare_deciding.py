@@ -16,7 +16,8 @@ from compare.library.lookup import case_of
 from compare.solving.curve import FINER, NOT_ASKED, SOLVED
 from compare.statistics.finding import FAILS, HOLDS, UNDECIDED, Claim, Finding
 from compare.statistics.jackknife import DrawSet, friction, measured
-from compare.statistics.multilevel import GROWTH, PILOT, DrawnSurfaces, pilot, pooled
+from compare.statistics.multilevel import GROWTH, DrawnSurfaces, pooled
+from compare.studies.comparison.series import PILOT, pilot
 from mdr1d import MDR
 from scene import SolveError
 from scene.reading import InvalidInput

@@ -15,7 +15,7 @@ from compare.models.exact import Exact
 from compare.models.table import Model
 from compare.report.page import Table
 from compare.solving.curve import SOLVED
-from compare.statistics.multilevel import pilot
+from compare.studies.comparison.series import pilot
 from compare.studies.workprecision import errors, ladder, timed
 from compare.studies.workprecision.errors import INTERVAL, Way
 from compare.studies.workprecision.ladder import COARSEST, Ladder

@@ -61,9 +61,7 @@ def _numbers(series, answers, name) -> tuple[float, str, Mapping[Model, tuple[fl
     known = {model.name: np.abs(each.value) for model, each in every.items()}
     size = known.get(series.models.reference, next(iter(known.values())))
     at = np.unravel_index(np.argmax(np.nan_to_num(size)), size.shape)
-    found = {
-        model: (float(ends.value[at]), float(ends.low[at]), float(ends.high[at])) for model, ends in every.items()
-    }
+    found = {model: tuple(map(float, each.at(at).ends)) for model, each in every.items()}
     unit = UNITS[name][1]
     factor, unit = prefixed([value for value, _, _ in found.values()], unit) if unit else (1.0, "")
     return factor, unit, found

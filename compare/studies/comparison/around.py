@@ -24,7 +24,7 @@ from ...solving.curve import COARSE, FINE, LEVELS, Curve, levels, refuse
 from ...solving.task import SceneTask
 from ...statistics import eq23
 from ...statistics.collapse import Collapse, collapse
-from ...statistics.finding import UNKNOWN, Claim, Finding, said_of
+from ...statistics.finding import Claim, Finding, said_of
 from ...statistics.frictioncurves import SimulatedCurves
 from ...statistics.jackknife import mean, measured
 from ...statistics.multilevel import WORDS
@@ -198,7 +198,7 @@ class Around(Series):
                 for k, speed in enumerate(self.curves[SPEED].speeds):
                     if isfinite(found.value[k, 0]):
                         place = f"v = {speed:.3g} m/s"
-                        each = self.finding(CLAIMS["friction.spread"], found, (k, 0), SPEED, place, size=True)
+                        each = self.finding(CLAIMS["friction.spread"], found, (k, 0), SPEED, place)
                         yield replace(each, dimension=model.label)
 
     def _history(self, answers: Answers) -> Iterator[Finding]:
@@ -228,12 +228,12 @@ class Around(Series):
             exponent = predicted_exponent(self.case)
             shifts = exponent * np.log(fine.speeds / fine.speeds[fine.speeds.size // 2])
             draws = 0 if self.case.roughness is None else fine.data.surfaces
-            found = eq23.findings(
-                fine, coarse, model.label, shifts, exponent, self.name, draws, horizontal=coarse is None
-            )
+            place = {"where": self.name, "draws": draws, "curve": self.place(LOAD)}
+            alone = coarse is None
+            found = eq23.findings(fine, coarse, model.label, shifts, exponent, horizontal=alone, **place)
             if coarse is None:  # for want of an answer: data without a grid are exact, this is not
-                found = (replace(each, grid=nan, grid_method=UNKNOWN) for each in found)
-            yield model.name, (fine, [replace(each, curve=self.place(LOAD)) for each in found])
+                found = (replace(each, grid=nan) for each in found)
+            yield model.name, (fine, list(found))
 
     def _unshifted(self, answers, shifted) -> Iterator[Finding]:
         """Curves that cannot be shifted for want of answers."""
@@ -241,7 +241,7 @@ class Around(Series):
         if own and self.models.reference in own.levels and eq23.shiftable(len(own.speeds), len(own.values)):
             for each in answers.claiming(LOAD, FRICTION):
                 if each.name not in shifted:
-                    yield eq23.too_few(each.label, self.name)
+                    yield eq23.too_few(each.label, where=self.name)
 
 
 HISTORIES = {FORCE: "normal_force", DEPTH: "depth_reached", FRICTION: "friction_force"}

@@ -15,7 +15,7 @@ from ...models.law.bands import Bands, FullContact
 from ...models.law.share import Share
 from ...models.table import SURFACES
 from ...solving.curve import COARSE, FINE
-from ...statistics.finding import HALVED, UNKNOWN, Finding
+from ...statistics.finding import Finding
 from ...statistics.jackknife import DrawSet, friction, resample
 from .answers import Answers
 from .claims import CLAIMS
@@ -202,7 +202,6 @@ def _finding(name: str, level: float, off: Callable, fine: DrawSet, coarse: Draw
         value=float(found.value[0]),
         scatter=(max(float(low), 0.0), float(high)) if known else (nan, nan),
         grid=grid,
-        grid_method=HALVED if np.isfinite(grid) else UNKNOWN,
         drawn=fine.drawn,
         reason="" if known else _UNKNOWN,
         size=True,

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import xarray
 
@@ -217,13 +217,13 @@ class RoughSeries(Series):
 
     def _shifts(self, model: str, both: tuple[Collapse, Collapse] | None, own: Laws) -> Iterator[Finding]:
         """Whether curves fall onto one, with the shifts that are best and with those predicted."""
-        label, words, draws = self.models.labels[model], own.words(), self.draws[model]
+        label = self.models.labels[model]
+        place: dict[str, Any] = {"where": self.name, "draws": self.draws[model], "regime": own.words()}
         if both is not None:
             shifts = dict(zip(self.speeds, own.shifts.tolist(), strict=True))
-            found = eq23.findings(*both, label, shifts, own.exponent, self.name, draws, words)
-            yield from (replace(each, curve=self.place(ROUGH)) for each in found)
+            yield from eq23.findings(*both, label, shifts, own.exponent, curve=self.place(ROUGH), **place)
         elif eq23.shiftable(len(self.speeds), len(self.values)):
-            yield eq23.too_few(label, self.name, draws, words)
+            yield eq23.too_few(label, **place)
 
 
 def collapses(answers: Answers, model: str) -> tuple[Collapse, Collapse] | None:

@@ -4,9 +4,10 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from math import ceil, inf, isfinite
+from math import ceil, inf
 from typing import ClassVar
 
+import numpy as np
 import xarray
 
 from scene import Scene
@@ -16,10 +17,11 @@ from ...models.table import Model, Models
 from ...solving.curve import LEVELS, Curve, levels
 from ...solving.task import SceneTask
 from ...statistics.collapse import Collapse
-from ...statistics.finding import HALVED, UNKNOWN, Claim, Finding, said_of
+from ...statistics.finding import Claim, Finding, said_of
+from ...statistics.intervals import Estimated
 from ...statistics.jackknife import mean
-from ...statistics.means import Compared, touches
-from ...statistics.multilevel import MEANS, WORDS, DrawnSurfaces, needed, unreached
+from ...statistics.means import touches
+from ...statistics.multilevel import MEANS, WORDS, DrawnSurfaces, unreached
 from .answers import Answers
 from .laws import Laws
 
@@ -148,54 +150,42 @@ class Series(ABC):
         for name, drawn in self.drawn.items():
             places = (*map(self.place, self.shared[name]), self.family)
             own = [each for each in findings if each.curve in places]
-            counts = drawn.more(own, self.interval or inf, growth)
-            asked = {model: counts[model] for model in self.counts[name]}
-            for (curve, mean_name, speeds), model in self._means(name, asked):
-                dataset = answers.all_levels(curve, model).sel(speed=list(speeds))
-                least = needed(dataset, *MEANS[mean_name], drawn.costs[model], self.interval or inf, growth)
-                asked[model] = tuple(map(max, asked[model], least))
-            made[name] = asked
+            means = ((model, mean) for model, _, mean in self._means(name, answers, self.counts[name]))
+            counts = drawn.more(own, self.interval or inf, growth, means)
+            made[name] = {model: counts[model] for model in self.counts[name]}
         return made
 
     def unreached(self, answers: Answers) -> Iterator[str]:
         """Sentences on means whose intervals are wider than wanted."""
         for name in self.drawn:
-            for (curve, mean_name, speeds), model in self._means(name, self.models.labels):
-                dataset = answers.all_levels(curve, model).sel(speed=list(speeds))
-                if why := unreached(dataset, *MEANS[mean_name], self.interval or inf):
+            for model, mean_name, found in self._means(name, answers, self.models.labels):
+                if why := unreached(found, self.interval or inf):
                     yield f"{self.name}: the {WORDS[mean_name]} in {self.models.labels[model]} {why}."
 
-    def _means(self, shared, models):
-        drawing = [each.name for each in self.models.drawn if each.name in models]
+    def _means(self, shared, answers, models):
+        """Model, name and numbers of the means of curves that share their surfaces that an interval is wanted of."""
         wanted = [each for each in self.wanted if each[0] in self.shared[shared] and each[0] in self.curves]
-        return [(each, model) for model in drawing for each in wanted if model in self.curves[each[0]].levels]
+        for model in (each.name for each in self.models.drawn if each.name in models):
+            for curve, mean_name, speeds in wanted:
+                if model in self.curves[curve].levels:
+                    found = answers.interval(curve, model, *MEANS[mean_name])
+                    yield model, mean_name, found.at(np.isin(answers.two_levels(curve, model)["speed"], speeds))
 
     def finding(
         self,
         claim: Claim,
-        found: Compared,
+        found: Estimated,
         at: tuple[int, ...],
         curve: str,
         place: str = "",
         less: float = 0.0,
         regime: str = "",
-        size: bool = False,
     ) -> Finding:
         """Finding of a claim on one of some numbers of a curve. less : what is taken off them"""
-        value, low, high, grid = (float(each[at]) for each in (found.value, found.low, found.high, found.grid))
-        return Finding(
-            claim=claim,
-            value=value - less,
-            scatter=(low - less, high - less),
-            grid=grid,
-            grid_method=HALVED if isfinite(grid) else UNKNOWN,
-            where=f"{self.name}, {place}" if place else self.name,
-            drawn=found.drawn,
-            regime=regime,
-            size=size,
-            parts={source: float(each[at]) for source, each in found.parts.items()},
-            curve=self.place(curve),
-        )
+        one = found.at(at)
+        where = f"{self.name}, {place}" if place else self.name
+        one = replace(one, value=one.value - less)
+        return Finding.of(claim, one, where=where, drawn=one.drawn, regime=regime, curve=self.place(curve))
 
     def ratios(
         self,

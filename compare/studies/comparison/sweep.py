@@ -145,7 +145,7 @@ class SweepSeries(Series):
             frame = places.copy()
             for model in answers.claiming(CONTACTS, WORDS[name]):
                 found = answers.interval(CONTACTS, model.name, *MEANS[name])
-                for end, values in zip(("", "_low", "_high"), found, strict=True):
+                for end, values in zip(("", "_low", "_high"), found.ends, strict=True):
                     frame[f"{name} ({model.label}){end}"] = np.ravel(values)
             own = [each for each in findings if _judges(each, name)]
             for beside in dict.fromkeys(each.dimension for each in own):
@@ -160,9 +160,8 @@ class SweepSeries(Series):
         dataset = answers.curves[CONTACTS].drop_vars([VARIATES, "draws"], errors="ignore").reset_coords("points")
         for name, (above, below) in MEANS.items():
             found = [answers.interval(CONTACTS, model, above, below) for model in dataset["model"].values.tolist()]
-            for end in ("value", "low", "high"):
-                label = f"{name}_{'mean' if end == 'value' else end}"
-                values = np.array([getattr(each, end) for each in found])
+            for place, end in enumerate(("mean", "low", "high")):
+                label, values = f"{name}_{end}", np.array([each.ends[place] for each in found])
                 dataset[label] = ("model", "speed", self.prescribed), values, attributes(label)
         return dataset
 

@@ -133,7 +133,7 @@ def _slope_exponents(members, model):
             return power(plateaus, np.array(levels))
 
         asked = claim(name, exponent, members[0].series.models.labels[model])
-        yield measured(asked, fine, coarse, "", _words(alike, model, (place, values)))
+        yield measured(asked, fine, coarse, regime=_words(alike, model, (place, values)))
 
 
 def _but_for_height(member):

@@ -160,7 +160,7 @@ class Mastercurve(Study):
 
     def _findings(self):
         """Whether horizontal shifts suffice, or vertical ones are needed, the exponents of both; temperatures."""
-        found, plots = self.collapse, (collapsed.NAME,) * 2
+        found = self.collapse
         warm = list(temperatures.findings(self.shifts, self.law, self.friction.name)) if self.shifts else []
         raw = {
             eq23.COLLAPSE.id: found.horizontal.rms,
@@ -168,9 +168,7 @@ class Mastercurve(Study):
             eq23.VERTICAL_ALONE.id: found.vertical.rms,
         }
         findings = []
-        for each in eq23.findings(
-            found, None, MEASURED, where=self.friction.name, draws=0, plots=plots, every=True
-        ):
+        for each in eq23.findings(found, None, MEASURED, every=True, where=self.friction.name, draws=0):
             name, sentence = CLAIMS[each.claim.id]
             if each.claim.id in EXPONENTS and (why := temperatures.unshifted(self.shifts, warm)):
                 each = replace(each, value=nan, scatter=(nan, nan), reason=why)
