@@ -181,7 +181,7 @@ class DrawnSurfaces:
             times = scatter / np.maximum(interval - grid, OWN_SHARE * interval)
             needs = self._least_cost({(model, k): each for k, each in mean.parts.items()}, times)
         wide = scatter + grid > interval
-        return {source: np.max(each, where=wide & np.isfinite(each), initial=0.0) for source, each in needs.items()}
+        return {name: np.max(each, where=wide & np.isfinite(each), initial=0.0) for name, each in needs.items()}
 
     def more(
         self,

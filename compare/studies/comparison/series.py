@@ -163,7 +163,7 @@ class Series(ABC):
                     yield f"{self.name}: the {WORDS[mean_name]} in {self.models.labels[model]} {why}."
 
     def _means(self, shared, answers, models):
-        """Model, name and numbers of the means of curves that share their surfaces that an interval is wanted of."""
+        """Means that an interval is wanted of, on curves that share their surfaces: model, name and numbers."""
         wanted = [each for each in self.wanted if each[0] in self.shared[shared] and each[0] in self.curves]
         for model in (each.name for each in self.models.drawn if each.name in models):
             for curve, mean_name, speeds in wanted:
