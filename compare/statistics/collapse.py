@@ -30,6 +30,7 @@ CHANCE = 0.05
 POWERS, FOLLOWED = np.linspace(-3.0, 3.0, 25), 3
 # Misfit of ln mu that rounding leaves.
 ROUNDING = 1e-9
+UNKNOWN = RmsMisfit()
 PARALLEL = "straight parallel lines fit: a horizontal shift cannot be told from a vertical one"
 PARTED = "once shifted, curves of neighbouring speeds share too small a range of loads"
 UNSCATTERED = "scatter is not known, nor whether the curves are bent"
@@ -39,8 +40,8 @@ UNSCATTERED = "scatter is not known, nor whether the curves are bent"
 class Alignment:
     """Curves shifted to ln mu + c_v against ln F + b_v; what is not fitted is exactly zero.
 
-    horizontal, vertical : b_v and c_v (S,), zero at the middle speed
-    exponent, vertical_exponent : of exp(b_v) and exp(c_v) as powers of the speed, least squares
+    shifts : b_v and c_v, zero at the middle speed, and last the exponents of exp(b_v) and exp(c_v) as powers
+        of the speed, least squares (2, S + 1)
     rms : of ln mu about the common curve, with scatter
     misfit : of ln mu about the common curve, without what scatter adds
     mended : of that misfit, what vertical shifts would take away to first order
@@ -49,15 +50,32 @@ class Alignment:
         at the least overlap of neighbours, and all else but rms is NaN
     """
 
-    horizontal: Estimated
-    vertical: Estimated
-    exponent: Estimated
-    vertical_exponent: Estimated
+    shifts: Estimated
     rms: float
-    misfit: RmsMisfit
-    mended: RmsMisfit
-    curve: Chebyshev | None = field(repr=False)
+    misfit: RmsMisfit = UNKNOWN
+    mended: RmsMisfit = UNKNOWN
+    curve: Chebyshev | None = field(default=None, repr=False)
     reason: str = ""
+
+    @property
+    def horizontal(self) -> Estimated:
+        """Shifts along the load, b_v (S,)."""
+        return self.shifts.at(np.s_[0, :-1])
+
+    @property
+    def vertical(self) -> Estimated:
+        """Shifts along friction, c_v (S,)."""
+        return self.shifts.at(np.s_[1, :-1])
+
+    @property
+    def exponent(self) -> Estimated:
+        """Exponent of the shifts along the load."""
+        return self.shifts.at((0, -1))
+
+    @property
+    def vertical_exponent(self) -> Estimated:
+        """Exponent of the shifts along friction."""
+        return self.shifts.at((1, -1))
 
 
 @dataclass(frozen=True)
@@ -102,17 +120,16 @@ class Collapse:
         """Reason why a horizontal shift cannot be told from a vertical one; empty where it can."""
         return _inseparable(self.straight)
 
-    def points(self, shifts: np.ndarray | None = None, lifts: np.ndarray | None = None) -> DataFrame:
+    def points(self, shifts: np.ndarray, lifts: np.ndarray | None = None) -> DataFrame:
         """Every point of every curve, with intervals of 95 % of friction, as it is and shifted.
 
-        shifts : ln p(v) by which the force is shifted (S,); the best horizontal shifts if None
+        shifts : ln p(v) by which the force is shifted (S,)
         lifts : of ln mu (S,), by which friction is shifted too; not shifted if None
         """
         counts = [curve.log_load.size for curve in self.curves]
-        along = np.repeat(self.horizontal.horizontal.value if shifts is None else shifts, counts)
         load = np.exp(np.concatenate([curve.log_load for curve in self.curves]))
         frame = DataFrame({"speed": np.repeat(self.speeds, counts), "normal_force": load})
-        frame["shifted_force"] = load * np.exp(along)
+        frame["shifted_force"] = load * np.exp(np.repeat(shifts, counts))
         for name, by in (("friction_coefficient", 0.0 * self.speeds), ("shifted_friction", lifts)):
             if by is not None:
                 moved = replace(self.log_friction, value=self.log_friction.value + np.repeat(by, counts))
@@ -132,7 +149,7 @@ class Collapse:
         fit, increments = Fit.of(self.curves, self.degree), np.diff(shifts)
         lower, upper = fit.bounds
         if not np.all((lower <= increments) & (increments <= upper)):
-            return RmsMisfit.unknown()
+            return UNKNOWN
         return _aligned(self.data, fit, lambda each: each.at(increments)).misfit
 
 
@@ -246,19 +263,13 @@ def _known(misfit):
 
 
 def _widened(aligned, bias):
-    """An alignment whose shifts and exponents may be off by so much along load and friction, exponents last."""
-    found = {}
-    for name, power, by in zip(("horizontal", "vertical"), ("exponent", "vertical_exponent"), bias, strict=True):
-        found[name] = replace(getattr(aligned, name), bias=by[:-1])
-        found[power] = replace(getattr(aligned, power), bias=by[-1])
-    return replace(aligned, **found)
+    """An alignment whose shifts and exponents may be off by so much."""
+    return replace(aligned, shifts=replace(aligned.shifts, bias=bias))
 
 
 def _undecided(best, reason):
     """Alignment of which no shift is known."""
-    unknown, number = RmsMisfit.unknown(), Estimated(nan, nan, 0)
-    shifts = replace(number, value=np.full(len(best.fit.places), nan))
-    return Alignment(shifts, shifts, number, number, _rms(best.residuals), unknown, unknown, None, reason)
+    return Alignment(Estimated(np.full_like(best.shifts, nan), nan, 0), _rms(best.residuals), reason=reason)
 
 
 def _aligned(data: FrictionCurves, fit: Fit, sought: Callable[[Fit], Common]) -> Alignment:
@@ -267,30 +278,14 @@ def _aligned(data: FrictionCurves, fit: Fit, sought: Callable[[Fit], Common]) ->
     def numbers(part):
         found = sought(fit.to(part.curves))
         missed, mending = found.residuals, _outside(found.tangent, found.fit.later)
-        along, across = found.shifts
-        return {
-            "horizontal": along[:-1],
-            "vertical": across[:-1],
-            "exponent": along[-1],
-            "vertical_exponent": across[-1],
-            "misfit": missed,
-            "mended": mending @ (mending.T @ missed),
-        }
+        return {"shifts": found.shifts, "misfit": missed, "mended": mending @ (mending.T @ missed)}
 
     found, best = data.resampled(numbers), sought(fit)
-    misfits = {name: found.pop(name).rms for name in ("misfit", "mended")}
-    return Alignment(
-        **{name: each.estimated for name, each in found.items()},
-        **misfits,
-        rms=_rms(best.residuals),
-        curve=_curve(best),
-    )
-
-
-def _curve(best):
-    """The common polynomial as the curve of the middle speed has it."""
+    # The common polynomial as the curve of the middle speed has it.
     along, lift = -best.shifts[:, 0]
-    return Chebyshev(best.coefficients, domain=np.array([best.x.min(), best.x.max()]) - along) - lift
+    curve = Chebyshev(best.coefficients, domain=np.array([best.x.min(), best.x.max()]) - along) - lift
+    misfit, mended = (found[name].rms for name in ("misfit", "mended"))
+    return Alignment(found["shifts"].estimated, _rms(best.residuals), misfit, mended, curve)
 
 
 def _outside(tangent, others):

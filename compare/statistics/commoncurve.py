@@ -207,7 +207,7 @@ def scaled_to_one(x: np.ndarray | float) -> tuple[np.ndarray, float]:
 
 
 def near(fit: Fit, guess: np.ndarray) -> Common:
-    """The fit of least misfit close to a guess of the increments (Gauss-Newton), or of a search within the bounds."""
+    """The fit of least misfit close to a guess of increments (Gauss-Newton), or of a search within the bounds."""
     (lower, upper), found, least = fit.bounds, fit.at(guess), np.inf
     for _ in range(_STEPS):
         at, jacobian, cost = found.increments, found.jacobian, found.cost

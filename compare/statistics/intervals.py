@@ -127,6 +127,8 @@ class Estimated(Generic[Value]):
 class RmsMisfit:
     """Root mean square of numbers of which each is known with scatter, without what that scatter adds.
 
+    Without any of its fields it is that of numbers that are not known, or not with which scatter.
+
     square : mean of the squares less their variances; negative by chance where there is little but scatter
     noise : mean of the variances
     along : of that, what changes the size to first order
@@ -138,21 +140,16 @@ class RmsMisfit:
     grid : error of discretisation, absolute; NaN if unknown
     """
 
-    square: float
-    noise: float
-    along: float
-    modes: float
-    dof: float
+    square: float = nan
+    noise: float = nan
+    along: float = nan
+    modes: float = nan
+    dof: float = 0
     pooled: bool = False
     skewness: float = 0.0
     parts: Mapping[tuple[str, int], Any] = field(default_factory=dict)
     grid: float = 0.0
     size: ClassVar[bool] = True
-
-    @classmethod
-    def unknown(cls) -> Self:
-        """Misfit of numbers that are not known, or not with which scatter."""
-        return cls(nan, nan, nan, nan, 0)
 
     @property
     def value(self) -> float:

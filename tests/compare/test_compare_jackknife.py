@@ -174,5 +174,5 @@ def test_sizes_of_nil_are_apart_by_what_their_squares_are():
     assert fine.apart(coarse) == pytest.approx(0.01)
     large, larger = (RmsMisfit(square, 1e-3, 0.0, 4.0, 9) for square in (0.01, 0.04))
     assert large.apart(larger) == pytest.approx(larger.value - large.value)
-    assert np.isnan(large.apart(RmsMisfit.unknown()))
+    assert np.isnan(large.apart(RmsMisfit()))
     assert Estimated(1.0, 0.1, 9).apart(Estimated(3.0, 0.5, 9)) == 2.0
