@@ -177,9 +177,7 @@ def answer(across: Finding, along: Finding, alone: Finding, collapsed: Finding) 
     )
 
 
-def finding(
-    claim: Claim, fine: _Number, coarse: _Number | None = None, reason: str = "", **place: Any
-) -> Finding:
+def finding(claim: Claim, fine: _Number, coarse: _Number | None = None, reason: str = "", **place: Any) -> Finding:
     """Finding of a number that fits on two grids give; on one, with None, of data that have no grid."""
     found = replace(fine, grid=0.0 if coarse is None else fine.apart(coarse))
     remedy = CLOSER if reason == PARTED else ""

@@ -22,7 +22,7 @@ class Curve:
     speed: float
     log_load: np.ndarray
     log_friction: np.ndarray
-    error: np.ndarray
+    error: np.ndarray | float = nan
 
 
 @dataclass(frozen=True)
@@ -46,12 +46,10 @@ class SimulatedCurves:
     @classmethod
     def of(cls, dataset: xarray.Dataset) -> Self:
         """Curves of a Dataset of one grid: dimensions speed, load or depth, and draw if the body has any."""
-        (pressed,) = {"load", "depth"} & set(dataset.dims)
-        load, friction = (
-            dataset[name].transpose("speed", pressed, ...).values for name in ("normal_force", "friction_force")
-        )
+        ordered = dataset.transpose("speed", ..., *[name for name in ("surface",) if name in dataset.dims])
         strata = strata_of(dataset) if "surface" in dataset.dims else None
-        return cls(dataset["speed"].values, load, friction, strata, str(dataset.attrs.get("solver", "")))
+        forces = (ordered[name].values for name in ("normal_force", "friction_force"))
+        return cls(dataset["speed"].values, *forces, strata, str(dataset.attrs.get("solver", "")))
 
     @property
     def points(self) -> int:
@@ -117,7 +115,7 @@ class SimulatedCurves:
         """ln of mean friction over mean load against ln of mean load, without errors."""
         load, friction = np.log(np.where(self.known, self._forces.mean(axis=3), nan))
         return tuple(
-            Curve(speed, n[at], x[at] - n[at], np.full(at.sum(), nan))
+            Curve(speed, n[at], x[at] - n[at])
             for speed, n, x, at in zip(self.speeds.tolist(), load, friction, self.known, strict=True)
         )
 

@@ -142,12 +142,9 @@ class DrawnSurfaces:
     @classmethod
     def of(cls, grids: Iterable[Curve]) -> Self:
         """Surfaces of grids that have as many."""
-        first, *others = grids
-        costs = {
-            name: tuple(map(sum, zip(each, *(other.costs[name] for other in others), strict=True)))
-            for name, each in first.costs.items()
-        }
-        return cls({name: tuple(map(len, first.strata(name))) for name in costs}, costs)
+        every = list(grids)
+        costs = {name: tuple(np.sum([each.costs[name] for each in every], axis=0)) for name in every[0].costs}
+        return cls({name: tuple(map(len, every[0].strata(name))) for name in costs}, costs)
 
     def deciding(self, finding: Finding, interval: float | None = None) -> Mapping[Source, float]:
         """Numbers of draws at least cost that decide a finding if its number stays; none if nothing does.
@@ -158,8 +155,7 @@ class DrawnSurfaces:
         if not _open(finding):
             return {}
         (low, high), claim, value = finding.scatter, finding.claim, finding.value
-        edges = claim.expected - claim.tolerance, claim.expected + claim.tolerance
-        edge = min(edges, key=lambda each: abs(each - value))
+        edge = claim.expected + (claim.tolerance if value > claim.expected else -claim.tolerance)
         scatter = high - value if edge > value else value - low
         left = abs(edge - value) - finding.grid
         if interval is not None:
@@ -219,12 +215,12 @@ class DrawnSurfaces:
             drawn = " or ".join(dict.fromkeys(words[name] for name, _ in asked))
             remedy = f"only more than {MOST_DRAWS:,} {drawn} would decide it"
         else:
-            lacking = [(name, max(count - self.counts[name][k], 0.0), k) for (name, k), count in asked.items()]
-            totals: dict[str, float] = {}
-            for name, more, _ in lacking:
-                totals[words[name]] = totals.get(words[name], 0.0) + (max(more, 1.0) if more else 0.0)
-            said = " and ".join(f"{_some(count)} more {word}" for word, count in totals.items() if count)
-            seconds = SECONDS * sum(more * self.costs[name][k] for name, more, k in lacking)
+            totals, seconds = dict.fromkeys(map(words.__getitem__, self.counts), 0.0), 0.0
+            for (name, k), count in asked.items():
+                lacking = max(count - self.counts[name][k], 0.0)
+                totals[words[name]] += lacking
+                seconds += SECONDS * lacking * self.costs[name][k]
+            said = " and ".join(f"{_some(max(more, 1.0))} more {word}" for word, more in totals.items() if more)
             remedy = f"some {said}, {duration(max(seconds, 1.0))} of processor time, would decide it"
         return replace(finding, remedy=remedy)
 

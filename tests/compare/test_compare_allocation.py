@@ -14,14 +14,25 @@ from bem3d import BEM
 from compare.library.lookup import case_of
 from compare.solving.cost import MOST_DRAWS
 from compare.statistics.jackknife import mean_ratio
-from compare.statistics.multilevel import GROWTH, pooled, unreached
+from compare.statistics.means import interval as interval_of
+from compare.statistics.multilevel import GROWTH, DrawnSurfaces, pooled, unreached
 from compare.studies.comparison.series import DIFFERENCES, FINEST, PILOT, pilot
 from mdr1d import MDR
 from scene import Refused
 from scene.reading import InvalidInput
 
 COSTS = 10.0, 3.0, 1.0
-FRICTION = "friction_force", None
+
+
+def mean_of(found):
+    """Mean of friction at every place."""
+    return interval_of(pooled(found).expand_dims(speed=[0.0]), "friction_force")
+
+
+def needed(found, interval, costs=COSTS):
+    """Surfaces of each stratum for intervals of friction of a half-width."""
+    drawn = DrawnSurfaces({"BEM": tuple(np.bincount(found["stratum"]).tolist())}, {"BEM": costs})
+    return drawn.more([], interval, means=[("BEM", mean_of(found))])["BEM"]
 
 
 def grown(rng, had, counts, variation, told=None):
@@ -42,7 +53,7 @@ def sampled(rng, variation, interval, told=None):
     while counts != had:
         had, looks = counts, looks + 1
         found = grown(rng, found, counts, variation, told)
-        counts = needed(found, *FRICTION, COSTS, interval)
+        counts = needed(found, interval)
     return found, looks
 
 
@@ -85,28 +96,28 @@ def test_sampling_stops_with_intervals_as_narrow_as_wanted():
 def test_costly_strata_get_fewer_surfaces():
     had = DIFFERENCES, DIFFERENCES, PILOT
     found = answers(np.random.default_rng(1), had, 0.3)
-    cheap, costly = (needed(found, *FRICTION, (fine, 3.0, 1.0), 0.03) for fine in (4.0, 400.0))
+    cheap, costly = (needed(found, 0.03, (fine, 3.0, 1.0)) for fine in (4.0, 400.0))
     assert costly[0] < cheap[0]
     assert all(count <= GROWTH * had for count, had in zip(cheap, had, strict=True))
 
 
 def test_what_is_narrow_enough_asks_for_nothing_more():
     found = answers(np.random.default_rng(2), pilot(3), 0.1)
-    assert needed(found, *FRICTION, COSTS, 0.5) == pilot(3) == (FINEST, DIFFERENCES, PILOT)
+    assert needed(found, 0.5) == pilot(3) == (FINEST, DIFFERENCES, PILOT)
 
 
 def test_an_interval_that_is_not_reached_says_why():
     found = answers(np.random.default_rng(2), pilot(3), 0.1)
-    assert unreached(found, *FRICTION, 0.5) == ""
+    assert unreached(mean_of(found), 0.5) == ""
     assert re.fullmatch(
         r"is known to [\d.]+ % only, 5 % are wanted: more surfaces would narrow it",
-        unreached(found, *FRICTION, 0.05),
+        unreached(mean_of(found), 0.05),
     )
     force = found["friction_force"]
     coarse = found.assign(friction_force=force.where(found["level"] == "fine", 1.2 * force))
     assert re.fullmatch(
         r"is known to [\d.]+ % only, 10 % are wanted: half the points change it by [12]\d %, take more points",
-        unreached(coarse, *FRICTION, 0.1),
+        unreached(mean_of(coarse), 0.1),
     )
 
 
@@ -114,13 +125,13 @@ def test_one_contact_without_an_answer_does_not_stop_the_others():
     found = answers(np.random.default_rng(1), pilot(3), 0.3)
     known = (found["surface"] != 3) | (found["level"] != "fine")
     failed = found.assign(friction_force=found["friction_force"].where(known))
-    assert needed(failed, *FRICTION, COSTS, 0.03)[2] > PILOT
+    assert needed(failed, 0.03)[2] > PILOT
 
 
 def test_no_stratum_takes_seeds_of_another():
     found = answers(np.random.default_rng(1), pilot(3), 0.3)
     for _ in range(8):
-        counts = needed(found, *FRICTION, COSTS, 1e-6)
+        counts = needed(found, 1e-6)
         assert max(counts) <= MOST_DRAWS
         if max(counts) == MOST_DRAWS:
             break

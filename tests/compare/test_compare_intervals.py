@@ -1,5 +1,6 @@
 """Intervals of means hold the truth as often as stated, of skewed draws too; sizes have no negative end."""
 
+from dataclasses import replace
 from math import nan, sqrt
 
 import numpy as np
@@ -10,8 +11,8 @@ from compare.solving.curve import FINE
 from compare.statistics.finding import Claim, Finding
 from compare.statistics.frictioncurves import SimulatedCurves
 from compare.statistics.intervals import Estimated, student
-from compare.statistics.jackknife import DrawSet, Replicates, groups, mean_ratio, resample
-from compare.statistics.means import compared, interval
+from compare.statistics.jackknife import DrawSet, Replicates, compared, groups, mean_ratio, resample
+from compare.statistics.means import interval
 
 DRAWS = 10_000
 
@@ -101,7 +102,7 @@ def test_the_difference_of_two_independent_means_holds_as_often():
 def test_a_size_has_no_negative_end_and_is_in_its_interval_as_often_as_stated(variation, counts):
     for count in counts:
         found = mean_ratio(drawn("lognormal", variation, count))
-        _, low, high = found.size()
+        _, low, high = replace(found, size=True).ends
         assert (low > 0).all()
         assert held((low, high)) >= least(0.92)
     # which a mean that may be negative has at few draws
@@ -109,12 +110,12 @@ def test_a_size_has_no_negative_end_and_is_in_its_interval_as_often_as_stated(va
 
 
 def test_a_size_of_nothing_is_nil():
-    assert Estimated(0.0, 0.0, 4).size() == (0.0, 0.0, 0.0)
-    assert np.isnan(Estimated(1.0, nan, 0).size()[1:]).all()
+    assert Estimated(0.0, 0.0, 4, size=True).ends == (0.0, 0.0, 0.0)
+    assert np.isnan(Estimated(1.0, nan, 0, size=True).ends[1:]).all()
 
 
 def test_a_size_that_is_negative_by_chance_is_nil_within_the_interval_of_what_scatters():
-    value, low, high = Estimated(np.array([-0.018, -0.3, 0.02]), np.array([0.02, 0.02, 0.02]), 7).size()
+    value, low, high = Estimated(np.array([-0.018, -0.3, 0.02]), 0.02, 7, size=True).ends
     assert value.tolist() == [0.0, 0.0, 0.02]
     assert low[:2].tolist() == [0.0, 0.0]
     assert high[0] == pytest.approx(-0.018 + 0.02 * student(0.95, 7))
@@ -145,17 +146,14 @@ def test_every_place_gives_the_same_interval_of_the_same_draws():
         name: (("speed", "load", "surface"), values[None, None]) for name in ("normal_force", "friction_force")
     }
     grids = xarray.Dataset(forces, {"speed": [1.0], "load": [1.0]}).expand_dims(level=[FINE])
-    told = compared(lambda sample: sample["a"]["normal_force"].mean("surface").values, *_sample(grids))
+    sample = DrawSet({"a": grids.sel(level=FINE)})
+    told = compared(lambda sample: sample["a"]["normal_force"].mean("surface").values, sample, None)
     curves = SimulatedCurves(np.ones(1), np.ones((1, 1, 12)), values[None, None])
     friction = curves.replicates(1.0, values.mean() * curves.deviations()[:, 0]).estimated.interval()
     for low, high in (
-        (told.low[0, 0], told.high[0, 0]),
+        told.at((0, 0)).interval(),
         np.array(friction) + values.mean() - 1,
     ):
         assert (low, high) == pytest.approx(expected, rel=1e-9)
     # A Dataset on one grid has no error of the grid, and so no end.
-    assert np.isnan(interval(grids, "normal_force").low).all()
-
-
-def _sample(grids):
-    return DrawSet({"a": grids.sel(level=FINE)}), None
+    assert np.isnan(interval(grids, "normal_force").ends[1]).all()

@@ -89,9 +89,9 @@ class MeasuredCurves:
 
 def check(pooled: Pooled) -> None:
     """Raise ValueError for too few or too many speeds, loads or points."""
-    curves = in_order(pooled)
-    if not 2 <= len(curves) <= MOST_SPEEDS:
-        raise ValueError(f"{len(curves):,} speeds: 2 to {MOST_SPEEDS} are shifted onto one curve")
+    curves = pooled.points.groupby([*CURVE], dropna=False).ngroups
+    if not 2 <= curves <= MOST_SPEEDS:
+        raise ValueError(f"{curves:,} speeds: 2 to {MOST_SPEEDS} are shifted onto one curve")
     if (count := len(pooled.points)) > MOST_POINTS:
         raise ValueError(f"{count:,} loads at all speeds: at most {MOST_POINTS:,} are shifted onto one curve")
     for each in pooled.points.drop_duplicates([*CURVE], keep=False).itertuples():
