@@ -48,8 +48,8 @@ class SimulatedCurves:
         """Curves of a Dataset of one grid: dimensions speed, load or depth, and draw if the body has any."""
         ordered = dataset.transpose("speed", ..., *[name for name in ("surface",) if name in dataset.dims])
         strata = strata_of(dataset) if "surface" in dataset.dims else None
-        forces = (ordered[name].values for name in ("normal_force", "friction_force"))
-        return cls(dataset["speed"].values, *forces, strata, str(dataset.attrs.get("solver", "")))
+        load, friction = (ordered[name].values for name in ("normal_force", "friction_force"))
+        return cls(dataset["speed"].values, load, friction, strata, str(dataset.attrs.get("solver", "")))
 
     @property
     def points(self) -> int:

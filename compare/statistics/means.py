@@ -47,7 +47,7 @@ def means(dataset: xarray.Dataset) -> DataFrame:
     drawn, dataset = _most_drawn(every), pooled(every)
     fine = dataset.sel(level=FINE)
     places = [fine["speed"].values, fine[prescribed].values]
-    columns = {}
+    columns: dict[str, np.ndarray] = {}
     for name in ESTIMATED:
         above, below = RATIOS.get(name, (name, None))
         if above not in fine:

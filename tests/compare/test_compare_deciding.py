@@ -13,7 +13,7 @@ import compare
 from bem3d import BEM
 from compare.library.case import Variations
 from compare.library.lookup import case_of
-from compare.solving.curve import FINER, NOT_ASKED, SOLVED
+from compare.solving.curve import FINER, NOT_ASKED, SOLVED, of_model
 from compare.statistics.finding import FAILS, HOLDS, UNDECIDED, Claim, Finding
 from compare.statistics.jackknife import DrawSet, friction, measured
 from compare.statistics.multilevel import GROWTH, DrawnSurfaces, pooled
@@ -176,7 +176,7 @@ def test_hard_surfaces_are_solved_on_the_next_finer_grid_and_told(tmp_path, monk
     (note,) = report.unsolved.notes
     finer = sum(row.finer > 0 for _, row in report.unsolved.contacts)
     assert note == f"{finer} contacts are too much for a coarse grid, and the next finer one answers in its place."
-    dataset = report.answers["scene/own/BEM"].to_dataset(inherit=False)
+    dataset = of_model(report.answers["scene/own"].to_dataset(inherit=False), "BEM")
     hard, last = dataset["surface"] % 5 == 0, dataset["stratum"] == 1
     status = dataset["status"].isel(speed=0, load=0)
     assert (status.sel(level="coarse", surface=hard) == FINER).all()

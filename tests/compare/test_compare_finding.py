@@ -19,7 +19,7 @@ width = st.floats(0, 10)
 
 
 def found(value=1.0, scatter=0.01, grid=0.01, **other):
-    return Finding(FRICTION, value, (value - scatter, value + scatter), grid, "change on halving", **other)
+    return Finding(FRICTION, value, (value - scatter, value + scatter), grid, **other)
 
 
 @given(number, width, number, width)

@@ -51,7 +51,7 @@ def scene_table(series: Around, answers: Answers, findings: Sequence[Finding]) -
     return Table(f"{series.folder}/answer", DataFrame(rows).fillna(""), title)
 
 
-def _numbers(series, answers, name) -> tuple[float, str, Mapping[Model, tuple[float, float, float]]]:
+def _numbers(series, answers, name) -> tuple[float, str, Mapping[Model, tuple]]:
     """Means of a quantity by model with their intervals; the factor and the unit in which they read well.
 
     Of a history they are those where the reference has most of it.

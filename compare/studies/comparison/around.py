@@ -228,7 +228,7 @@ class Around(Series):
             exponent = predicted_exponent(self.case)
             shifts = exponent * np.log(fine.speeds / fine.speeds[fine.speeds.size // 2])
             draws = 0 if self.case.roughness is None else fine.data.surfaces
-            place = {"where": self.name, "draws": draws, "curve": self.place(LOAD)}
+            place: dict[str, Any] = {"where": self.name, "draws": draws, "curve": self.place(LOAD)}
             alone = coarse is None
             found = eq23.findings(fine, coarse, model.label, shifts, exponent, horizontal=alone, **place)
             if coarse is None:  # for want of an answer: data without a grid are exact, this is not
