@@ -13,6 +13,7 @@ pilot large enough to show the scatter, and few looks, keep the level; the tests
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from math import ceil, isfinite, sqrt
@@ -215,7 +216,7 @@ class DrawnSurfaces:
             drawn = " or ".join(dict.fromkeys(words[name] for name, _ in asked))
             remedy = f"only more than {MOST_DRAWS:,} {drawn} would decide it"
         else:
-            totals, seconds = dict.fromkeys(map(words.__getitem__, self.counts), 0.0), 0.0
+            totals, seconds = defaultdict[str, float](float), 0.0
             for (name, k), count in asked.items():
                 lacking = max(count - self.counts[name][k], 0.0)
                 totals[words[name]] += lacking
