@@ -146,7 +146,7 @@ class Collapse:
 
         Unknown where that leaves neighbours less than the least overlap.
         """
-        fit, increments = Fit.of(self.curves, self.degree), np.diff(shifts)
+        fit, increments = Fit(self.curves, self.degree), np.diff(shifts)
         lower, upper = fit.bounds
         if not np.all((lower <= increments) & (increments <= upper)):
             return UNKNOWN
@@ -168,9 +168,9 @@ def collapse(data: FrictionCurves) -> Collapse:
     def still(fit):
         return fit.at(unmoved)
 
-    straight = _aligned(complete, Fit.of(curves, 1, lifted=True), still).misfit
-    along = _best(Fit.of(curves, DEGREE), unmoved)
-    both = _freed(complete, Fit.of(curves, DEGREE, lifted=True), along.increments)
+    straight = _aligned(complete, Fit(curves, 1, lifted=True), still).misfit
+    along = _best(Fit(curves, DEGREE), unmoved)
+    both = _freed(complete, Fit(curves, DEGREE, lifted=True), along.increments)
     level = replace(both.fit, lifted=False)
     # Points that shifts along friction would take are free.
     along = near(level, along.increments) if _spare(both) else _freed(complete, level, along.increments)
@@ -208,7 +208,7 @@ def _inseparable(straight):
 
 def _best(fit, guess):
     """The fit of least misfit of several starts, that given and powers of the speed."""
-    lengths = np.diff(np.log(fit.speeds))
+    lengths = np.diff(fit.log_speeds)
     starts = [fit.at(fit.within(each)) for each in (guess, *np.multiply.outer(POWERS, lengths))]
     followed = sorted(starts, key=attrgetter("cost"))[:FOLLOWED]
     return min((near(fit, each.increments) for each in followed), key=attrgetter("cost"))
@@ -251,7 +251,9 @@ def _taken(data, along, both):
     """Misfit that vertical shifts take from that of horizontal ones at the least overlap."""
 
     def taken(part):
-        one, other = (near(each.fit.to(part.curves), each.increments).residuals for each in (along, both))
+        one, other = (
+            near(replace(each.fit, curves=part.curves), each.increments).residuals for each in (along, both)
+        )
         return {"": one - other}
 
     return data.resampled(taken)[""].rms
@@ -276,7 +278,7 @@ def _aligned(data: FrictionCurves, fit: Fit, sought: Callable[[Fit], Common]) ->
     """Alignment at the best horizontal shifts of a fit; sought : function that finds them."""
 
     def numbers(part):
-        found = sought(fit.to(part.curves))
+        found = sought(replace(fit, curves=part.curves))
         missed, mending = found.residuals, _outside(found.tangent, found.fit.later)
         return {"shifts": found.shifts, "misfit": missed, "mended": mending @ (mending.T @ missed)}
 

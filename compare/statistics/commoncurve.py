@@ -6,13 +6,12 @@ Shifts are sought with the polynomial projected out (variable projection; Golub 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Self
+from operator import attrgetter
+from typing import Any
 
 import numpy as np
 from numpy.polynomial import chebyshev
 from scipy.optimize import least_squares, root
-
-from .frictioncurves import Curve
 
 # Neighbouring curves share at least this part of the shorter one's range of ln F: a fit that wants less is no fit.
 LEAST_OVERLAP = 0.25
@@ -28,61 +27,58 @@ _ROUNDING = 1e-12
 
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """Curves that are shifted along x one against the next, onto their best common polynomial.
+    """Curves that are shifted along x one against the next, onto their best common polynomial, for ln mu.
 
-    places, heights : x and y of each curve
+    curves : a `Curve` for each speed, or others with the same columns
     degree : of the polynomial
-    lifted : whether each curve is shifted along y too, as fits best
-    speeds : of the curves, of which shifts may be a power
-    beside, powers : a second variable of the polynomial at every point (N,), and its highest power
+    lifted : whether each curve is shifted along ln mu too, as fits best
+    along : name of the column that is x
+    loads : number of loads that are told apart: where x is another column, the polynomial has ln F as a second
+        variable, in powers below this
     """
 
-    places: Sequence[np.ndarray]
-    heights: Sequence[np.ndarray]
+    curves: Sequence[Any]
     degree: int
     lifted: bool = False
-    speeds: Sequence[float] = ()
-    beside: np.ndarray | float = 0.0
-    powers: int = 0
+    along: str = "log_load"
+    loads: int = 1
 
-    @classmethod
-    def of(cls, curves: Sequence[Curve], degree: int, lifted: bool = False) -> Self:
-        """Fit of ln mu against ln F."""
-        rows = ((each.log_load, each.log_friction, each.speed) for each in curves)
-        places, heights, speeds = zip(*rows, strict=True)
-        return cls(places, heights, degree, lifted, speeds)
-
-    def to(self, curves: Sequence[Curve]) -> "Fit":
-        """The fit of other curves."""
-        return Fit.of(curves, self.degree, self.lifted)
+    def column(self, name: str) -> np.ndarray:
+        """A column of all curves (N,)."""
+        return np.concatenate([getattr(each, name) for each in self.curves])
 
     @cached_property
     def owner(self) -> np.ndarray:
         """Number of the curve of each point (N,)."""
-        return np.repeat(np.arange(len(self.places)), [each.size for each in self.places])
+        return np.repeat(np.arange(len(self.curves)), [each.log_load.size for each in self.curves])
 
     @cached_property
     def y(self) -> np.ndarray:
-        """Heights of all points (N,)."""
-        return np.concatenate(self.heights)
+        """ln mu of all points (N,)."""
+        return self.column("log_friction")
 
     @cached_property
     def later(self) -> np.ndarray:
         """Whether each increment moves a point: those of every later curve (N, K - 1)."""
-        return (self.owner[:, None] > np.arange(len(self.places) - 1)).astype(float)
+        return (self.owner[:, None] > np.arange(len(self.curves) - 1)).astype(float)
 
     @cached_property
     def bounds(self) -> tuple[np.ndarray, np.ndarray]:
         """Least and greatest increments that leave neighbours the least overlap."""
-        low, high = np.array([(each.min(), each.max()) for each in self.places]).T
+        low, high = np.array([(x.min(), x.max()) for x in map(attrgetter(self.along), self.curves)]).T
         shared = LEAST_OVERLAP * np.minimum((high - low)[:-1], (high - low)[1:])
         return low[:-1] - high[1:] + shared, high[:-1] - low[1:] - shared
 
     @cached_property
     def against(self) -> np.ndarray:
         """Weights (K, K - 1) of increments in shifts against the middle curve."""
-        shifts = np.tri(len(self.places), len(self.places) - 1, -1)
+        shifts = np.tri(len(self.curves), len(self.curves) - 1, -1)
         return shifts - shifts[len(shifts) // 2]
+
+    @property
+    def log_speeds(self) -> np.ndarray:
+        """ln v of the curves (K,)."""
+        return np.log([each.speed for each in self.curves])
 
     @property
     def sums(self) -> np.ndarray:
@@ -90,13 +86,13 @@ class Fit:
 
         The exponent is that of the power of the speed that is closest to the shifts, least squares.
         """
-        logs = np.log(self.speeds) - np.log(self.speeds).mean()
+        logs = self.log_speeds - self.log_speeds.mean()
         return np.vstack([self.against, logs @ self.against / (logs @ logs)])
 
     @cached_property
     def terms(self) -> np.ndarray:
         """Powers of x and of the second variable in each function of the polynomial (2, M)."""
-        most = min(self.powers, self.degree)
+        most = min(self.loads - 1, self.degree)
         return np.array([(i, k) for k in range(most + 1) for i in range(self.degree - k + 1)]).T
 
     @property
@@ -106,13 +102,13 @@ class Fit:
 
     def at(self, increments: np.ndarray) -> "Common":
         """The best polynomial of the curves once they are shifted."""
-        x = np.concatenate(self.places) + np.concatenate([[0], np.cumsum(increments)])[self.owner]
+        x = self.column(self.along) + np.concatenate([[0], np.cumsum(increments)])[self.owner]
         scaled, half = scaled_to_one(x)
         along = chebyshev.chebvander(scaled, self.degree)
         # Columns are the derivatives of the polynomials.
         slopes = along[:, :-1] @ chebyshev.chebder(np.eye(self.degree + 1)) / half
         powers, others = self.terms
-        across = chebyshev.chebvander(np.broadcast_to(scaled_to_one(self.beside)[0], x.shape), others.max())
+        across = chebyshev.chebvander(scaled_to_one(self.column("log_load"))[0], others.max())
         functions, rates = (each[:, powers] * across[:, others] for each in (along, slopes))
         # An increment of the level moves a curve down.
         basis = np.hstack([functions, -self.later]) if self.lifted else functions
@@ -200,9 +196,9 @@ class Common:
         return np.array([self.increments, self.lifts]) @ self.fit.sums.T
 
 
-def scaled_to_one(x: np.ndarray | float) -> tuple[np.ndarray, float]:
+def scaled_to_one(x: np.ndarray) -> tuple[np.ndarray, float]:
     """Places between -1 and 1, and half of the range that they had; 1 of a single place."""
-    middle, half = (np.max(x) + np.min(x)) / 2, np.ptp(x) / 2 or 1.0
+    middle, half = (x.max() + x.min()) / 2, np.ptp(x) / 2 or 1.0
     return (x - middle) / half, half
 
 

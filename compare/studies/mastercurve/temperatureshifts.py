@@ -66,7 +66,8 @@ class TemperatureShifts:
     @property
     def covariance(self) -> np.ndarray:
         """Of ln a_T, where the shifts are found (K, K)."""
-        return self.levers * _errors(self.isotherms) ** 2 @ self.levers.T
+        errors = np.concatenate([each.error for each in self.isotherms])
+        return self.levers * errors**2 @ self.levers.T
 
     @property
     def inseparable(self) -> str:
@@ -84,7 +85,7 @@ def stated(isotherms: Sequence[Isotherm], shifts: np.ndarray, loads: int, dof: f
     increments = np.diff(shifts)
     best = _freest(isotherms, loads, lambda fit: fit.at(increments))
     levers = np.zeros((len(shifts), best.x.size))
-    return _shifted(isotherms, best, Estimated(np.asarray(shifts, float)), levers, dof, found=False)
+    return _shifted(best, Estimated(np.asarray(shifts, float)), levers, dof, found=False)
 
 
 def found(isotherms: Sequence[Isotherm], loads: int, dof: float) -> TemperatureShifts:
@@ -105,30 +106,15 @@ def found(isotherms: Sequence[Isotherm], loads: int, dof: float) -> TemperatureS
         first = int(np.argmin(margin))
         _refuse(isotherms[first], isotherms[first + 1], "speeds once shifted")
     levers = -fit.against @ np.linalg.pinv(best.jacobian)
-    scattered = Replicates(fit.against @ increments, (levers * _errors(isotherms)).T, dof).estimated
+    scattered = Replicates(fit.against @ increments, (levers * fit.column("error")).T, dof).estimated
     bias = fit.unsettled(increments, lambda each: fit.against @ each.increments)
-    return _shifted(isotherms, best, replace(scattered, bias=bias), levers, dof, found=True)
+    return _shifted(best, replace(scattered, bias=bias), levers, dof, found=True)
 
 
-def _fit(isotherms, degree, loads):
-    """Fit of isotherms along ln v to a polynomial in ln v and ln F of this total degree.
-
-    loads : number of loads that are told apart, which bounds the power of ln F
-    """
-    places, heights, beside = (
-        [getattr(each, name) for each in isotherms] for name in ("log_speed", "log_friction", "log_load")
-    )
-    return Fit(places, heights, degree, beside=np.concatenate(beside), powers=loads - 1)
-
-
-def _errors(isotherms):
-    return np.concatenate([each.error for each in isotherms])
-
-
-def _shifted(isotherms, best, shifts, levers, dof, found):
-    fit, errors = best.fit, _errors(isotherms)
-    levels = fit.owner[:, None] == np.arange(len(isotherms))
-    planes = np.column_stack([levels, np.concatenate(fit.places), fit.beside])
+def _shifted(best, shifts, levers, dof, found):
+    fit, errors = best.fit, best.fit.column("error")
+    levels = fit.owner[:, None] == np.arange(len(fit.curves))
+    planes = np.column_stack([levels, fit.column("log_speed"), fit.column("log_load")])
 
     def misfit(functions):
         """Misfit to the best sum of functions (N, M), which take scatter away."""
@@ -137,7 +123,7 @@ def _shifted(isotherms, best, shifts, levers, dof, found):
         return Replicates(fit.y - basis @ (basis.T @ fit.y), deviations, dof).rms
 
     return TemperatureShifts(
-        tuple(isotherms),
+        tuple(fit.curves),
         shifts,
         levers,
         misfit=misfit(best.tangent if found else best.basis),
@@ -151,7 +137,7 @@ def _freest(isotherms: Sequence[Isotherm], loads: int, sought: Callable[[Fit], C
     """The fit of the degree with the least information criterion, corrected for few points."""
     best, least = None, np.inf
     for degree in DEGREES:
-        tried = sought(_fit(isotherms, degree, loads))
+        tried = sought(Fit(isotherms, degree, along="log_speed", loads=loads))
         points = tried.x.size
         unknowns = tried.orthonormal.shape[1] + tried.increments.size
         if best is not None and points - unknowns < max(points / 3, 2):
@@ -166,7 +152,7 @@ def _freest(isotherms: Sequence[Isotherm], loads: int, sought: Callable[[Fit], C
 
 def _of_pair(pair, loads):
     """The increment that brings two neighbours closest."""
-    fit = _fit(pair, 2, loads)
+    fit = Fit(pair, 2, along="log_speed", loads=loads)
     lower, upper = fit.bounds
     tried = fit.within(np.where(STARTS < 0, -STARTS * lower, STARTS * upper)[:, None])
     return near(fit, min(tried, key=lambda each: fit.at(each).cost)).increments
