@@ -73,9 +73,9 @@ class SimulatedCurves:
 
     def without(self, group: Group) -> Self:
         """Curves without some surfaces."""
-        kept = np.delete(np.arange(self.surfaces), group.surfaces)
-        load, friction = self.load[..., kept], self.friction_force[..., kept]
-        return replace(self, load=load, friction_force=friction, strata=self._strata[kept])
+        every = (self.load, self.friction_force, self._strata)
+        load, friction, strata = (np.delete(each, group.surfaces, axis=-1) for each in every)
+        return replace(self, load=load, friction_force=friction, strata=strata)
 
     @cached_property
     def _forces(self):

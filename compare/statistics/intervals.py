@@ -73,7 +73,7 @@ class Estimated(Generic[Value]):
     dof: float | np.ndarray = inf
     skewness: float | np.ndarray = 0.0
     bias: float | np.ndarray = 0.0
-    parts: Mapping[tuple[str, int], Any] = field(default_factory=dict)
+    parts: Mapping[Any, Any] = field(default_factory=dict)
     grid: Value | float = 0.0
     size: bool = False
     drawn: Mapping[str, int] = field(default_factory=dict)

@@ -56,8 +56,7 @@ class Replicates:
         cls, value: float | np.ndarray, changes: np.ndarray, strata: Sequence[Hashable] | None = None
     ) -> Self:
         """changes : (surfaces, ...), with the deviation of each surface from the mean; none of an exact value."""
-        count = len(changes)
-        return cls(value, changes / sqrt(count * (count - 1)) if count != 1 else changes * nan, strata=strata)
+        return cls(value, changes / sqrt(len(changes) * (len(changes) - 1) or nan), strata=strata)
 
     @classmethod
     def without_one(cls, value: float | np.ndarray, without: np.ndarray) -> Self:

@@ -16,7 +16,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from math import ceil, isfinite, sqrt
+from math import ceil, isfinite, nan, sqrt
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
@@ -26,7 +26,7 @@ from ..solving.cost import MOST_DRAWS, SECONDS
 from ..solving.curve import EMPTY, TOGETHER, Curve
 from ..solving.words import duration, share
 from .collapse import PARTED
-from .finding import UNDECIDED, Finding
+from .finding import UNDECIDED, Claim, Finding
 from .intervals import Estimated
 from .jackknife import Source, off_the_ratio
 
@@ -40,6 +40,7 @@ MEANS = {
     "normal_force": ("normal_force", None),
     "depth_reached": ("depth_reached", None),
 }
+MEAN = Claim("mean", "Mean over surfaces", expected=1.0, tolerance=0.0)
 WORDS = {"friction_coefficient": "friction", "normal_force": "force", "depth_reached": "depth"}
 # What is spent or left over on a grid, and is no number of the contact.
 SPENT = "seconds", "operator_applications", "residual"
@@ -106,27 +107,31 @@ def _draws(differences, strata, counted):
     return np.where(known, np.expand_dims(mean, -1) + np.sqrt(total * (total - 1.0)) * changes, np.nan)
 
 
-def unreached(mean: Estimated, interval: float) -> str:
+def means_of(model: str, mean: Estimated) -> Iterator[Finding]:
+    """Finding on the mean of a model at every place, over its value: only narrower intervals are asked of it."""
+    for place in np.ndindex(mean.value.shape):
+        one = mean.at(place)
+        low, high = one.interval()
+        size = abs(one.value) or nan
+        half = (high - low) / 2 / size
+        parts = {(model, k): float(each) for k, each in one.parts.items()}
+        # A model without another grid has no error of it.
+        yield Finding(MEAN, 1.0, (1 - half, 1 + half), np.nan_to_num(one.grid / size), parts=parts)
+
+
+def unreached(means: Iterable[Finding], interval: float) -> str:
     """What keeps the interval of a mean wider than wanted somewhere, in words; empty where nothing does.
 
     interval : half-width that is wanted, relative
     """
-    scatter, grid = _relative(mean)
-    half = np.where(np.isfinite(scatter + grid), scatter + grid, 0.0)
-    if half.max() <= interval:
+    widths = (((high - low) / 2, each.grid) for each in means for low, high in [each.interval])
+    half, grid = max((each for each in widths if isfinite(each[0])), default=(0.0, 0.0))
+    if half <= interval:
         return ""
-    worst = np.unravel_index(np.argmax(half), half.shape)
-    told = f"is known to {share(half[worst])} only, {share(interval)} are wanted"
-    if grid[worst] > OWN_SHARE * interval:
-        return f"{told}: half the points change it by {share(grid[worst])}, take more points"
+    told = f"is known to {share(half)} only, {share(interval)} are wanted"
+    if grid > OWN_SHARE * interval:
+        return f"{told}: half the points change it by {share(grid)}, take more points"
     return f"{told}: more surfaces would narrow it"
-
-
-def _relative(mean):
-    """Half of the interval that scatter gives a mean, and the error of its grid, none without another grid."""
-    low, high = mean.interval()
-    with np.errstate(invalid="ignore", divide="ignore"):
-        return np.array([(high - low) / 2, np.nan_to_num(mean.grid) + 0 * mean.value]) / np.abs(mean.value)
 
 
 @dataclass(frozen=True)
@@ -166,36 +171,14 @@ class DrawnSurfaces:
             left = max(left, wanted - finding.grid, OWN_SHARE * wanted)
         return self._least_cost(finding.parts, scatter / left) if left > 0 else {}
 
-    def narrowing(self, model: str, mean: Estimated, interval: float) -> Mapping[Source, float]:
-        """Numbers of draws of a model at least cost that make the interval of a mean narrow enough at every place.
-
-        What is zero or not known asks for none.
-
-        interval : half-width that is wanted, relative
-        """
-        scatter, grid = _relative(mean)
-        with np.errstate(invalid="ignore"):
-            times = scatter / np.maximum(interval - grid, OWN_SHARE * interval)
-            needs = self._least_cost({(model, k): each for k, each in mean.parts.items()}, times)
-        wide = scatter + grid > interval
-        return {name: np.max(each, where=wide & np.isfinite(each), initial=0.0) for name, each in needs.items()}
-
     def more(
-        self,
-        findings: Iterable[Finding],
-        interval: float,
-        growth: float = GROWTH,
-        means: Iterable[tuple[str, Estimated]] = (),
+        self, findings: Iterable[Finding], interval: float, growth: float = GROWTH
     ) -> dict[str, tuple[int, ...]]:
-        """Numbers of draws that decide findings, or make intervals narrow enough; no fewer than now.
+        """Numbers of draws that decide findings, or make their intervals narrow enough; no fewer than now.
 
-        Of no stratum there are more than MOST_DRAWS.
-
-        growth : times the draws at most
-        means : models, each with a mean whose interval is to be narrow enough
+        Of no stratum there are more than MOST_DRAWS. growth : times the draws at most
         """
         asked = [self.deciding(each, interval) for each in findings]
-        asked += [self.narrowing(*each, interval) for each in means]
 
         def most(*source):
             return max((each.get(source, 0.0) for each in asked), default=0.0)
@@ -232,7 +215,7 @@ class DrawnSurfaces:
         """
         # Standard deviation of one draw of each source, over that of the number.
         spread = {
-            (name, k): np.sqrt(each * self.counts[name][k])
+            (name, k): sqrt(each * self.counts[name][k])
             for (name, k), each in parts.items()
             if name in self.counts
         }

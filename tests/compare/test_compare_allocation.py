@@ -16,7 +16,7 @@ from compare.library.lookup import case_of
 from compare.solving.cost import MOST_DRAWS
 from compare.statistics.jackknife import mean_ratio
 from compare.statistics.means import interval as interval_of
-from compare.statistics.multilevel import DrawnSurfaces, pooled, unreached
+from compare.statistics.multilevel import DrawnSurfaces, means_of, pooled, unreached
 from compare.studies.comparison.series import DIFFERENCES, FINEST, PILOT, pilot
 from mdr1d import MDR
 from scene import Refused
@@ -25,15 +25,15 @@ from scene.reading import InvalidInput
 COSTS = 10.0, 3.0, 1.0
 
 
-def mean_of(found):
+def means(found):
     """Mean of friction at every place."""
-    return interval_of(pooled(found).expand_dims(speed=[0.0]), "friction_force")
+    return means_of("BEM", interval_of(pooled(found).expand_dims(speed=[0.0]), "friction_force"))
 
 
-def needed(found, interval, costs=COSTS):
+def needed(found, interval):
     """Surfaces of each stratum for intervals of friction of a half-width."""
-    drawn = DrawnSurfaces({"BEM": tuple(np.bincount(found["stratum"]).tolist())}, {"BEM": costs})
-    return drawn.more([], interval, means=[("BEM", mean_of(found))])["BEM"]
+    drawn = DrawnSurfaces({"BEM": tuple(np.bincount(found["stratum"]).tolist())}, {"BEM": COSTS})
+    return drawn.more(means(found), interval)["BEM"]
 
 
 def grown(rng, had, counts, variation, told=None):
@@ -99,16 +99,16 @@ def test_what_is_narrow_enough_asks_for_nothing_more():
 
 def test_an_interval_that_is_not_reached_says_why():
     found = answers(np.random.default_rng(2), pilot(3), 0.1)
-    assert unreached(mean_of(found), 0.5) == ""
+    assert unreached(means(found), 0.5) == ""
     assert re.fullmatch(
         r"is known to [\d.]+ % only, 5 % are wanted: more surfaces would narrow it",
-        unreached(mean_of(found), 0.05),
+        unreached(means(found), 0.05),
     )
     force = found["friction_force"]
     coarse = found.assign(friction_force=force.where(found["level"] == "fine", 1.2 * force))
     assert re.fullmatch(
         r"is known to [\d.]+ % only, 10 % are wanted: half the points change it by [12]\d %, take more points",
-        unreached(mean_of(coarse), 0.1),
+        unreached(means(coarse), 0.1),
     )
 
 

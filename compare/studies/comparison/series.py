@@ -21,7 +21,7 @@ from ...statistics.finding import Claim, Finding, said_of
 from ...statistics.intervals import Estimated
 from ...statistics.jackknife import mean
 from ...statistics.means import touches
-from ...statistics.multilevel import MEANS, WORDS, DrawnSurfaces, unreached
+from ...statistics.multilevel import MEANS, WORDS, DrawnSurfaces, means_of, unreached
 from .answers import Answers
 from .laws import Laws
 
@@ -150,8 +150,8 @@ class Series(ABC):
         for name, drawn in self.drawn.items():
             places = (*map(self.place, self.shared[name]), self.family)
             own = [each for each in findings if each.curve in places]
-            means = ((model, mean) for model, _, mean in self._means(name, answers, self.counts[name]))
-            counts = drawn.more(own, self.interval or inf, growth, means)
+            means = [each for *_, found in self._means(name, answers, self.counts[name]) for each in found]
+            counts = drawn.more([*own, *means], self.interval or inf, growth)
             made[name] = {model: counts[model] for model in self.counts[name]}
         return made
 
@@ -163,13 +163,14 @@ class Series(ABC):
                     yield f"{self.name}: the {WORDS[mean_name]} in {self.models.labels[model]} {why}."
 
     def _means(self, shared, answers, models):
-        """Means that an interval is wanted of, on curves that share their surfaces: model, name and numbers."""
+        """Means that an interval is wanted of, on curves that share their surfaces: model, name and findings."""
         wanted = [each for each in self.wanted if each[0] in self.shared[shared] and each[0] in self.curves]
         for model in (each.name for each in self.models.drawn if each.name in models):
             for curve, mean_name, speeds in wanted:
                 if model in self.curves[curve].levels:
                     found = answers.interval(curve, model, *MEANS[mean_name])
-                    yield model, mean_name, found.at(np.isin(answers.two_levels(curve, model)["speed"], speeds))
+                    asked = found.at(np.isin(answers.two_levels(curve, model)["speed"], speeds))
+                    yield model, mean_name, means_of(model, asked)
 
     def finding(
         self,
