@@ -106,11 +106,14 @@ class Finding:
 
     def __post_init__(self):
         object.__setattr__(self, "dimension", self.dimension or self.claim.dimension)
-        if self.drawn:
-            object.__setattr__(self, "draws", min(self.drawn.values()))
-        for name, unit in (("value", BARE), ("grid", BARE), ("draws", WHOLE)):
-            object.__setattr__(self, name, argument(name, getattr(self, name), unit.value))
-        object.__setattr__(self, "scatter", argument("scatter", self.scatter, BARE.row))
+        object.__setattr__(self, "draws", min(self.drawn.values(), default=self.draws))
+        for name, take in (
+            ("value", BARE.value),
+            ("grid", BARE.value),
+            ("draws", WHOLE.value),
+            ("scatter", BARE.row),
+        ):
+            object.__setattr__(self, name, argument(name, getattr(self, name), take))
 
     @classmethod
     def of(

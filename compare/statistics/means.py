@@ -10,11 +10,8 @@ from pandas import DataFrame, MultiIndex
 from ..solving.curve import EMPTY, FAILED, FINE
 from .intervals import Estimated
 from .jackknife import estimated
-from .multilevel import pooled
+from .multilevel import MEANS, pooled
 
-# Means of friction: the two forces whose means are divided.
-FRICTION = ("friction_force", "normal_force")
-RATIOS = {"friction_coefficient": FRICTION}
 # Told with deviation and interval; told as a mean alone, of what is never negative.
 ESTIMATED = ("normal_force", "depth_reached", "friction_force", "friction_coefficient", "rms_slope", "contact")
 AVERAGED = ("friction_spread", "pixel", "points_across_contact")
@@ -49,7 +46,7 @@ def means(dataset: xarray.Dataset) -> DataFrame:
     places = [fine["speed"].values, fine[prescribed].values]
     columns: dict[str, np.ndarray] = {}
     for name in ESTIMATED:
-        above, below = RATIOS.get(name, (name, None))
+        above, below = MEANS.get(name, (name, None))
         if above not in fine:
             continue
         value, low, high = interval(dataset, above, below, name in SIZES).ends
