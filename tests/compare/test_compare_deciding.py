@@ -249,7 +249,7 @@ def test_a_study_stops_likewise_and_series_of_a_family_have_as_many_surfaces(tmp
     path.write_text(STUDY)
     report = compare.study(path, output=tmp_path / "study", report=False)
     assert_decided_or_narrow(report, 0.3)
-    low, high = (each.drawn.counts for each in report.study.series)
+    low, high = (each.drawn["rough"].counts for each in report.study.series)
     assert low == high
     assert len(low["BEM"]) < 3  # as many grids as the coarser of both has
     assert any(each.where == "every sphere" for each in report.judged)
