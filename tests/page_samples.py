@@ -23,10 +23,10 @@ FINDINGS = (
 )
 MEANS = DataFrame(
     [
-        {"solver": solver, "speed": speed, "load": 1.0}
+        {"model": model, "speed": speed, "load": 1.0}
         | {"friction_coefficient_mean": mu}
         | {"friction_coefficient_low": 0.9 * mu, "friction_coefficient_high": 1.2 * mu}
-        for solver, slope in (("MDR", 0.2), ("BEM", 0.1))
+        for model, slope in (("MDR", 0.2), ("BEM", 0.1))
         for speed in np.geomspace(1e-3, 1.0, 4)
         for mu in (slope * speed**0.4,)
     ]

@@ -50,6 +50,8 @@ def export(
         known("format", each, FORMATS)
     if "vtk" in formats:
         vtk.refuse()
+    if not isinstance(style, str | PathLike | Mapping | None):
+        raise InvalidInput(f"style = {style!r}: a file .mplstyle, the name of a style of matplotlib, or settings")
     look = looks.Look(journal or "default", style, width)
     known("journal", look.journal, COLUMNS)
     try:

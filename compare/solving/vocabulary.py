@@ -33,7 +33,7 @@ claim : Name of the claim, which never changes.
 sentence : The claim in words.
 meaning : How the number is measured, and what a deviation from it says.
 where : Case, series or diagram in which it was measured.
-dimension : 1D: method of dimensionality reduction. 3D: boundary elements on a half-space. 1D/3D: their ratio. 1D
+model : 1D: method of dimensionality reduction. 3D: boundary elements on a half-space. 1D/3D: their ratio. 1D
     corrected: over the ratio that the trust map predicts. Other models have their label.
 verdict : holds: the whole interval of 95 % lies within the tolerance around the number; fails: none of it does;
     undecided: else, or where an error is unknown; reported: a number without a claim. Of a law or a stored value
@@ -45,13 +45,9 @@ high : Upper end of the interval of 95 %: scatter of surfaces, widened by the er
 unit : Unit of the number; 1 of a ratio.
 expected : Number that is tested against.
 tolerance : How far from that number still counts as it.
-scatter_low : Lower end of the interval of 95 % from the scatter of surfaces alone, by leaving out some at a time.
-scatter_high : Upper end of the interval of 95 % from the scatter of surfaces alone, by leaving out some at a time.
-grid_error : Error of discretisation, by which the interval is wider at both ends.
-grid_method : How the error of the grid is known: change on halving the points, exact, or unknown.
-draws : Number of rough surfaces behind a number; 0 of smooth bodies. [1]
+grid : Error of discretisation, by which the interval is wider at both ends.
+surfaces : Number of rough surfaces or profiles behind a number or a mean; 0 of smooth bodies. [1]
 regime : Range of the dimensionless groups in which a number was measured.
-plot : Figure that shows it.
 
 Of the trust map: ratios of 1D over 3D, predicted and measured.
 advice : How to treat the 1D answer: use it as it is, multiply it by the inverse of the ratio, or solve in 3D;
@@ -74,15 +70,14 @@ Of what accuracy costs.
 scatter : Scatter of one surface about the mean, relative. [1]
 least : Lower end of an interval.
 most : Upper end of an interval.
-model : Model, by its name or in words.
 label : Model in words.
 settings : Points of the grid, or several grids, as intervals take them.
 best_known : Least relative error that is known to be reached. [1]
 scale : Number that errors are relative to, in the unit of the answer.
+quantity : Friction, depth or force, whose error is measured.
 bias : Relative error that more surfaces do not take away. [1]
 setup : Processor time before the first surface: that of the trust map. [s]
 failed : Solves that ended with an error. [1]
-surfaces : Number of surfaces over which a mean is taken: profiles in 1D, surfaces in 3D. [1]
 failures : Solves that ended with an error and are left out of the means. [1]
 drag : Friction over real contact, over that under the least load. [1]
 contact_law : Real contact over that under the least load, by the paper. [1]

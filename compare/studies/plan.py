@@ -23,7 +23,7 @@ from ..models.table import KNOWN
 from ..solving.cost import Cost
 from ..solving.words import duration, pascals, seconds, share
 from ..trustmap.verdict import Advice, trust
-from .comparison.around import corners, curves, models_of
+from .comparison.around import Around
 
 WIDTH = 100
 WHOLE = {"break_long_words": False, "break_on_hyphens": False}
@@ -178,9 +178,8 @@ def _cost(case: Case) -> tuple[Cost | str, bool, tuple[str, ...]]:
     Also the doubts about them.
     """
     try:
-        grids = curves(case, models_of(case), None if case.study.interval is None else {})
-        doubts = doubted(case, curves=corners(grids))
-        return sum((each.cost for each in grids.values()), Cost()), False, doubts
+        asked = Around("scene", case)
+        return sum((each.cost for each in asked.curves.values()), Cost()), False, tuple(asked.doubts)
     except NotCompared as reason:
         return str(reason), False, doubted(case)
     except Refused as reason:

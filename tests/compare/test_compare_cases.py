@@ -8,9 +8,8 @@ from typer.testing import CliRunner
 
 from compare.cli.app import app
 from compare.library.lookup import case_of, named_cases
-from compare.studies.comparison import asked
-from compare.studies.comparison.around import SMOOTH_DEPTH, curves, models_of
-from scene import Coulomb, Elastic, Indent, Program, Refused, Slide, Stage
+from compare.studies.comparison.around import OWN, SMOOTH_DEPTH, Around
+from scene import Coulomb, Elastic, Indent, Slide
 from scene.reading import InvalidInput
 from scene.scales import elastic_contact
 
@@ -31,29 +30,13 @@ def test_a_scene_alone_is_a_case(case):
     assert max(plan.smooth_speeds) * 1e-3 == pytest.approx(100 * radius)
 
 
-PROGRAM = Program(stages=(Stage(duration=1e-3, load=1.0), Stage(duration=1e-2, speed=0.1)))
-INTERFACE = r"interface = Coulomb with motion = Slide: .*; leave interface out"
-
-
-@pytest.mark.parametrize(
-    ("change", "said"),
-    [
-        ({"motion": PROGRAM}, "motion = Program: crosscheck compares"),
-        ({"interface": Coulomb(0.3)}, INTERFACE),
-    ],
-)
-def test_what_says_nothing_of_the_elastomer_is_refused_though_both_solvers_take_it(case, change, said):
-    changed = replace(case, **change)
-    assert not changed.mdr.refusals(changed.scene)
-    assert not changed.bem.refusals(changed.scene)
-    for ask in (changed.refuse, lambda: asked.run(changed)):
-        with pytest.raises(Refused, match=said):
-            ask()
-
-
-def test_friction_of_the_interface_of_what_is_pressed_in_adds_nothing_and_is_compared_with_the_closed_form(case):
-    rubbing = replace(case, interface=Coulomb(0.3), motion=Indent(load=1.0))
-    assert set(curves(rubbing, models_of(rubbing))[SMOOTH_DEPTH].levels) == {"MDR", "BEM", "exact"}
+@pytest.mark.parametrize("motion", [Indent(load=1.0), Slide(speed=0.1, load=1.0)])
+def test_friction_of_the_interface_is_compared_in_the_own_contact_alone_and_at_rest_with_the_closed_form(
+    case, motion
+):
+    found = Around("a case", replace(case, interface=Coulomb(0.3), motion=motion)).curves
+    assert set(found[SMOOTH_DEPTH].levels) == {"MDR", "BEM", "exact"}
+    assert [name for name, each in found.items() if any(each.speeds)] == [OWN] * bool(motion.speed)
 
 
 def test_the_same_loads_are_meant_where_the_depth_is_prescribed(case):
@@ -77,7 +60,6 @@ def test_what_has_no_friction_has_no_speeds_and_a_smooth_case_one_surface(case):
 
 MISTAKES = {
     "a value that stands there twice": (SCENE + "[study]\nspeeds = [0.1, 0.1]\n", "twice"),
-    "friction of an interface": (SCENE + "[interface]\ncoefficient = 0.3\n", "leave interface out"),
     "a shape that one solver lacks": (
         SCENE.replace('"sphere"', '"cylinder"').replace("load = 1.0", "line_load = 1.0"),
         "indenter = Cylinder",

@@ -149,7 +149,7 @@ MISTAKES = {
     "run quick-start --workers 0": "workers = 0: a whole number from 1 to ",
     "run quick-start --figure-format gif": "figure_format = gif: allowed are png, ",
     "study mine.toml": "mine.toml: ",
-    "workprecision paper-spere": "paper-spere: no such file, and no ready scene",
+    "workprecision paper-spere": "did you mean paper-sphere?",
     "new quick-start mine.toml": "is there already, and nothing is overwritten",
     "export nowhere --journal acs": "nowhere: no such folder",
     "export . --format png": "no manifest.json here",

@@ -1,7 +1,6 @@
 """The master curve in three dimensions: answers made of the law fall on it, others are told how far off."""
 
 from dataclasses import replace
-from functools import cache
 
 import numpy as np
 import pytest
@@ -30,7 +29,6 @@ ROUNDING = 1e-9
 MEASURES = "friction_of_shape", "friction_of_roughness", "full_contact_friction", "share_of_full_contact"
 
 
-@cache
 def solved(series):
     """What the law says of all points of a series, rest first."""
     found = [[LAW.solve(series.at(load, speed)) for load in series.values] for speed in (0.0, *series.speeds)]

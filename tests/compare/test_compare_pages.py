@@ -144,7 +144,7 @@ def test_the_page_needs_nothing_else_and_every_link_leads_somewhere(folder):
     for name in re.findall(r"<code>([^<]+\.(?:csv|png))</code>", (folder / "report.html").read_text()):
         assert (folder / name).is_file()
     assert [image["src"][:22] for image in found.images] == ["data:image/png;base64,"]
-    assert found.images[0]["alt"].startswith("Friction of both models")
+    assert found.images[0]["alt"].startswith("Friction of all models")
 
 
 def test_the_page_opens_with_its_answer_then_the_figure_then_tables(folder):
@@ -331,7 +331,7 @@ def test_a_damaged_manifest_is_named_whatever_is_in_it(tmp_path_factory, content
         (b"", "cannot be drawn"),
         (b"\xff", "not a table"),
         (b"a,b\n1\n1,2,3\n", "not a table"),
-        (b"a\n1\n", "'solver'"),
+        (b"a\n1\n", "'model'"),
     ],
 )
 def test_a_damaged_table_is_named(folder, tmp_path, damage, said):
@@ -417,10 +417,10 @@ def test_exported_csv_has_every_digit_every_unit_and_what_was_solved(folder, tmp
         path.relative_to(tmp_path).as_posix(): pandas.read_csv(path) for path in export(folder, output=tmp_path)
     }
     assert set(written) == {
-        f"{name}.csv" for name in ("findings", "sphere/rows", "sphere/long", "sphere/friction", "sphere/MDR")
+        f"{name}.csv" for name in ("findings", "sphere/rows", "sphere/long", "sphere/friction-speed", "sphere/MDR")
     }
     assert list(written["sphere/friction-speed.csv"]) == [
-        "solver",
+        "model",
         "speed [m/s]",
         "load [N]",
         "friction_coefficient_mean",

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from pandas import DataFrame
 
+from compare.solving.curve import of_model
 from compare.solving.outcome import Outcome, Row
 from compare.statistics.intervals import Estimated
 from compare.studies.paper import claims, law, parameter_studies, parameters
@@ -147,8 +148,8 @@ def test_the_law_of_fig_4_has_its_exponent_back(alpha):
 
 def law_of(shape, profiles, outcomes=None):
     """Law of a shape from answers of its tasks, solved if there are none."""
-    grid = law.parameter_grid(shape, profiles)
-    return law.law(shape, grid.datasets(outcomes or solved(grid.tasks()))["MDR"])
+    asked = law.curve(shape, profiles)
+    return law.law(shape, of_model(asked.dataset(outcomes or solved(asked.tasks())), "MDR"))
 
 
 def test_fig_4_follows_the_law_and_reaches_its_plateau():
@@ -163,7 +164,7 @@ def test_fig_4_follows_the_law_and_reaches_its_plateau():
 
 
 def test_a_point_of_the_law_that_broke_is_left_out():
-    asked, scatter = law.parameter_grid("sphere", 3).tasks(), 1 + 1e-3 * np.array([-1, 0, 1])
+    asked, scatter = law.curve("sphere", 3).tasks(), 1 + 1e-3 * np.array([-1, 0, 1])
     level = equations.plateau(parameters.rms_slope()) * equations.interpolation(law.VARIABLES)
     whole = {
         task: Outcome(tuple(Row(10.0, 1e-4, 10.0 * friction * factor) for factor in scatter))
@@ -182,7 +183,7 @@ def test_without_what_the_smooth_body_has_friction_shifts_as_the_loss_does(monke
     monkeypatch.setattr(parameters, "FORCES", parameters.FORCES[::2])
     rubber = Rubber(0.5, 1e-3)
     collapses = rubber.collapses(
-        *(each.datasets(solved(each.tasks()))["MDR"] for each in rubber.grids(4).values())
+        *(of_model(each.dataset(solved(each.tasks())), "MDR") for each in rubber.grids(4).values())
     )
     whole, rough = (collapses[of].horizontal for of in (WHOLE, ROUGH))
     assert rubber.shift == -0.75

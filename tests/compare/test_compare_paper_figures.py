@@ -7,7 +7,7 @@ from drawn_again import from_files
 from matplotlib.collections import PathCollection
 from pandas import DataFrame
 
-from compare.solving import parameter_grid
+from compare.solving import curve
 from compare.studies.paper import figures, parameters
 from compare.studies.paper.study import Paper, contact_grid, sections
 from mdr1d.equations import interpolation
@@ -40,7 +40,7 @@ def ordered(x, y):
 @pytest.fixture(scope="module")
 def touching():
     grids = {f"contact-{shape}": contact_grid(shape) for shape in parameters.SHAPES}
-    outcomes = {task: task.solve() for task in parameter_grid.tasks_of(grids)}
+    outcomes = {task: task.solve() for task in curve.tasks_of(grids)}
     study = Paper(3, 2)
     study.__dict__["_grids"] = grids
     for task in study._slow:

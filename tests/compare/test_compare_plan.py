@@ -96,7 +96,6 @@ PROGRAM = (
             2,
             ["MDR cannot solve this scene", "BEM cannot solve this scene: roughness."],
         ),
-        (PROGRAM.format(1e-3), 0, ["alone      motion = Program: crosscheck compares bodies"]),
         (PROGRAM.format(1e9), 2, ["would not get through this scene"]),
         (
             FASTEST,
@@ -104,7 +103,7 @@ PROGRAM = (
             ["not known: the numbers of the scene are too far apart", "MDR would not get through this scene"],
         ),
     ],
-    ids=["refused by one", "refused by both", "not compared", "too many steps", "shortest time of all"],
+    ids=["refused by one", "refused by both", "too many steps", "shortest time of all"],
 )
 def test_what_is_refused_stands_in_the_plan_and_in_its_status(written, text, status, said):
     answer = told(written(text))

@@ -81,9 +81,7 @@ def project(pytester, imported):
         body = "\n".join(f"def test_{k}(mdr_accuracy):\n    mdr_accuracy.{test}" for k, test in enumerate(tests))
         pytester.makepyfile(test_mine=f"from models import pair\n{body}")
         # hypothesis imports itself at the end of a session, which takes seconds
-        return pytester.runpytest_inprocess(
-            "-p", "compare.studies.checks.plugin", "-p", "no:hypothesispytest", *options
-        )
+        return pytester.runpytest_inprocess("-p", "no:hypothesispytest", *options)
 
     return run
 

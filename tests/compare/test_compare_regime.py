@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from bem3d import BEM
-from compare.studies.comparison.regime import ratios, words
+from compare.studies.comparison.laws import ratios, words
 from mdr1d import MDR
 from scene import (
     Cone,

@@ -226,8 +226,8 @@ def test_pressing_in_is_compared_at_the_depth_that_was_reached():
     # a march answers for the middle of its last step: half a step less deep, and F ~ d^m less force
     scene = replace(SERIES.scene, motion=Program(stages=(Stage(duration=1.0, depth=1e-4),)))
     series = replace(SERIES, scene=scene, speeds=(1e-2, 1e-1), values=(1e-4, 2e-4))
-    whole = loading(series)
-    less = loading(series, 0.99 * np.broadcast_to(series.values, (2, 2)))
+    depths = np.broadcast_to(series.values, (2, 2))
+    whole, less = loading(series, depths), loading(series, 0.99 * depths)
     assert np.all((less < whole) & (less > 0.99**1.5 * whole * 0.99))
     unknown = loading(series, np.array([[np.nan, 0.0], [1e-4, 2e-4]]))
     assert np.isnan(unknown[0]).all()

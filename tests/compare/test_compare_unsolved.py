@@ -103,7 +103,7 @@ def test_a_run_without_its_own_contact_says_so_before_the_answer_and_ends_with_1
     assert shown.exit_code == 1
     text = " ".join(shown.stdout.split())
     places = [
-        text.index(each) for each in ("Doubtful: slope of the body", "the scene's own among them", "Friction 0.0")
+        text.index(each) for each in ("Doubtful: slope of the body", "the scene's own among them", "friction 0.0")
     ]
     assert places == sorted(places)
     assert "take about 158 points" in text  # what to do

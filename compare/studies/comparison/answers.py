@@ -19,7 +19,6 @@ MEASURED = (
     "friction_force",
     "depth_reached",
     "friction_spread",
-    "slow_drag",
     "curvature_by_pressure",
     "rms_slope_contact",
     "contact_length",
@@ -70,14 +69,17 @@ class Answers:
 
         return self._once((level, curve, models), made)
 
+    def halved(self, curve: str, *models: str) -> bool:
+        """Whether the error of the grid is known of models: on half the points, or of those without a grid."""
+        both = [self.two_levels(curve, each) for each in models]
+        return all(COARSE in each["level"] or not each["points"].any() for each in both)
+
     def compared(self, curve: str, models: tuple[str, ...], measure: Any, size: bool = False) -> Estimated:
         """Numbers of a curve, a measure of samples, with scatter and error of the grid.
 
         The latter is not known where the surface of a model with a grid is another one on half its points.
         """
-        both = [self.two_levels(curve, each) for each in models]
-        known = all(COARSE in each["level"] or not each["points"].any() for each in both)
-        coarse = self.sample(COARSE, curve, *models) if known else None
+        coarse = self.sample(COARSE, curve, *models) if self.halved(curve, *models) else None
         return compared(measure, self.sample(FINE, curve, *models), coarse, size)
 
     def interval(self, curve: str, model: str, above: str, below: str | None = None) -> Estimated:

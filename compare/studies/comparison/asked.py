@@ -4,7 +4,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from os.path import lexists
 from pathlib import Path
-from typing import Any
 
 from scene import Refused
 from scene.printable import printable
@@ -50,9 +49,11 @@ def run(
         folders(cases, "case")
         series = tuple(Around(name, case, chosen, reference, wanted) for name, case in cases.items())
         names = sorted({each.name for one in series for each in one.models})
-        inputs: dict[str, Any] = {"cases": {name: case.inputs for name, case in cases.items()}}
-        inputs |= {} if wanted is None else {"interval": wanted}
-        inputs |= {} if names == ["BEM", "MDR"] else {"models": names}
+        inputs = {
+            "cases": {name: case.inputs for name, case in cases.items()},
+            "interval": wanted,
+            "models": names,
+        }
         asked = Comparison(series, stated=inputs)
         asked.grids()
     except Refused as error:
@@ -82,17 +83,14 @@ def study(
     """
     known("size", size, SIZES)
     chosen, wanted = listed(models), None if interval is None else share_of("interval", interval)
-    source: dict[str, str] = {}
+    source, title, about = None, "The laws of the paper in one and in three dimensions", ABOUT
     if name == ALL:
         asked = {f"{own}/": each for own, each in STUDIES.items()}
-        title, about = "The laws of the paper in one and in three dimensions", ABOUT
     else:
-        if name in STUDIES:
-            found = STUDIES[str(name)]
-        else:
+        if name not in STUDIES:
             path = _located(name)
-            source = {"source": text_of(path)}
-            found, name = study_of(source["source"], str(path)), printable(path.stem)
+            source, name = text_of(path), printable(path.stem)
+        found = study_of(source, str(path)) if source is not None else STUDIES[str(name)]
         asked, title, about = {"": found}, found.title, found.about
     series = tuple(
         replace(
@@ -105,7 +103,7 @@ def study(
         for own, found in asked.items()
         for each in found.series(size)
     )
-    inputs = {"name": str(name), "size": size} | ({} if wanted is None else {"interval": wanted}) | source
+    inputs = {"name": str(name), "size": size, "interval": wanted, "source": source}
     made = Comparison(series, "study", title, about, slug(f"{name}-{size}"), inputs)
     refuse(made.grids().values())
     return made

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import nan
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray
@@ -14,13 +14,12 @@ from scene import SelfAffine
 from ...models.law.bands import Bands, FullContact
 from ...models.law.share import Share
 from ...models.table import SURFACES
-from ...solving.curve import COARSE, FINE
-from ...statistics.finding import Finding
-from ...statistics.jackknife import DrawSet, friction, resample
+from ...solving.curve import COARSE, FINE, of_model
+from ...statistics.finding import Claim, Finding
+from ...statistics.jackknife import DrawSet, friction, mean, resample
 from .answers import Answers
 from .claims import CLAIMS
-from .laws import Laws
-from .regime import words
+from .laws import Laws, words
 from .theory import LAW
 
 if TYPE_CHECKING:
@@ -53,30 +52,10 @@ class Coordinates:
     full: np.ndarray
 
     @classmethod
-    def of_law(cls, law: xarray.Dataset) -> "Coordinates":
-        """Coordinates of the law: without waves that carry the contact, which roughness widens."""
-        load = law["normal_force"].values
-        return cls(
-            x=law["pressure_ratio"].values,
-            share=law["share_of_full_contact"].values,
-            smooth=law["friction_of_shape"].values / load,
-            full=law["full_contact_friction"].values / load,
-        )
-
-    @classmethod
-    def averaged(cls, law: xarray.Dataset) -> "Coordinates":
-        """Coordinates of the law, with S at the pressure of each place, as S is bent and pressure peaks."""
-        share = law["friction_of_roughness"].values / law["full_contact_friction"].values
-        return replace(cls.of_law(law), share=share)
-
-    @classmethod
     def of_bare(cls, smooth: xarray.Dataset, waves: Sequence[FullContact]) -> "Coordinates":
         """Raw coordinates: all waves in full contact at each speed, on the contact of the bare smooth body."""
-        load, drag, area = (_points(smooth[name]) for name in ("normal_force", "friction_force", "contact_area"))
-        force, rms = (
-            np.array([number(each) for each in waves])[:, None]
-            for number in (lambda each: each.friction.sum(), lambda each: each.pressure[-1])
-        )
+        load, drag, area = (mean(smooth, name) for name in ("normal_force", "friction_force", "contact_area"))
+        force, rms = np.array([(each.friction.sum(), each.pressure[-1]) for each in waves]).T[..., None]
         x = load / area / rms
         shares = [Share.of(each)(row) for each, row in zip(waves, x, strict=True)]
         return cls(x=x, share=np.array(shares), smooth=drag / load, full=force * area / load)
@@ -111,22 +90,28 @@ class LawPoints:
     def of(cls, series: "RoughSeries", answers: Answers, laws: Mapping[str, Laws]) -> "LawPoints | None":
         """Points of the reference, where it is in three dimensions and the law answers; None where it is not."""
         model, roughness = series.models.reference, series.scene.roughness
-        law = series.theories(answers).get(LAW.name)
-        if law is None or "share_of_full_contact" not in law or series.models[model].draws != SURFACES:
+        if not answers.has("rough", LAW.name) or series.models[model].draws != SURFACES:
+            return None
+        law = of_model(answers.curves["rough"], LAW.name).sel(level=FINE).isel(speed=slice(1, None))
+        if "share_of_full_contact" not in law:
             return None
         assert isinstance(roughness, SelfAffine)  # the law answers no other
         law = law.transpose("speed", series.prescribed, ...)
         bands = Bands.of(roughness)
         waves = [FullContact.of(bands, series.scene.solid, speed) for speed in series.speeds]
         known = [np.isfinite(_mu(answers.sample(level, "rough", model)[model])) for level in (FINE, COARSE)]
+        names = "friction_of_shape", "friction_of_roughness", "full_contact_friction", "normal_force"
+        own, rough, full, load = (law[name].values for name in names)
+        x, share = (law[name].values for name in ("pressure_ratio", "share_of_full_contact"))
         with np.errstate(invalid="ignore", divide="ignore"):
-            own, rough = (law[f"friction_of_{part}"].values for part in ("shape", "roughness"))
+            # Without waves that carry the contact, which roughness widens.
+            coordinates = Coordinates(x, share, own / load, full / load)
             found = cls(
                 series=series,
                 answers=answers,
                 model=model,
-                law=Coordinates.of_law(law),
-                averaged=Coordinates.averaged(law),
+                law=coordinates,
+                averaged=replace(coordinates, share=rough / full),  # as S is bent and the pressure peaks
                 bare=Coordinates.of_bare(answers("smooth", model).isel(speed=slice(1, None)), waves),
                 curves=tuple(map(Share.of, waves)),
                 height=1 / laws[model].ratios["depth_over_height"],
@@ -146,31 +131,33 @@ def law_findings(series: "RoughSeries", answers: Answers, laws: Mapping[str, Law
     if found is None:
         return []
     regime = words({name: each[found.claimed] for name, each in laws[found.model].ratios.items()})
-    return [replace(each, curve=series.place("rough")) for each in law_findings_of([found], series.name, regime)]
+    return [*law_findings_of([found], series.name, regime, series.place("rough"))]
 
 
-def law_findings_of(points: Sequence[LawPoints], where: str = EVERY, groups: str = "") -> Iterator[Finding]:
+def law_findings_of(
+    points: Sequence[LawPoints], where: str = EVERY, groups: str = "", curve: str = ""
+) -> Iterator[Finding]:
     """Findings at all points of some series, of which the same surfaces are left out."""
     claimed = np.concatenate([each.law.x[each.claimed] for each in points])
     if not claimed.size:
         return
-    fine, coarse = (
-        DrawSet({each.series.name: each.answers.sample(level, "rough", each.model)[each.model] for each in points})
-        for level in (FINE, COARSE)
-    )
+    model, labels = points[0].model, points[0].series.models.labels
+    fine, coarse = (drawn_of(points, model, level) for level in (FINE, COARSE))
     regime = f"{claimed.size} points, x {claimed.min():.2g} to {claimed.max():.2g}"
+    place: dict[str, Any] = {"where": where, "curve": curve, "regime": "; ".join(filter(None, (regime, groups)))}
     for found, coordinates in FINDINGS.items():
 
         def off(sample, coordinates=coordinates):
             return np.concatenate([_off(each, coordinates, sample) for each in points])
 
         for quantile, level in QUANTILES.items():
-            yield replace(
-                _finding(f"law3d.{found}{quantile}", level, off, fine, coarse),
-                where=where,
-                dimension=points[0].series.models.labels[points[0].model],
-                regime="; ".join(filter(None, (regime, groups))),
-            )
+            claim = replace(CLAIMS[f"law3d.{found}{quantile}"], dimension=labels[model])
+            yield _finding(claim, level, off, fine, coarse, **place)
+
+
+def drawn_of(members: Sequence[Any], model: str, level: str) -> DrawSet:
+    """Answers of a model to the rough bodies of several series, by the name of these."""
+    return DrawSet({each.series.name: each.answers.sample(level, "rough", model)[model] for each in members})
 
 
 def _off(points, coordinates, sample):
@@ -180,7 +167,7 @@ def _off(points, coordinates, sample):
     return np.log(place.measured(mu) / place.share)[points.claimed]
 
 
-def _finding(name: str, level: float, off: Callable, fine: DrawSet, coarse: DrawSet) -> Finding:
+def _finding(claim: Claim, level: float, off: Callable, fine: DrawSet, coarse: DrawSet, **place: Any) -> Finding:
     """Finding on a quantile of the sizes of what points are off by.
 
     Scatter makes sizes larger: the upper end of the interval has that in it, the lower end is of what they are
@@ -198,7 +185,7 @@ def _finding(name: str, level: float, off: Callable, fine: DrawSet, coarse: Draw
         grid = abs(float(both(coarse)[0] - found.value[0]))
     known = np.all(np.isfinite([low, high, grid]))
     return Finding(
-        claim=CLAIMS[name],
+        claim=claim,
         value=float(found.value[0]),
         scatter=(max(float(low), 0.0), float(high)) if known else (nan, nan),
         grid=grid,
@@ -206,13 +193,9 @@ def _finding(name: str, level: float, off: Callable, fine: DrawSet, coarse: Draw
         reason="" if known else _UNKNOWN,
         size=True,
         parts={source: float(each[0]) for source, each in found.parts.items()},
+        **place,
     )
 
 
 def _mu(dataset):
     return friction(dataset)[1:]
-
-
-def _points(values):
-    """Values (speeds, values) of a smooth body, which has no draws."""
-    return values.mean("surface").values if "surface" in values.dims else values.values

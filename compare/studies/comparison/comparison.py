@@ -6,27 +6,30 @@ from functools import cached_property
 from typing import Any
 
 import xarray
+from pandas import DataFrame
 
 from scene import notes
 from scene.result import labelled, provenance
 
+from ...report.page import Table
 from ...solving.continuation import by_contact
-from ...solving.curve import Curve, contacts_of
+from ...solving.curve import Curve
 from ...solving.outcome import Outcome
 from ...solving.task import SceneTask, Task
 from ...statistics.finding import Finding
 from ...statistics.multilevel import GROWTH
 from ..study import Judgement, Study
-from . import pages, tables
+from . import pages
 from .answer import claims_table, scene_table
 from .answer import notes as open_claims
+from .answers import Answers
 from .around import OWN, Around
-from .rough import RoughSeries
+from .rough import FAMILIES, RoughSeries
 from .series import Counts, Series
 from .sweep import SweepSeries
-from .together import alike, members_of, together
+from .together import Member, alike, together
 
-FIELDS, TIMES = "fields", "times"
+FIELDS = "fields"
 
 
 @dataclass(frozen=True)
@@ -48,13 +51,9 @@ class Comparison(Study):
     def inputs(self) -> Mapping[str, Any]:
         return self.stated
 
-    @cached_property
-    def _curves(self) -> Mapping[str, Curve]:
-        return {each.path(name): curve for each in self.series for name, curve in each.curves.items()}
-
     def grids(self) -> Mapping[str, Curve]:
         """Every curve of every series, by "series/curve"."""
-        return self._curves
+        return {each.path(name): curve for each in self.series for name, curve in each.curves.items()}
 
     @cached_property
     def doubts(self) -> tuple[str, ...]:
@@ -73,7 +72,7 @@ class Comparison(Study):
         return [contact for each in self.series for contact in each.own]
 
     def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
-        """A Dataset for each curve, fields of each scene's own contact, and the processor time of each model."""
+        """A Dataset for each curve, and the fields of each scene's own contact."""
         tree, outcomes = super().answers(outcomes), by_contact(outcomes)
         for each in self.series:
             below = tree[each.folder] if each.folder else tree
@@ -82,46 +81,48 @@ class Comparison(Study):
                 for model, kept in each.curves[OWN].fields(outcomes).items():
                     fields = labelled(kept, each.scene.indenter.type).assign_attrs(provenance(each.scene))
                     below[f"{FIELDS}/{model}"] = xarray.DataTree(fields)
-                below[TIMES] = xarray.DataTree(tables.times(contacts_of(each.curves), outcomes))
         return tree
 
     def more(
         self, answers: xarray.DataTree, findings: Sequence[Finding], growth: float = GROWTH
     ) -> "Comparison | None":
         """The comparison with the surfaces that open claims and wide intervals ask for; None where none does."""
-        sampled = {each.name: each for each in self.series if each.sampled}
-        asked = {name: each.more(each.answers(answers), findings, growth) for name, each in sampled.items()}
-        for names in alike([each for each in sampled.values() if isinstance(each, RoughSeries)]):
+        sampled = [each for each in self.series if each.sampled]
+        asked = {each.name: each.more(each.answers(answers), findings, growth) for each in sampled}
+        for names in alike([each for each in self.series if each.name in asked]):
             asked |= dict.fromkeys(names, _most([asked[name] for name in names]))
-        had = {name: each.counts for name, each in sampled.items()}
-        if asked == had:
+        if all(asked.get(each.name, each.counts) == each.counts for each in self.series):
             return None
         return replace(self, series=tuple(replace(s, strata=asked.get(s.name, s.strata)) for s in self.series))  # type: ignore[type-var]
 
     def judge(self, answers: xarray.DataTree) -> Judgement:
-        own = [each.answers(answers) for each in self.series]
-        judged = [each.judge(known) for each, known in zip(self.series, own, strict=True)]
-        rough = [each for each in self.series if isinstance(each, RoughSeries)]
-        members = members_of(rough, own, judged) if rough else []
-        several = [self._told(each) for each in together(members)]
-        judged = [replace(one, findings=[self._told(each) for each in one.findings]) for one in judged]
-        findings = [*(each for one in judged for each in one.findings), *several]
-        every = list(zip(self.series, own, judged, strict=True))
-        opening = [scene_table(s, a, findings) for s, a, _ in every if isinstance(s, Around)]
-        opening += [table for s, a, _ in every if isinstance(s, SweepSeries) for table in s.tables(a, findings)]
-        scenes = {each.name: each.name for each in self.series if isinstance(each, Around)}
-        claims = claims_table(findings, scenes)
+        every, members, singles = [], [], list[Finding]()
+        for series in self.series:
+            own = series.answers(answers)
+            judged = series.judge(own)
+            judged = replace(judged, findings=[*map(series.told, judged.findings)])
+            singles += judged.findings
+            every.append((series, own, judged, pages.points(series, own)))
+            if judged.laws and isinstance(series, RoughSeries) and FAMILIES in series.claims:
+                members.append(Member(series, own, judged.laws))
+        by_family = {each.series.family: each.series for each in members}
+        several = [by_family[each.curve].told(each) if each.curve else each for each in together(members)]
+        findings = [*singles, *several]
+        opening = [table for s, a, _, points in every for table in opening_of(s, a, points, findings)]
+        claims = claims_table(findings, [each.name for each in self.series if isinstance(each, Around)])
         opening += [claims] if len(claims.frame) else []
-        told = [*open_claims(findings), *(why for s, a, _ in every if s.sampled for why in s.unreached(a))]
+        told = [*open_claims(findings), *(why for s, a, *_ in every if s.sampled for why in s.unreached(a))]
         blocks = list(pages.blocks(every, members, several, answers))
         return Judgement(findings, told, blocks, pages.setting(self.about, every), opening)
 
-    def _told(self, found: Finding) -> Finding:
-        """A finding with what would decide it."""
-        for each in reversed(self.series):
-            if (told := each.told(found)) is not found:
-                return told
-        return found
+
+def opening_of(
+    series: Series, answers: Answers, points: DataFrame, findings: Sequence[Finding]
+) -> Sequence[Table]:
+    """Tables that answer what was asked of a scene; none of a series of a study."""
+    if isinstance(series, Around):
+        return [scene_table(series, answers, points, findings)]
+    return [*series.tables(answers, findings)] if isinstance(series, SweepSeries) else []
 
 
 def _most(counts: Sequence[Mapping[str, Counts]]) -> dict[str, Counts]:

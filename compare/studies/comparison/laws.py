@@ -1,22 +1,40 @@
-"""Laws at every point of a series: those of the paper, and the exact limits of low speed."""
+"""Laws of the paper at every point of a series, and the ratios of a rough contact that decide which can hold."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import nan
+from math import nan, pi
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray
+from pandas import DataFrame, Series
 
 from mdr1d import equations
+from scene import Indent, Regime, Scene, Slide
+from scene.indenter import Axisymmetric
+from scene.scales import elastic_contact
 
-from ...statistics.jackknife import mean_ratio
+from ...models.exact import mean_lag
+from ...statistics.jackknife import draws_of, off_the_ratio
 from .answers import Answers
-from .regime import SYMBOLS, ratios, words
 
 if TYPE_CHECKING:
     from .rough import RoughSeries
 
+# Ratios by the order in which words tell them, behind load and speed.
+SYMBOLS = {
+    "depth_over_height": "d/h₀",
+    "shortest_in_contact": "a q_s",
+    "contact_over_period": "2a/L",
+    "macro_over_rough": "macro/rough slope",
+    "rms_slope": "rms slope",
+    "pressure_over_slope": "p/(E* h')",
+    "memory_over_contact": "vτ/a",
+    "memory_over_shortest": "vτ q_s",
+    "contact_fraction": "contact",
+}
+_TOLD = {"load": "F_N", "xi": "ξ", **SYMBOLS}
+_UNITS = {"load": (1, " N", 3), "contact_fraction": (100, " %", 2)}  # scale, unit and digits of what has any
 # Relative spread of exponents up to which they are one.
 SAME = 0.02
 # Measures that the dimensionless groups of a point need.
@@ -84,38 +102,37 @@ def laws(series: "RoughSeries", answers: Answers, model: str) -> Laws | None:
     if not np.isfinite(groups["depth_over_height"]).any():
         return None
     scene, speeds = series.scene, np.array(series.speeds)
-    solid, body = scene.solid, scene.indenter
-    slope = float(np.nanmean(moving["rms_slope"].values))
-    highest = scene.roughness.q_max(float(np.nanmean(moving["pixel"].values)))
-    c, n = body.mdr_coefficient, body.exponent
+    solid, shape = scene.solid, (scene.indenter.mdr_coefficient, scene.indenter.exponent)
+    slope, pixel = (float(np.nanmean(moving[name].values)) for name in ("rms_slope", "pixel"))
+    highest = scene.roughness.q_max(pixel)
     # Written for a Poisson ratio of 1/2: E*/4 stands for G, and its loss for that of G.
     modulus = solid.indentation_modulus / 4
 
     def loss(omega):
         return modulus / solid.static_modulus * solid.complex_modulus(omega).imag
 
-    load = mean_ratio(_draws(moving, "normal_force")).value
+    def rates(values):
+        return np.diff(np.log(values)) / np.diff(np.log(speeds))
+
+    load, _, _ = off_the_ratio(draws_of(moving, "normal_force"))
     if series.prescribed == "load":
         load = np.where(np.isfinite(load), load, series.values)
-    one = equations.one_frequency_friction(
-        np.nan_to_num(load, nan=1.0), modulus, loss, highest, speeds[:, None], slope, c, n
-    )
-    xi = np.where(np.isfinite(load), one / equations.plateau(slope), nan)
-    shift = equations.force_shift(speeds, modulus, loss, highest, slope, c, n)
-    rates = np.diff(np.log(shift)) / np.diff(np.log(speeds))
-    slowest = solid.complex_modulus(highest * speeds[0])
+    of_rough = modulus, loss, highest
+    one = equations.one_frequency_friction(np.nan_to_num(load, nan=1.0), *of_rough, speeds[:, None], slope, *shape)
+    shift = equations.force_shift(speeds, *of_rough, slope, *shape)
+    powers, slowest = rates(shift), solid.complex_modulus(highest * speeds[0])
     return Laws(
         speeds=speeds,
         ratios=groups,
         load=load,
-        exponent_of_load=-n / (n + 1),
-        xi=xi,
+        exponent_of_load=-shape[1] / (shape[1] + 1),
+        xi=np.where(np.isfinite(load), one / equations.plateau(slope), nan),
         wave_number=highest,
         slowest_loss=float(slowest.imag / slowest.real),
-        loss_exponent=np.diff(np.log(loss(highest * speeds))) / np.diff(np.log(speeds)),
+        loss_exponent=rates(loss(highest * speeds)),
         plateau=float(equations.plateau(slope)),
         shifts=np.log(shift),
-        exponent=_power(rates),
+        exponent=float(powers.mean()) if powers.size and np.ptp(powers) <= SAME * abs(powers.mean()) else nan,
     )
 
 
@@ -124,25 +141,72 @@ def regimes(series: "RoughSeries", answers: xarray.Dataset) -> dict[str, np.ndar
 
     NaN where it is pressed in at a rate, which has none, and where every solve failed.
     """
-    force = _draws(answers, "normal_force")
-    measures = {name: _draws(answers, name) for name in GROUPED if name in answers}
-    found = {name: np.full(force.shape[:2], nan) for name in SYMBOLS}
-    for i, speed in enumerate(answers["speed"].values.tolist()):
-        for j, value in enumerate(series.values):
-            known = np.isfinite(force[i, j])
-            if known.any() and not (speed and series.pressed_in):
-                here = {name: float(values[i, j][known].mean()) for name, values in measures.items()}
-                for name, ratio in ratios(series.at(value, speed), here).items():
-                    found[name][i, j] = ratio
-    return found
+    known = answers[[name for name in GROUPED if name in answers]].where(answers["normal_force"].notnull())
+    means = (known.mean("surface") if "surface" in known.dims else known).to_dataframe()[[*known]]
+    found = DataFrame(nan, index=means.index, columns=[*SYMBOLS])
+    for (speed, value), measures in means.dropna(how="all").iterrows():
+        if not (speed and series.pressed_in):
+            found.loc[speed, value] = Series(ratios(series.at(value, speed), measures))
+    return {name: each.unstack().to_numpy() for name, each in found.items()}
 
 
-def _draws(answers, name):
-    """Variable with the draws along the last axis; smooth bodies have one."""
-    values = answers[name]
-    return values.transpose(..., "surface").values if "surface" in values.dims else values.values[..., None]
+def ratios(scene: Scene, measures: Mapping[str, float]) -> dict[str, float]:
+    """Ratios of a rough body of revolution that is pressed in or slides steadily, by name; NaN of a NaN measure.
+
+    Radius a, depth d and load F_N are those of the smooth relaxed contact at the same load or depth; q_s is the
+    highest wave number of the roughness, h' its rms slope as the solver measures it. The time tau is the mean lag
+    of the elastomer, for a Kelvin body its relaxation time: v tau q_s is then the loss tangent of the shortest
+    wave at low speed, whereas the longest retardation time may be that of a mode with next to no compliance.
+
+    depth_over_height : d / h_0
+    shortest_in_contact : a q_s
+    pressure_over_slope : mean pressure over E* h', F_N / (pi a^2 E* h')
+    memory_over_contact, memory_over_shortest : v tau / a and v tau q_s, zero at rest
+    contact_fraction : real over nominal contact, of area pi a^2 in three dimensions, of length 2a in one
+    contact_over_period, macro_over_rough, rms_slope : see scene.Regime
+
+    measures : of its answer, or their means over surfaces: rms_slope, pixel [m], and contact_area [m^2] in three
+        dimensions or contact_length [m] in one
+
+    Raises ValueError where the scene is another, KeyError where a measure is missing.
+    """
+    body, rough, motion = scene.indenter, scene.roughness, scene.motion
+    if not (isinstance(body, Axisymmetric) and rough and not rough.flat and isinstance(motion, Indent | Slide)):
+        raise ValueError(f"scene = {scene!r}: these ratios are of a rough body of revolution, in Indent or Slide")
+    smooth, slope = elastic_contact(scene), measures["rms_slope"]
+    a, q_s, memory = smooth.radius, rough.q_max(measures["pixel"]), motion.speed * mean_lag(scene.solid)
+    profile = body.mdr_coefficient, body.exponent
+    regime = Regime.of(profile, (a, smooth.depth), rough.rms_height, rough.period, slope)
+    in_3d = "contact_area" in measures
+    return {
+        "depth_over_height": 1 / regime.height_over_depth,
+        "shortest_in_contact": a * q_s,
+        "pressure_over_slope": smooth.load / (pi * a**2 * scene.solid.indentation_modulus * slope),
+        "memory_over_contact": memory / a,
+        "memory_over_shortest": memory * q_s,
+        "contact_fraction": (
+            measures["contact_area"] / (pi * a**2) if in_3d else measures["contact_length"] / (2 * a)
+        ),
+        "contact_over_period": regime.contact_over_period,
+        "macro_over_rough": regime.macro_over_rough,
+        "rms_slope": regime.rms_slope,
+    }
 
 
-def _power(rates):
-    """The exponent, where it is the same between all speeds."""
-    return float(rates.mean()) if rates.size and np.ptp(rates) <= SAME * abs(rates.mean()) else nan
+def words(found: Mapping[str, Any]) -> str:
+    """Ranges of load [N], xi and ratios, numbers or arrays, for a table; without what is zero or unknown."""
+    said = []
+    for name in (name for name in _TOLD if name in found):
+        symbol, (scale, unit, digits) = _TOLD[name], _UNITS.get(name, (1, "", 2))
+        values = scale * np.asarray(found[name], float)
+        if reach := _range(values[np.isfinite(values)], digits):
+            said.append(f"{symbol} {reach}{unit}")
+    return ", ".join(said)
+
+
+def _range(known, digits):
+    """Least and greatest number to so many digits; empty where there is none, or all are zero."""
+    if not known.any():
+        return ""
+    low, high = (f"{float(f'{end:.{digits}g}'):g}" for end in (known.min(), known.max()))
+    return low if low == high else f"{low} to {high}"

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from math import nan
 from typing import TYPE_CHECKING, Any
 
@@ -19,7 +20,7 @@ from scene.scales import elastic_contact
 from ...models import exact
 from ...models.exact.indentation import loading_force
 from ...models.table import DEPTH, FORCE, FRICTION, PROFILES, Model
-from ...statistics.jackknife import friction, mean, mean_ratio
+from ...statistics.jackknife import draws_of, friction, mean, off_the_ratio
 from .claims import at_ends, geometric, power
 from .laws import Laws
 
@@ -32,7 +33,7 @@ SLOW, FAST = 0.1, 3.0
 # Ratio of xi to 1, or of 1 to xi, up to which the closest speed is at the knee.
 AT_THE_KNEE = 3.0
 CONTACT = {"profiles": "contact_length", "surfaces": "contact_area", "none": "contact_area"}  # [m], [m²]
-SLOW_DRAG = "slow_drag"
+SLOW_CAUSES = "curvature_by_pressure", "rms_slope_contact", "contact_length"  # of slow friction
 
 # Ending of an id, place of speeds and values, number that the law has there: None of that of the claim.
 Place = tuple[str, Any, float | None]
@@ -72,16 +73,6 @@ class Here:
         return self.laws
 
     @property
-    def several(self) -> bool:
-        """Whether there are several loads or depths."""
-        return len(self.series.values) > 1
-
-    @property
-    def everywhere(self) -> np.ndarray:
-        """All loads or depths."""
-        return np.full(len(self.series.values), True)
-
-    @property
     def slow(self) -> bool:
         """Whether the slowest speed is in the limit of low speed."""
         known = self.rule.xi[0][np.isfinite(self.rule.xi[0])]
@@ -89,22 +80,28 @@ class Here:
         return len(self.rule.speeds) > 1 and bool(slow)
 
     @property
-    def fast(self) -> np.ndarray:
-        """Loads or depths at which the fastest speed is on the plateau."""
-        return self.rule.xi[-1] >= FAST
+    def limits(self) -> dict[str, tuple[int, np.ndarray]]:
+        """Places of the speeds by where they lie on the law, each with the loads or depths at which they do.
 
-    @property
-    def middle(self) -> np.ndarray:
-        """Median of xi at each speed."""
-        known = [row[np.isfinite(row)] for row in self.rule.xi]
-        return np.array([np.exp(np.median(np.log(row))) if row.size else nan for row in known])
-
-    @property
-    def knee(self) -> int | None:
-        """Place of the speed at which xi is closest to 1; None where none is close."""
-        away = np.nan_to_num(np.abs(np.log(self.middle)), nan=np.inf)
-        closest = int(np.argmin(away))
-        return closest if away[closest] <= np.log(AT_THE_KNEE) else None
+        slow, knee, fast : in the limit of low speed; where the median of xi is closest to 1; on the plateau
+        below, above : slowest and fastest, where the median is below and above 1 and they are not at the knee
+        slowest : whatever xi is
+        """
+        xi = [row[np.isfinite(row)] for row in self.rule.xi]
+        middle = np.array([np.exp(np.median(np.log(row))) if row.size else nan for row in xi])
+        away = np.nan_to_num(np.abs(np.log(middle)), nan=np.inf)
+        knee, last, fast = int(np.argmin(away)), len(xi) - 1, self.rule.xi[-1] >= FAST
+        at_knee = away[knee] <= np.log(AT_THE_KNEE)
+        found = {
+            "slow": (0, self.slow),
+            "knee": (knee, at_knee),
+            "fast": (-1, fast),
+            "below": (0, middle[0] < 1 and not (at_knee and knee == 0)),
+            "above": (last, middle[last] > 1 and not (at_knee and knee == last)),
+            "slowest": (0, True),
+        }
+        everywhere = np.full(self.rule.xi.shape[1], True)
+        return {name: (speed, everywhere & known) for name, (speed, known) in found.items() if np.any(known)}
 
     def force(self, it: xarray.Dataset) -> np.ndarray:
         """Mean normal force where it moves, (speeds, values)."""
@@ -117,6 +114,9 @@ class Here:
     def over_law(self, it: xarray.Dataset) -> np.ndarray:
         """Friction over that of Eq. 19."""
         return friction(it)[1:] / self.rule.law_of(self.xi(it))
+
+
+Where = Callable[[Here], Iterator[Place]]
 
 
 @dataclass(frozen=True)
@@ -133,47 +133,57 @@ class Row:
     """
 
     id: str
-    where: Callable[[Here], Iterator[Place]]
+    where: Where
     measure: Callable[..., Any]
     pair: bool = False
     quantity: str = FRICTION
     body: str = "rough"
 
 
-def everywhere(here: Here) -> Iterator[Place]:
-    """All speeds and values."""
-    yield "", ..., None
+def at(
+    place: Any,
+    when: Callable[[Here], Any] = lambda here: True,
+    expected: Callable[[Here], Any] = lambda here: None,
+) -> Where:
+    """One place of speeds and values, where something is so. expected : number that the law has there"""
+
+    def where(here: Here) -> Iterator[Place]:
+        if when(here):
+            yield "", place, expected(here)
+
+    return where
 
 
-def ends_of(here: Here, speed: int, places: np.ndarray) -> Iterator[Place]:
-    """The least and the greatest of some loads or depths at one speed."""
-    for name, value in at_ends("", places):
-        yield name, (speed, value), None
+def ends(limit: str) -> Where:
+    """Least and greatest load or depth at one of the speeds of `Here.limits`."""
 
+    def where(here: Here) -> Iterator[Place]:
+        if limit in here.limits:
+            speed, values = here.limits[limit]
+            yield from ((name, (speed, value), None) for name, value in at_ends("", values))
+
+    return where
+
+
+def along(limit: str, expected: Callable[[Here], float | None] = lambda here: None) -> Where:
+    """All loads or depths at one of the speeds of `Here.limits`, two at least."""
+
+    def where(here: Here) -> Iterator[Place]:
+        if limit in here.limits and here.limits[limit][1].sum() > 1:
+            yield "", here.limits[limit], expected(here)
+
+    return where
+
+
+everywhere = at(...)
 
 # Friction of one dimensionality: Eqs. 14 to 19.
-
-
-def slow_speeds(here: Here) -> Iterator[Place]:
-    """The two slowest speeds, in the limit of low speed."""
-    if here.slow:
-        yield "", slice(2), float(here.rule.loss_exponent[0])
 
 
 def speed_exponent(here: Here, it: xarray.Dataset) -> float:
     slow, next_to_it = friction(it)[1:3]
     speeds = here.series.speeds
     return float(np.mean(np.log(next_to_it / slow)) / np.log(speeds[1] / speeds[0]))
-
-
-def slow_loads(expected: Callable[[Here], float | None]) -> Callable[[Here], Iterator[Place]]:
-    """All loads at the slowest speed, in the limit of low speed."""
-
-    def where(here: Here) -> Iterator[Place]:
-        if here.slow and here.several:
-            yield "", 0, expected(here)
-
-    return where
 
 
 def with_load(quantity: Callable[[Here, xarray.Dataset], np.ndarray]) -> Callable[[Here, xarray.Dataset], float]:
@@ -200,52 +210,27 @@ def cause(name: str) -> Callable[[Here, xarray.Dataset], np.ndarray]:
     return lambda here, it: mean(it, *behind(here.model.draws)[name])[1]
 
 
-def slow_level(here: Here) -> Iterator[Place]:
-    """Least and greatest load at the slowest speed, in the limit of low speed."""
-    if here.slow:
-        yield from ends_of(here, 0, here.everywhere)
-
-
 def over_slow_law(here: Here, it: xarray.Dataset) -> float:
     return geometric((friction(it)[1:] / (here.rule.plateau * here.xi(it)))[here.place])
 
 
-def slow_solid(here: Here) -> Iterator[Place]:
-    """The slowest speed, where every mode of the solid is fast against it, so that the limit can be seen."""
+def slow_solid(here: Here) -> bool:
+    """Whether every mode of the solid is fast against the slowest speed, so that the limit can be seen."""
     longest = here.series.scene.solid.retardation()[2].max()
-    if here.slow and here.rule.wave_number * here.series.speeds[0] * longest <= SLOW:
-        yield "", 0, None
+    return here.slow and here.rule.wave_number * here.series.speeds[0] * longest <= SLOW
 
 
 def over_limit(here: Here, it: xarray.Dataset) -> float:
-    rest = it.isel(speed=0)
-    force = rest["normal_force"].transpose(..., "surface").values
-    drag = exact.mean_lag(here.series.scene.solid) * rest[SLOW_DRAG].transpose(..., "surface").values
-    return geometric(friction(it)[1] / (here.series.speeds[0] * mean_ratio(drag, force).value))
-
-
-def at_knee(here: Here) -> Iterator[Place]:
-    """Least and greatest load at the knee."""
-    if here.knee is not None:
-        yield from ends_of(here, here.knee, here.everywhere)
-
-
-def along_knee(here: Here) -> Iterator[Place]:
-    """All loads at the knee."""
-    if here.knee is not None and here.several:
-        yield "", here.knee, None
-
-
-def on_plateau(here: Here) -> Iterator[Place]:
-    """Least and greatest load at the fastest speed, on the plateau."""
-    if here.fast.any():
-        yield from ends_of(here, -1, here.fast)
-
-
-def along_plateau(here: Here) -> Iterator[Place]:
-    """All loads at the fastest speed, on the plateau."""
-    if here.fast.sum() > 1:
-        yield "", (-1, here.fast), None
+    """Friction at the slowest speed over what the contact at rest gives in the limit of low speed."""
+    rest, solid = it.isel(speed=0), here.series.scene.solid
+    lagged = here.series.speeds[0], exact.mean_lag(solid)
+    force, *causes = (draws_of(rest, name) if name in rest else nan for name in ("normal_force", *SLOW_CAUSES))
+    curvature, slope, length = causes
+    if here.model.draws == PROFILES or "curvature_by_pressure" not in rest:
+        drag = exact.slow_friction_by_slope(*lagged, solid.indentation_modulus, slope, length)
+    else:
+        drag = exact.slow_friction_by_curvature(*lagged, force, curvature)
+    return geometric(friction(it)[1] / off_the_ratio(drag, force)[0])
 
 
 def over_law(here: Here, it: xarray.Dataset) -> float:
@@ -257,21 +242,25 @@ def law_with_load(here: Here, it: xarray.Dataset) -> float:
 
 
 FRICTIONS = [
-    Row("eq17.speed-exponent", slow_speeds, speed_exponent),
+    Row(
+        "eq17.speed-exponent",
+        at(slice(2), lambda here: here.slow, lambda here: float(here.rule.loss_exponent[0])),
+        speed_exponent,
+    ),
     Row(
         "eq17.load-exponent",
-        slow_loads(lambda h: h.rule.exponent_of_load),
-        with_load(lambda h, it: friction(it)[1]),
+        along("slow", lambda here: here.rule.exponent_of_load),
+        with_load(lambda here, it: friction(it)[1]),
     ),
-    Row("eq17.contact", slow_loads(nominal_exponent), with_load(cause("contact"))),
-    Row("eq17.friction-per-contact", slow_loads(lambda h: None), with_load(cause("drag"))),
-    Row("eq17.slope-in-contact", slow_loads(lambda h: None), with_load(cause("slope"))),
-    Row("eq17.level", slow_level, over_slow_law),
-    Row("limit.slow", slow_solid, over_limit),
-    Row("eq19.level", at_knee, over_law),
-    Row("eq19.load-exponent", along_knee, law_with_load),
-    Row("eq14.plateau", on_plateau, over_law),
-    Row("eq14.load-exponent", along_plateau, law_with_load),
+    Row("eq17.contact", along("slow", nominal_exponent), with_load(cause("contact"))),
+    Row("eq17.friction-per-contact", along("slow"), with_load(cause("drag"))),
+    Row("eq17.slope-in-contact", along("slow"), with_load(cause("slope"))),
+    Row("eq17.level", ends("slow"), over_slow_law),
+    Row("limit.slow", at(0, slow_solid), over_limit),
+    Row("eq19.level", ends("knee"), over_law),
+    Row("eq19.load-exponent", along("knee"), law_with_load),
+    Row("eq14.plateau", ends("fast"), over_law),
+    Row("eq14.load-exponent", along("fast"), law_with_load),
     Row("eq19.law", everywhere, lambda here, it: np.log(here.over_law(it))),
 ]
 
@@ -279,38 +268,17 @@ FRICTIONS = [
 # Friction of one dimensionality over that of the other.
 
 
-def at_level(level: str) -> Callable[[Here], Iterator[Place]]:
-    """Least and greatest load at the speed where the median of xi is below, at or above 1, each speed once."""
-
-    def where(here: Here) -> Iterator[Place]:
-        middle, knee, last = here.middle, here.knee, len(here.rule.speeds) - 1
-        speeds = {
-            "slow": 0 if middle[0] < 1 and knee != 0 else None,
-            "knee": knee,
-            "fast": last if middle[last] > 1 and knee != last else None,
-            "smooth": 0,
-        }
-        if (speed := speeds[level]) is not None:
-            yield from ends_of(here, speed, here.everywhere)
-
-    return where
-
-
 def ratio(here: Here, one: xarray.Dataset, three: xarray.Dataset) -> float:
     """Friction in 1D over 3D."""
     return geometric(friction(one)[1:][here.place] / friction(three)[1:][here.place])
 
 
-BOTH = tuple(
-    Row(
-        f"friction.ratio.{level}",
-        at_level(level),
-        ratio,
-        pair=True,
-        body="smooth" if level == "smooth" else "rough",
-    )
-    for level in ("slow", "knee", "fast", "smooth")
-)
+BOTH = [
+    Row("friction.ratio.slow", ends("below"), ratio, pair=True),
+    Row("friction.ratio.knee", ends("knee"), ratio, pair=True),
+    Row("friction.ratio.fast", ends("above"), ratio, pair=True),
+    Row("friction.ratio.smooth", ends("slowest"), ratio, pair=True, body="smooth"),
+]
 
 
 # Force and depth: smooth bodies against closed forms, rough ones in one dimension against three.
@@ -322,21 +290,18 @@ def closed_forms(series: RoughSeries) -> tuple[np.ndarray, np.ndarray]:
     return np.array([contact.load for contact in contacts]), np.array([contact.depth for contact in contacts])
 
 
-def loading(series: RoughSeries, depths: np.ndarray | None = None) -> np.ndarray:
+def loading(series: RoughSeries, reached: np.ndarray) -> np.ndarray:
     """Force [N] on the smooth body pressed in at constant rates, (rates, depths): Lee and Radok.
 
-    depths : reached [m], (rates, depths); those prescribed if absent. A march answers for the middle of its last
-        step, half a step before the end
+    reached : depths [m], (rates, depths). A march answers for the middle of its last step, half a step before the
+        end
     """
-    reached = (
-        np.broadcast_to(series.values, (len(series.speeds), len(series.values))) if depths is None else depths
-    )
     body, solid = series.scene.indenter, series.scene.elastomer
     forces = np.full(reached.shape, nan)
-    for place, depth in np.ndenumerate(reached):
+    for (row, column), depth in np.ndenumerate(reached):
         if depth > 0:
-            end = float(depth) / series.speeds[place[0]]
-            forces[place] = loading_force(body, solid, (0.0, end), (0.0, float(depth)), (end,))[0]
+            times = 0.0, float(depth) / series.speeds[row]
+            forces[row, column] = loading_force(body, solid, times, (0.0, float(depth)), times[1:])[0]
     return forces
 
 
@@ -344,12 +309,6 @@ def over_closed_form(here: Here, it: xarray.Dataset) -> np.ndarray:
     load, depth = closed_forms(here.series)
     name, known = ("depth_reached", depth) if here.pressed == DEPTH else ("normal_force", load)
     return mean(it, name)[0] / known - 1
-
-
-def rates(here: Here) -> Iterator[Place]:
-    """All rates of pressing in."""
-    if here.series.pressed_in and here.series.speeds:
-        yield "", ..., None
 
 
 def over_smooth(here: Here, it: xarray.Dataset) -> np.ndarray:
@@ -362,46 +321,36 @@ def deep(here: Here) -> np.ndarray:
     return closed_forms(here.series)[1] * MUCH_LESS_HEIGHT >= here.series.scene.roughness.rms_height
 
 
-def by_height(is_deep: bool) -> tuple[Callable[[Here], Iterator[Place]], Callable[..., np.ndarray]]:
-    """Where some places are deep, or not deep, and by how much depth or force there is another in 1D."""
-
-    def where(here: Here) -> Iterator[Place]:
-        if (deep(here) == is_deep).any():
-            yield "", ..., None
-
-    def apart(here: Here, one: xarray.Dataset, three: xarray.Dataset) -> np.ndarray:
-        if here.pressed == DEPTH:
-            off = (mean(one, "depth_reached")[0] - mean(three, "depth_reached")[0]) / closed_forms(here.series)[1]
-        else:
-            off = np.log(mean(one, "normal_force")[0]) - np.log(mean(three, "normal_force")[0])
-        return off[deep(here) == is_deep]
-
-    return where, apart
+def reaches(here: Here, is_deep: bool) -> bool:
+    """Whether some loads or depths are deep, or not."""
+    return bool((deep(here) == is_deep).any())
 
 
-def at_rest(here: Here) -> Iterator[Place]:
-    """Bodies that rest alone, at three loads or depths at least."""
-    if not here.series.speeds and not here.series.pressed_in and len(here.series.values) > 2:
-        yield "", ..., None
+def depth_apart(here: Here, one: xarray.Dataset, three: xarray.Dataset, is_deep: bool) -> np.ndarray:
+    """By how much depth or force there is another in 1D, where it is deep, or not."""
+    if here.pressed == DEPTH:
+        off = (mean(one, "depth_reached")[0] - mean(three, "depth_reached")[0]) / closed_forms(here.series)[1]
+    else:
+        off = np.log(mean(one, "normal_force")[0]) - np.log(mean(three, "normal_force")[0])
+    return off[deep(here) == is_deep]
 
 
 def stiffer(here: Here, one: xarray.Dataset, three: xarray.Dataset) -> np.ndarray:
     """ln of the ratio of the stiffness between neighbouring loads or depths."""
-    both = (
-        (np.diff(mean(each, "normal_force")[0]), np.diff(mean(each, "depth_reached")[0])) for each in (one, three)
+    stiff, other = (
+        np.diff(mean(each, "normal_force")[0]) / np.diff(mean(each, "depth_reached")[0]) for each in (one, three)
     )
-    (force, depth), (other_force, other_depth) = both
-    return np.log(force / depth / (other_force / other_depth))
+    return np.log(stiff / other)
 
 
-def rate(place: int) -> Callable[[Here], Iterator[Place]]:
-    """The slowest or the fastest rate of pressing in."""
+def at_rest(here: Here) -> bool:
+    """Whether bodies rest alone, at three loads or depths at least."""
+    return not here.series.speeds and not here.series.pressed_in and len(here.series.values) > 2
 
-    def where(here: Here) -> Iterator[Place]:
-        if here.series.pressed_in and len(here.series.speeds) > 1:
-            yield "", place, None
 
-    return where
+def at_rates(least: int) -> Callable[[Here], bool]:
+    """Whether bodies are pressed in at so many rates at least."""
+    return lambda here: here.series.pressed_in and len(here.series.speeds) >= least
 
 
 def pressed_apart(here: Here, one: xarray.Dataset, three: xarray.Dataset) -> float:
@@ -411,14 +360,20 @@ def pressed_apart(here: Here, one: xarray.Dataset, three: xarray.Dataset) -> flo
 
 DEPTHS = [
     Row("smooth.rest-{quantity}", everywhere, over_closed_form, body="smooth"),
-    Row("smooth.pressed-in", rates, lambda here, it: over_smooth(here, it) - 1, body="smooth"),
+    Row("smooth.pressed-in", at(..., at_rates(1)), lambda here, it: over_smooth(here, it) - 1, body="smooth"),
 ]
-REST = tuple(
-    Row(f"rest.{{quantity}}-{side}", *by_height(side == "deep"), pair=True, quantity="")
-    for side in ("deep", "shallow")
-)
-MARCHES = (
-    Row("rest.stiffness", at_rest, stiffer, pair=True, quantity=""),
-    Row("pressed-in.slow", rate(0), pressed_apart, pair=True, quantity=""),
-    Row("pressed-in.fast", rate(-1), pressed_apart, pair=True, quantity=""),
-)
+REST = [
+    Row(
+        f"rest.{{quantity}}-{side}",
+        at(..., partial(reaches, is_deep=is_deep)),
+        partial(depth_apart, is_deep=is_deep),
+        pair=True,
+        quantity="",
+    )
+    for side, is_deep in (("deep", True), ("shallow", False))
+]
+MARCHES = [
+    Row("rest.stiffness", at(..., at_rest), stiffer, pair=True, quantity=""),
+    Row("pressed-in.slow", at(0, at_rates(2)), pressed_apart, pair=True, quantity=""),
+    Row("pressed-in.fast", at(-1, at_rates(2)), pressed_apart, pair=True, quantity=""),
+]

@@ -1,9 +1,10 @@
 """Rough series of a study: one scene at every speed and load or depth, rough and smooth, on the same surfaces."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
-from typing import Any, ClassVar
+from functools import cached_property, partial
+from itertools import product
+from typing import ClassVar
 
 import xarray
 
@@ -13,21 +14,16 @@ from scene import Program, Scene
 from scene.reading import InvalidInput
 
 from ...library.describe import slug
-from ...models import exact
 from ...models.table import FRICTION as OF_FRICTION
-from ...models.table import PROFILES, ModelLike, Models
-from ...solving.curve import COARSE, FINE, Curve, of_model, on_two_levels
-from ...statistics import eq23
-from ...statistics.collapse import Collapse, collapse
-from ...statistics.finding import Finding, said_of
-from ...statistics.frictioncurves import SimulatedCurves
-from ...statistics.jackknife import measured
+from ...models.table import Model, ModelLike, Models
+from ...solving.curve import Curve, on_two_levels
+from ...statistics.collapse import Collapse
+from ...statistics.finding import Finding
 from .answers import Answers
-from .claims import claim
 from .claims_law import law_findings
 from .laws import Laws, laws
-from .measures import BOTH, DEPTHS, FRICTIONS, MARCHES, REST, SLOW_DRAG, Here, Row
-from .series import Counts, Judged, Series, on_levels_alike
+from .measures import BOTH, DEPTHS, FRICTIONS, MARCHES, REST, Here, Row
+from .series import Counts, Judged, Series
 from .theory import THEORIES, with_theory
 
 ROUGH, SMOOTH = BODIES = "rough", "smooth"
@@ -67,7 +63,7 @@ class RoughSeries(Series):
     asked: tuple[ModelLike, ...] = ()
     reference: str = ""
     interval: float | None = None
-    strata: Mapping[str, Counts] = field(default_factory=dict)
+    strata: Mapping[str, Counts] = field(default_factory=dict, hash=False)
     shared: ClassVar[Mapping[str, tuple[str, ...]]] = {ROUGH: (ROUGH,)}
 
     @property
@@ -84,9 +80,12 @@ class RoughSeries(Series):
         """Number of profiles or surfaces by the name of the model."""
         return {each.name: sum(map(len, self.curves[ROUGH].strata(each.name))) for each in self.models}
 
+    @property
+    def remarks(self) -> Sequence[str]:
+        return (self.note,) if self.note else ()
+
     @cached_property
     def every_model(self) -> Models:
-        """Models that are asked for. Raises InvalidInput."""
         return Models.of(self.asked or None, self.reference or None, {"mdr": self.mdr, "bem": self.bem})
 
     @cached_property
@@ -105,14 +104,9 @@ class RoughSeries(Series):
         return bool(self.speeds) and not self.pressed_in
 
     @property
-    def shape(self) -> str:
-        """Kind of its body, in words."""
-        return type(self.scene.indenter).__name__.lower()
-
-    @property
     def family(self) -> str:
         study, slash, _ = self.name.rpartition("/")
-        return f"{study}{slash}every {self.shape}"
+        return f"{study}{slash}every {type(self.scene.indenter).__name__.lower()}"
 
     @cached_property
     def curves(self) -> Mapping[str, Curve]:
@@ -128,112 +122,58 @@ class RoughSeries(Series):
             draws=counts,
         )
         smooth = replace(rough, scene=replace(self.scene, roughness=None))
-        if self.interval is not None:
-            strata = self.strata.get(ROUGH, {})
-            rough = on_levels_alike({ROUGH: rough}, self.models, strata, least=counts)[ROUGH]
-        return {ROUGH: with_theory(rough, THEORIES) if self.slides else rough, SMOOTH: smooth}
+        found = self.with_strata({ROUGH: rough, SMOOTH: smooth}, least=counts)
+        return found | ({ROUGH: with_theory(found[ROUGH], THEORIES)} if self.slides else {})
 
     def at(self, value: float, speed: float = 0.0) -> Scene:
         """The rough scene under one load or depth, at rest or at a speed."""
         return self.curves[ROUGH].at(value, speed)
 
-    def answers(self, tree: xarray.DataTree) -> Answers:
-        found = super().answers(tree)
-        return replace(found, curves={name: self._with_drag(each) for name, each in found.curves.items()})
-
-    def _with_drag(self, dataset):
-        """Friction force over speed and mean lag, as the speed tends to zero, from the contact at rest [N/m]."""
-        force, drag = dataset["normal_force"], []
-        for model in self.models:
-            own = dataset.sel(model=model.name)
-            if model.draws != PROFILES and "curvature_by_pressure" in own:
-                curvature = own["curvature_by_pressure"]
-                drag.append(exact.slow_friction_by_curvature(1.0, 1.0, force.sel(model=model.name), curvature))
-            elif {"rms_slope_contact", "contact_length"} <= {*own.data_vars}:
-                slope, length = own["rms_slope_contact"], own["contact_length"]
-                modulus = self.scene.elastomer.indentation_modulus
-                drag.append(exact.slow_friction_by_slope(1.0, 1.0, modulus, slope, length))
-        if not drag:
-            return dataset
-        return dataset.assign(
-            {SLOW_DRAG: xarray.concat(drag, "model", join="outer", coords="minimal", compat="override")}
-        )
-
-    def theories(self, answers: Answers) -> Mapping[str, xarray.Dataset]:
-        """Rough points that slide of theories beside the models, or of the models that they are, by name."""
-        names = [each.name for each in THEORIES if answers.has(ROUGH, each.name)]
-        return {name: sliding(of_model(answers.curves[ROUGH], name).sel(level=FINE)) for name in names}
-
     def judge(self, answers: Answers) -> Judged:
         """Findings for the claims that it asks for."""
         if not self.slides:
             places = [Here(self, None, each) for each in self.models]
-            return Judged(self._asked(DEPTH, self._found(answers, (*DEPTHS, *REST, *MARCHES), places)))
-        found = {each.name: laws(self, answers, each.name) for each in self.models if OF_FRICTION in each.answers}
-        ruled = {model: each for model, each in found.items() if each is not None}
-        if self.models.reference not in ruled or not set(found) & set(SOLVERS) <= set(ruled):
+            return Judged([*self._found(answers, DEPTH, (*DEPTHS, *REST, *MARCHES), places)])
+        rubbing = [each.name for each in self.models if OF_FRICTION in each.answers]
+        ruled = {name: found for name in rubbing if (found := laws(self, answers, name)) is not None}
+        if not {self.models.reference} | (set(SOLVERS) & set(rubbing)) <= set(ruled):
             return Judged(())
-        shifted = {name: both for name in ruled if (both := collapses(answers, name)) is not None}
-        shifts = [each for name in ruled for each in self._shifts(name, shifted.get(name), ruled[name])]
-        shifts += law_findings(self, answers, ruled)
-        places = [Here(self, ruled[name], self.models[name]) for name in ruled]
-        friction = self._found(answers, (*FRICTIONS, *BOTH, *REST), places)
-        findings = [*self._asked(COLLAPSE, shifts), *self._asked(FRICTION, friction)]
-        collapsed = {name: fine for name, (fine, _) in shifted.items()}
-        return Judged(findings, collapsed, ruled)
+        places = [Here(self, found, self.models[name]) for name, found in ruled.items()]
+        friction = self._found(answers, FRICTION, (*FRICTIONS, *BOTH, *REST), places)
+        asked = ruled if COLLAPSE in self.claims else {}
+        shifted = {name: self._shifts(answers, self.models[name], own) for name, own in asked.items()}
+        findings = [each for _, found in shifted.values() for each in found]
+        findings += [*(law_findings(self, answers, asked) if asked else ()), *friction]
+        return Judged(findings, {name: fine for name, (fine, _) in shifted.items() if fine is not None}, ruled)
 
-    def _asked(self, kind: str, found: Iterable[Finding]) -> list[Finding]:
-        """Findings of a kind that is asked; what compares the dimensionalities is a kind of its own."""
-        return [each for each in found if (PAIRS if "/" in each.dimension else kind) in self.claims]
+    def _shifts(self, answers: Answers, model: Model, own: Laws) -> tuple[Collapse | None, list[Finding]]:
+        """Whether curves fall onto one, with the shifts that are best and with those predicted."""
+        shifts = dict(zip(self.speeds, own.shifts.tolist(), strict=True))
+        return self.shifted(answers, ROUGH, model, shifts, own.exponent, own.words())
 
-    def _found(self, answers: Answers, rows: Iterable[Row], places: list[Here]) -> Iterator[Finding]:
-        """Findings of rows of claims where they can be stated, on each model or on each against the reference."""
+    def _found(
+        self, answers: Answers, kind: str, rows: Iterable[Row], places: Sequence[Here]
+    ) -> Iterator[Finding]:
+        """Findings of rows of claims that are asked for, on each model or on each against the reference.
+
+        kind : of claims on one model; those that compare two are a kind of their own
+        """
+        rows = [row for row in rows if (PAIRS if row.pair else kind) in self.claims]
         (reference,) = (each for each in places if each.model.name == self.models.reference)
-        rows = list(rows)
-        for here in places:
-            for row in rows:
-                if not row.pair:
-                    yield from self._row(answers, row, here, here.model.name)
-        for row in rows:
-            if row.pair:
-                for model in self.models.judged:
-                    quantity = row.quantity or reference.pressed
-                    if quantity in model.answers and quantity in reference.model.answers:
-                        yield from self._row(answers, row, reference, model.name, reference.model.name)
+        for here, row in product(places, rows):
+            if not row.pair:
+                yield from self._row(answers, row, here, here.model.name)
+        for row, model in product(rows, self.models.judged):
+            quantity = row.quantity or reference.pressed
+            if row.pair and quantity in model.answers and quantity in reference.model.answers:
+                yield from self._row(answers, row, reference, model.name, reference.model.name)
 
     def _row(self, answers, row: Row, here: Here, *models: str) -> Iterator[Finding]:
-        beside = self.models.beside(models[0]) if row.pair else here.model.label
         for suffix, place, expected in row.where(here):
             there = replace(here, place=place)
-
-            def measure(sample, there=there):
-                return row.measure(there, *(sample[each] for each in models))
-
             name = row.id.format(quantity=here.pressed) + suffix
-            asked = claim(name, measure, beside, expected)
-            asked = said_of(asked, beside) if row.pair else asked
-            fine, coarse = (answers.sample(level, row.body, *models) for level in (FINE, COARSE))
-            yield replace(measured(asked, fine, coarse, self.name, there.regime), curve=self.place(row.body))
-
-    def _shifts(self, model: str, both: tuple[Collapse, Collapse] | None, own: Laws) -> Iterator[Finding]:
-        """Whether curves fall onto one, with the shifts that are best and with those predicted."""
-        label = self.models.labels[model]
-        place: dict[str, Any] = {"where": self.name, "draws": self.draws[model], "regime": own.words()}
-        if both is not None:
-            shifts = dict(zip(self.speeds, own.shifts.tolist(), strict=True))
-            yield from eq23.findings(*both, label, shifts, own.exponent, curve=self.place(ROUGH), **place)
-        elif eq23.shiftable(len(self.speeds), len(self.values)):
-            yield eq23.too_few(label, **place)
-
-
-def collapses(answers: Answers, model: str) -> tuple[Collapse, Collapse] | None:
-    """Collapse of the curves of the rough body on both levels; None where points are too few."""
-    both = (SimulatedCurves.of(sliding(answers(ROUGH, model, level))) for level in (FINE, COARSE))
-    try:
-        fine, coarse = map(collapse, both)
-    except ValueError:
-        return None
-    return fine, coarse
+            measure = partial(row.measure, there)
+            yield self.measured(answers, name, row.body, models, measure, expected, there.regime)
 
 
 def sliding(dataset: xarray.Dataset) -> xarray.Dataset:

@@ -231,9 +231,10 @@ class _Complete(_Asked):
         if (self.speeds or self.rates) and self.elastomer.type == "elastic":
             yield "speeds, rates: an elastic solid loses nothing, whatever the speed, leave them out"
 
-    def series(self, own: OwnSeries, shared: StudyFile) -> Series:
+    def series(self, own: OwnSeries, shared: StudyFile, size: str) -> Series:
         """The series, as it is solved and judged."""
-        speeds, values = _numbers(self.speeds or self.rates), _numbers(self.loads or self.depths)
+        many, several, *_ = USUAL[size]
+        speeds, values = _numbers(self.speeds or self.rates, many), _numbers(self.loads or self.depths, several)
         rest = Indent(depth=1.0)
         scene = Scene(self.indenter, self.elastomer, rest, self.roughness, temperature=self.temperature)
         prescribed = "load" if self.loads else "depth"
@@ -246,37 +247,16 @@ class _Complete(_Asked):
             motion = Slide(speed=speeds[0], **press)
         elif self.rates:
             motion = Program(stages=(Stage(duration=1.0, **press),))
-        return Series(
-            name=own.name,
-            title=own.title or own.name,
-            scene=replace(scene, motion=motion),
-            speeds=speeds,
-            values=values,
-            surfaces=self.surfaces,
-            profiles=self.profiles,
-            bem=self.bem,
-            mdr=self.mdr,
-            note=own.note,
-            interval=self.interval,
-            claims=self.claims,
-            asked=shared.models,
-            reference=shared.reference,
-        )
-
-
-def _usual(speeds: int, values: int, surfaces: int, profiles: int, points: int) -> dict[str, Any]:
-    """What holds at a size where a file states nothing else."""
-    counts = {"speeds": speeds, "rates": speeds, "loads": values, "depths": values}
-    ranges = {name: {"count": count} for name, count in counts.items()}
-    return ranges | {"surfaces": surfaces, "profiles": profiles, "bem": {"points": points}}
+        stated = ("surfaces", "profiles", "bem", "mdr", "interval", "claims")
+        others: dict[str, Any] = {"note": own.note, "asked": shared.models, "reference": shared.reference}
+        others |= {name: getattr(self, name) for name in stated}
+        return Series(own.name, own.title or own.name, replace(scene, motion=motion), speeds, values, **others)
 
 
 FIELDS = [field.name for field in fields(_Complete)]
-USUAL = {
-    "quick": _usual(speeds=6, values=4, surfaces=3, profiles=12, points=128),
-    "standard": _usual(speeds=12, values=8, surfaces=10, profiles=60, points=256),
-    "full": _usual(speeds=20, values=16, surfaces=40, profiles=200, points=512),
-}
+# What holds at a size where a file states nothing else: speeds or rates, loads or depths, surfaces, profiles, and
+# points of a side in three dimensions.
+USUAL = {"quick": (6, 4, 3, 12, 128), "standard": (12, 8, 10, 60, 256), "full": (20, 16, 40, 200, 512)}
 
 
 @files.reading_once()
@@ -293,7 +273,7 @@ def study_of(text: str, name: str) -> ReadyStudy:
         for size in own.only:
             place = f"series.{number}"
             try:
-                series = made(_put_together(content, stated, size), _Complete, place).series(own, file)
+                series = made(_put_together(content, stated, size), _Complete, place).series(own, file, size)
                 series.curves  # noqa: B018 - refuses what cannot be solved on two grids
                 found[size].append(series)
             except InvalidInput as error:
@@ -309,12 +289,12 @@ def study_of(text: str, name: str) -> ReadyStudy:
 
 def _put_together(content: dict, own: dict, size: str) -> dict:
     """Fields of a series at a size: what is usual, what all share, what it states; at all sizes, then at this."""
-    whole: dict[str, Any] = {}
+    *_, surfaces, profiles, points = USUAL[size]
+    whole: dict[str, Any] = {"surfaces": surfaces, "profiles": profiles, "bem": {"points": points}}
     for part in (content, own):
         whole = _over(_over(whole, part), part.get("sizes", {}).get(size, {}))
-    whole = _over(USUAL[size], whole)
     # A range of which nothing but the number is stated is none.
-    none = [name for name in INSTEAD if name in whole and [*whole[name]] == ["count"]]
+    none = [name for name in INSTEAD if [*whole.get(name, ())] == ["count"]]
     return {name: whole[name] for name in FIELDS if name in whole and name not in none}
 
 
@@ -333,11 +313,11 @@ def _over(below: dict, above: dict) -> dict:
     return found
 
 
-def _numbers(given: Any) -> tuple[float, ...]:
-    """Numbers of a list, of a range that has both ends, or none."""
+def _numbers(given: Any, usual: int = 2) -> tuple[float, ...]:
+    """Numbers of a list, of a range that has both ends, or none. usual : how many, where a range states none"""
     if isinstance(given, Range):
-        stated: Any = given.least, given.greatest, given.count
-        return () if None in stated else tuple(np.geomspace(*stated).tolist())
+        ends: Any = given.least, given.greatest, given.count or usual
+        return () if None in ends else tuple(np.geomspace(*ends).tolist())
     return given or ()
 
 

@@ -25,12 +25,12 @@ from ...solving.vocabulary import attributes
 from ...statistics.multilevel import MEANS, WORDS, wanted
 from .answers import Answers
 from .around import OWN_RATIOS, models_of
-from .claims import CLAIMS
-from .series import Counts, Judged, Series, on_levels_alike
+from .series import Counts, Judged, Series
 from .values import Values, values_of
 
 FEW = 8  # draws where nothing is asked
 CONTACTS = "contacts"
+ENDS = "_mean", "_low", "_high"
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ class SweepSeries(Series):
     draws: int
     models: Models
     interval: float | None = None
-    strata: Mapping[str, Counts] = field(default_factory=dict)
+    strata: Mapping[str, Counts] = field(default_factory=dict, hash=False)
     name = title = CONTACTS
     shared: ClassVar[Mapping[str, tuple[str, ...]]] = {CONTACTS: (CONTACTS,)}
 
@@ -68,23 +68,22 @@ class SweepSeries(Series):
         """The sweep of a scene, a case, a file or a ready scene. Raises InvalidInput, Refused."""
         case = case_of(scene)
         case.refuse()
-        if not isinstance(case.motion, Indent | Slide):
-            raise InvalidInput(f"motion = {case.motion.type}: a sweep takes indent or slide, `run` any other")
-        if load is not None and depth is not None:
-            raise InvalidInput("load, depth: both given, give one of them")
-        name, values = ("load", load) if depth is None else ("depth", depth)
-        if values is None:
-            name, values = case.motion.pressed_by, [case.motion.greatest]
-        speeds = values_of("speed", case.motion.speed if speed is None else speed, least=0.0)
-        prescribed = values_of(name, values)
-        if draws is not None and interval is not None:
-            raise InvalidInput("draws, interval: both given, give one of them")
+        motion = case.motion
+        if not isinstance(motion, Indent | Slide):
+            raise InvalidInput(f"motion = {motion.type}: a sweep takes indent or slide, `run` any other")
+        for names, one, other in (("load, depth", load, depth), ("draws, interval", draws, interval)):
+            if one is not None and other is not None:
+                raise InvalidInput(f"{names}: both given, give one of them")
+        name = motion.pressed_by if load is depth is None else "load" if depth is None else "depth"
+        given = [each for each in (load, depth, [motion.greatest]) if each is not None]
+        values = values_of(name, given[0])
+        speeds = values_of("speed", motion.speed if speed is None else speed, least=0.0)
         drawn = whole("draws", FEW if draws is None else draws, MOST_DRAWS)
-        pressed: dict[str, Any] = {name: prescribed[0]}
+        pressed: dict[str, Any] = {name: values[0]}
         motion = Slide(speed=max(speeds), **pressed) if max(speeds) else Indent(**pressed)
         half = None if interval is None else share_of("interval", interval)
         compared = models_of(case, models, reference)
-        asked = cls(replace(case, motion=motion), speeds, prescribed, drawn, compared, half)
+        asked = cls(replace(case, motion=motion), speeds, values, drawn, compared, half)
         refuse(asked.curves.values())
         return asked
 
@@ -96,8 +95,9 @@ class SweepSeries(Series):
     def folder(self) -> str:
         return ""
 
-    def path(self, curve: str) -> str:
-        return curve
+    @property
+    def remarks(self) -> Sequence[str]:
+        return self.case.notes
 
     @property
     def doubts(self) -> Sequence[str]:
@@ -118,9 +118,7 @@ class SweepSeries(Series):
             levels=on_two_levels(*(each.solver for each in self.models)),
             draws={each.name: each.count(self.draws, self.draws) for each in self.models},
         )
-        if self.interval is None or not fixed.random:
-            return {CONTACTS: fixed}
-        return on_levels_alike({CONTACTS: fixed}, self.models, self.strata.get(CONTACTS, {}))
+        return self.with_strata({CONTACTS: fixed})
 
     @property
     def wanted(self) -> Iterator[tuple[str, str, tuple[float, ...]]]:
@@ -130,27 +128,32 @@ class SweepSeries(Series):
     def judge(self, answers: Answers) -> Judged:
         """Friction, else force or depth, of each model over the reference at every contact, without a claim."""
         name = "friction_coefficient" if max(self.speeds) > 0 else next(self.wanted)[1]
-        claim = CLAIMS["friction.ratio.speed" if WORDS[name] == "friction" else OWN_RATIOS[name]]
+        claim = _claim_on(name)
         places = {
             (i, j): f"{speed:g} m/s, {value:g} {UNITS[self.prescribed]}"
             for (i, speed), (j, value) in product(enumerate(self.speeds), enumerate(self.values))
         }
-        found = [each for _, _, each in self.ratios(claim, answers, CONTACTS, name, places)]
+        found = self.ratios(claim, answers, CONTACTS, name, places)
         return Judged([replace(each, where=each.where.removeprefix(f"{self.name}, ")) for each in found])
 
     def tables(self, answers: Answers, findings) -> Iterator[Table]:
         """Friction, and depth or force, a row a contact and a column a model; what is judged also as a ratio."""
         places = DataFrame(list(product(self.speeds, self.values)), columns=["speed", self.prescribed])
         for name, speeds in reversed([*wanted(self.prescribed, self.speeds, max(self.speeds) > 0)]):
-            frame = places.copy()
-            for model in answers.claiming(CONTACTS, WORDS[name]):
-                found = answers.interval(CONTACTS, model.name, *MEANS[name])
-                for end, values in zip(("", "_low", "_high"), found.ends, strict=True):
-                    frame[f"{name} ({model.label}){end}"] = np.ravel(values)
-            own = [each for each in findings if _judges(each, name)]
+            columns: dict[str, Any] = {
+                f"{name} ({model.label})": answers.interval(CONTACTS, model.name, *MEANS[name]).ends
+                for model in answers.claiming(CONTACTS, WORDS[name])
+            }
+            own = [each for each in findings if each.claim.id == _claim_on(name)]
             for beside in dict.fromkeys(each.dimension for each in own):
                 rows = [(each.value, *each.interval) for each in own if each.dimension == beside]
-                frame[[beside, f"{beside}_low", f"{beside}_high"]] = rows
+                columns[beside] = np.transpose(rows)
+            numbers = {
+                f"{column}{end}": np.ravel(values)
+                for column, found in columns.items()
+                for end, values in zip(("", "_low", "_high"), found, strict=True)
+            }
+            frame = places.assign(**numbers)
             told = f"Mean {WORDS[name]} at every contact, with intervals of 95 %."
             yield Table(f"means-{WORDS[name]}", frame[frame["speed"].isin(speeds)], told)
 
@@ -158,20 +161,20 @@ class SweepSeries(Series):
         """Everything solved as one Dataset, with means over surfaces and their intervals of 95 %."""
         answers = self.answers(tree)
         dataset = answers.curves[CONTACTS].drop_vars([VARIATES, "draws"], errors="ignore").reset_coords("points")
-        for name, (above, below) in MEANS.items():
-            found = [answers.interval(CONTACTS, model, above, below) for model in dataset["model"].values.tolist()]
-            for place, end in enumerate(("mean", "low", "high")):
-                label, values = f"{name}_{end}", np.array([each.ends[place] for each in found])
-                dataset[label] = ("model", "speed", self.prescribed), values, attributes(label)
+        for name, both in MEANS.items():
+            found = [answers.interval(CONTACTS, model, *both).ends for model in dataset["model"].values.tolist()]
+            for end, values in zip(ENDS, zip(*found, strict=True), strict=True):
+                dims = "model", "speed", self.prescribed
+                dataset[f"{name}{end}"] = dims, np.array(values), attributes(f"{name}{end}")
         return dataset
 
 
-def _judges(finding, name):
-    own = "friction.ratio.speed" if WORDS[name] == "friction" else OWN_RATIOS[name]
-    return finding.claim.id == own
+def _claim_on(name):
+    """Id of the claim on a mean, which is reported and not claimed."""
+    return "friction.ratio.speed" if WORDS[name] == "friction" else OWN_RATIOS[name]
 
 
 def means(dataset: xarray.Dataset) -> DataFrame:
     """Means of a sweep with their intervals of 95 %: a row for each model, speed, and load or depth."""
-    names = [f"{name}{end}" for name in MEANS for end in ("_mean", "_low", "_high")]
+    names = [f"{name}{end}" for name in MEANS for end in ENDS]
     return dataset[names].to_dataframe().reset_index()

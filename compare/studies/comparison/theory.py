@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
-from scene import SolveError
+from scene import SolveError, Solver
 from scene.protocol import trusted, why_not
 
 from ...models.law.persson import Persson
@@ -14,14 +14,12 @@ from ...trustmap.friction_law import FrictionLaw
 THEORY, LAW = THEORIES = Persson(), FrictionLaw()
 
 
-def with_theory(curve: Curve, theories: Sequence[Persson | FrictionLaw] = (THEORY,)) -> Curve:
-    """A rough curve with theories beside the models, those that are none of them and answer all of it."""
-    if curve.scene.roughness is None or curve.scene.roughness.flat:
-        return curve
+def with_theory(curve: Curve, theories: Sequence[Solver] = (THEORY,)) -> Curve:
+    """A curve with theories beside the models, those that are none of them and answer all of it."""
     beside = {
         each.name: {FINE: each} for each in theories if each.name not in curve.levels and _answers(each, curve)
     }
-    return replace(curve, levels={**curve.levels, **beside}) if beside else curve
+    return replace(curve, levels={**curve.levels, **beside})
 
 
 def _answers(theory, curve):

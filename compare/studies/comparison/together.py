@@ -6,18 +6,19 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...solving.curve import COARSE, FINE
-from ...statistics import eq23, jackknife
+from ...statistics import eq23
 from ...statistics.collapse import collapse
 from ...statistics.finding import Finding
 from ...statistics.frictioncurves import SimulatedCurves
 from ...statistics.intervals import RmsMisfit
-from ...statistics.jackknife import DrawSet, mean_ratio, measured, strata_of
+from ...statistics.jackknife import draws_of, friction, measured, off_the_ratio, strata_of
 from .answers import Answers
 from .claims import CLAIMS, claim, geometric, power
-from .claims_law import LawPoints, law_findings_of
+from .claims_law import LawPoints, drawn_of, law_findings_of
 from .laws import Laws
 from .measures import FAST, SLOW
 from .rough import FAMILIES, ROUGH, RoughSeries, sliding
+from .series import Series
 
 
 @dataclass(frozen=True)
@@ -27,16 +28,6 @@ class Member:
     series: RoughSeries
     answers: Answers
     laws: Mapping[str, Laws]
-
-
-def members_of(series: Sequence[RoughSeries], answers, judged) -> list[Member]:
-    """Series that slide and ask for claims on several, with answers of both models."""
-    found = zip(series, answers, judged, strict=True)
-    return [Member(own, each, of.laws) for own, each, of in found if of.laws and _asks(own)]
-
-
-def _asks(series):
-    return FAMILIES in series.claims
 
 
 def families(members: Sequence[Member]) -> dict[str, list[Member]]:
@@ -51,30 +42,31 @@ def families(members: Sequence[Member]) -> dict[str, list[Member]]:
     return {family: own for (family, _), own in rising if _differ(own)}
 
 
-def alike(series: Sequence[RoughSeries]) -> list[list[str]]:
+def alike(series: Sequence[Series]) -> list[list[str]]:
     """Names of series that slide, by their family, which are to have as many surfaces as each other."""
     found: dict[str, list[str]] = {}
     for each in series:
-        if each.slides and _asks(each):
+        if isinstance(each, RoughSeries) and each.slides and FAMILIES in each.claims:
             found.setdefault(each.family, []).append(each.name)
     return list(found.values())
 
 
 def reduced(members: Sequence[Member], model: str, level: str = FINE) -> SimulatedCurves:
     """mu over the plateau against 1/xi, a curve for each series; `speeds` count the series."""
-    loads, frictions = [], []
+    rows = []
     for each in members:
         answers, laws = sliding(each.answers(ROUGH, model, level)), each.laws[model]
-        names = "normal_force", "friction_force"
-        force, drag = (answers[name].transpose(..., "surface").values for name in names)
-        mean = mean_ratio(force).value[..., None]
-        unit = 1 / laws.xi_under(mean[..., 0])[..., None] / mean
-        loads.append((force * unit).reshape(-1, force.shape[2]))
-        frictions.append((drag * unit / laws.plateau).reshape(loads[-1].shape))
-    most = max(map(len, loads))
-    load, friction = (np.array([_filled(each, most) for each in stack]) for stack in (loads, frictions))
+        force, drag = (draws_of(answers, name) for name in ("normal_force", "friction_force"))
+        load, _, _ = off_the_ratio(force)
+        unit = (1 / laws.xi_under(load) / load)[..., None]
+        rows.append(np.array([force * unit, drag * unit / laws.plateau]).reshape(2, -1, force.shape[-1]))
+    # Series with fewer points end with unknown ones.
+    both = np.full((2, len(rows), max(each.shape[1] for each in rows), rows[0].shape[2]), np.nan)
+    for k, row in enumerate(rows):
+        both[:, k, : row.shape[1]] = row
     strata = strata_of(members[0].answers(ROUGH, model))
-    return SimulatedCurves(np.arange(1.0, len(members) + 1), load, friction, strata, model)
+    load, drag = both
+    return SimulatedCurves(np.arange(1.0, len(members) + 1), load, drag, strata, model)
 
 
 def together(members: Sequence[Member]) -> Iterator[Finding]:
@@ -101,7 +93,7 @@ def _missed(members, model, level):
     try:
         return collapse(reduced(members, model, level)).unshifted.misfit
     except ValueError:
-        return RmsMisfit()
+        return RmsMisfit.unknown()
 
 
 def _slope_exponents(members, model):
@@ -110,30 +102,23 @@ def _slope_exponents(members, model):
     if len(alike) < 3:
         return
     laws = [each.laws[model] for each in alike]
-    plateaus = np.array([each.plateau for each in laws])
     # The same surfaces are left out of all series.
-    fine, coarse = (
-        DrawSet({each.series.name: each.answers.sample(level, ROUGH, model)[model] for each in alike})
-        for level in (FINE, COARSE)
-    )
+    fine, coarse = (drawn_of(alike, model, level) for level in (FINE, COARSE))
     slow = np.all([(each.xi[0] <= SLOW) & (each.slowest_loss <= SLOW) for each in laws], axis=0)
     fast = np.all([each.xi[-1] >= FAST for each in laws], axis=0)
-    for name, place, values, expected in (
-        ("eq17.slope-exponent", 0, slow, 2.0),
-        ("eq14.slope-exponent", -1, fast, 1.0),
-    ):
-        if not values.any():
-            continue
+    for name, place, values in (("eq17.slope-exponent", 0, slow), ("eq14.slope-exponent", -1, fast)):
         # What Eq. 19 still lacks of either limit.
-        lacking = [each.law[place] / (each.plateau * each.xi[place] ** (expected - 1)) for each in laws]
+        power_of_xi = CLAIMS[name].expected - 1
+        lacking = [each.law[place] / (each.plateau * each.xi[place] ** power_of_xi) for each in laws]
 
         def exponent(sample, place=place, values=values, lacking=lacking):
-            pairs = zip(sample.values(), lacking, strict=True)
-            levels = [geometric((jackknife.friction(each)[1:][place] / less)[values]) for each, less in pairs]
-            return power(plateaus, np.array(levels))
+            found = [friction(each)[1:][place] for each in sample.values()]
+            levels = [geometric((mu / less)[values]) for mu, less in zip(found, lacking, strict=True)]
+            return power(np.array([each.plateau for each in laws]), np.array(levels))
 
-        asked = claim(name, exponent, members[0].series.models.labels[model])
-        yield measured(asked, fine, coarse, regime=_words(alike, model, (place, values)))
+        if values.any():
+            asked = claim(name, exponent, members[0].series.models.labels[model])
+            yield measured(asked, fine, coarse, "", _words(alike, model, (place, values)))
 
 
 def _but_for_height(member):
@@ -152,8 +137,3 @@ def _differ(members):
 def _words(members, model, place=...):
     """The regimes of all, at some points."""
     return "; ".join(dict.fromkeys(each.laws[model].words(place) for each in members))
-
-
-def _filled(rows, count):
-    """Series with fewer points end with unknown ones."""
-    return np.vstack([rows, np.full((count - len(rows), rows.shape[1]), np.nan)])
