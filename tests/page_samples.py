@@ -10,18 +10,16 @@ from compare.figures import friction_speed
 from compare.report import render
 from compare.report.page import Findings, Page, Section, Table, Text
 from compare.solving.words import sentences
-from compare.statistics.finding import HALVED, Claim, Finding
+from compare.statistics.finding import Claim, Finding
 
 DEPTH = Claim("rest.depth", "Depths at rest agree", 1.0, 0.05, "Ratio of depths at one load.", dimension="1D/3D")
 SLOW = Claim("slow", "Friction & <speed> fall as n_1 = 40 %", 0.4, 0.01, dimension="1D")
 COST = Claim("cost", "Seconds of a solve", unit="s", dimension="3D")
 FINDINGS = (
-    Finding(
-        DEPTH, 1.01, (0.99, 1.03), 0.004, HALVED, "rough sphere", 8, "h0 = 0.1 d to d", plot="sphere/friction"
-    ),
-    Finding(DEPTH, 1.21, (1.19, 1.23), 0.004, HALVED, "plane", 8),
+    Finding(DEPTH, 1.01, (0.99, 1.03), 0.004, "rough sphere", 8, "h0 = 0.1 d to d"),
+    Finding(DEPTH, 1.21, (1.19, 1.23), 0.004, "plane", 8),
     Finding(SLOW, 0.41, (0.38, 0.43), nan, where="rough sphere", draws=8),
-    Finding(COST, 12.3, (11.0, 13.7), 0.1, HALVED),
+    Finding(COST, 12.3, (11.0, 13.7), 0.1),
 )
 MEANS = DataFrame(
     [

@@ -6,12 +6,14 @@ All shifts are found at once, and the misfit that they leave is told without wha
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from math import isfinite, nan, sqrt
+from operator import attrgetter
 
 import numpy as np
 from numpy.polynomial import Chebyshev
 from pandas import DataFrame
+from scipy.linalg import orth
 
-from .commoncurve import Fit, exponent_bias, inside, near, within
+from .commoncurve import Common, Fit, exponent_bias, near
 from .frictioncurves import Curve, FrictionCurves
 from .intervals import ENDS as ENDS
 from .intervals import Estimated, RmsMisfit
@@ -28,6 +30,7 @@ CHANCE = 0.05
 POWERS, FOLLOWED = np.linspace(-3.0, 3.0, 25), 3
 # Misfit of ln mu that rounding leaves.
 ROUNDING = 1e-9
+UNKNOWN = RmsMisfit()
 PARALLEL = "straight parallel lines fit: a horizontal shift cannot be told from a vertical one"
 PARTED = "once shifted, curves of neighbouring speeds share too small a range of loads"
 UNSCATTERED = "scatter is not known, nor whether the curves are bent"
@@ -37,8 +40,8 @@ UNSCATTERED = "scatter is not known, nor whether the curves are bent"
 class Alignment:
     """Curves shifted to ln mu + c_v against ln F + b_v; what is not fitted is exactly zero.
 
-    horizontal, vertical : b_v and c_v (S,), zero at the middle speed
-    exponent, vertical_exponent : of exp(b_v) and exp(c_v) as powers of the speed, least squares
+    shifts : b_v and c_v, zero at the middle speed, and last the exponents of exp(b_v) and exp(c_v) as powers
+        of the speed, least squares (2, S + 1)
     rms : of ln mu about the common curve, with scatter
     misfit : of ln mu about the common curve, without what scatter adds
     mended : of that misfit, what vertical shifts would take away to first order
@@ -47,15 +50,32 @@ class Alignment:
         at the least overlap of neighbours, and all else but rms is NaN
     """
 
-    horizontal: Estimated
-    vertical: Estimated
-    exponent: Estimated
-    vertical_exponent: Estimated
+    shifts: Estimated
     rms: float
-    misfit: RmsMisfit
-    mended: RmsMisfit
-    curve: Chebyshev | None = field(repr=False)
+    misfit: RmsMisfit = UNKNOWN
+    mended: RmsMisfit = UNKNOWN
+    curve: Chebyshev | None = field(default=None, repr=False)
     reason: str = ""
+
+    @property
+    def horizontal(self) -> Estimated:
+        """Shifts along the load, b_v (S,)."""
+        return self.shifts.at(np.s_[0, :-1])
+
+    @property
+    def vertical(self) -> Estimated:
+        """Shifts along friction, c_v (S,)."""
+        return self.shifts.at(np.s_[1, :-1])
+
+    @property
+    def exponent(self) -> Estimated:
+        """Exponent of the shifts along the load."""
+        return self.shifts.at((0, -1))
+
+    @property
+    def vertical_exponent(self) -> Estimated:
+        """Exponent of the shifts along friction."""
+        return self.shifts.at((1, -1))
 
 
 @dataclass(frozen=True)
@@ -100,17 +120,16 @@ class Collapse:
         """Reason why a horizontal shift cannot be told from a vertical one; empty where it can."""
         return _inseparable(self.straight)
 
-    def points(self, shifts: np.ndarray | None = None, lifts: np.ndarray | None = None) -> DataFrame:
+    def points(self, shifts: np.ndarray, lifts: np.ndarray | None = None) -> DataFrame:
         """Every point of every curve, with intervals of 95 % of friction, as it is and shifted.
 
-        shifts : ln p(v) by which the force is shifted (S,); the best horizontal shifts if None
+        shifts : ln p(v) by which the force is shifted (S,)
         lifts : of ln mu (S,), by which friction is shifted too; not shifted if None
         """
         counts = [curve.log_load.size for curve in self.curves]
-        along = np.repeat(self.horizontal.horizontal.value if shifts is None else shifts, counts)
         load = np.exp(np.concatenate([curve.log_load for curve in self.curves]))
         frame = DataFrame({"speed": np.repeat(self.speeds, counts), "normal_force": load})
-        frame["shifted_force"] = load * np.exp(along)
+        frame["shifted_force"] = load * np.exp(np.repeat(shifts, counts))
         for name, by in (("friction_coefficient", 0.0 * self.speeds), ("shifted_friction", lifts)):
             if by is not None:
                 moved = replace(self.log_friction, value=self.log_friction.value + np.repeat(by, counts))
@@ -130,8 +149,8 @@ class Collapse:
         fit, increments = Fit(self.curves, self.degree), np.diff(shifts)
         lower, upper = fit.bounds
         if not np.all((lower <= increments) & (increments <= upper)):
-            return RmsMisfit.unknown()
-        return _misfit(self.data, fit, lambda each: increments)
+            return UNKNOWN
+        return _aligned(self.data, fit, lambda each: each.at(increments)).misfit
 
 
 def collapse(data: FrictionCurves) -> Collapse:
@@ -141,60 +160,43 @@ def collapse(data: FrictionCurves) -> Collapse:
     """
     complete = data.complete()
     curves = complete.curves
-    count = _counted(curves, 2)
+    count, unknowns = sum(each.log_load.size for each in curves), 2 * (len(curves) - 1) + DEGREE + 1
+    if len(curves) < 2 or count <= unknowns:
+        raise ValueError(f"{len(curves)} speeds with too few points for {unknowns} unknowns: add loads or speeds")
     unmoved = np.zeros(len(curves) - 1)
 
     def still(fit):
-        return unmoved
+        return fit.at(unmoved)
 
-    straight = _misfit(complete, Fit(curves, 1, lifted=True), still)
+    straight = _aligned(complete, Fit(curves, 1, lifted=True), still).misfit
     along = _best(Fit(curves, DEGREE), unmoved)
-    lifted, both = _freed(complete, Fit(curves, DEGREE, lifted=True), along)
-    level = Fit(curves, lifted.degree)
-    if not _spare(lifted.tangent(both)):  # points that shifts along friction would take are free
-        level, along = _freed(complete, level, along)
-    horizontal = _moved(complete, level, along)
+    both = _freed(complete, Fit(curves, DEGREE, lifted=True), along.increments)
+    level = replace(both.fit, lifted=False)
+    # Points that shifts along friction would take are free.
+    along = near(level, along.increments) if _spare(both) else _freed(complete, level, along.increments)
+    horizontal = _moved(complete, along)
     why = _inseparable(straight)
-    raised = _undecided(lifted, both, why) if why else _moved(complete, lifted, both)
+    raised = _undecided(both, why) if why else _moved(complete, both)
     if not raised.reason:
         # At worst all of the misfit lies along the gradient.
-        raised = _widened(raised, exponent_bias(lifted, both, sqrt(count) * _known(raised.misfit)))
+        raised = _widened(raised, exponent_bias(both, sqrt(count) * _known(raised.misfit)))
     if not horizontal.reason:
         # Of a misfit of any direction as much lies along a gradient, 19 times in 20.
-        horizontal = _widened(horizontal, exponent_bias(level, along, 2 * _known(horizontal.misfit)))
+        horizontal = _widened(horizontal, exponent_bias(along, 2 * _known(horizontal.misfit)))
     elif not raised.reason:
-        horizontal = replace(horizontal, mended=_taken(complete, level, lifted, along, both))
+        horizontal = replace(horizontal, mended=_taken(complete, along, both))
     return Collapse(
         data=complete,
         points_left_out=data.points - count,
         surfaces_left_out=data.surfaces - complete.surfaces,
-        log_friction=complete.replicates(level.y, complete.deviations()).estimated,
-        degree=level.degree,
+        log_friction=complete.replicates(along.fit.y, complete.deviations()).estimated,
+        degree=along.fit.degree,
         straight=straight,
-        unshifted=_aligned(complete, level, still),
+        unshifted=_aligned(complete, along.fit, still),
         horizontal=horizontal,
-        vertical=_aligned(complete, lifted, still),
+        vertical=_aligned(complete, both.fit, still),
         both=raised,
     )
-
-
-def along_load(data: FrictionCurves) -> Alignment:
-    """The best horizontal shifts alone, of curves such as those of a law that ask no other question.
-
-    Raises ValueError with fewer than two speeds or fewer points than unknowns.
-    """
-    complete = data.complete()
-    _counted(complete.curves, 1)
-    fit = Fit(complete.curves, DEGREE)
-    return _moved(complete, fit, _best(fit, np.zeros(len(fit.curves) - 1)))
-
-
-def _counted(curves, kinds):
-    """Number of points of curves. Raises ValueError where they are too few for shifts of so many kinds."""
-    count, unknowns = sum(curve.log_load.size for curve in curves), kinds * (len(curves) - 1) + DEGREE + 1
-    if len(curves) < 2 or count <= unknowns:
-        raise ValueError(f"{len(curves)} speeds with too few points for {unknowns} unknowns: add loads or speeds")
-    return count
 
 
 def _inseparable(straight):
@@ -204,70 +206,55 @@ def _inseparable(straight):
     return PARALLEL if isfinite(straight.value) else UNSCATTERED
 
 
-def _best(fit, *guesses):
-    """Increments of least misfit of several starts, those given and powers of the speed."""
-    lower, upper = fit.bounds
-    lengths = np.diff(np.log([curve.speed for curve in fit.curves]))
-
-    def cost(increments):
-        return np.sum(np.square(fit.residuals(increments)))
-
-    starts = [within(guess, lower, upper) for guess in (*guesses, *np.multiply.outer(POWERS, lengths))]
-    followed = sorted(starts, key=cost)[:FOLLOWED]
-    return min((near(fit, start) for start in followed), key=cost)
+def _best(fit, guess):
+    """The fit of least misfit of several starts, that given and powers of the speed."""
+    lengths = np.diff(fit.log_speeds)
+    starts = [fit.at(fit.within(each)) for each in (guess, *np.multiply.outer(POWERS, lengths))]
+    followed = sorted(starts, key=attrgetter("cost"))[:FOLLOWED]
+    return min((near(fit, each.increments) for each in followed), key=attrgetter("cost"))
 
 
 def _freed(data, fit, guess):
-    """The fit with the least degree from which a higher one takes no more than scatter, and its increments."""
+    """The fit with the least degree from which a higher one takes no more than scatter."""
     best = _best(fit, guess)
-    while fit.degree < HIGHEST_DEGREE and _pays(data, fit, best):
-        fit = Fit(fit.curves, fit.degree + 2, fit.lifted)
-        best = near(fit, best)
-    return fit, best
+    while best.fit.degree < HIGHEST_DEGREE and _pays(data, best):
+        best = near(replace(best.fit, degree=best.fit.degree + 2), best.increments)
+    return best
 
 
-def _pays(data, fit, increments):
+def _pays(data, best):
     """Whether two more coefficients take from the misfit what scatter does not explain.
 
     The two components of the misfit are asked whether they are scatter.
     """
-    tangent = fit.tangent(increments)
-    if not _spare(tangent):
+    if not _spare(best):
         return False
-    new = _outside(tangent, Fit(fit.curves, fit.degree + 2).common(increments).basis[:, -2:])
-    deviations = data.deviations(fit.common(increments).slopes) @ new
-    return data.replicates(new.T @ fit.residuals(increments), deviations).rms.interval(1 - CHANCE)[0] > ROUNDING
+    freer = replace(best.fit, degree=best.fit.degree + 2, lifted=False).at(best.increments)
+    new = _outside(best.tangent, freer.basis[:, -2:])
+    deviations = data.deviations(best.slopes) @ new
+    return data.replicates(new.T @ best.residuals, deviations).rms.interval(1 - CHANCE)[0] > ROUNDING
 
 
-def _spare(tangent):
+def _spare(best):
     """Whether a third of the points stays free with two more coefficients."""
-    points, unknowns = tangent.shape
-    return points - unknowns - 2 >= points / 3
+    points = best.fit.y.size
+    return points - best.fit.unknowns - 2 >= points / 3
 
 
-def _moved(data, fit, guess):
-    """Curves that are, from a guess; where they part, only the misfit that the least overlap leaves is known."""
-    best = near(fit, guess)
-
-    def sought(each):
-        return near(each, best)
-
-    if inside(best, *fit.bounds):
-        return _aligned(data, fit, sought)
-    return replace(_undecided(fit, best, PARTED), misfit=_misfit(data, fit, sought))
+def _moved(data, best):
+    """Curves that are shifted at best; where they part, only the misfit that the least overlap leaves is known."""
+    found = _aligned(data, best.fit, lambda each: near(each, best.increments))
+    return found if best.inside else replace(_undecided(best, PARTED), misfit=found.misfit)
 
 
-def _taken(data, level, lifted, along, both):
-    """Misfit that vertical shifts take from that of horizontal ones at the least overlap.
-
-    along, both : guesses of the increments of either fit
-    """
-
-    def missed(fit, guess):
-        return fit.residuals(near(fit, guess))
+def _taken(data, along, both):
+    """Misfit that vertical shifts take from that of horizontal ones at the least overlap."""
 
     def taken(part):
-        return {"": missed(level.of(part.curves), along) - missed(lifted.of(part.curves), both)}
+        one, other = (
+            near(replace(each.fit, curves=part.curves), each.increments).residuals for each in (along, both)
+        )
+        return {"": one - other}
 
     return data.resampled(taken)[""].rms
 
@@ -278,71 +265,34 @@ def _known(misfit):
 
 
 def _widened(aligned, bias):
-    """An alignment whose shifts and exponents may be off by so much along load and friction, exponents last."""
-    found = {}
-    for name, power, by in zip(("horizontal", "vertical"), ("exponent", "vertical_exponent"), bias, strict=True):
-        found[name] = replace(getattr(aligned, name), bias=by[:-1])
-        found[power] = replace(getattr(aligned, power), bias=by[-1])
-    return replace(aligned, **found)
+    """An alignment whose shifts and exponents may be off by so much."""
+    return replace(aligned, shifts=replace(aligned.shifts, bias=bias))
 
 
-def _undecided(fit, increments, reason):
+def _undecided(best, reason):
     """Alignment of which no shift is known."""
-    unknown, number = RmsMisfit.unknown(), Estimated(nan, nan, 0)
-    shifts = replace(number, value=np.full(len(fit.curves), nan))
-    missed = _rms(fit.residuals(increments))
-    return Alignment(shifts, shifts, number, number, missed, unknown, unknown, None, reason)
+    return Alignment(Estimated(np.full_like(best.shifts, nan), nan, 0), _rms(best.residuals), reason=reason)
 
 
-def _aligned(data: FrictionCurves, fit: Fit, sought: Callable[[Fit], np.ndarray]) -> Alignment:
-    """Alignment at the best horizontal shifts of a fit; sought : function that finds their increments."""
+def _aligned(data: FrictionCurves, fit: Fit, sought: Callable[[Fit], Common]) -> Alignment:
+    """Alignment at the best horizontal shifts of a fit; sought : function that finds them."""
 
     def numbers(part):
-        each = fit.of(part.curves)
-        increments = sought(each)
-        missed, mending = each.residuals(increments), _outside(each.tangent(increments), each.later)
-        along, across = each.shifts(increments)
-        return {
-            "horizontal": along[:-1],
-            "vertical": across[:-1],
-            "exponent": along[-1],
-            "vertical_exponent": across[-1],
-            "misfit": missed,
-            "mended": mending @ (mending.T @ missed),
-        }
+        found = sought(replace(fit, curves=part.curves))
+        missed, mending = found.residuals, _outside(found.tangent, found.fit.later)
+        return {"shifts": found.shifts, "misfit": missed, "mended": mending @ (mending.T @ missed)}
 
-    found, increments = data.resampled(numbers), sought(fit)
-    misfits = {name: found.pop(name).rms for name in ("misfit", "mended")}
-    return Alignment(
-        **{name: each.estimated for name, each in found.items()},
-        **misfits,
-        rms=_rms(fit.residuals(increments)),
-        curve=_curve(fit, increments),
-    )
-
-
-def _curve(fit, increments):
-    """The common polynomial as the curve of the middle speed has it."""
-    common = fit.common(increments)
-    along, lift = -fit.shifts(increments)[:, 0]
-    polynomial = Chebyshev(common.coefficients[: fit.degree + 1], domain=np.array(common.domain) - along)
-    return polynomial - lift
-
-
-def _misfit(data, fit, sought):
-    """Misfit of the curves at increments of the shifts that are sought for each part of the data."""
-
-    def missed(part):
-        each = fit.of(part.curves)
-        return {"": each.residuals(sought(each))}
-
-    return data.resampled(missed)[""].rms
+    found, best = data.resampled(numbers), sought(fit)
+    # The common polynomial as the curve of the middle speed has it.
+    along, lift = -best.shifts[:, 0]
+    curve = Chebyshev(best.coefficients, domain=np.array([best.x.min(), best.x.max()]) - along) - lift
+    misfit, mended = (found[name].rms for name in ("misfit", "mended"))
+    return Alignment(found["shifts"].estimated, _rms(best.residuals), misfit, mended, curve)
 
 
 def _outside(tangent, others):
     """Orthonormal vectors (N, M) that others reach beyond a tangent space."""
-    left, sizes, _ = np.linalg.svd(tangent, full_matrices=False)
-    taken = left[:, sizes > ROUNDING * sizes[0]]
+    taken = orth(tangent, ROUNDING)
     left, sizes, _ = np.linalg.svd(others - taken @ (taken.T @ others), full_matrices=False)
     return left[:, sizes > ROUNDING * np.linalg.norm(others)]
 

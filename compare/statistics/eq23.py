@@ -11,7 +11,7 @@ import numpy as np
 from ..solving import words
 from .collapse import DEGREE, PARTED, ROUNDING, Alignment, Collapse
 from .commoncurve import LEAST_OVERLAP
-from .finding import EXACT, FAILS, HALVED, Claim, Finding
+from .finding import FAILS, Claim, Finding
 from .intervals import Estimated, RmsMisfit
 
 # Largest misfit in ln mu that counts as one curve, and relative error of an exponent that counts as predicted.
@@ -95,12 +95,9 @@ def findings(
     dimension: str,
     shifts: Mapping[float, float] | np.ndarray | None = None,
     exponent: float = nan,
-    where: str = "",
-    draws: int | None = None,
-    regime: str = "",
-    plots: tuple[str, str] = ("", ""),
     every: bool = False,
     horizontal: bool = False,
+    **place: Any,
 ) -> Iterator[Finding]:
     """Every finding on the shifts of one set of curves, that on horizontal shifts alone first.
 
@@ -110,37 +107,32 @@ def findings(
     coarse : the collapse on a grid of half the points; None of data without a grid, which have no error of one
     shifts : ln p(v) that the theory predicts, for `fine.speeds` (S,) or by speed; None where it predicts none
     exponent : of p(v) as a power of the speed, predicted; NaN where p(v) is none
-    draws : number of random surfaces; that of the fit if None
-    plots : names of the plots that show the collapse, and the shifts
     every : whether the exponents of both fits are told where horizontal shifts are the answer, too
     horizontal : whether these are the only shifts that are asked about, as in the paper
+    place : other fields of a `Finding`, such as where; the number of draws is that of the fit unless it is stated
     """
     both = not horizontal and raised(fine, coarse)
     parted, straight = fine.horizontal.reason, fine.inseparable
     if shifts is not None and not isinstance(shifts, Mapping):
         shifts = dict(zip(fine.speeds.tolist(), shifts, strict=True))
-    collapsed, plot_of_shifts = plots
-    drawn = fine.data.surfaces if draws is None else draws
+    place = {"dimension": dimension, "draws": fine.data.surfaces} | place
 
-    def told(claim, number, reason="", plot=plot_of_shifts):
-        found = finding(claim, number(fine), number(coarse) if coarse else None, reason)
-        return replace(found, dimension=dimension, where=where, draws=drawn, regime=regime, plot=plot)
+    def told(claim, number, reason=""):
+        return finding(claim, number(fine), number(coarse) if coarse else None, reason, **place)
 
-    yield told(COLLAPSE, MISFIT, straight or _unless_beyond(MISFIT(fine), parted), collapsed)
+    yield told(COLLAPSE, MISFIT, straight or _unless_beyond(MISFIT(fine), parted))
     vertical = replace(VERTICAL, tolerance=nan) if both else VERTICAL
     yield told(vertical, MENDED, straight or _unless_beyond(MENDED(fine), parted))
     if shifts is not None:
         known = shifts
         yield told(
-            PREDICTED,
-            lambda found: found.misfit_at(np.array([known[speed] for speed in found.speeds.tolist()])),
-            plot=collapsed,
+            PREDICTED, lambda found: found.misfit_at(np.array([known[speed] for speed in found.speeds.tolist()]))
         )
         if isfinite(exponent):
             claim = replace(EXPONENT, expected=exponent, tolerance=TOLERANCE * abs(exponent))
             number = attrgetter("both.exponent" if both else "horizontal.exponent")
             yield told(claim, number, straight or ("" if both else parted))
-    yield told(UNSHIFTED, attrgetter("unshifted.misfit"), plot=collapsed)
+    yield told(UNSHIFTED, attrgetter("unshifted.misfit"))
     yield told(VERTICAL_ALONE, attrgetter("vertical.misfit"))
     if not fine.both.reason:
         yield told(BOTH, LEFT)
@@ -175,18 +167,6 @@ def leading(found: Collapse, findings: Iterable[Finding]) -> Alignment:
     return found.both if both else found.horizontal
 
 
-def answers(findings: Iterable[Finding]) -> list[str]:
-    """A sentence for each place where friction itself is shifted, with the other answer as the alternative."""
-    places: dict[str, dict[str, Finding]] = {}
-    for each in findings:
-        places.setdefault(f"{each.where}, {each.dimension}", {})[each.claim.id] = each
-    return [
-        f"{place}: {answer(*(found[claim.id] for claim in (NOT_SHIFTED, BESIDE, ALONE, COLLAPSE)))}"
-        for place, found in places.items()
-        if NOT_SHIFTED.id in found
-    ]
-
-
 def answer(across: Finding, along: Finding, alone: Finding, collapsed: Finding) -> str:
     """Both shifts in words, with horizontal ones alone as the alternative."""
     powers = [f"v^{words.found(each, 3)}" for each in (across, along, alone)]
@@ -197,23 +177,16 @@ def answer(across: Finding, along: Finding, alone: Finding, collapsed: Finding) 
     )
 
 
-def finding(claim: Claim, fine: _Number, coarse: _Number | None = None, reason: str = "") -> Finding:
+def finding(claim: Claim, fine: _Number, coarse: _Number | None = None, reason: str = "", **place: Any) -> Finding:
     """Finding of a number that fits on two grids give; on one, with None, of data that have no grid."""
-    grid, method = (0.0, EXACT) if coarse is None else (fine.apart(coarse), HALVED)
+    found = replace(fine, grid=0.0 if coarse is None else fine.apart(coarse))
     remedy = CLOSER if reason == PARTED else ""
-    return Finding.of(claim, fine, grid, _UNKNOWN, method, reason, remedy=remedy)
+    return Finding.of(claim, found, _UNKNOWN, reason, remedy=remedy, **place)
 
 
-def too_few(dimension: str, where: str = "", draws: int = 0, regime: str = "", plot: str = "") -> Finding:
+def too_few(dimension: str, **place: Any) -> Finding:
     """Finding on the collapse where points were asked for that can be shifted, and too few have an answer."""
-    place: dict[str, Any] = {
-        "dimension": dimension,
-        "where": where,
-        "draws": draws,
-        "regime": regime,
-        "plot": plot,
-    }
-    return Finding(COLLAPSE, nan, reason=TOO_FEW, **place)
+    return Finding(COLLAPSE, nan, reason=TOO_FEW, dimension=dimension, **place)
 
 
 def shiftable(speeds: int, points: int) -> bool:

@@ -14,8 +14,6 @@ from scene.signatures import readable
 from ..solving.words import FAILS, HOLDS, REPORTED, UNDECIDED, crossed
 from .intervals import Estimated, RmsMisfit
 
-# How the share of the grid in an interval is known.
-HALVED, EXACT, UNKNOWN = "change on halving", "exact", "unknown"
 BOTH = "1D/3D"
 
 
@@ -77,13 +75,11 @@ class Finding:
     value : number measured, in the unit of the claim
     scatter : (low, high), the interval of 95 % over rough surfaces alone; both ends are the value without any
     grid : error of discretisation, absolute, which widens the interval at both ends; NaN if unknown
-    grid_method : how `grid` is known: "change on halving", "exact" or "unknown"
     where : case, series or diagram in which it was measured
     draws : number of rough surfaces or profiles behind it, of the solver with the fewest; 0 of smooth bodies
     regime : range of the dimensionless groups in which it was measured, in words
     reason : why there is no verdict; beside a stated verdict, what else has to be said; else empty
     stated : verdict of a law or a stored value that is no interval; empty where the interval decides
-    plot : name of the plot that shows it
     dimension : "1D", "3D", "1D/3D"; that of the claim if none is given
     size : whether the number is one that is never negative, such as an rms
     parts : share in the scatter by solver and stratum of the surfaces; empty where not told apart
@@ -96,13 +92,11 @@ class Finding:
     value: float
     scatter: tuple[float, float] = (nan, nan)
     grid: float = nan
-    grid_method: str = UNKNOWN
     where: str = ""
     draws: int = 0
     regime: str = ""
     reason: str = ""
     stated: str = ""
-    plot: str = ""
     dimension: str = ""
     size: bool = False
     parts: Mapping[tuple[str, int], float] = field(default_factory=dict, repr=False, compare=False)
@@ -112,39 +106,39 @@ class Finding:
 
     def __post_init__(self):
         object.__setattr__(self, "dimension", self.dimension or self.claim.dimension)
-        if self.drawn:
-            object.__setattr__(self, "draws", min(self.drawn.values()))
-        for name, unit in (("value", BARE), ("grid", BARE), ("draws", WHOLE)):
-            object.__setattr__(self, name, argument(name, getattr(self, name), unit.value))
-        object.__setattr__(self, "scatter", argument("scatter", self.scatter, BARE.row))
+        object.__setattr__(self, "draws", min(self.drawn.values(), default=self.draws))
+        for name, take in (
+            ("value", BARE.value),
+            ("grid", BARE.value),
+            ("draws", WHOLE.value),
+            ("scatter", BARE.row),
+        ):
+            object.__setattr__(self, name, argument(name, getattr(self, name), take))
 
     @classmethod
     def of(
         cls,
         claim: Claim,
         found: Estimated[float] | RmsMisfit,
-        grid: float,
-        unknown: str,
-        method: str = HALVED,
+        unknown: str = "",
         reason: str = "",
         **place: Any,
     ) -> Self:
-        """Finding of a number with its scatter.
+        """Finding of a number with its scatter and the error of its grid.
 
         unknown : the reason where the number or one of its errors is not known, unless another is stated
         place : the other fields
         """
-        low, high = (float(end) for end in found.interval())
-        known = all(map(isfinite, (found.value, low, high, grid)))
+        value, low, high, grid = map(float, (found.value, *found.interval(), found.grid))
+        known = all(map(isfinite, (value, low, high, grid)))
         return cls(
             claim,
-            float(found.value),
+            max(value, 0.0) if found.size else value,
             (low, high),
             grid,
-            method if isfinite(grid) else UNKNOWN,
             reason=reason or ("" if known else unknown),
-            size=isinstance(found, RmsMisfit),
-            parts=found.parts,
+            size=found.size,
+            parts={source: float(each) for source, each in found.parts.items()},
             **place,
         )
 
@@ -158,6 +152,13 @@ class Finding:
         low, high = self.scatter
         less = low - self.grid
         return max(less, 0.0) if self.size else less, high + self.grid
+
+    @property
+    def grid_method(self) -> str:
+        """How the error of the grid is known."""
+        if not isfinite(self.grid):
+            return "unknown"
+        return "change on halving" if self.grid else "exact"
 
     @property
     def verdict(self) -> str:

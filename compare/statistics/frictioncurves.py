@@ -22,7 +22,7 @@ class Curve:
     speed: float
     log_load: np.ndarray
     log_friction: np.ndarray
-    error: np.ndarray
+    error: np.ndarray | float = nan
 
 
 @dataclass(frozen=True)
@@ -46,11 +46,9 @@ class SimulatedCurves:
     @classmethod
     def of(cls, dataset: xarray.Dataset) -> Self:
         """Curves of a Dataset of one grid: dimensions speed, load or depth, and draw if the body has any."""
-        (pressed,) = {"load", "depth"} & set(dataset.dims)
-        load, friction = (
-            dataset[name].transpose("speed", pressed, ...).values for name in ("normal_force", "friction_force")
-        )
+        ordered = dataset.transpose("speed", ..., *[name for name in ("surface",) if name in dataset.dims])
         strata = strata_of(dataset) if "surface" in dataset.dims else None
+        load, friction = (ordered[name].values for name in ("normal_force", "friction_force"))
         return cls(dataset["speed"].values, load, friction, strata, str(dataset.attrs.get("solver", "")))
 
     @property
@@ -75,9 +73,9 @@ class SimulatedCurves:
 
     def without(self, group: Group) -> Self:
         """Curves without some surfaces."""
-        kept = np.delete(np.arange(self.surfaces), group.surfaces)
-        load, friction = self.load[..., kept], self.friction_force[..., kept]
-        return replace(self, load=load, friction_force=friction, strata=self._strata[kept])
+        every = (self.load, self.friction_force, self._strata)
+        load, friction, strata = (np.delete(each, group.surfaces, axis=-1) for each in every)
+        return replace(self, load=load, friction_force=friction, strata=strata)
 
     @cached_property
     def _forces(self):
@@ -117,7 +115,7 @@ class SimulatedCurves:
         """ln of mean friction over mean load against ln of mean load, without errors."""
         load, friction = np.log(np.where(self.known, self._forces.mean(axis=3), nan))
         return tuple(
-            Curve(speed, n[at], x[at] - n[at], np.full(at.sum(), nan))
+            Curve(speed, n[at], x[at] - n[at])
             for speed, n, x, at in zip(self.speeds.tolist(), load, friction, self.known, strict=True)
         )
 

@@ -1,9 +1,10 @@
 """Error of friction that grids leave, as the solved contacts state it: a sentence, first where it is much."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
+from pandas import Series, concat
 
 from scene import Doubtful
 
@@ -21,49 +22,46 @@ class UncertainFriction(Doubtful):
     """Friction may be wrong by more than a tenth, as its grid is coarse."""
 
 
-def stated(answers: "xarray.DataTree") -> dict[str, np.ndarray]:
-    """Bounds of 95 % on the relative error of friction of every contact on its fine grid (n,), by model.
+def stated(answers: "xarray.DataTree") -> Series:
+    """Bounds of 95 % on the relative error of friction of every contact on its fine grid, by model.
 
     Surfaces of one contact are one: of their mean.
     """
-    found: dict[str, np.ndarray] = {}
+    found = [Series(dtype=float)]
     for node in answers.subtree:
-        if MEASURE not in node.data_vars:
-            continue
-        every = node.dataset[MEASURE]
-        for model in every["model"].values.tolist() if "model" in every.dims else [str(node.name)]:
-            bounds = every.sel(model=model) if "model" in every.dims else every
+        if MEASURE in node.data_vars:
+            bounds = node.dataset[MEASURE]
+            bounds = bounds if "model" in bounds.dims else bounds.expand_dims(model=[str(node.name)])
             bounds = bounds.sel(level="fine") if "level" in bounds.dims else bounds
             # Of a mean over surfaces the bound is the mean of theirs.
-            values = (bounds.mean("surface") if "surface" in bounds.dims else bounds).values
-            name = MODELS.get(model, model)
-            found[name] = np.append(found.get(name, []), values[np.isfinite(values)])
-    return {model: each for model, each in sorted(found.items()) if each.size}
+            bounds = bounds.mean("surface") if "surface" in bounds.dims else bounds
+            models = [MODELS.get(each, each) for each in bounds["model"].values.tolist()]
+            found.append(Series(np.ravel(bounds.transpose("model", ...)), np.repeat(models, bounds[0].size)))
+    return concat([each for each in found if each.size] or found).dropna()
 
 
-def sentence(bounds: Mapping[str, np.ndarray]) -> str:
+def sentence(bounds: Series) -> str:
     """What the grids leave uncertain of friction, the model that errs most first; empty without friction."""
-    falling = sorted(bounds.items(), key=lambda item: -item[1].max())
+    models = bounds.groupby(level=0).agg(["max", "median", "size"]).sort_values("max", ascending=False)
     told = ", ".join(
-        f"{_percent(each.max())} in {model}"
-        + (f" ({_percent(np.median(each))} in the median)" if len(each) > 1 else "")
-        for model, each in falling
-        if each.max() > MUCH or not much(bounds)
+        f"{_percent(each.max)} in {each.Index}" + (f" ({_percent(each.median)} in the median)" * (each.size > 1))
+        for each in models.itertuples()
+        if each.max > MUCH or not much(bounds)
     )
     if much(bounds):
         return f"Friction may be wrong by up to {told} by the grid: take more points (bounds of 95 %)."
     return f"The grid leaves at most {told} of friction uncertain (bounds of 95 %)." if told else ""
 
 
-def much(bounds: Mapping[str, np.ndarray]) -> bool:
+def much(bounds: Series) -> bool:
     """Whether any contact may be wrong by more than a tenth."""
-    return any(each.max() > MUCH for each in bounds.values())
+    return bool((bounds > MUCH).any())
 
 
 def told(answers: "xarray.DataTree", sentences: Sequence[str]) -> list[str]:
     """Sentences of an answer, and what the grids leave uncertain of friction: first where it is much."""
     bounds = stated(answers)
-    own = [sentence(bounds)] if bounds else []
+    own = [sentence(bounds)] if bounds.size else []
     return [*own, *sentences] if much(bounds) else [*sentences, *own]
 
 

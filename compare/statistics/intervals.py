@@ -6,9 +6,9 @@ symmetric draws nearly as Student has it.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import hypot, inf, nan, sqrt
-from typing import Any, Generic, Self, TypeVar
+from typing import Any, ClassVar, Generic, Self, TypeVar
 
 import numpy as np
 from scipy import special
@@ -24,6 +24,7 @@ MOST_SKEWED = 0.65
 NO_SKEWNESS = 1e-12
 # Endings of the names of columns: a number, and the ends of its interval.
 ENDS = ("", "_low", "_high")
+NUMBERS = "value", "error", "dof", "skewness", "bias", "grid"
 
 Value = TypeVar("Value", float, np.ndarray)
 
@@ -61,6 +62,10 @@ class Estimated(Generic[Value]):
     skewness : third moment of what the number is off by, over the cube of its error
     bias : what it may be off by beside its scatter, at most, to either side
     parts : share in the square of the error by solver and stratum of the surfaces; empty where not told apart
+    grid : error of discretisation, absolute; NaN if unknown
+    size : whether the number is never negative. Its interval is then that of its logarithm; a sum of differences
+        may be negative by chance, and its interval is that of the sum
+    drawn : number of surfaces or profiles by solver, where these are told apart
     """
 
     value: Value
@@ -68,28 +73,41 @@ class Estimated(Generic[Value]):
     dof: float | np.ndarray = inf
     skewness: float | np.ndarray = 0.0
     bias: float | np.ndarray = 0.0
-    parts: Mapping[tuple[str, int], Any] = field(default_factory=dict)
+    parts: Mapping[Any, Any] = field(default_factory=dict)
+    grid: Value | float = 0.0
+    size: bool = False
+    drawn: Mapping[str, int] = field(default_factory=dict)
+
+    def at(self, place: Any) -> "Estimated":
+        """Some of the numbers of an array."""
+
+        def own(each):
+            return np.broadcast_to(each, np.shape(self.value))[place]
+
+        numbers = {name: own(getattr(self, name)) for name in NUMBERS}
+        return replace(self, **numbers, parts={source: own(each) for source, each in self.parts.items()})
 
     def columns(self, name: str) -> dict[str, Any]:
         """Number and the ends of its interval, by the names of columns."""
-        return dict(zip((f"{name}{end}" for end in ENDS), (self.value, *self.interval()), strict=True))
+        return dict(zip((f"{name}{end}" for end in ENDS), self.ends, strict=True))
 
     def interval(self, level: float = 0.95) -> tuple:
-        """Ends between which the number is, as often as stated."""
+        """Ends between which scatter and bias leave the number, as often as stated."""
         below, above = sides(level, self.dof, self.skewness)
-        return self.value - self.error * below - self.bias, self.value + self.error * above + self.bias
-
-    def size(self, level: float = 0.95) -> tuple:
-        """Number that is never negative, and the ends of its interval: those of its logarithm.
-
-        A sum of differences may be negative by chance; it is then nil, and its ends are those of the sum.
-        """
-        below, above = sides(level, self.dof, self.skewness)
+        low, high = self.value - self.error * below - self.bias, self.value + self.error * above + self.bias
+        if not self.size:
+            return low, high
         with np.errstate(invalid="ignore", divide="ignore", over="ignore"):  # of a sum that is not positive
             share = self.error / np.asarray(self.value)
             ends = self.value * np.exp([-share * below, share * above])
-        low, high = np.where(np.asarray(self.value) > 0, ends, self.interval(level))
-        return tuple(np.maximum(each, 0.0) for each in (self.value, low, high))
+        return tuple(np.maximum(np.where(np.asarray(self.value) > 0, ends, (low, high)), 0.0))
+
+    @property
+    def ends(self) -> tuple:
+        """Number and the ends of its interval of 95 %, which counts scatter and grid."""
+        low, high = self.interval()
+        found = self.value, low - self.grid, high + self.grid
+        return tuple(np.maximum(found, 0.0)) if self.size else found
 
     def less(self, other: Self) -> "Estimated":
         """Difference from a number of independent draws, with the degrees of freedom of Welch."""
@@ -109,6 +127,8 @@ class Estimated(Generic[Value]):
 class RmsMisfit:
     """Root mean square of numbers of which each is known with scatter, without what that scatter adds.
 
+    Without any of its fields it is that of numbers that are not known, or not with which scatter.
+
     square : mean of the squares less their variances; negative by chance where there is little but scatter
     noise : mean of the variances
     along : of that, what changes the size to first order
@@ -117,21 +137,19 @@ class RmsMisfit:
     pooled : whether one scatter, common to all numbers, is known with that dof, and not that of each mode
     skewness : of what changes the size to first order
     parts : share in the noise by solver and stratum of the surfaces; empty where not told apart
+    grid : error of discretisation, absolute; NaN if unknown
     """
 
-    square: float
-    noise: float
-    along: float
-    modes: float
-    dof: float
+    square: float = nan
+    noise: float = nan
+    along: float = nan
+    modes: float = nan
+    dof: float = 0
     pooled: bool = False
     skewness: float = 0.0
     parts: Mapping[tuple[str, int], Any] = field(default_factory=dict)
-
-    @classmethod
-    def unknown(cls) -> Self:
-        """Misfit of numbers that are not known, or not with which scatter."""
-        return cls(nan, nan, nan, nan, 0)
+    grid: float = 0.0
+    size: ClassVar[bool] = True
 
     @property
     def value(self) -> float:

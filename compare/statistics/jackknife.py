@@ -56,8 +56,7 @@ class Replicates:
         cls, value: float | np.ndarray, changes: np.ndarray, strata: Sequence[Hashable] | None = None
     ) -> Self:
         """changes : (surfaces, ...), with the deviation of each surface from the mean; none of an exact value."""
-        count = len(changes)
-        return cls(value, changes / sqrt(count * (count - 1)) if count != 1 else changes * nan, strata=strata)
+        return cls(value, changes / sqrt(len(changes) * (len(changes) - 1) or nan), strata=strata)
 
     @classmethod
     def without_one(cls, value: float | np.ndarray, without: np.ndarray) -> Self:
@@ -84,7 +83,7 @@ class Replicates:
         value = np.ravel(self.value)
         deviations = self.deviations.reshape(len(self.deviations), value.size)
         if not (np.all(np.isfinite(value)) and np.all(np.isfinite(deviations))):
-            return RmsMisfit.unknown()
+            return RmsMisfit()
         products, longer = deviations @ deviations.T, deviations @ value
         noise, length = float(np.trace(products)), float(value @ value)
         along = float(longer @ longer) / length if length else 0.0
@@ -273,12 +272,14 @@ def _solver(name, dataset):
 def mean(dataset: xarray.Dataset, name: str, below: str | None = None) -> np.ndarray:
     """Mean over draws of a variable, or ratio of two means, NaN where fewer than half of the draws have it."""
     over = draws_of(dataset, name)
-    enough = 2 * np.isfinite(over).sum(axis=-1) >= over.shape[-1]
-    return np.where(enough, off_the_ratio(over, 1.0 if below is None else draws_of(dataset, below))[0], nan)
+    enough = np.isfinite(over).mean(axis=-1) >= 0.5
+    return np.where(enough, off_the_ratio(over, draws_of(dataset, below))[0], nan)
 
 
-def draws_of(dataset: xarray.Dataset, name: str) -> np.ndarray:
-    """Values of a variable with the draws last, one of a smooth body."""
+def draws_of(dataset: xarray.Dataset, name: str | None) -> np.ndarray:
+    """Values of a variable with the draws last, one of a smooth body; 1 without a name."""
+    if name is None:
+        return np.ones(1)
     variable = dataset.variables[name]
     drawn = "surface" in variable.dims
     return variable.transpose(..., "surface").values if drawn else variable.values[..., None]
@@ -286,7 +287,7 @@ def draws_of(dataset: xarray.Dataset, name: str) -> np.ndarray:
 
 def estimated(dataset: xarray.Dataset, above: str, below: str | None = None) -> Estimated[np.ndarray]:
     """Mean over draws of a variable, or ratio of two means, with its error."""
-    over, under = (1.0 if name is None else draws_of(dataset, name) for name in (above, below))
+    over, under = draws_of(dataset, above), draws_of(dataset, below)
     if "surface" in dataset.dims:
         return mean_ratio(over, under, strata_of(dataset))
     return Estimated(off_the_ratio(over, under)[0])
@@ -297,17 +298,31 @@ def friction(dataset: xarray.Dataset) -> np.ndarray:
     return mean(dataset, "friction_force", "normal_force")
 
 
-def measured(
-    claim: Claim, fine: DrawSet, coarse: DrawSet, where: str = "", regime: str = "", plot: str = ""
-) -> Finding:
-    """Finding of a claim from samples on two grids. Raises ValueError for a claim without a measure."""
-    measure: Callable[[Any], Any] | None = claim.measure
-    if measure is None:
-        raise ValueError(f"claim {claim.id} has no measure")
+def measured(claim: Claim, fine: DrawSet, coarse: DrawSet, where: str = "", regime: str = "") -> Finding:
+    """Finding of a claim with a measure, from samples on two grids."""
+    assert claim.measure is not None
     # What has no logarithm is not known, and the finding says so.
     with np.errstate(invalid="ignore", divide="ignore"):
-        replicates = resample(lambda sample: {"": measure(sample)}, fine)[""]
-        found = replicates.rms if np.ndim(replicates.value) else replicates.estimated
-        grid = float(np.sqrt(np.mean(np.square(np.asarray(measure(coarse)) - replicates.value))))
-        unknown = _ONE if 1 in fine.drawn.values() else _HALF
-        return Finding.of(claim, found, grid, unknown, where=where, drawn=fine.drawn, regime=regime, plot=plot)
+        replicates, change = _on_both(claim.measure, fine, coarse)
+        found = replicates.rms if np.ndim(change) else replicates.estimated
+        found = replace(found, grid=float(np.sqrt(np.mean(np.square(change)))))
+    unknown = _ONE if 1 in fine.drawn.values() else _HALF
+    return Finding.of(claim, found, unknown, where=where, drawn=fine.drawn, regime=regime)
+
+
+def compared(
+    statistic: Callable[[Any], np.ndarray], fine: DrawSet, coarse: DrawSet | None, size: bool = False
+) -> Estimated[np.ndarray]:
+    """Numbers that a statistic of Datasets gives; `coarse` are those on half the points, None if not solved.
+
+    size : whether the numbers are never negative
+    """
+    with np.errstate(invalid="ignore", divide="ignore"):
+        replicates, change = _on_both(statistic, fine, coarse)
+        return replace(replicates.estimated, grid=change, size=size, drawn=fine.drawn)
+
+
+def _on_both(statistic, fine, coarse):
+    """A statistic with its scatter, and by how much it changes from half the points to all; NaN if unknown."""
+    found = resample(lambda sample: {"": statistic(sample)}, fine)[""]
+    return found, np.abs((nan if coarse is None else statistic(coarse)) - found.value)

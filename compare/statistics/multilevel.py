@@ -13,9 +13,10 @@ pilot large enough to show the scatter, and few looks, keep the level; the tests
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from math import ceil, isfinite
+from math import ceil, isfinite, nan, sqrt
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
@@ -25,8 +26,9 @@ from ..solving.cost import MOST_DRAWS, SECONDS
 from ..solving.curve import EMPTY, TOGETHER, Curve
 from ..solving.words import duration, share
 from .collapse import PARTED
-from .finding import UNDECIDED, Finding
-from .jackknife import Source, estimated, off_the_ratio
+from .finding import UNDECIDED, Claim, Finding
+from .intervals import Estimated
+from .jackknife import Source, off_the_ratio
 
 if TYPE_CHECKING:
     import xarray
@@ -38,6 +40,7 @@ MEANS = {
     "normal_force": ("normal_force", None),
     "depth_reached": ("depth_reached", None),
 }
+MEAN = Claim("mean", "Mean over surfaces", expected=1.0, tolerance=0.0)
 WORDS = {"friction_coefficient": "friction", "normal_force": "force", "depth_reached": "depth"}
 # What is spent or left over on a grid, and is no number of the contact.
 SPENT = "seconds", "operator_applications", "residual"
@@ -104,58 +107,31 @@ def _draws(differences, strata, counted):
     return np.where(known, np.expand_dims(mean, -1) + np.sqrt(total * (total - 1.0)) * changes, np.nan)
 
 
-def needed(
-    dataset: xarray.Dataset,
-    above: str,
-    below: str | None,
-    costs: Sequence[float],
-    interval: float,
-    growth: float = GROWTH,
-) -> tuple[int, ...]:
-    """Surfaces of each stratum for intervals of 95 % of a half-width, relative; as many as now once it is reached.
+def means_of(model: str, mean: Estimated) -> Iterator[Finding]:
+    """Finding on the mean of a model at every place, over its value: only narrower intervals are asked of it."""
+    for place in np.ndindex(mean.value.shape):
+        one = mean.at(place)
+        low, high = one.interval()
+        size = abs(one.value) or nan
+        half = (high - low) / 2 / size
+        parts = {(model, k): float(each) for k, each in one.parts.items()}
+        # A model without another grid has no error of it.
+        yield Finding(MEAN, 1.0, (1 - half, 1 + half), np.nan_to_num(one.grid / size), parts=parts)
 
-    What is zero or not known asks for none. Of no stratum there are more than MOST_DRAWS.
 
-    dataset : like that of `pooled`
-    above, below : variable whose mean is wanted at every point, over the mean of another if that is named
-    costs : planned of one surface of each stratum, on all of its grids
-    growth : times the surfaces at most
+def unreached(means: Iterable[Finding], interval: float) -> str:
+    """What keeps the interval of a mean wider than wanted somewhere, in words; empty where nothing does.
+
+    interval : half-width that is wanted, relative
     """
-    now = np.bincount(dataset["stratum"].values, minlength=len(costs))
-    parts, scatter, grid = _errors(dataset, above, below)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        least = np.maximum(interval - grid, OWN_SHARE * interval)
-        needs = _least_cost(parts, now, np.array(costs), scatter / least)
-    asked = np.where((scatter + grid > interval) & np.isfinite(needs), needs, 0.0)
-    return tuple(map(_more, now.tolist(), asked.reshape(now.size, -1).max(axis=1).tolist(), [growth] * now.size))
-
-
-def unreached(dataset: xarray.Dataset, above: str, below: str | None, interval: float) -> str:
-    """What keeps the interval of a mean wider than wanted somewhere, in words; empty where nothing does."""
-    _, scatter, grid = _errors(dataset, above, below)
-    half = np.where(np.isfinite(scatter + grid), scatter + grid, 0.0)
-    if half.max() <= interval:
+    widths = (((high - low) / 2, each.grid) for each in means for low, high in [each.interval])
+    half, grid = max((each for each in widths if isfinite(each[0])), default=(0.0, 0.0))
+    if half <= interval:
         return ""
-    worst = np.unravel_index(np.argmax(half), half.shape)
-    told = f"is known to {share(half[worst])} only, {share(interval)} are wanted"
-    if grid[worst] > OWN_SHARE * interval:
-        return f"{told}: half the points change it by {share(grid[worst])}, take more points"
+    told = f"is known to {share(half)} only, {share(interval)} are wanted"
+    if grid > OWN_SHARE * interval:
+        return f"{told}: half the points change it by {share(grid)}, take more points"
     return f"{told}: more surfaces would narrow it"
-
-
-def _errors(dataset, above, below):
-    """Share of each stratum (K, ...) in the variance of a mean, half of its interval, and the error of its grid.
-
-    The latter are relative.
-    """
-    both = pooled(dataset)
-    # A model without another grid has no error of it.
-    found, other = (estimated(both.isel(level=k), above, below) for k in (0, -1))
-    low, high = found.interval()
-    size = np.abs(found.value)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        parts = np.array([found.parts[k] for k in range(dataset.sizes["level"])])
-        return parts, (high - low) / 2 / size, np.abs(other.value - found.value) / size
 
 
 @dataclass(frozen=True)
@@ -172,12 +148,9 @@ class DrawnSurfaces:
     @classmethod
     def of(cls, grids: Iterable[Curve]) -> Self:
         """Surfaces of grids that have as many."""
-        first, *others = grids
-        costs = {
-            name: tuple(map(sum, zip(each, *(other.costs[name] for other in others), strict=True)))
-            for name, each in first.costs.items()
-        }
-        return cls({name: tuple(map(len, first.strata(name))) for name in costs}, costs)
+        every = list(grids)
+        costs = {name: tuple(np.sum([each.costs[name] for each in every], axis=0)) for name in every[0].costs}
+        return cls({name: tuple(map(len, every[0].strata(name))) for name in costs}, costs)
 
     def deciding(self, finding: Finding, interval: float | None = None) -> Mapping[Source, float]:
         """Numbers of draws at least cost that decide a finding if its number stays; none if nothing does.
@@ -188,8 +161,7 @@ class DrawnSurfaces:
         if not _open(finding):
             return {}
         (low, high), claim, value = finding.scatter, finding.claim, finding.value
-        edges = claim.expected - claim.tolerance, claim.expected + claim.tolerance
-        edge = min(edges, key=lambda each: abs(each - value))
+        edge = claim.expected + (claim.tolerance if value > claim.expected else -claim.tolerance)
         scatter = high - value if edge > value else value - low
         left = abs(edge - value) - finding.grid
         if interval is not None:
@@ -197,24 +169,22 @@ class DrawnSurfaces:
             if (high - low) / 2 + finding.grid <= wanted:
                 return {}
             left = max(left, wanted - finding.grid, OWN_SHARE * wanted)
-        sources = [each for each in finding.parts if each[0] in self.counts]
-        if not (left > 0 and sources):
-            return {}
-        known = [(finding.parts[name, k], self.counts[name][k], self.costs[name][k]) for name, k in sources]
-        parts, counts, costs = np.transpose(known)
-        needs = _least_cost(parts, counts, costs, scatter / left)
-        return dict(zip(sources, needs.tolist(), strict=True))
+        return self._least_cost(finding.parts, scatter / left) if left > 0 else {}
 
     def more(
         self, findings: Iterable[Finding], interval: float, growth: float = GROWTH
     ) -> dict[str, tuple[int, ...]]:
-        """Numbers of draws that decide findings, or make their intervals narrow enough; no fewer than now."""
-        most: dict[Source, float] = {}
-        for each in findings:
-            for source, count in self.deciding(each, interval).items():
-                most[source] = max(most.get(source, 0.0), count)
+        """Numbers of draws that decide findings, or make their intervals narrow enough; no fewer than now.
+
+        Of no stratum there are more than MOST_DRAWS. growth : times the draws at most
+        """
+        asked = [self.deciding(each, interval) for each in findings]
+
+        def most(*source):
+            return max((each.get(source, 0.0) for each in asked), default=0.0)
+
         return {
-            name: tuple(_more(had, most.get((name, k), 0.0), growth) for k, had in enumerate(counts))
+            name: tuple(_more(had, most(name, k), growth) for k, had in enumerate(counts))
             for name, counts in self.counts.items()
         }
 
@@ -224,19 +194,34 @@ class DrawnSurfaces:
             return finding
         asked = self.deciding(finding)
         if not asked:
-            return replace(finding, remedy="its grid leaves too much open: a finer one would have to decide it")
-        if not max(asked.values()) <= MOST_DRAWS:
+            remedy = "its grid leaves too much open: a finer one would have to decide it"
+        elif not max(asked.values()) <= MOST_DRAWS:
             drawn = " or ".join(dict.fromkeys(words[name] for name, _ in asked))
-            return replace(finding, remedy=f"only more than {MOST_DRAWS:,} {drawn} would decide it")
-        totals: dict[str, float] = {}
-        work = 0.0
-        for (name, k), count in asked.items():
-            if (more := count - self.counts[name][k]) > 0:
-                totals[words[name]] = totals.get(words[name], 0.0) + max(more, 1.0)
-                work += more * self.costs[name][k]
-        said = " and ".join(f"{_some(count)} more {word}" for word, count in totals.items())
-        seconds = duration(max(SECONDS * work, 1.0))
-        return replace(finding, remedy=f"some {said}, {seconds} of processor time, would decide it")
+            remedy = f"only more than {MOST_DRAWS:,} {drawn} would decide it"
+        else:
+            totals, seconds = defaultdict[str, float](float), 0.0
+            for (name, k), count in asked.items():
+                lacking = max(count - self.counts[name][k], 0.0)
+                totals[words[name]] += lacking
+                seconds += SECONDS * lacking * self.costs[name][k]
+            said = " and ".join(f"{_some(max(more, 1.0))} more {word}" for word, more in totals.items() if more)
+            remedy = f"some {said}, {duration(max(seconds, 1.0))} of processor time, would decide it"
+        return replace(finding, remedy=remedy)
+
+    def _least_cost(self, parts, times):
+        """Numbers of draws by source for a standard error that is so many times smaller, at least cost.
+
+        parts : share of each source in the variance
+        """
+        # Standard deviation of one draw of each source, over that of the number.
+        spread = {
+            (name, k): sqrt(each * self.counts[name][k])
+            for (name, k), each in parts.items()
+            if name in self.counts
+        }
+        root = {(name, k): sqrt(self.costs[name][k]) for name, k in spread}
+        total = sum(spread[each] * root[each] for each in spread)
+        return {each: spread[each] / root[each] * total * times**2 for each in spread}
 
 
 def _open(finding):
@@ -244,17 +229,6 @@ def _open(finding):
     parted = finding.reason == PARTED and finding.value > finding.claim.expected + finding.claim.tolerance
     known = all(map(isfinite, (finding.value, *finding.interval)))
     return finding.verdict == UNDECIDED and bool(finding.parts) and known and (parted or not finding.reason)
-
-
-def _least_cost(parts, drawn, costs, times):
-    """Numbers of surfaces (K, ...) for a standard error that is so many times smaller, at least cost.
-
-    parts : (K, ...) share of each stratum in the variance; drawn, costs : (K,) of each
-    """
-    drawn, root = (np.reshape(each, (-1, *(1,) * (parts.ndim - 1))) for each in (drawn, np.sqrt(costs)))
-    # Standard deviation of one surface of each stratum, over that of the mean.
-    share = np.sqrt(parts * drawn)
-    return share / root * np.sum(share * root, axis=0) * np.square(times)
 
 
 def _more(had, asked, growth):

@@ -130,7 +130,7 @@ class Drawing(Study):
             lines = contact.line_forces(surface, row).drop(columns="x")
             claims.append(APART)
             values.append(float((lines / lines.sum()).diff(axis=1).iloc[:, 1].abs().sum() / 2))
-        return [Finding(claim, value, plot=contact.NAME) for claim, value in zip(claims, values, strict=True)]
+        return [Finding(claim, value) for claim, value in zip(claims, values, strict=True)]
 
     def judge(self, answers: xarray.DataTree) -> Judgement:
         findings = self._findings(answers)

@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -14,14 +15,25 @@ from bem3d import BEM
 from compare.library.lookup import case_of
 from compare.solving.cost import MOST_DRAWS
 from compare.statistics.jackknife import mean_ratio
-from compare.statistics.multilevel import GROWTH, needed, pooled, unreached
+from compare.statistics.means import interval as interval_of
+from compare.statistics.multilevel import DrawnSurfaces, means_of, pooled, unreached
 from compare.studies.comparison.series import DIFFERENCES, FINEST, PILOT, pilot
 from mdr1d import MDR
 from scene import Refused
 from scene.reading import InvalidInput
 
 COSTS = 10.0, 3.0, 1.0
-FRICTION = "friction_force", None
+
+
+def means(found):
+    """Mean of friction at every place."""
+    return means_of("BEM", interval_of(pooled(found).expand_dims(speed=[0.0]), "friction_force"))
+
+
+def needed(found, interval):
+    """Surfaces of each stratum for intervals of friction of a half-width."""
+    drawn = DrawnSurfaces({"BEM": tuple(np.bincount(found["stratum"]).tolist())}, {"BEM": COSTS})
+    return drawn.more(means(found), interval)["BEM"]
 
 
 def grown(rng, had, counts, variation, told=None):
@@ -36,13 +48,16 @@ def grown(rng, had, counts, variation, told=None):
     return xarray.concat(parts, "surface")
 
 
-def sampled(rng, variation, interval, told=None):
-    """Answers once the interval is reached, and the number of looks."""
+def sampled(rng, variation, asked, told=None):
+    """Answers once no more surfaces are asked for, and the number of looks.
+
+    asked : function of answers that gives numbers of surfaces
+    """
     had, counts, found, looks = None, pilot(3), None, 0
     while counts != had:
         had, looks = counts, looks + 1
         found = grown(rng, found, counts, variation, told)
-        counts = needed(found, *FRICTION, COSTS, interval)
+        counts = asked(found)
     return found, looks
 
 
@@ -58,22 +73,17 @@ def test_intervals_hold_as_often_although_sampling_stops_by_them(variation, inte
     """
     rng, studies, held = np.random.default_rng(7), 500, []
     for _ in range(studies):
-        found = pooled(sampled(rng, variation, interval, told)[0]).sel(level="fine")
+        found = pooled(sampled(rng, variation, partial(needed, interval=interval), told)[0]).sel(level="fine")
         low, high = mean_ratio(found["friction_force"].values, 1.0, found["stratum"].values).interval()
         held.append(np.mean((low <= 1) & (high >= 1)))
     close = 2 * np.std(held) / studies**0.5
     assert least - close <= np.mean(held) <= 0.96 + close
 
 
-def test_moments_of_the_surfaces_spare_coarse_ones():
-    told, plain = (sampled(np.random.default_rng(4), 0.3, 0.02, each)[0] for each in (0.85, None))
-    assert 2 * np.sum(told["stratum"] == 2) <= np.sum(plain["stratum"] == 2)
-
-
 def test_sampling_stops_with_intervals_as_narrow_as_wanted():
     rng = np.random.default_rng(0)
     for interval in (0.1, 0.05):
-        found, looks = sampled(rng, 0.3, interval)
+        found, looks = sampled(rng, 0.3, partial(needed, interval=interval))
         fine, coarse = (pooled(found).sel(level=grid) for grid in ("fine", "coarse"))
         told = mean_ratio(fine["friction_force"].values, 1.0, fine["stratum"].values)
         grid = abs(told.value - coarse["friction_force"].mean("surface").values)
@@ -82,31 +92,23 @@ def test_sampling_stops_with_intervals_as_narrow_as_wanted():
         assert looks <= 5
 
 
-def test_costly_strata_get_fewer_surfaces():
-    had = DIFFERENCES, DIFFERENCES, PILOT
-    found = answers(np.random.default_rng(1), had, 0.3)
-    cheap, costly = (needed(found, *FRICTION, (fine, 3.0, 1.0), 0.03) for fine in (4.0, 400.0))
-    assert costly[0] < cheap[0]
-    assert all(count <= GROWTH * had for count, had in zip(cheap, had, strict=True))
-
-
 def test_what_is_narrow_enough_asks_for_nothing_more():
     found = answers(np.random.default_rng(2), pilot(3), 0.1)
-    assert needed(found, *FRICTION, COSTS, 0.5) == pilot(3) == (FINEST, DIFFERENCES, PILOT)
+    assert needed(found, 0.5) == pilot(3) == (FINEST, DIFFERENCES, PILOT)
 
 
 def test_an_interval_that_is_not_reached_says_why():
     found = answers(np.random.default_rng(2), pilot(3), 0.1)
-    assert unreached(found, *FRICTION, 0.5) == ""
+    assert unreached(means(found), 0.5) == ""
     assert re.fullmatch(
         r"is known to [\d.]+ % only, 5 % are wanted: more surfaces would narrow it",
-        unreached(found, *FRICTION, 0.05),
+        unreached(means(found), 0.05),
     )
     force = found["friction_force"]
     coarse = found.assign(friction_force=force.where(found["level"] == "fine", 1.2 * force))
     assert re.fullmatch(
         r"is known to [\d.]+ % only, 10 % are wanted: half the points change it by [12]\d %, take more points",
-        unreached(coarse, *FRICTION, 0.1),
+        unreached(means(coarse), 0.1),
     )
 
 
@@ -114,13 +116,13 @@ def test_one_contact_without_an_answer_does_not_stop_the_others():
     found = answers(np.random.default_rng(1), pilot(3), 0.3)
     known = (found["surface"] != 3) | (found["level"] != "fine")
     failed = found.assign(friction_force=found["friction_force"].where(known))
-    assert needed(failed, *FRICTION, COSTS, 0.03)[2] > PILOT
+    assert needed(failed, 0.03)[2] > PILOT
 
 
 def test_no_stratum_takes_seeds_of_another():
     found = answers(np.random.default_rng(1), pilot(3), 0.3)
     for _ in range(8):
-        counts = needed(found, *FRICTION, COSTS, 1e-6)
+        counts = needed(found, 1e-6)
         assert max(counts) <= MOST_DRAWS
         if max(counts) == MOST_DRAWS:
             break
@@ -144,7 +146,7 @@ def test_a_sweep_reaches_the_interval_resumes_and_agrees_with_fixed_draws(tmp_pa
     assert np.all(half <= 0.12 * friction(found, "mean"))
     again = compare.sweep(**asked, interval=0.12, output=tmp_path / "few")
     xarray.testing.assert_identical(found, again)
-    kept = compare.load(tmp_path / "few")["contacts/BEM"]["control_variates"]
+    kept = compare.load(tmp_path / "few")["contacts"]["control_variates"].sel(model="BEM")
     assert np.isfinite(kept.sel(surface=kept["stratum"] == kept["stratum"].max())).all()
     fixed = compare.sweep(**asked, draws=24, output=tmp_path / "many")
     apart = abs(friction(found, "mean") - friction(fixed, "mean"))

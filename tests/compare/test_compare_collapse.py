@@ -77,7 +77,7 @@ def measured(rng, exact, error=0.01, dof=np.inf, known=True):
 
 def verdicts(found, power=POWER):
     """Verdicts on horizontal shifts, on vertical ones beside them, and on the shifts predicted."""
-    findings = eq23.findings(found, None, "1D", shifts=power * np.log(SPEEDS), exponent=power)
+    findings = eq23.findings(found, None, "1D", shifts=power * np.log(found.speeds), exponent=power)
     named = {each.claim.id.removeprefix("eq23."): each.verdict for each in findings}
     return [named[name] for name in ("collapse", "vertical", "predicted")]
 
@@ -101,37 +101,53 @@ def test_a_horizontal_shift_of_eq_19_is_recovered_and_nothing_else(kind):
     assert verdicts(found) == [HOLDS] * 3
 
 
-def test_a_vertical_shift_beside_it_is_caught_and_measured():
-    given = smooth(friction(knee, vertical=0.2))
-    # The middle one of four speeds is not their mean.
-    four = SimulatedCurves(SPEEDS[:4], given.load[:4], given.friction_force[:4])
-    assert collapse(four).both.vertical.value.std() == pytest.approx(0.2 * LOGS[:4].std(), abs=5 * FOLLOWED)
-    found = collapse(given)
-    assert found.both.vertical_exponent.value == pytest.approx(-0.2, abs=5 * FOLLOWED)
-    assert found.both.exponent.value == pytest.approx(POWER, abs=10 * FOLLOWED)
-    assert found.both.vertical.value.std() == pytest.approx(0.2 * LOGS.std(), abs=5 * FOLLOWED)
+@pytest.mark.parametrize(
+    ("law", "vertical", "count", "close"), [(knee, 0.2, 4, 0.02), (knee, 0.2, 5, 0.02), (cubic, 0.1, 5, 1e-6)]
+)
+def test_a_vertical_shift_beside_it_is_caught_and_measured(law, vertical, count, close):
+    """To rounding where the polynomial can follow the law; of four speeds the middle one is not the mean."""
+    given = smooth(friction(law, vertical))
+    found = collapse(SimulatedCurves(SPEEDS[:count], given.load[:count], given.friction_force[:count]))
+    both, logs = found.both, np.log(SPEEDS[:count] / SPEEDS[2])
+    assert both.horizontal.value == pytest.approx(POWER * logs, abs=close)
+    assert both.vertical.value == pytest.approx(-vertical * logs, abs=close)
+    assert (both.exponent.value, both.vertical_exponent.value) == pytest.approx((POWER, -vertical), abs=close)
+    assert both.misfit.value < close / 10
     assert verdicts(found)[2] == FAILS
+    for each, along, lift in zip(found.curves, both.horizontal.value, both.vertical.value, strict=True):
+        assert both.curve(each.log_load + along) == pytest.approx(each.log_friction + lift, abs=close)
 
 
-def test_shifts_within_reach_of_the_polynomial_are_recovered_to_rounding():
-    found = collapse(smooth(friction(cubic, vertical=0.1)))
-    assert found.both.horizontal.value == pytest.approx(POWER * np.log(SPEEDS / SPEEDS[2]), abs=1e-6)
-    assert found.both.vertical.value == pytest.approx(-0.1 * np.log(SPEEDS / SPEEDS[2]), abs=1e-6)
-    assert found.both.misfit.value < 1e-8
-    assert found.degree == 4
-    for each, lift, along in zip(
-        found.curves, found.both.vertical.value, found.both.horizontal.value, strict=True
-    ):
-        assert found.both.curve(each.log_load + along) == pytest.approx(each.log_friction + lift, abs=1e-7)
+@pytest.mark.parametrize(("speeds", "step"), [(2, 1), (5, 3)])
+def test_few_points_tell_the_shifts(speeds, step):
+    given = simulated(np.random.default_rng(8), friction(cubic), 5)
+    forces = (each[:speeds, ::step] for each in (given.load, given.friction_force))
+    part = SimulatedCurves(SPEEDS[:speeds], *forces)
+    assert eq23.shiftable(*part.load.shape[:2])
+    low, high = collapse(part).horizontal.exponent.interval()
+    assert low <= POWER <= high
 
 
-def test_straight_lines_leave_both_shifts_undecided():
-    rng = np.random.default_rng(0)
-    for data in (smooth(friction(line)), simulated(rng, friction(line), 6)):
-        found = collapse(data)
-        assert found.inseparable == found.both.reason == PARALLEL
-        assert np.isnan(found.both.exponent.value)
-        assert verdicts(found)[:2] == [UNDECIDED] * 2
+@pytest.mark.parametrize(
+    ("speeds", "points", "share", "said"),
+    [(2, 3, 1, "too few points"), (1, 8, 1, "1 speeds"), (5, 8, np.nan, "no surface")],
+)
+def test_too_few_points_are_refused(speeds, points, share, said):
+    load = np.broadcast_to(LOADS[:points], (speeds, points))
+    with pytest.raises(ValueError, match=said):
+        collapse(SimulatedCurves(SPEEDS[:speeds], load, share * load**0.7))
+    assert np.isnan(share) or not eq23.shiftable(speeds, points)
+    assert eq23.too_few("3D").verdict == UNDECIDED
+    with pytest.raises(ValueError, match="1 speeds"):
+        collapse(MeasuredCurves(measured(np.random.default_rng(0), friction(cubic)).curves[:1]))
+
+
+@pytest.mark.parametrize("data", [smooth(friction(line)), simulated(np.random.default_rng(0), friction(line), 6)])
+def test_straight_lines_leave_both_shifts_undecided(data):
+    found = collapse(data)
+    assert found.inseparable == found.both.reason == PARALLEL
+    assert np.isnan(found.both.exponent.value)
+    assert verdicts(found)[:2] == [UNDECIDED] * 2
 
 
 def test_curves_that_share_no_stretch_can_fail_but_not_hold():
@@ -148,13 +164,13 @@ def test_curves_that_share_no_stretch_can_fail_but_not_hold():
     assert next(eq23.findings(replace(large, horizontal=unsure), None, "1D")).reason == PARTED
 
 
-def test_units_of_load_friction_and_speed_and_the_order_of_surfaces_change_nothing():
+def test_units_and_the_order_of_speeds_and_surfaces_change_nothing():
     given = simulated(np.random.default_rng(2), friction(knee), 6, loads=0.1)
-    speeds, load, force = given.speeds, given.load, given.friction_force
+    forces = given.load, given.friction_force
     known = numbers(collapse(given))
     for other in (
-        SimulatedCurves(3 * speeds, 5 * load, 7 * 5 * force),
-        SimulatedCurves(speeds[::-1], load[::-1, :, ::-1], force[::-1, :, ::-1]),
+        SimulatedCurves(3 * SPEEDS, 5 * forces[0], 35 * forces[1]),
+        SimulatedCurves(SPEEDS[::-1], *(each[::-1, :, ::-1] for each in forces)),
     ):
         # The fit settles to this, relative to its own error.
         assert numbers(collapse(other)) == pytest.approx(known, rel=1e-4, abs=1e-6)
@@ -216,29 +232,6 @@ def test_where_scatter_is_not_known_there_are_values_and_no_verdict():
         assert np.isnan([found.horizontal.exponent.error, found.horizontal.misfit.value, found.scatter]).all()
         assert found.horizontal.rms > 0
         assert verdicts(found) == [UNDECIDED] * 3
-
-
-def test_too_few_points_are_refused():
-    given = simulated(np.random.default_rng(8), friction(cubic), 5)
-    for part in (
-        SimulatedCurves(given.speeds[:2], given.load[:2], given.friction_force[:2]),
-        SimulatedCurves(given.speeds, given.load[:, ::3], given.friction_force[:, ::3]),
-    ):
-        assert eq23.shiftable(*part.load.shape[:2])
-        low, high = collapse(part).horizontal.exponent.interval()
-        assert low <= POWER <= high
-    few = SimulatedCurves(given.speeds[:2], given.load[:2, ::3], given.friction_force[:2, ::3])
-    single = SimulatedCurves(given.speeds[:1], given.load[:1], given.friction_force[:1])
-    for part, said in (
-        (few, "too few points"),
-        (single, "1 speeds"),
-        (replace(given, friction_force=np.full_like(given.friction_force, np.nan)), "no surface"),
-        (MeasuredCurves(measured(np.random.default_rng(0), friction(cubic)).curves[:1]), "1 speeds"),
-    ):
-        with pytest.raises(ValueError, match=said):
-            collapse(part)
-    assert not eq23.shiftable(*few.load.shape[:2])
-    assert eq23.too_few("3D").verdict == UNDECIDED
 
 
 def test_the_change_of_the_grid_widens_the_interval_of_a_finding():

@@ -6,18 +6,18 @@ import numpy as np
 import pytest
 from pandas.testing import assert_frame_equal
 from small_cases import SLIDING
-from test_compare_allocation import COSTS, grown
+from test_compare_allocation import COSTS, sampled
 from test_compare_multilevel import answers
 
 import compare
 from bem3d import BEM
 from compare.library.case import Variations
 from compare.library.lookup import case_of
-from compare.solving.curve import FINER, NOT_ASKED, SOLVED
+from compare.solving.curve import FINER, NOT_ASKED, SOLVED, of_model
 from compare.statistics.finding import FAILS, HOLDS, UNDECIDED, Claim, Finding
 from compare.statistics.jackknife import DrawSet, friction, measured
 from compare.statistics.multilevel import GROWTH, DrawnSurfaces, pooled
-from compare.studies.comparison.series import PILOT, pilot
+from compare.studies.comparison.series import PILOT
 from mdr1d import MDR
 from scene import SolveError
 from scene.reading import InvalidInput
@@ -93,16 +93,17 @@ def test_a_finding_says_what_would_decide_it():
     assert "finer one" in DRAWN.told(found(0.951, 0.3, 0.01), WORDS).remedy
 
 
-def sampled(rng, claim, variation, interval):
-    """Verdict on a claim once sampling stops, and the numbers of surfaces."""
-    had, counts, known = None, pilot(3), None
-    while counts != had:
-        had = counts
-        known = grown(rng, known, counts, variation)
-        fine, coarse = (DrawSet({"BEM": pooled(known).sel(level=grid)}) for grid in ("fine", "coarse"))
-        each = measured(claim, fine, coarse)
-        counts = DrawnSurfaces({"BEM": counts}, {"BEM": COSTS}).more([each], interval)["BEM"]
-    return each.verdict, had
+def verdict_of(rng, claim, variation, interval):
+    """Verdict on a claim once sampling stops."""
+
+    def finding(known):
+        return measured(claim, *(DrawSet({"BEM": pooled(known).sel(level=grid)}) for grid in ("fine", "coarse")))
+
+    def asked(known):
+        counts = tuple(np.bincount(known["stratum"]).tolist())
+        return DrawnSurfaces({"BEM": counts}, {"BEM": COSTS}).more([finding(known)], interval)["BEM"]
+
+    return finding(sampled(rng, variation, asked)[0]).verdict
 
 
 @pytest.mark.slow
@@ -113,7 +114,7 @@ def test_verdicts_contradict_the_truth_in_one_study_of_twenty_at_most(variation)
     truth = 1.0  # of friction; the load is 1 too
     for shift, right in ((0.75, HOLDS), (1.25, FAILS)):
         claim = replace(RATIO, expected=truth + shift * tolerance, tolerance=tolerance)
-        verdicts = [sampled(rng, claim, variation, tolerance / 8)[0] for _ in range(studies)]
+        verdicts = [verdict_of(rng, claim, variation, tolerance / 8) for _ in range(studies)]
         wrong += sum(each not in (right, UNDECIDED) for each in verdicts)
         assert sum(each == right for each in verdicts) > 0.8 * studies
     share = wrong / (2 * studies)
@@ -147,14 +148,18 @@ CASE = replace(
 )
 
 
+def assert_decided_or_narrow(report, interval):
+    for each in report.judged:
+        if each.verdict == UNDECIDED and not each.undecidable:
+            low, high = each.interval
+            assert (high - low) / 2 <= interval * max(1.0, abs(each.claim.expected))
+
+
 @pytest.mark.usefixtures("in_this_process")
 def test_a_run_stops_with_every_claim_decided_or_narrow_and_resumes(tmp_path):
     asked = {"scene": CASE, "interval": "15%", "report": False, "output": tmp_path}
     report = compare.run(**asked)
-    for each in report.judged:
-        if each.verdict == UNDECIDED and not each.undecidable:
-            low, high = each.interval
-            assert (high - low) / 2 <= 0.15 * max(1.0, abs(each.claim.expected))
+    assert_decided_or_narrow(report, 0.15)
     again = compare.run(**asked)
     assert (again.swept.solved, again.swept.reused) == (0, report.swept.solved)
     assert again.findings.equals(report.findings)
@@ -176,7 +181,7 @@ def test_hard_surfaces_are_solved_on_the_next_finer_grid_and_told(tmp_path, monk
     (note,) = report.unsolved.notes
     finer = sum(row.finer > 0 for _, row in report.unsolved.contacts)
     assert note == f"{finer} contacts are too much for a coarse grid, and the next finer one answers in its place."
-    dataset = report.answers["scene/own/BEM"].to_dataset(inherit=False)
+    dataset = of_model(report.answers["scene/own"].to_dataset(inherit=False), "BEM")
     hard, last = dataset["surface"] % 5 == 0, dataset["stratum"] == 1
     status = dataset["status"].isel(speed=0, load=0)
     assert (status.sel(level="coarse", surface=hard) == FINER).all()
@@ -243,21 +248,11 @@ def test_a_study_stops_likewise_and_series_of_a_family_have_as_many_surfaces(tmp
     path = tmp_path / "heights.toml"
     path.write_text(STUDY)
     report = compare.study(path, output=tmp_path / "study", report=False)
-    for each in report.judged:
-        if each.verdict == UNDECIDED and not each.undecidable:
-            low, high = each.interval
-            assert (high - low) / 2 <= 0.3 * max(1.0, abs(each.claim.expected))
-    low, high = (each.drawn.counts for each in report.study.series)
+    assert_decided_or_narrow(report, 0.3)
+    low, high = (each.drawn["rough"].counts for each in report.study.series)
     assert low == high
     assert len(low["BEM"]) < 3  # as many grids as the coarser of both has
     assert any(each.where == "every sphere" for each in report.judged)
     again = compare.study(path, output=tmp_path / "study", report=False)
     assert again.swept.solved == 0
     assert_frame_equal(again.findings, report.findings)
-
-
-def test_a_study_states_an_interval_or_numbers_of_surfaces(tmp_path):
-    path = tmp_path / "both.toml"
-    path.write_text(STUDY.replace('interval = "30%"', 'interval = "30%"\nsurfaces = 3'))
-    with pytest.raises(InvalidInput, match=r"interval = 0\.3: it takes the place of surfaces and profiles"):
-        compare.study(path, output=tmp_path / "none")

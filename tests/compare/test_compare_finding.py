@@ -19,7 +19,7 @@ width = st.floats(0, 10)
 
 
 def found(value=1.0, scatter=0.01, grid=0.01, **other):
-    return Finding(FRICTION, value, (value - scatter, value + scatter), grid, "change on halving", **other)
+    return Finding(FRICTION, value, (value - scatter, value + scatter), grid, **other)
 
 
 @given(number, width, number, width)
@@ -53,6 +53,8 @@ def test_the_grid_widens_the_interval_of_the_scatter():
     assert found().verdict == HOLDS
     assert found(grid=0.05).verdict == UNDECIDED
     assert found(value=1.2).verdict == FAILS
+    # of what is never negative, to nil at most
+    assert found(grid=2.0, size=True).interval == (0.0, pytest.approx(3.01))
 
 
 def test_a_law_states_its_verdict_and_a_number_without_a_claim_is_reported():

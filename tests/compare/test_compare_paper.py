@@ -8,7 +8,6 @@ from pandas import DataFrame
 
 from compare.solving.curve import of_model
 from compare.solving.outcome import Outcome, Row
-from compare.statistics.finding import EXACT
 from compare.statistics.intervals import Estimated
 from compare.studies.paper import claims, law, parameter_studies, parameters
 from compare.studies.paper.parameter_studies import SlowFriction, contacts, dataset, slow_friction, tasks
@@ -193,7 +192,7 @@ def test_without_what_the_smooth_body_has_friction_shifts_as_the_loss_does(monke
     assert whole.misfit.value > 5 * rough.misfit.value
     judged = [*rubber.findings(collapses)]
     found = [each for each in judged if each.claim.id == "eq23.exponent"]
-    assert [each.grid_method for each in found] == [EXACT] * 2
+    assert [each.grid_method for each in found] == ["exact"] * 2
     assert found[1].value == rough.exponent.value
     assert [each.claim.expected for each in found] == [-0.75] * 2
     assert found[0].reason
@@ -204,7 +203,7 @@ def test_without_what_the_smooth_body_has_friction_shifts_as_the_loss_does(monke
 
 def test_an_interval_of_profiles_decides_a_claim_and_none_leaves_it_open():
     for value, error, verdict in ((1.5, 0.01, "holds"), (1.3, 0.01, "fails"), (1.5, np.nan, "undecided")):
-        found = claims.exact(claims.ALPHA, Estimated(value, error, 19), 20, "paper-law")
+        found = claims.exact(claims.ALPHA, Estimated(value, error, 19), 20)
         assert (found.verdict, found.grid) == (verdict, 0.0)
 
 

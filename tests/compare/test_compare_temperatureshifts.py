@@ -1,7 +1,6 @@
 """Repeats within a tolerance, and shifts from temperature to temperature: what was planted is found."""
 
 from dataclasses import replace
-from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -63,18 +62,16 @@ def shifts(*columns):
 def test_loads_that_are_one_lie_within_the_tolerance_and_each_measurement_is_in_one_point(loads, tolerance, more):
     loads = np.array(loads + loads[:more])
     points = pooled(np.ones(loads.size), loads, np.ones(loads.size), None, tolerance).points
-    assert sum(len(each.repeats) for each in points) == loads.size
-    assert [each.load for each in points] == sorted(each.load for each in points)
+    assert points["repeats"].sum() == loads.size
+    assert points["load"].is_monotonic_increasing
     # No fewer than as many stretches as cover them, each as wide as the tolerance.
     stretches, end = 0, -np.inf
     for load in np.sort(loads):
         if load > end:
             stretches, end = stretches + 1, load * (1 + tolerance)
     assert len(points) >= stretches
-    for low, high in pairwise(points):
-        assert low.load < high.load
-    for each in points:
-        assert loads.min() <= each.load <= loads.max()
+    assert points["load"].is_unique
+    assert points["load"].between(loads.min(), loads.max()).all()
 
 
 def test_a_sweep_without_gaps_is_never_chained():
@@ -83,7 +80,7 @@ def test_a_sweep_without_gaps_is_never_chained():
     assert np.log(100) / np.log1p(TOLERANCE) <= len(points.points) <= 2.2 * np.log(100) / np.log1p(TOLERANCE)
     # Friction follows the load within a point, which is no scatter; one parabola is the law of these rows.
     assert points.scatter < 1e-6
-    np.testing.assert_allclose([each.friction * each.load**0.3 for each in points.points], 1, rtol=1e-6)
+    np.testing.assert_allclose(points.points["friction"] * points.points["load"] ** 0.3, 1, rtol=1e-6)
 
 
 def test_shifts_within_reach_of_the_polynomial_are_exact_without_scatter():

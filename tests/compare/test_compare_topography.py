@@ -1,5 +1,6 @@
 """Spectra of measured maps: of surfaces whose spectrum is known, and beside another program."""
 
+import re
 from dataclasses import replace
 from math import pi
 
@@ -52,26 +53,20 @@ def test_the_spectrum_is_two_sided(repeat):
     assert line + own_mean == pytest.approx(map_.rms_height**2, rel=ROUNDING)
 
 
-def test_the_spectrum_is_that_of_the_surface():
+def test_spectra_of_rings_and_rows_are_those_of_the_surface():
     # of amplitudes that do not scatter: what is left is the lattice
     fixed = replace(ROUGH, amplitudes="fixed")
-    rings = rings_of(sampled(fixed))
-    middle = slice(6, -1)
-    expected = fixed.density_2d(rings.q, fixed.q_max(0.0))
-    np.testing.assert_allclose(rings.density[middle], expected[middle], rtol=0.1)
+    map_, highest = sampled(fixed), fixed.q_max(0.0)
+    rings, rows = rings_of(map_), rows_of(map_)
     assert rings.edges[-1] == pytest.approx(2 * pi * 48 / L, rel=0.02)
     assert not rings.whole
-    np.testing.assert_allclose(
-        mapped(rings)[middle], fixed.density_1d(rings.q, fixed.q_max(0.0))[middle], rtol=0.1
-    )
-
-
-def test_rows_are_line_scans():
-    fixed = replace(ROUGH, amplitudes="fixed")
-    rows = rows_of(sampled(fixed))
-    below = rows.q < 0.9 * fixed.q_max(0.0)
-    expected = fixed.density_line_scan(rows.q[below], fixed.q_max(0.0))
-    np.testing.assert_allclose(rows.density[:48][below[:48]][6:], expected[6:], rtol=0.15)
+    middle = slice(6, -1)
+    for found, density, within in (
+        (rings.density, fixed.density_2d(rings.q, highest), 0.1),
+        (mapped(rings), fixed.density_1d(rings.q, highest), 0.1),
+        (rows.density[:44], fixed.density_line_scan(rows.q[:44], highest), 0.15),
+    ):
+        np.testing.assert_allclose(found[middle], density[middle], rtol=within)
 
 
 def test_one_wave_is_all_in_one_ring():
@@ -106,26 +101,16 @@ def test_intervals_hold_the_hurst_exponent_as_often_as_they_say(hurst, piece):
     assert np.median([law.high - law.low for law in laws]) < (0.2 if piece is None else 0.4)
 
 
-def test_a_wrong_exponent_is_outside():
-    law = describe(sampled(ROUGH)).law
+def test_a_wrong_exponent_is_outside_and_roll_off_and_cut_off_are_found_where_they_are():
+    found, q = describe(sampled(ROUGH)), np.array([2, 20, 40]) * pi / L
+    law, plain = found.law, describe(sampled(replace(ROUGH, rolloff=None, amplitudes="fixed"))).law
     assert law.hurst == pytest.approx(ROUGH.hurst, abs=0.05)
-    assert law.low < law.hurst < law.high
-    q = np.array([2 * pi / L, 20 * pi / L, 40 * pi / L])
-    expected = ROUGH.density_2d(q, ROUGH.q_max(0.0))
-    np.testing.assert_allclose(law.density(q), expected, rtol=0.3)
-    assert not law.low <= ROUGH.hurst - 0.2 <= law.high
-    assert not law.low <= ROUGH.hurst + 0.2 <= law.high
-
-
-def test_roll_off_and_cut_off_are_found_and_where_there_is_none_none():
-    law = describe(sampled(ROUGH)).law
-    assert law.rolloff
+    assert ROUGH.hurst - 0.2 < law.low < law.hurst < law.high < ROUGH.hurst + 0.2
+    np.testing.assert_allclose(law.density(q), ROUGH.density_2d(q, ROUGH.q_max(0.0)), rtol=0.3)
     assert law.longest == pytest.approx(L / 4, rel=0.35)
     assert law.shortest == pytest.approx(L / 48, rel=0.05)
-    plain = describe(sampled(replace(ROUGH, rolloff=None, amplitudes="fixed"))).law
-    assert not plain.rolloff
-    assert not plain.cutoff
-    assert describe(sampled(ROUGH)).band.endswith("below a roll-off to a cut-off")
+    assert (law.rolloff, plain.rolloff, plain.cutoff) == (True, False, False)
+    assert found.band.endswith("below a roll-off to a cut-off")
 
 
 def test_noise_of_an_instrument_is_no_part_of_the_law():
@@ -139,17 +124,22 @@ def test_noise_of_an_instrument_is_no_part_of_the_law():
     assert law.low <= 0.9 <= law.high
 
 
-def test_what_is_no_power_law_a_short_band_and_a_lopsided_map_are_warned_of():
-    map_ = sampled(ROUGH)
-    blurred = replace(map_, heights=gaussian_filter(map_.heights.heights, 4, mode="wrap"))
-    short = sampled(replace(ROUGH, rolloff=L / 10, shortest=L / 40))
-    stretched = sampled(ROUGH, pixel=(L / 128, L / 64))
-    for warned, words in (
-        (blurred, ("it may be none", "is none")),
-        (short, ("decades",)),
-        (stretched, ("isotropic",)),
-    ):
-        assert any(word in each for each in describe(warned).warnings for word in words)
+ROUGH_MAP = sampled(ROUGH)
+
+
+@pytest.mark.parametrize(
+    ("warned", "words"),
+    [
+        (
+            replace(ROUGH_MAP, heights=gaussian_filter(ROUGH_MAP.heights.heights, 4, mode="wrap")),
+            "it may be none|is none",
+        ),
+        (sampled(replace(ROUGH, rolloff=L / 10, shortest=L / 40)), "decades"),
+        (sampled(ROUGH, pixel=(L / 128, L / 64)), "isotropic"),
+    ],
+)
+def test_what_is_no_power_law_a_short_band_and_a_lopsided_map_are_warned_of(warned, words):
+    assert re.search(words, "; ".join(describe(warned).warnings))
 
 
 EDGES = {
@@ -225,13 +215,12 @@ def test_the_command_describes_a_map(tmp_path):
     stated = {"unit": "um", "pixel": [map_.pixel[0]], "repeat": "periodic", "peaks": "down"}
     report = compare.topography(path, output=tmp_path / "out", **stated)
     expected = describe(replace(map_, heights=1e-6 * (1e6 * map_.heights.heights)))
-    told = (
-        report.findings.assign(name=report.findings["claim"].str.removeprefix("topography.")).set_index("name").T
-    )
-    assert told["rms-height"]["value"] == expected.rms_height
-    hurst = expected.law.hurst, expected.law.low, expected.law.high, expected.band
-    assert (*told["hurst"][["value", "low", "high", "regime"]],) == hurst
-    assert set(report.findings["verdict"]) == {"reported"}
+    told = report.findings.set_index("claim")
+    assert told.loc["topography.rms-height", "value"] == expected.rms_height
+    law = expected.law
+    assert told.loc["topography.hurst", ["value", "low", "high"]].tolist() == [law.hurst, law.low, law.high]
+    assert told.loc["topography.hurst", "regime"] == expected.band
+    assert set(told["verdict"]) == {"reported"}
     table = pandas.read_csv(tmp_path / "out" / "topography.csv")
     np.testing.assert_allclose(table["density_2d"], expected.rings.density, rtol=1e-12)
     np.testing.assert_array_equal(compare.load(tmp_path / "out")["rings"]["q"], expected.rings.q)

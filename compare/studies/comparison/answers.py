@@ -9,8 +9,8 @@ import xarray
 from ...models.table import Model, Models
 from ...solving.curve import COARSE, FINE, of_model
 from ...statistics import means
-from ...statistics.jackknife import DrawSet
-from ...statistics.means import Compared, Interval, compared
+from ...statistics.intervals import Estimated
+from ...statistics.jackknife import DrawSet, compared
 from ...statistics.multilevel import pooled
 
 # Variables that claims are measured on; others are not copied for every surface that is left out.
@@ -74,7 +74,7 @@ class Answers:
         both = [self.two_levels(curve, each) for each in models]
         return all(COARSE in each["level"] or not each["points"].any() for each in both)
 
-    def compared(self, curve: str, models: tuple[str, ...], measure: Any, size: bool = False) -> Compared:
+    def compared(self, curve: str, models: tuple[str, ...], measure: Any, size: bool = False) -> Estimated:
         """Numbers of a curve, a measure of samples, with scatter and error of the grid.
 
         The latter is not known where the surface of a model with a grid is another one on half its points.
@@ -82,7 +82,7 @@ class Answers:
         coarse = self.sample(COARSE, curve, *models) if self.halved(curve, *models) else None
         return compared(measure, self.sample(FINE, curve, *models), coarse, size)
 
-    def interval(self, curve: str, model: str, above: str, below: str | None = None) -> Interval:
+    def interval(self, curve: str, model: str, above: str, below: str | None = None) -> Estimated:
         """Means of a variable, or over those of another, at every place of a curve, with intervals of 95 %."""
         return means.interval(self.two_levels(curve, model), above, below)
 

@@ -15,7 +15,7 @@ from ...models.law.bands import Bands, FullContact
 from ...models.law.share import Share
 from ...models.table import SURFACES
 from ...solving.curve import COARSE, FINE, of_model
-from ...statistics.finding import HALVED, UNKNOWN, Claim, Finding
+from ...statistics.finding import Claim, Finding
 from ...statistics.jackknife import DrawSet, friction, mean, resample
 from .answers import Answers
 from .claims import CLAIMS
@@ -189,7 +189,6 @@ def _finding(claim: Claim, level: float, off: Callable, fine: DrawSet, coarse: D
         value=float(found.value[0]),
         scatter=(max(float(low), 0.0), float(high)) if known else (nan, nan),
         grid=grid,
-        grid_method=HALVED if np.isfinite(grid) else UNKNOWN,
         drawn=fine.drawn,
         reason="" if known else _UNKNOWN,
         size=True,

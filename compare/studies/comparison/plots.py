@@ -1,6 +1,7 @@
 """Figures of a comparison: the tables behind each, from the answers, laws, shifts and findings of its series."""
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from math import nan
 from typing import Any
 
@@ -33,8 +34,8 @@ from ...solving.curve import COARSE, FINE
 from ...solving.words import number
 from ...statistics import eq23
 from ...statistics.finding import Finding
+from ...statistics.intervals import Estimated
 from ...statistics.jackknife import mean, mean_ratio
-from ...statistics.means import Interval
 from . import around
 from .answers import Answers
 from .around import LOAD, OWN, ROUGH_DEPTH, SMOOTH_DEPTH, SMOOTH_SPEED, SPEED, Around
@@ -113,7 +114,7 @@ def _along(series, answers: Answers, points: DataFrame, curve: str) -> tuple[Dat
     bodies = {"rough": curve} | ({"smooth": SMOOTH} if curve == ROUGH else {})
     ratios = {
         (model.name, body): DataFrame(
-            _places(series, each) | _named("ratio", _ratio(series, answers, each, model.name))
+            _places(series, each) | _named("ratio", _ratio(series, answers, each, model.name).ends)
         )
         for body, each in bodies.items()
         for model in answers.judged(each, FRICTION)
@@ -123,12 +124,11 @@ def _along(series, answers: Answers, points: DataFrame, curve: str) -> tuple[Dat
     return own[~beside], found, lines.assign(kind=friction_speed.THEORY)
 
 
-def _ratio(series, answers, curve, model) -> Interval:
+def _ratio(series, answers, curve, model) -> Estimated:
     """Friction of a model over that of the reference where it slides."""
     both = model, series.models.reference
-    found = answers.compared(curve, both, ratio_of("friction_coefficient", *both)).interval
-    moving = np.array(series.curves[curve].speeds) > 0
-    return Interval(*(each[moving] for each in found))
+    found = answers.compared(curve, both, ratio_of("friction_coefficient", *both))
+    return found.at(np.array(series.curves[curve].speeds) > 0)
 
 
 def _friction(series: Any, answers: Answers, judged: Judged, points: DataFrame) -> Iterator[Plot | None]:
@@ -180,10 +180,9 @@ def _lines(series: Any, answers: Answers, judged: Judged, points: DataFrame, cur
             yield places.assign(model="MDR", kind=friction_speed.EQ_19, friction_coefficient=mu)
 
 
-def _mu(answers: Answers, curve: str, model: str) -> Interval:
+def _mu(answers: Answers, curve: str, model: str) -> Estimated:
     """Friction of a model where it slides."""
-    found = answers.compared(curve, (model,), ratio_of("friction_coefficient", model)).interval
-    return Interval(*(each[1:] for each in found))
+    return answers.compared(curve, (model,), ratio_of("friction_coefficient", model)).at(slice(1, None))
 
 
 def _shifted(series: Any, judged: Judged) -> Iterator[collapse.ShiftedCurves]:
@@ -240,7 +239,7 @@ def _differences(series, answers, bodies) -> DataFrame:
     for curve, body in bodies.items():
         for model in answers.judged(curve, FORCE) if curve in series.curves else ():
             both = model.name, series.models.reference
-            found = answers.compared(curve, both, ratio_of("normal_force", *both)).interval
+            found = answers.compared(curve, both, ratio_of("normal_force", *both)).ends
             for at, depth in series.touched(answers, curve, both[1]):
                 numbers = (float(each[at]) - 1 for each in found)
                 rows.append({"model": model.name, "body": body, "depth": depth} | _row("difference", numbers))
@@ -258,7 +257,7 @@ def _history(series, answers, axis) -> DataFrame:
         if answers.has(OWN, model.name):
             columns = {axis: answers.two_levels(OWN, model.name)[axis].values}
             for name in ("normal_force", "depth_reached", "friction_force"):
-                columns |= _named(name, answers.interval(OWN, model.name, name), MEANS)
+                columns |= _named(name, answers.interval(OWN, model.name, name).ends, MEANS)
             frames[(model.name,)] = DataFrame(columns)
     return _stacked(frames, "model")
 
@@ -272,7 +271,7 @@ def _smooth_limit(series: Around, answers: Answers, points: DataFrame, folder: s
     ratios = {
         (model.name,): DataFrame(
             {"v_tau_over_a": [*map(scaled.get, series.curves[SMOOTH_SPEED].speeds)]}
-            | _named("ratio", _ratio(series, answers, SMOOTH_SPEED, model.name))
+            | _named("ratio", _ratio(series, answers, SMOOTH_SPEED, model.name).ends)
         )
         for model in answers.judged(SMOOTH_SPEED, FRICTION)
     }
@@ -308,7 +307,7 @@ def _causes(series, answers, laws) -> DataFrame:
                 values = mean(sample[model], variable, below)[1]
                 return values / values[0]
 
-            columns |= _named(name, answers.compared(ROUGH, (model,), over_the_first).interval)
+            columns |= _named(name, answers.compared(ROUGH, (model,), over_the_first).ends)
         frames[(model,)] = DataFrame(columns)
     return _stacked(frames, "model")
 
@@ -317,7 +316,7 @@ def _law(members: Sequence[LawPoints], findings: Sequence[Finding], folder: str 
     """Master curve in three dimensions."""
     frames = []
     for each in members:
-        measured = map(each.law.measured, _mu(each.answers, ROUGH, each.model))
+        measured = map(each.law.measured, _mu(each.answers, ROUGH, each.model).ends)
         columns = {"series": each.series.title} | _places(each.series, ROUGH)
         columns |= {"pressure_ratio": each.law.x.ravel()} | _named("measured_share", measured)
         columns |= {"share_of_full_contact": each.law.share.ravel(), "height_over_depth": each.height.ravel()}
@@ -346,10 +345,10 @@ def _depth(series: RoughSeries, answers: Answers, folder: str) -> Plot | None:
     where = DataFrame({"rate": places[0], series.prescribed: places[1]})
     for body in BODIES:
         for model in models:
-            found = Interval(*(each[rows] for each in answers.interval(body, model, name)))
+            found = answers.interval(body, model, name).at(rows).ends
             reached = mean(answers(body, model), "depth_reached")[1:]
             closed = np.vstack([known, loading(series, reached)]) if rows == slice(None) else known
-            count = np.size(found.value)
+            count = np.size(found[0])
             points[model, body] = where[:count].assign(closed_form=np.ravel(closed), **_named(name, found, MEANS))
             if model != reference:
 
@@ -357,7 +356,7 @@ def _depth(series: RoughSeries, answers: Answers, folder: str) -> Plot | None:
                     one, three = (mean(sample[each], name)[rows] for each in (model, reference))
                     return one - three if at_load else one / three - 1
 
-                difference = answers.compared(body, (model, reference), apart).interval
+                difference = answers.compared(body, (model, reference), apart).ends
                 less[model, body] = where[:count].assign(**_named("difference", difference))
     moving = [] if rows == slice(None) else ["rate"]
     what = "Depth under prescribed loads" if at_load else "Force at prescribed depths"
@@ -377,8 +376,8 @@ def _reduced(members: Sequence[Member], model: str) -> DataFrame:
     for k, each in enumerate(members):
         mu, other = (mean_ratio(data.friction_force[k], data.load[k]) for data in (fine, coarse))
         xi = 1 / mean_ratio(fine.load[k]).value
-        found = Interval.of(mu, np.abs(mu.value - other.value))
-        columns = _named("over_eq_19", [end / interpolation(xi) for end in found])
+        found = replace(mu, grid=np.abs(mu.value - other.value))
+        columns = _named("over_eq_19", [end / interpolation(xi) for end in found.ends])
         places = _places(each.series, ROUGH)
         places["normal_force"] = each.answers.interval(ROUGH, model, "normal_force").value[1:].ravel()
         frame = DataFrame({"series": each.series.title, "xi": xi, **columns})

@@ -4,9 +4,10 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from math import ceil, inf, isfinite, nan
+from math import ceil, inf, nan
 from typing import Any, ClassVar
 
+import numpy as np
 import xarray
 
 from scene import Scene, Solver
@@ -17,11 +18,11 @@ from ...solving.curve import COARSE, FINE, LEVELS, Curve, levels
 from ...solving.task import SceneTask
 from ...statistics import eq23
 from ...statistics.collapse import Collapse, collapse
-from ...statistics.finding import HALVED, UNKNOWN, Claim, Finding, said_of
+from ...statistics.finding import Claim, Finding, said_of
 from ...statistics.frictioncurves import SimulatedCurves
 from ...statistics.jackknife import mean, measured
 from ...statistics.means import touches
-from ...statistics.multilevel import MEANS, WORDS, DrawnSurfaces, needed, unreached
+from ...statistics.multilevel import MEANS, WORDS, DrawnSurfaces, means_of, unreached
 from .answers import Answers
 from .claims import CLAIMS, claim
 from .laws import Laws
@@ -183,26 +184,26 @@ class Series(ABC):
         made: dict[str, Counts] = {}
         interval = self.interval or inf
         for name, drawn in self.drawn.items():
-            counts = drawn.more([each for each in findings if self.behind(each) == name], interval, growth)
-            for model, mean_name, dataset in self._means(name, answers):
-                least = needed(dataset, *MEANS[mean_name], drawn.costs[model], interval, growth)
-                counts[model] = tuple(map(max, counts[model], least))
-            made[name] = counts
+            own = [each for each in findings if self.behind(each) == name]
+            own += [each for *_, found in self._means(name, answers) for each in found]
+            made[name] = drawn.more(own, interval, growth)
         return made
 
     def unreached(self, answers: Answers) -> Iterator[str]:
         """Sentences on means whose intervals are wider than wanted."""
         for name in self.drawn:
-            for model, mean_name, dataset in self._means(name, answers):
-                if why := unreached(dataset, *MEANS[mean_name], self.interval or inf):
+            for model, mean_name, found in self._means(name, answers):
+                if why := unreached(found, self.interval or inf):
                     yield f"{self.name}: the {WORDS[mean_name]} in {self.models.labels[model]} {why}."
 
     def _means(self, shared, answers):
-        """Model, name and answers of each mean that an interval is wanted of, on curves that share surfaces."""
+        """Model, name and findings of each mean that an interval is wanted of, on curves that share surfaces."""
         for model in self.drawn[shared].counts:
             for curve, mean_name, speeds in self.wanted:
                 if curve in self.shared[shared] and model in self.curves[curve].levels:
-                    yield model, mean_name, answers.all_levels(curve, model).sel(speed=list(speeds))
+                    found = answers.interval(curve, model, *MEANS[mean_name])
+                    asked = found.at(np.isin(answers.two_levels(curve, model)["speed"], speeds))
+                    yield model, mean_name, means_of(model, asked)
 
     def compared(
         self,
@@ -215,19 +216,10 @@ class Series(ABC):
         **told: Any,
     ) -> Iterator[Finding]:
         """Findings of a claim on numbers of one or more models at some places of a curve; told : other fields"""
-        found = answers.compared(curve, tuple(models), measure, told.get("size", False))
+        found = answers.compared(curve, tuple(models), measure, told.pop("size", False))
+        told |= {"drawn": found.drawn, "curve": self.place(curve)}
         for at, words in places.items():
-            value, low, high, grid = (float(each[at]) for each in (found.value, found.low, found.high, found.grid))
-            place: dict[str, Any] = {
-                "scatter": (low, high),
-                "grid": grid,
-                "grid_method": HALVED if isfinite(grid) else UNKNOWN,
-                "where": ", ".join(filter(None, (self.name, words))),
-                "drawn": found.drawn,
-                "parts": {source: float(each[at]) for source, each in found.parts.items()},
-                "curve": self.place(curve),
-            }
-            yield Finding(claim, value, **(place | told))
+            yield Finding.of(claim, found.at(at), where=", ".join(filter(None, (self.name, words))), **told)
 
     def ratios(
         self,
@@ -281,19 +273,19 @@ class Series(ABC):
         """
         own = self.curves[curve]
         drawn = sum(map(len, own.strata(model.name))) if own.random else 0
+        place: dict[str, Any] = {"where": self.name, "draws": drawn, "regime": regime}
         known = answers.halved(curve, model.name)
         every = (answers(curve, model.name, level) for level in ((FINE, COARSE) if known else (FINE,)))
         try:
             fine, *coarse = [collapse(SimulatedCurves.of(each.sel(speed=each["speed"] > 0))) for each in every]
         except ValueError:
             enough = eq23.shiftable(len(shifts), len(own.values))
-            return None, [eq23.too_few(model.label, self.name, drawn, regime)] if enough else []
+            return None, [eq23.too_few(model.label, **place)] if enough else []
         told = eq23.findings(
-            fine, coarse[0] if known else None, model.label, shifts, exponent, self.name, drawn, regime,
-            horizontal=not known,
-        )  # fmt: skip
+            fine, coarse[0] if known else None, model.label, shifts, exponent, horizontal=not known, **place
+        )
         # Data without a grid are exact, a surface that has no other grid is not.
-        unknown: dict[str, Any] = {} if known else {"grid": nan, "grid_method": UNKNOWN}
+        unknown: dict[str, Any] = {} if known else {"grid": nan}
         return fine, [replace(each, curve=self.place(curve), **unknown) for each in told]
 
     def touched(self, answers: Answers, curve: str, model: str) -> Iterator[tuple[tuple[int, int], float]]:

@@ -142,7 +142,7 @@ class SweepSeries(Series):
         places = DataFrame(list(product(self.speeds, self.values)), columns=["speed", self.prescribed])
         for name, speeds in reversed([*wanted(self.prescribed, self.speeds, max(self.speeds) > 0)]):
             columns: dict[str, Any] = {
-                f"{name} ({model.label})": answers.interval(CONTACTS, model.name, *MEANS[name])
+                f"{name} ({model.label})": answers.interval(CONTACTS, model.name, *MEANS[name]).ends
                 for model in answers.claiming(CONTACTS, WORDS[name])
             }
             own = [each for each in findings if each.claim.id == _claim_on(name)]
@@ -163,7 +163,7 @@ class SweepSeries(Series):
         answers = self.answers(tree)
         dataset = answers.curves[CONTACTS].drop_vars([VARIATES, "draws"], errors="ignore").reset_coords("points")
         for name, both in MEANS.items():
-            found = [answers.interval(CONTACTS, model, *both) for model in dataset["model"].values.tolist()]
+            found = [answers.interval(CONTACTS, model, *both).ends for model in dataset["model"].values.tolist()]
             for end, values in zip(ENDS, zip(*found, strict=True), strict=True):
                 dims = "model", "speed", self.prescribed
                 dataset[f"{name}{end}"] = dims, np.array(values), attributes(f"{name}{end}")

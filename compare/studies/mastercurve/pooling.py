@@ -5,24 +5,9 @@ from dataclasses import dataclass
 from math import nan, sqrt
 
 import numpy as np
+from pandas import DataFrame
 
 WARMTH = 2.0  # [K]: temperatures no farther apart are one, unless only equal numbers are
-
-
-@dataclass(frozen=True)
-class Point:
-    """Repeats of one point: their mean.
-
-    temperature, speed : means over its curve [K], [m/s]; None where no temperature was measured
-    load, friction : means over the repeats, friction at this load and speed [N], [1]
-    repeats : friction of each, at this load and speed (N,)
-    """
-
-    temperature: float | None
-    speed: float
-    load: float
-    friction: float
-    repeats: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -33,31 +18,21 @@ class Pooled:
     parabola in their logarithms through all measurements at the temperature. What is left scatters, relative to
     friction, alike everywhere: two or three measurements say too little of their own.
 
-    presses : number of the load of each point, of those that are told apart, ascending (N,)
+    points : a row for each: `temperature` [K], NaN where none was measured, and `speed` [m/s] as means over its
+        curve; `load` [N] and `friction` at this load and speed as means over its `repeats`; standard `error` of
+        ln mu; `press`, the number of its load of those that are told apart, ascending
+    scatter : standard deviation of a measurement relative to the mean of its point; NaN without repeats
+    dof : degrees of freedom of the scatter; 0 where no point was measured twice
     """
 
-    points: tuple[Point, ...]
-    presses: np.ndarray
+    points: DataFrame
+    scatter: float
+    dof: int
 
     @property
     def loads(self) -> int:
         """Number of loads that are told apart."""
-        return int(self.presses.max()) + 1
-
-    @property
-    def dof(self) -> int:
-        """Degrees of freedom of the scatter; 0 where no point was measured twice."""
-        return sum(len(each.repeats) - 1 for each in self.points)
-
-    @property
-    def scatter(self) -> float:
-        """Standard deviation of a measurement relative to the mean of its point; NaN without repeats."""
-        squares = sum(float(np.sum(np.square(each.repeats / each.friction - 1))) for each in self.points)
-        return sqrt(squares / self.dof) if self.dof else nan
-
-    def error(self, point: Point) -> float:
-        """Standard error of ln mu of a point."""
-        return self.scatter / sqrt(len(point.repeats))
+        return int(self.points["press"].max()) + 1
 
 
 def pooled(
@@ -72,24 +47,27 @@ def pooled(
     def alike(low):
         return low * (1 + tolerance)
 
-    points: list[Point] = []
+    rows, squares = [], 0.0
     kelvins = np.zeros(friction.size) if temperature is None else temperature
     for warm in _groups(kelvins, lambda low: low + WARMTH * (tolerance > 0)):
-        warmth = None if temperature is None else mean(temperature[warm])
+        warmth = nan if temperature is None else mean(temperature[warm])
         falls = _parabola(np.log(friction[warm]), np.log(load[warm]), np.log(speed[warm]))
         for slide in _groups(speed[warm], alike):
             curve = warm[slide]
             v = mean(speed[curve])
             for press in _groups(load[curve], alike):
-                rows = curve[press]
-                f = mean(load[rows])
-                at = falls(np.log(f), np.log(v)) - falls(np.log(load[rows]), np.log(speed[rows]))
-                repeats = friction[rows] * np.exp(at)
-                points.append(Point(warmth, v, f, float(np.mean(repeats)), repeats))
-    presses = np.empty(len(points), int)
-    for number, same in enumerate(_groups(np.array([each.load for each in points]), alike)):
-        presses[same] = number
-    return Pooled(tuple(points), presses)
+                own = curve[press]
+                f = mean(load[own])
+                at = falls(np.log(f), np.log(v)) - falls(np.log(load[own]), np.log(speed[own]))
+                repeats = friction[own] * np.exp(at)
+                rows.append((warmth, v, f, float(np.mean(repeats)), own.size))
+                squares += float(np.sum(np.square(repeats / rows[-1][3] - 1)))
+    points = DataFrame(rows, columns=["temperature", "speed", "load", "friction", "repeats"])
+    dof = friction.size - len(points)
+    scatter = sqrt(squares / dof) if dof else nan
+    for number, same in enumerate(_groups(points["load"].to_numpy(), alike)):
+        points.loc[same, "press"] = number
+    return Pooled(points.assign(error=scatter / np.sqrt(points["repeats"])), scatter, dof)
 
 
 def mean(values: np.ndarray) -> float:

@@ -24,7 +24,7 @@ from ...statistics.collapse import Alignment, Collapse, collapse
 from ...statistics.finding import claimed
 from ..study import Judgement, Study
 from . import temperatures
-from .measuredcurves import check, curves_of, in_order
+from .measuredcurves import CURVE, check, curves_of, in_order
 from .measurements import MeasuredFriction, Measurements
 from .pooling import WARMTH, Pooled, pooled
 from .shiftlaws import ShiftLaw, law_of
@@ -160,7 +160,7 @@ class Mastercurve(Study):
 
     def _findings(self):
         """Whether horizontal shifts suffice, or vertical ones are needed, the exponents of both; temperatures."""
-        found, plots = self.collapse, (collapsed.NAME,) * 2
+        found = self.collapse
         warm = list(temperatures.findings(self.shifts, self.law, self.friction.name)) if self.shifts else []
         raw = {
             eq23.COLLAPSE.id: found.horizontal.rms,
@@ -168,9 +168,7 @@ class Mastercurve(Study):
             eq23.VERTICAL_ALONE.id: found.vertical.rms,
         }
         findings = []
-        for each in eq23.findings(
-            found, None, MEASURED, where=self.friction.name, draws=0, plots=plots, every=True
-        ):
+        for each in eq23.findings(found, None, MEASURED, every=True, where=self.friction.name, draws=0):
             name, sentence = CLAIMS[each.claim.id]
             if each.claim.id in EXPONENTS and (why := temperatures.unshifted(self.shifts, warm)):
                 each = replace(each, value=nan, scatter=(nan, nan), reason=why)
@@ -196,7 +194,7 @@ class Mastercurve(Study):
         """What was read of the table and not used."""
         if "temperature" not in self.data or self.shifts is not None:
             return self.friction.notes
-        return (*self.friction.notes, temperatures.ONE.format(self.pooled.points[0].temperature))
+        return (*self.friction.notes, temperatures.ONE.format(self.pooled.points["temperature"].iloc[0]))
 
     def _plots(self, findings):
         named = {each.claim.id: each for each in findings}
@@ -218,10 +216,8 @@ class Mastercurve(Study):
         """Temperature and measured speed of each curve, in the order of the collapse; None of one temperature."""
         if self.shifts is None:
             return None
-        first = [self.pooled.points[places[0]] for _, places in in_order(self.pooled, self.shifts)]
-        return DataFrame(
-            {"temperature": [each.temperature for each in first], "speed": [each.speed for each in first]}
-        )
+        first = [own.iloc[0] for own in in_order(self.pooled, self.shifts)]
+        return DataFrame(first, columns=[*CURVE]).reset_index(drop=True)
 
     @property
     def setting(self) -> Sequence[Block]:

@@ -1,7 +1,7 @@
 """Tables of measured friction at several temperatures, and of its shifts along the speed."""
 
 import numpy as np
-from pandas import DataFrame, concat
+from pandas import DataFrame, Series, concat
 
 from ...statistics.intervals import student
 from .pooling import Pooled
@@ -11,27 +11,21 @@ from .temperatureshifts import TemperatureShifts
 
 def points_table(pooled: Pooled, shifts: TemperatureShifts) -> DataFrame:
     """Every point with the speed to which its temperature shifts it, and the mean load of its curve."""
-    names = {
-        "temperature": "temperature",
-        "speed": "speed",
-        "load": "normal_force",
-        "friction": "friction_coefficient",
-    }
-    frame = DataFrame({name: [getattr(each, of) for each in pooled.points] for of, name in names.items()})
-    by = dict(zip(shifts.temperatures.tolist(), shifts.shifts.value.tolist(), strict=True))
-    frame.insert(2, "reduced_speed", frame["speed"] * np.exp(frame["temperature"].map(by)))
-    frame.insert(3, "load", frame.groupby(pooled.presses)["normal_force"].transform("mean"))
-    width = np.array([pooled.error(each) for each in pooled.points]) * student(0.95, pooled.dof)
+    frame = pooled.points.rename(columns={"load": "normal_force", "friction": "friction_coefficient"})
+    by = Series(shifts.shifts.value, shifts.temperatures)
+    frame["reduced_speed"] = frame["speed"] * np.exp(frame["temperature"].map(by))
+    frame["load"] = frame.groupby("press")["normal_force"].transform("mean")
+    columns = ["temperature", "speed", "reduced_speed", "load", "normal_force", "friction_coefficient"]
+    width = frame["error"] * student(0.95, pooled.dof)
     for end, by_end in (("low", -width), ("high", width)):
-        frame[f"friction_coefficient_{end}"] = frame["friction_coefficient"] * np.exp(by_end)
-    return frame.sort_values(["load", "temperature", "speed"])
+        columns.append(f"friction_coefficient_{end}")
+        frame[columns[-1]] = frame["friction_coefficient"] * np.exp(by_end)
+    return frame[columns].sort_values(["load", "temperature", "speed"])
 
 
 def shifts_table(shifts: TemperatureShifts) -> DataFrame:
     """Shift ln a_T of each temperature with its interval of 95 %."""
-    low, high = shifts.shifts.interval()
-    names = ("temperature", "log_time_shift", "log_time_shift_low", "log_time_shift_high")
-    return DataFrame(dict(zip(names, (shifts.temperatures, shifts.shifts.value, low, high), strict=True)))
+    return DataFrame({"temperature": shifts.temperatures, **shifts.shifts.columns("log_time_shift")})
 
 
 def laws_table(shifts: TemperatureShifts, law: ShiftLaw | None) -> DataFrame:

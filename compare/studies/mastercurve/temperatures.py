@@ -10,10 +10,9 @@ from pydantic import TypeAdapter, ValidationError
 from scene.reading import InvalidInput, mistakes
 from scene.temperature import WLF
 
-from ...figures import temperature_shifts
 from ...solving import words
 from ...statistics import eq23
-from ...statistics.finding import EXACT, FAILS, Claim, Finding
+from ...statistics.finding import FAILS, Claim, Finding
 from .measuredcurves import isotherms
 from .measurements import COLDEST
 from .pooling import Pooled
@@ -97,10 +96,10 @@ def shifts_of(pooled: Pooled, constants: Constants) -> TemperatureShifts | None:
 def findings(shifts: TemperatureShifts, law: ShiftLaw | None, where: str) -> Iterator[Finding]:
     """Whether the temperatures come together, and the constants of the laws of shifts that were found."""
     sentence = TOGETHER.sentence if shifts.found else "The stated shifts of WLF bring the temperatures together"
-    place: dict[str, Any] = {"where": where, "plot": temperature_shifts.NAME}
-    together = eq23.finding(replace(TOGETHER, sentence=sentence), shifts.misfit, reason=shifts.inseparable)
-    for each in (together, eq23.finding(APART, shifts.unshifted)):
-        yield replace(each, dimension="measured", **place)
+    place: dict[str, Any] = {"where": where, "dimension": "measured"}
+    together = replace(TOGETHER, sentence=sentence)
+    yield eq23.finding(together, shifts.misfit, reason=shifts.inseparable, **place)
+    yield eq23.finding(APART, shifts.unshifted, **place)
     if law is None:
         return
     reference = f"reference {law.reference:.5g} K"
@@ -117,9 +116,7 @@ def findings(shifts: TemperatureShifts, law: ShiftLaw | None, where: str) -> Ite
             number.value,
             scatter=(number.low, number.high),
             grid=0.0,
-            grid_method=EXACT,
             reason=why,
-            dimension="measured",
             regime=reference,
             **place,
         )

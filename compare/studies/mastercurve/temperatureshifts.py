@@ -4,25 +4,16 @@ Friction of equal loads is one function of ln v + ln a_T at all temperatures (ti
 function is a polynomial in the logarithms of speed and load, common to all temperatures, and projected out.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from math import log
 
 import numpy as np
-from numpy.polynomial import chebyshev
+from scipy.linalg import orth
 
 from ...statistics.collapse import STRAIGHT
-from ...statistics.commoncurve import (
-    LEAST_OVERLAP,
-    Common,
-    Projected,
-    inside,
-    near,
-    scaled_to_one,
-    unsettled,
-    within,
-)
+from ...statistics.commoncurve import LEAST_OVERLAP, LEAST_SINGULAR, Common, Fit, near
 from ...statistics.intervals import Estimated, RmsMisfit
 from ...statistics.jackknife import Replicates
 
@@ -56,7 +47,6 @@ class TemperatureShifts:
     misfit : of ln mu about the one function, without what scatter adds
     unshifted : the same with no shift
     straight : of parallel planes, one a temperature, to ln mu of ln v and ln F
-    degree : of the polynomial
     found : whether the shifts are those that data ask for
     """
 
@@ -66,7 +56,6 @@ class TemperatureShifts:
     misfit: RmsMisfit
     unshifted: RmsMisfit
     straight: RmsMisfit
-    degree: int
     found: bool
 
     @property
@@ -91,41 +80,12 @@ class TemperatureShifts:
         return float(self.temperatures[len(self.isotherms) // 2])
 
 
-class Surface(Projected):
-    """Misfit of isotherms to a polynomial in ln v and ln F of this total degree, given their shifts along ln v.
-
-    loads : number of loads that are told apart, which bounds the power of ln F
-    """
-
-    def __init__(self, isotherms: Sequence[Isotherm], degree: int, loads: int):
-        super().__init__([each.log_speed for each in isotherms], [each.log_friction for each in isotherms])
-        self.isotherms, self.degree, self.loads = isotherms, degree, loads
-        self.log_load, self.errors = (
-            np.concatenate([getattr(each, name) for each in isotherms]) for name in ("log_load", "error")
-        )
-        across = min(degree, loads - 1)
-        self._across = chebyshev.chebvander(scaled_to_one(self.log_load)[0], across)
-        self._powers = [(i, k) for k in range(across + 1) for i in range(degree - k + 1)]
-
-    def _common(self, x):
-        scaled, half = scaled_to_one(x)
-        along = chebyshev.chebvander(scaled, self.degree)
-        # Columns are the derivatives of the polynomials.
-        slopes = along[:, :-1] @ chebyshev.chebder(np.eye(self.degree + 1)) / half
-        i, k = np.transpose(self._powers)
-        basis = along[:, i] * self._across[:, k]
-        orthonormal, coefficients = self.projected(basis)
-        return Common(
-            basis, orthonormal, slopes[:, i] * self._across[:, k] @ coefficients, coefficients, (x.min(), x.max())
-        )
-
-
 def stated(isotherms: Sequence[Isotherm], shifts: np.ndarray, loads: int, dof: float) -> TemperatureShifts:
     """What shifts ln a_T (K,) that are stated make of isotherms."""
     increments = np.diff(shifts)
-    surface = _freest(isotherms, loads, lambda each: increments)
-    levers = np.zeros((len(shifts), surface.y.size))
-    return _shifted(surface, increments, Estimated(np.asarray(shifts, float)), levers, dof, found=False)
+    best = _freest(isotherms, loads, lambda fit: fit.at(increments))
+    levers = np.zeros((len(shifts), best.x.size))
+    return _shifted(best, Estimated(np.asarray(shifts, float)), levers, dof, found=False)
 
 
 def found(isotherms: Sequence[Isotherm], loads: int, dof: float) -> TemperatureShifts:
@@ -138,80 +98,64 @@ def found(isotherms: Sequence[Isotherm], loads: int, dof: float) -> TemperatureS
     """
     _check_shared(isotherms)
     start = np.concatenate([_of_pair(pair, loads) for pair in pairwise(isotherms)])
-    surface = _freest(isotherms, loads, lambda each: near(each, start))
-    increments = near(surface, start)
-    if not inside(increments, *surface.bounds):
-        lower, upper = surface.bounds
+    best = _freest(isotherms, loads, lambda fit: near(fit, start))
+    fit, increments = best.fit, best.increments
+    if not best.inside:
+        lower, upper = fit.bounds
         margin = np.minimum(increments - lower, upper - increments) / (upper - lower)
         first = int(np.argmin(margin))
         _refuse(isotherms[first], isotherms[first + 1], "speeds once shifted")
-    # Against the middle temperature.
-    against = np.tri(len(isotherms), len(increments), -1)
-    against = against - against[len(isotherms) // 2]
-    levers = -against @ np.linalg.pinv(surface.jacobian(increments))
-    scattered = Replicates(against @ increments, (levers * surface.errors).T, dof).estimated
-    shifts = replace(scattered, bias=_unfollowed(surface, against, increments))
-    return _shifted(surface, increments, shifts, levers, dof, found=True)
+    levers = -fit.against @ np.linalg.pinv(best.jacobian)
+    scattered = Replicates(fit.against @ increments, (levers * fit.column("error")).T, dof).estimated
+    bias = fit.unsettled(increments, lambda each: fit.against @ each.increments)
+    return _shifted(best, replace(scattered, bias=bias), levers, dof, found=True)
 
 
-def _unfollowed(surface, against, increments):
-    """What shifts against one temperature (K,) may be off by, as no polynomial is the law."""
+def _shifted(best, shifts, levers, dof, found):
+    fit, errors = best.fit, best.fit.column("error")
+    levels = fit.owner[:, None] == np.arange(len(fit.curves))
+    planes = np.column_stack([levels, fit.column("log_speed"), fit.column("log_load")])
 
-    def changed(degree):
-        other = Surface(surface.isotherms, degree, surface.loads)
-        return np.abs(against @ (near(other, increments) - increments)), other.common(increments).basis.shape[1]
+    def misfit(functions):
+        """Misfit to the best sum of functions (N, M), which take scatter away."""
+        basis = orth(functions, LEAST_SINGULAR)
+        deviations = np.diag(errors) - errors[:, None] * basis @ basis.T
+        return Replicates(fit.y - basis @ (basis.T @ fit.y), deviations, dof).rms
 
-    after, unknowns = changed(surface.degree + 2)
-    before = changed(surface.degree - 2)[0] if surface.degree > 2 else after
-    return unsettled(before, after if unknowns + len(increments) < surface.y.size else before)
-
-
-def _shifted(surface, increments, shifts, levers, dof, found):
-    levels = surface.owner[:, None] == np.arange(len(surface.isotherms))
-    unshifted, shifted = (surface.common(each).basis for each in (np.zeros_like(increments), increments))
     return TemperatureShifts(
-        tuple(surface.isotherms),
+        tuple(fit.curves),
         shifts,
         levers,
-        misfit=_misfit(surface, dof, surface.tangent(increments) if found else shifted),
-        unshifted=_misfit(surface, dof, unshifted),
-        straight=_misfit(surface, dof, np.column_stack([levels, surface.x, surface.log_load])),
-        degree=surface.degree,
+        misfit=misfit(best.tangent if found else best.basis),
+        unshifted=misfit(fit.at(0 * best.increments).basis),
+        straight=misfit(planes),
         found=found,
     )
 
 
-def _misfit(surface, dof, fitted):
-    """Misfit to the best sum of functions (N, M), which take scatter away."""
-    basis, _ = surface.projected(fitted)
-    deviations = np.diag(surface.errors) - surface.errors[:, None] * basis @ basis.T
-    return Replicates(surface.y - basis @ (basis.T @ surface.y), deviations, dof).rms
-
-
-def _freest(isotherms, loads, sought):
-    """The surface of the degree with the least information criterion, corrected for few points."""
-    points = sum(each.log_speed.size for each in isotherms)
+def _freest(isotherms: Sequence[Isotherm], loads: int, sought: Callable[[Fit], Common]) -> Common:
+    """The fit of the degree with the least information criterion, corrected for few points."""
     best, least = None, np.inf
     for degree in DEGREES:
-        surface = Surface(isotherms, degree, loads)
-        increments = sought(surface)
-        unknowns = surface.common(increments).orthonormal.shape[1] + len(increments)
+        tried = sought(Fit(isotherms, degree, along="log_speed", loads=loads))
+        points = tried.x.size
+        unknowns = tried.orthonormal.shape[1] + tried.increments.size
         if best is not None and points - unknowns < max(points / 3, 2):
             break
-        square = max(float(np.sum(np.square(surface.residuals(increments)))), 1e-24 * points)
+        square = max(tried.cost, 1e-24 * points)
         criterion = points * log(square / points) + 2 * unknowns * points / max(points - unknowns - 1, 1)
         if criterion < least:
-            best, least = surface, criterion
+            best, least = tried, criterion
+    assert best is not None  # the first degree is always tried
     return best
 
 
 def _of_pair(pair, loads):
     """The increment that brings two neighbours closest."""
-    surface = Surface(pair, 2, loads)
-    lower, upper = surface.bounds
-    tried = within(np.where(STARTS < 0, -STARTS * lower, STARTS * upper)[:, None], lower, upper)
-    costs = [float(np.sum(np.square(surface.residuals(each)))) for each in tried]
-    return near(surface, tried[int(np.argmin(costs))])
+    fit = Fit(pair, 2, along="log_speed", loads=loads)
+    lower, upper = fit.bounds
+    tried = fit.within(np.where(STARTS < 0, -STARTS * lower, STARTS * upper)[:, None])
+    return near(fit, min(tried, key=lambda each: fit.at(each).cost)).increments
 
 
 def _check_shared(isotherms):

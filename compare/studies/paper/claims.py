@@ -9,9 +9,7 @@ intervals.
 from collections.abc import Iterator
 from dataclasses import replace
 
-import numpy as np
-
-from ...statistics.finding import EXACT, Claim, Finding
+from ...statistics.finding import Claim, Finding
 from ...statistics.intervals import Estimated
 from .law import Law
 from .parameter_studies import SlowFriction
@@ -75,29 +73,18 @@ def of_low_speed(slow: SlowFriction) -> Iterator[Finding]:
         (SLOPE_KEPT, "slow", slow.with_macro_slope),
     ):
         slope, count = slow.power(slow.points[condition].to_numpy(), over)
-        yield exact(claim, slope, slow.samples.shape[1], "paper-studies", regime=f"{count} points")
+        yield exact(claim, slope, slow.samples.shape[1], regime=f"{count} points")
 
 
 def of_law(one: Law, other: Law) -> Iterator[Finding]:
     """Eq. 19 and Eq. 14, of each shape and between both."""
     for law in (one, other):
-        yield exact(ALPHA, law.alpha, law.profiles, "paper-law", law.shape)
-        yield exact(PLATEAU, law.plateau, law.profiles, "paper-law", law.shape)
+        yield exact(ALPHA, law.alpha, law.profiles, law.shape)
+        yield exact(PLATEAU, law.plateau, law.profiles, law.shape)
     between = f"{one.shape} minus {other.shape}"
-    yield exact(SAME_ALPHA, one.less(other), min(one.profiles, other.profiles), "paper-law", between)
+    yield exact(SAME_ALPHA, one.less(other), min(one.profiles, other.profiles), between)
 
 
-def exact(claim: Claim, measured: Estimated, draws: int, plot: str, where: str = "", regime: str = "") -> Finding:
+def exact(claim: Claim, measured: Estimated, draws: int, where: str = "", regime: str = "") -> Finding:
     """Finding of a number whose only error is that of the average over profiles."""
-    low, high = np.array(measured.interval()).tolist()
-    return Finding(
-        claim=claim,
-        value=float(measured.value),
-        scatter=(low, high),
-        grid=0.0,
-        grid_method=EXACT,
-        where=where,
-        draws=draws,
-        regime=regime,
-        plot=plot,
-    )
+    return Finding.of(claim, measured, where=where, draws=draws, regime=regime)

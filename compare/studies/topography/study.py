@@ -22,7 +22,7 @@ from ...solving.outcome import Outcome
 from ...solving.task import Batch, Task
 from ...solving.vocabulary import attributes
 from ...solving.words import sentences
-from ...statistics.finding import EXACT, Claim, Finding
+from ...statistics.finding import Claim, Finding
 from ..study import Judgement, Study
 from . import figure as plots
 from .spectra import Description, describe
@@ -161,13 +161,12 @@ class Map(Study):
             told: dict[str, Any] = {
                 "value": float(number(found)),
                 "where": self.name,
-                "plot": plots.NAME,
                 "dimension": "measured",
             }
             if name == "hurst":
                 told |= {"regime": found.band, "reason": "; ".join(found.warnings)}
                 if law is not None:
-                    told |= {"scatter": (law.low, law.high), "grid": 0.0, "grid_method": EXACT}
+                    told |= {"scatter": (law.low, law.high), "grid": 0.0}
             findings.append(Finding(claim, **told))
         shown = [each for each in findings if each.claim.id in SAID]
         answer = [*(f"Warning: {each}." for each in self.description.warnings), *sentences(shown)]
