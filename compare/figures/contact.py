@@ -1,7 +1,6 @@
-"""One contact, 3D beside 1D: pressure from above, force per length, sections of both bodies; a program in time."""
+"""One contact, 3D beside 1D: pressure from above, force per length, and sections of both bodies."""
 
 from collections.abc import Mapping, Sequence
-from itertools import product
 from math import ceil
 from typing import Any
 
@@ -9,22 +8,20 @@ import numpy as np
 import xarray
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from pandas import DataFrame, concat
+from pandas import DataFrame
 
-from scene import Cylinder, Program, Scene
+from scene import Program, Scene
 
-from . import shades, style, touching
-from .lettering import lettered
+from . import style, touching
 from .plot import Plot, Tables
 from .prefixes import prefixed
 from .views import ROW, SURFACE, smooth_radius
 
 NAME = "contact"
-PRESSURE, LINES, PROGRAM = f"{NAME}-pressure", f"{NAME}-line-force", f"{NAME}-program"
+PRESSURE, LINES = f"{NAME}-pressure", f"{NAME}-line-force"
 SECTIONS = {"BEM": f"{NAME}-section-3d", "MDR": f"{NAME}-section-1d"}
 SECTION_TITLES = {"BEM": "3D: section y = 0", "MDR": "1D: row of elements"}
 HEIGHTS = "indenter", "surface", "touching"
-HISTORIES = "normal_force", "friction_force", "depth"
 STRIPS = 112  # along x, over each of which the force per length is averaged
 ELEMENTS = 56  # of the row that are drawn
 ABOVE, BELOW = 0.45, 0.35  # heights above and below what is shown of the surfaces, of their range
@@ -34,92 +31,71 @@ PANEL, AROUND, LEGEND = 1.75, 1.2, 0.5  # heights of a panel, around a map, and 
 BESIDE = 0.75  # what stands beside a map [inch]
 
 
-def plot(
-    scene: Scene,
-    seen: Mapping[str, xarray.Dataset],
-    program: Mapping[str, xarray.Dataset] | None = None,
-    folder: str = "",
-) -> Plot:
-    """Plot of a contact, of which something is known.
-
-    seen : "surface" (y, x) and "row" (x), as `views.view` returns them
-    program : normal_force, friction_force and depth (time) by the name of the solver
-    """
+def plot(scene: Scene, seen: Mapping[str, xarray.Dataset], folder: str = "") -> Plot:
+    """Plot of a contact, of which something is known: "surface" (y, x) or "row" (x), as `views.view` has them."""
+    motion = scene.motion
+    speed = motion.stages[-1].speed if isinstance(motion, Program) else motion.speed
+    flow = "at rest" if speed == 0 else "← indenter slides" if speed > 0 else "indenter slides →"
+    options: dict[str, Any] = {"radius": smooth_radius(scene), "flow": flow}
     tables: dict[str, DataFrame] = {}
-    options: dict[str, Any] = {"radius": smooth_radius(scene)}
-    sections = {"MDR": seen[ROW]} if ROW in seen else {}
+    sections = {}
     if SURFACE in seen:
         surface, alike = seen[SURFACE], seen[SURFACE].sizes["y"] == 1
         pressed, lines = surface["pressure"].to_dataframe().reset_index(), line_forces(surface, seen.get(ROW))
         pressed = pressed[pressed["pressure"] > 0]
         if len(pressed) and not alike:
             tables[PRESSURE] = pressed
-            y = surface["y"].values
-            options["aside"] = float(y[-1] + (y[1] - y[0]) / 2)
+            options["aside"] = 1.1 * max(options["radius"] or 0.0, *np.abs(pressed["y"]))
         if alike or "line_force_1d" in lines:
             tables[LINES] = lines
         middle = surface.sel(y=0.0, method="nearest")
         height, touched = -middle["displacement"], middle["pressure"] > 0
         sections["BEM"] = middle.assign(indenter=height + middle["gap"], surface=height, touching=touched)
-    for solver in SECTIONS.keys() & sections.keys():
-        tables[SECTIONS[solver]] = sections[solver].to_dataframe().reset_index()[["x", *HEIGHTS]]
-    if program:
-        histories = [each.to_dataframe().reset_index().assign(solver=name) for name, each in program.items()]
-        tables[PROGRAM] = concat(histories, ignore_index=True)
-        options["unit"] = "N/m" if isinstance(scene.indenter, Cylinder) else "N"
-    motion = scene.motion
-    options["flow"] = touching.flow(motion.stages[-1].speed if isinstance(motion, Program) else motion.speed)
+    if ROW in seen:
+        sections["MDR"] = seen[ROW]
+    for solver, section in sections.items():
+        tables[SECTIONS[solver]] = section.to_dataframe().reset_index()[["x", *HEIGHTS]]
     caption = (
         "Pressure in 3D, colours cut at the 99th percentile; force per length, in 3D the pressure integrated over "
-        "y; sections, heights exaggerated as stated, the rigid indenter grey."
+        "y; sections, the rigid indenter grey."
     )
     caption += " Each model has a rough surface of its own." if scene.roughness is not None and ROW in seen else ""
-    caption += " All but force and depth is at the end of the program." if program else ""
+    caption += " All is at the end of the program." if isinstance(motion, Program) else ""
     alternative = "Map of pressure, force per length, and sections through indenter and elastomer in 3D and 1D."
     return Plot(f"{folder}{NAME}", figure, tables, caption, alternative, options)
 
 
-def figure(
-    tables: Tables, aside: float = 1.0, radius: float | None = None, flow: str = "", unit: str = "N"
-) -> Figure:
-    """A panel for each table, two a row; of a program two panels, forces and depth.
+def figure(tables: Tables, aside: float = 1.0, radius: float | None = None, flow: str = "") -> Figure:
+    """A panel for each table, two a row.
 
     aside : farthest y of the map [m]; radius : of the smooth relaxed contact [m]
-    flow : which way the indenter slides, in words; unit : of forces in time
+    flow : which way the indenter slides, in words
     """
     sections = {solver: tables[name] for solver, name in SECTIONS.items() if name in tables}
-    limits = heights_of([*sections.values()])
-    span: list[float] = next((table["x"].iloc[[0, -1]].tolist() for table in sections.values()), [])
-    count = len(tables) + (PROGRAM in tables)
-    heights = [PANEL] * ceil(count / 2)
+    limits, rows = heights_of([*sections.values()]), ceil(len(tables) / 2)
+    x: Any = next(iter(sections.values()))["x"]
+    span: list[float] = x.iloc[[0, -1]].tolist()
+    heights = [PANEL] * rows
     if PRESSURE in tables:
         tall = min(1.0, 2 * aside / (span[1] - span[0]))
         heights[0] = max(PANEL, (style.across("double") / 2 - BESIDE) * tall + AROUND)
     drawing = style.canvas("double", sum(heights) + LEGEND)
-    panels = drawing.subplots(len(heights), min(2, count), squeeze=False, height_ratios=heights).ravel()
-    free = iter(panels)
+    grid = drawing.subplots(rows, min(2, len(tables)), squeeze=False, height_ratios=heights).ravel()
+    panels = dict(zip(tables, grid, strict=False))
     if PRESSURE in tables:
-        pressure_map(next(free), tables[PRESSURE], sections["BEM"]["x"], aside, radius)
+        pressure_map(panels[PRESSURE], tables[PRESSURE], x, aside, radius)
     if LINES in tables:
-        _line_forces(next(free), tables[LINES], span)
-    below = dict(zip(sections, free, strict=False))
-    for solver, axes in below.items():
-        seen, elements = touching.section_of(sections[solver]), ELEMENTS * (solver == "MDR")
-        touching.section(axes, seen, solver, span, limits, elements)
+        _line_forces(panels[LINES], tables[LINES], span)
+    for solver, table in sections.items():
+        axes = panels[SECTIONS[solver]]
+        touching.section(axes, table, solver, span, limits, ELEMENTS * (solver == "MDR"))
         axes.set_title(SECTION_TITLES[solver])
-    if PROGRAM in tables:
-        _in_time(next(free), tables[PROGRAM], "force", unit, normal_force="", friction_force=": friction")
-        _in_time(next(free), tables[PROGRAM], "depth", "m", depth="")
-    for axes in free:
+    for axes in grid[len(tables) :]:
         axes.remove()
-    lettered(panels[:count])
-    handles = {handle.get_label(): handle for axes in panels for handle in axes.get_legend_handles_labels()[0]}
-    style.legend(drawing, [*handles.values()], "outside lower center", 4)
-    style.lay_out(drawing, passes=2)  # a map of equal scales finds its place in the second pass
-    for axes in below.values():
-        touching.exaggeration(axes, span, limits)
-    if sections:
-        touching.beside(panels[0], flow)
+    style.lettered(panels.values())
+    grid[0].set_title(flow, loc="right", fontsize=style.small(), fontweight="normal")
+    style.legend(drawing, panels.values(), 4)
+    drawing.get_layout_engine().execute(drawing)  # a map of equal scales finds its place in the second pass
     return drawing
 
 
@@ -128,35 +104,31 @@ def pressure_map(axes: Axes, table: DataFrame, places, aside: float, radius: flo
     (along, unit), highest = prefixed([*places, aside], "m"), float(np.percentile(table["pressure"], HIGHEST))
     up, pascal = prefixed(highest, "Pa")
     half = (places.iloc[1] - places.iloc[0]) / 2
-    ends = along * np.array([[places.iloc[0] - half, places.iloc[-1] + half], [-aside, aside]])
+    ends = [[each.min() - half, each.max() + half] for each in (places, table["y"])]
+    bins = [min(MOST_PIXELS, round((end - start) / (2 * half))) for start, end in ends]
     look: dict[str, Any] = {"cmap": "viridis_r", "vmin": 0.0, "vmax": up * highest, "rasterized": True}
-    look |= {"range": ends, "weights": up * table["pressure"], "cmin": np.finfo(float).tiny}
-    bins = len(places), min(MOST_PIXELS, round(aside / half))
+    look |= {"range": along * np.array(ends), "weights": up * table["pressure"], "cmin": np.finfo(float).tiny}
     *_, image = axes.hist2d(along * table["x"], along * table["y"], bins, **look)
-    axes.set_facecolor(touching.elastomer())
+    axes.set_facecolor(touching.ELASTOMER)
     if radius is not None:
-        angle = np.linspace(0, 2 * np.pi, 181)
         look = style.line(0.0, 0.65, linestyle="--", label="smooth, relaxed contact")
-        axes.plot(along * radius * np.cos(angle), along * radius * np.sin(angle), **look)
-    axes.set(xlim=ends[0], ylim=ends[1], aspect="equal", anchor="NW")
+        axes.plot(*(along * radius * part(np.linspace(0, 2 * np.pi, 181)) for part in (np.cos, np.sin)), **look)
+    axes.set(ylim=(-along * aside, along * aside), aspect="equal", anchor="NW")
     axes.set(xlabel=f"x [{unit}]", ylabel=f"y [{unit}]", title="3D: real contact")
-    shades.colours(axes.figure, image, f"pressure [{pascal}]", ax=axes, location="bottom", extend="max", aspect=32)
+    bar: dict[str, Any] = {"location": "bottom", "extend": "max", "aspect": 32}
+    axes.figure.colorbar(image, ax=axes, label=f"pressure [{pascal}]", **bar)
 
 
 def _line_forces(axes: Axes, lines: DataFrame, span) -> None:
     """Panel of the force per length of both models, or of the pressure of a contact that is alike along y."""
     forces = lines.drop(columns="x")
-    quantity, unit = ("force per length", "N/m") if len(forces.columns) > 1 else ("pressure", "Pa")
+    quantity, unit = ("force per length", "N/m") if "line_force_1d" in lines else ("pressure", "Pa")
     (along, metres), (up, name) = prefixed(span, "m"), prefixed(forces, unit)
-    x, three = along * lines["x"], style.look("BEM", marker="", linestyle="-")
-    if len(forces.columns) > 1:
-        one: dict[str, Any] = {
-            "color": style.COLOUR["MDR"],
-            "alpha": 0.45,
-            "linewidth": 0,
-            "label": style.label("MDR"),
-        }
-        axes.fill_between(x, up * lines["line_force_1d"], step="mid", **one)
+    x = along * lines["x"]
+    if "line_force_1d" in lines:
+        one: dict[str, Any] = {"color": style.colour("MDR"), "alpha": 0.45, "label": style.label("MDR")}
+        axes.fill_between(x, up * lines["line_force_1d"], step="mid", linewidth=0, **one)
+    three = style.look("BEM", marker="", linestyle="-")
     axes.plot(x, up * lines["line_force_3d"], drawstyle="steps-mid", **three)
     axes.set(xlim=[along * end for end in span], xlabel=f"x [{metres}]", ylabel=f"{quantity} [{name}]")
     axes.set_ylim(bottom=0)
@@ -169,17 +141,6 @@ def heights_of(sections: Sequence[DataFrame]) -> tuple[float, float]:
     low, high = np.nanmin(seen), np.nanmax(seen)
     room = (high - low) or 1e-9
     return float(low - BELOW * room), float(high + ABOVE * room)
-
-
-def _in_time(axes: Axes, table: DataFrame, quantity: str, unit: str, **columns: str) -> None:
-    """Panel of a quantity in time, of each model. columns : labels, empty of the first"""
-    (scale, seconds), (up, name) = prefixed(table["time"], "s"), prefixed(table[[*columns]], unit)
-    dashes = iter(style.SERIES_LINES)
-    for (column, label), solver in product(columns.items(), sorted(set(table["solver"]), reverse=True)):
-        own = table[table["solver"] == solver]
-        look = style.look(solver, marker="", linestyle=next(dashes), label=style.label(solver) + label)
-        axes.plot(scale * own["time"], up * own[column], **look)
-    axes.set(xlabel=f"time [{seconds}]", ylabel=f"{quantity} [{name}]", title=f"{quantity} in time")
 
 
 def line_forces(surface: xarray.Dataset, row: xarray.Dataset | None) -> DataFrame:

@@ -4,9 +4,7 @@ from matplotlib.figure import Figure
 from pandas import DataFrame
 
 from . import shades, style
-from .curves import intervals
-from .lettering import lettered
-from .panels import entry, legend, limit
+from .curves import intervals, limit
 from .plot import Plot, Tables
 
 NAME = "family"
@@ -34,17 +32,16 @@ def figure(tables: Tables) -> Figure:
     scale = shades.between(points["normal_force"].dropna())
     markers = dict(zip(shapes, style.SERIES_MARKERS, strict=False))
     for axes, model in zip(panels, models, strict=True):
-        axes.axhline(1, **style.line(0.5, 0.8), zorder=1)
+        axes.axhline(1, **style.line(0.5, 0.8))
         own = points[points["model"] == model].dropna(subset="normal_force")
         for (shape, force), curve in own.groupby(["shape", "normal_force"]):
-            look = {"color": shades.PRESS(scale(force)), "marker": markers[shape], "markersize": style.mark(0.75)}
-            look |= {"linestyle": "none", "capsize": 0, "elinewidth": style.width(0.5)}
-            intervals(axes, curve["xi"], curve, "over_eq_19", **look)
+            look = {"color": shades.PRESS(scale(force)), "marker": markers[shape], "linestyle": "none"}
+            intervals(axes, curve["xi"], curve, "over_eq_19", elinewidth=style.width(0.5), **look)
         axes.set(xscale="log", yscale="log", title=style.label(str(model)), xlabel=r"$\xi$ [1]")
     limit(panels[0], points, "over_eq_19")
     panels[0].set_ylabel("friction / Eq. 19 [1]")
-    lettered(panels)
+    style.lettered(panels)
     style.decades(*panels)
-    shades.bar(drawing, panels, shades.PRESS, scale, "normal force [N]", fraction=0.03, pad=0.01, aspect=40)
-    legend(drawing, (), 4, *(entry(shape, marker=marker) for shape, marker in markers.items()))
+    entries = (style.entry(shape, marker=marker, markerfacecolor="none") for shape, marker in markers.items())
+    style.legend(drawing, (), 6, *entries, *shades.key(shades.PRESS, points["normal_force"].dropna(), "N"))
     return drawing

@@ -3,15 +3,11 @@
 At rest, and pressed in at up to three rates.
 """
 
-from typing import Any
-
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from pandas import DataFrame
 
 from . import style
-from .lettering import lettered
-from .panels import AXES, at, compared, curve, legend, limit, over, panels_of, tables_of
+from .curves import AXES, compared, limit, over, panels_of, tables_of
 from .plot import Plot, Tables
 
 NAME = "force-depth"
@@ -54,38 +50,27 @@ def figure(tables: Tables) -> Figure:
     prescribed = "load" if "load" in points else "depth"
     name, label, times = MEASURED[prescribed]
     (scale, across), (factor, unit) = AXES[prescribed], OFF[prescribed]
-    places = panels_of(points.sort_values(prescribed), "rate")
+    places = panels_of(points, (differences,), "rate")
     drawing = style.canvas("double" if len(places) > 1 else "single", 5.8)
     panels = drawing.subplots(3, len(places), sharex=True, sharey="row", squeeze=False, height_ratios=(1.5, 1, 1))
-    for (above, middle, below), (place, (title, own)) in zip(panels.T, places.items(), strict=True):
+    for (above, middle, below), (title, (own, apart)) in zip(panels.T, places, strict=True):
         above.set(xscale="log", yscale="log" if prescribed == "depth" else "linear", title=title)
-        closed = own.drop_duplicates(prescribed)
-        line = style.line(0.5, 0.8, zorder=1, label="smooth body")
+        closed = own.drop_duplicates(prescribed).sort_values(prescribed)
+        line = style.line(0.5, 0.8, label="closed form")
         above.plot(scale * closed[prescribed], times * closed["closed_form"], **line)
-        _bodies(above, own[own["body"] == "rough"], prescribed, name, times)
+        compared(above, own[own["body"] == "rough"], prescribed, name, None, times)
         off = own[[f"{name}_{end}" for end in ("mean", "low", "high")]].sub(own["closed_form"], axis=0)
         off = off.div(own["closed_form"], axis=0) if prescribed == "depth" else off
-        middle.axhline(0, **style.line(0.6, 0.55))
-        _bodies(middle, own.assign(**off), prescribed, name, factor)
+        compared(middle, own.assign(**off), prescribed, name, 0, factor)
         if differences is not None:
-            compared(below, at(differences, place, "rate"), prescribed, "difference", 0, factor)
+            compared(below, apart, prescribed, "difference", 0, factor)
         below.set_xlabel(across)
     against = over(points).replace("1D / 3D", "1D off 3D").replace("over", "off")
     for axes, text in zip(panels[:, 0], (label, f"off smooth [{unit}]", f"{against} [{unit}]"), strict=True):
         axes.set_ylabel(text)
     if prescribed == "depth":
         limit(panels[0, 0], points, name)
-    style.span(panels[0, 0], scale * points[prescribed])
     style.decades(*panels.flat)
-    lettered(panels.flat)
-    legend(drawing, panels.flat, 2 if len(places) == 1 else 4)
+    style.lettered(panels.flat)
+    style.legend(drawing, panels.flat, 2 if len(places) == 1 else 4)
     return drawing
-
-
-def _bodies(axes: Axes, points: DataFrame, prescribed: str, name: str, times: float) -> None:
-    """Every model on the rough body, and on the smooth one, hollow."""
-    for (model, body), own in points.groupby(["model", "body"], sort=False):
-        look: dict[str, Any] = style.look(model, label=f"{style.label(model)}, {body}")
-        if body == "smooth":
-            look |= {"markerfacecolor": "none", "linestyle": "none"}
-        curve(axes, own, prescribed, name, times, **look)

@@ -7,10 +7,10 @@ from matplotlib.lines import Line2D
 from pandas import DataFrame
 
 from . import shades, style
+from .curves import AXES, curve, limit, tables_of
 from .friction_speed import THEORY, line_look
-from .lettering import lettered
-from .panels import AXES, CURVES, curve, few, legend, limit, tables_of
 from .plot import Plot, Tables
+from .shades import CURVES, few
 
 NAME = "friction-load"
 LINES = f"{NAME}-lines"
@@ -36,10 +36,10 @@ def figure(tables: Tables) -> Figure:
     across = "load" if "load" in points else "depth"
     scale, label = AXES[across]
     speeds = few(points["speed"][points["speed"] > 0], CURVES)
-    points = points[points["speed"].isin(speeds)].sort_values(across)
+    points = points[points["speed"].isin(speeds)]
     colours = shades.SPEED(shades.between(speeds)(speeds))
     looks: dict[float, dict[str, Any]] = {
-        speed: form | {"color": colour, "label": f"{speed:.3g} m/s", "markersize": style.mark(0.8)}
+        speed: form | {"color": colour, "label": f"{speed:.3g} m/s"}
         for speed, colour, form in zip(speeds.tolist(), colours, style.forms(), strict=False)
     }
     several, models = len(speeds) > 1, list(points["model"].unique())
@@ -56,11 +56,10 @@ def figure(tables: Tables) -> Figure:
                 colour = {"color": looks[speed]["color"]} if several else {}
                 axes.plot(scale * own[across], own["friction_coefficient"], **line_look(kind, name, **colour))
     panels[0].set_ylabel("friction coefficient [1]")
-    style.span(panels[0], scale * points[across])
     limit(panels[0], points, "friction_coefficient")
     style.decades(*panels)
-    lettered(panels)
+    style.lettered(panels)
     kinds = lines[["kind", "model"]].drop_duplicates() if several and lines is not None else DataFrame()
     grey = [Line2D([], [], **line_look(*each, color=style.grey(0.3))) for each in kinds.to_numpy()]
-    legend(drawing, panels, 5 if several else 2, *grey)
+    style.legend(drawing, panels, 5 if several else 2, *grey)
     return drawing

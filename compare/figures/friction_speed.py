@@ -3,13 +3,11 @@
 from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
 from matplotlib.figure import Figure
 from pandas import DataFrame
 
 from . import style
-from .lettering import lettered
-from .panels import AXES, PANELS, at, compared, curve, legend, limit, over, panels_of, tables_of
+from .curves import AXES, PANELS, compared, curve, limit, over, panels_of, tables_of
 from .plot import Plot, Tables
 
 NAME = "friction-speed"
@@ -49,7 +47,7 @@ def figure(tables: Tables) -> Figure:
 def against(name: str, tables: Tables, across: str, labels: Sequence[str], quantity: str) -> Figure:
     """A quantity of every model along an axis; below, over that of the reference where that is known."""
     points, ratios, lines = tables[name], tables.get(f"{name}{RATIOS}"), tables.get(f"{name}{LINES}")
-    places = panels_of(points, *PLACES)
+    places = panels_of(points, (ratios, lines), *PLACES)
     heights = (1.0,) if ratios is None else (2.2, 1.0)
     wide = min(len(places), PANELS)
     deep = -(-len(places) // wide)
@@ -59,37 +57,32 @@ def against(name: str, tables: Tables, across: str, labels: Sequence[str], quant
     stacks = grid.reshape(deep, len(heights), wide).swapaxes(1, 2).reshape(-1, len(heights))
     for spare in stacks[len(places) :].flat:
         spare.remove()
-    for (above, *below), (place, (title, own)) in zip(stacks, places.items(), strict=False):
+    for (above, *below), (title, (own, over_reference, beside)) in zip(stacks, places, strict=False):
         above.set(xscale="log", yscale="log", title=title)
         for model, rows in own.groupby("model", sort=False):
-            curve(above, rows, across, quantity, **style.look(str(model), markersize=style.mark(0.8)))
+            curve(above, rows, across, quantity, **style.look(str(model)))
         if lines is not None:
-            beside = at(lines, place, *PLACES).sort_values(across)
-            for (kind, model), line in beside.groupby(["kind", "model"], sort=False):
+            for (kind, model), line in beside.sort_values(across).groupby(["kind", "model"], sort=False):
                 above.plot(line[across], line[quantity], **line_look(kind, model))
         limit(above, points, quantity)
-        if ratios is not None:
-            compared(below[0], at(ratios, place, *PLACES), across, "ratio", 1)
-            below[0].set_ylim(0, 1.1 * np.nanmax([1, *ratios["ratio"], *ratios["ratio_high"]]))
+        for axes in below:
+            compared(axes, over_reference, across, "ratio", 1)
+            axes.set_ylim(0, max(1.1, axes.get_ylim()[1]))
         (above, *below)[-1].set_xlabel(labels[0])
     for row, axes in enumerate(grid[:, 0]):
         axes.set_ylabel(f"{over(points)} [1]" if row % len(heights) else labels[1])
     panels = [axes for axes in grid.flat if axes.figure]
-    style.span(panels[0], points[across][points[across] > 0])
     style.decades(*panels)
-    lettered(panels)
-    legend(drawing, panels, 2 if wide == 1 else 5)
+    style.lettered(panels)
+    style.legend(drawing, panels, 2 if wide == 1 else 5)
     return drawing
 
 
 def line_look(kind: str, model: str, **other: Any) -> dict[str, Any]:
-    """Look of a line beside the models."""
-    label = style.label(model) if kind == THEORY else f"{style.label(model)}, {kind}"
-    look = style.look(model, marker="", label=label, linewidth=style.width(0.7))
+    """Look of a line beside the models, thin and without markers."""
+    look = style.look(model) if kind == THEORY else style.look(model, label=f"{style.label(model)}, {kind}")
     if kind == EQ_19:  # dashes of 1D and of 3D lie in the gaps of each other: the laws of both may coincide
         look["linestyle"] = (0 if model == "MDR" else 3, (3, 3))
-    elif kind == SMOOTH:
-        look |= {"linestyle": "-", "alpha": 0.6}
     elif model not in style.COLOURS:
         look |= {"color": style.ink(), "linestyle": ":"}
-    return look | other
+    return look | {"marker": "", "linewidth": style.width(0.7)} | other

@@ -3,57 +3,64 @@
 from matplotlib.figure import Figure
 from pandas import DataFrame
 
+from scene import Cylinder, Scene
+
 from . import style
-from .lettering import lettered
-from .panels import legend
 from .plot import Plot, Tables
+from .prefixes import prefixed
 
 NAME = "history"
-# Factor and label of an axis across, and of each quantity.
-ACROSS = {
-    "time": (1.0, "time [s]"),
-    "displacement": (1e6, "displacement [µm]"),
-    "force": (1.0, "tangential force [N]"),
+# Words of each quantity, and its unit; those without one are forces.
+WORDS = {
+    "time": "time",
+    "displacement": "displacement",
+    "force": "tangential force",
+    "normal_force": "normal force",
+    "depth_reached": "depth",
+    "friction_force": "tangential force",
 }
-QUANTITIES = {
-    "normal_force": (1.0, "normal force [N]"),
-    "depth_reached": (1e6, "depth [µm]"),
-    "friction_force": (1.0, "tangential force [N]"),
-}
+UNITS = {"time": "s", "displacement": "m", "depth_reached": "m"}
+QUANTITIES = "normal_force", "depth_reached", "friction_force"
+ROUNDING = 1e-9  # of the largest normal force, below which a force is none
 
 
-def plot(points: DataFrame, across: str, folder: str = "") -> Plot:
+def plot(points: DataFrame, across: str, scene: Scene, folder: str = "") -> Plot:
     """Plot of a history.
 
-    points : model, what is across, and normal_force [N], depth_reached [m] and friction_force [N], each with
-        _mean, _low and _high
+    points : model, what is across, and normal_force [N], depth_reached [m] and friction_force [N], each alone or
+        with _low and _high
     across : time [s], displacement [m] or force [N]
     """
-    told = {"time": "time", "displacement": "the displacement", "force": "the tangential force"}[across]
-    caption = f"Forces and depth of every model over {told}; bands: intervals of 95 %."
-    return Plot(f"{folder}{NAME}", figure, {NAME: points}, caption, "Histories of both models", {"across": across})
+    caption = f"Forces and depth of every model over {WORDS[across]}"
+    caption += "; bands: intervals of 95 %." if "depth_reached_low" in points else "."
+    options = {"across": across, "unit": "N/m" if isinstance(scene.indenter, Cylinder) else "N"}
+    return Plot(f"{folder}{NAME}", figure, {NAME: points}, caption, "Histories of both models", options)
 
 
-def figure(tables: Tables, across: str) -> Figure:
-    """A panel for each quantity that changes."""
-    points, (scale, label) = tables[NAME], ACROSS[across]
-    shown = [name for name in QUANTITIES if points[f"{name}_mean"].abs().max() > 1e-9 * _size(points, name)]
+def figure(tables: Tables, across: str, unit: str = "N") -> Figure:
+    """A panel for each quantity that changes. unit : of forces"""
+    points = tables[NAME]
+    least = {name: ROUNDING * points["normal_force"].abs().max() for name in ("normal_force", "friction_force")}
+    shown = [name for name in QUANTITIES if points[name].abs().max() > least.get(name, 0)]
     drawing = style.canvas("single", 0.8 + 1.6 * len(shown))
     panels = drawing.subplots(len(shown), 1, sharex=True, squeeze=False)[:, 0]
+    scale, label = _scaled(points, across, unit)
     for axes, name in zip(panels, shown, strict=True):
-        times, words = QUANTITIES[name]
+        up, words = _scaled(points, name, unit)
         for model, own in points.sort_values(across).groupby("model", sort=False):
             look = style.look(str(model), marker="")
-            axes.plot(scale * own[across], times * own[f"{name}_mean"], **look)
-            ends = times * own[f"{name}_low"], times * own[f"{name}_high"]
-            axes.fill_between(scale * own[across], *ends, color=look["color"], alpha=0.2, linewidth=0)
+            axes.plot(scale * own[across], up * own[name], **look)
+            if f"{name}_low" in own:
+                ends = up * own[f"{name}_low"], up * own[f"{name}_high"]
+                axes.fill_between(scale * own[across], *ends, color=look["color"], alpha=0.2, linewidth=0)
         axes.set_ylabel(words)
     panels[-1].set_xlabel(label)
-    lettered(panels)
-    legend(drawing, panels, 2)
+    style.lettered(panels)
+    style.legend(drawing, panels, 2)
     return drawing
 
 
-def _size(points, name):
-    """What counts as rounding of a quantity: a force against the largest force."""
-    return points["normal_force_mean"].abs().max() if name.endswith("force") else 0.0
+def _scaled(points: DataFrame, name: str, unit: str) -> tuple[float, str]:
+    """Factor on a quantity, and its label with the unit that it then has."""
+    up, told = prefixed(points[name], UNITS.get(name, unit))
+    return up, f"{WORDS[name]} [{told}]"

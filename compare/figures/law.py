@@ -1,15 +1,11 @@
 """The master curve in three dimensions: what roughness adds to friction, over that in full contact, is S(x)."""
 
-from typing import Any
-
 import numpy as np
 from matplotlib.figure import Figure
 from pandas import DataFrame
 
 from . import shades, style
-from .curves import intervals
-from .lettering import lettered, literal
-from .panels import entry, legend, limit, speed_key
+from .curves import intervals, limit
 from .plot import Plot, Tables
 
 NAME, SHARE = "law", "law-share"
@@ -40,10 +36,9 @@ def figure(tables: Tables, missed: str = "") -> Figure:
     above, below = panels = drawing.subplots(2, 1, sharex=True, height_ratios=(1.5, 1))
     scale = shades.between(points["speed"])
     band = (share[f"share_of_full_contact_{end}"] for end in ("low", "high"))
-    look: dict[str, Any] = {"color": style.grey(0.65), "linewidth": 0, "zorder": 1, "label": "S(x)"}
-    above.fill_between(share["pressure_ratio"], *band, **look)
-    below.axhspan(-5, 5, color=style.grey(0.9), linewidth=0, zorder=0)
-    below.axhline(0, **style.line(0, 0.8, zorder=1))
+    above.fill_between(share["pressure_ratio"], *band, color=style.grey(0.65), linewidth=0, label="S(x)")
+    below.axhspan(-5, 5, color=style.grey(0.9), linewidth=0)
+    below.axhline(0, **style.line(0, 0.8))
     off = {
         f"off{end}": np.log(points[f"measured_share{end}"].where(points[f"measured_share{end}"] > 0))
         - np.log(points["share_of_full_contact"])
@@ -54,19 +49,20 @@ def figure(tables: Tables, missed: str = "") -> Figure:
     points.loc[~points["claimed"], unclaimed] = np.nan
     markers = dict(zip(points["body"].unique(), style.SERIES_MARKERS, strict=False))
     for (body, speed, claimed), own in points.groupby(["body", "speed", "claimed"], sort=False):
-        look = {"color": shades.SPEED(scale(speed)), "marker": markers[body], "linestyle": "none", "capsize": 0}
-        look |= {"markersize": style.mark(0.75), "elinewidth": style.width(0.65)}
-        look |= {} if claimed else {"markerfacecolor": style.paper(), "zorder": 1.5}
+        look = {"color": shades.SPEED(scale(speed)), "marker": markers[body], "linestyle": "none"}
+        look |= {} if claimed else {"markerfacecolor": style.paper()}
         intervals(above, own["pressure_ratio"], own, "measured_share", **look)
         intervals(below, own["pressure_ratio"], own, "off", 100, **look)
     above.set(xscale="log", yscale="log", ylabel="share of full contact [1]")
     limit(above, points, "measured_share")
     below.set(title=missed, xlabel=r"$x = p\,/\,p_\mathrm{rms}$ [1]", ylabel="off S(x) [%]")
     style.decades(*panels)
-    lettered(panels)
-    entries = [entry(literal(name), marker=marker) for name, marker in markers.items() if len(markers) > 1]
+    style.lettered(panels)
+    entries = [
+        style.entry(style.literal(name), marker=marker) for name, marker in markers.items() if len(markers) > 1
+    ]
     if not points["claimed"].all():
-        entries.append(entry("not claimed", markerfacecolor=style.paper()))
-    entries += speed_key(drawing, panels, np.unique(points["speed"]), "speed [m/s]")
-    legend(drawing, [above], 3, *entries)
+        entries.append(style.entry("not claimed", markerfacecolor=style.paper()))
+    entries += shades.key(shades.SPEED, points["speed"], "m/s")
+    style.legend(drawing, [above], 3, *entries)
     return drawing

@@ -1,9 +1,7 @@
 """Units with the prefix in which values read well."""
 
 import numpy as np
-
-# Powers of ten of the prefixes of SI.
-PREFIXES = {-15: "f", -12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
+from matplotlib.ticker import EngFormatter
 
 
 def prefixed(values, unit: str) -> tuple[float, str]:
@@ -14,4 +12,5 @@ def prefixed(values, unit: str) -> tuple[float, str]:
     finite = np.abs(np.asarray(values, float))
     greatest = np.max(finite[np.isfinite(finite)], initial=0.0)
     power = 3 * int(np.floor(np.log10(greatest) / 3 + 1e-12)) if greatest > 0 else 0
-    return (10.0**-power, PREFIXES[power] + unit) if power in PREFIXES else (1.0, unit)
+    prefixes = EngFormatter.ENG_PREFIXES
+    return (10.0**-power, prefixes[power] + unit) if power in prefixes else (1.0, unit)

@@ -62,10 +62,13 @@ def finished(plot: Plot, look: style.Look = style.PRINT) -> Figure:
         try:
             drawing = plot.figure()
             drawing.set_dpi(rcParams["savefig.dpi"])
-            style.lay_out(drawing)
+            drawing.draw_without_rendering()
+            drawing.set_layout_engine("none")
         except UserWarning as warning:
             if NO_ROOM not in str(warning):
                 raise
-            text = f"text of {style.size():g} points leaves its panels no room: a lower font.size is needed"
+            text = (
+                f"text of {rcParams['font.size']:g} points leaves its panels no room: a lower font.size is needed"
+            )
             raise InvalidInput(f"{plot.name}: {text}") from None
     return drawing

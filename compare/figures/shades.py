@@ -1,18 +1,16 @@
-"""Many curves in one panel: a shade for each speed, or for each load or depth, and the bar that says which."""
+"""Colours of many curves in one panel, one for each speed, load or depth, and the legend that says which."""
 
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from matplotlib import colormaps
-from matplotlib.axes import Axes
-from matplotlib.cm import ScalarMappable
-from matplotlib.colorbar import Colorbar
 from matplotlib.colors import Colormap, LinearSegmentedColormap, LogNorm
-from matplotlib.figure import Figure, SubFigure
+from matplotlib.lines import Line2D
 
 from . import style
 
+CURVES = 8  # most of them in a panel
 # Low to high; without the yellow end, which is lost on white.
 SPEED = LinearSegmentedColormap.from_list("speed", colormaps["plasma"](np.linspace(0, 0.88, 256)))
 PRESS = LinearSegmentedColormap.from_list("press", colormaps["viridis"](np.linspace(0, 0.88, 256)))
@@ -24,23 +22,13 @@ def between(values: Sequence[float] | np.ndarray) -> LogNorm:
     return LogNorm(low, high) if high > low else LogNorm(low / 2, 2 * high)
 
 
-def bar(
-    drawing: Figure | SubFigure,
-    panels: Sequence[Axes] | np.ndarray,
-    shades: Colormap,
-    scale: LogNorm,
-    label: str,
-    **place: Any,
-) -> Colorbar:
-    """Beside or below some panels."""
-    drawn = colours(drawing, ScalarMappable(scale, shades), label, ax=panels, **place)
-    style.decades(drawn.ax)
-    return drawn
+def few(values: Any, most: int) -> np.ndarray:
+    """As many values as are told apart, from the least to the greatest."""
+    values = np.unique(values)
+    return values[np.unique(np.linspace(0, len(values) - 1, min(most, len(values))).round().astype(int))]
 
 
-def colours(drawing: Figure | SubFigure, image: ScalarMappable, label: str, **place: Any) -> Colorbar:
-    """Bar of the colours of an image, with a thin frame."""
-    drawn = drawing.colorbar(image, **place)
-    drawn.set_label(label)
-    drawn.outline.set_linewidth(style.width(0.45))
-    return drawn
+def key(shades: Colormap, values: Any, unit: str) -> list[Line2D]:
+    """Entries of a legend for up to CURVES of some values."""
+    scale = between(values)
+    return [style.entry(f"{each:.3g} {unit}", color=shades(scale(each))) for each in few(values, CURVES)]

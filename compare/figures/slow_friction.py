@@ -5,8 +5,6 @@ from pandas import DataFrame
 
 from . import style
 from .curves import intervals
-from .lettering import lettered
-from .panels import legend
 from .plot import Plot, Tables
 
 NAME = "slow-friction"
@@ -40,8 +38,9 @@ def figure(tables: Tables) -> Figure:
             law = {"color": look["color"], "linestyle": (3 * k, (3, 3)), "label": f"{look['label']}, the paper"}
             axes.plot(own["normal_force"], own[f"{name}_law"], linewidth=style.width(0.8), **law)
         axes.set(xscale="log", xlabel="normal force [N]", title=title)
-    panels[0].set(yscale="log", ylabel=f"over that at {points['normal_force'].min():.3g} N [1]")
+        axes.set_ylabel(f"over that at {points['normal_force'].min():.3g} N [1]")
+    panels[0].set_yscale("log")
     style.decades(*panels)
-    lettered(panels)
-    legend(drawing, panels, 4)
+    style.lettered(panels)
+    style.legend(drawing, panels, 4)
     return drawing

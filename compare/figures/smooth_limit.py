@@ -4,8 +4,8 @@ from matplotlib.figure import Figure
 from pandas import DataFrame
 
 from . import style
+from .curves import tables_of
 from .friction_speed import LINES, RATIOS, against
-from .panels import tables_of
 from .plot import Plot, Tables
 
 NAME, KIND = "smooth-limit", "slow limit"

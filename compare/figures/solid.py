@@ -1,5 +1,7 @@
 """Moduli of the solid of a scene against the frequency, and what was measured of it."""
 
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -8,7 +10,6 @@ from pandas import DataFrame
 from scene import CreepTable, Scene, Table, Tabulated
 
 from . import style
-from .lettering import lettered
 from .plot import Plot, Tables
 from .prefixes import prefixed
 
@@ -17,7 +18,8 @@ MEASURED, TIMES, MEASURED_TIMES = f"{NAME}-measured", f"{NAME}-times", f"{NAME}-
 PLACES = 400
 ROOM = 30.0  # beyond the shortest and the longest time of the solid
 ELASTIC = np.geomspace(1.0, 1e3, PLACES)  # angular frequencies [rad/s] for a solid without times
-DECADES = 4.0  # of moduli below the one at rest that are shown
+DECADES = 4.0  # of moduli below the first that are shown
+ACROSS = {"omega": "angular frequency [rad/s]", "time": "time [s]"}
 # Line, marker and name of each quantity.
 LOOKS = {
     "storage": ("-", "o", "storage modulus $G'$"),
@@ -61,42 +63,37 @@ def figure(tables: Tables, stiffer: float = 3.0) -> Figure:
     over_time = TIMES in tables
     drawing = style.canvas("double" if over_time else "single", 2.6)
     panels = drawing.subplots(1, 1 + over_time, squeeze=False)[0]
-    up, unit = prefixed(tables[NAME]["storage"].iloc[0], "Pa")
-    _curves(panels[0], tables[NAME], tables.get(MEASURED), up)
-    panels[0].set(xlabel="angular frequency [rad/s]", ylabel=f"shear modulus [{unit}]")
-    panels[0].set_ylim(bottom=max(panels[0].get_ylim()[0], up * tables[NAME]["storage"].iloc[0] * 10**-DECADES))
-    right = panels[0].twinx()
-    right.set_label("<right axis>")
-    right.spines["right"].set_visible(True)
-    limits = [stiffer * end for end in panels[0].get_ylim()]
-    right.set(yscale="log", ylim=limits, ylabel=f"Young's modulus [{unit}]")
-    style.decades(panels[0], right)
+    unit = _curves(panels[0], tables[NAME], tables.get(MEASURED))
+    panels[0].set(ylabel=f"shear modulus [{unit}]", title="moduli")
+    right = panels[0].secondary_yaxis("right", functions=(lambda of: stiffer * of, lambda of: of / stiffer))
+    right.set_ylabel(f"Young's modulus [{unit}]")
     if over_time:
-        fit, measured = tables[TIMES], tables[MEASURED_TIMES]
-        inverse = "compliance" in fit
-        up, unit = prefixed(1 / measured["compliance"] if inverse else measured["modulus"], "Pa")
-        _curves(panels[1], fit, measured, 1 / up if inverse else up)
-        panels[1].set(xlabel="time [s]", ylabel=f"{fit.columns[1]} [{'1/' * inverse}{unit}]")
-        style.decades(panels[1])
-        panels[0].set_title("moduli of the fit")
-        panels[1].set_title("as measured")
-        lettered(panels)
+        unit = _curves(panels[1], tables[TIMES], tables[MEASURED_TIMES])
+        panels[1].set(ylabel=f"{tables[TIMES].columns[1]} [{unit}]", title="as measured")
+    style.decades(*panels)
+    style.lettered(panels)
     return drawing
 
 
-def _curves(axes: Axes, fit: DataFrame, measured: DataFrame | None, up: float) -> None:
-    """Lines of the fit and points of the table over its first column; what is zero is left out."""
-    along = fit.columns[0]
-    axes.set(xscale="log", yscale="log", xlim=fit[along].iloc[[0, -1]])
+def _curves(axes: Axes, fit: DataFrame, measured: DataFrame | None) -> str:
+    """Lines of the fit and points of the table over its first column, without what is zero; returns their unit."""
+    along, first = fit.columns[:2]
+    start = fit[first].iloc[0]
+    up, unit = prefixed(1 / start if first == "compliance" else start, "Pa")
+    if first == "compliance":
+        up, unit = 1 / up, f"1/{unit}"
+    axes.set(xscale="log", yscale="log", xlim=fit[along].iloc[[0, -1]], xlabel=ACROSS[along])
     for name in fit.columns[1:]:
         line, marker, label = LOOKS[name]
         if (fit[name] > 0).any():
             axes.plot(fit[along], up * fit[name], line, color=style.ink(), label=label)
         if measured is not None:
-            filled = style.paper() if name == "loss" else style.ink()
-            look = style.line(0.0, marker=marker, markersize=style.mark(0.8), markerfacecolor=filled)
-            axes.plot(measured[along], up * measured[name], linestyle="", label="measured", **look)
+            inside = style.paper() if name == "loss" else style.ink()
+            look: dict[str, Any] = {"color": style.ink(), "markerfacecolor": inside, "label": "measured"}
+            axes.plot(measured[along], up * measured[name], marker, **look)
+    axes.set_ylim(bottom=max(axes.get_ylim()[0], up * start * 10**-DECADES))
     axes.legend()
+    return unit
 
 
 def _moduli(omega, modulus):

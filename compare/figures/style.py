@@ -4,7 +4,7 @@ Settings stand in style sheets beside this module: `print.mplstyle`, and on top 
 each journal. Sizes of text, lines and markers are multiples of those of the sheets.
 """
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
@@ -12,24 +12,25 @@ from io import BytesIO
 from itertools import cycle
 from os import PathLike
 from pathlib import Path
+from string import ascii_lowercase
 from textwrap import wrap
 from threading import RLock
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 from zlib import crc32
 
 import matplotlib.style
 import numpy as np
 from matplotlib import rcParams
 from matplotlib.axes import Axes
-from matplotlib.colors import to_rgb
+from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure, SubFigure
 from matplotlib.font_manager import FontProperties
+from matplotlib.lines import Line2D
 from matplotlib.ticker import LogFormatterSciNotation, LogLocator, MaxNLocator, NullFormatter
 
-from . import journals
+from scene.printable import printable
 
-if TYPE_CHECKING:
-    from matplotlib.typing import LegendLocType
+from . import journals
 
 # Okabe and Ito: blue and vermillion differ for every reader; marker and line tell them apart in grey.
 COLOURS = {"MDR": "#0072B2", "CorrectedMDR": "#56B4E9", "BEM": "#D55E00", "Persson": "#44AA99"}
@@ -50,7 +51,6 @@ SERIES_LINES = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)), (0, 
 TEXT = 8.0  # points of the text for which heights of figures are given
 WIDE = 0.65  # width of a letter over the size of its text
 BESIDE = 5.2  # what numbers and label of a vertical axis take, in multiples of the text
-ALIKE = 1.02  # ends of an axis, one over the other, between which no ticks have short numbers
 
 Sheet = str | PathLike | Mapping[str, Any]
 SHEETS = Path(__file__).parent
@@ -74,9 +74,8 @@ class Look:
     @property
     def sheets(self) -> list[Any]:
         """Style sheets, each on top of those before it."""
-        names = ["print"] if self.journal == "default" else ["print", self.journal]
         own = [] if self.sheet is None else [self.sheet]
-        return [*(SHEETS / f"{name}.mplstyle" for name in names), *own]
+        return [SHEETS / "print.mplstyle", SHEETS / f"{self.journal}.mplstyle", *own]
 
 
 PRINT, SCREEN = Look(), Look(sheet=SHEETS / "screen.mplstyle")
@@ -97,16 +96,6 @@ def applied(look: Look = PRINT) -> Iterator[None]:
         _columns.reset(token)
 
 
-class _Colours(dict[str, str]):
-    """Colours of models: closed forms are in ink, and another model has one of its own for good."""
-
-    def __missing__(self, solver: str) -> str:
-        return ink() if solver == "exact" else _own(solver, OTHERS)
-
-
-COLOUR = _Colours(COLOURS)
-
-
 def ink() -> str:
     """The colour of text, and of what is neither one-dimensional nor three-dimensional."""
     return rcParams["text.color"]
@@ -117,28 +106,14 @@ def paper() -> str:
     return rcParams["axes.facecolor"]
 
 
-def mixed(first: Any, second: Any, share: float) -> tuple[float, float, float]:
-    """Colour between two, with a share of the second."""
-    red, green, blue = (1 - share) * np.array(to_rgb(first)) + share * np.array(to_rgb(second))
-    return float(red), float(green), float(blue)
-
-
-def grey(level: float) -> tuple[float, float, float]:
-    """Between ink (0) and paper (1)."""
-    return mixed(ink(), paper(), level)
-
-
-def size(times: float = 1.0) -> float:
-    """Size of a text [point], in multiples of that of axis labels."""
-    return times * rcParams["font.size"]
+def grey(level: float) -> tuple[str, float]:
+    """Between ink (0) and what lies behind it (1)."""
+    return ink(), 1 - level
 
 
 def small() -> float:
     """Size of the text in legends and beside curves [point]."""
     return FontProperties(size=rcParams["legend.fontsize"]).get_size_in_points()
-
-
-tiny = small  # numbers at points are as large: journals ask for it
 
 
 def width(times: float = 1.0) -> float:
@@ -152,24 +127,28 @@ def mark(times: float = 1.0) -> float:
 
 
 def look(solver: str, **other: Any) -> dict[str, Any]:
-    """Colour, marker, line and label of a solver, with other settings of a curve."""
+    """Colour, marker, line and label of a model, with other settings of a curve.
+
+    Closed forms are in ink; a model that did not come with the package has looks of its own, the same everywhere.
+    """
+    own = crc32(solver.encode())
     known = {
-        "color": COLOUR[solver],
-        "marker": MARKER[solver] if solver in MARKER else _own(solver, SERIES_MARKERS[3:]),
-        "linestyle": LINE.get(solver) or _own(solver, SERIES_LINES[3:]),
+        "color": (COLOURS | {"exact": ink()}).get(solver, OTHERS[own % len(OTHERS)]),
+        "marker": MARKER.get(solver, SERIES_MARKERS[3 + own % 4]),
+        "linestyle": LINE.get(solver, SERIES_LINES[3 + own % 4]),
         "label": label(solver),
     }
     return known | other
 
 
+def colour(solver: str) -> str:
+    """Colour of a model."""
+    return look(solver)["color"]
+
+
 def label(solver: str) -> str:
-    """Label of a solver: its name, of a model that did not come with the package."""
+    """Label of a model: its name, of one that did not come with the package."""
     return LABEL.get(solver, solver)
-
-
-def _own(solver: str, choice: Sequence[Any]) -> Any:
-    """One of a choice for a model of a name, the same in every figure."""
-    return choice[crc32(solver.encode()) % len(choice)]
 
 
 def line(level: float, times: float = 1.0, **other: Any) -> dict[str, Any]:
@@ -179,7 +158,7 @@ def line(level: float, times: float = 1.0, **other: Any) -> dict[str, Any]:
 
 def across(column: Literal["single", "double"]) -> float:
     """The width of a figure in the journal [inch]."""
-    return dict(zip(("single", "double"), _columns.get(), strict=True))[column]
+    return _columns.get()[column == "double"]
 
 
 def png(drawing: Figure) -> bytes:
@@ -201,68 +180,56 @@ def canvas(column: Literal["single", "double"], height: float) -> Figure:
 
     height : for text of 8 points [inch]; it goes with the larger of the text and 1.2 of the small text
     """
-    times = max(size(), 1.2 * small()) / TEXT
+    times = max(rcParams["font.size"], 1.2 * small()) / TEXT
     return Drawing(figsize=(across(column), height * times), layout="constrained")
 
 
-def lay_out(drawing: Figure, passes: int = 1) -> None:
-    """Find the layout of a figure once, which takes as long as to draw it; whatever is drawn later keeps it."""
-    if (engine := drawing.get_layout_engine()) is not None:
-        for _ in range(passes):
-            engine.execute(drawing)
-        drawing.set_layout_engine("none")
+def literal(text: str) -> str:
+    """A text of a user's, such as a title, in which nothing is a formula to be set."""
+    return printable(text).replace("$", r"\$")
 
 
 def fill(text: str, inches: float, points: float) -> str:
     """The text in lines of about that length, broken between words; lines of its own stay."""
     letters = max(1, int(72 * inches / (WIDE * points)))
-    return "\n".join(line for given in text.split("\n") for line in wrap(given, letters))
+    return "\n".join(part for given in text.split("\n") for part in wrap(given, letters))
 
 
-def head(axes: Axes, text: str, count: int) -> None:
-    """A title of a panel, one of so many side by side, in lines that leave the next its numbers and label."""
-    inches = axes.figure.figure.get_figwidth() / count - BESIDE * size() / 72
-    axes.set_title(fill(text, inches, small()), fontsize=small())
+def lettered(panels: Iterable[Axes]) -> None:
+    """A letter before the title of each panel: a to z, then aa to zz. Titles are broken where the panel ends."""
+    for k, axes in enumerate(panels):
+        place, text = (
+            axes.get_subplotspec(),
+            f"({ascii_lowercase[k % 26] * (1 + k // 26)}) {axes.get_title('left')}",
+        )
+        share = len(place.colspan) / place.get_gridspec().ncols
+        inches = share * axes.figure.bbox.width / axes.figure.dpi - BESIDE * rcParams["font.size"] / 72
+        axes.set_title(fill(text, inches, rcParams["font.size"]))
 
 
-def columns(labels: Iterable[str], inches: float, most: int) -> int:
-    """Number of columns of a legend of these labels, so that it is no wider; at most so many."""
-    around = rcParams["legend.handlelength"] + rcParams["legend.handletextpad"] + rcParams["legend.columnspacing"]
-    widest = (WIDE * max(map(len, labels)) + around) * small() / 72
-    return max(1, min(most, int(inches / widest)))
+def legend(drawing: Figure | SubFigure, panels: Iterable[Axes], most: int, *more: Any, **other: Any) -> None:
+    """Below all panels, each label once, in as many columns as fit, at most so many.
 
-
-def legend(
-    drawing: Figure | SubFigure, handles: Sequence[Any], place: "LegendLocType", most: int, **other: Any
-) -> None:
-    """Outside of all panels, of artists with labels, in as many columns as fit, at most so many."""
-    labels = [handle.get_label() for handle in handles]
-    inches = drawing.bbox.width / rcParams["figure.dpi"]
-    drawing.legend(handles=handles, loc=place, ncols=columns(labels, inches, most), **other)
-
-
-def span(axes: Axes, values) -> None:
-    """Limits of a logarithmic x axis around values, also one alone, of which matplotlib makes no range.
-
-    Where no value is known, because no solve had an answer, the axis stays as it is.
+    more : artists that are named first; other : of the legend
     """
-    known = [value for value in values if np.isfinite(value)]
-    if known:
-        low, high = min(known), max(known)
-        room = (high / low) ** 0.05 if high > low * 1.01 else 2.0
-        axes.set_xlim(low / room, high * room)
+    drawn = (each for axes in panels for each in axes.get_legend_handles_labels()[0])
+    handles = [*more, *drawn, *more]  # of a label the last counts, at the place of the first
+    entries = {each.get_label(): each for each in handles}
+    around = rcParams["legend.handlelength"] + rcParams["legend.handletextpad"] + rcParams["legend.columnspacing"]
+    widest = (WIDE * max(map(len, entries)) + around) * small() / 72
+    look = {"ncols": max(1, min(most, int(drawing.bbox.width / drawing.dpi / widest)))} | other
+    drawing.legend(handles=[*entries.values()], loc="outside lower center", **look)
+
+
+def entry(label: str, **look: Any) -> Line2D:
+    """Entry of a legend: a marker."""
+    return Line2D([], [], **{"marker": "o", "linestyle": "none", "color": grey(0.3), "label": label} | look)
 
 
 def decades(*panels: Axes) -> None:
-    """Readable ticks on logarithmic axes: few and round, two at least, plain numbers where they are short.
-
-    An axis on which all values are nearly the same gets the room of one value.
-    """
+    """Readable ticks on logarithmic axes: few and round, two at least, plain numbers where they are short."""
     for axis in (axis for axes in panels for axis in (axes.xaxis, axes.yaxis) if axis.get_scale() == "log"):
         low, high = axis.get_view_interval()
-        if high < ALIKE * low:
-            low, high = low / 1.5, 1.5 * high
-            getattr(axis.axes, f"set_{axis.axis_name}lim")(low, high)
         powers = LogLocator(subs=(1,) if high >= 100 * low else (1, 2, 5))
         axis.set_major_locator(powers if high >= 5 * low else MaxNLocator(4))
         axis.set_major_formatter(LogFormatterSciNotation(minor_thresholds=(np.inf, np.inf)))  # every tick has one
@@ -279,10 +246,10 @@ def forms() -> Iterator[dict[str, Any]]:
     )
 
 
-def shades(solver: str, count: int) -> list[tuple[float, float, float]]:
-    """`count` shades of a solver's colour, from near ink to near paper."""
-    dark, light = mixed(COLOUR[solver], ink(), 0.45), mixed(COLOUR[solver], paper(), 0.315)
-    return [mixed(dark, light, share) for share in np.linspace(0, 1, count)]
+def shades(solver: str, count: int) -> np.ndarray:
+    """`count` shades of a model's colour (N, 4), from near ink to near paper."""
+    scale = LinearSegmentedColormap.from_list(solver, [ink(), colour(solver), paper()])
+    return scale(np.linspace(0.28, 0.66, count))
 
 
 def bars(values, low, high) -> np.ndarray:

@@ -1,14 +1,15 @@
 """Friction against speed at several temperatures, shifted along the speed onto a curve a load; the shifts."""
 
+from typing import Any
+
 import numpy as np
 from matplotlib.figure import Figure
 from pandas import DataFrame
 
 from . import shades, style
-from .curves import intervals
-from .lettering import lettered
-from .panels import few, legend, limit
+from .curves import intervals, limit
 from .plot import Plot, Tables
+from .shades import few
 
 NAME = "temperature-shifts"
 SHIFTS, LAWS = f"{NAME}-shifts", f"{NAME}-laws"
@@ -43,29 +44,23 @@ def figure(tables: Tables) -> Figure:
     left, middle, right = panels = drawing.subplots(1, 3)
     middle.sharey(left)
     warmth = few(shifts["temperature"], TEMPERATURES)
-    looks = {
-        at: {
-            "color": colour,
-            "marker": marker,
-            "markersize": style.mark(0.8),
-            "capsize": 0,
-            "label": f"{at:.4g} K",
-        }
-        for at, colour, marker in zip(
-            warmth.tolist(), shades.SPEED(np.linspace(0, 1, warmth.size)), style.SERIES_MARKERS, strict=False
-        )
+    colours = shades.SPEED(np.linspace(0, 1, warmth.size))
+    looks: dict[float, dict[str, Any]] = {
+        at: form | {"color": colour, "label": f"{at:.4g} K"}
+        for at, colour, form in zip(warmth.tolist(), colours, style.forms(), strict=False)
     }
     points = points[points["temperature"].isin(warmth)]
     counts = points.groupby("load")["temperature"].nunique()
     loads = few(counts.index[counts == counts.max()], LOADS)
     middling = loads[loads.size // 2]
-    for (load, at), own in points[points["load"].isin(loads)].groupby(["load", "temperature"]):
+    points = points[points["load"].isin(loads)]
+    for (load, at), own in points.groupby(["load", "temperature"]):
         for axes, across in ((left, "speed"), (middle, "reduced_speed"))[int(load != middling) :]:
-            intervals(axes, own[across], own, "friction_coefficient", linewidth=style.width(0.5), **looks[at])
-        if own["reduced_speed"].max() == points.loc[points["load"] == load, "reduced_speed"].max():
-            place = {"xytext": (4, 0), "textcoords": "offset points", "va": "center", "fontsize": style.tiny()}
-            end = own.loc[own["reduced_speed"].idxmax()]
-            middle.annotate(f"{load:.3g} N", (end["reduced_speed"], end["friction_coefficient"]), **place)
+            intervals(axes, own[across], own, "friction_coefficient", **looks[at])
+    for load, own in points.groupby("load"):
+        end = own.loc[own["reduced_speed"].idxmax(), ["reduced_speed", "friction_coefficient"]]
+        place = {"textcoords": "offset points", "va": "center", "fontsize": style.small()}
+        middle.annotate(f"{load:.3g} N", end, (4, 0), **place)
     for name, own in laws.groupby("law", sort=False):
         line = style.line(0.45, 0.8, linestyle=LINES[name], label=name)
         right.plot(own["temperature"], own["log_time_shift"] / LOG10, **line)
@@ -80,8 +75,8 @@ def figure(tables: Tables) -> Figure:
     between = np.sqrt(low * high)  # two decades at least: within less there are too many ticks for a narrow panel
     left.set_xlim(min(low, between / 10), max(high, 10 * between))
     middle.set_xlim(right=30 * points["reduced_speed"].max())
-    limit(left, points[points["load"].isin(loads)], "friction_coefficient")
+    limit(left, points, "friction_coefficient")
     style.decades(left, middle)
-    lettered(panels)
-    legend(drawing, [right], 5)
+    style.lettered(panels)
+    style.legend(drawing, [right], 5)
     return drawing

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import xarray
+from pandas import DataFrame
 
 from bem3d import BEM
 from bem3d.sliding import Flow
@@ -35,13 +36,13 @@ def view(scene: Scene, bem: BEM, fields: Mapping[str, Fields]) -> dict[str, xarr
     fields do not say how warm it is.
     """
     found: dict[str, xarray.Dataset] = {}
-    if scene.heating is not None and scene.heating.feedback is not None:
+    if not fields or (scene.heating is not None and scene.heating.feedback is not None):
         return found
     span, aside = _region(scene, fields)
     if "BEM" in fields:
         found[SURFACE] = _surface(scene, bem, fields["BEM"], span, aside)
     if "MDR" in fields:
-        found[ROW] = _row(scene, fields["MDR"], span).sel(x=slice(*span))
+        found[ROW] = _row(scene, fields["MDR"], span)
     return found
 
 
@@ -57,23 +58,21 @@ def smooth_radius(scene: Scene) -> float | None:
 
 def _region(scene, fields):
     """(first, last) x and the farthest y worth seeing [m]: all where nothing touches or the surface repeats."""
-    grid = fields.get("BEM", fields.get("MDR"))
-    if grid is None:
-        return (0.0, 0.0), 0.0
-    x, radius = [], smooth_radius(scene) or 0.0
-    y = np.array([radius])
+    radius = smooth_radius(scene) or 0.0
+    x, y = np.zeros(0), np.array([radius])
     if "BEM" in fields:
-        rows, columns = np.nonzero(grid["pressure"] > 0)
-        x, y = [*grid["x"][columns]], np.append(y, np.abs(grid["y"][rows]))
+        rows, columns = np.nonzero(fields["BEM"]["pressure"] > 0)
+        x, y = fields["BEM"]["x"][columns], np.append(y, np.abs(fields["BEM"]["y"][rows]))
     if "MDR" in fields:
-        x += [*fields["MDR"]["x"][fields["MDR"]["contact"].astype(bool)]]
-    if not x or isinstance(scene.indenter, Plane):
+        x = np.append(x, fields["MDR"]["x"][fields["MDR"]["contact"].astype(bool)])
+    if not x.size or isinstance(scene.indenter, Plane):
+        grid = next(iter(fields.values()))
         half = (grid["x"][1] - grid["x"][0]) / 2
         return (grid["x"][0] - half, grid["x"][-1] + half), np.max(np.abs(grid.get("y", 0.0))) + half
-    length = max(max(x) - min(x), 2 * radius)
+    length = max(np.ptp(x), 2 * radius)
     speed = scene.motion.speed if isinstance(scene.motion, Slide) else 0.0
     wake = np.clip(MEMORIES * Flow.of(scene.solid, speed).memory / length, BEHIND, MOST_BEHIND)
-    start, end = min(*x, -radius), max(*x, radius)
+    start, end = min(x.min(), -radius), max(x.max(), radius)
     return (start - (BEFORE if speed else BEHIND) * length, end + wake * length), y.max() + BESIDE * length
 
 
@@ -88,9 +87,9 @@ def _surface(scene, bem, plane, span, aside):
         downstream=max(span[1] - x[-1], 0.0),
         aside=max(aside - min(-y[0], y[-1]), 0.0),
     )
-    before = [int(np.argmin(np.abs(whole - grid[0]))) for whole, grid in ((around.y, y), (around.x, x))]
+    first, above = (int(np.argmin(np.abs(all_of - own[0]))) for all_of, own in ((around.x, x), (around.y, y)))
     pressure = np.zeros_like(around.displacement)
-    pressure[before[0] : before[0] + len(y), before[1] : before[1] + len(x)] = plane["pressure"]
+    pressure[above : above + len(y), first : first + len(x)] = plane["pressure"]
     # What is left of the gap in contact is the residual of the solver.
     fields = {
         "displacement": around.displacement,
@@ -115,27 +114,26 @@ def _row(scene, fields, span):
         depth = fields["depth"][-1]
     else:
         depth = (fields["displacement"] + fields["profile"])[touching].mean() if touching.any() else np.nan
-    pixel, program = x[1] - x[0], isinstance(scene.motion, Program)
+    columns = {
+        "indenter": fields["profile"] - depth,
+        "surface": -fields["displacement"],
+        "touching": 1.0 * touching,
+    }
+    program, pixel = isinstance(scene.motion, Program), x[1] - x[0]
     missing = (0.0, 0.0) if program else (x[0] - span[0], span[1] - x[-1])
     before, behind = (max(int(np.ceil(length / pixel)), 0) for length in missing)
-    places = np.concatenate([x[0] + pixel * np.arange(-before, 0), x, x[-1] + pixel * np.arange(1, behind + 1)])
-    surface = np.pad(-fields["displacement"], (before, behind))
-    indenter = np.pad(fields["profile"] - depth, (before, behind), constant_values=np.nan)
-    if scene.roughness is None:  # a smooth body is c |x|^n
-        tip = np.nanmin(indenter)
-        indenter = tip + (indenter[before + len(x) - 1] - tip) * np.abs(places / x[-1]) ** scene.indenter.exponent
-    columns = {
-        "indenter": indenter,
-        "surface": surface,
-        "touching": np.pad(touching, (before, behind)),
-    }
     if not program:
+        columns["line_force"] = fields["line_force"]
+    row = DataFrame(columns).reindex(np.arange(-before, len(x) + behind), fill_value=0)
+    row["x"], outside = x[0] + pixel * row.index, ~row.index.isin(range(len(x)))
+    row.loc[outside, "indenter"] = np.nan
+    if behind:
         flow, last = Flow.of(scene.solid, scene.motion.speed), x[-1]
         felt = fields["line_force"][:-1] @ np.diff(np.exp((x - last)[:, None] / flow.lengths), axis=0)
-        left = np.exp((last - places[before + len(x) :])[:, None] / flow.lengths)
-        surface[before + len(x) :] = -left @ (flow.shares * felt / flow.modulus)
-        columns["line_force"] = np.pad(fields["line_force"], (before, behind))
-    return xarray.Dataset(
-        {name: ("x", values, attributes(name)) for name, values in columns.items()},
-        {"x": ("x", places, attributes("x"))},
-    )
+        wake = row.index >= len(x)
+        left = np.exp((last - row.loc[wake, "x"].to_numpy())[:, None] / flow.lengths)
+        row.loc[wake, "surface"] = -left @ (flow.shares * felt / flow.modulus)
+    found = row.astype({"touching": bool}).set_index("x").to_xarray()
+    for name in found.variables:
+        found[name].attrs = attributes(name)
+    return found.sel(x=slice(*span))

@@ -6,14 +6,15 @@ from typing import Any
 
 import numpy as np
 import xarray
+from pandas import concat
 
 from bem3d import BEM
 from mdr1d import MDR
 from scene import Program, Refused, SolveError, notes
 from scene.protocol import foresee
 
-from ..figures import contact
-from ..figures.contact import HISTORIES
+from ..figures import contact, history
+from ..figures.plot import Plot
 from ..figures.views import ROW, SURFACE, view
 from ..library.case import Case, doubted
 from ..library.lookup import SceneLike, case_of
@@ -105,7 +106,7 @@ class Drawing(Study):
                 dataset[name] = (), value, attributes(name, self.case.scene)
         if program:
             for name, kept in fields.items():
-                histories = {each: ("time", kept[each], attributes(each)) for each in (*HISTORIES, "time")}
+                histories = {each: ("time", kept[each], attributes(each)) for each in (*NUMBERS, "time")}
                 parts[f"{PROGRAM}/{name}"] = xarray.Dataset(histories).set_coords("time")
         return xarray.DataTree.from_dict({f"/{name}": each for name, each in parts.items()})
 
@@ -137,10 +138,12 @@ class Drawing(Study):
         said = [Text(f"No row of springs: {self.refused}.")] if self.refused else []
         answer = [f"{each.claim.sentence}: {words.found(each)}." for each in findings]
         seen = {name: answers[name].to_dataset() for name in (SURFACE, ROW) if name in answers}
-        marched = answers[PROGRAM].children if PROGRAM in answers else {}
-        program = {name: each.to_dataset() for name, each in marched.items()}
-        shown = contact.plot(self.case.scene, seen, program)
-        return Judgement(findings, answer, [shown, *said], self.setting)
+        shown: list[Plot | Text] = [contact.plot(self.case.scene, seen)] if seen else []
+        if PROGRAM in answers:
+            marched = {name: each.to_dataset().to_dataframe() for name, each in answers[PROGRAM].children.items()}
+            points = concat(marched, names=["model"]).reset_index().rename(columns={"depth": "depth_reached"})
+            shown.append(history.plot(points, "time", self.case.scene))
+        return Judgement(findings, answer, [*shown, *said], self.setting)
 
 
 def _task(solver: BEM | MDR, case: Case) -> SceneTask:

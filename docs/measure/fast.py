@@ -9,13 +9,14 @@ from math import hypot
 from pathlib import Path
 
 import numpy as np
+from matplotlib.cm import ScalarMappable
 from matplotlib.figure import Figure
 from pandas import DataFrame
 from tables import finding, replaced, said, stored, table
 
 import compare
 from compare.figures import style
-from compare.figures.shades import SPEED, bar, between
+from compare.figures.shades import SPEED, between
 from compare.solving.curve import COARSE, FINE, of_model
 from compare.statistics import eq23
 from compare.statistics.collapse import collapse
@@ -205,7 +206,7 @@ def _figure(tree) -> Figure:
         panels[1, column].set_xlabel("load times p(v) over that of the slowest [N]")
     for axes in panels[:, 0]:
         axes.set_ylabel("friction coefficient μ [1]")
-    bar(drawing, panels, SPEED, scale, "speed [m/s]")
+    style.decades(drawing.colorbar(ScalarMappable(scale, SPEED), ax=panels, label="speed [m/s]").ax)
     return drawing
 
 

@@ -18,7 +18,6 @@ from pandas import DataFrame
 
 import compare
 from compare.figures import style
-from compare.figures.lettering import lettered
 from scene import Kelvin, Scene, Slide, Sphere
 
 RESULTS = Path(__file__).parents[1] / "results"
@@ -61,7 +60,7 @@ def accuracy() -> Figure:
     _order_two(timed, 20.0, [64, 128, 256])
     for panel in (rest, timed):
         panel.legend()
-    lettered((rest, timed))
+    style.lettered((rest, timed))
     return figure
 
 
@@ -78,7 +77,7 @@ def benchmark() -> Figure:
     grids, loads = figure.subplots(1, 2)
     cells, others = section("benchmark", "Rough cells"), section("benchmark", "Other loads")
     for (name, (label, solver)), form in zip(CODES.items(), style.forms(), strict=False):
-        drawn = {"color": style.COLOUR[solver] if solver else style.ink(), "label": label, **form}
+        drawn = {"color": style.colour(solver) if solver else style.ink(), "label": label, **form}
         for panel, table, along in ((grids, cells, "points"), (loads, others, "mean pressure / E*")):
             rows = table[(table["code"] == name) & (table["processor s"] != "")]
             panel.loglog(rows[along].str.rstrip("²").astype(float), rows["processor s"].astype(float), **drawn)
@@ -86,7 +85,7 @@ def benchmark() -> Figure:
     grids.set_xticks([256, 512, 1024, 2048], ["256", "512", "1024", "2048"], minor=False)
     grids.minorticks_off()
     loads.set(xlabel="mean pressure / $E^*$ [1]", ylabel="processor time [s]", title="512² points")
-    lettered((grids, loads))
+    style.lettered((grids, loads))
     grids.legend()
     return figure
 

@@ -15,7 +15,6 @@ from tables import replaced, stored
 
 from bem3d import BEM
 from compare.figures import style
-from compare.figures.lettering import lettered
 from compare.solving.task import SceneTask
 from compare.studies.comparison.study_file import STUDIES
 from scene import Indent, Slide
@@ -85,7 +84,7 @@ def _figure(frame):
     panels = drawing.subplots(1, len(SPEEDS), sharey=True, sharex=True)
     for axes, (speed, name) in zip(panels, SPEEDS.items(), strict=True):
         own, over = _over_the_finest(frame, speed)
-        colours = "#56B4E9", "#009E73", "#CC79A7", style.COLOUR["BEM"]
+        colours = "#56B4E9", "#009E73", "#CC79A7", style.colour("BEM")
         for look, colour, (estimate, words) in zip(style.forms(), colours, ESTIMATES.items(), strict=False):
             if np.isfinite(over[estimate]).all():
                 axes.plot(own["pixels_a_wave"], over[estimate], color=colour, label=words, **look)
@@ -93,9 +92,9 @@ def _figure(frame):
         axes.set(xscale="log", xlabel="pixels a wave [1]", title=name, ylim=(0.5, 1.2))
     panels[0].set_ylabel("curvature / finest answer [1]")
     panels[1].set_ylabel("friction / finest answer [1]")
-    lettered(panels)
+    style.lettered(panels)
     style.decades(*panels)
-    style.legend(drawing, panels[-1].get_legend_handles_labels()[0], "outside lower center", 4)
+    style.legend(drawing, panels[-1:], 4)
     return drawing
 
 

@@ -15,7 +15,7 @@ from pandas import DataFrame
 from tables import limit, replaced, stored, table
 
 from bem3d import BEM, refined
-from compare.figures import shades, style
+from compare.figures import style
 from compare.solving.outcome import Outcome
 from compare.solving.task import SceneTask, draws_of
 from compare.studies.paper import parameters
@@ -163,9 +163,8 @@ def figure(frame: DataFrame, scene: Scene, outcome: Outcome) -> Figure:
         axes.set(xlabel=f"x [{unit}]", ylabel=f"y [{unit}]", title=f"({letter}) {scale * side:g} {unit} wide")
     whole.add_patch(Circle((0, 0), 1e3 * radius, fill=False, **style.line(0.4, 0.6)))
     whole.plot(1e3 * x[spot], 1e3 * y[spot], "o", color=style.ink(), markersize=8, markerfacecolor="none")
-    shades.colours(
-        left, drawn, "pressure [GPa]", ax=panels, location="bottom", aspect=40, shrink=0.7, extend="max"
-    )
+    place = {"location": "bottom", "aspect": 40, "shrink": 0.7, "extend": "max"}
+    left.colorbar(drawn, ax=panels, label="pressure [GPa]", **place)
     _friction(right.subplots(), frame)
     return drawing
 
@@ -174,23 +173,22 @@ def _friction(axes, frame):
     """Both estimates over the pixels, the answer with its interval at right, and one dimension."""
     for (shape, own), form in zip(frame.groupby("shape", sort=False), style.forms(), strict=False):
         three, (one,) = own[own["dimension"] == "3D"], own[own["dimension"] == "1D"].itertuples()
-        look = {"color": style.COLOUR["BEM"], "marker": form["marker"]}
+        look = {"color": style.colour("BEM"), "marker": form["marker"]}
         axes.plot(three["pixels_a_wave"], three["by_traction"], "-", label="3D, by traction", **look)
         hollow = {"markerfacecolor": style.paper(), "label": "3D, by loss"}
         axes.plot(three["pixels_a_wave"], three["by_loss"], "--", **look, **hollow)
         low, high = ends(three)
         answer = {"color": style.ink(), "marker": form["marker"], "linestyle": "none", "label": "3D, answer"}
         axes.errorbar(30, (low + high) / 2, (high - low) / 2, **answer)
-        axes.axhline(one.friction, **style.line(0, 0.7, color=style.COLOUR["MDR"], linestyle=":"), label="1D")
-        axes.text(60, one.friction + 0.15, shape, fontsize=style.small(), ha="right", color=style.COLOUR["MDR"])
+        axes.axhline(one.friction, **style.line(0, 0.7, color=style.colour("MDR"), linestyle=":"), label="1D")
+        axes.text(60, one.friction + 0.15, shape, fontsize=style.small(), ha="right", color=style.colour("MDR"))
         axes.text(36, (low + high) / 2 - 0.2, shape, fontsize=style.small(), va="center")
     axes.set(
         xscale="log", xlim=(3.4, 64), ylim=(0, 18), xlabel="pixels a wave [1]", ylabel="friction coefficient [1]"
     )
     axes.set_title("(c) friction, finer and finer")
     style.decades(axes)
-    handles, labels = axes.get_legend_handles_labels()
-    style.legend(axes.figure, list(dict(zip(labels, handles, strict=True)).values()), "outside lower center", 2)
+    style.legend(axes.figure, [axes], 2)
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 import compare
 from bem3d import BEM
 from compare.cli.app import app
-from compare.figures import contact, style
+from compare.figures import contact, history, style
 from compare.figures.plot import Plot
 from compare.figures.views import ROW, SURFACE, view
 from compare.library.lookup import case_of
@@ -107,8 +107,9 @@ def test_the_map_is_the_pressure_of_the_answer_on_what_touches():
 
 def test_a_map_is_no_larger_than_the_grids_that_are_solved():
     plot = contact.plot(CONTACTS["rough"], seen("rough"))
+    far = plot.tables[contact.PRESSURE].assign(y=lambda table: 1e6 * table["y"])
     with style.applied():
-        axes = plot.draw(plot.tables, **plot.options | {"aside": 1e9}).axes[0]
+        axes = plot.draw(plot.tables | {contact.PRESSURE: far}, **plot.options).axes[0]
     assert axes.collections[0].get_array().shape[0] <= contact.MOST_PIXELS
 
 
@@ -181,15 +182,15 @@ def test_the_picture_is_drawn_again_from_its_tables_to_the_last_byte(drawn, tmp_
 def test_a_program_is_drawn_in_time_by_force_and_depth_of_both(name, tmp_path):
     case = replace(case_of(SCENES[name]), bem=BEM(points=64, steps=20), mdr=MDR(points=200, steps=20))
     report = compare.draw(case, output=tmp_path, workers=1)
-    histories = table(report, contact.PROGRAM)
+    histories = {plot.name: plot for plot in report.page.every(Plot)}[history.NAME].tables[history.NAME]
     for solver in (case.mdr, case.bem):
-        fields, own = solver.solve(case.scene).fields, histories[histories["solver"] == solver.name]
-        for each in contact.HISTORIES:
-            assert own[each].to_numpy() == pytest.approx(fields[each], rel=1e-12, abs=1e-15, nan_ok=True)
-    assert [axes.get_title(loc="left") for axes in report.figures[contact.NAME].axes][-2:] == [
-        "(a) force in time",
-        "(b) depth in time",
-    ]
+        fields, own = solver.solve(case.scene).fields, histories[histories["model"] == solver.name]
+        for each in ("normal_force", "friction_force", "depth"):
+            assert own[each.replace("depth", "depth_reached")].to_numpy() == pytest.approx(
+                fields[each], rel=1e-12, abs=1e-15, nan_ok=True
+            )
+    labels = [axes.get_ylabel() for axes in report.figures[history.NAME].axes]
+    assert [each.partition(" [")[0] for each in labels] == ["normal force", "depth", "tangential force"]
 
 
 def test_a_layer_has_no_springs_and_that_is_said(tmp_path):

@@ -355,10 +355,7 @@ def test_several_temperatures_are_shifted_along_the_speed_and_judged(tmp_path):
     assert told["temperatures-unshifted"].value > 0.2
     assert judged.answer[0].startswith("Holds: Shifts along the load")
     assert "Shifts along the speed bring the temperatures together" in " ".join(judged.answer)
-    points, shifts = (
-        plot.tables[name] for plot, name in zip(judged.plots, ("collapse", "temperature-shifts"), strict=True)
-    )
-    assert set(points["temperature"].round(2)) == {285.15, 293.15, 301.15}
+    shifts = judged.plots[1].tables["temperature-shifts"]
     by = dict(zip(made.shifts.temperatures, made.shifts.shifts.value, strict=True))
     moved = np.log(shifts["reduced_speed"] / shifts["speed"])
     np.testing.assert_allclose(moved, shifts["temperature"].map(by), atol=1e-12)
@@ -393,7 +390,7 @@ def test_constants_that_are_none_are_refused(stated, said):
 def test_the_figure_is_a_function_of_its_csv_files(tmp_path, text):
     made = study(tmp_path, text, r"$\frac{$.csv")
     (plot,) = made.judge(made.answers({})).plots
-    left, middle, below, *shifts = from_files(plot).axes
+    left, middle, *shifts, below = from_files(plot).axes
     points = plot.tables[collapse.NAME]
     assert left.get_title(loc="left") == r"(a) \$\frac{\$"  # a name that would be a formula
     for axes, across in ((left, "normal_force"), (middle, "shifted_force"), (below, "shifted_force")):

@@ -5,20 +5,20 @@ import pytest
 from drawn_again import from_files
 from pandas import DataFrame
 
-from compare.figures import force_depth, friction_speed, panels
+from compare.figures import force_depth, friction_speed, shades
 from compare.figures.style import LABEL
 
 
 def points(name, across, places):
     """Both models, 1D twice as high as 3D."""
     rows = DataFrame([(solver, at, k * at) for solver, k in (("MDR", 2.0), ("BEM", 1.0)) for at in places])
-    rows.columns = ["solver", across, f"{name}_mean"]
+    rows.columns = ["model", across, f"{name}_mean"]
     return rows.assign(**{f"{name}_{end}": k * rows[f"{name}_mean"] for end, k in (("low", 0.9), ("high", 1.1))})
 
 
 def test_a_line_decades_below_does_not_press_the_curves_together():
     curves = points("friction_coefficient", "speed", (0.1, 1.0))
-    lines = DataFrame({"solver": ["MDR"] * 2, "kind": "Eq. 19", "speed": [0.1, 1.0], "friction_coefficient": 1e-6})
+    lines = DataFrame({"model": ["MDR"] * 2, "kind": "Eq. 19", "speed": [0.1, 1.0], "friction_coefficient": 1e-6})
     axes = from_files(friction_speed.plot(curves, lines=lines)).axes[0]
     assert axes.get_ylim() == pytest.approx((0.09 / 1.2, 2.2 * 1.2))
     assert LABEL["MDR"] + ", Eq. 19" in axes.get_legend_handles_labels()[1]
@@ -35,6 +35,6 @@ def test_both_models_stand_at_the_depth_that_was_prescribed():
 @pytest.mark.parametrize("count", [1, 3, 8, 30])
 def test_few_values_keep_the_least_and_the_greatest(count):
     values = np.geomspace(1, 10, count)
-    chosen = panels.few(values[::-1], 8)
+    chosen = shades.few(values[::-1], 8)
     assert len(chosen) == min(count, 8)
     assert (chosen[0], chosen[-1]) == (values[0], values[-1])

@@ -24,12 +24,9 @@ def labelled(axes):
 
 def points(axes, empty):
     """Markers that scatter plots drew, sorted: hollow or filled ones."""
-    parts = [
-        part.get_offsets().data
-        for part in axes.collections
-        if isinstance(part, PathCollection) and (part.get_facecolors().size == 0) == empty
-    ]
-    return ordered(*np.concatenate(parts).T)
+    parts = [part for part in axes.collections if isinstance(part, PathCollection)]
+    inside = [part.get_offsets().data[(part.get_facecolors()[:, 3] == 0) == empty] for part in parts]
+    return ordered(*np.concatenate(inside).T)
 
 
 def ordered(x, y):
@@ -74,7 +71,6 @@ def test_the_close_up_shows_the_solution_and_a_contact_without_an_answer_is_left
     bold = np.where(table["touching"], table["surface"] * 1e6, np.nan)
     for axes in (whole, close):
         np.testing.assert_allclose(axes.lines[-1].get_ydata(), bold, rtol=ROUNDING)
-        assert "heights × " in axes.get_title(loc="right")
     assert figures.plot_contacts({}) is None
 
 

@@ -258,7 +258,7 @@ def test_a_figure_names_what_has_no_answer_and_is_hollow_within_the_error_of_the
     (plot,) = found.plots
     texts = [text.get_text() for axes in from_files(plot).axes for text in axes.texts]
     assert sum(text.startswith("no answer: 1D, ") for text in texts) == 2
-    for own, face in ((1e-9, style.COLOUR["BEM"]), (0.5, "white")):
+    for own, face in ((1e-9, style.colour("BEM")), (0.5, "white")):
         table = plot.tables["workprecision-ways"].assign(reference_error=own)
         axes = from_files(replace(plot, tables={"workprecision-ways": table})).axes[0]
         assert axes.collections[0].get_facecolor() == pytest.approx(

@@ -199,10 +199,9 @@ class Mastercurve(Study):
     def _plots(self, findings):
         named = {each.claim.id: each for each in findings}
         own = {claim: named[name] for claim, (name, _) in CLAIMS.items() if name in named}
-        shown = collapsed.ShiftedCurves(
-            self.friction.name, self.collapse, own, lead=self.lead, warmth=self._curves()
-        )
-        plots = [collapsed.plot([shown])]
+        shown = collapsed.ShiftedCurves(self.friction.name, self.collapse, own, lead=self.lead)
+        speed = "speed" if self.shifts is None else "speed times $a_T$"
+        plots = [collapsed.plot([shown], speed=speed)]
         if self.shifts is not None:
             tables = (
                 points_table(self.pooled, self.shifts),

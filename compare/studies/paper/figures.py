@@ -7,14 +7,12 @@ import numpy as np
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 from pandas import DataFrame, concat
 
 from mdr1d.equations import interpolation
 
 from ...figures import shades, style, touching
-from ...figures.curves import intervals, scatter
-from ...figures.lettering import clear, lettered
+from ...figures.curves import intervals
 from ...figures.plot import Plot, Tables
 from ...figures.prefixes import prefixed
 
@@ -49,38 +47,32 @@ def draw_contacts(tables: Tables) -> Figure:
     """A column for each shape. Above: the contact. Below: where it ends most often."""
     drawing = style.canvas("double", 4.4)
     panels = drawing.subplots(2, len(tables), squeeze=False)
-    shown = []
-    for column, (name, table) in zip(panels.T, tables.items(), strict=True):
-        seen = touching.section_of(table)
-        touched = seen.x[seen.touching]
+    for (above, below), (name, table) in zip(panels.T, tables.items(), strict=True):
+        touched = table["x"][table["touching"]]
         margin = (SHOWN - 1) / 2 * np.ptp(touched)
-        whole, close = (touched[0] - margin, touched[-1] + margin), _close_up(seen)
-        for axes, span, title in zip(column, (whole, close), (name.rpartition("-")[2], "close-up"), strict=True):
-            limits = _limits(seen, span)
-            touching.section(axes, seen, "MDR", span, limits)
+        whole, close = (touched.min() - margin, touched.max() + margin), _close_up(table)
+        for axes, span, title in ((above, whole, name.rpartition("-")[2]), (below, close, "close-up")):
+            touching.section(axes, table, "MDR", span, _limits(table, span))
             axes.set_title(title)
-            shown.append((axes, span, limits))
         along = prefixed(whole, "m")[0]
-        column[0].axvspan(along * close[0], along * close[1], **style.line(0.0, 0.4, fill=False, zorder=5))
-    lettered(panels.flat)
-    style.lay_out(drawing)
-    for axes, span, limits in shown:
-        touching.exaggeration(axes, span, limits)
+        above.axvspan(along * close[0], along * close[1], **style.line(0.0, 0.4, fill=False, zorder=5))
+    style.lettered(panels.flat)
+    style.legend(drawing, panels.flat, 3)
     return drawing
 
 
-def _limits(seen, span):
+def _limits(table, span):
     """Heights [m] around the surface of the elastomer."""
-    shown = seen.surface[(span[0] <= seen.x) & (seen.x <= span[1])]
+    shown = table["surface"][table["x"].between(*span)]
     room = float(np.ptp(shown))
     return shown.min() - 0.35 * room, shown.max() + 0.45 * room
 
 
-def _close_up(seen):
+def _close_up(table):
     """Ends [m] of the stretch with the most ends of contact."""
-    nodes = round(CLOSE / (seen.x[1] - seen.x[0]))
-    ends = np.convolve(np.abs(np.diff(seen.touching.astype(int))), np.ones(nodes), "valid")
-    first = float(seen.x[np.argmax(ends)])
+    x, touched = table["x"], table["touching"].astype(int)
+    ends = np.convolve(np.abs(np.diff(touched)), np.ones(round(CLOSE / (x[1] - x[0]))), "valid")
+    first = float(x[np.argmax(ends)])
     return first, first + CLOSE
 
 
@@ -104,32 +96,29 @@ def draw_studies(tables: Tables) -> Figure:
     drawing = style.canvas("double", 3.6)
     left, right = drawing.subplots(1, 2)
     xi, ratio, friction = (points[name] for name in ("xi", "macro_over_rough", "normalised_friction"))
-    colours = shades.PRESS(BETWEEN(points["hurst"]))
     studies = dict(zip(points["study"].unique(), MARKERS, strict=False))
     for study, marker in studies.items():
         at = points["study"] == study
+        edges = shades.PRESS(BETWEEN(points["hurst"][at]))
+        look = {"edgecolors": edges, "facecolors": edges * points["holds"][at].to_numpy()[:, None]}
         for axes, x, y in ((left, xi, friction), (right, ratio, friction / xi)):
-            look = {"marker": marker, "empty": "none", "rasterized": True, "zorder": 2}
-            scatter(axes, x[at], y[at], points["holds"][at], colours[at], 0.75, 0.3, **look)
+            axes.scatter(x[at], y[at], style.mark() ** 2, marker=marker, linewidths=0.4, rasterized=True, **look)
     line, r = np.geomspace(xi.min(), xi.max(), 101), np.geomspace(ratio.min(), ratio.max(), 101)
-    left.plot(line, line, label=r"Eq. 17, $\tilde{\mu} = \xi$", **style.line(0, 0.55, zorder=3))
-    left.plot(line, interpolation(line), "--", label="Eq. 19, α = 1.5", **style.line(0.35, 0.55, zorder=3))
-    right.plot(r, 1 + r**2, **style.line(0, 0.7, zorder=3, label="Eq. 10, 1 + r²"))
-    for axes, across, up, title in (
-        (left, r"$\xi$ [1]", r"$\tilde{\mu}$ [1]", "(a)"),
-        (right, "rms slope, smooth over rough, r [1]", r"$\tilde{\mu}/\xi$ [1]", "(b)"),
+    left.plot(line, line, label=r"Eq. 17, $\tilde{\mu} = \xi$", **style.line(0, 0.7))
+    left.plot(line, interpolation(line), "--", label="Eq. 19, α = 1.5", **style.line(0.35, 0.7))
+    right.plot(r, 1 + r**2, ":", **style.line(0, 0.7, label="Eq. 10, 1 + r²"))
+    for axes, across, up in (
+        (left, r"$\xi$ [1]", r"$\tilde{\mu}$ [1]"),
+        (right, "rms slope, smooth over rough, r [1]", r"$\tilde{\mu}/\xi$ [1]"),
     ):
-        axes.set(xscale="log", yscale="log", xlabel=across, ylabel=up, title=title)
-        axes.legend(loc="upper left")
-    style.span(left, xi)
-    style.span(right, ratio)
+        axes.set(xscale="log", yscale="log", xlabel=across, ylabel=up)
     style.decades(left, right)
-    shades.colours(drawing, ScalarMappable(BETWEEN, shades.PRESS), "Hurst exponent [1]", ax=[left, right])
-    look = {"linestyle": "none", "color": style.grey(0.3)}
-    handles = [Line2D([], [], marker=marker, label=study, **look) for study, marker in studies.items()]
-    handles.append(Line2D([], [], marker="o", markerfacecolor="none", label="a condition breaks", **look))
-    style.legend(drawing, handles, "outside lower center", 7, handletextpad=0.1, columnspacing=1.0)
-    clear(drawing, [left, right])
+    style.lettered((left, right))
+    drawing.colorbar(ScalarMappable(BETWEEN, shades.PRESS), ax=[left, right], label="Hurst exponent [1]")
+    hollow = style.entry("a condition breaks", markerfacecolor="none")
+    style.legend(
+        drawing, (left, right), 4, *(style.entry(name, marker=each) for name, each in studies.items()), hollow
+    )
     return drawing
 
 
@@ -152,25 +141,23 @@ def draw_law(tables: Tables) -> Figure:
     """Above: mu-tilde with Eq. 19. Below: its deviation from Eq. 19 with alpha = 1.5."""
     points, fits = tables[LAW], tables[ALPHA]
     drawing = style.canvas("single", 5.0)
-    above, below = drawing.subplots(2, 1, sharex=True, height_ratios=(2, 1.7))
+    above, below = panels = drawing.subplots(2, 1, sharex=True, height_ratios=(2, 1.7))
     xi = np.geomspace(points["xi"].min(), points["xi"].max(), 201)
-    above.plot(xi, interpolation(xi), **style.line(0.5, 0.8, label="Eq. 19, α = 1.5", zorder=1))
-    below.axhline(0, **style.line(0.6, 0.45, zorder=0))
+    above.plot(xi, interpolation(xi), **style.line(0.5, 0.8, label="Eq. 19, α = 1.5"))
+    below.axhline(0, **style.line(0.6, 0.45))
     for fit, (marker, size, line, colour) in zip(fits.itertuples(), LOOKS, strict=False):
         own, colour = points[points["shape"] == fit.shape], colour or style.ink()
-        off = own.filter(like="normalised_friction").div(interpolation(own["xi"].to_numpy()), axis=0)
+        off = own.filter(like="normalised_friction").div(interpolation(own["xi"].to_numpy()), axis=0) - 1
         label = f"{fit.shape}: best α = {fit.alpha:.2f} ({fit.alpha_low:.2f} to {fit.alpha_high:.2f})"
         look: dict[str, Any] = {"color": colour, "fmt": marker, "markersize": style.mark(size), "label": label}
         look |= {"zorder": 3 - size / 2} | ({} if own["holds"].all() else {"markerfacecolor": style.paper()})
         intervals(above, own["xi"], own, "normalised_friction", **look)
-        intervals(below, own["xi"], off, "normalised_friction", 100, less=1, **look)
+        intervals(below, own["xi"], off, "normalised_friction", 100, **look)
         best = interpolation(xi, fit.alpha) / interpolation(xi) - 1
-        below.plot(xi, 100 * best, line, color=colour, linewidth=style.width(0.8), zorder=1)
-    style.span(above, xi)
+        below.plot(xi, 100 * best, line, color=colour, linewidth=style.width(0.8))
     above.set(xscale="log", yscale="log", ylabel=r"$\tilde{\mu}$ [1]")
-    above.legend(loc="lower right")
     below.set(xlabel=r"$\xi$ [1]", ylabel="deviation from Eq. 19,\nα = 1.5 [%]")
-    lettered((above, below))
-    style.decades(above, below)
-    clear(drawing, (above,))
+    style.lettered(panels)
+    style.decades(*panels)
+    style.legend(drawing, [above], 1)
     return drawing

@@ -7,7 +7,6 @@ from matplotlib.figure import Figure
 from pandas import DataFrame
 
 from ...figures import style
-from ...figures.lettering import clear
 from ...figures.plot import Plot, Tables
 from .spectra import NOTHING, Description, mapped
 
@@ -48,27 +47,24 @@ def plot(found: Description) -> Plot:
 def figure(tables: Tables, hurst: float | None = None) -> Figure:
     """Left: C_2D of the rings with the law and its band. Right: C_1D of the rows, and by the rule of the MDR."""
     rings, rows, law = (tables[name] for name in (NAME, f"{NAME}-rows", f"{NAME}-law"))
-    drawing = style.canvas("double", 2.8)
-    left, right = drawing.subplots(1, 2)
-    dots = {"linestyle": "none", "marker": "o"}
-    own = {**dots, "color": style.ink(), "markersize": style.mark(0.9)}
-    left.plot(rings["q"], rings["density_2d"], label="map, mean over directions", **own)
+    drawing = style.canvas("double", 3.0)
+    left, right = panels = drawing.subplots(1, 2)
+    left.plot(rings["q"], rings["density_2d"], "o", color=style.ink(), label="map, mean over directions")
     if len(law):
         band = law["q"][law["in_band"].astype(bool)]
-        left.plot(law["q"], law["density_2d"], color=style.COLOUR["BEM"], label=f"H = {hurst:.2f}")
+        left.plot(law["q"], law["density_2d"], color=style.colour("BEM"), label=f"power law, H = {hurst:.2f}")
         left.axvspan(band.min(), band.max(), color=style.grey(0.93), zorder=0)
-    left.set(ylabel=r"$C_{2D}$ [m$^4$]", title="(a)")
     # Nothing is hundreds of decades below the axes.
     drawn = rows["density_1d"].clip(lower=NOTHING * rows["density_1d"].max())
-    right.plot(rows["q"], drawn, label="rows of the map", **style.line(0.5, 0.8))
-    by_mdr = {**dots, "color": style.COLOUR["MDR"], "label": r"$\pi q\, C_{2D}$"}
-    right.plot(rings["q"], rings["density_1d_mapped"], **by_mdr)
-    right.set(ylabel=r"$C_{1D}$ [m$^3$]", title="(b)")
-    for axes in (left, right):
-        axes.set(xscale="log", yscale="log", xlabel="wave number q [rad/m]")
-        axes.legend(loc="lower left")
-    style.decades(left, right)
-    left.set_ylim(bottom=rings["density_2d"].min() / 3)
-    right.set_ylim(bottom=rings["density_1d_mapped"].min() / 3)
-    clear(drawing, (left, right))
+    right.plot(rows["q"], drawn, "--", label="rows of the map", **style.line(0.5, 0.8))
+    right.plot(rings["q"], rings["density_1d_mapped"], "o", color=style.colour("MDR"), label=r"$\pi q\, C_{2D}$")
+    for axes, shown, label in (
+        (left, "density_2d", r"$C_{2D}$ [m$^4$]"),
+        (right, "density_1d_mapped", r"$C_{1D}$ [m$^3$]"),
+    ):
+        axes.set(xscale="log", yscale="log", xlabel="wave number q [rad/m]", ylabel=label)
+        axes.set_ylim(bottom=rings[shown].min() / 3)
+    style.decades(*panels)
+    style.lettered(panels)
+    style.legend(drawing, panels, 4)
     return drawing

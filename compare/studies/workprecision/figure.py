@@ -7,13 +7,12 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from ...figures import style
-from ...figures.curves import scatter
-from ...figures.lettering import Letter, lettered, literal, write
 from ...figures.plot import Tables
 from .errors import INTERVAL, Way
 
@@ -27,7 +26,7 @@ BAND = 0.88  # between ink and paper
 def figure(tables: Tables) -> Figure:
     """Panels on the same axes, and one legend below."""
     (table,) = tables.values()
-    texts = table[["settings", "reason"]].astype(object).fillna("")
+    texts = table[["settings", "reason"]].astype(object).fillna("").replace("nan", "")
     every = [Way(**row) for row in table.assign(**texts).to_dict("records")]
     drawn = [list(own) for _, own in groupby(every, lambda way: (way.case, way.quantity))]
     columns, rows = min(COLUMNS, len(drawn)), ceil(len(drawn) / COLUMNS)
@@ -41,9 +40,9 @@ def figure(tables: Tables) -> Figure:
         if k + columns >= len(drawn):
             axes.set_xlabel("processor time [s]")
             axes.tick_params(labelbottom=True)
-        axes.set_title(f"{literal(ways[0].case)}: {ways[0].quantity}")
+        axes.set_title(f"{style.literal(ways[0].case)}: {ways[0].quantity}")
         _draw(axes, ways)
-    lettered(panels, columns)
+    style.lettered(panels)
     at = np.concatenate([line.get_xydata() for axes in panels for line in axes.lines])
     (left, low), (right, high) = np.nanmin(at, axis=0), np.nanmax(at, axis=0)
     room = 2.5 if all(isfinite(way.bias) for way in every) else 12  # below curves, for what is written there
@@ -54,15 +53,12 @@ def figure(tables: Tables) -> Figure:
     if any(way.settings == INTERVAL for way in every):
         handles.append(Line2D([], [], **_thick(), label="3D on several grids, as by --interval"))
     handles.append(Patch(color=style.grey(BAND), linewidth=0, label="error of the reference"))
-    style.legend(drawing, handles, "outside lower center", 4)
-    style.lay_out(drawing)
-    for axes, ways in zip(panels, drawn, strict=True):
-        write(axes, list(_letters(ways)), style.tiny())
+    style.legend(drawing, (), 4, *handles)
     return drawing
 
 
 def _look(model: str, label: str = "") -> dict[str, Any]:
-    return style.look(model, label=style.LABEL.get(model, label), markersize=style.mark())
+    return style.look(model, label=style.LABEL.get(model, label))
 
 
 def _thick() -> dict[str, Any]:
@@ -77,11 +73,12 @@ def _curves(ways: Sequence[Way]) -> Iterator[tuple[Way, Any]]:
         if own[0].scatter and model == "BEM" and len(own) > 1:
             yield from zip(own, style.shades(model, len(own))[::-1], strict=True)
         else:
-            yield from ((way, style.COLOUR[model]) for way in (own[:1] if own[0].scatter else own))
+            yield from ((way, style.colour(model)) for way in (own[:1] if own[0].scatter else own))
 
 
 def _draw(axes: Axes, ways: Sequence[Way]) -> None:
     """Curves, the error of the reference, and settings without an answer."""
+    grids = [way for way, _ in _curves(ways) if way.model == "BEM"]
     for way, colour in _curves(ways):
         look = _look(way.model) | {"color": colour}
         counts = MARKED if way.scatter else MARKED[:1]
@@ -89,9 +86,13 @@ def _draw(axes: Axes, ways: Sequence[Way]) -> None:
             if way.scatter and last > first:
                 own = look | {"marker": "", "linewidth": style.width(thin)}
                 axes.plot(*_at(way, np.geomspace(first, last, 60)), **own)
-        told = ~(way.error(counts) <= way.reference_error) | (way.model == "BEM" and way.scatter > 0)
+        told: Any = ~(way.error(counts) <= way.reference_error) | (way.model == "BEM" and way.scatter > 0)
         x, y = _at(way, counts)
-        scatter(axes, x, y, told, colour, 1, 1, marker=look["marker"], zorder=3)
+        inside = np.where(told[:, None], to_rgba(colour), to_rgba(style.paper()))
+        axes.scatter(x, y, style.mark() ** 2, inside, marker=look["marker"], edgecolors=colour, zorder=3)
+        if way in (*grids[:1], *grids[-1:]):
+            place = {"textcoords": "offset points", "fontsize": style.small(), "color": colour}
+            axes.annotate(way.settings.partition(" ")[0], (x[-1], y[-1]), (3, 3), **place)
     for model, group in groupby((way for way, _ in _curves(ways) if not way.scatter), lambda way: way.model):
         at = [_at(way, MARKED[:1]) for way in group]
         axes.plot(*np.concatenate(at, axis=1), **_look(model) | {"marker": ""})
@@ -100,17 +101,10 @@ def _draw(axes: Axes, ways: Sequence[Way]) -> None:
     error = max((way.reference_error for way in ways if isfinite(way.reference_error)), default=0.0)
     axes.axhspan(LEAST / 100, max(error, LEAST / 100), color=style.grey(BAND), zorder=0, linewidth=0)
     if failed := [f"{way.label} {way.settings}".strip() for way in ways if not isfinite(way.bias)]:
-        text = style.fill(f"no answer: {', '.join(failed)}", style.across("double") / COLUMNS - 1, style.tiny())
-        axes.text(0.02, 0.02, text, transform=axes.transAxes, fontsize=style.tiny(), color=style.grey(0.3))
+        text = style.fill(f"no answer: {', '.join(failed)}", style.across("double") / COLUMNS - 1, style.small())
+        axes.text(0.02, 0.02, text, transform=axes.transAxes, fontsize=style.small(), color=style.grey(0.3))
 
 
 def _at(way: Way, counts: np.ndarray) -> np.ndarray:
     """Times and errors (2, N) of numbers of surfaces."""
     return np.array([way.seconds(counts), np.clip(way.error(counts), LEAST, WHOLE)])
-
-
-def _letters(ways: Sequence[Way]) -> Iterator[Letter]:
-    """Points of grids, of rough scenes at the most surfaces."""
-    for way, colour in _curves(ways):
-        x, y = _at(way, MARKED[-1:] if way.scatter else MARKED[:1])[:, 0].tolist()
-        yield Letter(way.settings.partition(" ")[0], (x, y), colour)
