@@ -110,9 +110,11 @@ def values(dataset: xarray.Dataset, quantity: str) -> np.ndarray:
     over = dataset[above].transpose("level", "surface").values
     if below is None:
         return over
+    under = dataset[below].transpose("level", "surface").values
+    ratio, known = off_the_ratio(over, under)[0][:, None], np.isfinite(over)
     with np.errstate(invalid="ignore", divide="ignore"):
-        ratio, off, _ = off_the_ratio(over, dataset[below].transpose("level", "surface").values)
-    return np.where(np.isfinite(over), ratio[:, None] + off, nan)
+        middle = np.where(known, under, 0.0).sum(axis=1, keepdims=True) / known.sum(axis=1, keepdims=True)
+        return np.where(known, ratio + (over - ratio * under) / middle, nan)
 
 
 def reference(ladder: Ladder, dataset: xarray.Dataset, quantity: str, scale: float) -> Reference:
