@@ -241,7 +241,7 @@ def test_no_scene_breaks_the_map_and_one_surface_says_something_or_that_it_says_
                 assert worth.surface_low <= worth.low <= worth.ratio <= worth.high <= worth.surface_high
                 assert worth.surface_high / worth.surface_low < 1e3
             silent += nothing
-        assert found.findings()["reason"].str.contains(verdict.NOTHING, regex=False).sum() == sum(
+        assert found.table()["reason"].str.contains(verdict.NOTHING, regex=False).sum() == sum(
             verdict.NOTHING in worth.reason for worth in found.corrections.values()
         )
     assert 0 < silent < 30
