@@ -233,11 +233,6 @@ REPEATS = {"pixel": 1.0, "repeat": "periodic"}
 @pytest.mark.parametrize(
     ("heights", "stated", "said"),
     [
-        (
-            NOISE,
-            {},
-            'does not state the side of a pixel: give pixel = "1 um", or --pixel "1 um" on the command line',
-        ),
         (NOISE, {"pixel": ["1", "2 um"]}, "there is no unit"),
         (np.where(np.eye(9) > 0, np.nan, 1.0), REPEATS, "heights[0][0] = nan: every pixel needs a finite height"),
         (np.ones((9, 9)), REPEATS, "heights are none once level"),
