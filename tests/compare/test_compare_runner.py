@@ -4,7 +4,6 @@ import multiprocessing
 import os
 import re
 import signal
-import subprocess
 import sys
 import warnings
 from concurrent.futures import BrokenExecutor, Future, ThreadPoolExecutor
@@ -12,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from processes import wait_for
+from processes import finish, start, wait_for
 from pydantic.dataclasses import dataclass
 from stand_in_solver import SCENE, Heard, Here, Stand, loads
 
@@ -257,22 +256,19 @@ if __name__ == "__main__":
 """
 
 
-def twin(folder):
+def twin(folder, place=None):
+    """Another run, in a folder and started in a place."""
     (folder / "twin.py").write_text(TWIN)
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
-    command = [sys.executable, str(folder / "twin.py"), str(folder)]
-    return subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment, start_new_session=True)
+    paths = os.pathsep.join(filter(None, sys.path))
+    return start(place or folder, str(folder), program=(str(folder / "twin.py"),), PYTHONPATH=paths)
 
 
 def test_no_process_looks_for_its_first_modules_in_the_working_folder(tmp_path):
-    (tmp_path / "twin.py").write_text(TWIN)
     here = tmp_path / "here"
     here.mkdir()
     for name in ("signal", "threading", "pickle", "selectors"):
         (here / f"{name}.py").write_text("open('ran', 'w')")
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
-    command = [sys.executable, str(tmp_path / "twin.py"), str(tmp_path)]
-    assert subprocess.run(command, cwd=here, env=environment, check=False).returncode == 0
+    assert finish(twin(tmp_path, here)) == (0, "", "")
     assert not (here / "ran").exists()
     assert len(Store(tmp_path / "solved")) == 12
 
