@@ -57,6 +57,21 @@ def loads(*values, solver=None):
     return [Task(solver or Stand(), (replace(SCENE, motion=Indent(load=value)),), work=value) for value in values]
 
 
+def forces(swept, tasks):
+    """What was found for tasks of one scene each."""
+    return [swept.outcomes[task].rows[0].normal_force for task in tasks]
+
+
+def told(row):
+    """All of a row to the last bit but the payload of NaN, -0.0 apart from 0.0."""
+    return repr(replace(row, measures=sorted(row.measures.items()), settings=sorted(row.settings.items())))
+
+
+def exactly(outcome):
+    """All of its numbers, to the last digit, but for the seconds that were measured."""
+    return [told(replace(row, seconds=0.0)) for row in outcome.rows]
+
+
 class Heard(Progress):
     def __init__(self):
         self.said_lines = []

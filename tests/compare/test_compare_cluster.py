@@ -15,7 +15,7 @@ from types import SimpleNamespace
 
 import pytest
 from processes import finish, start, stored_so_far, wait_for
-from stand_in_solver import Heard, Stand, loads
+from stand_in_solver import Heard, Stand, exactly, forces, loads
 
 from compare.solving import cluster as cluster_module
 from compare.solving.cluster import Cluster
@@ -59,12 +59,7 @@ def test_answers_are_those_of_this_machine_bit_for_bit_and_this_process_stores_t
     there = sweep(tasks, Store(tmp_path / "there"), scheduler=cluster.scheduler_address, progress=heard)
     here = sweep(tasks, Store(tmp_path / "here"), workers=1)
     for task in tasks:
-        (one,), (other,) = there.outcomes[task].rows, here.outcomes[task].rows
-        assert (one.normal_force, one.depth, one.friction_force) == (
-            other.normal_force,
-            other.depth,
-            other.friction_force,
-        )
+        assert exactly(there.outcomes[task]) == exactly(here.outcomes[task])
         assert Store(tmp_path / "there").get(task) is not None
     started = [work for step, work, *_ in heard.heard if step == "started"]
     assert started == sorted(started, reverse=True)
@@ -100,7 +95,7 @@ def test_a_worker_killed_in_the_middle_is_survived_and_its_tasks_are_redone(clus
 
     tasks = loads(*range(1, 25), solver=Stand(marks=str(tmp_path), seconds=0.1))
     swept = sweep(tasks, Store(tmp_path / "solved"), scheduler=cluster.scheduler_address, progress=Killing())
-    assert [swept.outcomes[task].rows[0].normal_force for task in tasks] == [float(load) for load in range(1, 25)]
+    assert forces(swept, tasks) == [task.work for task in tasks]
     assert swept.faults == {}
     marks = len(list(tmp_path.glob("*-*")))
     assert len(tasks) <= marks <= len(tasks) + 2 * 2  # what its two threads had, and answers not yet fetched
@@ -112,7 +107,7 @@ def test_a_task_that_kills_every_worker_fails_and_the_rest_is_solved(cluster, tm
     swept = sweep(tasks, Store(tmp_path / "solved"), scheduler=cluster.scheduler_address)
     assert list(swept.faults) == tasks[:1]
     assert swept.faults[tasks[0]] == "its worker died 2 times, the last time alone, as when memory runs out"
-    assert [swept.outcomes[task].rows[0].normal_force for task in tasks[1:]] == [2.0, 1.0]
+    assert forces(swept, tasks[1:]) == [2.0, 1.0]
 
 
 @pytest.mark.slow
@@ -211,14 +206,14 @@ def test_without_workers_it_says_so_and_waits(scheduler, tmp_path):
             super().said(line)
             joined.append(join(scheduler.address, tmp_path))
 
-    (task,), heard = loads(1.0), Inviting()
+    tasks, heard = loads(1.0), Inviting()
     try:
-        swept = sweep([task], Store(tmp_path / "solved"), scheduler=scheduler.address, progress=heard)
+        swept = sweep(tasks, Store(tmp_path / "solved"), scheduler=scheduler.address, progress=heard)
     finally:
         for worker in joined:
             worker.kill()
             worker.wait()
-    assert swept.outcomes[task].rows[0].normal_force == 1.0
+    assert forces(swept, tasks) == [1.0]
     assert heard.said_lines == [f"no worker at {scheduler.address}: waiting for one, with this package installed"]
 
 

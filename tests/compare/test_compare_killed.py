@@ -8,7 +8,7 @@ import signal
 import threading
 import time
 from collections import Counter
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from itertools import count
 from pathlib import Path
@@ -19,6 +19,7 @@ import xarray
 from matplotlib.figure import Figure
 from pandas import DataFrame
 from processes import PATIENCE, finish, start, wait_for
+from stand_in_solver import exactly
 
 import compare
 from compare.figures.plot import Plot
@@ -94,15 +95,6 @@ class Killed:
         assert {path.name for path in self.folder.rglob(".*") if path.is_file()} == {LOCK}
         manifest = self.store.folder.parent / "collapse-quick" / "manifest.json"
         assert json.loads(manifest.read_text())
-
-
-def exactly(outcome):
-    """All of its numbers, to the last digit, but for the seconds that were measured."""
-    sorted_rows = [
-        replace(row, seconds=0.0, measures=sorted(row.measures.items()), settings=sorted(row.settings.items()))
-        for row in outcome.rows
-    ]
-    return repr(sorted_rows)
 
 
 @pytest.fixture(scope="module")

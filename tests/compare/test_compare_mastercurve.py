@@ -314,7 +314,7 @@ def test_one_temperature_is_told_and_changes_nothing():
         Mastercurve.of(table(), **constants)
 
 
-# Five speeds, four loads, three temperatures: one curve of F_N (v a_T)^-0.6, shifted by WLF of c1 = 8.9, c2 = 145 K.
+# Five speeds, four loads, three temperatures: one curve of F_N (v a_T)^-0.6, of WLF with c1 = 8.9, c2 = 145 K.
 WARMED = yourdata.FOLDER / "tribometer.csv"
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import pytest
+from processes import finish, start
 
 import compare
 from bem3d import BEM
@@ -264,15 +265,9 @@ motion = {type = "slide", speed = "0.1 m/s", load = "1 N"}
 def test_a_file_that_names_a_module_is_refused_and_nothing_of_it_is_imported(command, kind, tmp_path):
     (tmp_path / f"{kind}.toml").write_text(STRANGER[kind])
     (tmp_path / "stranger.py").write_text("open('ran', 'w')")
-    ended = subprocess.run(
-        [sys.executable, "-c", "from compare.cli.app import main; main()", command, f"{kind}.toml"],
-        cwd=tmp_path,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert ended.returncode == 2
-    assert f"{kind}.toml: models.2 = 'stranger:Model': a file may name models of this and" in ended.stderr
+    status, _, complained = finish(start(tmp_path, command, f"{kind}.toml"))
+    assert status == 2
+    assert f"{kind}.toml: models.2 = 'stranger:Model': a file may name models of this and" in complained
     assert {each.name for each in tmp_path.iterdir()} == {f"{kind}.toml", "stranger.py"}
 
 
