@@ -57,6 +57,11 @@ def loads(*values, solver=None):
     return [Task(solver or Stand(), (replace(SCENE, motion=Indent(load=value)),), work=value) for value in values]
 
 
+def marks(folder, load="*"):
+    """How many solves of a load, or of all, left a mark in a folder."""
+    return len(list(folder.glob(f"{load}-*")))
+
+
 def forces(swept, tasks):
     """What was found for tasks of one scene each."""
     return [swept.outcomes[task].rows[0].normal_force for task in tasks]

@@ -15,7 +15,7 @@ from types import SimpleNamespace
 
 import pytest
 from processes import finish, start, stored_so_far, wait_for
-from stand_in_solver import Heard, Stand, exactly, forces, loads
+from stand_in_solver import Heard, Stand, exactly, forces, loads, marks
 
 from compare.solving import cluster as cluster_module
 from compare.solving.cluster import Cluster
@@ -97,8 +97,9 @@ def test_a_worker_killed_in_the_middle_is_survived_and_its_tasks_are_redone(clus
     swept = sweep(tasks, Store(tmp_path / "solved"), scheduler=cluster.scheduler_address, progress=Killing())
     assert forces(swept, tasks) == [task.work for task in tasks]
     assert swept.faults == {}
-    marks = len(list(tmp_path.glob("*-*")))
-    assert len(tasks) <= marks <= len(tasks) + 2 * 2  # what its two threads had, and answers not yet fetched
+    assert (
+        len(tasks) <= marks(tmp_path) <= len(tasks) + 2 * 2
+    )  # what its two threads had, and answers not yet fetched
 
 
 @pytest.mark.slow
@@ -127,7 +128,7 @@ def test_an_interrupt_waits_for_what_is_handed_out_and_no_more_is(cluster, tmp_p
     time.sleep(0.5)
     with distributed.Client(cluster, set_as_default=False) as client:
         assert client.run_on_scheduler(lambda dask_scheduler: len(dask_scheduler.tasks)) == 0
-    assert len(list(tmp_path.glob("*-*"))) < len(tasks) / 2
+    assert marks(tmp_path) < len(tasks) / 2
 
 
 CLIENT = """
@@ -161,14 +162,14 @@ def test_a_client_that_is_killed_leaves_nothing_to_solve_and_its_store_whole(clu
     wait_for(lambda: stored_so_far(solved) >= 2)
     process.kill()
     process.communicate()
-    marks = len(list(tmp_path.glob("*-*")))
+    begun = marks(tmp_path)
     with distributed.Client(cluster, set_as_default=False) as client:
         wait_for(lambda: client.run_on_scheduler(lambda dask_scheduler: len(dask_scheduler.tasks)) == 0)
         wait_for(lambda: not any(client.run(lambda dask_worker: len(dask_worker.state.executing)).values()))
-    ended = len(list(tmp_path.glob("*-*")))
-    assert ended <= marks + 4  # what the threads were at
+    ended = marks(tmp_path)
+    assert ended <= begun + 4  # what the threads were at
     time.sleep(1.0)
-    assert len(list(tmp_path.glob("*-*"))) == ended
+    assert marks(tmp_path) == ended
     assert sum(Store(solved).get(task) is not None for task in tasks) == len(Store(solved))
 
 

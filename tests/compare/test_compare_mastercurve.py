@@ -113,12 +113,13 @@ def planted(shape, noise, seed, speeds):
     count = rng.integers(3, 7)
     loads = rng.uniform(2, 6) ** np.arange(count)
     v = np.geomspace(1, 10 ** rng.uniform(1, 4), rng.integers(5, speeds + 1))
-    grid = np.meshgrid(np.log(loads), np.log(v), range(3))
-    f, logs, _ = (each.ravel() for each in grid)
-    x = f + PLANTED * logs
-    friction = SHAPES[shape](x - x.mean() + rng.uniform(-1.5, 1.5)) + noise * rng.normal(size=x.size)
-    table = {"mu": np.exp(friction), "F_N": np.exp(f), "v": np.exp(logs)}
-    return Mastercurve.of(table, tolerance=0), PLANTED * np.log(v / v[v.size // 2])
+    along, off = PLANTED * np.log(v), rng.uniform(-1.5, 1.5)
+
+    def law(load, speed):
+        x = np.log(load * speed**PLANTED)
+        return np.exp(SHAPES[shape](x - x.mean() + off))
+
+    return Mastercurve.of(columns(law, v, loads, 3, noise, seed), tolerance=0), along - along[v.size // 2]
 
 
 def holds(number, truth, rounding=ROUNDING):
