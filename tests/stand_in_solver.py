@@ -57,6 +57,26 @@ def loads(*values, solver=None):
     return [Task(solver or Stand(), (replace(SCENE, motion=Indent(load=value)),), work=value) for value in values]
 
 
+def marks(folder, load="*"):
+    """How many solves of a load, or of all, left a mark in a folder."""
+    return len(list(folder.glob(f"{load}-*")))
+
+
+def forces(swept, tasks):
+    """What was found for tasks of one scene each."""
+    return [swept.outcomes[task].rows[0].normal_force for task in tasks]
+
+
+def told(row):
+    """All of a row to the last bit but the payload of NaN, -0.0 apart from 0.0."""
+    return repr(replace(row, measures=sorted(row.measures.items()), settings=sorted(row.settings.items())))
+
+
+def exactly(outcome):
+    """All of its numbers, to the last digit, but for the seconds that were measured."""
+    return [told(replace(row, seconds=0.0)) for row in outcome.rows]
+
+
 class Heard(Progress):
     def __init__(self):
         self.said_lines = []

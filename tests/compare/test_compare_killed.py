@@ -8,7 +8,7 @@ import signal
 import threading
 import time
 from collections import Counter
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from itertools import count
 from pathlib import Path
@@ -19,6 +19,7 @@ import xarray
 from matplotlib.figure import Figure
 from pandas import DataFrame
 from processes import PATIENCE, finish, start, wait_for
+from stand_in_solver import exactly
 
 import compare
 from compare.figures.plot import Plot
@@ -54,21 +55,20 @@ class Killed:
         assert len(stored) == len(self.store)
         return [task for task in self.tasks if task in stored]
 
-    def begun(self):
-        """Solves so far, by scene and solver."""
-        return Counter(self.marks.read_text().split()) if self.marks.exists() else Counter()
-
-    def begun_of(self, tasks, begun):
-        return {task: [begun[name] for name in marked_study.names(task)] for task in tasks}
+    def begun(self, tasks):
+        """How often each solve of tasks began so far."""
+        begun = Counter(self.marks.read_text().split() if self.marks.exists() else ())
+        return [begun[name] for task in tasks for name in marked_study.names(task)]
 
     def kill(self, more, seconds):
         """Start it, kill all of it in the middle, and see that nothing stored is lost or was solved again.
 
         more, seconds : solves that begin before, and time after the last of them. Returns whether it had not ended
         """
-        before, begun = self.stored(), self.begun()
+        before = self.stored()
+        solves, begun = self.begun(before), sum(self.begun(self.tasks))
         process = self.start()
-        wait_for(lambda: self.begun().total() >= begun.total() + more or process.poll() is not None)
+        wait_for(lambda: sum(self.begun(self.tasks)) >= begun + more or process.poll() is not None)
         time.sleep(seconds)
         ended = process.poll()
         if ended is None:
@@ -76,35 +76,25 @@ class Killed:
         process.communicate(timeout=PATIENCE)
         assert ended in (None, 0)
         assert set(before) <= set(self.stored())
-        assert self.begun_of(before, self.begun()) == self.begun_of(before, begun)
+        assert self.begun(before) == solves
         return ended is None
 
     def finish(self, expected):
         """Run it to its end, and compare with undisturbed answers."""
-        before, begun = self.stored(), self.begun()
+        before = self.stored()
+        fresh = [task for task in self.tasks if task not in before]
+        solves, begun = self.begun(before), self.begun(fresh)
         status, _, told = finish(self.start())
         assert status == 0
-        solved = self.stored()
-        assert solved == self.tasks
-        assert self.begun_of(before, self.begun()) == self.begun_of(before, begun)
-        fresh = [task for task in self.tasks if task not in before]
-        counts = self.begun_of(fresh, begun), self.begun_of(fresh, self.begun())
-        assert all(counts[1][task] == [count + 1 for count in counts[0][task]] for task in fresh)
+        assert self.stored() == self.tasks
+        assert self.begun(before) == solves
+        assert self.begun(fresh) == [times + 1 for times in begun]
         assert f"{len(fresh)} tasks solved, {len(before)} reused" in told
         for task in self.tasks:
             assert exactly(self.store.get(task)) == expected[task]
         assert {path.name for path in self.folder.rglob(".*") if path.is_file()} == {LOCK}
         manifest = self.store.folder.parent / "collapse-quick" / "manifest.json"
         assert json.loads(manifest.read_text())
-
-
-def exactly(outcome):
-    """All of its numbers, to the last digit, but for the seconds that were measured."""
-    sorted_rows = [
-        replace(row, seconds=0.0, measures=sorted(row.measures.items()), settings=sorted(row.settings.items()))
-        for row in outcome.rows
-    ]
-    return repr(sorted_rows)
 
 
 @pytest.fixture(scope="module")

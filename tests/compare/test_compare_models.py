@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import pytest
+from processes import finish, start
 
 import compare
 from bem3d import BEM
@@ -93,6 +94,12 @@ def found(report, claim, dimension):
     return rows["value"].tolist(), rows["verdict"].tolist()
 
 
+def of_the_pair(report):
+    """Every number that was found without the model of this file, as text."""
+    pair = report.findings[~report.findings["model"].str.contains("Stiff")]
+    return pair[["claim", "where", "model", "value", "low", "high", "verdict"]].to_csv(index=False)
+
+
 @pytest.fixture(scope="module")
 def judged(tmp_path_factory):
     folder = tmp_path_factory.mktemp("models")
@@ -111,9 +118,7 @@ def test_a_model_is_judged_against_the_reference_by_the_claims_of_the_others(jud
 def test_the_numbers_of_the_default_pair_do_not_move(judged, tmp_path):
     alone = compare.run(SMOOTH, tmp_path, report=False)
     assert {each.solver.name for each in alone.study.series[0].models} == {"MDR", "BEM"}
-    columns = ["claim", "where", "model", "value", "low", "high", "verdict"]
-    pair = judged.findings[~judged.findings["model"].str.contains("Stiff")]
-    assert alone.findings[columns].to_csv() == pair[columns].reset_index(drop=True).to_csv()
+    assert of_the_pair(alone) == of_the_pair(judged)
 
 
 def test_every_model_has_its_curve_in_every_figure_of_a_run(judged):
@@ -242,9 +247,7 @@ def test_a_study_judges_every_model_against_the_reference(tmp_path):
     told = set(report.findings["model"])
     assert {"1D", "3D", "1D/3D", "Stiff/3D"} <= told
     alone = compare.study(*asked)
-    columns = ["claim", "where", "model", "value", "low", "high", "verdict"]
-    pair = report.findings[~report.findings["model"].str.contains("Stiff")]
-    assert alone.findings[columns].to_csv() == pair[columns].reset_index(drop=True).to_csv()
+    assert of_the_pair(alone) == of_the_pair(report)
 
 
 STRANGER = {
@@ -262,15 +265,9 @@ motion = {type = "slide", speed = "0.1 m/s", load = "1 N"}
 def test_a_file_that_names_a_module_is_refused_and_nothing_of_it_is_imported(command, kind, tmp_path):
     (tmp_path / f"{kind}.toml").write_text(STRANGER[kind])
     (tmp_path / "stranger.py").write_text("open('ran', 'w')")
-    ended = subprocess.run(
-        [sys.executable, "-c", "from compare.cli.app import main; main()", command, f"{kind}.toml"],
-        cwd=tmp_path,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert ended.returncode == 2
-    assert f"{kind}.toml: models.2 = 'stranger:Model': a file may name models of this and" in ended.stderr
+    status, _, complained = finish(start(tmp_path, command, f"{kind}.toml"))
+    assert status == 2
+    assert f"{kind}.toml: models.2 = 'stranger:Model': a file may name models of this and" in complained
     assert {each.name for each in tmp_path.iterdir()} == {f"{kind}.toml", "stranger.py"}
 
 

@@ -4,7 +4,6 @@ import multiprocessing
 import os
 import re
 import signal
-import subprocess
 import sys
 import warnings
 from concurrent.futures import BrokenExecutor, Future, ThreadPoolExecutor
@@ -12,9 +11,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from processes import wait_for
+from processes import finish, start, wait_for
 from pydantic.dataclasses import dataclass
-from stand_in_solver import SCENE, Heard, Here, Stand, loads
+from stand_in_solver import SCENE, Heard, Here, Stand, exactly, forces, loads, marks
 
 from compare.solving import runner
 from compare.solving.digest import code_of
@@ -35,21 +34,21 @@ def here(monkeypatch):
 
 
 @pytest.mark.usefixtures("here")
-def test_what_the_store_has_is_not_solved_again(tmp_path):
-    first = sweep(loads(1.0, 2.0), Store(tmp_path), workers=2)
-    assert (first.solved, first.reused) == (2, 0)
-    more = sweep(loads(1.0, 2.0, 3.0), Store(tmp_path), workers=1)
-    assert (more.solved, more.reused) == (1, 2)
-    assert [more.outcomes[task].rows[0].depth for task in loads(1.0, 2.0, 3.0)] == [1e-4, 2e-4, 1e-4 * 3.0]
-    again = sweep(loads(1.0, 2.0, 3.0), Store(tmp_path), workers=1)
-    assert (again.solved, again.reused) == (0, 3)
-    other = sweep(loads(1.0, solver=Stand(gives_up_above=50.0)), Store(tmp_path), workers=1)
-    assert (other.solved, other.reused) == (1, 0)
-
-
-@pytest.mark.usefixtures("here")
-def test_a_task_that_stands_there_twice_is_solved_once(tmp_path):
-    assert sweep(loads(1.0, 1.0), Store(tmp_path), workers=1).solved == 1
+@pytest.mark.parametrize(
+    ("tasks", "counts"),
+    [
+        (loads(1.0, 2.0), (0, 2)),
+        (loads(1.0, 2.0, 3.0), (1, 2)),
+        (loads(1.0, solver=Stand(gives_up_above=50.0)), (1, 0)),
+        (loads(4.0, 4.0), (1, 0)),
+    ],
+    ids=["all of it", "part of it", "another solver", "twice in the list"],
+)
+def test_what_the_store_has_is_not_solved_again(tmp_path, tasks, counts):
+    sweep(loads(1.0, 2.0), Store(tmp_path), workers=1)
+    swept = sweep(tasks, Store(tmp_path), workers=1)
+    assert (swept.solved, swept.reused) == counts
+    assert forces(swept, tasks) == [task.work for task in tasks]
 
 
 @pytest.mark.usefixtures("here")
@@ -73,7 +72,7 @@ def test_a_fault_is_a_row_with_its_reason_the_rest_go_on_and_a_later_run_solves_
     assert broken.reason == "ZeroDivisionError: a fault in the solver"
     assert np.isnan(broken.normal_force)
     assert swept.faults == {tasks[0]: broken.reason}
-    assert [swept.outcomes[task].rows[0].normal_force for task in tasks[1:]] == [5.0, 1.0]
+    assert forces(swept, tasks[1:]) == [5.0, 1.0]
     assert len(heard.heard) == 1 + 2 * len(tasks)
     (note,) = tmp_path.glob("*.fault.txt")
     text = note.read_text()
@@ -171,8 +170,7 @@ def test_any_executor_gives_the_same_digits_whatever_its_size(tmp_path):
     with ThreadPoolExecutor(3) as threads:
         for name, options in {"processes": {"workers": 2}, "threads": {"executor": threads}, "one": ONE}.items():
             outcomes = sweep(tasks, Store(tmp_path / name), **options).outcomes
-            rows = [outcomes[task].rows[0] for task in tasks]
-            numbers.add(tuple((row.normal_force, row.depth, row.friction_force, row.residual) for row in rows))
+            numbers.add(str([exactly(outcomes[task]) for task in tasks]))
     assert len(numbers) == 1
 
 
@@ -200,10 +198,10 @@ def test_a_worker_that_dies_takes_no_other_with_it_and_its_task_is_tried_again_a
     tasks = loads(20000.0, 4.0, 3.0, 2.0, 1.0, solver=solver)
     heard = Heard()
     swept = sweep(tasks, Store(tmp_path / "solved"), workers=2, progress=heard)
-    assert [swept.outcomes[task].rows[0].normal_force for task in tasks[1:]] == [4.0, 3.0, 2.0, 1.0]
-    assert all(len(list(tmp_path.glob(f"{load}-*"))) == 1 for load in (3, 2, 1))
-    assert 1 <= len(list(tmp_path.glob("4-*"))) <= 2  # it ran beside the death
-    assert len(list(tmp_path.glob("20000-*"))) == min(deaths + 1, Processes.tries)
+    assert forces(swept, tasks[1:]) == [4.0, 3.0, 2.0, 1.0]
+    assert all(marks(tmp_path, load) == 1 for load in (3, 2, 1))
+    assert 1 <= marks(tmp_path, 4) <= 2  # it ran beside the death
+    assert marks(tmp_path, 20000) == min(deaths + 1, Processes.tries)
     assert sum(step == "started" for step, *_ in heard.heard) == len(tasks)
     again = [line for line in heard.said_lines if line.startswith(tasks[0].label)]
     assert len(again) == min(deaths, Processes.tries - 1)
@@ -257,29 +255,26 @@ if __name__ == "__main__":
 """
 
 
-def twin(folder):
+def twin(folder, place=None):
+    """Another run, in a folder and started in a place."""
     (folder / "twin.py").write_text(TWIN)
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
-    command = [sys.executable, str(folder / "twin.py"), str(folder)]
-    return subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment, start_new_session=True)
+    paths = os.pathsep.join(filter(None, sys.path))
+    return start(place or folder, str(folder), program=(str(folder / "twin.py"),), PYTHONPATH=paths)
 
 
 def test_no_process_looks_for_its_first_modules_in_the_working_folder(tmp_path):
-    (tmp_path / "twin.py").write_text(TWIN)
     here = tmp_path / "here"
     here.mkdir()
     for name in ("signal", "threading", "pickle", "selectors"):
         (here / f"{name}.py").write_text("open('ran', 'w')")
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
-    command = [sys.executable, str(tmp_path / "twin.py"), str(tmp_path)]
-    assert subprocess.run(command, cwd=here, env=environment, check=False).returncode == 0
+    assert finish(twin(tmp_path, here)) == (0, "", "")
     assert not (here / "ran").exists()
     assert len(Store(tmp_path / "solved")) == 12
 
 
 def test_a_folder_is_held_until_the_run_that_has_it_ends_or_is_killed(tmp_path):
     other, store, said = twin(tmp_path), Store(tmp_path / "solved"), []
-    wait_for(lambda: len(list(tmp_path.glob("*-*-*"))) > 2)
+    wait_for(lambda: marks(tmp_path) > 2)
     with pytest.raises(InvalidInput, match=re.escape(f"{store.folder}: another run holds")):
         len(store)
     for say in (said.append, None):
@@ -293,7 +288,7 @@ def test_a_folder_is_held_until_the_run_that_has_it_ends_or_is_killed(tmp_path):
     tasks = loads(*map(float, range(1, 13)), solver=Stand(marks=str(tmp_path), seconds=0.05))
     swept = sweep(tasks, store, workers=1)
     assert swept.reused >= 2
-    assert [swept.outcomes[task].rows[0].normal_force for task in tasks] == [task.work for task in tasks]
+    assert forces(swept, tasks) == [task.work for task in tasks]
 
 
 @pytest.mark.usefixtures("here")

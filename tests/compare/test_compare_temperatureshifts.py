@@ -123,11 +123,7 @@ def test_the_error_of_shifts_is_in_the_exponent_of_the_speed():
 
 
 def test_the_law_of_the_shifts_is_told_where_it_can_be():
-    law = shiftlaws.law_of(shifts(*measured(noise=0.005)))
-    # c1 c2 / c2^2 at another reference follows; this one is the middle temperature, where they are stated.
-    assert law.c1.low < C1 < law.c1.high
-    assert law.c2.low < C2 < law.c2.high
-    assert law.allowed == (shiftlaws.WLF,)
+    assert shiftlaws.law_of(shifts(*measured(noise=0.005))).allowed == (shiftlaws.WLF,)
     law = shiftlaws.law_of(shifts(*measured(shift=arrhenius, noise=0.005)))
     assert shiftlaws.ARRHENIUS in law.allowed
     assert law.activation_energy.low < ENERGY < law.activation_energy.high
@@ -145,14 +141,10 @@ def test_two_temperatures_tell_an_energy_and_no_law():
     assert backwards.reason == shiftlaws.RISING
 
 
-def test_temperatures_too_far_apart_are_refused_by_name():
-    with pytest.raises(ValueError, match=r"273\.15 K and 313\.15 K share less than 25% of their speeds"):
-        shifts(*measured(kelvins=KELVINS[::4]))
+def test_temperatures_whose_loads_are_too_far_apart_are_refused():
     friction, load, speed, warm = measured()
     with pytest.raises(ValueError, match="less than 25% of their loads"):
         shifts(friction, np.where(warm > 300, 100 * load, load), speed, warm)
-    with pytest.raises(ValueError, match="single speed"):
-        shifts(*(each[speed < 1.2e-3] for each in (friction, load, speed, warm)))
 
 
 def test_of_powers_of_speed_and_load_no_shift_is_told():
