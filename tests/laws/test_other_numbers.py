@@ -133,7 +133,6 @@ OBJECTS = [
     CURVE,
     compare.Claim("a", "A", expected=1.0, tolerance=0.1),
     compare.Finding(compare.Claim("a", "A"), value=1.0, scatter=(0.5, 1.5), grid=0.1),
-    compare.Quantity("a", "A", "depth", compare.SceneTask(MDR(), (SLIDING,)), 2.0, 0.1, "", ""),
 ]
 # Fields whose unit is that of others, of none, or no part of a type.
 UNITS = {
