@@ -9,7 +9,6 @@ from compare.models.exact import full_contact, waves
 from scene import (
     CrossedWaves,
     Elastic,
-    EmptyContact,
     Fractional,
     Indent,
     Kelvin,
@@ -18,7 +17,6 @@ from scene import (
     Scene,
     SelfAffine,
     Slide,
-    SolveError,
     StandardLinearSolid,
     Wave,
 )
@@ -128,16 +126,3 @@ def test_friction_of_a_rough_plane_converges_and_its_disagreement_says_how_far()
         error = abs(result.friction_coefficient - fine.friction_coefficient)
         assert error < 3 * result.measures["friction_disagreement"]
     assert fine.measures["friction_disagreement"] < 0.3 * middle.measures["friction_disagreement"]
-
-
-@pytest.mark.parametrize(
-    ("motion", "error", "said"),
-    [
-        (Indent(gap=1e-3), EmptyContact, r"motion.gap = 0.001 m leaves the contact empty.*take a gap below"),
-        (Indent(gap=1e-10), SolveError, r"motion.gap = 1e-10 m .* prescribe the pressure"),
-        (Indent(pressure=1e-3), SolveError, "take more points"),
-    ],
-)
-def test_a_gap_too_wide_or_too_narrow_and_a_touch_on_next_to_no_pixels_are_errors(motion, error, said):
-    with pytest.raises(error, match=said):
-        BEM(points=64, tolerance=1e-2).solve(pressed(ROUGH, motion))

@@ -12,10 +12,7 @@ from scene import (
     EmptyContact,
     Indent,
     PowerLaw,
-    Prony,
     Scene,
-    SelfAffine,
-    Slide,
     SolveError,
     Sphere,
 )
@@ -61,37 +58,11 @@ def test_force_converges_at_order_three_halves_or_better(shape):
     assert 1.5 < order < 3, f"observed order {order:.2f}"
 
 
-def test_pressure_of_a_sphere_is_the_half_ellipse_of_hertz():
-    indenter, force, a = CLOSED["sphere"]
-    result = pressed(indenter, 64, a, depth=D)
-    r = np.hypot(result.fields["x"][None, :], result.fields["y"][:, None])
-    inner = r < 0.9 * a
-    expected = 1.5 * force / (np.pi * a**2) * np.sqrt(1 - (r[inner] / a) ** 2)
-    np.testing.assert_allclose(result.fields["pressure"][inner], expected, rtol=0.01)
-
-
 def test_the_extent_follows_from_the_scene():
     indenter, force, _ = CLOSED["sphere"]
     result = BEM(points=96).solve(Scene(indenter, Elastic(G), Indent(depth=D)))
     assert 64 < result.measures["points_across_contact"] < 96
     assert result.normal_force == pytest.approx(force, rel=FORCE)
-
-
-@pytest.mark.parametrize("solid", [Prony(G, (G, 3 * G), (1e-3, 1.0)), Elastic(0.7 * G, poisson_ratio=0.3)])
-def test_at_rest_only_the_relaxed_plane_strain_modulus_counts(solid):
-    elastic = BEM(points=48).solve(Scene(Sphere(R), Elastic(G), Indent(load=1.0)))
-    other = BEM(points=48).solve(Scene(Sphere(R), solid, Slide(speed=0.0, load=1.0)))
-    modulus = 2 * G / 0.5
-    assert other.depth == pytest.approx(elastic.depth * (modulus / solid.indentation_modulus) ** (2 / 3), rel=1e-9)
-
-
-def test_force_rises_with_depth_on_a_rough_sphere_and_under_that_load_the_depth_is_found_again():
-    rough, solver = SelfAffine(hurst=0.3, rms_height=5e-5, longest=1e-2, shortest=6e-4, seed=4), BEM(48, 6e-3)
-    depths = np.linspace(2e-5, 3e-4, 5)
-    forces = [solver.solve(Scene(Sphere(R), Elastic(G), Indent(depth=d), rough)).normal_force for d in depths]
-    assert np.all(np.diff(forces) > 0)
-    at_load = solver.solve(Scene(Sphere(R), Elastic(G), Indent(load=forces[-1]), rough))
-    assert at_load.depth == pytest.approx(depths[-1], rel=1e-4)
 
 
 def test_a_smooth_contact_between_the_centres_of_pixels_is_an_error_and_not_an_empty_one():

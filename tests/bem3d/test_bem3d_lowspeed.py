@@ -38,8 +38,8 @@ ROUGH_SCENES = [
 ]
 # Sums of some ten thousand numbers.
 ROUNDING = 1e-12
-# Errors of second order in the pixel: smooth bodies on 128 points; 9 and 18 pixels to the shortest wave.
-SMOOTH, RESOLVED = 1e-4, 3e-3
+# Errors of second order in the pixel: smooth bodies on 128 points.
+SMOOTH = 1e-4
 # Error of first order: a cone on 256 points.
 TIP = 4e-3
 # Error of slow friction on 256 points, which is half of that on 128.
@@ -127,17 +127,6 @@ def test_a_faint_mode_of_long_memory_keeps_curvature_from_counting():
     assert found.friction_force == pytest.approx(
         BEM(points=64).solve(replace(scene, elastomer=without)).friction_force, rel=0.1
     )
-
-
-def test_fast_friction_on_a_glassy_solid_owes_nothing_to_the_first_order_in_the_speed():
-    scene = Scene(Sphere(radius=R), SOLID, Slide(speed=1.0, load=1.0))
-    solver = BEM(points=24, extent=4e-3)
-    products = []
-    for speed in (1e5, 1e7, 1e9, 1e12):
-        found = solver.solve(replace(scene, motion=Slide(speed=speed, load=1.0)))
-        assert found.friction_force == pytest.approx(found.measures["friction_by_loss"], rel=1e-3)
-        products.append(speed * found.friction_force)
-    np.testing.assert_allclose(products, products[-1], rtol=1e-3)  # mu falls as 1/v
 
 
 @pytest.mark.parametrize("scene", ROUGH_SCENES)

@@ -21,10 +21,7 @@ from scene import (
     CrossedWaves,
     Cylinder,
     Elastic,
-    EmptyContact,
-    Indent,
     Kelvin,
-    Plane,
     PowerLaw,
     Program,
     Prony,
@@ -81,10 +78,8 @@ def test_a_ramp_follows_lee_and_radok_and_unloading_to_separation_ting(indenter,
     np.testing.assert_allclose(history.depth[late(history)], expected[late(history)], rtol=PIXELS)
 
 
-@pytest.mark.parametrize(
-    "solid", [SOLID, Prony(0.25, (0.3, 0.5, 0.2), (0.1, 1.0, 10.0))], ids=["one", "three modes"]
-)
-def test_while_the_contact_grows_its_force_is_that_of_lee_and_radok(solid):
+def test_while_the_contact_grows_on_three_modes_its_force_is_that_of_lee_and_radok():
+    solid = Prony(0.25, (0.3, 0.5, 0.2), (0.1, 1.0, 10.0))
     history = marched(SPHERE, solid, RAMP, 48)
     expected = indentation.loading_force(SPHERE, solid, [0, 2], [0, 0.2], history.time)
     np.testing.assert_allclose(history.normal_force[late(history)], expected[late(history)], rtol=PIXELS)
@@ -247,12 +242,6 @@ def test_a_contact_that_reaches_the_edge_is_an_error():
         marched(SPHERE, SOLID, RAMP, 8, 32, extent=0.5)
 
 
-def test_a_stage_that_is_lost_to_rounding_beside_another_is_an_error_that_names_both():
-    stages = Stage(duration=1e15, depth=1e-4), Stage(duration=1e-15, depth=2e-4)
-    with pytest.raises(SolveError, match=r"durations of the stages, from 1e-15 to 1e\+15 s in all"):
-        timeline(Program(stages=stages), pixel=1e-5, steps=20)
-
-
 def test_starting_to_slide_ends_in_the_steady_answer_in_a_window_that_holds_both():
     slide = Slide(speed=0.5 * A / TAU, load=1.0)
     steady = BEM(points=48).solve(Scene(Sphere(R), CREEPING, slide))
@@ -286,16 +275,15 @@ def test_however_short_the_ramp_the_hold_after_it_is_right(solid, ramp, hold):
 
 
 @pytest.mark.parametrize(
-    ("solver", "roughness", "error", "said"),
+    ("solver", "roughness", "said"),
     [
-        (BEM(points=64, extent=0.1), None, SolveError, "take more points"),
-        (BEM(points=64, extent=1e3), None, EmptyContact, "nothing touches in the whole program"),
-        (BEM(points=64), CrossedWaves(amplitude=2e-6, wavelength=2e-5), SolveError, "less than two pixels"),
+        (BEM(points=64, extent=0.1), None, "take more points"),
+        (BEM(points=64), CrossedWaves(amplitude=2e-6, wavelength=2e-5), "less than two pixels"),
     ],
 )
-def test_what_a_grid_cannot_show_of_a_program_is_an_error(solver, roughness, error, said):
+def test_what_a_grid_cannot_show_of_a_program_is_an_error(solver, roughness, said):
     ramp = Program(stages=(Stage(duration=1.0, depth=1e-4),))
-    with pytest.raises(error, match=said):
+    with pytest.raises(SolveError, match=said):
         solver.solve(Scene(Sphere(R), Elastic(G), ramp, roughness))
 
 
@@ -303,9 +291,6 @@ def test_what_a_grid_cannot_show_of_a_program_is_an_error(solver, roughness, err
 def test_lowest_points_that_are_alike_are_no_trouble_to_start_from(points):
     line = Scene(Cylinder(R), GLASSY, Program(stages=(Stage(duration=1.0, line_load=300.0),)))
     assert BEM(points=points).solve(line).normal_force == pytest.approx(300.0, rel=0.05)
-    waves = CrossedWaves(amplitude=1e-6, wavelength=1e-3)
-    with pytest.raises(SolveError, match="take more points"):
-        BEM(points=points).solve(Scene(Plane(), Elastic(G), Indent(pressure=1.0), waves))
 
 
 @pytest.mark.parametrize("exponent", [40.0, 44.0, 100.0])

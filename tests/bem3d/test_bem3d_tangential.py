@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from strategies import rescaled
 
 from bem3d import BEM, cerruti, stickslip
 from bem3d.engine import Engine
@@ -252,15 +253,7 @@ def test_a_cell_that_touches_everywhere_slips_somewhere_however_little_it_is_dra
 @pytest.mark.parametrize(("length", "modulus"), [(1e-6, 1e3), (1e3, 1e-3)])
 def test_units_do_not_matter(length, modulus):
     scene = sphere(displacement=2e-5, roughness=ROUGH)
-    rough = {name: getattr(ROUGH, name) * length for name in ("rms_height", "longest", "shortest")}
-    scaled = replace(
-        scene,
-        indenter=Sphere(R * length),
-        elastomer=Elastic(G * modulus),
-        motion=Shear(load=LOAD * modulus * length**2, displacement=2e-5 * length),
-        roughness=replace(ROUGH, **rough),
-    )
-    one, other = (BEM(points=32).solve(each) for each in (scene, scaled))
+    one, other = (BEM(points=32).solve(each) for each in (scene, rescaled(scene, length, modulus)))
     assert other.friction_coefficient == pytest.approx(one.friction_coefficient, rel=1e-7)
 
 

@@ -9,7 +9,6 @@ from bem3d.grid import Grid
 
 ROUNDING = 1e-12
 PEAK = 1e-12  # of the greatest value: what the form of distant pixels leaves out, 100 pixels away
-SINGLE = 2e-6  # 2^-23 summed over a transform
 NU = 0.3
 
 

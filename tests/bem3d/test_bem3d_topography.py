@@ -114,15 +114,6 @@ def test_a_seed_moves_the_map_by_whole_pixels():
     np.testing.assert_allclose(moved, np.roll(map_.relief, (-row, -column), (0, 1)), atol=1e-12)
 
 
-def test_places_of_a_map_differ():
-    asked, solver = replace(SLIDING, roughness=sampled(SLIDING.roughness, 17)), BEM(points=48)
-    forces = [
-        solver.solve(replace(asked, motion=Indent(depth=1e-5), roughness=replace(asked.roughness, seed=k)))
-        for k in (0, 2, 3)
-    ]
-    assert len({answer.normal_force for answer in forces}) == 3
-
-
 def test_a_map_without_heights_is_no_roughness():
     flat = Topography(heights=np.full((20, 20), 0.1), pixel=1e-4)
     smooth, bare = (BEM(points=32).solve(replace(SLIDING, roughness=each)) for each in (flat, None))

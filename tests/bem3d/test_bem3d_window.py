@@ -13,7 +13,6 @@ from bem3d.window import check_resolved
 from mdr1d import MDR, draw
 from scene import (
     Cone,
-    Cylinder,
     Elastic,
     EmptyContact,
     Indent,
@@ -86,11 +85,6 @@ def test_a_single_asperity_off_the_axis_is_resolved():
     assert result.measures["contact_points"] > 100
 
 
-def test_fast_sliding_at_a_load_still_has_points_across_its_small_contact():
-    result = BEM(points=64).solve(Scene(Sphere(1e-2), Kelvin(1e6, 1e-3), Slide(speed=1e4, load=1.0)))
-    assert result.measures["points_across_contact"] > 40
-
-
 # A window is as wide as a coarser grid showed the contact: with its share of 48 points friction moves by this.
 PIXELS = 3e-3
 
@@ -111,7 +105,7 @@ def test_a_kelvin_solid_slid_ever_faster_keeps_the_law_of_a_fluid(indenter, expo
     known, found = solved(fast), [solved(speed) for speed in fastest]
     law = known.friction_coefficient * (fastest / fast) ** (1 / exponent - 1)
     np.testing.assert_allclose([answer.friction_coefficient for answer in found], law, rtol=PIXELS)
-    assert all(answer.measures["points_across_contact"] > 0.6 * 48 for answer in found)
+    assert all(answer.measures["points_across_contact"] > 0.6 * 48 for answer in (known, *found))
     creep = 1 / (np.pi * 4e6 * 1e-3) * np.log((fastest / fast) ** (1 + 1 / exponent))
     depths = np.array([answer.depth for answer in found]) * fastest
     np.testing.assert_allclose(depths, known.depth * fast + creep, rtol=1e-4)
@@ -120,24 +114,21 @@ def test_a_kelvin_solid_slid_ever_faster_keeps_the_law_of_a_fluid(indenter, expo
 SMOOTH = Scene(Sphere(1e-2), Elastic(1e6), Indent(load=1.0))
 PLANE = Scene(Plane(), Elastic(1e6), Indent(pressure=1e4), ROUGH)
 HOLLOW = replace(LIGHT, motion=Indent(depth=1e-9), roughness=replace(ROUGH, seed=5))
+FINE = replace(SMOOTH, roughness=replace(ROUGH, shortest=2e-5))
 BEYOND = r"too far apart|no window holds the contact"
-
-
-def of_waves(shortest):
-    return replace(SMOOTH, roughness=replace(ROUGH, shortest=shortest))
 
 
 @pytest.mark.parametrize(
     ("solver", "scene", "error", "said"),
     [
-        (BEM(64, 2e-3), SMOOTH, SolveError, r"extent = 0.002 m.*larger"),
         (BEM(32, 1e-4), HOLLOW, EmptyContact, r"0.000307705 m short .* take a larger depth"),
         (BEM(32, 1e-2), LIGHT, Refused, r"shortest = 0.0005 m.*points = 40"),
-        (BEM(32), of_waves(2e-5), SolveError, r"shortest = 2e-05 m.*points = "),
-        (BEM(32), of_waves(1e-6), SolveError, "10000 waves"),
-        (BEM(64, 1e-2), replace(LIGHT, motion=Indent(load=1e-9)), SolveError, "take more points"),
-        (BEM(), Scene(Cylinder(1e-2), Elastic(1e6), Indent(line_load=1.0), ROUGH), Refused, "a rough Cylinder"),
-        (BEM(extent=2e-2), PLANE, Refused, r"extent = 0.02 m: the cell of a Plane"),
+        (
+            BEM(32),
+            FINE,
+            SolveError,
+            r"shortest = 2e-05 m.*points = ",
+        ),
         (BEM(32), PLANE, Refused, r"points = 40 would do, points = 160 would resolve it"),
         (BEM(32), replace(SMOOTH, motion=Indent(load=1e300)), SolveError, BEYOND),
         (BEM(32), replace(SMOOTH, motion=Indent(depth=1e300)), SolveError, BEYOND),

@@ -45,20 +45,6 @@ def numbers(answer):
     return np.array([answer.normal_force, answer.depth, answer.friction_force])
 
 
-@pytest.mark.parametrize("name", SOLVED)
-def test_friction_in_the_interface_is_added_to_whatever_else_there_is(name):
-    solver, scene = SOLVED[name]
-    # as warm as it gets with the interface, since its friction heats too
-    with_it = solver.solve(scene)
-    temperature = with_it.measures.get("temperature", WARM.temperature)
-    as_warm = replace(scene, temperature=replace(WARM, temperature=temperature), heating=None)
-    without = solver.solve(replace(as_warm, interface=None))
-    assert with_it.depth == pytest.approx(without.depth, rel=ROUNDING)
-    added = with_it.friction_force - without.friction_force
-    assert added == pytest.approx(STICKS * with_it.normal_force, rel=ROUNDING)
-    assert with_it.measures["friction_in_interface"] == pytest.approx(added, rel=ROUNDING)
-
-
 @solvers
 def test_friction_of_the_interface_has_no_error_of_the_grid(solver):
     bare, rubbed = (solver.solve(replace(PLAIN, interface=each)) for each in (None, Coulomb(STICKS)))

@@ -2,12 +2,10 @@
 
 import subprocess
 import sys
-import tracemalloc
 from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
-from programs import program
 
 import scene.topography
 from bem3d import BEM
@@ -40,19 +38,6 @@ def test_plan_and_solve_refuse_with_both_figures_what_the_machine_has_not(monkey
     assert len(reasons) == 1
     monkeypatch.setattr(machine, "memory", lambda: needed)
     assert solver.plan(SCENE).memory == needed
-
-
-def test_the_memory_of_a_plan_is_that_of_a_reversal():
-    """Within two fifths of what Python counts."""
-    held, times = {"duration": 1e-3, "depth": 1e-4}, {"duration": 2e-2, "depth": 1e-4}
-    scene = replace(SCENE, motion=program(held, times | {"speed": 1.0}, times | {"speed": -1.0}))
-    solver = MDR(points=1000)
-    solver.solve(scene)  # loops are compiled
-    tracemalloc.start()
-    solver.solve(scene)
-    peak = tracemalloc.get_traced_memory()[1]
-    tracemalloc.stop()
-    assert solver.plan(scene).memory == pytest.approx(peak, rel=0.4)
 
 
 def test_what_no_machine_holds_has_no_plan_either():

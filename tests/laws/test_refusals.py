@@ -5,6 +5,7 @@ from dataclasses import replace
 from functools import partial
 from math import radians
 
+import numpy as np
 import pytest
 
 from bem3d import BEM
@@ -31,6 +32,7 @@ from scene import (
     Cylinder,
     EmptyContact,
     Indent,
+    Measured,
     Plane,
     PowerLaw,
     Prony,
@@ -145,6 +147,12 @@ CASES = {
         f"an extent of {extent:g} m": (resting(), [replace(each, extent=extent) for each in BOTH], said)
         for extent, said in ((1e-5, "extent"), (1e4, "take"), (5e-324, "units"), (1e300, "units"))
     },
+    "a gap above the peaks": (pressed(crossed, gap=1e-3), [SQUARE], "motion.gap | 0.001 | take a gap below"),
+    "a measured body in 1D": (
+        resting(indenter=Measured(heights=np.eye(5), pixel=1e-3)),
+        [LINE],
+        "MDR cannot | Measured",
+    ),
     "a plane in 1D": (Scene(Plane(), SOLID, Indent(pressure=1e4), ROUGH), [LINE], "Plane | no body of revolution"),
     "a cylinder in 1D": (
         Scene(cylinder, SOLID, Indent(line_load=1e3)),

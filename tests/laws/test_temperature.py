@@ -32,7 +32,6 @@ SOLVERS = (MDR(points=400), BEM(points=32))
 names = pytest.mark.parametrize("solver", SOLVERS, ids=lambda solver: solver.name)
 # Modes found anew from shifted times, and what iterations make of such a difference.
 SUPERPOSED = {"MDR": 1e-10, "BEM": 1e-8}
-AGREE = 1e-6  # temperature and heat, as stated
 
 RADIUS, RUBBERY, TIME, REFERENCE = 50e-3, 3e6, 1e-4, 296.0
 STANDARD = StandardLinearSolid(RUBBERY, 100 * RUBBERY, TIME)

@@ -14,7 +14,6 @@ from mdr1d import MDR, marching
 from scene import Elastic, Scene, Slide, StandardLinearSolid
 
 DEPTH, SPEED = 0.1, 0.3
-A = np.sqrt(DEPTH)  # of the contact
 
 
 def slid(path, speed=SPEED, **given):

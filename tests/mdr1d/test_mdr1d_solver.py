@@ -10,22 +10,15 @@ from sliding import PAPER, ROUGH, SMOOTH
 
 from mdr1d import MDR, draw
 from scene import (
-    Cone,
-    Cylinder,
     Elastic,
     Indent,
-    Measured,
-    Plane,
     PowerLaw,
     Program,
-    Prony,
-    Refused,
     Scene,
     Slide,
     SolveError,
     Sphere,
     Stage,
-    Wave,
 )
 
 
@@ -36,22 +29,6 @@ def test_smooth_and_resolved_scenes_say_so():
     assert resolved.settings["cutoff"] == "resolved"
     assert resolved.measures["points_per_shortest_wave"] == pytest.approx(1e-4 / resolved.settings["pixel"])
     assert resolved.settings["points"] >= 5000
-
-
-@pytest.mark.parametrize(
-    ("scene", "word"),
-    [
-        (replace(ROUGH, indenter=Cylinder(radius=1e-2), motion=Slide(speed=1.0, line_load=1.0)), "Cylinder"),
-        (replace(ROUGH, indenter=Plane(), motion=Slide(speed=1.0, pressure=1.0)), "Plane"),
-        (replace(ROUGH, roughness=Wave(amplitude=1e-6, wavelength=1e-3)), "Wave"),
-        (replace(SMOOTH, indenter=Measured(heights=np.eye(5), pixel=1e-3)), "Measured"),
-    ],
-)
-def test_what_has_no_one_dimensional_profile_is_refused_by_name(scene, word):
-    (reason,) = MDR().refusals(scene)
-    assert word in reason
-    with pytest.raises(Refused, match=rf"MDR cannot .*{word}"):
-        MDR().solve(scene)
 
 
 def test_a_grid_too_coarse_for_the_spectrum_is_refused_with_the_points_it_takes():
@@ -68,9 +45,7 @@ def test_a_grid_too_coarse_for_the_spectrum_is_refused_with_the_points_it_takes(
             assert replace(solver, points=points // 2).refusals(scene) != []
 
 
-def test_a_spectrum_or_grid_beyond_memory_is_refused():
-    broad = replace(ROUGH, roughness=replace(ROUGH.roughness, longest=1.0, shortest=1e-9))
-    assert "raise shortest" in MDR().refusals(broad)[0]
+def test_a_grid_beyond_memory_is_refused():
     assert "pixels, more than" in MDR(extent=1e-9).refusals(PAPER)[0]
     # of a number of three hundred digits the first are enough
     assert len(MDR(extent=1e-290).refusals(PAPER)[0]) < 250
@@ -80,7 +55,6 @@ def test_a_spectrum_or_grid_beyond_memory_is_refused():
 @pytest.mark.parametrize(
     ("settings", "said"),
     [
-        ({"points": 7}, "greater than or equal to 8"),
         ({"pixels": 100}, "pixels"),
         ({"shape": "given"}, r"shape\n.*'mapped' or 'as-given'"),
         ({"spectrum": "scan"}, r"spectrum\n.*'mapped' or 'line-scan'"),
@@ -103,18 +77,6 @@ def test_contact_that_leaves_the_grid_is_an_error_whose_advice_works(scene, moti
     assert result.measures["pixel"] == pytest.approx(5e-7, rel=0.01)
 
 
-def test_a_spot_that_would_touch_beyond_the_grid_counts_as_leaving_it():
-    # So blunt a sphere that asperities decide: the ends of a short grid stay clear, and others reach deeper.
-    blunt = replace(PAPER, indenter=Sphere(radius=1e3), motion=Indent(depth=1e-6))
-    lines = [draw(replace(blunt.roughness, seed=seed), 400).heights for seed in range(50)]
-    seed = next(s for s, h in enumerate(lines) if min(h[50], h[-50]) > 2e-6 and h[60:-60].min() < 0)
-    scene = replace(blunt, roughness=replace(blunt.roughness, seed=seed))
-    in_time = replace(scene, motion=Program(stages=(Stage(duration=1.0, depth=1e-6),)))
-    for each in (scene, in_time):
-        with pytest.raises(SolveError, match="leaves the grid"):
-            MDR(points=100, extent=1e-3).solve(each)
-
-
 @pytest.mark.parametrize("side", [-1, 1])
 def test_a_spot_on_either_side_of_the_grid_counts(side):
     # Round enough that a spot reaches down on the side where it comes first alone: a period on it has risen.
@@ -124,16 +86,11 @@ def test_a_spot_on_either_side_of_the_grid_counts(side):
     lines = [draw(replace(round_off.roughness, seed=seed), 400).heights for seed in range(100)]
     lowest = [[(rise + h[way * nodes % 400]).min() for way in (side, -side)] for h in lines]
     seed = next(i for i, (near, far) in enumerate(lowest) if near < 1e-6 < far)
-    with pytest.raises(SolveError, match="leaves the grid"):
-        MDR(points=100, extent=1e-3).solve(replace(round_off, roughness=replace(round_off.roughness, seed=seed)))
-
-
-def test_a_depth_that_does_not_reach_the_indenter_is_an_error():
-    # On so sharp a cone the one asperity at the tip decides; its height has the sign of the draw.
-    scene = replace(ROUGH, indenter=Cone(angle=1.4), motion=Indent(depth=1e-12))
-    seed = next(s for s in range(20) if draw(replace(ROUGH.roughness, seed=s), 4000).heights[0] > 2e-6)
-    with pytest.raises(SolveError, match=r"motion\.depth = 1e-12 .* a greater depth"):
-        MDR(points=400, extent=4e-3).solve(replace(scene, roughness=replace(scene.roughness, seed=seed)))
+    scene = replace(round_off, roughness=replace(round_off.roughness, seed=seed))
+    in_time = replace(scene, motion=Program(stages=(Stage(duration=1.0, depth=1e-6),)))
+    for each in (scene, in_time):
+        with pytest.raises(SolveError, match="leaves the grid"):
+            MDR(points=100, extent=1e-3).solve(each)
 
 
 @pytest.mark.parametrize(("extent", "points"), [(5e-3, 10000), (2**0.5 * 5e-3, 9973)])
@@ -160,9 +117,8 @@ def test_a_resolved_surface_is_solved_the_same_on_finer_grids():
 @pytest.mark.parametrize(
     "scene",
     [
-        # The square of a slope of 1e290; modes of moduli 600 decades apart; a period of 1e310 pixels.
+        # The square of a slope of 1e290; a period of 1e310 pixels.
         Scene(PowerLaw(coefficient=0.018, exponent=100.0), Elastic(1e-300), Slide(speed=1.0, load=2e-5)),
-        replace(ROUGH, elastomer=Prony(1e-300, (1e300, 1.0), (1.0, 2.0))),
         replace(ROUGH, roughness=replace(ROUGH.roughness, longest=1e308, shortest=1e307)),
     ],
 )
