@@ -82,4 +82,4 @@ def test_nodes_between_those_of_a_line_change_nothing():
         coarse, fine = sweep(heights, pixel, memory, depth), sweep(finer, pixel / 3, memory, depth)
         assert np.count_nonzero(np.diff(coarse.touching.astype(int)) == 1) >= 2
         for name in ("force", "dissipation", "stiffness", "length", "first", "last"):
-            assert getattr(fine, name) == pytest.approx(getattr(coarse, name), rel=1e-9), name
+            assert getattr(fine, name) == pytest.approx(getattr(coarse, name), rel=1e-9, abs=0.0), name
