@@ -187,18 +187,6 @@ def test_the_contact_does_not_drift_in_steady_sliding():
     np.testing.assert_allclose(history.normal_force[-200:-2], history.normal_force[-200], rtol=10 * TOLERANCE)
 
 
-def test_a_held_depth_relaxes_as_lee_and_radok_say():
-    program = Program(stages=(Stage(duration=TAU, depth=1e-4), Stage(duration=3 * TAU)))
-    result = BEM(points=64, steps=80).solve(Scene(Sphere(R), CREEPING, program))
-    times, force = result.fields["time"], result.fields["normal_force"]
-    expected = indentation.loading_force(Sphere(R), CREEPING, [0, TAU, 4 * TAU], [0, 1e-4, 1e-4], times)
-    resolved = times > 0.3 * TAU
-    np.testing.assert_allclose(force[resolved], expected[resolved], rtol=1e-2)
-    assert result.normal_force == force[-1] == pytest.approx(expected[-1], rel=ACCURACY)
-    assert result.measures["time_steps"] == len(times) >= 80
-    assert result.fields["pressure"].shape == (64, 64)
-
-
 @pytest.mark.slow
 def test_after_recovery_the_second_cycle_is_the_first_and_before_it_is_not():
     for recovery, steps in ((18 * TAU, 320), (TAU / 4, 72)):
@@ -256,22 +244,23 @@ def test_starting_to_slide_ends_in_the_steady_answer_in_a_window_that_holds_both
 
 
 @pytest.mark.parametrize(
-    ("solid", "ramp", "hold"),
+    ("solid", "ramp", "hold", "rtol"),
     [
-        (Kelvin(G, 1.0), 1e-4, 5.0),
-        (StandardLinearSolid(G, 10 * G, 1.0), 0.1, 5.0),
-        pytest.param(StandardLinearSolid(G, 10 * G, 1.0), 1.0, 200.0, marks=pytest.mark.slow),
+        (CREEPING, TAU, 3 * TAU, ACCURACY),
+        (Kelvin(G, 1.0), 1e-4, 5.0, 2e-2),
+        (StandardLinearSolid(G, 10 * G, 1.0), 0.1, 5.0, 2e-2),
+        pytest.param(StandardLinearSolid(G, 10 * G, 1.0), 1.0, 200.0, 2e-2, marks=pytest.mark.slow),
     ],
     ids=str,
 )
-def test_however_short_the_ramp_the_hold_after_it_is_right(solid, ramp, hold):
+def test_however_short_the_ramp_the_depth_held_after_it_relaxes_as_lee_and_radok_say(solid, ramp, hold, rtol):
     # the force of a Kelvin body falls at once as the motion stops; the surface must not be thrown off by then
     program = Program(stages=(Stage(duration=ramp, depth=1e-4), Stage(duration=hold)))
     fields = BEM(points=48).solve(Scene(Sphere(R), solid, program)).fields
     times, force = fields["time"], fields["normal_force"]
     expected = indentation.loading_force(Sphere(R), solid, [0, ramp, ramp + hold], [0, 1e-4, 1e-4], times)
     held = times > ramp
-    np.testing.assert_allclose(force[held], expected[held], rtol=2e-2)
+    np.testing.assert_allclose(force[held], expected[held], rtol=rtol)
 
 
 @pytest.mark.parametrize(

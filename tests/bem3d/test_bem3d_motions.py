@@ -257,16 +257,6 @@ def test_reversal(motion, solid):
         np.testing.assert_allclose(result.fields["normal_force"], prescribed, atol=1e-9)
 
 
-@pytest.mark.parametrize(("time", "modulus"), [(1e-9, G), (1e9, 5 * G)])
-def test_the_shortest_and_the_longest_memory_turn_back_as_an_elastic_solid(time, modulus):
-    motion = program(pressed(), slid(A), slid(-1.5 * A))
-    found, elastic = (
-        solved(motion, solid, extent=3e-3) for solid in (StandardLinearSolid(G, 5 * G, time), Elastic(modulus))
-    )
-    np.testing.assert_allclose(found.fields["normal_force"][-5:], elastic.fields["normal_force"][-5:], rtol=1e-4)
-    assert abs(found.friction_coefficient) < 1e-3
-
-
 @pytest.mark.slow
 def test_an_oscillation_is_followed_at_second_order_in_the_step(monkeypatch):
     # so small that no pixel joins or leaves

@@ -87,6 +87,18 @@ def test_in_a_mirror_friction_and_path_change_their_sign_and_nothing_else(name, 
     assert solid == ELASTIC or np.nanmax(one.fields["friction_force"] / one.fields["normal_force"]) > 0.01
 
 
+@pytest.mark.parametrize(("name", "rtol"), [("MDR", 2e-3), ("BEM", 1e-4)])
+@pytest.mark.parametrize(("time", "modulus"), [(1e-9, G), (1e9, 5 * G)])
+def test_the_shortest_and_the_longest_memory_turn_back_as_an_elastic_solid(name, rtol, time, modulus):
+    motion = program({"duration": TAU, "depth": DEPTH}, slid(A, A / TAU), slid(-1.5 * A, A / TAU))
+    solver = replace(FEW[name], extent=3.2 * A)
+    solids = StandardLinearSolid(G, 5 * G, time), Elastic(modulus)
+    found, elastic = (solver.solve(Scene(Sphere(R), solid, motion)) for solid in solids)
+    forces = (each.fields["normal_force"][-5:] for each in (found, elastic))
+    np.testing.assert_allclose(*forces, rtol=rtol)
+    assert abs(found.friction_coefficient) < 1e-3
+
+
 def response(solver, amplitude, omega, solid):
     """First harmonic of the force over that of the depth, about one held until all has relaxed [N/m], complex."""
     frequency, held = omega / (2 * np.pi), 20 * TAU

@@ -11,7 +11,7 @@ from solids import BALL, CYCLES, KELVIN, ROUGH, ROUNDING, SOLID, SOLIDS
 
 import mdr1d.timeline
 from mdr1d import MDR, marching
-from scene import Elastic, Scene, Slide, StandardLinearSolid
+from scene import Scene, Slide
 
 DEPTH, SPEED = 0.1, 0.3
 
@@ -226,13 +226,3 @@ def test_a_reversal_within_the_first_pixels_is_followed_as_by_far_smaller_ones(s
     coarse, fine = (solved(motion, SOLIDS[solid], points=points) for points in (200, 800))
     assert coarse.normal_force == pytest.approx(fine.normal_force, rel=2 / 126)  # edges, known to an element
     assert coarse.fields["path"][-1] == pytest.approx(0.0, abs=1e-15)
-
-
-@pytest.mark.parametrize("time", [1e-9, 1e9])
-def test_reversal_of_the_shortest_and_longest_memories_loses_nothing(time):
-    solid = StandardLinearSolid(0.25, 1.25, time)
-    result = solved(program(pressed(), slid(0.7), slid(-1.1)), solid)
-    glassy = Elastic(1.25 if time > 1 else 0.25)
-    elastic = solved(program(pressed(), slid(0.7), slid(-1.1)), glassy)
-    assert result.normal_force == pytest.approx(elastic.normal_force, rel=2e-3)
-    assert abs(result.friction_coefficient) < 2e-3
