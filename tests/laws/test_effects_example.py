@@ -9,8 +9,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from invented_answers import FEW, obeying
 
 from bem3d import BEM
+from compare.studies.comparison.claims import CLAIMS
+from compare.studies.comparison.measures import FRICTIONS
 from compare.studies.plan import planned
 from mdr1d import MDR
 from scene import Elastic, Indent, Kelvin, Layer, Plane, Refused, Scene, SelfAffine, Slide, Sphere
@@ -20,13 +23,15 @@ PAGE = Path(__file__).parents[2] / "docs" / "howto" / "extending.md"
 
 @pytest.fixture(scope="module")
 def page(tmp_path_factory):
-    """Names of the page, all its code run from top to bottom, and what it printed."""
+    """Names of the page, all its code run from top to bottom, and what it printed. Its claim is left out after."""
     code = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
     names, printed = {"__name__": "extending"}, io.StringIO()
     with contextlib.redirect_stdout(printed), contextlib.chdir(tmp_path_factory.mktemp("extending")):
         for block in code:
             exec(compile(block, str(PAGE), "exec"), names)
-    return names | {"printed": printed.getvalue().splitlines()}
+    yield names | {"printed": printed.getvalue().splitlines()}
+    FRICTIONS.remove(next(row for row in FRICTIONS if row.id == "mine.fastest"))
+    del CLAIMS["mine.fastest"]
 
 
 def test_the_page_prints_what_it_says(page):
@@ -39,11 +44,11 @@ def test_the_page_prints_what_it_says(page):
     assert left_out == "nothing is built for it"
 
 
-def test_the_study_of_the_page_finds_what_it_claims(page):
-    (found,) = page["report"].judged
-    assert found.verdict == "holds"
-    assert 1.98 < found.interval[0] < found.value < found.interval[1] < 2.0
-    assert found.grid_method == "change on halving"
+@pytest.mark.parametrize(("friction", "verdict"), [(0.4, "holds"), (0.6, "fails")])
+def test_the_claim_of_the_page_is_judged_of_both_models(page, friction, verdict):
+    findings = obeying(lambda load, speed: friction + 0 * load * speed, FEW).judge().findings
+    found = {each.dimension: each.verdict for each in findings if each.claim.id == "mine.fastest"}
+    assert found == {"1D": verdict, "3D": verdict}
 
 
 def test_a_coating_on_a_plane_in_full_contact_adds_its_compliance_to_every_wave(page):
