@@ -215,7 +215,7 @@ def fields_of(thing):
 
 
 FORMULAS = {
-    **dict.fromkeys(("load",), (1.5, "N")),
+    "load": (1.5, "N"),
     **dict.fromkeys(("modulus", "glassy_modulus", "loss"), (2e6, "Pa")),
     "relaxation_time": (1e-3, "s"),
     "speed": (0.1, "m/s"),
@@ -238,7 +238,7 @@ METHODS = {
     **dict.fromkeys(("x", "y", "height", "pixel"), (1e-3, "m")),
     **dict.fromkeys(("t", "time"), (0.5, "s")),
     **dict.fromkeys(("q", "upper"), (2e4, "rad/m")),
-    **dict.fromkeys(("omega",), (50.0, "rad/s")),
+    "omega": (50.0, "rad/s"),
     "q_max": (5e4, "rad/m"),
     "lower": (1e4, "rad/m"),
 }
@@ -295,17 +295,16 @@ def drawn(given, seed=1):
     return mdr1d.draw(ROUGH, nodes=given).heights
 
 
+LINE = {"heights": tuple(50.0 * np.linspace(-1e-3, 1e-3, 6) ** 2), "pixel": 4e-4, "depth": 2e-5}
+MODES = mdr1d.modes_of(StandardLinearSolid(1e6, 2e6, 1e-3))
+
+
 def swept(**given):
-    heights = 50.0 * np.linspace(-1e-3, 1e-3, 6) ** 2
-    stated = {"heights": tuple(heights), "pixel": 4e-4, "memory": 1e-4, "depth": 2e-5} | given
-    return mdr1d.sweep(**stated).displacement
+    return mdr1d.sweep(**{**LINE, "memory": 1e-4} | given).displacement
 
 
 def swept_in_modes(**given):
-    heights = 50.0 * np.linspace(-1e-3, 1e-3, 6) ** 2
-    modes = mdr1d.modes_of(StandardLinearSolid(1e6, 2e6, 1e-3))
-    stated = {"heights": tuple(heights), "pixel": 4e-4, "modes": modes, "speed": 0.1, "depth": 2e-5} | given
-    return mdr1d.sweep_modes(**stated).displacement
+    return mdr1d.sweep_modes(**{**LINE, "modes": MODES, "speed": 0.1} | given).displacement
 
 
 def asked(**given):
