@@ -102,8 +102,8 @@ def _tables(row: ShiftedCurves) -> tuple[DataFrame, DataFrame, DataFrame]:
     known = row.expected * np.log(found.speeds) if row.predicted is None else row.predicted
     decided = both or not (found.horizontal.reason or row.findings[eq23.COLLAPSE.id].verdict == FAILS)
     fit: dict[str, Any] = row.found("misfit", missed)
-    fit |= row.found("along", *(eq23.EXPONENT, eq23.BESIDE if both else eq23.ALONE)[: 2 * decided])
-    fit |= row.found("across", *(eq23.NOT_SHIFTED,)[:both]) | {"expected": row.expected}
+    fit |= row.found("load_exponent", *(eq23.EXPONENT, eq23.BESIDE if both else eq23.ALONE)[: 2 * decided])
+    fit |= row.found("friction_exponent", *(eq23.NOT_SHIFTED,)[:both]) | {"expected": row.expected}
     fit |= {"shifted_as": how, "decided": decided}
     return points, found.shifts(lead).assign(expected=known - known[middle]), DataFrame([fit])
 
@@ -181,11 +181,11 @@ def _shifts(axes: Axes, fit, shifts: DataFrame, scale) -> None:
     for speed, own in shifts.groupby("speed"):
         look: dict[str, Any] = {"color": shades.SPEED(scale(speed)), "marker": "o", "linestyle": "none"} | hollow
         intervals(axes, own["speed"], own, "log_shift", 1 / LOG10, **look)
-    entries = [style.entry(f"along the load\n{_power(fit, 'along')}".strip(), **hollow)]
+    entries = [style.entry(f"along the load\n{_power(fit, 'load_exponent')}".strip(), **hollow)]
     if fit.shifted_as == BOTH:
         look = {"color": style.ink(), "marker": "s", "linestyle": "none"}
         intervals(axes, shifts["speed"], shifts, "log_lift", 1 / LOG10, **look)
-        entries.append(style.entry(f"along friction\n{_power(fit, 'across')}".strip(), **look))
+        entries.append(style.entry(f"along friction\n{_power(fit, 'friction_exponent')}".strip(), **look))
     if shifts["expected"].notna().all():
         power = f" v^{number(fit.expected, FIGURES)}" if np.isfinite(fit.expected) else ""
         look = style.line(0, 0.8, linestyle="--", label=f"expected{power}")
@@ -194,7 +194,7 @@ def _shifts(axes: Axes, fit, shifts: DataFrame, scale) -> None:
     axes.set(
         xscale="log", ylabel="decades of the shift [1]", title="shifts", ylim=(low, high + 1.2 * (high - low))
     )
-    axes.legend(handles=entries, loc="upper right", borderaxespad=0.1, handlelength=1.5)
+    axes.legend(handles=entries, loc="upper right", handlelength=1.5)
 
 
 def _power(fit, name: str) -> str:

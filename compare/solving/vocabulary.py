@@ -96,6 +96,8 @@ shifted_friction : Friction coefficient times the shift of its curve along frict
 curves : Set of curves that are shifted onto one.
 power : Power of the speed: fitted to the shifts, expected, or that of a law.
 exponent : Exponent of a power of the speed. [1]
+load_exponent : Exponent of the power of the speed by which curves are shifted along the load. [1]
+friction_exponent : Exponent of the power of the speed by which curves are shifted along friction. [1]
 misfit : Rms of ln mu about one curve, without what scatter adds. [1]
 decided : Whether the shifts mean anything: not where curves do not collapse, nor where they part.
 shifted_as : Whether a figure shows curves shifted as fitted, or as expected.

@@ -76,16 +76,6 @@ def interval(value: float, low: float, high: float, digits: int = DIGITS) -> str
     return number(value, MOST_DIGITS) if below == above else f"{middle} ({below} to {above}){_times(power)}"
 
 
-def with_unit(text: str, unit: str) -> str:
-    """A number as text with its unit, of which a ratio has none."""
-    return text if unit in ("", "1") else f"{text} {unit}"
-
-
-def with_brackets(text: str, unit: str) -> str:
-    """A word with its unit in brackets, of which a ratio has none."""
-    return text if unit in ("", "1") else f"{text} [{unit}]"
-
-
 def counted(findings: Sequence["Finding"]) -> str:
     """Verdict of all findings, or how often each stands."""
     counts = Counter(each.verdict for each in findings)
@@ -181,7 +171,8 @@ def capital(words: str) -> str:
 
 def amount(claim: "Claim", text: str) -> str:
     """A number of a claim with its unit; text : the number in words, already to scale"""
-    return with_unit(text, "%" if claim.percent else claim.unit)
+    unit = "%" if claim.percent else claim.unit
+    return text if unit in ("", "1") else f"{text} {unit}"
 
 
 def tested(claim: "Claim") -> str:

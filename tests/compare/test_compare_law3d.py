@@ -184,8 +184,8 @@ def test_figures_show_every_point_and_what_is_not_claimed_hollow():
         above, below = drawing.axes
         own = {each.claim.id: 100 * each.value for each in judged.findings if each.where == where}
         median, most = (words.number(own[f"law3d.collapse{end}"], 2) for end in ("", "-most"))
-        told = below.get_title(loc="left").partition(" ")[2]
-        assert told == f"off by {median} % (median), {most} % (nine in ten)"
+        told = " ".join(below.get_title(loc="left").split())
+        assert f"off by {median} % (median), {most} % (nine in ten)" in told
         drawn = [line for line in above.lines if line.get_marker() not in ("", "None", "_", "|")]
         hollow = sum(line.get_xdata().size for line in drawn if line.get_markerfacecolor() == style.paper())
         assert hollow == (plot.tables["law"]["height_over_depth"] > SHALLOW).sum() > 0

@@ -40,7 +40,7 @@ def scene_table(series: Around, answers: Answers, points: DataFrame, findings: S
         factor, unit = prefixed(values, UNITS[name]) if name in UNITS else (1.0, "")
         place = series.place(OWN), OWN_RATIOS[name]
         ratios = {each.dimension: each for each in findings if (each.curve, each.claim.id) == place}
-        row: dict[str, Any] = {"": words.with_brackets(WORDS[name], unit)}
+        row: dict[str, Any] = {"": WORDS[name] + (f" [{unit}]" if unit else "")}
         for model, found in numbers.items():
             column = model if names[model] == model else f"{names[model]} ({model})"
             value, low, high = (factor * found).tolist()
