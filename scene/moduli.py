@@ -7,14 +7,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from pydantic import ValidationError
 
 from . import modulinames as names
 from .blocks import joined
 from .columns import chosen, meant, sheet_of
 from .files import once
 from .heading import named
-from .mistakes import said
 from .modulicolumns import Columns
 from .moduliplaces import FREQUENCIES, factors, frequencies, reference, temperatures, times
 from .sheet import Sheet, read_sheets
@@ -155,8 +153,8 @@ def _table(columns, made, reduced=False):
     kind: Any = next(kinds[name] for name in made if name in kinds)
     try:
         table = kind(**{name: tuple(values.tolist()) for name, values in made.items()})
-    except ValidationError as error:
-        raise ValueError(f"{sheet.name}: {said(error)}") from None
+    except ValueError as error:
+        raise ValueError(f"{sheet.name}: {str(error).partition(': ')[2]}") from None
     return table.noted((*columns.notes, *columns.unused()))
 
 

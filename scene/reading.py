@@ -21,7 +21,6 @@ __all__ = [
     "mistakes",
     "parsed",
     "read",
-    "tables",
     "text_of",
     "validator",
     "whole",
@@ -30,6 +29,7 @@ __all__ = [
 MOST = 1_000_000  # bytes of a file
 DEEPEST = 20  # levels of tables and lists in one another
 LONGEST = 2000  # letters of a mistake
+PATHS = ("file", "table")  # names whose texts are paths, relative to the file in which they stand
 
 # Names joined by so many dots take a parser time that grows with their square; no file that can be read has them.
 _NAME = r"""(?:[\w-]{1,200}+|"(?:[^"\\\n]|\\.){0,200}+"|'[^'\n]{0,200}+')"""
@@ -39,7 +39,7 @@ _PLACE, _BACKSLASH = re.compile(r"\(at line (\d+), column \d+\)"), re.compile(r'
 
 
 class InvalidInput(ValueError):
-    """A file that cannot be read as what it should be; the message lists mistakes, one printable line each."""
+    """Input that is not what it should be, of a file or of a call; the message lists mistakes, a line each."""
 
     def __init__(self, message: str):
         super().__init__(printable(message))
@@ -48,15 +48,10 @@ class InvalidInput(ValueError):
 def read(path: str | Path, what: Any):
     """Read a TOML file as `what`, a validated dataclass or model.
 
-    Raises InvalidInput naming for each mistake the field, the value, what is allowed, and for a name that is
-    misspelt the one that was probably meant; of more than SAID mistakes the first, and how many there are.
+    Raises InvalidInput naming for each mistake the field, the value, what is allowed, and the known name nearest
+    to an unknown one; of more than SAID mistakes the first, and how many there are.
     """
-    return made(tables(path), what, path)
-
-
-def tables(path: str | Path) -> dict[str, Any]:
-    """The content of a TOML file as it stands there. Raises InvalidInput."""
-    return parsed(text_of(path), path)
+    return made(parsed(text_of(path), path), what, path)
 
 
 def text_of(path: str | Path) -> str:
@@ -68,7 +63,10 @@ def text_of(path: str | Path) -> str:
 
 
 def parsed(text: str, path: str | Path) -> dict[str, Any]:
-    """Content of a text in TOML; path : of its file, for mistakes. Raises InvalidInput."""
+    """Content of a text in TOML. Raises InvalidInput.
+
+    path : of its file, for mistakes; paths in it are relative to its folder
+    """
     try:
         if _ENDLESS.search(text):
             raise RecursionError
@@ -81,7 +79,19 @@ def parsed(text: str, path: str | Path) -> dict[str, Any]:
         raise invalid(path, [f"is not valid TOML: {error}{_of_backslashes(str(error), text)}"]) from error
     except ValueError as error:  # of dates that are none, and of numbers too long to be read
         raise invalid(path, [f"is not valid TOML: {str(error).partition(';')[0]}"]) from error
-    return content
+    return _beside(content, Path(path).parent)
+
+
+def _beside(content, folder):
+    """Content whose paths are relative to the working directory."""
+    if isinstance(content, list):
+        return [_beside(each, folder) for each in content]
+    if not isinstance(content, dict):
+        return content
+    return {
+        name: str(folder / each) if name in PATHS and isinstance(each, str) else _beside(each, folder)
+        for name, each in content.items()
+    }
 
 
 def _of_backslashes(error, text):

@@ -109,7 +109,7 @@ class SelfAffine:
             raise ValueError(f"{said}: {why}, the rms of the full gradient, a number without a unit") from None
         try:
             unit = cls(**stated, rms_height=1.0)
-        except ValidationError:
+        except ValueError:
             return stated | {"rms_height": 1.0}  # for the mistakes to be told of the fields that have them
         if unit.shortest is None:
             raise ValueError(

@@ -7,10 +7,15 @@ import sys
 import types
 import typing
 from collections.abc import Callable, Iterable, Mapping
-from functools import cache
+from functools import cache, wraps
 from typing import Any, TypeVar
 
+from pydantic import ValidationError
+from pydantic.dataclasses import is_pydantic_dataclass
+
 from . import quantities
+from .mistakes import mistakes
+from .reading import invalid, validator
 
 _T = TypeVar("_T", bound=Callable)
 
@@ -23,7 +28,7 @@ class _Words(str):
 
 
 def make_readable(owners: Iterable[object]) -> None:
-    """Give dataclasses and functions, of anything that a package exports, a signature with names of types."""
+    """Give dataclasses and functions, of anything that a package exports, signatures and errors for people."""
     for each in owners:
         if inspect.isfunction(each) or (inspect.isclass(each) and dataclasses.is_dataclass(each)):
             readable(each)
@@ -32,7 +37,8 @@ def make_readable(owners: Iterable[object]) -> None:
 def readable(owner: _T) -> _T:
     """Decorator: `help` and `inspect.signature` show names of types, without their modules and checks.
 
-    A type that its module gives a name, as `Indenter`, is shown by that name.
+    A type that its module gives a name, as `Indenter`, is shown by that name. A dataclass that pydantic checks
+    raises InvalidInput, a line a mistake.
     """
     found, names = inspect.signature(owner), {**kinds(), **_annotated(vars(sys.modules[owner.__module__]))}
     parameters = [
@@ -40,8 +46,25 @@ def readable(owner: _T) -> _T:
         for each in found.parameters.values()
     ]
     shown = found.replace(parameters=parameters, return_annotation=_shown(found.return_annotation, names))
+    if is_pydantic_dataclass(owner):
+        owner.__init__ = _in_lines(owner)
     owner.__signature__ = shown  # type: ignore[attr-defined]
     return owner
+
+
+def _in_lines(cls):
+    """The constructor of a dataclass, which raises InvalidInput in place of ValidationError."""
+    checked = cls.__init__
+
+    @wraps(checked)
+    def constructed(self, *args, **kwargs):
+        try:
+            checked(self, *args, **kwargs)
+        except ValidationError as error:
+            stated = {**dict(zip(cls.__dataclass_fields__, args, strict=False)), **kwargs}
+            raise invalid(cls.__name__, mistakes(error, stated, validator(cls))) from None
+
+    return constructed
 
 
 @cache

@@ -12,7 +12,6 @@ from pydantic.dataclasses import dataclass
 
 from .extrapolation import Continued
 from .fit import NEGLIGIBLE, Creep, Measured, Modes, Oscillation, Stress, fitted, rms
-from .mistakes import said
 from .modes import Relaxation, Retardation
 from .moduli import read_moduli
 from .plain import bare
@@ -265,8 +264,7 @@ def _reduced(solid: Tabulated, law: WLF | Arrhenius) -> Tabulated:
     try:
         longer = {each: replace(law, temperature=each).shift for each in temperature.tolist()}
     except ValueError as error:
-        reason = said(error) if isinstance(error, ValidationError) else error
-        raise ValueError(f"elastomer.table: a row at {reason}") from error
+        raise ValueError(f"elastomer.table: a row at {str(error).partition(': ')[2]}") from error
     return replace(solid, table=solid.table.shifted(np.array([longer[each] for each in temperature.tolist()])))
 
 

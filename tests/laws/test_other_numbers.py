@@ -13,7 +13,6 @@ import numpy as np
 import pandas
 import pytest
 import xarray
-from pydantic import ValidationError
 
 import bem3d
 import compare
@@ -39,6 +38,7 @@ from scene import (
     Fractional,
     Heating,
     Indent,
+    InvalidInput,
     Kelvin,
     KelvinChain,
     Layer,
@@ -523,18 +523,18 @@ def test_what_depends_on_others_takes_their_unit(quantity):
         stage = Stage(depth=1e-3, amplitude=written(2.0, "um"), **swung)
         assert (stage.amplitude, stage.duration, stage.frequency) == (2e-6, 60.0, 2e3)
         assert Stage(load=1.0, amplitude=written(300.0, "mN"), **swung).amplitude == 0.3
-        with pytest.raises(ValidationError, match="amplitude"):
+        with pytest.raises(InvalidInput, match="amplitude"):
             Stage(amplitude=written(1.0, "N"), **swung)
-        with pytest.raises(ValidationError, match="force"):
+        with pytest.raises(InvalidInput, match="force"):
             Shear(line_load=1.0, force=written(3.0, "N"))
-    with pytest.raises(ValidationError, match=r"a number \(in m\^\(1-exponent\)\)"):
+    with pytest.raises(InvalidInput, match=r"a number \(in m\^\(1-exponent\)\)"):
         PowerLaw("3 1/m", 2.0)
     for wrong in (quantity(1.0, "m"), "1 m", True, np.True_, [1.0]):
         with pytest.raises(ValueError, match="force"):
             Shear(load=1.0, force=wrong)
         with pytest.raises(ValueError, match="amplitude"):
             Stage(load=1.0, amplitude=wrong, **swung)
-    with pytest.raises(ValueError, match=r"frequency.*\n.*an? frequency"):
+    with pytest.raises(ValueError, match=r"frequency.*.*an? frequency"):
         Stage(load=1.0, amplitude=0.1, duration=1.0, frequency=quantity(1.0, "rad/s"))
     warm = WLF(temperature=quantity(25.0, "degC"), reference=250, c1=8, c2=quantity(50.0, "delta_degC"))
     assert (warm.temperature, warm.c2) == (298.15, 50.0)
@@ -589,7 +589,7 @@ def test_a_quantity_of_heights_has_its_unit(quantity):
             Topography(heights=given, pixel=1.0).heights.heights, HEIGHTS / 1e3, rtol=ROUNDING
         )
     for unit in ("s", "mm^2", "", "rad"):
-        with pytest.raises(ValueError, match=r"heights\n.*a length"):
+        with pytest.raises(ValueError, match=r"heights.*a length"):
             Topography(heights=quantity(HEIGHTS, unit), pixel=1.0)
     with pytest.raises(ValueError, match="two units"):
         Topography(heights=MAP.copy(data=quantity(HEIGHTS, "mm")), pixel=1.0)

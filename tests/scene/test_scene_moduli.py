@@ -9,10 +9,22 @@ import pytest
 import xarray
 from hypothesis import given
 from hypothesis import strategies as st
-from pydantic import TypeAdapter, ValidationError
+from pydantic import TypeAdapter
 from strategies import decades, examples
 
-from scene import WLF, Arrhenius, CreepTable, Indent, Prony, RelaxationTable, Scene, Sphere, Table, Tabulated
+from scene import (
+    WLF,
+    Arrhenius,
+    CreepTable,
+    Indent,
+    InvalidInput,
+    Prony,
+    RelaxationTable,
+    Scene,
+    Sphere,
+    Table,
+    Tabulated,
+)
 from scene.moduli import read_table
 from scene.modulinames import COLUMNS, KINDS, MODULI, OPEN, PHASE, TAN, modulus
 
@@ -159,7 +171,7 @@ def test_a_column_of_shift_factors_shifts_the_rows_to_where_it_is_one(heading):
     assert deviation(table, omega=OMEGA[8:42]) < FITTED
     scene = Scene(Sphere(1e-2), table, Indent(load=1.0), temperature=replace(LAW, temperature=310.0))
     assert scene.solid.static_modulus == table.static_modulus
-    with pytest.raises(ValidationError, match=r"measured at 300 K, and temperature\.reference = 310 K"):
+    with pytest.raises(InvalidInput, match=r"measured at 300 K, and temperature\.reference = 310 K"):
         replace(scene, temperature=replace(LAW, reference=310.0))
 
 
@@ -176,13 +188,13 @@ def test_one_temperature_is_that_of_the_table_and_the_law_has_to_begin_there():
     scene = Scene(Sphere(1e-2), table, Indent(load=1.0))
     assert scene.solid is table
     assert replace(scene, temperature=replace(LAW, temperature=310.0)).solid.solid is table
-    with pytest.raises(ValidationError, match=r"measured at 300 K, and temperature\.reference = 280 K"):
+    with pytest.raises(InvalidInput, match=r"measured at 300 K, and temperature\.reference = 280 K"):
         replace(scene, temperature=replace(LAW, reference=280.0))
 
 
 def test_several_temperatures_without_a_law_are_refused_by_name():
     table = Tabulated(table=tables(290.0, 300.0, 320.0)[0])
-    with pytest.raises(ValidationError, match=r"several temperatures, from 290 to 320 K: state \[temperature\]"):
+    with pytest.raises(InvalidInput, match=r"several temperatures, from 290 to 320 K: state \[temperature\]"):
         Scene(Sphere(1e-2), table, Indent(load=1.0))
     with pytest.raises(ValueError, match="several temperatures"):
         table.complex_modulus(1.0)
@@ -193,9 +205,9 @@ def test_several_temperatures_without_a_law_are_refused_by_name():
 def test_a_law_that_does_not_bring_the_rows_onto_one_curve_is_refused():
     table = Tabulated(table=tables(290.0, 300.0, 320.0)[0])
     wrong = Arrhenius(temperature=300.0, reference=300.0, activation_energy=1e3)
-    with pytest.raises(ValidationError, match="the best passive solid is off by"):
+    with pytest.raises(InvalidInput, match="the best passive solid is off by"):
         Scene(Sphere(1e-2), table, Indent(load=1.0), temperature=wrong)
-    with pytest.raises(ValidationError, match=r"a row at temperature = 290 K: the law ends at"):
+    with pytest.raises(InvalidInput, match=r"a row at temperature = 290 K: the law ends at"):
         Scene(Sphere(1e-2), table, Indent(load=1.0), temperature=replace(LAW, c2=5.0))
 
 
@@ -226,7 +238,7 @@ def test_arrays_tables_and_datasets_are_read_by_the_same_names():
     for table in (stated, frame, labelled, held, bare):
         assert Tabulated(table=table) == expected
     assert Tabulated(table=ours, kind="shear") == expected
-    with pytest.raises(ValidationError, match=r"table\n.*the path of a text file"):
+    with pytest.raises(InvalidInput, match=r"table.*the path of a text file"):
         Tabulated(table=3.0)
 
 
@@ -236,7 +248,7 @@ def test_arrays_tables_and_datasets_are_read_by_the_same_names():
         ("f [Hz],G' [Pa],G'' [Pa]", {"frequency_unit": "rad/s"}, "'f' in Hz, and frequency_unit = 'rad/s'"),
         ("omega [Hz],G',G''", {}, "angular frequency in 'Hz'"),
         ("f [rad/s],E',E''", {"kind": "shear"}, "kind 'tensile', and kind = 'shear'"),
-        ("f,G',G''", {}, "frequency_unit\n.*required"),
+        ("f,G',G''", {}, "frequency_unit.*missing"),
         ("omega,G',E''", {}, "moduli of both kinds"),
         ("omega,G*,delta", {}, "no unit of 'delta': write deg or rad"),
         ("omega,G*,delta [deg]", {}, r"column 3 \(delta\): phase = 300 must be below 90 deg"),
@@ -251,26 +263,26 @@ def test_a_table_that_says_too_little_or_contradicts_is_refused(tmp_path, headin
     numbers = (np.geomspace(1, 10, 5), np.geomspace(100, 200, 5), np.full(5, 300.0))
     path = tmp_path / "rubber.csv"
     path.write_text("\n".join([heading, *(",".join(map(str, row)) for row in zip(*numbers, strict=True))]))
-    with pytest.raises(ValidationError, match=said):
+    with pytest.raises(InvalidInput, match=said):
         Tabulated(table=path, **stated)
 
 
 def test_two_columns_of_the_frequency_have_to_agree():
     table = some(columns_of(SOLID, OMEGA), "omega", "G'")
     assert Tabulated(table=table | {"f [Hz]": OMEGA / (2 * np.pi)}) == Tabulated(table=table)
-    with pytest.raises(ValidationError, match="'omega' and 'f' contradict one another"):
+    with pytest.raises(InvalidInput, match="'omega' and 'f' contradict one another"):
         Tabulated(table=table | {"f [Hz]": OMEGA})
 
 
 def test_a_sweep_of_temperature_at_one_frequency_is_no_table_of_frequencies():
     table = {"T [C]": np.linspace(0, 50, 9), "f [Hz]": np.full(9, 1.01), "E'": np.ones(9), "E''": np.ones(9)}
-    with pytest.raises(ValidationError, match=r"a sweep of temperature at one frequency, 1\.01, is no table"):
+    with pytest.raises(InvalidInput, match=r"a sweep of temperature at one frequency, 1\.01, is no table"):
         Tabulated(table=table)
 
 
 def test_a_temperature_needs_its_unit():
     table = some(columns_of(SOLID, OMEGA), "omega", "G'") | {"T": np.full(50, 25.0)}
-    with pytest.raises(ValidationError, match="no unit of 'T': write degC or K"):
+    with pytest.raises(InvalidInput, match="no unit of 'T': write degC or K"):
         Tabulated(table=table)
 
 
@@ -278,7 +290,7 @@ def test_a_tangent_that_contradicts_the_moduli_beside_it_is_refused():
     table = some(columns_of(SOLID, OMEGA), "omega", "G'", "tan")
     assert deviation(Tabulated(table=table)) < FITTED
     table["G'' [Pa]"] = 1e3 * table["G'' [Pa]"]
-    with pytest.raises(ValidationError, match=r"1e\+03 times off tan delta"):
+    with pytest.raises(InvalidInput, match=r"1e\+03 times off tan delta"):
         Tabulated(table=table)
 
 
@@ -329,7 +341,7 @@ def test_a_liquid_is_refused_in_each_form(form, noise):
         rng = np.random.default_rng(seed)
         first, *others = LIQUIDS[form].items()
         scattered = {name: values * np.exp(noise * rng.standard_normal(30)) for name, values in others}
-        with pytest.raises(ValidationError, match="leaves the modulus at rest open"):
+        with pytest.raises(InvalidInput, match="leaves the modulus at rest open"):
             Tabulated(table=dict([first]) | scattered, tolerance=0.3)
 
 
@@ -354,7 +366,7 @@ def test_a_solid_stays_one_under_noise_and_a_known_modulus_at_rest_is_kept(name)
     ],
 )
 def test_a_wrong_table_over_time_is_refused_with_its_place(change, said):
-    with pytest.raises(ValidationError, match=said):
+    with pytest.raises(InvalidInput, match=said):
         RelaxationTable(**({"time": (1.0, 2.0, 3.0, 4.0), "modulus": (4.0, 3.0, 2.0, 1.0)} | change))
 
 
@@ -385,7 +397,7 @@ def test_few_frequencies_at_many_temperatures_are_enough():
 
 def test_shift_factors_the_other_way_round_are_refused():
     stated, factors = tables(290.0, 300.0, 320.0)
-    with pytest.raises(ValidationError, match="shift factor grows with the temperature"):
+    with pytest.raises(InvalidInput, match="shift factor grows with the temperature"):
         Tabulated(table=stated | {"aT": 1 / factors})
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import pandas
 import pytest
 import xarray
-from pydantic import TypeAdapter, ValidationError
+from pydantic import TypeAdapter
 
 import mdr1d
 from bem3d import BEM
@@ -17,7 +17,7 @@ from bem3d.grid import Grid
 from bem3d.surface import RoughSurface
 from compare.trustmap.verdict import FITTED, trust
 from mdr1d import MDR
-from scene import Kelvin, Profile, Refused, Scene, SelfAffine, Slide, Sphere, linescan
+from scene import InvalidInput, Kelvin, Profile, Refused, Scene, SelfAffine, Slide, Sphere, linescan
 from scene.periodogram import bins_of, taken_off
 from scene.reading import read
 from scene.roughness import Roughness
@@ -252,7 +252,7 @@ REGULAR = np.sin(2 * pi * np.arange(512) / 16.3)
 )
 def test_what_is_no_line_is_refused_with_the_reason(message, stated):
     content = {"heights": HEIGHTS, "spacing": SPACING} | stated
-    with pytest.raises(ValidationError, match=message):
+    with pytest.raises(InvalidInput, match=message):
         Profile(**{name: value for name, value in content.items() if value is not None})
 
 
@@ -299,9 +299,9 @@ def test_files_of_places_and_heights_are_read_in_their_units(tmp_path, separator
 def test_a_file_of_heights_alone_needs_a_unit_and_a_spacing(tmp_path):
     path = tmp_path / "line.txt"
     path.write_text("\n".join(f"{1e6 * z:.9f}" for z in HEIGHTS))
-    with pytest.raises(ValidationError, match="unit of its heights"):
+    with pytest.raises(InvalidInput, match="unit of its heights"):
         Profile(file=path, spacing=SPACING)
-    with pytest.raises(ValidationError, match="spacing = "):
+    with pytest.raises(InvalidInput, match="spacing = "):
         Profile(file=path, unit="um")
     assert Profile(file=path, unit="um", spacing="2 um").heights.heights == pytest.approx(HEIGHTS, abs=1e-14)
     np.save(tmp_path / "line.npy", HEIGHTS * 1e9)
@@ -315,14 +315,14 @@ def test_the_spacing_may_stand_above_the_heights(tmp_path, head):
     assert Profile(file=path) == Profile(file=path, spacing="2 um", unit="um")
     assert Profile(file=path).heights.heights == pytest.approx(HEIGHTS, abs=1e-14)
     for stated in ({"unit": "nm"}, {"spacing": "1 um"}):
-        with pytest.raises(ValidationError, match="leave"):
+        with pytest.raises(InvalidInput, match="leave"):
             Profile(file=path, **stated)
 
 
 def test_two_lines_in_a_file_are_no_long_one(tmp_path):
     path = written(tmp_path / "line.csv", ";", ".", "x [mm];z [um]\n")
     path.write_text(path.read_text() + "\n" + path.read_text())
-    with pytest.raises(ValidationError, match="blocks of numbers"):
+    with pytest.raises(InvalidInput, match="blocks of numbers"):
         Profile(file=path)
 
 

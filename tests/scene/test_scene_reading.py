@@ -7,7 +7,7 @@ from math import pi
 
 import numpy as np
 import pytest
-from pydantic import TypeAdapter, ValidationError
+from pydantic import TypeAdapter
 
 from scene import (
     Cone,
@@ -134,7 +134,7 @@ def test_a_program_prescribes_by_straight_lines_from_zero_and_what_presses_it_su
     np.testing.assert_allclose(program.path([1.0, 2.0, 4.0]), [0.0, 0.5, 1.0])
     assert (program.duration, program.length, program.pressed_by) == (4.0, 1.0, "load")
     assert program.held == Indent(load=2.0)
-    with pytest.raises(ValidationError, match=r"motion.load = 2 does not press a Cylinder: give line_load"):
+    with pytest.raises(InvalidInput, match=r"motion.load = 2 does not press a Cylinder: give line_load"):
         Scene(Cylinder(1.0), Elastic(1e6), program)
 
 
@@ -156,7 +156,7 @@ def test_any_number_is_kept_as_a_float_and_a_whole_one_is_no_other():
     rough = SelfAffine(hurst=0.2, rms_height=1e-5, longest=1e-2, seed=np.int64(2))
     assert type(rough.seed) is int
     for value in (True, "2", 2.0, np.float64(2)):
-        with pytest.raises(ValidationError, match="seed"):
+        with pytest.raises(InvalidInput, match="seed"):
             replace(rough, seed=value)
 
 
@@ -367,25 +367,25 @@ ROUGH = SelfAffine(hurst=0.7, rms_height=3e-5, longest=1e-2, shortest=1e-4, seed
 @pytest.mark.parametrize(
     ("make", "said"),
     [
-        (lambda: Cone(angle=pi / 2), r"angle\n.*less than 1\.57"),
-        (lambda: PowerLaw(coefficient=1.0, exponent=0.9), r"exponent\n.*greater than or equal to 1"),
-        (lambda: Elastic(G, poisson_ratio=0.6), r"poisson_ratio\n.*less than or equal to 0\.5"),
+        (lambda: Cone(angle=pi / 2), r"angle.*less than 1\.57"),
+        (lambda: PowerLaw(coefficient=1.0, exponent=0.9), r"exponent.*greater than or equal to 1"),
+        (lambda: Elastic(G, poisson_ratio=0.6), r"poisson_ratio.*less than or equal to 0\.5"),
         (lambda: StandardLinearSolid(G, G, 1.0), r"glassy_modulus = 1e\+06 must exceed rubbery_modulus = 1e\+06"),
-        (lambda: Prony(G, moduli=(), relaxation_times=()), r"moduli\n.*at least 1"),
+        (lambda: Prony(G, moduli=(), relaxation_times=()), r"moduli.*at least 1"),
         (lambda: Prony(G, (G, G), (1.0,)), "relaxation_times has 1 values, moduli has 2: each modulus"),
-        (lambda: Prony(G, moduli=(G, -G), relaxation_times=(1.0, 2.0)), r"moduli\.1\n.*greater than 0"),
+        (lambda: Prony(G, moduli=(G, -G), relaxation_times=(1.0, 2.0)), r"moduli\.1.*greater than 0"),
         (lambda: KelvinChain(0.0, (1.0,), (1.0, 2.0)), "retardation_times has 2 values, compliances has 1"),
-        (lambda: replace(SPRINGPOT, exponent=1.0), r"exponent\n.*less than 1"),
-        (lambda: replace(SPRINGPOT, tolerance=0.5), r"tolerance\n.*less than or equal to 0\.1"),
+        (lambda: replace(SPRINGPOT, exponent=1.0), r"exponent.*less than 1"),
+        (lambda: replace(SPRINGPOT, tolerance=0.5), r"tolerance.*less than or equal to 0\.1"),
         (lambda: replace(SPRINGPOT, highest_frequency=1e-4), r"0\.0001 must exceed lowest_frequency = 0\.0001"),
         (lambda: replace(SPRINGPOT, highest_frequency=1e27), r"highest_frequency = 1e\+27 .* at most 30 decades"),
-        (lambda: replace(ROUGH, hurst=1.1), r"hurst\n.*less than or equal to 1"),
+        (lambda: replace(ROUGH, hurst=1.1), r"hurst.*less than or equal to 1"),
         (lambda: replace(ROUGH, shortest=6e-3), r"shortest = 0\.006 must be at most half of longest = 0\.01"),
-        (lambda: replace(ROUGH, seed=-1), r"seed\n.*greater than or equal to 0"),
+        (lambda: replace(ROUGH, seed=-1), r"seed.*greater than or equal to 0"),
         (lambda: replace(ROUGH, rolloff=2e-2), "rolloff = 0.02 must be more than shortest .* at most longest"),
-        (lambda: replace(ROUGH, amplitudes="rayleigh"), r"amplitudes\n.*'fixed' or 'gaussian'"),
+        (lambda: replace(ROUGH, amplitudes="rayleigh"), r"amplitudes.*'fixed' or 'gaussian'"),
     ],
 )
 def test_a_wrong_value_is_refused_with_its_field_and_what_is_allowed(make, said):
-    with pytest.raises(ValidationError, match=said):
+    with pytest.raises(InvalidInput, match=said):
         make()
