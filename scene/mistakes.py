@@ -14,15 +14,10 @@ from .printable import brief
 
 CHOICE = "a choice: "  # with which the tags of a choice begin that no type decides: they are no names of the file
 SAID = 50  # mistakes that are listed, and for which a near name is sought; of others there is only the number
-_LIKE, _LONGEST_NAME = 0.6, 100  # as of difflib, where 1 is equal; letters that are compared
+_LONGEST_NAME = 100  # letters that are compared
 _LONGEST_NUMBER, _LONGEST_LIST = 4096, 10  # bits of a whole number, and items of a list, that are shown
 _KINDS = {dict: "object", list: "array"}
 _WORDS = {"array": "a list", "string": "a text", "boolean": "true or false", "number": "a number"}
-
-
-def first(error: ValidationError) -> str:
-    """The first mistake of what is no file, in words."""
-    return error.errors(include_url=False)[0]["msg"].removeprefix("Value error, ")
 
 
 def mistakes(error: ValidationError, content: dict, adapter: TypeAdapter) -> list[str]:
@@ -38,7 +33,10 @@ def mistakes(error: ValidationError, content: dict, adapter: TypeAdapter) -> lis
         schema = {}
 
     def like(name, known):
-        return nearest(name, known) if len(lines) < SAID and isinstance(name, str) else None
+        """The known name that one is most like; None where none is, and beyond the mistakes that are listed."""
+        if len(lines) >= SAID or not isinstance(name, str):
+            return None
+        return next(iter(get_close_matches(name[:_LONGEST_NAME].lower(), known, 1)), None)
 
     def followed(node, kind="object"):
         """A schema without references, of those of a choice the one of a kind."""
@@ -51,19 +49,17 @@ def mistakes(error: ValidationError, content: dict, adapter: TypeAdapter) -> lis
         return fitting[0] if len(fitting) == 1 else {}
 
     def typed(where, content, kinds):
-        """A table with a type: the nearest to its own, or the one that has most of its names."""
-        given, allowed = content.get("type"), f"one of {', '.join(map(repr, kinds))}"
-        near = like(given, kinds)
+        """Type of a table: the nearest to its own, or the one that has most of its names."""
+        place, allowed = (*where, "type"), f"one of {', '.join(map(repr, kinds))}"
+        near = like(content.get("type"), kinds)
+        stated = _written(place, content["type"]) if "type" in content else f"{_dotted(place)}: missing,"
+        lines.append(f"{stated} {allowed}{_meant(near)}")
         if near is None:
             untyped.add(where)
-            near = max(kinds, key=lambda each: len(kinds[each].keys() & content.keys()))
-            lines.append(_line((*where, "type"), given, allowed))
-        else:
-            lines.append(_line((*where, "type"), given, allowed, near))
-        return content | {"type": near}
+        return near or max(kinds, key=lambda each: len(kinds[each].keys() & content.keys()))
 
     def renamed(where, node, content):
-        """Content under the nearest names and types; what is unknown is noted, and left out without a near name."""
+        """Content under the nearest names and types; unknown ones are noted, and left out without a near name."""
         node = followed(node, _KINDS.get(type(content)))
         if isinstance(content, list):
             return [renamed((*where, k), node.get("items", {}), each) for k, each in enumerate(content)]
@@ -72,7 +68,7 @@ def mistakes(error: ValidationError, content: dict, adapter: TypeAdapter) -> lis
             types = node["discriminator"]["mapping"]
             kinds = {name: followed({"$ref": each})["properties"] for name, each in types.items()}
             if content.get("type") not in [*kinds]:
-                content = typed(where, content, kinds)
+                content = content | {"type": typed(where, content, kinds)}
             known = reduce(or_, kinds.values()) if where in untyped else kinds[content["type"]]
         if not isinstance(content, dict) or not known:
             return content
@@ -81,7 +77,8 @@ def mistakes(error: ValidationError, content: dict, adapter: TypeAdapter) -> lis
             near = name
             if name not in known:
                 near = like(name, known)
-                lines.append(_line((*where, name), value, f"unknown here; known are {', '.join(known)}", near))
+                listed = f"{_meant(near)}{' K' if near else '; k'}nown are {', '.join(known)}"
+                lines.append(f"{_written((*where, name), value)} unknown here{listed}")
             if near in known and (near == name or near not in content):
                 found[near] = renamed((*where, near), known[near], value)
         return found
@@ -97,35 +94,27 @@ def mistakes(error: ValidationError, content: dict, adapter: TypeAdapter) -> lis
         kind, value, allowed = each["type"], each["input"], each["msg"].removeprefix("Value error, ")
         where = place(each["loc"], content)
         if where[:-1] in untyped and kind in ("missing", "unexpected_keyword_argument"):
-            continue
-        if where in untyped and kind == "value_error":
-            continue
+            continue  # what it needs is not known
+        if kind == "value_error" and any(each[: len(where)] == where for each in untyped):
+            continue  # nor what fits together
         if kind == "too_short" and len(value) >= each["ctx"]["min_length"]:
             continue  # it is long enough: what is wrong with its items has a line of its own
-        stated, near = _part(where, content, value), None
         if kind == "missing":
-            stated, node = None, tables.get(where[:-1], {}).get(where[-1], {})
+            node = tables.get(where[:-1], {}).get(where[-1], {})
             usual = "a table" if {"$ref", "discriminator"} & node.keys() else "a value"
             allowed = node.get("description") or _WORDS.get(node.get("type"), usual)
-        elif kind.endswith("attributes_type") or kind == "dataclass_type":
+            lines.append(f"{_dotted(where)}: missing, {allowed}")
+            continue
+        stated = _part(where, content, value)
+        if kind.endswith("attributes_type") or kind == "dataclass_type":
             allowed = "a table"
-        elif kind == "int_type" and isinstance(value, float):
-            allowed += ", written without a decimal point"
         elif kind == "literal_error":
-            near = like(value, each["ctx"]["expected"].split("'")[1::2])
+            allowed += _meant(like(value, each["ctx"]["expected"].split("'")[1::2]))
         elif "than" in kind and isinstance(stated, str):
             allowed += ", in SI units"
         # What is wrong with the parts of the whole names them itself.
-        allowed = allowed.replace("valid tuple", "list")
-        lines.append(_line(where, stated, allowed, near) if where else allowed)
+        lines.append(f"{_written(where, stated)} {allowed}" if where else allowed)
     return list(dict.fromkeys(lines))
-
-
-def nearest(name: str, known: Iterable[str]) -> str | None:
-    """The known name that one is most like; None where none is."""
-    plain = {each.lower().replace("_", "-"): each for each in reversed(list(known))}
-    found = get_close_matches(name[:_LONGEST_NAME].lower().replace("_", "-"), plain, 1, _LIKE)
-    return plain[found[0]] if found else None
 
 
 def place(location: Iterable[str | int], content: Any) -> tuple[str | int, ...]:
@@ -148,10 +137,16 @@ def _part(where, content, absent=None):
         return absent
 
 
-def _line(where, value, allowed, near=None):
-    stated = ": missing," if value is None else f" = {brief(repr(value))}:" if _short(value) else ":"
-    question = f"; did you mean {near}?" if near else ""
-    return f"{'.'.join(brief(str(part)) for part in where)}{stated} {allowed}{question}"
+def _written(where, value):
+    return _dotted(where) + (f" = {brief(repr(value))}:" if _short(value) else ":")
+
+
+def _dotted(where):
+    return ".".join(brief(str(part)) for part in where)
+
+
+def _meant(near):
+    return f"; did you mean {near}?" if near else ""
 
 
 def _short(value):
@@ -160,4 +155,4 @@ def _short(value):
         return len(value) <= _LONGEST_LIST and all(map(_short, value))
     if isinstance(value, int):
         return value.bit_length() <= _LONGEST_NUMBER
-    return isinstance(value, str | float | date | time)
+    return value is None or isinstance(value, str | float | date | time)

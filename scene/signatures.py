@@ -55,13 +55,17 @@ def readable(owner: _T) -> _T:
 def _in_lines(cls):
     """The constructor of a dataclass, which raises InvalidInput in place of ValidationError."""
     checked = cls.__init__
+    names = [each.name for each in dataclasses.fields(cls) if each.init and not each.kw_only]
 
     @wraps(checked)
     def constructed(self, *args, **kwargs):
+        stated = {**dict(zip(names, args, strict=False)), **kwargs}
+        if len(stated) < len(args) + len(kwargs):
+            few = f"{len(args)} values without a name: {len(names)} at most, others by name, each once"
+            raise invalid(cls.__name__, [few])
         try:
-            checked(self, *args, **kwargs)
+            checked(self, **stated)
         except ValidationError as error:
-            stated = {**dict(zip(cls.__dataclass_fields__, args, strict=False)), **kwargs}
             raise invalid(cls.__name__, mistakes(error, stated, validator(cls))) from None
 
     return constructed

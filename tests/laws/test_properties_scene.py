@@ -1,5 +1,6 @@
 """Whatever stands in a field: an error that names it, an answer within the laws, or a reason why there is none."""
 
+import re
 from dataclasses import fields, replace
 from math import inf, isfinite, nan
 
@@ -123,10 +124,7 @@ def test_what_can_be_no_value_is_named_with_its_field(scene, part, name):
     for value in (each for each in NEVER if not (switch and each is True)):
         with pytest.raises(InvalidInput) as caught:
             placed(getattr(scene, part), name, value)
-        mistake = caught.value.errors()[0]
-        assert mistake["loc"][0] == name
-        assert mistake["input"] is value or mistake["input"] == value or value == [1.0]
-        assert len(mistake["msg"]) > 10
+        assert re.match(rf"\w+: {name}\b.*: .{{10}}", str(caught.value)), value
 
 
 @pytest.mark.parametrize(("scene", "part", "name"), FIELDS)
@@ -149,7 +147,7 @@ def test_stages_take_no_impossible_values(name):
         if name != "speed" or value != -1.0:  # backwards
             with pytest.raises(InvalidInput) as caught:
                 replace(START.stages[0], **{name: value})
-            assert caught.value.errors()[0]["loc"] == (name,)
+            assert re.match(rf"Stage: {name}\b", str(caught.value)), value
 
 
 @pytest.mark.parametrize("name", ["duration", "speed", "load", "depth", "amplitude", "frequency"])
@@ -182,7 +180,7 @@ def test_settings_that_can_be_no_value_are_named(solver, value):
             continue  # none are kept
         with pytest.raises(InvalidInput) as caught:
             replace(solver, **{field.name: value})
-        assert caught.value.errors()[0]["loc"][0] == field.name
+        assert re.match(rf"{solver.name}: {field.name}\b", str(caught.value))
 
 
 @pytest.mark.parametrize(

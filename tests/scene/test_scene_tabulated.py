@@ -215,7 +215,7 @@ def test_a_wrong_table_is_refused_with_its_place(change, said):
 def test_the_unit_and_the_kind_must_be_said(missing):
     settings = {"frequency_unit": "Hz", "kind": "shear"}
     del settings[missing]
-    with pytest.raises(InvalidInput, match=rf"{missing}.*required"):
+    with pytest.raises(InvalidInput, match=rf"{missing}: missing"):
         Tabulated(table=table(), **settings)
     with pytest.raises(InvalidInput, match="'rad/s' or 'Hz'"):
         fitted(frequency_unit="rpm")
@@ -273,7 +273,7 @@ def test_a_scene_names_a_file_or_holds_the_numbers(tmp_path, monkeypatch):
     assert read(by_name, Scene) == read(by_numbers, Scene)
     (tmp_path / "rubber.csv").write_text("1,2,3\n1,2,x")
     with pytest.raises(
-        InvalidInput, match=r"table = 'rubber\.csv': rubber\.csv, line 2, column 3: 'x' is not a number"
+        InvalidInput, match=r"table = '\S*rubber\.csv': \S*rubber\.csv, line 2, column 3: 'x' is not a number"
     ):
         read(by_name, Scene)
 
