@@ -82,7 +82,7 @@ def numbers(given: Any, unit: str | None, difference: bool = True) -> Any:
 def one_by_one(given: Any) -> Any:
     """The numbers of a row, each with the unit that all of them carry; what is no array as it is."""
     if isinstance(given, Set | Mapping):
-        raise NotPlain("a set has no order: give a list" if isinstance(given, Set) else "give a list")
+        raise NotPlain("a set has no order, nor has a mapping: give a list")
     held, own = bare(given)
     if not isinstance(held, np.ndarray):
         return given
