@@ -40,7 +40,7 @@ from unicodedata import normalize
 
 import numpy as np
 import pandas as pd
-from pydantic import Field
+from pydantic import Field, ValidationError
 from pydantic.dataclasses import dataclass as checked
 
 from . import files
@@ -95,11 +95,7 @@ class Column:
     gaps: bool = False
 
 
-Headings = Mapping[str, str | Annotated[int, Field(strict=True, ge=1)]]
-Values = Mapping[str, str | int | float]
-Separator = Annotated[str, Field(pattern="^(tab|semicolon|comma|blanks|[\t;, ])$")]
-Decimal = Annotated[str, Field(pattern="^[.,]$")]
-Lines = Annotated[int, Field(strict=True, ge=0)]
+_Lines = Annotated[int, Field(strict=True, ge=0)]
 
 
 @checked(frozen=True, config=CLOSED, kw_only=True)
@@ -116,28 +112,28 @@ class TableFormat:
     rows : number of rows below it that are read
     """
 
-    columns: Headings | None = None
+    columns: Mapping[str, str | Annotated[int, Field(strict=True, ge=1)]] | None = None
     units: Mapping[str, str] | None = None
-    where: Values | None = None
-    separator: Separator | None = None
-    decimal: Decimal | None = None
+    where: Mapping[str, str | int | float] | None = None
+    separator: Annotated[str, Field(pattern="^(tab|semicolon|comma|blanks|[\t;, ])$")] | None = None
+    decimal: Annotated[str, Field(pattern="^[.,]$")] | None = None
     encoding: str | None = None
-    skip: Lines | None = None
-    rows: Lines | None = None
+    skip: _Lines | None = None
+    rows: _Lines | None = None
 
 
 @checked(frozen=True, config=CLOSED, kw_only=True)
 class FromTable:
     """A part of a scene that may be read from a table, with the fields of `TableFormat` as arguments."""
 
-    columns: InitVar[Headings | None] = None
+    columns: InitVar[Mapping[str, str | int] | None] = None
     units: InitVar[Mapping[str, str] | None] = None
-    where: InitVar[Values | None] = None
-    separator: InitVar[Separator | None] = None
-    decimal: InitVar[Decimal | None] = None
+    where: InitVar[Mapping[str, str | int | float] | None] = None
+    separator: InitVar[str | None] = None
+    decimal: InitVar[str | None] = None
     encoding: InitVar[str | None] = None
-    skip: InitVar[Lines | None] = None
-    rows: InitVar[Lines | None] = None
+    skip: InitVar[int | None] = None
+    rows: InitVar[int | None] = None
 
 
 def split_format(given: Mapping[str, Any]) -> tuple[TableFormat, dict[str, Any]]:
@@ -145,6 +141,36 @@ def split_format(given: Mapping[str, Any]) -> tuple[TableFormat, dict[str, Any]]
     names = TableFormat.__dataclass_fields__
     rest = {name: value for name, value in given.items() if name not in names}
     return TableFormat(**{name: value for name, value in given.items() if name in names}), rest
+
+
+def filled(given: Mapping[str, Any], known: "Sequence[Column]") -> dict[str, Any]:
+    """What is stated for a part of a scene, with fields out of the columns of `table`, where that is stated.
+
+    Raises ValueError for what is stated of no table, and ValidationError, at table, for one that is refused.
+    """
+    written, rest = split_format(given)
+    if (table := rest.pop("table", None)) is None:
+        if written != TableFormat():
+            raise ValueError("table is missing, of which columns, units or lines are stated")
+        return rest
+    try:
+        columns = read_columns(table, known, written)
+        if both := columns.values.keys() & rest.keys():
+            raise ValueError(f"{columns.name}: {min(both)} is stated beside it, and a column of it: leave one out")
+    except ValueError as error:
+        raise refused(table, error) from error
+    return rest | columns.values
+
+
+def refused(table: Any, reason: ValueError) -> ValidationError:
+    """A mistake of the field `table`."""
+    line: Any = {
+        "type": "value_error",
+        "loc": ("table",),
+        "input": table,
+        "ctx": {"error": ValueError(str(reason))},
+    }
+    return ValidationError.from_exception_data("table", [line])
 
 
 @dataclass(eq=False)
@@ -426,9 +452,9 @@ def _select(held, places, known, stated):
             key, value = _toml(heading), _toml(str(values[0]), quoted=True)
             first, second = map(repr, values[:2])
             raise ValueError(
-                f"{held.name}: column {heading!r} has several values, {first} and {second}, and is not used: state "
-                f'where = {{{key} = {value}}} for rows of one, where = {{{key} = "*"}} for all, or its quantity in '
-                "columns"
+                f"{held.name}: column {heading!r} has several values, {first} and {second}, and is not used: "
+                f'state where = {{{key} = {value}}} for rows of one, where = {{{key} = "*"}} for all, or its '
+                "quantity in columns"
             )
 
 
