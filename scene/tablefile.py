@@ -20,9 +20,9 @@ Use
 Refusals
     What differs from this form raises ValueError with file, line, what stands there and the option of
     `TableFormat` that states it. `TableFormat(...)` itself raises pydantic's ValidationError, a ValueError.
-    - Either every column that is used has its unit, in the heading or in `units`, or none has, and all are in SI.
-      The latter only if the heading is the first line of the file: other lines above it may hold units. A column
-      with `unit_needed` never has a default, and of a column with several `units` the choice is left open.
+    - Either every known column has its unit, in the heading or in `units`, or none has, and all are in SI. The
+      latter only if the heading is the first line of the file: other lines above it may hold units. Columns with
+      `unit_needed` have no default and count for neither, and of several `units` the choice is left open.
     - A column that is not used must not tell samples, steps or temperatures apart: of text, or of numbers that
       repeat, it must have one value, or be in `where`. Names of `REDUNDANT` and of known columns are exempt.
     - Two columns of one field, unless `columns` states which one is used.
@@ -238,7 +238,7 @@ def read_columns(
     stated = stated or TableFormat()
     held = _of_file(Path(table), stated, most_bytes) if isinstance(table, str | Path) else _of_python(table)
     places = _places(held, known, stated)
-    pure = {each.field for each in known if not each.units}
+    pure = {each.field for each in known if not each.units or each.unit_needed}
     held.si &= not any(
         held.units[k] or name in (stated.units or {}) for name, k in places.items() if name not in pure
     )
