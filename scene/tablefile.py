@@ -337,7 +337,7 @@ def _rows(name, lines, places, separator, width):
         raise ValueError(f"{where}: {brief(repr(text))} has a quotation mark that opens, and none that closes it")
     count = len(text.split() if separator == " " else _split(text, separator))
     raise ValueError(
-        f"{where}: {brief(repr(text))} has {count} cells, and line {start + 1}, "
+        f"{where}: {brief(repr(text))} has {count} cell{'s' * (count != 1)}, and line {start + 1}, "
         f"{brief(repr(lines[start]))}, has {width}: state skip for lines above the heading, rows for those below "
         f"the table, or separator{second}"
     )
