@@ -20,9 +20,9 @@ Use
 Refusals
     What differs from this form raises ValueError with file, line, what stands there and the option of
     `TableFormat` that states it. `TableFormat(...)` itself raises pydantic's ValidationError, a ValueError.
-    - Either every known column has its unit, in the heading or in `units`, or none has, and all are in SI. The
-      latter only if the heading is the first line of the file: other lines above it may hold units. Columns with
-      `unit_needed` have no default and count for neither, and of several `units` the choice is left open.
+    - A column without a unit is in SI only if the heading is the first line of the file, as other lines above it
+      may hold units, and if no other column has a unit that is not of SI. Columns with `unit_needed` have no
+      default, and of several `units` the choice is left open.
     - A column that is not used must not tell samples, steps or temperatures apart: of text, or of numbers that
       repeat, it must have one value, or be in `where`. Names of `REDUNDANT` and of known columns are exempt.
     - Two columns of one field, unless `columns` states which one is used.
@@ -238,9 +238,12 @@ def read_columns(
     stated = stated or TableFormat()
     held = _of_file(Path(table), stated, most_bytes) if isinstance(table, str | Path) else _of_python(table)
     places = _places(held, known, stated)
-    pure = {each.field for each in known if not each.units or each.unit_needed}
-    held.si &= not any(
-        held.units[k] or name in (stated.units or {}) for name, k in places.items() if name not in pure
+    units = stated.units or {}
+    written = {
+        each: units.get(each.field) or held.units[places[each.field]] for each in known if each.field in places
+    }
+    held.si &= all(
+        each.unit_needed or unit in (*_PURE, *(one.symbol for one in each.units)) for each, unit in written.items()
     )
     named = _select(held, places, known, stated)
     others = [heading for k, heading in enumerate(held.headings) if k not in named]
