@@ -73,31 +73,27 @@ class Heights:
         Raises ValueError where one of them is stated twice and differs, and where it is stated nowhere.
         """
         step, what = ("spacing", "spacing") if np.ndim(self.numbers) == 1 else ("pixel", "side of a pixel")
-        lacking = [("unit", "unit of its heights", "um")] * (self.unit is None and unit is None)
-        lacking += [(step, what, "1 um")] * (self.spacings is None and spacing is None)
+        lacking = {"the unit of its heights": 'unit = "um"'} if self.unit is None and unit is None else {}
+        lacking |= {f"the {what}": f'{step} = "1 um"'} if self.spacings is None and spacing is None else {}
         if lacking:
-            whats, options = (
-                " nor the ".join(each for _, each, _ in lacking),
-                [f'{n} = "{e}"' for n, _, e in lacking],
-            )
-            raise ValueError(f"{self.name} does not state the {whats}: state {' and '.join(options)}")
-        if self.unit is not None and unit is not None and not _same(self.unit, unit):
-            raise ValueError(f"unit = {unit!r}: {self.name} states its own, {brief(self.unit)}: leave unit out")
-        self._check(step, spacing)
-        own = str(unit if self.unit is None else self.unit)
-        try:
-            # First the numbers in full: those of half precision end where nanometres begin.
-            with np.errstate(over="ignore"):
-                heights = in_unit(np.asarray(self.numbers, float), own, "m")
-        except ValueError as error:
             raise ValueError(
-                f"{self.name}, unit of heights = {own!r}: a unit of length is needed, {error}"
-            ) from None
-        found = self.spacings if spacing is None else spacing
-        return heights, found[0] if step == "spacing" and spacing is None else found, self.notes
+                f"{self.name} does not state {' nor '.join(lacking)}: state {' and '.join(lacking.values())}"
+            )
+        own = str(unit if self.unit is None else self.unit)
+        if unit is not None and not _same(own, unit):
+            raise ValueError(f"unit = {unit!r}: {self.name} states its own, {brief(own)}: leave unit out")
+        # First the numbers in full: those of half precision end where nanometres begin.
+        try:
+            heights = in_unit(np.asarray(self.numbers, float), own, "m")
+        except ValueError as error:
+            raise ValueError(f"{self.name}: heights in {own!r}, and a unit of length is needed; {error}") from None
+        if spacing is not None:
+            self._check(step, spacing)
+            return heights, spacing, self.notes
+        return heights, self.spacings if step == "pixel" else self.spacings[0], self.notes  # type: ignore[index]
 
     def _check(self, step, spacing):
-        """Raise ValueError for a spacing that differs from that of the file; one that is none is left to its field."""
+        """Raise ValueError for a spacing other than that of the file; one that is none is left to its field."""
         try:
             given = sides(spacing)
         except ValueError:
@@ -148,10 +144,9 @@ def read_heights(
             f"channel = {brief(repr(channel))}: {name} is a text, of which skip and rows choose a part"
         )
     stated = table_format(options, unit)
-    found = _of_numbers(name, path, dims, stated)
-    return (
-        found.settled(spacing, stated.units.get("z")) if found else _of_table(path, dims, stated).settled(spacing)
-    )
+    if rows := _of_rows(name, path, dims, stated):
+        return rows.settled(spacing, (stated.units or {}).get("z"))
+    return _of_table(path, dims, stated).settled(spacing)
 
 
 def given_heights(
@@ -259,7 +254,7 @@ def _of_labelled(name, heights, dims):
 def _of_table(table, dims, stated):
     columns = read_columns(table, COLUMNS[dims], stated, MOST_TEXT)
     if dims == MAP:
-        heights, spacings = mapped(*(columns[name] for name in "xyz"), columns.place)
+        heights, spacings = mapped(columns["x"], columns["y"], columns["z"], columns.place)
         return Heights(columns.name, heights, "m", spacings)
     if "x" not in columns:
         return Heights(columns.name, columns["z"], "m")
@@ -272,20 +267,18 @@ def _of_rows(name, path, dims, stated):
     found = None if stated.columns else read_rows(path, stated, MOST_TEXT)
     if found is None:
         return None
-    numbers, lines = found
+    (numbers, lines), skipped = found, stated.skip or 0
     width = numbers.shape[1]
-    if dims == MAP and lines[0] > stated.skip + 1:
+    if dims == MAP and lines[0] > skipped + 1:
         raise ValueError(
-            f"{name}, line {stated.skip + 1}, is no row of heights: state skip = {lines[0] - 1} for the lines above "
-            'them, and what these may say, as unit = "um" and pixel = "1 um"'
+            f"{name}, line {skipped + 1}, is no row of heights: state skip = {lines[0] - 1} for the lines above "
+            'these, and what they may say, as unit = "um" and pixel = "1 um"'
         )
     if width < LEAST if dims == MAP else width > 1:
-        wanted, points = (
-            (f"a map has at least {LEAST}", "xyz") if dims == MAP else ("a line of heights is one", "xz")
-        )
+        wanted, points = (f"a map has {LEAST} or more", "xyz") if dims == MAP else ("a line has one", "xz")
         raise ValueError(
-            f"{name}, line {lines[0]}: {width} column{'s' * (width > 1)} of numbers, and {wanted}; of points state "
-            f"columns = {{{', '.join(f'{each} = {k}' for k, each in enumerate(points, 1))}}} and units"
+            f"{name}, line {lines[0]}: {width} columns of numbers, and {wanted}; of points state columns = "
+            f"{{{', '.join(f'{each} = {k}' for k, each in enumerate(points, 1))}}} and units"
         )
     return Heights(name, numbers if dims == MAP else numbers[:, 0])
 
@@ -345,8 +338,8 @@ def _check_count(shape):
     """Raise ValueError for more pixels than are read."""
     if prod(shape) > MOST_PIXELS:
         raise ValueError(
-            f"{brief(' x '.join(map(str, reversed(shape))))} pixels: at most {MOST_PIXELS} are read; take a part of "
-            "them, or means"
+            f"{brief(' x '.join(map(str, reversed(shape))))} pixels: at most {MOST_PIXELS} are read; take a part "
+            "of them"
         )
 
 

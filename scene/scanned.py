@@ -131,7 +131,8 @@ def prepared(given: Any, kind: type[HeightMap], spacing: str, names: set[str]) -
     stated = by_name(given)
     if stated is None or not ("file" in stated or "heights" in stated):
         return given
-    path, heights = stated.get("file"), stated.get("heights")  # type: ignore[var-annotated]
+    path: Any = stated.get("file")
+    heights: Any = stated.get("heights")
     if path is not None and heights is not None:
         raise ValueError(f"file = {brief(repr(path))} beside heights: give one of them")
     asked = {name: stated[name] for name in ASKED[kind] if stated.get(name) is not None}
