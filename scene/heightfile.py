@@ -27,7 +27,7 @@ from pydantic import ValidationError
 
 from .files import checked
 from .heightmap import LEAST, HeightLine, HeightMap, sides, unmasked
-from .lattice import along, mapped, ordered
+from .lattice import along, mapped, ordered, refuse_places
 from .plain import bare, in_unit
 from .printable import brief
 from .quantities import METRE
@@ -79,14 +79,14 @@ class Heights:
             raise ValueError(
                 f"{self.name} does not state {' nor '.join(lacking)}: state {' and '.join(lacking.values())}"
             )
-        own = str(unit if self.unit is None else self.unit)
-        if unit is not None and not _same(own, unit):
-            raise ValueError(f"unit = {unit!r}: {self.name} states its own, {brief(own)}: leave unit out")
+        metre = None if unit is None else _metres("unit", unit)
+        own = None if self.unit is None else _metres(f"{self.name}: unit of heights", self.unit)
+        if metre and own and abs(metre - own) > 1e-9 * own:
+            raise ValueError(f"unit = {unit!r}: {self.name} states its own, {self.unit}: leave unit out")
         # First the numbers in full: those of half precision end where nanometres begin.
-        try:
-            heights = in_unit(np.asarray(self.numbers, float), own, "m")
-        except ValueError as error:
-            raise ValueError(f"{self.name}: heights in {own!r}, and a unit of length is needed; {error}") from None
+        heights = np.asarray(self.numbers, float)
+        with np.errstate(over="ignore"):  # beyond the range of numbers is not finite, and refused
+            heights = heights * metre if self.unit is None else in_unit(heights, self.unit, "m")
         if spacing is not None:
             self._check(step, spacing)
             return heights, spacing, self.notes
@@ -133,17 +133,19 @@ def read_heights(
             "an instrument"
         )
     checked(path, MOST_BYTES)
+    stated, found = table_format(options, unit), None
     if kind in ARRAYS:
-        return _of_arrays(name, path, dims, channel).settled(spacing, unit)
-    if kind in NETCDF:
-        return _of_netcdf(name, path, dims, channel, options.get("units", {})).settled(spacing, unit)
-    if kind not in TEXTS and dims == MAP and (found := _of_instrument(name, path, channel)):
+        found = _of_arrays(name, path, dims, channel)
+    elif kind in NETCDF:
+        found = _of_netcdf(name, path, dims, channel, stated.units or {})
+    elif kind not in TEXTS and dims == MAP:
+        found = _of_instrument(name, path, channel)
+    if found is not None:
+        if foreign := [each for each in options if kind not in NETCDF or each != "units"]:
+            raise ValueError(f"{foreign[0]} = {brief(repr(options[foreign[0]]))}: {name} is no text, leave it out")
         return found.settled(spacing, unit)
     if channel is not None:
-        raise ValueError(
-            f"channel = {brief(repr(channel))}: {name} is a text, of which skip and rows choose a part"
-        )
-    stated = table_format(options, unit)
+        raise ValueError(f"channel = {brief(repr(channel))}: {name} is a text; skip and rows choose a part of it")
     if rows := _of_rows(name, path, dims, stated):
         return rows.settled(spacing, (stated.units or {}).get("z"))
     return _of_table(path, dims, stated).settled(spacing)
@@ -178,8 +180,10 @@ def given_heights(
 
 def table_format(options: Mapping[str, Any], unit: str | None) -> TableFormat:
     """What is stated of a text or a table; unit : of heights. Raises ValueError, with the option and its value."""
+    units = options.get("units", {})
+    units = {"z": unit} | dict(units) if unit is not None and isinstance(units, Mapping) else units
     try:
-        return TableFormat(**{**options, "units": ({"z": unit} if unit else {}) | dict(options.get("units", {}))})
+        return TableFormat(**{**options, "units": units})
     except ValidationError as error:
         first = error.errors()[0]
         name = ".".join(map(str, first["loc"]))
@@ -280,6 +284,8 @@ def _of_rows(name, path, dims, stated):
             f"{name}, line {lines[0]}: {width} columns of numbers, and {wanted}; of points state columns = "
             f"{{{', '.join(f'{each} = {k}' for k, each in enumerate(points, 1))}}} and units"
         )
+    if dims == MAP:
+        refuse_places(f"{name}, line {lines[0]}", numbers)
     return Heights(name, numbers if dims == MAP else numbers[:, 0])
 
 
@@ -343,12 +349,12 @@ def _check_count(shape):
         )
 
 
-def _same(one, other):
-    """Whether two units are the same length. Raises ValueError for one that is no length."""
+def _metres(name, unit):
+    """A unit of length [m]. Raises ValueError."""
     try:
-        return abs(float(METRE.scale(one)[0]) / float(METRE.scale(other)[0]) - 1) < 1e-9
-    except ValueError as error:
-        raise ValueError(f"unit = {other!r}: {error}") from None
+        return float(METRE.scale(unit)[0])
+    except (ValueError, AttributeError, TypeError) as error:
+        raise ValueError(f'{name} = {brief(repr(unit))}: a unit of length is needed, as "um"; {error}') from None
 
 
 @contextmanager

@@ -12,6 +12,8 @@ OFF = 0.05  # of a spacing: how far a point may lie off its place
 _NOISE = 1e-7  # of the range of all places: closer ones are one
 _LEAST_FULL = 0.5  # of the places of a map; fewer points are scattered ones
 
+FEW = 6  # numbers: so many that are evenly spaced are no axis by that alone; columns that points may have
+
 Place = Callable[[int], str]
 """Where a point stands, for messages."""
 
@@ -77,6 +79,33 @@ def along(heights: Any, dims: tuple[str, ...]) -> tuple[Any, dict[str, float]]:
         order, spacings[name] = ordered(name, places, "coordinate {}".format)
         heights = heights.isel({name: order})
     return heights, spacings
+
+
+def refuse_places(where: str, numbers: np.ndarray) -> None:
+    """Raise ValueError where numbers of a map are places: its first row or column, or two columns of points."""
+    for called, rows in (("row", numbers), ("column", numbers.T)):
+        # Their common cell may hold anything; a few places are an axis only if it holds nothing.
+        (corner, *_), many = rows[0], rows.shape[1] > FEW
+        first, second = (np.diff(row[1:]) for row in rows[:2])
+        if (many or np.isnan(corner)) and _even(first) and np.isfinite(second).all() and not _even(second):
+            raise ValueError(
+                f"{where}: the first {called}, {brief(str(rows[0, :4].tolist()))} and so on, is evenly spaced as "
+                "places are, and the next is not: leave axes out, state skip"
+            )
+    for k in range(2 if numbers.shape[1] <= FEW < len(numbers) else 0):
+        try:
+            shape = mapped(numbers[:, k], numbers[:, k + 1], numbers[:, k], str)[0].shape
+        except ValueError:
+            continue
+        if min(shape) > 3:
+            raise ValueError(
+                f"{where}: columns {k + 1} and {k + 2} are places on a lattice: of points state columns = {{x = "
+                f"{k + 1}, y = {k + 2}, z = {k + 3}}} and units"
+            )
+
+
+def _even(steps):
+    return bool(steps[0] and np.abs(steps - steps.mean()).max() <= _NOISE * abs(steps.mean()) * len(steps))
 
 
 def _placed(name: str, values: np.ndarray, place: Place) -> tuple[np.ndarray, float]:
