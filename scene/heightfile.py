@@ -23,7 +23,6 @@ from reprlib import repr as briefly
 from typing import Any
 
 import numpy as np
-from pydantic import ValidationError
 
 from .files import checked
 from .heightmap import LEAST, HeightLine, HeightMap, sides, unmasked
@@ -114,41 +113,40 @@ def read_heights(
     spacing: Any = None,
     unit: str | None = None,
     channel: str | None = None,
-    options: Mapping[str, Any] | None = None,
+    written: TableFormat | None = None,
 ) -> Settled:
     """Heights [m] out of a file, their pixel or spacing, and notes.
 
     dims : MAP or LINE
     spacing, unit : as stated, where the file has none; channel : which of several arrays or maps is read
-    options : of `TableFormat`, of a text
+    written : what is stated of a text or a table
 
     Raises ValueError naming the file, with what is allowed.
     """
     if not isinstance(path, str | Path):
         raise ValueError(f"file = {briefly(path)}: a path is needed")
-    kind, name, options = Path(path).suffix.lower(), brief(str(path)), options or {}
+    kind, name, written, found = Path(path).suffix.lower(), brief(str(path)), written or TableFormat(), None
     if foreign := [what for what, endings in FOREIGN.items() if kind in endings.split()]:
         raise ValueError(
             f"{name} is {foreign[0]} ({kind}): export the heights as numbers, to .txt, .npy, .nc or the format of "
             "an instrument"
         )
-    checked(path, MOST_BYTES)
-    stated, found = table_format(options, unit), None
+    place = checked(path, MOST_BYTES)
     if kind in ARRAYS:
-        found = _of_arrays(name, path, dims, channel)
+        found = _of_arrays(name, place, dims, channel)
     elif kind in NETCDF:
-        found = _of_netcdf(name, path, dims, channel, stated.units or {})
+        found = _of_netcdf(name, place, dims, channel, written.units or {})
     elif kind not in TEXTS and dims == MAP:
-        found = _of_instrument(name, path, channel)
+        found = _of_instrument(name, place, channel)
     if found is not None:
-        if foreign := [each for each in options if kind not in NETCDF or each != "units"]:
-            raise ValueError(f"{foreign[0]} = {brief(repr(options[foreign[0]]))}: {name} is no text, leave it out")
+        if (replace(written, units=None) if kind in NETCDF else written) != TableFormat():
+            raise ValueError(f"{name} is no text, of which columns, units, separators or lines could be stated")
         return found.settled(spacing, unit)
     if channel is not None:
         raise ValueError(f"channel = {brief(repr(channel))}: {name} is a text; skip and rows choose a part of it")
-    if rows := _of_rows(name, path, dims, stated):
-        return rows.settled(spacing, (stated.units or {}).get("z"))
-    return _of_table(path, dims, stated).settled(spacing)
+    if rows := _of_rows(name, path, dims, written):
+        return rows.settled(spacing, unit or (written.units or {}).get("z"))
+    return _of_table(path, dims, unit, written).settled(spacing)
 
 
 def given_heights(
@@ -157,7 +155,7 @@ def given_heights(
     spacing: Any = None,
     unit: str | None = None,
     channel: str | None = None,
-    options: Mapping[str, Any] | None = None,
+    written: TableFormat | None = None,
 ) -> Settled:
     """The same out of an array, a table or an object of xarray; arrays without a unit are in metres."""
     if hasattr(heights, "data_vars") and dims == MAP:
@@ -167,27 +165,15 @@ def given_heights(
     if channel is not None:
         raise ValueError(f"channel = {brief(repr(channel))}: one array has no channels, leave channel out")
     if isinstance(heights, Mapping) or hasattr(heights, "columns") or hasattr(heights, "data_vars"):
-        return _of_table(heights, dims, table_format(options or {}, unit)).settled(spacing)
-    if options:
-        raise ValueError(f"{next(iter(options))} is stated of a text or a table, and heights are an array")
+        return _of_table(heights, dims, unit, written or TableFormat()).settled(spacing)
+    if written not in (None, TableFormat()):
+        raise ValueError("heights are an array, and no table of which columns or units could be stated")
     if hasattr(heights, "dims") and hasattr(heights, "isel"):
         found = _of_labelled("the array", heights, dims)
     else:
         heights = unmasked(heights)
         found = Heights("the array", METRE.values(heights), None if bare(heights)[1] is None else "m")
     return found.settled(spacing, unit or (None if found.unit else "m"))
-
-
-def table_format(options: Mapping[str, Any], unit: str | None) -> TableFormat:
-    """What is stated of a text or a table; unit : of heights. Raises ValueError, with the option and its value."""
-    units = options.get("units", {})
-    units = {"z": unit} | dict(units) if unit is not None and isinstance(units, Mapping) else units
-    try:
-        return TableFormat(**{**options, "units": units})
-    except ValidationError as error:
-        first = error.errors()[0]
-        name = ".".join(map(str, first["loc"]))
-        raise ValueError(f"{name} = {brief(repr(first['input']))}: {first['msg']}") from None
 
 
 def picked(name: str, channels: Iterable[str], channel: str | None) -> str:
@@ -255,15 +241,18 @@ def _of_labelled(name, heights, dims):
     return Heights(name, numbers, unit, own)
 
 
-def _of_table(table, dims, stated):
-    columns = read_columns(table, COLUMNS[dims], stated, MOST_TEXT)
+def _of_table(table, dims, unit, written):
+    if unit is not None:
+        _metres("unit", unit)
+        written = replace(written, units={"z": unit} | dict(written.units or {}))
+    columns = read_columns(table, COLUMNS[dims], written, MOST_TEXT)
     if dims == MAP:
         heights, spacings = mapped(columns["x"], columns["y"], columns["z"], columns.place)
-        return Heights(columns.name, heights, "m", spacings)
+        return Heights(columns.name, heights, "m", spacings, columns.notes)
     if "x" not in columns:
-        return Heights(columns.name, columns["z"], "m")
+        return Heights(columns.name, columns["z"], "m", None, columns.notes)
     order, step = ordered("x", columns["x"], columns.place)
-    return Heights(columns.name, columns["z"][order], "m", (step,))
+    return Heights(columns.name, columns["z"][order], "m", (step,), columns.notes)
 
 
 def _of_rows(name, path, dims, stated):

@@ -17,10 +17,11 @@ from .periodogram import taken_off
 from .quantities import CLOSED, METRE, RADIAN_PER_METRE, Length, Seed, by_name, takes
 from .scanned import QUOTIENT, prepared, schema_with_file
 from .selfaffine import SelfAffine
+from .tablefile import FromTable
 
 
 @dataclass(frozen=True, config=ConfigDict(**CLOSED, json_schema_extra=schema_with_file("spacing")), kw_only=True)
-class Profile:
+class Profile(FromTable):
     """Roughness of an isotropic surface that was measured along a line, as by a stylus.
 
     heights : along the line [m], evenly spaced; a table with a column of heights and maybe one of places

@@ -5,38 +5,30 @@ from dataclasses import fields
 from typing import Any, Literal
 
 import numpy as np
-from pydantic import ConfigDict, TypeAdapter, model_validator
+from pydantic import ConfigDict, model_validator
 from pydantic.dataclasses import dataclass
 
 from .heightmap import LEAST, HeightLine, HeightMap, MapHeights, Pixel, sides
 from .missing import LEAST_DEVIATIONS, mended
 from .printable import brief
 from .quantities import BARE, CLOSED, METRE, Length, argument, by_name
+from .tablefile import FromTable, TableFormat, split_format
 
 QUOTIENT = 1e-12  # rounding of a quotient of lengths
 FILL = ("refuse", "fill")
-# Of a text or a table of heights, see `tablefile.TableFormat`.
-TEXT_OPTIONS = ("columns", "units", "where", "separator", "decimal", "encoding", "skip", "rows")
 # What is asked of heights before they are a map or a line; no fields: what comes of it is in the heights.
-_READING = ("file", "unit", "channel", *TEXT_OPTIONS)
-ASKED = {HeightMap: (*_READING, "crop", "missing", "outliers"), HeightLine: (*_READING, "missing")}
+_READING = ("file", "unit", "channel", "missing")
+ASKED = {HeightMap: (*_READING, "crop", "outliers"), HeightLine: _READING}
 
 
-def schema_with_file(*spacing: str, **more: Any) -> Any:
+def schema_with_file(spacing: str, **more: Any) -> Any:
     """Addition to JSON schema: a file in place of heights with their spacing, and what is asked of either."""
 
     def added(schema: dict[str, Any]) -> None:
-        # Only a schema needs it.
-        from .tablefile import TableFormat
-
-        schema["properties"] |= {
-            **{name: {"type": "string"} for name in ("file", "unit", "channel")},
-            **TypeAdapter(TableFormat).json_schema()["properties"],
-            "missing": {"enum": list(FILL), "default": FILL[0]},
-            **more,
-        }
+        schema["properties"] |= {name: {"type": "string"} for name in ("file", "unit", "channel")}
+        schema["properties"] |= {"missing": {"enum": list(FILL), "default": FILL[0]}, **more}
         del schema["required"]
-        schema["anyOf"] = [{"required": ["file"]}, {"required": ["heights", *spacing]}]
+        schema["anyOf"] = [{"required": ["file"]}, {"required": ["heights", spacing]}]
 
     return added
 
@@ -47,7 +39,7 @@ MAPPED = ConfigDict(**CLOSED, json_schema_extra=schema_with_file("pixel", crop=_
 
 
 @dataclass(frozen=True, config=MAPPED, kw_only=True)
-class Scanned:
+class Scanned(FromTable):
     """Measured map of heights.
 
     heights : rows along y of heights along x [m], both ascending; of xarray, with the dimensions y and x; or
@@ -131,6 +123,7 @@ def prepared(given: Any, kind: type[HeightMap], spacing: str, names: set[str]) -
     stated = by_name(given)
     if stated is None or not ("file" in stated or "heights" in stated):
         return given
+    written, stated = split_format(stated)
     path: Any = stated.get("file")
     heights: Any = stated.get("heights")
     if path is not None and heights is not None:
@@ -141,21 +134,22 @@ def prepared(given: Any, kind: type[HeightMap], spacing: str, names: set[str]) -
         # First what is misspelt: another map may be meant.
         return {spacing: 1.0} | left | {"heights": kind(np.eye(LEAST) if kind is HeightMap else np.zeros(1))}
     tables = isinstance(heights, Mapping) or hasattr(heights, "columns") or hasattr(heights, "dims")
-    if isinstance(heights, str) or (path is None and not asked and not tables):
+    if isinstance(heights, str) or (path is None and not (asked or tables or written != TableFormat())):
         return left
     said = "" if path is None else f"file = {brief(repr(str(path)))}: "
     notes: tuple[str, ...] = ()
     if isinstance(heights, HeightMap):
+        if {"unit", "channel"} & asked.keys() or written != TableFormat():
+            raise ValueError("heights are in metres: unit, channel and what is stated of a text are for a file")
         heights, notes = heights.heights, heights.notes
     else:
         # Only what is not yet read needs it.
         from . import heightfile
 
         read, source = (heightfile.given_heights, heights) if path is None else (heightfile.read_heights, path)
-        options = {name: asked[name] for name in TEXT_OPTIONS if name in asked}
         dims = heightfile.MAP if kind is HeightMap else heightfile.LINE
         heights, left[spacing], notes = read(
-            source, dims, left.get(spacing), asked.get("unit"), asked.get("channel"), options
+            source, dims, left.get(spacing), asked.get("unit"), asked.get("channel"), written
         )
     try:
         kind.check_layout(heights.shape, heights.dtype)

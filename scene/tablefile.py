@@ -31,7 +31,7 @@ Refusals
 import csv
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import InitVar, dataclass
 from io import StringIO
 from json import dumps
 from pathlib import Path
@@ -40,7 +40,7 @@ from unicodedata import normalize
 
 import numpy as np
 import pandas as pd
-from pydantic import Field
+from pydantic import Field, ValidationError
 from pydantic.dataclasses import dataclass as checked
 
 from . import files
@@ -79,7 +79,7 @@ _PER_SECOND = "1/s", "s^-1", "s-1", "s⁻¹"
 class Column:
     """A column that a reader knows.
 
-    field : name of the quantity
+    field : name of the quantity, a name of the column too
     names : in headings; case, blanks and underscores aside, but a name of a single letter has its case
     units : of SI, one for each dimension that it may have; none of pure numbers
     needed : whether it must be there
@@ -93,6 +93,9 @@ class Column:
     needed: bool = False
     unit_needed: bool = False
     gaps: bool = False
+
+
+_Lines = Annotated[int, Field(strict=True, ge=0)]
 
 
 @checked(frozen=True, config=CLOSED, kw_only=True)
@@ -109,14 +112,65 @@ class TableFormat:
     rows : number of rows below it that are read
     """
 
-    columns: Mapping[str, str | Annotated[int, Field(strict=True, ge=1)]] = field(default_factory=dict)
-    units: Mapping[str, str] = field(default_factory=dict)
-    where: Mapping[str, str | int | float] = field(default_factory=dict)
+    columns: Mapping[str, str | Annotated[int, Field(strict=True, ge=1)]] | None = None
+    units: Mapping[str, str] | None = None
+    where: Mapping[str, str | int | float] | None = None
     separator: Annotated[str, Field(pattern="^(tab|semicolon|comma|blanks|[\t;, ])$")] | None = None
     decimal: Annotated[str, Field(pattern="^[.,]$")] | None = None
     encoding: str | None = None
-    skip: Annotated[int, Field(strict=True, ge=0)] = 0
-    rows: Annotated[int, Field(strict=True, ge=1)] | None = None
+    skip: _Lines | None = None
+    rows: _Lines | None = None
+
+
+@checked(frozen=True, config=CLOSED, kw_only=True)
+class FromTable:
+    """A part of a scene that may be read from a table, with the fields of `TableFormat` as arguments."""
+
+    columns: InitVar[Mapping[str, str | int] | None] = None
+    units: InitVar[Mapping[str, str] | None] = None
+    where: InitVar[Mapping[str, str | int | float] | None] = None
+    separator: InitVar[str | None] = None
+    decimal: InitVar[str | None] = None
+    encoding: InitVar[str | None] = None
+    skip: InitVar[int | None] = None
+    rows: InitVar[int | None] = None
+
+
+def split_format(given: Mapping[str, Any]) -> tuple[TableFormat, dict[str, Any]]:
+    """What is stated of the table among what is stated for a part of a scene, and the rest."""
+    names = TableFormat.__dataclass_fields__
+    rest = {name: value for name, value in given.items() if name not in names}
+    return TableFormat(**{name: value for name, value in given.items() if name in names}), rest
+
+
+def filled(given: Mapping[str, Any], known: "Sequence[Column]") -> dict[str, Any]:
+    """What is stated for a part of a scene, with fields out of the columns of `table`, where that is stated.
+
+    Raises ValueError for what is stated of no table, and ValidationError, at table, for one that is refused.
+    """
+    written, rest = split_format(given)
+    if (table := rest.pop("table", None)) is None:
+        if written != TableFormat():
+            raise ValueError("table is missing, of which columns, units or lines are stated")
+        return rest
+    try:
+        columns = read_columns(table, known, written)
+        if both := columns.values.keys() & rest.keys():
+            raise ValueError(f"{columns.name}: {min(both)} is stated beside it, and a column of it: leave one out")
+    except ValueError as error:
+        raise refused(table, error) from error
+    return rest | columns.values
+
+
+def refused(table: Any, reason: ValueError) -> ValidationError:
+    """A mistake of the field `table`."""
+    line: Any = {
+        "type": "value_error",
+        "loc": ("table",),
+        "input": table,
+        "ctx": {"error": ValueError(str(reason))},
+    }
+    return ValidationError.from_exception_data("table", [line])
 
 
 @dataclass(eq=False)
@@ -128,6 +182,7 @@ class Columns:
     units : of SI by field; None where the table states none
     headings : names in the table by field
     lines : (rows,) line of each row in the file; empty of a table in Python
+    notes : names of the other columns, a line each
     """
 
     name: str
@@ -135,6 +190,7 @@ class Columns:
     units: dict[str, Unit | None]
     headings: dict[str, str]
     lines: Sequence[int]
+    notes: tuple[str, ...] = ()
 
     def __contains__(self, name: str) -> bool:
         return name in self.values
@@ -183,9 +239,13 @@ def read_columns(
     held = _of_file(Path(table), stated, most_bytes) if isinstance(table, str | Path) else _of_python(table)
     places = _places(held, known, stated)
     pure = {each.field for each in known if not each.units}
-    held.si &= not any(held.units[k] or name in stated.units for name, k in places.items() if name not in pure)
+    held.si &= not any(
+        held.units[k] or name in (stated.units or {}) for name, k in places.items() if name not in pure
+    )
     _select(held, places, known, stated)
-    found = Columns(held.name, {}, {}, {}, held.lines)
+    others = [heading for k, heading in enumerate(held.headings) if k not in places.values()]
+    notes = tuple(f"{held.name}: column {brief(repr(each))} is not used" for each in others)
+    found = Columns(held.name, {}, {}, {}, held.lines, notes)
     for each in known:
         if each.field in places:
             place = places[each.field]
@@ -212,7 +272,7 @@ def _of_file(path, stated, most_bytes, headless=False):
     name, lines = brief(str(path)), _text(path, stated, most_bytes).split("\n")
     while lines and not lines[-1].strip(" \t;,"):  # spreadsheets write separators below a table
         lines.pop()
-    start = stated.skip
+    start = stated.skip or 0
     while start < len(lines) and (not lines[start].strip() or lines[start].lstrip().startswith("#")):
         start += 1
     if start >= len(lines):
@@ -228,7 +288,7 @@ def _of_file(path, stated, most_bytes, headless=False):
         if not numbered:
             return None
     else:
-        numbered = any(isinstance(each, int) for each in stated.columns.values())
+        numbered = any(isinstance(each, int) for each in (stated.columns or {}).values())
     if numbered:
         headings, body = [str(k + 1) for k in range(len(headings))], start
     elif any(map(_NUMBER.fullmatch, headings)):
@@ -349,21 +409,22 @@ def _key(name):
 
 def _places(held, known, stated):
     """Column by field; units of headings become those of the table."""
-    names = {_key(name): each.field for each in known for name in each.names}
-    if unknown := {*stated.columns, *stated.units} - {each.field for each in known}:
+    names = {_key(name): each.field for each in known for name in (each.field, *each.names)}
+    columns, units = stated.columns or {}, stated.units or {}
+    if unknown := {*columns, *units} - {each.field for each in known}:
         raise ValueError(f"{min(unknown)!r} is none of the columns: {', '.join(each.field for each in known)}")
     whole = list(held.headings)
     for k, heading in enumerate(whole):
         found = None if _key(heading) in names else _WITH_UNIT.fullmatch(heading)
-        if found:
-            unit, below = (found["a"] or found["b"] or "").strip(), held.units[k]
-            if below not in (*_PURE, unit):
-                raise ValueError(f"{held.name}: {heading!r} and {below!r} are two units of one column")
+        unit = (found["a"] or found["b"] or "").strip() if found else ""
+        if found and (held.units[k] in _PURE or _is_unit(unit)):
+            if held.units[k] not in _PURE and not _same(unit, held.units[k]):
+                raise ValueError(f"{held.name}: {heading!r} and {held.units[k]!r} are two units of one column")
             held.headings[k], held.units[k] = found["name"], unit
-    places = {name: _called(held, whole, each) for name, each in stated.columns.items()}
+    places = {name: _called(held, whole, each) for name, each in columns.items()}
     for k, heading in enumerate(held.headings):
         name = names.get(_key(heading))
-        if name is None or name in stated.columns or k in places.values():
+        if name is None or name in columns or k in places.values():
             continue
         if name in places:
             raise ValueError(
@@ -372,7 +433,7 @@ def _places(held, known, stated):
             )
         places[name] = k
     for each in known:
-        if each.field not in places and (each.needed or each.field in stated.units):
+        if each.field not in places and (each.needed or each.field in units):
             raise ValueError(
                 f"{held.name}: there is no column {each.field} ({', '.join(each.names)}), but "
                 f"{brief(', '.join(map(repr, whole)))}: state its heading, as columns = {{{_toml(each.field)} = "
@@ -394,13 +455,13 @@ def _called(held, whole, heading):
 def _select(held, places, known, stated):
     """Keep the rows that are stated. Raises ValueError for a column that tells rows apart, unused."""
     kept, free = np.ones(len(held.cells[0]), bool), set(places.values())
-    for heading, value in stated.where.items():
+    for heading, value in (stated.where or {}).items():
         place = _called(held, held.headings, heading)
         free.add(place)
         if value != "*":
             kept &= [_equal(str(cell), str(value)) for cell in held.cells[place]]
     if not kept.any():
-        raise ValueError(f"{held.name}: no row has {brief(repr(dict(stated.where)))}")
+        raise ValueError(f"{held.name}: no row has {brief(repr(dict(stated.where or {})))}")
     held.cells = [each[kept] for each in held.cells]
     held.lines = [line for line, each in zip(held.lines, kept, strict=True) if each] if held.lines else ()
     exempt = {_key(name) for name in (*REDUNDANT, *(name for each in known for name in each.names))}
@@ -409,9 +470,11 @@ def _select(held, places, known, stated):
         pure = len(values) == len(cells) and all(map(_NUMBER.fullmatch, map(str, values)))
         if k not in free and _key(heading) not in exempt and len(values) > 1 and not pure:
             key, value = _toml(heading), _toml(str(values[0]), quoted=True)
+            first, second = map(repr, values[:2])
             raise ValueError(
-                f"{held.name}: column {heading!r} has several values, {values[0]!r} and {values[1]!r}, and is not "
-                f'used: state where = {{{key} = {value}}} for rows of one, or where = {{{key} = "*"}} for all'
+                f"{held.name}: column {heading!r} has several values, {first} and {second}, and is not used: "
+                f'state where = {{{key} = {value}}} for rows of one, where = {{{key} = "*"}} for all, or its '
+                "quantity in columns"
             )
 
 
@@ -423,7 +486,7 @@ def _equal(cell, value):
 def _in_si(held, place, column, stated):
     """Numbers of a column in SI, and the unit of SI; None where the table states none."""
     numbers, heading = _numbers(held, place, column.gaps), held.headings[place]
-    unit, own = held.units[place], stated.units.get(column.field, "")
+    unit, own = held.units[place], (stated.units or {}).get(column.field, "")
     unit = "" if unit in _PURE or (own and not _is_unit(unit)) else unit
     if unit in _PER_SECOND and RADIAN_PER_SECOND in column.units:
         unit = "" if HERTZ in column.units else "rad/s"  # 1/s of a frequency may be either
