@@ -43,9 +43,9 @@ FOREIGN = {
     "a workbook": ".xlsx .xls .xlsm .ods",
     "a mesh": ".stl .obj .ply .3mf .vtk .vtp .vtu",
 }
-X = Column("x", ("x", "distance", "position", "length"), (METRE,), unit_needed=True)
-Y = Column("y", ("y",), (METRE,), needed=True, unit_needed=True)
-Z = Column("z", ("z", "height", "heights"), (METRE,), needed=True, unit_needed=True, gaps=True)
+X = Column("x", ("x", "X", "distance", "position", "length"), (METRE,), unit_needed=True)
+Y = Column("y", ("y", "Y"), (METRE,), needed=True, unit_needed=True)
+Z = Column("z", ("z", "Z", "height", "heights"), (METRE,), needed=True, unit_needed=True, gaps=True)
 COLUMNS = {MAP: (replace(X, needed=True), Y, Z), LINE: (X, Z)}
 
 
@@ -145,8 +145,8 @@ def read_heights(
     if channel is not None:
         raise ValueError(f"channel = {brief(repr(channel))}: {name} is a text; skip and rows choose a part of it")
     if rows := _of_rows(name, path, dims, written):
-        return rows.settled(spacing, unit or (written.units or {}).get("z"))
-    return _of_table(path, dims, unit, written).settled(spacing)
+        return rows.settled(spacing, unit)
+    return _of_table(path, dims, spacing, unit, written).settled(spacing)
 
 
 def given_heights(
@@ -165,7 +165,7 @@ def given_heights(
     if channel is not None:
         raise ValueError(f"channel = {brief(repr(channel))}: one array has no channels, leave channel out")
     if isinstance(heights, Mapping) or hasattr(heights, "columns") or hasattr(heights, "data_vars"):
-        return _of_table(heights, dims, unit, written or TableFormat()).settled(spacing)
+        return _of_table(heights, dims, spacing, unit, written or TableFormat()).settled(spacing)
     if written not in (None, TableFormat()):
         raise ValueError("heights are an array, and no table of which columns or units could be stated")
     if hasattr(heights, "dims") and hasattr(heights, "isel"):
@@ -194,22 +194,21 @@ def picked(name: str, channels: Iterable[str], channel: str | None) -> str:
 def _of_arrays(name, path, dims, channel):
     """The array of a .npy file, or one of an .npz archive; no object is made of what is pickled."""
     try:
-        # Bytes of a file that are not read before its header is checked.
-        with _silent():
-            held = np.load(path, mmap_mode="r")
-        if isinstance(held, np.ndarray) and channel is not None:
-            raise ValueError(f"channel = {brief(repr(channel))}: it holds one array, leave channel out")
-        if not isinstance(held, np.ndarray):
-            with held as archive:
-                if sum(each.file_size for each in archive.zip.infolist()) > MOST_BYTES:
+        with path.open("rb") as file, _silent():
+            held = np.load(file)
+            if isinstance(held, np.ndarray) and channel is not None:
+                raise ValueError(f"channel = {brief(repr(channel))}: it holds one array, leave channel out")
+            if not isinstance(held, np.ndarray):
+                if sum(each.file_size for each in held.zip.infolist()) > MOST_BYTES:
                     raise ValueError(f"unpacked it has more than {MOST_BYTES / 1e6:g} MB")
-                held = np.asarray(archive[picked("it", archive.files, channel)])
+                held = np.asarray(held[picked("it", held.files, channel)])
         (HeightMap if dims == MAP else HeightLine).check_layout(held.shape, held.dtype)
         _check_count(held.shape)
-        return Heights(name, np.array(held))
+        return Heights(name, held)
     # Damaged files raise nearly anything.
     except Exception as error:
-        raise ValueError(f"{name} cannot be read as heights: {_first_line(error)}") from error
+        why = "objects are not read" if "bject" in str(error) else _first_line(error)
+        raise ValueError(f"{name} cannot be read as heights: {why}") from error
 
 
 def _of_netcdf(name, path, dims, channel, units):
@@ -241,15 +240,17 @@ def _of_labelled(name, heights, dims):
     return Heights(name, numbers, unit, own)
 
 
-def _of_table(table, dims, unit, written):
+def _of_table(table, dims, spacing, unit, written):
     if unit is not None:
         _metres("unit", unit)
-        written = replace(written, units={"z": unit} | dict(written.units or {}))
+        written = replace(written, units={**(written.units or {}), "z": unit})
     columns = read_columns(table, COLUMNS[dims], written, MOST_TEXT)
     if dims == MAP:
         heights, spacings = mapped(columns["x"], columns["y"], columns["z"], columns.place)
         return Heights(columns.name, heights, "m", spacings, columns.notes)
     if "x" not in columns:
+        if spacing is None:
+            raise ValueError(f'{columns.name} has no column x: state columns = {{x = "..."}}, or spacing = "1 um"')
         return Heights(columns.name, columns["z"], "m", None, columns.notes)
     order, step = ordered("x", columns["x"], columns.place)
     return Heights(columns.name, columns["z"][order], "m", (step,), columns.notes)

@@ -147,10 +147,11 @@ def prepared(given: Any, kind: type[HeightMap], spacing: str, names: set[str]) -
         from . import heightfile
 
         read, source = (heightfile.given_heights, heights) if path is None else (heightfile.read_heights, path)
-        dims = heightfile.MAP if kind is HeightMap else heightfile.LINE
-        heights, left[spacing], notes = read(
-            source, dims, left.get(spacing), asked.get("unit"), asked.get("channel"), written
-        )
+        dims, units = heightfile.MAP if kind is HeightMap else heightfile.LINE, written.units or {}
+        if "unit" in asked and "z" in units:
+            raise ValueError(f"unit = {asked['unit']!r} and units = {{z = {units['z']!r}}}: state one of them")
+        unit = asked.get("unit", units.get("z"))
+        heights, left[spacing], notes = read(source, dims, left.get(spacing), unit, asked.get("channel"), written)
     try:
         kind.check_layout(heights.shape, heights.dtype)
         heights, more = _mended(heights.astype(float), left.get(spacing), asked)
