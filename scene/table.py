@@ -53,7 +53,8 @@ class _Rows:
         """The rows at one temperature, at which times are shorter and moduli lower by these factors (rows,)."""
         name = self.PLACE[0]
         changed: dict[str, Any] = {"temperature": None}
-        for field in (each.name for each in fields(self) if each.name != "temperature"):
+        names = [each.name for each in fields(self)]  # type: ignore[arg-type]
+        for field in (each for each in names if each != "temperature"):
             numbers = np.array(getattr(self, field))
             by = longer if field == name else stiffer
             numbers = numbers * by if field in ("frequency", "compliance") else numbers / by

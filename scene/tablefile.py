@@ -20,9 +20,9 @@ Use
 Refusals
     What differs from this form raises ValueError with file, line, what stands there and the option of
     `TableFormat` that states it. `TableFormat(...)` itself raises pydantic's ValidationError, a ValueError.
-    - Either every column that is used has its unit, in the heading or in `units`, or none has, and all are in SI.
-      The latter only if the heading is the first line of the file: other lines above it may hold units. A column
-      with `unit_needed` never has a default, and of a column with several `units` the choice is left open.
+    - Either every known column has its unit, in the heading or in `units`, or none has, and all are in SI. The
+      latter only if the heading is the first line of the file: other lines above it may hold units. Columns with
+      `unit_needed` have no default and count for neither, and of several `units` the choice is left open.
     - A column that is not used must not tell samples, steps or temperatures apart: of text, or of numbers that
       repeat, it must have one value, or be in `where`. Names of `REDUNDANT` and of known columns are exempt.
     - Two columns of one field, unless `columns` states which one is used.
@@ -35,7 +35,7 @@ from dataclasses import InitVar, dataclass
 from io import StringIO
 from json import dumps
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 from unicodedata import normalize
 
 import numpy as np
@@ -115,8 +115,8 @@ class TableFormat:
     columns: Mapping[str, str | Annotated[int, Field(strict=True, ge=1)]] | None = None
     units: Mapping[str, str] | None = None
     where: Mapping[str, str | int | float] | None = None
-    separator: Annotated[str, Field(pattern="^(tab|semicolon|comma|blanks|[\t;, ])$")] | None = None
-    decimal: Annotated[str, Field(pattern="^[.,]$")] | None = None
+    separator: Literal["tab", "semicolon", "comma", "blanks", "\t", ";", ",", " "] | None = None
+    decimal: Literal[".", ","] | None = None
     encoding: str | None = None
     skip: _Lines | None = None
     rows: _Lines | None = None
@@ -238,12 +238,12 @@ def read_columns(
     stated = stated or TableFormat()
     held = _of_file(Path(table), stated, most_bytes) if isinstance(table, str | Path) else _of_python(table)
     places = _places(held, known, stated)
-    pure = {each.field for each in known if not each.units}
+    pure = {each.field for each in known if not each.units or each.unit_needed}
     held.si &= not any(
         held.units[k] or name in (stated.units or {}) for name, k in places.items() if name not in pure
     )
-    _select(held, places, known, stated)
-    others = [heading for k, heading in enumerate(held.headings) if k not in places.values()]
+    named = _select(held, places, known, stated)
+    others = [heading for k, heading in enumerate(held.headings) if k not in named]
     notes = tuple(f"{held.name}: column {brief(repr(each))} is not used" for each in others)
     found = Columns(held.name, {}, {}, {}, held.lines, notes)
     for each in known:
@@ -291,7 +291,7 @@ def _of_file(path, stated, most_bytes, headless=False):
         numbered = any(isinstance(each, int) for each in (stated.columns or {}).values())
     if numbered:
         headings, body = [str(k + 1) for k in range(len(headings))], start
-    elif any(map(_NUMBER.fullmatch, headings)):
+    elif any(_NUMBER.fullmatch(each.replace(",", ".")) for each in headings):
         raise ValueError(
             f"{name}, line {start + 1}: {brief(repr(lines[start]))} is no heading: write one, state skip, or "
             "state the columns by number, as columns = {field = 1}"
@@ -324,7 +324,7 @@ def _text(path, stated, most_bytes):
 
 def _split(line, separator):
     if separator == " ":
-        return [each.strip('"') for each in _BLANKS.split(line.strip())]
+        return [re.sub('^"(.*)"$', r"\1", each) for each in _BLANKS.split(line.strip())]
     return [each.strip() for each in next(csv.reader([line], delimiter=separator, skipinitialspace=True))]
 
 
@@ -341,22 +341,23 @@ def _rows(name, lines, places, separator, width):
             skipinitialspace=True,
             on_bad_lines="error",
         )
-        wrong = np.flatnonzero(frame[width].to_numpy(object) != _END)
-        row = wrong[0] - 1 if wrong.size else None if len(frame) == stop - body + 1 else 0
+        wrong = np.flatnonzero(frame[width].to_numpy(object) != _END) - 1
     except pd.errors.ParserError as error:
-        counted = re.search(r"line (\d+)|row (\d+)", str(error))
-        row = int(counted[1] or int(counted[2]) + 1) - 2 if counted else 0
-    if row is None:
+        counted = re.search(r"line (\d+)", str(error))
+        frame, wrong = pd.DataFrame(), np.array([int(counted[1]) - 2] if counted else [])
+    if not len(wrong) and len(frame) == stop - body + 1:
         return [frame[k][1:].str.strip().to_numpy(object) for k in range(width)]
+    row = int(wrong[0]) if len(wrong) else next(k for k in range(stop - body) if lines[body + k].count('"') % 2)
     text, where = lines[body + row], f"{name}, line {body + row + 1}"
     if not text.strip():
         raise ValueError(f"{where} is blank, and there are rows below it: state rows = {row} to end before it")
     again = [k + 1 for k in range(body + row + 1, stop) if lines[k] == text and not text[:1].isdigit()]
     second = f"; line {again[0]} is another heading: state rows to end before it" if again else ""
-    if len(cells := _split(text, separator)) == width:
-        raise ValueError(f"{where}: {brief(repr(text))}: a quotation mark here or below opens, and none closes it")
+    if not len(wrong):
+        raise ValueError(f"{where}: {brief(repr(text))} has a quotation mark that opens, and none that closes it")
+    count = len(text.split() if separator == " " else _split(text, separator))
     raise ValueError(
-        f"{where}: {brief(repr(text))} has {len(cells)} cells, and line {start + 1}, "
+        f"{where}: {brief(repr(text))} has {count} cell{'s' * (count != 1)}, and line {start + 1}, "
         f"{brief(repr(lines[start]))}, has {width}: state skip for lines above the heading, rows for those below "
         f"the table, or separator{second}"
     )
@@ -453,7 +454,10 @@ def _called(held, whole, heading):
 
 
 def _select(held, places, known, stated):
-    """Keep the rows that are stated. Raises ValueError for a column that tells rows apart, unused."""
+    """Keep the rows that are stated, and return the columns that are used or stated.
+
+    Raises ValueError for another one that tells rows apart.
+    """
     kept, free = np.ones(len(held.cells[0]), bool), set(places.values())
     for heading, value in (stated.where or {}).items():
         place = _called(held, held.headings, heading)
@@ -476,6 +480,8 @@ def _select(held, places, known, stated):
                 f'state where = {{{key} = {value}}} for rows of one, where = {{{key} = "*"}} for all, or its '
                 "quantity in columns"
             )
+
+    return free
 
 
 def _equal(cell, value):
@@ -530,8 +536,9 @@ def _numbers(held, place, gaps):
             wrong = np.isinf(found)
     if wrong.any():
         row = int(np.argmax(wrong))
+        cell = brief(repr(cells.tolist()[row]))
         raise ValueError(
-            f"{_place(held.name, held.lines, row)}, column {held.headings[place]!r}: {brief(repr(cells[row]))} is "
+            f"{_place(held.name, held.lines, row)}, column {held.headings[place]!r}: {cell} is "
             "no number: state rows to end before it, where to leave it out, decimal, or separator"
         )
     return found

@@ -45,6 +45,7 @@ def _meant(law):
     return f'; is "{law.temperature:g} degC" meant?' if law.temperature < COLDEST else ""
 
 
+@plain(frozen=True)
 class TemperatureLaw:
     """A law of the shift.
 
