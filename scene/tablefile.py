@@ -257,7 +257,21 @@ def read_columns(
     return found
 
 
-def _of_file(path, stated, most_bytes):
+def read_rows(path: str | Path, stated: TableFormat, most_bytes: int) -> tuple[np.ndarray, Sequence[int]] | None:
+    """Rows of numbers without a heading, NaN where a cell is empty or nan, and their lines; None of a heading.
+
+    Where a separator ends each row, there is no cell behind it. Raises ValueError as `read_columns` does.
+    """
+    held = _of_file(Path(path), stated, most_bytes, headless=True)
+    if held is None:
+        return None
+    if not any(held.cells[-1]):
+        held.cells.pop()
+    return np.stack([_numbers(held, k, True) for k in range(len(held.cells))], axis=1), held.lines
+
+
+def _of_file(path, stated, most_bytes, headless=False):
+    """Cells of a file; headless : None of one that has a heading."""
     name, lines = brief(str(path)), _text(path, stated, most_bytes).split("\n")
     while lines and not lines[-1].strip(" \t;,"):  # spreadsheets write separators below a table
         lines.pop()
@@ -272,7 +286,13 @@ def _of_file(path, stated, most_bytes):
     )
     headings = _split(lines[start], separator)
     units, body = [""] * len(headings), start + 1
-    if numbered := any(isinstance(each, int) for each in (stated.columns or {}).values()):
+    if headless:
+        numbered = any(_COMMA_NUMBER.fullmatch(each.replace(".", ",")) for each in headings)
+        if not numbered:
+            return None
+    else:
+        numbered = any(isinstance(each, int) for each in (stated.columns or {}).values())
+    if numbered:
         headings, body = [str(k + 1) for k in range(len(headings))], start
     elif any(_NUMBER.fullmatch(each.replace(",", ".")) for each in headings):
         raise ValueError(
@@ -510,7 +530,7 @@ def _numbers(held, place, gaps):
         found = cells
     else:
         if gaps:
-            cells = np.array(["" if each.casefold() == "nan" else each for each in cells], object)
+            cells = np.array(["" if each.casefold().strip("+-") == "nan" else each for each in cells], object)
         number = _COMMA_NUMBER if held.comma else _NUMBER
         wrong = np.array([not (number.fullmatch(each) or (gaps and not each)) for each in cells])
         found = np.nan
