@@ -10,7 +10,8 @@ from typer.testing import CliRunner
 
 from compare.cli.app import app
 from compare.studies.mastercurve import measurements as measuredfriction
-from scene import heighttext, modulinames, scanheader, stylus
+from scene import modulinames
+from scene.heightfile import X, Y, Z
 
 PAGES = sorted(yourdata.FOLDER.glob("*.md"))
 # Seconds and bytes, which the machine decides.
@@ -57,10 +58,7 @@ def _allows(known, unit):
     ("page", "names"),
     [
         ("command.md", called(measuredfriction.COLUMNS)),
-        ("scenes.md", called((heighttext.X, heighttext.Y, heighttext.Z))),
-        ("scenes.md", {name for names in (*scanheader.SIZES, *scanheader.PIXELS) for name in names}),
-        ("scenes.md", {*scanheader.CHANNEL, *scanheader.UNIT}),
-        ("scenes.md", called((stylus.X, stylus.Z))),
+        ("scenes.md", {name for column in (X, Y, Z) for name in column.names if not name.isupper()}),
     ],
 )
 def test_the_reference_has_every_name_that_is_read(page, names):
@@ -69,7 +67,8 @@ def test_the_reference_has_every_name_that_is_read(page, names):
 
 
 RUBBER, ROUGH, LINE = ("plan", "rubber.toml"), ("plan", "rough.toml"), ("plan", "line.toml")
-MAP, FRICTION = ("topography", "map.txt"), ("mastercurve", "tribometer.csv")
+MAP = ("topography", "map.txt", "--skip", "4", "--unit", "m", "--pixel", "1.04167 um")
+FRICTION = ("mastercurve", "tribometer.csv")
 WRONG = [
     # page, command, file, what stands there and what in its place, what is said
     ("rubber", RUBBER, "rubber.toml", r"kind = .*", "", "elastomer.kind: missing"),
@@ -96,17 +95,18 @@ WRONG = [
     ("rubber", RUBBER, "rheometer.txt", "2,4067", "0", "must be finite and greater than 0"),
     ("rubber", RUBBER, "rubber.toml", "c1 = 8.9", "c1 = 30", "the best passive solid is off by"),
     ("rubber", RUBBER, "rheometer.txt", "MPa", "", "softer than a gel; is"),
-    ("surface", MAP, "map.txt", "# Value.*", "", "does not state the unit of its heights"),
-    ("surface", MAP, "map.txt", "# Width.*", "", "the side of a pixel"),
-    ("surface", LINE, "profile.csv", r" \[mm\]", "", "does not state the unit of its places"),
-    ("surface", LINE, "line.toml", r"\Z", 'unit = "mm"', "states its own"),
-    ("surface", MAP, "map.txt", "units: m", "units: V", "a unit of length is needed"),
-    ("surface", MAP, "map.txt", "units: m", "units: m", "have no height"),
-    ("surface", MAP, "map.txt", "nan", "-9999", "stand for missing heights"),
-    ("surface", MAP, "map.txt", r"\Z", "MAP", "has 2 channels"),
-    ("surface", ("topography", "profile.csv"), "profile.csv", r"\Z", "", "a line of heights is roughness"),
-    ("surface", LINE, "profile.csv", r"^0,195.*\n", "\n", "blocks of numbers from line 4 and 44 on"),
-    ("surface", LINE, "profile.csv", "^0,195", "0,197", "places of a line are evenly spaced"),
+    ("surface", MAP[:2], "map.txt", r"\Z", "", "is no row of heights: state skip"),
+    ("surface", MAP[:4], "map.txt", r"\Z", "", "does not state the unit of its heights"),
+    ("surface", MAP[:6], "map.txt", r"\Z", "", "the side of a pixel"),
+    ("surface", MAP, "map.txt", r"\Z", "", 'missing: missing = "fill" fills them in'),
+    ("surface", MAP, "map.txt", "nan", "-9999", "as programs write missing ones"),
+    ("surface", (*MAP, "--unit", "V"), "map.txt", r"\Z", "", "a unit of length is needed"),
+    ("surface", ("topography", "profile.csv", "--skip", "3"), "profile.csv", r"\Z", "", "a map has 4 or more"),
+    ("surface", LINE, "profile.csv", r" \[mm\]", "", "has no unit in the heading"),
+    ("surface", LINE, "line.toml", r"\Z", 'unit = "mm"', "must agree"),
+    ("surface", LINE, "line.toml", r"\Z", 'spacing = "1 mm"', "states its own"),
+    ("surface", LINE, "profile.csv", r"^0,195.*\n", "\n", "is blank, and there are rows below it"),
+    ("surface", LINE, "profile.csv", "^0,195", "0,197", "places of heights are evenly spaced"),
     ("surface", ROUGH, "rough.toml", "shortest_kept.*", "", "is less than two pixels of"),
     ("friction", FRICTION, "tribometer.csv", r"Speed \[mm/s\]", "U [mm/s]", "there is no column for v"),
     ("friction", FRICTION, "tribometer.csv", "Friction force", "Drag, right", "for mu"),
