@@ -118,7 +118,7 @@ STATED = {
     "where": (
         [f"sample;{HEADED}", *(f"NR;{row}" for row in ROWS), "SBR;2;3;4"],
         {"where": {"sample": "NR"}},
-        "column 'sample' has several values, 'NR' and 'SBR', and is not used: state where = {sample = \"NR\"}",
+        'column \'sample\' has several values, "NR" and "SBR", and is not used: .* where = {sample = "NR"}',
     ),
     "where of numbers": (
         [f"{HEADED};batch no", *(f"{row};1" for row in ROWS), "2;3;4;2.0"],
