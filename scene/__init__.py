@@ -22,7 +22,7 @@ from .selfaffine import SelfAffine
 from .signatures import make_readable
 from .table import CreepTable, RelaxationTable, Table
 from .tabulated import Tabulated
-from .temperature import WLF, Arrhenius
+from .temperature import WLF, Arrhenius, ShiftFactors
 from .topography import Topography
 
 __all__ = [
@@ -59,6 +59,7 @@ __all__ = [
     "Scene",
     "SelfAffine",
     "Shear",
+    "ShiftFactors",
     "Slide",
     "SolveError",
     "Solver",

@@ -13,15 +13,13 @@ from typing import Any
 
 from .printable import brief
 
-# Encodings, by the mark at the beginning of a file.
-_MARKS = {"utf-8-sig": b"\xef\xbb\xbf", "utf-16": (b"\xff\xfe", b"\xfe\xff")}
-_BEGINNING = 1000  # bytes in which zeros are sought
 # What a name of a file has if "C:\\new" stood in double quotes.
 _ESCAPED = "\n\t\r\b\f"
 PIECE = 2**20  # bytes read at a time: memory is taken for what is there, not for what may be
 
 
 _read: ContextVar[dict | None] = ContextVar("read", default=None)
+_folder: ContextVar[Path] = ContextVar("folder", default=Path())  # in which a relative path begins
 
 
 class Unreadable(ValueError):
@@ -29,16 +27,20 @@ class Unreadable(ValueError):
 
 
 def checked(path: str | Path, most: int) -> Path:
-    """The path of a regular file of at most `most` bytes; nothing is opened. Raises Unreadable."""
-    _refuse(path, _asked(path, os.stat, path), most)
-    return Path(path)
+    """The path of a regular file of at most `most` bytes; nothing is opened. Raises Unreadable.
+
+    Within `reading_once` of a file, a relative path begins in its folder.
+    """
+    found = _folder.get() / path
+    _refuse(path, _asked(path, os.stat, found), most)
+    return found
 
 
 def content(path: str | Path, most: int) -> bytes:
     """Bytes of a regular file of at most `most` bytes; waits for no other process. Raises Unreadable."""
-    checked(path, most)
+    found = checked(path, most)
     flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
-    handle = _asked(path, os.open, path, flags)
+    handle = _asked(path, os.open, found, flags)
     try:
         # What is open may be another file than the one that was checked, and may grow.
         _refuse(path, os.fstat(handle), most)
@@ -55,13 +57,18 @@ def content(path: str | Path, most: int) -> bytes:
 
 
 @contextmanager
-def reading_once() -> Iterator[None]:
-    """Within it no file is read twice by `once`, as whoever seeks mistakes beside it would."""
-    token = _read.set({})
+def reading_once(path: str | Path = "") -> Iterator[None]:
+    """Within it no file is read twice by `once`, as whoever seeks mistakes beside it would.
+
+    path : of the file that is read, in whose folder the relative paths in it begin; that of an outer one counts
+    """
+    folder = _folder.get() if _read.get() is not None else Path(path).parent
+    tokens = _read.set({}), _folder.set(folder if folder == Path() else folder.absolute())
     try:
         yield
     finally:
-        _read.reset(token)
+        _read.reset(tokens[0])
+        _folder.reset(tokens[1])
 
 
 def once(read: Callable[..., Any], path: str | Path, *asked: Any) -> Any:
@@ -83,33 +90,15 @@ def once(read: Callable[..., Any], path: str | Path, *asked: Any) -> Any:
     return found
 
 
-def text(path: str | Path, most: int, any_encoding: bool = False) -> str:
-    """Text of such a file in UTF-8, line ends as \\n and no byte-order mark. Raises Unreadable.
-
-    any_encoding : a text in UTF-16 or Latin-1 is read too, as spreadsheets and instruments write them
-    """
+def text(path: str | Path, most: int) -> str:
+    """Text of such a file in UTF-8, line ends as \\n and no byte-order mark. Raises Unreadable."""
     held = content(path, most)
     try:
-        decoded = _decoded(held) if any_encoding else held.decode("utf-8-sig")
+        decoded = held.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         why = f"is no text in {error.encoding.upper()}: byte {error.start + 1} is {held[error.start]:#04x}"
         raise _unreadable(path, why) from error
     return decoded.replace("\r\r\n", "\n").replace("\r\n", "\n").replace("\r", "\n")
-
-
-def _decoded(held):
-    """Text by the mark it begins with, by the zeros between its letters, or as UTF-8, else Latin-1 of Windows."""
-    for encoding, marks in _MARKS.items():
-        if held.startswith(marks):
-            return held.decode(encoding)
-    beginning = held[:_BEGINNING]
-    for encoding, zeros in (("utf-16-le", beginning[1::2]), ("utf-16-be", beginning[::2])):
-        if len(beginning) > 1 and zeros.count(0) > 0.9 * len(zeros):
-            return held.decode(encoding)
-    try:
-        return held.decode("utf-8")
-    except UnicodeDecodeError:
-        return held.decode("cp1252", errors="replace") if b"\0" not in held else held.decode("utf-8")
 
 
 def _refuse(path, status, most):
@@ -142,6 +131,8 @@ def _not_found(path):
         )
     if Path(path).is_absolute():
         return "no such file"
+    if _folder.get() != Path():
+        return f"no such file in {brief(str(_folder.get()))}, the folder of the file that names it"
     try:
         return f"no such file in {brief(os.getcwd())}, the working directory"
     except OSError:  # which may be gone

@@ -29,7 +29,6 @@ __all__ = [
 MOST = 1_000_000  # bytes of a file
 DEEPEST = 20  # levels of tables and lists in one another
 LONGEST = 2000  # letters of a mistake
-PATHS = ("file", "table")  # names whose texts are paths, relative to the file in which they stand
 
 # Names joined by so many dots take a parser time that grows with their square; no file that can be read has them.
 _NAME = r"""(?:[\w-]{1,200}+|"(?:[^"\\\n]|\\.){0,200}+"|'[^'\n]{0,200}+')"""
@@ -63,10 +62,7 @@ def text_of(path: str | Path) -> str:
 
 
 def parsed(text: str, path: str | Path) -> dict[str, Any]:
-    """Content of a text in TOML. Raises InvalidInput.
-
-    path : of its file, for mistakes; paths in it are relative to its folder
-    """
+    """Content of a text in TOML; path : of its file, for mistakes. Raises InvalidInput."""
     try:
         if _ENDLESS.search(text):
             raise RecursionError
@@ -79,19 +75,7 @@ def parsed(text: str, path: str | Path) -> dict[str, Any]:
         raise invalid(path, [f"is not valid TOML: {error}{_of_backslashes(str(error), text)}"]) from error
     except ValueError as error:  # of dates that are none, and of numbers too long to be read
         raise invalid(path, [f"is not valid TOML: {str(error).partition(';')[0]}"]) from error
-    return _beside(content, Path(path).parent)
-
-
-def _beside(content, folder):
-    """Content whose paths are relative to the working directory."""
-    if isinstance(content, list):
-        return [_beside(each, folder) for each in content]
-    if not isinstance(content, dict):
-        return content
-    return {
-        name: str(folder / each) if name in PATHS and isinstance(each, str) else _beside(each, folder)
-        for name, each in content.items()
-    }
+    return content
 
 
 def _of_backslashes(error, text):
@@ -106,7 +90,7 @@ def _of_backslashes(error, text):
 def made(content: dict[str, Any], what: Any, path: str | Path):
     """Content of a file as `what`. Raises InvalidInput, naming the file, as `read` does."""
     adapter = validator(what)
-    with files.reading_once():
+    with files.reading_once(path):
         try:
             return adapter.validate_python(content)
         except ValidationError as error:

@@ -7,7 +7,7 @@ from math import inf, pi, sqrt
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import ConfigDict, Field, ValidationError, model_validator
+from pydantic import ConfigDict, Field, model_validator
 from pydantic.dataclasses import dataclass
 
 from .extrapolation import Continued
@@ -17,7 +17,8 @@ from .moduli import read_moduli
 from .plain import bare
 from .quantities import CLOSED, Finite, ShearModulus, by_name
 from .table import SCATTER, AnyTable, CreepTable, RelaxationTable, Table
-from .temperature import WLF, Arrhenius
+from .tablefile import FromTable, TableFormat, refused, split_format
+from .temperature import TemperatureLaw
 from .viscoelastic import PoissonRatio, Solid
 from .youngs import in_shear, or_in_tension
 
@@ -36,12 +37,14 @@ def _or_file(schema: dict[str, Any]) -> None:
 
 
 @dataclass(frozen=True, config=ConfigDict(**CLOSED, json_schema_extra=_or_file), kw_only=True)
-class Tabulated(Solid):
+class Tabulated(FromTable, Solid):
     """Solid of measured moduli, fitted with a Prony series by nonnegative least squares.
 
     table : a Table of storage and loss modulus over the frequency, a RelaxationTable or a CreepTable over time; or
-        the path of a text or CSV file, a DataFrame, a Dataset of xarray, or arrays by the names that columns may
-        have. It is read once and kept as numbers; a relative path starts at the working directory
+        the path of a text file, a DataFrame, a Dataset of xarray, or arrays by the names that columns may have. It
+        is read once and kept as numbers; a relative path starts at the folder of a scene file that names it
+    columns, units, where, separator, decimal, encoding, skip, rows : what differs of it from the documented form
+        of tables, see `tablefile.TableFormat`
     frequency_unit : "rad/s" or "Hz" (cycles per second), where no heading says so; None over the time
     kind : "shear" for G', G'', G(t), J(t); "tensile" for E', E'', E(t), D(t), where no heading says so;
         E = 2 (1 + poisson_ratio) G, and moduli are in Pa where no heading has another unit
@@ -76,14 +79,15 @@ class Tabulated(Solid):
         stated = by_name(given)
         if stated is None or "table" not in stated:
             return given
-        table, found = stated["table"], dict(stated)
-        if not _is_plain(table):
+        written, found = split_format(stated)
+        table = found["table"]
+        if written != TableFormat() or not _is_plain(table):
             try:
                 # What is no text is for the check of the fields to name.
-                words = {name: each for name, each in stated.items() if isinstance(each, str)}
-                read = read_moduli(table, words.get("frequency_unit"), words.get("kind"))
+                words = {name: each for name, each in found.items() if isinstance(each, str)}
+                read = read_moduli(table, words.get("frequency_unit"), words.get("kind"), written)
             except ValueError as error:
-                raise _of_the_table(table, error) from error
+                raise refused(table, error) from error
             found["table"] = table = read.table
             told = {"frequency_unit": read.frequency_unit, "kind": read.kind}
             found = {name: value for name, value in told.items() if value is not None} | found
@@ -213,7 +217,7 @@ class Tabulated(Solid):
         over = isinstance(self.table, CreepTable) and isinstance(series, Relaxation)
         return series.retardation() if over else series
 
-    def at_reference(self, law: WLF | Arrhenius | None) -> "Tabulated":
+    def at_reference(self, law: TemperatureLaw | None) -> "Tabulated":
         """The solid at the reference of the law, by which rows at other temperatures are shifted.
 
         Raises ValueError of several temperatures without a law, and of one that is not the reference of the law.
@@ -235,12 +239,6 @@ def _is_plain(table):
     return known and all(bare(each)[1] is None for each in table.values())
 
 
-def _of_the_table(table, reason):
-    """A mistake of the field `table`."""
-    line = {"type": "value_error", "loc": ("table",), "input": table, "ctx": {"error": ValueError(str(reason))}}
-    return ValidationError.from_exception_data("Tabulated", [line])
-
-
 def _no_law(table):
     low, high = min(table.temperature), max(table.temperature)
     return (
@@ -250,7 +248,7 @@ def _no_law(table):
 
 
 @lru_cache(maxsize=16)
-def _reduced(solid: Tabulated, law: WLF | Arrhenius) -> Tabulated:
+def _reduced(solid: Tabulated, law: TemperatureLaw) -> Tabulated:
     """The solid at the temperature of a law, its reference."""
     temperature = np.array(solid.table.temperature)
     mean = float(temperature.mean())
@@ -262,10 +260,11 @@ def _reduced(solid: Tabulated, law: WLF | Arrhenius) -> Tabulated:
     if not solid.table.several and mean == law.reference:
         return solid
     try:
-        longer = {each: replace(law, temperature=each).shift for each in temperature.tolist()}
+        laws = {each: replace(law, temperature=each) for each in temperature.tolist()}
     except ValueError as error:
         raise ValueError(f"elastomer.table: a row at {str(error).partition(': ')[2]}") from error
-    return replace(solid, table=solid.table.shifted(np.array([longer[each] for each in temperature.tolist()])))
+    longer, stiffer = np.array([(laws[each].shift, laws[each].stiffer) for each in temperature.tolist()]).T
+    return replace(solid, table=solid.table.shifted(longer, stiffer))
 
 
 @lru_cache(maxsize=64)
