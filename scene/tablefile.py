@@ -19,7 +19,8 @@ Use
 
 Refusals
     What differs from this form raises ValueError with file, line, what stands there and the option of
-    `TableFormat` that states it. `TableFormat(...)` itself raises pydantic's ValidationError, for `scene.reading` to put into lines.
+    `TableFormat` that states it. `TableFormat(...)` itself raises
+    ValidationError, which `scene.reading` puts into lines.
     - A column without a unit is in SI only if the heading is the first line of the file, as other lines above it
       may hold units, and if no other column has a unit that is not of SI. Columns with `unit_needed` have no
       default, and of several `units` the choice is left open.
@@ -299,9 +300,9 @@ def _refuse_apart(cells, heading, texts):
         return
     key, quoted = _toml(heading), [_toml(each, quoted=True) for each in (heading, *values[:2])]
     raise ValueError(
-        f"{cells.name}: column {heading!r} has several values, {quoted[1]} and {quoted[2]}, and is not used: "
-        f"state its quantity, as columns = {{field = {quoted[0]}}}, or where = {{{key} = {quoted[1]}}} for rows of "
-        f'one value, where = {{{key} = "*"}} for all'
+        f"{cells.name}: column {heading!r} has several values, {quoted[1]} and {quoted[2]}, and is not used: state "
+        f"its quantity, as columns = {{field = {quoted[0]}}}, or where = {{{key} = {quoted[1]}}} for rows of one "
+        f'value, where = {{{key} = "*"}} for all'
     )
 
 
