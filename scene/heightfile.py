@@ -164,7 +164,9 @@ def given_heights(
             heights, channel = arrays[picked("the Dataset", arrays, channel)], None
     if channel is not None:
         raise ValueError(f"channel = {brief(repr(channel))}: one array has no channels, leave channel out")
-    if isinstance(heights, Mapping) or hasattr(heights, "columns") or hasattr(heights, "data_vars"):
+    # A DataFrame whose columns are only counted is an array.
+    columns = list(getattr(heights, "columns", ()))
+    if isinstance(heights, Mapping) or hasattr(heights, "data_vars") or columns != list(range(len(columns))):
         return _of_table(heights, dims, spacing, unit, written or TableFormat()).settled(spacing)
     if written not in (None, TableFormat()):
         raise ValueError("heights are an array, and no table of which columns or units could be stated")
