@@ -20,9 +20,9 @@ Use
 Refusals
     What differs from this form raises ValueError with file, line, what stands there and the option of
     `TableFormat` that states it. `TableFormat(...)` itself raises pydantic's ValidationError, a ValueError.
-    - Either every known column has its unit, in the heading or in `units`, or none has, and all are in SI. The
-      latter only if the heading is the first line of the file: other lines above it may hold units. Columns with
-      `unit_needed` have no default and count for neither, and of several `units` the choice is left open.
+    - A column without a unit is in SI only if the heading is the first line of the file, as other lines above it
+      may hold units, and if no other column has a unit that is not of SI. Columns with `unit_needed` have no
+      default, and of several `units` the choice is left open.
     - A column that is not used must not tell samples, steps or temperatures apart: of text, or of numbers that
       repeat, it must have one value, or be in `where`. Names of `REDUNDANT` and of known columns are exempt.
     - Two columns of one field, unless `columns` states which one is used.
@@ -238,12 +238,17 @@ def read_columns(
     stated = stated or TableFormat()
     held = _of_file(Path(table), stated, most_bytes) if isinstance(table, str | Path) else _of_python(table)
     places = _places(held, known, stated)
-    pure = {each.field for each in known if not each.units or each.unit_needed}
-    held.si &= not any(
-        held.units[k] or name in (stated.units or {}) for name, k in places.items() if name not in pure
+    units = stated.units or {}
+    written = {
+        each: units.get(each.field) or held.units[places[each.field]] for each in known if each.field in places
+    }
+    held.si &= all(
+        each.unit_needed or unit in (*_PURE, *(one.symbol for one in each.units)) for each, unit in written.items()
     )
     named = _select(held, places, known, stated)
-    others = [heading for k, heading in enumerate(held.headings) if k not in named]
+    others = [
+        heading for k, heading in enumerate(held.headings) if k not in named and any(map(str, held.cells[k]))
+    ]
     notes = tuple(f"{held.name}: column {brief(repr(each))} is not used" for each in others)
     found = Columns(held.name, {}, {}, {}, held.lines, notes)
     for each in known:
@@ -473,14 +478,12 @@ def _select(held, places, known, stated):
         values = list(dict.fromkeys(cells.tolist()))
         pure = len(values) == len(cells) and all(map(_NUMBER.fullmatch, map(str, values)))
         if k not in free and _key(heading) not in exempt and len(values) > 1 and not pure:
-            key, value = _toml(heading), _toml(str(values[0]), quoted=True)
-            first, second = map(repr, values[:2])
+            key, first, second = _toml(heading), *(_toml(str(each), quoted=True) for each in values[:2])
             raise ValueError(
-                f"{held.name}: column {heading!r} has several values, {first} and {second}, and is not used: "
-                f'state where = {{{key} = {value}}} for rows of one, where = {{{key} = "*"}} for all, or its '
-                "quantity in columns"
+                f"{held.name}: column {heading!r} has several values, {first} and {second}, and is not used: state "
+                f"its quantity, as columns = {{field = {_toml(heading, quoted=True)}}}, or where = {{{key} = {first}}} "
+                f'for rows of one value, where = {{{key} = "*"}} for all'
             )
-
     return free
 
 
@@ -549,14 +552,10 @@ def _place(name, lines, row):
 
 
 def _are_units(cells, width):
-    """Whether a row is one of units."""
+    """Whether a row is one of units, off which brackets are taken: it has a unit and no number."""
     for k, cell in enumerate(cells):
         cells[k] = cell[1:-1].strip() if cell[:1] + cell[-1:] in ("[]", "()") else cell
-    return (
-        len(cells) == width
-        and any(map(_is_unit, cells))
-        and all(each in ("", "-", "1", "%") or _is_unit(each) for each in cells)
-    )
+    return len(cells) == width and any(map(_is_unit, cells)) and not any(map(_NUMBER.fullmatch, cells))
 
 
 def _is_unit(text):

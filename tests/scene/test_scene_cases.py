@@ -95,7 +95,7 @@ CASES = {
     ),
     "an export of a rheometer": (EXPORT, {}, "line 5: .* has 8 cells, and line 1, .* has 2: state skip"),
     "an export of a rheometer, stated": (EXPORT, {"skip": 4}, 1e6),
-    "a column of samples": (NAMED, {}, "column 'sample' has several values, 'NR' and 'SBR'.*state where"),
+    "a column of samples": (NAMED, {}, "column 'sample' has several values, .NR. and .SBR..* where = "),
     "one of them": (NAMED, {"where": {"sample": "NR"}}, 1e6),
     "the other": (NAMED, {"where": {"sample": "SBR"}}, 1.17e6),
     "two blocks": (BLOCKS, {}, "line 2: .* line 36 is another heading: state rows"),

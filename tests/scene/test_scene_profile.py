@@ -314,7 +314,10 @@ def test_a_line_is_the_same_in_every_text_that_is_read(tmp_path, content, stated
     assert profile.spacing == pytest.approx(SPACING, rel=1e-6)
     assert profile.heights.heights == pytest.approx(HEIGHTS, abs=1e-14)
     if "unit" not in stated:
-        for again, said in (({"spacing": "2.1 um"}, "leave spacing out"), ({"unit": "nm"}, "must agree|state one of them")):
+        for again, said in (
+            ({"spacing": "2.1 um"}, "leave spacing out"),
+            ({"unit": "nm"}, "must agree|state one of them"),
+        ):
             with pytest.raises(ValidationError, match=said):
                 Profile(file=tmp_path / "line.csv", **stated | again)
 

@@ -47,12 +47,19 @@ def agree(columns, expected=READ):
         ["f;G';G''", "Hz;MPa;kPa", *ROWS],
         ["f;G';G''", "[Hz];[MPa];(kPa)", *ROWS],
         ["# NR, 1.2 GPa, 0.3 GPa", "", HEADED, *ROWS, ";;", "", ";;"],
+        [
+            "f [Hz];G';G''",
+            *(
+                ";".join(f"{float(n) * s}" for n, s in zip(row.split(";"), (1, 1e6, 1e3), strict=True))
+                for row in ROWS
+            ),
+        ],
         ["FRE_QUENCY [Hz];Sto rage [N/mm2];G′′ [kPa]", *ROWS],
         ['"f [Hz]";"G\' [MPa]";"G"" [kPa]"', *(f'"{row[0]}";{row[2:]}' for row in ROWS)],
         ["f [Hz];G' [MPa];point;remark;G'' [kPa]", "1;2;1;a;3", "2;3;2;a;4", "3;4;4;a;5"],
         ["f [Hz];G' [MPa];G'' [kPa]", "1,0;2,00;3", "2;3,0;4", "3;4;5,0"],
     ],
-    ids=range(12),
+    ids=range(13),
 )
 def test_the_documented_form_is_read(tmp_path, lines):
     agree(read(written(tmp_path, "\r\n".join([*lines, ""]))))
@@ -111,7 +118,7 @@ STATED = {
     "where": (
         [f"sample;{HEADED}", *(f"NR;{row}" for row in ROWS), "SBR;2;3;4"],
         {"where": {"sample": "NR"}},
-        "column 'sample' has several values, 'NR' and 'SBR', and is not used: state where = {sample = \"NR\"}",
+        'column \'sample\' has several values, "NR" and "SBR", and is not used: .* where = {sample = "NR"}',
     ),
     "where of numbers": (
         [f"{HEADED};batch no", *(f"{row};1" for row in ROWS), "2;3;4;2.0"],
