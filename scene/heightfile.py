@@ -29,7 +29,7 @@ from .heightmap import LEAST, HeightLine, HeightMap, sides, unmasked
 from .lattice import along, mapped, ordered, refuse_places
 from .plain import bare, in_unit
 from .printable import brief
-from .quantities import METRE
+from .quantities import METRE, argument
 from .tablefile import Column, TableFormat, read_columns, read_rows
 
 MAP, LINE = ("y", "x"), ("x",)
@@ -174,7 +174,9 @@ def given_heights(
         found = _of_labelled("the array", heights, dims)
     else:
         heights = unmasked(heights)
-        found = Heights("the array", METRE.values(heights), None if bare(heights)[1] is None else "m")
+        found = Heights(
+            "the array", argument("heights", heights, METRE.values), None if bare(heights)[1] is None else "m"
+        )
     return found.settled(spacing, unit or (None if found.unit else "m"))
 
 
