@@ -29,7 +29,7 @@ from .heightmap import LEAST, HeightLine, HeightMap, sides, unmasked
 from .lattice import along, mapped, ordered, refuse_places
 from .plain import bare, in_unit
 from .printable import brief
-from .quantities import METRE
+from .quantities import METRE, argument
 from .tablefile import Column, TableFormat, read_columns, read_rows
 
 MAP, LINE = ("y", "x"), ("x",)
@@ -164,7 +164,9 @@ def given_heights(
             heights, channel = arrays[picked("the Dataset", arrays, channel)], None
     if channel is not None:
         raise ValueError(f"channel = {brief(repr(channel))}: one array has no channels, leave channel out")
-    if isinstance(heights, Mapping) or hasattr(heights, "columns") or hasattr(heights, "data_vars"):
+    # A DataFrame whose columns are only counted is an array.
+    columns = list(getattr(heights, "columns", ()))
+    if isinstance(heights, Mapping) or hasattr(heights, "data_vars") or columns != list(range(len(columns))):
         return _of_table(heights, dims, spacing, unit, written or TableFormat()).settled(spacing)
     if written not in (None, TableFormat()):
         raise ValueError("heights are an array, and no table of which columns or units could be stated")
@@ -172,7 +174,9 @@ def given_heights(
         found = _of_labelled("the array", heights, dims)
     else:
         heights = unmasked(heights)
-        found = Heights("the array", METRE.values(heights), None if bare(heights)[1] is None else "m")
+        found = Heights(
+            "the array", argument("heights", heights, METRE.values), None if bare(heights)[1] is None else "m"
+        )
     return found.settled(spacing, unit or (None if found.unit else "m"))
 
 
