@@ -298,11 +298,11 @@ def _refuse_apart(cells, heading, texts):
         len(values) == len(texts) and all(NUMBER.fullmatch(each.replace(",", ".")) for each in values)
     ):
         return
-    key, quoted = _toml(heading), [_toml(each, quoted=True) for each in (heading, *values[:2])]
+    key, (own, first, second) = _toml(heading), [_toml(each, quoted=True) for each in (heading, *values[:2])]
     raise ValueError(
-        f"{cells.name}: column {heading!r} has several values, {quoted[1]} and {quoted[2]}, and is not used: state "
-        f"its quantity, as columns = {{field = {quoted[0]}}}, or where = {{{key} = {quoted[1]}}} for rows of one "
-        f'value, where = {{{key} = "*"}} for all'
+        f"{cells.name}: column {heading!r} has several values, {first} and {second}, and is not used: state its "
+        f"quantity, as columns = {{field = {own}}}, or where = {{{key} = {first}}} for rows of one value, "
+        f'where = {{{key} = "*"}} for all'
     )
 
 
