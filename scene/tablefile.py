@@ -19,8 +19,7 @@ Use
 
 Refusals
     What differs from this form raises ValueError with file, line, what stands there and the option of
-    `TableFormat` that states it. `TableFormat(...)` itself raises
-    ValidationError, which `scene.reading` puts into lines.
+    `TableFormat` that states it. `TableFormat(...)` itself raises pydantic's ValidationError, a ValueError.
     - A column without a unit is in SI only if the heading is the first line of the file, as other lines above it
       may hold units, and if no other column has a unit that is not of SI. Columns with `unit_needed` have no
       default, and of several `units` the choice is left open.
