@@ -12,13 +12,13 @@ from scene import (
     Plane,
     Profile,
     Program,
-    SelfAffine,
     Shear,
     Slide,
     Topography,
     Wave,
 )
 from scene.indenter import Axisymmetric
+from scene.isotropic import Isotropic
 from scene.terms import Table
 from scene.viscoelastic import Linear
 
@@ -40,7 +40,7 @@ TERMS: Table = {
     Slide: Term,
     Shear: Drawn,
     Program: Term,
-    SelfAffine: Term,
+    Isotropic: Term,
     Wave: Term,
     Layer: LayerTerm,
     Topography: MeasuredRoughness,

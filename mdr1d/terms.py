@@ -12,13 +12,13 @@ from scene import (
     Plane,
     Profile,
     Program,
-    SelfAffine,
     Shear,
     Slide,
     Topography,
     Wave,
 )
 from scene.indenter import Axisymmetric
+from scene.isotropic import Isotropic
 from scene.terms import Table, lacking
 from scene.viscoelastic import Linear
 
@@ -53,7 +53,7 @@ TERMS: Table = {
     Slide: Term,
     Shear: Drawn,
     Program: Term,
-    SelfAffine: Term,
+    Isotropic: Term,
     Wave: NOT_ISOTROPIC,
     Topography: MeasuredRoughness,
     Profile: FittedRoughness,
