@@ -22,6 +22,7 @@ PIECE = 2**20  # bytes read at a time: memory is taken for what is there, not fo
 
 
 _read: ContextVar[dict | None] = ContextVar("read", default=None)
+_folder: ContextVar[Path] = ContextVar("folder", default=Path())  # in which a relative path begins
 
 
 class Unreadable(ValueError):
@@ -29,16 +30,20 @@ class Unreadable(ValueError):
 
 
 def checked(path: str | Path, most: int) -> Path:
-    """The path of a regular file of at most `most` bytes; nothing is opened. Raises Unreadable."""
-    _refuse(path, _asked(path, os.stat, path), most)
-    return Path(path)
+    """The path of a regular file of at most `most` bytes; nothing is opened. Raises Unreadable.
+
+    Within `reading_once` of a file, a relative path begins in its folder.
+    """
+    found = _folder.get() / path
+    _refuse(path, _asked(path, os.stat, found), most)
+    return found
 
 
 def content(path: str | Path, most: int) -> bytes:
     """Bytes of a regular file of at most `most` bytes; waits for no other process. Raises Unreadable."""
-    checked(path, most)
+    found = checked(path, most)
     flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
-    handle = _asked(path, os.open, path, flags)
+    handle = _asked(path, os.open, found, flags)
     try:
         # What is open may be another file than the one that was checked, and may grow.
         _refuse(path, os.fstat(handle), most)
@@ -55,13 +60,18 @@ def content(path: str | Path, most: int) -> bytes:
 
 
 @contextmanager
-def reading_once() -> Iterator[None]:
-    """Within it no file is read twice by `once`, as whoever seeks mistakes beside it would."""
-    token = _read.set({})
+def reading_once(path: str | Path = "") -> Iterator[None]:
+    """Within it no file is read twice by `once`, as whoever seeks mistakes beside it would.
+
+    path : of the file that is read, in whose folder the relative paths in it begin; that of an outer one counts
+    """
+    folder = _folder.get() if _read.get() is not None else Path(path).parent
+    tokens = _read.set({}), _folder.set(folder if folder == Path() else folder.absolute())
     try:
         yield
     finally:
-        _read.reset(token)
+        _read.reset(tokens[0])
+        _folder.reset(tokens[1])
 
 
 def once(read: Callable[..., Any], path: str | Path, *asked: Any) -> Any:
@@ -142,6 +152,8 @@ def _not_found(path):
         )
     if Path(path).is_absolute():
         return "no such file"
+    if _folder.get() != Path():
+        return f"no such file in {brief(str(_folder.get()))}, the folder of the file that names it"
     try:
         return f"no such file in {brief(os.getcwd())}, the working directory"
     except OSError:  # which may be gone

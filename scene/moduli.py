@@ -1,33 +1,56 @@
-"""Tables of moduli as people have them: columns found by their names, in a file or in Python, made one table."""
+"""Tables of moduli, over the frequency or over the time of relaxation or creep, in the forms that are measured."""
 
 import re
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from pydantic import ValidationError
 
-from . import modulinames as names
-from .blocks import joined
-from .columns import chosen, meant, sheet_of
-from .files import once
-from .heading import named
 from .mistakes import said
-from .modulicolumns import Columns
-from .moduliplaces import FREQUENCIES, factors, frequencies, reference, temperatures, times
-from .sheet import Sheet, read_sheets
+from .quantities import (
+    COMPLIANCE,
+    HERTZ,
+    KELVIN,
+    MODULUS,
+    PASCAL_SECOND,
+    RADIAN,
+    RADIAN_PER_SECOND,
+    SECOND,
+)
 from .table import MOST_ROWS, SCATTER, CreepTable, RelaxationTable, Table
+from .tablefile import Column, Columns, TableFormat, read_columns
 
-# In brackets behind a name: what the number depends on, and no unit.
-_ARGUMENTS = ("t", "ω", "omega", "w", "f", "δ", "delta", "φ", "d", "phi", "aT", "a_T", "T")
-_IDLE = ("(ω)", "(omega)", "(w)", "(f)", "(iω)")
-_LOGARITHM = re.compile(r"(?P<log>log10|log|lg|ln)[ _]?(?:\((?P<a>.+)\)|(?P<b>.+))", re.IGNORECASE)
-_OTHER = "another "  # before a letter that is no name of ours in this size
-_PER_SECOND = ("1/s", "s^-1", "s-1", "s⁻¹", "1/sec", "sec^-1")
+FREQUENCY = Column("frequency", ("f",), (HERTZ, RADIAN_PER_SECOND))
+OMEGA = Column("omega", ("angular frequency",), (RADIAN_PER_SECOND,))
+REDUCED = Column("reduced_frequency", (), (HERTZ, RADIAN_PER_SECOND))
+TIME = Column("time", ("t",), (SECOND,))
+TEMPERATURE = Column("temperature", ("T",), (KELVIN,), unit_needed=True)
+A_T, B_T = Column("a_T", ("shift factor",)), Column("b_T", ("vertical shift factor",))
+LOG_A_T = Column("log_a_T", ("log10 a_T",))
+STORAGE = Column("storage", ("G'", "E'", "storage modulus"), (MODULUS,))
+LOSS = Column("loss", ("G''", "E''", "loss modulus"), (MODULUS,))
+MAGNITUDE = Column("magnitude", ("|G*|", "|E*|", "G*", "E*", "complex modulus"), (MODULUS,))
+TANGENT = Column("tan_delta", ("tan(delta)", "loss factor"))
+PHASE = Column("phase", ("delta", "phase angle"), (RADIAN,), unit_needed=True)
+# G* = i omega eta*: the loss modulus is omega eta', and the storage modulus omega eta''.
+VISCOSITY = Column("viscosity", ("|eta*|", "complex viscosity"), (PASCAL_SECOND,))
+DYNAMIC = Column("dynamic_viscosity", ("eta'",), (PASCAL_SECOND,))
+OUT_OF_PHASE = Column("out_of_phase_viscosity", ("eta''",), (PASCAL_SECOND,))
+RELAXATION = Column("modulus", ("G(t)", "E(t)", "G", "E", "relaxation modulus"), (MODULUS,))
+CREEP = Column("compliance", ("J(t)", "D(t)", "J", "D", "creep compliance"), (COMPLIANCE,))
+OVER_FREQUENCY = STORAGE, LOSS, MAGNITUDE, VISCOSITY, DYNAMIC, OUT_OF_PHASE
+COLUMNS = (
+    *(FREQUENCY, OMEGA, REDUCED, TIME, TEMPERATURE, A_T, LOG_A_T, B_T, TANGENT, PHASE),
+    *(*OVER_FREQUENCY, RELAXATION, CREEP),
+)
+_KINDS = {"G": "shear", "J": "shear", "E": "tensile", "D": "tensile"}
+_SYMBOL = re.compile(r"\|?([GJED])(?!\w).*")
+_MOST_DECADES = 300  # of a_T
+_SAME = 0.1  # of the logarithm, of what columns state twice
+_AGREE = 0.01  # relative, of a frequency and an angular one
 _ONE_FREQUENCY = 1.05  # frequencies within this factor are one
-_OVER_FREQUENCY, _OVER_TIME = ("storage", "loss", "magnitude"), ("relaxation", "creep")
 
 
 @dataclass(frozen=True)
@@ -43,130 +66,200 @@ class Read:
     kind: str | None
 
 
-def read_moduli(table: Any, frequency_unit: str | None = None, kind: str | None = None) -> Read:
-    """A table of moduli, by its columns, out of a file or of what other libraries hold.
+def read_moduli(
+    table: Any, frequency_unit: str | None = None, kind: str | None = None, stated: TableFormat | None = None
+) -> Read:
+    """A table of moduli, out of a file or of arrays.
 
-    table : path of a text file, a DataFrame, a Dataset of xarray, or arrays by their names
+    table, stated : see `tablefile.read_columns`
     frequency_unit, kind : as stated beside it, see `Tabulated`
 
     Raises ValueError that names file, line and column, and where what is stated contradicts a heading.
     """
-    if not _is_table(table):
+    columns = read_columns(table, COLUMNS, stated)
+    if any(each.field in columns for each in OVER_FREQUENCY):
+        kind = _kind(columns, OVER_FREQUENCY, kind)
+        places, frequency_unit = _frequencies(columns, frequency_unit)
+        made = {"frequency": places} | _complex_modulus(columns)
+        return Read(_table(columns, made, Table), frequency_unit, kind)
+    found = [each for each in (RELAXATION, CREEP) if each.field in columns]
+    if len(found) != 1 or TIME.field not in columns:
         raise ValueError(
-            "Input should be the path of a text file, numbers by the names of their columns, a DataFrame or a "
-            "Dataset of xarray"
+            f"{columns.name}: there is no table of moduli in the columns {_headings(columns)}: storage and loss "
+            "modulus (or one of them, or the complex modulus or viscosity, with tan delta or the phase) over the "
+            'frequency, or relaxation modulus or creep compliance over time: state columns = {storage = "..."}'
         )
-    sheet = _spelt(once(_sheet, table) if isinstance(table, str | Path) else sheet_of(table))
-    found, notes = chosen(sheet, names.COLUMNS, ("frequency", "storage", "loss"))
-    columns = Columns(sheet, found, [each.replace(f"'{_OTHER}", "'") for each in notes])
-    over_frequency = any(map(columns.has, _OVER_FREQUENCY)) or (
-        names.TIME.field not in columns and any(each in columns for each in FREQUENCIES)
-    )
-    kind = columns.kind(_OVER_FREQUENCY if over_frequency else _OVER_TIME, kind)
-    if over_frequency:
-        moduli = columns.complex_modulus(kind)
-        place, frequency_unit, reduced = frequencies(columns, frequency_unit)
-        return Read(_table(columns, {"frequency": place} | moduli, reduced), frequency_unit, kind)
-    moduli = _over_time(columns, kind)
     if frequency_unit is not None:
-        raise ValueError(f"{sheet.name} is a table over time: leave frequency_unit = {frequency_unit!r} out")
-    return Read(_table(columns, {"time": times(columns)} | moduli), None, kind)
-
-
-def read_table(path: str | Path) -> Table | RelaxationTable | CreepTable:
-    """The table in a text or CSV file: its columns by their headings, else frequency, storage and loss modulus.
-
-    Raises ValueError naming file, line and column.
-    """
-    return read_moduli(path).table
-
-
-def _is_table(given):
-    """Whether something is a path, or a table of some library."""
-    return isinstance(given, str | Path | Mapping) or any(
-        hasattr(given, each) for each in ("columns", "variables")
+        raise ValueError(f"{columns.name} is a table over time: leave frequency_unit = {frequency_unit!r} out")
+    name = found[0].field
+    columns.refuse("time", columns["time"] < 0, "must not be below 0")
+    made = {"time": columns["time"], name: _positive(columns, name)}
+    return Read(
+        _table(columns, made, RelaxationTable if name == "modulus" else CreepTable),
+        None,
+        _kind(columns, found, kind),
     )
 
 
-def _sheet(path):
-    return joined(read_sheets(path, MOST_ROWS), (names.TEMPERATURE,))
+def read_table(path: str | Path, **stated: Any) -> Table | RelaxationTable | CreepTable:
+    """The table in a text file. stated : see `tablefile.TableFormat`. Raises ValueError naming file and line."""
+    return read_moduli(path, stated=TableFormat(**stated)).table
 
 
-def _spelt(sheet: Sheet) -> Sheet:
-    """The sheet with numbers of logarithms, arguments as parts of names such as G(t), and no others in names."""
-    called, units, numbers = list(sheet.names), list(sheet.units), sheet.numbers.copy()
-    for k, (name, unit) in enumerate(zip(called, units, strict=True)):
-        if unit in _ARGUMENTS:
-            name, units[k] = f"{name}({unit})", ""
-        if logarithm := _LOGARITHM.fullmatch(name):
-            inner, within = named(logarithm["a"] or logarithm["b"])
-            if meant(inner, names.COLUMNS):
-                name, units[k] = inner, units[k] or within
-                with np.errstate(over="ignore"):
-                    numbers[:, k] = (np.e if logarithm["log"].lower() == "ln" else 10.0) ** numbers[:, k]
-        for idle in _IDLE:
-            name = name.removesuffix(idle).strip()
-        exact = any(name in each.called for each in names.COLUMNS)
-        other = len(name) == 1 and not exact and any(_is(name, each) for each in names.COLUMNS)
-        called[k] = f"{_OTHER}{name}" if other else name  # "F" is a force, and "d" a thickness
-        if units[k] in _PER_SECOND:
-            angular = any(_is(name, each) for each in (names.ANGULAR, names.REDUCED_ANGULAR))
-            units[k] = "rad/s" if angular else "" if _is(name, names.FREQUENCY) else units[k]
-    heading = replace(sheet.heading, names=tuple(called), units=tuple(units))
-    return replace(sheet, numbers=numbers, heading=heading)
+def _positive(columns: Columns, name: str) -> np.ndarray:
+    columns.refuse(name, columns[name] <= 0, "must be greater than 0")
+    return columns[name]
 
 
-def _is(name, column):
-    return name.casefold() in map(str.casefold, column.called)
+def _headings(columns):
+    return ", ".join(map(repr, columns.headings.values())) or "none that is known"
 
 
-def _over_time(columns, kind):
-    """The relaxation modulus, or the creep compliance."""
-    relaxation, creep = (columns.modulus(each, kind) for each in _OVER_TIME)
-    if relaxation is None and creep is None:
+def _kind(columns, quantities, stated):
+    """Kind of the moduli, by the symbols of their headings or as stated; None where neither says so."""
+    headings = {each.field: columns.headings[each.field] for each in quantities if each.field in columns}
+    found = {_KINDS[symbol[1]] for each in headings.values() if (symbol := _SYMBOL.fullmatch(each))}
+    found |= {"shear"} if any("viscosity" in each for each in headings) else set()
+    if len(found | ({stated} if stated in _KINDS.values() else set())) > 1:
         raise ValueError(
-            f"{columns.heading} has no modulus: give storage and loss modulus over the frequency, or a relaxation "
-            "modulus or creep compliance over time"
+            f"{columns.name}: {', '.join(map(repr, headings.values()))} are moduli of kind "
+            f"{' and '.join(map(repr, sorted(found)))}, and kind = {stated!r} is stated: state the columns of one "
+            "kind, or correct kind"
         )
-    if relaxation is not None and creep is not None:
-        raise ValueError(f"{columns.heading} has both a relaxation modulus and a creep compliance: keep one")
-    return {"modulus": relaxation} if creep is None else {"compliance": creep}
+    return next(iter(found), stated)
 
 
-def _table(columns, made, reduced=False):
-    """The table of rows in which nothing is missing, at one temperature where a column shifts them there."""
-    sheet, place = columns.sheet, next(iter(made))
-    longer = None if reduced else factors(columns)
-    beside = {"temperature": temperatures(columns, reduced), "factor": longer}
-    made = made | {name: values for name, values in beside.items() if values is not None}
-    whole = ~np.isnan(np.column_stack(list(made.values()))).any(axis=1)
-    if count := int((~whole).sum()):
-        columns.notes.append(f"{sheet.name}: {count} of {whole.size} rows lack a number, and are left out")
-    if not whole.any():
-        raise ValueError(f"{sheet.name}: no row has all of {', '.join(made)}")
-    made = {name: values[whole] for name, values in made.items()}
-    _refuse_sweep(sheet, made)
-    if (longer := made.pop("factor", None)) is not None:
-        made[place] = made[place] / longer if place == "time" else made[place] * longer
-        if (temperature := made.pop("temperature", None)) is not None:
-            at = reference(columns, longer, temperature)
-            made |= {} if at is None else {"temperature": np.full(len(longer), at)}
-    kinds = {"storage": Table, "modulus": RelaxationTable, "compliance": CreepTable}
-    kind: Any = next(kinds[name] for name in made if name in kinds)
+def _frequencies(columns, stated):
+    """Frequencies and their unit, as written or stated; None where neither says so."""
+    names = [REDUCED.field] if REDUCED.field in columns else [OMEGA.field, FREQUENCY.field]
+    units = {name: _unit(columns, name) for name in names if name in columns}
+    if not units:
+        raise ValueError(
+            f"{columns.name}: no column of {_headings(columns)} is a frequency, and a sweep of temperature is no "
+            'table of moduli: state columns = {frequency = "..."}'
+        )
+    if len(units) == 2 and None not in units.values():
+        omega, cycles = (_angular(columns, name) for name in names)
+        columns.refuse(
+            "omega", np.abs(omega - cycles) > _AGREE * omega, "contradicts frequency: 1 Hz is 2 pi rad/s"
+        )
+    fitting = [name for name, unit in units.items() if stated in (None, unit)]
+    fitting += [name for name, unit in units.items() if unit is None]
+    if not fitting:
+        name, unit = next(iter(units.items()))
+        raise ValueError(
+            f"{columns.name}: {columns.headings[name]!r} is in {unit}, and frequency_unit = {stated!r} is stated: "
+            "leave frequency_unit out, or correct the heading"
+        )
+    return _positive(columns, fitting[0]), units[fitting[0]] or stated
+
+
+def _unit(columns, name):
+    unit = columns.units[name]
+    return "rad/s" if name == OMEGA.field else None if unit is None else unit.symbol
+
+
+def _angular(columns, name):
+    return columns[name] * (2 * np.pi if _unit(columns, name) == "Hz" else 1.0)
+
+
+def _complex_modulus(columns):
+    """Storage and loss modulus [Pa], however they are stated."""
+    known = {name: _positive(columns, name) for name in ("storage", "loss", "magnitude") if name in columns}
+    for name, column in {"magnitude": VISCOSITY, "loss": DYNAMIC, "storage": OUT_OF_PHASE}.items():
+        if column.field in columns and name not in known:
+            places = [each for each in (OMEGA.field, FREQUENCY.field) if each in columns]
+            if not places or _unit(columns, places[0]) is None:
+                raise ValueError(
+                    f"{columns.name}: moduli are {columns.headings[column.field]!r} times the angular frequency: "
+                    'state its unit, as units = {frequency = "Hz"}'
+                )
+            known[name] = _positive(columns, column.field) * _angular(columns, places[0])
+    tangent = _positive(columns, "tan_delta") if "tan_delta" in columns else None
+    if "phase" in columns and tangent is None:
+        columns.refuse("phase", columns["phase"] >= np.pi / 2, "must be below pi/2, 90 deg")
+        tangent = np.tan(_positive(columns, "phase"))
+    storage, loss, size = (known.get(name) for name in ("storage", "loss", "magnitude"))
+    if storage is not None and loss is not None:
+        if tangent is not None and (apart := float(np.median(np.abs(np.log(loss / storage / tangent))))) > _SAME:
+            raise ValueError(
+                f"{columns.name}: loss over storage modulus is {np.exp(apart):.2g} times off tan delta or the "
+                "phase: correct their units, or state the columns of two of them"
+            )
+    elif tangent is not None and storage is not None:
+        loss = storage * tangent
+    elif tangent is not None and loss is not None:
+        storage = loss / tangent
+    elif tangent is not None and size is not None:
+        storage = size / np.hypot(1.0, tangent)
+        loss = storage * tangent
+    else:
+        raise ValueError(
+            f"{columns.name}: no complete modulus is in the columns {_headings(columns)}: storage and loss "
+            "modulus, or one of them, the complex modulus or viscosity with tan delta or the phase: state columns = "
+            '{loss = "..."}'
+        )
+    return {"storage": storage, "loss": loss}
+
+
+def _table(columns, made, kind):
+    """The table, shifted to one temperature where columns say by how much."""
+    (place, places), *moduli = made.items()
+    reduced = REDUCED.field in columns
+    temperature = columns.values.get("temperature")
+    if B_T.field in columns:
+        if reduced:
+            raise ValueError(
+                f"{columns.name}: b_T beside reduced frequencies leaves open whether moduli are reduced"
+            )
+        lift = _positive(columns, "b_T")
+        made |= {name: each * lift if kind is CreepTable else each / lift for name, each in moduli}
+    if temperature is not None and np.ptp(temperature) > SCATTER:
+        if place == "frequency" and places.max() < _ONE_FREQUENCY * places.min():
+            raise ValueError(
+                f"{columns.name}: a sweep of temperature at one frequency, {places[0]:g}, is no table of "
+                "frequencies: measure at several frequencies, at one temperature or at each"
+            )
+        temperature = None if reduced else temperature
+    if (A_T.field in columns or LOG_A_T.field in columns) and not reduced:
+        longer = factors(columns)
+        made[place] = places / longer if place == "time" else places * longer
+        temperature = None if temperature is None else _reference(columns, longer, temperature)
+    made |= {} if temperature is None else {"temperature": temperature}
+    notes = columns.notes
+    if place == "time" and (start := made["time"] == 0).any():
+        notes = (*notes, f"{columns.name}: {int(start.sum())} rows at time 0 are left out")
+        made = {name: values[~start] for name, values in made.items()}
+    if len(places) > MOST_ROWS:
+        raise ValueError(f"{columns.name}: {len(places):,} rows: at most {MOST_ROWS:,} are fitted: state rows")
     try:
-        table = kind(**{name: tuple(values.tolist()) for name, values in made.items()})
+        return kind(**{name: tuple(values.tolist()) for name, values in made.items()}).noted(notes)
     except ValidationError as error:
-        raise ValueError(f"{sheet.name}: {said(error)}") from None
-    return table.noted((*columns.notes, *columns.unused()))
+        raise ValueError(f"{columns.name}: {said(error)}") from None
 
 
-def _refuse_sweep(sheet, made):
-    """Raise ValueError for a sweep of temperature at one frequency."""
-    frequency, temperature = made.get("frequency"), made.get("temperature")
-    if frequency is None or temperature is None or np.ptp(temperature) <= SCATTER:
-        return
-    if frequency.max() < _ONE_FREQUENCY * frequency.min():
+def factors(columns: Columns) -> np.ndarray:
+    """Shift factors a_T of a table that has them."""
+    if A_T.field not in columns:
+        columns.refuse("log_a_T", np.abs(columns["log_a_T"]) > _MOST_DECADES, "is no logarithm to base 10")
+        return 10.0 ** columns["log_a_T"]
+    columns.refuse("a_T", columns["a_T"] <= 0, "must be greater than 0; a logarithm to base 10 is log_a_T")
+    return columns["a_T"]
+
+
+def _reference(columns, longer, temperature):
+    """Temperature at which a_T is 1 [K], of every row; None where it does not lie between those of the rows.
+
+    Raises ValueError for factors that grow with the temperature.
+    """
+    warm, cold = (np.median(longer[temperature == end]) for end in (temperature.max(), temperature.min()))
+    if warm > cold:
         raise ValueError(
-            f"{sheet.name}: a sweep of temperature at one frequency, {frequency[0]:g}, is no table of "
-            "frequencies: measure at several frequencies, at one temperature or at each"
+            f"{columns.name}: a_T grows with the temperature, and it is that of times, which grow shorter: state "
+            "its inverse"
         )
+    order = np.argsort(longer)
+    logs = np.log(longer[order])
+    if not logs[0] <= 0 <= logs[-1]:
+        return None
+    return np.full(len(longer), np.interp(0.0, logs, temperature[order]))

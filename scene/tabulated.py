@@ -18,6 +18,7 @@ from .moduli import read_moduli
 from .plain import bare
 from .quantities import CLOSED, Finite, ShearModulus, by_name
 from .table import SCATTER, AnyTable, CreepTable, RelaxationTable, Table
+from .tablefile import FromTable, TableFormat, split_format
 from .temperature import WLF, Arrhenius
 from .viscoelastic import PoissonRatio, Solid
 from .youngs import in_shear, or_in_tension
@@ -37,12 +38,14 @@ def _or_file(schema: dict[str, Any]) -> None:
 
 
 @dataclass(frozen=True, config=ConfigDict(**CLOSED, json_schema_extra=_or_file), kw_only=True)
-class Tabulated(Solid):
+class Tabulated(FromTable, Solid):
     """Solid of measured moduli, fitted with a Prony series by nonnegative least squares.
 
     table : a Table of storage and loss modulus over the frequency, a RelaxationTable or a CreepTable over time; or
-        the path of a text or CSV file, a DataFrame, a Dataset of xarray, or arrays by the names that columns may
-        have. It is read once and kept as numbers; a relative path starts at the working directory
+        the path of a text file, a DataFrame, a Dataset of xarray, or arrays by the names that columns may have. It
+        is read once and kept as numbers; a relative path starts at the folder of a scene file that names it
+    columns, units, where, separator, decimal, encoding, skip, rows : what differs of it from the documented form
+        of tables, see `tablefile.TableFormat`
     frequency_unit : "rad/s" or "Hz" (cycles per second), where no heading says so; None over the time
     kind : "shear" for G', G'', G(t), J(t); "tensile" for E', E'', E(t), D(t), where no heading says so;
         E = 2 (1 + poisson_ratio) G, and moduli are in Pa where no heading has another unit
@@ -77,12 +80,13 @@ class Tabulated(Solid):
         stated = by_name(given)
         if stated is None or "table" not in stated:
             return given
-        table, found = stated["table"], dict(stated)
-        if not _is_plain(table):
+        written, found = split_format(stated)
+        table = found["table"]
+        if written != TableFormat() or not _is_plain(table):
             try:
                 # What is no text is for the check of the fields to name.
-                words = {name: each for name, each in stated.items() if isinstance(each, str)}
-                read = read_moduli(table, words.get("frequency_unit"), words.get("kind"))
+                words = {name: each for name, each in found.items() if isinstance(each, str)}
+                read = read_moduli(table, words.get("frequency_unit"), words.get("kind"), written)
             except ValueError as error:
                 raise _of_the_table(table, error) from error
             found["table"] = table = read.table

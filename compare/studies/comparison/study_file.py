@@ -259,13 +259,16 @@ FIELDS = [field.name for field in fields(_Complete)]
 USUAL = {"quick": (6, 4, 3, 12, 128), "standard": (12, 8, 10, 60, 256), "full": (20, 16, 40, 200, 512)}
 
 
-@files.reading_once()
 def study_of(text: str, name: str) -> ReadyStudy:
     """A study by the text of its file. Raises InvalidInput naming every mistake.
 
     name : of the file, for mistakes
     """
-    content = parsed(text, name)
+    with files.reading_once(name):
+        return _study_of(parsed(text, name), name)
+
+
+def _study_of(content, name):
     file: StudyFile = made(content, StudyFile, name)
     found: dict[str, list[Series]] = {size: [] for size in SIZES}
     lines = []
