@@ -7,7 +7,7 @@ from math import inf, isfinite, pi, sqrt
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import ConfigDict, Field, model_validator
+from pydantic import ConfigDict, Field, TypeAdapter, model_validator
 from pydantic.dataclasses import dataclass
 
 from .heightmap import LONGEST, SHORTEST
@@ -16,6 +16,7 @@ from .powerlaws import PowerLaws, of_surface
 from .quantities import CLOSED, METRE, RADIAN_PER_METRE, ROW, Positive, Seed, Unit, by_name, some_of, takes
 from .scanned import QUOTIENT
 from .selfaffine import Wavelength
+from .tablefile import Column, FromTable, TableFormat, read_columns, split_format
 
 MOST_ROWS = 5_000
 PER_METRE = Unit("1/m", "waves in a length", "0.1 1/um", 1e5)
@@ -24,19 +25,25 @@ OF_LINE = Unit("m^3", "a spectral density of a line", "2 um^3", 2e-18)
 # <h^2> as an integral over wave vectors here, as one over these divided by 2 pi there.
 CONVENTIONS = {"persson": 1.0, "jacobs": 2 * pi}
 
+COLUMNS = (
+    Column("q", ("wavevector", "wave vector"), (RADIAN_PER_METRE, PER_METRE)),
+    Column("frequency", ("spatial frequency",), (PER_METRE,)),
+    Column("C2D", ("C_iso",), (OF_SURFACE,)),
+    Column("C1D", (), (OF_LINE,)),
+)
 _FREQUENCY: dict[str, Any] = {"frequency": Annotated[tuple[Annotated[Positive, PER_METRE], ...], ROW]}
 
 
 def _or_table(schema: dict[str, Any]) -> None:
     """In JSON schema: a table in place of q and a density, frequencies in place of q."""
     properties = schema["properties"]
-    properties |= {"table": {"type": "string"}, "frequency": properties["q"] | {"description": "in 1/m"}}
+    properties |= {"table": {"type": "string"}, "frequency": TypeAdapter(_FREQUENCY["frequency"]).json_schema()}
     schema["required"] = ["convention"]
     schema["anyOf"] = [{"required": [name]} for name in ("table", "q", "frequency")]
 
 
 @dataclass(frozen=True, config=ConfigDict(**CLOSED, json_schema_extra=_or_table), kw_only=True)
-class Spectrum(Isotropic):
+class Spectrum(FromTable, Isotropic):
     """Randomly rough and isotropic, with a measured spectral density.
 
     q : wave numbers 2 pi / wavelength [rad/m], in any order (N,); or `frequency`, 1 / wavelength [1/m]
@@ -51,7 +58,12 @@ class Spectrum(Isotropic):
 
     Between the points the density is a power law, outside it is zero. C1D is turned into C2D by Abel's inversion,
     in which C1D goes on beyond its last point by the law of its last octave. The longest wave is the period of the
-    surface. `table`, a file or a DataFrame with these columns, stands in place of q and the density.
+    surface.
+
+    In place of q and the density `table` is the path of a text file, relative to the folder of a scene file that
+    names it, a DataFrame, a Dataset of xarray or arrays by name, with columns of these names; q, in rad/m or 1/m, is
+    2 pi / wavelength. `columns`, `units`, `where`, `separator`, `decimal`, `encoding`, `skip` and `rows` state what
+    differs of it from the documented form of tables, see `tablefile.TableFormat`.
 
     Raises ValueError where there are fewer than two points or equal ones, where the waves span less than a factor
     of 2, and where no isotropic surface has such a C1D.
@@ -74,15 +86,25 @@ class Spectrum(Isotropic):
 
     @model_validator(mode="before")
     @classmethod
-    def _of_frequencies(cls, given: Any) -> Any:
+    def _read(cls, given: Any) -> Any:
         stated = by_name(given)
-        if stated is None or "frequency" not in stated:
+        if stated is None:
             return given
-        if "q" in stated:
-            raise ValueError("frequency beside q = 2 pi frequency: give one of them")
-        (q,) = some_of(_FREQUENCY, stated).values()
-        rest = {name: value for name, value in stated.items() if name != "frequency"}
-        return rest | {"q": tuple(2 * pi * each for each in q)}
+        written, stated = split_format(stated)
+        if "table" in stated:
+            read = _of_table(stated.pop("table"), written)
+            if twice := {"q", "frequency", "C2D", "C1D"} & set(stated):
+                raise ValueError(f"{min(twice)} beside table: give one of them")
+            stated |= read
+        elif written != TableFormat():
+            raise ValueError("columns, units, skip and so on are of a table: give table")
+        if "frequency" in stated:
+            if "q" in stated:
+                raise ValueError("frequency beside q = 2 pi frequency: give one of them")
+            (found,) = some_of(_FREQUENCY, stated).values()
+            del stated["frequency"]
+            stated["q"] = tuple(2 * pi * each for each in found)
+        return stated
 
     @model_validator(mode="after")
     def _has_a_surface(self):
@@ -208,6 +230,22 @@ class Spectrum(Isotropic):
     def moment(self, m, lower, upper):
         """int q^m C_2D dq of the waves that are kept, from lower to upper [rad/m], arrays allowed; in SI."""
         return self._laws[1].moment(m, lower, upper)
+
+
+def _of_table(table: Any, written: TableFormat) -> dict[str, Any]:
+    """Columns of a table, all above zero, as fields."""
+    found = read_columns(table, COLUMNS, written)
+    for pair in (("q", "frequency"), ("C2D", "C1D")):
+        if len(set(pair) & set(found.values)) != 1:
+            raise ValueError(
+                f"{found.name}: one column {' or '.join(pair)} is needed: state its heading, as columns = "
+                f'{{{pair[0]} = "..."}}'
+            )
+    if "q" in found and found.units["q"] is None and any(found.units.values()):
+        raise ValueError(f'{found.name}: column {found.headings["q"]!r} has no unit: state units = {{q = "rad/m"}}')
+    for name, values in found.values.items():
+        found.refuse(name, values <= 0, "is not above zero: leave it out, as with where or rows")
+    return {name: tuple(values.tolist()) for name, values in found.values.items()}
 
 
 @lru_cache(maxsize=16)
