@@ -1,13 +1,17 @@
 """Isotropic roughness that has a spectral density: what it is drawn by, whatever the density."""
 
 from dataclasses import replace
+from functools import lru_cache
 from itertools import pairwise
-from math import pi, sqrt
+from math import ceil, pi, sqrt
 from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
 from .quantities import METRE, RADIAN_PER_METRE, takes
+
+# Nodes between two corners: for rounding those of a piece by its length, and enough over seven decades for 1e-12.
+_FEWEST, _MORE, _MOST = 4, 5, 28
 
 
 def power_integral(exponent, lower, upper):
@@ -17,23 +21,27 @@ def power_integral(exponent, lower, upper):
     return lower**p * np.where(p == 0, ratio, np.expm1(p * ratio) / np.where(p == 0, 1.0, p))
 
 
-def over_directions(function, q, corners, nodes: int):
+def over_directions(function, q, corners):
     """Mean over all angles of function(q / cos(angle)), which is zero above the last corner.
 
     corners : wave numbers [rad/m], ascending, between which the function is smooth
-    nodes : of the quadrature between two of them
 
     With 1 / cos(angle) = cosh(t) the integrand is analytic between the corners.
     """
-    places, weights = np.polynomial.legendre.leggauss(nodes)
     ends = [np.arccosh(np.maximum(corner / q, 1.0)) for corner in (q, *corners)]
     total = 0.0
     for start, end in pairwise(ends):
         middle, half = (start + end) / 2, (end - start) / 2
-        for place, weight in zip(places, weights, strict=True):
-            stretch = np.cosh(middle + half * place)
+        nodes, weights = _rule(min(_FEWEST + ceil(_MORE * 2 * np.max(half)), _MOST))
+        for node, weight in zip(nodes, weights, strict=True):
+            stretch = np.cosh(middle + half * node)
             total = total + weight * half * function(q * stretch) / stretch
     return 2 / pi * total
+
+
+@lru_cache
+def _rule(nodes):
+    return np.polynomial.legendre.leggauss(nodes)
 
 
 of_waves = takes(**dict.fromkeys(("q", "q_max", "lower", "upper"), RADIAN_PER_METRE))
@@ -50,9 +58,6 @@ class Isotropic:
     method of dimensionality reduction, C_1D = pi q C_2D, which keeps the rms height and the rms of the full
     gradient, or that of a line scan.
     """
-
-    # Nodes of a quadrature over directions: enough for seven decades of wave numbers, to 1e-12.
-    _nodes = 28
 
     if TYPE_CHECKING:
         seed: int
@@ -147,4 +152,4 @@ class Isotropic:
         return self.rms_height * self._unit * sqrt(ratio)
 
     def _seen(self, function, q, q_max):
-        return over_directions(function, q, (*self._corners(q_max), q_max), self._nodes)
+        return over_directions(function, q, (*self._corners(q_max), q_max))

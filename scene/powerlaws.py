@@ -2,16 +2,16 @@
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import ceil, inf, log, log10
+from itertools import pairwise
+from math import ceil, inf, log, log10, sqrt
 
 import numpy as np
 
 from .isotropic import over_directions, power_integral
 
-# Points a decade at least, at which the density of a surface is found from that of a line.
-_A_DECADE = 16
-# Nodes of a quadrature over directions: least, most, and more of them for each e-fold between two points.
-_LEAST, _MOST, _MORE = 8, 28, 3
+# Places at which the density of a surface is found from that of a line, between two points a decade apart; as the
+# root of the distance between others.
+_PLACES = 16
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,12 +34,6 @@ class PowerLaws:
         """Exponents at the first and at the last point, over an octave each, as single laws scatter."""
         low, high = (np.log(self(start * np.array([1.0, 2.0]))) for start in (self.q[0], self.q[-1] / 2))
         return float(np.diff(low)[0] / log(2)), float(np.diff(high)[0] / log(2))
-
-    @property
-    def nodes(self) -> int:
-        """Nodes between two points that a quadrature over directions needs."""
-        widest = float(np.log(self.q[1:] / self.q[:-1]).max())
-        return min(_LEAST + ceil(_MORE * widest), _MOST)
 
     def __call__(self, q):
         """The density; beyond the ends that of the ends."""
@@ -98,12 +92,13 @@ def of_surface(line: PowerLaws) -> tuple[np.ndarray, np.ndarray]:
     # Only spectra of lines need it.
     from scipy.special import hyp2f1
 
-    pieces = (
-        np.geomspace(low, high, ceil(_A_DECADE * log10(high / low)) + 1)[1:]
-        for low, high in zip(line.q[:-1], line.q[1:], strict=True)
-    )
+    # Below each point the surface has a root of the distance to it: the places are closer there.
+    pieces = []
+    for low, high in pairwise(line.q.tolist()):
+        count = ceil(_PLACES * sqrt(log10(high / low)))
+        pieces.append(high * (low / high) ** np.square(np.arange(count)[::-1] / count))
     q = np.concatenate([line.q[:1], *pieces])
-    falling = over_directions(lambda k: line.exponent(k) * line(k), q, line.q, line.nodes)
+    falling = over_directions(lambda k: line.exponent(k) * line(k), q, line.q)
     exponent, share = line.ends[1], q / line.q[-1]
     a = (1 - exponent) / 2
     tail = exponent * line.density[-1] * share * hyp2f1(1 / 2, a, a + 1, share**2) / (np.pi * a)

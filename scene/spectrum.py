@@ -18,7 +18,7 @@ from .scanned import QUOTIENT
 from .selfaffine import Wavelength
 from .tablefile import Column, FromTable, TableFormat, read_columns, split_format
 
-MOST_ROWS = 5_000
+MOST_OF_SURFACE, MOST_OF_LINE = 5_000, 1_000  # points; a line has to be inverted
 PER_METRE = Unit("1/m", "waves in a length", "0.1 1/um", 1e5)
 OF_SURFACE = Unit("m^4", "a spectral density of a surface", "2 um^4", 2e-24)
 OF_LINE = Unit("m^3", "a spectral density of a line", "2 um^3", 2e-18)
@@ -124,8 +124,11 @@ class Spectrum(FromTable, Isotropic):
         density = self.C2D or self.C1D or ()
         if len(self.q) != len(density):
             raise ValueError(f"q has {len(self.q)} values, and the density {len(density)}: one each")
-        if not 2 <= len(self.q) <= MOST_ROWS:
-            raise ValueError(f"{len(self.q):,} points: from 2 to {MOST_ROWS:,} are taken")
+        most_points = MOST_OF_SURFACE if self.C1D is None else MOST_OF_LINE
+        if not 2 <= len(self.q) <= most_points:
+            raise ValueError(
+                f"{len(self.q):,} points: from 2 to {most_points:,} are taken; average more of them in bands"
+            )
         ordered = sorted(self.q)
         if twice := [low for low, high in pairwise(ordered) if low == high]:
             raise ValueError(f"q = {twice[0]:g} rad/m is there twice: the density has one value at each")
@@ -214,10 +217,6 @@ class Spectrum(FromTable, Isotropic):
         return _laws(self.q, self.C2D, line, self.convention, self.longest_kept, self.shortest_kept)
 
     @property
-    def _nodes(self):
-        return self._laws[1].nodes
-
-    @property
     def _unit(self):
         return 1.0
 
@@ -242,7 +241,9 @@ def _of_table(table: Any, written: TableFormat) -> dict[str, Any]:
                 f'{{{pair[0]} = "..."}}'
             )
     if "q" in found and found.units["q"] is None and any(found.units.values()):
-        raise ValueError(f'{found.name}: column {found.headings["q"]!r} has no unit: state units = {{q = "rad/m"}}')
+        raise ValueError(
+            f'{found.name}: column {found.headings["q"]!r} has no unit: state units = {{q = "rad/m"}}'
+        )
     for name, values in found.values.items():
         found.refuse(name, values <= 0, "is not above zero: leave it out, as with where or rows")
     return {name: tuple(values.tolist()) for name, values in found.values.items()}
