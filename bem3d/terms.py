@@ -1,8 +1,6 @@
 """Table of terms: this solver's treatment of each part of a scene."""
 
 from scene import (
-    WLF,
-    Arrhenius,
     Coulomb,
     Cylinder,
     Heating,
@@ -19,6 +17,7 @@ from scene import (
 )
 from scene.indenter import Axisymmetric
 from scene.isotropic import Isotropic
+from scene.temperature import TemperatureLaw
 from scene.terms import Table
 from scene.viscoelastic import Linear
 
@@ -45,8 +44,7 @@ TERMS: Table = {
     Layer: LayerTerm,
     Topography: MeasuredRoughness,
     Profile: FittedRoughness,
-    WLF: Term,
-    Arrhenius: Term,
+    TemperatureLaw: Term,
     Heating: HeatedContact,
     Coulomb: Interface,
 }

@@ -41,6 +41,8 @@ from .options import (
     Kind,
     LengthUnit,
     Level,
+    LinesAbove,
+    LinesBelow,
     LoadsOrDepths,
     Missing,
     Model,
@@ -70,12 +72,19 @@ from .options import (
     StudySize,
     Style,
     Table,
+    TableColumns,
+    TableDecimal,
+    TableEncoding,
+    TableRows,
+    TableSeparator,
+    TableUnits,
     Tolerance,
     Update,
     Width,
     WithReport,
     Workers,
     Yes,
+    by_name,
 )
 from .solving.suggest import checked
 
@@ -270,13 +279,23 @@ def mastercurve(
     c1: ShiftC1 = None,
     c2: ShiftC2 = None,
     reference: ShiftReference = None,
+    columns: TableColumns = None,
+    units: TableUnits = None,
+    where: TableRows = None,
+    separator: TableSeparator = None,
+    decimal: TableDecimal = None,
+    encoding: TableEncoding = None,
+    skip: LinesAbove = None,
+    rows: LinesBelow = None,
     **options: Unpack[Options],
 ) -> Report:
     """Shift measured friction curves onto one, if they allow it. The curves are friction against load."""
     from .studies.mastercurve.study import Mastercurve
 
-    stated = {"c1": c1, "c2": c2, "reference": reference}
-    return solve(Mastercurve.of(table, tolerance, **stated), output, **options)
+    pairs = {"columns": by_name(columns), "units": by_name(units), "where": by_name(where)}
+    form = {"separator": separator, "decimal": decimal, "encoding": encoding, "skip": skip, "rows": rows}
+    study = Mastercurve.of(table, tolerance, c1, c2, reference, **pairs, **form)
+    return solve(study, output, **options)
 
 
 @checked

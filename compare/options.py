@@ -4,6 +4,7 @@ At run time a type is what a command line gives; a type checker sees all that Py
 functions get these texts by `solving.suggest.checked`.
 """
 
+from collections.abc import Mapping
 from glob import glob
 from os import PathLike
 from pathlib import Path
@@ -15,7 +16,7 @@ from .library import ready as library
 from .solving.suggest import TEXT
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Sequence
     from concurrent.futures import Executor
 
     from .library.lookup import SceneLike
@@ -32,10 +33,11 @@ if TYPE_CHECKING:
     SeveralModels = Sequence[ModelLike]
     SeveralScenes = SceneLike | Sequence[str | Path] | Mapping[str, SceneLike]
     StyleLike = str | PathLike | Mapping[str, Any]
+    Named = Mapping[str, Any] | Sequence[str]
 else:
     File = Path
     SceneLike = ModelLike = Measurements = Surface = Amount = StyleLike = str
-    Values = Amounts = Sides = SeveralModels = SeveralScenes = list[str]
+    Values = Amounts = Sides = SeveralModels = SeveralScenes = Named = list[str]
 
 
 def scenes() -> list[str]:
@@ -59,6 +61,18 @@ def number(given: str | float) -> float:
         return int(given) if str(given).isdecimal() else float(given)
     except ValueError:
         raise BadParameter(f"{given!r} is not a number.") from None
+
+
+def by_name(given: "Named | None") -> Mapping[str, Any] | None:
+    """Values by name, of texts as mu=3 on the command line. Raises InvalidInput."""
+    from scene.reading import InvalidInput
+
+    if not given or isinstance(given, Mapping):
+        return given or None  # type: ignore[return-value]
+    pairs = [str(each).partition("=") for each in given]
+    if wrong := next(("".join(each) for each in pairs if not (each[0] and each[1])), ""):
+        raise InvalidInput(f"{wrong}: a name and a value are needed, as mu=3")
+    return {name: int(value) if value.isdecimal() else value for name, _, value in pairs}
 
 
 # All commands that solve.
@@ -206,8 +220,8 @@ Update = Annotated[bool, Option("--update", help="Store the values that have cha
 Table = Annotated[
     Measurements,
     Argument(
-        help="CSV file, a measurement a line: friction mu, normal force F_N [N], speed v [m/s]. A heading may give"
-        " another order and other units, as F_N [mN]; friction force F_T in place of mu; temperature T [degC]."
+        help="Text file, a measurement a line below a heading with units: friction mu or friction force F_T [N],"
+        " normal force F_N [N], speed v [m/s], and temperature T [degC] if there is one."
     ),
     "From Python also a DataFrame, a Dataset of xarray, or arrays by the names of the columns.",
 ]
@@ -227,6 +241,32 @@ ShiftC1 = Annotated[
 ]
 ShiftC2 = Annotated[Amount | None, Option(help='Constant of WLF, as "101.6 K".')]
 ShiftReference = Annotated[Amount | None, Option(help='Temperature at which c1 and c2 are stated, as "20 degC".')]
+# What differs of a table from the documented form.
+TableColumns = Annotated[
+    Named | None,
+    Option(
+        help='Heading of a column by its name, as mu="Friction (mean)", or its number, as mu=3, of a table without'
+        " a heading; once for each column."
+    ),
+    "From Python a mapping.",
+]
+TableUnits = Annotated[
+    Named | None,
+    Option(help="Unit of a column by its name, as v=mm/s, if the heading has none; once for each column."),
+    "From Python a mapping.",
+]
+TableRows = Annotated[
+    Named | None,
+    Option(help='Value in a column, of the rows that are read, as sample=NR; "*" for rows of any value.'),
+    "From Python a mapping.",
+]
+TableSeparator = Annotated[
+    str | None, Option(help="What separates the cells of a table: tab, semicolon, comma or blanks."), TEXT
+]
+TableDecimal = Annotated[str | None, Option(help='Decimal mark of a table, "." or ",".'), TEXT]
+TableEncoding = Annotated[str | None, Option(help="Encoding of a table, as cp1252."), TEXT]
+LinesAbove = Annotated[int | None, Option(help="Lines above the heading of a table.", parser=number)]
+LinesBelow = Annotated[int | None, Option(help="Rows below the heading of a table that are read.", parser=number)]
 HeightMap = Annotated[
     Surface,
     Argument(

@@ -1,8 +1,6 @@
 """Table of terms: this solver's treatment of each part of a scene, and the parts that it lacks."""
 
 from scene import (
-    WLF,
-    Arrhenius,
     Coulomb,
     Cylinder,
     Heating,
@@ -19,6 +17,7 @@ from scene import (
 )
 from scene.indenter import Axisymmetric
 from scene.isotropic import Isotropic
+from scene.temperature import TemperatureLaw
 from scene.terms import Table, lacking
 from scene.viscoelastic import Linear
 
@@ -58,8 +57,7 @@ TERMS: Table = {
     Topography: MeasuredRoughness,
     Profile: FittedRoughness,
     Layer: NO_LAYER,
-    WLF: Term,
-    Arrhenius: Term,
+    TemperatureLaw: Term,
     Heating: HeatedContact,
     Coulomb: Interface,
 }

@@ -23,7 +23,7 @@ from .signatures import make_readable
 from .spectrum import Spectrum
 from .table import CreepTable, RelaxationTable, Table
 from .tabulated import Tabulated
-from .temperature import WLF, Arrhenius
+from .temperature import WLF, Arrhenius, ShiftFactors
 from .topography import Topography
 
 __all__ = [
@@ -60,6 +60,7 @@ __all__ = [
     "Scene",
     "SelfAffine",
     "Shear",
+    "ShiftFactors",
     "Slide",
     "SolveError",
     "Solver",

@@ -8,9 +8,9 @@ import numpy as np
 
 from .extrapolation import REACH
 from .indenter import Cylinder, Plane
+from .isotropic import Isotropic
 from .measured import Measured
 from .motion import Program, Slide
-from .isotropic import Isotropic
 from .profile import Profile
 from .roughness import CrossedWaves
 from .scales import ElasticContact, elastic_contact

@@ -196,8 +196,8 @@ def _complex_modulus(columns):
     else:
         raise ValueError(
             f"{columns.name}: no complete modulus is in the columns {_headings(columns)}: storage and loss "
-            "modulus, or one of them, the complex modulus or viscosity with tan delta or the phase: state columns = "
-            '{loss = "..."}'
+            "modulus, or one of them, the complex modulus or viscosity with tan delta or the phase: state "
+            'columns = {loss = "..."}'
         )
     return {"storage": storage, "loss": loss}
 

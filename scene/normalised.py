@@ -5,7 +5,8 @@ from typing import Annotated, Any
 
 from pydantic import ConfigDict, Field
 
-from .quantities import CLOSED, ROW, Finite, ShearModulus, Time, by_name, some_of
+from .quantities import CLOSED, MODULUS, ROW, SECOND, Finite, ShearModulus, Time, by_name, some_of
+from .tablefile import Column, filled
 from .youngs import in_shear, in_tension, or_in_tension
 
 INSTANT, RELAXED = "instantaneous_modulus", "equilibrium_modulus"
@@ -18,6 +19,15 @@ _TYPES: dict[str, Any] = {
 }
 
 
+# Columns of a table of terms.
+TERMS = (
+    Column("relaxation_times", ("tau", "relaxation time"), (SECOND,), needed=True),
+    Column("moduli", ("G",), (MODULUS,)),
+    Column("youngs_moduli", ("E",), (MODULUS,)),
+    Column("g", ()),
+)
+
+
 def absolute(cls: type, given: Any) -> Any:
     """What is stated for a Prony series, with moduli in shear in place of normalised ones.
 
@@ -25,6 +35,8 @@ def absolute(cls: type, given: Any) -> Any:
     stated. A validator before those of the fields. Raises ValueError where the terms leave nothing at rest, or
     contradict one another, and ValidationError, with its name, where one is no number of its kind.
     """
+    if (stated := by_name(given)) is not None:
+        given = filled(stated, TERMS)
     given = in_shear(cls, given, INSTANT)
     stated = by_name(given)
     if stated is None or stated.keys().isdisjoint(("g", "tau", INSTANT)):
@@ -67,7 +79,7 @@ def _or_normalised(schema: dict[str, Any]) -> None:
     # Which of so many stand together is checked where they are read.
     schema.pop("required", None)
     at_rest = (RELAXED, in_tension(RELAXED), INSTANT, in_tension(INSTANT))
-    ways = at_rest, ("moduli", "youngs_moduli", "g"), ("relaxation_times", "tau")
+    ways = at_rest, ("moduli", "youngs_moduli", "g", "table"), ("relaxation_times", "tau", "table")
     schema["allOf"] = [{"anyOf": [{"required": [name]} for name in names]} for names in ways]
 
 

@@ -1,6 +1,7 @@
 """Solids stated by their springs and dashpots, and the list of all that a scene may be made of."""
 
-from typing import Annotated, Literal
+from dataclasses import InitVar
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
@@ -9,6 +10,7 @@ from .fractional import Fractional
 from .modes import Relaxation, Retardation
 from .normalised import NORMALISED, absolute
 from .quantities import ROW, Compliance, ComplianceOrZero, ShearModulus, Time
+from .tablefile import FromTable
 from .tabulated import Tabulated
 from .viscoelastic import Linear, PoissonRatio, Solid
 from .youngs import STATED, in_shear
@@ -88,17 +90,20 @@ class StandardLinearSolid(Linear):
 
 
 @dataclass(frozen=True, config=NORMALISED)
-class Prony(Solid):
+class Prony(FromTable, Solid):
     """Generalized Maxwell solid, G(t) = equilibrium_modulus + sum_k moduli[k] exp(-t / relaxation_times[k]).
 
     equilibrium_modulus : shear modulus at rest [Pa]
     moduli, relaxation_times : of each Maxwell branch [Pa], [s]; 1 to 200, equally many
+    table : with the columns tau, and G, E or g, in place of these two; with columns, units, where, separator,
+        decimal, encoding, skip, rows as `tablefile.TableFormat` has them
     """
 
     equilibrium_modulus: ShearModulus
     moduli: ShearModuli
     relaxation_times: Times
     poisson_ratio: PoissonRatio = 0.5
+    table: InitVar[Any] = None
     type: Literal["prony"] = Field(default="prony", repr=False)
 
     _stated_otherwise = model_validator(mode="before")(absolute)

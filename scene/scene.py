@@ -52,7 +52,7 @@ class Scene:
     motion : Indent, Slide, Shear or Program
     roughness : SelfAffine, Spectrum, Wave, CrossedWaves, Topography or Profile; absent, the indenter is smooth
     layer : Layer; absent, the elastomer is a half-space
-    temperature : WLF or Arrhenius; absent, the elastomer is stated as it is
+    temperature : WLF, Arrhenius or ShiftFactors; absent, the elastomer is stated as it is
     interface : Coulomb; absent, the interface has no friction of its own
     heating : Heating; absent, friction heats nothing
 
@@ -94,4 +94,6 @@ class Scene:
     def solid(self) -> Linear:
         """The elastomer at the temperature of the scene."""
         solid = self.elastomer.at_reference(self.temperature)
-        return solid if self.temperature is None else Shifted(solid, self.temperature.shift)
+        return (
+            solid if self.temperature is None else Shifted(solid, self.temperature.shift, self.temperature.stiffer)
+        )

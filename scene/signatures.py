@@ -58,6 +58,8 @@ def words(annotation: Any, names: Mapping[str, Any]) -> str:
     origin, arguments = typing.get_origin(annotation), typing.get_args(annotation)
     if isinstance(annotation, str):
         return annotation
+    if isinstance(annotation, dataclasses.InitVar):
+        return words(annotation.type, names)
     if origin is typing.Annotated:
         return _named(annotation, names) or words(arguments[0], names)
     if origin in (typing.Union, types.UnionType):

@@ -16,7 +16,7 @@ from .powerlaws import PowerLaws, of_surface
 from .quantities import CLOSED, METRE, RADIAN_PER_METRE, ROW, Positive, Seed, Unit, by_name, some_of, takes
 from .scanned import QUOTIENT
 from .selfaffine import Wavelength
-from .tablefile import Column, FromTable, TableFormat, read_columns, split_format
+from .tablefile import Column, TableFormat, read_columns, refused, split_format
 
 MOST_OF_SURFACE, MOST_OF_LINE = 5_000, 1_000  # points; a line has to be inverted
 PER_METRE = Unit("1/m", "waves in a length", "0.1 1/um", 1e5)
@@ -38,20 +38,21 @@ def _or_table(schema: dict[str, Any]) -> None:
     """In JSON schema: a table in place of q and a density, frequencies in place of q."""
     properties = schema["properties"]
     properties |= {"table": {"type": "string"}, "frequency": TypeAdapter(_FREQUENCY["frequency"]).json_schema()}
+    properties |= TypeAdapter(TableFormat).json_schema()["properties"]
     schema["required"] = ["convention"]
     schema["anyOf"] = [{"required": [name]} for name in ("table", "q", "frequency")]
 
 
 @dataclass(frozen=True, config=ConfigDict(**CLOSED, json_schema_extra=_or_table), kw_only=True)
-class Spectrum(FromTable, Isotropic):
+class Spectrum(Isotropic):
     """Randomly rough and isotropic, with a measured spectral density.
 
     q : wave numbers 2 pi / wavelength [rad/m], in any order (N,); or `frequency`, 1 / wavelength [1/m]
     C2D : density of the surface at them (N,) [m^4]
     C1D : in place of C2D, density of line scans of the surface (N,) [m^3]
-    convention : of the density, which has to be stated: "jacobs", <h^2> = 1/(2 pi) int q C2D dq (Jacobs, Junge and Pastewka, Surf. Topogr.
-        5, 013001, 2017), or "persson", <h^2> = 2 pi int q C2D dq, a density smaller by 4 pi^2. C1D of both sides
-        has <h^2> = 1/pi int_0^inf C1D dq, or 2 int_0^inf C1D dq
+    convention : of the density, which has to be stated: "jacobs", <h^2> = 1/(2 pi) int q C2D dq (Jacobs, Junge and
+        Pastewka, Surf. Topogr. 5, 013001, 2017), or "persson", <h^2> = 2 pi int q C2D dq, a density smaller by
+        4 pi^2. C1D of two sides has <h^2> = 1/pi int C1D dq, or 2 int C1D dq, over q > 0
     sides : of C1D, "two", or "one" where C1D is twice as large, as all of <h^2> is ascribed to q > 0
     longest_kept, shortest_kept : longer and shorter waves are left out [m]; absent, those of q stay
     seed, amplitudes : see `SelfAffine`
@@ -61,9 +62,9 @@ class Spectrum(FromTable, Isotropic):
     surface.
 
     In place of q and the density `table` is the path of a text file, relative to the folder of a scene file that
-    names it, a DataFrame, a Dataset of xarray or arrays by name, with columns of these names; q, in rad/m or 1/m, is
-    2 pi / wavelength. `columns`, `units`, `where`, `separator`, `decimal`, `encoding`, `skip` and `rows` state what
-    differs of it from the documented form of tables, see `tablefile.TableFormat`.
+    names it, a DataFrame, a Dataset of xarray or arrays by name, with columns of these names; q, in rad/m or 1/m,
+    is 2 pi / wavelength. `columns`, `units`, `where`, `separator`, `decimal`, `encoding`, `skip` and `rows` state
+    how it differs from the documented form of tables, see `tablefile.TableFormat`.
 
     Raises ValueError where there are fewer than two points or equal ones, where the waves span less than a factor
     of 2, and where no isotropic surface has such a C1D.
@@ -92,10 +93,13 @@ class Spectrum(FromTable, Isotropic):
             return given
         written, stated = split_format(stated)
         if "table" in stated:
-            read = _of_table(stated.pop("table"), written)
-            if twice := {"q", "frequency", "C2D", "C1D"} & set(stated):
+            table = stated.pop("table")
+            if twice := {each.field for each in COLUMNS} & set(stated):
                 raise ValueError(f"{min(twice)} beside table: give one of them")
-            stated |= read
+            try:
+                stated |= _of_table(table, written)
+            except ValueError as error:
+                raise refused(table, error) from error
         elif written != TableFormat():
             raise ValueError("columns, units, skip and so on are of a table: give table")
         if "frequency" in stated:
@@ -119,7 +123,7 @@ class Spectrum(FromTable, Isotropic):
         if self.convention is None:
             raise ValueError(
                 'state the convention of the density: "jacobs", <h^2> = 1/(2 pi) int q C2D dq = 1/pi int C1D dq, '
-                'or "persson", <h^2> = 2 pi int q C2D dq = 2 int C1D dq, each from 0 to infinity and C1D of two sides'
+                'or "persson", <h^2> = 2 pi int q C2D dq = 2 int C1D dq, over q > 0 and with C1D of two sides'
             )
         density = self.C2D or self.C1D or ()
         if len(self.q) != len(density):
@@ -137,11 +141,9 @@ class Spectrum(FromTable, Isotropic):
             kept = getattr(self, name)
             if kept is not None and not least * (1 - QUOTIENT) <= kept <= most * (1 + QUOTIENT):
                 raise ValueError(f"{name} = {kept:g} m: the waves of q are from {least:g} m to {most:g} m")
-        if not 2 * (self.shortest_kept or least) <= (self.longest_kept or most) * (1 + QUOTIENT):
-            raise ValueError(
-                f"waves from {self.shortest_kept or least:g} m to {self.longest_kept or most:g} m: the longest has "
-                "to be at least twice the shortest"
-            )
+        least, most = self.shortest_kept or least, self.longest_kept or most
+        if not 2 * least <= most * (1 + QUOTIENT):
+            raise ValueError(f"waves from {least:g} m to {most:g} m: the longest has to be at least twice as long")
         if not SHORTEST <= self.rms_height <= LONGEST:
             raise ValueError(f"an rms height of {self.rms_height:g} m: check the units of q and the density")
         return self
@@ -179,14 +181,15 @@ class Spectrum(FromTable, Isotropic):
     @property
     def normalized(self) -> "Spectrum":
         """The same spectrum at an rms height of 1 m."""
-        name = "C1D" if self.C2D is None else "C2D"
-        return replace(self, **{name: tuple(each / self.rms_height**2 for each in getattr(self, name))})
+        name, square = "C1D" if self.C2D is None else "C2D", self.rms_height**2
+        changed: dict[str, Any] = {name: tuple(each / square for each in getattr(self, name))}
+        return replace(self, **changed)
 
     def left_out(self, m: int) -> tuple[float, float]:
         """Shares of the mean square height (m = 1) or slope (m = 3) in waves longer, and shorter, than are kept.
 
-        Each share is that of these waves in their sum with those that are kept, if the laws of the first and of the
-        last octave of the table go on without an end; 1 where they then have no bound.
+        Each share is that of these waves in their sum with those that are kept, if the laws of the first and of
+        the last octave of the table go on without an end; 1 where they then have no bound.
         """
         whole, kept = self._laws
         gaps = whole.moment(m, [0.0, kept.q[-1]], [kept.q[0], inf])
@@ -206,7 +209,7 @@ class Spectrum(FromTable, Isotropic):
         )
         return (
             f"the spectrum has waves from {self.shortest:.3g} m to {self.longest:.3g} m, an rms height of "
-            f"{self.rms_height:.3g} m and an rms slope of the full gradient of {self.rms_slope(self.q_max(0.0)):.3g}",
+            f"{self.rms_height:.3g} m and an rms slope of the full gradient of {self.rms_slope(inf):.3g}",
             f"if it went on as it ends, longer waves would have {longer}, shorter waves {shorter}",
         )
 
@@ -235,11 +238,14 @@ def _of_table(table: Any, written: TableFormat) -> dict[str, Any]:
     """Columns of a table, all above zero, as fields."""
     found = read_columns(table, COLUMNS, written)
     for pair in (("q", "frequency"), ("C2D", "C1D")):
-        if len(set(pair) & set(found.values)) != 1:
+        there = [name for name in pair if name in found]
+        taken = [name for name in there if name in (written.columns or {})] or there
+        if len(taken) != 1:
             raise ValueError(
-                f"{found.name}: one column {' or '.join(pair)} is needed: state its heading, as columns = "
-                f'{{{pair[0]} = "..."}}'
+                f"{found.name}: one column {' or '.join(pair)} is needed, not {len(taken)}: state its heading, as "
+                f'columns = {{{pair[0]} = "..."}}'
             )
+        found.values = {name: each for name, each in found.values.items() if name in taken or name not in pair}
     if "q" in found and found.units["q"] is None and any(found.units.values()):
         raise ValueError(
             f'{found.name}: column {found.headings["q"]!r} has no unit: state units = {{q = "rad/m"}}'

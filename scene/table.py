@@ -49,11 +49,16 @@ class _Rows:
         object.__setattr__(self, "notes", tuple(notes))
         return self
 
-    def shifted(self, longer: np.ndarray) -> Self:
-        """The rows at one temperature, at which times are shorter by these factors (rows,)."""
+    def shifted(self, longer: np.ndarray, stiffer: np.ndarray) -> Self:
+        """The rows at one temperature, at which times are shorter and moduli lower by these factors (rows,)."""
         name = self.PLACE[0]
-        places = self.places / longer if name == "time" else self.places * longer
-        changed: dict[str, Any] = {name: tuple(places.tolist()), "temperature": None}
+        changed: dict[str, Any] = {"temperature": None}
+        names = [each.name for each in fields(self)]  # type: ignore[arg-type]
+        for field in (each for each in names if each != "temperature"):
+            numbers = np.array(getattr(self, field))
+            by = longer if field == name else stiffer
+            numbers = numbers * by if field in ("frequency", "compliance") else numbers / by
+            changed[field] = tuple(numbers.tolist())
         return replace(self, **changed).noted(self.notes)  # type: ignore[type-var]
 
     def _check(self):

@@ -35,12 +35,12 @@ from dataclasses import InitVar, dataclass
 from io import StringIO
 from json import dumps
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 from unicodedata import normalize
 
 import numpy as np
 import pandas as pd
-from pydantic import Field
+from pydantic import Field, ValidationError
 from pydantic.dataclasses import dataclass as checked
 
 from . import files
@@ -95,11 +95,7 @@ class Column:
     gaps: bool = False
 
 
-Headings = Mapping[str, str | Annotated[int, Field(strict=True, ge=1)]]
-Values = Mapping[str, str | int | float]
-Separator = Annotated[str, Field(pattern="^(tab|semicolon|comma|blanks|[\t;, ])$")]
-Decimal = Annotated[str, Field(pattern="^[.,]$")]
-Lines = Annotated[int, Field(strict=True, ge=0)]
+_Lines = Annotated[int, Field(strict=True, ge=0)]
 
 
 @checked(frozen=True, config=CLOSED, kw_only=True)
@@ -116,28 +112,28 @@ class TableFormat:
     rows : number of rows below it that are read
     """
 
-    columns: Headings | None = None
+    columns: Mapping[str, str | Annotated[int, Field(strict=True, ge=1)]] | None = None
     units: Mapping[str, str] | None = None
-    where: Values | None = None
-    separator: Separator | None = None
-    decimal: Decimal | None = None
+    where: Mapping[str, str | int | float] | None = None
+    separator: Literal["tab", "semicolon", "comma", "blanks", "\t", ";", ",", " "] | None = None
+    decimal: Literal[".", ","] | None = None
     encoding: str | None = None
-    skip: Lines | None = None
-    rows: Lines | None = None
+    skip: _Lines | None = None
+    rows: _Lines | None = None
 
 
 @checked(frozen=True, config=CLOSED, kw_only=True)
 class FromTable:
     """A part of a scene that may be read from a table, with the fields of `TableFormat` as arguments."""
 
-    columns: InitVar[Headings | None] = None
+    columns: InitVar[Mapping[str, str | int] | None] = None
     units: InitVar[Mapping[str, str] | None] = None
-    where: InitVar[Values | None] = None
-    separator: InitVar[Separator | None] = None
-    decimal: InitVar[Decimal | None] = None
+    where: InitVar[Mapping[str, str | int | float] | None] = None
+    separator: InitVar[str | None] = None
+    decimal: InitVar[str | None] = None
     encoding: InitVar[str | None] = None
-    skip: InitVar[Lines | None] = None
-    rows: InitVar[Lines | None] = None
+    skip: InitVar[int | None] = None
+    rows: InitVar[int | None] = None
 
 
 def split_format(given: Mapping[str, Any]) -> tuple[TableFormat, dict[str, Any]]:
@@ -145,6 +141,36 @@ def split_format(given: Mapping[str, Any]) -> tuple[TableFormat, dict[str, Any]]
     names = TableFormat.__dataclass_fields__
     rest = {name: value for name, value in given.items() if name not in names}
     return TableFormat(**{name: value for name, value in given.items() if name in names}), rest
+
+
+def filled(given: Mapping[str, Any], known: "Sequence[Column]") -> dict[str, Any]:
+    """What is stated for a part of a scene, with fields out of the columns of `table`, where that is stated.
+
+    Raises ValueError for what is stated of no table, and ValidationError, at table, for one that is refused.
+    """
+    written, rest = split_format(given)
+    if (table := rest.pop("table", None)) is None:
+        if written != TableFormat():
+            raise ValueError("table is missing, of which columns, units or lines are stated")
+        return rest
+    try:
+        columns = read_columns(table, known, written)
+        if both := columns.values.keys() & rest.keys():
+            raise ValueError(f"{columns.name}: {min(both)} is stated beside it, and a column of it: leave one out")
+    except ValueError as error:
+        raise refused(table, error) from error
+    return rest | columns.values
+
+
+def refused(table: Any, reason: ValueError) -> ValidationError:
+    """A mistake of the field `table`."""
+    line: Any = {
+        "type": "value_error",
+        "loc": ("table",),
+        "input": table,
+        "ctx": {"error": ValueError(str(reason))},
+    }
+    return ValidationError.from_exception_data("table", [line])
 
 
 @dataclass(eq=False)
@@ -216,8 +242,8 @@ def read_columns(
     held.si &= not any(
         held.units[k] or name in (stated.units or {}) for name, k in places.items() if name not in pure
     )
-    _select(held, places, known, stated)
-    others = [heading for k, heading in enumerate(held.headings) if k not in places.values()]
+    named = _select(held, places, known, stated)
+    others = [heading for k, heading in enumerate(held.headings) if k not in named]
     notes = tuple(f"{held.name}: column {brief(repr(each))} is not used" for each in others)
     found = Columns(held.name, {}, {}, {}, held.lines, notes)
     for each in known:
@@ -245,7 +271,7 @@ def _of_file(path, stated, most_bytes):
     units, body = [""] * len(headings), start + 1
     if numbered := any(isinstance(each, int) for each in (stated.columns or {}).values()):
         headings, body = [str(k + 1) for k in range(len(headings))], start
-    elif any(map(_NUMBER.fullmatch, headings)):
+    elif any(_NUMBER.fullmatch(each.replace(",", ".")) for each in headings):
         raise ValueError(
             f"{name}, line {start + 1}: {brief(repr(lines[start]))} is no heading: write one, state skip, or "
             "state the columns by number, as columns = {field = 1}"
@@ -278,7 +304,7 @@ def _text(path, stated, most_bytes):
 
 def _split(line, separator):
     if separator == " ":
-        return [each.strip('"') for each in _BLANKS.split(line.strip())]
+        return [re.sub('^"(.*)"$', r"\1", each) for each in _BLANKS.split(line.strip())]
     return [each.strip() for each in next(csv.reader([line], delimiter=separator, skipinitialspace=True))]
 
 
@@ -295,22 +321,23 @@ def _rows(name, lines, places, separator, width):
             skipinitialspace=True,
             on_bad_lines="error",
         )
-        wrong = np.flatnonzero(frame[width].to_numpy(object) != _END)
-        row = wrong[0] - 1 if wrong.size else None if len(frame) == stop - body + 1 else 0
+        wrong = np.flatnonzero(frame[width].to_numpy(object) != _END) - 1
     except pd.errors.ParserError as error:
-        counted = re.search(r"line (\d+)|row (\d+)", str(error))
-        row = int(counted[1] or int(counted[2]) + 1) - 2 if counted else 0
-    if row is None:
+        counted = re.search(r"line (\d+)", str(error))
+        frame, wrong = pd.DataFrame(), np.array([int(counted[1]) - 2] if counted else [])
+    if not len(wrong) and len(frame) == stop - body + 1:
         return [frame[k][1:].str.strip().to_numpy(object) for k in range(width)]
+    row = int(wrong[0]) if len(wrong) else next(k for k in range(stop - body) if lines[body + k].count('"') % 2)
     text, where = lines[body + row], f"{name}, line {body + row + 1}"
     if not text.strip():
         raise ValueError(f"{where} is blank, and there are rows below it: state rows = {row} to end before it")
     again = [k + 1 for k in range(body + row + 1, stop) if lines[k] == text and not text[:1].isdigit()]
     second = f"; line {again[0]} is another heading: state rows to end before it" if again else ""
-    if len(cells := _split(text, separator)) == width:
-        raise ValueError(f"{where}: {brief(repr(text))}: a quotation mark here or below opens, and none closes it")
+    if not len(wrong):
+        raise ValueError(f"{where}: {brief(repr(text))} has a quotation mark that opens, and none that closes it")
+    count = len(text.split() if separator == " " else _split(text, separator))
     raise ValueError(
-        f"{where}: {brief(repr(text))} has {len(cells)} cells, and line {start + 1}, "
+        f"{where}: {brief(repr(text))} has {count} cells, and line {start + 1}, "
         f"{brief(repr(lines[start]))}, has {width}: state skip for lines above the heading, rows for those below "
         f"the table, or separator{second}"
     )
@@ -407,7 +434,10 @@ def _called(held, whole, heading):
 
 
 def _select(held, places, known, stated):
-    """Keep the rows that are stated. Raises ValueError for a column that tells rows apart, unused."""
+    """Keep the rows that are stated, and return the columns that are used or stated.
+
+    Raises ValueError for another one that tells rows apart.
+    """
     kept, free = np.ones(len(held.cells[0]), bool), set(places.values())
     for heading, value in (stated.where or {}).items():
         place = _called(held, held.headings, heading)
@@ -426,10 +456,12 @@ def _select(held, places, known, stated):
             key, value = _toml(heading), _toml(str(values[0]), quoted=True)
             first, second = map(repr, values[:2])
             raise ValueError(
-                f"{held.name}: column {heading!r} has several values, {first} and {second}, and is not used: state "
-                f'where = {{{key} = {value}}} for rows of one, where = {{{key} = "*"}} for all, or its quantity in '
-                "columns"
+                f"{held.name}: column {heading!r} has several values, {first} and {second}, and is not used: "
+                f'state where = {{{key} = {value}}} for rows of one, where = {{{key} = "*"}} for all, or its '
+                "quantity in columns"
             )
+
+    return free
 
 
 def _equal(cell, value):
@@ -484,8 +516,9 @@ def _numbers(held, place, gaps):
             wrong = np.isinf(found)
     if wrong.any():
         row = int(np.argmax(wrong))
+        cell = brief(repr(cells.tolist()[row]))
         raise ValueError(
-            f"{_place(held.name, held.lines, row)}, column {held.headings[place]!r}: {brief(repr(cells[row]))} is "
+            f"{_place(held.name, held.lines, row)}, column {held.headings[place]!r}: {cell} is "
             "no number: state rows to end before it, where to leave it out, decimal, or separator"
         )
     return found

@@ -18,8 +18,8 @@ from .moduli import read_moduli
 from .plain import bare
 from .quantities import CLOSED, Finite, ShearModulus, by_name
 from .table import SCATTER, AnyTable, CreepTable, RelaxationTable, Table
-from .tablefile import FromTable, TableFormat, split_format
-from .temperature import WLF, Arrhenius
+from .tablefile import FromTable, TableFormat, refused, split_format
+from .temperature import TemperatureLaw
 from .viscoelastic import PoissonRatio, Solid
 from .youngs import in_shear, or_in_tension
 
@@ -88,7 +88,7 @@ class Tabulated(FromTable, Solid):
                 words = {name: each for name, each in found.items() if isinstance(each, str)}
                 read = read_moduli(table, words.get("frequency_unit"), words.get("kind"), written)
             except ValueError as error:
-                raise _of_the_table(table, error) from error
+                raise refused(table, error) from error
             found["table"] = table = read.table
             told = {"frequency_unit": read.frequency_unit, "kind": read.kind}
             found = {name: value for name, value in told.items() if value is not None} | found
@@ -218,7 +218,7 @@ class Tabulated(FromTable, Solid):
         over = isinstance(self.table, CreepTable) and isinstance(series, Relaxation)
         return series.retardation() if over else series
 
-    def at_reference(self, law: WLF | Arrhenius | None) -> "Tabulated":
+    def at_reference(self, law: TemperatureLaw | None) -> "Tabulated":
         """The solid at the reference of the law, by which rows at other temperatures are shifted.
 
         Raises ValueError of several temperatures without a law, and of one that is not the reference of the law.
@@ -240,12 +240,6 @@ def _is_plain(table):
     return known and all(bare(each)[1] is None for each in table.values())
 
 
-def _of_the_table(table, reason):
-    """A mistake of the field `table`."""
-    line = {"type": "value_error", "loc": ("table",), "input": table, "ctx": {"error": ValueError(str(reason))}}
-    return ValidationError.from_exception_data("Tabulated", [line])
-
-
 def _no_law(table):
     low, high = min(table.temperature), max(table.temperature)
     return (
@@ -255,7 +249,7 @@ def _no_law(table):
 
 
 @lru_cache(maxsize=16)
-def _reduced(solid: Tabulated, law: WLF | Arrhenius) -> Tabulated:
+def _reduced(solid: Tabulated, law: TemperatureLaw) -> Tabulated:
     """The solid at the temperature of a law, its reference."""
     temperature = np.array(solid.table.temperature)
     mean = float(temperature.mean())
@@ -267,11 +261,12 @@ def _reduced(solid: Tabulated, law: WLF | Arrhenius) -> Tabulated:
     if not solid.table.several and mean == law.reference:
         return solid
     try:
-        longer = {each: replace(law, temperature=each).shift for each in temperature.tolist()}
+        laws = {each: replace(law, temperature=each) for each in temperature.tolist()}
     except ValueError as error:
         reason = said(error) if isinstance(error, ValidationError) else error
         raise ValueError(f"elastomer.table: a row at {reason}") from error
-    return replace(solid, table=solid.table.shifted(np.array([longer[each] for each in temperature.tolist()])))
+    longer, stiffer = np.array([(laws[each].shift, laws[each].stiffer) for each in temperature.tolist()]).T
+    return replace(solid, table=solid.table.shifted(longer, stiffer))
 
 
 @lru_cache(maxsize=64)

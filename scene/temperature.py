@@ -1,16 +1,26 @@
 """Temperature of the elastomer: one factor on all its times (thermorheologically simple solids)."""
 
+from dataclasses import InitVar, replace
 from dataclasses import dataclass as plain
-from dataclasses import replace
 from math import exp, log
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 
 from .modes import Relaxation, Retardation
-from .quantities import CLOSED, AbsoluteTemperature, MolarEnergy, Positive, TemperatureDifference
+from .quantities import (
+    CLOSED,
+    KELVIN,
+    ROW,
+    AbsoluteTemperature,
+    MolarEnergy,
+    Positive,
+    TemperatureDifference,
+    by_name,
+)
+from .tablefile import Column, FromTable, filled
 from .viscoelastic import Linear
 
 GAS_CONSTANT = 8.314462618  # [J/(mol K)], CODATA 2018
@@ -35,8 +45,16 @@ def _meant(law):
     return f'; is "{law.temperature:g} degC" meant?' if law.temperature < COLDEST else ""
 
 
-class _Law:
-    """A law of the shift."""
+@plain(frozen=True)
+class TemperatureLaw:
+    """A law of the shift.
+
+    temperature, reference : T of the scene and T_r, at which the elastomer is stated [K]
+    """
+
+    if TYPE_CHECKING:
+        temperature: float
+        reference: float
 
     @property
     def log_shift(self) -> float:
@@ -48,9 +66,14 @@ class _Law:
         """a_T, by which all times are longer than at the reference; 1 there."""
         return exp(self.log_shift)
 
+    @property
+    def stiffer(self) -> float:
+        """b_T, by which all moduli are higher than at the reference; 1 there."""
+        return 1.0
+
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
-class WLF(_Law):
+class WLF(TemperatureLaw):
     """Williams, Landel and Ferry: log10 a_T = -c1 (T - T_r) / (c2 + T - T_r); J. Am. Chem. Soc. 77, 3701 (1955).
 
     temperature, reference : T of the scene and T_r, at which the elastomer is stated [K]
@@ -84,7 +107,7 @@ class WLF(_Law):
 
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
-class Arrhenius(_Law):
+class Arrhenius(TemperatureLaw):
     """ln a_T = (activation_energy / R) (1/T - 1/T_r).
 
     temperature, reference : T of the scene and T_r, at which the elastomer is stated [K]
@@ -104,15 +127,87 @@ class Arrhenius(_Law):
         return self.activation_energy / GAS_CONSTANT * (1 / self.temperature - 1 / self.reference)
 
 
-Temperature = Annotated[WLF | Arrhenius, Field(discriminator="type")]
+TEMPERATURES = Column("temperatures", ("T", "temperature"), (KELVIN,), needed=True, unit_needed=True)
+FACTORS = Column("a_T", ("shift factor",), needed=True), Column("b_T", ("vertical shift factor",))
+
+
+@dataclass(frozen=True, config=CLOSED, kw_only=True)
+class ShiftFactors(FromTable, TemperatureLaw):
+    """Measured shift factors: times are a_T times as long as where a_T is 1, and moduli b_T times as high.
+
+    Between the temperatures ln a_T is linear in 1/T, and b_T in T.
+
+    temperature, reference : T of the scene and T_r, at which the elastomer is stated [K], within the temperatures
+    temperatures : at least two [K]
+    a_T, b_T : at each of them [1]; a_T falls with the temperature; b_T is 1 where it is absent
+    table : with the columns T, a_T and, if there is one, b_T, in place of these three; with
+        columns, units, where, separator, decimal, encoding, skip, rows as `tablefile.TableFormat` has them
+    """
+
+    temperature: AbsoluteTemperature
+    reference: AbsoluteTemperature
+    temperatures: Annotated[tuple[AbsoluteTemperature, ...], ROW, Field(min_length=2)]
+    a_T: Annotated[tuple[Positive, ...], ROW]  # noqa: N815 - as the field writes it
+    b_T: Annotated[tuple[Positive, ...], ROW] | None = None  # noqa: N815
+    table: InitVar[Any] = None
+    type: Literal["shift-factors"] = Field(default="shift-factors", repr=False)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _of_table(cls, given: Any) -> Any:
+        stated = by_name(given)
+        return given if stated is None else filled(stated, (TEMPERATURES, *FACTORS))
+
+    @model_validator(mode="after")
+    def _fall(self):
+        count = len(self.temperatures)
+        if len(self.a_T) != count or len(self.b_T or self.a_T) != count:
+            raise ValueError(f"a_T and b_T have to be given at each of the {count} temperatures")
+        order = np.argsort(self.temperatures)
+        if (
+            not (np.diff(np.array(self.temperatures)[order]) > 0).all()
+            or not (np.diff(self._logs()[1]) <= 0).all()
+        ):
+            raise ValueError("a_T has to fall from each temperature to the next: times grow shorter")
+        for name, given in (("temperature", self.temperature), ("reference", self.reference)):
+            if not min(self.temperatures) <= given <= max(self.temperatures):
+                low, high = min(self.temperatures), max(self.temperatures)
+                raise ValueError(f"{name} = {given:g} K: shift factors are known from {low:g} to {high:g} K")
+        return _within_range(self)
+
+    def _logs(self):
+        """Temperatures in order, and ln a_T there."""
+        order = np.argsort(self.temperatures)
+        return np.array(self.temperatures)[order], np.log(np.array(self.a_T)[order])
+
+    @property
+    def log_shift(self) -> float:
+        """ln a_T from the reference to the temperature."""
+        kelvin, logs = self._logs()
+        here, there = np.interp([-1 / self.temperature, -1 / self.reference], -1 / kelvin, logs)
+        return float(here - there)
+
+    @property
+    def stiffer(self) -> float:
+        """b_T of the temperature over that of the reference."""
+        if self.b_T is None:
+            return 1.0
+        order = np.argsort(self.temperatures)
+        kelvin, factors = np.array([self.temperatures, self.b_T])[:, order]
+        here, there = np.interp([self.temperature, self.reference], kelvin, factors)
+        return float(here / there)
+
+
+Temperature = Annotated[WLF | Arrhenius | ShiftFactors, Field(discriminator="type")]
 
 
 @plain(frozen=True)
 class Shifted(Linear):
-    """A solid all of whose times are longer by one factor; its moduli stay as they are."""
+    """A solid all of whose times are longer by one factor, and all moduli higher by another."""
 
     solid: Linear
     factor: float
+    stiffer: float = 1.0
 
     @property
     def poisson_ratio(self) -> float:
@@ -121,7 +216,7 @@ class Shifted(Linear):
     @property
     def glassy_modulus(self) -> float:
         """Glassy modulus of the solid [Pa]."""
-        return self.solid.glassy_modulus
+        return self.solid.glassy_modulus * self.stiffer
 
     def modes(self) -> Relaxation | Retardation:
         """Modes of the solid, in the form in which it states them. Raises OverflowError for times out of range."""
@@ -132,6 +227,6 @@ class Shifted(Linear):
             raise OverflowError(f"times longer by {self.factor:g} leave the range of numbers")
         # Two times may become one by rounding.
         if isinstance(stated, Retardation):
-            return Retardation.of(stated.instantaneous, stated.compliances, times)
-        shifted = Relaxation.of(stated.equilibrium, stated.moduli, times)
-        return replace(shifted, viscosity=stated.viscosity * self.factor)
+            return Retardation.of(stated.instantaneous / self.stiffer, stated.compliances / self.stiffer, times)
+        shifted = Relaxation.of(stated.equilibrium * self.stiffer, stated.moduli * self.stiffer, times)
+        return replace(shifted, viscosity=stated.viscosity * self.factor * self.stiffer)

@@ -37,14 +37,14 @@ def control_variates(solver: Solver, scenes: Sequence[Scene], seeds: Sequence[in
     scenes : of one body and roughness; where the smooth body has no answer the variates are 0
     seeds : of the surfaces; those of the scenes are replaced
     """
-    rough = scenes[0].roughness
+    rough: Any = scenes[0].roughness
     steady = not any(isinstance(each.motion, Program) or isinstance(each.indenter, Plane) for each in scenes)
     if not (steady and type(solver) in (BEM, MDR) and isinstance(rough, Isotropic)):
         return np.empty((len(scenes), len(seeds), 0))
     found, narrowest = np.zeros((len(scenes), len(seeds), 8)), ACROSS * rough.longest / MOST
     below = [_footprint(replace(each, roughness=None), isinstance(solver, MDR)) for each in scenes]
     tops = [max(int(ACROSS * rough.longest / max(np.ptp(each[0]), narrowest)), 1) if each else 1 for each in below]
-    rough: Any = rough.normalized  # heights of any unit have the same variates but for a factor
+    rough = rough.normalized  # heights of any unit have the same variates but for a factor
     power = np.square(abs(_waves(solver, replace(rough, amplitudes="fixed"), max(tops), [rough.seed])[0])) / 2
     for first in range(0, len(seeds), TOGETHER):
         waves = _waves(solver, rough, max(tops), seeds[first : first + TOGETHER])

@@ -138,7 +138,7 @@ def unmeasured(scene: Scene) -> list[str]:
         reasons += [f"roughness = Topography has {rough.crowded}"] if rough.crowded else []
     elif not isinstance(rough, Isotropic):
         reasons.append(
-            f"roughness = {type(rough).__name__} has no spectrum: SelfAffine, Spectrum, Topography and Profile have"
+            f"roughness = {type(rough).__name__} has no spectrum: SelfAffine, Spectrum, Topography, Profile have"
         )
     elif rough.shortest is None:
         reasons.append("roughness.shortest is absent, so that either grid cuts the spectrum where it ends")

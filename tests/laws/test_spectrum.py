@@ -1,4 +1,4 @@
-"""A measured spectrum in every model: a self-affine one written as a table answers as it does, and is drawn alike."""
+"""A measured spectrum in every model: a self-affine one as a table answers, and is drawn, as that one."""
 
 from dataclasses import replace
 from math import pi

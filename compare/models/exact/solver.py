@@ -7,11 +7,12 @@ from typing import Any, ClassVar
 import numpy as np
 from pydantic.dataclasses import dataclass
 
-from scene import WLF, Arrhenius, Coulomb, Elastic, Heating, Indent, Result, Scene, Slide
+from scene import Coulomb, Elastic, Heating, Indent, Result, Scene, Slide
 from scene.indenter import Axisymmetric
 from scene.protocol import refuse
 from scene.quantities import CLOSED
 from scene.scales import elastic_contact
+from scene.temperature import TemperatureLaw
 from scene.terms import Term, terms_of
 from scene.viscoelastic import Linear
 
@@ -29,7 +30,7 @@ class Unmoved(Term):
 
 
 # Nothing is warmed where nothing loses energy.
-TERMS = dict.fromkeys((Axisymmetric, Linear, Indent, Slide, WLF, Arrhenius, Heating), Term) | {Coulomb: Unmoved}
+TERMS = dict.fromkeys((Axisymmetric, Linear, Indent, Slide, TemperatureLaw, Heating), Term) | {Coulomb: Unmoved}
 
 
 @dataclass(frozen=True, config=CLOSED)

@@ -11,8 +11,6 @@ from pydantic.dataclasses import dataclass
 from scipy.special import erf
 
 from scene import (
-    WLF,
-    Arrhenius,
     Cylinder,
     Indent,
     Plane,
@@ -31,6 +29,7 @@ from scene.isotropic import Isotropic
 from scene.protocol import refuse, trusted
 from scene.quantities import CLOSED, Finite
 from scene.signatures import readable
+from scene.temperature import TemperatureLaw
 from scene.terms import Term, lacking, terms_of
 from scene.viscoelastic import Linear
 
@@ -87,7 +86,7 @@ ROUGHNESS = lacking(
 )
 MOTION = lacking("the theory is of steady sliding; Slide or Indent is allowed")
 TERMS = {
-    **dict.fromkeys((Axisymmetric, Plane, Linear, WLF, Arrhenius), Term),
+    **dict.fromkeys((Axisymmetric, Plane, Linear, TemperatureLaw), Term),
     **dict.fromkeys((Cylinder, MeasuredBody), BODY),
     **dict.fromkeys((Indent, Slide), Pressed),
     **dict.fromkeys((Shear, Program), MOTION),

@@ -72,10 +72,19 @@ class Mastercurve(Study):
     command = "mastercurve"
 
     @classmethod
-    def of(cls, table: Measurements, tolerance: float = TOLERANCE, **constants: Any) -> "Mastercurve":
+    def of(
+        cls,
+        table: Measurements,
+        tolerance: float = TOLERANCE,
+        c1: Any = None,
+        c2: Any = None,
+        reference: Any = None,
+        **stated: Any,
+    ) -> "Mastercurve":
         """The study of a table. Raises InvalidInput naming the table, the place and what is allowed.
 
-        constants : c1, c2 and reference of WLF, where they are known
+        c1, c2, reference : constants of WLF, where they are known
+        stated : what differs of the table from the documented form, see `scene.tablefile.TableFormat`
         """
         try:
             tolerance = argument("tolerance", tolerance, BARE.value)
@@ -83,12 +92,12 @@ class Mastercurve(Study):
                 raise ValueError(f"tolerance = {tolerance:g}: it must lie between 0 and {WIDEST:g}")
         except ValueError as error:
             raise InvalidInput(str(error)) from error
-        friction, stated = MeasuredFriction.of(table), Constants(**constants)
-        if stated.given and "temperature" not in friction.data:
+        friction, constants = MeasuredFriction.of(table, **stated), Constants(c1, c2, reference)
+        if constants.given and "temperature" not in friction.data:
             raise InvalidInput(
-                f"{friction.name}: {', '.join(stated.given)} ask for a column of temperature, as T [degC]"
+                f"{friction.name}: {', '.join(constants.given)} ask for a column of temperature, as T [degC]"
             )
-        study = cls(friction, tolerance, stated)
+        study = cls(friction, tolerance, constants)
         try:
             study.collapse  # noqa: B018
         except InvalidInput:
