@@ -51,8 +51,8 @@ class Isotropic:
     """Randomly rough and isotropic, from a longest wave, after which it repeats, to a shortest one.
 
     A class states rms_height [m], longest and shortest [m] (None where the cut-off is that of a grid), seed,
-    amplitudes ("fixed" or "gaussian"), normalized, the same at an rms height of 1 m, its density, its moments
-    int q^m C_2D dq, both in units of its own, and the wave numbers where the density has corners.
+    amplitudes ("fixed" or "gaussian"), its density, its moments int q^m C_2D dq, both in units of its own, and the
+    wave numbers where the density has corners.
 
     Spectra are two-sided: <h^2> = 2 int_0^inf C_1D dq = 2 pi int_0^inf q C_2D dq. A line has the spectrum of the
     method of dimensionality reduction, C_1D = pi q C_2D, which keeps the rms height and the rms of the full
@@ -70,12 +70,15 @@ class Isotropic:
         @property
         def shortest(self) -> float | None: ...
         @property
-        def normalized(self) -> Self: ...
-        @property
         def _unit(self) -> float: ...
         def _relative(self, q: Any) -> Any: ...
         def moment(self, m: int, lower: Any, upper: Any) -> Any: ...
         def _corners(self, q_max: float) -> tuple[float, ...]: ...
+
+    @property
+    def normalized(self) -> Self:
+        """A spectrum of this shape, at a height of which the square does not vanish."""
+        return self
 
     def seeded(self, seed: int) -> Self:
         """The same spectrum with another seed."""

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from math import ceil, inf, log, log10, sqrt
+from math import ceil, inf, log10, pi, sqrt
 
 import numpy as np
 
@@ -29,11 +29,11 @@ class PowerLaws:
         """Exponents of the laws (N - 1,)."""
         return np.diff(np.log(self.density)) / np.diff(np.log(self.q))
 
-    @cached_property
+    @property
     def ends(self) -> tuple[float, float]:
         """Exponents at the first and at the last point, over an octave each, as single laws scatter."""
-        low, high = (np.log(self(start * np.array([1.0, 2.0]))) for start in (self.q[0], self.q[-1] / 2))
-        return float(np.diff(low)[0] / log(2)), float(np.diff(high)[0] / log(2))
+        low, high = self.q[0], self.q[-1]
+        return float(np.log2(self(2 * low) / self(low))), float(np.log2(self(high) / self(high / 2)))
 
     def __call__(self, q):
         """The density; beyond the ends that of the ends."""
@@ -41,48 +41,38 @@ class PowerLaws:
 
     def exponent(self, q):
         """The exponent at a wave number."""
-        return self.exponents[self._law(q, "right")]
+        return self.exponents[self._law(q)]
 
     def moment(self, m: int, lower, upper):
         """int q^m density dq from lower to upper, arrays allowed; nothing lies beyond the ends."""
-        lower, upper = (np.clip(each, self.q[0], self.q[-1]) for each in (lower, upper))
-        first = self._law(lower, "right")
-        last = np.maximum(self._law(upper, "left"), first)
-        after = np.minimum(first + 1, last)
-        below, above = self._cumulated(m)
-        # The lesser numbers lose fewer digits in their difference.
-        between = np.where(below[last] < above[after], below[last] - below[after], above[after] - above[last])
-        # Within one law the integral is one piece, else the rest of the first law and the beginning of the last.
-        alone = first == last
-        start = self._within(m, first, lower, np.where(alone, upper, self.q[first + 1]))
-        return start + between + np.where(alone, 0.0, self._within(m, last, self.q[last], upper))
+        return self._above(m, lower) - self._above(m, upper)
 
     def beyond(self, m: int) -> tuple[float, float]:
         """int q^m density dq below the first and above the last point by the laws of the ends; may be infinite."""
         low, high = (exponent + m + 1 for exponent in self.ends)
-        below, above = self.density[[0, -1]] * self.q[[0, -1]] ** (m + 1)
-        return float(below / low) if low > 0 else inf, float(-above / high) if high < 0 else inf
+        below, above = (self.density * self.q ** (m + 1))[[0, -1]].tolist()
+        return below / low if low > 0 else inf, -above / high if high < 0 else inf
 
     def cut(self, lower: float, upper: float) -> "PowerLaws":
         """The part from lower to upper."""
-        q = np.concatenate([[lower], self.q[(self.q > lower) & (self.q < upper)], [upper]])
+        q = np.array([lower, *self.q[(self.q > lower) & (self.q < upper)], upper])
         return PowerLaws(q, self(q))
 
-    def _law(self, q, side):
-        return np.clip(np.searchsorted(self.q, q, side) - 1, 0, len(self.exponents) - 1)
+    def _law(self, q):
+        return np.clip(np.searchsorted(self.q, q, "right") - 1, 0, len(self.exponents) - 1)
 
-    def _cumulated(self, m):
-        every = self._within(m, np.arange(len(self.exponents)), self.q[:-1], self.q[1:])
-        return np.append(0.0, np.cumsum(every)), np.append(np.cumsum(every[::-1])[::-1], 0.0)
+    def _above(self, m, q):
+        """int q^m density dq from q on: the rest of its law, and all laws above, where numbers are small."""
+        q = np.clip(q, self.q[0], self.q[-1])
+        start, law = self.q[:-1], self._law(q)
+        unit, exponent = self.density[:-1] * start ** (m + 1), m + self.exponents
+        whole = unit * power_integral(exponent, 1.0, self.q[1:] / start)
+        above = np.append(np.cumsum(whole[::-1])[::-1], 0.0)[law + 1]
+        return above + unit[law] * power_integral(exponent[law], q / start[law], self.q[law + 1] / start[law])
 
-    def _within(self, m, law, lower, upper):
-        start = self.q[law]
-        part = power_integral(m + self.exponents[law], lower / start, np.maximum(upper, lower) / start)
-        return self.density[law] * start ** (m + 1) * part
 
-
-def of_surface(line: PowerLaws) -> tuple[np.ndarray, np.ndarray]:
-    """Wave numbers (M,), those of the points and more between, and C_2D at them of an isotropic surface.
+def of_surface(line: PowerLaws) -> PowerLaws:
+    """C_2D of an isotropic surface at the points of its line scans and between them; it may come out below zero.
 
     line : two-sided C_1D of its line scans, which beyond the last point goes on by the law of that end
 
@@ -93,13 +83,13 @@ def of_surface(line: PowerLaws) -> tuple[np.ndarray, np.ndarray]:
     from scipy.special import hyp2f1
 
     # Below each point the surface has a root of the distance to it: the places are closer there.
-    pieces = []
+    pieces = [line.q[:1]]
     for low, high in pairwise(line.q.tolist()):
         count = ceil(_PLACES * sqrt(log10(high / low)))
         pieces.append(high * (low / high) ** np.square(np.arange(count)[::-1] / count))
-    q = np.concatenate([line.q[:1], *pieces])
+    q = np.concatenate(pieces)
     falling = over_directions(lambda k: line.exponent(k) * line(k), q, line.q)
     exponent, share = line.ends[1], q / line.q[-1]
     a = (1 - exponent) / 2
-    tail = exponent * line.density[-1] * share * hyp2f1(1 / 2, a, a + 1, share**2) / (np.pi * a)
-    return q, -(falling + tail) / (2 * q)
+    tail = exponent * line.density[-1] * share * hyp2f1(1 / 2, a, a + 1, share**2) / (pi * a)
+    return PowerLaws(q, -(falling + tail) / (2 * q))

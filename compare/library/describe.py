@@ -98,7 +98,7 @@ def _quantity(part, name):
         return f"of {len(next(iter(value.values())))} rows"
     unit, several = unit_of(type(part), name), value if isinstance(value, tuple) else (value,)
     if len(several) > FEW:
-        return f"{len(several)} values from {_written(min(several), unit)} to {_written(max(several), unit)}"
+        return f"of {len(several)} values"
     return " ".join(_written(each, unit) for each in several)
 
 

@@ -63,19 +63,15 @@ class Bands:
         if isinstance(rough, Profile):
             rough = rough.fitted
         q_s = rough.q_max(0.0)
-        if isinstance(rough, Spectrum):
-            return cls.of_laws(rough, np.geomspace(rough.q_min, q_s, _WAVES + 1))
+        if isinstance(rough, Spectrum):  # of many laws, of which nodes would see some
+            edges = np.geomspace(rough.q_min, q_s, _WAVES + 1)
+            share = rough.share(edges[:-1], edges[1:], q_s)
+            return cls(np.sqrt(edges[:-1] * edges[1:]), share, rough.rms_height)
         nodes, weights = np.polynomial.legendre.leggauss(_WAVES)
         half = log(q_s / rough.q_min) / 2
         q = rough.q_min * np.exp(half * (1 + nodes))
         density = rough.normalized.density_2d(q, q_s)
         return cls(q, weights * half * 2 * pi * q**2 * density, rough.rms_height)
-
-    @classmethod
-    def of_laws(cls, rough: Spectrum, edges: np.ndarray) -> "Bands":
-        """Bands of a measured spectrum between edges (N + 1,) [rad/m]: each is at the rms of its wave numbers."""
-        height, square = (rough.normalized.moment(m, edges[:-1], edges[1:]) for m in (1, 3))
-        return cls(np.sqrt(square / height), 2 * pi * height, rough.rms_height)
 
     @classmethod
     def of_waves(cls, waves: Waves) -> "Bands":
