@@ -311,6 +311,14 @@ def topography(
     shortest_kept: ShortestKept = None,
     repeat: Repeat = "mirror",
     peaks: Peaks = "up",
+    columns: TableColumns = None,
+    units: TableUnits = None,
+    where: TableRows = None,
+    separator: TableSeparator = None,
+    decimal: TableDecimal = None,
+    encoding: TableEncoding = None,
+    skip: LinesAbove = None,
+    rows: LinesBelow = None,
     output: Output = "topography",
     **options: Unpack[Options],
 ) -> Report:
@@ -319,7 +327,9 @@ def topography(
 
     asked = {"unit": unit, "channel": channel, "crop": crop, "outliers": outliers, "missing": missing}
     done = {"level": level, "shortest_kept": shortest_kept, "repeat": repeat, "peaks": peaks}
-    return solve(Map.of(file, pixel=pixel, **asked, **done), output, **options)
+    pairs = {"columns": by_name(columns), "units": by_name(units), "where": by_name(where)}
+    form = {"separator": separator, "decimal": decimal, "encoding": encoding, "skip": skip, "rows": rows}
+    return solve(Map.of(file, pixel=pixel, **asked, **done, **pairs, **form), output, **options)
 
 
 @checked

@@ -265,12 +265,12 @@ TableSeparator = Annotated[
 ]
 TableDecimal = Annotated[str | None, Option(help='Decimal mark of a table, "." or ",".'), TEXT]
 TableEncoding = Annotated[str | None, Option(help="Encoding of a table, as cp1252."), TEXT]
-LinesAbove = Annotated[int | None, Option(help="Lines above the heading of a table.", parser=number)]
-LinesBelow = Annotated[int | None, Option(help="Rows below the heading of a table that are read.", parser=number)]
+LinesAbove = Annotated[int | None, Option(help="Lines above the heading or the numbers.", parser=number)]
+LinesBelow = Annotated[int | None, Option(help="Rows that are read below them.", parser=number)]
 HeightMap = Annotated[
     Surface,
     Argument(
-        help="Map of heights: .npy, .npz, .csv, .txt, .tsv, .xyz, or any format that SurfaceTopography reads."
+        help="Map of heights: .npy, .npz, .nc, .txt, .csv, .tsv, .xyz, or a format that SurfaceTopography reads."
     ),
     "From Python also heights [m] as rows, an array, a DataFrame or an object of xarray.",
 ]
@@ -283,8 +283,7 @@ Pixel = Annotated[
     "From Python also a number [m].",
 ]
 LengthUnit = Annotated[
-    Literal["m", "mm", "um", "nm"] | None,
-    Option(help="Unit of the heights. Needed if the file states none."),
+    str | None, Option(help="Unit of the heights, as um. Needed if the file states none."), TEXT
 ]
 Channel = Annotated[str | None, Option(help="Name of the map to take, of a file that holds several."), TEXT]
 Crop = Annotated[

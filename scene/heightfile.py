@@ -1,226 +1,359 @@
-"""Reading measured heights from files: arrays here, texts beside, what instruments write by SurfaceTopography."""
+"""Heights of a map or a line out of a file or an object of Python, in metres: one form each, nothing is guessed.
 
-import signal
+A file is
+    an array (.npy), or an archive of arrays (.npz), from which `channel` picks one
+    a file of NetCDF (.nc), whose variables are arrays along y and x, or x, with their units in attributes
+    a text (.txt, .csv, .tsv, .xyz; for a line any other too) of numbers and nothing else, a row of the map a line,
+        the first at the lowest y; of a line one number a row, with comments above. Empty cells and nan are missing
+    a table of points, columns x, y and z, of a line x and z, with their units in the heading, see `tablefile`
+    for a map, whatever the package SurfaceTopography reads (extra `topography`)
+
+In Python arrays, tables and objects of xarray have the same form. Options of `TableFormat` state what differs of a
+text or a table. A unit, a pixel or a spacing that a file lacks has to be stated; one that it has must agree.
+"""
+
 import warnings
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, redirect_stderr, redirect_stdout
+from dataclasses import dataclass, replace
 from io import StringIO
 from math import prod
 from pathlib import Path
 from reprlib import repr as briefly
-from threading import current_thread, main_thread
 from typing import Any
 
 import numpy as np
 
-from .arrayfile import array_in, arrays_in, names_in
-from .files import Unreadable, checked, content, once
+from .files import checked
+from .heightmap import LEAST, HeightLine, HeightMap, sides, unmasked
+from .lattice import along, mapped, ordered, refuse_places
+from .plain import bare, in_unit
 from .printable import brief
-from .scan import UNITS, Scan, check_layout, metres, picked
+from .quantities import METRE
+from .tablefile import Column, TableFormat, read_columns, read_rows
 
-__all__ = ["UNITS", "read_heights"]
+MAP, LINE = ("y", "x"), ("x",)
+EVEN = 1e-3  # relative, of sides and spacings: a file rounds them, and so do coordinates in single precision
+MOST_PIXELS = 5120**2  # that are read of a file
+MOST_BYTES, MOST_TEXT = 2**28, 2**27  # of a file, as it is and unpacked; and of a text
+ARRAYS, NETCDF, TEXTS = {".npy", ".npz"}, {".nc"}, {".txt", ".csv", ".tsv", ".xyz"}
+# Endings of what holds no heights, and what it is.
+FOREIGN = {
+    "a picture": ".png .tif .tiff .jpg .jpeg .bmp .gif .webp .svg .pdf",
+    "a workbook": ".xlsx .xls .xlsm .ods",
+    "a mesh": ".stl .obj .ply .3mf .vtk .vtp .vtu",
+}
+X = Column("x", ("x", "X", "distance", "position", "length"), (METRE,), unit_needed=True)
+Y = Column("y", ("y", "Y"), (METRE,), needed=True, unit_needed=True)
+Z = Column("z", ("z", "Z", "height", "heights"), (METRE,), needed=True, unit_needed=True, gaps=True)
+COLUMNS = {MAP: (replace(X, needed=True), Y, Z), LINE: (X, Z)}
 
-SIDE = 5120
-MOST_PIXELS = SIDE**2  # that are read of a file
-MOST_BYTES = 2**28  # of a file, as it is and unpacked: of so many pixels with eight bytes each, and more
-MOST_TEXT, ROWS = 2**27, 2**21  # bytes of a text, and rows of numbers in it
-ARRAYS, TEXTS = {".npy", ".npz"}, {".csv", ".txt", ".tsv", ".xyz"}
-# Its readers of texts guess separators, and those of nameless matrices take rows along x.
-_TEXTS_THERE, _MATRICES = {"Text", "XYZ"}, {"Matlab", "H5"}
-SECONDS = 10.0  # of a processor, for SurfaceTopography: some of its readers take minutes for what they do not know
+
+@dataclass(frozen=True, eq=False)
+class Heights:
+    """Heights as a file or an object has them.
+
+    name : of the file, for messages
+    numbers : of a map (rows, columns), rows along y, or of a line (N,), ascending; NaN where none was measured
+    unit : of these numbers; None where none is stated
+    spacings : along x, or x and y [m]; None where they are not stated
+    notes : what was read and is not used, a line each
+    """
+
+    name: str
+    numbers: Any
+    unit: str | None = None
+    spacings: tuple[float, ...] | None = None
+    notes: tuple[str, ...] = ()
+
+    def settled(self, spacing: Any, unit: str | None = None) -> "Settled":
+        """Heights [m], their pixel or spacing, and notes: what is stated and what was read put together.
+
+        Raises ValueError where one of them is stated twice and differs, and where it is stated nowhere.
+        """
+        step, what = ("spacing", "spacing") if np.ndim(self.numbers) == 1 else ("pixel", "side of a pixel")
+        lacking = {"the unit of its heights": 'unit = "um"'} if self.unit is None and unit is None else {}
+        lacking |= {f"the {what}": f'{step} = "1 um"'} if self.spacings is None and spacing is None else {}
+        if lacking:
+            raise ValueError(
+                f"{self.name} does not state {' nor '.join(lacking)}: state {' and '.join(lacking.values())}"
+            )
+        metre = None if unit is None else _metres("unit", unit)
+        own = None if self.unit is None else _metres(f"{self.name}: unit of heights", self.unit)
+        if metre and own and abs(metre - own) > 1e-9 * own:
+            raise ValueError(f"unit = {unit!r}: {self.name} states its own, {self.unit}: leave unit out")
+        # First the numbers in full: those of half precision end where nanometres begin.
+        heights = np.asarray(self.numbers, float)
+        with np.errstate(over="ignore"):  # beyond the range of numbers is not finite, and refused
+            heights = heights * metre if self.unit is None else in_unit(heights, self.unit, "m")
+        if spacing is not None:
+            self._check(step, spacing)
+            return heights, spacing, self.notes
+        return heights, self.spacings if step == "pixel" else self.spacings[0], self.notes  # type: ignore[index]
+
+    def _check(self, step, spacing):
+        """Raise ValueError for a spacing other than that of the file; one that is none is left to its field."""
+        try:
+            given = sides(spacing)
+        except ValueError:
+            return
+        if any(abs(one - own) > EVEN * own for one, own in zip(given, self.spacings or (), strict=False)):
+            said = " x ".join(f"{side:.6g}" for side in dict.fromkeys(self.spacings))
+            raise ValueError(
+                f"{step} = {briefly(spacing)}: {self.name} states its own, {said} m: leave {step} out"
+            )
+
+
+Settled = tuple[np.ndarray, Any, tuple[str, ...]]
 
 
 def read_heights(
-    path: str | Path, pixel: Any = None, unit: str | None = None, channel: str | None = None
-) -> tuple[np.ndarray, Any, tuple[str, ...]]:
-    """Heights (rows, columns) [m], rows along y, NaN where none was measured; the pixel [m], and notes.
+    path: Any,
+    dims: tuple[str, ...],
+    spacing: Any = None,
+    unit: str | None = None,
+    channel: str | None = None,
+    written: TableFormat | None = None,
+) -> Settled:
+    """Heights [m] out of a file, their pixel or spacing, and notes.
 
-    path : of an array (.npy), an archive with the arrays `heights` and, if it has one, `pixel` (.npz), a text
-        (.csv, .txt, .tsv, .xyz, see `heighttext.read_text`), or anything else that the package SurfaceTopography
-        reads (extra `topography`)
-    pixel : [m], where the file states none; one number, or two along x and along y
-    unit : of all numbers in a file that states none, as arrays do not: "m", "mm", "um" or "nm"
-    channel : which map of a file with several is read, by its name
+    dims : MAP or LINE
+    spacing, unit : as stated, where the file has none; channel : which of several arrays or maps is read
+    written : what is stated of a text or a table
 
-    Notes say what was read and is not used. Raises ValueError naming the file and what is allowed.
+    Raises ValueError naming the file, with what is allowed.
     """
-    if unit is not None:
-        metres(unit)
     if not isinstance(path, str | Path):
         raise ValueError(f"file = {briefly(path)}: a path is needed")
-    if not isinstance(channel, str | None):
-        raise ValueError(f"channel = {briefly(channel)}: the name of a channel is needed")
-    path = checked(path, MOST_BYTES)
-    kind = path.suffix.lower()
-    scan = once(_array if kind in ARRAYS else _text if kind in TEXTS else _scan, path, channel)
-    return *scan.settled(pixel, unit), scan.notes
-
-
-def _text(path, channel):
-    # Only texts need it.
-    from .heighttext import read_text
-
-    return read_text(path, channel, ROWS, MOST_TEXT, MOST_PIXELS)
-
-
-def _array(path, channel):
-    """The array of a file of numpy, or the one that is chosen of an archive, which may have a pixel."""
-    held, name = content(path, MOST_BYTES), brief(str(path))
-
-    def heights(shape, dtype):
-        try:
-            check_layout(shape, dtype)
-            _check_count(shape)
-        except ValueError as error:
-            raise Unreadable(f"file = {brief(repr(str(path)))}: {error}") from None
-
-    def pixel(shape, dtype):
-        if prod(shape) not in (1, 2) or dtype.kind not in "fiu":
-            raise Unreadable(
-                f"{name} has a pixel of shape {brief(str(shape))} and type {brief(str(dtype))}: one "
-                "number, or two of them, along x and y"
-            )
-
-    try:
-        if not held.startswith(b"PK"):
-            if channel is not None:
-                raise Unreadable(f"channel = {brief(repr(channel))}: {name} holds one array, leave channel out")
-            return Scan(name, array_in(held, heights))
-        held_names = [each for each in names_in(held) if each != "pixel"]
-        if channel is None and "heights" not in held_names:
-            hint = f'; choose one of them, channel = "{held_names[0]}"' if held_names else ""
-            raise ValueError(f"it holds {', '.join(names_in(held)) or 'nothing'}, and no array heights{hint}")
-        wanted = picked(name, dict.fromkeys(held_names), channel, "heights")
-        arrays = arrays_in(held, {wanted: heights, "pixel": pixel})
-    except Unreadable:
-        raise
-    # Damaged archives raise nearly anything.
-    except Exception as error:
-        raise ValueError(f"{name} cannot be read as arrays: {_first_line(error)}") from error
-    steps = _sides(path, arrays["pixel"]) if "pixel" in arrays else None
-    return Scan(name, arrays[wanted], steps=steps)
-
-
-def _check_count(shape):
-    """Raise ValueError for more pixels than are read."""
-    if prod(shape) > MOST_PIXELS:
+    kind, name, written, found = Path(path).suffix.lower(), brief(str(path)), written or TableFormat(), None
+    if foreign := [what for what, endings in FOREIGN.items() if kind in endings.split()]:
         raise ValueError(
-            f"{brief(' x '.join(map(str, reversed(shape))))} pixels: at most {MOST_PIXELS}, as {SIDE} x {SIDE}, "
-            "are read; crop the map, or take means of its pixels"
+            f"{name} is {foreign[0]} ({kind}): export the heights as numbers, to .txt, .npy, .nc or the format of "
+            "an instrument"
         )
+    place = checked(path, MOST_BYTES)
+    if kind in ARRAYS:
+        found = _of_arrays(name, place, dims, channel)
+    elif kind in NETCDF:
+        found = _of_netcdf(name, place, dims, channel, written.units or {})
+    elif kind not in TEXTS and dims == MAP:
+        found = _of_instrument(name, place, channel)
+    if found is not None:
+        if (replace(written, units=None) if kind in NETCDF else written) != TableFormat():
+            raise ValueError(f"{name} is no text, of which columns, units, separators or lines could be stated")
+        return found.settled(spacing, unit)
+    if channel is not None:
+        raise ValueError(f"channel = {brief(repr(channel))}: {name} is a text; skip and rows choose a part of it")
+    if rows := _of_rows(name, path, dims, written):
+        return rows.settled(spacing, unit)
+    return _of_table(path, dims, spacing, unit, written).settled(spacing)
 
 
-def _sides(path, pixel):
-    """Along x and along y, from the array of an archive."""
-    sides = pixel.ravel().astype(float)
-    if not ((sides > 0) & np.isfinite(sides)).all():
-        raise ValueError(f"{brief(str(path))} has pixel = {pixel.tolist()}: numbers greater than 0")
-    return float(sides[0]), float(sides[-1])
+def given_heights(
+    heights: Any,
+    dims: tuple[str, ...],
+    spacing: Any = None,
+    unit: str | None = None,
+    channel: str | None = None,
+    written: TableFormat | None = None,
+) -> Settled:
+    """The same out of an array, a table or an object of xarray; arrays without a unit are in metres."""
+    if hasattr(heights, "data_vars") and dims == MAP:
+        arrays = {str(name): each for name, each in heights.data_vars.items() if each.ndim == len(dims)}
+        if arrays:
+            heights, channel = arrays[picked("the Dataset", arrays, channel)], None
+    if channel is not None:
+        raise ValueError(f"channel = {brief(repr(channel))}: one array has no channels, leave channel out")
+    if isinstance(heights, Mapping) or hasattr(heights, "columns") or hasattr(heights, "data_vars"):
+        return _of_table(heights, dims, spacing, unit, written or TableFormat()).settled(spacing)
+    if written not in (None, TableFormat()):
+        raise ValueError("heights are an array, and no table of which columns or units could be stated")
+    if hasattr(heights, "dims") and hasattr(heights, "isel"):
+        found = _of_labelled("the array", heights, dims)
+    else:
+        heights = unmasked(heights)
+        found = Heights("the array", METRE.values(heights), None if bare(heights)[1] is None else "m")
+    return found.settled(spacing, unit or (None if found.unit else "m"))
 
 
-def _first_line(error):
-    return brief(next(iter(str(error).strip().splitlines()), "") or type(error).__name__)
+def picked(name: str, channels: Iterable[str], channel: str | None) -> str:
+    """The channel that is chosen, or the only one. Raises ValueError with the names of all."""
+    names = list(channels)
+    if channel is None and len(names) == 1:
+        return names[0]
+    said = f"{name} holds {brief(', '.join(map(repr, names)) or 'nothing')}"
+    if channel in names:
+        return str(channel)
+    raise ValueError(
+        f"{said}: state which, as channel = {next(iter(names), 'NAME')!r}"
+        if channel is None
+        else f"channel = {brief(repr(channel))}: {said}"
+    )
 
 
-class _TooLong(BaseException):
-    """No Exception: a reader that fails is followed by the next."""
-
-
-@contextmanager
-def _at_most(seconds):
-    """Raise _TooLong after so much processor time, where there are such clocks and they can be heard."""
-    if not hasattr(signal, "setitimer") or current_thread() is not main_thread():
-        yield
-        return
-
-    def stop(*_):
-        raise _TooLong
-
-    before = signal.signal(signal.SIGPROF, stop)
-    signal.setitimer(signal.ITIMER_PROF, seconds)
+def _of_arrays(name, path, dims, channel):
+    """The array of a .npy file, or one of an .npz archive; no object is made of what is pickled."""
     try:
-        yield
-    finally:
-        signal.setitimer(signal.ITIMER_PROF, 0.0)
-        signal.signal(signal.SIGPROF, before)
+        with path.open("rb") as file, _silent():
+            held = np.load(file)
+            if isinstance(held, np.ndarray) and channel is not None:
+                raise ValueError(f"channel = {brief(repr(channel))}: it holds one array, leave channel out")
+            if not isinstance(held, np.ndarray):
+                if sum(each.file_size for each in held.zip.infolist()) > MOST_BYTES:
+                    raise ValueError(f"unpacked it has more than {MOST_BYTES / 1e6:g} MB")
+                held = np.asarray(held[picked("it", held.files, channel)])
+        (HeightMap if dims == MAP else HeightLine).check_layout(held.shape, held.dtype)
+        _check_count(held.shape)
+        return Heights(name, held)
+    # Damaged files raise nearly anything.
+    except Exception as error:
+        why = "objects are not read" if "bject" in str(error) else _first_line(error)
+        raise ValueError(f"{name} cannot be read as heights: {why}") from error
 
 
-@contextmanager
-def _silent():
-    """Keep a reader from warning and printing."""
-    with warnings.catch_warnings(), redirect_stdout(StringIO()), redirect_stderr(StringIO()):
-        warnings.simplefilter("ignore")
-        yield
+def _of_netcdf(name, path, dims, channel, units):
+    import xarray
+
+    try:
+        with _silent(), xarray.open_dataset(path) as held:
+            arrays = {str(key): each for key, each in held.data_vars.items() if each.ndim == len(dims)}
+            heights = arrays[picked("it", arrays, channel)]
+            _check_count(heights.shape)
+            heights = heights.load()
+    # As above.
+    except Exception as error:
+        raise ValueError(f"{name} cannot be read as NetCDF: {_first_line(error)}") from error
+    for dim, places in heights.coords.items():
+        if bare(places)[1] is None and dim in dims:
+            if dim not in units:
+                raise ValueError(
+                    f'{name}: {dim} has no attribute units: write it, or state units = {{{dim} = "um"}}'
+                )
+            heights = heights.assign_coords({dim: places.assign_attrs(units=units[dim])})
+    return _of_labelled(name, heights, dims)
 
 
-def _scan(path, channel):
-    """A channel of a file by SurfaceTopography, its own choice where none is chosen."""
-    name = brief(str(path))
+def _of_labelled(name, heights, dims):
+    heights, spacings = along(heights, dims)
+    numbers, unit = bare(heights)
+    own = tuple(spacings[each] for each in reversed(dims)) if len(spacings) == len(dims) else None
+    return Heights(name, numbers, unit, own)
+
+
+def _of_table(table, dims, spacing, unit, written):
+    if unit is not None:
+        _metres("unit", unit)
+        written = replace(written, units={**(written.units or {}), "z": unit})
+    columns = read_columns(table, COLUMNS[dims], written, MOST_TEXT)
+    if dims == MAP:
+        heights, spacings = mapped(columns["x"], columns["y"], columns["z"], columns.place)
+        return Heights(columns.name, heights, "m", spacings, columns.notes)
+    if "x" not in columns:
+        if spacing is None:
+            raise ValueError(f'{columns.name} has no column x: state columns = {{x = "..."}}, or spacing = "1 um"')
+        return Heights(columns.name, columns["z"], "m", None, columns.notes)
+    order, step = ordered("x", columns["x"], columns.place)
+    return Heights(columns.name, columns["z"][order], "m", (step,), columns.notes)
+
+
+def _of_rows(name, path, dims, stated):
+    """Rows of numbers and nothing else, of a line also comments above; None of a table."""
+    found = None if stated.columns else read_rows(path, stated, MOST_TEXT)
+    if found is None:
+        return None
+    (numbers, lines), skipped = found, stated.skip or 0
+    width = numbers.shape[1]
+    if dims == MAP and lines[0] > skipped + 1:
+        raise ValueError(
+            f"{name}, line {skipped + 1}, is no row of heights: state skip = {lines[0] - 1} for the lines above "
+            'these, and what they may say, as unit = "um" and pixel = "1 um"'
+        )
+    if width < LEAST if dims == MAP else width > 1:
+        wanted, points = (f"a map has {LEAST} or more", "xyz") if dims == MAP else ("a line has one", "xz")
+        raise ValueError(
+            f"{name}, line {lines[0]}: {width} columns of numbers, and {wanted}; of points state columns = "
+            f"{{{', '.join(f'{each} = {k}' for k, each in enumerate(points, 1))}}} and units"
+        )
+    if dims == MAP:
+        refuse_places(f"{name}, line {lines[0]}", numbers)
+    return Heights(name, numbers if dims == MAP else numbers[:, 0])
+
+
+def _of_instrument(name, path, channel):
+    """A channel of a file by SurfaceTopography, its own choice where none is stated; None of a text."""
     try:
         with _silent():
             from SurfaceTopography import open_topography
             from SurfaceTopography.Exceptions import CannotDetectFileFormat
     except ImportError as missing:
         raise ValueError(
-            f"{name}: files other than {', '.join(sorted(ARRAYS | TEXTS))} are read by SurfaceTopography, "
-            'which is not installed: pip install "mdr-bem-crosscheck[topography]"'
+            f"{name}: files other than {', '.join(sorted(ARRAYS | NETCDF | TEXTS))} are read by SurfaceTopography,"
+            ' which is not installed: pip install "mdr-bem-crosscheck[topography]"'
         ) from missing
     try:
-        # What it warns of and prints tells of itself, and a line is kept of what it raises.
-        with _at_most(SECONDS), _silent(), open_topography(str(path)) as reader:
-            if type(reader).__module__.rpartition(".")[2] not in _TEXTS_THERE:
-                return _of_channel(name, reader, channel)
+        with _silent(), open_topography(str(path)) as reader:
+            # Those of texts guess separators and units.
+            if type(reader).__module__.rpartition(".")[2] in ("Text", "XYZ"):
+                return None
+            return _of_channel(name, reader, channel)
     except CannotDetectFileFormat as error:  # which tells of every reader at length
-        if b"\0" not in content(path, MOST_BYTES):
-            return _text(path, channel)
         raise ValueError(
-            f"{name} cannot be read by SurfaceTopography: it is of no format that it knows, or damaged"
+            f"{name} is of no format that SurfaceTopography knows, or damaged; a text is called .txt or .csv"
         ) from error
-    except _TooLong:
-        raise ValueError(
-            f"{name} takes SurfaceTopography more than {SECONDS:g} s to read: write its heights to a .npy file"
-        ) from None
-    except _NotChosen as error:
-        raise ValueError(str(error)) from None
     # Readers of some forty formats raise nearly anything at a damaged file.
     except Exception as error:
         raise ValueError(f"{name} cannot be read by SurfaceTopography: {_first_line(error)}") from error
-    return _text(path, channel)
 
 
-class _NotChosen(Exception):
-    """A channel that is asked for is not there."""
-
-
-def _of_channel(name, reader, asked):
-    """The map of a channel. Raises whatever the reader of the file raises."""
-    channels, wanted = {}, reader.default_channel
+def _of_channel(name, reader, channel):
+    channels, wanted, notes = {}, reader.default_channel, ()
     for number, each in enumerate(reader.channels, 1):
         channels[each.name if each.name not in channels else f"{each.name} ({number})"] = each
-    if asked is not None:
-        try:
-            wanted = channels[picked(name, channels, asked)]
-        except ValueError as error:
-            raise _NotChosen(str(error)) from None
+    if channel is not None:
+        wanted = channels[picked("it", channels, channel)]
+    elif len(channels) > 1:
+        notes = (f"{name}: its channel {wanted.name!r} is taken, of {brief(', '.join(map(repr, channels)))}",)
     _check_count(wanted.nb_grid_pts)
     stated = wanted.physical_sizes is not None
     # A reader asks for the size that a file lacks; this one is taken off again.
-    size = None if stated else tuple(map(float, wanted.nb_grid_pts))
-    found = wanted.topography(physical_sizes=size)
+    found = wanted.topography(physical_sizes=None if stated else tuple(map(float, wanted.nb_grid_pts)))
     own = found.unit
-    if own is not None:
-        found = found.to_unit("m")
+    found = found if own is None else found.to_unit("m")
     if found.dim != 2 or 0 in found.nb_grid_pts:
         raise ValueError("it holds a line or nothing, and no map of heights")
     # There the first index is along x, but of matrices, whose rows are along y as those of arrays.
     heights = np.ma.filled(np.ma.array(found.heights(), float), np.nan)
-    heights = heights if type(reader).__module__.rpartition(".")[2] in _MATRICES else heights.T
+    heights = heights if type(reader).__module__.rpartition(".")[2] in ("Matlab", "H5") else heights.T
+    if own is None or not stated:
+        return Heights(name, heights, own and "m", None, notes)
     pixel = tuple(float(side) / count for side, count in zip(found.physical_sizes, found.nb_grid_pts, strict=True))
-    notes = ()
-    if asked is None and len(channels) > 1:
-        said = brief(", ".join(map(repr, channels)))
-        notes = (f"{name}: its channel {brief(repr(wanted.name))} is taken, of {said}",)
-    if not stated:
-        return Scan(name, heights, own or "", notes=notes)
-    if own is None:
-        return Scan(name, heights, steps=pixel, notes=notes)
-    return Scan(name, heights, own, pixel, notes=notes)
+    return Heights(name, heights, "m", pixel, notes)
+
+
+def _check_count(shape):
+    """Raise ValueError for more pixels than are read."""
+    if prod(shape) > MOST_PIXELS:
+        raise ValueError(
+            f"{brief(' x '.join(map(str, reversed(shape))))} pixels: at most {MOST_PIXELS} are read; take a part "
+            "of them"
+        )
+
+
+def _metres(name, unit):
+    """A unit of length [m]. Raises ValueError."""
+    try:
+        return float(METRE.scale(unit)[0])
+    except (ValueError, AttributeError, TypeError) as error:
+        raise ValueError(f'{name} = {brief(repr(unit))}: a unit of length is needed, as "um"; {error}') from None
+
+
+@contextmanager
+def _silent() -> Iterator[None]:
+    """Keep a reader from warning and printing."""
+    with warnings.catch_warnings(), redirect_stdout(StringIO()), redirect_stderr(StringIO()):
+        warnings.simplefilter("ignore")
+        yield
+
+
+def _first_line(error):
+    return brief(next(iter(str(error).strip().splitlines()), "") or type(error).__name__)

@@ -1,19 +1,21 @@
-"""Heights measured on a lattice of pixels: compared, stored and named by a digest, never by the whole array."""
+"""Measured heights of a map or a line: compared, stored and named by a digest, never by the whole array."""
 
 import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass as plain
 from dataclasses import field
-from typing import TYPE_CHECKING, Annotated
+from sys import float_info
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 from pydantic import AfterValidator, BeforeValidator, InstanceOf, PlainSerializer
 
 from .missing import refuse_missing
+from .printable import brief
 from .quantities import METRE, Length
-from .scan import check_layout, sides
 
 SHORTEST, LONGEST = 1e-50, 1e50  # lengths [m] whose fourth powers, as of spectra, are numbers
+LEAST = 4  # pixels a side of a map: what a cubic between pixels takes
 
 
 @plain(frozen=True, init=False)
@@ -29,7 +31,7 @@ class HeightMap:
     to 1e50 m, or some that stand for none, see `missing.sentinels`.
     """
 
-    shape: tuple[int, int]
+    shape: tuple[int, ...]
     digest: str = field(repr=False)
 
     if TYPE_CHECKING:
@@ -40,16 +42,27 @@ class HeightMap:
         @property
         def notes(self) -> tuple[str, ...]: ...
 
-    _check_layout = staticmethod(check_layout)
-    _refuse_missing = staticmethod(refuse_missing)
+    @staticmethod
+    def check_layout(shape: tuple[int, ...], dtype: np.dtype) -> None:
+        """Raise ValueError for the shape and type of an array that is none of such heights."""
+        if len(shape) != 2 or min(shape) < LEAST:
+            line = (
+                '; a line of heights is roughness of type = "profile"'
+                if sum(side > 1 for side in shape) == 1
+                else ""
+            )
+            raise ValueError(
+                f"an array of shape {brief(str(shape))}: a map has at least {LEAST} rows and columns{line}"
+            )
+        _check_real(dtype)
 
     def __init__(self, heights, notes: Sequence[str] = ()):
         values = np.asarray(METRE.values(unmasked(heights)))
-        self._check_layout(values.shape, values.dtype)
+        self.check_layout(values.shape, values.dtype)
         with np.errstate(over="ignore"):  # beyond the range of numbers is not finite
             # A copy of our own, with one zero.
             values = np.asarray(values, float) + 0.0
-        self._refuse_missing(values)
+        refuse_missing(values)
         most = max(values.max(), -values.min())
         if most and not SHORTEST <= most <= LONGEST:
             raise ValueError(
@@ -69,19 +82,38 @@ class HeightMap:
         return type(self), (self.heights, self.notes)
 
 
-def unmasked(heights):
+class HeightLine(HeightMap):
+    """One row of heights (N,) [m], along x. Raises as `HeightMap` does."""
+
+    @staticmethod
+    def check_layout(shape: tuple[int, ...], dtype: np.dtype) -> None:
+        if len(shape) != 1 or not shape[0]:
+            raise ValueError(f"an array of shape {brief(str(shape))}: a line is one row of heights")
+        _check_real(dtype)
+
+
+def _check_real(dtype):
+    if dtype.kind not in "fiu":
+        raise ValueError(f"an array of type {brief(str(dtype))}: heights are real numbers [m]")
+
+
+def unmasked(heights: Any) -> Any:
     """Heights with NaN where an array of numpy masks them; anything else as it is."""
     if np.ma.isMaskedArray(heights) and heights.dtype.kind in "fiu":
         return np.ma.filled(heights.astype(float), np.nan)
     return heights
 
 
-def _as_map(value):
-    if isinstance(value, HeightMap):
-        return value
-    if isinstance(value, str):
-        raise ValueError("Input should be rows of heights [m], or give file instead")
-    return HeightMap(value)
+def sides(pixel: Any) -> tuple[float, float]:
+    """Sides of a pixel along x and along y [m], of one number or two. Raises ValueError."""
+    try:
+        found = METRE.values(pixel)
+    except ValueError as error:
+        raise ValueError(f"{error}; or two of them, along x and y") from None
+    numbers = np.ravel(found).tolist() if np.ndim(found) < 2 else []
+    if len(numbers) not in (1, 2) or not all(0 < side <= float_info.max for side in numbers):
+        raise ValueError("Input should be the side of a pixel, greater than 0 [m], or two of them, along x and y")
+    return numbers[0], numbers[-1]
 
 
 def _alike(pixel):
@@ -97,10 +129,24 @@ def _alike(pixel):
     return pixel
 
 
-Heights = Annotated[
-    InstanceOf[HeightMap],
-    BeforeValidator(_as_map, json_schema_input_type=list[list[Annotated[float, METRE]]]),
-    PlainSerializer(lambda given: {"shape": list(given.shape), "digest": given.digest}),
+def _as(kind, form):
+    """Validator of heights as a map or as a line."""
+
+    def held(value):
+        if isinstance(value, str):
+            raise ValueError(f"Input should be {form} of heights [m], or give file instead")
+        return value if isinstance(value, kind) else kind(value)
+
+    return held
+
+
+_DIGEST = PlainSerializer(lambda given: {"shape": list(given.shape), "digest": given.digest})
+_Row = list[Annotated[float, METRE]]
+MapHeights = Annotated[
+    InstanceOf[HeightMap], BeforeValidator(_as(HeightMap, "rows"), json_schema_input_type=list[_Row]), _DIGEST
+]
+LineHeights = Annotated[
+    InstanceOf[HeightLine], BeforeValidator(_as(HeightLine, "a row"), json_schema_input_type=_Row), _DIGEST
 ]
 Pixel = Annotated[
     tuple[Length, Length],

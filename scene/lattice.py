@@ -1,84 +1,137 @@
-"""A map of heights out of points x, y, z that lie on a lattice, in whatever order they stand."""
+"""Heights on even places: points x, y, z in any order, points along a line, arrays whose dimensions have names."""
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
+from .printable import brief
+from .quantities import METRE
+
 OFF = 0.05  # of a spacing: how far a point may lie off its place
-_NOISE, _CLUSTERS = 1e-7, 5.0
-_LEAST_FULL = 0.5  # of the places; fewer points are scattered ones
+_NOISE = 1e-7  # of the range of all places: closer ones are one
+_LEAST_FULL = 0.5  # of the places of a map; fewer points are scattered ones
+
+FEW = 6  # numbers: so many that are evenly spaced are no axis by that alone; columns that points may have
+
+Place = Callable[[int], str]
+"""Where a point stands, for messages."""
 
 
-def mapped(
-    x: np.ndarray, y: np.ndarray, z: np.ndarray, where: Callable[[int], str]
-) -> tuple[np.ndarray, tuple[float, float]]:
+def mapped(x: np.ndarray, y: np.ndarray, z: np.ndarray, place: Place) -> tuple[np.ndarray, tuple[float, float]]:
     """Heights (rows along y, columns along x), both ascending, NaN where there is no point; and the spacings.
 
-    x, y, z : (points,); where : of a point, for messages
+    x, y, z : (points,)
 
     Raises ValueError, with the reason, where they lie on no lattice.
     """
-    if not np.isfinite(x + y).all():
-        raise ValueError(f"{where(int(np.argmin(np.isfinite(x + y))))}: a point needs x and y")
-    (columns, dx), (rows, dy) = (placed(name, values, where) for name, values in (("x", x), ("y", y)))
+    (columns, dx), (rows, dy) = _placed("x", x, place), _placed("y", y, place)
     shape = int(rows.max()) + 1, int(columns.max()) + 1
-    places = shape[0] * shape[1]
-    if len(z) < _LEAST_FULL * places:
+    if len(z) < _LEAST_FULL * shape[0] * shape[1]:
         raise ValueError(
             f"{len(z):,} points on {shape[1]:,} x {shape[0]:,} places of x and y are no map: a map has a height "
             "at nearly every place of a lattice"
         )
     flat = rows * shape[1] + columns
-    if np.bincount(flat).max() > 1:
-        order = np.argsort(flat, kind="stable")
-        twice = int(order[1:][np.diff(flat[order]) == 0][0])
-        raise ValueError(f"{where(twice)}: a second height at x = {x[twice]:g}, y = {y[twice]:g}")
-    heights = np.full(places, np.nan)
-    heights[flat] = z
-    return heights.reshape(shape), (dx, dy)
+    order = np.argsort(flat, kind="stable")
+    if len(twice := order[1:][np.diff(flat[order]) == 0]):
+        raise ValueError(f"{place(twice[0])}: a second height at x = {x[twice[0]]:g}, y = {y[twice[0]]:g}")
+    heights = np.full(shape, np.nan)
+    heights.ravel()[flat] = z
+    return heights, (dx, dy)
 
 
-def placed(name: str, values: np.ndarray, where: Callable[[int], str] = lambda _: "") -> tuple[np.ndarray, float]:
-    """Numbers of the places of evenly spaced values, from 0, and their spacing; places may be empty.
+def ordered(name: str, values: np.ndarray, place: Place) -> tuple[np.ndarray, float]:
+    """Order in which evenly spaced places ascend, each of which is there once; and their spacing.
+
+    Raises ValueError.
+    """
+    numbers, step = _placed(name, values, place)
+    order = np.argsort(numbers, kind="stable")
+    if len(wrong := np.flatnonzero(np.diff(numbers[order]) != 1)):
+        raise ValueError(
+            f"{place(order[wrong[0] + 1])}: {name} = {values[order[wrong[0] + 1]]:g} is not one step from the one "
+            "before it, and places of heights are evenly spaced: interpolate"
+        )
+    return order, step
+
+
+def along(heights: Any, dims: tuple[str, ...]) -> tuple[Any, dict[str, float]]:
+    """An array of xarray with its dimensions in an order, ascending; and the spacings [m] of its coordinates.
+
+    dims : as the dimensions have to be called; coordinates without a unit are in metres
+
+    Raises ValueError for other dimensions, and for coordinates that are not evenly spaced.
+    """
+    if sorted(map(str, heights.dims)) != sorted(dims):
+        raise ValueError(
+            f"heights have the dimensions ({brief(', '.join(map(str, heights.dims)))}): "
+            f"{' and '.join(dims)} are needed, rename them"
+        )
+    heights, spacings = heights.transpose(*dims), {}
+    for name in dims:
+        if name not in getattr(heights, "coords", {}):
+            continue
+        try:
+            places = np.asarray(METRE.values(heights.coords[name]), float)
+        except ValueError as error:
+            raise ValueError(f"heights, coordinates of {name}: {error}") from None
+        order, spacings[name] = ordered(name, places, "coordinate {}".format)
+        heights = heights.isel({name: order})
+    return heights, spacings
+
+
+def refuse_places(where: str, numbers: np.ndarray) -> None:
+    """Raise ValueError where numbers of a map are places: its first row or column, or two columns of points."""
+    for called, rows in (("row", numbers), ("column", numbers.T)):
+        # Their common cell may hold anything; a few places are an axis only if it holds nothing.
+        (corner, *_), many = rows[0], rows.shape[1] > FEW
+        first, second = (np.diff(row[1:]) for row in rows[:2])
+        if (many or np.isnan(corner)) and _even(first) and np.isfinite(second).all() and not _even(second):
+            raise ValueError(
+                f"{where}: the first {called}, {brief(str(rows[0, :4].tolist()))} and so on, is evenly spaced as "
+                "places are, and the next is not: leave axes out, state skip"
+            )
+    for k in range(2 if numbers.shape[1] <= FEW < len(numbers) else 0):
+        try:
+            shape = mapped(numbers[:, k], numbers[:, k + 1], numbers[:, k], str)[0].shape
+        except ValueError:
+            continue
+        if min(shape) > 3:
+            raise ValueError(
+                f"{where}: columns {k + 1} and {k + 2} are places on a lattice: of points state columns = {{x = "
+                f"{k + 1}, y = {k + 2}, z = {k + 3}}} and units"
+            )
+
+
+def _even(steps):
+    return bool(steps[0] and np.abs(steps - steps.mean()).max() <= _NOISE * abs(steps.mean()) * len(steps))
+
+
+def _placed(name: str, values: np.ndarray, place: Place) -> tuple[np.ndarray, float]:
+    """Numbers of evenly spaced places, from 0, and their spacing; places may be empty.
 
     Values lie within a twentieth of the spacing of their places. Raises ValueError.
     """
+    if not np.isfinite(values).all():
+        raise ValueError(f"{place(int(np.argmin(np.isfinite(values))))}: {name} is no finite number")
     different = np.unique(values)
-    gaps = np.diff(different)
-    if not len(gaps):
+    cluster = np.cumsum(np.diff(different, prepend=different[0]) > _NOISE * np.ptp(values))
+    middles = np.bincount(cluster, different) / np.bincount(cluster)
+    if len(middles) < 2:
         raise ValueError(
-            f"all {name} are {different[0]:g}: that is a line and no map; a line of heights is roughness of the "
-            'type = "profile"'
+            f'all {name} are {different[0]:g}: a line of heights along x is roughness of type = "profile"'
         )
-    worst = 0
-    # What lies closer together than this is one place: but for rounding, or where gaps are small or large.
-    for closest in (_NOISE * (different[-1] - different[0]), _between(gaps)):
-        if closest is None:
-            continue
-        cluster = np.concatenate([[0], np.cumsum(gaps > closest)])
-        middles = np.bincount(cluster, different) / np.bincount(cluster)
-        if len(middles) < 2:
-            continue
-        apart = np.diff(middles)
-        numbers = np.concatenate([[0], np.cumsum(np.maximum(np.rint(apart / np.median(apart)), 1))])
-        step = np.sum((numbers - numbers.mean()) * middles) / np.sum((numbers - numbers.mean()) ** 2)
-        first = middles.mean() - step * numbers.mean()
-        found = np.rint((values - first) / step).astype(int)
-        off = np.abs(values - first - found * step) / step
-        if off.max() <= OFF and found.min() >= 0:
-            return found - found.min(), float(step)
+    apart = np.diff(middles)
+    numbers = np.concatenate([[0], np.cumsum(np.maximum(np.rint(apart / np.median(apart)), 1))])
+    step = float(np.sum((numbers - numbers.mean()) * middles) / np.sum((numbers - numbers.mean()) ** 2))
+    first = middles.mean() - step * numbers.mean()
+    found = np.rint((values - first) / step).astype(int)
+    off = np.abs(values - first - found * step) / step
+    if off.max() > OFF:
         worst = int(off.argmax())
-    place = where(worst)
-    raise ValueError(
-        f"{place}{': ' if place else ''}{name} = {values[worst]:g} is on no lattice: those of a map are even"
-    )
-
-
-def _between(gaps):
-    """A number between small gaps and large ones; None where they are all alike."""
-    ordered = np.sort(gaps)
-    ratios = ordered[1:] / ordered[:-1]
-    if not len(ratios) or ratios.max() < _CLUSTERS:
-        return None
-    k = int(ratios.argmax())
-    return float(np.sqrt(ordered[k] * ordered[k + 1]))
+        raise ValueError(
+            f"{place(worst)}: {name} = {values[worst]:g} is off by more than {100 * OFF:g} % of a step, "
+            f"{step:g}: places of heights are evenly spaced"
+        )
+    return found, step

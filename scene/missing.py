@@ -1,8 +1,8 @@
-"""Missing heights of a map: what was not measured, what stands for it, outliers, and filling in."""
+"""Missing heights of a map or a line: what was not measured, what stands for it, outliers, and filling in."""
 
 import numpy as np
 
-MOST_FILLED = 0.05  # of all pixels
+MOST_FILLED = 0.05  # of all heights
 LEAST_DEVIATIONS = 3.0
 NEIGHBOURS = 5  # pixels a side of the square whose median an outlier is far from
 NORMAL = 1.4826  # standard deviation of a normal distribution over its median absolute deviation
@@ -17,91 +17,90 @@ _FARTHER = 10.0  # and over the largest of them
 
 
 def refuse_missing(heights: np.ndarray) -> None:
-    """Raise ValueError, with their number and share, where pixels have no height, or one that stands for none."""
-    size, holes = heights.size, ~np.isfinite(heights)
+    """Raise ValueError, with their number and share, where heights of a map or a line are missing.
+
+    Missing is what is not finite, and what stands for none, see `sentinels`.
+    """
+    holes = ~np.isfinite(heights)
     if count := np.count_nonzero(holes):
-        row, column = np.argwhere(holes)[0]
+        place = tuple(np.argwhere(holes)[0])
+        at = "".join(f"[{each}]" for each in place)
         raise ValueError(
-            f"heights[{row}][{column}] = {heights[row, column]:g}: every pixel needs a finite height, and "
-            f"{_pixels(count, 'have', 'has')} no height, {_share(count, size)}: {_remedy(count, size)}"
+            f"heights{at} = {heights[place]:g}: {_share(count, heights)} missing: {_remedy(count, heights)}"
         )
     if found := sentinels(heights):
-        counts = [np.count_nonzero(heights == value) for value in found]
+        count = np.count_nonzero(np.isin(heights, found))
         raise ValueError(
-            f"{' and '.join(map(_held, found, counts))}, {_share(sum(counts), size)}, far off all others: such "
-            f"numbers stand for missing heights: {_remedy(sum(counts), size)}"
+            f"{_share(count, heights)} are {' or '.join(map(_said, found))}, far off all others, as programs "
+            f"write missing ones: {_remedy(count, heights)}"
         )
 
 
 def mended(
     heights: np.ndarray, pixel: tuple[float, float], fill: bool, deviations: float | None = None
 ) -> tuple[np.ndarray, tuple[str, ...]]:
-    """Heights with those filled in that are missing, stand for none, or are outliers; and what was done, in lines.
+    """Heights of a map or a line with missing ones or outliers filled in, see `filled`; and what was done.
 
     fill : whether what is missing is filled in; where not, whoever makes a map of it refuses it
-    deviations : heights farther off their neighbours are outliers and filled in, see `outliers`; None leaves them
+    deviations : heights of a map farther off their neighbours are outliers and filled in, see `outliers`; None
+        leaves them
 
     Raises ValueError where more than a twentieth would be filled in.
     """
+    if not fill and deviations is None:
+        return heights, ()
     notes = []
     if fill:
         for value in sentinels(heights):
             same = heights == value
-            notes.append(f"{_held(value, np.count_nonzero(same))}, far off all others, and count as missing")
+            notes.append(
+                f"{_share(np.count_nonzero(same), heights)} are {_said(value)}, far off all others, and count as "
+                "missing"
+            )
             heights = np.where(same, np.nan, heights)
-    elif deviations is not None:
+    else:
         refuse_missing(heights)
     holes = ~np.isfinite(heights)
-    if not fill and deviations is None:
-        return heights, ()
-    count = _checked(holes, "have no height", "has no height")
-    if count:
-        notes.append(
-            f"{_pixels(count, 'had', 'had')} no height, {_share(count, holes.size)}, and {_were(count)} filled in"
-        )
+    if count := _checked(holes, "missing"):
+        notes.append(f"{_share(count, heights)} were missing and are filled in")
     if deviations is not None:
         off = outliers(filled(heights, pixel), deviations) & ~holes
-        beyond = np.count_nonzero(off)
-        _checked(off | holes, "are outliers or have no height", "is an outlier or has no height")
+        _checked(off | holes, "outliers or missing")
         heights = np.where(off, np.nan, heights)
-        off_by = f"more than {deviations:g} robust standard deviations off the median around"
-        notes.append(f"{_pixels(beyond, 'were', 'was')} {off_by}, {_share(beyond, holes.size)}, and filled in")
+        notes.append(
+            f"{_share(np.count_nonzero(off), heights)} were more than {deviations:g} robust standard deviations "
+            "off the median around them and are filled in"
+        )
     return filled(heights, pixel), tuple(notes)
 
 
-def _checked(holes, are, is_):
-    """Number of the pixels that are filled in. Raises ValueError for too many."""
+def _checked(holes, what):
+    """Number of the heights that are filled in. Raises ValueError for too many."""
     count = np.count_nonzero(holes)
     if count > MOST_FILLED * holes.size:
         raise ValueError(
-            f"{_pixels(count, are, is_)}, {_share(count, holes.size)}, and at most {100 * MOST_FILLED:g} % are "
-            "filled in: crop the map"
+            f"{_share(count, holes)} {what}: at most {100 * MOST_FILLED:g} % are filled in{_crop(holes)}"
         )
     return count
 
 
-def _pixels(count, are, is_):
-    return f"{count} pixel{'' if count == 1 else 's'} {is_ if count == 1 else are}"
+def _share(count, heights):
+    return f"{count} of {heights.size} heights ({100 * count / heights.size:.3g} %)"
 
 
-def _were(count):
-    return "was" if count == 1 else "were"
-
-
-def _share(count, size):
-    return f"{100 * count / size:.3g} % of {size}"
-
-
-def _held(value, count):
+def _said(value):
     written = _written(value)
-    return f"{_pixels(count, 'hold', 'holds')} {value:g} m{f' ({written})' * bool(written)}"
+    return f"{value:g} m{f' ({written})' * bool(written)}"
 
 
-def _remedy(count, size):
-    part = "crop = [x from, x to, y from, y to] keeps a part of the map"
-    if count > MOST_FILLED * size:
-        return f'{part}; missing = "fill" fills in at most {100 * MOST_FILLED:g} %'
-    return f'missing = "fill" fills them in, {part}'
+def _remedy(count, heights):
+    if count > MOST_FILLED * heights.size:
+        return f'missing = "fill" fills in at most {100 * MOST_FILLED:g} %{_crop(heights)}'
+    return f'missing = "fill" fills them in{_crop(heights)}'
+
+
+def _crop(heights):
+    return ", crop = [x from, x to, y from, y to] keeps a part of the map" if heights.ndim > 1 else ""
 
 
 def sentinels(heights: np.ndarray) -> list[float]:
@@ -165,19 +164,21 @@ def outliers(heights: np.ndarray, deviations: float) -> np.ndarray:
 
 
 def filled(heights: np.ndarray, pixel: tuple[float, float]) -> np.ndarray:
-    """Heights with those that are not finite filled in harmonically; the others are as they were.
+    """Heights of a map or a line with those that are not finite filled in harmonically; the others as they were.
 
-    Over the holes Laplace's equation holds, in differences of neighbours, and where they reach a side of the map
-    nothing leaves through it. pixel : sides along x and along y, in any unit
+    Over the holes Laplace's equation holds, in differences of neighbours, which is a straight line along a line of
+    heights; where they reach a side, nothing leaves through it. pixel : sides along x and along y, in any unit
     """
     # Only maps with holes need them.
     from scipy.sparse import coo_array
     from scipy.sparse.linalg import splu
 
     holes = ~np.isfinite(heights)
-    rows, columns = np.nonzero(holes)
-    if not len(rows):
+    if not holes.any():
         return heights
+    if heights.ndim == 1:
+        return filled(heights[None], pixel)[0]
+    rows, columns = np.nonzero(holes)
     numbers = np.full(heights.shape, -1)
     numbers[holes] = np.arange(len(rows))
     # Over a height of their own, so that no sum of them is beyond numbers.

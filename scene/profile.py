@@ -1,6 +1,6 @@
 """Roughness that was measured along a line: an isotropic surface whose spectrum is fitted to that of the line."""
 
-from dataclasses import replace
+from dataclasses import fields, replace
 from functools import lru_cache
 from math import pi, sqrt
 from typing import Any, Literal
@@ -9,32 +9,19 @@ import numpy as np
 from pydantic import ConfigDict, Field, model_validator
 from pydantic.dataclasses import dataclass
 
-from . import linescan, stylus
+from . import linescan
 from .form import DEGREES, ROUNDING
-from .heightline import HeightLine, Heights, filled
-from .heightmap import LONGEST, SHORTEST
+from .heightmap import LONGEST, SHORTEST, HeightLine, LineHeights
 from .linescan import Interval, LineLaw
 from .periodogram import taken_off
-from .printable import brief
 from .quantities import CLOSED, METRE, RADIAN_PER_METRE, Length, Seed, by_name, takes
-from .scan import UNITS
-from .scanned import QUOTIENT
+from .scanned import QUOTIENT, prepared, schema_with_file
 from .selfaffine import SelfAffine
+from .tablefile import FromTable
 
 
-def _or_file(schema: dict[str, Any]) -> None:
-    """In JSON schema: a file in place of heights."""
-    schema["properties"] |= {
-        "file": {"type": "string"},
-        "unit": {"enum": [*UNITS, "µm"]},
-        "missing": {"enum": ["refuse", "fill"]},
-    }
-    del schema["required"]
-    schema["anyOf"] = [{"required": ["file"]}, {"required": ["heights", "spacing"]}]
-
-
-@dataclass(frozen=True, config=ConfigDict(**CLOSED, json_schema_extra=_or_file), kw_only=True)
-class Profile:
+@dataclass(frozen=True, config=ConfigDict(**CLOSED, json_schema_extra=schema_with_file("spacing")), kw_only=True)
+class Profile(FromTable):
     """Roughness of an isotropic surface that was measured along a line, as by a stylus.
 
     heights : along the line [m], evenly spaced; a table with a column of heights and maybe one of places
@@ -47,8 +34,9 @@ class Profile:
     shortest_kept : waves shorter than this are left out, of the line and of the surface [m]
     seed : of the surface that is drawn, and of the point of the line under the axis: 0 is its middle
 
-    In place of heights `file` is the path of a text or of an array (.npy); `unit` ("m", "mm", "um", "nm") is
-    needed where it states none, see `stylus.read_line`. Missing heights are refused; missing = "fill" fills in up
+    In place of heights `file` is the path of a text or an array, see `heightfile`; `unit` of the heights is needed
+    where it states none. `skip`, `rows`, `separator`, `decimal`, `encoding`, `columns`, `units` and `where` state
+    what differs of a text, see `tablefile.TableFormat`. Missing heights are refused; missing = "fill" fills in up
     to 5 % on straight lines.
 
     Solvers take up `fitted`, a self-affine surface with the roll-off and the cut-off that the line shows: in 3D
@@ -56,7 +44,7 @@ class Profile:
     intervals of the fit. Raises ValueError where there are less than 64 points, or no waves to fit.
     """
 
-    heights: Heights
+    heights: LineHeights
     spacing: Length
     peaks: Literal["up", "down"] = "up"
     level: Literal["mean", "tilt", "curvature", "cubic"] = "tilt"
@@ -69,36 +57,9 @@ class Profile:
     @classmethod
     def _as_measured(cls, given: Any) -> Any:
         stated = by_name(given)
-        if stated is None:
-            return given
-        stated = dict(stated)
-        if stated.get("repeat") == "periodic":
-            stated.setdefault("level", "mean")
-        if "file" not in stated and ("heights" not in stated or isinstance(stated["heights"], HeightLine | str)):
-            return stated
-        fill = stated.pop("missing", "refuse")
-        if fill not in ("refuse", "fill"):
-            raise ValueError(f'missing = {brief(repr(fill))}: "refuse" or "fill"')
-        unit, spacing = stated.pop("unit", None), stated.pop("spacing", None)
-        if "file" in stated:
-            path = stated.pop("file")
-            if "heights" in stated:
-                raise ValueError(f"file = {brief(repr(path))} beside heights: give one of them")
-            heights, spacing, notes = stylus.read_line(path, spacing, unit)
-            said = f"file = {brief(repr(str(path)))}: "
-        else:
-            heights, spacing, notes = stylus.line_of(stated["heights"], spacing, unit)
-            said = ""
-        try:
-            if fill == "fill" and heights.ndim == 1 and heights.dtype.kind == "f":
-                heights, done = filled(heights)
-                notes += done
-            line = HeightLine(heights, notes)
-        except ValueError as error:
-            raise ValueError(f"{said}{error}") from None
-        if spacing is None and said:
-            raise ValueError(f'{said}it has no places: give the spacing of its points, as spacing = "0.5 um"')
-        return stated | {"heights": line} | ({} if spacing is None else {"spacing": spacing})
+        if stated is not None and stated.get("repeat") == "periodic":
+            given = {"level": "mean"} | stated
+        return prepared(given, HeightLine, "spacing", {each.name for each in fields(cls)})
 
     @model_validator(mode="after")
     def _can_be_fitted(self):

@@ -8,52 +8,51 @@ import numpy as np
 from pydantic import ConfigDict, model_validator
 from pydantic.dataclasses import dataclass
 
-from .heading import named
-from .heightmap import HeightMap, Heights, Pixel, unmasked
-from .labelled import is_labelled, rows_along_y
+from .heightmap import LEAST, HeightLine, HeightMap, MapHeights, Pixel, sides
 from .missing import LEAST_DEVIATIONS, mended
-from .plain import bare
 from .printable import brief
 from .quantities import BARE, CLOSED, METRE, Length, argument, by_name
-from .scan import LEAST, UNITS, check_layout, metres, picked, sides
+from .tablefile import FromTable, TableFormat, split_format
 
 QUOTIENT = 1e-12  # rounding of a quotient of lengths
 FILL = ("refuse", "fill")
-# What is asked of a map before it is one; no fields: what comes of it is in the heights.
-ASKED = ("file", "unit", "channel", "crop", "missing", "outliers")
+# What is asked of heights before they are a map or a line; no fields: what comes of it is in the heights.
+_READING = ("file", "unit", "channel", "missing")
+ASKED = {HeightMap: (*_READING, "crop", "outliers"), HeightLine: _READING}
 
 
-def _or_file(schema: dict[str, Any]) -> None:
-    """In JSON schema: a file in place of heights, and what is asked of either."""
-    length = next(each for each in schema["properties"]["pixel"]["anyOf"] if each.get("type") != "array")
-    schema["properties"] |= {
-        "file": {"type": "string"},
-        "unit": {"enum": [*UNITS, "µm"]},
-        "channel": {"type": "string"},
-        "crop": {"type": "array", "items": length, "minItems": 4, "maxItems": 4},
-        "missing": {"enum": list(FILL), "default": FILL[0]},
-        "outliers": {"type": "number", "minimum": LEAST_DEVIATIONS},
-    }
-    del schema["required"]
-    schema["anyOf"] = [{"required": ["file"]}, {"required": ["heights", "pixel"]}]
+def schema_with_file(spacing: str, **more: Any) -> Any:
+    """Addition to JSON schema: a file in place of heights with their spacing, and what is asked of either."""
+
+    def added(schema: dict[str, Any]) -> None:
+        schema["properties"] |= {name: {"type": "string"} for name in ("file", "unit", "channel")}
+        schema["properties"] |= {"missing": {"enum": list(FILL), "default": FILL[0]}, **more}
+        del schema["required"]
+        schema["anyOf"] = [{"required": ["file"]}, {"required": ["heights", spacing]}]
+
+    return added
 
 
-MAPPED = ConfigDict(**CLOSED, json_schema_extra=_or_file)
+_CROP = {"type": "array", "items": {"type": ["number", "string"]}, "minItems": 4, "maxItems": 4}
+_OUTLIERS = {"type": "number", "minimum": LEAST_DEVIATIONS}
+MAPPED = ConfigDict(**CLOSED, json_schema_extra=schema_with_file("pixel", crop=_CROP, outliers=_OUTLIERS))
 
 
 @dataclass(frozen=True, config=MAPPED, kw_only=True)
-class Scanned:
+class Scanned(FromTable):
     """Measured map of heights.
 
-    heights : rows along y of heights along x [m], both ascending; of xarray, with the dimensions y and x
+    heights : rows along y of heights along x [m], both ascending; of xarray, with the dimensions y and x; or
+        points as columns x, y and z of a table
     pixel : side of a pixel [m]; of pixels that are no squares, along x and along y
     peaks : "up", heights grow towards the elastomer, as instruments give them, and the highest point touches
         first; "down", they are those of an indenter above the elastomer, and the lowest touches first
     shortest_kept : waves shorter than this are left out [m]; absent, every wave of the map is kept
 
-    In place of heights `file` is the path of a file, read once and kept as numbers; a relative path starts at the
-    working directory. `pixel`, and `unit` of the heights ("m", "mm", "um", "nm"), are needed where the file
-    does not state them, and `channel` where it has several, see `read_heights`.
+    In place of heights `file` is the path of a file, read once and kept as numbers, see `heightfile`. `pixel`, and
+    `unit` of the heights, are needed where the file does not state them, and `channel` where it has several maps.
+    `skip`, `rows`, `separator`, `decimal`, `encoding`, `columns`, `units` and `where` state what differs of a
+    text, see `tablefile.TableFormat`.
 
     Before heights are a map, in this order:
 
@@ -64,10 +63,10 @@ class Scanned:
     missing : "fill", heights that are missing, NaN, masked or a number far off that stands for none, are filled in
         harmonically, a twentieth of the pixels at most; "refuse", the default, they are an error
 
-    `notes` tell what was done. Raises ValueError for what is none of these.
+    `notes` say what was done. Raises ValueError for what is none of these.
     """
 
-    heights: Heights
+    heights: MapHeights
     pixel: Pixel
     peaks: Literal["up", "down"] = "up"
     shortest_kept: Length | None = None
@@ -75,16 +74,7 @@ class Scanned:
     @model_validator(mode="before")
     @classmethod
     def _prepared(cls, given: Any) -> Any:
-        stated = by_name(given)
-        if stated is None or not ("file" in stated or "heights" in stated):
-            return given
-        if "file" in stated and "heights" in stated:
-            raise ValueError(f"file = {stated['file']!r} beside heights: give one of them")
-        if {*stated} - {*ASKED, *(each.name for each in fields(cls))}:
-            # First what is misspelt: another map may be meant.
-            left = {name: each for name, each in stated.items() if name not in ASKED}
-            return {"pixel": 1.0} | left | {"heights": HeightMap(np.eye(LEAST))}
-        return _of_file(dict(stated)) if "file" in stated else _of_array(dict(stated))
+        return prepared(given, HeightMap, "pixel", {each.name for each in fields(cls)})
 
     @model_validator(mode="after")
     def _waves_kept(self):
@@ -123,98 +113,72 @@ class Scanned:
         return -self.heights.heights if self.peaks == "up" else self.heights.heights
 
 
-def _of_file(stated):
-    # Only files need it.
-    from .heightfile import read_heights
+def prepared(given: Any, kind: type[HeightMap], spacing: str, names: set[str]) -> Any:
+    """Fields of a part whose heights are a map or a line: read, cropped and mended as stated.
 
-    path, unit, channel = (stated.pop(name, None) for name in ("file", "unit", "channel"))
-    heights, stated["pixel"], notes = read_heights(path, stated.pop("pixel", None), unit, channel)
-    try:
-        stated = _mapped(stated, heights, notes)
-        heights = stated["heights"]
-        return stated if isinstance(heights, HeightMap) else stated | {"heights": HeightMap(heights)}
-    except ValueError as error:
-        raise ValueError(f"file = {str(path)!r}: {error}") from None
+    kind : HeightMap or HeightLine; spacing : field with the pixel or the spacing; names : of all fields
 
-
-def _of_array(stated):
-    heights = stated["heights"]
+    What are no heights is left to its field to refuse, and so is a spacing that is none. Raises ValueError.
+    """
+    stated = by_name(given)
+    if stated is None or not ("file" in stated or "heights" in stated):
+        return given
+    written, stated = split_format(stated)
+    path: Any = stated.get("file")
+    heights: Any = stated.get("heights")
+    if path is not None and heights is not None:
+        raise ValueError(f"file = {brief(repr(path))} beside heights: give one of them")
+    asked = {name: stated[name] for name in ASKED[kind] if stated.get(name) is not None}
+    left = {name: each for name, each in stated.items() if name not in ASKED[kind]}
+    if left.keys() - names:
+        # First what is misspelt: another map may be meant.
+        return {spacing: 1.0} | left | {"heights": kind(np.eye(LEAST) if kind is HeightMap else np.zeros(1))}
+    tables = isinstance(heights, Mapping) or hasattr(heights, "columns") or hasattr(heights, "dims")
+    if isinstance(heights, str) or (path is None and not (asked or tables or written != TableFormat())):
+        return left
+    said = "" if path is None else f"file = {brief(repr(str(path)))}: "
+    notes: tuple[str, ...] = ()
     if isinstance(heights, HeightMap):
-        return _mapped(stated, heights.heights, heights.notes, given=heights)
-    channel, unit = stated.pop("channel", None), stated.pop("unit", None)
-    if channel is not None and hasattr(heights, "data_vars") and not _is_table(heights):  # of xarray
-        maps = {str(name): each for name, each in heights.data_vars.items() if each.ndim == 2}
-        heights, channel = maps[picked("a Dataset", maps, channel)], None
-    heights = _of_pivot(heights)
-    if _is_table(heights):
-        # Only tables of points need them.
-        from .columns import sheet_of
-        from .heighttext import of_points
+        if {"unit", "channel"} & asked.keys() or written != TableFormat():
+            raise ValueError("heights are in metres: unit, channel and what is stated of a text are for a file")
+        heights, notes = heights.heights, heights.notes
+    else:
+        # Only what is not yet read needs it.
+        from . import heightfile
 
-        scan = of_points([sheet_of(heights)], channel)
-        heights, stated["pixel"] = scan.settled(stated.get("pixel"), unit if unit or scan.unit else "m")
-        return _mapped(stated, heights, scan.notes)
-    if channel is not None:
-        raise ValueError(f"channel = {brief(repr(channel))}: one array has no channels, leave channel out")
-    if is_labelled(heights):
-        heights, pixel = rows_along_y(heights, stated.get("pixel"))
-        if pixel is not None and stated.get("pixel") is None:
-            stated["pixel"] = pixel
-    heights = unmasked(heights)
-    if unit is not None:
-        metre = metres(unit)
-        if bare(heights)[1] is not None:
-            raise ValueError(f"unit = {unit!r}: heights carry their own, leave unit out")
-        heights = np.asarray(METRE.values(heights)) * metre
-    return _mapped(stated, heights)
+        read, source = (heightfile.given_heights, heights) if path is None else (heightfile.read_heights, path)
+        dims, units = heightfile.MAP if kind is HeightMap else heightfile.LINE, written.units or {}
+        if "unit" in asked and "z" in units:
+            raise ValueError(f"unit = {asked['unit']!r} and units = {{z = {units['z']!r}}}: state one of them")
+        unit = asked.get("unit", units.get("z"))
+        heights, left[spacing], notes = read(source, dims, left.get(spacing), unit, asked.get("channel"), written)
+    try:
+        kind.check_layout(heights.shape, heights.dtype)
+        heights, more = _mended(heights.astype(float), left.get(spacing), asked)
+        return left | {"heights": kind(heights, (*notes, *more))}
+    except ValueError as error:
+        raise ValueError(f"{said}{error}") from None
 
 
-def _is_table(heights):
-    """Whether something has columns called x and y."""
-    names = getattr(
-        heights, "data_vars", getattr(heights, "columns", heights if isinstance(heights, Mapping) else ())
-    )
-    return {"x", "y"} <= set(map(_axis, names))
-
-
-def _axis(name):
-    """Name of a column or an axis without its unit."""
-    return named(str(name))[0].casefold()
-
-
-def _of_pivot(heights):
-    """A DataFrame whose index and columns are called x and y, as points; anything else as it is."""
-    axes = getattr(heights, "index", None), getattr(heights, "columns", None)
-    names = [getattr(each, "name", None) for each in axes]
-    if {*map(_axis, names)} != {"x", "y"}:
-        return heights
-    down, across = (np.ravel(each) for each in np.meshgrid(*axes, indexing="ij"))
-    return {str(names[0]): down, str(names[1]): across, "z": np.ravel(heights)}
-
-
-def _mapped(stated, heights, notes=(), given=None):
-    """Fields of a map, its heights cropped and mended as stated. What is no map is left to its field to refuse."""
-    asked = {name: stated.pop(name, None) for name in ("crop", "missing", "outliers")}
-    crop, missing, deviations = asked.values()
+def _mended(heights, pixel, asked):
+    """Heights cropped and filled in as stated, and what was done, in lines."""
+    crop, missing, deviations = (asked.get(name) for name in ("crop", "missing", "outliers"))
     if missing not in (None, *FILL):
         raise ValueError(f"missing = {brief(repr(missing))}: 'refuse' or 'fill'")
     if deviations is not None:
         deviations = argument("outliers", deviations, _deviations)
-    unchanged = stated | {"heights": heights if given is None else given}
+    notes: tuple[str, ...] = ()
     if crop is None and missing != "fill" and deviations is None:
-        return unchanged if not notes or given is not None else stated | {"heights": HeightMap(heights, notes)}
+        return heights, notes
     try:
-        values = np.asarray(METRE.values(heights))
-        check_layout(values.shape, values.dtype)
-        pixel = sides(stated.get("pixel"))
+        pixel = sides(pixel)
     except ValueError:
-        return unchanged
-    values = values.astype(float)
+        return heights, notes
     if crop is not None:
-        values, said = _cropped(values, pixel, crop)
-        notes = (*notes, said)
-    values, said = mended(values, pixel, missing == "fill", deviations)
-    return stated | {"heights": HeightMap(values, (*notes, *said))}
+        heights, said = _cropped(heights, pixel, crop)
+        notes = (said,)
+    heights, more = mended(heights, pixel, missing == "fill", deviations)
+    return heights, (*notes, *more)
 
 
 def _deviations(given):

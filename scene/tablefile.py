@@ -20,9 +20,9 @@ Use
 Refusals
     What differs from this form raises ValueError with file, line, what stands there and the option of
     `TableFormat` that states it. `TableFormat(...)` itself raises pydantic's ValidationError, a ValueError.
-    - Either every column that is used has its unit, in the heading or in `units`, or none has, and all are in SI.
-      The latter only if the heading is the first line of the file: other lines above it may hold units. A column
-      with `unit_needed` never has a default, and of a column with several `units` the choice is left open.
+    - A column without a unit is in SI only if the heading is the first line of the file, as other lines above it
+      may hold units, and if no other column has a unit that is not of SI. Columns with `unit_needed` have no
+      default, and of several `units` the choice is left open.
     - A column that is not used must not tell samples, steps or temperatures apart: of text, or of numbers that
       repeat, it must have one value, or be in `where`. Names of `REDUNDANT` and of known columns are exempt.
     - Two columns of one field, unless `columns` states which one is used.
@@ -238,9 +238,12 @@ def read_columns(
     stated = stated or TableFormat()
     held = _of_file(Path(table), stated, most_bytes) if isinstance(table, str | Path) else _of_python(table)
     places = _places(held, known, stated)
-    pure = {each.field for each in known if not each.units}
-    held.si &= not any(
-        held.units[k] or name in (stated.units or {}) for name, k in places.items() if name not in pure
+    units = stated.units or {}
+    written = {
+        each: units.get(each.field) or held.units[places[each.field]] for each in known if each.field in places
+    }
+    held.si &= all(
+        each.unit_needed or unit in (*_PURE, *(one.symbol for one in each.units)) for each, unit in written.items()
     )
     named = _select(held, places, known, stated)
     others = [heading for k, heading in enumerate(held.headings) if k not in named]
@@ -254,7 +257,21 @@ def read_columns(
     return found
 
 
-def _of_file(path, stated, most_bytes):
+def read_rows(path: str | Path, stated: TableFormat, most_bytes: int) -> tuple[np.ndarray, Sequence[int]] | None:
+    """Rows of numbers without a heading, NaN where a cell is empty or nan, and their lines; None of a heading.
+
+    Where a separator ends each row, there is no cell behind it. Raises ValueError as `read_columns` does.
+    """
+    held = _of_file(Path(path), stated, most_bytes, headless=True)
+    if held is None:
+        return None
+    if not any(held.cells[-1]):
+        held.cells.pop()
+    return np.stack([_numbers(held, k, True) for k in range(len(held.cells))], axis=1), held.lines
+
+
+def _of_file(path, stated, most_bytes, headless=False):
+    """Cells of a file; headless : None of one that has a heading."""
     name, lines = brief(str(path)), _text(path, stated, most_bytes).split("\n")
     while lines and not lines[-1].strip(" \t;,"):  # spreadsheets write separators below a table
         lines.pop()
@@ -269,7 +286,13 @@ def _of_file(path, stated, most_bytes):
     )
     headings = _split(lines[start], separator)
     units, body = [""] * len(headings), start + 1
-    if numbered := any(isinstance(each, int) for each in (stated.columns or {}).values()):
+    if headless:
+        numbered = any(_COMMA_NUMBER.fullmatch(each.replace(".", ",")) for each in headings)
+        if not numbered:
+            return None
+    else:
+        numbered = any(isinstance(each, int) for each in (stated.columns or {}).values())
+    if numbered:
         headings, body = [str(k + 1) for k in range(len(headings))], start
     elif any(_NUMBER.fullmatch(each.replace(",", ".")) for each in headings):
         raise ValueError(
@@ -337,7 +360,7 @@ def _rows(name, lines, places, separator, width):
         raise ValueError(f"{where}: {brief(repr(text))} has a quotation mark that opens, and none that closes it")
     count = len(text.split() if separator == " " else _split(text, separator))
     raise ValueError(
-        f"{where}: {brief(repr(text))} has {count} cells, and line {start + 1}, "
+        f"{where}: {brief(repr(text))} has {count} cell{'s' * (count != 1)}, and line {start + 1}, "
         f"{brief(repr(lines[start]))}, has {width}: state skip for lines above the heading, rows for those below "
         f"the table, or separator{second}"
     )
@@ -507,7 +530,7 @@ def _numbers(held, place, gaps):
         found = cells
     else:
         if gaps:
-            cells = np.array(["" if each.casefold() == "nan" else each for each in cells], object)
+            cells = np.array(["" if each.casefold().strip("+-") == "nan" else each for each in cells], object)
         number = _COMMA_NUMBER if held.comma else _NUMBER
         wrong = np.array([not (number.fullmatch(each) or (gaps and not each)) for each in cells])
         found = np.nan

@@ -8,8 +8,10 @@ import pandas
 import pytest
 import yourdata
 from drawn_again import from_files
+from typer.testing import CliRunner
 
 import compare
+from compare.cli.app import app
 from compare.figures import collapse
 from compare.library.ready import ready
 from compare.solving.words import found as worded
@@ -188,13 +190,14 @@ def test_friction_that_does_not_collapse_has_no_exponent(tmp_path):
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("0.5,1,3,2\n", "line 1: 4 columns without a heading"),
-        ("\x1b[31m,F,v\n1,2,3\n", r"the heading \(\\x1b\[31m, F, v\) has no column for F_N"),
-        ("mu,F_N,v,load\n1,2,3,4\n", "'F_N' and 'load' are both F_N: keep one"),
-        (
-            "\n\n".join(f"Sample: {each}\nmu,F_N,v\n1,2,3\n1,2,4" for each in "AB"),
-            "'Sample: B' above line 8 tells one block from another",
-        ),
+        ("0.5,1,3,2\n", "line 1: '0.5,1,3,2' is no heading"),
+        ("\x1b[31m,F,v\n1,2,3\n", r"there is no column F_N .*, but '\\x1b\[31m', 'F', 'v': state its heading"),
+        ("F_N,v\n2,3\n", "there is no column mu and none F_T: state columns"),
+        ("mu,F_N,v,load\n1,2,3,4\n", "'F_N' and 'load' are both F_N: state one, as columns = {F_N = \"load\"}"),
+        ("mu,F_N [N],v [rpm]\n1,2,3\n", "column 'v' is in 'rpm', and is a speed"),
+        ("mu,F_N,v\n1,2,3\n1,,3\n", "line 3, column 'F_N': '' is no number"),
+        ("compound,mu,F_N,v\nNR,1,2,3\nSBR,1,2,3\n", "column 'compound' has several values, 'NR' and 'SBR'"),
+        ("glass dry\nmu,F_N,v\n1,2,3\n\nB\nmu,F_N,v\n1,2,3\n", "line 6 is another heading: state rows"),
     ],
 )
 def test_a_table_that_says_too_little_is_refused_with_its_line_and_leaves_no_folder(tmp_path, text, said):
@@ -228,37 +231,60 @@ def test_loads_and_speeds_that_scatter_give_the_exponent_of_nominal_ones():
 
 
 ALIKE = {
-    "Time [s];Friction force [mN];Velocity [mm/s];Fz [N]": (np.arange(96.0), 1e3 * MU * LOAD, 1e3 * SPEED, LOAD),
-    "Normalkraft F_N in N;Reibkraft in N;Gleitgeschwindigkeit in mm/s": (LOAD, MU * LOAD, 1e3 * SPEED),
-    "T(sec)\tFx(N)\tFz(N)\tVel(mm/s)": (np.arange(96.0), -MU * LOAD, -LOAD, 1e3 * SPEED),
+    "Time [s];Friction force [mN];Velocity [mm/s];Load [N]": (np.arange(96.0), 1e3 * MU * LOAD, 1e3 * SPEED, LOAD),
+    "F_N (mN),Tangential force (mN),Sliding velocity (mm/s)": (1e3 * LOAD, 1e3 * MU * LOAD, 1e3 * SPEED),
+    "time\tF_T\tF_N\tv\ns\tN\tN\tmm/s": (np.arange(96.0), -MU * LOAD, -LOAD, 1e3 * SPEED),
+    "CoF  normal_load  v": (MU, LOAD, SPEED),
 }
 
 
 @pytest.mark.parametrize("heading", ALIKE)
 def test_names_order_units_and_the_friction_force_change_no_digit(tmp_path, heading):
-    separator, numbers = next(each for each in "\t;," if each in heading), ALIKE[heading]
-    columns = dict(zip(heading.split(separator), numbers, strict=True))
-    (tmp_path / "named.csv").write_text(written(columns, separator))
+    separator, numbers = next(each for each in ("\t", ";", ",", "  ") if each in heading), ALIKE[heading]
+    rows = [separator.join(map(repr, row)) for row in zip(*(each.tolist() for each in numbers), strict=True)]
+    (tmp_path / "named.csv").write_text("\n".join([heading, *rows]))
     read = MeasuredFriction.of(tmp_path / "named.csv")
     for name, wanted in zip(("friction_coefficient", "normal_force", "speed"), COLUMNS, strict=True):
         np.testing.assert_allclose(read.data[name], wanted, rtol=1e-14)
     for said, count in (
-        ("not used", sum(name.startswith(("Time", "t ", "T(")) for name in columns)),
+        ("not used", heading.lower().count("time")),
         ("negative throughout", sum(bool(np.all(each < 0)) for each in numbers)),
     ):
         assert sum(said in each for each in read.notes) == count
 
 
-def test_a_line_above_the_rows_states_the_load_of_its_block(tmp_path):
-    blocks = [
-        f"Load: {1e3 * load!r} mN\n{written({'mu': MU[load == LOAD], 'v': SPEED[load == LOAD]})}"
-        for load in np.unique(LOAD).tolist()
-    ]
-    (tmp_path / "blocks.csv").write_text("\n\n".join(blocks))
-    read = MeasuredFriction.of(tmp_path / "blocks.csv")
-    order = np.argsort(LOAD, kind="stable")
-    np.testing.assert_allclose(read.data["normal_force"], LOAD[order], rtol=1e-14)
-    np.testing.assert_array_equal(read.data["friction_coefficient"], MU[order])
+def test_a_table_of_another_form_is_stated_in_python_and_on_the_command_line(tmp_path):
+    columns = {
+        "run": ["warm", *["a"] * 96],
+        "Reibwert": ["0", *MU],
+        "Last": ["1", *1e3 * LOAD],
+        "v": ["1", *1e3 * SPEED],
+    }
+    text = "Loads in mN, speeds in mm/s\n" + written(columns, ";").replace("'", "").replace(".", ",") + "\nend\n"
+    (tmp_path / "other.csv").write_text(text)
+    stated = {
+        "columns": {"mu": "Reibwert", "F_N": "Last"},
+        "units": {"F_N": "mN", "v": "mm/s"},
+        "where": {"run": "a"},
+        "decimal": ",",
+        "skip": 1,
+        "rows": 97,
+    }
+    read = Mastercurve.of(tmp_path / "other.csv", **stated).data
+    for name, wanted in zip(("friction_coefficient", "normal_force", "speed"), COLUMNS, strict=True):
+        np.testing.assert_allclose(read[name], wanted, rtol=1e-14)
+    options = ["--decimal", ",", "--skip", "1", "--rows", "97", "--no-report"]
+    for name in ("columns", "units", "where"):
+        options += [each for key, value in stated[name].items() for each in (f"--{name}", f"{key}={value}")]
+    asked = ["mastercurve", str(tmp_path / "other.csv"), "--output", str(tmp_path / "out"), *options]
+    assert CliRunner().invoke(app, asked).exit_code == 0
+    assert compare.load(tmp_path / "out")["measured"].to_dataset().equals(read)
+    for name, wrong in (("columns", "mu"), ("separator", "dot"), ("rows", "-1")):
+        refused = CliRunner().invoke(
+            app, ["mastercurve", str(tmp_path / "other.csv"), f"--{name}", wrong, "--skip", "1"]
+        )
+        assert refused.exit_code == 2
+        assert name in refused.output or wrong in refused.output
 
 
 def test_tables_of_python_give_the_numbers_of_the_file(tmp_path):
@@ -267,14 +293,14 @@ def test_tables_of_python_give_the_numbers_of_the_file(tmp_path):
     plain = study(tmp_path, table())
     unit = pint.UnitRegistry()
     frame = pandas.DataFrame({"v [mm/s]": 1e3 * SPEED, "COF": MU, "load [N]": LOAD, "remark": ["a"] * len(MU)})
-    for given in (frame, {"mu": MU, "F_N": unit.Quantity(1e3 * LOAD, "mN"), "v": SPEED}):
+    for given in (frame, {"mu": MU, "F_N": unit.Quantity(1e3 * LOAD, "mN"), "v [m/s]": SPEED}):
         read = Mastercurve.of(given)
         for name, numbers in plain.data.items():
             np.testing.assert_allclose(read.data[name], numbers, rtol=1e-13)
         assert read.inputs["table"] == f"a {type(given).__name__} from Python, 96 rows"
         exponents = (each.collapse.horizontal.exponent.value for each in (read, plain))
         assert np.ptp([*exponents]) < 1e-10
-    with pytest.raises(InvalidInput, match="row 3: v = 0 must be"):
+    with pytest.raises(InvalidInput, match="row 3: v = 0 must be greater than 0"):
         Mastercurve.of(table() | {"v": SPEED * (np.arange(96) != 2)})
     with pytest.raises(InvalidInput, match="a path, a DataFrame"):
         Mastercurve.of(3.0)
@@ -284,22 +310,6 @@ def test_a_friction_force_beside_the_coefficient_is_said_to_agree():
     both = {"mu": MU.round(3), "F_T [N]": MU * LOAD, "F_N [N]": LOAD, "v [m/s]": SPEED}
     (note,) = MeasuredFriction.of(both).notes
     assert "mu is used; F_T / F_N agrees with it within" in note
-
-
-def test_a_row_that_lacks_a_number_is_left_out_and_told(tmp_path):
-    holed = {
-        name: np.insert(each, 4, value)
-        for (name, each), value in zip(table().items(), (np.nan, 1, 0.003), strict=True)
-    }
-    (tmp_path / "holed.csv").write_text(written(holed).replace("nan", ""))
-    report = compare.mastercurve(tmp_path / "holed.csv", output=tmp_path / "out", report=False)
-    kept = compare.load(tmp_path / "out")["measured"]
-    np.testing.assert_array_equal(kept["friction_coefficient"], MU)
-    assert kept["normal_force"].attrs["units"] == "N"
-    (note,) = report.study.notes
-    assert report.study.data.equals(MeasuredFriction.of(table()).data)
-    assert "1 of 97 rows lack a number and are left out" in note
-    assert f"Note: {note}." in report.page.first
 
 
 def test_one_temperature_is_told_and_changes_nothing():

@@ -51,6 +51,7 @@ from scene import (
     Scene,
     SelfAffine,
     Shear,
+    ShiftFactors,
     Slide,
     Sphere,
     Stage,
@@ -93,6 +94,7 @@ CURVE = Curve(scene=SLIDING, speeds=(0.1, 1.0), values=(0.5, 2.0), levels={}, dr
 OBJECTS = [
     WLF(temperature=310.0, reference=300.0, c1=8.0, c2=100.0),
     Arrhenius(temperature=310.0, reference=300.0, activation_energy=5e4),
+    ShiftFactors(temperature=310.0, reference=300.0, temperatures=(300.0, 310.0), a_T=(1.0, 0.1), b_T=(1.0, 1.1)),
     Sphere(1e-2),
     Cone(0.1),
     PowerLaw(3.0, 2.5),

@@ -1,12 +1,15 @@
-"""A map is the same in every layout that instruments write; what is missing is refused, or filled in and told."""
+"""A map is read in its one form as it is, or refused; what is missing is refused, or filled in and told."""
 
 import pickle
+import sys
+import warnings
 from dataclasses import replace
-from io import StringIO
 from types import SimpleNamespace
+from zipfile import ZIP_DEFLATED, ZipFile
 
 import numpy as np
 import pandas
+import pint
 import pytest
 import xarray
 from hypothesis import given
@@ -16,14 +19,19 @@ from pydantic import TypeAdapter, ValidationError
 from scipy.io import savemat
 from strategies import examples
 
+import scene.heightfile
 from compare.studies.topography.study import Map
-from scene import Measured, Scene, Topography
+from scene import Measured, Profile, Scene, Topography
 from scene.form import DEGREES, levelled
+from scene.heightfile import FOREIGN
 from scene.missing import NEIGHBOURS, filled, outliers, sentinels
 from scene.reading import InvalidInput, read
 
-DIGITS = 1e-12  # what layouts with 15 digits keep
+DIGITS = 1e-12  # what texts with 15 digits keep
 NAN = np.nan
+PIXEL = (2e-6, 3e-6)
+UM = {"unit": "um", "pixel": PIXEL}
+SEPARATORS = {"\t": "tab", ";": "semicolon", ",": "comma", " ": "blanks"}
 
 
 def text(numbers, separator=";", decimal="."):
@@ -31,7 +39,7 @@ def text(numbers, separator=";", decimal="."):
     return "\n".join(lines).replace(".", decimal) + "\n"
 
 
-def points(heights, pixel, seed=None, keep=None):
+def points(heights, pixel=(2.0, 3.0), seed=None, keep=None):
     """x, y, z [um] of a map in mixed order, 1 um from the origin."""
     rows, columns = np.indices(heights.shape)
     every = np.column_stack([1 + columns.ravel() * pixel[0], 1 + rows.ravel() * pixel[1], heights.ravel()])
@@ -39,82 +47,132 @@ def points(heights, pixel, seed=None, keep=None):
     return every if seed is None else np.random.default_rng(seed).permutation(every)
 
 
-def with_axes(heights, pixel, corner=""):
-    x, y = (3 + np.arange(count) * side for count, side in zip(heights.shape[::-1], pixel, strict=True))
-    rows = [";".join([corner, *(f"{each:.15e}" for each in x)])]
-    rows += [";".join(f"{n:.15e}" for n in (at, *row)) for at, row in zip(y, heights, strict=True)]
-    return "\n".join(rows)
+def written(tmp_path, content, name="map.txt"):
+    path = tmp_path / name
+    path.write_bytes(content if isinstance(content, bytes) else content.encode())
+    return path
 
 
-def gwyddion(heights, pixel, channel="Height"):
-    size = heights.shape[1] * pixel[0], heights.shape[0] * pixel[1]
-    head = f"# Channel: {channel}\n# Width: {size[0]:.15g} µm\n# Height: {size[1]:.15g} µm\n# Value units: um\n"
-    return head + text(heights, "\t")
-
-
-def scan_lines(heights, pixel):
-    lines = np.split(points(heights, pixel), heights.shape[0])
-    return "x [um] y [um] z [um]\n" + "\n".join(text(each, " ") for each in lines)
-
-
-ROWS = {"unit": "um", "pixel": "stated"}
-UM = {"unit": "um"}
-# A text of heights and a pixel in um, and what it does not state.
+GWYDDION = "# Channel: Height\n# Width: 14.00 µm\n# Height: 15.00 µm\n# Value units: m\n"
+NUMBERED = {"columns": {"x": 1, "y": 2, "z": 3}}
+IN_UM = dict.fromkeys("xyz", "um")
+# Texts of a map in um with pixels of 2 x 3 um, and what is stated of each.
 LAYOUTS = {
-    "rows": (lambda h, p: text(h), ROWS),
-    "decimal commas and tabs": (lambda h, p: text(h, "\t", ","), ROWS),
-    "Gwyddion": (gwyddion, {}),
-    "Gwyddion in German": (
-        lambda h, p: (
-            gwyddion(h, p)
-            .replace("Channel", "Kanal")
-            .replace("Width", "Breite")
-            .replace("# Height", "# Höhe")
-            .replace("Value units", "Werteinheiten")
-        ),
+    "semicolons": (lambda h: text(h), UM),
+    "decimal commas and tabs": (lambda h: text(h, "\t", ","), UM),
+    "blanks and decimal commas": (lambda h: text(h, " ", ","), UM | {"decimal": ","}),
+    "a separator at each end": (lambda h: text(h).replace("\n", ";\n"), UM),
+    "UTF-16": (lambda h: text(h).encode("utf-16"), UM),
+    "lines of Windows": (lambda h: text(h, ",").replace("\n", "\r\n"), UM),
+    "Latin-1 above": (
+        lambda h: "Größe\n".encode("latin-1") + text(h).encode(),
+        UM | {"encoding": "latin-1", "skip": 1},
+    ),
+    "Gwyddion": (lambda h: GWYDDION + text(1e-6 * h, "\t"), {"skip": 4, "unit": "m", "pixel": ("2 um", "3 um")}),
+    "the second of two": (
+        lambda h: GWYDDION + text(0 * h) + GWYDDION + text(h) + "\n" + GWYDDION,
+        UM | {"skip": 13, "rows": 5},
+    ),
+    "points in any order": (
+        lambda h: "# um? nm\nx [um];y [um];Height [nm]\n" + text(points(1e3 * h, seed=1)),
         {},
     ),
-    "a confocal microscope": (
-        lambda h, p: (
-            f'"X pixel size","{1e3 * p[0]}","nm"\n"Y pixel size","{p[1]}","um"\n"Unit","um"\n"Height"\n'
-            + text(h, ",")
-        ),
-        {},
+    "points and units below": (lambda h: "z\tx\ty\nnm\tum\tum\n" + text(points(1e3 * h)[:, [2, 0, 1]], "\t"), {}),
+    "points, units stated": (lambda h: "x y z\n" + text(points(h), " "), {"units": IN_UM}),
+    "points without a heading": (lambda h: text(points(h), ","), NUMBERED | {"units": IN_UM}),
+    "points of other names": (
+        lambda h: "A;B;C\n" + text(points(h)),
+        {"columns": {"x": "A", "y": "B", "z": "C"}, "units": IN_UM},
     ),
-    "a quoted heading of all": (lambda h, p: '"Height Sensor(nm)"\n' + text(1e3 * h, "\t"), {"pixel": "stated"}),
-    "a unit in brackets": (
-        lambda h, p: f"Pixel width (µm) = {p[0]}\nPixel height (µm) = {p[1]}\n\n" + text(h),
-        UM,
+    "points and a unit": (
+        lambda h: "x [um];y [um];z\n" + text(points(h)),
+        {"unit": "um", "pixel": PIXEL},
     ),
-    "headings with a unit": (
-        lambda h, p: ";".join(f"z{k} [um]" for k in range(h.shape[1])) + "\n" + text(h),
-        {"pixel": "stated"},
-    ),
-    "axes with a unit": (lambda h, p: with_axes(h * 1e3, p, "y [um]"), {"unit": "nm"}),
-    "falling axes": (lambda h, p: with_axes(h[::-1, ::-1], (-p[0], -p[1])), UM),
-    "points in any order": (lambda h, p: "x;y;z\n" + text(points(h, p, seed=1)), UM),
-    "points with units": (
-        lambda h, p: "z [nm]\tx [um]\ty [um]\n" + text(points(h * 1e3, p)[:, [2, 0, 1]], "\t"),
-        {},
-    ),
-    "scan lines": (scan_lines, {}),
 }
 
 
 @pytest.mark.parametrize("layout", LAYOUTS)
-@given(seed=st.integers(0, 10**6), rows=st.integers(4, 12), columns=st.integers(4, 12))
-@examples(5)
-def test_a_map_is_the_same_in_every_layout(tmp_path_factory, layout, seed, rows, columns):
-    heights, (write, stated) = noise((rows, columns), seed), LAYOUTS[layout]
-    pixel = tuple(np.random.default_rng(seed).uniform(0.1, 3.0, 2).round(3))
-    path = tmp_path_factory.getbasetemp() / "map.txt"
-    path.write_text(write(heights, pixel))
-    stated = {
-        name: tuple(1e-6 * each for each in pixel) if name == "pixel" else each for name, each in stated.items()
-    }
-    found = Topography(file=path, **stated)
-    np.testing.assert_allclose(found.heights.heights, 1e-6 * heights, rtol=DIGITS, atol=1e-18)
-    np.testing.assert_allclose(found.pixel, np.multiply(1e-6, pixel), rtol=1e-9)
+def test_a_map_is_the_same_in_every_text_that_is_read(tmp_path, layout):
+    heights, (write, stated) = noise((5, 7)), LAYOUTS[layout]
+    found = Topography(file=written(tmp_path, write(heights)), **stated)
+    np.testing.assert_allclose(found.heights.heights, 1e-6 * heights, rtol=DIGITS)
+    np.testing.assert_allclose(found.pixel, PIXEL, rtol=1e-9)
+
+
+def _grouped(cell):
+    return f"{float(cell):,.1f}"
+
+
+# Of lines and the cells of their rows: what texts have besides a rectangle of numbers, and where it goes.
+DAMAGES = {
+    "nothing": lambda rows, k, j: rows,
+    "a comment with a unit": lambda rows, k, j: [["# Value units: nm"], *rows],
+    "a comment of numbers": lambda rows, k, j: [["# 1", *rows[0][1:]], *rows],
+    "words above": lambda rows, k, j: [["Height Sensor (nm)"], *rows],
+    "a heading": lambda rows, k, j: [[f"z{at} [nm]" for at, _ in enumerate(rows[0])], *rows],
+    "axes": lambda rows, k, j: [
+        ["", *map(str, range(len(rows[0])))],
+        *([f"{0.5 * at}", *row] for at, row in enumerate(rows)),
+    ],
+    "a first row of places": lambda rows, k, j: [[f"{0.5 * at}" for at, _ in enumerate(rows[0])], *rows],
+    "a first column of numbers": lambda rows, k, j: [[str(at), *row] for at, row in enumerate(rows)],
+    "a blank line": lambda rows, k, j: [*rows[:-1], [], rows[-1]],
+    "a cell more": lambda rows, k, j: [*rows[:k], [*rows[k], "1"], *rows[k + 1 :]],
+    "a cell less": lambda rows, k, j: [*rows[:k], rows[k][:-1], *rows[k + 1 :]],
+    "a hole": lambda rows, k, j: [*rows[:k], [*rows[k][:j], "", *rows[k][j + 1 :]], *rows[k + 1 :]],
+    "nan": lambda rows, k, j: [*rows[:k], [*rows[k][:j], "NaN", *rows[k][j + 1 :]], *rows[k + 1 :]],
+    "a word": lambda rows, k, j: [*rows[:k], [*rows[k][:j], "***", *rows[k][j + 1 :]], *rows[k + 1 :]],
+    "digits with marks": lambda rows, k, j: [
+        *rows[:k],
+        [*rows[k][:j], "1_000", *rows[k][j + 1 :]],
+        *rows[k + 1 :],
+    ],
+    "thousands": lambda rows, k, j: [[*map(_grouped, row)] for row in rows],
+    "another map": lambda rows, k, j: [*rows, ["# Channel: Phase"], *rows],
+    "a line of units": lambda rows, k, j: [["um"] * len(rows[0]), *rows],
+    "an end of each row": lambda rows, k, j: [[*row, ""] for row in rows],
+}
+ABOVE = {"a comment with a unit", "a comment of numbers", "words above", "a heading", "a line of units"}
+READ = {"nothing", "nan", "an end of each row"}  # with nothing stated but the unit and the pixel
+
+
+@given(
+    seed=st.integers(0, 10**6),
+    shape=st.tuples(st.integers(9, 12), st.integers(9, 12)),  # any six may be even
+    damage=st.sampled_from(sorted(DAMAGES)),
+    marks=st.sampled_from([(one, other) for one in SEPARATORS for other in ".," if one != other]),
+    digits=st.integers(0, 3),
+    stated=st.fixed_dictionaries(
+        {},
+        optional={
+            "skip": st.integers(0, 2),
+            "rows": st.integers(7, 12),
+            "decimal": st.sampled_from(".,"),
+            "separator": st.sampled_from(sorted(SEPARATORS.values())),
+        },
+    ),
+)
+@examples(400)
+def test_a_rectangle_is_read_as_it_stands_or_refused(tmp_path_factory, seed, shape, damage, marks, digits, stated):
+    (separator, decimal), heights = marks, np.round(1000 * noise(shape, seed), digits)
+    cells = [[f"{each:.{digits}f}" for each in row] for row in heights]
+    k, j = seed % (shape[0] - 1), seed % shape[1]
+    rows = DAMAGES[damage](cells, k, j)
+    lines = [separator.join(each.replace(".", decimal) for each in row) for row in rows]
+    path = written(tmp_path_factory.getbasetemp(), "\n".join(lines) + "\n", "rectangle.txt")
+    try:
+        found = Topography(file=path, pixel=1e-6, unit="m", missing="fill", **stated).heights.heights
+    except ValidationError:
+        assert damage not in READ or stated or marks == (" ", ",")
+        return
+    begin = stated.get("skip", 0) - (damage in ABOVE) - (damage in ("axes", "a first row of places"))
+    assert begin >= 0
+    known = heights[begin:][: stated.get("rows")]
+    assert found.shape == known.shape
+    holes = np.zeros(shape, bool)
+    holes[k, j] = damage in ("a hole", "nan")
+    kept = ~holes[begin:][: stated.get("rows")]
+    assert np.array_equal(found[kept], known[kept])
 
 
 def labelled(heights, pixel, **attributes):
@@ -125,204 +183,339 @@ def labelled(heights, pixel, **attributes):
     return xarray.DataArray(heights, coords, ("y", "x"), attrs=attributes)
 
 
-def pivoted(heights, pixel):
-    axes = zip(("y [um]", "x [um]"), heights.shape, pixel[::-1], strict=True)
-    y, x = (pandas.Index(np.arange(count) * side * 1e6, name=name) for name, count, side in axes)
-    return pandas.DataFrame(heights, y, x)
+def in_netcdf(path, heights, *turned, **attributes):
+    labelled(heights, (2.0, 3.0), **attributes).transpose(*turned).to_dataset(name="z").to_netcdf(path)
+    return path
 
 
-PIXEL = (2e-6, 3e-6)
-ARRAYS = {
-    "um": lambda h: {"heights": 1e6 * h, "pixel": PIXEL, "unit": "um"},
-    "a pivoted DataFrame": lambda h: {"heights": pivoted(h, PIXEL)},
-    "xarray in um": lambda h: {"heights": labelled(1e6 * h, (2.0, 3.0), units="um")},
-    "a Dataset": lambda h: {
-        "heights": xarray.Dataset({"a": labelled(h, PIXEL), "b": labelled(0 * h, PIXEL)}),
+def saved(array):
+    def save(path):
+        np.savez(path, array) if path.suffix == ".npz" else np.save(path, array)
+        return path
+
+    return save
+
+
+def archive(path, **arrays):
+    np.savez(path, **arrays)
+    return path
+
+
+UM_OF_PINT = pint.UnitRegistry()("um")
+# Of heights in um, and a folder: what a map of them is given as.
+GIVEN = {
+    "an array": lambda h, at: {"heights": h, **UM},
+    "an array with a unit": lambda h, at: {"heights": h * UM_OF_PINT, "pixel": PIXEL},
+    "a masked array": lambda h, at: {"heights": np.ma.masked_invalid(h), **UM},
+    "xarray": lambda h, at: {"heights": labelled(h, (2.0, 3.0), units="um")},
+    "xarray, turned and falling": lambda h, at: {"heights": labelled(h, (2.0, 3.0), units="um").T[::-1, ::-1]},
+    "xarray in metres": lambda h, at: {"heights": labelled(1e-6 * h, PIXEL)},
+    "a Dataset": lambda h, at: {
+        "heights": xarray.Dataset({"a": labelled(1e-6 * h, PIXEL), "b": labelled(0 * h, PIXEL)}),
         "channel": "a",
     },
-    "points in um": lambda h: {
-        "heights": pandas.DataFrame(points(1e6 * h, (2.0, 3.0)), columns=["x (um)", "y (um)", "z (um)"])
+    "points": lambda h, at: {"heights": pandas.DataFrame(points(h), columns=["x (um)", "y (um)", "z (um)"])},
+    "arrays by name": lambda h, at: {
+        "heights": dict(zip("xyz", points(h, seed=2).T, strict=True)),
+        "units": IN_UM,
+    },
+    "npy": lambda h, at: {"file": saved(h)(at / "a.npy"), **UM},
+    "npz": lambda h, at: {"file": saved(h)(at / "a.npz"), **UM},
+    "npz of several": lambda h, at: {"file": archive(at / "a.npz", z=h, u=0 * h), "channel": "z", **UM},
+    "NetCDF": lambda h, at: {"file": in_netcdf(at / "a.nc", h, "x", "y", unit="um")},
+    "NetCDF without units": lambda h, at: {
+        "file": in_netcdf(at / "a.nc", h),
+        "unit": "um",
+        "units": {"x": "um", "y": "um"},
     },
 }
 
 
-@pytest.mark.parametrize("kind", ARRAYS)
-def test_a_map_is_the_same_in_every_library(kind):
-    heights = 1e-6 * noise((5, 7))
-    found = Topography(**ARRAYS[kind](heights))
-    np.testing.assert_allclose(found.heights.heights, heights, rtol=DIGITS)
+@pytest.mark.parametrize("kind", GIVEN)
+def test_a_map_is_the_same_in_every_array_and_library(tmp_path, kind):
+    heights = noise((5, 7))
+    found = Topography(**GIVEN[kind](heights, tmp_path))
+    np.testing.assert_allclose(found.heights.heights, 1e-6 * heights, rtol=DIGITS)
     np.testing.assert_allclose(found.pixel, PIXEL, rtol=1e-9)
-    given = ARRAYS[kind](heights)
-    described = Map.of(given.pop("heights"), **given).description
-    assert described.rms_height == pytest.approx(levelled(heights, "tilt").std())
+    stated = GIVEN[kind](heights, tmp_path)
+    described = Map.of(stated.pop("file", stated.pop("heights", None)), **stated).description
+    assert described.rms_height == pytest.approx(1e-6 * levelled(heights, "tilt").std())
 
 
-def written(tmp_path, content, name="map.txt"):
-    path = tmp_path / name
-    path.write_text(content)
-    return path
+@pytest.mark.parametrize("dtype", ["<f8", ">f4", "<f2", "<i8", ">u2", "|i1"])
+@pytest.mark.parametrize("order", ["C", "F"])
+def test_numbers_of_any_real_type_and_order_are_read(tmp_path, dtype, order):
+    heights = np.asarray((10 * np.abs(noise((5, 6)))).astype(dtype), order=order)
+    np.save(tmp_path / "a.npy", heights)
+    np.savez_compressed(tmp_path / "a.npz", heights)
+    for name in ("a.npy", "a.npz"):
+        found = Topography(file=tmp_path / name, pixel=1.0, unit="nm")
+        assert np.array_equal(found.heights.heights, 1e-9 * heights.astype(float))
 
 
-def test_channels_are_never_joined(tmp_path):
-    height, phase = noise((5, 6)), noise((5, 6), seed=1)
-    file = written(
-        tmp_path,
-        gwyddion(height, (1, 1)) + "\n" + gwyddion(phase, (1, 1), "Phase").replace("units: um", "units: deg"),
-    )
-    with pytest.raises(
-        ValidationError, match=r"has 2 channels, 'Height', 'Phase': choose one, channel = 'Height'"
-    ):
-        Topography(file=file)
-    np.testing.assert_allclose(Topography(file=file, channel="height").heights.heights, 1e-6 * height, rtol=DIGITS)
-    with pytest.raises(ValidationError, match=r"has values in 'deg': a unit of length is needed"):
-        Topography(file=file, channel="Phase")
-    with pytest.raises(ValidationError, match=r"channel = 'Error': .* has 'Height', 'Phase'"):
-        Topography(file=file, channel="Error")
-    # blocks without names are numbered
-    file = written(tmp_path, text(height) + "\n" + text(phase))
-    with pytest.raises(ValidationError, match=r"has 2 channels, '1', '2'"):
-        Topography(file=file, unit="um", pixel=1e-6)
-    found = Topography(file=file, unit="um", pixel=1e-6, channel="2")
-    np.testing.assert_allclose(found.heights.heights, 1e-6 * phase, rtol=DIGITS)
-    np.save(tmp_path / "map.npy", height)
-    with pytest.raises(ValidationError, match=r"channel = 'front': .*map.npy holds one array, leave channel out"):
-        Topography(file=tmp_path / "map.npy", channel="front", unit="um", pixel=1e-6)
-    np.savez(tmp_path / "map.npz", front=height, back=phase)
-    with pytest.raises(ValidationError, match=r'no array heights; choose one of them, channel = "front"'):
-        Topography(file=tmp_path / "map.npz", unit="um", pixel=1e-6)
-    found = Topography(file=tmp_path / "map.npz", unit="um", pixel=1e-6, channel="back")
-    np.testing.assert_allclose(found.heights.heights, 1e-6 * phase)
+class Trap:
+    """Whose loading would be seen."""
+
+    def __reduce__(self):
+        return pytest.fail, ("code of a file was executed",)
 
 
-def test_what_a_file_states_may_be_stated_again_and_not_otherwise(tmp_path):
-    file = written(tmp_path, gwyddion(noise((4, 5)), (2.0, 3.0)))
-    found, again = Topography(file=file), Topography(file=file, pixel=("2 um", "3 um"), unit="um")
-    assert again.heights == found.heights
-    assert again.pixel == pytest.approx(found.pixel, rel=1e-12)
-    for wrong, said in (
-        ({"pixel": "2 um"}, "states its own, 2e-06 x 3e-06 m, leave pixel out"),
-        ({"unit": "nm"}, "states its own, um, leave unit out"),
-    ):
+BAD_ARRAYS = {
+    "a pickle": (lambda path: path.write_bytes(pickle.dumps(Trap())), "objects are not read"),
+    "objects": (saved(np.full((5, 5), Trap(), object)), "objects are not read"),
+    "words": (saved(np.full((5, 5), "1")), "an array of type <U1: heights are real numbers"),
+    "truths": (saved(np.eye(5) > 0), "an array of type bool"),
+    "one number": (saved(np.array(1.0)), r"an array of shape \(\): a map has at least 4"),
+    "a line": (saved(np.zeros(9)), r"an array of shape \(9,\).*type = .profile"),
+    "half of an array": (lambda path: path.write_bytes(saved(noise((9, 9)))(path).read_bytes()[:400]), ""),
+    "nothing": (lambda path: path.write_bytes(b""), ""),
+}
+
+
+@pytest.mark.parametrize("kind", BAD_ARRAYS)
+@pytest.mark.parametrize("ending", ["npy", "npz"])
+def test_an_array_that_is_no_map_is_refused(tmp_path, kind, ending):
+    (write, said), path = BAD_ARRAYS[kind], tmp_path / f"a.{ending}"
+    write(path)
+    with pytest.raises(ValidationError, match=f"a.{ending} cannot be read as heights: .*{said}") as error:
+        Topography(file=path, **UM)
+    assert says(error).isprintable()
+    assert len(says(error)) < 1000
+
+
+def test_what_is_larger_than_is_read_is_not(tmp_path, monkeypatch):
+    monkeypatch.setattr(scene.heightfile, "MOST_BYTES", 2**12)
+    with ZipFile(tmp_path / "a.npz", "w", ZIP_DEFLATED) as file:
+        file.writestr("z.npy", bytes(2**20))
+    for name in ("a.npy", "a.csv", "a.sur"):
+        (tmp_path / name).write_bytes(bytes(2**12 + 1))
+    for name, said in dict.fromkeys(("a.npy", "a.csv", "a.sur"), "and at most").items() | {("a.npz", "unpacked")}:
         with pytest.raises(ValidationError, match=said):
-            Topography(file=file, **wrong)
+            Topography(file=tmp_path / name, **UM)
+    monkeypatch.setattr(scene.heightfile, "MOST_PIXELS", 29)
+    np.save(tmp_path / "a.npy", noise((5, 6)))
+    with pytest.raises(ValidationError, match="6 x 5 pixels: at most 29"):
+        Topography(file=tmp_path / "a.npy", **UM)
 
 
+SQUARE = noise((9, 9))
+AXES = np.vstack([np.arange(9.0), SQUARE])
 WRONG = {
-    "a profile": ("1\n2\n3\n4\n5\n", 'line 1: 1 column of numbers, .* the type = "profile"'),
-    "points on a line": (
-        text(np.column_stack([np.arange(9), np.ones(9), noise(9)])),
-        'all y are 1.*type = "profile"',
+    # name and content of a file, what is stated, what is said
+    "no unit and no pixel": (
+        "a.csv",
+        text(SQUARE),
+        {},
+        'nor the side of a pixel: state unit = "um" and pixel = "1',
     ),
-    "points on a diagonal": (text(np.repeat(np.arange(30.0), 3).reshape(30, 3)), "30 points on 30 x 30 places"),
-    "points that are counted, and no heading": (
-        text(np.column_stack([np.arange(30), points(noise((6, 5)), (1, 2))])),
-        "columns 2 and 3 are places on a lattice: write a heading",
+    "no unit": ("a.csv", text(SQUARE), {"pixel": 1.0}, 'the unit of its heights: state unit = "um"'),
+    "a wrong unit": (
+        "a.csv",
+        text(SQUARE),
+        {"unit": "mV", "pixel": 1.0},
+        "unit = 'mV': a unit of length is needed",
     ),
-    "a line that is neither": (
-        with_axes(noise((5, 5)), (1, 1), "[um]"),
-        r"line 1: '\[um\];3.*is neither a row of",
+    "Gwyddion": (
+        "a.txt",
+        GWYDDION + text(SQUARE),
+        {},
+        'a.txt, line 1, .* state skip = 4 .* unit = "um" and pixel',
     ),
-    "uneven axes": (
-        with_axes(noise((5, 5)), (1, 1), "y").replace("5.0000", "5.3000", 1),
-        "first row .*: coordinates = 5.3 is on no lattice",
+    "words": ("a.txt", "Height Sensor\n" + text(SQUARE), UM, "line 2: .* state skip for lines above the heading"),
+    "a heading": ("a.txt", "a;b;c\n" + text(SQUARE[:, :3]), UM, "there is no column x .*columns = .* or skip"),
+    "a line": ("a.txt", text(SQUARE[:, :1]), UM, "line 1: 1 columns of numbers, and a map has 4 or more"),
+    "points without a heading": ("a.txt", text(points(SQUARE)), UM, "state columns = {x = 1, y = 2, z = 3} and u"),
+    "points of unknown units": ("a.txt", text(points(SQUARE)), {**NUMBERED, "unit": "um"}, "state units = {x = "),
+    "points that are counted": (
+        "a.txt",
+        text(np.column_stack([noise(81), points(SQUARE)])),
+        UM,
+        "columns 2 and 3 are places on a lattice: of points state columns = {x = 2, y = 3, z = 4}",
     ),
-    "axes that contradict": (
-        "Width: 10 um\n" + with_axes(noise((5, 5)), (1, 1), "y [um]"),
-        "states pixels of 2e-06 m, and its axes lie 1e-06 m",
+    "an axis above": ("a.txt", text(AXES), UM, "the first row, .* is evenly spaced as places are"),
+    "an axis at the side": ("a.txt", text(AXES.T), UM, "the first column, .* is evenly spaced as places are"),
+    "axes": ("a.txt", ";0;1\n0;1;2\n", UM, "and a map has 4 or more"),
+    "a word": ("a.txt", text(SQUARE).replace("1", "x", 1), UM, "line 1, column '1': 'x.* is no number"),
+    "two blocks": ("a.txt", text(SQUARE) + "\n" + text(SQUARE), UM, "line 10 is blank, .* state rows = 9"),
+    "a short row": ("a.txt", text(SQUARE) + "1;2\n", UM, "line 10: '1;2' has 2 cells, and line 1, .*, has 9"),
+    "Latin-1": ("a.txt", "Größe\n".encode("latin-1") + b"1;2;3;4\n" * 4, UM, 'state encoding, as "cp1252"'),
+    "nothing": ("a.txt", "# nothing\n", UM, "there is no row"),
+    "no separator": ("a.txt", text(SQUARE), {**UM, "separator": "pipe"}, "separator"),
+    "a channel of a text": ("a.txt", text(SQUARE), {**UM, "channel": "Height"}, "is a text; skip and rows choose"),
+    "lines of an array": ("a.npz", archive, {**UM, "skip": 3}, "a.npz is no text, of which columns"),
+    "no file": ("b.npy", None, UM, "no such file"),
+    "points on a line": ("a.txt", "x [m] y [m] z [m]\n1 1 1\n2 1 2\n", {}, 'all y are 1: .* type = "profile"'),
+    "points on a diagonal": (
+        "a.txt",
+        "x [m] y [m] z [m]\n" + text(np.repeat(np.arange(30.0), 3).reshape(30, 3), " "),
+        {},
+        "30 points on 30 x 30 places",
     ),
-    "scattered points": (text(noise((200, 3))), "is on no lattice"),
+    "scattered points": (
+        "a.txt",
+        "x [m] y [m] z [m]\n" + text(noise((99, 3)), " "),
+        {},
+        "is off by more than 5 %",
+    ),
     "a point off its place": (
-        text(points(noise((5, 5)), (1, 1)) + np.where(np.arange(75) == 33, 0.2, 0).reshape(25, 3)),
-        "line 12: x = 2.2",
+        "a.txt",
+        "x [m] y [m] z [m]\n" + text(points(SQUARE) + np.where(np.arange(243) == 33, 0.2, 0).reshape(81, 3), " "),
+        {},
+        "line 13: x = 5.2 is off by more than 5 % of a step",
     ),
     "a place twice": (
-        text(np.vstack([points(noise((5, 5)), (1, 1)), [2, 3, 0.5]])),
-        "line 26: a second height at x = 2, y = 3",
+        "a.txt",
+        "x [m] y [m] z [m]\n" + text(np.vstack([points(SQUARE), [3, 4, 0.5]]), " "),
+        {},
+        "line 83: a second height at x = 3, y = 4",
     ),
-    "no place": ("x;y;z\n" + text([[1, NAN, 2], *points(noise((5, 5)), (1, 1))]), "line 2: a point needs x and y"),
-    "a first row of numbers that count": (
-        text(np.vstack([np.arange(8), noise((6, 8))])),
-        "line 1: the first row, 0, 1, 2 .* as coordinates",
+    "no place": (
+        "a.txt",
+        "x [m];y [m];z [m]\n" + text(np.vstack([points(SQUARE), [NAN, 4, 0.5]])),
+        {},
+        "line 83, column 'x': '' is no number",
     ),
-    "a side twice": (
-        "X axis\nSpacing: 1 um\nY axis\nSpacing: 2 um\n\n" + text(noise((5, 5))),
-        "'Spacing: 2 um' is another spacing than above",
-    ),
-    "units in a sentence": ("data in mm\n" + text(noise((5, 5))), "unit = 'um': .*map.txt speaks of mm above"),
-    "sides that contradict": (
-        "Width: 10 um\nPixel size: 3 um\n\n" + text(noise((5, 5))),
-        "pixels of 3e-06 m and a size of 1e-05 m",
-    ),
-    "a unit of nothing": ("Width: 10 ell\n\n" + text(noise((5, 5))), "'Width: 10 ell'"),
 }
 
 
 @pytest.mark.parametrize("kind", WRONG)
-def test_what_is_no_rectangle_of_heights_is_refused_with_its_place(tmp_path, kind):
-    content, said = WRONG[kind]
+def test_what_is_not_in_the_one_form_is_refused_with_what_to_state(tmp_path, kind):
+    name, content, stated, said = WRONG[kind]
+    path = tmp_path / name
+    if content is archive:
+        archive(path, z=SQUARE)
+    elif content is not None:
+        written(tmp_path, content, name)
     with pytest.raises(ValidationError, match=said) as error:
-        Topography(file=written(tmp_path, content), unit="um", pixel="1 um")
-    assert "map.txt" in says(error)
+        Topography(file=path, **stated)
+    assert says(error).isprintable()
+    assert len(says(error)) < 1000
+
+
+@pytest.mark.parametrize("ending", [".png", ".tif", ".xlsx", ".stl"])
+@pytest.mark.parametrize("part", [Topography, Measured, Profile])
+def test_pictures_workbooks_and_meshes_are_refused_by_what_they_are(tmp_path, ending, part):
+    (what,) = (each for each, endings in FOREIGN.items() if ending in endings.split())
+    with pytest.raises(
+        ValidationError, match=rf"a\{ending} is {what} \(\{ending}\): export the heights as numbers"
+    ):
+        part(file=written(tmp_path, "", f"a{ending}"))
+
+
+def test_what_is_stated_twice_agrees_or_is_refused(tmp_path):
+    file = in_netcdf(tmp_path / "a.nc", SQUARE, units="um")
+    found = Topography(file=file)
+    assert Topography(file=file, pixel=("2 um", "3 um"), unit="um").heights == found.heights
+    table = written(tmp_path, "x [um];y [um];z [um]\n" + text(points(SQUARE)))
+    for twice, said in (
+        ({"file": file, "pixel": "2 um"}, "a.nc states its own, 2e-06 x 3e-06 m: leave pixel out"),
+        ({"file": file, "unit": "nm"}, "a.nc states its own, um: leave unit out"),
+        ({"file": table, "pixel": "1 um"}, "states its own, 2e-06 x 3e-06 m: leave pixel out"),
+        ({"file": table, "unit": "nm"}, "must agree"),
+        ({"heights": labelled(SQUARE, PIXEL, units="um"), "unit": "mm"}, "states its own, um"),
+        ({"heights": SQUARE, "channel": "a", **UM}, "one array has no channels"),
+        ({"heights": SQUARE, "skip": 2, **UM}, "heights are an array, and no table"),
+        ({"heights": found.heights, "pixel": 1.0, "unit": "um"}, "heights are in metres"),
+        ({"heights": SQUARE, "file": file}, "beside heights"),
+        ({"heights": labelled(SQUARE, PIXEL).rename(x="u")}, r"have the dimensions \(y, u\)"),
+        ({"heights": labelled(SQUARE, PIXEL)[[0, 1, 3, 4, 5]]}, "is not one step from the one before it"),
+        ({"heights": labelled(SQUARE, PIXEL, units="V")}, "heights, coordinates of y"),
+    ):
+        with pytest.raises(ValidationError, match=said):
+            Topography(**twice)
 
 
 def test_a_plane_is_heights_and_no_axes(tmp_path):
     plane = np.add.outer(np.arange(8.0), 2 * np.arange(9.0))
     found = Topography(file=written(tmp_path, text(plane)), unit="m", pixel=1.0)
     np.testing.assert_allclose(found.heights.heights, plane)
-    plane[0, 0] = NAN  # no corner of axes, but missing
-    found = Topography(file=written(tmp_path, text(plane)), unit="m", pixel=1.0, missing="fill")
-    assert found.heights.shape == (8, 9)
-    np.testing.assert_allclose(found.heights.heights.ravel()[1:], plane.ravel()[1:])
-
-
-def test_axes_that_count_state_no_pixel(tmp_path):
-    heights, frame = noise((5, 6)), StringIO()
-    pandas.DataFrame(heights).to_csv(frame)
-    file = written(tmp_path, frame.getvalue(), "map.csv")
-    with pytest.raises(ValidationError, match=r"does not state the side of a pixel"):
-        Topography(file=file, unit="um")
-    found = Topography(file=file, unit="um", pixel="2 um")
-    np.testing.assert_allclose(found.heights.heights, 1e-6 * heights, rtol=1e-9)
 
 
 def test_a_point_that_is_missing_is_a_missing_height(tmp_path):
-    heights = noise((9, 9))
-    file = written(tmp_path, text(points(heights, (1, 1), keep=np.arange(81) != 40)))
-    with pytest.raises(ValidationError, match=r"heights\[4\]\[4\] = nan.* 1 pixel has no height, 1.23 % of 81"):
-        Topography(file=file, unit="m")
-    found = Topography(file=file, unit="m", missing="fill").heights.heights
-    heights[4, 4] = (heights[3, 4] + heights[5, 4] + heights[4, 3] + heights[4, 5]) / 4
-    np.testing.assert_allclose(found, heights, rtol=DIGITS)
+    file = written(tmp_path, "x [m];y [m];z [m]\n" + text(points(SQUARE, (1, 1), keep=np.arange(81) != 40)))
+    with pytest.raises(ValidationError, match=r"heights\[4\]\[4\] = nan: 1 of 81 heights \(1.23 %\) missing"):
+        Topography(file=file)
+    found, known = Topography(file=file, missing="fill").heights.heights, SQUARE.copy()
+    known[4, 4] = (known[3, 4] + known[5, 4] + known[4, 3] + known[4, 5]) / 4
+    np.testing.assert_allclose(found, known, rtol=DIGITS)
 
 
-def test_matrices_of_other_programs_have_their_rows_along_y(tmp_path):
+def test_files_of_instruments_are_read_by_surface_topography(tmp_path, monkeypatch):
     pytest.importorskip("SurfaceTopography")
     heights = noise((5, 6))
+    # rows of matrices are along y
     savemat(tmp_path / "map.mat", {"z": heights})
     found = Topography(file=tmp_path / "map.mat", unit="um", pixel=("1 um", "2 um"))
     np.testing.assert_allclose(found.heights.heights, 1e-6 * heights)
+    found = Topography(file=written(tmp_path, text(heights, "\t"), "map.asc"), **UM)  # a text by another name
+    np.testing.assert_allclose(found.heights.heights, 1e-6 * heights, rtol=DIGITS)
+    with pytest.raises(ValidationError, match=r"map.sur is of no format that SurfaceTopography knows"):
+        Topography(file=written(tmp_path, "\0" * 99, "map.sur"))
+    monkeypatch.setitem(sys.modules, "SurfaceTopography", None)
+    with pytest.raises(ValidationError, match=r"mdr-bem-crosscheck\[topography\]"):
+        Topography(file=tmp_path / "map.sur")
 
 
-@pytest.mark.parametrize("name", ["map.asc", "map.dat", "map.prn"])
-def test_a_text_of_another_ending_is_read_as_a_text(tmp_path, name):
-    pytest.importorskip("SurfaceTopography")
-    heights = noise((5, 6))
-    for content, stated in (
-        (gwyddion(heights, (1, 2)), {}),
-        (text(heights, ";", ","), {"unit": "um", "pixel": 1e-6}),
-    ):
-        found = Topography(file=written(tmp_path, content, name), **stated)
-        np.testing.assert_allclose(found.heights.heights, 1e-6 * heights, rtol=DIGITS)
+class Reader:
+    """As SurfaceTopography opens a file of two channels, of which the second is its own choice."""
+
+    def __init__(self, peer, heights, unit="um"):
+        maps = {"Front": heights, "Back": np.ma.masked_array(2 * heights, heights == heights.max())}
+        self.channels = [SimpleNamespace(name=name, **self.channel(peer, h, unit)) for name, h in maps.items()]
+        self.default_channel = self.channels[1]
+
+    def channel(self, peer, heights, unit):
+        map_ = peer.Topography(heights.T, (12.0, 20.0), unit=unit)
+        return {
+            "nb_grid_pts": map_.nb_grid_pts,
+            "physical_sizes": map_.physical_sizes,
+            "topography": lambda physical_sizes: map_,
+        }
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        pass
 
 
-@pytest.mark.parametrize("mark", ["***", "-nan(ind)", "masked", "Missing", "#N/A"])
-def test_what_instruments_write_for_no_height_is_missing(tmp_path, mark):
-    heights = noise((6, 7))
-    rows = text(heights).split(";")
-    rows[9] = mark
-    file = written(tmp_path, ";".join(rows))
-    with pytest.raises(ValidationError, match=r"1 pixel has no height, 2.38 % of 42"):
-        Topography(file=file, unit="um", pixel=1e-6)
+def test_channels_sizes_units_and_holes_of_other_files_are_those_of_their_reader(tmp_path, monkeypatch):
+    peer, heights = pytest.importorskip("SurfaceTopography"), noise((5, 6))
+    monkeypatch.setattr(peer, "open_topography", lambda _: Reader(peer, heights))
+    file = written(tmp_path, "0", "map.sur")
+    front = Topography(file=file, channel="Front")
+    np.testing.assert_allclose(front.heights.heights, 1e-6 * heights, rtol=DIGITS)
+    assert front.pixel == pytest.approx((2e-6, 4e-6))
+    assert front.notes == ()
+    with pytest.raises(ValidationError, match=r"1 of 30 heights \(3.33 %\) missing"):
+        Topography(file=file)
+    back = Topography(file=file, missing="fill")
+    assert "its channel 'Back' is taken, of 'Front', 'Back'" in back.notes[0]
+    least = heights < heights.max()
+    np.testing.assert_allclose(back.heights.heights[least], 2e-6 * heights[least], rtol=DIGITS)
+    with pytest.raises(ValidationError, match=r"map.sur .*: channel = 'Side': it holds 'Front', 'Back'"):
+        Topography(file=file, channel="Side")
+    # a size without a unit is none
+    monkeypatch.setattr(peer, "open_topography", lambda _: Reader(peer, heights, unit=None))
+    with pytest.raises(ValidationError, match="nor the side of a pixel"):
+        Topography(file=file, channel="Front")
+    assert Topography(file=file, channel="Front", **UM).pixel == PIXEL
+
+
+def test_what_another_program_prints_and_warns_of_is_not_shown(tmp_path, monkeypatch, capfd):
+    def fails(_):
+        print("a line")
+        warnings.warn("a warning", stacklevel=1)
+        raise RuntimeError("\x1b[31mred" + "x" * 9999 + "\nand so on")
+
+    monkeypatch.setattr(pytest.importorskip("SurfaceTopography"), "open_topography", fails)
+    with pytest.raises(ValidationError) as error:
+        Topography(file=written(tmp_path, "0", "a.sur"))
+    assert says(error).isprintable()
+    assert len(says(error)) < 1000
+    assert "a.sur cannot be read by SurfaceTopography: " in says(error)
+    assert "and so on" not in says(error)
+    assert capfd.readouterr() == ("", "")
 
 
 HOLES = {
@@ -341,13 +534,13 @@ def test_missing_heights_are_refused_with_count_and_share_or_filled_in_and_told(
     heights, at = noise((20, 20)), np.zeros((20, 20), bool)
     at[3:5, 7], at[0, 0] = True, True
     stated = {"heights": HOLES[kind](heights, at), "pixel": 1e-6}
-    with pytest.raises(ValidationError, match=r'3 pixels (hold|have).*0.75 % of 400.*missing = "fill"'):
+    with pytest.raises(ValidationError, match=r'3 of 400 heights \(0.75 %\) (are|missing).*missing = "fill"'):
         part(**stated)
     found = part(**stated, missing="fill")
     given, kept = np.ma.getdata(stated["heights"]), found.heights.heights
     assert np.array_equal(kept[~at], given[~at])
     assert given[~at].min() <= kept[at].min() <= kept[at].max() <= given[~at].max()
-    assert any("0.75 % of 400, and were filled in" in note for note in found.notes)
+    assert "3 of 400 heights (0.75 %) were missing and are filled in" in found.notes
     # notes are told wherever the map goes, and make no other map of it
     for twin in (pickle.loads(pickle.dumps(found)), replace(found, shortest_kept=4e-6)):
         assert twin.notes == found.notes
@@ -357,60 +550,15 @@ def test_missing_heights_are_refused_with_count_and_share_or_filled_in_and_told(
     )
 
 
-class Reader:
-    """As SurfaceTopography opens a file of two channels, of which the second is its own choice."""
-
-    def __init__(self, peer, heights):
-        maps = {"Front": heights, "Back": np.ma.masked_array(2 * heights, heights == heights.max())}
-        self.channels = [SimpleNamespace(name=name, **self.channel(peer, each)) for name, each in maps.items()]
-        self.default_channel = self.channels[1]
-
-    def channel(self, peer, heights):
-        map_ = peer.Topography(heights.T, (12.0, 20.0), unit="um")
-        return {
-            "nb_grid_pts": map_.nb_grid_pts,
-            "physical_sizes": map_.physical_sizes,
-            "topography": lambda physical_sizes: map_,
-        }
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        pass
-
-
-def test_channels_and_holes_of_other_files_are_those_of_their_reader(tmp_path, monkeypatch):
-    peer, heights = pytest.importorskip("SurfaceTopography"), noise((5, 6))
-    monkeypatch.setattr(peer, "open_topography", lambda _: Reader(peer, heights))
-    file = written(tmp_path, "0", "map.sur")
-    front = Topography(file=file, channel="Front")
-    np.testing.assert_allclose(front.heights.heights, 1e-6 * heights, rtol=DIGITS)
-    assert front.pixel == pytest.approx((2e-6, 4e-6))
-    assert front.notes == ()
-    with pytest.raises(ValidationError, match=r"1 pixel has no height, 3.33 % of 30"):
-        Topography(file=file)
-    back = Topography(file=file, missing="fill")
-    assert "its channel 'Back' is taken, of 'Front', 'Back'" in back.notes[0]
-    least = heights < heights.max()
-    np.testing.assert_allclose(back.heights.heights[least], 2e-6 * heights[least], rtol=DIGITS)
-    with pytest.raises(ValidationError, match=r"channel = 'Side': .*map.sur has 'Front', 'Back'"):
-        Topography(file=file, channel="Side")
-
-
 def test_no_more_than_a_twentieth_is_filled_in():
     heights = noise((20, 20))
     heights.ravel()[:20] = NAN
-    assert (
-        Topography(heights=heights, pixel=1.0, missing="fill").notes[0].startswith("20 pixels had no height, 5 %")
-    )
+    assert Topography(heights=heights, pixel=1.0, missing="fill").notes[0].startswith("20 of 400 heights (5 %)")
     heights[5, 5] = NAN
-    with pytest.raises(
-        ValidationError, match=r"21 pixels have no height, 5.25 % of 400, and at most 5 % are filled in"
-    ):
+    with pytest.raises(ValidationError, match=r"21 of 400 heights \(5.25 %\) missing: at most 5 % are filled in"):
         Topography(heights=heights, pixel=1.0, missing="fill")
     heights[:] = NAN
-    with pytest.raises(ValidationError, match=r"400 pixels have no height, 100 %"):
+    with pytest.raises(ValidationError, match=r"400 of 400 heights \(100 %\) missing"):
         Topography(heights=heights, pixel=1.0, missing="fill")
 
 
@@ -457,8 +605,8 @@ def test_outliers_are_found_on_request_and_counted():
     assert np.array_equal(outliers(heights, 15.0), spikes)
     assert Topography(heights=heights, pixel=1e-3).notes == ()
     found = Topography(heights=heights, pixel=1e-3, outliers=15)
-    said = "3 pixels were more than 15 robust standard deviations off the median around, 0.25 % of 1200"
-    assert found.notes == (f"{said}, and filled in",)
+    said = "3 of 1200 heights (0.25 %) were more than 15 robust standard deviations off the median around them"
+    assert found.notes == (f"{said} and are filled in",)
     assert np.abs(found.heights.heights - smooth).max() < 0.1
     assert np.array_equal(found.heights.heights[~spikes], heights[~spikes])
     # of normal noise 0.27 % lie beyond three deviations, up to twice that as the median has noise of its own
@@ -474,7 +622,7 @@ def test_outliers_are_found_on_request_and_counted():
             ValidationError, match=r"outliers = .*a number of standard deviations|outliers = .*number"
         ):
             Topography(heights=heights, pixel=1e-3, outliers=wrong)
-    with pytest.raises(ValidationError, match=r"0.0833 % of 1200: missing"):
+    with pytest.raises(ValidationError, match=r"1 of 1200 heights \(0.0833 %\) missing: missing"):
         Topography(heights=np.where(np.arange(1200).reshape(30, 40) == 77, NAN, heights), pixel=1e-3, outliers=10)
 
 
@@ -568,7 +716,7 @@ def test_a_page_tells_what_was_done_to_a_map():
     heights = np.ma.masked_array(noise((30, 30)), np.arange(900).reshape(30, 30) == 77)
     stated = {"pixel": "1 um", "unit": "um", "missing": "fill", "crop": ["0 um", "20 um", "0 um", "20 um"]}
     study = Map.of(heights, shortest_kept="4 um", **stated)
-    filled_in = "1 pixel had no height, 0.25 % of 400, and was filled in"
+    filled_in = "1 of 400 heights (0.25 %) were missing and are filled in"
     assert {"cropped to 20 x 20 of 30 x 30 pixels", filled_in} < set(study.lines())
     assert filled_in in study.notes  # which stand before the answer
     assert study.title == "Topography of MaskedArray"

@@ -233,9 +233,15 @@ REGULAR = np.sin(2 * pi * np.arange(512) / 16.3)
     [
         ("type = .wave", {"heights": REGULAR}),
         ("20 points", {"heights": HEIGHTS[:20]}),
-        ("point 4, inf m", {"heights": np.where(np.arange(512) == 3, np.inf, HEIGHTS)}),
-        ("1 of 512 points.*missing = .fill", {"heights": np.where(np.arange(512) == 3, np.nan, HEIGHTS)}),
-        ("point 4, -9999 m", {"heights": np.where(np.arange(512) == 3, -9999.0, HEIGHTS)}),
+        (
+            "heights.3. = inf: 1 of 512 heights .0.195 %. missing",
+            {"heights": np.where(np.arange(512) == 3, np.inf, HEIGHTS)},
+        ),
+        (
+            "heights.3. = nan: 1 of 512 .*missing = .fill. fills them in",
+            {"heights": np.where(np.arange(512) == 3, np.nan, HEIGHTS)},
+        ),
+        ("1 of 512 heights .0.195 %. are -9999 m", {"heights": np.where(np.arange(512) == 3, -9999.0, HEIGHTS)}),
         ("at most 5 %", {"heights": np.where(np.arange(512) < 30, np.nan, HEIGHTS), "missing": "fill"}),
         ("bool", {"heights": [True] * 100}),
         ("periodic", {"repeat": "periodic", "level": "tilt"}),
@@ -246,7 +252,13 @@ REGULAR = np.sin(2 * pi * np.arange(512) / 16.3)
         ("roll-off", {"shortest_kept": 5e-4}),
         ("leave spacing out", {"heights": {"x [um]": 2e6 * SPACING * np.arange(512), "z [m]": HEIGHTS}}),
         ("off by more than", {"heights": {"x [m]": np.arange(512.0) ** 1.1, "z [m]": HEIGHTS}, "spacing": None}),
-        ("unit of its heights", {"heights": {"z": HEIGHTS}}),
+        ("column .z. has no unit.*state units = .z", {"heights": {"z": HEIGHTS}}),
+        (
+            "one step from",
+            {"heights": {"x [m]": np.delete(np.arange(513.0), 9), "z [m]": HEIGHTS}, "spacing": None},
+        ),
+        ("no column x: state columns", {"heights": {"z [um]": HEIGHTS}, "spacing": None}),
+        ("1 row|one row of heights", {"heights": HEIGHTS[None]}),
         ("have the dimensions", {"heights": xarray.DataArray(np.ones((8, 8)), dims=("y", "x"))}),
     ],
 )
@@ -259,7 +271,7 @@ def test_what_is_no_line_is_refused_with_the_reason(message, stated):
 @pytest.mark.parametrize(
     "heights",
     [
-        pandas.DataFrame({"Distance [mm]": 1e3 * SPACING * np.arange(512), "Profile height [nm]": 1e9 * HEIGHTS}),
+        pandas.DataFrame({"Distance [mm]": 1e3 * SPACING * np.arange(512), "Height [nm]": 1e9 * HEIGHTS}),
         xarray.DataArray(HEIGHTS * 1e6, {"x": SPACING * np.arange(512)}, "x", attrs={"units": "um"}),
         xarray.Dataset(
             {"z": ("x", HEIGHTS, {"units": "m"})}, {"x": ("x", SPACING * np.arange(512), {"units": "m"})}
@@ -273,57 +285,73 @@ def test_tables_and_labelled_arrays_have_places_of_their_own(heights):
     assert profile.heights.heights == pytest.approx(HEIGHTS, rel=1e-12)
 
 
-def written(path, separator, decimal, heading, encoding="utf-8", scale=(1e3, 1e6)):
-    rows = [f"{scale[0] * SPACING * k:.6f}{separator}{scale[1] * z:.9f}" for k, z in enumerate(HEIGHTS)]
-    text = "\n".join(rows).replace(".", decimal)
-    path.write_text(f"{heading}{text}\n", encoding=encoding)
-    return path
+def column(separator=";", decimal=".", places=True):
+    rows = [[f"{1e3 * SPACING * k:.6f}"] * places + [f"{1e6 * z:.9f}"] for k, z in enumerate(HEIGHTS)]
+    return "".join(f"{separator.join(row)}\n" for row in rows).replace(".", decimal)
+
+
+IN_MM_AND_UM = {"units": {"x": "mm", "z": "um"}}
+UM = {"unit": "um", "spacing": "2 um"}
+# Texts of a line and what is stated of them.
+TEXTS = [
+    ("X [mm];Z [µm]\n" + column(";", ","), {}),
+    ("# stylus tip 2 um, heights in nm\nposition\theight\nmm\tum\n" + column("\t"), {}),
+    ("Distance (mm),Height (um)\n" + column(","), {}),
+    ("x y1\n" + column(" "), {"columns": {"z": "y1"}, **IN_MM_AND_UM}),  # a graph of Gwyddion
+    ("Weg;Höhe\n" + column(";", ","), {"columns": {"x": "Weg", "z": "Höhe"}, **IN_MM_AND_UM}),
+    ("Profile 1\nx;z\n" + column() + "\nmean;0\n", {"skip": 1, "rows": 512, **IN_MM_AND_UM}),
+    (column(), {"columns": {"x": 1, "z": 2}, **IN_MM_AND_UM}),
+    ("z\n" + column(places=False), UM),
+    ("# stylus tip 2 nm\n" + column(places=False), UM),
+    (column(decimal=",", places=False), UM | {"decimal": ","}),
+]
+
+
+@pytest.mark.parametrize(("content", "stated"), TEXTS)
+def test_a_line_is_the_same_in_every_text_that_is_read(tmp_path, content, stated):
+    (tmp_path / "line.csv").write_text(content, encoding="utf-16")
+    profile = Profile(file=tmp_path / "line.csv", **stated)
+    assert profile.spacing == pytest.approx(SPACING, rel=1e-6)
+    assert profile.heights.heights == pytest.approx(HEIGHTS, abs=1e-14)
+    if "unit" not in stated:
+        for again, said in (({"spacing": "2.1 um"}, "leave spacing out"), ({"unit": "nm"}, "must agree|state one of them")):
+            with pytest.raises(ValidationError, match=said):
+                Profile(file=tmp_path / "line.csv", **stated | again)
 
 
 @pytest.mark.parametrize(
-    ("separator", "decimal", "heading", "encoding"),
+    ("content", "stated", "message"),
     [
-        (";", ",", "X [mm];Z [µm]\n", "latin-1"),
-        ("\t", ".", "# stylus 2 um\nlength\tprofile\nmm\tum\n", "utf-8"),
-        (",", ".", "Lateral position (mm),Height (um)\n", "utf-16"),
-        (";", ",", "Weg [mm];Höhe [µm]\n", "latin-1"),
-        (" ", ".", "Profile 1\nx [mm] y [um]\n", "utf-8"),  # a graph of Gwyddion
+        (column(places=False), {"spacing": SPACING}, "does not state the unit of its heights: state unit"),
+        ("# heights in um\n" + column(places=False), {}, "the unit of its heights nor the spacing"),
+        (column(places=False), {"unit": "um"}, "does not state the spacing: state spacing"),
+        (column(), UM, "2 columns of numbers, and a line has one; of points state columns = {x = 1, z = 2}"),
+        ("x;z\n" + column(), {"unit": "um"}, "column 'x' has no unit in the heading: state units = {x"),
+        ("x [mm];y1 [um]\n" + column(), {}, "there is no column z .*state its heading, as columns = {z"),
+        ("x [mm];z [um]\n" + 2 * (column() + "\n"), {}, "line 514 is blank, .* state rows = 512"),
+        ("x [mm];z [um]\n" + column().replace("0.004000", "0.0042", 1), {}, "line 4: x = 4.2e-06 is off by more"),
+        ("x [mm];z [um]\n" + column() + "0;1\n", {}, "x = 0 is not one step from the one before"),
     ],
 )
-def test_files_of_places_and_heights_are_read_in_their_units(tmp_path, separator, decimal, heading, encoding):
-    profile = Profile(file=written(tmp_path / "line.csv", separator, decimal, heading, encoding))
-    assert profile.spacing == pytest.approx(SPACING, rel=1e-6)
-    assert profile.heights.heights == pytest.approx(HEIGHTS, abs=1e-14)
+def test_a_text_that_is_no_line_is_refused_with_what_to_state(tmp_path, content, stated, message):
+    (tmp_path / "line.txt").write_text(content)
+    with pytest.raises(ValidationError, match=message) as error:
+        Profile(file=tmp_path / "line.txt", **stated)
+    assert "line.txt" in str(error.value)
 
 
-def test_a_file_of_heights_alone_needs_a_unit_and_a_spacing(tmp_path):
-    path = tmp_path / "line.txt"
-    path.write_text("\n".join(f"{1e6 * z:.9f}" for z in HEIGHTS))
-    with pytest.raises(ValidationError, match="unit of its heights"):
-        Profile(file=path, spacing=SPACING)
-    with pytest.raises(ValidationError, match="spacing = "):
-        Profile(file=path, unit="um")
-    assert Profile(file=path, unit="um", spacing="2 um").heights.heights == pytest.approx(HEIGHTS, abs=1e-14)
+def test_an_array_is_one_row_of_heights(tmp_path):
     np.save(tmp_path / "line.npy", HEIGHTS * 1e9)
     assert Profile(file=tmp_path / "line.npy", unit="nm", spacing="2 um").heights.heights == pytest.approx(HEIGHTS)
-
-
-@pytest.mark.parametrize("head", ["# Spacing: 2 um\n# Z unit: um\n", '"Pitch","0.002","mm"\nz [um]\n'])
-def test_the_spacing_may_stand_above_the_heights(tmp_path, head):
-    path = tmp_path / "line.txt"
-    path.write_text(head + "\n".join(f"{1e6 * z:.9f}" for z in HEIGHTS))
-    assert Profile(file=path) == Profile(file=path, spacing="2 um", unit="um")
-    assert Profile(file=path).heights.heights == pytest.approx(HEIGHTS, abs=1e-14)
-    for stated in ({"unit": "nm"}, {"spacing": "1 um"}):
-        with pytest.raises(ValidationError, match="leave"):
-            Profile(file=path, **stated)
-
-
-def test_two_lines_in_a_file_are_no_long_one(tmp_path):
-    path = written(tmp_path / "line.csv", ";", ".", "x [mm];z [um]\n")
-    path.write_text(path.read_text() + "\n" + path.read_text())
-    with pytest.raises(ValidationError, match="blocks of numbers"):
-        Profile(file=path)
+    with pytest.raises(ValidationError, match="the unit of its heights nor the spacing"):
+        Profile(file=tmp_path / "line.npy")
+    np.save(tmp_path / "map.npy", HEIGHTS.reshape(16, 32))
+    with pytest.raises(ValidationError, match=r"shape \(16, 32\): a line is one row of heights"):
+        Profile(file=tmp_path / "map.npy", unit="m", spacing="2 um")
+    line = xarray.DataArray(HEIGHTS * 1e6, {"x": 1e6 * SPACING * np.arange(512)}, "x", attrs={"units": "um"})
+    line.x.attrs["units"] = "um"
+    line.to_dataset(name="z").to_netcdf(tmp_path / "line.nc")
+    assert Profile(file=tmp_path / "line.nc").spacing == pytest.approx(SPACING)
 
 
 def test_missing_heights_are_filled_in_on_straight_lines_when_asked(tmp_path):
@@ -333,11 +361,11 @@ def test_missing_heights_are_filled_in_on_straight_lines_when_asked(tmp_path):
     profile = Profile(file=path, missing="fill")
     known = np.interp([100, 101], [99, 102], HEIGHTS[[99, 102]])
     assert profile.heights.heights[100:102] == pytest.approx(known, abs=1e-14)
-    assert "2 of 512 points, 0.391 %" in profile.notes[0]
+    assert "2 of 512 heights (0.391 %) were missing" in profile.notes[0]
 
 
 def test_a_scene_file_with_a_line_is_read(tmp_path):
-    written(tmp_path / "line.csv", ";", ",", "x [mm];z [um]\n")
+    (tmp_path / "line.csv").write_text(TEXTS[0][0], encoding="utf-8")
     scene = tmp_path / "scene.toml"
     text = (
         '[indenter]\ntype = "sphere"\nradius = 0.01\n[elastomer]\ntype = "elastic"\nmodulus = 1e6\n[motion]\n'

@@ -47,12 +47,19 @@ def agree(columns, expected=READ):
         ["f;G';G''", "Hz;MPa;kPa", *ROWS],
         ["f;G';G''", "[Hz];[MPa];(kPa)", *ROWS],
         ["# NR, 1.2 GPa, 0.3 GPa", "", HEADED, *ROWS, ";;", "", ";;"],
+        [
+            "f [Hz];G';G''",
+            *(
+                ";".join(f"{float(n) * s}" for n, s in zip(row.split(";"), (1, 1e6, 1e3), strict=True))
+                for row in ROWS
+            ),
+        ],
         ["FRE_QUENCY [Hz];Sto rage [N/mm2];G′′ [kPa]", *ROWS],
         ['"f [Hz]";"G\' [MPa]";"G"" [kPa]"', *(f'"{row[0]}";{row[2:]}' for row in ROWS)],
         ["f [Hz];G' [MPa];point;remark;G'' [kPa]", "1;2;1;a;3", "2;3;2;a;4", "3;4;4;a;5"],
         ["f [Hz];G' [MPa];G'' [kPa]", "1,0;2,00;3", "2;3,0;4", "3;4;5,0"],
     ],
-    ids=range(12),
+    ids=range(13),
 )
 def test_the_documented_form_is_read(tmp_path, lines):
     agree(read(written(tmp_path, "\r\n".join([*lines, ""]))))
@@ -247,7 +254,7 @@ EXTRA = {
 class Drawn:
     """A table as somebody may have written it, what is meant by it, and what has to be stated of it.
 
-    A table is plain if it is in the documented form.
+    spoilt : whether a row that is meant cannot be read; damaged : whether any cannot
     """
 
     def __init__(self, seed):
@@ -258,7 +265,6 @@ class Drawn:
         self.units = {name: self.one_of(*UNITS[name]) for name in self.fields}
         self.stated = {"separator": {"\t": "tab", ";": "semicolon", ",": "comma"}.get(self.separator, "blanks")}
         self.stated["decimal"] = "," if self.comma else "."
-        self.plain = True
         above, heading, numbers = self.above(), self.heading(), self.rows()
         blank = {" ": ""} if self.separator == "  " else {}
         lines = [self.line(each, blank) for each in [*heading, *numbers]]
@@ -329,18 +335,23 @@ class Drawn:
         texts = {name: [f"{each:.5g}" for each in 10 ** rng.uniform(-2, 6, count)] for name in self.fields}
         self.meant = {name: np.array(texts[name], float) * UNITS[name][self.units[name]] for name in self.fields}
         columns = [texts[name] for name in self.fields] + [EXTRA[name](count, rng) for name in self.extra]
+        chosen = np.ones(count, bool)
+        if "sample" in self.extra:
+            place = 3 + self.extra.index("sample")
+            chosen = np.array(columns[place]) == "A"
+            self.meant = {name: each[chosen] for name, each in self.meant.items()}
+            named = str(place + 1) if "columns" in self.stated else "sample"
+            self.stated["where"] = {**self.stated.get("where", {}), named: "A"}
         rows = [
-            [each.replace(".", ",") if self.comma else each for each in row] for row in zip(*columns, strict=True)
+            [each.replace(".", "," if self.comma else ".") for each in row] for row in zip(*columns, strict=True)
         ]
-        self.spoilt = False
-        if self.often(0.1):
-            self.spoilt = True
-            rows[rng.integers(count)][rng.integers(3)] = self.one_of(
-                "", "x", "nan", "1.2.3", "1 2", "1,234,567", "--"
-            )
-        elif self.often(0.1):
-            rows[rng.integers(count)].pop()
-            self.spoilt = True
+        self.spoilt = self.damaged = self.often(0.2)
+        row = rng.integers(count)
+        if self.spoilt and self.often(0.5):
+            rows[row][rng.integers(3)] = self.one_of("", "x", "nan", "1.2.3", "1 2", "1,234,567", "--")
+            self.spoilt = chosen[row]
+        elif self.spoilt:
+            rows[row].pop()
         return rows
 
     def below(self, count):
@@ -373,7 +384,7 @@ def check_drawn(tmp_path, seed):
         for name, numbers in drawn.meant.items():
             assert name in found, (stated, drawn.text)
             np.testing.assert_allclose(found[name], numbers, rtol=1e-12, err_msg=f"{stated}\n{drawn.text}")
-    assert drawn.spoilt or read_at_all, (drawn.stated, drawn.text)
+    assert drawn.damaged or read_at_all, (drawn.stated, drawn.text)
     return len(read_at_all)
 
 

@@ -222,20 +222,23 @@ def test_the_unit_and_the_kind_must_be_said(missing):
         fitted(frequency_unit="rpm")
 
 
-ROWS = "\n".join(f"{f:.17g},{s:.17g},{loss:.17g}" for f, s, loss in zip(*columns(table()), strict=True))
+ROWS = "\n".join(
+    ["f,G',G''", *(",".join(f"{each:.17g}" for each in row) for row in zip(*columns(table()), strict=True))]
+)
+WIDE = "f,G',G''\n" + "\n".join(f"{k},2,3" for k in range(1, MOST_ROWS + 2))
 
 
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("f,G',G''\n0,5,6", r"line 2, column 1 \(f\): frequency = 0 must be finite and greater than 0"),
-        ("f,G,H\n1,5,6", r"the heading \(f, G, H\) has no complete modulus"),
-        ("1;2;3;4", r"line 1: 4 columns without a heading"),
-        ("1,2,3\n2,2,3", "2 frequencies: at least 4"),
-        ("1,2,3\n4,1_0,6", "line 2, column 2: '1_0' is not a number"),
-        ("1,2,3\n4,5" + "x" * 1_000_000 + ",6", r"line 2, column 2: '5x+\.\.\.x+' is not a number"),
-        ("1e-30,2,3\n2,2,3\n3,2,3\n1e30,2,3", r"farther apart than by a factor of 1e\+40"),
-        ("\n".join(f"{k},2,3" for k in range(1, MOST_ROWS + 2)), "5,001 rows: at most 5,000"),
+        ("f,G',G''\n0,5,6", "line 2: frequency = 0 must be greater than 0"),
+        ("f,G,H\n1,5,6", "there is no table of moduli in the columns 'f', 'G'"),
+        ("1;2;3;4", "line 1: '1;2;3;4' is no heading"),
+        ("f,G',G''\n1,2,3\n2,2,3", "2 frequencies: at least 4"),
+        ("f,G',G''\n1,2,3\n4,1_0,6", "line 3, column \"G'\": '1_0' is no number"),
+        ("f,G',G''\n1,2,3\n4,5" + "x" * 1_000_000 + ",6", r"line 3, column \"G'\": '5x+\.\.\.x+' is no number"),
+        ("f,G',G''\n1e-30,2,3\n2,2,3\n3,2,3\n1e30,2,3", r"farther apart than by a factor of 1e\+40"),
+        (WIDE, "5,001 rows: at most 5,000"),
     ],
 )
 def test_a_mistake_in_a_file_is_named_with_its_line(tmp_path, text, said):
@@ -249,7 +252,7 @@ def test_a_mistake_in_a_file_is_named_with_its_line(tmp_path, text, said):
 
 def test_numbers_beyond_what_can_be_computed_with_are_no_solid(tmp_path):
     path = tmp_path / "rubber.csv"
-    path.write_text("".join(f"{k * 5e-324!r},1,1\n" for k in range(1, 5)))
+    path.write_text("f,G',G''\n" + "".join(f"{k * 5e-324!r},1,1\n" for k in range(1, 5)))
     with pytest.raises(ValidationError, match="no solid can be fitted"):
         fitted(path)
 
@@ -264,19 +267,50 @@ kind = "shear"
 table = """
 
 
-def test_a_scene_names_a_file_or_holds_the_numbers(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "rubber.csv").write_text(ROWS)
-    by_name, by_numbers = tmp_path / "name.toml", tmp_path / "numbers.toml"
+def test_a_scene_names_a_file_in_its_folder_or_holds_the_numbers(tmp_path, monkeypatch):
+    (tmp_path / "measured").mkdir()
+    (tmp_path / "measured/rubber.csv").write_text(ROWS)
+    by_name, by_numbers = tmp_path / "measured/name.toml", tmp_path / "numbers.toml"
     by_name.write_text(SCENE + '"rubber.csv"')
     named = zip(("frequency", "storage", "loss"), columns(table()), strict=True)
     by_numbers.write_text(SCENE + "{" + ", ".join(f"{name} = {list(values)}" for name, values in named) + "}")
-    assert read(by_name, Scene) == read(by_numbers, Scene)
-    (tmp_path / "rubber.csv").write_text("1,2,3\n1,2,x")
+    expected = read(by_numbers, Scene)
+    for folder in (tmp_path, tmp_path / "measured"):
+        monkeypatch.chdir(folder)
+        for path in (by_name, by_name.relative_to(tmp_path) if folder == tmp_path else "name.toml"):
+            assert read(path, Scene) == expected
+    (tmp_path / "measured/rubber.csv").write_text("f,G',G''\n1,2,3\n1,2,x")
     with pytest.raises(
-        InvalidInput, match=r"table = 'rubber\.csv': rubber\.csv, line 2, column 3: 'x' is not a number"
+        InvalidInput, match=r"table = 'rubber\.csv': rubber\.csv, line 3, column \"G''\": 'x' is no number"
     ):
         read(by_name, Scene)
+    (tmp_path / "measured/rubber.csv").unlink()
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(InvalidInput, match=r"no such file in .*measured, the folder of the file that names it"):
+        read(by_name, Scene)
+
+
+def test_a_scene_states_what_differs_of_its_table(tmp_path):
+    stated = """
+skip = 1
+rows = 46
+units = {frequency = "rad/s", storage = "MPa", loss = "MPa"}
+columns = {storage = "in phase", loss = "out of phase"}
+where = {sample = "NR"}
+decimal = ","
+"""
+    rows = (
+        f"NR\t{f:.17g}\t{s / 1e6:.17g}\t{loss / 1e6:.17g}" for f, s, loss in zip(*columns(table()), strict=True)
+    )
+    text = "\n".join(["Stress 1", "sample\tf\tin phase\tout of phase", *rows, "mean"]).replace(".", ",")
+    (tmp_path / "rubber.csv").write_text(text)
+    scene = tmp_path / "scene.toml"
+    scene.write_text(SCENE + f'"rubber.csv"{stated}')
+    found = read(scene, Scene).elastomer
+    np.testing.assert_allclose(np.array(columns(found.table)), np.array(columns(table())), rtol=1e-15)
+    scene.write_text(SCENE + f'"rubber.csv"{stated}'.replace("skip = 1", "skip = -1"))
+    with pytest.raises(InvalidInput, match=r"elastomer\.skip = -1"):
+        read(scene, Scene)
 
 
 def test_a_solid_keeps_the_numbers_and_says_little(tmp_path):

@@ -1,30 +1,21 @@
-"""A measured map is what was measured: at its pixels, by its key, from its file; and what is none is named."""
+"""A measured map is what was measured: at its pixels, by its key, in a scene file; and what is none is named."""
 
 import copy
 import json
 import pickle
-import signal
-import sys
-import tracemalloc
-import warnings
-from contextlib import suppress
 from dataclasses import replace
 from math import pi
-from zipfile import ZIP_DEFLATED, ZIP_LZMA, ZipFile
 
 import numpy as np
 import pytest
-from maps import noise, says
+from maps import noise
 from pydantic import ValidationError
 
-import scene.heightfile
 import scene.topography
 from compare.library.case import Case
 from compare.solving.task import SCENES
 from scene import Elastic, Indent, Measured, Plane, Scene, SelfAffine, Sphere, Topography
-from scene.heightfile import MOST_BYTES
 from scene.reading import InvalidInput, read
-from scene.sheet import LINE
 from scene.waves import MOST_WAVES
 
 ROUNDING = 1e-13  # of heights of order one, summed over some ten waves
@@ -201,8 +192,11 @@ def test_a_map_goes_to_a_worker_and_cannot_be_changed():
         ({"heights": np.zeros(5)}, r"shape \(5,\)"),
         ({"heights": np.zeros((3, 9))}, "at least 4 rows and columns"),
         ({"heights": [[1.0, 2.0], [1.0]]}, "unequal lengths"),
-        ({"heights": np.where(np.eye(5) > 0, np.nan, 1.0)}, r"heights\[0\]\[0\] = nan: every pixel"),
-        ({"heights": np.ma.masked_equal(np.eye(5), 1.0)}, "5 pixels have no height"),
+        (
+            {"heights": np.where(np.eye(5) > 0, np.nan, 1.0)},
+            r"heights\[0\]\[0\] = nan: 5 of 25 heights \(20 %\) missing",
+        ),
+        ({"heights": np.ma.masked_equal(np.eye(5), 1.0)}, r"5 of 25 heights \(20 %\) missing"),
         ({"heights": np.full((5, 5), 1j)}, "real numbers"),
         ({"heights": "a.npy"}, "or give file instead"),
         ({"pixel": 0.0}, "greater than 0"),
@@ -293,210 +287,6 @@ def test_a_body_of_short_waves_alone_is_a_plane_without_them():
             replace(body, shortest_kept=wrong)
 
 
-def test_an_archive_states_its_pixel_in_the_unit_of_its_heights(tmp_path):
-    heights, path = noise((5, 6)), tmp_path / "a.npz"
-    np.savez(path, heights=heights, pixel=3.0)
-    assert Topography(file=path, unit="nm").pixel == pytest.approx((3e-9, 3e-9))
-    with pytest.raises(ValidationError, match="states its own"):
-        Topography(file=path, pixel=1e-6, unit="m")
-    for pixel in (4e-6, [4e-6], [3e-6, 4e-6]):
-        np.savez(path, heights=heights, pixel=pixel)
-        assert Topography(file=path, unit="m") == Topography(heights=heights, pixel=(np.ravel(pixel)[0], 4e-6))
-    for pixel, said in (
-        (np.full(3, 1e-6), r"a pixel of shape \(3,\)"),
-        ("a", "a pixel of shape .* and type <U1"),
-        (np.nan, "pixel = nan: numbers greater than 0"),
-        ([1e-6, 0.0], r"pixel = \[1e-06, 0.0\]: numbers greater than 0"),
-    ):
-        np.savez(path, heights=heights, pixel=pixel)
-        with pytest.raises(ValidationError, match=f"a.npz has {said}"):
-            Topography(file=path, unit="m")
-    np.savez(path, other=heights)
-    with pytest.raises(ValidationError, match="holds other, and no array heights"):
-        Topography(file=path, pixel=1e-6, unit="m")
-
-
-@pytest.mark.parametrize(
-    ("name", "content", "stated", "named"),
-    [
-        ("a.csv", "1,2\n3,x\n", {"pixel": 1.0}, "line 2, column 2: 'x' is not a number"),
-        ("a.txt", "# nothing\n", {"pixel": 1.0}, "there is no row of numbers in it"),
-        ("a.csv", "1 2 3 4\n" * 4, {}, "give pixel"),
-        ("a.npy", None, {"pixel": 1.0}, "no such file"),
-        ("a.csv", "1 2 3 4\n" * 4, {"pixel": 1.0, "unit": ["m"]}, "one of m, mm, um, nm"),
-        ("a.csv", "1 2 3 nan\n" * 4, {"pixel": 1.0}, r"a.csv': heights\[0\]\[3\] = nan: every pixel"),
-    ],
-)
-def test_what_is_wrong_with_a_file_is_said_with_its_name(tmp_path, name, content, stated, named):
-    path = tmp_path / name
-    if content is not None:
-        path.write_text(content)
-    with pytest.raises(ValidationError, match=named) as error:
-        Topography(file=path, **({"unit": "m"} | stated))
-    assert repr(name[-6:])[1:-1] in says(error) or "unit" in stated
-    assert len(says(error)) < 1000
-
-
-def array(shape, data=b"", descr="<f8", version=(1, 0), by_columns=False):
-    """A .npy file whose header says so, whatever the data are."""
-    header = f"{{'descr': {descr!r}, 'fortran_order': {by_columns}, 'shape': {shape}}}\n".encode()
-    length = len(header).to_bytes(2 if version == (1, 0) else 4, "little")
-    return b"\x93NUMPY" + bytes(version) + length + header + data
-
-
-def archive(path, members, **other):
-    with ZipFile(path, "w", ZIP_DEFLATED, **other) as file:
-        for name, content in members:
-            file.writestr(name, content)
-    return path.read_bytes()
-
-
-class Trap:
-    """Whose loading would be seen."""
-
-    def __reduce__(self):
-        return pytest.fail, ("code of a file was executed",)
-
-
-FITS = array((5, 6), noise((5, 6)).tobytes())
-HEADERS = {
-    "no magic": (b"hello" * 9, "magic string"),
-    "a pickle": (pickle.dumps(Trap()), "magic string"),
-    "an archive": (b"PK\x03\x04" * 9, "magic string|not a zip file"),
-    "objects": (array((5, 5), pickle.dumps([Trap()]), "|O"), "an array of type object: heights are real numbers"),
-    "truths": (array((5, 5), bytes(25), "|b1"), "an array of type bool"),
-    "one number": (array((), bytes(8)), r"an array of shape \(\): a map has at least 4"),
-    "nothing": (array((0, 5)), r"an array of shape \(0, 5\)"),
-    "too few numbers": (FITS[:-1], r"239 bytes beside its header, and shape \(5, 6\) of float64 takes 240"),
-    "too many pixels": (array((10**9, 10**9)), "1000000000 x 1000000000 pixels: at most 26214400"),
-    "pixels beyond counting": (array((10**4000, 10**4000)), "pixels: at most 26214400"),
-    "no version": (array((5, 6), bytes(240), version=(3, 0)), r"version \(3, 0\)"),
-    "an endless header": (b"\x93NUMPY\2\0\xff\xff\xff\x7f", "its header is damaged"),
-    "no header": (array("(" * 5000), "its header is damaged"),
-    "no type": (array((5, 6), descr="\x1b[31m"), "its header is damaged"),
-}
-
-
-@pytest.mark.parametrize("kind", HEADERS)
-@pytest.mark.parametrize("ending", ["npy", "npz"])
-def test_an_array_that_is_no_map_is_refused_by_its_header(tmp_path, kind, ending):
-    (content, said), path = HEADERS[kind], tmp_path / f"a.{ending}"
-    path.write_bytes(content)
-    if ending == "npz":
-        archive(path, [("heights.npy", content)])
-    with pytest.raises(ValidationError, match=said) as error:
-        Topography(file=path, pixel=1e-6, unit="m")
-    assert f"a.{ending}" in says(error)
-    assert says(error).isprintable()
-    assert len(says(error)) < 1000
-
-
-@pytest.mark.parametrize("dtype", ["<f8", ">f4", "<f2", "<i8", ">u2", "|i1"])
-@pytest.mark.parametrize("by_columns", [False, True])
-def test_numbers_of_any_real_type_and_order_are_read(tmp_path, dtype, by_columns):
-    heights = (10 * np.abs(noise((5, 6)))).astype(dtype)
-    order = "F" if by_columns else "C"
-    for version in ((1, 0), (2, 0)):
-        content = array((5, 6), heights.tobytes(order), dtype, version, by_columns)
-        (tmp_path / "a.npy").write_bytes(content)
-        archive(tmp_path / "a.npz", [("heights.npy", content)])
-        for name in ("a.npy", "a.npz"):
-            found = Topography(file=tmp_path / name, pixel=1.0, unit="nm")
-            assert np.array_equal(found.heights.heights, 1e-9 * heights.astype(float))
-
-
-def test_an_archive_is_refused_that_holds_no_heights_or_several_or_is_damaged(tmp_path):
-    path = tmp_path / "a.npz"
-
-    def refused(said, pixel=1e-6):
-        with pytest.raises(ValidationError, match=said) as error:
-            Topography(file=path, pixel=pixel, unit="m")
-        assert "a.npz" in says(error)
-        assert says(error).isprintable()
-
-    archive(path, [])
-    refused("nothing, and no array heights")
-    archive(path, [("../heights.npy", FITS), ("\x1b[31m", FITS)])
-    refused("and no array heights")
-    archive(path, [("pixel.npy", array((), np.float64(1.0).tobytes()))])
-    refused("no array heights", None)
-    with pytest.warns(UserWarning, match="Duplicate name"):
-        archive(path, [("heights.npy", FITS), ("heights.npy", FITS)])
-    refused("2 arrays heights")
-    archive(path, [(f"{k}.npy", b"") for k in range(1001)])
-    refused("more than 1000 files")
-    with ZipFile(path, "w", ZIP_LZMA) as file:
-        file.writestr("heights.npy", FITS)
-    refused("compressed otherwise")
-    whole = archive(path, [("heights.npy", FITS)])
-    listed, encrypted = whole.rindex(b"PK\1\2"), bytearray(whole)
-    encrypted[6] |= 1
-    encrypted[listed + 8] |= 1
-    path.write_bytes(encrypted)
-    refused("encrypted")
-    # A byte of the numbers, or of anything else, or an end too early: read as it was, or a line.
-    for place in range(0, len(whole), 3):
-        for damaged in (whole[:place] + bytes([whole[place] ^ 0x55]) + whole[place + 1 :], whole[:place]):
-            path.write_bytes(damaged)
-            with suppress(ValidationError):
-                assert Topography(file=path, pixel=1.0, unit="m") == Topography(heights=noise((5, 6)), pixel=1.0)
-
-
-def test_what_would_unpack_to_more_than_its_header_says_is_not_unpacked(tmp_path, monkeypatch):
-    path, lying = tmp_path / "a.npz", 2**26
-    monkeypatch.setattr(scene.heightfile, "MOST_BYTES", 2**22)
-    with ZipFile(path, "w", ZIP_DEFLATED) as file, file.open("heights.npy", "w") as member:
-        member.write(array((5, 6)))
-        for _ in range(lying // 2**24):
-            member.write(bytes(2**24))
-    tracemalloc.start()
-    try:
-        with pytest.raises(ValidationError, match=f"{lying} bytes beside its header, and shape .* takes 240"):
-            Topography(file=path, pixel=1e-6, unit="m")
-        # and one that hides it
-        content = path.read_bytes()
-        sizes = [(len(array((5, 6))) + data).to_bytes(4, "little") for data in (lying, 240)]
-        path.write_bytes(content.replace(*sizes))
-        with pytest.raises(ValidationError, match="CRC"):
-            Topography(file=path, pixel=1e-6, unit="m")
-        assert tracemalloc.get_traced_memory()[1] < lying / 4
-    finally:
-        tracemalloc.stop()
-
-
-@pytest.mark.parametrize("name", ["a.npy", "a.npz", "a.csv", "a.sur"])
-def test_larger_files_than_are_read_are_not_opened(tmp_path, name):
-    path = tmp_path / name
-    with path.open("wb") as file:
-        file.truncate(MOST_BYTES + 1)
-    with pytest.raises(ValidationError, match=r"has .* MB, and at most .* MB are read"):
-        Topography(file=path, pixel=1e-6, unit="m")
-
-
-@pytest.mark.parametrize(
-    ("content", "said"),
-    [
-        ("1," * (LINE // 2 + 1), f"line 1 has more than {LINE} letters"),
-        ("1 2 3 4\n" + "5" * (LINE + 1), f"line 2 has more than {LINE} letters"),
-        ("1,2,3,4\n1,2\n", "line 2: 2 columns, and other rows have 4"),
-        ("1 2 3 " + "x" * 9999, "line 1, column 4: 'xxx.*is not a number"),
-        ("1 2 3 4\n" * 41, "more than 160 numbers: no more are read"),
-        ("\n" * 99, "more than 50 lines"),
-        ("\0", "there is no row of numbers"),
-        (";;;\n" * 5, "there is no row of numbers"),
-    ],
-)
-def test_a_text_is_read_line_by_line_and_no_further_than_a_map_goes(tmp_path, monkeypatch, content, said):
-    monkeypatch.setattr(scene.heightfile, "MOST_PIXELS", 160)
-    monkeypatch.setattr(scene.sheet, "LINES", 50)
-    path = tmp_path / "a.csv"
-    path.write_text(content)
-    with pytest.raises(ValidationError, match=f"a.csv.*{said}") as error:
-        Topography(file=path, pixel=1e-6, unit="m")
-    assert says(error).isprintable()
-    assert len(says(error)) < 1000
-
-
 @pytest.mark.parametrize("given", ["heights", "pixel", "both pixels"])
 def test_lengths_whose_squares_are_no_numbers_are_named_with_what_is_allowed(given):
     for length in (1e-320, 1e-206, 0.99e-50, 1.01e50, 1e194, 1.7e308):
@@ -510,95 +300,6 @@ def test_lengths_whose_squares_are_no_numbers_are_named_with_what_is_allowed(giv
             rough(np.eye(5), pixel=1.0).waves.rms_slope, rel=1e-12
         )
     assert rough(np.zeros((5, 5))).flat
-
-
-def test_without_the_extra_other_files_ask_for_it(tmp_path, monkeypatch):
-    monkeypatch.setitem(sys.modules, "SurfaceTopography", None)
-    path = tmp_path / "a.sur"
-    path.write_bytes(b"0" * 100)
-    with pytest.raises(ValidationError, match=r"mdr-bem-crosscheck\[topography\]"):
-        Topography(file=path)
-
-
-@pytest.fixture
-def surface_topography():
-    return pytest.importorskip("SurfaceTopography")
-
-
-@pytest.mark.parametrize(("unit", "metre"), [("nm", 1e-9), ("mm", 1e-3)])
-def test_other_files_are_read_with_their_sizes_and_units(tmp_path, surface_topography, unit, metre):
-    heights, path = noise((5, 6)), tmp_path / "a.nc"
-    one = surface_topography.Topography(heights.T, (12.0, 20.0), unit=unit)
-    one.to_netcdf(str(path))
-    found = Topography(file=path)
-    np.testing.assert_allclose(found.heights.heights, metre * heights, rtol=1e-12)
-    assert found.pixel == pytest.approx((2 * metre, 4 * metre))
-    with pytest.raises(ValidationError, match="states its own"):
-        Topography(file=path, pixel=1e-6)
-    with pytest.raises(ValidationError, match="states its own"):
-        Topography(file=path, unit="um")
-    # what is the same is no contradiction
-    assert Topography(file=path, unit=unit, pixel=(2 * metre, 4 * metre)) == found
-
-
-def test_a_file_that_states_no_unit_asks_for_it(tmp_path, surface_topography):
-    path = tmp_path / "a.nc"
-    surface_topography.Topography(noise((6, 5)), (12.0, 20.0)).to_netcdf(str(path))
-    with pytest.raises(ValidationError, match="give unit"):
-        Topography(file=path)
-    assert Topography(file=path, unit="um").pixel == pytest.approx((2e-6, 4e-6))
-
-
-def test_a_map_of_more_pixels_than_are_read_is_refused_before_its_heights(
-    tmp_path, surface_topography, monkeypatch
-):
-    path = tmp_path / "a.nc"
-    surface_topography.Topography(noise((6, 5)), (12.0, 20.0), unit="um").to_netcdf(str(path))
-    monkeypatch.setattr(scene.heightfile, "MOST_PIXELS", 29)
-    monkeypatch.setattr(scene.heightfile.np, "array", lambda *_: pytest.fail("heights were read"))
-    with pytest.raises(ValidationError, match=r"a.nc cannot be read .*: 5 x 6 pixels: at most 29"):
-        Topography(file=path)
-
-
-def test_what_another_program_prints_and_warns_of_is_not_shown(tmp_path, surface_topography, monkeypatch, capfd):
-    def fails(_):
-        print("a line")
-        warnings.warn("a warning", stacklevel=1)
-        raise RuntimeError("\x1b[31mred" + "x" * 9999 + "\nand so on")
-
-    monkeypatch.setattr(surface_topography, "open_topography", fails)
-    path = tmp_path / "a.sur"
-    path.write_bytes(b"0")
-    with pytest.raises(ValidationError) as error:
-        Topography(file=path)
-    assert says(error).isprintable()
-    assert len(says(error)) < 1000
-    assert "a.sur cannot be read by SurfaceTopography: " in says(error)
-    assert "and so on" not in says(error)
-    assert capfd.readouterr() == ("", "")
-    (tmp_path / "a.sdf").write_bytes(b"")  # of no pixels, by one of its readers
-    with pytest.raises(ValidationError, match=r"a.sdf cannot be read by SurfaceTopography"):
-        Topography(file=tmp_path / "a.sdf", pixel=1e-6)
-
-
-def test_another_program_is_given_so_much_time_whatever_it_makes_of_its_end(
-    tmp_path, surface_topography, monkeypatch
-):
-    handler = signal.getsignal(signal.SIGPROF)
-
-    def slow(_):
-        with suppress(Exception):
-            for _ in range(10**9):
-                pass
-        pytest.fail("the end was heard of as any other mistake")
-
-    monkeypatch.setattr(surface_topography, "open_topography", slow)
-    monkeypatch.setattr(scene.heightfile, "SECONDS", 0.05)
-    (tmp_path / "a.sur").write_bytes(b"0")
-    with pytest.raises(ValidationError, match=r"a.sur takes SurfaceTopography more than 0.05 s to read: .* .npy"):
-        Topography(file=tmp_path / "a.sur")
-    assert signal.getsignal(signal.SIGPROF) is handler
-    assert signal.getitimer(signal.ITIMER_PROF) == (0.0, 0.0)
 
 
 FILE = """
@@ -631,7 +332,7 @@ def test_a_scene_file_names_the_map_by_its_path(tmp_path, monkeypatch):
     np.save("surface.npy", np.where(np.eye(5) > 0, -np.inf, 1.0))
     (tmp_path / "scene.toml").write_text(FILE + "pixel = 1e-6\nunit = 'um'\n")
     with pytest.raises(
-        InvalidInput, match=r"^scene.toml: roughness: file = 'surface.npy': .*\[0\] = -inf: every[^\n]*$"
+        InvalidInput, match=r"^scene.toml: roughness: file = 'surface.npy': .*\[0\] = -inf: 5 of 25[^\n]*$"
     ):
         read("scene.toml", Scene)
     (tmp_path / "scene.toml").write_text(FILE.replace("file", "heights = [[1.0]]\nzzz"))

@@ -9,10 +9,9 @@ import numpy as np
 import xarray
 from pydantic import ValidationError
 
-from scene.mistakes import said
 from scene.printable import printable
 from scene.quantities import KELVIN, NEWTON, SPEED
-from scene.reading import InvalidInput
+from scene.reading import InvalidInput, mistakes, validator
 from scene.tablefile import Column, Columns, TableFormat, read_columns
 
 from ...solving.vocabulary import attributes
@@ -66,7 +65,8 @@ class MeasuredFriction:
             columns = read_columns(path or _flat(table), COLUMNS, TableFormat(**stated))
             numbers, notes = _numbers(columns)
         except ValidationError as error:
-            raise InvalidInput(said(error)) from error
+            lines = mistakes(error, stated, validator(TableFormat))
+            raise InvalidInput("\n".join(lines)) from error
         except ValueError as error:
             raise InvalidInput(str(error)) from error
         named = printable(path.stem if path else columns.name)
