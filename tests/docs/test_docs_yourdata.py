@@ -69,6 +69,7 @@ def test_the_reference_has_every_name_that_is_read(page, names):
 
 
 RUBBER, ROUGH, LINE = ("plan", "rubber.toml"), ("plan", "rough.toml"), ("plan", "line.toml")
+PSD = "plan", "psd.toml"
 MAP, FRICTION = ("topography", "map.txt"), ("mastercurve", "tribometer.csv")
 WRONG = [
     # page, command, file, what stands there and what in its place, what is said
@@ -108,6 +109,9 @@ WRONG = [
     ("surface", LINE, "profile.csv", r"^0,195.*\n", "\n", "blocks of numbers from line 4 and 44 on"),
     ("surface", LINE, "profile.csv", "^0,195", "0,197", "places of a line are evenly spaced"),
     ("surface", ROUGH, "rough.toml", "shortest_kept.*", "", "is less than two pixels of"),
+    ("surface", PSD, "psd.toml", "convention.*", "", "state the convention of the density"),
+    ("surface", PSD, "psd.csv", ";90.05", ";900", "below zero, and no isotropic surface has such line scans"),
+    ("surface", PSD, "psd.csv", r"^q", "k", "one column q or frequency is needed"),
     ("friction", FRICTION, "tribometer.csv", r"Speed \[mm/s\]", "U [mm/s]", "there is no column for v"),
     ("friction", FRICTION, "tribometer.csv", "Friction force", "Drag, right", "for mu"),
     (
