@@ -11,7 +11,7 @@ from pydantic.dataclasses import dataclass
 from .heightmap import LONGEST, SHORTEST
 from .isotropic import Isotropic
 from .powerlaws import PowerLaws, of_surface
-from .quantities import CLOSED, METRE, RADIAN_PER_METRE, ROW, Positive, Seed, Unit, by_name, takes
+from .quantities import BARE, CLOSED, METRE, RADIAN_PER_METRE, ROW, Positive, Seed, Unit, by_name, takes
 from .scanned import QUOTIENT
 from .selfaffine import Wavelength
 from .tablefile import Column, TableFormat, read_columns, refused, split_format
@@ -165,6 +165,7 @@ class Spectrum(Isotropic):
         """Rms height of the waves that are kept [m]."""
         return sqrt(2 * pi * self.moment(1, 0.0, inf))
 
+    @takes(m=BARE)
     def left_out(self, m: int) -> tuple[float, float]:
         """Shares of the mean square height (m = 1) or slope (m = 3) in waves longer, and shorter, than are kept.
 
@@ -187,6 +188,7 @@ class Spectrum(Isotropic):
             f"{flat:.3g} % of that of the slope, shorter waves {short:.3g} % and {steep:.3g} %",
         )
 
+    @takes(m=BARE, lower=RADIAN_PER_METRE, upper=RADIAN_PER_METRE)
     def moment(self, m, lower, upper):
         """int q^m C_2D dq of the waves that are kept, from lower to upper [rad/m], arrays allowed; in SI."""
         return self._kept.moment(m, lower, upper)

@@ -176,7 +176,7 @@ def test_height_slope_and_what_is_left_out_are_said():
             "at q = 4e[+]04 rad/m .* below zero",
             {"q": [1e3, 4e4, 9e4], "C2D": None, "C1D": [1e-15, 1e-18, 1e-18], "sides": "two"},
         ),
-        ("an angle counts", {"q": ["1 1/mm", 1e4, 1e5]}),
+        ("1/m are cycles", {"q": ["1 1/mm", 1e4, 1e5]}),
         ("waves from 1e-06 m to .* of those of q from 6.28319e-05 m", {"shortest_kept": "1 um"}),
         ("waves from .* to 1 m, of those of q from .* to 0.00628", {"longest_kept": 1.0}),
         ("at least twice as long", {"longest_kept": "1 mm", "shortest_kept": "0.6 mm"}),

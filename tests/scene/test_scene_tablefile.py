@@ -6,7 +6,6 @@ import pint
 import pytest
 import xarray
 
-from scene import InvalidInput
 from scene.quantities import HERTZ, KELVIN, PASCAL, RADIAN_PER_SECOND
 from scene.tablefile import Column, TableFormat, read_columns
 
@@ -198,7 +197,7 @@ def test_workbooks_and_pictures_are_refused_by_what_they_are(tmp_path, content, 
     [{"skip": -1}, {"rows": "3"}, {"separator": "|"}, {"decimal": "'"}, {"columns": {"z": 0}}, {"sep": ";"}],
 )
 def test_what_is_stated_is_checked(stated):
-    with pytest.raises(InvalidInput, match=next(iter(stated))):
+    with pytest.raises(ValueError, match=next(iter(stated))):
         TableFormat(**stated)
 
 
