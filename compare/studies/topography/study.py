@@ -129,7 +129,7 @@ class Map(Study):
             try:
                 return describe(Topography(**content))
             except ValueError as error:
-                lines = str(error).splitlines()
+                lines = [each.removeprefix("Topography: ") for each in str(error).splitlines()]
         named = (each if str(self.given) in each or not path else f"{self.given}: {each}" for each in lines)
         raise InvalidInput("\n".join(named))
 
