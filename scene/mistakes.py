@@ -8,7 +8,6 @@ from operator import getitem, or_
 from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
-from pydantic.errors import PydanticInvalidForJsonSchema
 
 from .printable import brief
 
@@ -26,11 +25,8 @@ def mistakes(error: ValidationError, content: dict, adapter: TypeAdapter) -> lis
     What stands under a misspelt name, and in a table whose type is missing or unknown, is checked too: as if the
     nearest name stood there, and the type that has most of the names.
     """
-    lines, tables, untyped = [], {}, set()
-    try:
-        schema = adapter.json_schema()
-    except PydanticInvalidForJsonSchema:  # of types whose names nothing tells
-        schema = {}
+    lines: list[str] = []
+    schema, tables, untyped = adapter.json_schema(), {}, set()
 
     def like(name, known):
         """The known name that one is most like; None where none is, and beyond the mistakes that are listed."""
@@ -119,7 +115,8 @@ def mistakes(error: ValidationError, content: dict, adapter: TypeAdapter) -> lis
 
 def place(location: Iterable[str | int], content: Any) -> tuple[str | int, ...]:
     """The names on the way to a mistake as they stand in the file: the type of a table, or a choice, is none."""
-    where, tag = (), None
+    where: tuple[str | int, ...] = ()
+    tag = None
     for part in location:
         if part == tag or str(part).startswith(CHOICE):
             tag = None

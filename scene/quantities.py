@@ -6,7 +6,6 @@ In Python it may also be what other libraries hold, see `plain`. What is held is
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from decimal import Decimal
 from functools import wraps
 from inspect import signature
 from numbers import Integral
@@ -81,13 +80,6 @@ class Unit:
         """Allowed values in words."""
         such = "" if self.number is None else f', such as "{self.example}" or {self.number:g}'
         return f"{self.kind}{such}{f' (in {self.symbol})' if self.symbol else ''}"
-
-    def scale(self, given: str) -> tuple[Decimal, Decimal]:
-        """One of another unit, and its zero, in this one. Raises ValueError for a unit of anything else."""
-        # Units take time to load, and only what has them needs them.
-        from .units import scale
-
-        return scale(given, self.symbol, self.difference)
 
     def value(self, given: Any) -> Any:
         """A string or quantity as a number in SI, a number as it is. Raises ValueError for anything else."""

@@ -46,8 +46,8 @@ def readable(owner: _T) -> _T:
         for each in found.parameters.values()
     ]
     shown = found.replace(parameters=parameters, return_annotation=_shown(found.return_annotation, names))
-    if is_pydantic_dataclass(owner):
-        owner.__init__ = _in_lines(owner)
+    if inspect.isclass(owner) and is_pydantic_dataclass(owner):
+        setattr(owner, "__init__", _in_lines(owner))  # noqa: B010 - mypy knows no method that is assigned
     owner.__signature__ = shown  # type: ignore[attr-defined]
     return owner
 

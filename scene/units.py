@@ -110,7 +110,7 @@ def _registry() -> Any:
     # Takes a third of a second, and only what is written with units needs it.
     import pint
 
-    registry = pint.UnitRegistry(None, non_int_type=Decimal, on_redefinition="ignore")
+    registry: Any = pint.UnitRegistry(None, non_int_type=Decimal, on_redefinition="ignore")
     registry.load_definitions(Path(pint.__file__).with_name("default_en.txt"))
     # An angle counts as a dimension: so that a frequency [Hz] is not taken for an angular one [rad/s].
     registry.define("radian = [angle] = rad")
