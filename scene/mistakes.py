@@ -12,7 +12,7 @@ from pydantic import TypeAdapter, ValidationError
 from .printable import brief
 
 CHOICE = "a choice: "  # with which the tags of a choice begin that no type decides: they are no names of the file
-SAID = 50  # mistakes that are listed, and for which a near name is sought; of others there is only the number
+LISTED = 50  # mistakes that are listed, and for which a near name is sought; of others there is only the number
 _LONGEST_NAME = 100  # letters that are compared
 _LONGEST_NUMBER, _LONGEST_LIST = 4096, 10  # bits of a whole number, and items of a list, that are shown
 _KINDS = {dict: "object", list: "array"}
@@ -30,7 +30,7 @@ def mistakes(error: ValidationError, content: dict, adapter: TypeAdapter) -> lis
 
     def like(name, known):
         """The known name that one is most like; None where none is, and beyond the mistakes that are listed."""
-        if len(lines) >= SAID or not isinstance(name, str):
+        if len(lines) >= LISTED or not isinstance(name, str):
             return None
         return next(iter(get_close_matches(name[:_LONGEST_NAME].lower(), known, 1)), None)
 

@@ -10,7 +10,7 @@ from typing import Any
 from pydantic import TypeAdapter, ValidationError
 
 from . import files
-from .mistakes import SAID, mistakes
+from .mistakes import LISTED, mistakes
 from .printable import brief, printable
 from .quantities import WHOLE
 
@@ -48,7 +48,7 @@ def read(path: str | Path, what: Any):
     """Read a TOML file as `what`, a validated dataclass or model.
 
     Raises InvalidInput naming for each mistake the field, the value, what is allowed, and the known name nearest
-    to an unknown one; of more than SAID mistakes the first, and how many there are.
+    to an unknown one; of more than LISTED mistakes the first, and how many there are.
     """
     return made(parsed(text_of(path), path), what, path)
 
@@ -104,9 +104,9 @@ def validator(what: Any) -> TypeAdapter:
 
 
 def invalid(path: str | Path, lines: Sequence[str]) -> InvalidInput:
-    """The mistakes of a file, a line each: the first SAID, and how many more there are."""
-    more = [f"and {len(lines) - SAID:,} more mistakes"] if len(lines) > SAID else []
-    name, said = brief(str(path)), [*lines[:SAID], *more]
+    """The mistakes of a file, a line each: the first LISTED, and how many more there are."""
+    more = [f"and {len(lines) - LISTED:,} more mistakes"] if len(lines) > LISTED else []
+    name, said = brief(str(path)), [*lines[:LISTED], *more]
     return InvalidInput("\n".join(f"{name}: {brief(line, LONGEST)}" for line in said))
 
 

@@ -30,7 +30,7 @@ from scene import (
     StandardLinearSolid,
     Topography,
 )
-from scene.reading import DEEPEST, SAID, InvalidInput, made, parsed, read
+from scene.reading import DEEPEST, LISTED, InvalidInput, made, parsed, read
 
 INDENTER = '[indenter]\ntype = "sphere"\nradius = 1e-2\n'
 ELASTOMER = '[elastomer]\ntype = "kelvin"\nmodulus = 1e6\nrelaxation_time = 1e-3\n'
@@ -406,9 +406,9 @@ def compared(monkeypatch):
 @pytest.mark.parametrize("text", MANY.values(), ids=MANY)
 def test_of_many_mistakes_the_first_are_listed_and_how_many_more_there_are(tmp_path, compared, text):
     lines = lines_of(tmp_path, text)
-    assert len(lines) == SAID + 1
+    assert len(lines) == LISTED + 1
     assert lines[-1] == "and 950 more mistakes"
-    assert len(compared) <= SAID
+    assert len(compared) <= LISTED
 
 
 def test_names_and_values_of_any_length_are_cut_before_they_are_compared(tmp_path, compared):
