@@ -248,7 +248,7 @@ REGULAR = np.sin(2 * pi * np.arange(512) / 16.3)
         ("shortest_kept = 1e-06", {"shortest_kept": 1e-6}),
         ("shape", {"heights": np.ones((8, 8))}),
         ("refuse. or .fill", {"missing": "interpolate"}),
-        ("beside heights", {"file": "line.csv"}),
+        ("heights are both stated", {"file": "line.csv"}),
         ("roll-off", {"shortest_kept": 5e-4}),
         ("leave spacing out", {"heights": {"x [um]": 2e6 * SPACING * np.arange(512), "z [m]": HEIGHTS}}),
         ("off by more than", {"heights": {"x [m]": np.arange(512.0) ** 1.1, "z [m]": HEIGHTS}, "spacing": None}),

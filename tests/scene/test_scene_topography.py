@@ -210,7 +210,7 @@ def test_a_map_goes_to_a_worker_and_cannot_be_changed():
         ({"shortest_kept": 3e-3, "pixel": (1e-3, 2e-3)}, "from two pixels, 0.004 m"),
         ({"shortest_kept": 1.0}, "to half of what repeats"),
         ({"seed": -1}, "greater than or equal to 0"),
-        ({"file": "a.npy"}, "beside heights"),
+        ({"file": "a.npy"}, "heights are both stated"),
     ],
 )
 def test_what_is_no_map_is_named(wrong, named):
