@@ -181,13 +181,15 @@ def given_heights(
 def picked(name: str, channels: Iterable[str], channel: str | None) -> str:
     """The channel that is chosen, or the only one. Raises ValueError with the names of all."""
     names = list(channels)
+    if not names:
+        raise ValueError(f"{name} holds no array of heights")
     if channel is None and len(names) == 1:
         return names[0]
-    held = f"{name} holds {brief(', '.join(map(repr, names)) or 'nothing')}"
+    held = f"{name} holds {brief(', '.join(map(repr, names)))}"
     if channel in names:
         return str(channel)
     raise ValueError(
-        f"{held}: state which, as channel = {next(iter(names), 'NAME')!r}"
+        f"{held}: state which, as channel = {names[0]!r}"
         if channel is None
         else f"channel = {brief(repr(channel))}: {held}"
     )

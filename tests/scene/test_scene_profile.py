@@ -331,7 +331,6 @@ def test_a_line_is_the_same_in_every_text_that_is_read(tmp_path, content, stated
         (column(), UM, "2 columns of numbers, and a line has one; of points state columns = {x = 1, z = 2}"),
         ("x;z\n" + column(), {"unit": "um"}, "column 'x' has no unit in the heading: state units = {x"),
         ("x [mm];y1 [um]\n" + column(), {}, "there is no column z .*state its heading, as columns = {z"),
-        ("x [mm];z [um]\n" + 2 * (column() + "\n"), {}, "line 514 is blank, .* state rows = 512"),
         ("x [mm];z [um]\n" + column().replace("0.004000", "0.0042", 1), {}, "line 4: x = 4.2e-06 is off by more"),
         ("x [mm];z [um]\n" + column() + "0;1\n", {}, "x = 0 is not one step from the one before"),
     ],
