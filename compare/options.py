@@ -67,7 +67,7 @@ def by_name(given: "Named | None") -> Mapping[str, Any] | None:
     """Values by name, of texts as mu=3 on the command line. Raises InvalidInput."""
     from scene.reading import InvalidInput
 
-    if not given or isinstance(given, Mapping):
+    if not given or not isinstance(given, list | tuple):
         return given or None  # type: ignore[return-value]
     pairs = [str(each).partition("=") for each in given]
     if wrong := next(("".join(each) for each in pairs if not (each[0] and each[1])), ""):
