@@ -13,9 +13,6 @@ from typing import Any
 
 from .printable import brief
 
-# Encodings, by the mark at the beginning of a file.
-_MARKS = {"utf-8-sig": b"\xef\xbb\xbf", "utf-16": (b"\xff\xfe", b"\xfe\xff")}
-_BEGINNING = 1000  # bytes in which zeros are sought
 # What a name of a file has if "C:\\new" stood in double quotes.
 _ESCAPED = "\n\t\r\b\f"
 PIECE = 2**20  # bytes read at a time: memory is taken for what is there, not for what may be
@@ -93,33 +90,15 @@ def once(read: Callable[..., Any], path: str | Path, *asked: Any) -> Any:
     return found
 
 
-def text(path: str | Path, most: int, any_encoding: bool = False) -> str:
-    """Text of such a file in UTF-8, line ends as \\n and no byte-order mark. Raises Unreadable.
-
-    any_encoding : a text in UTF-16 or Latin-1 is read too, as spreadsheets and instruments write them
-    """
+def text(path: str | Path, most: int) -> str:
+    """Text of such a file in UTF-8, line ends as \\n and no byte-order mark. Raises Unreadable."""
     held = content(path, most)
     try:
-        decoded = _decoded(held) if any_encoding else held.decode("utf-8-sig")
+        decoded = held.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         why = f"is no text in {error.encoding.upper()}: byte {error.start + 1} is {held[error.start]:#04x}"
         raise _unreadable(path, why) from error
     return decoded.replace("\r\r\n", "\n").replace("\r\n", "\n").replace("\r", "\n")
-
-
-def _decoded(held):
-    """Text by the mark it begins with, by the zeros between its letters, or as UTF-8, else Latin-1 of Windows."""
-    for encoding, marks in _MARKS.items():
-        if held.startswith(marks):
-            return held.decode(encoding)
-    beginning = held[:_BEGINNING]
-    for encoding, zeros in (("utf-16-le", beginning[1::2]), ("utf-16-be", beginning[::2])):
-        if len(beginning) > 1 and zeros.count(0) > 0.9 * len(zeros):
-            return held.decode(encoding)
-    try:
-        return held.decode("utf-8")
-    except UnicodeDecodeError:
-        return held.decode("cp1252", errors="replace") if b"\0" not in held else held.decode("utf-8")
 
 
 def _refuse(path, status, most):

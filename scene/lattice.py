@@ -65,8 +65,8 @@ def along(heights: Any, dims: tuple[str, ...]) -> tuple[Any, dict[str, float]]:
     """
     if sorted(map(str, heights.dims)) != sorted(dims):
         raise ValueError(
-            f"heights have the dimensions ({brief(', '.join(map(str, heights.dims)))}): "
-            f"{' and '.join(dims)} are needed, rename them"
+            f"heights have the dimensions ({brief(', '.join(map(str, heights.dims)))}): rename them to "
+            f"{' and '.join(dims)}"
         )
     heights, spacings = heights.transpose(*dims), {}
     for name in dims:
@@ -76,7 +76,7 @@ def along(heights: Any, dims: tuple[str, ...]) -> tuple[Any, dict[str, float]]:
             places = np.asarray(METRE.values(heights.coords[name]), float)
         except ValueError as error:
             raise ValueError(f"heights, coordinates of {name}: {error}") from None
-        order, spacings[name] = ordered(name, places, "coordinate {}".format)
+        order, spacings[name] = ordered(name, places, "heights, coordinate {}".format)
         heights = heights.isel({name: order})
     return heights, spacings
 

@@ -608,15 +608,14 @@ def test_a_quantity_of_heights_has_its_unit(quantity):
         ([[True, *row[1:]] for row in HEIGHTS.tolist()], "type bool"),
         ([[None, *row[1:]] for row in HEIGHTS.tolist()], "real numbers"),
         (HEIGHTS.astype("m8[s]"), "type timedelta64"),
-        (MAP.rename(x="lon"), r"dimensions \(y, lon\): a map has y and x"),
-        (MAP.to_dataset(name="height"), "a Dataset: give one of its variables"),
-        (MAP.assign_attrs(units="kg"), "it has the unit kg|one has the unit kg"),
+        (MAP.rename(x="lon"), r"dimensions \(y, lon\): rename them to y and x"),
+        (MAP.assign_attrs(units="kg"), "unit of heights = 'kg': a unit of length is needed"),
         (MAP.assign_attrs(units="mmm"), "did you mean 'mm'"),
         (
             LAID_OUT.assign_coords(x=np.arange(6)),
-            "pixel = 0.002 m along x, and the coordinates of heights lie 1 m apart",
+            "the array states its own, 1 x 0.003 m: leave pixel out",
         ),
-        (LAID_OUT.assign_coords(x=[0, 1, 2, 3, 4, 6]), "coordinates of x: they are not evenly spaced"),
+        (LAID_OUT.assign_coords(x=[0, 1, 2, 3, 4, 6]), "x = 6 is not one step from the one before it"),
     ],
 )
 def test_what_is_no_map_is_refused_by_name(given, said):

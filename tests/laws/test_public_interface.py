@@ -15,7 +15,7 @@ import scene
 from scene.signatures import readable
 
 # Letters of the longest signature: that of `compare.topography`, which has an argument for each option.
-LONGEST = 460
+LONGEST = 580
 RAISED = re.compile(r"\b(?:[Rr]aises|[Ww]arns)((?:,? (?:or |and |its )?[A-Z]\w+)+)")
 
 
