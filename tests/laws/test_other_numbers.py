@@ -67,10 +67,10 @@ from scene.quantities import unit_of
 # Each unit in another one, larger or smaller by a power of ten but for degrees; no dimension where there is none.
 OTHERS = {
     "m": "mm",
-    "Pa": "MPa",
-    "1/Pa": "1/MPa",
     "m^3": "mm^3",
     "m^4": "mm^4",
+    "Pa": "MPa",
+    "1/Pa": "1/MPa",
     "s": "ms",
     "m/s": "km/s",
     "N": "mN",
@@ -124,8 +124,10 @@ OBJECTS = [
         for name in ("load", "depth", "line_load", "pressure")
     ),
     ROUGH,
-    Spectrum(q=(1e3, 1e4, 3e4), C2D=(1e-20, 2e-20, 1e-22), convention="persson", shortest_kept=3e-4, seed=2),
-    Spectrum(q=(1e3, 1e4), C1D=(1e-16, 1e-18), convention="persson", sides="one", longest_kept=5e-3),
+    *(
+        Spectrum(q=(1e3, 1e4, 1e5), convention="jacobs", longest_kept=5e-3, shortest_kept=1e-4, seed=2, **density)
+        for density in ({"C2D": (1e-18, 1e-20, 1e-24)}, {"C1D": (1e-14, 1e-15, 1e-18), "sides": "two"})
+    ),
     Wave(amplitude=1e-6, wavelength=1e-3),
     CrossedWaves(amplitude=1e-6, wavelength=1e-3),
     Topography(heights=HEIGHTS, pixel=1e-3, shortest_kept=3e-3, seed=1),
