@@ -176,7 +176,7 @@ class Spectrum(Isotropic):
 
     @property
     def slope_left_out(self) -> tuple[float, float]:
-        """Shares of the mean square slope in waves longer, and shorter, than are kept, as of the height."""
+        """Shares of the mean square slope in waves longer, and shorter, than are kept: see `height_left_out`."""
         return self._left_out(3)
 
     def _left_out(self, m):
