@@ -69,7 +69,7 @@ def by_name(**options: "Named | None") -> dict[str, Mapping[str, Any] | None]:
 
     found: dict[str, Mapping[str, Any] | None] = {}
     for option, given in options.items():
-        if not given or isinstance(given, Mapping):
+        if not given or not isinstance(given, list | tuple):
             found[option] = given or None  # type: ignore[assignment]
             continue
         pairs = [str(each).partition("=") for each in given]
