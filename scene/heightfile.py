@@ -98,10 +98,8 @@ class Heights:
         except ValueError:
             return
         if any(abs(one - own) > EVEN * own for one, own in zip(given, self.spacings or (), strict=False)):
-            said = " x ".join(f"{side:.6g}" for side in dict.fromkeys(self.spacings))
-            raise ValueError(
-                f"{step} = {briefly(spacing)}: {self.name} states its own, {said} m: leave {step} out"
-            )
+            own = " x ".join(f"{side:.6g}" for side in dict.fromkeys(self.spacings))
+            raise ValueError(f"{step} = {briefly(spacing)}: {self.name} states its own, {own} m: leave {step} out")
 
 
 Settled = tuple[np.ndarray, Any, tuple[str, ...]]
@@ -140,7 +138,7 @@ def read_heights(
         found = _of_instrument(name, place, channel)
     if found is not None:
         if (replace(written, units=None) if kind in NETCDF else written) != TableFormat():
-            raise ValueError(f"{name} is no text, of which columns, units, separators or lines could be stated")
+            raise ValueError(f"{name} is no text: leave out columns, units, separators and lines")
         return found.settled(spacing, unit)
     if channel is not None:
         raise ValueError(f"channel = {brief(repr(channel))}: {name} is a text; skip and rows choose a part of it")
@@ -169,7 +167,7 @@ def given_heights(
     if isinstance(heights, Mapping) or hasattr(heights, "data_vars") or columns != list(range(len(columns))):
         return _of_table(heights, dims, spacing, unit, written or TableFormat()).settled(spacing)
     if written not in (None, TableFormat()):
-        raise ValueError("heights are an array, and no table of which columns or units could be stated")
+        raise ValueError("heights are an array and no table: leave out columns, units, separators and lines")
     if hasattr(heights, "dims") and hasattr(heights, "isel"):
         found = _of_labelled("the array", heights, dims)
     else:
@@ -183,15 +181,17 @@ def given_heights(
 def picked(name: str, channels: Iterable[str], channel: str | None) -> str:
     """The channel that is chosen, or the only one. Raises ValueError with the names of all."""
     names = list(channels)
+    if not names:
+        raise ValueError(f"{name} holds no array of heights")
     if channel is None and len(names) == 1:
         return names[0]
-    said = f"{name} holds {brief(', '.join(map(repr, names)) or 'nothing')}"
+    held = f"{name} holds {brief(', '.join(map(repr, names)))}"
     if channel in names:
         return str(channel)
     raise ValueError(
-        f"{said}: state which, as channel = {next(iter(names), 'NAME')!r}"
+        f"{held}: state which, as channel = {names[0]!r}"
         if channel is None
-        else f"channel = {brief(repr(channel))}: {said}"
+        else f"channel = {brief(repr(channel))}: {held}"
     )
 
 
@@ -300,7 +300,7 @@ def _of_instrument(name, path, channel):
             if type(reader).__module__.rpartition(".")[2] in ("Text", "XYZ"):
                 return None
             return _of_channel(name, reader, channel)
-    except CannotDetectFileFormat as error:  # which tells of every reader at length
+    except CannotDetectFileFormat as error:  # which lists every reader
         raise ValueError(
             f"{name} is of no format that SurfaceTopography knows, or damaged; a text is called .txt or .csv"
         ) from error

@@ -51,7 +51,7 @@ class LineLaw:
     hurst : Hurst exponent
     rms_height, rms_slope : of the surface with waves up to `length` [m], of the full gradient [1]
     rolloff, shortest : wavelengths [m]; a roll-off as long as the line is one that it does not show
-    length : of the line, the longest wave that it tells of [m]
+    length : of the line, the longest wave that it shows [m]
     cutoff : whether the spectrum ends within what the spacing resolves
     follows : whether the line scatters about the law no more than a Gaussian one does
     beyond : share of the mean square slope of the line in waves shorter than the cut-off, which are left out
@@ -209,22 +209,22 @@ def _weighed(bins, seen, unit, length):
     many = laws.numbers(drawn, random.uniform(-0.5, 0.5, (3, DRAWN)))
     scale = np.sqrt(amplitude[drawn] * freedoms / random.chisquare(freedoms))
 
-    def told(one, all_of_them):
+    def interval(one, all_of_them):
         low, high = np.quantile(all_of_them, [(1 - LEVEL) / 2, (1 + LEVEL) / 2])
         return Interval(float(one), float(min(low, one)), float(max(high, one)))
 
     slopes = bins.number * seen * bins.u**2
     one, root = laws.numbers(best), sqrt(amplitude[best])
     height, slope = (
-        told(factor * root * np.sqrt(_moment(power, *one)), factor * scale * np.sqrt(_moment(power, *many)))
+        interval(factor * root * np.sqrt(_moment(power, *one)), factor * scale * np.sqrt(_moment(power, *many)))
         for power, factor in ((1, unit), (3, unit * 2 * pi / length))
     )
     return LineLaw(
-        hurst=told(one[0], np.clip(many[0], 0, 1)),
+        hurst=interval(one[0], np.clip(many[0], 0, 1)),
         rms_height=height,
         rms_slope=slope,
-        rolloff=told(length / max(one[1], 1.0), length / np.maximum(many[1], 1.0)),
-        shortest=told(length / one[2], length / many[2]),
+        rolloff=interval(length / max(one[1], 1.0), length / np.maximum(many[1], 1.0)),
+        shortest=interval(length / one[2], length / many[2]),
         length=length,
         cutoff=bool(one[2] < bins.nyquist),
         follows=bool(chdtrc(dof, own) > UNLIKELY),

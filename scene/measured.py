@@ -17,7 +17,7 @@ class Measured(Scanned):
     """A body by a map of its surface: z = 0 at the lowest pixel, x = y = 0 in the middle of the map.
 
     heights, pixel, peaks, shortest_kept : what was measured, and how much of it is kept, see `Scanned`; waves are
-        left out of what the map, mirrored at its sides, has beside the paraboloid that fits it best, which stays
+        left out of what the map, mirrored at its sides, has besides the paraboloid that fits it best, which stays
     level : what is taken off first: nothing ("none"), so that the body stands as it was measured, or the plane
         that fits it best ("tilt")
 

@@ -31,7 +31,7 @@ def refuse_missing(heights: np.ndarray) -> None:
     if found := sentinels(heights):
         count = np.count_nonzero(np.isin(heights, found))
         raise ValueError(
-            f"{_share(count, heights)} are {' or '.join(map(_said, found))}, far off all others, as programs "
+            f"{_share(count, heights)} are {' or '.join(map(_in_words, found))}, far off all others, as programs "
             f"write missing ones: {_remedy(count, heights)}"
         )
 
@@ -54,8 +54,8 @@ def mended(
         for value in sentinels(heights):
             same = heights == value
             notes.append(
-                f"{_share(np.count_nonzero(same), heights)} are {_said(value)}, far off all others, and count as "
-                "missing"
+                f"{_share(np.count_nonzero(same), heights)} are {_in_words(value)}, far off all others, and count "
+                "as missing"
             )
             heights = np.where(same, np.nan, heights)
     else:
@@ -88,7 +88,7 @@ def _share(count, heights):
     return f"{count} of {heights.size} heights ({100 * count / heights.size:.3g} %)"
 
 
-def _said(value):
+def _in_words(value):
     written = _written(value)
     return f"{value:g} m{f' ({written})' * bool(written)}"
 

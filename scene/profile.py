@@ -192,19 +192,19 @@ class Profile(FromTable):
         """What was read and how it is used, a sentence each."""
         kept = self.shortest_kept
         left = () if kept is None else (f"waves shorter than {kept:.3g} m are left out, as shortest_kept states",)
-        return (*self.heights.notes, *(() if self.law is None else _told(self.law)), *left)
+        return (*self.heights.notes, *(() if self.law is None else _sentences(self.law)), *left)
 
 
-def _told(law):
+def _sentences(law):
     yield (
-        f"roughness is an isotropic surface fitted to a line: Hurst exponent {_said(law.hurst)}, rms height "
-        f"{_said(law.rms_height, ' m')}, rms slope of the full gradient {_said(law.rms_slope)}, roll-off "
-        f"{_said(law.rolloff, ' m')}, shortest wave {_said(law.shortest, ' m')}; intervals of 95 % are those of "
-        "the fit alone"
+        f"roughness is an isotropic surface fitted to a line: Hurst exponent {_in_words(law.hurst)}, rms height "
+        f"{_in_words(law.rms_height, ' m')}, rms slope of the full gradient {_in_words(law.rms_slope)}, roll-off "
+        f"{_in_words(law.rolloff, ' m')}, shortest wave {_in_words(law.shortest, ' m')}; intervals of 95 % are "
+        "those of the fit alone"
     )
     if law.rolloff.value < law.length:
         lengths = Interval(*(law.length / each for each in (law.rolloff.value, law.rolloff.high, law.rolloff.low)))
-        yield f"the line has {_said(lengths)} correlation lengths, counted by its roll-off"
+        yield f"the line has {_in_words(lengths)} correlation lengths, counted by its roll-off"
     else:
         yield (
             f"the line of {law.length:.3g} m shows no roll-off, so it is less than a correlation length: how high "
@@ -228,7 +228,7 @@ def _told(law):
     )
 
 
-def _said(number: Interval, unit: str = "") -> str:
+def _in_words(number: Interval, unit: str = "") -> str:
     return f"{number.value:.3g}{unit} ({number.low:.3g} to {number.high:.3g}{unit})"
 
 

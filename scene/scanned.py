@@ -8,6 +8,7 @@ import numpy as np
 from pydantic import ConfigDict, model_validator
 from pydantic.dataclasses import dataclass
 
+from .heightfile import LINE, MAP, given_heights, read_heights
 from .heightmap import LEAST, HeightLine, HeightMap, MapHeights, Pixel, sides
 from .missing import LEAST_DEVIATIONS, mended
 from .printable import brief
@@ -124,40 +125,35 @@ def prepared(given: Any, kind: type[HeightMap], spacing: str, names: set[str]) -
     if stated is None or not ("file" in stated or "heights" in stated):
         return given
     written, stated = split_format(stated)
-    path: Any = stated.get("file")
-    heights: Any = stated.get("heights")
-    if path is not None and heights is not None:
-        raise ValueError(f"file = {brief(repr(path))} beside heights: give one of them")
     asked = {name: stated[name] for name in ASKED[kind] if stated.get(name) is not None}
     left = {name: each for name, each in stated.items() if name not in ASKED[kind]}
+    path, heights = asked.pop("file", None), left.get("heights")
+    if path is not None and heights is not None:
+        raise ValueError(f"file = {brief(repr(path))} and heights are both stated: give one of them")
     if left.keys() - names:
         # First what is misspelt: another map may be meant.
         return {spacing: 1.0} | left | {"heights": kind(np.eye(LEAST) if kind is HeightMap else np.zeros(1))}
-    tables = isinstance(heights, Mapping) or hasattr(heights, "columns") or hasattr(heights, "dims")
-    if isinstance(heights, str) or (path is None and not (asked or tables or written != TableFormat())):
+    plain = not (isinstance(heights, Mapping) or hasattr(heights, "columns") or hasattr(heights, "dims"))
+    if isinstance(heights, str) or (path is None and plain and not asked and written == TableFormat()):
         return left
-    said = "" if path is None else f"file = {brief(repr(str(path)))}: "
-    notes: tuple[str, ...] = ()
     if isinstance(heights, HeightMap):
         if {"unit", "channel"} & asked.keys() or written != TableFormat():
             raise ValueError("heights are in metres: unit, channel and what is stated of a text are for a file")
-        heights, notes = heights.heights, heights.notes
+        numbers, notes = heights.heights, heights.notes
     else:
-        # Only what is not yet read needs it.
-        from . import heightfile
-
-        read, source = (heightfile.given_heights, heights) if path is None else (heightfile.read_heights, path)
-        dims, units = heightfile.MAP if kind is HeightMap else heightfile.LINE, written.units or {}
+        read, units = given_heights if path is None else read_heights, written.units or {}
         if "unit" in asked and "z" in units:
             raise ValueError(f"unit = {asked['unit']!r} and units = {{z = {units['z']!r}}}: state one of them")
-        unit = asked.get("unit", units.get("z"))
-        heights, left[spacing], notes = read(source, dims, left.get(spacing), unit, asked.get("channel"), written)
+        unit, dims = asked.get("unit", units.get("z")), MAP if kind is HeightMap else LINE
+        numbers, left[spacing], notes = read(
+            heights if path is None else path, dims, left.get(spacing), unit, asked.get("channel"), written
+        )
     try:
-        kind.check_layout(heights.shape, heights.dtype)
-        heights, more = _mended(heights.astype(float), left.get(spacing), asked)
-        return left | {"heights": kind(heights, (*notes, *more))}
+        kind.check_layout(numbers.shape, numbers.dtype)
+        numbers, more = _mended(numbers.astype(float), left.get(spacing), asked)
+        return left | {"heights": kind(numbers, (*notes, *more))}
     except ValueError as error:
-        raise ValueError(f"{said}{error}") from None
+        raise error if path is None else ValueError(f"file = {brief(repr(str(path)))}: {error}") from None
 
 
 def _mended(heights, pixel, asked):
@@ -175,8 +171,8 @@ def _mended(heights, pixel, asked):
     except ValueError:
         return heights, notes
     if crop is not None:
-        heights, said = _cropped(heights, pixel, crop)
-        notes = (said,)
+        heights, cropped = _cropped(heights, pixel, crop)
+        notes = (cropped,)
     heights, more = mended(heights, pixel, missing == "fill", deviations)
     return heights, (*notes, *more)
 

@@ -205,8 +205,9 @@ def saved(tmp_path, heights):
 
 def test_the_command_describes_a_map(tmp_path):
     map_ = sampled(ROUGH)
-    path = saved(tmp_path, 1e6 * map_.heights.heights)
-    stated = {"unit": "um", "pixel": [map_.pixel[0]], "repeat": "periodic", "peaks": "down"}
+    path = tmp_path / "map.txt"
+    np.savetxt(path, 1e6 * map_.heights.heights, "%.17e", header="heights in nm")
+    stated = {"skip": 1, "unit": "um", "pixel": [map_.pixel[0]], "repeat": "periodic", "peaks": "down"}
     report = compare.topography(path, output=tmp_path / "out", **stated)
     expected = describe(replace(map_, heights=1e-6 * (1e6 * map_.heights.heights)))
     told = report.findings.set_index("claim")

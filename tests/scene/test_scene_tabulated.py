@@ -231,10 +231,7 @@ WIDE = "f,G',G''\n" + "\n".join(f"{k},2,3" for k in range(1, MOST_ROWS + 2))
     ("text", "said"),
     [
         ("f,G',G''\n0,5,6", "line 2: frequency = 0 must be greater than 0"),
-        ("f,G,H\n1,5,6", "there is no table of moduli in the columns 'f', 'G'"),
-        ("1;2;3;4", "line 1: '1;2;3;4' is no heading"),
         ("f,G',G''\n1,2,3\n2,2,3", "2 frequencies: at least 4"),
-        ("f,G',G''\n1,2,3\n4,1_0,6", "line 3, column \"G'\": '1_0' is no number"),
         ("f,G',G''\n1,2,3\n4,5" + "x" * 1_000_000 + ",6", r"line 3, column \"G'\": '5x+\.\.\.x+' is no number"),
         ("f,G',G''\n1e-30,2,3\n2,2,3\n3,2,3\n1e30,2,3", r"farther apart than by a factor of 1e\+40"),
         (WIDE, "5,001 rows: at most 5,000"),
@@ -290,23 +287,13 @@ def test_a_scene_names_a_file_in_its_folder_or_holds_the_numbers(tmp_path, monke
 
 
 def test_a_scene_states_what_differs_of_its_table(tmp_path):
-    stated = """
-skip = 1
-rows = 46
-units = {frequency = "rad/s", storage = "MPa", loss = "MPa"}
-columns = {storage = "in phase", loss = "out of phase"}
-where = {sample = "NR"}
-decimal = ","
-"""
-    rows = (
-        f"NR\t{f:.17g}\t{s / 1e6:.17g}\t{loss / 1e6:.17g}" for f, s, loss in zip(*columns(table()), strict=True)
+    (tmp_path / "rubber.csv").write_text("Stress 1\n" + ROWS.replace("G'", "in phase", 1))
+    stated = (
+        '\nskip = 1\nunits = {frequency = "Hz", storage = "Pa", loss = "Pa"}\ncolumns = {storage = "in phase"}'
     )
-    text = "\n".join(["Stress 1", "sample\tf\tin phase\tout of phase", *rows, "mean"]).replace(".", ",")
-    (tmp_path / "rubber.csv").write_text(text)
     scene = tmp_path / "scene.toml"
-    scene.write_text(SCENE + f'"rubber.csv"{stated}')
-    found = read(scene, Scene).elastomer
-    np.testing.assert_allclose(np.array(columns(found.table)), np.array(columns(table())), rtol=1e-15)
+    scene.write_text(SCENE.replace("rad/s", "Hz") + f'"rubber.csv"{stated}')
+    assert columns(read(scene, Scene).elastomer.table) == columns(table())
     scene.write_text(SCENE + f'"rubber.csv"{stated}'.replace("skip = 1", "skip = -1"))
     with pytest.raises(InvalidInput, match=r"elastomer\.skip = -1"):
         read(scene, Scene)

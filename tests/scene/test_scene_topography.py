@@ -209,7 +209,7 @@ def test_a_map_goes_to_a_worker_and_cannot_be_changed():
         ({"shortest_kept": 3e-3, "pixel": (1e-3, 2e-3)}, "from two pixels, 0.004 m"),
         ({"shortest_kept": 1.0}, "to half of what repeats"),
         ({"seed": -1}, "greater than or equal to 0"),
-        ({"file": "a.npy"}, "beside heights"),
+        ({"file": "a.npy"}, "heights are both stated"),
     ],
 )
 def test_what_is_no_map_is_named(wrong, named):
@@ -322,6 +322,9 @@ def test_a_scene_file_names_the_map_by_its_path(tmp_path, monkeypatch):
     np.save("surface.npy", noise((5, 6)))
     (tmp_path / "scene.toml").write_text(FILE + "pixel = [1e-6, 2e-6]\nunit = 'um'\nseed = 3\n")
     found = read("scene.toml", Scene)
+    monkeypatch.chdir("/")
+    assert read(tmp_path / "scene.toml", Scene) == found  # a path begins in the folder of the scene
+    monkeypatch.chdir(tmp_path)
     assert found.roughness == Topography(heights=1e-6 * noise((5, 6)), pixel=(1e-6, 2e-6), seed=3)
     (tmp_path / "scene.toml").write_text(FILE)
     with pytest.raises(

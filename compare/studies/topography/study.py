@@ -155,16 +155,12 @@ class Map(Study):
         found, law, findings = self.description, self.description.law, []
         for name, sentence, meaning, unit, number in NUMBERS:
             claim = Claim(f"topography.{name}", sentence, meaning=meaning, unit=unit)
-            told: dict[str, Any] = {
-                "value": float(number(found)),
-                "where": self.name,
-                "dimension": "measured",
-            }
+            values: dict[str, Any] = {"value": float(number(found)), "where": self.name, "dimension": "measured"}
             if name == "hurst":
-                told |= {"regime": found.band, "reason": "; ".join(found.warnings)}
+                values |= {"regime": found.band, "reason": "; ".join(found.warnings)}
                 if law is not None:
-                    told |= {"scatter": (law.low, law.high), "grid": 0.0}
-            findings.append(Finding(claim, **told))
+                    values |= {"scatter": (law.low, law.high), "grid": 0.0}
+            findings.append(Finding(claim, **values))
         shown = [each for each in findings if each.claim.id in SAID]
         answer = [*(f"Warning: {each}." for each in self.description.warnings), *sentences(shown)]
         return Judgement(findings, answer, [plots.plot(self.description), Findings(findings)], self.setting)
