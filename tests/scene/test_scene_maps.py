@@ -403,6 +403,8 @@ def test_what_is_stated_twice_agrees_or_is_refused(tmp_path):
         ({"heights": labelled(SQUARE, PIXEL).rename(x="u")}, r"have the dimensions \(y, u\)"),
         ({"heights": labelled(SQUARE, PIXEL)[[0, 1, 3, 4, 5]]}, "is not one step from the one before it"),
         ({"heights": labelled(SQUARE, PIXEL, units="V")}, "heights, coordinates of y"),
+        ({"heights": labelled(SQUARE, PIXEL).assign_attrs(units="um")}, "places have no unit"),
+        ({"heights": labelled(SQUARE, PIXEL, units="um").drop_attrs(deep=False)}, 'state unit = "um"'),
     ):
         with pytest.raises(ValidationError, match=said):
             Topography(**twice)

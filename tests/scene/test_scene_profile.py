@@ -272,7 +272,7 @@ def test_what_is_no_line_is_refused_with_the_reason(message, stated):
     "heights",
     [
         pandas.DataFrame({"Distance [mm]": 1e3 * SPACING * np.arange(512), "Height [nm]": 1e9 * HEIGHTS}),
-        xarray.DataArray(HEIGHTS * 1e6, {"x": SPACING * np.arange(512)}, "x", attrs={"units": "um"}),
+        xarray.DataArray(HEIGHTS, {"x": SPACING * np.arange(512)}, "x"),
         xarray.Dataset(
             {"z": ("x", HEIGHTS, {"units": "m"})}, {"x": ("x", SPACING * np.arange(512), {"units": "m"})}
         ),
