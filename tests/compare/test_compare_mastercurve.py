@@ -192,11 +192,8 @@ def test_friction_that_does_not_collapse_has_no_exponent(tmp_path):
     [
         ("0.5,1,3,2\n", "line 1: '0.5,1,3,2' is no heading"),
         ("\x1b[31m,F,v\n1,2,3\n", r"there is no column F_N .*, but '\\x1b\[31m', 'F', 'v': state its heading"),
-        ("F_N,v\n2,3\n", "there is no column mu and none F_T: state columns"),
         ("mu,F_N,v,load\n1,2,3,4\n", "'F_N' and 'load' are both F_N: state one, as columns = {F_N = \"load\"}"),
-        ("mu,F_N [N],v [rpm]\n1,2,3\n", "column 'v' is in 'rpm', and is a speed"),
         ("mu,F_N,v\n1,2,3\n1,,3\n", "line 3, column 'F_N': '' is no number"),
-        ("compound,mu,F_N,v\nNR,1,2,3\nSBR,1,2,3\n", "column 'compound' has several values, .NR. and .SBR."),
         ("glass dry\nmu,F_N,v\n1,2,3\n\nB\nmu,F_N,v\n1,2,3\n", "line 6 is another heading: state rows"),
     ],
 )

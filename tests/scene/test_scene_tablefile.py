@@ -9,6 +9,7 @@ from pydantic import ValidationError
 
 from scene.quantities import HERTZ, KELVIN, PASCAL, RADIAN_PER_SECOND
 from scene.tablefile import Column, TableFormat, read_columns
+from scene.tableformat import SEPARATORS
 
 FREQUENCY = Column("frequency", ("f",), (HERTZ, RADIAN_PER_SECOND))
 STORAGE, LOSS = Column("storage", ("G'",), (PASCAL,), needed=True), Column("loss", ("G''",), (PASCAL,))
@@ -71,18 +72,12 @@ def test_encodings_with_a_mark_and_utf_8_are_read(tmp_path, encoding):
 
 
 STATED = {
-    "encoding": (["# 25 °C", HEADED, *ROWS], {"encoding": "cp1252"}, "line 1: byte 0xb0 is not utf-8"),
     "skip": (
         ["Sample A", "1;2", HEADED, *ROWS],
         {"skip": 2},
         "line 3: .* has 4 cells, and line 1, 'Sample A', has 2: state skip",
     ),
     "rows": ([HEADED, *ROWS, "mean;3;4"], {"rows": 3}, "line 5, column 'f': 'mean' is no number: state rows"),
-    "a second block": (
-        ["A", HEADED, *ROWS, "B", HEADED, *ROWS],
-        {"skip": 1, "rows": 3},
-        "line 2: .* line 7 is another heading: state rows",
-    ),
     "after a blank line": ([HEADED, *ROWS, "", *ROWS], {"rows": 3}, "line 5 is blank.*state rows = 3"),
     "a short row": ([HEADED, *ROWS, "3;4"], {"rows": 3}, "line 5: '3;4' has 2 cells.* has 3"),
     "a long row": ([HEADED, *ROWS, "3;4;5;6"], {"rows": 3}, "line 5: '3;4;5;6' has 4 cells.* has 3"),
@@ -107,14 +102,6 @@ STATED = {
         {"columns": {"storage": "G' [MPa]"}},
         "are both storage: state one, as columns",
     ),
-    "numbers of columns": (
-        ROWS,
-        {
-            "columns": {"frequency": 1, "storage": 2, "loss": 3},
-            "units": {"frequency": "Hz", "storage": "MPa", "loss": "kPa"},
-        },
-        "line 1: '1;2;3' is no heading: write one, state skip, or state the columns by number",
-    ),
     "where": (
         [f"sample;{HEADED}", *(f"NR;{row}" for row in ROWS), "SBR;2;3;4"],
         {"where": {"sample": "NR"}},
@@ -124,11 +111,6 @@ STATED = {
         [f"{HEADED};batch no", *(f"{row};1" for row in ROWS), "2;3;4;2.0"],
         {"where": {"batch no": 1}},
         'where = {"batch no" = "1"}',
-    ),
-    "where of all": (
-        [f"{HEADED};state", *(f"{row};{state}" for row, state in zip(ROWS, "abc", strict=True))],
-        {"where": {"state": "*"}},
-        "column 'state' has several values",
     ),
     "decimal": (
         [HEADED, "1,000;2,000;3,000", "2,000;3,000;4,000", "3,000;4,000;5,000"],
@@ -160,17 +142,12 @@ def test_what_differs_is_refused_with_its_place_and_read_once_it_is_stated(tmp_p
         ([HEADED, *ROWS], {"units": {"storage": "Pa"}}, "in 'MPa', and units states 'Pa': they must agree"),
         ([HEADED, *ROWS], {"columns": {"stoarge": "G'"}}, "'stoarge' is none of the columns: frequency, storage"),
         ([HEADED, *ROWS], {"columns": {"storage": "E'"}}, 'no column is called "E\'"'),
-        ([HEADED, *ROWS], {"where": {"sample": "NR"}}, "no column is called 'sample'"),
         ([HEADED, *ROWS], {"where": {"f": 7}}, "no row has {'f': 7}"),
         ([HEADED, *ROWS], {"encoding": "latin-9000"}, "encoding = 'latin-9000': Python knows none"),
         ([HEADED + ";tan_delta [%]", *(row + ";1" for row in ROWS)], {}, "in '%', and is a number without a unit"),
         (["T;G'", "20;1"], {}, "column 'T' has no unit in the heading: state units = {T = \"K\"}"),
-        (["G' [Pa];G' [kPa]", "20;1"], {}, "are both storage"),
         ([HEADED, "1;2;", *ROWS], {}, "line 2, column \"G''\": '' is no number"),
-        ([HEADED, "1;2;1_0", *ROWS], {}, "line 2, column \"G''\": '1_0' is no number"),
-        ([HEADED, "1;2;inf", *ROWS], {}, "line 2, column \"G''\": 'inf' is no number"),
         ([HEADED, "1;2;1e999", *ROWS], {}, "line 2, column \"G''\": '1e999' is no number"),
-        ([HEADED, "1;2;1.2.3", *ROWS], {}, "line 2, column \"G''\": '1.2.3' is no number"),
         ([HEADED, "1;2;1,000,000", *ROWS], {}, "line 2, column \"G''\": '1,000,000' is no number"),
         ([HEADED, "0.5;1,5;2"], {}, "decimals have commas, '1,5', and points, '0.5': state decimal"),
         ([HEADED, "0,5;1.5;2"], {"decimal": ","}, "line 2, column \"G'\": '1.5' is no number"),
@@ -181,16 +158,6 @@ def test_what_differs_is_refused_with_its_place_and_read_once_it_is_stated(tmp_p
 def test_what_is_no_table_is_refused_with_what_stands_there(tmp_path, lines, stated, refusal):
     with pytest.raises(ValueError, match=refusal):
         read(written(tmp_path, "\n".join(lines)), **stated)
-
-
-@pytest.mark.parametrize(
-    ("content", "said"),
-    [(b"PK\3\4rest", "workbooks"), (b"\x89PNG\r\n", "a picture"), (b"II*\0", "a picture")],
-)
-def test_workbooks_and_pictures_are_refused_by_what_they_are(tmp_path, content, said):
-    (tmp_path / "table.csv").write_bytes(content)
-    with pytest.raises(ValueError, match=f"table.csv is .*{said}.*a table is a text file"):
-        read(tmp_path / "table.csv")
 
 
 @pytest.mark.parametrize(
@@ -228,170 +195,90 @@ def test_tables_of_python_are_read_by_the_same_names_with_their_units():
     for wrong, said in (
         (3.0, "3.0: a path, a DataFrame"),
         ({"G'": [1.0, np.nan]}, 'row 2, column "G\'": nan is no number'),
-        ({"G'": [[1.0]]}, r"shape \(1, 1\), and \(rows,\) is needed"),
-        ({"G'": [1.0], "f": [1, 2]}, "must be equally many"),
         (pandas.concat([frame, frame.assign(remark="b")]), "column 'remark' has several values"),
     ):
         with pytest.raises(ValueError, match=said):
             read(wrong)
 
 
-UNITS = {
-    "frequency": {"Hz": 1.0, "kHz": 1e3},
-    **{name: {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6} for name in ("storage", "loss")},
-}
-NAMES = {"frequency": ("f", "Frequency"), "storage": ("G'", "storage"), "loss": ("G''", 'G"', "loss")}
-EXTRA = {
-    "point": lambda count, rng: [str(k + 1) for k in range(count)],
-    "tan_delta": lambda count, rng: [f"{each:.3g}" for each in rng.uniform(0, 1, count)],
-    "remark": lambda count, rng: ["ok"] * count,
-    "status": lambda count, rng: [""] * count,
-    "sample": lambda count, rng: ["A", *rng.choice(["A", "B"], count - 1)],
-    "T [degC]": lambda count, rng: ["25"] * count,
-}
+# Tables as somebody may write them: names and units of the fields, and columns besides.
+HEADINGS = (
+    {"frequency": "f", "storage": "G'", "loss": "G''"},
+    {"loss": 'G"', "frequency": "Frequency", "storage": "storage"},
+)
+UNITS = ("Hz", "MPa", "kPa"), ("kHz", "kPa", "Pa"), ("Hz", "Pa", "Pa")
+SCALES = {"Hz": 1.0, "kHz": 1e3, "Pa": 1.0, "kPa": 1e3, "MPa": 1e6}
+ABOVE = "# NR, 1.2 MPa, 0.3 MPa", "# all moduli in GPa", "# 25 °C", "Sample A", "T = 25 °C", "Run;7;8", "1 2 3"
+OTHERS = (
+    ("point", range(1, 9)),
+    ("tan_delta", [0.5] * 8),
+    ("remark", ["ok"] * 8),
+    ("sample", ["A", "B", "A", "A"] * 2),
+)
+SPOILT = ["", "x", "nan", "1.2.3", "1 2", "1,234,567", "--"]
 
 
-class Drawn:
-    """A table as somebody may have written it, what is meant by it, and what has to be stated of it.
-
-    spoilt : whether a row that is meant cannot be read; damaged : whether any cannot
-    """
-
-    def __init__(self, seed):
-        self.rng = np.random.default_rng(seed)
-        self.fields = self.shuffled(NAMES)
-        self.separator = self.one_of("\t", ";", ",", "  ")
-        self.comma = self.separator in "\t;" and self.often(0.4)
-        self.units = {name: self.one_of(*UNITS[name]) for name in self.fields}
-        self.stated = {"separator": {"\t": "tab", ";": "semicolon", ",": "comma"}.get(self.separator, "blanks")}
-        self.stated["decimal"] = "," if self.comma else "."
-        above, heading, numbers = self.above(), self.heading(), self.rows()
-        blank = {" ": ""} if self.separator == "  " else {}
-        lines = [self.line(each, blank) for each in [*heading, *numbers]]
-        skipped = [*above, *lines[: len(heading)]] if not heading else above
-        if skipped:
-            self.stated["skip"] = len(skipped)
-        self.text = "\n".join([*above, *lines, *self.below(len(numbers))])
-        self.encoding = "utf-8"
-        if not self.text.isascii() and self.often(0.5):
-            self.encoding = self.stated["encoding"] = "cp1252"
-
-    def one_of(self, *given):
-        return given[self.rng.integers(len(given))]
-
-    def shuffled(self, given):
-        return [str(each) for each in self.rng.permutation(list(given))]
-
-    def often(self, share):
-        return self.rng.random() < share
-
-    def line(self, cells, blank):
-        cells = [each or "-" for each in cells] if blank else cells
-        quoted = self.often(0.1) and not any('"' in each for each in cells) and self.separator != "  "
-        return self.separator.join(f'"{each}"' if quoted else each for each in cells)
-
-    def above(self):
-        self.place = self.one_of("heading", "heading", "below", "comment", "sentence", "nowhere")
-        spoken = ", ".join(f"{name} in {unit}" for name, unit in self.units.items())
-        lines = [f"# {spoken}"] if self.place == "comment" else [spoken] if self.place == "sentence" else []
-        others = (
-            "# NR, 1.2 MPa, 0.3 MPa",
-            "# all moduli in GPa",
-            "# 25 °C",
-            "Sample A",
-            "T = 25 °C",
-            "Run;7;8",
-            "1 2 3",
-        )
-        lines += [self.one_of(*others)] * self.often(0.3)
-        if self.place == "nowhere":
-            self.units = dict.fromkeys(self.fields, "Pa") | {"frequency": "Hz"}
-        if self.place not in ("heading", "below"):
-            self.stated["units"] = self.units
-        return self.shuffled(lines)
-
-    def heading(self):
-        self.extra = self.shuffled(EXTRA)[: self.rng.integers(3)]
-        self.extra = [each for each in self.extra if " " not in each or self.separator != "  "]
-        if self.often(0.1):
-            self.stated["columns"] = {name: k + 1 for k, name in enumerate(self.fields)}
-            self.stated["units"] = self.units
-            self.extra = [each for each in self.extra if each != "T [degC]"]
-            self.stated["where"] = {str(4 + k): "*" for k, _ in enumerate(self.extra)}
-            return []
-        named = [self.one_of(*NAMES[name]) for name in self.fields]
-        bracket = self.one_of("{} [{}]", "{} ({})")
-        if self.place == "heading":
-            named = [bracket.format(name, self.units[each]) for name, each in zip(named, self.fields, strict=True)]
-        below = [*(self.units[each] for each in self.fields), *("" for _ in self.extra)]
-        below = [
-            "degC" if name.startswith("T") else unit
-            for name, unit in zip([*named, *self.extra], below, strict=True)
-        ]
-        return [[*named, *self.extra], *([below] if self.place == "below" else [])]
-
-    def rows(self):
-        count, rng = self.rng.integers(2, 8), self.rng
-        texts = {name: [f"{each:.5g}" for each in 10 ** rng.uniform(-2, 6, count)] for name in self.fields}
-        self.meant = {name: np.array(texts[name], float) * UNITS[name][self.units[name]] for name in self.fields}
-        columns = [texts[name] for name in self.fields] + [EXTRA[name](count, rng) for name in self.extra]
-        chosen = np.ones(count, bool)
-        if "sample" in self.extra:
-            place = 3 + self.extra.index("sample")
-            chosen = np.array(columns[place]) == "A"
-            self.meant = {name: each[chosen] for name, each in self.meant.items()}
-            named = str(place + 1) if "columns" in self.stated else "sample"
-            self.stated["where"] = {**self.stated.get("where", {}), named: "A"}
-        rows = [
-            [each.replace(".", "," if self.comma else ".") for each in row] for row in zip(*columns, strict=True)
-        ]
-        self.spoilt = self.damaged = self.often(0.2)
-        row = rng.integers(count)
-        if self.spoilt and self.often(0.5):
-            rows[row][rng.integers(3)] = self.one_of("", "x", "nan", "1.2.3", "1 2", "1,234,567", "--")
-            self.spoilt = chosen[row]
-        elif self.spoilt:
-            rows[row].pop()
-        return rows
-
-    def below(self, count):
-        """A second block, a row of means or a sample, so that what is read as one is wrong."""
-        if not self.often(0.2):
-            return []
-        self.stated["rows"] = int(count)
-        row = self.separator.join(["7"] * (3 + len(self.extra)))
-        return self.one_of(
-            ["", row], ["Sample B", row], ["# Sample B, Pa", row], [row + self.separator + "7"], ["mean"]
-        )
-
-
-def check_drawn(tmp_path, seed):
-    """What is read without a word, and with what is stated, is what is meant, or it is refused."""
-    drawn, read_at_all = Drawn(seed), []
-    path = written(tmp_path, drawn.text, drawn.encoding)
-    for stated in ({}, drawn.stated):
-        try:
-            found = read(path, **stated)
-        except ValueError as error:
-            refused = str(error)
-        else:
-            refused = ""
-        if refused:
-            assert "table.csv" in refused, refused
-            continue
-        assert not drawn.spoilt, (stated, drawn.text)
-        read_at_all.append(stated)
-        for name, numbers in drawn.meant.items():
-            assert name in found, (stated, drawn.text)
-            np.testing.assert_allclose(found[name], numbers, rtol=1e-12, err_msg=f"{stated}\n{drawn.text}")
-    assert drawn.damaged or read_at_all, (drawn.stated, drawn.text)
-    return len(read_at_all)
+def drawn(seed):
+    """Text of a table, the numbers that are meant, what has to be stated, and whether a cell or row is spoilt."""
+    rng = np.random.default_rng(seed)
+    often = lambda share: rng.random() < share  # noqa: E731
+    pick = lambda *given: given[rng.integers(len(given))]  # noqa: E731
+    named, units = pick(*HEADINGS), dict(zip(HEADINGS[0], pick(*UNITS), strict=True))
+    separator = pick(*SEPARATORS)
+    stated = {"separator": separator, "decimal": pick(".", ",") if separator in ("tab", "semicolon") else "."}
+    place, mark = pick("heading", "below", "comment", "sentence", "no heading"), SEPARATORS[separator]
+    count = pick(3, 5, 7)
+    numbers = {name: [f"{each:.5g}" for each in 10 ** rng.uniform(-2, 6, count)] for name in named}
+    meant = {name: np.array(each, float) * SCALES[units[name]] for name, each in numbers.items()}
+    more = dict([pick(*OTHERS)]) if often(0.6) else {}
+    columns = [*numbers.values(), *([str(each) for each in cells][:count] for cells in more.values())]
+    spoken = ", ".join(f"{name} in {unit}" for name, unit in units.items())
+    above = {"comment": [f"# {spoken}"], "sentence": [spoken]}.get(place, []) + [pick(*ABOVE)] * often(0.3)
+    names = [f"{name} [{units[field]}]" if place == "heading" else name for field, name in named.items()]
+    heading = [[*names, *more]] + [[*(units[name] for name in named), *("" for _ in more)]] * (place == "below")
+    if "sample" in more:
+        stated["where"] = {"4" if place == "no heading" else "sample": "A"}
+        meant = {name: each[np.array(columns[3]) == "A"] for name, each in meant.items()}
+    elif more and place == "no heading":
+        stated["where"] = {"4": "*"}
+    if place == "no heading":
+        heading, stated["columns"] = [], {name: k + 1 for k, name in enumerate(named)}
+    if place not in ("heading", "below"):
+        stated["units"] = units
+    if above:
+        stated["skip"] = len(above)
+    rows = [[cell.replace(".", stated["decimal"]) for cell in row] for row in zip(*columns, strict=True)]
+    if spoilt := often(0.1):
+        rows[0][rng.integers(3)] = pick(*SPOILT)
+    elif spoilt := often(0.1):
+        rows[rng.integers(count)].pop()
+    lines = [mark.join(each or "-" if mark == " " else each for each in row) for row in [*heading, *rows]]
+    if often(0.2):
+        stated["rows"] = count
+        row = mark.join("7" * len(columns))
+        lines += pick(["", row], ["Sample B", row], ["# Sample B, Pa", row], [row + mark + "7"], ["mean"])
+    return "\n".join([*above, *lines]), meant, stated, spoilt
 
 
 @pytest.mark.parametrize(
     ("first", "count"), [(0, 300), pytest.param(300, 5000, marks=pytest.mark.slow)], ids=["some", "many"]
 )
 def test_no_table_is_read_as_other_numbers_than_were_meant(tmp_path, first, count):
-    times = [check_drawn(tmp_path, seed) for seed in range(first, first + count)]
-    # Many are read as they stand, and many more once what differs is stated.
-    assert min(times.count(1), times.count(2)) > 0.15 * count
+    """A table is read as it is meant, or refused by its name; and read once what differs is stated."""
+    unstated = 0
+    for seed in range(first, first + count):
+        text, meant, stated, spoilt = drawn(seed)
+        path, refusals = written(tmp_path, text), []
+        for options in ({}, stated):
+            try:
+                found = read(path, **options)
+            except ValueError as error:
+                refusals.append(str(error))
+                continue
+            unstated += not options
+            for name, numbers in meant.items():
+                assert not spoilt, text
+                np.testing.assert_allclose(found[name], numbers, rtol=1e-12, err_msg=f"{options}\n{text}")
+        assert all("table.csv" in each for each in refusals), refusals
+        assert spoilt or len(refusals) < 2, f"{refusals}\n{text}"
+    assert unstated > 0.1 * count
