@@ -296,9 +296,7 @@ UM = {"unit": "um", "spacing": "2 um"}
 TEXTS = [
     ("X [mm];Z [µm]\n" + column(";", ","), {}),
     ("# stylus tip 2 um, heights in nm\nposition\theight\nmm\tum\n" + column("\t"), {}),
-    ("Distance (mm),Height (um)\n" + column(","), {}),
     ("x y1\n" + column(" "), {"columns": {"z": "y1"}, **IN_MM_AND_UM}),  # a graph of Gwyddion
-    ("Weg;Höhe\n" + column(";", ","), {"columns": {"x": "Weg", "z": "Höhe"}, **IN_MM_AND_UM}),
     ("Profile 1\nx;z\n" + column() + "\nmean;0\n", {"skip": 1, "rows": 512, **IN_MM_AND_UM}),
     (column(), {"columns": {"x": 1, "z": 2}, **IN_MM_AND_UM}),
     ("z\n" + column(places=False), UM),
