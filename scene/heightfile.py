@@ -170,12 +170,18 @@ def given_heights(
         raise ValueError("heights are an array and no table: leave out columns, units, separators and lines")
     if hasattr(heights, "dims") and hasattr(heights, "isel"):
         found = _of_labelled("the array", heights, dims)
+        of_places = {bare(heights.coords[dim])[1] for dim in dims if dim in heights.coords}
+        if found.unit is not None and None in of_places and spacing is None:
+            raise ValueError(
+                f"heights are in {found.unit}, and places have no unit: give them the attribute units"
+            )
     else:
+        of_places = {None}
         heights = unmasked(heights)
         found = Heights(
             "the array", argument("heights", heights, METRE.values), None if bare(heights)[1] is None else "m"
         )
-    return found.settled(spacing, unit or (None if found.unit else "m"))
+    return found.settled(spacing, unit or (None if found.unit or of_places - {None} else "m"))
 
 
 def picked(name: str, channels: Iterable[str], channel: str | None) -> str:
@@ -272,7 +278,8 @@ def _of_rows(name, path, dims, stated):
             f"{name}, line {skipped + 1}, is no row of heights: state skip = {lines[0] - 1} for the lines above "
             'these, and what they may say, as unit = "um" and pixel = "1 um"'
         )
-    if width < LEAST if dims == MAP else width > 1:
+    unfit = width < LEAST if dims == MAP else width > 1
+    if unfit:
         wanted, points = (f"a map has {LEAST} or more", "xyz") if dims == MAP else ("a line has one", "xz")
         raise ValueError(
             f"{name}, line {lines[0]}: {width} columns of numbers, and {wanted}; of points state columns = "

@@ -74,10 +74,6 @@ LAYOUTS = {
     "points and units below": (lambda h: "z\tx\ty\nnm\tum\tum\n" + text(points(1e3 * h)[:, [2, 0, 1]], "\t"), {}),
     "points, units stated": (lambda h: "x y z\n" + text(points(h), " "), {"units": IN_UM}),
     "points without a heading": (lambda h: text(points(h), ","), NUMBERED | {"units": IN_UM}),
-    "points of other names": (
-        lambda h: "A;B;C\n" + text(points(h)),
-        {"columns": {"x": "A", "y": "B", "z": "C"}, "units": IN_UM},
-    ),
     "points and a unit": (
         lambda h: "x [um];y [um];z\n" + text(points(h)),
         {"unit": "um", "pixel": PIXEL},
@@ -101,7 +97,6 @@ def _grouped(cell):
 DAMAGES = {
     "nothing": lambda rows, k, j: rows,
     "a comment with a unit": lambda rows, k, j: [["# Value units: nm"], *rows],
-    "a comment of numbers": lambda rows, k, j: [["# 1", *rows[0][1:]], *rows],
     "words above": lambda rows, k, j: [["Height Sensor (nm)"], *rows],
     "a heading": lambda rows, k, j: [[f"z{at} [nm]" for at, _ in enumerate(rows[0])], *rows],
     "axes": lambda rows, k, j: [
@@ -123,10 +118,9 @@ DAMAGES = {
     ],
     "thousands": lambda rows, k, j: [[*map(_grouped, row)] for row in rows],
     "another map": lambda rows, k, j: [*rows, ["# Channel: Phase"], *rows],
-    "a line of units": lambda rows, k, j: [["um"] * len(rows[0]), *rows],
     "an end of each row": lambda rows, k, j: [[*row, ""] for row in rows],
 }
-ABOVE = {"a comment with a unit", "a comment of numbers", "words above", "a heading", "a line of units"}
+ABOVE = {"a comment with a unit", "words above", "a heading"}
 READ = {"nothing", "nan", "an end of each row"}  # with nothing stated but the unit and the pixel
 
 
@@ -298,7 +292,6 @@ WRONG = {
         {},
         'nor the side of a pixel: state unit = "um" and pixel = "1',
     ),
-    "no unit": ("a.csv", text(SQUARE), {"pixel": 1.0}, 'the unit of its heights: state unit = "um"'),
     "a wrong unit": (
         "a.csv",
         text(SQUARE),
@@ -323,8 +316,6 @@ WRONG = {
     ),
     "an axis above": ("a.txt", text(AXES), UM, "the first row, .* is evenly spaced as places are"),
     "an axis at the side": ("a.txt", text(AXES.T), UM, "the first column, .* is evenly spaced as places are"),
-    "axes": ("a.txt", ";0;1\n0;1;2\n", UM, "and a map has 4 or more"),
-    "a word": ("a.txt", text(SQUARE).replace("1", "x", 1), UM, "line 1, column '1': 'x.* is no number"),
     "a channel of a text": ("a.txt", text(SQUARE), {**UM, "channel": "Height"}, "is a text; skip and rows choose"),
     "lines of an array": ("a.npz", archive, {**UM, "skip": 3}, "a.npz is no text: leave out columns"),
     "points on a line": ("a.txt", "x [m] y [m] z [m]\n1 1 1\n2 1 2\n", {}, 'all y are 1: .* type = "profile"'),
@@ -403,6 +394,8 @@ def test_what_is_stated_twice_agrees_or_is_refused(tmp_path):
         ({"heights": labelled(SQUARE, PIXEL).rename(x="u")}, r"have the dimensions \(y, u\)"),
         ({"heights": labelled(SQUARE, PIXEL)[[0, 1, 3, 4, 5]]}, "is not one step from the one before it"),
         ({"heights": labelled(SQUARE, PIXEL, units="V")}, "heights, coordinates of y"),
+        ({"heights": labelled(SQUARE, PIXEL).assign_attrs(units="um")}, "places have no unit"),
+        ({"heights": labelled(SQUARE, PIXEL, units="um").drop_attrs(deep=False)}, 'state unit = "um"'),
     ):
         with pytest.raises(ValidationError, match=said):
             Topography(**twice)
