@@ -39,6 +39,7 @@ def test_the_reference_has_every_name_that_is_read():
 
 
 RUBBER, ROUGH, LINE = ("plan", "rubber.toml"), ("plan", "rough.toml"), ("plan", "line.toml")
+PSD = "plan", "psd.toml"
 MAP = ("topography", "map.txt", "--skip", "4", "--unit", "m", "--pixel", "1.04167 um")
 FRICTION = ("mastercurve", "tribometer.csv")
 WRONG = [
@@ -76,6 +77,9 @@ WRONG = [
     ("surface", LINE, "profile.csv", r"^0,195.*\n", "\n", "is blank, and there are rows below it"),
     ("surface", LINE, "profile.csv", "^0,195", "0,197", "places of heights are evenly spaced"),
     ("surface", ROUGH, "rough.toml", "shortest_kept.*", "", "is less than two pixels of"),
+    ("surface", PSD, "psd.toml", "convention.*", "", "state the convention of the density"),
+    ("surface", PSD, "psd.csv", ";90.05", ";900", "below zero, and no isotropic surface has such line scans"),
+    ("surface", PSD, "psd.csv", r"^q", "k", "one column q or frequency is needed"),
     ("friction", FRICTION, "tribometer.csv", r"Speed \[mm/s\]", "U [mm/s]", "there is no column v"),
     ("friction", FRICTION, "tribometer.csv", "Friction force", "Drag", "state its quantity, as columns"),
     ("friction", FRICTION, "tribometer.csv", r"Speed \[mm/s\]", "Speed [rpm]", "is in 'rpm', and is a speed"),
