@@ -11,16 +11,13 @@ from pydantic.dataclasses import dataclass
 from .isotropic import Isotropic, power_integral
 from .printable import brief
 from .quantities import (
-    BARE,
     CLOSED,
-    RADIAN_PER_METRE,
     Finite,
     Length,
     LengthOrZero,
     NonNegative,
     Seed,
     by_name,
-    takes,
 )
 
 # Wavelength [m] down to which its wave number, and that of a grid that resolves it, is a number.

@@ -11,7 +11,7 @@ from pydantic.dataclasses import dataclass
 from .heightmap import LONGEST, SHORTEST
 from .isotropic import Isotropic
 from .powerlaws import PowerLaws, of_surface
-from .quantities import BARE, CLOSED, METRE, RADIAN_PER_METRE, ROW, Positive, Seed, Unit, by_name, takes
+from .quantities import CLOSED, METRE, RADIAN_PER_METRE, ROW, Positive, Seed, Unit, by_name, takes
 from .scanned import QUOTIENT
 from .selfaffine import Wavelength
 from .tablefile import Column, TableFormat, read_columns, refused, split_format
