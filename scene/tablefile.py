@@ -144,8 +144,9 @@ def read_columns(
         cells = read_text(Path(table), stated, most_bytes, lambda below: any(map(_is_unit, below)))
     else:
         cells = _of_python(table)
-    places = _places(cells, known, stated)
-    used = _select(cells, places, known, stated)
+    whole = list(cells.headings)
+    places = _places(cells, whole, known, stated)
+    used = _select(cells, whole, places, known, stated)
     units = {each: _unit(cells, places[each.field], each, stated) for each in known if each.field in places}
     own = [(each.units, unit) for each, unit in units.items() if each.units and not each.unit_needed]
     si = cells.first and all(not unit or unit in [one.symbol for one in several] for several, unit in own)
@@ -219,15 +220,14 @@ def _key(name):
     return key if len(key) == 1 else key.casefold()
 
 
-def _places(cells, known, stated):
-    """Column by field; units of headings become those of the table."""
+def _places(cells, whole, known, stated):
+    """Column by field; units of headings become those of the table. whole : headings as they are written."""
     names = {_key(name): each.field for each in known for name in (each.field, *each.names)}
     columns, units = stated.columns or {}, stated.units or {}
     if unknown := {*columns, *units} - {each.field for each in known}:
         raise ValueError(
             f"{shown(min(unknown))} is none of the columns: {', '.join(each.field for each in known)}"
         )
-    whole = list(cells.headings)
     for k, heading in enumerate(whole):
         found = None if _key(heading) in names else _WITH_UNIT.fullmatch(heading)
         unit = (found["a"] or found["b"] or "").strip() if found else ""
@@ -268,14 +268,14 @@ def _called(cells, whole, heading):
     return found[0]
 
 
-def _select(cells, places, known, stated):
+def _select(cells, whole, places, known, stated):
     """Keep the rows that are stated, and return the columns that are used or stated.
 
     Raises ValueError for another one that tells rows apart.
     """
     kept, free = np.ones(len(cells.columns[0]), bool), set(places.values())
     for heading, value in (stated.where or {}).items():
-        place = _called(cells, cells.headings, heading)
+        place = _called(cells, whole, heading)
         free.add(place)
         if value != "*":
             kept &= [_equal(str(cell), str(value)) for cell in cells.columns[place]]
