@@ -8,7 +8,7 @@ import numpy as np
 from scipy.fft import ifft, irfft
 
 from scene import CrossedWaves, Profile, SolveError, Topography
-from scene.isotropic import Isotropic
+from scene.isotropic import Isotropic, seeded
 from scene.waves import MOST_WAVES, Waves
 
 CORE = 16  # shells in which the density varies much across the cell of a wave vector
@@ -57,7 +57,7 @@ class RoughSurface:
                 f"{MOST_WAVES} fit in memory: state a longer shortest or shortest_kept, or a shorter longest wave"
             )
         # At unit height, as the square of a tiny one would vanish.
-        shared = roughness.normalized.seeded(1)
+        shared = seeded(roughness.normalized, 1)
         amplitudes, order = (_kept if top <= SMALL else _spectrum)(shared, top, q_max)
         phases, moduli = np.empty(order.size), np.ones(order.size)
         phases[order] = 2 * np.pi * _stream(roughness.seed, PHASES).random(order.size)

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.fft import irfft
 
 from scene import Profile, Topography
-from scene.isotropic import Isotropic
+from scene.isotropic import Isotropic, seeded
 from scene.quantities import BARE, takes
 from scene.roughness import Roughness
 
@@ -189,7 +189,7 @@ def family_of(roughness: Isotropic, nodes: int, spectrum: Spectrum = "mapped") -
     Their waves do not depend on the grid as long as the cut-off does not; without `shortest` the cut-off is the
     Nyquist wave number of this grid, as in the paper.
     """
-    return _unseeded(roughness.seeded(0), nodes, spectrum)
+    return _unseeded(seeded(roughness, 0), nodes, spectrum)
 
 
 def draw(roughness: Isotropic, nodes: int, spectrum: Spectrum = "mapped") -> Surface:

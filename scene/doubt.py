@@ -166,9 +166,9 @@ def _slopes(found):
     return f"{waves.rms_slope_x:.3g} along x, {waves.rms_slope_y:.3g} along y"
 
 
-def _ends(m):
-    """Shares beyond both ends of a measured spectrum, of the height (m = 1) or the slope (3)."""
-    return lambda found: "longer waves {:.3g}, shorter waves {:.3g}".format(*found.scene.roughness.left_out(m))
+def _ends(name):
+    """Both shares of a property of a measured spectrum, in words."""
+    return lambda found: "longer waves {:.3g}, shorter waves {:.3g}".format(*getattr(found.scene.roughness, name))
 
 
 def _seen(found):
@@ -266,7 +266,7 @@ LIMITS = (
         LEFT_OUT,
         "",
         "if it goes on as it ends: measure a larger field, unless no waves longer than the contact matter",
-        beside=_ends(1),
+        beside=_ends("height_left_out"),
     ),
     Limit(
         "slope_left_out",
@@ -274,7 +274,7 @@ LIMITS = (
         LEFT_OUT,
         "",
         "if it goes on as it ends: slope and friction are those of the waves in the table alone",
-        beside=_ends(3),
+        beside=_ends("slope_left_out"),
     ),
     Limit(
         "height_over_depth",

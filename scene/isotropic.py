@@ -72,18 +72,13 @@ class Isotropic:
         @property
         def _unit(self) -> float: ...
         def _relative(self, q: Any) -> Any: ...
-        def moment(self, m: int, lower: Any, upper: Any) -> Any: ...
+        def _moment(self, m: int, lower: Any, upper: Any) -> Any: ...
         def _corners(self, q_max: float) -> tuple[float, ...]: ...
 
     @property
     def normalized(self) -> Self:
         """A spectrum of this shape, at a height of which the square does not vanish."""
         return self
-
-    def seeded(self, seed: int) -> Self:
-        """The same spectrum with another seed."""
-        drawn: Any = self
-        return replace(drawn, seed=seed)
 
     @property
     def flat(self) -> bool:
@@ -124,13 +119,13 @@ class Isotropic:
         """C_2D(q) [m^4], zero outside q_min <= q <= q_max [rad/m]."""
         inside = (q >= self.q_min) & (q <= q_max)
         relative = self._relative(np.where(inside, q, self.q_min))
-        at_unit = (self.rms_height / self._unit) ** 2 / (2 * pi * self.moment(1, self.q_min, q_max))
+        at_unit = (self.rms_height / self._unit) ** 2 / (2 * pi * self._moment(1, self.q_min, q_max))
         return np.where(inside, at_unit * relative, 0.0)
 
     @of_waves
     def share(self, lower, upper, q_max):
         """Share of <h^2> that lies in q_min <= lower <= q <= upper <= q_max [rad/m], arrays allowed."""
-        return self.moment(1, lower, upper) / self.moment(1, self.q_min, q_max)
+        return self._moment(1, lower, upper) / self._moment(1, self.q_min, q_max)
 
     @of_waves
     def share_line_scan(self, lower, upper, q_max):
@@ -151,8 +146,14 @@ class Isotropic:
         >>> round(rough.rms_slope(rough.q_max(pixel=1e-6)), 3)
         0.029
         """
-        ratio = self.moment(3, self.q_min, q_max) / self.moment(1, self.q_min, q_max)
+        ratio = self._moment(3, self.q_min, q_max) / self._moment(1, self.q_min, q_max)
         return self.rms_height * self._unit * sqrt(ratio)
 
     def _seen(self, function, q, q_max):
         return over_directions(function, q, (*self._corners(q_max), q_max))
+
+
+def seeded(rough: Isotropic, seed: int) -> Any:
+    """The same roughness with another seed."""
+    drawn: Any = rough
+    return replace(drawn, seed=seed)

@@ -91,12 +91,12 @@ class Magnitudes:
     @property
     def height_left_out(self) -> float:
         """Share of the mean square height in waves beyond one end of a measured spectrum, the larger of both."""
-        return max(self.scene.roughness.left_out(1))
+        return max(self.scene.roughness.height_left_out)
 
     @property
     def slope_left_out(self) -> float:
         """Share of the mean square slope in waves beyond one end of a measured spectrum, the larger of both."""
-        return max(self.scene.roughness.left_out(3))
+        return max(self.scene.roughness.slope_left_out)
 
     @property
     def height_over_depth(self) -> float:

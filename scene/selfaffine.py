@@ -11,16 +11,13 @@ from pydantic.dataclasses import dataclass
 from .isotropic import Isotropic, power_integral
 from .printable import brief
 from .quantities import (
-    BARE,
     CLOSED,
-    RADIAN_PER_METRE,
     Finite,
     Length,
     LengthOrZero,
     NonNegative,
     Seed,
     by_name,
-    takes,
 )
 
 # Wavelength [m] down to which its wave number, and that of a grid that resolves it, is a number.
@@ -134,8 +131,7 @@ class SelfAffine(Isotropic):
     def _relative(self, q):
         return np.maximum(q / self.q_rolloff, 1.0) ** (-2 * self.hurst - 2)
 
-    @takes(m=BARE, lower=RADIAN_PER_METRE, upper=RADIAN_PER_METRE)
-    def moment(self, m, lower, upper):
+    def _moment(self, m, lower, upper):
         """int t^m max(t, 1)^(-2H-2) dt over t = q / q_rolloff, from lower to upper [rad/m]."""
         lower, upper = lower / self.q_rolloff, upper / self.q_rolloff
         flat = power_integral(m, np.minimum(lower, 1.0), np.minimum(upper, 1.0))

@@ -11,7 +11,7 @@ from pydantic.dataclasses import dataclass
 from .heightmap import LONGEST, SHORTEST
 from .isotropic import Isotropic
 from .powerlaws import PowerLaws, of_surface
-from .quantities import BARE, CLOSED, METRE, RADIAN_PER_METRE, ROW, Positive, Seed, Unit, by_name, takes
+from .quantities import CLOSED, METRE, RADIAN_PER_METRE, ROW, Positive, Seed, Unit, by_name, takes
 from .scanned import QUOTIENT
 from .selfaffine import Wavelength
 from .tablefile import Column, TableFormat, read_columns, refused, split_format
@@ -163,16 +163,24 @@ class Spectrum(Isotropic):
     @property
     def rms_height(self) -> float:
         """Rms height of the waves that are kept [m]."""
-        return sqrt(2 * pi * self.moment(1, 0.0, inf))
+        return sqrt(2 * pi * self._moment(1, 0.0, inf))
 
-    @takes(m=BARE)
-    def left_out(self, m: int) -> tuple[float, float]:
-        """Shares of the mean square height (m = 1) or slope (m = 3) in waves longer, and shorter, than are kept.
+    @property
+    def height_left_out(self) -> tuple[float, float]:
+        """Shares of the mean square height in waves longer, and shorter, than are kept.
 
         Each share is that of these waves in their sum with those that are kept, if the laws of the first and of
         the last octave of q go on without an end; 1 where they then have no bound.
         """
-        inside = self.moment(m, 0.0, inf)
+        return self._left_out(1)
+
+    @property
+    def slope_left_out(self) -> tuple[float, float]:
+        """Shares of the mean square slope in waves longer, and shorter, than are kept: see `height_left_out`."""
+        return self._left_out(3)
+
+    def _left_out(self, m):
+        inside = self._moment(m, 0.0, inf)
         gaps = self._whole.moment(m, [0.0, self.q_max(0.0)], [self.q_min, inf]) + self._whole.beyond(m)
         longer, shorter = (float(each / (each + inside)) if isfinite(each) else 1.0 for each in gaps)
         return longer, shorter
@@ -180,7 +188,9 @@ class Spectrum(Isotropic):
     @property
     def notes(self) -> tuple[str, ...]:
         """Heights and slopes that the spectrum has, and those that it leaves out, a sentence each."""
-        (long, short), (flat, steep) = (100 * np.array(self.left_out(m)) for m in (1, 3))
+        (long, short), (flat, steep) = (
+            100 * np.array(each) for each in (self.height_left_out, self.slope_left_out)
+        )
         return (
             f"the spectrum has waves from {self.shortest:.3g} m to {self.longest:.3g} m, an rms height of "
             f"{self.rms_height:.3g} m and an rms slope of the full gradient of {self.rms_slope(inf):.3g}",
@@ -188,9 +198,7 @@ class Spectrum(Isotropic):
             f"{flat:.3g} % of that of the slope, shorter waves {short:.3g} % and {steep:.3g} %",
         )
 
-    @takes(m=BARE, lower=RADIAN_PER_METRE, upper=RADIAN_PER_METRE)
-    def moment(self, m, lower, upper):
-        """int q^m C_2D dq of the waves that are kept, from lower to upper [rad/m], arrays allowed; in SI."""
+    def _moment(self, m, lower, upper):
         return self._kept.moment(m, lower, upper)
 
     @property

@@ -75,7 +75,7 @@ def _waves(solver, rough, top, seeds):
     """Amplitudes (seeds, 2 K + 1, K + 1) of surfaces, or (seeds, 1, K + 1) of lines, of at most so many waves."""
     highest = top + 0.5 if rough.shortest is None else min(top + 0.5, rough.longest / rough.shortest)
     if isinstance(solver, BEM):
-        drawn = (RoughSurface.draw(rough.seeded(each), highest * rough.q_min) for each in seeds)
+        drawn = (RoughSurface.draw(replace(rough, seed=each), highest * rough.q_min) for each in seeds)
         return np.array([each.amplitudes for each in drawn])
     waves = amplitudes(rough, highest, solver.spectrum)
     family = LineFamily(waves, rough.amplitudes == "gaussian", 4 * waves.size, 1.0, 1.0)  # of any pixel

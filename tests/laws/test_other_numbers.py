@@ -251,7 +251,6 @@ METHODS = {
     "omega": (50.0, "rad/s"),
     "q_max": (5e4, "rad/m"),
     "lower": (1e4, "rad/m"),
-    "m": (1, None),
 }
 NOT_NUMBERS = {
     "models",
