@@ -5,9 +5,10 @@ from itertools import pairwise
 from math import ceil, log10, pi, prod
 from pathlib import Path
 
-from scene import Indent, Measured, Plane, Profile, Program, Scene, SelfAffine, Slide
+from scene import Indent, Measured, Plane, Profile, Program, Scene, Slide
 from scene.costs import at_tolerance, expected, not_known
 from scene.indenter import Axisymmetric
+from scene.isotropic import Isotropic
 from scene.plan import PIECE, Kernel, Modes, Plan, by, left_out
 from scene.scales import elastic_contact
 from scene.terms import terms_of
@@ -26,7 +27,7 @@ from .upstream import left_behind, wider_grids
 
 EFFECTS = Path(__file__).with_name("effects.csv")
 # What was measured. `effects.csv` has what other parts multiply its costs with: a Program, for a step.
-PRICED = (Axisymmetric, Linear, Indent, Slide, SelfAffine, Profile)
+PRICED = (Axisymmetric, Linear, Indent, Slide, Isotropic, Profile)
 HOW = "medians of solves to 1e-7 on the machine where they were measured"
 TIGHT = 1e-7
 TOUCHING, ON_A_ROW = 0.4, 0.6  # of the points, in contact

@@ -14,7 +14,7 @@ from scene import Cylinder, Doubt, Plane, Program, Result, Scene, SolveError, do
 from scene.machine import shortage
 from scene.plan import Plan
 from scene.protocol import refuse, trusted
-from scene.quantities import CLOSED, Length, Positive, UnitOfOthers, Whole, takes
+from scene.quantities import CLOSED, Length, Positive, Unit, Whole, takes
 from scene.terms import Table, surrounded, terms_of
 
 from . import accuracy, frictionerror, window
@@ -28,7 +28,7 @@ from .terms import TERMS
 from .trail import Trail
 
 _LOG = logging.getLogger(__name__)
-RELATIVE = UnitOfOthers("", kind="a relative error between 0 and 1")
+RELATIVE = Unit("", "a relative error between 0 and 1")
 LEAST_GAP = 1e-2  # of a prescribed mean gap: what may be left uncertain of it
 
 

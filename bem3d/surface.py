@@ -1,13 +1,14 @@
 """Rough surfaces in two dimensions: one draw from the spectrum of a scene, evaluated wherever a grid asks."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 from math import isqrt
 
 import numpy as np
 from scipy.fft import ifft, irfft
 
-from scene import CrossedWaves, Profile, SelfAffine, SolveError, Topography
+from scene import CrossedWaves, Profile, SolveError, Topography
+from scene.isotropic import Isotropic
 from scene.waves import MOST_WAVES, Waves
 
 CORE = 16  # shells in which the density varies much across the cell of a wave vector
@@ -26,7 +27,7 @@ class RoughSurface:
     @classmethod
     def of(cls, roughness, q_max: float) -> "RoughSurface":
         """The surface of a scene's roughness, with the cut-off q_max [rad/m] where it has a spectrum."""
-        if isinstance(roughness, SelfAffine):
+        if isinstance(roughness, Isotropic):
             return cls.draw(roughness, q_max)
         if isinstance(roughness, Profile):
             return cls.draw(roughness.fitted, q_max)
@@ -41,7 +42,7 @@ class RoughSurface:
         return cls(Waves(step, step, amplitudes))
 
     @classmethod
-    def draw(cls, roughness: SelfAffine, q_max: float) -> "RoughSurface":
+    def draw(cls, roughness: Isotropic, q_max: float) -> "RoughSurface":
         """One surface with the cut-off q_max [rad/m].
 
         Each wave vector carries the power of its cell of the lattice, int C_2D d^2q, so that the rms height over a
@@ -53,10 +54,10 @@ class RoughSurface:
         if top > MOST_WAVES:
             raise SolveError(
                 f"the surface has {top:.15g} waves of its cut-off on longest = {roughness.longest:g} m, "
-                f"{MOST_WAVES} fit in memory: state a longer shortest, or a shorter longest wave"
+                f"{MOST_WAVES} fit in memory: state a longer shortest or shortest_kept, or a shorter longest wave"
             )
         # At unit height, as the square of a tiny one would vanish.
-        shared = replace(roughness, rms_height=1.0, seed=1)
+        shared = roughness.normalized.seeded(1)
         amplitudes, order = (_kept if top <= SMALL else _spectrum)(shared, top, q_max)
         phases, moduli = np.empty(order.size), np.ones(order.size)
         phases[order] = 2 * np.pi * _stream(roughness.seed, PHASES).random(order.size)

@@ -10,13 +10,13 @@ from scene import (
     Plane,
     Profile,
     Program,
-    SelfAffine,
     Shear,
     Slide,
     Topography,
     Wave,
 )
 from scene.indenter import Axisymmetric
+from scene.isotropic import Isotropic
 from scene.temperature import TemperatureLaw
 from scene.terms import Table
 from scene.viscoelastic import Linear
@@ -39,7 +39,7 @@ TERMS: Table = {
     Slide: Term,
     Shear: Drawn,
     Program: Term,
-    SelfAffine: Term,
+    Isotropic: Term,
     Wave: Term,
     Layer: LayerTerm,
     Topography: MeasuredRoughness,

@@ -5,9 +5,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from scene import Cylinder, Doubt, EmptyContact, Measured, Plane, Profile, Scene, SelfAffine, SolveError
+from scene import Cylinder, Doubt, EmptyContact, Measured, Plane, Scene, SelfAffine, SolveError
 from scene.scales import elastic_contact
-from scene.scanned import Scanned
 
 from . import layer
 from .grid import Box, Grid
@@ -306,8 +305,8 @@ def _kept(scene, grid, spare=1.0):
     if shortest is None or 2 * grid.pixel <= shortest:
         return []
     rough, kept = getattr(scene, field), 2 * FULLER * spare * grid.pixel
-    if isinstance(rough, Scanned | Profile):
-        least_kept, most_kept = rough.keepable
+    if (keepable := getattr(rough, "keepable", None)) is not None:
+        least_kept, most_kept = keepable
         kept = max(kept, FULLER * least_kept)
         if kept <= most_kept:
             return [f"{field}.shortest_kept = {kept:.3g} would leave out waves that they cannot carry"]

@@ -292,7 +292,7 @@ def mastercurve(
     """Shift measured friction curves onto one, if they allow it. The curves are friction against load."""
     from .studies.mastercurve.study import Mastercurve
 
-    pairs = {"columns": by_name(columns), "units": by_name(units), "where": by_name(where)}
+    pairs = by_name(columns=columns, units=units, where=where)
     form = {"separator": separator, "decimal": decimal, "encoding": encoding, "skip": skip, "rows": rows}
     study = Mastercurve.of(table, tolerance, c1, c2, reference, **pairs, **form)
     return solve(study, output, **options)
@@ -327,7 +327,7 @@ def topography(
 
     asked = {"unit": unit, "channel": channel, "crop": crop, "outliers": outliers, "missing": missing}
     done = {"level": level, "shortest_kept": shortest_kept, "repeat": repeat, "peaks": peaks}
-    pairs = {"columns": by_name(columns), "units": by_name(units), "where": by_name(where)}
+    pairs = by_name(columns=columns, units=units, where=where)
     form = {"separator": separator, "decimal": decimal, "encoding": encoding, "skip": skip, "rows": rows}
     return solve(Map.of(file, pixel=pixel, **asked, **done, **pairs, **form), output, **options)
 

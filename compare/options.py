@@ -63,16 +63,20 @@ def number(given: str | float) -> float:
         raise BadParameter(f"{given!r} is not a number.") from None
 
 
-def by_name(given: "Named | None") -> Mapping[str, Any] | None:
-    """Values by name, of texts as mu=3 on the command line. Raises InvalidInput."""
+def by_name(**options: "Named | None") -> dict[str, Mapping[str, Any] | None]:
+    """Options with their values by name, of texts as mu=3 on the command line. Raises InvalidInput."""
     from scene.reading import InvalidInput
 
-    if not given or not isinstance(given, list | tuple):
-        return given or None  # type: ignore[return-value]
-    pairs = [str(each).partition("=") for each in given]
-    if wrong := next(("".join(each) for each in pairs if not (each[0] and each[1])), ""):
-        raise InvalidInput(f"{wrong}: a name and a value are needed, as mu=3")
-    return {name: int(value) if value.isdecimal() else value for name, _, value in pairs}
+    found: dict[str, Mapping[str, Any] | None] = {}
+    for option, given in options.items():
+        if not given or not isinstance(given, list | tuple):
+            found[option] = given or None  # type: ignore[assignment]
+            continue
+        pairs = [str(each).partition("=") for each in given]
+        if wrong := next(("".join(each) for each in pairs if not (each[0] and each[1])), ""):
+            raise InvalidInput(f"{option} = {wrong}: a name and a value are needed, as mu=3")
+        found[option] = {name: int(value) if value.isdecimal() else value for name, _, value in pairs}
+    return found
 
 
 # All commands that solve.

@@ -14,7 +14,7 @@ from scene.quantities import (
     RADIAN_PER_SECOND,
     SECOND,
     SPEED,
-    UnitOfOthers,
+    Unit,
     takes,
 )
 
@@ -36,7 +36,7 @@ in_si = takes(
     relaxation_time=SECOND,
     speed=SPEED,
     conductivity=CONDUCTIVITY,
-    c=UnitOfOthers("m^(1-n)"),
+    c=Unit("m^(1-n)"),
     **dict.fromkeys(("modulus", "glassy_modulus", "loss"), PASCAL),
     **dict.fromkeys(_LENGTHS, METRE),
     **dict.fromkeys(("wave_number", "wave_numbers", "band"), RADIAN_PER_METRE),

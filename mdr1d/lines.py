@@ -1,6 +1,7 @@
 """The rough line of a scene, by whatever its roughness is."""
 
-from scene import Profile, SelfAffine, Topography
+from scene import Profile, Topography
+from scene.isotropic import Isotropic
 from scene.quantities import WHOLE, takes
 from scene.roughness import Roughness
 
@@ -18,6 +19,6 @@ def draw(roughness: Roughness, nodes: int, spectrum: Spectrum = "mapped") -> Sur
             return measuredline.draw(roughness, nodes)
         case Profile():
             return surface.draw(roughness.fitted, nodes)
-        case SelfAffine():
+        case Isotropic():
             return surface.draw(roughness, nodes, spectrum)
     raise TypeError(f"roughness = {type(roughness).__name__}: no line stands for it")

@@ -3,9 +3,10 @@
 from math import ceil
 from pathlib import Path
 
-from scene import Indent, Profile, Program, Scene, SelfAffine, Slide
+from scene import Indent, Profile, Program, Scene, Slide
 from scene.costs import expected
 from scene.indenter import Axisymmetric
+from scene.isotropic import Isotropic
 from scene.plan import PIECE, Modes, Plan, left_out
 from scene.terms import terms_of
 from scene.viscoelastic import Linear
@@ -16,7 +17,7 @@ from .timeline import timeline
 
 EFFECTS = Path(__file__).with_name("effects.csv")
 # Parts whose costs are counted below; of all others `effects.csv` has what they multiply costs with.
-COUNTED = (Axisymmetric, Linear, Indent, Slide, Program, SelfAffine, Profile)
+COUNTED = (Axisymmetric, Linear, Indent, Slide, Program, Isotropic, Profile)
 # Processor seconds of one thread on the machine where those of three dimensions were measured: of a solve, and for
 # each node of a sweep of an elastic or Kelvin foundation, of Maxwell branches and each of them, of a step in time
 # and each of its modes, and of drawing a rough line.

@@ -10,13 +10,12 @@ import numpy as np
 from pydantic import Field
 from pydantic.dataclasses import dataclass
 
-from scene import Doubt, EmptyContact, Profile, Program, Result, Scene, SolveError, doubts
+from scene import Doubt, EmptyContact, Program, Result, Scene, SolveError, doubts
 from scene.machine import shortage
 from scene.plan import Plan
 from scene.protocol import refuse, trusted
 from scene.quantities import CLOSED, Length, Whole
 from scene.roughness import Roughness
-from scene.scanned import Scanned
 from scene.terms import Table, surrounded, terms_of
 
 from .accuracy import friction_error
@@ -253,7 +252,8 @@ def _too_broad(band: Band) -> list[str]:
         return []
     return [
         f"roughness from longest = {band.period:g} to shortest = {band.shortest:g} spans a ratio of "
-        f"{band.period / band.shortest:g}, more than {MOST_NODES // 16}: raise shortest"
+        f"{band.period / band.shortest:g}, more than {MOST_NODES // 16}: raise shortest, or state "
+        "shortest_kept"
     ]
 
 
@@ -280,8 +280,8 @@ def _room(rough, band, layout, enough):
     """What works for other draws of the roughness too, whose contacts are wider, in words."""
     told = f"; points = {ceil(SPARE * enough):.15g} would leave room for other draws"
     kept = 2 * SPARE * layout.pixel
-    if isinstance(rough, Scanned | Profile):
-        least, most = rough.keepable
+    if (keepable := getattr(rough, "keepable", None)) is not None:
+        least, most = keepable
         kept = max(kept, FULLER * least)
         if kept <= most:
             told += f"; roughness.shortest_kept = {kept:.3g} would leave out waves that the pixels cannot carry"

@@ -1,7 +1,7 @@
 """A rough line drawn from the one-dimensional spectrum of a scene's roughness, and how fine lines are."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from math import ceil, floor, hypot, nan, pi, sqrt
 from typing import Literal
@@ -9,7 +9,8 @@ from typing import Literal
 import numpy as np
 from scipy.fft import irfft
 
-from scene import Profile, SelfAffine, Topography
+from scene import Profile, Topography
+from scene.isotropic import Isotropic
 from scene.quantities import BARE, takes
 from scene.roughness import Roughness
 
@@ -119,7 +120,7 @@ def through(waves: np.ndarray, nodes: int, band: Band) -> Surface:
 
 
 @takes(bandwidth=BARE)
-def amplitudes(roughness: SelfAffine, bandwidth: float, spectrum: Spectrum = "mapped") -> np.ndarray:
+def amplitudes(roughness: Isotropic, bandwidth: float, spectrum: Spectrum = "mapped") -> np.ndarray:
     """Amplitudes of the waves q_k = k q_min (K,) [m], K the whole part of the bandwidth q_max / q_min.
 
     Wave k has the variance of its cell, A_k^2 / 2 = 2 int C_1D dq from q_(k-1/2) to q_(k+1/2), and the last cell
@@ -182,16 +183,16 @@ class LineFamily:
         ]
 
 
-def family_of(roughness: SelfAffine, nodes: int, spectrum: Spectrum = "mapped") -> LineFamily:
+def family_of(roughness: Isotropic, nodes: int, spectrum: Spectrum = "mapped") -> LineFamily:
     """The lines of a spectrum on so many nodes a period; the seed does not matter.
 
     Their waves do not depend on the grid as long as the cut-off does not; without `shortest` the cut-off is the
     Nyquist wave number of this grid, as in the paper.
     """
-    return _unseeded(replace(roughness, seed=0), nodes, spectrum)
+    return _unseeded(roughness.seeded(0), nodes, spectrum)
 
 
-def draw(roughness: SelfAffine, nodes: int, spectrum: Spectrum = "mapped") -> Surface:
+def draw(roughness: Isotropic, nodes: int, spectrum: Spectrum = "mapped") -> Surface:
     """Draw one period of the rough line on so many nodes, from its seed."""
     return family_of(roughness, nodes, spectrum).drawn(roughness.seed)
 

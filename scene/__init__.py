@@ -20,6 +20,7 @@ from .roughness import CrossedWaves, Wave
 from .scene import Scene
 from .selfaffine import SelfAffine
 from .signatures import make_readable
+from .spectrum import Spectrum
 from .table import CreepTable, RelaxationTable, Table
 from .tabulated import Tabulated
 from .temperature import WLF, Arrhenius, ShiftFactors
@@ -63,6 +64,7 @@ __all__ = [
     "Slide",
     "SolveError",
     "Solver",
+    "Spectrum",
     "Sphere",
     "Stage",
     "StandardLinearSolid",

@@ -18,6 +18,7 @@ from .temperature import COLDEST
 
 SMALL_SLOPE = 0.3  # up to which a linear theory of contact is taken at its word
 LINEAR_SLOPE = 1.0  # beyond which nothing of it is left
+LEFT_OUT = 0.1  # share of a mean square beyond an end of a measured spectrum
 LOPSIDED = 1.2  # ratio of the rms slopes along x and y above which a map is no isotropic one
 
 
@@ -165,6 +166,11 @@ def _slopes(found):
     return f"{waves.rms_slope_x:.3g} along x, {waves.rms_slope_y:.3g} along y"
 
 
+def _ends(m):
+    """Shares beyond both ends of a measured spectrum, of the height (m = 1) or the slope (3)."""
+    return lambda found: "longer waves {:.3g}, shorter waves {:.3g}".format(*found.scene.roughness.left_out(m))
+
+
 def _seen(found):
     return f"{found.frequencies[0]:.2g} to {found.frequencies[-1]:.2g} rad/s, {found.state} throughout"
 
@@ -254,6 +260,22 @@ LIMITS = (
     ),
     Limit("rms_slope", "rms slope of the roughness", SMALL_SLOPE, "", LINEAR),
     Limit("rms_slope", "rms slope of the roughness", 1e-4, "", "smoother than polished glass: check units", False),
+    Limit(
+        "height_left_out",
+        "share of the mean square height beyond an end of the spectrum",
+        LEFT_OUT,
+        "",
+        "if it goes on as it ends: measure a larger field, unless no waves longer than the contact matter",
+        beside=_ends(1),
+    ),
+    Limit(
+        "slope_left_out",
+        "share of the mean square slope beyond an end of the spectrum",
+        LEFT_OUT,
+        "",
+        "if it goes on as it ends: slope and friction are those of the waves in the table alone",
+        beside=_ends(3),
+    ),
     Limit(
         "height_over_depth",
         "rms height of the roughness over the depth",

@@ -353,7 +353,7 @@ def _check_count(shape):
 def _metres(name, unit):
     """A unit of length [m]. Raises ValueError."""
     try:
-        return float(METRE.scale(unit)[0])
+        return float(in_unit(1.0, unit, "m"))
     except (ValueError, AttributeError, TypeError) as error:
         raise ValueError(f'{name} = {brief(repr(unit))}: a unit of length is needed, as "um"; {error}') from None
 

@@ -8,7 +8,7 @@ from pydantic import Field
 from pydantic.dataclasses import dataclass
 
 from .measured import Measured
-from .quantities import CLOSED, METRE, Angle, Finite, Length, Positive, UnitOfOthers, takes
+from .quantities import CLOSED, METRE, Angle, Finite, Length, Positive, Unit, takes
 
 
 class Axisymmetric:
@@ -96,7 +96,7 @@ class Cone(Axisymmetric):
 class PowerLaw(Axisymmetric):
     """Body of revolution z = coefficient * r**exponent. coefficient [m^(1-exponent)], exponent 1 to 100."""
 
-    coefficient: Annotated[Positive, UnitOfOthers("m^(1-exponent)")]
+    coefficient: Annotated[Positive, Unit("m^(1-exponent)")]
     exponent: Annotated[Finite, Field(ge=1, le=100)]
     type: Literal["power-law"] = Field(default="power-law", repr=False)
 

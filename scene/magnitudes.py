@@ -8,13 +8,13 @@ import numpy as np
 
 from .extrapolation import REACH
 from .indenter import Cylinder, Plane
+from .isotropic import Isotropic
 from .measured import Measured
 from .motion import Program, Slide
 from .profile import Profile
 from .roughness import CrossedWaves
 from .scales import ElasticContact, elastic_contact
 from .scene import Scene
-from .selfaffine import SelfAffine
 from .tabulated import Tabulated
 from .topography import Topography
 
@@ -84,9 +84,19 @@ class Magnitudes:
         if isinstance(rough, Topography):
             return rough.waves.rms_slope
         q_max = rough.q_max(1.0 if self.pixel is None else self.pixel)
-        if isinstance(rough, SelfAffine | Profile):
+        if isinstance(rough, Isotropic | Profile):
             return rough.rms_slope(q_max)
         return rough.rms_height * q_max * (sqrt(2) if isinstance(rough, CrossedWaves) else 1.0)
+
+    @property
+    def height_left_out(self) -> float:
+        """Share of the mean square height in waves beyond one end of a measured spectrum, the larger of both."""
+        return max(self.scene.roughness.left_out(1))
+
+    @property
+    def slope_left_out(self) -> float:
+        """Share of the mean square slope in waves beyond one end of a measured spectrum, the larger of both."""
+        return max(self.scene.roughness.left_out(3))
 
     @property
     def height_over_depth(self) -> float:

@@ -6,9 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from pydantic import ValidationError
 
-from .mistakes import said
 from .quantities import (
     COMPLIANCE,
     HERTZ,
@@ -19,6 +17,7 @@ from .quantities import (
     RADIAN_PER_SECOND,
     SECOND,
 )
+from .reading import InvalidInput, made
 from .table import MOST_ROWS, SCATTER, CreepTable, RelaxationTable, Table
 from .tablefile import Column, Columns, TableFormat, read_columns
 
@@ -103,7 +102,7 @@ def read_moduli(
 
 def read_table(path: str | Path, **stated: Any) -> Table | RelaxationTable | CreepTable:
     """The table in a text file. stated : see `tablefile.TableFormat`. Raises ValueError naming file and line."""
-    return read_moduli(path, stated=TableFormat(**stated)).table
+    return read_moduli(path, stated=made(stated, TableFormat, path)).table
 
 
 def _positive(columns: Columns, name: str) -> np.ndarray:
@@ -234,8 +233,8 @@ def _table(columns, made, kind):
         raise ValueError(f"{columns.name}: {len(places):,} rows: at most {MOST_ROWS:,} are fitted: state rows")
     try:
         return kind(**{name: tuple(values.tolist()) for name, values in made.items()}).noted(notes)
-    except ValidationError as error:
-        raise ValueError(f"{columns.name}: {said(error)}") from None
+    except InvalidInput as error:
+        raise ValueError(f"{columns.name}: {str(error).partition(': ')[2]}") from None
 
 
 def factors(columns: Columns) -> np.ndarray:

@@ -27,7 +27,7 @@ from .quantities import (
     PressureOrZero,
     SpeedOrZero,
     Time,
-    UnitOfOthers,
+    Unit,
     Velocity,
     takes,
 )
@@ -35,8 +35,8 @@ from .quantities import (
 PRESSES = {"load": NEWTON, "depth": METRE, "line_load": NEWTON_PER_METRE, "pressure": PASCAL, "gap": METRE}
 UNITS = {name: unit.symbol for name, unit in PRESSES.items()}
 
-OF_WHAT_PRESSES = UnitOfOthers("the unit of what presses, stated in this stage for a string", ("0.3 N", "2 um"))
-TANGENTIAL = UnitOfOthers("N, or N/m of a cylinder", ("0.3 N", "10 N/m"))
+OF_WHAT_PRESSES = Unit("the unit of what presses, stated in this stage for a string", example="0.3 N")
+TANGENTIAL = Unit("N, or N/m of a cylinder", example="0.3 N")
 
 
 class _Pressed:

@@ -12,7 +12,7 @@ import numpy as np
 
 from .printable import brief
 
-_OWN = (float, int, str, bool, list, tuple, np.ndarray, type(None))
+_OWN = (float, int, str, bool, list, tuple, type(None))
 _SIMPLE = {float, int, np.float64}
 _REAL = "fiu"  # kinds of numpy's types
 
@@ -22,7 +22,7 @@ class NotPlain(ValueError):
 
 
 @dataclass(frozen=True)
-class Carried:
+class WithUnit:
     """One number out of an array with a unit, which goes with it."""
 
     magnitude: Any
@@ -46,7 +46,7 @@ def number(given: Any, unit: str | None, difference: bool = True) -> Any:
     """
     if is_number(given):
         return given
-    held, own = _scalar(given)
+    held, own = bare(given)
     if isinstance(held, str) and unit is not None and own is None:
         # Units take time to load, and only what has them needs them.
         from .units import in_si
@@ -54,12 +54,7 @@ def number(given: Any, unit: str | None, difference: bool = True) -> Any:
         return in_si(held, unit, difference)
     if not is_number(held):
         raise NotPlain(f"an array of shape {held.shape}" if isinstance(held, np.ndarray) else "")
-    _check_unit(own, unit)
-    if not own or unit is None:
-        return held
-    from .units import in_si
-
-    return _known(in_si, f"{float(held)!r} {own}", unit, difference, own)
+    return in_unit(held, own, unit, difference)
 
 
 def numbers(given: Any, unit: str | None, difference: bool = True) -> Any:
@@ -67,45 +62,34 @@ def numbers(given: Any, unit: str | None, difference: bool = True) -> Any:
 
     Lists may hold whatever `number` takes. Raises NotPlain, or Unreadable of a unit.
     """
-    if type(given) is float or (type(given) is np.ndarray and given.ndim and given.dtype.kind in _REAL):
-        return given
     if is_number(given) or isinstance(given, str):
         return number(given, unit, difference)
     held, own = bare(given)
     if isinstance(held, np.ndarray) and held.dtype.kind in "OU":
         held = held.tolist()
-        if not isinstance(held, list):
-            return number(given, unit, difference)
     if isinstance(held, list | tuple) and not _SIMPLE.issuperset(map(type, held)):
         held = [numbers(each, unit, difference) for each in held]
-    kind = getattr(getattr(held, "dtype", None), "kind", None)
-    if kind is None:
+    if not hasattr(held, "dtype"):
         try:
             held = np.asarray(held)
         except ValueError:
             raise NotPlain("rows of unequal lengths") from None
-        kind = held.dtype.kind
-    if kind not in _REAL:
+    if held.dtype.kind not in _REAL:
         raise NotPlain(f"an array of type {brief(str(held.dtype))}: real numbers are needed")
-    if type(held) is np.ndarray and held.ndim == 0:
-        held = held[()]
-    _check_unit(own, unit)
-    return in_unit(held, own, unit, difference) if own else held
+    return in_unit(held if held.ndim else held[()], own, unit, difference)
 
 
 def one_by_one(given: Any) -> Any:
     """The numbers of a row, each with the unit that all of them carry; what is no array as it is."""
-    if isinstance(given, Set):
-        raise NotPlain("a set has no order: give a list")
-    if isinstance(given, Mapping):
-        raise NotPlain("a mapping has names: give a list")
+    if isinstance(given, Set | Mapping):
+        raise NotPlain("a set has no order, nor has a mapping: give a list")
     held, own = bare(given)
     if not isinstance(held, np.ndarray):
         return given
     if held.ndim != 1:
         raise NotPlain(f"an array of shape {held.shape}: one row is needed")
     values = held.tolist() if held.dtype.kind in _REAL else list(held)
-    return values if own is None else [Carried(value, own) for value in values]
+    return values if own is None else [WithUnit(value, own) for value in values]
 
 
 def relabelled(given: Any, found: Any) -> Any:
@@ -126,14 +110,12 @@ def bare(given: Any) -> tuple[Any, str | None]:
 
     A unit is empty where something says that it has no dimension. Raises NotPlain of two units, and of bytes.
     """
-    if isinstance(given, bytes | bytearray | memoryview):
-        raise NotPlain("bytes are no numbers")
     unit = None
     while type(given) not in _OWN:
         inner, own = _peeled(given)
         if own is not None and unit is not None:
             raise NotPlain(f"it has two units, {brief(own)!r} and {brief(unit)!r}")
-        unit = unit if own is None else own
+        unit = unit if own is None else "" if own in ("1", "dimensionless") else own
         if inner is given:
             break
         given = inner
@@ -142,6 +124,8 @@ def bare(given: Any) -> tuple[Any, str | None]:
 
 def _peeled(given):
     """What is inside the outermost coat, and the unit on it."""
+    if isinstance(given, bytes | bytearray | memoryview):
+        raise NotPlain("bytes are no numbers")
     if isinstance(given, np.ma.MaskedArray):
         if count := np.ma.count_masked(given):
             raise NotPlain(f"{count} of {given.size} numbers are masked: fill them in, or leave them out")
@@ -151,59 +135,44 @@ def _peeled(given):
     if hasattr(given, "dims") and hasattr(given, "attrs"):  # of xarray
         if not hasattr(given, "data"):
             raise NotPlain(f"a {type(given).__name__}: give one of its variables")
-        return given.data, _stated(given.attrs)
+        return given.data, _stated(given)
     if hasattr(given, "to_numpy"):  # of pandas, polars
-        return given.to_numpy(), _stated(getattr(given, "attrs", {}))
+        return given.to_numpy(), _stated(given)
     if hasattr(given, "magnitude") and hasattr(given, "units"):  # of pint
         units = given.units
-        return given.magnitude, _named(units if isinstance(units, str) else format(units, "~C"))
+        return given.magnitude, units if isinstance(units, str) else format(units, "~C")
     own = getattr(given, "units", getattr(given, "unit", None))
     if own is not None and hasattr(given, "value"):  # of unyt, astropy
-        return np.asarray(given.value), _named(str(own))
+        return np.asarray(given.value), str(own).strip()
     if isinstance(given, np.ndarray):
-        return given.view(np.ndarray), None
+        return (given if type(given) is np.ndarray else given.view(np.ndarray)) if given.ndim else given[()], None
     return given, None
 
 
-def _stated(attributes):
+def _stated(given):
+    """The unit among the attributes of an array."""
+    attributes = getattr(given, "attrs", {})
     unit = attributes.get("units", attributes.get("unit"))
-    return None if unit is None else _named(str(unit))
+    return None if unit is None else str(unit).strip()
 
 
-def _named(unit):
-    return "" if unit.strip() in ("1", "dimensionless") else unit.strip()
+def in_unit(held: Any, own: str | None, unit: str | None, difference: bool = True) -> Any:
+    """Numbers of one unit in another, of SI. Raises NotPlain, or Unreadable of a unit.
 
-
-def _scalar(given):
-    """What something holds that may be one number, and its unit."""
-    held, own = bare(given)
-    if isinstance(held, np.ndarray) and held.ndim == 0:
-        held, inner = _scalar(held[()])
-        own = inner if own is None else own
-    return held, own
-
-
-def _check_unit(own, unit):
-    """Raise NotPlain for a unit where there is none, and for no dimension where there is one."""
-    if own and unit is None:
-        raise NotPlain(f"this one has the unit {brief(own)}")
-    if own == "" and unit is not None:
-        raise NotPlain("this one has no dimension")
-
-
-def _known(read, text, unit, difference, own):
-    """What a reader of units makes of a text. Raises NotPlain, with the unit, where it says no word."""
-    try:
-        return read(text, unit, difference)
-    except ValueError as error:
-        raise NotPlain(str(error) or f"this one has the unit {brief(own)}") from None
-
-
-def in_unit(held: Any, own: str, unit: str | None, difference: bool = True) -> Any:
-    """Numbers of one unit in another, of SI. Raises NotPlain, or Unreadable of a unit."""
+    own : None, numbers stay as they are; empty, they have no dimension
+    unit : None where numbers have none
+    """
+    if not own:
+        if own == "" and unit is not None:
+            raise NotPlain("this one has no dimension")
+        return held
+    reason = f"this one has the unit {brief(own)}"
+    if unit is None:
+        raise NotPlain(reason)
     from .units import scale
 
-    factor, zero = _known(scale, own, unit, difference, own)
-    # By a whole number, such as 1000 of millimetres: that rounds once.
-    found = held / float(factor.denominator) if factor.numerator == 1 else held * float(factor)
-    return found + float(zero) if zero else found
+    try:
+        one, zero = map(float, scale(own, unit, difference))
+    except ValueError as error:
+        raise NotPlain(str(error) or reason) from None
+    return held * one + zero if zero else held * one

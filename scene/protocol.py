@@ -6,6 +6,8 @@ from typing import Any, ClassVar, Protocol
 
 import numpy as np
 
+from .printable import brief
+from .reading import InvalidInput
 from .result import Result
 from .scene import Scene
 
@@ -72,7 +74,12 @@ def trusted():
 
 
 def refuse(solver: Solver, scene: Scene) -> None:
-    """Raise Refused with every reason at once, if there is any; SolveError as `trusted`."""
+    """Raise Refused with every reason at once, if there is any; SolveError as `trusted`.
+
+    Raises InvalidInput of what is no Scene.
+    """
+    if not isinstance(scene, Scene):
+        raise InvalidInput(f"scene = {brief(repr(scene))}: a Scene is needed")
     with trusted():
         reasons = lacking(solver, scene)
     _raise(solver, reasons)

@@ -6,7 +6,6 @@ In Python it may also be what other libraries hold, see `plain`. What is held is
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import wraps
 from inspect import signature
 from numbers import Integral
@@ -24,33 +23,29 @@ _T = TypeVar("_T")
 CLOSED = ConfigDict(extra="forbid")
 
 
-_REFUSED = (bool, str, list, tuple, dict)  # by the strict check
+_REFUSED = (bool, str, list, tuple, dict, type(None))  # by the strict check
 
 
 def _as_float(value):
     """Take any real number (numpy scalars too), leave the rest for the strict check to name."""
-    if type(value) is float:
-        return value
     try:
-        return float(number(value, None))
+        return value if type(value) is float or isinstance(value, _REFUSED) else float(_bare(value, "number"))
     except OverflowError:
         raise ValueError("Input should be within the range of floating-point numbers") from None
-    except NotPlain as error:
-        if value is None or isinstance(value, _REFUSED):
-            return value
-        # What has a float to give, as a truth of numpy and an imaginary number have, passes the strict check.
-        raise ValueError(f"Input should be a valid number{f'; {error}' if str(error) else ''}") from None
 
 
 def _as_int(value):
     """Take any whole number, leave the rest for the strict check to name."""
+    found = value if isinstance(value, _REFUSED) else _bare(value, "integer")
+    return int(found) if isinstance(found, Integral) and not isinstance(found, bool) else found
+
+
+def _bare(value, kind):
+    # numpy.bool_ and complex numbers convert to float: they are refused here.
     try:
-        found = number(value, None)
+        return number(value, None)
     except NotPlain as error:
-        if value is None or isinstance(value, _REFUSED):
-            return value
-        raise ValueError(f"Input should be a valid integer{f'; {error}' if str(error) else ''}") from None
-    return int(found) if isinstance(found, Integral) else found
+        raise ValueError(f"Input should be a valid {kind}{f'; {error}' if str(error) else ''}") from None
 
 
 Finite = Annotated[float, BeforeValidator(_as_float), Field(strict=True, allow_inf_nan=False)]
@@ -63,18 +58,28 @@ Seed = Annotated[Whole, Field(ge=0, le=MOST_WHOLE)]
 ROW = BeforeValidator(one_by_one)
 
 
-class _Numbers:
-    """What a number may be, as a part of its type: numbers, strings and arrays become plain numbers in SI."""
+@dataclass(frozen=True)
+class Unit:
+    """What a number may be, as a part of its type: numbers, strings and arrays become plain numbers in SI.
+
+    symbol : SI unit, as "m" or "W/(m K)"; in words or with names where it depends on other fields, as
+        "m^(1-exponent)"; empty without a unit
+    kind : what has it, as "a length"
+    example, number : a quantity with a unit, and the same in SI; no number where the unit depends on other fields
+    difference : whether a temperature is a difference of two
+    """
+
+    symbol: str
+    kind: str = "a number"
+    example: str = ""
+    number: float | None = None
+    difference: bool = True
 
     @property
     def allowed(self) -> str:
         """Allowed values in words."""
-        raise NotImplementedError
-
-    @property
-    def _unit(self) -> tuple[str | None, bool]:
-        """Unit in SI, None where a number has none of its own; and whether a temperature is a difference."""
-        return None, True
+        such = "" if self.number is None else f', such as "{self.example}" or {self.number:g}'
+        return f"{self.kind}{such}{f' (in {self.symbol})' if self.symbol else ''}"
 
     def value(self, given: Any) -> Any:
         """A string or quantity as a number in SI, a number as it is. Raises ValueError for anything else."""
@@ -93,7 +98,7 @@ class _Numbers:
 
     def _taken(self, take, given):
         try:
-            return take(given, *self._unit)
+            return take(given, None if self.number is None else self.symbol, self.difference)
         except ValueError as error:
             reason = f"; {error}" if str(error) else ""
             raise ValueError(f"Input should be {self.allowed}{reason}") from None
@@ -101,68 +106,16 @@ class _Numbers:
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_before_validator_function(self.value, handler(source))
 
-
-@dataclass(frozen=True)
-class Unit(_Numbers):
-    """The unit of a number.
-
-    symbol : SI unit, as "m" or "W/(m K)"
-    kind : what has it, as "a length"
-    example, number : a quantity with a unit, and the same in SI
-    difference : whether a temperature is a difference of two
-    """
-
-    symbol: str
-    kind: str
-    example: str
-    number: float
-    difference: bool = True
-
-    @property
-    def allowed(self) -> str:
-        return f'{self.kind}, such as "{self.example}" or {self.number:g} (in {self.symbol})'
-
-    @property
-    def _unit(self) -> tuple[str | None, bool]:
-        return self.symbol, self.difference
-
-    def scale(self, given: str) -> tuple[Fraction, Fraction]:
-        """One of another unit, and its zero, in this one. Raises ValueError for a unit of anything else."""
-        # Units take time to load, and only what has them needs them.
-        from .units import scale
-
-        return scale(given, self.symbol, self.difference)
-
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        return _or_written(handler(schema), (self.example,)) | {"description": self.allowed}
+        from .units import PATTERN
+
+        plain, written = handler(schema), {"type": "string", "pattern": PATTERN, "examples": [self.example]}
+        kinds = {"anyOf": [plain, written]} if self.example else plain
+        return kinds | {"description": self.allowed}
 
 
-@dataclass(frozen=True)
-class UnitOfOthers(_Numbers):
-    """The unit of a number where it depends on other fields, or of a number that has none.
-
-    symbol : in words or with their names, as "m^(1-exponent)"; empty without a unit
-    examples : quantities that the dataclass itself makes numbers in SI before; none where it takes numbers alone
-    kind : what is allowed
-    """
-
-    symbol: str
-    examples: tuple[str, ...] = ()
-    kind: str = "a number"
-
-    @property
-    def allowed(self) -> str:
-        return f"{self.kind} (in {self.symbol})" if self.symbol else self.kind
-
-    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        said = {"description": f"in {self.symbol}"}
-        return _or_written(handler(schema), self.examples) | said if self.examples else handler(schema) | said
-
-
-class _Count(_Numbers):
+class _Count(Unit):
     """A whole number."""
-
-    allowed = "a whole number"
 
     def _taken(self, take, given):
         found = super()._taken(number, given)
@@ -180,7 +133,7 @@ def argument(name: str, given: Any, take: Callable[[Any], _T]) -> _T:
         raise ValueError(f"{name} = {brief(repr(given))}: {allowed}") from None
 
 
-def takes(**units: _Numbers) -> Callable[[Callable[_P, _T]], Callable[_P, _T]]:
+def takes(**units: Unit) -> Callable[[Callable[_P, _T]], Callable[_P, _T]]:
     """Decorator of functions: arguments of these names become plain numbers or arrays in SI, as fields do.
 
     None stays, and so do the labels of an array that has them. Raises ValueError, which names the argument.
@@ -205,13 +158,6 @@ def takes(**units: _Numbers) -> Callable[[Callable[_P, _T]], Callable[_P, _T]]:
     return decorated
 
 
-def _or_written(number, examples):
-    """JSON schema of a number, or of a quantity with a unit."""
-    from .units import PATTERN
-
-    return {"anyOf": [number, {"type": "string", "pattern": PATTERN, "examples": list(examples)}]}
-
-
 METRE = Unit("m", "a length", "5 mm", 5e-3)
 PASCAL = Unit("Pa", "a pressure", "1.2 MPa", 1.2e6)
 SHEAR = Unit("Pa", "a shear modulus G", "1.2 MPa", 1.2e6)
@@ -229,7 +175,7 @@ RADIAN = Unit("rad", "an angle", "30 deg", 0.523599)
 HERTZ = Unit("Hz", "a frequency", "2 kHz", 2e3)
 RADIAN_PER_SECOND = Unit("rad/s", "an angular frequency (1 Hz is 2 pi rad/s)", "100 rad/s", 100.0)
 KELVIN = Unit("K", "an absolute temperature", "25 degC", 298.15, difference=False)
-BARE, WHOLE = UnitOfOthers("", kind="a number without a unit"), _Count()
+BARE, WHOLE = Unit("", "a number without a unit"), _Count("", "a whole number")
 RADIAN_PER_METRE = Unit("rad/m", "a wave number (1/m are cycles)", "10 rad/mm", 1e4)
 KELVIN_APART = Unit("K", "a difference of temperatures", "0.06 K", 0.06)
 CONDUCTIVITY = Unit("W/(m K)", "a thermal conductivity", "20 W/(m K)", 20.0)
@@ -285,9 +231,9 @@ def by_name(given: Any) -> dict[str, Any] | None:
     return given if isinstance(given, dict) else None
 
 
-def _units(hint) -> Iterator[Unit | UnitOfOthers]:
+def _units(hint) -> Iterator[Unit]:
     for part in get_args(hint):
-        if isinstance(part, Unit | UnitOfOthers):
+        if isinstance(part, Unit):
             yield part
         elif not isinstance(part, str):
             yield from _units(part)

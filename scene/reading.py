@@ -10,7 +10,7 @@ from typing import Any
 from pydantic import TypeAdapter, ValidationError
 
 from . import files
-from .mistakes import SAID, mistakes
+from .mistakes import LISTED, mistakes
 from .printable import brief, printable
 from .quantities import WHOLE
 
@@ -21,7 +21,6 @@ __all__ = [
     "mistakes",
     "parsed",
     "read",
-    "tables",
     "text_of",
     "validator",
     "whole",
@@ -39,7 +38,7 @@ _PLACE, _BACKSLASH = re.compile(r"\(at line (\d+), column \d+\)"), re.compile(r'
 
 
 class InvalidInput(ValueError):
-    """A file that cannot be read as what it should be; the message lists mistakes, one printable line each."""
+    """Input that is not what it should be, of a file or of a call; the message lists mistakes, a line each."""
 
     def __init__(self, message: str):
         super().__init__(printable(message))
@@ -48,15 +47,10 @@ class InvalidInput(ValueError):
 def read(path: str | Path, what: Any):
     """Read a TOML file as `what`, a validated dataclass or model.
 
-    Raises InvalidInput naming for each mistake the field, the value, what is allowed, and for a name that is
-    misspelt the one that was probably meant; of more than SAID mistakes the first, and how many there are.
+    Raises InvalidInput naming for each mistake the field, the value, what is allowed, and the known name nearest
+    to an unknown one; of more than LISTED mistakes the first, and how many there are.
     """
-    return made(tables(path), what, path)
-
-
-def tables(path: str | Path) -> dict[str, Any]:
-    """The content of a TOML file as it stands there. Raises InvalidInput."""
-    return parsed(text_of(path), path)
+    return made(parsed(text_of(path), path), what, path)
 
 
 def text_of(path: str | Path) -> str:
@@ -110,9 +104,9 @@ def validator(what: Any) -> TypeAdapter:
 
 
 def invalid(path: str | Path, lines: Sequence[str]) -> InvalidInput:
-    """The mistakes of a file, a line each: the first SAID, and how many more there are."""
-    more = [f"and {len(lines) - SAID:,} more mistakes"] if len(lines) > SAID else []
-    name, said = brief(str(path)), [*lines[:SAID], *more]
+    """The mistakes of a file, a line each: the first LISTED, and how many more there are."""
+    more = [f"and {len(lines) - LISTED:,} more mistakes"] if len(lines) > LISTED else []
+    name, said = brief(str(path)), [*lines[:LISTED], *more]
     return InvalidInput("\n".join(f"{name}: {brief(line, LONGEST)}" for line in said))
 
 

@@ -9,9 +9,10 @@ from pydantic.dataclasses import dataclass
 from .profile import Profile
 from .quantities import CLOSED, METRE, LengthOrZero, takes
 from .selfaffine import SelfAffine, Wavelength
+from .spectrum import Spectrum
 from .topography import Topography
 
-__all__ = ["CrossedWaves", "Profile", "Roughness", "SelfAffine", "Topography", "Wave"]
+__all__ = ["CrossedWaves", "Profile", "Roughness", "SelfAffine", "Spectrum", "Topography", "Wave"]
 
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
@@ -61,4 +62,6 @@ class CrossedWaves(Wave):
         return self.amplitude / 2
 
 
-Roughness = Annotated[SelfAffine | Wave | CrossedWaves | Topography | Profile, Field(discriminator="type")]
+Roughness = Annotated[
+    SelfAffine | Spectrum | Wave | CrossedWaves | Topography | Profile, Field(discriminator="type")
+]

@@ -50,7 +50,7 @@ class Scene:
     indenter : Sphere, Cone, PowerLaw, Cylinder, Plane or Measured
     elastomer : Elastic, Kelvin, StandardLinearSolid, Prony, KelvinChain, Fractional or Tabulated
     motion : Indent, Slide, Shear or Program
-    roughness : SelfAffine, Wave, CrossedWaves, Topography or Profile; absent, the indenter is smooth
+    roughness : SelfAffine, Spectrum, Wave, CrossedWaves, Topography or Profile; absent, the indenter is smooth
     layer : Layer; absent, the elastomer is a half-space
     temperature : WLF, Arrhenius or ShiftFactors; absent, the elastomer is stated as it is
     interface : Coulomb; absent, the interface has no friction of its own

@@ -7,10 +7,15 @@ import sys
 import types
 import typing
 from collections.abc import Callable, Iterable, Mapping
-from functools import cache
+from functools import cache, wraps
 from typing import Any, TypeVar
 
+from pydantic import ValidationError
+from pydantic.dataclasses import is_pydantic_dataclass
+
 from . import quantities
+from .mistakes import mistakes
+from .reading import invalid, validator
 
 _T = TypeVar("_T", bound=Callable)
 
@@ -23,7 +28,7 @@ class _Words(str):
 
 
 def make_readable(owners: Iterable[object]) -> None:
-    """Give dataclasses and functions, of anything that a package exports, a signature with names of types."""
+    """Give dataclasses and functions, of anything that a package exports, signatures and errors for people."""
     for each in owners:
         if inspect.isfunction(each) or (inspect.isclass(each) and dataclasses.is_dataclass(each)):
             readable(each)
@@ -32,7 +37,8 @@ def make_readable(owners: Iterable[object]) -> None:
 def readable(owner: _T) -> _T:
     """Decorator: `help` and `inspect.signature` show names of types, without their modules and checks.
 
-    A type that its module gives a name, as `Indenter`, is shown by that name.
+    A type that its module gives a name, as `Indenter`, is shown by that name. A dataclass that pydantic checks
+    raises InvalidInput, a line a mistake.
     """
     found, names = inspect.signature(owner), {**kinds(), **_annotated(vars(sys.modules[owner.__module__]))}
     parameters = [
@@ -40,8 +46,29 @@ def readable(owner: _T) -> _T:
         for each in found.parameters.values()
     ]
     shown = found.replace(parameters=parameters, return_annotation=_shown(found.return_annotation, names))
+    if inspect.isclass(owner) and is_pydantic_dataclass(owner):
+        setattr(owner, "__init__", _in_lines(owner))  # noqa: B010 - mypy knows no method that is assigned
     owner.__signature__ = shown  # type: ignore[attr-defined]
     return owner
+
+
+def _in_lines(cls):
+    """The constructor of a dataclass, which raises InvalidInput in place of ValidationError."""
+    checked = cls.__init__
+    names = [each.name for each in dataclasses.fields(cls) if each.init and not each.kw_only]
+
+    @wraps(checked)
+    def constructed(self, *args, **kwargs):
+        stated = {**dict(zip(names, args, strict=False)), **kwargs}
+        if len(stated) < len(args) + len(kwargs):
+            few = f"{len(args)} values without a name: {len(names)} at most, others by name, each once"
+            raise invalid(cls.__name__, [few])
+        try:
+            checked(self, **stated)
+        except ValidationError as error:
+            raise invalid(cls.__name__, mistakes(error, stated, validator(cls))) from None
+
+    return constructed
 
 
 @cache

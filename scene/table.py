@@ -9,12 +9,12 @@ from pydantic import Discriminator, Tag, model_validator
 from pydantic.dataclasses import dataclass
 
 from .mistakes import CHOICE
-from .quantities import CLOSED, COMPLIANCE, MODULUS, ROW, SECOND, AbsoluteTemperature, Positive, UnitOfOthers
+from .quantities import CLOSED, COMPLIANCE, MODULUS, ROW, SECOND, AbsoluteTemperature, Positive, Unit
 
 MOST_ROWS = 5_000
 _LEAST, _LEAST_OF_SEVERAL, _WIDEST = 4, 2, 1e40
 SCATTER = 1.0  # [K] within which temperatures are one
-Frequencies = Annotated[tuple[Annotated[Positive, UnitOfOthers("frequency_unit")], ...], ROW]
+Frequencies = Annotated[tuple[Annotated[Positive, Unit("frequency_unit")], ...], ROW]
 Moduli = Annotated[tuple[Annotated[Positive, MODULUS], ...], ROW]
 Compliances = Annotated[tuple[Annotated[Positive, COMPLIANCE], ...], ROW]
 Times = Annotated[tuple[Annotated[Positive, SECOND], ...], ROW]

@@ -9,6 +9,7 @@ from typing import Any
 
 from scene import Program, Shear, Slide
 from scene.motion import PRESSES
+from scene.parts import FEW
 from scene.plan import by
 from scene.printable import brief
 from scene.quantities import unit_of
@@ -22,6 +23,7 @@ WORDS = {
     "rolloff": "roll-off",
     "shortest": "shortest wave",
     "shortest_kept": "shortest wave kept",
+    "longest_kept": "longest wave kept",
     "poisson_ratio": "Poisson ratio",
     "reference": "stated at",
 }
@@ -95,6 +97,8 @@ def _quantity(part, name):
     if isinstance(value, dict):
         return f"of {len(next(iter(value.values())))} rows"
     unit, several = unit_of(type(part), name), value if isinstance(value, tuple) else (value,)
+    if len(several) > FEW:
+        return f"of {len(several)} values"
     return " ".join(_written(each, unit) for each in several)
 
 

@@ -9,6 +9,7 @@ pressure over height. A regression on them lessens the scatter (Lavenberg and We
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
@@ -16,7 +17,8 @@ from bem3d import BEM
 from bem3d.surface import RoughSurface
 from mdr1d import MDR
 from mdr1d.surface import LineFamily, amplitudes
-from scene import Plane, Program, Refused, Scene, SelfAffine, SolveError, Solver
+from scene import Plane, Program, Refused, Scene, SolveError, Solver
+from scene.isotropic import Isotropic
 
 VARIATES = "control_variates"  # name in a Dataset
 EACH = 4  # surfaces for each variate at least: what a regression leaves of few surfaces is known roughly
@@ -30,19 +32,19 @@ def control_variates(solver: Solver, scenes: Sequence[Scene], seeds: Sequence[in
     """Control variates (scenes, seeds, 8) [1] of the surfaces that a solver draws, in units of the spectrum.
 
     They are h, p, p h_xx, h_x^2, h_xx, p^2 h_xx, p h_x^2 and h_x; on a line p is h. There are none,
-    (scenes, seeds, 0), for another model, a plane, a motion in time, and roughness that is not self-affine.
+    (scenes, seeds, 0), for another model, a plane, a motion in time, and measured roughness.
 
     scenes : of one body and roughness; where the smooth body has no answer the variates are 0
     seeds : of the surfaces; those of the scenes are replaced
     """
-    rough = scenes[0].roughness
+    rough: Any = scenes[0].roughness
     steady = not any(isinstance(each.motion, Program) or isinstance(each.indenter, Plane) for each in scenes)
-    if not (steady and type(solver) in (BEM, MDR) and isinstance(rough, SelfAffine)):
+    if not (steady and type(solver) in (BEM, MDR) and isinstance(rough, Isotropic)):
         return np.empty((len(scenes), len(seeds), 0))
     found, narrowest = np.zeros((len(scenes), len(seeds), 8)), ACROSS * rough.longest / MOST
     below = [_footprint(replace(each, roughness=None), isinstance(solver, MDR)) for each in scenes]
     tops = [max(int(ACROSS * rough.longest / max(np.ptp(each[0]), narrowest)), 1) if each else 1 for each in below]
-    rough = replace(rough, rms_height=1.0)  # heights of any unit have the same variates but for a factor
+    rough = rough.normalized  # heights of any unit have the same variates but for a factor
     power = np.square(abs(_waves(solver, replace(rough, amplitudes="fixed"), max(tops), [rough.seed])[0])) / 2
     for first in range(0, len(seeds), TOGETHER):
         waves = _waves(solver, rough, max(tops), seeds[first : first + TOGETHER])
@@ -73,7 +75,7 @@ def _waves(solver, rough, top, seeds):
     """Amplitudes (seeds, 2 K + 1, K + 1) of surfaces, or (seeds, 1, K + 1) of lines, of at most so many waves."""
     highest = top + 0.5 if rough.shortest is None else min(top + 0.5, rough.longest / rough.shortest)
     if isinstance(solver, BEM):
-        drawn = (RoughSurface.draw(replace(rough, seed=each), highest * rough.q_min) for each in seeds)
+        drawn = (RoughSurface.draw(rough.seeded(each), highest * rough.q_min) for each in seeds)
         return np.array([each.amplitudes for each in drawn])
     waves = amplitudes(rough, highest, solver.spectrum)
     family = LineFamily(waves, rough.amplitudes == "gaussian", 4 * waves.size, 1.0, 1.0)  # of any pixel

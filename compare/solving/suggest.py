@@ -47,16 +47,19 @@ class _Name(str):
 def checked(function: Callable[_P, _T]) -> Callable[_P, _T]:
     """Decorator: arguments of a wrong type are refused, and the docstring says what each argument is.
 
-    It checks each argument whose annotation is a name of `compare.options`: paths, texts, named values, truths and
-    None. Numbers, scenes and models are checked where they are read. Raises InvalidInput. The docstring gets the
-    texts of these options, except for arguments that it has a line on.
+    It checks that each argument is known, and the type of each whose annotation is a name of `compare.options`:
+    paths, texts, named values, truths and None. Numbers, scenes and models are checked where they are read. Raises
+    InvalidInput. The docstring gets the texts of these options, except for arguments that it has a line on.
     """
     found = signature(function)
     stated = {name: _Name(each.annotation) for name, each in found.parameters.items()}
     hints = {name: get_args(function.__globals__.get(each)) for name, each in stated.items()}
+    options = function.__globals__["Options"].__annotations__ if "options" in stated else {}
 
     @wraps(function)
     def called(*args: _P.args, **given: _P.kwargs) -> _T:
+        for name in given if "given" not in stated else ():
+            known(f"argument of {function.__name__}", name, [*filter("options".__ne__, stated), *options])
         for name, value in [*zip(stated, args, strict=False), *given.items()]:
             if hint := hints.get(name):
                 _check(name, value, *hint)

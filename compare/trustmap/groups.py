@@ -7,7 +7,8 @@ import numpy as np
 
 from bem3d import BEM
 from mdr1d import MDR
-from scene import Scene, SelfAffine, Topography
+from scene import Scene, Topography
+from scene.isotropic import Isotropic
 from scene.scales import elastic_contact
 
 from ..models.exact.full_contact import complex_stiffness
@@ -91,13 +92,13 @@ class Waves:
     tails: float = 0.0
 
     @classmethod
-    def of(cls, rough: SelfAffine | Topography) -> "Waves":
+    def of(cls, rough: Isotropic | Topography) -> "Waves":
         """Waves of a roughness that is not flat."""
         bands = surface.Bands.of(rough)
         square = np.square(bands.q)
         heights, slopes, curvatures = (float(np.sum(bands.power * square**k)) for k in range(3))
         found = cls(bands, bands.unit * sqrt(slopes), sqrt(slopes / heights), sqrt(curvatures / slopes))
-        if isinstance(rough, SelfAffine):
+        if isinstance(rough, Isotropic):
             return found
         z = rough.relief / rough.relief.std()
         z = z - z.mean()
@@ -242,8 +243,8 @@ def _misfit(law: LawParts) -> float:
     return min(hypot(*parts), MOST_MISFIT)
 
 
-def _roughness(scene: Scene) -> SelfAffine | Topography:
+def _roughness(scene: Scene) -> Isotropic | Topography:
     """Roughness that has groups. Raises TypeError for a scene without."""
-    if not isinstance(scene.roughness, SelfAffine | Topography):
-        raise TypeError(f"roughness = {scene.roughness!r} has no groups, SelfAffine and Topography have")
+    if not isinstance(scene.roughness, Isotropic | Topography):
+        raise TypeError(f"roughness = {scene.roughness!r} has no groups: SelfAffine, Spectrum and Topography have")
     return scene.roughness

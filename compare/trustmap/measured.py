@@ -7,7 +7,8 @@ from math import exp, inf
 
 import numpy as np
 
-from scene import Cone, Indent, PowerLaw, Profile, Scene, SelfAffine, Slide, SolveError, Sphere, Topography
+from scene import Cone, Indent, PowerLaw, Profile, Scene, Slide, SolveError, Sphere, Topography
+from scene.isotropic import Isotropic
 
 from ..models.law.parts import LawParts
 from . import shipped, table
@@ -135,9 +136,9 @@ def unmeasured(scene: Scene) -> list[str]:
         return reasons
     if isinstance(rough, Topography):
         reasons += [f"roughness = Topography has {rough.crowded}"] if rough.crowded else []
-    elif not isinstance(rough, SelfAffine):
+    elif not isinstance(rough, Isotropic):
         reasons.append(
-            f"roughness = {type(rough).__name__} was not measured, SelfAffine, Topography and Profile were"
+            f"roughness = {type(rough).__name__} has no spectrum: SelfAffine, Spectrum, Topography, Profile have"
         )
     elif rough.shortest is None:
         reasons.append("roughness.shortest is absent, so that either grid cuts the spectrum where it ends")

@@ -11,7 +11,7 @@ import numpy as np
 
 from bem3d import BEM
 from mdr1d import MDR
-from scene import Doubt, Indent, Profile, Scene, Slide, SolveError, doubts, markup, notes
+from scene import Doubt, Indent, Profile, Scene, Slide, SolveError, Spectrum, doubts, markup, notes
 from scene.doubt import beyond_linear, beyond_table
 from scene.scales import elastic_contact
 
@@ -32,6 +32,7 @@ SOLVE: Treatment = "solve"
 NONE: Treatment = "none"  # of neither solver
 # Error of 1D as it is that is no reason to correct it, and half an interval of 95 % that is one to solve in 3D.
 SMALL, WIDE = 0.05, 0.15
+SHAPED = "Self-affine spectra were measured: the map knows this one by its rms height, slope and curvature."
 FITTED = "The surface is one fitted to a measured line: the uncertainty of that fit comes on top."
 SOLVED = "the body is smooth, and both solvers answered it"
 NOTHING = "One surface says nothing: single surfaces differ by as much as their mean."
@@ -191,8 +192,9 @@ def trust(scene: Scene) -> Advice:
     no advice: 3D is as linear as 1D.
     """
     found = replace(_advised(as_judged(scene)), doubts=doubts(scene), notes=notes(scene))
-    if isinstance(scene.roughness, Profile):
-        told = {name: replace(each, reason=f"{each.reason} {FITTED}") for name, each in found.corrections.items()}
+    if isinstance(scene.roughness, Profile | Spectrum):
+        why = FITTED if isinstance(scene.roughness, Profile) else SHAPED
+        told = {name: replace(each, reason=f"{each.reason} {why}") for name, each in found.corrections.items()}
         return replace(found, **told)
     return found
 

@@ -15,7 +15,7 @@ from typer.testing import CliRunner
 from compare.cli.app import app
 
 FOLDER = Path(__file__).parents[1] / "howto" / "yourdata"
-FILES = "rheometer.txt", "map.txt", "profile.csv", "tribometer.csv"
+FILES = "rheometer.txt", "map.txt", "profile.csv", "psd.csv", "tribometer.csv"
 BLOCK = re.compile(r"^```(toml|sh|text)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 NAMED = re.compile(r"# (\w+\.toml)\n")  # first line of a file that a page shows
 HEAD = " | head -"

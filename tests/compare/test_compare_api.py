@@ -188,6 +188,9 @@ def test_a_smooth_sweep_has_no_draws_and_the_grid_alone_in_its_interval(tmp_path
         ({"speed": "1mm/s..5mm"}, "speed = '5mm': .*a speed, such as"),
         ({"load": ["1 N", "0N..2N"]}, "load = '0N': finite numbers above zero"),
         ({"depth": "1um..2um:1e3"}, "depth = '1um..2um:1e3': points = '1e3': a whole number"),
+        ({"speeds": [1.0]}, "argument of sweep = speeds: allowed are scene, speed, .*; did you mean speed"),
+        ({"speed": {"a": 1.0}}, "speed = .*a set has no order, nor has a mapping"),
+        ({"speed": object()}, "speed = <object.*a speed, such as"),
     ],
 )
 def test_a_mistake_in_a_sweep_is_said_before_anything_is_solved(tmp_path, asked, message):
@@ -272,6 +275,12 @@ ASKED = {
 
 OPTIONS = {"workers", "figure_format", "report", "yes"}
 CALLED = {"table": "a DataFrame", "file": "heights"}  # arguments that messages name otherwise
+
+
+@pytest.mark.parametrize("name", ASKED)
+def test_an_argument_that_is_unknown_is_named_with_those_that_are_known(name):
+    with pytest.raises(InvalidInput, match=rf"argument of {name} = speeeds: allowed are "):
+        getattr(compare, name)(**ASKED[name], speeeds=1)
 
 
 @pytest.mark.parametrize("name", ASKED)

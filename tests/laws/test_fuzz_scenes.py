@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from damage import TRIES, bounded, fuzz, unshowable
 from hypothesis import strategies as st
-from pydantic import ValidationError
 from solids import OF_EACH_TYPE
 from strategies import bodies, decades, evenly, planes, rescaled
 
@@ -23,6 +22,7 @@ from scene import (
     Cylinder,
     Heating,
     Indent,
+    InvalidInput,
     Layer,
     Measured,
     Program,
@@ -110,7 +110,7 @@ def _stretched(draw, scene):
             try:
                 part = replace(part, **{number: getattr(part, number) * draw(extremes)})
                 scene = replace(scene, **{name: part})
-            except ValidationError:  # beyond what a scene may say: it stays as it was
+            except InvalidInput:  # beyond what a scene may say: it stays as it was
                 pass
     return scene
 

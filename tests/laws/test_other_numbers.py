@@ -5,6 +5,7 @@ has no example here fails.
 """
 
 import inspect
+import re
 from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import cache, partial
 from typing import Any, get_type_hints
@@ -13,7 +14,6 @@ import numpy as np
 import pandas
 import pytest
 import xarray
-from pydantic import ValidationError
 
 import bem3d
 import compare
@@ -39,6 +39,7 @@ from scene import (
     Fractional,
     Heating,
     Indent,
+    InvalidInput,
     Kelvin,
     KelvinChain,
     Layer,
@@ -53,6 +54,7 @@ from scene import (
     Shear,
     ShiftFactors,
     Slide,
+    Spectrum,
     Sphere,
     Stage,
     StandardLinearSolid,
@@ -66,6 +68,8 @@ from scene.quantities import unit_of
 # Each unit in another one, larger or smaller by a power of ten but for degrees; no dimension where there is none.
 OTHERS = {
     "m": "mm",
+    "m^3": "mm^3",
+    "m^4": "mm^4",
     "Pa": "MPa",
     "1/Pa": "1/MPa",
     "s": "ms",
@@ -121,6 +125,10 @@ OBJECTS = [
         for name in ("load", "depth", "line_load", "pressure")
     ),
     ROUGH,
+    *(
+        Spectrum(q=(1e3, 1e4, 1e5), convention="jacobs", longest_kept=5e-3, shortest_kept=1e-4, seed=2, **density)
+        for density in ({"C2D": (1e-18, 1e-20, 1e-24)}, {"C1D": (1e-14, 1e-15, 1e-18), "sides": "two"})
+    ),
     Wave(amplitude=1e-6, wavelength=1e-3),
     CrossedWaves(amplitude=1e-6, wavelength=1e-3),
     Topography(heights=HEIGHTS, pixel=1e-3, shortest_kept=3e-3, seed=1),
@@ -243,6 +251,7 @@ METHODS = {
     "omega": (50.0, "rad/s"),
     "q_max": (5e4, "rad/m"),
     "lower": (1e4, "rad/m"),
+    "m": (1, None),
 }
 NOT_NUMBERS = {
     "models",
@@ -525,18 +534,18 @@ def test_what_depends_on_others_takes_their_unit(quantity):
         stage = Stage(depth=1e-3, amplitude=written(2.0, "um"), **swung)
         assert (stage.amplitude, stage.duration, stage.frequency) == (2e-6, 60.0, 2e3)
         assert Stage(load=1.0, amplitude=written(300.0, "mN"), **swung).amplitude == 0.3
-        with pytest.raises(ValidationError, match="amplitude"):
+        with pytest.raises(InvalidInput, match="amplitude"):
             Stage(amplitude=written(1.0, "N"), **swung)
-        with pytest.raises(ValidationError, match="force"):
+        with pytest.raises(InvalidInput, match="force"):
             Shear(line_load=1.0, force=written(3.0, "N"))
-    with pytest.raises(ValidationError, match=r"a number \(in m\^\(1-exponent\)\)"):
+    with pytest.raises(InvalidInput, match=r"a number \(in m\^\(1-exponent\)\)"):
         PowerLaw("3 1/m", 2.0)
     for wrong in (quantity(1.0, "m"), "1 m", True, np.True_, [1.0]):
         with pytest.raises(ValueError, match="force"):
             Shear(load=1.0, force=wrong)
         with pytest.raises(ValueError, match="amplitude"):
             Stage(load=1.0, amplitude=wrong, **swung)
-    with pytest.raises(ValueError, match=r"frequency.*\n.*an? frequency"):
+    with pytest.raises(ValueError, match=r"frequency.*.*an? frequency"):
         Stage(load=1.0, amplitude=0.1, duration=1.0, frequency=quantity(1.0, "rad/s"))
     warm = WLF(temperature=quantity(25.0, "degC"), reference=250, c1=8, c2=quantity(50.0, "delta_degC"))
     assert (warm.temperature, warm.c2) == (298.15, 50.0)
@@ -591,7 +600,7 @@ def test_a_quantity_of_heights_has_its_unit(quantity):
             Topography(heights=given, pixel=1.0).heights.heights, HEIGHTS / 1e3, rtol=ROUNDING
         )
     for unit in ("s", "mm^2", "", "rad"):
-        with pytest.raises(ValueError, match=r"heights\n.*a length"):
+        with pytest.raises(ValueError, match=r"heights.*a length"):
             Topography(heights=quantity(HEIGHTS, unit), pixel=1.0)
     with pytest.raises(ValueError, match="two units"):
         Topography(heights=MAP.copy(data=quantity(HEIGHTS, "mm")), pixel=1.0)
@@ -617,7 +626,7 @@ def test_what_is_no_map_is_refused_by_name(given, said):
     for cls in (Topography, Measured):
         with pytest.raises(ValueError, match=said) as raised:
             cls(heights=given, pixel=PIXEL)
-        assert "heights" in str(raised.value)
+        assert re.search("heights|pixel", str(raised.value))
 
 
 def test_labels_of_arrays_join_what_formulas_make_of_them(quantity):

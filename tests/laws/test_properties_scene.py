@@ -1,10 +1,10 @@
 """Whatever stands in a field: an error that names it, an answer within the laws, or a reason why there is none."""
 
+import re
 from dataclasses import fields, replace
 from math import inf, isfinite, nan
 
 import pytest
-from pydantic import ValidationError
 from solids import OF_EACH_TYPE
 
 from bem3d import BEM
@@ -15,6 +15,7 @@ from scene import (
     CrossedWaves,
     Cylinder,
     Indent,
+    InvalidInput,
     Kelvin,
     Plane,
     PowerLaw,
@@ -121,12 +122,9 @@ def test_what_can_be_no_value_is_named_with_its_field(scene, part, name):
     """-1 is a value of none but poisson_ratio, of which it is just out of range, and True of a switch alone."""
     switch = isinstance(getattr(getattr(scene, part), name), bool)
     for value in (each for each in NEVER if not (switch and each is True)):
-        with pytest.raises(ValidationError) as caught:
+        with pytest.raises(InvalidInput) as caught:
             placed(getattr(scene, part), name, value)
-        mistake = caught.value.errors()[0]
-        assert mistake["loc"][0] == name
-        assert mistake["input"] is value or mistake["input"] == value or value == [1.0]
-        assert len(mistake["msg"]) > 10
+        assert re.match(rf"\w+: {name}\b.*: .{{10}}", str(caught.value)), value
 
 
 @pytest.mark.parametrize(("scene", "part", "name"), FIELDS)
@@ -138,7 +136,7 @@ def test_extreme_numbers_are_solved_within_the_laws_or_declined_with_a_reason(sc
     for value in EXTREME:
         try:
             changed = replace(scene, **{part: placed(getattr(scene, part), name, value)})
-        except ValidationError:
+        except InvalidInput:
             continue
         assert lawful(answered(solver, changed)), value
 
@@ -147,9 +145,9 @@ def test_extreme_numbers_are_solved_within_the_laws_or_declined_with_a_reason(sc
 def test_stages_take_no_impossible_values(name):
     for value in NEVER:
         if name != "speed" or value != -1.0:  # backwards
-            with pytest.raises(ValidationError) as caught:
+            with pytest.raises(InvalidInput) as caught:
                 replace(START.stages[0], **{name: value})
-            assert caught.value.errors()[0]["loc"] == (name,)
+            assert re.match(rf"Stage: {name}\b", str(caught.value)), value
 
 
 @pytest.mark.parametrize("name", ["duration", "speed", "load", "depth", "amplitude", "frequency"])
@@ -164,7 +162,7 @@ def test_programs_of_extreme_stages_are_followed_or_declined_with_a_reason(name,
             shaken = {"amplitude": 0.5, "frequency": 1e3} if name in ("amplitude", "frequency") else {}
             back = replace(START.stages[1], speed=-value if name == "speed" else 0.1)
             program = Program(stages=(replace(stage, **shaken | {name: value}), back))
-        except ValidationError:
+        except InvalidInput:
             continue
         answer = answered(solver, replace(BALL, motion=program))
         if isinstance(answer, str):
@@ -180,16 +178,16 @@ def test_settings_that_can_be_no_value_are_named(solver, value):
     for field in fields(solver):
         if field.name == "frames" and value == 0:
             continue  # none are kept
-        with pytest.raises(ValidationError) as caught:
+        with pytest.raises(InvalidInput) as caught:
             replace(solver, **{field.name: value})
-        assert caught.value.errors()[0]["loc"][0] == field.name
+        assert re.match(rf"{solver.name}: {field.name}\b", str(caught.value))
 
 
 @pytest.mark.parametrize(
     ("part", "name"), [(BALL.indenter, "radius"), (BALL.motion, "load"), (SOLVERS[0], "extent")]
 )
 def test_a_whole_number_beyond_the_range_of_numbers_is_named(part, name):
-    with pytest.raises(ValidationError, match=rf"{name}\n.*within the range of floating-point numbers"):
+    with pytest.raises(InvalidInput, match=rf"{name}.*within the range of floating-point numbers"):
         replace(part, **{name: 10**400})
 
 
@@ -224,5 +222,5 @@ def test_profiles_that_fit_in_no_memory_are_an_error_before_they_are_drawn():
 
 @pytest.mark.parametrize("name", ["longest", "shortest", "rolloff"])
 def test_a_wavelength_without_a_wave_number_is_named(name):
-    with pytest.raises(ValidationError, match=f"{name}\n.*wavelengths are at least 1e-300 m"):
+    with pytest.raises(InvalidInput, match=f"{name}.*wavelengths are at least 1e-300 m"):
         replace(ROUGH, **{name: 1e-310})

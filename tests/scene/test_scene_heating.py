@@ -5,7 +5,6 @@ from math import exp, inf, isnan, log, nan
 
 import numpy as np
 import pytest
-from pydantic import ValidationError
 from scipy.optimize import bisect
 
 from mdr1d import estimates
@@ -14,6 +13,7 @@ from scene import (
     Cylinder,
     Heating,
     Indent,
+    InvalidInput,
     Kelvin,
     Layer,
     Plane,
@@ -281,5 +281,5 @@ def test_mistakes_in_the_heating_are_named():
             "heating.feedback = 'flash' shifts the times of the elastomer: give temperature",
         ),
     ):
-        with pytest.raises(ValidationError, match=message):
+        with pytest.raises(InvalidInput, match=message):
             ask()

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from pydantic import TypeAdapter, ValidationError
+from pydantic import TypeAdapter
 from strategies import decades, examples
 
 from scene import (
@@ -14,6 +14,7 @@ from scene import (
     Arrhenius,
     CreepTable,
     Indent,
+    InvalidInput,
     Prony,
     RelaxationTable,
     Scene,
@@ -169,7 +170,7 @@ def test_columns_of_shift_factors_shift_the_rows_to_where_they_are_one(heading, 
     assert deviation(table, omega=OMEGA[8:42]) < FITTED
     scene = Scene(Sphere(1e-2), table, Indent(load=1.0), temperature=replace(LAW, temperature=310.0))
     assert scene.solid.static_modulus == table.static_modulus
-    with pytest.raises(ValidationError, match=r"measured at 300 K, and temperature\.reference = 310 K"):
+    with pytest.raises(InvalidInput, match=r"measured at 300 K, and temperature\.reference = 310 K"):
         replace(scene, temperature=replace(LAW, reference=310.0))
 
 
@@ -194,7 +195,7 @@ def test_a_table_of_shift_factors_is_the_law_of_the_scene_and_vertical_ones_chan
         ("b_T", (1.0, 2.0), "at each of the 4 temperatures"),
         ("skip", 3, "table is missing"),
     ):
-        with pytest.raises(ValidationError, match=said):
+        with pytest.raises(InvalidInput, match=said):
             replace(law, **{name: value})
 
 
@@ -211,9 +212,9 @@ def test_a_table_of_modes_is_a_prony_series(tmp_path):
         ({}, "line 2: '3' is no heading"),
         ({"moduli": (1e6,), "skip": 4, **stated}, "line 8 is blank"),
     ):
-        with pytest.raises(ValidationError, match=said):
+        with pytest.raises(InvalidInput, match=said):
             Prony(equilibrium_modulus=1e6, table=path, **more)
-    with pytest.raises(ValidationError, match="moduli is stated beside it"):
+    with pytest.raises(InvalidInput, match="moduli is stated beside it"):
         Prony(equilibrium_modulus=1e6, moduli=(1e6,), table={"tau": (1.0,), "G": (1e6,)})
 
 
@@ -223,7 +224,7 @@ def test_reduced_frequencies_need_no_shift():
     del reduced["omega"]
     units = {"storage": "Pa", "loss": "Pa"}
     assert deviation(Tabulated(table=reduced, units=units), omega=OMEGA[8:42]) < FITTED
-    with pytest.raises(ValidationError, match="b_T beside reduced frequencies"):
+    with pytest.raises(InvalidInput, match="b_T beside reduced frequencies"):
         Tabulated(table=reduced | {"b_T": np.ones(90)}, units=units)
 
 
@@ -234,13 +235,13 @@ def test_one_temperature_is_that_of_the_table_and_the_law_has_to_begin_there():
     scene = Scene(Sphere(1e-2), table, Indent(load=1.0))
     assert scene.solid is table
     assert replace(scene, temperature=replace(LAW, temperature=310.0)).solid.solid is table
-    with pytest.raises(ValidationError, match=r"measured at 300 K, and temperature\.reference = 280 K"):
+    with pytest.raises(InvalidInput, match=r"measured at 300 K, and temperature\.reference = 280 K"):
         replace(scene, temperature=replace(LAW, reference=280.0))
 
 
 def test_several_temperatures_without_a_law_are_refused_by_name():
     table = Tabulated(table=tables(290.0, 300.0, 320.0)[0])
-    with pytest.raises(ValidationError, match=r"several temperatures, from 290 to 320 K: state \[temperature\]"):
+    with pytest.raises(InvalidInput, match=r"several temperatures, from 290 to 320 K: state \[temperature\]"):
         Scene(Sphere(1e-2), table, Indent(load=1.0))
     with pytest.raises(ValueError, match="several temperatures"):
         table.complex_modulus(1.0)
@@ -251,9 +252,9 @@ def test_several_temperatures_without_a_law_are_refused_by_name():
 def test_a_law_that_does_not_bring_the_rows_onto_one_curve_is_refused():
     table = Tabulated(table=tables(290.0, 300.0, 320.0)[0])
     wrong = Arrhenius(temperature=300.0, reference=300.0, activation_energy=1e3)
-    with pytest.raises(ValidationError, match="the best passive solid is off by"):
+    with pytest.raises(InvalidInput, match="the best passive solid is off by"):
         Scene(Sphere(1e-2), table, Indent(load=1.0), temperature=wrong)
-    with pytest.raises(ValidationError, match=r"a row at temperature = 290 K: the law ends at"):
+    with pytest.raises(InvalidInput, match=r"a row at temperature = 290 K: the law ends at"):
         Scene(Sphere(1e-2), table, Indent(load=1.0), temperature=replace(LAW, c2=5.0))
 
 
@@ -276,7 +277,7 @@ def test_a_scene_of_several_temperatures_is_stored_and_read_back():
         ("f [Hz],G' [Pa],G'' [Pa]", {"frequency_unit": "rad/s"}, "'f' is in Hz, and frequency_unit = 'rad/s'"),
         ("omega [Hz],G' [Pa],G'' [Pa]", {}, "'omega' is in 'Hz', and is an angular frequency"),
         ("f [rad/s],E' [Pa],E'' [Pa]", {"kind": "shear"}, "of kind 'tensile', and kind = 'shear'"),
-        ("f,G',G''", {}, "frequency_unit\n.*required"),
+        ("f,G',G''", {}, "frequency_unit.*missing"),
         ("omega,G',E''", {}, "of kind 'shear' and 'tensile'"),
         ("omega,G*,delta", {}, "'delta' has no unit in the heading: state units = {phase"),
         ("omega,G*,delta [deg]", {}, r"line 2: phase = 5\.23\d* must be below pi/2"),
@@ -293,14 +294,14 @@ def test_a_table_that_says_too_little_or_contradicts_is_refused(tmp_path, headin
     numbers = (np.geomspace(1, 10, 5), np.geomspace(100, 200, 5), np.full(5, 300.0))
     path = tmp_path / "rubber.csv"
     path.write_text("\n".join([heading, *(",".join(map(str, row)) for row in zip(*numbers, strict=True))]))
-    with pytest.raises(ValidationError, match=said):
+    with pytest.raises(InvalidInput, match=said):
         Tabulated(table=path, **stated)
 
 
 def test_two_columns_of_the_frequency_have_to_agree():
     table = some(columns_of(SOLID, OMEGA), "omega", "G'")
     assert Tabulated(table=table | {"f [Hz]": OMEGA / (2 * np.pi)}) == Tabulated(table=table)
-    with pytest.raises(ValidationError, match=r"row 1: omega = .* contradicts frequency: 1 Hz is 2 pi rad/s"):
+    with pytest.raises(InvalidInput, match=r"row 1: omega = .* contradicts frequency: 1 Hz is 2 pi rad/s"):
         Tabulated(table=table | {"f [Hz]": OMEGA})
 
 
@@ -311,7 +312,7 @@ def test_a_sweep_of_temperature_at_one_frequency_is_no_table_of_frequencies():
         "E' [Pa]": np.ones(9),
         "E'' [Pa]": np.ones(9),
     }
-    with pytest.raises(ValidationError, match=r"a sweep of temperature at one frequency, 1\.01, is no table"):
+    with pytest.raises(InvalidInput, match=r"a sweep of temperature at one frequency, 1\.01, is no table"):
         Tabulated(table=table)
 
 
@@ -319,7 +320,7 @@ def test_a_tangent_that_contradicts_the_moduli_beside_it_is_refused():
     table = some(columns_of(SOLID, OMEGA), "omega", "G'", "tan")
     assert deviation(Tabulated(table=table)) < FITTED
     table["G'' [Pa]"] = 1e3 * table["G'' [Pa]"]
-    with pytest.raises(ValidationError, match=r"1e\+03 times off tan delta"):
+    with pytest.raises(InvalidInput, match=r"1e\+03 times off tan delta"):
         Tabulated(table=table)
 
 
@@ -337,7 +338,7 @@ def test_notes_are_no_part_of_what_is_compared_or_stored():
 def test_what_is_stated_chooses_between_columns_of_both_kinds_and_frequencies(symbol, kind, unit):
     both = columns_of(SOLID, OMEGA) | columns_of(SOLID, OMEGA, TENSILE, "E") | {"f [Hz]": OMEGA / (2 * np.pi)}
     both = some(both, "omega", "f ", "G'", "E'")
-    with pytest.raises(ValidationError, match="are both storage: state one"):
+    with pytest.raises(InvalidInput, match="are both storage: state one"):
         Tabulated(table=both)
     columns = {"storage": f"{symbol}'", "loss": f"{symbol}''"}
     found = Tabulated(table=both, columns=columns, frequency_unit=unit)
@@ -362,7 +363,7 @@ def test_a_liquid_is_refused_in_each_form(form, noise):
         rng = np.random.default_rng(seed)
         first, *others = LIQUIDS[form].items()
         scattered = {name: values * np.exp(noise * rng.standard_normal(30)) for name, values in others}
-        with pytest.raises(ValidationError, match="leaves the modulus at rest open"):
+        with pytest.raises(InvalidInput, match="leaves the modulus at rest open"):
             Tabulated(table=dict([first]) | scattered, tolerance=0.3)
 
 
@@ -387,7 +388,7 @@ def test_a_solid_stays_one_under_noise_and_a_known_modulus_at_rest_is_kept(name)
     ],
 )
 def test_a_wrong_table_over_time_is_refused_with_its_place(change, said):
-    with pytest.raises(ValidationError, match=said):
+    with pytest.raises(InvalidInput, match=said):
         RelaxationTable(**({"time": (1.0, 2.0, 3.0, 4.0), "modulus": (4.0, 3.0, 2.0, 1.0)} | change))
 
 
@@ -415,7 +416,7 @@ def test_few_frequencies_at_many_temperatures_are_enough():
 
 def test_shift_factors_the_other_way_round_are_refused():
     stated, factors = tables(290.0, 300.0, 320.0)
-    with pytest.raises(ValidationError, match="a_T grows with the temperature"):
+    with pytest.raises(InvalidInput, match="a_T grows with the temperature"):
         Tabulated(table=stated | {"aT": 1 / factors})
 
 
@@ -468,7 +469,7 @@ def test_a_table_has_the_modulus_it_was_made_with_or_is_refused(tmp_path, text, 
     path = tmp_path / "rubber.csv"
     path.write_text(text, "cp1252" if text.startswith("T=") else "utf-8")
     if isinstance(expected, str):
-        with pytest.raises(ValidationError, match=expected):
+        with pytest.raises(InvalidInput, match=expected):
             Tabulated(table=path, **stated)
     else:
         found = Tabulated(table=path, **stated)

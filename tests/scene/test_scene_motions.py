@@ -5,9 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from programs import program
-from pydantic import ValidationError
 
-from scene import Scene, Stage
+from scene import InvalidInput, Scene, Stage
 from scene.oscillation import Oscillation
 from scene.reading import read
 
@@ -102,11 +101,11 @@ def test_an_oscillation_may_touch_zero_but_not_pass_it():
     )
     assert touching.prescribed(np.linspace(0, 11, 1001)).min() >= 0.0
     assert touching.prescribed(1 + 0.75 * 3) == pytest.approx(0.0, abs=1e-15)
-    with pytest.raises(ValidationError, match=r"stages\[1\].amplitude = 0.4 N takes the load down to -0.1 N"):
+    with pytest.raises(InvalidInput, match=r"stages\[1\].amplitude = 0.4 N takes the load down to -0.1 N"):
         program({"duration": 1.0, "load": 0.3}, {"duration": 3.0, "amplitude": 0.4, "frequency": 0.5})
     rising = {"duration": 0.1, "depth": 1.0, "amplitude": 0.4, "frequency": 2.0}
     assert program(rising).greatest > 1.0  # the first fifth of a period only rises
-    with pytest.raises(ValidationError, match=r"stages\[0\].amplitude = 0.4 m takes the depth down to"):
+    with pytest.raises(InvalidInput, match=r"stages\[0\].amplitude = 0.4 m takes the depth down to"):
         program(rising | {"duration": 1.0})
 
 
@@ -121,7 +120,7 @@ def test_an_oscillation_may_touch_zero_but_not_pass_it():
     ],
 )
 def test_half_an_oscillation_and_numbers_that_are_none_are_named(given, message):
-    with pytest.raises(ValidationError, match=message):
+    with pytest.raises(InvalidInput, match=message):
         Stage(**{"duration": 1.0, "load": 1.0} | given)
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import pandas
 import pytest
 import xarray
-from pydantic import TypeAdapter, ValidationError
+from pydantic import TypeAdapter
 
 import mdr1d
 from bem3d import BEM
@@ -17,7 +17,7 @@ from bem3d.grid import Grid
 from bem3d.surface import RoughSurface
 from compare.trustmap.verdict import FITTED, trust
 from mdr1d import MDR
-from scene import Kelvin, Profile, Refused, Scene, SelfAffine, Slide, Sphere, linescan
+from scene import InvalidInput, Kelvin, Profile, Refused, Scene, SelfAffine, Slide, Sphere, linescan
 from scene.periodogram import bins_of, taken_off
 from scene.reading import read
 from scene.roughness import Roughness
@@ -264,7 +264,7 @@ REGULAR = np.sin(2 * pi * np.arange(512) / 16.3)
 )
 def test_what_is_no_line_is_refused_with_the_reason(message, stated):
     content = {"heights": HEIGHTS, "spacing": SPACING} | stated
-    with pytest.raises(ValidationError, match=message):
+    with pytest.raises(InvalidInput, match=message):
         Profile(**{name: value for name, value in content.items() if value is not None})
 
 
@@ -316,7 +316,7 @@ def test_a_line_is_the_same_in_every_text_that_is_read(tmp_path, content, stated
             ({"spacing": "2.1 um"}, "leave spacing out"),
             ({"unit": "nm"}, "must agree|state one of them"),
         ):
-            with pytest.raises(ValidationError, match=said):
+            with pytest.raises(InvalidInput, match=said):
                 Profile(file=tmp_path / "line.csv", **stated | again)
 
 
@@ -335,7 +335,7 @@ def test_a_line_is_the_same_in_every_text_that_is_read(tmp_path, content, stated
 )
 def test_a_text_that_is_no_line_is_refused_with_what_to_state(tmp_path, content, stated, message):
     (tmp_path / "line.txt").write_text(content)
-    with pytest.raises(ValidationError, match=message) as error:
+    with pytest.raises(InvalidInput, match=message) as error:
         Profile(file=tmp_path / "line.txt", **stated)
     assert "line.txt" in str(error.value)
 
@@ -343,10 +343,10 @@ def test_a_text_that_is_no_line_is_refused_with_what_to_state(tmp_path, content,
 def test_an_array_is_one_row_of_heights(tmp_path):
     np.save(tmp_path / "line.npy", HEIGHTS * 1e9)
     assert Profile(file=tmp_path / "line.npy", unit="nm", spacing="2 um").heights.heights == pytest.approx(HEIGHTS)
-    with pytest.raises(ValidationError, match="the unit of its heights nor the spacing"):
+    with pytest.raises(InvalidInput, match="the unit of its heights nor the spacing"):
         Profile(file=tmp_path / "line.npy")
     np.save(tmp_path / "map.npy", HEIGHTS.reshape(16, 32))
-    with pytest.raises(ValidationError, match=r"shape \(16, 32\): a line is one row of heights"):
+    with pytest.raises(InvalidInput, match=r"shape \(16, 32\): a line is one row of heights"):
         Profile(file=tmp_path / "map.npy", unit="m", spacing="2 um")
     line = xarray.DataArray(HEIGHTS * 1e6, {"x": 1e6 * SPACING * np.arange(512)}, "x", attrs={"units": "um"})
     line.x.attrs["units"] = "um"

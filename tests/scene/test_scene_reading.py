@@ -1,14 +1,16 @@
 """A scene in Python and in TOML: the same fields, the same mistakes, each named with what is allowed."""
 
-import difflib
 import tomllib
 from dataclasses import FrozenInstanceError, dataclass, replace
+from difflib import get_close_matches
 from math import pi
 
 import numpy as np
 import pytest
-from pydantic import TypeAdapter, ValidationError
+from pydantic import TypeAdapter
 
+from bem3d import BEM
+from mdr1d import MDR
 from scene import (
     Cone,
     Cylinder,
@@ -26,8 +28,9 @@ from scene import (
     Sphere,
     Stage,
     StandardLinearSolid,
+    Topography,
 )
-from scene.reading import DEEPEST, SAID, InvalidInput, parsed, read
+from scene.reading import DEEPEST, LISTED, InvalidInput, made, parsed, read
 
 INDENTER = '[indenter]\ntype = "sphere"\nradius = 1e-2\n'
 ELASTOMER = '[elastomer]\ntype = "kelvin"\nmodulus = 1e6\nrelaxation_time = 1e-3\n'
@@ -46,6 +49,7 @@ depth = 0
 """
 ROUGHNESS = "[roughness]\ntype = 'self-affine'\nhurst = 0.2\nrms_height = 5e-5\nlongest = 1e-2\n"
 SCENE = INDENTER + ELASTOMER + MOTION
+HILLS = np.random.default_rng(1).normal(size=(8, 8))
 WHOLE = SCENE + ROUGHNESS
 
 
@@ -78,7 +82,7 @@ def test_a_file_says_what_python_says(tmp_path):
         ),
         ("radius = 1e-2", "", r'indenter.radius: missing, a length, such as "5 mm"'),
         ("radius = 1e-2", "radius = 1\nangle = 1", r"indenter.angle = 1: unknown here; known are radius, type"),
-        ('"sphere"', '"ball"', r"indenter.type = 'ball': one of 'sphere', 'cone', 'power-law', 'cylinder'"),
+        ('"sphere"', '"ball"', r"indenter.type = 'ball': one of 'cone', 'cylinder', 'measured', 'plane', '"),
         ("load = 1.0", "", r"motion: none given: give exactly one of load \[N\], depth \[m\]"),
         ("load = 1.0", "pressure = 1.0", r"motion.pressure = 1 does not press a Sphere: give load \[N\] or depth"),
         ("[motion]", "[movement]", r"motion: missing, a table"),
@@ -87,11 +91,11 @@ def test_a_file_says_what_python_says(tmp_path):
             "longest = 1e-2\nshortest = 1",
             r"roughness: shortest = 1 must be at most half of longest",
         ),
-        ("longest = 1e-2", "longest = 1e-2\nseed = 5.0", r"seed = 5.0: .*without a decimal point"),
+        ("longest = 1e-2", "longest = 1e-2\nseed = 5.0", r"seed = 5.0: .*valid integer"),
         (
             "[roughness]",
             "[layer]\nthickness = 1\nbase = 'bondd'\n[roughness]",
-            r"layer.base = 'bondd': .*mean 'bonded'\?",
+            r"layer.base = 'bondd': .*mean bonded\?",
         ),
     ],
 )
@@ -118,7 +122,7 @@ def test_a_program_of_stages_can_be_read(tmp_path):
         ("speed = 0.1", "load = 1", r"motion: stages prescribe depth and load: give one and the same throughout"),
         ("depth = 1e-4", "", r"motion: stages press nowhere: give one of load \[N\], depth \[m\], line_load"),
         (PROGRAM[26:], "stages = []", r"motion.stages = \[\]: .*at least 1 item"),
-        (PROGRAM[26:], "stages = [{duration = 1.0, gap = 1e-6}]", r"^\S*scene.toml: motion.stages.0.gap[^\n]*$"),
+        (PROGRAM[26:], "stages = [{duration = 1.0, gap = 1e-6}]", r"motion.stages.0.gap = 1e-06: unknown here"),
     ],
 )
 def test_a_mistake_in_a_program_is_named_with_its_stage(tmp_path, old, new, said):
@@ -134,7 +138,7 @@ def test_a_program_prescribes_by_straight_lines_from_zero_and_what_presses_it_su
     np.testing.assert_allclose(program.path([1.0, 2.0, 4.0]), [0.0, 0.5, 1.0])
     assert (program.duration, program.length, program.pressed_by) == (4.0, 1.0, "load")
     assert program.held == Indent(load=2.0)
-    with pytest.raises(ValidationError, match=r"motion.load = 2 does not press a Cylinder: give line_load"):
+    with pytest.raises(InvalidInput, match=r"motion.load = 2 does not press a Cylinder: give line_load"):
         Scene(Cylinder(1.0), Elastic(1e6), program)
 
 
@@ -156,7 +160,7 @@ def test_any_number_is_kept_as_a_float_and_a_whole_one_is_no_other():
     rough = SelfAffine(hurst=0.2, rms_height=1e-5, longest=1e-2, seed=np.int64(2))
     assert type(rough.seed) is int
     for value in (True, "2", 2.0, np.float64(2)):
-        with pytest.raises(ValidationError, match="seed"):
+        with pytest.raises(InvalidInput, match="seed"):
             replace(rough, seed=value)
 
 
@@ -185,7 +189,7 @@ def test_a_list_that_is_too_short_is_named_with_what_it_lacks(tmp_path):
 
     path = tmp_path / "ends.toml"
     path.write_text("pair = [1.0]\n")
-    with pytest.raises(InvalidInput, match=r"ends.toml: pair.1 = \[1.0\]: Field required"):
+    with pytest.raises(InvalidInput, match=r"ends.toml: pair.1: missing"):
         read(path, Ends)
 
 
@@ -207,7 +211,7 @@ def test_what_does_not_fit_together_is_named_by_its_fields_alone(tmp_path):
     )
 
 
-# What was probably meant
+# Names and types that are unknown
 
 
 def lines_of(tmp_path, text):
@@ -216,36 +220,34 @@ def lines_of(tmp_path, text):
     return [line.partition("scene.toml: ")[2] for line in str(raised.value).splitlines()]
 
 
+TYPES = "one of 'elastic', 'fractional', 'kelvin', 'kelvin-chain', 'prony', 'standard-linear-solid', 'tabulated'"
+
+
 @pytest.mark.parametrize(
-    ("old", "new", "said"),
+    ("old", "new", "lines"),
     [
-        ("modulus =", "modlus =", "elastomer.modlus = 1000000.0: unknown here; did you mean modulus? Known"),
-        ("[roughness]", "[roughnes]", "roughnes: unknown here; did you mean roughness? Known are indenter, "),
-        ('"kelvin"', '"Kelvin"', "elastomer.type = 'Kelvin': one of 'elastic', 'kelvin', "),
-        ('type = "slide"', 'typ = "slide"', "motion.typ = 'slide': unknown here; did you mean type?"),
-        ("[indenter]", "speed = 0.1\n[indenter]", "speed = 0.1: unknown here"),
-        ("seed = 1", "fudge = 1", "roughness.fudge = 1: unknown here; known are type, hurst, "),
+        ("modulus =", "modlus =", ["elastomer.modlus = 1000000.0: unknown here; did you mean modulus? Known are"]),
+        ("[roughness]", "[roughnes]", ["roughnes: unknown here; did you mean roughness? Known are indenter, "]),
+        ('"kelvin"', '"Kelvin"', [f"elastomer.type = 'Kelvin': {TYPES}; did you mean kelvin?"]),
+        (
+            'type = "slide"',
+            'typ = "slide"',
+            [
+                "motion.type: missing, one of 'indent', 'program', 'shear', 'slide'",
+                "motion.typ = 'slide': unknown here; did you mean type? Known are",
+            ],
+        ),
+        ("[indenter]", "speed = 0.1\n[indenter]", ["speed = 0.1: unknown here; known are indenter, elastomer, "]),
+        ("seed = 1", "fudge = 1", ["roughness.fudge = 1: unknown here; known are type, hurst, "]),
+        ("hurst = 0.2", "hurst = 0.2\nhurts = 1", ["roughness.hurts = 1: unknown here; did you mean hurst?"]),
+        ('"sphere"', '"ball"', ["indenter.type = 'ball': one of 'cone', 'cylinder', 'measured', "]),
     ],
 )
-def test_a_misspelt_name_is_one_mistake_and_said_with_what_is_meant(tmp_path, old, new, said):
+def test_an_unknown_name_is_one_mistake_with_the_nearest_known_one(tmp_path, old, new, lines):
     text = WHOLE + "seed = 1\n"
     assert old in text
-    (line,) = lines_of(tmp_path, text.replace(old, new, 1))
-    assert line.startswith(said)
-
-
-def test_a_name_in_the_wrong_table_is_said_with_the_right_one(tmp_path):
-    text = "speed = 0.1\n" + WHOLE.replace("speed = 0.1\n", "")
-    (line,) = lines_of(tmp_path, text)
-    assert line.startswith("speed = 0.1: unknown here; did you mean motion.speed? Known are indenter, elastomer")
-    (line,) = lines_of(tmp_path, text.replace("speed", "spede"))
-    assert line.startswith("spede = 0.1: unknown here; did you mean motion.speed?")
-    assert lines_of(tmp_path, text.replace("0.1", "-0.1"))[1] == (
-        "motion.speed = -0.1: Input should be greater than or equal to 0"
-    )
-    layered = SCENE.replace("radius = 1e-2", "radius = 1e-2\nbase = 'bonded'") + "[layer]\nthickness = 1\n"
-    (line,) = lines_of(tmp_path, layered)
-    assert "did you mean layer.base?" in line
+    for found, begins in zip(lines_of(tmp_path, text.replace(old, new, 1)), lines, strict=True):
+        assert found.startswith(begins)
 
 
 def test_what_stands_under_a_misspelt_name_is_checked_as_if_it_were_right(tmp_path):
@@ -253,35 +255,93 @@ def test_what_stands_under_a_misspelt_name_is_checked_as_if_it_were_right(tmp_pa
     text = text.replace('"sphere"\nradius = 1e-2', '"spher"\nradius = -1').replace("hurst = 0.2", "hurst = 2")
     assert [line.partition(":")[0] for line in lines_of(tmp_path, text)] == [
         "indenter.type = 'spher'",
-        "indenter.radius = -1",
         "elastomr",
-        "roughness.hurst = 2",
         "elastomer.modulis = '1 N'",
+        "indenter.radius = -1",
         "elastomer.modulus = '1 N'",
+        "roughness.hurst = 2",
     ]
 
 
-def test_everything_that_is_missing_is_said(tmp_path):
+@pytest.mark.parametrize(("stated", "missing"), [("", ": missing,"), ('type = "rubber"\n', " = 'rubber':")])
+def test_a_type_that_is_missing_or_unknown_hides_nothing_of_its_table(tmp_path, stated, missing):
+    """What another type could take is no mistake, nor what does not fit a type that was not stated."""
+    text = WHOLE.replace('type = "kelvin"\n', stated).replace("1e-3", "-1e-3\nfudge = 2\nmoduli = [1]")
+    kind, unknown, wrong = lines_of(tmp_path, text)
+    assert kind == f"elastomer.type{missing} {TYPES}"
+    assert unknown.startswith("elastomer.fudge = 2: unknown here; known are")
+    assert wrong == "elastomer.relaxation_time = -0.001: Input should be greater than 0"
+
+
+def test_everything_that_is_missing_is_listed(tmp_path):
     assert lines_of(tmp_path, '[indenter]\ntype = "cone"\n[motion]\n') == [
+        "motion.type: missing, one of 'indent', 'program', 'shear', 'slide'",
         'indenter.angle: missing, an angle, such as "30 deg" or 0.523599 (in rad)',
-        "motion.type: missing, one of 'indent', 'slide', 'shear', 'program'",
         "elastomer: missing, a table",
     ]
 
 
+LENGTH = 'a length, such as "5 mm" or 0.005 (in m)'
+
+
 @pytest.mark.parametrize(
-    ("stated", "missing", "instead"),
+    ("make", "lines"),
     [
-        ('type = "prony"\nmoduli = [1]', "elastomer.relaxation_times", ["tau"]),
-        ('type = "prony"\nrelaxation_times = [1]', "elastomer.moduli", ["youngs_moduli", "g"]),
-        ('type = "kelvin"\nmodulus = 1', "elastomer.relaxation_time", []),
-        (f'{ELASTOMER[12:]}\n[roughness]\ntype = "self-affine"', "roughness.rms_height", ["rms_slope"]),
+        (lambda: Sphere(radios=1), ["radios = 1: unknown here; did you mean radius? Known are radius, type"]),
+        (lambda: Sphere(), [f"radius: missing, {LENGTH}"]),
+        (lambda: Sphere(None), [f"radius = None: Input should be {LENGTH}"]),
+        (lambda: Sphere(1, "sphere", 3), ["3 values without a name: 2 at most, others by name, each once"]),
+        (lambda: Sphere(1, radius=2), ["1 values without a name: 2 at most, others by name, each once"]),
+        (
+            lambda: Kelvin(-1, "1 m"),
+            [
+                "modulus = -1: Input should be greater than 0",
+                "relaxation_time = '1 m': Input should be a time, such as \"1 ms\" or 0.001 (in s)",
+            ],
+        ),
+        (lambda: Topography(HILLS, "2 um"), ["2 values without a name: 0 at most, others by name, each once"]),
+        (
+            lambda: Topography(heights=HILLS, pixel="2 s"),
+            [f"pixel = '2 s': Input should be {LENGTH}; or two of them, along x and y"],
+        ),
+        (lambda: Scene(1, Kelvin(1, 1), Indent(load=1)), ["indenter = 1: a table"]),
+        (lambda: BEM(points="many"), ["points = 'many': Input should be a valid integer"]),
+        (lambda: MDR(shape="round"), ["shape = 'round': Input should be 'mapped' or 'as-given'"]),
     ],
 )
-def test_what_may_stand_in_place_of_a_missing_name_is_said(tmp_path, stated, missing, instead):
-    lines = lines_of(tmp_path, f"{INDENTER}[elastomer]\n{stated}\n[motion]\ntype = 'indent'\nload = 1")
-    (line,) = [line for line in lines if line.startswith(f"{missing}: missing, ")]
-    assert line.split("; or ")[1:] == instead
+def test_a_call_names_its_mistakes_as_a_file_does(make, lines):
+    with pytest.raises(InvalidInput) as raised:
+        make()
+    assert [line.partition(": ")[2] for line in str(raised.value).splitlines()] == lines
+    assert "pydantic" not in str(raised.getrepr())
+
+
+@pytest.mark.parametrize("solver", [MDR(), BEM()], ids=lambda each: each.name)
+@pytest.mark.parametrize("given", [HILLS, "quick-start", Sphere, None], ids=["array", "text", "class", "None"])
+def test_a_solver_names_what_is_no_scene(solver, given):
+    for ask in (solver.solve, solver.plan):
+        with pytest.raises(InvalidInput, match=r"^scene = .*: a Scene is needed$"):
+            ask(given)
+
+
+# Files that a file names
+
+
+def test_a_path_is_relative_to_the_file_in_which_it_stands(tmp_path, monkeypatch):
+    """Wherever it is read, and whether the file itself is named by a relative or an absolute path."""
+    folder = tmp_path / "scenes"
+    folder.mkdir()
+    np.save(folder / "map.npy", 1e-6 * HILLS)
+    stated = SCENE + "[roughness]\ntype = 'topography'\npixel = 1e-6\nunit = 'm'\nfile = {}\n"
+    (folder / "scene.toml").write_text(stated.format("'map.npy'"))
+    (tmp_path / "absolute.toml").write_text(stated.format(repr(str(folder / "map.npy"))))
+    monkeypatch.chdir(tmp_path)
+    near = read("scenes/scene.toml", Scene)
+    monkeypatch.chdir(folder)
+    for path in ("scene.toml", folder / "scene.toml", "../absolute.toml"):
+        assert read(path, Scene) == near
+    with pytest.raises(InvalidInput, match=r"map\.npy: no such file in .*, the folder of the file"):
+        made(parsed(stated.format("'map.npy'"), "../scene.toml"), Scene, "../scene.toml")
 
 
 # Whatever stands where
@@ -330,19 +390,28 @@ MANY = {
 }
 
 
+@pytest.fixture
+def compared(monkeypatch):
+    """Names for which a near one was sought."""
+    names = []
+
+    def compare(name, *others):
+        names.append(name)
+        return get_close_matches(name, *others)
+
+    monkeypatch.setattr("scene.mistakes.get_close_matches", compare)
+    return names
+
+
 @pytest.mark.parametrize("text", MANY.values(), ids=MANY)
-def test_of_many_mistakes_the_first_are_said_and_how_many_more_there_are(tmp_path, monkeypatch, text):
-    compared, compare = [], difflib.get_close_matches
-    monkeypatch.setattr(difflib, "get_close_matches", lambda *a, **b: compared.append(a) or compare(*a, **b))
+def test_of_many_mistakes_the_first_are_listed_and_how_many_more_there_are(tmp_path, compared, text):
     lines = lines_of(tmp_path, text)
-    assert len(lines) == SAID + 1
+    assert len(lines) == LISTED + 1
     assert lines[-1] == "and 950 more mistakes"
-    assert len(compared) <= 10 * SAID
+    assert len(compared) <= LISTED
 
 
-def test_names_and_values_of_any_length_are_cut_before_they_are_compared(tmp_path, monkeypatch):
-    compared, compare = [], difflib.get_close_matches
-    monkeypatch.setattr(difflib, "get_close_matches", lambda *a, **b: compared.append(a[0]) or compare(*a, **b))
+def test_names_and_values_of_any_length_are_cut_before_they_are_compared(tmp_path, compared):
     long = "load" * 50_000
     lines = lines_of(tmp_path, SCENE.replace('"sphere"', f'"{long}"') + f"{long} = '{long}'\n")
     assert max(map(len, lines)) < 1000
@@ -367,25 +436,25 @@ ROUGH = SelfAffine(hurst=0.7, rms_height=3e-5, longest=1e-2, shortest=1e-4, seed
 @pytest.mark.parametrize(
     ("make", "said"),
     [
-        (lambda: Cone(angle=pi / 2), r"angle\n.*less than 1\.57"),
-        (lambda: PowerLaw(coefficient=1.0, exponent=0.9), r"exponent\n.*greater than or equal to 1"),
-        (lambda: Elastic(G, poisson_ratio=0.6), r"poisson_ratio\n.*less than or equal to 0\.5"),
+        (lambda: Cone(angle=pi / 2), r"angle.*less than 1\.57"),
+        (lambda: PowerLaw(coefficient=1.0, exponent=0.9), r"exponent.*greater than or equal to 1"),
+        (lambda: Elastic(G, poisson_ratio=0.6), r"poisson_ratio.*less than or equal to 0\.5"),
         (lambda: StandardLinearSolid(G, G, 1.0), r"glassy_modulus = 1e\+06 must exceed rubbery_modulus = 1e\+06"),
-        (lambda: Prony(G, moduli=(), relaxation_times=()), r"moduli\n.*at least 1"),
+        (lambda: Prony(G, moduli=(), relaxation_times=()), r"moduli.*at least 1"),
         (lambda: Prony(G, (G, G), (1.0,)), "relaxation_times has 1 values, moduli has 2: each modulus"),
-        (lambda: Prony(G, moduli=(G, -G), relaxation_times=(1.0, 2.0)), r"moduli\.1\n.*greater than 0"),
+        (lambda: Prony(G, moduli=(G, -G), relaxation_times=(1.0, 2.0)), r"moduli\.1.*greater than 0"),
         (lambda: KelvinChain(0.0, (1.0,), (1.0, 2.0)), "retardation_times has 2 values, compliances has 1"),
-        (lambda: replace(SPRINGPOT, exponent=1.0), r"exponent\n.*less than 1"),
-        (lambda: replace(SPRINGPOT, tolerance=0.5), r"tolerance\n.*less than or equal to 0\.1"),
+        (lambda: replace(SPRINGPOT, exponent=1.0), r"exponent.*less than 1"),
+        (lambda: replace(SPRINGPOT, tolerance=0.5), r"tolerance.*less than or equal to 0\.1"),
         (lambda: replace(SPRINGPOT, highest_frequency=1e-4), r"0\.0001 must exceed lowest_frequency = 0\.0001"),
         (lambda: replace(SPRINGPOT, highest_frequency=1e27), r"highest_frequency = 1e\+27 .* at most 30 decades"),
-        (lambda: replace(ROUGH, hurst=1.1), r"hurst\n.*less than or equal to 1"),
+        (lambda: replace(ROUGH, hurst=1.1), r"hurst.*less than or equal to 1"),
         (lambda: replace(ROUGH, shortest=6e-3), r"shortest = 0\.006 must be at most half of longest = 0\.01"),
-        (lambda: replace(ROUGH, seed=-1), r"seed\n.*greater than or equal to 0"),
+        (lambda: replace(ROUGH, seed=-1), r"seed.*greater than or equal to 0"),
         (lambda: replace(ROUGH, rolloff=2e-2), "rolloff = 0.02 must be more than shortest .* at most longest"),
-        (lambda: replace(ROUGH, amplitudes="rayleigh"), r"amplitudes\n.*'fixed' or 'gaussian'"),
+        (lambda: replace(ROUGH, amplitudes="rayleigh"), r"amplitudes.*'fixed' or 'gaussian'"),
     ],
 )
 def test_a_wrong_value_is_refused_with_its_field_and_what_is_allowed(make, said):
-    with pytest.raises(ValidationError, match=said):
+    with pytest.raises(InvalidInput, match=said):
         make()

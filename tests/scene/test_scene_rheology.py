@@ -5,10 +5,9 @@ from decimal import Decimal, localcontext
 
 import numpy as np
 import pytest
-from pydantic import ValidationError
 from solids import OF_EACH_TYPE
 
-from scene import Elastic, Fractional, Kelvin, KelvinChain, Prony, StandardLinearSolid
+from scene import Elastic, Fractional, InvalidInput, Kelvin, KelvinChain, Prony, StandardLinearSolid
 from scene.modes import Relaxation, Retardation
 
 ROUNDING = 1e-13  # some tens of roundings; sums of terms of one sign
@@ -330,15 +329,15 @@ def test_a_solid_stated_by_young_s_modulus_is_that_of_its_shear_modulus_to_the_l
     ("stated", "said"),
     [
         ({"youngs_modulus": "3 MPa", "modulus": "1 MPa"}, "youngs_modulus beside modulus: give one"),
-        ({"youngs_modulus": "3 mm"}, "youngs_modulus\n.*a Young's modulus E, such as"),
-        ({"youngs_modulus": 0.0}, "youngs_modulus\n.*greater than 0"),
-        ({"youngs_modulus": 3e6, "poisson_ratio": 0.6}, "poisson_ratio\n.*0.5"),
-        ({"youngs_modulus": 5e-324}, "modulus\n.*greater than 0"),
-        ({}, "modulus\n.*required"),
+        ({"youngs_modulus": "3 mm"}, "youngs_modulus.*a Young's modulus E, such as"),
+        ({"youngs_modulus": 0.0}, "youngs_modulus.*greater than 0"),
+        ({"youngs_modulus": 3e6, "poisson_ratio": 0.6}, "poisson_ratio.*0.5"),
+        ({"youngs_modulus": 5e-324}, "modulus.*greater than 0"),
+        ({}, "modulus.*missing"),
     ],
 )
 def test_a_wrong_young_s_modulus_is_refused_by_its_name(stated, said):
-    with pytest.raises(ValidationError, match=said):
+    with pytest.raises(InvalidInput, match=said):
         Elastic(**stated)
 
 
@@ -368,12 +367,12 @@ def test_normalised_terms_are_the_plain_series(modulus, time):
         ({"g": SHARES, "tau": TAU}, "give one of instantaneous_modulus and equilibrium_modulus"),
         ({"g": SHARES, "tau": TAU[:2], "instantaneous_modulus": 1e6}, "tau has 2 values, g has 3"),
         ({"g": (0.5, 0.7), "tau": TAU[:2], "equilibrium_modulus": 1e6}, "the sum 1.2 leaves no modulus at rest"),
-        ({"g": (0.5, -0.1), "tau": TAU[:2], "instantaneous_modulus": 1e6}, "g.1\n.*greater than 0"),
+        ({"g": (0.5, -0.1), "tau": TAU[:2], "instantaneous_modulus": 1e6}, "g.1.*greater than 0"),
         ({"g": SHARES, "moduli": SHARES, "tau": TAU, "instantaneous_modulus": 1e6}, "g beside moduli"),
         ({"moduli": SHARES, "tau": TAU, "instantaneous_modulus": 1e6}, "instantaneous_modulus goes with g"),
-        ({"g": (), "tau": (), "instantaneous_modulus": 1e6}, "moduli\n.*at least 1"),
+        ({"g": (), "tau": (), "instantaneous_modulus": 1e6}, "moduli.*at least 1"),
     ],
 )
 def test_normalised_terms_that_are_no_solid_are_refused(stated, said):
-    with pytest.raises(ValidationError, match=said):
+    with pytest.raises(InvalidInput, match=said):
         Prony(**stated)

@@ -6,9 +6,8 @@ from math import gamma
 
 import numpy as np
 import pytest
-from pydantic import ValidationError
 
-from scene import CrossedWaves, SelfAffine, Wave
+from scene import CrossedWaves, InvalidInput, SelfAffine, Wave
 from scene.selfaffine import power_integral
 
 ROUNDING = 1e-12
@@ -72,13 +71,13 @@ def test_a_slope_in_place_of_the_height_is_the_slope_of_the_surface(hurst, rollo
         ("rms_slope = nan: .*finite", {"rms_slope": float("nan")}),
         ("beyond the range of numbers", {"rms_slope": 1e300, "longest": 1e300, "shortest": 1e200}),
         # mistakes of other fields are their own
-        ("hurst\n  Input should be less than or equal to 1", {"hurst": 2}),
-        ("longest\n  Field required", {"longest": None}),
+        ("hurst.*Input should be less than or equal to 1", {"hurst": 2}),
+        ("longest: missing", {"longest": None}),
     ],
 )
 def test_a_slope_that_states_no_surface_is_refused_with_the_reason(message, stated):
     content = {"hurst": 0.5, "rms_slope": 0.1, "longest": 1e-2, "shortest": 1e-4} | stated
-    with pytest.raises(ValidationError, match=message):
+    with pytest.raises(InvalidInput, match=message):
         SelfAffine(**{name: value for name, value in content.items() if value is not None})
 
 

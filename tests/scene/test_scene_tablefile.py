@@ -5,7 +5,6 @@ import pandas
 import pint
 import pytest
 import xarray
-from pydantic import ValidationError
 
 from scene.quantities import HERTZ, KELVIN, PASCAL, RADIAN_PER_SECOND
 from scene.tablefile import Column, TableFormat, read_columns
@@ -80,7 +79,6 @@ STATED = {
     "rows": ([HEADED, *ROWS, "mean;3;4"], {"rows": 3}, "line 5, column 'f': 'mean' is no number: state rows"),
     "after a blank line": ([HEADED, *ROWS, "", *ROWS], {"rows": 3}, "line 5 is blank.*state rows = 3"),
     "a short row": ([HEADED, *ROWS, "3;4"], {"rows": 3}, "line 5: '3;4' has 2 cells.* has 3"),
-    "a long row": ([HEADED, *ROWS, "3;4;5;6"], {"rows": 3}, "line 5: '3;4;5;6' has 4 cells.* has 3"),
     "a quotation mark": ([HEADED, *ROWS, '3;"4;5'], {"rows": 3}, "line 5: .*quotation mark"),
     "units": (
         ["# moduli in kPa", "f;G';G''", *ROWS],
@@ -106,11 +104,6 @@ STATED = {
         [f"sample;{HEADED}", *(f"NR;{row}" for row in ROWS), "SBR;2;3;4"],
         {"where": {"sample": "NR"}},
         'column \'sample\' has several values, "NR" and "SBR", and is not used: .* where = {sample = "NR"}',
-    ),
-    "where of numbers": (
-        [f"{HEADED};batch no", *(f"{row};1" for row in ROWS), "2;3;4;2.0"],
-        {"where": {"batch no": 1}},
-        'where = {"batch no" = "1"}',
     ),
     "decimal": (
         [HEADED, "1,000;2,000;3,000", "2,000;3,000;4,000", "3,000;4,000;5,000"],
@@ -165,7 +158,7 @@ def test_what_is_no_table_is_refused_with_what_stands_there(tmp_path, lines, sta
     [{"skip": -1}, {"rows": "3"}, {"separator": "|"}, {"decimal": "'"}, {"columns": {"z": 0}}, {"sep": ";"}],
 )
 def test_what_is_stated_is_checked(stated):
-    with pytest.raises(ValidationError, match=next(iter(stated))):
+    with pytest.raises(ValueError, match=next(iter(stated))):
         TableFormat(**stated)
 
 

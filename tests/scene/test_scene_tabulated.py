@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from pydantic import ValidationError
 
 from scene import Fractional, Prony, Scene, StandardLinearSolid, Table, Tabulated, read_table
 from scene.reading import InvalidInput, read
@@ -144,7 +143,7 @@ def open_at_rest(law, band, count, noise):
     for seed in range(DRAWS):
         try:
             fitted(drawn(law, np.geomspace(*band, count), noise, seed), tolerance=0.3)
-        except ValidationError as error:
+        except InvalidInput as error:
             said.append(str(error))
     assert all("modulus at rest open" in each for each in said)
     return len(said)
@@ -161,7 +160,7 @@ def test_a_liquid_stays_a_liquid_and_a_rubber_a_solid_under_noise(count, noise):
 def test_a_refusal_says_what_was_seen_at_rest():
     law, band = LIQUIDS["two branches"]
     omega = np.geomspace(*band, 40)
-    with pytest.raises(ValidationError) as raised:
+    with pytest.raises(InvalidInput) as raised:
         fitted(Table(omega / (2 * np.pi), law(omega).real, law(omega).imag), frequency_unit="Hz")
     said = str(raised.value)
     assert "it shows a liquid, as at its lowest frequency, 0.0477465 Hz, G'' is 3.7 G'" in said
@@ -188,13 +187,13 @@ def test_the_error_of_the_modulus_at_rest_is_that_of_many_draws(noise):
     ids=["columns exchanged", "storage falls", "loss in other units"],
 )
 def test_a_table_that_contradicts_itself_is_refused(mistake):
-    with pytest.raises(ValidationError, match=r"Table\(46 rows .* off by .* more than tolerance = 0\.1"):
+    with pytest.raises(InvalidInput, match=r"Table\(46 rows .* off by .* more than tolerance = 0\.1"):
         fitted(mistake(table()))
 
 
 def test_scatter_beyond_the_tolerance_is_refused_until_it_is_allowed():
     coarse = table(noise=0.2)
-    with pytest.raises(ValidationError, match="raise tolerance"):
+    with pytest.raises(InvalidInput, match="raise tolerance"):
         fitted(coarse)
     assert fitted(coarse, tolerance=0.4).rms_error < 0.4
 
@@ -203,12 +202,12 @@ def test_scatter_beyond_the_tolerance_is_refused_until_it_is_allowed():
     ("change", "said"),
     [
         ({"frequency": (1.0, 2.0)}, r"have \[2, 46, 46\] values"),
-        ({"storage": (1e6,) * 45 + (-1.0,)}, r"storage\.45\n.*greater than 0"),
-        ({"loss": (1e6,) * 45 + (float("nan"),)}, r"loss\.45\n.*finite"),
+        ({"storage": (1e6,) * 45 + (-1.0,)}, r"storage\.45.*greater than 0"),
+        ({"loss": (1e6,) * 45 + (float("nan"),)}, r"loss\.45.*finite"),
     ],
 )
 def test_a_wrong_table_is_refused_with_its_place(change, said):
-    with pytest.raises(ValidationError, match=said):
+    with pytest.raises(InvalidInput, match=said):
         replace(table(), **change)
 
 
@@ -216,9 +215,9 @@ def test_a_wrong_table_is_refused_with_its_place(change, said):
 def test_the_unit_and_the_kind_must_be_said(missing):
     settings = {"frequency_unit": "Hz", "kind": "shear"}
     del settings[missing]
-    with pytest.raises(ValidationError, match=rf"{missing}\n.*required"):
+    with pytest.raises(InvalidInput, match=rf"{missing}.*missing"):
         Tabulated(table=table(), **settings)
-    with pytest.raises(ValidationError, match="'rad/s' or 'Hz'"):
+    with pytest.raises(InvalidInput, match="'rad/s' or 'Hz'"):
         fitted(frequency_unit="rpm")
 
 
@@ -243,14 +242,14 @@ def test_a_mistake_in_a_file_is_named_with_its_line(tmp_path, text, said):
     path.write_text(text)
     with pytest.raises(ValueError, match=said):
         read_table(path)
-    with pytest.raises(ValidationError, match=rf"table\n.*{said}|table\n.*frequencies"):
+    with pytest.raises(InvalidInput, match=rf"table.*{said}|table.*frequencies"):
         fitted(path)
 
 
 def test_numbers_beyond_what_can_be_computed_with_are_no_solid(tmp_path):
     path = tmp_path / "rubber.csv"
     path.write_text("f,G',G''\n" + "".join(f"{k * 5e-324!r},1,1\n" for k in range(1, 5)))
-    with pytest.raises(ValidationError, match="no solid can be fitted"):
+    with pytest.raises(InvalidInput, match="no solid can be fitted"):
         fitted(path)
 
 
@@ -288,23 +287,13 @@ def test_a_scene_names_a_file_in_its_folder_or_holds_the_numbers(tmp_path, monke
 
 
 def test_a_scene_states_what_differs_of_its_table(tmp_path):
-    stated = """
-skip = 1
-rows = 46
-units = {frequency = "rad/s", storage = "MPa", loss = "MPa"}
-columns = {storage = "in phase", loss = "out of phase"}
-where = {sample = "NR"}
-decimal = ","
-"""
-    rows = (
-        f"NR\t{f:.17g}\t{s / 1e6:.17g}\t{loss / 1e6:.17g}" for f, s, loss in zip(*columns(table()), strict=True)
+    (tmp_path / "rubber.csv").write_text("Stress 1\n" + ROWS.replace("G'", "in phase", 1))
+    stated = (
+        '\nskip = 1\nunits = {frequency = "Hz", storage = "Pa", loss = "Pa"}\ncolumns = {storage = "in phase"}'
     )
-    text = "\n".join(["Stress 1", "sample\tf\tin phase\tout of phase", *rows, "mean"]).replace(".", ",")
-    (tmp_path / "rubber.csv").write_text(text)
     scene = tmp_path / "scene.toml"
-    scene.write_text(SCENE + f'"rubber.csv"{stated}')
-    found = read(scene, Scene).elastomer
-    np.testing.assert_allclose(np.array(columns(found.table)), np.array(columns(table())), rtol=1e-15)
+    scene.write_text(SCENE.replace("rad/s", "Hz") + f'"rubber.csv"{stated}')
+    assert columns(read(scene, Scene).elastomer.table) == columns(table())
     scene.write_text(SCENE + f'"rubber.csv"{stated}'.replace("skip = 1", "skip = -1"))
     with pytest.raises(InvalidInput, match=r"elastomer\.skip = -1"):
         read(scene, Scene)

@@ -6,10 +6,9 @@ from math import log, log10
 
 import numpy as np
 import pytest
-from pydantic import ValidationError
 from solids import OF_EACH_TYPE
 
-from scene import WLF, Arrhenius, Indent, Kelvin, KelvinChain, Prony, Scene, Sphere
+from scene import WLF, Arrhenius, Indent, InvalidInput, Kelvin, KelvinChain, Prony, Scene, Sphere
 from scene.modes import Relaxation
 from scene.temperature import GAS_CONSTANT, UNIVERSAL, Shifted
 from scene.viscoelastic import Linear
@@ -146,7 +145,7 @@ def test_temperatures_where_a_law_ends_are_named():
         (lambda: replace(arrhenius(300.0), activation_energy=1e300, temperature=301.0), "beyond the range"),
         (lambda: replace(universal(1.0), c2=-51.6), "greater than 0"),
     ):
-        with pytest.raises(ValidationError, match=message):
+        with pytest.raises(InvalidInput, match=message):
             ask()
     # so close to either end, and still a number
     assert 0 < universal(-48.0).shift < float("inf")

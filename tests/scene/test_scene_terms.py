@@ -3,7 +3,6 @@
 from dataclasses import dataclass, fields, replace
 
 import pytest
-from pydantic import ValidationError
 from pydantic.dataclasses import dataclass as validated
 
 from bem3d import BEM
@@ -17,6 +16,7 @@ from scene import (
     Elastic,
     Heating,
     Indent,
+    InvalidInput,
     Kelvin,
     Layer,
     Refused,
@@ -106,9 +106,9 @@ def test_what_one_dimension_lacks_is_refused_with_what_can_be_done():
 
 @pytest.mark.parametrize("given", [{}, {"displacement": 1e-6, "force": 1.0}])
 def test_shear_is_drawn_by_one_quantity(given):
-    with pytest.raises(ValidationError, match="exactly one of displacement"):
+    with pytest.raises(InvalidInput, match="exactly one of displacement"):
         Shear(load=1.0, **given)
-    with pytest.raises(ValidationError, match=r"motion = Shear .* give interface"):
+    with pytest.raises(InvalidInput, match=r"motion = Shear .* give interface"):
         replace(PLAIN, motion=Shear(load=1.0, displacement=1e-6))
 
 

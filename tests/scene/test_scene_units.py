@@ -1,22 +1,22 @@
 """Quantities with units: the number in SI that they are, to the last digit, or a mistake that says why not."""
 
-import re
 import subprocess
 import sys
 from dataclasses import replace
 from decimal import Decimal
-from math import nextafter, pi
+from math import pi
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from pydantic import TypeAdapter, ValidationError
+from pydantic import TypeAdapter
 
 from scene import (
     WLF,
     Fractional,
     Heating,
+    InvalidInput,
     Kelvin,
     KelvinChain,
     Prony,
@@ -29,23 +29,10 @@ from scene import (
 )
 from scene import quantities as q
 from scene.quantities import Unit
-from scene.units import KNOWN, Unreadable, in_si
+from scene.units import Unreadable, in_si
 
-PREFIXES = {
-    "f": -15,
-    "p": -12,
-    "n": -9,
-    "u": -6,
-    "µ": -6,
-    "μ": -6,
-    "m": -3,
-    "c": -2,
-    "": 0,
-    "k": 3,
-    "M": 6,
-    "G": 9,
-}
-UNITS = [each for each in vars(q).values() if isinstance(each, Unit)]
+PREFIXES = {"f": -15, "p": -12, "n": -9, "u": -6, "µ": -6, "m": -3, "c": -2, "": 0, "k": 3, "M": 6, "G": 9}
+UNITS = [each for each in vars(q).values() if isinstance(each, Unit) and each.number is not None]
 
 
 @settings(deadline=None)  # the first takes the time in which units are loaded
@@ -58,9 +45,6 @@ UNITS = [each for each in vars(q).values() if isinstance(each, Unit)]
 def test_a_value_written_with_any_prefix_is_the_same_float(value, prefix, unit, space):
     exact = f"{Decimal(repr(value)).scaleb(-PREFIXES[prefix])}{space}{prefix}{unit}"
     assert in_si(exact, unit) == value
-    # A float before the unit is itself rounded once: that is one unit in the last place.
-    rounded = f"{float(Decimal(repr(value)).scaleb(-PREFIXES[prefix])):.17g} {prefix}{unit}"
-    assert nextafter(value, 0) <= in_si(rounded, unit) <= nextafter(value, float("inf"))
 
 
 @pytest.mark.parametrize(
@@ -71,142 +55,85 @@ def test_a_value_written_with_any_prefix_is_the_same_float(value, prefix, unit, 
         ("4e308 mm", "m", 4e305),
         ("0e999999999 m", "m", 0.0),
         ("1 N mm⁻²", "Pa", 1e6),
+        ("3 N/mm2", "Pa", 3e6),
+        ("2 kgf/cm2", "Pa", 196133.0),
+        ("2 Pa-1", "1/Pa", 2.0),
+        ("1/MPa", "1/Pa", 1e-6),
         ("1 kg/(m s^2)", "Pa", 1.0),
         ("10 mN·m/m^2", "N/m", 0.01),
         ("30°", "rad", pi / 6),
+        ("60 rpm", "rad/s", 2 * pi),
         ("20 W/m/K", "W/(m K)", 20.0),
         ("10 kcal/mol", "J/mol", 41840.0),
         ("5 delta_degC", "K", 5.0),
+        ("36 km/h", "m/s", 10.0),
     ],
 )
 def test_quantities_are_read_as_they_are_written(text, unit, expected):
     assert in_si(text, unit) == pytest.approx(expected, rel=2.3e-16, abs=0)  # one unit in the last place
 
 
-@pytest.mark.parametrize(
-    ("text", "expected"),
-    [
-        ("25 degC", 298.15),
-        ("25 °C", 298.15),
-    ],
-)
-def test_absolute_temperatures_have_degrees(text, expected):
-    assert in_si(text, "K", difference=False) == expected
-
-
-def test_a_difference_of_temperatures_has_none_and_a_temperature_is_no_difference():
-    with pytest.raises(Unreadable, match="zero of their own"):
-        in_si("5 degC", "K")
-    with pytest.raises(Unreadable, match="difference of temperatures"):
-        in_si("5 delta_degC", "K", difference=False)
-
-
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        ("5 mmm", "did you mean 'mm'"),
-        ("5 N", ""),
-        ("   ", ""),
-        ("5", "no unit"),
-        ("inf m", "no number"),
-        ("1e999 m", "range"),
-        ("5 m/", "no unit"),
-        ("1e9999999999999999999999999 m", "range"),
-        ("1,5 mm", "decimal points"),
-        ("5 __import__('os')", "no unit"),
-        ("5 m**10**10", "powers"),
-        ("5 " + "m" * 1000, "letters"),
-        ("1 000 mm", "nothing parts the digits"),
-        ("1 ± 0.1 mm", "without its uncertainty"),
-        ("1*10^3 mm", "powers of ten are written as 1e6"),
-        ("5 mm10", "no unit"),
-    ],
-)
-def test_what_is_no_length_is_refused_with_a_reason(text, said):
-    with pytest.raises(Unreadable) as raised:
-        in_si(text, "m")
-    assert said in str(raised.value)
-
-
-@pytest.mark.parametrize(
-    ("written", "plain", "unit"),
-    [
-        ("3 N/mm2", "3 MPa", "Pa"),
-        ("2 kgf/cm2", "2*98066.5 Pa", "Pa"),
-        ("2 Pa-1", "2 1/Pa", "1/Pa"),
-        ("2 mil", "50.8 um", "m"),
-        ("5 mm/sec", "5 mm/s", "m/s"),
-        ("36 kmh", "36 km/h", "m/s"),
-    ],
-)
-def test_units_of_workshops_and_spreadsheets_are_what_they_say(written, plain, unit):
-    number, _, rest = plain.partition(" ")
-    expected = float(np.prod([float(each) for each in number.split("*")])) * in_si(f"1 {rest}", unit)
-    assert in_si(written, unit) == pytest.approx(expected, rel=1e-15, abs=0)
-
-
-@pytest.mark.parametrize("degrees", ["25 C", "25 ºC", "25 ° C", "25 deg C", "25 deg. C", "77 F", "77 deg F"])
-def test_degrees_are_read_as_people_write_them(degrees):
+@pytest.mark.parametrize("degrees", ["25 degC", "25 °C", "25 ℃", "25 C", "77 degF", "298.15 K"])
+def test_an_absolute_temperature_has_degrees_of_any_scale(degrees):
     assert in_si(degrees, "K", difference=False) == 298.15
 
 
 @pytest.mark.parametrize(
-    ("text", "unit", "said"),
+    ("text", "unit", "why"),
     [
-        ("1 mpa", "Pa", "did you mean 'MPa' (1e+06 Pa) or 'mPa' (0.001 Pa)?"),
-        ("10 MM", "m", "did you mean 'mm' (0.001 m)?"),
-        ("5 lb/in2", "Pa", "did you mean 'lbf/in2' (6894.76 Pa)?"),
+        ("5 mmm", "m", "no unit is called 'mmm', did you mean 'mm'?"),
+        ("1 mpa", "Pa", "did you mean 'MPa' or 'mPa'?"),
         ("5 NEWTON", "N", "did you mean 'newton'?"),
-        ("25 degc", "K", "did you mean 'degC'?"),
+        ("5 Pas", "Pa", "no unit is called 'Pas'"),  # pascals, or pascal seconds
+        ("5 N", "m", ""),
+        ("10 MM", "m", ""),  # of pint a megamolar
+        ("10 1/s", "rad/s", ""),
+        ("10 rad/s", "Hz", ""),
+        ("10 kPa s", "s", ""),
+        ("0.2 W/mK", "W/(m K)", ""),
+        ("5 degC", "K", "zero of their own"),
+        ("   ", "m", ""),
+        ("5", "m", "there is no unit"),
+        ("inf m", "m", "no number"),
+        ("nan m", "m", "no number"),
+        ("1e999 m", "m", "range"),
+        ("1e-999 m", "m", "range"),
+        ("1e9999999999999999999999999 m", "m", "range"),
+        ("5 m/", "m", "no unit"),
+        ("5 m)(", "m", "no unit"),
+        ("5 __import__('os')", "m", "no unit"),
+        ("5 m**10**10", "m", "no unit"),
+        ("5 m**9**9**9", "m", "no unit"),
+        ("5 mm10", "m", "no unit"),
+        ("10⁶ m", "m", "no unit"),
+        ("(2+3) mm", "m", "no number"),
+        ("1,5 mm", "m", "decimal point"),
+        ("1 000 mm", "m", "decimal point"),
+        ("1 ± 0.1 mm", "m", "decimal point"),
+        ("1*10^3 mm", "m", "decimal point"),
+        ("5 " + "m" * 10**6, "m", "letters"),
+        ("5 " + "m" * 97 + "!", "m", "no unit"),
+        ("5" * 10**6 + " m", "m", ""),
     ],
 )
-def test_a_hint_shows_every_unit_that_letters_leave_open_and_its_magnitude(text, unit, said):
-    with pytest.raises(Unreadable) as raised:
-        in_si(text, unit, difference=unit != "K")
-    assert str(raised.value).endswith(said)
-
-
-@settings(deadline=None)
-@given(
-    st.sampled_from(UNITS), st.sampled_from(KNOWN), st.sampled_from(["{}", "{}s", "{}2", "1/{}", "{}/s", "N/{}"])
-)
-def test_no_unit_is_suggested_that_would_be_refused(unit, name, written):
-    for misspelt in (name.upper(), name.lower(), name.swapcase(), name + "x"):
-        try:
-            in_si(f"2 {written.format(misspelt)}", unit.symbol, unit.difference)
-        except Unreadable as refused:
-            for meant in re.findall(r"'([^']*)'", str(refused).partition("did you mean")[2]):
-                in_si(f"2 {meant}", unit.symbol, unit.difference)
-
-
-@pytest.mark.parametrize(
-    ("text", "unit", "said"),
-    [
-        ("10 1/s", "rad/s", "2 pi f"),
-        ("10 rad/s", "Hz", "omega / (2 pi)"),
-        ("10 1/mm", "rad/m", "2 pi / wavelength"),
-        ("10 kg", "N", "the weight of 1 kg is 1 kgf"),
-        ("10 kPa s", "s", "viscosity / shear modulus"),
-        ("0.2 W/mK", "W/(m K)", "W/(m K)"),
-    ],
-)
-def test_a_quantity_that_is_often_taken_for_another_is_refused_with_the_way_to_it(text, unit, said):
+def test_what_is_no_such_quantity_is_refused_with_a_reason(text, unit, why):
     with pytest.raises(Unreadable) as raised:
         in_si(text, unit)
-    assert said in str(raised.value)
+    assert why in str(raised.value)
+    assert len(str(raised.value)) < 300
 
 
-def test_what_is_suggested_is_known():
-    for unit in KNOWN:
-        assert in_si(f"2 {unit} m/{unit}", "m") == 2.0, unit
+def test_a_temperature_is_no_difference():
+    with pytest.raises(Unreadable, match="difference of temperatures"):
+        in_si("5 delta_degC", "K", difference=False)
 
 
 def test_a_frequency_is_no_angular_frequency():
     law = {"modulus": 1.0, "relaxation_time": 1.0, "exponent": 0.5, "lowest_frequency": 1.0}
     assert Fractional(**law, highest_frequency="1e3 rad/s").highest_frequency == 1e3
-    with pytest.raises(ValidationError, match="1 Hz is 2 pi rad/s"):
+    with pytest.raises(InvalidInput, match="1 Hz is 2 pi rad/s"):
         Fractional(**law, highest_frequency="1e3 Hz")
-    with pytest.raises(ValidationError, match="a frequency"):
+    with pytest.raises(InvalidInput, match="a frequency"):
         Stage(duration=1, load=1, amplitude=0.1, frequency="10 rad/s")
 
 

@@ -6,7 +6,8 @@ from math import hypot, log, pi, sqrt, tanh
 import numpy as np
 from scipy.special import j1, jv
 
-from scene import Profile, SelfAffine, Topography
+from scene import Profile, Spectrum, Topography
+from scene.isotropic import Isotropic
 from scene.viscoelastic import Linear
 from scene.waves import Waves
 
@@ -21,7 +22,7 @@ ROUNDING = 1e-16  # of the share of a wave that a disc leaves
 STEEP = 0.95  # share of the mean square slope of a map that a grid has to resolve
 
 
-def directed(rough: SelfAffine | Topography | Profile) -> float:
+def directed(rough: Isotropic | Topography | Profile) -> float:
     """Rms slope of a map in the direction in which it is greatest, over that across; 1 of what has none."""
     if not isinstance(rough, Topography):
         return 1.0
@@ -52,7 +53,7 @@ class Bands:
     unit: float
 
     @classmethod
-    def of(cls, rough: SelfAffine | Topography | Profile) -> "Bands":
+    def of(cls, rough: Isotropic | Topography | Profile) -> "Bands":
         """Bands of a spectrum with a shortest wave, as nodes of a quadrature over ln q, or of a map, as rings.
 
         A measured line is the surface that is fitted to it.
@@ -62,10 +63,14 @@ class Bands:
         if isinstance(rough, Profile):
             rough = rough.fitted
         q_s = rough.q_max(0.0)
+        if isinstance(rough, Spectrum):  # of many laws, of which nodes would see some
+            edges = np.geomspace(rough.q_min, q_s, _WAVES + 1)
+            share = rough.share(edges[:-1], edges[1:], q_s)
+            return cls(np.sqrt(edges[:-1] * edges[1:]), share, rough.rms_height)
         nodes, weights = np.polynomial.legendre.leggauss(_WAVES)
         half = log(q_s / rough.q_min) / 2
         q = rough.q_min * np.exp(half * (1 + nodes))
-        density = replace(rough, rms_height=1.0).density_2d(q, q_s)
+        density = rough.normalized.density_2d(q, q_s)
         return cls(q, weights * half * 2 * pi * q**2 * density, rough.rms_height)
 
     @classmethod

@@ -18,7 +18,6 @@ from scene import (
     Program,
     Result,
     Scene,
-    SelfAffine,
     Shear,
     Slide,
     Topography,
@@ -26,6 +25,7 @@ from scene import (
 )
 from scene import Measured as MeasuredBody
 from scene.indenter import Axisymmetric
+from scene.isotropic import Isotropic
 from scene.protocol import refuse, trusted
 from scene.quantities import CLOSED, Finite
 from scene.signatures import readable
@@ -82,7 +82,7 @@ class Pressed(Term):
 
 BODY = lacking("a body of revolution (Sphere, Cone, PowerLaw) or a Plane is allowed")
 ROUGHNESS = lacking(
-    "the theory is of a spectrum; SelfAffine with a shortest wave, Topography or Profile is allowed"
+    "the theory is of a spectrum; SelfAffine with a shortest wave, Spectrum, Topography or Profile is allowed"
 )
 MOTION = lacking("the theory is of steady sliding; Slide or Indent is allowed")
 TERMS = {
@@ -91,7 +91,7 @@ TERMS = {
     **dict.fromkeys((Indent, Slide), Pressed),
     **dict.fromkeys((Shear, Program), MOTION),
     Wave: ROUGHNESS,
-    SelfAffine: Spectrum,
+    Isotropic: Spectrum,
     **dict.fromkeys((Topography, Profile), Measured),
 }
 

@@ -11,10 +11,9 @@ from math import isfinite
 from typing import Any
 
 import numpy as np
-from pydantic import ValidationError
 
 from mdr1d import equations
-from scene import Indent, Program, Refused, Scene, Shear, SolveError, Solver
+from scene import Indent, InvalidInput, Program, Refused, Scene, Shear, SolveError, Solver
 from scene.scales import elastic_contact
 
 from ...library.case import Case, doubted
@@ -96,7 +95,7 @@ class Around(Series):
             if self.case.roughness:
                 found |= {name: with_theory(found[name]) for name in (SPEED, LOAD) if name in found}
             refuse(found.values())
-        except (ArithmeticError, SolveError, ValidationError) as error:
+        except (ArithmeticError, SolveError, InvalidInput) as error:
             # The case is valid; what follows from it is not.
             raise Refused("its numbers are so far apart that the contact leaves their range") from error
         return found

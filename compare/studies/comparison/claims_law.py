@@ -9,7 +9,7 @@ import numpy as np
 import xarray
 from scipy.special import ndtri
 
-from scene import SelfAffine
+from scene.isotropic import Isotropic
 
 from ...models.law.bands import Bands, FullContact
 from ...models.law.share import Share
@@ -95,7 +95,7 @@ class LawPoints:
         law = of_model(answers.curves["rough"], LAW.name).sel(level=FINE).isel(speed=slice(1, None))
         if "share_of_full_contact" not in law:
             return None
-        assert isinstance(roughness, SelfAffine)  # the law answers no other
+        assert isinstance(roughness, Isotropic)  # the law answers no other
         law = law.transpose("speed", series.prescribed, ...)
         bands = Bands.of(roughness)
         waves = [FullContact.of(bands, series.scene.solid, speed) for speed in series.speeds]

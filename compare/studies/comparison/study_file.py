@@ -7,7 +7,7 @@ from functools import partial
 from typing import Annotated, Any, Generic, Literal, TypeAlias, TypeVar, get_args
 
 import numpy as np
-from pydantic import AfterValidator, Discriminator, Field, Tag, ValidationError, model_validator
+from pydantic import AfterValidator, Discriminator, Field, Tag, model_validator
 from pydantic.dataclasses import dataclass
 
 from bem3d import BEM
@@ -26,7 +26,7 @@ from scene import (
     Stage,
     files,
 )
-from scene.mistakes import CHOICE, said
+from scene.mistakes import CHOICE
 from scene.quantities import CLOSED, Force, Length, Speed, Whole
 from scene.reading import InvalidInput, invalid, made, parsed
 from scene.rheology import Elastomer
@@ -280,9 +280,7 @@ def _study_of(content, name):
                 series.curves  # noqa: B018 - refuses what cannot be solved on two grids
                 found[size].append(series)
             except InvalidInput as error:
-                lines += str(error).splitlines()
-            except ValidationError as error:
-                lines.append(f"{place}: {said(error)}")
+                lines += [f"{place}: {each.removeprefix(f'{place}: ')}" for each in str(error).splitlines()]
             except (Refused, SolveError, ArithmeticError) as error:
                 lines.append(f"{place}: {error}")
     if lines:

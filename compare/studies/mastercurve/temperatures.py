@@ -5,9 +5,8 @@ from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
-from pydantic import TypeAdapter, ValidationError
 
-from scene.reading import InvalidInput, mistakes
+from scene.reading import InvalidInput
 from scene.temperature import WLF
 
 from ...solving import words
@@ -61,14 +60,7 @@ class Constants:
         return np.array([self._at(float(each)).log_shift for each in temperatures])
 
     def _at(self, temperature):
-        content = {"type": "wlf", "temperature": temperature} | {
-            name: _bare(value) for name, value in self.given.items()
-        }
-        adapter = TypeAdapter(WLF)
-        try:
-            law = adapter.validate_python(content)
-        except ValidationError as error:
-            raise InvalidInput("\n".join(mistakes(error, content, adapter))) from error
+        law = WLF(temperature=temperature, **{name: _bare(value) for name, value in self.given.items()})
         if law.reference < COLDEST:
             raise InvalidInput(f'reference = {law.reference:g} K: is degC meant? Write "{law.reference:g} degC"')
         return law

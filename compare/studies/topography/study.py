@@ -9,13 +9,12 @@ from typing import Any, TypeAlias
 
 import numpy as np
 import xarray
-from pydantic import TypeAdapter, ValidationError
 
 from scene import Topography
 from scene.files import reading_once
 from scene.printable import printable
 from scene.quantities import METRE, argument
-from scene.reading import InvalidInput, mistakes
+from scene.reading import InvalidInput
 
 from ...report.page import Block, Findings, Text
 from ...solving.outcome import Outcome
@@ -124,15 +123,13 @@ class Map(Study):
     def description(self) -> Description:
         """Sizes, slopes and spectra. Raises InvalidInput."""
         path = isinstance(self.given, str | Path)
-        content, adapter = {"file" if path else "heights": self.given, **self.stated}, TypeAdapter(Topography)
+        content: dict[str, Any] = {"file" if path else "heights": self.given, **self.stated}
         # Once: what is looked at for mistakes is read again for each.
         with reading_once():
             try:
-                return describe(adapter.validate_python(content))
-            except ValidationError as error:
-                lines = mistakes(error, content, adapter)
+                return describe(Topography(**content))
             except ValueError as error:
-                lines = [str(error)]
+                lines = [each.removeprefix("Topography: ") for each in str(error).splitlines()]
         named = (each if str(self.given) in each or not path else f"{self.given}: {each}" for each in lines)
         raise InvalidInput("\n".join(named))
 
