@@ -62,7 +62,7 @@ class Cells:
         cells = self.columns[column]
         found = cells
         if cells.dtype.kind != "f":
-            number, none = _COMMA_NUMBER if self.comma else NUMBER, ("", "nan") if gaps else ()
+            number, none = _COMMA_NUMBER if self.comma else NUMBER, ("", "nan", "-nan") if gaps else ()
             found = np.array(
                 [
                     float(each.replace(",", "."))
