@@ -20,6 +20,7 @@ from .quantities import (
 from .reading import InvalidInput, made
 from .table import MOST_ROWS, SCATTER, CreepTable, RelaxationTable, Table
 from .tablefile import Column, Columns, TableFormat, read_columns
+from .tabletext import shown
 
 FREQUENCY = Column("frequency", ("f",), (HERTZ, RADIAN_PER_SECOND))
 OMEGA = Column("omega", ("angular frequency",), (RADIAN_PER_SECOND,))
@@ -111,7 +112,7 @@ def _positive(columns: Columns, name: str) -> np.ndarray:
 
 
 def _headings(columns):
-    return ", ".join(map(repr, columns.headings.values())) or "none that is known"
+    return ", ".join(map(shown, columns.headings.values())) or "none that is known"
 
 
 def _kind(columns, quantities, stated):
@@ -121,7 +122,7 @@ def _kind(columns, quantities, stated):
     found |= {"shear"} if any("viscosity" in each for each in headings) else set()
     if len(found | ({stated} if stated in _KINDS.values() else set())) > 1:
         raise ValueError(
-            f"{columns.name}: {', '.join(map(repr, headings.values()))} are moduli of kind "
+            f"{columns.name}: {', '.join(map(shown, headings.values()))} are moduli of kind "
             f"{' and '.join(map(repr, sorted(found)))}, and kind = {stated!r} is stated: state the columns of one "
             "kind, or correct kind"
         )
@@ -147,8 +148,8 @@ def _frequencies(columns, stated):
     if not fitting:
         name, unit = next(iter(units.items()))
         raise ValueError(
-            f"{columns.name}: {columns.headings[name]!r} is in {unit}, and frequency_unit = {stated!r} is stated: "
-            "leave frequency_unit out, or correct the heading"
+            f"{columns.name}: {shown(columns.headings[name])} is in {unit}, and frequency_unit = {stated!r} is "
+            "stated: leave frequency_unit out, or correct the heading"
         )
     return _positive(columns, fitting[0]), units[fitting[0]] or stated
 
@@ -170,8 +171,8 @@ def _complex_modulus(columns):
             places = [each for each in (OMEGA.field, FREQUENCY.field) if each in columns]
             if not places or _unit(columns, places[0]) is None:
                 raise ValueError(
-                    f"{columns.name}: moduli are {columns.headings[column.field]!r} times the angular frequency: "
-                    'state its unit, as units = {frequency = "Hz"}'
+                    f"{columns.name}: moduli are {shown(columns.headings[column.field])} times the angular "
+                    'frequency: state its unit, as units = {frequency = "Hz"}'
                 )
             known[name] = _positive(columns, column.field) * _angular(columns, places[0])
     tangent = _positive(columns, "tan_delta") if "tan_delta" in columns else None

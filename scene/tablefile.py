@@ -43,7 +43,7 @@ from .plain import bare, in_unit
 from .printable import brief
 from .quantities import HERTZ, RADIAN_PER_SECOND, Unit
 from .tableformat import FromTable, TableFormat, split_format
-from .tabletext import NUMBER, Cells, read_rows, read_text
+from .tabletext import NUMBER, Cells, read_rows, read_text, shown
 
 __all__ = [
     "Column",
@@ -144,13 +144,14 @@ def read_columns(
         cells = read_text(Path(table), stated, most_bytes, lambda below: any(map(_is_unit, below)))
     else:
         cells = _of_python(table)
-    places = _places(cells, known, stated)
-    used = _select(cells, places, known, stated)
+    whole = list(cells.headings)
+    places = _places(cells, whole, known, stated)
+    used = _select(cells, whole, places, known, stated)
     units = {each: _unit(cells, places[each.field], each, stated) for each in known if each.field in places}
     own = [(each.units, unit) for each, unit in units.items() if each.units and not each.unit_needed]
     si = cells.first and all(not unit or unit in [one.symbol for one in several] for several, unit in own)
     others = [k for k, each in enumerate(cells.columns) if k not in used and any(map(str, each))]
-    notes = tuple(f"{cells.name}: column {brief(repr(cells.headings[k]))} is not used" for k in others)
+    notes = tuple(f"{cells.name}: column {shown(cells.headings[k])} is not used" for k in others)
     found = Columns(cells, {}, {}, {}, notes)
     for each, unit in units.items():
         place = places[each.field]
@@ -196,15 +197,13 @@ def _of_python(table):
     elif isinstance(table, Mapping) or (hasattr(table, "columns") and hasattr(table, "__getitem__")):
         items = [(name, table[name]) for name in getattr(table, "columns", table)]
     else:
-        raise ValueError(
-            f"{brief(repr(table))}: a path, a DataFrame, a Dataset of xarray or arrays by their names"
-        )
+        raise ValueError(f"{shown(table)}: a path, a DataFrame, a Dataset of xarray or arrays by their names")
     cells = Cells(type(table).__name__, [], [], [])
     for heading, given in items:
         values, unit = bare(given)
         array = np.asarray(values)
         if array.ndim != 1 or not array.size:
-            raise ValueError(f"{cells.name}, column {heading!r}: shape {array.shape}, and (rows,) is needed")
+            raise ValueError(f"{cells.name}, column {shown(heading)}: shape {array.shape}, and (rows,) is needed")
         cells.headings.append(str(heading))
         cells.units.append(unit or "")
         cells.columns.append(
@@ -221,19 +220,21 @@ def _key(name):
     return key if len(key) == 1 else key.casefold()
 
 
-def _places(cells, known, stated):
-    """Column by field; units of headings become those of the table."""
+def _places(cells, whole, known, stated):
+    """Column by field; units of headings become those of the table. whole : headings as they are written."""
     names = {_key(name): each.field for each in known for name in (each.field, *each.names)}
     columns, units = stated.columns or {}, stated.units or {}
     if unknown := {*columns, *units} - {each.field for each in known}:
-        raise ValueError(f"{min(unknown)!r} is none of the columns: {', '.join(each.field for each in known)}")
-    whole = list(cells.headings)
+        raise ValueError(
+            f"{shown(min(unknown))} is none of the columns: {', '.join(each.field for each in known)}"
+        )
     for k, heading in enumerate(whole):
         found = None if _key(heading) in names else _WITH_UNIT.fullmatch(heading)
         unit = (found["a"] or found["b"] or "").strip() if found else ""
         if found and (cells.units[k] in _PURE or _is_unit(unit)):
             if cells.units[k] not in _PURE and not _same(unit, cells.units[k]):
-                raise ValueError(f"{cells.name}: {heading!r} and {cells.units[k]!r} are two units of one column")
+                two = f"{shown(heading)} and {shown(cells.units[k])}"
+                raise ValueError(f"{cells.name}: {two} are two units of one column")
             cells.headings[k], cells.units[k] = found["name"], unit
     places = {name: _called(cells, whole, each) for name, each in columns.items()}
     for k, heading in enumerate(cells.headings):
@@ -241,10 +242,9 @@ def _places(cells, known, stated):
         if name is None or name in columns or k in places.values():
             continue
         if name in places:
-            raise ValueError(
-                f"{cells.name}: {whole[places[name]]!r} and {whole[k]!r} are both {name}: state one, as columns = "
-                f"{{{_toml(name)} = {_toml(whole[k], quoted=True)}}}"
-            )
+            both = f"{shown(whole[places[name]])} and {shown(whole[k])}"
+            state = f"state one, as columns = {{{name} = {_toml(whole[k], quoted=True)}}}"
+            raise ValueError(f"{cells.name}: {both} are both {name}: {state}")
         places[name] = k
     for each in known:
         if each.field not in places and (each.needed or each.field in units):
@@ -263,19 +263,19 @@ def _called(cells, whole, heading):
     if len(set(found)) != 1:
         many = "several columns are" if found else "no column is"
         raise ValueError(
-            f"{cells.name}: {many} called {heading!r}; there are {brief(', '.join(map(repr, whole)))}"
+            f"{cells.name}: {many} called {shown(heading)}; there are {brief(', '.join(map(repr, whole)))}"
         )
     return found[0]
 
 
-def _select(cells, places, known, stated):
+def _select(cells, whole, places, known, stated):
     """Keep the rows that are stated, and return the columns that are used or stated.
 
     Raises ValueError for another one that tells rows apart.
     """
     kept, free = np.ones(len(cells.columns[0]), bool), set(places.values())
     for heading, value in (stated.where or {}).items():
-        place = _called(cells, cells.headings, heading)
+        place = _called(cells, whole, heading)
         free.add(place)
         if value != "*":
             kept &= [_equal(str(cell), str(value)) for cell in cells.columns[place]]
@@ -299,8 +299,8 @@ def _refuse_apart(cells, heading, texts):
         return
     key, (own, first, second) = _toml(heading), [_toml(each, quoted=True) for each in (heading, *values[:2])]
     raise ValueError(
-        f"{cells.name}: column {heading!r} has several values, {first} and {second}, and is not used: state its "
-        f"quantity, as columns = {{field = {own}}}, or where = {{{key} = {first}}} for rows of one value, "
+        f"{cells.name}: column {shown(heading)} has several values, {first} and {second}, and is not used: state "
+        f"its quantity, as columns = {{field = {own}}}, or where = {{{key} = {first}}} for rows of one value, "
         f'where = {{{key} = "*"}} for all'
     )
 
@@ -319,7 +319,8 @@ def _unit(cells, place, column, stated):
     if unit and own and not _same(unit, own):
         heading = cells.headings[place]
         raise ValueError(
-            f"{cells.name}: column {heading!r} is in {unit!r}, and units states {own!r}: they must agree"
+            f"{cells.name}: column {shown(heading)} is in {shown(unit)}, and units states {shown(own)}: they must "
+            "agree"
         )
     return unit or own
 
@@ -330,7 +331,7 @@ def _in_si(found, column, numbers, unit, default):
     default : whether numbers without a unit are in SI
     """
     symbol = column.units[0].symbol if column.units else ""
-    where = f"{found.name}: column {found.headings[column.field]!r}"
+    where = f"{found.name}: column {shown(found.headings[column.field])}"
     state = f"state units = {{{_toml(column.field)} = {_toml(symbol, quoted=True)}}}"
     if not unit:
         if not default and (len(column.units) == 1 or column.unit_needed):
@@ -343,7 +344,7 @@ def _in_si(found, column, numbers, unit, default):
         except ValueError as error:
             reasons.append(str(error))
     kinds = " or ".join(each.kind for each in column.units) or "a number without a unit"
-    raise ValueError(f"{where} is in {unit!r}, and is {kinds} ({'; '.join(reasons)}): {state}")
+    raise ValueError(f"{where} is in {shown(unit)}, and is {kinds} ({brief('; '.join(reasons))}): {state}")
 
 
 def _is_unit(text):
@@ -368,4 +369,5 @@ def _same(one, other):
 
 def _toml(name, quoted=False):
     """A name in TOML, as a key or a value."""
+    name = brief(name, 80)
     return name if not quoted and re.fullmatch(r"[\w-]+", name, re.ASCII) else dumps(name, ensure_ascii=False)

@@ -29,6 +29,11 @@ _THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2}(?:,\d{3})+")
 _BLANKS = re.compile(r"\s+(?![\[(])(?![^\[(]*[\])])")  # not before a unit in brackets, nor within one
 
 
+def shown(text: object) -> str:
+    """A text of a table in a message: in quotes, its middle left out where it is long."""
+    return brief(repr(text), 80)
+
+
 @dataclass(eq=False)
 class Cells:
     """A table as it stands there.
@@ -57,7 +62,7 @@ class Cells:
         cells = self.columns[column]
         found = cells
         if cells.dtype.kind != "f":
-            number, none = _COMMA_NUMBER if self.comma else NUMBER, ("", "nan") if gaps else ()
+            number, none = _COMMA_NUMBER if self.comma else NUMBER, ("", "nan", "-nan") if gaps else ()
             found = np.array(
                 [
                     float(each.replace(",", "."))
@@ -72,7 +77,7 @@ class Cells:
         if wrong.any():
             row = int(np.argmax(wrong))
             raise ValueError(
-                f"{self.place(row)}, column {self.headings[column]!r}: {brief(repr(cells.tolist()[row]))} is no "
+                f"{self.place(row)}, column {shown(self.headings[column])}: {shown(cells.tolist()[row])} is no "
                 "number: state rows to end before it, where to leave it out, decimal, or separator"
             )
         return found
@@ -93,7 +98,7 @@ def read_text(path: Path, stated: TableFormat, most_bytes: int, units_below: Cal
         headings, body = [str(k + 1) for k in range(len(headings))], start
     elif _has_number(headings):
         raise ValueError(
-            f"{name}, line {start + 1}: {brief(repr(lines[start]))} is no heading: write one, state skip, or "
+            f"{name}, line {start + 1}: {shown(lines[start])} is no heading: write one, state skip, or "
             "state the columns by number, as columns = {field = 1}"
         )
     elif body < len(lines):
@@ -136,10 +141,11 @@ def _lines(path, stated, most_bytes):
     except UnicodeDecodeError as error:
         line, byte = content[: error.start].count(b"\n") + 1, content[error.start]
         raise ValueError(
-            f'{name}, line {line}: byte {byte:#04x} is not {encoding}: state encoding, as "cp1252"'
+            f"{name}, line {line}: byte {byte:#04x} is not {encoding.removesuffix('-sig')}: state encoding, as "
+            '"cp1252"'
         ) from None
     except LookupError:
-        raise ValueError(f'encoding = {encoding!r}: Python knows none of this name, as "cp1252"') from None
+        raise ValueError(f'encoding = {shown(encoding)}: Python knows none of this name, as "cp1252"') from None
     while lines and not lines[-1].strip(" \t;,"):  # spreadsheets write separators below a table
         lines.pop()
     start = stated.skip or 0
@@ -194,13 +200,13 @@ def _rows(name, lines, places, separator, width, most):
     if not text.strip():
         raise ValueError(f"{where} is blank, and there are rows below it: state rows = {row} to end before it")
     if not len(wrong):
-        raise ValueError(f"{where}: {brief(repr(text))} has a quotation mark that opens, and none that closes it")
+        raise ValueError(f"{where}: {shown(text)} has a quotation mark that opens, and none that closes it")
     again = [k + 1 for k in range(body + row + 1, stop) if lines[k] == text and not text[:1].isdigit()]
     second = f"; line {again[0]} is another heading: state rows to end before it" if again else ""
     count = len(text.split() if separator == " " else _split(text, separator))
     raise ValueError(
-        f"{where}: {brief(repr(text))} has {count} cell{'s' * (count != 1)}, and line {start + 1}, "
-        f"{brief(repr(lines[start]))}, has {width}: state skip for lines above the heading, rows for those below "
+        f"{where}: {shown(text)} has {count} cell{'s' * (count != 1)}, and line {start + 1}, "
+        f"{shown(lines[start])}, has {width}: state skip for lines above the heading, rows for those below "
         f"the table, or separator{second}"
     )
 
@@ -213,7 +219,11 @@ def _has_commas(name, columns, separator, stated):
     commas = [cell for cell in cells if "," in cell and _COMMA_NUMBER.fullmatch(cell)]
     points = [cell for cell in cells if "." in cell and NUMBER.fullmatch(cell)] if commas else []
     if points:
-        raise ValueError(f"{name}: decimals have commas, {commas[0]!r}, and points, {points[0]!r}: state decimal")
+        raise ValueError(
+            f"{name}: decimals have commas, {shown(commas[0])}, and points, {shown(points[0])}: state decimal"
+        )
     if commas and all(map(_THOUSANDS.fullmatch, commas)):
-        raise ValueError(f"{name}: {commas[0]!r} may have decimals or thousands behind its comma: state decimal")
+        raise ValueError(
+            f"{name}: {shown(commas[0])} may have decimals or thousands behind its comma: state decimal"
+        )
     return bool(commas)

@@ -184,6 +184,13 @@ def test_every_file_of_the_page_about_scenes_is_read(text, tmp_path, monkeypatch
     frequency = np.geomspace(1e-3, 1e3, 30)
     moduli = 1e-6 * 3 * solid.complex_modulus(2 * np.pi * frequency)
     rows = np.column_stack([frequency, moduli.real, moduli.imag])
+    np.savetxt(
+        "psd.csv",
+        [(1e3, 1e-14), (1e4, 1e-15), (1e6, 1e-21)],
+        delimiter=";",
+        header="q [rad/m];C1D [m^3]",
+        comments="",
+    )
     np.savetxt("rubber.csv", rows, delimiter=";", header="f [Hz];E' [MPa];E'' [MPa]", comments="")
     if "[[series]]" in text:
         assert study_of(text, "mine").series("quick")

@@ -25,6 +25,7 @@ from scene import (
     Scene,
     SelfAffine,
     Slide,
+    Spectrum,
     Sphere,
     Topography,
     Wave,
@@ -48,8 +49,9 @@ OF_ROW = {
         Scene(Cylinder(1e-2), SOLID, ON_LINE),
         Scene(Measured(heights=HEIGHTS, pixel=1e-4), SOLID, PRESSED),
     ],
-    "roughness `self-affine`, `topography`, `profile`": [
+    "roughness `self-affine`, `spectrum`, `topography`, `profile`": [
         Scene(BODY, SOLID, PRESSED, ROUGH),
+        Scene(BODY, SOLID, PRESSED, Spectrum(q=(1e3, 1e4), C2D=(1e-18, 1e-21), convention="jacobs")),
         Scene(BODY, SOLID, PRESSED, Topography(heights=HEIGHTS, pixel=1e-4)),
         Scene(BODY, SOLID, PRESSED, Profile(heights=LINE, spacing=1e-5)),
     ],

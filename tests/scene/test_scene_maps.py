@@ -109,7 +109,7 @@ DAMAGES = {
     "a cell more": lambda rows, k, j: [*rows[:k], [*rows[k], "1"], *rows[k + 1 :]],
     "a cell less": lambda rows, k, j: [*rows[:k], rows[k][:-1], *rows[k + 1 :]],
     "a hole": lambda rows, k, j: [*rows[:k], [*rows[k][:j], "", *rows[k][j + 1 :]], *rows[k + 1 :]],
-    "nan": lambda rows, k, j: [*rows[:k], [*rows[k][:j], "NaN", *rows[k][j + 1 :]], *rows[k + 1 :]],
+    "nan": lambda rows, k, j: [*rows[:k], [*rows[k][:j], "-NaN", *rows[k][j + 1 :]], *rows[k + 1 :]],
     "a word": lambda rows, k, j: [*rows[:k], [*rows[k][:j], "***", *rows[k][j + 1 :]], *rows[k + 1 :]],
     "digits with marks": lambda rows, k, j: [
         *rows[:k],

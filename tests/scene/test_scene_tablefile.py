@@ -135,7 +135,7 @@ def test_what_differs_is_refused_with_its_place_and_read_once_it_is_stated(tmp_p
         ([HEADED, *ROWS], {"units": {"storage": "Pa"}}, "in 'MPa', and units states 'Pa': they must agree"),
         ([HEADED, *ROWS], {"columns": {"stoarge": "G'"}}, "'stoarge' is none of the columns: frequency, storage"),
         ([HEADED, *ROWS], {"columns": {"storage": "E'"}}, 'no column is called "E\'"'),
-        ([HEADED, *ROWS], {"where": {"f": 7}}, "no row has {'f': 7}"),
+        ([HEADED, *ROWS], {"where": {"f [Hz]": 7}}, "no row has {'f \\[Hz\\]': 7}"),
         ([HEADED, *ROWS], {"encoding": "latin-9000"}, "encoding = 'latin-9000': Python knows none"),
         ([HEADED + ";tan_delta [%]", *(row + ";1" for row in ROWS)], {}, "in '%', and is a number without a unit"),
         (["T;G'", "20;1"], {}, "column 'T' has no unit in the heading: state units = {T = \"K\"}"),
