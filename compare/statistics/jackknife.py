@@ -195,7 +195,7 @@ def off_the_ratio(
     count = known.sum(axis=-1)
     with np.errstate(invalid="ignore", divide="ignore"):
         top, bottom = (np.where(known, each, 0.0).sum(axis=-1) / count for each in (above, below))
-        value = top / bottom
+        value = top / np.where(bottom, bottom, nan)
         unit = bottom * np.sqrt(np.where(count > 1, count * (count - 1.0), nan))
         return value, np.where(known, above - value[..., None] * below, 0.0) / unit[..., None], count
 

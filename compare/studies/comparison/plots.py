@@ -132,7 +132,7 @@ def _mu(series: Series, answers: Answers, curve: str, *models: str) -> Estimated
 
 def _along(series: Any, answers: Answers, points: DataFrame, curve: str) -> tuple[DataFrame, DataFrame, DataFrame]:
     """Points of the models of a curve that slides, their ratios to the reference, and lines of theories."""
-    own = points[(points["curve"] == curve) & (points["speed"] > 0)].dropna(axis=1, how="all")
+    own = _known(points[(points["curve"] == curve) & (points["speed"] > 0)])
     judged = own["model"].isin([*series.models.labels])
     bodies = {"rough": curve} | ({"smooth": SMOOTH} if curve == ROUGH else {})
     return own[judged], _ratios(series, answers, bodies), own[~judged].assign(kind=friction_speed.THEORY)
@@ -210,6 +210,12 @@ def _shifted(series: Any, judged: Judged) -> Iterator[collapse.ShiftedCurves]:
         yield collapse.ShiftedCurves(label, found, named, expected, eq23.leading(found, own), predicted)
 
 
+def _known(points: DataFrame) -> DataFrame:
+    """Points of curves without the columns of what is not prescribed, or not computed."""
+    columns = [name for name in ("load", "depth", "rms_slope_mean") if name in points]
+    return points.drop(columns=[name for name in columns if points[name].isna().all()])
+
+
 def _forces(
     series: Any, answers: Answers, points: DataFrame, bodies: Mapping[str, str], folder: str
 ) -> Plot | None:
@@ -219,7 +225,7 @@ def _forces(
     if own.empty:
         return None
     own = (
-        own.dropna(axis=1, how="all")
+        _known(own)
         .assign(body=own["curve"].map(bodies))
         .rename(columns={"speed": "rate"} if pressed_in else {})
     )
