@@ -140,7 +140,7 @@ def test_the_examples_in_python_print_what_they_say(capsys, tmp_path, monkeypatc
     exec(whole, {"__name__": "__main__"})
     told = capsys.readouterr().out
     assert "holds" in told
-    assert "{'level': 2, 'speed': 3, 'load': 1, 'surface': 4}" in told
+    assert "{'model': 3, 'level': 2, 'speed': 3, 'load': 1, 'surface': 10}" in told
     assert re.search(r"BEM +0\.01", told)
     assert Path("friction.pdf").stat().st_size > 1000
 
