@@ -19,8 +19,8 @@ from .quantities import (
 )
 from .reading import InvalidInput, made
 from .table import MOST_ROWS, SCATTER, CreepTable, RelaxationTable, Table
-from .tablefile import Column, Columns, TableFormat, read_columns
-from .tabletext import shown
+from .tablefile import Column, Columns, read_columns
+from .tabletext import TableFormat, shown
 
 FREQUENCY = Column("frequency", ("f",), (HERTZ, RADIAN_PER_SECOND))
 OMEGA = Column("omega", ("angular frequency",), (RADIAN_PER_SECOND,))
@@ -102,7 +102,7 @@ def read_moduli(
 
 
 def read_table(path: str | Path, **stated: Any) -> Table | RelaxationTable | CreepTable:
-    """The table in a text file. stated : see `tablefile.TableFormat`. Raises ValueError naming file and line."""
+    """The table in a text file. stated : see `tabletext.TableFormat`. Raises ValueError naming file and line."""
     return read_moduli(path, stated=made(stated, TableFormat, path)).table
 
 

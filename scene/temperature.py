@@ -20,7 +20,8 @@ from .quantities import (
     TemperatureDifference,
     by_name,
 )
-from .tablefile import Column, FromTable, filled
+from .tablefile import Column, filled
+from .tabletext import FromTable
 from .viscoelastic import Linear
 
 GAS_CONSTANT = 8.314462618  # [J/(mol K)], CODATA 2018
@@ -141,7 +142,7 @@ class ShiftFactors(FromTable, TemperatureLaw):
     temperatures : at least two [K]
     a_T, b_T : at each of them [1]; a_T falls with the temperature; b_T is 1 where it is absent
     table : with the columns T, a_T and, if there is one, b_T, in place of these three; with
-        columns, units, where, separator, decimal, encoding, skip, rows as `tablefile.TableFormat` has them
+        columns, units, where, separator, decimal, encoding, skip, rows as `tabletext.TableFormat` has them
     """
 
     temperature: AbsoluteTemperature

@@ -192,9 +192,9 @@ def test_friction_that_does_not_collapse_has_no_exponent(tmp_path):
     [
         ("0.5,1,3,2\n", "line 1: '0.5,1,3,2' is no heading"),
         ("\x1b[31m,F,v\n1,2,3\n", r"there is no column F_N .*, but '\\x1b\[31m', 'F', 'v': state its heading"),
-        ("mu,F_N,v,load\n1,2,3,4\n", "'F_N' and 'load' are both F_N: state one, as columns = {F_N = \"load\"}"),
+        ("mu,F_N,v,load\n1,2,3,4\n", "'F_N' and 'load' are both F_N: state one, as columns = {F_N = 'load'}"),
         ("mu,F_N,v\n1,2,3\n1,,3\n", "line 3, column 'F_N': '' is no number"),
-        ("glass dry\nmu,F_N,v\n1,2,3\n\nB\nmu,F_N,v\n1,2,3\n", "line 6 is another heading: state rows"),
+        ("glass dry\nmu,F_N,v\n1,2,3\n\nB\nmu,F_N,v\n1,2,3\n", "line 2: 'mu,F_N,v' has not the 2 cells of line 1"),
     ],
 )
 def test_a_table_that_says_too_little_is_refused_with_its_line_and_leaves_no_folder(tmp_path, text, said):
