@@ -9,10 +9,10 @@ quantities of pint and attributes have units. Nothing is guessed; what `TableFor
 - a column that is not used, and may tell samples apart: of text, or of numbers that repeat, with several values
 """
 
+import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from re import compile as pattern
 from typing import Any
 from unicodedata import normalize
 
@@ -32,7 +32,7 @@ REDUNDANT = (
     *("time", "t", "index", "point", "tan delta", "phase", "|G*|", "|E*|", "complex modulus"),
     *("torque", "strain", "stress", "displacement", "normal force"),
 )
-_WITH_UNIT = pattern(r"(.+?)\s*(?:\[([^\[\]]*)\]|\(([^()]*(?:\([^()]*\)[^()]*)*)\))")
+_WITH_UNIT = re.compile(r"(.+?)\s*(?:\[([^\[\]]*)\]|\(([^()]*(?:\([^()]*\)[^()]*)*)\))")
 _LETTERS = str.maketrans(
     {"’": "'", "′": "'", '"': "''", "ω": "omega", "δ": "delta", "η": "eta", "τ": "tau", "μ": "mu", "_": " "}
 )
@@ -104,13 +104,13 @@ def read_columns(
     for k, heading in enumerate(names):
         split = None if cells.units[k] not in PURE or _key(heading) in fields else _WITH_UNIT.fullmatch(heading)
         if split and (split[2] is not None or is_unit(split[3])):
-            names[k], cells.units[k] = split[1], split[2] or split[3]
+            names[k], cells.units[k] = split[1], split[2] or split[3] or ""
     places = _places(cells, names, known, fields, stated)
     used = _select(cells, names, places, fields, stated)
     units = {each: _unit(cells, places[each.field], each, stated) for each in known if each.field in places}
     own = [(each.units, unit) for each, unit in units.items() if each.units and not each.unit_needed]
     si = cells.first and all(unit in ("", *(one.symbol for one in several)) for several, unit in own)
-    others = [name for k, name in enumerate(names) if k not in used and cells.frame[k].astype(bool).any()]
+    others = [name for k, name in enumerate(names) if k not in used and cells.frame[k].astype(str).any()]
     notes = tuple(f"{cells.name}: column {shown(name)} is not used" for name in others)
     found = Columns(cells.name, cells.place, notes)
     for each, unit in units.items():
@@ -148,8 +148,7 @@ def refused(table: Any, reason: ValueError) -> ValidationError:
 
 def _of_python(table):
     names = [*getattr(table, "variables", getattr(table, "columns", table))]  # of xarray, pandas, a mapping
-    if hasattr(table, "variables"):
-        names = [name for name in names if table[name].ndim == 1]
+    names = [name for name in names if getattr(table[name], "ndim", 1)]  # of xarray one number may be a coordinate
     held = [bare(table[name]) for name in names]
     frame = pd.DataFrame({k: np.asarray(values) for k, (values, _) in enumerate(held)})
     frame = frame.apply(lambda each: each.astype(float if each.dtype.kind in "fiu" else str))
@@ -205,7 +204,9 @@ def _select(cells, names, places, fields, stated):
     for heading, value in where.items():
         place = _find(cells, names, heading)
         free.add(place)
-        kept &= (value == "*") | (cells.frame[place].astype(str) == str(value)) | (cells.numbers(place) == value)
+        number = pd.to_numeric(str(value), errors="coerce")
+        same = np.isfinite(number) & (cells.numbers(place) == number)
+        kept &= (value == "*") | (cells.frame[place].astype(str) == str(value)) | same
     if not kept.any():
         raise ValueError(f"{cells.name}: no row has {brief(repr(where))}")
     cells.frame = cells.frame[kept]

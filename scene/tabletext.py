@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import InitVar
 from dataclasses import dataclass as plain
 from io import StringIO
+from math import inf, nan
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -23,8 +24,8 @@ SEPARATORS = {"tab": "\t", "semicolon": ";", "comma": ",", "blanks": " "}
 BINARY = {b"PK\3\4": "a workbook (.xlsx)", **dict.fromkeys((b"\x89PNG", b"II*\0", b"MM\0*"), "a picture")}
 PURE = "", "-", "1"  # units of pure numbers
 _END = "\3"  # a last cell of each row, which is elsewhere if there are too few
-_NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
-_THOUSANDS = r"[+-]?[1-9]\d{0,2}(?:,\d{3})+"
+_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?", re.ASCII)
+_THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2}(?:,\d{3})+")
 _BLANKS = re.compile(r"\s+(?![\[(])(?![^\[(]*[\])])")  # not before a unit in brackets, nor within one
 _Lines = Annotated[int, Field(strict=True, ge=0)]
 
@@ -97,9 +98,11 @@ class Cells:
         cells = self.frame[column]
         if cells.dtype.kind == "f":
             return cells.to_numpy()
-        text = cells.str.translate({44: ".", 46: ","} if self.comma else {})  # comma and point
-        empty = text.str.casefold().isin(["", "nan", "-nan"])
-        return text.where(text.str.fullmatch(_NUMBER), empty.map({True: "nan", False: "inf"})).to_numpy(float)
+        return np.array([self._number(each) for each in cells])
+
+    def _number(self, cell):
+        text = cell.translate({44: ".", 46: ","}) if self.comma else cell  # comma and point
+        return float(text) if _NUMBER.fullmatch(text) else nan if text.casefold() in ("", "nan", "-nan") else inf
 
     def finite(self, column: int, gaps: bool = False) -> np.ndarray:
         """The same. Raises ValueError for a cell that is no number; gaps : but not for nan or nothing."""
@@ -181,7 +184,7 @@ def _split(line, separator):
 
 
 def _has_number(cells):
-    return any(re.fullmatch(_NUMBER, each.replace(",", ".")) for each in cells)
+    return any(_NUMBER.fullmatch(each.replace(",", ".")) for each in cells)
 
 
 def _frame(name, lines, places, separator, width, stated):
@@ -209,16 +212,15 @@ def _frame(name, lines, places, separator, width, stated):
             f"{shown(lines[start])}: state skip for lines above the heading, rows to end before this "
             "one, or separator"
         )
-    frame = frame.drop(columns=width).apply(lambda cells: cells.str.strip())
+    frame = frame.drop(columns=width).map(str.strip)
     frame.index = pd.RangeIndex(body + 1, body + len(rows) + 1, name="line")
     if stated.decimal is not None or separator not in "\t;":
         return frame, stated.decimal == ","
-    cells = frame.stack()
-    numbers = cells[cells.str.replace(",", ".", n=1).str.fullmatch(_NUMBER)]
-    commas, points = (numbers[numbers.str.contains(mark, regex=False)] for mark in ",.")
-    if len(commas) and (len(points) or commas.str.fullmatch(_THOUSANDS).all()):
-        also = f", and {shown(points.iloc[0])} has a point" if len(points) else ""
+    numbers = [each for each in frame.to_numpy().flat if _NUMBER.fullmatch(each.replace(",", ".", 1))]
+    commas, points = ([each for each in numbers if mark in each] for mark in ",.")
+    if commas and (points or all(map(_THOUSANDS.fullmatch, commas))):
+        also = f", and {shown(points[0])} has a point" if points else ""
         raise ValueError(
-            f"{name}: {shown(commas.iloc[0])} may have decimals or thousands behind its comma{also}: state decimal"
+            f"{name}: {shown(commas[0])} may have decimals or thousands behind its comma{also}: state decimal"
         )
-    return frame, len(commas) > 0
+    return frame, bool(commas)

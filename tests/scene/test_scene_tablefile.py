@@ -114,6 +114,19 @@ STATED = {
         {"decimal": ","},
         "'1,000' may have decimals or thousands behind its comma: state decimal",
     ),
+    "encoding": (
+        ["# 25 °C", HEADED, *ROWS],
+        {"encoding": "cp1252"},
+        "line 1: .* byte 0xb0 .*state encoding",
+    ),
+    "no heading": (
+        ["# in Hz, MPa, kPa", *ROWS],
+        {
+            "columns": {"frequency": 1, "storage": 2, "loss": 3},
+            "units": {"frequency": "Hz", "storage": "MPa", "loss": "kPa"},
+        },
+        "line 2: '1;2;3' is no heading: .* state the columns by number",
+    ),
     "separator": (
         [HEADED.replace(";", " ").replace(" [Hz]", ",1"), "1 2 3", "2 3 4", "3 4 5"],
         {"separator": "blanks", "columns": {"frequency": "f,1"}, "units": {"frequency": "Hz"}},
@@ -150,6 +163,8 @@ def test_what_differs_is_refused_with_its_place_and_read_once_it_is_stated(tmp_p
         ([HEADED, "0,5;1.5;2"], {"decimal": ","}, "line 2, column \"G' .MPa.\": '1.5' is no number"),
         ([HEADED], {}, "no row below line 1"),
         (["# nothing"], {}, "no row in it"),
+        (["PK\3\4"], {}, "is a workbook .*; a table is a text file"),
+        (["II*\0"], {}, "is a picture; a table is a text file"),
     ],
 )
 def test_what_is_no_table_is_refused_with_what_stands_there(tmp_path, lines, stated, refusal):

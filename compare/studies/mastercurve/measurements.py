@@ -63,7 +63,7 @@ class MeasuredFriction:
         """
         path = Path(table) if isinstance(table, str | Path) else None
         try:
-            columns = read_columns(path or _flat(table), COLUMNS, TableFormat(**stated))
+            columns = read_columns(path or table, COLUMNS, TableFormat(**stated))
             numbers, notes = _numbers(columns)
         except ValidationError as error:
             lines = mistakes(error, stated, validator(TableFormat))
@@ -79,19 +79,6 @@ class MeasuredFriction:
             if field in numbers
         }
         return cls(xarray.Dataset(data), named, source, notes)
-
-
-def _flat(table):
-    """A Dataset of several dimensions as one of rows; anything else as it is."""
-    if not isinstance(table, xarray.Dataset) or len(table.sizes) < 2:
-        return table
-    dims = tuple(table.sizes)
-    spread = xarray.broadcast(*(table[name] for name in table.variables))
-    rows = {
-        str(each.name): xarray.DataArray(each.transpose(*dims).data.reshape(-1), dims="row", attrs=own.attrs)
-        for each, own in zip(spread, (table[name] for name in table.variables), strict=True)
-    }
-    return xarray.Dataset(rows)
 
 
 def _numbers(columns: Columns) -> tuple[dict[str, np.ndarray], tuple[str, ...]]:
