@@ -99,6 +99,11 @@ STATED = {
         {"columns": {"storage": "E (MPa)"}},
         "there is no column storage .* but .*'E .MPa.'.*state its heading, as columns = {storage = ",
     ),
+    "brackets without a unit": (
+        ["f [Hz];G' (mean);G'' [kPa]", *ROWS],
+        {"columns": {"storage": "G' (mean)"}, "units": {"storage": "MPa"}},
+        "there is no column storage .* but .*'f .Hz.', \"G' .mean.\"",
+    ),
     "two columns": (
         ["f [Hz];G' [MPa];storage [Pa];loss [kPa]", *(f"{row[:3]};7{row[3:]}" for row in ROWS)],
         {"columns": {"storage": "G' [MPa]"}},
@@ -161,6 +166,7 @@ def test_what_differs_is_refused_with_its_place_and_read_once_it_is_stated(tmp_p
         ([HEADED, "1;2;1,000,000", *ROWS], {}, "line 2, column \"G'' .kPa.\": '1,000,000' is no number"),
         ([HEADED, "0.5;1,5;2"], {}, "'1,5' may have .*, and '0.5' has a point: state decimal"),
         ([HEADED, "0,5;1.5;2"], {"decimal": ","}, "line 2, column \"G' .MPa.\": '1.5' is no number"),
+        (["G';remark", '1;a";"', '2;b";"'], {}, "line 2: .* has not the 2 cells of line 1"),
         ([HEADED], {}, "no row below line 1"),
         (["# nothing"], {}, "no row in it"),
         (["PK\3\4"], {}, "is a workbook .*; a table is a text file"),
