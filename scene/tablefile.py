@@ -95,7 +95,7 @@ def read_columns(
     stated = stated or TableFormat()
     if isinstance(table, str | Path):
         cells = read_text(table, stated, most_bytes)
-    elif hasattr(table, "__getitem__") and hasattr(table, "keys"):
+    elif isinstance(table, Mapping) or hasattr(table, "columns"):
         cells = _of_python(table)
     else:
         raise ValueError(f"{shown(table)}: a path, a DataFrame, a Dataset of xarray or arrays by their names")
@@ -151,7 +151,9 @@ def _of_python(table):
     names = [name for name in names if getattr(table[name], "ndim", 1)]  # of xarray one number may be a coordinate
     held = [bare(table[name]) for name in names]
     frame = pd.DataFrame({k: np.asarray(values) for k, (values, _) in enumerate(held)})
-    frame = frame.apply(lambda each: each.astype(float if each.dtype.kind in "fiu" else str))
+    if not frame.size:
+        raise ValueError(f"{type(table).__name__}: there is no row in it")
+    frame = frame.apply(lambda each: each.astype(float) if each.dtype.kind in "fiu" else each.map(str))
     frame.index = pd.RangeIndex(1, len(frame) + 1, name="row")
     return Cells(type(table).__name__, frame, [*map(str, names)], [unit or "" for _, unit in held])
 

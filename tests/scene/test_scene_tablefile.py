@@ -212,6 +212,10 @@ def test_tables_of_python_are_read_by_the_same_names_with_their_units():
     agree(read(pandas.concat([frame, frame.assign(remark="b")]), where={"remark": "b"}))
     for wrong, said in (
         (3.0, "3.0: a path, a DataFrame"),
+        ({}, "there is no row"),
+        (pandas.Series([1.0, 2.0]), "a path, a DataFrame"),
+        ({"G'": [None, 1.0]}, "row 1, column .*None. is no number"),
+        ({"G'": [1.0], "f": [1.0, 2.0]}, "same length"),
         ({"G'": [1.0, np.nan]}, 'row 2, column "G\'": nan is no number'),
         (pandas.concat([frame, frame.assign(remark="b")]), "column 'remark' has several values"),
     ):
