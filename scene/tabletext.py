@@ -105,7 +105,7 @@ class Cells:
         return float(text) if _NUMBER.fullmatch(text) else nan if text.casefold() in ("", "nan", "-nan") else inf
 
     def finite(self, column: int, gaps: bool = False) -> np.ndarray:
-        """The same. Raises ValueError for a cell that is no number; gaps : but not for nan or nothing."""
+        """Numbers of a column. Raises ValueError for a cell that is none; gaps : but not for nan or nothing."""
         found, cells = self.numbers(column), self.frame[column]
         wrong = ~(np.isfinite(found) | (gaps & np.isnan(found)))
         if wrong.any():
