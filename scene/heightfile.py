@@ -30,7 +30,8 @@ from .lattice import along, mapped, ordered, refuse_places
 from .plain import bare, in_unit
 from .printable import brief
 from .quantities import METRE, argument
-from .tablefile import Column, TableFormat, read_columns, read_rows
+from .tablefile import Column, read_columns
+from .tabletext import TableFormat, read_rows
 
 MAP, LINE = ("y", "x"), ("x",)
 EVEN = 1e-3  # relative, of sides and spacings: a file rounds them, and so do coordinates in single precision
@@ -271,22 +272,22 @@ def _of_rows(name, path, dims, stated):
     found = None if stated.columns else read_rows(path, stated, MOST_TEXT)
     if found is None:
         return None
-    (numbers, lines), skipped = found, stated.skip or 0
+    (numbers, line), skipped = found, stated.skip or 0
     width = numbers.shape[1]
-    if dims == MAP and lines[0] > skipped + 1:
+    if dims == MAP and line > skipped + 1:
         raise ValueError(
-            f"{name}, line {skipped + 1}, is no row of heights: state skip = {lines[0] - 1} for the lines above "
+            f"{name}, line {skipped + 1}, is no row of heights: state skip = {line - 1} for the lines above "
             'these, and what they may say, as unit = "um" and pixel = "1 um"'
         )
     unfit = width < LEAST if dims == MAP else width > 1
     if unfit:
         wanted, points = (f"a map has {LEAST} or more", "xyz") if dims == MAP else ("a line has one", "xz")
         raise ValueError(
-            f"{name}, line {lines[0]}: {width} columns of numbers, and {wanted}; of points state columns = "
+            f"{name}, line {line}: {width} columns of numbers, and {wanted}; of points state columns = "
             f"{{{', '.join(f'{each} = {k}' for k, each in enumerate(points, 1))}}} and units"
         )
     if dims == MAP:
-        refuse_places(f"{name}, line {lines[0]}", numbers)
+        refuse_places(f"{name}, line {line}", numbers)
     return Heights(name, numbers if dims == MAP else numbers[:, 0])
 
 

@@ -19,8 +19,8 @@ from .quantities import (
 )
 from .reading import InvalidInput, made
 from .table import MOST_ROWS, SCATTER, CreepTable, RelaxationTable, Table
-from .tablefile import Column, Columns, TableFormat, read_columns
-from .tabletext import shown
+from .tablefile import Column, Columns, read_columns
+from .tabletext import TableFormat, shown
 
 FREQUENCY = Column("frequency", ("f",), (HERTZ, RADIAN_PER_SECOND))
 OMEGA = Column("omega", ("angular frequency",), (RADIAN_PER_SECOND,))
@@ -102,7 +102,7 @@ def read_moduli(
 
 
 def read_table(path: str | Path, **stated: Any) -> Table | RelaxationTable | CreepTable:
-    """The table in a text file. stated : see `tablefile.TableFormat`. Raises ValueError naming file and line."""
+    """The table in a text file. stated : see `tabletext.TableFormat`. Raises ValueError naming file and line."""
     return read_moduli(path, stated=made(stated, TableFormat, path)).table
 
 
@@ -131,32 +131,29 @@ def _kind(columns, quantities, stated):
 
 def _frequencies(columns, stated):
     """Frequencies and their unit, as written or stated; None where neither says so."""
-    names = [REDUCED.field] if REDUCED.field in columns else [OMEGA.field, FREQUENCY.field]
-    units = {name: _unit(columns, name) for name in names if name in columns}
-    if not units:
+    names = [each.field for each in (REDUCED, OMEGA, FREQUENCY) if each.field in columns]
+    if not names:
         raise ValueError(
             f"{columns.name}: no column of {_headings(columns)} is a frequency, and a sweep of temperature is no "
             'table of moduli: state columns = {frequency = "..."}'
         )
-    if len(units) == 2 and None not in units.values():
-        omega, cycles = (_angular(columns, name) for name in names)
+    name, unit = names[0], _unit(columns, names[0])
+    if names == [OMEGA.field, FREQUENCY.field] and _unit(columns, FREQUENCY.field):
+        omega, cycles = (_angular(columns, each) for each in names)
         columns.refuse(
             "omega", np.abs(omega - cycles) > _AGREE * omega, "contradicts frequency: 1 Hz is 2 pi rad/s"
         )
-    fitting = [name for name, unit in units.items() if stated in (None, unit)]
-    fitting += [name for name, unit in units.items() if unit is None]
-    if not fitting:
-        name, unit = next(iter(units.items()))
+    if unit and stated not in (None, unit):
         raise ValueError(
             f"{columns.name}: {shown(columns.headings[name])} is in {unit}, and frequency_unit = {stated!r} is "
             "stated: leave frequency_unit out, or correct the heading"
         )
-    return _positive(columns, fitting[0]), units[fitting[0]] or stated
+    return _positive(columns, name), unit or stated
 
 
 def _unit(columns, name):
     unit = columns.units[name]
-    return "rad/s" if name == OMEGA.field else None if unit is None else unit.symbol
+    return "rad/s" if name == OMEGA.field else unit and unit.symbol
 
 
 def _angular(columns, name):
@@ -168,36 +165,35 @@ def _complex_modulus(columns):
     known = {name: _positive(columns, name) for name in ("storage", "loss", "magnitude") if name in columns}
     for name, column in {"magnitude": VISCOSITY, "loss": DYNAMIC, "storage": OUT_OF_PHASE}.items():
         if column.field in columns and name not in known:
-            places = [each for each in (OMEGA.field, FREQUENCY.field) if each in columns]
-            if not places or _unit(columns, places[0]) is None:
+            place = OMEGA.field if OMEGA.field in columns else FREQUENCY.field
+            if place not in columns or _unit(columns, place) is None:
                 raise ValueError(
                     f"{columns.name}: moduli are {shown(columns.headings[column.field])} times the angular "
                     'frequency: state its unit, as units = {frequency = "Hz"}'
                 )
-            known[name] = _positive(columns, column.field) * _angular(columns, places[0])
+            known[name] = _positive(columns, column.field) * _angular(columns, place)
     tangent = _positive(columns, "tan_delta") if "tan_delta" in columns else None
     if "phase" in columns and tangent is None:
         columns.refuse("phase", columns["phase"] >= np.pi / 2, "must be below pi/2, 90 deg")
         tangent = np.tan(_positive(columns, "phase"))
     storage, loss, size = (known.get(name) for name in ("storage", "loss", "magnitude"))
-    if storage is not None and loss is not None:
-        if tangent is not None and (apart := float(np.median(np.abs(np.log(loss / storage / tangent))))) > _SAME:
-            raise ValueError(
-                f"{columns.name}: loss over storage modulus is {np.exp(apart):.2g} times off tan delta or the "
-                "phase: correct their units, or state the columns of two of them"
-            )
-    elif tangent is not None and storage is not None:
+    if tangent is not None and storage is None:
+        storage = (
+            loss / tangent if loss is not None else size / np.hypot(1.0, tangent) if size is not None else None
+        )
+    if tangent is not None and loss is None and storage is not None:
         loss = storage * tangent
-    elif tangent is not None and loss is not None:
-        storage = loss / tangent
-    elif tangent is not None and size is not None:
-        storage = size / np.hypot(1.0, tangent)
-        loss = storage * tangent
-    else:
+    if storage is None or loss is None:
         raise ValueError(
             f"{columns.name}: no complete modulus is in the columns {_headings(columns)}: storage and loss "
             "modulus, or one of them, the complex modulus or viscosity with tan delta or the phase: state "
             'columns = {loss = "..."}'
+        )
+    apart = 0.0 if tangent is None else float(np.median(np.abs(np.log(loss / storage / tangent))))
+    if apart > _SAME:
+        raise ValueError(
+            f"{columns.name}: loss over storage modulus is {np.exp(apart):.2g} times off tan delta or the phase: "
+            "correct their units, or state the columns of two of them"
         )
     return {"storage": storage, "loss": loss}
 
@@ -259,7 +255,5 @@ def _reference(columns, longer, temperature):
             "its inverse"
         )
     order = np.argsort(longer)
-    logs = np.log(longer[order])
-    if not logs[0] <= 0 <= logs[-1]:
-        return None
-    return np.full(len(longer), np.interp(0.0, logs, temperature[order]))
+    at = np.interp(0.0, np.log(longer[order]), temperature[order], left=np.nan, right=np.nan)
+    return None if np.isnan(at) else np.full(len(longer), at)

@@ -17,7 +17,7 @@ from .periodogram import taken_off
 from .quantities import CLOSED, METRE, RADIAN_PER_METRE, Length, Seed, by_name, takes
 from .scanned import QUOTIENT, prepared, schema_with_file
 from .selfaffine import SelfAffine
-from .tablefile import FromTable
+from .tabletext import FromTable
 
 
 @dataclass(frozen=True, config=ConfigDict(**CLOSED, json_schema_extra=schema_with_file("spacing")), kw_only=True)
@@ -36,7 +36,7 @@ class Profile(FromTable):
 
     In place of heights `file` is the path of a text or an array, see `heightfile`; `unit` of the heights is needed
     where it states none. `skip`, `rows`, `separator`, `decimal`, `encoding`, `columns`, `units` and `where` state
-    what differs of a text, see `tablefile.TableFormat`. Missing heights are refused; missing = "fill" fills in up
+    what differs of a text, see `tabletext.TableFormat`. Missing heights are refused; missing = "fill" fills in up
     to 5 % on straight lines.
 
     Solvers take up `fitted`, a self-affine surface with the roll-off and the cut-off that the line shows: in 3D

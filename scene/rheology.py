@@ -10,7 +10,7 @@ from .fractional import Fractional
 from .modes import Relaxation, Retardation
 from .normalised import NORMALISED, absolute
 from .quantities import ROW, Compliance, ComplianceOrZero, ShearModulus, Time
-from .tablefile import FromTable
+from .tabletext import FromTable
 from .tabulated import Tabulated
 from .viscoelastic import Linear, PoissonRatio, Solid
 from .youngs import STATED, in_shear
@@ -96,7 +96,7 @@ class Prony(FromTable, Solid):
     equilibrium_modulus : shear modulus at rest [Pa]
     moduli, relaxation_times : of each Maxwell branch [Pa], [s]; 1 to 200, equally many
     table : with the columns tau, and G, E or g, in place of these two; with columns, units, where, separator,
-        decimal, encoding, skip, rows as `tablefile.TableFormat` has them
+        decimal, encoding, skip, rows as `tabletext.TableFormat` has them
     """
 
     equilibrium_modulus: ShearModulus

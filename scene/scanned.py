@@ -13,7 +13,7 @@ from .heightmap import LEAST, HeightLine, HeightMap, MapHeights, Pixel, sides
 from .missing import LEAST_DEVIATIONS, mended
 from .printable import brief
 from .quantities import BARE, CLOSED, METRE, Length, argument, by_name
-from .tablefile import FromTable, TableFormat, split_format
+from .tabletext import FromTable, TableFormat, split_format
 
 QUOTIENT = 1e-12  # rounding of a quotient of lengths
 FILL = ("refuse", "fill")
@@ -53,7 +53,7 @@ class Scanned(FromTable):
     In place of heights `file` is the path of a file, read once and kept as numbers, see `heightfile`. `pixel`, and
     `unit` of the heights, are needed where the file does not state them, and `channel` where it has several maps.
     `skip`, `rows`, `separator`, `decimal`, `encoding`, `columns`, `units` and `where` state what differs of a
-    text, see `tablefile.TableFormat`.
+    text, see `tabletext.TableFormat`.
 
     Before heights are a map, in this order:
 

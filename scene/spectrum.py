@@ -14,7 +14,8 @@ from .powerlaws import PowerLaws, of_surface
 from .quantities import CLOSED, METRE, RADIAN_PER_METRE, ROW, Positive, Seed, Unit, by_name, takes
 from .scanned import QUOTIENT
 from .selfaffine import Wavelength
-from .tablefile import Column, TableFormat, read_columns, refused, split_format
+from .tablefile import Column, read_columns, refused
+from .tabletext import TableFormat, split_format
 
 MOST_OF_SURFACE, MOST_OF_LINE = 5_000, 1_000  # points; a line has to be inverted
 PER_METRE = Unit("1/m", "waves in a length", "0.1 1/um", 1e5)
@@ -59,7 +60,7 @@ class Spectrum(Isotropic):
     names it, a DataFrame, a Dataset of xarray or arrays by name, with columns of these names; q, in rad/m or 1/m,
     is 2 pi / wavelength, and `frequency` [1/m] in its place 1 / wavelength. `columns`, `units`, `where`,
     `separator`, `decimal`, `encoding`, `skip` and `rows` state how it differs from the documented form of tables,
-    see `tablefile.TableFormat`.
+    see `tabletext.TableFormat`.
 
     Raises ValueError where there are fewer than two points or equal ones, where the waves span less than a factor
     of 2, and where no isotropic surface has such a C1D.

@@ -17,7 +17,8 @@ from .moduli import read_moduli
 from .plain import bare
 from .quantities import CLOSED, Finite, ShearModulus, by_name
 from .table import SCATTER, AnyTable, CreepTable, RelaxationTable, Table
-from .tablefile import FromTable, TableFormat, refused, split_format
+from .tablefile import refused
+from .tabletext import FromTable, TableFormat, split_format
 from .temperature import TemperatureLaw
 from .viscoelastic import PoissonRatio, Solid
 from .youngs import in_shear, or_in_tension
@@ -44,7 +45,7 @@ class Tabulated(FromTable, Solid):
         the path of a text file, a DataFrame, a Dataset of xarray, or arrays by the names that columns may have. It
         is read once and kept as numbers; a relative path starts at the folder of a scene file that names it
     columns, units, where, separator, decimal, encoding, skip, rows : what differs of it from the documented form
-        of tables, see `tablefile.TableFormat`
+        of tables, see `tabletext.TableFormat`
     frequency_unit : "rad/s" or "Hz" (cycles per second), where no heading says so; None over the time
     kind : "shear" for G', G'', G(t), J(t); "tensile" for E', E'', E(t), D(t), where no heading says so;
         E = 2 (1 + poisson_ratio) G, and moduli are in Pa where no heading has another unit

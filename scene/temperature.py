@@ -20,7 +20,8 @@ from .quantities import (
     TemperatureDifference,
     by_name,
 )
-from .tablefile import Column, FromTable, filled
+from .tablefile import Column, filled
+from .tabletext import FromTable
 from .viscoelastic import Linear
 
 GAS_CONSTANT = 8.314462618  # [J/(mol K)], CODATA 2018
@@ -141,7 +142,7 @@ class ShiftFactors(FromTable, TemperatureLaw):
     temperatures : at least two [K]
     a_T, b_T : at each of them [1]; a_T falls with the temperature; b_T is 1 where it is absent
     table : with the columns T, a_T and, if there is one, b_T, in place of these three; with
-        columns, units, where, separator, decimal, encoding, skip, rows as `tablefile.TableFormat` has them
+        columns, units, where, separator, decimal, encoding, skip, rows as `tabletext.TableFormat` has them
     """
 
     temperature: AbsoluteTemperature
@@ -163,38 +164,33 @@ class ShiftFactors(FromTable, TemperatureLaw):
         count = len(self.temperatures)
         if len(self.a_T) != count or len(self.b_T or self.a_T) != count:
             raise ValueError(f"a_T and b_T have to be given at each of the {count} temperatures")
-        order = np.argsort(self.temperatures)
-        if (
-            not (np.diff(np.array(self.temperatures)[order]) > 0).all()
-            or not (np.diff(self._logs()[1]) <= 0).all()
-        ):
+        kelvin, factors = self._ordered(self.a_T)
+        if not ((np.diff(kelvin) > 0) & (np.diff(factors) <= 0)).all():
             raise ValueError("a_T has to fall from each temperature to the next: times grow shorter")
+        low, high = kelvin[[0, -1]]
         for name, given in (("temperature", self.temperature), ("reference", self.reference)):
-            if not min(self.temperatures) <= given <= max(self.temperatures):
-                low, high = min(self.temperatures), max(self.temperatures)
+            if not low <= given <= high:
                 raise ValueError(f"{name} = {given:g} K: shift factors are known from {low:g} to {high:g} K")
         return _within_range(self)
 
-    def _logs(self):
-        """Temperatures in order, and ln a_T there."""
+    def _ordered(self, factors):
+        """Temperatures that grow, and the factors there."""
         order = np.argsort(self.temperatures)
-        return np.array(self.temperatures)[order], np.log(np.array(self.a_T)[order])
+        return np.array([self.temperatures, factors])[:, order]
 
     @property
     def log_shift(self) -> float:
         """ln a_T from the reference to the temperature."""
-        kelvin, logs = self._logs()
-        here, there = np.interp([-1 / self.temperature, -1 / self.reference], -1 / kelvin, logs)
+        kelvin, factors = self._ordered(self.a_T)
+        here, there = np.interp([-1 / self.temperature, -1 / self.reference], -1 / kelvin, np.log(factors))
         return float(here - there)
 
     @property
     def stiffer(self) -> float:
         """b_T of the temperature over that of the reference."""
-        if self.b_T is None:
-            return 1.0
-        order = np.argsort(self.temperatures)
-        kelvin, factors = np.array([self.temperatures, self.b_T])[:, order]
-        here, there = np.interp([self.temperature, self.reference], kelvin, factors)
+        here, there = np.interp(
+            [self.temperature, self.reference], *self._ordered(self.b_T or np.ones(len(self.temperatures)))
+        )
         return float(here / there)
 
 

@@ -72,9 +72,12 @@ def scale(given: str, unit: str, difference: bool = True) -> tuple[Decimal, Deci
 
 
 @lru_cache(maxsize=256)
-def known(given: str) -> bool:
-    """Whether a text is a unit of anything. Raises Unreadable as `in_si`."""
-    return bool(given.strip()) and _parsed(given) is not None
+def is_unit(given: str) -> bool:
+    """Whether a text is a unit of anything."""
+    try:
+        return _parsed(given) is not None
+    except Unreadable:
+        return False
 
 
 def _parsed(text: str) -> Any:

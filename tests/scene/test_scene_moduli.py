@@ -170,8 +170,6 @@ def test_columns_of_shift_factors_shift_the_rows_to_where_they_are_one(heading, 
     assert deviation(table, omega=OMEGA[8:42]) < FITTED
     scene = Scene(Sphere(1e-2), table, Indent(load=1.0), temperature=replace(LAW, temperature=310.0))
     assert scene.solid.static_modulus == table.static_modulus
-    with pytest.raises(InvalidInput, match=r"measured at 300 K, and temperature\.reference = 310 K"):
-        replace(scene, temperature=replace(LAW, reference=310.0))
 
 
 def test_a_table_of_shift_factors_is_the_law_of_the_scene_and_vertical_ones_change_moduli():
@@ -210,11 +208,11 @@ def test_a_table_of_modes_is_a_prony_series(tmp_path):
     assert Prony(instantaneous_modulus="10 MPa", table={"tau": times, "g": [0.2, 0.3, 0.4]}) == normalised
     for more, said in (
         ({}, "line 2: '3' is no heading"),
-        ({"moduli": (1e6,), "skip": 4, **stated}, "line 8 is blank"),
+        ({"moduli": (1e6,), "skip": 4, **stated}, "line 8: '' has not the 3 cells"),
     ):
         with pytest.raises(InvalidInput, match=said):
             Prony(equilibrium_modulus=1e6, table=path, **more)
-    with pytest.raises(InvalidInput, match="moduli is stated beside it"):
+    with pytest.raises(InvalidInput, match="moduli is stated, and a column"):
         Prony(equilibrium_modulus=1e6, moduli=(1e6,), table={"tau": (1.0,), "G": (1e6,)})
 
 
@@ -245,8 +243,6 @@ def test_several_temperatures_without_a_law_are_refused_by_name():
         Scene(Sphere(1e-2), table, Indent(load=1.0))
     with pytest.raises(ValueError, match="several temperatures"):
         table.complex_modulus(1.0)
-    scene = Scene(Sphere(1e-2), table, Indent(load=1.0), temperature=LAW)
-    assert deviation(scene.solid, omega=OMEGA[8:42]) < FITTED
 
 
 def test_a_law_that_does_not_bring_the_rows_onto_one_curve_is_refused():
@@ -301,6 +297,8 @@ def test_a_table_that_says_too_little_or_contradicts_is_refused(tmp_path, headin
 def test_two_columns_of_the_frequency_have_to_agree():
     table = some(columns_of(SOLID, OMEGA), "omega", "G'")
     assert Tabulated(table=table | {"f [Hz]": OMEGA / (2 * np.pi)}) == Tabulated(table=table)
+    with pytest.raises(InvalidInput, match="'omega' is in rad/s, and frequency_unit = 'Hz' is stated"):
+        Tabulated(table=table | {"f [Hz]": OMEGA / (2 * np.pi)}, frequency_unit="Hz")
     with pytest.raises(InvalidInput, match=r"row 1: omega = .* contradicts frequency: 1 Hz is 2 pi rad/s"):
         Tabulated(table=table | {"f [Hz]": OMEGA})
 
@@ -334,15 +332,14 @@ def test_notes_are_no_part_of_what_is_compared_or_stored():
     assert whole.dump_json(with_one) == whole.dump_json(without)
 
 
-@pytest.mark.parametrize(("symbol", "kind", "unit"), [("G", "shear", "Hz"), ("E", "tensile", "rad/s")])
-def test_what_is_stated_chooses_between_columns_of_both_kinds_and_frequencies(symbol, kind, unit):
-    both = columns_of(SOLID, OMEGA) | columns_of(SOLID, OMEGA, TENSILE, "E") | {"f [Hz]": OMEGA / (2 * np.pi)}
-    both = some(both, "omega", "f ", "G'", "E'")
+@pytest.mark.parametrize(("symbol", "kind"), [("G", "shear"), ("E", "tensile")])
+def test_what_is_stated_chooses_between_columns_of_both_kinds(symbol, kind):
+    both = columns_of(SOLID, OMEGA) | columns_of(SOLID, OMEGA, TENSILE, "E")
+    both = some(both, "omega", "G'", "E'")
     with pytest.raises(InvalidInput, match="are both storage: state one"):
         Tabulated(table=both)
-    columns = {"storage": f"{symbol}'", "loss": f"{symbol}''"}
-    found = Tabulated(table=both, columns=columns, frequency_unit=unit)
-    assert (found.kind, found.frequency_unit, deviation(found) < FITTED) == (kind, unit, True)
+    found = Tabulated(table=both, columns={"storage": f"{symbol}'", "loss": f"{symbol}''"})
+    assert (found.kind, deviation(found) < FITTED) == (kind, True)
 
 
 LIQUID_TIME = np.geomspace(1e-4, 1e-1, 30)
@@ -368,15 +365,12 @@ def test_a_liquid_is_refused_in_each_form(form, noise):
 
 
 @pytest.mark.parametrize("name", ["G(t)", "J(t)"])
-def test_a_solid_stays_one_under_noise_and_a_known_modulus_at_rest_is_kept(name):
+def test_a_solid_stays_one_under_noise(name):
     law = SOLID.relaxation_modulus if name == "G(t)" else SOLID.creep_compliance
     for seed in range(5):
         scatter = np.exp(0.03 * np.random.default_rng(seed).standard_normal(60))
         found = Tabulated(table={"t": TIME, name: law(TIME) * scatter})
         assert abs(found.static_modulus - 1e6) < 4 * found.equilibrium_error < 0.5e6
-        known = Tabulated(table={"t": TIME, name: law(TIME) * scatter}, equilibrium_youngs_modulus=3e6)
-        assert known.static_modulus == pytest.approx(1e6, rel=1e-6)
-        assert known.equilibrium_error == 0.0
 
 
 @pytest.mark.parametrize(
@@ -418,59 +412,3 @@ def test_shift_factors_the_other_way_round_are_refused():
     stated, factors = tables(290.0, 300.0, 320.0)
     with pytest.raises(InvalidInput, match="a_T grows with the temperature"):
         Tabulated(table=stated | {"aT": 1 / factors})
-
-
-def written(heading, *columns, separator=","):
-    """Text of a table."""
-    rows = (
-        separator.join(each if isinstance(each, str) else f"{each:.12g}" for each in row)
-        for row in zip(*columns, strict=True)
-    )
-    return "\n".join([heading, *rows, ""])
-
-
-G, HERTZ = SOLID.complex_modulus(OMEGA), OMEGA / (2 * np.pi)
-BARE = written("omega,G',G''", OMEGA, G.real, G.imag)
-SPOKEN = written("# NR, 1.2 MPa, 0.3 MPa", OMEGA, G.real, G.imag, separator=" ")
-BLOCKS = "\n".join(f"Sample {each}\n{BARE}" for each in "AB")
-HEADER = (
-    "Filename\tsample.tri\n[step]\nAngular frequency\tTemperature\tStress (step)\tStorage modulus\tLoss modulus"
-)
-EXPORT = written(
-    f"{HEADER}\nrad/s\t°C\tMPa\tMPa\tMPa", OMEGA, 0 * OMEGA, 0 * OMEGA, G.real / 1e6, G.imag / 1e6, separator="\t"
-)
-BOTH = [*G, *1.17 * G]
-SAMPLES = written(
-    "sample,f [Hz],G' [Pa],G'' [Pa]", ["NR"] * 50 + ["SBR"] * 50, [*HERTZ] * 2, np.real(BOTH), np.imag(BOTH)
-)
-IN_SI = {"omega": "rad/s", "storage": "Pa", "loss": "Pa"}
-NUMBERED = {"columns": {"omega": 1, "storage": 2, "loss": 3}, "units": IN_SI, "kind": "shear"}
-# Tables as people bring them: text, what is stated, and the modulus at rest over that of the solid, or why not.
-BROUGHT = {
-    "cells in quotes": ('"' + BARE.replace(",", '","').replace("\n", '"\n"')[:-1], {}, 1.0),
-    "latin-1": (f"T=25°C\n{BARE}", {}, "line 1: byte 0xb0 is not utf-8.*state encoding"),
-    "latin-1, stated": (f"T=25°C\n{BARE}", {"encoding": "cp1252", "skip": 1, "units": IN_SI}, 1.0),
-    "a comment with units": (SPOKEN, {}, "line 2: .* is no heading"),
-    "a comment with units, stated": (SPOKEN, NUMBERED, 1.0),
-    "an export": (EXPORT, {}, "line 3: .* has 5 cells, and line 1, .* has 2: state skip"),
-    "an export, stated": (EXPORT, {"skip": 2, "kind": "shear"}, 1.0),
-    "samples": (SAMPLES, {}, "column 'sample' has several values, .NR. and .SBR..* where = "),
-    "one of them": (SAMPLES, {"where": {"sample": "NR"}}, 1.0),
-    "the other": (SAMPLES, {"where": {"sample": "SBR"}}, 1.17),
-    "blocks": (BLOCKS, {}, "line 2: .* line 55 is another heading: state rows"),
-    "the first block": (BLOCKS, {"skip": 1, "rows": 50, "units": IN_SI}, 1.0),
-    "a workbook": ("PK\3\4", {}, "is a zip archive, as workbooks .* a table is a text file"),
-    "a picture": ("II*\0", {}, "is a picture .* a table is a text file"),
-}
-
-
-@pytest.mark.parametrize(("text", "stated", "expected"), BROUGHT.values(), ids=BROUGHT)
-def test_a_table_has_the_modulus_it_was_made_with_or_is_refused(tmp_path, text, stated, expected):
-    path = tmp_path / "rubber.csv"
-    path.write_text(text, "cp1252" if text.startswith("T=") else "utf-8")
-    if isinstance(expected, str):
-        with pytest.raises(InvalidInput, match=expected):
-            Tabulated(table=path, **stated)
-    else:
-        found = Tabulated(table=path, **stated)
-        np.testing.assert_allclose(found.complex_modulus(OMEGA), expected * G, rtol=FITTED)

@@ -243,7 +243,7 @@ def test_a_table_is_read_by_its_names_and_units(heading, stated, expected, tmp_p
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("q [rad/um];C2D" + ROWS, 'column .C2D. has no unit in the heading: state units = {C2D = "m.4"}'),
+        ("q [rad/um];C2D" + ROWS, "column .C2D. has no unit in the heading: state units = {C2D = .m.4.}"),
         ("q;C2D [um^4]" + ROWS, 'column .q. has no unit: state units = {q = "rad/m"}'),
         ("q [rad/um];C2D [um^3]" + ROWS, "a spectral density of a surface"),
         ("k;C2D" + ROWS, 'one column q or frequency is needed: state its heading, as columns = {q = "..."}'),

@@ -7,8 +7,8 @@ import pytest
 import xarray
 
 from scene.quantities import HERTZ, KELVIN, PASCAL, RADIAN_PER_SECOND
-from scene.tablefile import Column, TableFormat, read_columns
-from scene.tableformat import SEPARATORS
+from scene.tablefile import Column, read_columns
+from scene.tabletext import SEPARATORS, TableFormat
 
 FREQUENCY = Column("frequency", ("f",), (HERTZ, RADIAN_PER_SECOND))
 STORAGE, LOSS = Column("storage", ("G'",), (PASCAL,), needed=True), Column("loss", ("G''",), (PASCAL,))
@@ -74,16 +74,20 @@ STATED = {
     "skip": (
         ["Sample A", "1;2", HEADED, *ROWS],
         {"skip": 2},
-        "line 3: .* has 4 cells, and line 1, 'Sample A', has 2: state skip",
+        "line 3: .* has not the 2 cells of line 1, 'Sample A': state skip",
     ),
-    "rows": ([HEADED, *ROWS, "mean;3;4"], {"rows": 3}, "line 5, column 'f': 'mean' is no number: state rows"),
-    "after a blank line": ([HEADED, *ROWS, "", *ROWS], {"rows": 3}, "line 5 is blank.*state rows = 3"),
-    "a short row": ([HEADED, *ROWS, "3;4"], {"rows": 3}, "line 5: '3;4' has 2 cells.* has 3"),
-    "a quotation mark": ([HEADED, *ROWS, '3;"4;5'], {"rows": 3}, "line 5: .*quotation mark"),
+    "rows": ([HEADED, *ROWS, "mean;3;4"], {"rows": 3}, "line 5, column 'f .Hz.': 'mean' is no number: state rows"),
+    "after a blank line": (
+        [HEADED, *ROWS, "", *ROWS],
+        {"rows": 3},
+        "line 5: '' has not the 3 cells.*state .* rows to end",
+    ),
+    "a short row": ([HEADED, *ROWS, "3;4"], {"rows": 3}, "line 5: '3;4' has not the 3 cells"),
+    "a quotation mark": ([HEADED, *ROWS, '3;"4;5'], {"rows": 3}, "line 5: .* has not the 3 cells"),
     "units": (
         ["# moduli in kPa", "f;G';G''", *ROWS],
         {"units": {"frequency": "Hz", "storage": "MPa", "loss": "kPa"}},
-        'no unit in the heading: state units = {storage = "Pa"}',
+        "no unit in the heading: state units = {storage = 'Pa'}",
     ),
     "units of some": (
         ["f [Hz];G' [MPa];G''", *ROWS],
@@ -95,6 +99,11 @@ STATED = {
         {"columns": {"storage": "E (MPa)"}},
         "there is no column storage .* but .*'E .MPa.'.*state its heading, as columns = {storage = ",
     ),
+    "brackets without a unit": (
+        ["f [Hz];G' (mean);G'' [kPa]", *ROWS],
+        {"columns": {"storage": "G' (mean)"}, "units": {"storage": "MPa"}},
+        "there is no column storage .* but .*'f .Hz.', \"G' .mean.\"",
+    ),
     "two columns": (
         ["f [Hz];G' [MPa];storage [Pa];loss [kPa]", *(f"{row[:3]};7{row[3:]}" for row in ROWS)],
         {"columns": {"storage": "G' [MPa]"}},
@@ -103,17 +112,30 @@ STATED = {
     "where": (
         [f"sample;{HEADED}", *(f"NR;{row}" for row in ROWS), "SBR;2;3;4"],
         {"where": {"sample": "NR"}},
-        'column \'sample\' has several values, "NR" and "SBR", and is not used: .* where = {sample = "NR"}',
+        "column 'sample' has several values, 'NR' and 'SBR', and is not used: .* where = {'sample' = 'NR'}",
     ),
     "decimal": (
         [HEADED, "1,000;2,000;3,000", "2,000;3,000;4,000", "3,000;4,000;5,000"],
         {"decimal": ","},
         "'1,000' may have decimals or thousands behind its comma: state decimal",
     ),
+    "encoding": (
+        ["# 25 °C", HEADED, *ROWS],
+        {"encoding": "cp1252"},
+        "line 1: .* byte 0xb0 .*state encoding",
+    ),
+    "no heading": (
+        ["# in Hz, MPa, kPa", *ROWS],
+        {
+            "columns": {"frequency": 1, "storage": 2, "loss": 3},
+            "units": {"frequency": "Hz", "storage": "MPa", "loss": "kPa"},
+        },
+        "line 2: '1;2;3' is no heading: .* state the columns by number",
+    ),
     "separator": (
-        [HEADED.replace(";", " ").replace("Hz", ","), "1 2 3", "2 3 4", "3 4 5"],
-        {"separator": "blanks", "columns": {"frequency": "f [,]"}, "units": {"frequency": "Hz"}},
-        "state skip for lines above the heading, rows for those below the table, or separator",
+        [HEADED.replace(";", " ").replace(" [Hz]", ",1"), "1 2 3", "2 3 4", "3 4 5"],
+        {"separator": "blanks", "columns": {"frequency": "f,1"}, "units": {"frequency": "Hz"}},
+        "state skip for lines above the heading, rows to end before this one, or separator",
     ),
 }
 
@@ -129,23 +151,26 @@ def test_what_differs_is_refused_with_its_place_and_read_once_it_is_stated(tmp_p
 @pytest.mark.parametrize(
     ("lines", "stated", "refusal"),
     [
-        (["f [Hz];G' [MPa];G'' [kPx]", *ROWS], {}, "in 'kPx', and is a pressure .*kPx"),
+        (["f [Hz];G' [MPa];G'' [kPx]", *ROWS], {}, "in 'kPx', and is a pressure"),
         (["f [s];G' [MPa];G'' [kPa]", *ROWS], {}, "in 's', and is a frequency or an angular frequency"),
-        (["f [Hz];G' [MPa]", "kHz;MPa", "1;2"], {}, r"'f \[Hz\]' and 'kHz' are two units of one column"),
+        (["f [Hz];G' [MPa]", "kHz;MPa", "1;2"], {}, r"no column storage .*, but 'f \[Hz\]'"),
         ([HEADED, *ROWS], {"units": {"storage": "Pa"}}, "in 'MPa', and units states 'Pa': they must agree"),
         ([HEADED, *ROWS], {"columns": {"stoarge": "G'"}}, "'stoarge' is none of the columns: frequency, storage"),
-        ([HEADED, *ROWS], {"columns": {"storage": "E'"}}, 'no column is called "E\'"'),
+        ([HEADED, *ROWS], {"columns": {"storage": "E'"}}, '0 columns are called "E\'"'),
         ([HEADED, *ROWS], {"where": {"f [Hz]": 7}}, "no row has {'f \\[Hz\\]': 7}"),
-        ([HEADED, *ROWS], {"encoding": "latin-9000"}, "encoding = 'latin-9000': Python knows none"),
+        ([HEADED, *ROWS], {"encoding": "latin-9000"}, "line 1: unknown encoding: latin-9000: state encoding"),
         ([HEADED + ";tan_delta [%]", *(row + ";1" for row in ROWS)], {}, "in '%', and is a number without a unit"),
-        (["T;G'", "20;1"], {}, "column 'T' has no unit in the heading: state units = {T = \"K\"}"),
-        ([HEADED, "1;2;", *ROWS], {}, "line 2, column \"G''\": '' is no number"),
-        ([HEADED, "1;2;1e999", *ROWS], {}, "line 2, column \"G''\": '1e999' is no number"),
-        ([HEADED, "1;2;1,000,000", *ROWS], {}, "line 2, column \"G''\": '1,000,000' is no number"),
-        ([HEADED, "0.5;1,5;2"], {}, "decimals have commas, '1,5', and points, '0.5': state decimal"),
-        ([HEADED, "0,5;1.5;2"], {"decimal": ","}, "line 2, column \"G'\": '1.5' is no number"),
+        (["T;G'", "20;1"], {}, "column 'T' has no unit in the heading: state units = {T = 'K'}"),
+        ([HEADED, "1;2;", *ROWS], {}, "line 2, column \"G'' .kPa.\": '' is no number"),
+        ([HEADED, "1;2;1e999", *ROWS], {}, "line 2, column \"G'' .kPa.\": '1e999' is no number"),
+        ([HEADED, "1;2;1,000,000", *ROWS], {}, "line 2, column \"G'' .kPa.\": '1,000,000' is no number"),
+        ([HEADED, "0.5;1,5;2"], {}, "'1,5' may have .*, and '0.5' has a point: state decimal"),
+        ([HEADED, "0,5;1.5;2"], {"decimal": ","}, "line 2, column \"G' .MPa.\": '1.5' is no number"),
+        (["G';remark", '1;a";"', '2;b";"'], {}, "line 2: .* has not the 2 cells of line 1"),
         ([HEADED], {}, "no row below line 1"),
         (["# nothing"], {}, "no row in it"),
+        (["PK\3\4"], {}, "is a workbook .*; a table is a text file"),
+        (["II*\0"], {}, "is a picture; a table is a text file"),
     ],
 )
 def test_what_is_no_table_is_refused_with_what_stands_there(tmp_path, lines, stated, refusal):
@@ -187,6 +212,10 @@ def test_tables_of_python_are_read_by_the_same_names_with_their_units():
     agree(read(pandas.concat([frame, frame.assign(remark="b")]), where={"remark": "b"}))
     for wrong, said in (
         (3.0, "3.0: a path, a DataFrame"),
+        ({}, "there is no row"),
+        (pandas.Series([1.0, 2.0]), "a path, a DataFrame"),
+        ({"G'": [None, 1.0]}, "row 1, column .*None. is no number"),
+        ({"G'": [1.0], "f": [1.0, 2.0]}, "same length"),
         ({"G'": [1.0, np.nan]}, 'row 2, column "G\'": nan is no number'),
         (pandas.concat([frame, frame.assign(remark="b")]), "column 'remark' has several values"),
     ):

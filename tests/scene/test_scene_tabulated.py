@@ -96,13 +96,6 @@ def test_units_do_not_matter_to_the_fit():
     np.testing.assert_allclose(found, fitted().complex_modulus(OMEGA), rtol=1e-6)
 
 
-def test_a_known_modulus_at_rest_is_kept():
-    glass = table(omega=np.geomspace(1.0, 1e7, 40))
-    solid = fitted(glass, equilibrium_modulus=1.2e6)
-    assert solid.static_modulus == 1.2e6
-    assert solid.rms_error <= 0.1
-
-
 def branches(moduli, times):
     """The modulus of Maxwell branches alone, a liquid."""
     phase = lambda omega: 1j * np.multiply.outer(omega, times)  # noqa: E731
@@ -232,7 +225,6 @@ WIDE = "f,G',G''\n" + "\n".join(f"{k},2,3" for k in range(1, MOST_ROWS + 2))
     [
         ("f,G',G''\n0,5,6", "line 2: frequency = 0 must be greater than 0"),
         ("f,G',G''\n1,2,3\n2,2,3", "2 frequencies: at least 4"),
-        ("f,G',G''\n1,2,3\n4,5" + "x" * 1_000_000 + ",6", r"line 3, column \"G'\": '5x+\.\.\.x+' is no number"),
         ("f,G',G''\n1e-30,2,3\n2,2,3\n3,2,3\n1e30,2,3", r"farther apart than by a factor of 1e\+40"),
         (WIDE, "5,001 rows: at most 5,000"),
     ],
@@ -275,11 +267,6 @@ def test_a_scene_names_a_file_in_its_folder_or_holds_the_numbers(tmp_path, monke
         monkeypatch.chdir(folder)
         for path in (by_name, by_name.relative_to(tmp_path) if folder == tmp_path else "name.toml"):
             assert read(path, Scene) == expected
-    (tmp_path / "measured/rubber.csv").write_text("f,G',G''\n1,2,3\n1,2,x")
-    with pytest.raises(
-        InvalidInput, match=r"table = 'rubber\.csv': rubber\.csv, line 3, column \"G''\": 'x' is no number"
-    ):
-        read(by_name, Scene)
     (tmp_path / "measured/rubber.csv").unlink()
     monkeypatch.chdir(tmp_path)
     with pytest.raises(InvalidInput, match=r"no such file in .*measured, the folder of the file that names it"):
@@ -294,9 +281,6 @@ def test_a_scene_states_what_differs_of_its_table(tmp_path):
     scene = tmp_path / "scene.toml"
     scene.write_text(SCENE.replace("rad/s", "Hz") + f'"rubber.csv"{stated}')
     assert columns(read(scene, Scene).elastomer.table) == columns(table())
-    scene.write_text(SCENE + f'"rubber.csv"{stated}'.replace("skip = 1", "skip = -1"))
-    with pytest.raises(InvalidInput, match=r"elastomer\.skip = -1"):
-        read(scene, Scene)
 
 
 def test_a_solid_keeps_the_numbers_and_says_little(tmp_path):

@@ -12,7 +12,8 @@ from pydantic import ValidationError
 from scene.printable import printable
 from scene.quantities import KELVIN, NEWTON, SPEED
 from scene.reading import InvalidInput, mistakes, validator
-from scene.tablefile import Column, Columns, TableFormat, read_columns
+from scene.tablefile import Column, Columns, read_columns
+from scene.tabletext import TableFormat
 
 from ...solving.vocabulary import attributes
 
@@ -56,13 +57,13 @@ class MeasuredFriction:
     def of(cls, table: Measurements, **stated: Any) -> "MeasuredFriction":
         """Measurements of a file, a DataFrame, a Dataset, or arrays by the names of columns.
 
-        stated : what differs of a table from the documented form, see `scene.tablefile.TableFormat`
+        stated : what differs of a table from the documented form, see `scene.tabletext.TableFormat`
 
         Raises InvalidInput naming the place and what is allowed.
         """
         path = Path(table) if isinstance(table, str | Path) else None
         try:
-            columns = read_columns(path or _flat(table), COLUMNS, TableFormat(**stated))
+            columns = read_columns(path or table, COLUMNS, TableFormat(**stated))
             numbers, notes = _numbers(columns)
         except ValidationError as error:
             lines = mistakes(error, stated, validator(TableFormat))
@@ -78,19 +79,6 @@ class MeasuredFriction:
             if field in numbers
         }
         return cls(xarray.Dataset(data), named, source, notes)
-
-
-def _flat(table):
-    """A Dataset of several dimensions as one of rows; anything else as it is."""
-    if not isinstance(table, xarray.Dataset) or len(table.sizes) < 2:
-        return table
-    dims = tuple(table.sizes)
-    spread = xarray.broadcast(*(table[name] for name in table.variables))
-    rows = {
-        str(each.name): xarray.DataArray(each.transpose(*dims).data.reshape(-1), dims="row", attrs=own.attrs)
-        for each, own in zip(spread, (table[name] for name in table.variables), strict=True)
-    }
-    return xarray.Dataset(rows)
 
 
 def _numbers(columns: Columns) -> tuple[dict[str, np.ndarray], tuple[str, ...]]:
