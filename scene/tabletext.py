@@ -109,7 +109,7 @@ def read_text(path: Path, stated: TableFormat, most_bytes: int, units_below: Cal
         if len(below) == len(headings) and not _has_number(below) and units_below(below):
             units, body = below, body + 1
     columns, lines_read = _rows(name, lines, (start, body), separator, len(headings), stated.rows)
-    comma = _has_commas(name, columns, separator, stated)
+    comma = _has_commas(name, columns, separator, stated, numbered)
     return Cells(name, headings, units, columns, lines_read, start == 0 and not numbered, comma)
 
 
@@ -126,7 +126,7 @@ def read_rows(path: str | Path, stated: TableFormat, most_bytes: int) -> tuple[n
     columns, lines_read = _rows(name, lines, (start, start), separator, len(first), stated.rows)
     columns = columns if any(columns[-1]) else columns[:-1]
     names = [str(k + 1) for k, _ in enumerate(columns)]
-    cells = Cells(name, names, names, columns, lines_read, comma=_has_commas(name, columns, separator, stated))
+    cells = Cells(name, names, names, columns, lines_read, comma=_has_commas(name, columns, separator, stated, True))
     return np.stack([cells.numbers(k, gaps=True) for k, _ in enumerate(names)], axis=1), lines_read
 
 
@@ -211,11 +211,18 @@ def _rows(name, lines, places, separator, width, most):
     )
 
 
-def _has_commas(name, columns, separator, stated):
-    """Whether decimals have commas. Raises ValueError where they may be other marks, or some have points."""
+def _has_commas(name, columns, separator, stated, counted):
+    """Whether decimals have commas. Raises ValueError where they may be other marks, or some have points.
+
+    counted : whether no heading says how many columns there are, so that commas of decimals may make more of them
+    """
+    cells = [cell for column in columns for cell in column]
+    if separator == "," and counted and stated.decimal != "." and not any("." in cell for cell in cells):
+        raise ValueError(
+            f"{name}: commas may stand between whole numbers or be those of decimals: state decimal, and separator"
+        )
     if stated.decimal is not None or separator not in "\t;":
         return stated.decimal == ","
-    cells = [cell for column in columns for cell in column]
     commas = [cell for cell in cells if "," in cell and _COMMA_NUMBER.fullmatch(cell)]
     points = [cell for cell in cells if "." in cell and NUMBER.fullmatch(cell)] if commas else []
     if points:
