@@ -282,7 +282,7 @@ def _metres(unit):
 
 @contextmanager
 def _reading(name: str, how: str) -> Iterator[None]:
-    """Keep a reader from warning and printing; whatever it raises, as of a damaged file, becomes a ValueError."""
+    """Keep a reader from warning and printing. Raises ValueError for whatever it raises of a damaged file."""
     try:
         with warnings.catch_warnings(), redirect_stdout(StringIO()), redirect_stderr(StringIO()):
             warnings.simplefilter("ignore")

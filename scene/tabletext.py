@@ -126,7 +126,8 @@ def read_rows(path: str | Path, stated: TableFormat, most_bytes: int) -> tuple[n
     columns, lines_read = _rows(name, lines, (start, start), separator, len(first), stated.rows)
     columns = columns if any(columns[-1]) else columns[:-1]
     names = [str(k + 1) for k, _ in enumerate(columns)]
-    cells = Cells(name, names, names, columns, lines_read, comma=_has_commas(name, columns, separator, stated, True))
+    comma = _has_commas(name, columns, separator, stated, True)
+    cells = Cells(name, names, names, columns, lines_read, comma=comma)
     return np.stack([cells.numbers(k, gaps=True) for k, _ in enumerate(names)], axis=1), lines_read
 
 
