@@ -16,6 +16,7 @@ import xarray
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from maps import noise, refused
+from numpy.polynomial.polynomial import polyval2d
 from scipy.io import savemat
 from strategies import examples
 
@@ -499,6 +500,7 @@ def test_no_more_than_a_twentieth_is_filled_in(part, shape, spacing, holes, mess
         refused(message, part, **stated)
 
 
+Y, X = np.mgrid[0:30, 0:40]
 BUMP = np.exp(-(np.hypot(*(np.indices((40, 40)) - 20.0)) ** 2) / 8)
 # Of programs: both ends are numbers that stand for none.
 BOTH = np.where(np.eye(9) > 0, np.where(np.arange(9) < 4, -9999.0, 9999.0), SQUARE)
@@ -529,23 +531,24 @@ def test_a_hole_in_a_harmonic_surface_is_filled_in_with_it():
     # a product of cosine and cosh: to the error of second differences, a quarter on half the pixel
     errors = []
     for count in (20, 40):
-        x, y = (np.arange(count) + 0.5) / count, ((np.arange(2 * count) + 0.5) / (2 * count))[:, None]
-        surface = np.cos(2 * x) * np.cosh(2 * y)
-        hole = (np.abs(x - 0.5) < 0.1) & (np.abs(y - 0.5) < 0.1)
-        found = filled(np.where(hole, NAN, surface), (1 / count, 0.5 / count))
-        errors.append(np.abs(found - surface).max())
+        y, x = np.ogrid[0.5 / count : 1 : 0.5 / count, 0.5 / count : 1 : 1 / count]
+        surface = np.cos(2 * x) * np.cosh(2 * (y - 0.25 / count))
+        hole = np.maximum(np.abs(x - 0.5), np.abs(y - 0.25 / count - 0.5)) < 0.1
+        errors.append(np.abs(filled(np.where(hole, NAN, surface), (1, 0.5)) - surface).max())
     assert errors[1] == pytest.approx(errors[0] / 4, rel=0.25)
     assert errors[1] < 1e-5
-    # planes and xy are harmonic on any lattice, and at a side nothing leaves
-    x, y = np.meshgrid(np.arange(12.0), np.arange(10.0))
-    for surface in (1 + 2 * x + 3 * y, x * y, x**2 - y**2):
-        assert filled(np.where((x > 3) & (x < 6) & (y > 3) & (y < 7), NAN, surface), (1, 1)) == pytest.approx(
-            surface
-        )
-    assert filled(np.where((x < 3) & (y < 2), NAN, 7.0), (1, 2)) == pytest.approx(7.0)
 
 
-Y, X = np.mgrid[0:30, 0:40]
+@pytest.mark.parametrize("surface", [1 + 2 * X + 3 * Y, X * Y, X**2 - Y**2])
+def test_a_hole_in_a_surface_that_is_harmonic_on_any_lattice_is_filled_in_exactly(surface):
+    hole = (X > 3) & (X < 6) & (Y > 3) & (Y < 7)
+    assert filled(np.where(hole, NAN, surface), (1, 1)) == pytest.approx(surface)
+
+
+def test_at_a_side_nothing_leaves():
+    assert filled(np.where((X < 3) & (Y < 2), NAN, 7.0), (1, 2)) == pytest.approx(7.0)
+
+
 SMOOTH = np.sin(X / 8) + np.cos(Y / 6) + 0.02 * noise((30, 40))
 SPIKES = np.isin(40 * Y + X, [125, 580, 39])
 
@@ -602,14 +605,14 @@ def test_a_crop_is_the_map_of_what_it_keeps():
 @given(seed=st.integers(0, 10**6), rows=st.integers(4, 30), columns=st.integers(4, 30))
 @examples(20)
 def test_a_level_takes_off_all_forms_of_its_degree_and_nothing_else(seed, rows, columns):
-    coefficients = noise((4, 4), seed)
-    y, x = np.linspace(-1, 2, rows)[:, None], np.linspace(0, 3, columns)
+    coefficients, orders = noise((4, 4), seed), np.indices((4, 4)).sum(axis=0)
+    y, x = np.meshgrid(np.linspace(-1, 2, rows), np.linspace(0, 3, columns), indexing="ij")
     rest = levelled(noise((rows, columns), seed), "cubic")
     for level, degree in DEGREES.items():
-        terms = [(i, j) for i in range(degree + 1) for j in range(degree + 1 - i)]
-        form = sum(coefficients[i, j] * y**i * x**j for i, j in terms) + 0 * x * y
-        assert np.abs(levelled(form, level)).max() <= 1e-13 * np.abs(form).max()
-        np.testing.assert_allclose(levelled(rest + form, level), rest, atol=1e-13 * np.abs(form).max() + 1e-14)
+        form = polyval2d(y, x, np.where(orders <= degree, coefficients, 0))
+        rounding = 1e-13 * np.abs(form).max()
+        assert np.abs(levelled(form, level)).max() <= rounding
+        np.testing.assert_allclose(levelled(rest + form, level), rest, atol=rounding + 1e-14)
         above = y ** (degree + 1) + x ** (degree + 1)
         assert min(rows, columns) < degree + 2 or np.abs(levelled(above, level)).max() > 1e-3
 
