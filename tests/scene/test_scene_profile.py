@@ -19,7 +19,6 @@ from compare.trustmap.verdict import FITTED, trust
 from mdr1d import MDR
 from scene import Kelvin, Profile, Refused, Scene, SelfAffine, Slide, Sphere, linescan
 from scene.periodogram import bins_of, taken_off
-from scene.reading import read
 from scene.roughness import Roughness
 from scene.waves import MOST_WAVES
 
@@ -350,17 +349,6 @@ def test_missing_heights_are_filled_in_on_straight_lines_when_asked(tmp_path):
     profile = Profile(file=path, missing="fill")
     assert profile.heights.heights[99:103] == pytest.approx(np.linspace(*HEIGHTS[[99, 102]], 4), abs=1e-14)
     assert "2 of 512 heights (0.391 %) were missing" in profile.notes[0]
-
-
-def test_a_scene_file_with_a_line_is_read(tmp_path):
-    (tmp_path / "line.csv").write_text(TEXTS[0][0], encoding="utf-8")
-    scene = tmp_path / "scene.toml"
-    text = (
-        '[indenter]\ntype = "sphere"\nradius = 0.01\n[elastomer]\ntype = "elastic"\nmodulus = 1e6\n[motion]\n'
-        f'type = "indent"\nload = 1\n[roughness]\ntype = "profile"\nfile = "{tmp_path}/line.csv"\n'
-    )
-    scene.write_text(text)
-    assert read(scene, Scene).roughness.fitted == Profile(file=tmp_path / "line.csv").fitted
 
 
 def test_a_line_is_compared_stored_and_sent_by_its_digest():
