@@ -73,7 +73,7 @@ class Heights:
         Raises ValueError where one of them is stated twice and differs, and where it is stated nowhere.
         """
         step = "pixel" if dims == MAP else "spacing"
-        metre, own = (None if each is None else _metres(each) for each in (unit, self.unit))
+        metre, own = _metres("unit", unit), _metres("unit of heights", self.unit)
         size = None if spacing is None else argument(step, spacing, sides)
         for name, given, stated, read in (("unit", unit, metre, own), (step, spacing, size, self.spacings)):
             if stated is None and read is None:
@@ -149,7 +149,7 @@ def given_heights(
         raise ValueError("heights are an array and no table: leave out columns, units, separators and lines")
     if hasattr(heights, "dims"):
         return _of_labelled("heights", heights, dims).settled(dims, spacing, unit)
-    numbers, own = bare(unmasked(heights))
+    numbers, own = argument("heights", heights, lambda each: bare(unmasked(each)))
     return Heights("heights", numbers, "m" if own is None and unit is None else own).settled(dims, spacing, unit)
 
 
@@ -189,7 +189,7 @@ def _of_netcdf(name, path, dims, channel):
 
 def _of_labelled(name, heights, dims):
     """An array of xarray with the dimensions dims; those whose coordinates have no unit have no spacing."""
-    heights, spacings = argument("dimensions", heights.dims, lambda _: heights.transpose(*dims)), {}
+    heights, spacings = argument("dimensions of heights", heights.dims, lambda _: heights.transpose(*dims)), {}
     for dim in set(dims) & set(heights.coords):
         places = np.asarray(argument(f"coordinates of {dim}", heights.coords[dim], METRE.values), float)
         order, step = ordered(dim, places, f"{name}, coordinate {{}}".format)
@@ -202,7 +202,7 @@ def _of_labelled(name, heights, dims):
 
 def _of_table(table, dims, spacing, unit, written):
     if unit is not None:
-        _metres(unit)
+        _metres("unit", unit)
         written = replace(written, units={**(written.units or {}), "z": unit})
     columns = read_columns(table, COLUMNS[dims], written, MOST_TEXT)
     heights, spacings = columns["z"], None
@@ -272,12 +272,12 @@ def _check_count(shape):
         raise ValueError(f"{brief(str(tuple(shape)))} pixels: at most {MOST_PIXELS} are read; take a part of them")
 
 
-def _metres(unit):
-    """A unit of length [m]. Raises ValueError."""
+def _metres(name, unit):
+    """A unit of length [m], None of none. Raises ValueError."""
     try:
-        return float(in_unit(1.0, unit, "m"))
+        return None if unit is None else float(in_unit(1.0, unit, "m"))
     except (ValueError, AttributeError, TypeError) as error:
-        raise ValueError(f'unit = {brief(repr(unit))}: a unit of length is needed, as "um"; {error}') from None
+        raise ValueError(f'{name} = {brief(repr(unit))}: a unit of length is needed, as "um"; {error}') from None
 
 
 @contextmanager

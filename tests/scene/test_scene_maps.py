@@ -375,7 +375,7 @@ def test_what_is_stated_twice_agrees_or_is_refused(tmp_path):
     refused("heights are an array and no table", heights=SQUARE, skip=2, **UM)
     refused("heights are in metres", heights=found.heights, pixel=1.0, unit="um")
     refused("heights are both stated", heights=SQUARE, file=file)
-    refused(r"dimensions = \('y', 'u'\)", heights=array.rename(x="u"))
+    refused(r"dimensions of heights = \('y', 'u'\)", heights=array.rename(x="u"))
     refused("is not one step from the one before it", heights=array[[0, 1, 3, 4, 5]])
     refused("coordinates of", heights=labelled(SQUARE, PIXEL, units="V"))
     refused("does not state its unit", heights=labelled(SQUARE, PIXEL))

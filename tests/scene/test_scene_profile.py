@@ -242,7 +242,7 @@ REGULAR = np.sin(2 * pi * np.arange(512) / 16.3)
         ("roll-off", {"shortest_kept": 5e-4}),
         ("shape", {"heights": np.ones((8, 8))}),
         ("one row of heights", {"heights": HEIGHTS[None]}),
-        ("dimensions = ", {"heights": xarray.DataArray(np.ones((8, 8)), dims=("y", "x"))}),
+        ("dimensions of heights = ", {"heights": xarray.DataArray(np.ones((8, 8)), dims=("y", "x"))}),
         ("column .z. has no unit.*state units = .z", {"heights": {"z": HEIGHTS}}),
     ],
 )
