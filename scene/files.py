@@ -1,7 +1,7 @@
 """Reading of files: regular ones up to a size, and nothing else that a path leads to."""
 
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import partial
@@ -9,7 +9,6 @@ from itertools import islice, takewhile
 from math import ceil
 from pathlib import Path
 from stat import S_ISDIR, S_ISREG
-from typing import Any
 
 from .printable import brief
 
@@ -18,7 +17,6 @@ _ESCAPED = "\n\t\r\b\f"
 PIECE = 2**20  # bytes read at a time: memory is taken for what is there, not for what may be
 
 
-_read: ContextVar[dict | None] = ContextVar("read", default=None)
 _folder: ContextVar[Path] = ContextVar("folder", default=Path())  # in which a relative path begins
 
 
@@ -29,7 +27,7 @@ class Unreadable(ValueError):
 def checked(path: str | Path, most: int) -> Path:
     """The path of a regular file of at most `most` bytes; nothing is opened. Raises Unreadable.
 
-    Within `reading_once` of a file, a relative path begins in its folder.
+    Within `paths_from` a file, a relative path begins in its folder.
     """
     found = _folder.get() / path
     _refuse(path, _asked(path, os.stat, found), most)
@@ -57,37 +55,14 @@ def content(path: str | Path, most: int) -> bytes:
 
 
 @contextmanager
-def reading_once(path: str | Path = "") -> Iterator[None]:
-    """Within it no file is read twice by `once`, as whoever seeks mistakes beside it would.
-
-    path : of the file that is read, in whose folder the relative paths in it begin; that of an outer one counts
-    """
-    folder = _folder.get() if _read.get() is not None else Path(path).parent
-    tokens = _read.set({}), _folder.set(folder if folder == Path() else folder.absolute())
+def paths_from(path: str | Path) -> Iterator[None]:
+    """Within it relative paths begin in the folder of this file; within another file, in the folder of that."""
+    outer, own = _folder.get(), Path(path).parent
+    token = _folder.set(own.absolute() if outer == Path() != own else outer)
     try:
         yield
     finally:
-        _read.reset(tokens[0])
-        _folder.reset(tokens[1])
-
-
-def once(read: Callable[..., Any], path: str | Path, *asked: Any) -> Any:
-    """What a reader makes of a path, or the ValueError that it raises; within `reading_once` found once.
-
-    asked : other arguments of the reader
-    """
-    known, key = _read.get(), (read, path, *asked)
-    if known is None:
-        return read(path, *asked)
-    if key not in known:
-        try:
-            known[key] = read(path, *asked), None
-        except ValueError as error:
-            known[key] = None, error
-    found, refused = known[key]
-    if refused is not None:
-        raise refused
-    return found
+        _folder.reset(token)
 
 
 def text(path: str | Path, most: int) -> str:

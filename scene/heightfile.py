@@ -2,13 +2,14 @@
 
 A file is
     an array (.npy), or an archive of arrays (.npz), from which `channel` picks one
-    a file of NetCDF (.nc), whose variables are arrays along y and x, or x, with their units in attributes
-    a text (.txt, .csv, .tsv, .xyz; for a line any other too) of numbers and nothing else, a row of the map a line,
-        the first at the lowest y; of a line one number a row, with comments above. Empty cells and nan are missing
+    a file of NetCDF (.nc), whose variables are arrays along y and x, or x, with units in attributes
+    a text (.txt, .csv, .tsv, .xyz, .asc, .dat; for a line any other too) of numbers and nothing else, a row of the
+        map a line, the first at the lowest y; of a line one number a row, with comments above. Empty cells and nan
+        are missing
     a table of points, columns x, y and z, of a line x and z, with their units in the heading, see `tablefile`
     for a map, whatever the package SurfaceTopography reads (extra `topography`)
 
-In Python arrays, tables and objects of xarray have the same form. Options of `TableFormat` state what differs of a
+In Python arrays, tables and arrays of xarray have the same form. Options of `TableFormat` state what differs of a
 text or a table. A unit, a pixel or a spacing that a file lacks has to be stated; one that it has must agree.
 """
 
@@ -25,8 +26,8 @@ from typing import Any
 import numpy as np
 
 from .files import checked
-from .heightmap import LEAST, HeightLine, HeightMap, sides, unmasked
-from .lattice import along, mapped, ordered, refuse_places
+from .heightmap import LEAST, sides, unmasked
+from .lattice import mapped, ordered, refuse_places
 from .plain import bare, in_unit
 from .printable import brief
 from .quantities import METRE, argument
@@ -34,19 +35,19 @@ from .tablefile import Column, read_columns
 from .tabletext import TableFormat, read_rows
 
 MAP, LINE = ("y", "x"), ("x",)
-EVEN = 1e-3  # relative, of sides and spacings: a file rounds them, and so do coordinates in single precision
+EVEN = 1e-3  # relative, of units and spacings that are stated twice: a file rounds them
 MOST_PIXELS = 5120**2  # that are read of a file
 MOST_BYTES, MOST_TEXT = 2**28, 2**27  # of a file, as it is and unpacked; and of a text
-ARRAYS, NETCDF, TEXTS = {".npy", ".npz"}, {".nc"}, {".txt", ".csv", ".tsv", ".xyz"}
-# Endings of what holds no heights, and what it is.
+ARRAYS, NETCDF, TEXTS = {".npy", ".npz"}, {".nc"}, {".txt", ".csv", ".tsv", ".xyz", ".asc", ".dat"}
 FOREIGN = {
-    "a picture": ".png .tif .tiff .jpg .jpeg .bmp .gif .webp .svg .pdf",
-    "a workbook": ".xlsx .xls .xlsm .ods",
-    "a mesh": ".stl .obj .ply .3mf .vtk .vtp .vtu",
+    *(".png", ".tif", ".tiff", ".jpg", ".jpeg", ".bmp", ".gif", ".webp", ".svg", ".pdf"),
+    *(".xlsx", ".xls", ".xlsm", ".ods"),
+    *(".stl", ".obj", ".ply", ".3mf", ".vtk", ".vtp", ".vtu"),
 }
 X = Column("x", ("x", "X", "distance", "position", "length"), (METRE,), unit_needed=True)
 Y = Column("y", ("y", "Y"), (METRE,), needed=True, unit_needed=True)
 Z = Column("z", ("z", "Z", "height", "heights"), (METRE,), needed=True, unit_needed=True, gaps=True)
+UNKNOWN = {"unit": 'unit = "um"', "pixel": 'pixel = "1 um"', "spacing": 'spacing = "1 um"'}
 COLUMNS = {MAP: (replace(X, needed=True), Y, Z), LINE: (X, Z)}
 
 
@@ -67,40 +68,29 @@ class Heights:
     spacings: tuple[float, ...] | None = None
     notes: tuple[str, ...] = ()
 
-    def settled(self, spacing: Any, unit: str | None = None) -> "Settled":
+    def settled(self, dims: tuple[str, ...], spacing: Any, unit: str | None = None) -> "Settled":
         """Heights [m], their pixel or spacing, and notes: what is stated and what was read put together.
 
         Raises ValueError where one of them is stated twice and differs, and where it is stated nowhere.
         """
-        step, what = ("spacing", "spacing") if np.ndim(self.numbers) == 1 else ("pixel", "side of a pixel")
-        lacking = {"the unit of its heights": 'unit = "um"'} if self.unit is None and unit is None else {}
-        lacking |= {f"the {what}": f'{step} = "1 um"'} if self.spacings is None and spacing is None else {}
-        if lacking:
-            raise ValueError(
-                f"{self.name} does not state {' nor '.join(lacking)}: state {' and '.join(lacking.values())}"
-            )
-        metre = None if unit is None else _metres("unit", unit)
-        own = None if self.unit is None else _metres(f"{self.name}: unit of heights", self.unit)
-        if metre and own and abs(metre - own) > 1e-9 * own:
-            raise ValueError(f"unit = {unit!r}: {self.name} states its own, {self.unit}: leave unit out")
+        step = "pixel" if dims == MAP else "spacing"
+        metre, own = _metres("unit", unit), _metres("unit of heights", self.unit)
+        size = None if spacing is None else argument(step, spacing, sides)
+        for name, given, stated, read in (("unit", unit, metre, own), (step, spacing, size, self.spacings)):
+            if stated is None and read is None:
+                raise ValueError(f"{self.name} does not state its {name}: state it, as {UNKNOWN[name]}")
+            if stated is not None and read is not None and not np.allclose(stated, read, rtol=EVEN, atol=0):
+                shown = " x ".join(f"{each:.6g}" for each in np.ravel(read))
+                raise ValueError(
+                    f"{name} = {briefly(given)}: {self.name} states its own, {shown} m: leave {name} out"
+                )
         # First the numbers in full: those of half precision end where nanometres begin.
-        heights = np.asarray(self.numbers, float)
+        heights = np.asarray(argument(self.name, self.numbers, METRE.values), float)
         with np.errstate(over="ignore"):  # beyond the range of numbers is not finite, and refused
-            heights = heights * metre if self.unit is None else in_unit(heights, self.unit, "m")
-        if spacing is not None:
-            self._check(step, spacing)
-            return heights, spacing, self.notes
-        return heights, self.spacings if step == "pixel" else self.spacings[0], self.notes  # type: ignore[index]
-
-    def _check(self, step, spacing):
-        """Raise ValueError for a spacing other than that of the file; one that is none is left to its field."""
-        try:
-            given = sides(spacing)
-        except ValueError:
-            return
-        if any(abs(one - own) > EVEN * own for one, own in zip(given, self.spacings or (), strict=False)):
-            own = " x ".join(f"{side:.6g}" for side in dict.fromkeys(self.spacings))
-            raise ValueError(f"{step} = {briefly(spacing)}: {self.name} states its own, {own} m: leave {step} out")
+            heights = heights * (metre if own is None else own)
+        if spacing is None:
+            spacing = self.spacings if dims == MAP else self.spacings[0]  # type: ignore[index]
+        return heights, spacing, self.notes
 
 
 Settled = tuple[np.ndarray, Any, tuple[str, ...]]
@@ -124,28 +114,21 @@ def read_heights(
     """
     if not isinstance(path, str | Path):
         raise ValueError(f"file = {briefly(path)}: a path is needed")
-    kind, name, written, found = Path(path).suffix.lower(), brief(str(path)), written or TableFormat(), None
-    if foreign := [what for what, endings in FOREIGN.items() if kind in endings.split()]:
-        raise ValueError(
-            f"{name} is {foreign[0]} ({kind}): export the heights as numbers, to .txt, .npy, .nc or the format of "
-            "an instrument"
-        )
+    kind, name, written = Path(path).suffix.lower(), brief(str(path)), written or TableFormat()
+    if kind in FOREIGN:
+        raise ValueError(f"{name} is a picture, a workbook or a mesh: export its heights as numbers")
     place = checked(path, MOST_BYTES)
-    if kind in ARRAYS:
-        found = _of_arrays(name, place, dims, channel)
-    elif kind in NETCDF:
-        found = _of_netcdf(name, place, dims, channel, written.units or {})
-    elif kind not in TEXTS and dims == MAP:
-        found = _of_instrument(name, place, channel)
-    if found is not None:
-        if (replace(written, units=None) if kind in NETCDF else written) != TableFormat():
-            raise ValueError(f"{name} is no text: leave out columns, units, separators and lines")
-        return found.settled(spacing, unit)
-    if channel is not None:
-        raise ValueError(f"channel = {brief(repr(channel))}: {name} is a text; skip and rows choose a part of it")
-    if rows := _of_rows(name, path, dims, written):
-        return rows.settled(spacing, unit)
-    return _of_table(path, dims, spacing, unit, written).settled(spacing)
+    if kind in TEXTS or (dims == LINE and kind not in ARRAYS | NETCDF):
+        if channel is not None:
+            raise ValueError(
+                f"channel = {brief(repr(channel))}: {name} is a text; skip and rows choose a part of it"
+            )
+        rows = _of_rows(name, path, dims, written)
+        return rows.settled(dims, spacing, unit) if rows else _of_table(path, dims, spacing, unit, written)
+    if written != TableFormat():
+        raise ValueError(f"{name} is no text: leave out columns, units, separators and lines")
+    read = _of_arrays if kind in ARRAYS else _of_netcdf if kind in NETCDF else _of_instrument
+    return read(name, place, dims, channel).settled(dims, spacing, unit)
 
 
 def given_heights(
@@ -156,99 +139,66 @@ def given_heights(
     channel: str | None = None,
     written: TableFormat | None = None,
 ) -> Settled:
-    """The same out of an array, a table or an object of xarray; arrays without a unit are in metres."""
-    if hasattr(heights, "data_vars") and dims == MAP:
-        arrays = {str(name): each for name, each in heights.data_vars.items() if each.ndim == len(dims)}
-        if arrays:
-            heights, channel = arrays[picked("the Dataset", arrays, channel)], None
+    """The same out of an array, a table or an array of xarray; arrays of numpy without a unit are in metres."""
     if channel is not None:
-        raise ValueError(f"channel = {brief(repr(channel))}: one array has no channels, leave channel out")
+        raise ValueError(f"channel = {brief(repr(channel))}: heights are no file, leave channel out")
     # A DataFrame whose columns are only counted is an array.
     columns = list(getattr(heights, "columns", ()))
     if isinstance(heights, Mapping) or hasattr(heights, "data_vars") or columns != list(range(len(columns))):
-        return _of_table(heights, dims, spacing, unit, written or TableFormat()).settled(spacing)
+        return _of_table(heights, dims, spacing, unit, written or TableFormat())
     if written not in (None, TableFormat()):
         raise ValueError("heights are an array and no table: leave out columns, units, separators and lines")
-    if hasattr(heights, "dims") and hasattr(heights, "isel"):
-        found = _of_labelled("the array", heights, dims)
-        of_places = {bare(heights.coords[dim])[1] for dim in dims if dim in heights.coords}
-        if found.unit is not None and None in of_places and spacing is None:
-            raise ValueError(
-                f"heights are in {found.unit}, and places have no unit: give them the attribute units"
-            )
-    else:
-        of_places = {None}
-        heights = unmasked(heights)
-        found = Heights(
-            "the array", argument("heights", heights, METRE.values), None if bare(heights)[1] is None else "m"
-        )
-    return found.settled(spacing, unit or (None if found.unit or of_places - {None} else "m"))
+    if hasattr(heights, "dims"):
+        return _of_labelled("heights", heights, dims).settled(dims, spacing, unit)
+    numbers, own = argument("heights", heights, lambda each: bare(unmasked(each)))
+    return Heights("heights", numbers, "m" if own is None and unit is None else own).settled(dims, spacing, unit)
 
 
-def picked(name: str, channels: Iterable[str], channel: str | None) -> str:
+def picked(channels: Iterable[str], channel: str | None) -> str:
     """The channel that is chosen, or the only one. Raises ValueError with the names of all."""
     names = list(channels)
-    if not names:
-        raise ValueError(f"{name} holds no array of heights")
     if channel is None and len(names) == 1:
         return names[0]
-    held = f"{name} holds {brief(', '.join(map(repr, names)))}"
-    if channel in names:
-        return str(channel)
-    raise ValueError(
-        f"{held}: state which, as channel = {names[0]!r}"
-        if channel is None
-        else f"channel = {brief(repr(channel))}: {held}"
-    )
+    if channel is None or names.count(channel) != 1:
+        raise ValueError(f"channel = {brief(repr(channel))}: state one of {brief(', '.join(map(repr, names)))}")
+    return channel
 
 
 def _of_arrays(name, path, dims, channel):
     """The array of a .npy file, or one of an .npz archive; no object is made of what is pickled."""
-    try:
-        with path.open("rb") as file, _silent():
-            held = np.load(file)
-            if isinstance(held, np.ndarray) and channel is not None:
-                raise ValueError(f"channel = {brief(repr(channel))}: it holds one array, leave channel out")
-            if not isinstance(held, np.ndarray):
-                if sum(each.file_size for each in held.zip.infolist()) > MOST_BYTES:
-                    raise ValueError(f"unpacked it has more than {MOST_BYTES / 1e6:g} MB")
-                held = np.asarray(held[picked("it", held.files, channel)])
-        (HeightMap if dims == MAP else HeightLine).check_layout(held.shape, held.dtype)
+    with _reading(name, "as an array"), path.open("rb") as file:
+        held = np.load(file)
+        if not isinstance(held, np.ndarray):
+            if sum(each.file_size for each in held.zip.infolist()) > MOST_BYTES:
+                raise ValueError(f"unpacked it has more than {MOST_BYTES / 1e6:g} MB")
+            held = np.asarray(held[picked(held.files, channel)])
+        elif channel is not None:
+            raise ValueError(f"channel = {brief(repr(channel))}: it holds one array, leave channel out")
         _check_count(held.shape)
-        return Heights(name, held)
-    # Damaged files raise nearly anything.
-    except Exception as error:
-        why = "objects are not read" if "bject" in str(error) else _first_line(error)
-        raise ValueError(f"{name} cannot be read as heights: {why}") from error
+    return Heights(name, held)
 
 
-def _of_netcdf(name, path, dims, channel, units):
+def _of_netcdf(name, path, dims, channel):
     import xarray
 
-    try:
-        with _silent(), xarray.open_dataset(path) as held:
-            arrays = {str(key): each for key, each in held.data_vars.items() if each.ndim == len(dims)}
-            heights = arrays[picked("it", arrays, channel)]
-            _check_count(heights.shape)
-            heights = heights.load()
-    # As above.
-    except Exception as error:
-        raise ValueError(f"{name} cannot be read as NetCDF: {_first_line(error)}") from error
-    for dim, places in heights.coords.items():
-        if bare(places)[1] is None and dim in dims:
-            if dim not in units:
-                raise ValueError(
-                    f'{name}: {dim} has no attribute units: write it, or state units = {{{dim} = "um"}}'
-                )
-            heights = heights.assign_coords({dim: places.assign_attrs(units=units[dim])})
-    return _of_labelled(name, heights, dims)
+    with _reading(name, "as NetCDF"), xarray.open_dataset(path) as held:
+        arrays = {str(key): each for key, each in held.data_vars.items() if each.ndim == len(dims)}
+        heights = arrays[picked(arrays, channel)]
+        _check_count(heights.shape)
+        return _of_labelled(name, heights.load(), dims)
 
 
 def _of_labelled(name, heights, dims):
-    heights, spacings = along(heights, dims)
-    numbers, unit = bare(heights)
+    """An array of xarray with the dimensions dims; those whose coordinates have no unit have no spacing."""
+    heights, spacings = argument("dimensions of heights", heights.dims, lambda _: heights.transpose(*dims)), {}
+    for dim in set(dims) & set(heights.coords):
+        places = np.asarray(argument(f"coordinates of {dim}", heights.coords[dim], METRE.values), float)
+        order, step = ordered(dim, places, f"{name}, coordinate {{}}".format)
+        if bare(heights.coords[dim])[1] is not None:
+            spacings[dim] = step
+        heights = heights.isel({dim: order})
     own = tuple(spacings[each] for each in reversed(dims)) if len(spacings) == len(dims) else None
-    return Heights(name, numbers, unit, own)
+    return Heights(name, *bare(heights), own)
 
 
 def _of_table(table, dims, spacing, unit, written):
@@ -256,15 +206,13 @@ def _of_table(table, dims, spacing, unit, written):
         _metres("unit", unit)
         written = replace(written, units={**(written.units or {}), "z": unit})
     columns = read_columns(table, COLUMNS[dims], written, MOST_TEXT)
+    heights, spacings = columns["z"], None
     if dims == MAP:
-        heights, spacings = mapped(columns["x"], columns["y"], columns["z"], columns.place)
-        return Heights(columns.name, heights, "m", spacings, columns.notes)
-    if "x" not in columns:
-        if spacing is None:
-            raise ValueError(f'{columns.name} has no column x: state columns = {{x = "..."}}, or spacing = "1 um"')
-        return Heights(columns.name, columns["z"], "m", None, columns.notes)
-    order, step = ordered("x", columns["x"], columns.place)
-    return Heights(columns.name, columns["z"][order], "m", (step,), columns.notes)
+        heights, spacings = mapped(columns["x"], columns["y"], heights, columns.place)
+    elif "x" in columns:
+        order, step = ordered("x", columns["x"], columns.place)
+        heights, spacings = heights[order], (step,)
+    return Heights(columns.name, heights, "m", spacings, columns.notes).settled(dims, spacing)
 
 
 def _of_rows(name, path, dims, stated):
@@ -273,99 +221,73 @@ def _of_rows(name, path, dims, stated):
     if found is None:
         return None
     (numbers, line), skipped = found, stated.skip or 0
-    width = numbers.shape[1]
     if dims == MAP and line > skipped + 1:
         raise ValueError(
             f"{name}, line {skipped + 1}, is no row of heights: state skip = {line - 1} for the lines above "
             'these, and what they may say, as unit = "um" and pixel = "1 um"'
         )
-    unfit = width < LEAST if dims == MAP else width > 1
-    if unfit:
-        wanted, points = (f"a map has {LEAST} or more", "xyz") if dims == MAP else ("a line has one", "xz")
+    if numbers.shape[1] < LEAST if dims == MAP else numbers.shape[1] > 1:
         raise ValueError(
-            f"{name}, line {line}: {width} columns of numbers, and {wanted}; of points state columns = "
-            f"{{{', '.join(f'{each} = {k}' for k, each in enumerate(points, 1))}}} and units"
+            f"{name}, line {line}: {numbers.shape[1]} columns of numbers alone: of points state columns = "
+            "{x = 1, z = 2}, of a map also y, and units"
         )
     if dims == MAP:
         refuse_places(f"{name}, line {line}", numbers)
     return Heights(name, numbers if dims == MAP else numbers[:, 0])
 
 
-def _of_instrument(name, path, channel):
-    """A channel of a file by SurfaceTopography, its own choice where none is stated; None of a text."""
-    try:
-        with _silent():
-            from SurfaceTopography import open_topography
-            from SurfaceTopography.Exceptions import CannotDetectFileFormat
-    except ImportError as missing:
-        raise ValueError(
-            f"{name}: files other than {', '.join(sorted(ARRAYS | NETCDF | TEXTS))} are read by SurfaceTopography,"
-            ' which is not installed: pip install "mdr-bem-crosscheck[topography]"'
-        ) from missing
-    try:
-        with _silent(), open_topography(str(path)) as reader:
-            # Those of texts guess separators and units.
-            if type(reader).__module__.rpartition(".")[2] in ("Text", "XYZ"):
-                return None
-            return _of_channel(name, reader, channel)
-    except CannotDetectFileFormat as error:  # which lists every reader
-        raise ValueError(
-            f"{name} is of no format that SurfaceTopography knows, or damaged; a text is called .txt or .csv"
-        ) from error
-    # Readers of some forty formats raise nearly anything at a damaged file.
-    except Exception as error:
-        raise ValueError(f"{name} cannot be read by SurfaceTopography: {_first_line(error)}") from error
+def _of_instrument(name, path, dims, channel):
+    """A channel of a file by SurfaceTopography."""
+    with _reading(name, "by SurfaceTopography (mdr-bem-crosscheck[topography]); a text is called .txt or .csv"):
+        from SurfaceTopography import open_topography
+
+        with open_topography(str(path)) as reader:
+            kind = type(reader).__module__.rpartition(".")[2]
+            if kind in ("Text", "XYZ"):  # which guess separators and units
+                raise ValueError("it is a text")
+            names = [each.name for each in reader.channels]
+            return _of_channel(
+                name, reader.channels[names.index(picked(names, channel))], kind in ("Matlab", "H5")
+            )
 
 
-def _of_channel(name, reader, channel):
-    channels, wanted, notes = {}, reader.default_channel, ()
-    for number, each in enumerate(reader.channels, 1):
-        channels[each.name if each.name not in channels else f"{each.name} ({number})"] = each
-    if channel is not None:
-        wanted = channels[picked("it", channels, channel)]
-    elif len(channels) > 1:
-        notes = (f"{name}: its channel {wanted.name!r} is taken, of {brief(', '.join(map(repr, channels)))}",)
-    _check_count(wanted.nb_grid_pts)
-    stated = wanted.physical_sizes is not None
+def _of_channel(name, channel, matrix):
+    """matrix : whether rows are along y, as those of arrays; the first index of others is along x"""
+    _check_count(channel.nb_grid_pts)
+    stated = channel.physical_sizes is not None
     # A reader asks for the size that a file lacks; this one is taken off again.
-    found = wanted.topography(physical_sizes=None if stated else tuple(map(float, wanted.nb_grid_pts)))
+    found = channel.topography(physical_sizes=None if stated else tuple(map(float, channel.nb_grid_pts)))
     own = found.unit
     found = found if own is None else found.to_unit("m")
-    if found.dim != 2 or 0 in found.nb_grid_pts:
-        raise ValueError("it holds a line or nothing, and no map of heights")
-    # There the first index is along x, but of matrices, whose rows are along y as those of arrays.
     heights = np.ma.filled(np.ma.array(found.heights(), float), np.nan)
-    heights = heights if type(reader).__module__.rpartition(".")[2] in ("Matlab", "H5") else heights.T
+    heights = heights if matrix else heights.T
     if own is None or not stated:
-        return Heights(name, heights, own and "m", None, notes)
+        return Heights(name, heights, own and "m")
     pixel = tuple(float(side) / count for side, count in zip(found.physical_sizes, found.nb_grid_pts, strict=True))
-    return Heights(name, heights, "m", pixel, notes)
+    return Heights(name, heights, "m", pixel)
 
 
 def _check_count(shape):
     """Raise ValueError for more pixels than are read."""
     if prod(shape) > MOST_PIXELS:
-        raise ValueError(
-            f"{brief(' x '.join(map(str, reversed(shape))))} pixels: at most {MOST_PIXELS} are read; take a part "
-            "of them"
-        )
+        raise ValueError(f"{brief(str(tuple(shape)))} pixels: at most {MOST_PIXELS} are read; take a part of them")
 
 
 def _metres(name, unit):
-    """A unit of length [m]. Raises ValueError."""
+    """A unit of length [m], None of none. Raises ValueError."""
     try:
-        return float(in_unit(1.0, unit, "m"))
+        return None if unit is None else float(in_unit(1.0, unit, "m"))
     except (ValueError, AttributeError, TypeError) as error:
         raise ValueError(f'{name} = {brief(repr(unit))}: a unit of length is needed, as "um"; {error}') from None
 
 
 @contextmanager
-def _silent() -> Iterator[None]:
-    """Keep a reader from warning and printing."""
-    with warnings.catch_warnings(), redirect_stdout(StringIO()), redirect_stderr(StringIO()):
-        warnings.simplefilter("ignore")
-        yield
-
-
-def _first_line(error):
-    return brief(next(iter(str(error).strip().splitlines()), "") or type(error).__name__)
+def _reading(name: str, how: str) -> Iterator[None]:
+    """Keep a reader from warning and printing. Raises ValueError for whatever it raises of a damaged file."""
+    try:
+        with warnings.catch_warnings(), redirect_stdout(StringIO()), redirect_stderr(StringIO()):
+            warnings.simplefilter("ignore")
+            yield
+    except Exception as error:
+        why = next(iter(str(error).strip().splitlines()), "") or type(error).__name__
+        raise ValueError(f"{name} cannot be read {how}: {brief(why)}") from error

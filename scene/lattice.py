@@ -1,12 +1,10 @@
-"""Heights on even places: points x, y, z in any order, points along a line, arrays whose dimensions have names."""
+"""Heights on even places: points x, y, z in any order, and points along a line."""
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 
 from .printable import brief
-from .quantities import METRE
 
 OFF = 0.05  # of a spacing: how far a point may lie off its place
 _NOISE = 1e-7  # of the range of all places: closer ones are one
@@ -28,10 +26,7 @@ def mapped(x: np.ndarray, y: np.ndarray, z: np.ndarray, place: Place) -> tuple[n
     (columns, dx), (rows, dy) = _placed("x", x, place), _placed("y", y, place)
     shape = int(rows.max()) + 1, int(columns.max()) + 1
     if len(z) < _LEAST_FULL * shape[0] * shape[1]:
-        raise ValueError(
-            f"{len(z):,} points on {shape[1]:,} x {shape[0]:,} places of x and y are no map: a map has a height "
-            "at nearly every place of a lattice"
-        )
+        raise ValueError(f"{len(z):,} points on {shape[1]:,} x {shape[0]:,} places of x and y are no map")
     flat = rows * shape[1] + columns
     order = np.argsort(flat, kind="stable")
     if len(twice := order[1:][np.diff(flat[order]) == 0]):
@@ -54,31 +49,6 @@ def ordered(name: str, values: np.ndarray, place: Place) -> tuple[np.ndarray, fl
             "before it, and places of heights are evenly spaced: interpolate"
         )
     return order, step
-
-
-def along(heights: Any, dims: tuple[str, ...]) -> tuple[Any, dict[str, float]]:
-    """An array of xarray with its dimensions in an order, ascending; and the spacings [m] of its coordinates.
-
-    dims : as the dimensions have to be called; coordinates without a unit are in metres
-
-    Raises ValueError for other dimensions, and for coordinates that are not evenly spaced.
-    """
-    if sorted(map(str, heights.dims)) != sorted(dims):
-        raise ValueError(
-            f"heights have the dimensions ({brief(', '.join(map(str, heights.dims)))}): rename them to "
-            f"{' and '.join(dims)}"
-        )
-    heights, spacings = heights.transpose(*dims), {}
-    for name in dims:
-        if name not in getattr(heights, "coords", {}):
-            continue
-        try:
-            places = np.asarray(METRE.values(heights.coords[name]), float)
-        except ValueError as error:
-            raise ValueError(f"heights, coordinates of {name}: {error}") from None
-        order, spacings[name] = ordered(name, places, "heights, coordinate {}".format)
-        heights = heights.isel({name: order})
-    return heights, spacings
 
 
 def refuse_places(where: str, numbers: np.ndarray) -> None:

@@ -90,7 +90,7 @@ def _of_backslashes(error, text):
 def made(content: dict[str, Any], what: Any, path: str | Path):
     """Content of a file as `what`. Raises InvalidInput, naming the file, as `read` does."""
     adapter = validator(what)
-    with files.reading_once(path):
+    with files.paths_from(path):
         try:
             return adapter.validate_python(content)
         except ValidationError as error:

@@ -214,6 +214,11 @@ def _frame(name, lines, places, separator, width, stated):
         )
     frame = frame.drop(columns=width).map(str.strip)
     frame.index = pd.RangeIndex(body + 1, body + len(rows) + 1, name="line")
+    pointed = any("." in each for each in frame.to_numpy().flat)
+    if separator == "," and start == body and stated.decimal != "." and not pointed:
+        raise ValueError(
+            f"{name}: commas may stand between whole numbers or be those of decimals: state decimal, and separator"
+        )
     if stated.decimal is not None or separator not in "\t;":
         return frame, stated.decimal == ","
     numbers = [each for each in frame.to_numpy().flat if _NUMBER.fullmatch(each.replace(",", ".", 1))]

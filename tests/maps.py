@@ -1,10 +1,11 @@
 """Heights to measure: noise, and one period of a rough surface as an instrument might give it."""
 
 import numpy as np
+import pytest
 
 from bem3d.grid import Grid
 from bem3d.surface import RoughSurface
-from scene import Topography
+from scene import InvalidInput, Topography
 
 
 def noise(shape, seed=0):
@@ -22,3 +23,11 @@ def sampled(rough, points=128, piece=None, **other):
 def says(error):
     """What is said by an error that was raised, on one line."""
     return " ".join(str(error.value).split())
+
+
+def refused(message, part=Topography, **stated):
+    """A part of a scene is refused, in words that can be printed and read."""
+    with pytest.raises(InvalidInput, match=message) as error:
+        part(**stated)
+    assert says(error).isprintable()
+    assert len(says(error)) < 1000

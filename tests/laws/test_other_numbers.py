@@ -611,12 +611,14 @@ def test_a_quantity_of_heights_has_its_unit(quantity):
         ([[True, *row[1:]] for row in HEIGHTS.tolist()], "type bool"),
         ([[None, *row[1:]] for row in HEIGHTS.tolist()], "real numbers"),
         (HEIGHTS.astype("m8[s]"), "type timedelta64"),
-        (MAP.rename(x="lon"), r"dimensions \(y, lon\): rename them to y and x"),
+        (MAP.rename(x="lon"), r"dimensions of heights = \('y', 'lon'\)"),
         (MAP.assign_attrs(units="kg"), "unit of heights = 'kg': a unit of length is needed"),
         (MAP.assign_attrs(units="mmm"), "did you mean 'mm'"),
         (
-            LAID_OUT.assign_coords(x=np.arange(6)),
-            "the array states its own, 1 x 0.003 m: leave pixel out",
+            LAID_OUT.assign_coords(
+                {dim: (dim, np.arange(n), {"units": "m"}) for dim, n in LAID_OUT.sizes.items()}
+            ),
+            "heights states its own, 1 x 1 m: leave pixel out",
         ),
         (LAID_OUT.assign_coords(x=[0, 1, 2, 3, 4, 6]), "x = 6 is not one step from the one before it"),
     ],

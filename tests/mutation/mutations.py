@@ -64,11 +64,6 @@ EQUIVALENT = {
         "slope > STEEP",
         "(slope >= STEEP)",
     ): "the number is a round one of order",
-    (
-        "scene/heightfile.py",
-        "abs(metre - own) > 1e-9 * own",
-        "(abs(metre - own) >= 1e-09 * own)",
-    ): "the number is one of rounding",
     ("compare/statistics/eq23.py", "high < 0", "(high <= 0)"): "no interval ends at nil",
     ("mdr1d/maxwell.py", "slope < 0.0", "(slope <= 0.0)"): "above a level profile the surface was left before",
     (

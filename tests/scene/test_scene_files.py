@@ -3,7 +3,7 @@ import socket
 
 import pytest
 
-from scene.files import Unreadable, checked, content, once, reading_once
+from scene.files import Unreadable, checked, content
 
 MOST = 1_000_000
 
@@ -110,26 +110,3 @@ def test_a_file_that_has_nothing_to_give_now_is_as_it_was_found(tmp_path, monkey
     (tmp_path / "log").write_bytes(b"held")
     monkeypatch.setattr("builtins.open", Waiting)
     assert content(tmp_path / "log", MOST) == b"held"
-
-
-@pytest.mark.parametrize("found", [3.0, ValueError("it is damaged")])
-def test_a_file_beside_mistakes_is_read_once(found):
-    asked = []
-
-    def read(path):
-        asked.append(path)
-        if isinstance(found, ValueError):
-            raise found
-        return found
-
-    def made():
-        try:
-            return once(read, "a.csv")
-        except ValueError as error:
-            return error
-
-    with reading_once():
-        assert [made(), made()] == [found, found]
-    assert asked == ["a.csv"]
-    assert [made(), made()] == [found, found]
-    assert len(asked) == 3

@@ -6,9 +6,9 @@ from functools import cache
 from math import pi
 
 import numpy as np
-import pandas
 import pytest
 import xarray
+from maps import refused
 from pydantic import TypeAdapter
 
 import mdr1d
@@ -17,9 +17,8 @@ from bem3d.grid import Grid
 from bem3d.surface import RoughSurface
 from compare.trustmap.verdict import FITTED, trust
 from mdr1d import MDR
-from scene import InvalidInput, Kelvin, Profile, Refused, Scene, SelfAffine, Slide, Sphere, linescan
+from scene import Kelvin, Profile, Refused, Scene, SelfAffine, Slide, Sphere, linescan
 from scene.periodogram import bins_of, taken_off
-from scene.reading import read
 from scene.roughness import Roughness
 from scene.waves import MOST_WAVES
 
@@ -225,6 +224,7 @@ def test_a_line_with_more_waves_than_fit_is_refused_with_what_to_state():
     assert not any("fit in memory" in reason for reason in BEM(points=64).refusals(scene))
 
 
+THIRD = np.arange(512) == 3
 REGULAR = np.sin(2 * pi * np.arange(512) / 16.3)
 
 
@@ -233,54 +233,57 @@ REGULAR = np.sin(2 * pi * np.arange(512) / 16.3)
     [
         ("type = .wave", {"heights": REGULAR}),
         ("20 points", {"heights": HEIGHTS[:20]}),
-        (
-            "heights.3. = inf: 1 of 512 heights .0.195 %. missing",
-            {"heights": np.where(np.arange(512) == 3, np.inf, HEIGHTS)},
-        ),
-        (
-            "heights.3. = nan: 1 of 512 .*missing = .fill. fills them in",
-            {"heights": np.where(np.arange(512) == 3, np.nan, HEIGHTS)},
-        ),
-        ("1 of 512 heights .0.195 %. are -9999 m", {"heights": np.where(np.arange(512) == 3, -9999.0, HEIGHTS)}),
-        ("at most 5 %", {"heights": np.where(np.arange(512) < 30, np.nan, HEIGHTS), "missing": "fill"}),
+        ("heights.3. = inf: 1 of 512 heights .0.195 %. missing", {"heights": np.where(THIRD, np.inf, HEIGHTS)}),
+        ("1 of 512 .*missing = .fill. fills them in", {"heights": np.where(THIRD, np.nan, HEIGHTS)}),
+        ("1 of 512 heights .0.195 %. are -9999 m", {"heights": np.where(THIRD, -9999.0, HEIGHTS)}),
         ("bool", {"heights": [True] * 100}),
         ("periodic", {"repeat": "periodic", "level": "tilt"}),
         ("shortest_kept = 1e-06", {"shortest_kept": 1e-6}),
-        ("shape", {"heights": np.ones((8, 8))}),
-        ("refuse. or .fill", {"missing": "interpolate"}),
-        ("heights are both stated", {"file": "line.csv"}),
         ("roll-off", {"shortest_kept": 5e-4}),
-        ("leave spacing out", {"heights": {"x [um]": 2e6 * SPACING * np.arange(512), "z [m]": HEIGHTS}}),
-        ("off by more than", {"heights": {"x [m]": np.arange(512.0) ** 1.1, "z [m]": HEIGHTS}, "spacing": None}),
+        ("shape", {"heights": np.ones((8, 8))}),
+        ("one row of heights", {"heights": HEIGHTS[None]}),
+        ("dimensions of heights = ", {"heights": xarray.DataArray(np.ones((8, 8)), dims=("y", "x"))}),
         ("column .z. has no unit.*state units = .z", {"heights": {"z": HEIGHTS}}),
-        (
-            "one step from",
-            {"heights": {"x [m]": np.delete(np.arange(513.0), 9), "z [m]": HEIGHTS}, "spacing": None},
-        ),
-        ("no column x: state columns", {"heights": {"z [um]": HEIGHTS}, "spacing": None}),
-        ("1 row|one row of heights", {"heights": HEIGHTS[None]}),
-        ("have the dimensions", {"heights": xarray.DataArray(np.ones((8, 8)), dims=("y", "x"))}),
     ],
 )
 def test_what_is_no_line_is_refused_with_the_reason(message, stated):
-    content = {"heights": HEIGHTS, "spacing": SPACING} | stated
-    with pytest.raises(InvalidInput, match=message):
-        Profile(**{name: value for name, value in content.items() if value is not None})
+    refused(message, Profile, **{"heights": HEIGHTS, "spacing": SPACING} | stated)
 
 
-@pytest.mark.parametrize(
-    "heights",
-    [
-        pandas.DataFrame({"Distance [mm]": 1e3 * SPACING * np.arange(512), "Height [nm]": 1e9 * HEIGHTS}),
-        xarray.DataArray(HEIGHTS, {"x": SPACING * np.arange(512)}, "x"),
-        xarray.Dataset(
-            {"z": ("x", HEIGHTS, {"units": "m"})}, {"x": ("x", SPACING * np.arange(512), {"units": "m"})}
-        ),
-        {"z [um]": HEIGHTS[::-1] * 1e6, "x [um]": 1e6 * SPACING * np.arange(512)[::-1]},
-    ],
-)
-def test_tables_and_labelled_arrays_have_places_of_their_own(heights):
-    profile = Profile(heights=heights)
+def labelled():
+    """Heights in nm at places in mm."""
+    return xarray.DataArray(
+        1e9 * HEIGHTS,
+        {"x": ("x", 1e3 * SPACING * np.arange(512), {"units": "mm"})},
+        "x",
+        name="z",
+        attrs={"units": "nm"},
+    )
+
+
+def saved(write, name):
+    def given(folder):
+        write(folder / name)
+        return {"file": folder / name}
+
+    return given
+
+
+GIVEN = {
+    "pandas": lambda _: {"heights": labelled().to_series().rename("z [nm]").rename_axis("x [mm]").reset_index()},
+    "xarray": lambda _: {"heights": labelled()},
+    "a Dataset": lambda _: {"heights": labelled().to_dataset()},
+    "arrays, falling": lambda _: {
+        "heights": {"z [um]": HEIGHTS[::-1] * 1e6, "x [um]": 1e6 * SPACING * np.arange(512)[::-1]}
+    },
+    "NetCDF": saved(lambda path: labelled().to_netcdf(path), "line.nc"),
+    "npy": lambda folder: saved(lambda path: np.save(path, 1e6 * HEIGHTS), "line.npy")(folder) | UM,
+}
+
+
+@pytest.mark.parametrize("kind", GIVEN)
+def test_a_line_is_the_same_in_every_array_and_library(tmp_path, kind):
+    profile = Profile(**GIVEN[kind](tmp_path))
     assert profile.spacing == pytest.approx(SPACING, rel=1e-9)
     assert profile.heights.heights == pytest.approx(HEIGHTS, rel=1e-12)
 
@@ -312,22 +315,18 @@ def test_a_line_is_the_same_in_every_text_that_is_read(tmp_path, content, stated
     assert profile.spacing == pytest.approx(SPACING, rel=1e-6)
     assert profile.heights.heights == pytest.approx(HEIGHTS, abs=1e-14)
     if "unit" not in stated:
-        for again, said in (
-            ({"spacing": "2.1 um"}, "leave spacing out"),
-            ({"unit": "nm"}, "must agree|state one of them"),
-        ):
-            with pytest.raises(InvalidInput, match=said):
-                Profile(file=tmp_path / "line.csv", **stated | again)
+        refused("leave spacing out", Profile, file=tmp_path / "line.csv", **stated, spacing="2.1 um")
+        refused("must agree|state one of", Profile, file=tmp_path / "line.csv", **stated, unit="nm")
 
 
 @pytest.mark.parametrize(
     ("content", "stated", "message"),
     [
-        (column(places=False), {"spacing": SPACING}, "does not state the unit of its heights: state unit"),
-        ("# heights in um\n" + column(places=False), {}, "the unit of its heights nor the spacing"),
-        (column(places=False), {"unit": "um"}, "does not state the spacing: state spacing"),
-        (column(), UM, "2 columns of numbers, and a line has one; of points state columns = {x = 1, z = 2}"),
-        ("x;z\n" + column(), {"unit": "um"}, "column 'x' has no unit in the heading: state units = {x"),
+        ("# heights in um\n" + column(places=False), {}, "line.txt does not state its unit"),
+        (column(places=False), {"unit": "um"}, "does not state its spacing: state it, as spacing ="),
+        ("z [um]\n" + column(places=False), {}, "does not state its spacing"),
+        (column(), UM, "2 columns of numbers alone: of points state columns = {x = 1, z = 2}"),
+        ("x;z\n" + column(), {"unit": "um"}, "line.txt: column 'x' has no unit in the heading: state units = {x"),
         ("x [mm];y1 [um]\n" + column(), {}, "there is no column z .*state its heading, as columns = {z"),
         ("x [mm];z [um]\n" + column().replace("0.004000", "0.0042", 1), {}, "line 4: x = 4.2e-06 is off by more"),
         ("x [mm];z [um]\n" + column() + "0;1\n", {}, "x = 0 is not one step from the one before"),
@@ -335,44 +334,21 @@ def test_a_line_is_the_same_in_every_text_that_is_read(tmp_path, content, stated
 )
 def test_a_text_that_is_no_line_is_refused_with_what_to_state(tmp_path, content, stated, message):
     (tmp_path / "line.txt").write_text(content)
-    with pytest.raises(InvalidInput, match=message) as error:
-        Profile(file=tmp_path / "line.txt", **stated)
-    assert "line.txt" in str(error.value)
+    refused(message, Profile, file=tmp_path / "line.txt", **stated)
 
 
-def test_an_array_is_one_row_of_heights(tmp_path):
-    np.save(tmp_path / "line.npy", HEIGHTS * 1e9)
-    assert Profile(file=tmp_path / "line.npy", unit="nm", spacing="2 um").heights.heights == pytest.approx(HEIGHTS)
-    with pytest.raises(InvalidInput, match="the unit of its heights nor the spacing"):
-        Profile(file=tmp_path / "line.npy")
+def test_an_array_of_a_map_is_no_line(tmp_path):
     np.save(tmp_path / "map.npy", HEIGHTS.reshape(16, 32))
-    with pytest.raises(InvalidInput, match=r"shape \(16, 32\): a line is one row of heights"):
-        Profile(file=tmp_path / "map.npy", unit="m", spacing="2 um")
-    line = xarray.DataArray(HEIGHTS * 1e6, {"x": 1e6 * SPACING * np.arange(512)}, "x", attrs={"units": "um"})
-    line.x.attrs["units"] = "um"
-    line.to_dataset(name="z").to_netcdf(tmp_path / "line.nc")
-    assert Profile(file=tmp_path / "line.nc").spacing == pytest.approx(SPACING)
+    refused(r"shape \(16, 32\): a line is one row of heights", Profile, file=tmp_path / "map.npy", **UM)
 
 
 def test_missing_heights_are_filled_in_on_straight_lines_when_asked(tmp_path):
-    path = tmp_path / "line.csv"
-    cells = ["" if k in (100, 101) else f"{1e6 * z:.9f}" for k, z in enumerate(HEIGHTS)]
-    path.write_text("x [um];z [um]\n" + "\n".join(f"{2 * k};{cell}" for k, cell in enumerate(cells)))
+    path, rows = tmp_path / "line.csv", column().splitlines()
+    rows[100:102] = ["0.200000;", "0.202000;nan"]
+    path.write_text("\n".join(["x [mm];z [um]", *rows]))
     profile = Profile(file=path, missing="fill")
-    known = np.interp([100, 101], [99, 102], HEIGHTS[[99, 102]])
-    assert profile.heights.heights[100:102] == pytest.approx(known, abs=1e-14)
+    assert profile.heights.heights[99:103] == pytest.approx(np.linspace(*HEIGHTS[[99, 102]], 4), abs=1e-14)
     assert "2 of 512 heights (0.391 %) were missing" in profile.notes[0]
-
-
-def test_a_scene_file_with_a_line_is_read(tmp_path):
-    (tmp_path / "line.csv").write_text(TEXTS[0][0], encoding="utf-8")
-    scene = tmp_path / "scene.toml"
-    text = (
-        '[indenter]\ntype = "sphere"\nradius = 0.01\n[elastomer]\ntype = "elastic"\nmodulus = 1e6\n[motion]\n'
-        f'type = "indent"\nload = 1\n[roughness]\ntype = "profile"\nfile = "{tmp_path}/line.csv"\n'
-    )
-    scene.write_text(text)
-    assert read(scene, Scene).roughness.fitted == Profile(file=tmp_path / "line.csv").fitted
 
 
 def test_a_line_is_compared_stored_and_sent_by_its_digest():

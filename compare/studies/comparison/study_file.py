@@ -264,7 +264,7 @@ def study_of(text: str, name: str) -> ReadyStudy:
 
     name : of the file, for mistakes
     """
-    with files.reading_once(name):
+    with files.paths_from(name):
         return _study_of(parsed(text, name), name)
 
 

@@ -11,7 +11,6 @@ import numpy as np
 import xarray
 
 from scene import Topography
-from scene.files import reading_once
 from scene.printable import printable
 from scene.quantities import METRE, argument
 from scene.reading import InvalidInput
@@ -124,12 +123,10 @@ class Map(Study):
         """Sizes, slopes and spectra. Raises InvalidInput."""
         path = isinstance(self.given, str | Path)
         content: dict[str, Any] = {"file" if path else "heights": self.given, **self.stated}
-        # Once: what is looked at for mistakes is read again for each.
-        with reading_once():
-            try:
-                return describe(Topography(**content))
-            except ValueError as error:
-                lines = [each.removeprefix("Topography: ") for each in str(error).splitlines()]
+        try:
+            return describe(Topography(**content))
+        except ValueError as error:
+            lines = [each.removeprefix("Topography: ") for each in str(error).splitlines()]
         named = (each if str(self.given) in each or not path else f"{self.given}: {each}" for each in lines)
         raise InvalidInput("\n".join(named))
 
