@@ -224,11 +224,7 @@ def _forces(
     own = points[points["curve"].isin([*bodies]) & (pressed_in | (points["speed"] == 0))]
     if own.empty:
         return None
-    own = (
-        _known(own)
-        .assign(body=own["curve"].map(bodies))
-        .rename(columns={"speed": "rate"} if pressed_in else {})
-    )
+    own = _known(own).assign(body=own["curve"].map(bodies)).rename(columns={"speed": "rate"} if pressed_in else {})
     prescribed = series.curves[next(iter(own["curve"]))].prescribed
     name = {"load": "depth_reached", "depth": "normal_force"}[prescribed]
     if isinstance(series, RoughSeries):
