@@ -8,11 +8,11 @@ from pathlib import Path
 from scene import Indent, Measured, Plane, Profile, Program, Scene, Slide
 from scene.costs import at_tolerance, expected, not_known
 from scene.indenter import Axisymmetric
-from scene.isotropic import Isotropic
 from scene.plan import PIECE, Kernel, Modes, Plan, by, left_out
 from scene.scales import elastic_contact
+from scene.solids.viscoelastic import Linear
+from scene.surfaces.isotropic import Isotropic
 from scene.terms import terms_of
-from scene.viscoelastic import Linear
 
 from . import window
 from .convolution import free_size

@@ -15,11 +15,11 @@ from scene import (
     Topography,
     Wave,
 )
+from scene.effects.temperature import TemperatureLaw
 from scene.indenter import Axisymmetric
-from scene.isotropic import Isotropic
-from scene.temperature import TemperatureLaw
+from scene.solids.viscoelastic import Linear
+from scene.surfaces.isotropic import Isotropic
 from scene.terms import Table
-from scene.viscoelastic import Linear
 
 from .heating import HeatedContact
 from .layer import LayerTerm

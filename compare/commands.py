@@ -125,8 +125,8 @@ def solve(
     executor : object with `submit`, as those of concurrent.futures; it gets as many contacts at once as `workers`
     progress : whether the terminal shows how far it is
     """
+    from scene.files.reading import InvalidInput
     from scene.printable import brief
-    from scene.reading import InvalidInput
 
     from .studies import pipeline
     from .studies.study import Study

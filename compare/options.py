@@ -65,7 +65,7 @@ def number(given: str | float) -> float:
 
 def by_name(**options: "Named | None") -> dict[str, Mapping[str, Any] | None]:
     """Options with their values by name, of texts as mu=3 on the command line. Raises InvalidInput."""
-    from scene.reading import InvalidInput
+    from scene.files.reading import InvalidInput
 
     found: dict[str, Mapping[str, Any] | None] = {}
     for option, given in options.items():

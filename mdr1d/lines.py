@@ -1,9 +1,9 @@
 """The rough line of a scene, by whatever its roughness is."""
 
 from scene import Profile, Topography
-from scene.isotropic import Isotropic
 from scene.quantities import WHOLE, takes
-from scene.roughness import Roughness
+from scene.surfaces.isotropic import Isotropic
+from scene.surfaces.roughness import Roughness
 
 from . import measuredline, surface, topography
 from .surface import Spectrum, Surface

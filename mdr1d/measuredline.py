@@ -1,7 +1,7 @@
 """Rough lines by a measured one: drawn from the surface that is fitted to it, or the line itself."""
 
 from scene import Profile
-from scene.parts import said
+from scene.files.parts import said
 
 from .surface import Surface, band_of, through
 from .term import Term

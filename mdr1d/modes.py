@@ -10,8 +10,8 @@ from functools import lru_cache
 
 import numpy as np
 
-from scene.interconversion import distances
-from scene.viscoelastic import Linear
+from scene.solids.interconversion import distances
+from scene.solids.viscoelastic import Linear
 
 
 @dataclass(frozen=True, eq=False)

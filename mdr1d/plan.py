@@ -6,10 +6,10 @@ from pathlib import Path
 from scene import Indent, Profile, Program, Scene, Slide
 from scene.costs import expected
 from scene.indenter import Axisymmetric
-from scene.isotropic import Isotropic
 from scene.plan import PIECE, Modes, Plan, left_out
+from scene.solids.viscoelastic import Linear
+from scene.surfaces.isotropic import Isotropic
 from scene.terms import terms_of
-from scene.viscoelastic import Linear
 
 from .modes import modes_of
 from .surface import nodes_needed

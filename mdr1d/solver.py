@@ -15,7 +15,7 @@ from scene.machine import shortage
 from scene.plan import Plan
 from scene.protocol import refuse, trusted
 from scene.quantities import CLOSED, Length, Whole
-from scene.roughness import Roughness
+from scene.surfaces.roughness import Roughness
 from scene.terms import Table, surrounded, terms_of
 
 from .accuracy import friction_error

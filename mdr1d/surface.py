@@ -10,9 +10,9 @@ import numpy as np
 from scipy.fft import irfft
 
 from scene import Profile, Topography
-from scene.isotropic import Isotropic, seeded
 from scene.quantities import BARE, takes
-from scene.roughness import Roughness
+from scene.surfaces.isotropic import Isotropic, seeded
+from scene.surfaces.roughness import Roughness
 
 # Spectrum of a line: C_1D = pi q C_2D, or that of a line scan of the surface.
 Spectrum = Literal["mapped", "line-scan"]

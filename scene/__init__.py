@@ -1,30 +1,30 @@
 """The shared vocabulary: what is asked of a contact, what is answered, and nothing of how."""
 
 from .doubt import Doubt, Doubtful, doubts, notes
-from .fractional import Fractional
-from .heating import Heating
+from .effects.heating import Heating
+from .effects.interface import Coulomb
+from .effects.layer import Layer
+from .effects.temperature import WLF, Arrhenius, ShiftFactors
+from .files.reading import InvalidInput
 from .indenter import Cone, Cylinder, Plane, PowerLaw, Sphere
-from .interface import Coulomb
-from .layer import Layer
-from .measured import Measured
-from .moduli import read_table
 from .motion import Indent, Program, Shear, Slide, Stage
 from .plan import Plan
-from .profile import Profile
 from .protocol import EmptyContact, OutOfMemory, Refused, SolveError, Solver
-from .reading import InvalidInput
 from .regime import Regime
 from .result import Result
-from .rheology import Elastic, Kelvin, KelvinChain, Prony, StandardLinearSolid
-from .roughness import CrossedWaves, Wave
 from .scene import Scene
-from .selfaffine import SelfAffine
 from .signatures import make_readable
-from .spectrum import Spectrum
-from .table import CreepTable, RelaxationTable, Table
-from .tabulated import Tabulated
-from .temperature import WLF, Arrhenius, ShiftFactors
-from .topography import Topography
+from .solids.fractional import Fractional
+from .solids.moduli import read_table
+from .solids.rheology import Elastic, Kelvin, KelvinChain, Prony, StandardLinearSolid
+from .solids.table import CreepTable, RelaxationTable, Table
+from .solids.tabulated import Tabulated
+from .surfaces.measured import Measured
+from .surfaces.profile import Profile
+from .surfaces.roughness import CrossedWaves, Wave
+from .surfaces.selfaffine import SelfAffine
+from .surfaces.spectrum import Spectrum
+from .surfaces.topography import Topography
 
 __all__ = [
     "WLF",

@@ -10,11 +10,11 @@ from typing import Any
 
 import numpy as np
 
-from .extrapolation import REACH
+from .effects.temperature import COLDEST
 from .magnitudes import WITHIN, Magnitudes
 from .motion import Slide
 from .scene import Scene
-from .temperature import COLDEST
+from .solids.extrapolation import REACH
 
 SMALL_SLOPE = 0.3  # up to which a linear theory of contact is taken at its word
 LINEAR_SLOPE = 1.0  # beyond which nothing of it is left

@@ -7,8 +7,8 @@ import numpy as np
 from pydantic import Field
 from pydantic.dataclasses import dataclass
 
-from .measured import Measured
 from .quantities import CLOSED, METRE, Angle, Finite, Length, Positive, Unit, takes
+from .surfaces.measured import Measured
 
 
 class Axisymmetric:

@@ -6,17 +6,17 @@ from math import inf, isfinite, log10, nan, pi, sqrt
 
 import numpy as np
 
-from .extrapolation import REACH
 from .indenter import Cylinder, Plane
-from .isotropic import Isotropic
-from .measured import Measured
 from .motion import Program, Slide
-from .profile import Profile
-from .roughness import CrossedWaves
 from .scales import ElasticContact, elastic_contact
 from .scene import Scene
-from .tabulated import Tabulated
-from .topography import Topography
+from .solids.extrapolation import REACH
+from .solids.tabulated import Tabulated
+from .surfaces.isotropic import Isotropic
+from .surfaces.measured import Measured
+from .surfaces.profile import Profile
+from .surfaces.roughness import CrossedWaves
+from .surfaces.topography import Topography
 
 DENSITY = 1000.0  # [kg/m^3] of an elastomer, for the speed of its waves
 DECADES = 1.0  # of frequency to either side of what a contact sees

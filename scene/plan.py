@@ -8,8 +8,8 @@ from .costs import Expected
 from .doubt import Doubt
 from .markup import table
 from .motion import Program
-from .scanned import Scanned
 from .scene import Scene
+from .surfaces.scanned import Scanned
 
 WIDTH = 36  # of the first column of a plan, at least
 PIECE = 27  # words that Python needs for each array that is kept apart, and its time

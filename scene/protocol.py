@@ -6,8 +6,8 @@ from typing import Any, ClassVar, Protocol
 
 import numpy as np
 
+from .files.reading import InvalidInput
 from .printable import brief
-from .reading import InvalidInput
 from .result import Result
 from .scene import Scene
 

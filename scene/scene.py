@@ -6,19 +6,19 @@ from typing import Any
 from pydantic import model_validator
 from pydantic.dataclasses import dataclass
 
-from .heating import Heating
+from .effects.heating import Heating
+from .effects.interface import Coulomb
+from .effects.layer import Layer
+from .effects.temperature import Shifted, Temperature
+from .files.parts import rows
 from .indenter import Indenter, Plane
-from .interface import Coulomb
-from .layer import Layer
 from .markup import plain_table, table
-from .measured import Measured
 from .motion import UNITS, Motion, Shear
-from .parts import rows
 from .quantities import CLOSED
-from .rheology import Elastomer
-from .roughness import Roughness
-from .temperature import Shifted, Temperature
-from .viscoelastic import Linear
+from .solids.rheology import Elastomer
+from .solids.viscoelastic import Linear
+from .surfaces.measured import Measured
+from .surfaces.roughness import Roughness
 
 
 def fit_together(parts):

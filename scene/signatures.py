@@ -14,8 +14,8 @@ from pydantic import ValidationError
 from pydantic.dataclasses import is_pydantic_dataclass
 
 from . import quantities
-from .mistakes import mistakes
-from .reading import invalid, validator
+from .files.mistakes import mistakes
+from .files.reading import invalid, validator
 
 _T = TypeVar("_T", bound=Callable)
 

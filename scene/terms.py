@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from .parts import said
+from .files.parts import said
 from .plan import Plan
 from .result import Result
 from .scene import Scene

@@ -30,7 +30,7 @@ from scene import (
     Sphere,
     StandardLinearSolid,
 )
-from scene.heightmap import HeightMap
+from scene.surfaces.heightmap import HeightMap
 
 # Three-dimensional solves make an example slow, and no example says less for it.
 _SLOW = {"deadline": None, "database": None, "suppress_health_check": [HealthCheck.too_slow]}

@@ -26,7 +26,7 @@ PLAIN |= dict(zip("αβγδεηθλμνξπρστφωΔ", GREEK.split(), strict=
 def say(text: str, error: bool = False) -> None:
     """Print a text, with nothing in it that controls a terminal."""
     if not all(map(str.isprintable, text.split("\n"))):
-        from scene.printable import printable  # slow, and few texts need it
+        from scene.printable import printable
 
         text = printable(text)
     print(text, file=sys.stderr if error else sys.stdout, flush=True)
@@ -74,7 +74,7 @@ def said_to_people(output: str, solves: bool) -> Iterator[None]:
         raise typer.Exit(INTERRUPTED) from interrupt
     except (ValueError, LookupError, RuntimeError) as error:
         from scene import Refused, SolveError
-        from scene.reading import InvalidInput
+        from scene.files.reading import InvalidInput
 
         if not isinstance(error, InvalidInput | Refused | SolveError):
             raise

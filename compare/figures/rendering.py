@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from matplotlib import rcParams
 from matplotlib.figure import Figure
 
-from scene.reading import InvalidInput
+from scene.files.reading import InvalidInput
 
 from . import style
 from .plot import Plot

@@ -13,18 +13,18 @@ from bem3d import BEM
 from mdr1d import MDR
 from scene import Coulomb, Doubt, Heating, Layer, Refused, Scene, Slide, plain
 from scene.doubt import unseen
+from scene.effects.temperature import Temperature
+from scene.files.reading import InvalidInput
 from scene.indenter import Indenter
 from scene.motion import Motion
 from scene.printable import brief
 from scene.protocol import trusted
 from scene.quantities import CLOSED, ROW, Positive, Speed, Whole
-from scene.reading import InvalidInput
-from scene.rheology import Elastomer
-from scene.roughness import Roughness
 from scene.scales import elastic_contact
 from scene.scene import fit_together
 from scene.signatures import readable
-from scene.temperature import Temperature
+from scene.solids.rheology import Elastomer
+from scene.surfaces.roughness import Roughness
 from scene.terms import terms_of
 
 from ..solving.cost import MOST_DRAWS, MOST_VALUES

@@ -8,12 +8,12 @@ from math import degrees
 from typing import Any
 
 from scene import Program, Shear, Slide
+from scene.files.parts import FEW
+from scene.files.reading import InvalidInput
 from scene.motion import PRESSES
-from scene.parts import FEW
 from scene.plan import by
 from scene.printable import brief
 from scene.quantities import unit_of
-from scene.reading import InvalidInput
 
 # Units that take prefixes: 10 mm for 0.01 m.
 PREFIXED = ("m", "Pa", "s", "N", "N/m", "Hz")

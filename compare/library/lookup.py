@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from scene import Scene
-from scene.files import Unreadable, checked
+from scene.files.files import Unreadable, checked
+from scene.files.reading import MOST, InvalidInput, parsed, read, text_of
 from scene.printable import brief, printable
-from scene.reading import MOST, InvalidInput, parsed, read, text_of
 
 from ..solving.suggest import suggestion
 from .case import Case

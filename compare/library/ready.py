@@ -140,8 +140,8 @@ def write(name: str, path: str | Path, schema: str | Path | None = None) -> Path
         with path.open("x", encoding="utf-8", newline="\n") as file:
             file.write((f"#:schema {schema}\n" if schema is not None else "") + text)
     except FileExistsError as error:
-        from scene.printable import brief  # slow, and only a mistake needs it
-        from scene.reading import InvalidInput
+        from scene.files.reading import InvalidInput
+        from scene.printable import brief
 
         raise InvalidInput(
             f"{brief(str(path))}: is there already, and nothing is overwritten: name another FILE"

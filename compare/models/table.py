@@ -13,9 +13,9 @@ from typing import Any, Literal, TypeAlias, cast, get_args
 from bem3d import BEM
 from mdr1d import MDR
 from scene import Solver
+from scene.files.reading import InvalidInput, whole
 from scene.printable import brief
 from scene.quantities import MOST_WHOLE
-from scene.reading import InvalidInput, whole
 
 from ..solving.suggest import suggestion
 

@@ -7,9 +7,9 @@ from pathlib import Path
 import pandas
 from pandas import DataFrame, RangeIndex, Series
 
-from scene.files import Unreadable, content
+from scene.files.files import Unreadable, content
+from scene.files.reading import InvalidInput
 from scene.printable import brief
-from scene.reading import InvalidInput
 
 MOST_BYTES = 2**28  # of a table that is read; those of a page have some megabytes
 

@@ -13,8 +13,8 @@ from matplotlib.figure import Figure
 from pandas import DataFrame
 from pydantic import ConfigDict, ValidationError, validate_call
 
+from scene.files.reading import InvalidInput
 from scene.printable import brief
-from scene.reading import InvalidInput
 
 from ..figures import style as looks
 from ..figures.journals import COLUMNS

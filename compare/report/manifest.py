@@ -13,8 +13,8 @@ from pydantic import AfterValidator, ConfigDict
 from pydantic.dataclasses import dataclass
 from pydantic_core import to_json
 
+from scene.files.reading import InvalidInput
 from scene.printable import brief
-from scene.reading import InvalidInput
 
 from ..figures.plot import Plot
 from ..solving.digest import PACKAGES

@@ -18,7 +18,7 @@ from bem3d.surface import RoughSurface
 from mdr1d import MDR
 from mdr1d.surface import LineFamily, amplitudes
 from scene import Plane, Program, Refused, Scene, SolveError, Solver
-from scene.isotropic import Isotropic
+from scene.surfaces.isotropic import Isotropic
 
 VARIATES = "control_variates"  # name in a Dataset
 EACH = 4  # surfaces for each variate at least: what a regression leaves of few surfaces is known roughly

@@ -16,7 +16,7 @@ from multiprocessing.connection import wait
 from typing import Any, Self
 
 from scene import Refused
-from scene.reading import whole
+from scene.files.reading import whole
 
 from .digest import code_of
 from .outcome import Outcome

@@ -13,9 +13,9 @@ from typing import IO, Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
-from scene.files import Unreadable, content
+from scene.files.files import Unreadable, content
+from scene.files.reading import InvalidInput
 from scene.printable import brief
-from scene.reading import InvalidInput
 
 LOCK = ".crosscheck-lock"  # an empty file, which stays: one that is removed could be locked twice
 PART = ".crosscheck-*.part"  # names of files that are being written

@@ -8,9 +8,9 @@ from typing import Any
 
 import xarray
 
-from scene.files import Unreadable, content
+from scene.files.files import Unreadable, content
+from scene.files.reading import InvalidInput
 from scene.printable import brief
-from scene.reading import InvalidInput
 from scene.result import source
 
 from .folders import FORMAT, MANIFEST, Stated, read, refuse_other

@@ -12,9 +12,9 @@ from pathlib import Path
 import numpy as np
 from pydantic import TypeAdapter
 
-from scene import files
+from scene.files import files
+from scene.files.reading import InvalidInput
 from scene.printable import brief
-from scene.reading import InvalidInput
 
 from .digest import DIGEST, digest, key
 from .folders import clear, code_of, connect, held_by_another, make, touch

@@ -32,8 +32,8 @@ def known(option: str, given: str, names: Collection[str], otherwise: str = "") 
 
 
 def _mistake(name: str, given: str, allowed: str) -> ValueError:
-    from scene.printable import brief  # slow, and only a mistake needs it
-    from scene.reading import InvalidInput
+    from scene.files.reading import InvalidInput
+    from scene.printable import brief
 
     return InvalidInput(f"{name} = {brief(given)}: {allowed}")
 

@@ -9,9 +9,9 @@ from pathlib import Path
 from time import monotonic
 
 from scene import SolveError
+from scene.files.reading import InvalidInput
 from scene.printable import brief
 from scene.quantities import SECOND
-from scene.reading import InvalidInput
 
 from ..figures.plot import Plot
 from ..figures.rendering import FORMS

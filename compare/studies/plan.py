@@ -12,10 +12,10 @@ from bem3d import BEM
 from mdr1d import MDR
 from scene import Refused, Scene, SolveError, markup, notes
 from scene.costs import two_digits
+from scene.files.reading import InvalidInput
 from scene.plan import Plan, size
 from scene.printable import brief
 from scene.protocol import foresee, trusted
-from scene.reading import InvalidInput
 
 from ..library.case import Case, NotCompared, doubted
 from ..library.lookup import SceneLike, case_of

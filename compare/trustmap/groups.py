@@ -8,8 +8,8 @@ import numpy as np
 from bem3d import BEM
 from mdr1d import MDR
 from scene import Scene, Topography
-from scene.isotropic import Isotropic
 from scene.scales import elastic_contact
+from scene.surfaces.isotropic import Isotropic
 
 from ..models.exact.full_contact import complex_stiffness
 from ..models.law import bands as surface

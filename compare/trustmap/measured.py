@@ -8,7 +8,7 @@ from math import exp, inf
 import numpy as np
 
 from scene import Cone, Indent, PowerLaw, Profile, Scene, Slide, SolveError, Sphere, Topography
-from scene.isotropic import Isotropic
+from scene.surfaces.isotropic import Isotropic
 
 from ..models.law.parts import LawParts
 from . import shipped, table

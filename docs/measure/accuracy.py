@@ -15,18 +15,7 @@ from bem3d import BEM
 from compare.models.exact import indentation
 from compare.models.exact.foundation import sliding_forces
 from mdr1d import MDR
-from scene import (
-    Cone,
-    Elastic,
-    Indent,
-    Kelvin,
-    Program,
-    Scene,
-    Slide,
-    Sphere,
-    Stage,
-    StandardLinearSolid,
-)
+from scene import Cone, Elastic, Indent, Kelvin, Program, Scene, Slide, Sphere, Stage, StandardLinearSolid
 
 PAGE = Path(__file__).parents[1] / "results" / "accuracy.md"
 G, R, THETA, TAU, DEPTH = 1e6, 10e-3, radians(10), 1e-3, 1e-4

@@ -20,18 +20,7 @@ from tables import table, write
 from timing import alone, pair
 
 from bem3d import BEM
-from scene import (
-    Elastic,
-    Indent,
-    Kelvin,
-    Plane,
-    Refused,
-    Scene,
-    SelfAffine,
-    Slide,
-    SolveError,
-    Sphere,
-)
+from scene import Elastic, Indent, Kelvin, Plane, Refused, Scene, SelfAffine, Slide, SolveError, Sphere
 
 PAGE = Path(__file__).parents[1] / "results" / "benchmark.md"
 GRIDS = 256, 512, 1024, 2048  # points a side

@@ -26,9 +26,9 @@ from scene import (
     StandardLinearSolid,
     Topography,
 )
-from scene.rheology import Elastomer
-from scene.roughness import Roughness
 from scene.scales import elastic_contact
+from scene.solids.rheology import Elastomer
+from scene.surfaces.roughness import Roughness
 
 RADIUS, DEPTH, MODULUS, SPEED = 1e-3, 1e-4, 1e6, 1.0
 # Ranges of the groups, from least to greatest.

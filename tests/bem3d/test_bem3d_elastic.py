@@ -6,16 +6,7 @@ import numpy as np
 import pytest
 
 from bem3d import BEM
-from scene import (
-    Cone,
-    Elastic,
-    EmptyContact,
-    Indent,
-    PowerLaw,
-    Scene,
-    SolveError,
-    Sphere,
-)
+from scene import Cone, Elastic, EmptyContact, Indent, PowerLaw, Scene, SolveError, Sphere
 
 G, R, THETA = 1e6, 10e-3, np.radians(10)
 E_STAR = 4 * G

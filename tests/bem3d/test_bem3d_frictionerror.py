@@ -8,17 +8,7 @@ from bem3d.friction import Friction, curvature_by_pressure
 from bem3d.frictionerror import UNTOLD, Signs, at_tip, bound
 from bem3d.grid import Grid
 from bem3d.spots import Spots
-from scene import (
-    Cone,
-    Kelvin,
-    PowerLaw,
-    Scene,
-    SelfAffine,
-    Slide,
-    SolveError,
-    Sphere,
-    StandardLinearSolid,
-)
+from scene import Cone, Kelvin, PowerLaw, Scene, SelfAffine, Slide, SolveError, Sphere, StandardLinearSolid
 from scene.scales import elastic_contact
 
 TAU = 1e-3

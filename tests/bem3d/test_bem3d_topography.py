@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from maps import sampled
 
-import scene.topography
+import scene.surfaces.topography
 from bem3d import BEM
 from bem3d.engine import Engine
 from bem3d.grid import Grid
@@ -123,8 +123,8 @@ def test_a_map_without_heights_is_no_roughness():
 
 def test_the_map_is_built_once_for_all_grids(monkeypatch):
     calls = []
-    build = scene.topography._mirrored
-    monkeypatch.setattr(scene.topography, "_mirrored", lambda *given: calls.append(1) or build(*given))
+    build = scene.surfaces.topography._mirrored
+    monkeypatch.setattr(scene.surfaces.topography, "_mirrored", lambda *given: calls.append(1) or build(*given))
     fresh = sampled(SLIDING.roughness, 19, repeat="mirror")
     for seed in (0, 1):
         BEM(points=48).solve(replace(SLIDING, roughness=replace(fresh, seed=seed)))

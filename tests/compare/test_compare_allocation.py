@@ -20,7 +20,7 @@ from compare.statistics.multilevel import DrawnSurfaces, means_of, pooled, unrea
 from compare.studies.comparison.series import DIFFERENCES, FINEST, PILOT, pilot
 from mdr1d import MDR
 from scene import Refused
-from scene.reading import InvalidInput
+from scene.files.reading import InvalidInput
 
 COSTS = 10.0, 3.0, 1.0
 

@@ -26,7 +26,7 @@ from compare.studies.comparison import asked
 from compare.studies.comparison.sweep import SweepSeries
 from mdr1d import MDR
 from scene import Refused, Scene
-from scene.reading import InvalidInput, made
+from scene.files.reading import InvalidInput, made
 from scene.result import provenance
 from scene.vocabulary import FIELDS
 

@@ -10,7 +10,7 @@ from compare.cli.app import app
 from compare.library.lookup import case_of, named_cases
 from compare.studies.comparison.around import OWN, SMOOTH_DEPTH, Around
 from scene import Coulomb, Elastic, Indent, Slide
-from scene.reading import InvalidInput
+from scene.files.reading import InvalidInput
 from scene.scales import elastic_contact
 
 

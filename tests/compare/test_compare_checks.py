@@ -22,8 +22,8 @@ from compare.studies.checks.study import LEFT_OUT, SHOWN, Checks, Regress
 from compare.studies.checks.table import Examination, table
 from mdr1d import MDR
 from scene import Indent, Refused, Result, Scene, SolveError
+from scene.files.reading import InvalidInput
 from scene.indenter import Axisymmetric
-from scene.reading import InvalidInput
 from scene.scales import elastic_contact
 
 COARSE, LINE = BEM(points=64, tolerance=1e-7), MDR(points=1000)

@@ -14,15 +14,7 @@ from compare.studies.comparison.answers import Answers
 from compare.studies.comparison.laws import laws
 from compare.studies.comparison.rough import RoughSeries
 from mdr1d import MDR
-from scene import (
-    Program,
-    Scene,
-    SelfAffine,
-    Slide,
-    Sphere,
-    Stage,
-    StandardLinearSolid,
-)
+from scene import Program, Scene, SelfAffine, Slide, Sphere, Stage, StandardLinearSolid
 
 SOLVERS = (MDR(points=400, steps=24), BEM(points=32, steps=24))
 solvers = pytest.mark.parametrize("solver", SOLVERS, ids=lambda solver: solver.name)

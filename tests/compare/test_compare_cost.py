@@ -21,7 +21,7 @@ from compare.studies.paper.study import Paper
 from compare.studies.pipeline import run
 from compare.studies.study import Study
 from scene import Refused
-from scene.reading import InvalidInput, read
+from scene.files.reading import InvalidInput, read
 
 SERIES = '[[series]]\nname = "one"\n'
 

@@ -20,7 +20,7 @@ from compare.statistics.multilevel import GROWTH, DrawnSurfaces, pooled
 from compare.studies.comparison.series import PILOT
 from mdr1d import MDR
 from scene import SolveError
-from scene.reading import InvalidInput
+from scene.files.reading import InvalidInput
 
 RATIO = Claim("ratio", "The ratio is one", 1.0, 0.05, measure=lambda sample: float(friction(sample["BEM"])[0]))
 DRAWN = DrawnSurfaces({"BEM": (8, 32), "MDR": (100,)}, {"BEM": (1e8, 1e7), "MDR": (1e5,)})

@@ -35,7 +35,7 @@ from scene import (
     Sphere,
     Stage,
 )
-from scene.reading import InvalidInput
+from scene.files.reading import InvalidInput
 
 pytestmark = pytest.mark.usefixtures("in_this_process")
 

@@ -29,7 +29,7 @@ from compare.solving.runner import sweep
 from compare.solving.store import Store
 from compare.statistics.finding import Claim, Finding
 from compare.studies.study import Judgement, Study
-from scene.reading import InvalidInput
+from scene.files.reading import InvalidInput
 
 ROOT = Path(__file__).parents[2]
 PATHS = os.pathsep.join([str(ROOT), str(ROOT / "tests")])

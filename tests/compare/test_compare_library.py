@@ -16,7 +16,7 @@ from compare.studies.comparison.study_file import StudyFile, study_of
 from compare.studies.plan import plans
 from compare.studies.schema import DIALECT, schema
 from scene import Prony, Refused
-from scene.reading import InvalidInput, made, read
+from scene.files.reading import InvalidInput, made, read
 
 SCENES = [name for name, each in ready().items() if each.kind == "scene"]
 ONE_SOLVER = {"line-contact", "rough-plane", "thin-layer"}

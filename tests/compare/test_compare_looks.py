@@ -34,7 +34,7 @@ from compare.figures.plot import Plot
 from compare.figures.rendering import FORMS, picture
 from compare.report import csvfiles, manifest
 from compare.report.export import function
-from scene.reading import InvalidInput
+from scene.files.reading import InvalidInput
 
 SAMPLES = Path(__file__).parent / "plots"
 ENTRIES = {entry.name.partition("/")[0]: entry for entry in next(manifest.folders(SAMPLES))[1].plots}

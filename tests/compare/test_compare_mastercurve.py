@@ -21,7 +21,7 @@ from compare.statistics.finding import FAILS, HOLDS, REPORTED, UNDECIDED
 from compare.studies.comparison import asked
 from compare.studies.mastercurve.measurements import MeasuredFriction
 from compare.studies.mastercurve.study import NOT_REPEATED, Mastercurve
-from scene.reading import InvalidInput
+from scene.files.reading import InvalidInput
 
 
 def columns(law, speeds, loads, repeats=1, noise=0.0, seed=4):

@@ -19,7 +19,7 @@ from compare.solving.task import SceneTask
 from compare.statistics.finding import FAILS, HOLDS
 from mdr1d import MDR
 from scene import Doubtful, Kelvin, Refused, Result, Scene, SelfAffine, Slide, SolveError, Sphere
-from scene.reading import InvalidInput
+from scene.files.reading import InvalidInput
 from scene.scales import elastic_contact
 
 pytestmark = pytest.mark.usefixtures("in_this_process")

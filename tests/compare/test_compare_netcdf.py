@@ -8,7 +8,7 @@ import xarray
 
 from compare.report.export import export
 from compare.solving import netcdf
-from scene.reading import InvalidInput
+from scene.files.reading import InvalidInput
 
 WORDS = np.array([f"{'é' * (k % 5)}{k} µm " for k in range(600)])
 OF_ALL_KINDS = xarray.Dataset(

@@ -30,7 +30,7 @@ from compare.report.tables import claims
 from compare.solving import netcdf, vocabulary, words
 from compare.solving.words import interval
 from compare.statistics.finding import COLUMNS
-from scene.reading import InvalidInput
+from scene.files.reading import InvalidInput
 
 draw_again = partial(export, format="png,pdf,svg")
 STUDY = SimpleNamespace(command="run", inputs={"loads": np.array([1.0, nan])})

@@ -16,7 +16,7 @@ from compare.studies.paper.study import Paper
 from mdr1d import equations
 from mdr1d.ensemble import solve_profiles
 from scene import Cone, Regime, SolveError
-from scene.reading import InvalidInput
+from scene.files.reading import InvalidInput
 from scene.regime import SMALL_SLOPE
 
 VALUES, PROFILES = 3, 10

@@ -10,7 +10,7 @@ from small_cases import SLIDING
 from bem3d import BEM
 from compare.studies.checks.accuracy import Accuracy, findings
 from mdr1d import MDR
-from scene.reading import InvalidInput
+from scene.files.reading import InvalidInput
 
 pytest_plugins = ["pytester"]
 ROOT = Path(__file__).parents[2]

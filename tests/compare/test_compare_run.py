@@ -50,8 +50,8 @@ from scene import (
     Sphere,
     Stage,
 )
+from scene.files.reading import InvalidInput
 from scene.printable import brief
-from scene.reading import InvalidInput
 
 CASE = Case(
     indenter=Sphere(radius=1e-2),

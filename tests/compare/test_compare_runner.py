@@ -25,7 +25,7 @@ from compare.solving.store import Store
 from compare.solving.task import SceneTask as Task
 from mdr1d import MDR
 from scene import EmptyContact, Indent, Refused, SelfAffine, Slide
-from scene.reading import InvalidInput
+from scene.files.reading import InvalidInput
 
 
 @pytest.fixture

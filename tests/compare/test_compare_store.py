@@ -29,7 +29,7 @@ from compare.solving.store import FILE, Store, _covering
 from compare.solving.task import SceneTask as Task
 from mdr1d import MDR
 from scene import Kelvin, Scene, SelfAffine, Slide, Sphere
-from scene.reading import InvalidInput
+from scene.files.reading import InvalidInput
 from scene.vocabulary import MEASURES
 
 SCENE = Scene(

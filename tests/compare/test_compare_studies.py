@@ -19,7 +19,7 @@ from compare.studies.comparison.rough import SMOOTH, RoughSeries
 from compare.studies.comparison.theory import THEORIES
 from mdr1d import MDR
 from scene import Indent, Kelvin, Program, Scene, SelfAffine, Slide, Sphere, Stage
-from scene.reading import InvalidInput
+from scene.files.reading import InvalidInput
 
 # Friction that grows as a length is none that is the same over every part of an area.
 DRAG = "eq17.friction-per-contact"

@@ -10,7 +10,7 @@ from compare.studies.comparison import asked
 from compare.studies.comparison.rough import KINDS
 from compare.studies.comparison.study_file import STUDIES, study_of
 from scene import Cone, Indent, Kelvin, Program, Scene, SelfAffine, Slide, Sphere, Stage
-from scene.reading import InvalidInput
+from scene.files.reading import InvalidInput
 
 SERIES = """
 [[series]]

@@ -20,7 +20,7 @@ from compare.studies.topography.powerlaw import fit
 from compare.studies.topography.spectra import describe, mapped, rings_of, rows_of
 from compare.studies.topography.study import Map
 from scene import SelfAffine, Topography
-from scene.reading import InvalidInput
+from scene.files.reading import InvalidInput
 
 L = 4e-3
 ROUGH = SelfAffine(hurst=0.8, rms_height=2e-6, longest=L, shortest=L / 48, rolloff=L / 4, amplitudes="gaussian")

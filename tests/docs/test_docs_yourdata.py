@@ -10,8 +10,9 @@ from typer.testing import CliRunner
 
 from compare.cli.app import app
 from compare.studies.mastercurve import measurements
-from scene import moduli, normalised, temperature
-from scene.heightfile import X, Y, Z
+from scene.effects import temperature
+from scene.files.heightfile import X, Y, Z
+from scene.solids import moduli, normalised
 
 PAGES = sorted(yourdata.FOLDER.glob("*.md"))
 # Seconds and bytes, which the machine decides.

@@ -29,8 +29,8 @@ PLAIN = {
 # What an effect is made of, and the parts that ask for it.
 MODULES = {
     "layer": {"bem3d/layer.py", "bem3d/layerwaves.py"},
-    "temperature": {"scene/temperature.py"},
-    "heating": {"scene/heated.py", "scene/heating.py", "scene/settling.py"},
+    "temperature": {"scene/effects/temperature.py"},
+    "heating": {"scene/effects/heated.py", "scene/effects/heating.py", "scene/solids/settling.py"},
     "tangential": {
         "scene/rubbed.py",
         "bem3d/tangential.py",
@@ -38,9 +38,14 @@ MODULES = {
         "bem3d/stickslip.py",
         "mdr1d/tangential.py",
     },
-    "topography": {"scene/topography.py", "scene/heightmap.py", "bem3d/topography.py", "mdr1d/topography.py"},
-    "measured body": {"scene/measured.py", "scene/heightmap.py"},
-    "measured file": {"scene/heightfile.py"},
+    "topography": {
+        "scene/surfaces/topography.py",
+        "scene/surfaces/heightmap.py",
+        "bem3d/topography.py",
+        "mdr1d/topography.py",
+    },
+    "measured body": {"scene/surfaces/measured.py", "scene/surfaces/heightmap.py"},
+    "measured file": {"scene/files/heightfile.py"},
     "oscillation": {"scene/oscillation.py"},
 }
 # What only effects need, and costs more to load than all of ours.
@@ -125,7 +130,7 @@ def test_of_a_measured_body_functions_are_called(tmp_path):
 
 ALONE = """
 import sys
-import scene, scene.heated
+import scene, scene.effects.heated
 print(*sorted(set(sys.modules) & {of_scenes}), "| after scene")
 from test_effects_absent import PLAIN, SOLVERS
 for solver in SOLVERS.values():
@@ -157,7 +162,7 @@ def test_what_is_steady_is_not_marched_and_what_rests_does_not_flow(solver):
         solver.solve(PLAIN["rest"])
     modules = ("marching", "material", "upstream", "timeline", "elements")
     later = {f"{package(solver)}/{module}.py" for module in modules}
-    drawn = {"bem3d/surface.py", "scene/selfaffine.py"}
+    drawn = {"bem3d/surface.py", "scene/surfaces/selfaffine.py"}
     flowing = {"bem3d/memory.py march", "bem3d/krylov.py gmres", "mdr1d/maxwell.py sweep_modes"}
     assert not called.files & (later | drawn)
     assert not called.functions & flowing

@@ -20,7 +20,7 @@ from compare.studies.mastercurve.study import Mastercurve
 from compare.studies.plan import planned
 from compare.studies.topography.study import Map
 from scene import Doubtful, Refused, SolveError
-from scene.reading import InvalidInput
+from scene.files.reading import InvalidInput
 
 pytestmark = pytest.mark.slow
 SCENES = [

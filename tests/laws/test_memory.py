@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-import scene.topography
+import scene.surfaces.topography
 from bem3d import BEM
 from compare.solving.runner import sweep
 from compare.solving.store import Store
@@ -16,7 +16,7 @@ from mdr1d import MDR
 from scene import Kelvin, OutOfMemory, Plane, Refused, Scene, SelfAffine, Slide, Sphere, Topography, machine
 from scene.machine import memory
 from scene.protocol import refuse, trusted
-from scene.waves import MOST_WAVES
+from scene.surfaces.waves import MOST_WAVES
 
 SCENE = Scene(Sphere(radius=1e-2), Kelvin(modulus=1e6, relaxation_time=1e-3), Slide(speed=0.1, load=1.0))
 # Waves of which no machine holds the amplitudes, but which each grid alone would not mind.
@@ -48,7 +48,7 @@ def test_what_no_machine_holds_has_no_plan_either():
 
 @pytest.mark.parametrize("solver", [BEM(points=32), MDR(), MDR(spectrum="line-scan")], ids=str)
 def test_more_waves_of_a_map_than_fit_are_refused_before_they_are_built(solver, monkeypatch):
-    monkeypatch.setattr(scene.topography, "_waves", lambda *_: pytest.fail("waves were built"))
+    monkeypatch.setattr(scene.surfaces.topography, "_waves", lambda *_: pytest.fail("waves were built"))
     rough = replace(SCENE, roughness=Topography(heights=np.eye(4, MOST_WAVES + 2), pixel=1e-6))
     plane = replace(rough, indenter=Plane(), motion=Slide(speed=0.1, pressure=1e4))
     refused = f"roughness = Topography has {MOST_WAVES + 1} waves a side, {MOST_WAVES} fit in memory: crop the map"

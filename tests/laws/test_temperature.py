@@ -26,7 +26,7 @@ from scene import (
     Stage,
     StandardLinearSolid,
 )
-from scene.temperature import GAS_CONSTANT
+from scene.effects.temperature import GAS_CONSTANT
 
 SOLVERS = (MDR(points=400), BEM(points=32))
 names = pytest.mark.parametrize("solver", SOLVERS, ids=lambda solver: solver.name)

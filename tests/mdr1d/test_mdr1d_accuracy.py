@@ -6,17 +6,7 @@ import numpy as np
 import pytest
 
 from mdr1d import MDR
-from scene import (
-    Cone,
-    Kelvin,
-    PowerLaw,
-    Prony,
-    Scene,
-    SelfAffine,
-    Slide,
-    Sphere,
-    StandardLinearSolid,
-)
+from scene import Cone, Kelvin, PowerLaw, Prony, Scene, SelfAffine, Slide, Sphere, StandardLinearSolid
 
 KELVIN = Kelvin(modulus=1e6, relaxation_time=1e-3)
 SOLIDS = (

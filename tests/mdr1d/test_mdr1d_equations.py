@@ -11,7 +11,18 @@ from scipy.integrate import quad
 
 from mdr1d import MDR, draw, modes_of, sweep, sweep_modes
 from mdr1d import equations as eq
-from scene import Elastic, Indent, Kelvin, PowerLaw, Prony, Scene, SelfAffine, Slide, Sphere, StandardLinearSolid
+from scene import (
+    Elastic,
+    Indent,
+    Kelvin,
+    PowerLaw,
+    Prony,
+    Scene,
+    SelfAffine,
+    Slide,
+    Sphere,
+    StandardLinearSolid,
+)
 
 # A few powers and products.
 ROUNDING = 1e-13

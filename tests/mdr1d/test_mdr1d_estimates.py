@@ -8,7 +8,18 @@ from scipy.integrate import trapezoid
 
 from compare.models.exact.indentation import force_of_depth
 from mdr1d import MDR, equations, estimates
-from scene import Cone, Elastic, Indent, Kelvin, PowerLaw, Scene, SelfAffine, Slide, Sphere, StandardLinearSolid
+from scene import (
+    Cone,
+    Elastic,
+    Indent,
+    Kelvin,
+    PowerLaw,
+    Scene,
+    SelfAffine,
+    Slide,
+    Sphere,
+    StandardLinearSolid,
+)
 
 # The paper's experiment: moduli [Pa], friction, speed [m/s], conductivity [W/(m K)].
 STATIC, GLASSY, FRICTION, SPEED, CONDUCTIVITY = 3e6, 1.5e9, 0.5, 1e-2, 20.0

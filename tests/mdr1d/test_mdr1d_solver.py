@@ -8,18 +8,7 @@ import pytest
 from sliding import PAPER, ROUGH, SMOOTH
 
 from mdr1d import MDR, draw
-from scene import (
-    Elastic,
-    Indent,
-    InvalidInput,
-    PowerLaw,
-    Program,
-    Scene,
-    Slide,
-    SolveError,
-    Sphere,
-    Stage,
-)
+from scene import Elastic, Indent, InvalidInput, PowerLaw, Program, Scene, Slide, SolveError, Sphere, Stage
 
 
 def test_smooth_and_resolved_scenes_say_so():

@@ -29,7 +29,7 @@ BOUNDS = {ast.Lt: ast.LtE, ast.LtE: ast.Lt, ast.Gt: ast.GtE, ast.GtE: ast.Gt}
 EQUIVALENT = {
     ("bem3d/marching.py", "1e-12", "(2e-12)"): "an overlap below rounding of the heights is none",
     (
-        "scene/interconversion.py",
+        "scene/solids/interconversion.py",
         "low * (1 + _ROUNDING)",
         "(low / (1 + _ROUNDING))",
     ): "rounds the bracket of a root by the last digit; Newton's steps end inside either",
@@ -52,7 +52,7 @@ EQUIVALENT = {
     ): "the last node is a margin that no contact reaches",
     ("compare/statistics/commoncurve.py", "1e-12", "(2e-12)"): "singular values are of order one, or of rounding",
     ("bem3d/convolution.py", "kernels[0]", "(kernels[1])"): "only the shape is read, and all kernels have one",
-    ("scene/interconversion.py", "excess > 0", "(excess >= 0)"): "without an excess the root is found",
+    ("scene/solids/interconversion.py", "excess > 0", "(excess >= 0)"): "without an excess the root is found",
     ("mdr1d/elements.py", "r[j] > 0.0", "(r[j] >= 0.0)"): "an element without a stretch relaxes without heat",
     (
         "bem3d/topography.py",
@@ -71,7 +71,7 @@ EQUIVALENT = {
         "range(count)",
         "(range(count - 1))",
     ): "the last ring begins no band",
-    ("scene/mistakes.py", "range(_ROUNDS)", "(range(_ROUNDS - 1))"): "no tables are nine deep",
+    ("scene/files/mistakes.py", "range(_ROUNDS)", "(range(_ROUNDS - 1))"): "no tables are nine deep",
 }
 
 

@@ -44,8 +44,8 @@ from scene import (
     notes,
 )
 from scene.doubt import ABOVE, BELOW, LIMITS, OPEN, beyond_linear, beyond_table, unseen
-from scene.heightmap import HeightMap
 from scene.scales import elastic_contact
+from scene.surfaces.heightmap import HeightMap
 
 LIMITS_PAGE = Path(__file__).parents[2] / "docs" / "explanation" / "limits.md"
 RUBBER = StandardLinearSolid(rubbery_modulus=1e6, glassy_modulus=1e8, relaxation_time=1e-3)

@@ -3,7 +3,7 @@ import socket
 
 import pytest
 
-from scene.files import Unreadable, checked, content
+from scene.files.files import Unreadable, checked, content
 
 MOST = 1_000_000
 

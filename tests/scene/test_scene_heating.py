@@ -27,8 +27,8 @@ from scene import (
     Stage,
     StandardLinearSolid,
 )
-from scene.heated import Heated
-from scene.settling import settled
+from scene.effects.heated import Heated
+from scene.solids.settling import settled
 
 ROUNDING = 1e-13
 # What temperature and heat agree to, as stated.

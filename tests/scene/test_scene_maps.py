@@ -20,12 +20,12 @@ from numpy.polynomial.polynomial import polyval2d
 from scipy.io import savemat
 from strategies import examples
 
-import scene.heightfile
+import scene.files.heightfile
 from compare.studies.topography.study import Map
 from scene import Measured, Profile, Scene, Topography
-from scene.form import DEGREES, levelled
-from scene.missing import NEIGHBOURS, filled, outliers, sentinels
-from scene.reading import InvalidInput, read
+from scene.files.reading import InvalidInput, read
+from scene.surfaces.form import DEGREES, levelled
+from scene.surfaces.missing import NEIGHBOURS, filled, outliers, sentinels
 
 DIGITS = 1e-12  # what texts with 15 digits keep
 NAN = np.nan
@@ -259,11 +259,11 @@ def test_what_is_larger_than_is_read_is_not(tmp_path, monkeypatch):
     with ZipFile(tmp_path / "a.npz", "w", ZIP_DEFLATED) as file:
         file.writestr("z.npy", bytes(2**20))
     saved(SQUARE)(tmp_path / "b.npy")
-    monkeypatch.setattr(scene.heightfile, "MOST_BYTES", 2**12)
+    monkeypatch.setattr(scene.files.heightfile, "MOST_BYTES", 2**12)
     refused("unpacked", file=tmp_path / "a.npz", **UM)
     for name in ("a.npy", "a.csv", "a.sur"):
         refused("at most", file=written(tmp_path, bytes(2**12 + 1), name), **UM)
-    monkeypatch.setattr(scene.heightfile, "MOST_PIXELS", 80)
+    monkeypatch.setattr(scene.files.heightfile, "MOST_PIXELS", 80)
     refused("pixels: at most 80", file=tmp_path / "b.npy", **UM)
 
 

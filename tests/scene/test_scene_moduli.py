@@ -22,7 +22,17 @@ from scene import (
     Sphere,
     Tabulated,
 )
-from scene.moduli import COLUMNS, DYNAMIC, LOSS, MAGNITUDE, OUT_OF_PHASE, PHASE, STORAGE, TANGENT, VISCOSITY
+from scene.solids.moduli import (
+    COLUMNS,
+    DYNAMIC,
+    LOSS,
+    MAGNITUDE,
+    OUT_OF_PHASE,
+    PHASE,
+    STORAGE,
+    TANGENT,
+    VISCOSITY,
+)
 
 SOLID = Prony(1e6, (1e6, 3e6, 1e7), (1.0, 1.37e-2, 1e-4))
 OMEGA = np.geomspace(1e-2, 1e6, 50)

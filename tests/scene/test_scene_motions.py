@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 from programs import program
 
 from scene import InvalidInput, Scene, Stage
+from scene.files.reading import read
 from scene.oscillation import Oscillation
-from scene.reading import read
 
 # Sums of a few terms in double precision.
 ROUNDING = 1e-12

@@ -17,10 +17,11 @@ from bem3d.grid import Grid
 from bem3d.surface import RoughSurface
 from compare.trustmap.verdict import FITTED, trust
 from mdr1d import MDR
-from scene import Kelvin, Profile, Refused, Scene, SelfAffine, Slide, Sphere, linescan
-from scene.periodogram import bins_of, taken_off
-from scene.roughness import Roughness
-from scene.waves import MOST_WAVES
+from scene import Kelvin, Profile, Refused, Scene, SelfAffine, Slide, Sphere
+from scene.surfaces import linescan
+from scene.surfaces.periodogram import bins_of, taken_off
+from scene.surfaces.roughness import Roughness
+from scene.surfaces.waves import MOST_WAVES
 
 SPACING = 2e-6
 ROUGH = SelfAffine(hurst=0.7, rms_height=2e-6, longest=8e-3, rolloff=2e-4, shortest=2e-5)

@@ -30,7 +30,7 @@ from scene import (
     StandardLinearSolid,
     Topography,
 )
-from scene.reading import DEEPEST, LISTED, InvalidInput, made, parsed, read
+from scene.files.reading import DEEPEST, LISTED, InvalidInput, made, parsed, read
 
 INDENTER = '[indenter]\ntype = "sphere"\nradius = 1e-2\n'
 ELASTOMER = '[elastomer]\ntype = "kelvin"\nmodulus = 1e6\nrelaxation_time = 1e-3\n'
@@ -399,7 +399,7 @@ def compared(monkeypatch):
         names.append(name)
         return get_close_matches(name, *others)
 
-    monkeypatch.setattr("scene.mistakes.get_close_matches", compare)
+    monkeypatch.setattr("scene.files.mistakes.get_close_matches", compare)
     return names
 
 

@@ -8,7 +8,7 @@ import pytest
 from solids import OF_EACH_TYPE
 
 from scene import Elastic, Fractional, InvalidInput, Kelvin, KelvinChain, Prony, StandardLinearSolid
-from scene.modes import Relaxation, Retardation
+from scene.solids.modes import Relaxation, Retardation
 
 ROUNDING = 1e-13  # some tens of roundings; sums of terms of one sign
 EXACT = 1e-14  # of a single mode against 80 digits, a few roundings

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from scene import CrossedWaves, InvalidInput, SelfAffine, Wave
-from scene.selfaffine import power_integral
+from scene.surfaces.selfaffine import power_integral
 
 ROUNDING = 1e-12
 # Integral over the directions of a line scan: measured 5e-14 on two decades.

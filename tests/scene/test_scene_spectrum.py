@@ -9,8 +9,8 @@ import pytest
 from scipy.integrate import quad
 
 from scene import Elastic, Indent, Scene, SelfAffine, Spectrum, Sphere, doubts, notes
-from scene.reading import InvalidInput, read
-from scene.roughness import Roughness
+from scene.files.reading import InvalidInput, read
+from scene.surfaces.roughness import Roughness
 
 ROUNDING = 1e-12
 # Of scipy's quad between the points.

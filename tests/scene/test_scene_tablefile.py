@@ -6,9 +6,9 @@ import pint
 import pytest
 import xarray
 
+from scene.files.tablefile import Column, read_columns
+from scene.files.tabletext import SEPARATORS, TableFormat
 from scene.quantities import HERTZ, KELVIN, PASCAL, RADIAN_PER_SECOND
-from scene.tablefile import Column, read_columns
-from scene.tabletext import SEPARATORS, TableFormat
 
 FREQUENCY = Column("frequency", ("f",), (HERTZ, RADIAN_PER_SECOND))
 STORAGE, LOSS = Column("storage", ("G'",), (PASCAL,), needed=True), Column("loss", ("G''",), (PASCAL,))

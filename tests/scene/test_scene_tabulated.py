@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from scene import Fractional, Prony, Scene, StandardLinearSolid, Table, Tabulated, read_table
-from scene.reading import InvalidInput, read
-from scene.table import MOST_ROWS
+from scene.files.reading import InvalidInput, read
+from scene.solids.table import MOST_ROWS
 
 SOLID = Prony(1e6, (1e6, 3e6, 1e7, 1e8), (1e2, 1.0, 1.37e-2, 1e-5))
 OMEGA = np.geomspace(1e-3, 1e6, 46)

@@ -9,9 +9,9 @@ import pytest
 from solids import OF_EACH_TYPE
 
 from scene import WLF, Arrhenius, Indent, InvalidInput, Kelvin, KelvinChain, Prony, Scene, Sphere
-from scene.modes import Relaxation
-from scene.temperature import GAS_CONSTANT, UNIVERSAL, Shifted
-from scene.viscoelastic import Linear
+from scene.effects.temperature import GAS_CONSTANT, UNIVERSAL, Shifted
+from scene.solids.modes import Relaxation
+from scene.solids.viscoelastic import Linear
 
 # A sum of a few exactly rounded numbers.
 ROUNDING = 1e-13

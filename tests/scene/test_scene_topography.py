@@ -11,12 +11,12 @@ import numpy as np
 import pytest
 from maps import noise, refused
 
-import scene.topography
+import scene.surfaces.topography
 from compare.library.case import Case
 from compare.solving.task import SCENES
 from scene import Elastic, Indent, Measured, Plane, Scene, SelfAffine, Sphere, Topography
-from scene.reading import InvalidInput, read
-from scene.waves import MOST_WAVES
+from scene.files.reading import InvalidInput, read
+from scene.surfaces.waves import MOST_WAVES
 
 ROUNDING = 1e-13  # of heights of order one, summed over some ten waves
 SPLINE = 1e-12  # a paraboloid is a bicubic spline: what is left is rounding
@@ -100,7 +100,7 @@ def test_a_map_that_repeats_keeps_its_plane_and_one_that_is_mirrored_does_not():
 
 
 def test_whether_there_are_heights_is_asked_without_a_wave(monkeypatch):
-    monkeypatch.setattr(scene.topography, "_waves", lambda *_: pytest.fail("waves were built"))
+    monkeypatch.setattr(scene.surfaces.topography, "_waves", lambda *_: pytest.fail("waves were built"))
     plane = np.add.outer(np.arange(9.0), np.arange(9.0))
     for map_, flat in ((rough(noise((9, 9)), seed=3), False), (rough(plane, level="tilt"), True)):
         assert map_.flat == flat

@@ -27,7 +27,7 @@ from scene import (
     Stage,
     StandardLinearSolid,
 )
-from scene.reading import read
+from scene.files.reading import read
 from scene.vocabulary import FIELDS, MEASURES, NUMBERS, Entry
 
 SHIPPED = Path(compare.__file__).parent / "library" / "scenes"

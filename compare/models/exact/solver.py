@@ -8,13 +8,13 @@ import numpy as np
 from pydantic.dataclasses import dataclass
 
 from scene import Coulomb, Elastic, Heating, Indent, Result, Scene, Slide
+from scene.effects.temperature import TemperatureLaw
 from scene.indenter import Axisymmetric
 from scene.protocol import refuse
 from scene.quantities import CLOSED
 from scene.scales import elastic_contact
-from scene.temperature import TemperatureLaw
+from scene.solids.viscoelastic import Linear
 from scene.terms import Term, terms_of
-from scene.viscoelastic import Linear
 
 
 class Unmoved(Term):

@@ -7,9 +7,9 @@ import numpy as np
 from scipy.special import j1, jv
 
 from scene import Profile, Spectrum, Topography
-from scene.isotropic import Isotropic
-from scene.viscoelastic import Linear
-from scene.waves import Waves
+from scene.solids.viscoelastic import Linear
+from scene.surfaces.isotropic import Isotropic
+from scene.surfaces.waves import Waves
 
 from ..exact.full_contact import complex_stiffness
 

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.special import ellipkm1, j0, wrightomega
 
 from scene import PowerLaw, SolveError
-from scene.viscoelastic import Linear
+from scene.solids.viscoelastic import Linear
 
 from ..exact.solver import smooth_pressure
 from .bands import around

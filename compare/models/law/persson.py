@@ -10,28 +10,16 @@ from pydantic import Field
 from pydantic.dataclasses import dataclass
 from scipy.special import erf
 
-from scene import (
-    Cylinder,
-    Indent,
-    Plane,
-    Profile,
-    Program,
-    Result,
-    Scene,
-    Shear,
-    Slide,
-    Topography,
-    Wave,
-)
+from scene import Cylinder, Indent, Plane, Profile, Program, Result, Scene, Shear, Slide, Topography, Wave
 from scene import Measured as MeasuredBody
+from scene.effects.temperature import TemperatureLaw
 from scene.indenter import Axisymmetric
-from scene.isotropic import Isotropic
 from scene.protocol import refuse, trusted
 from scene.quantities import CLOSED, Finite
 from scene.signatures import readable
-from scene.temperature import TemperatureLaw
+from scene.solids.viscoelastic import Linear
+from scene.surfaces.isotropic import Isotropic
 from scene.terms import Term, lacking, terms_of
-from scene.viscoelastic import Linear
 
 from . import bands
 from .bands import Bands, FullContact

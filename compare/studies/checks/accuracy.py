@@ -9,7 +9,7 @@ from typing import Any, Self
 
 import xarray
 
-from scene.reading import InvalidInput
+from scene.files.reading import InvalidInput
 
 from ...library.lookup import SceneLike, case_of
 from ...models.table import QUANTITIES, ModelLike

@@ -7,18 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from scene import (
-    Cone,
-    CrossedWaves,
-    Cylinder,
-    Elastic,
-    Indent,
-    PowerLaw,
-    Scene,
-    SelfAffine,
-    Sphere,
-    Wave,
-)
+from scene import Cone, CrossedWaves, Cylinder, Elastic, Indent, PowerLaw, Scene, SelfAffine, Sphere, Wave
 from scene.scales import elastic_contact
 
 from ...models.exact import waves

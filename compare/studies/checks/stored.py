@@ -14,8 +14,8 @@ from pydantic.dataclasses import dataclass as validated
 from bem3d import BEM
 from mdr1d import MDR, draw, equations
 from scene import Indent, Scene, SelfAffine, Slide, StandardLinearSolid
+from scene.files.reading import read
 from scene.quantities import CLOSED, Finite
-from scene.reading import read
 from scene.scales import elastic_contact
 
 from ...solving.folders import write

@@ -11,8 +11,8 @@ from typing import Any, Self
 import xarray
 from pandas import DataFrame
 
+from scene.files.reading import InvalidInput
 from scene.printable import printable
-from scene.reading import InvalidInput
 
 from ...models.table import model_of
 from ...report.page import Findings, Text

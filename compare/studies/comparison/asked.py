@@ -6,8 +6,8 @@ from os.path import lexists
 from pathlib import Path
 
 from scene import Refused
+from scene.files.reading import InvalidInput, text_of
 from scene.printable import printable
-from scene.reading import InvalidInput, text_of
 
 from ...library.case import NotCompared, share_of
 from ...library.describe import folders, slug

@@ -9,7 +9,7 @@ import numpy as np
 import xarray
 from scipy.special import ndtri
 
-from scene.isotropic import Isotropic
+from scene.surfaces.isotropic import Isotropic
 
 from ...models.law.bands import Bands, FullContact
 from ...models.law.share import Share

@@ -11,8 +11,8 @@ from matplotlib.figure import Figure
 from pandas import DataFrame, concat
 
 from mdr1d.equations import interpolation
+from scene.files.reading import InvalidInput
 from scene.printable import brief
-from scene.reading import InvalidInput
 
 from ...figures import (
     collapse,

@@ -11,7 +11,7 @@ import xarray
 from bem3d import BEM
 from mdr1d import MDR
 from scene import Program, Scene
-from scene.reading import InvalidInput
+from scene.files.reading import InvalidInput
 
 from ...library.describe import slug
 from ...models.table import FRICTION as OF_FRICTION

@@ -24,14 +24,14 @@ from scene import (
     SolveError,
     Sphere,
     Stage,
-    files,
 )
-from scene.mistakes import CHOICE
+from scene.effects.temperature import Temperature
+from scene.files import files
+from scene.files.mistakes import CHOICE
+from scene.files.reading import InvalidInput, invalid, made, parsed
 from scene.quantities import CLOSED, Force, Length, Speed, Whole
-from scene.reading import InvalidInput, invalid, made, parsed
-from scene.rheology import Elastomer
 from scene.scales import elastic_contact
-from scene.temperature import Temperature
+from scene.solids.rheology import Elastomer
 
 from ...library.case import Draws, ModelNames, Share
 from ...library.describe import folders

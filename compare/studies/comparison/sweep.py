@@ -11,8 +11,8 @@ import xarray
 from pandas import DataFrame
 
 from scene import Indent, Scene, Slide
+from scene.files.reading import InvalidInput, whole
 from scene.motion import UNITS
-from scene.reading import InvalidInput, whole
 
 from ...library.case import Case, doubted, share_of
 from ...library.lookup import SceneLike, case_of

@@ -7,11 +7,11 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from scene.files.reading import InvalidInput, whole
 from scene.motion import PRESSES
 from scene.plain import one_by_one
 from scene.printable import brief
 from scene.quantities import SPEED
-from scene.reading import InvalidInput, whole
 
 from ...solving.cost import MOST_VALUES
 

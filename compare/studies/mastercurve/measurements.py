@@ -9,11 +9,11 @@ import numpy as np
 import xarray
 from pydantic import ValidationError
 
+from scene.files.reading import InvalidInput, mistakes, validator
+from scene.files.tablefile import Column, Columns, read_columns
+from scene.files.tabletext import TableFormat
 from scene.printable import printable
 from scene.quantities import KELVIN, NEWTON, SPEED
-from scene.reading import InvalidInput, mistakes, validator
-from scene.tablefile import Column, Columns, read_columns
-from scene.tabletext import TableFormat
 
 from ...solving.vocabulary import attributes
 
@@ -57,7 +57,7 @@ class MeasuredFriction:
     def of(cls, table: Measurements, **stated: Any) -> "MeasuredFriction":
         """Measurements of a file, a DataFrame, a Dataset, or arrays by the names of columns.
 
-        stated : what differs of a table from the documented form, see `scene.tabletext.TableFormat`
+        stated : what differs of a table from the documented form, see `scene.files.tabletext.TableFormat`
 
         Raises InvalidInput naming the place and what is allowed.
         """

@@ -10,7 +10,7 @@ from math import inf, log, nan
 import numpy as np
 from scipy import special
 
-from scene.temperature import GAS_CONSTANT
+from scene.effects.temperature import GAS_CONSTANT
 
 from ...statistics.intervals import KNOWN, student
 from .temperatureshifts import TemperatureShifts

@@ -9,9 +9,9 @@ from typing import Any
 import xarray
 from pandas import DataFrame
 
+from scene.files.reading import InvalidInput
 from scene.printable import brief
 from scene.quantities import BARE, argument
-from scene.reading import InvalidInput
 
 from ...figures import collapse as collapsed
 from ...figures import temperature_shifts
@@ -84,7 +84,7 @@ class Mastercurve(Study):
         """The study of a table. Raises InvalidInput naming the table, the place and what is allowed.
 
         c1, c2, reference : constants of WLF, where they are known
-        stated : what differs of the table from the documented form, see `scene.tabletext.TableFormat`
+        stated : what differs of the table from the documented form, see `scene.files.tabletext.TableFormat`
         """
         try:
             tolerance = argument("tolerance", tolerance, BARE.value)

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from scene.reading import InvalidInput
-from scene.temperature import WLF
+from scene.effects.temperature import WLF
+from scene.files.reading import InvalidInput
 
 from ...solving import words
 from ...statistics import eq23

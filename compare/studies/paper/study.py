@@ -9,7 +9,7 @@ import numpy as np
 import xarray
 from pandas import DataFrame
 
-from scene.reading import InvalidInput
+from scene.files.reading import InvalidInput
 
 from ...report.page import Block, Findings, Text
 from ...solving import curve

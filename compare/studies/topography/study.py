@@ -11,9 +11,9 @@ import numpy as np
 import xarray
 
 from scene import Topography
+from scene.files.reading import InvalidInput
 from scene.printable import printable
 from scene.quantities import METRE, argument
-from scene.reading import InvalidInput
 
 from ...report.page import Block, Findings, Text
 from ...solving.outcome import Outcome

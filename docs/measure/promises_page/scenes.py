@@ -23,8 +23,8 @@ from scene import (
     StandardLinearSolid,
     Wave,
 )
-from scene.rheology import Elastomer
 from scene.scales import elastic_contact
+from scene.solids.rheology import Elastomer
 
 KINDS = "smooth", "rough", "plane", "line"
 RADIUS, DEPTH, MODULUS = 0.1, 0.02, 0.25

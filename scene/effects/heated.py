@@ -1,0 +1,128 @@
+"""The contact that its own friction heats, as every solver has it: estimated, or answered as warm as that."""
+
+from dataclasses import dataclass, replace
+from math import isinf, nan
+
+from ..indenter import Axisymmetric
+from ..motion import Program
+from ..plan import Plan
+from ..protocol import SolveError
+from ..result import Result
+from ..scene import Scene
+from ..solids.settling import settled
+from ..terms import Solve, Term
+from .heating import temperature_rise
+
+SOLVES = 5  # until temperature and heat agree; 3 to 10 are usual
+
+
+class Heated(Term):
+    """Frictional heating; see `Heating` for what it adds to a result."""
+
+    def refusals(self, scene: Scene) -> list[str]:
+        reasons = []
+        if not isinstance(scene.indenter, Axisymmetric):
+            reasons.append(
+                "it is estimated from the depth of a body of revolution, and that of a "
+                f"{type(scene.indenter).__name__} is another: leave heating out"
+            )
+        if scene.layer is not None:
+            reasons.append("it is estimated from the depth in a half-space: leave layer or heating out")
+        if isinstance(scene.motion, Program):
+            reasons.append("it is estimated of steady sliding, not of a Program: take Slide, or leave heating out")
+        rough = scene.roughness is not None and not scene.roughness.flat
+        if self.part.feedback == "flash" and rough and isinf(scene.solid.glassy_modulus):
+            reasons.append(
+                f"a {type(scene.elastomer).__name__} has no glassy modulus, and asperities would be infinitely hot"
+                ': take feedback = "average", or an elastomer with a glassy modulus'
+            )
+        return [f"heating = Heating: {reason}" for reason in reasons]
+
+    def around(self, solve: Solve) -> Solve:
+        return self._estimated(solve) if self.part.feedback is None else self._fed_back(solve)
+
+    def planned(self, plan: Plan, scene: Scene) -> Plan:
+        """Plan of the solves that feedback usually takes."""
+        if self.part.feedback is None:
+            return plan
+        again = f"the {SOLVES} solves that feedback usually takes"
+        return replace(
+            plan,
+            method=f"{plan.method}; again, until it is as warm as its friction makes it",
+            operator_applications=plan.operator_applications.times(SOLVES, again),
+            seconds=plan.seconds.times(SOLVES, again),
+        )
+
+    def _estimated(self, solve):
+        def answered(scene):
+            result = solve(replace(scene, heating=None))
+            return _completed(result, scene, self._estimates(result))
+
+        return answered
+
+    def _fed_back(self, solve):
+        def answered(scene):
+            spent = []
+
+            def attempt(warmer):
+                result = solve(_warmer(scene, warmer))
+                spent.append((result.operator_applications, result.seconds))
+                return _Trial(warmer, result, self._estimates(result), f"{self.part.feedback}_heating")
+
+            trial = settled(attempt)
+            applications, seconds = map(sum, zip(*spent, strict=True))
+            measures = {
+                **trial.estimates,
+                "temperature": trial.result.scene.temperature.temperature,
+                "heating_solves": float(len(spent)),
+            }
+            result = replace(trial.result, operator_applications=applications, seconds=seconds)
+            return _completed(result, scene, measures)
+
+        return answered
+
+    def _estimates(self, result):
+        """Estimates of the heating of a solved contact, name -> rise of temperature [K]."""
+        solid, speed = result.scene.solid, result.scene.motion.speed
+        height = result.measures.get("rms_height", 0.0)
+        stiffer = 1 / (2 * (1 - solid.poisson_ratio))  # E*/4 over G
+
+        def rise(modulus, length):
+            friction = result.friction_coefficient
+            if 0 in (friction, length, speed):
+                return 0.0
+            return temperature_rise(friction, stiffer * modulus, length, speed, self.part.conductivity)
+
+        return {
+            "average_heating": rise(solid.static_modulus, result.depth) if result.depth >= 0 else nan,
+            "flash_heating": rise(solid.glassy_modulus, height),
+        }
+
+
+@dataclass(frozen=True)
+class _Trial:
+    """Trial of `settling`, with the answer behind it."""
+
+    warmer: float
+    result: Result
+    estimates: dict[str, float]
+    acting: str
+
+    @property
+    def rise(self) -> float:
+        return self.estimates[self.acting]
+
+
+def _warmer(scene, rise):
+    """The scene without heating, warmer by so much [K]. Raises SolveError where its law ends."""
+    law = scene.temperature
+    try:
+        law = replace(law, temperature=law.temperature + rise)
+    except ValueError as error:
+        raise SolveError(f"friction heats the contact by {rise:g} K, where {law!r} has no shift") from error
+    return replace(scene, temperature=law, heating=None)
+
+
+def _completed(result, scene, measures):
+    """The result as an answer to the scene."""
+    return replace(result, scene=scene, measures={**result.measures, **measures})

@@ -1,0 +1,1 @@
+"""Files: scenes, tables and heights as they are read, and what is wrong with them."""

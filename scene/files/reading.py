@@ -1,0 +1,134 @@
+"""Reading TOML files into validated objects, with every mistake named at once."""
+
+import re
+import tomllib
+from collections.abc import Sequence
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+from pydantic import TypeAdapter, ValidationError
+
+from ..printable import brief, printable
+from ..quantities import WHOLE
+from . import files
+from .mistakes import LISTED, mistakes
+
+__all__ = [
+    "InvalidInput",
+    "invalid",
+    "made",
+    "mistakes",
+    "parsed",
+    "read",
+    "text_of",
+    "validator",
+    "whole",
+]
+
+MOST = 1_000_000  # bytes of a file
+DEEPEST = 20  # levels of tables and lists in one another
+LONGEST = 2000  # letters of a mistake
+
+# Names joined by so many dots take a parser time that grows with their square; no file that can be read has them.
+_NAME = r"""(?:[\w-]{1,200}+|"(?:[^"\\\n]|\\.){0,200}+"|'[^'\n]{0,200}+')"""
+_ENDLESS = re.compile(rf"(?<![\w\\\"'-]){_NAME}(?:[ \t]{{0,9}}+\.[ \t]{{0,9}}+{_NAME}){{{5 * DEEPEST}}}", re.ASCII)
+# A line in which tomllib found a mistake, and a backslash in a string whose backslashes mean something.
+_PLACE, _BACKSLASH = re.compile(r"\(at line (\d+), column \d+\)"), re.compile(r'"[^"\n]*\\')
+
+
+class InvalidInput(ValueError):
+    """Input that is not what it should be, of a file or of a call; the message lists mistakes, a line each."""
+
+    def __init__(self, message: str):
+        super().__init__(printable(message))
+
+
+def read(path: str | Path, what: Any):
+    """Read a TOML file as `what`, a validated dataclass or model.
+
+    Raises InvalidInput naming for each mistake the field, the value, what is allowed, and the known name nearest
+    to an unknown one; of more than LISTED mistakes the first, and how many there are.
+    """
+    return made(parsed(text_of(path), path), what, path)
+
+
+def text_of(path: str | Path) -> str:
+    """A file in UTF-8 of MOST bytes or less. Raises InvalidInput."""
+    try:
+        return files.text(path, MOST)
+    except files.Unreadable as error:
+        raise InvalidInput(str(error)) from error
+
+
+def parsed(text: str, path: str | Path) -> dict[str, Any]:
+    """Content of a text in TOML; path : of its file, for mistakes. Raises InvalidInput."""
+    try:
+        if _ENDLESS.search(text):
+            raise RecursionError
+        content = tomllib.loads(text)
+        if _levels(content) > DEEPEST:
+            raise RecursionError
+    except RecursionError as error:
+        raise invalid(path, [f"tables and lists stand in one another deeper than {DEEPEST} levels"]) from error
+    except tomllib.TOMLDecodeError as error:
+        raise invalid(path, [f"is not valid TOML: {error}{_of_backslashes(str(error), text)}"]) from error
+    except ValueError as error:  # of dates that are none, and of numbers too long to be read
+        raise invalid(path, [f"is not valid TOML: {str(error).partition(';')[0]}"]) from error
+    return content
+
+
+def _of_backslashes(error, text):
+    """What to do about a backslash in double quotes, as paths of Windows have them, in a line that is no TOML."""
+    found = _PLACE.search(error)
+    line = text.split("\n")[int(found[1]) - 1] if found else ""
+    if not _BACKSLASH.search(line):
+        return ""
+    return "; a path with backslashes stands in single quotes, as 'C:\\data\\map.csv', or has forward slashes"
+
+
+def made(content: dict[str, Any], what: Any, path: str | Path):
+    """Content of a file as `what`. Raises InvalidInput, naming the file, as `read` does."""
+    adapter = validator(what)
+    with files.paths_from(path):
+        try:
+            return adapter.validate_python(content)
+        except ValidationError as error:
+            raise invalid(path, mistakes(error, content, adapter)) from error
+
+
+@lru_cache(maxsize=8)
+def validator(what: Any) -> TypeAdapter:
+    """Validator of content as `what`, made once: that takes longer than its use."""
+    return TypeAdapter(what)
+
+
+def invalid(path: str | Path, lines: Sequence[str]) -> InvalidInput:
+    """The mistakes of a file, a line each: the first LISTED, and how many more there are."""
+    more = [f"and {len(lines) - LISTED:,} more mistakes"] if len(lines) > LISTED else []
+    name, said = brief(str(path)), [*lines[:LISTED], *more]
+    return InvalidInput("\n".join(f"{name}: {brief(line, LONGEST)}" for line in said))
+
+
+def whole(name: str, given: Any, most: int) -> int:
+    """A whole number from 1 on, as an argument of a function. Raises InvalidInput, which names it."""
+    try:
+        found = WHOLE.value(given)
+    except ValueError:
+        found = 0
+    if not 1 <= found <= most:
+        raise InvalidInput(f"{name} = {brief(repr(given))}: a whole number from 1 to {most}")
+    return found
+
+
+def _levels(content):
+    """Levels of tables and lists in one another, counted up to one more than DEEPEST."""
+    level, count = [content], 0
+    while level and count <= DEEPEST:
+        level, count = [inner for each in level for inner in _inside(each)], count + 1
+    return count
+
+
+def _inside(part):
+    parts = part.values() if isinstance(part, dict) else part
+    return [each for each in parts if isinstance(each, dict | list)]

@@ -1,0 +1,256 @@
+"""Tables of numbers: the columns that a reader knows, in SI, out of a text file or of arrays in Python.
+
+A file has the form of `tabletext`. One heading row has names with units, as `name [unit]` or `name (unit)`, or one
+row of units below it. A DataFrame, a Dataset of xarray or a mapping of arrays has columns of the same names, and
+quantities of pint and attributes have units. Nothing is guessed; what `TableFormat` does not state is refused:
+
+- a column without a unit, unless its unit is not needed, the heading is the first line, and all others are in SI
+- two columns of one field, unless `columns` states which one is used
+- a column that is not used, and may tell samples apart: of text, or of numbers that repeat, with several values
+"""
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+from unicodedata import normalize
+
+import numpy as np
+import pandas as pd
+from pydantic import ValidationError
+
+from ..plain import bare, in_unit
+from ..printable import brief
+from ..quantities import HERTZ, RADIAN_PER_SECOND, Unit
+from ..units import is_unit
+from .tabletext import PURE, Cells, TableFormat, read_text, shown, split_format
+
+MOST_BYTES = 20_000_000
+# Other quantities of one measurement: they may vary, and need not be used.
+REDUNDANT = (
+    *("time", "t", "index", "point", "tan delta", "phase", "|G*|", "|E*|", "complex modulus"),
+    *("torque", "strain", "stress", "displacement", "normal force"),
+)
+_WITH_UNIT = re.compile(r"(.+?)\s*(?:\[([^\[\]]*)\]|\(([^()]*(?:\([^()]*\)[^()]*)*)\))")
+_LETTERS = str.maketrans(
+    {"’": "'", "′": "'", '"': "''", "ω": "omega", "δ": "delta", "η": "eta", "τ": "tau", "μ": "mu", "_": " "}
+)
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column that a reader knows.
+
+    field : name of the quantity, a name of the column too
+    names : in headings; case, blanks and underscores aside, but a name of a single letter has its case
+    units : of SI, one for each dimension that it may have; none of pure numbers
+    needed, unit_needed : whether it must be there, and its unit stated
+    gaps : whether empty cells and nan become NaN; otherwise they are refused
+    """
+
+    field: str
+    names: tuple[str, ...]
+    units: tuple[Unit, ...] = ()
+    needed: bool = False
+    unit_needed: bool = False
+    gaps: bool = False
+
+
+@dataclass(eq=False)
+class Columns:
+    """Columns that were found.
+
+    name : of the table; place : of a row, for messages
+    notes : names of the columns that are not used, a line each
+    values : (rows,) by field, in SI
+    units : of SI by field; None where the table states none
+    headings : names in the table by field
+    """
+
+    name: str
+    place: Callable[[int], str]
+    notes: tuple[str, ...]
+    values: dict[str, np.ndarray] = field(default_factory=dict)
+    units: dict[str, Unit | None] = field(default_factory=dict)
+    headings: dict[str, str] = field(default_factory=dict)
+
+    def __contains__(self, name: str) -> bool:
+        return name in self.values
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        return self.values[name]
+
+    def refuse(self, name: str, wrong: np.ndarray, why: str) -> None:
+        """Raise ValueError for the first row (rows,) in which a field is wrong."""
+        if wrong.any():
+            row = int(np.argmax(wrong))
+            raise ValueError(f"{self.place(row)}: {name} = {self.values[name][row]:g} {why}")
+
+
+def read_columns(
+    table: Any, known: Sequence[Column], stated: TableFormat | None = None, most_bytes: int = MOST_BYTES
+) -> Columns:
+    """Columns of a path, a DataFrame, a Dataset of xarray or a mapping of arrays. Raises ValueError, see above."""
+    stated = stated or TableFormat()
+    if isinstance(table, str | Path):
+        cells = read_text(table, stated, most_bytes)
+    elif isinstance(table, Mapping) or hasattr(table, "columns"):
+        cells = _of_python(table)
+    else:
+        raise ValueError(f"{shown(table)}: a path, a DataFrame, a Dataset of xarray or arrays by their names")
+    fields = {_key(name): each.field for each in known for name in (each.field, *each.names)}
+    names = [*cells.headings]
+    for k, heading in enumerate(names):
+        split = None if cells.units[k] not in PURE or _key(heading) in fields else _WITH_UNIT.fullmatch(heading)
+        if split and (split[2] is not None or is_unit(split[3])):
+            names[k], cells.units[k] = split[1], split[2] or split[3] or ""
+    places = _places(cells, names, known, fields, stated)
+    used = _select(cells, names, places, fields, stated)
+    units = {each: _unit(cells, places[each.field], each, stated) for each in known if each.field in places}
+    own = [(each.units, unit) for each, unit in units.items() if each.units and not each.unit_needed]
+    si = cells.first and all(unit in ("", *(one.symbol for one in several)) for several, unit in own)
+    others = [name for k, name in enumerate(names) if k not in used and cells.frame[k].astype(str).any()]
+    notes = tuple(f"{cells.name}: column {shown(name)} is not used" for name in others)
+    found = Columns(cells.name, cells.place, notes)
+    for each, unit in units.items():
+        place = places[each.field]
+        found.headings[each.field], numbers = names[place], cells.finite(place, each.gaps)
+        found.values[each.field], found.units[each.field] = _in_si(found, each, numbers, unit, si)
+    return found
+
+
+def filled(given: Mapping[str, Any], known: Sequence[Column]) -> dict[str, Any]:
+    """What is stated for a part of a scene, with fields out of the columns of `table`, where that is stated.
+
+    Raises ValueError for what is stated of no table, and ValidationError, at table, for one that is refused.
+    """
+    written, rest = split_format(given)
+    if (table := rest.pop("table", None)) is None:
+        if written != TableFormat():
+            raise ValueError("table is missing, of which columns, units or lines are stated")
+        return rest
+    try:
+        columns = read_columns(table, known, written)
+        if both := columns.values.keys() & rest.keys():
+            raise ValueError(f"{columns.name}: {min(both)} is stated, and a column of the table: leave one out")
+    except ValueError as error:
+        raise refused(table, error) from error
+    return rest | columns.values
+
+
+def refused(table: Any, reason: ValueError) -> ValidationError:
+    """A mistake of the field `table`."""
+    error = {"error": ValueError(str(reason))}
+    line: Any = {"type": "value_error", "loc": ("table",), "input": table, "ctx": error}
+    return ValidationError.from_exception_data("table", [line])
+
+
+def _of_python(table):
+    names = [*getattr(table, "variables", getattr(table, "columns", table))]  # of xarray, pandas, a mapping
+    names = [name for name in names if getattr(table[name], "ndim", 1)]  # of xarray one number may be a coordinate
+    held = [bare(table[name]) for name in names]
+    frame = pd.DataFrame({k: np.asarray(values) for k, (values, _) in enumerate(held)})
+    if not frame.size:
+        raise ValueError(f"{type(table).__name__}: there is no row in it")
+    frame = frame.apply(lambda each: each.astype(float) if each.dtype.kind in "fiu" else each.map(str))
+    frame.index = pd.RangeIndex(1, len(frame) + 1, name="row")
+    return Cells(type(table).__name__, frame, [*map(str, names)], [unit or "" for _, unit in held])
+
+
+def _key(name):
+    """A name as it is compared."""
+    key = "".join(normalize("NFKC", name).translate(_LETTERS).split())
+    return key if len(key) == 1 else key.casefold()
+
+
+def _find(cells, names, heading):
+    """Column of a stated heading, with its unit or without, or of a number."""
+    wanted, pairs = _key(str(heading)), zip(cells.headings, names, strict=True)
+    found = [k for k, pair in enumerate(pairs) if wanted in map(_key, pair)]
+    if len(found) != 1:
+        there = brief(", ".join(map(repr, cells.headings)))
+        raise ValueError(f"{cells.name}: {len(found)} columns are called {shown(heading)}; there are {there}")
+    return found[0]
+
+
+def _places(cells, names, known, fields, stated):
+    """Column by field. names : headings without units"""
+    columns, units, allowed = stated.columns or {}, stated.units or {}, [each.field for each in known]
+    if unknown := {*columns, *units}.difference(allowed):
+        raise ValueError(f"{shown(min(unknown))} is none of the columns: {', '.join(allowed)}")
+    places = {name: _find(cells, names, heading) for name, heading in columns.items()}
+    for k, heading in enumerate(names):
+        name = fields.get(_key(heading))
+        if name is None or name in columns or k in places.values():
+            continue
+        if name in places:
+            one, other = shown(cells.headings[places[name]]), shown(cells.headings[k])
+            raise ValueError(
+                f"{cells.name}: {one} and {other} are both {name}: state one, as columns = {{{name} = {other}}}"
+            )
+        places[name] = k
+    for each in known:
+        if each.field not in places and (each.needed or each.field in units):
+            there = brief(", ".join(map(repr, cells.headings)))
+            raise ValueError(
+                f"{cells.name}: there is no column {each.field} ({', '.join(each.names)}), but {there}: state its "
+                f"heading, as columns = {{{each.field} = {shown(cells.headings[0])}}}, or skip"
+            )
+    return places
+
+
+def _select(cells, names, places, fields, stated):
+    """Keep the rows that are stated, and return the columns that are used or stated. Raises ValueError."""
+    kept, free, where = np.ones(len(cells.frame), bool), {*places.values()}, dict(stated.where or {})
+    for heading, value in where.items():
+        place = _find(cells, names, heading)
+        free.add(place)
+        number = pd.to_numeric(str(value), errors="coerce")
+        same = np.isfinite(number) & (cells.numbers(place) == number)
+        kept &= (value == "*") | (cells.frame[place].astype(str) == str(value)) | same
+    if not kept.any():
+        raise ValueError(f"{cells.name}: no row has {brief(repr(where))}")
+    cells.frame = cells.frame[kept]
+    exempt = {*fields, *map(_key, REDUNDANT)}
+    for k, heading in enumerate(names):
+        values = cells.frame[k].unique()
+        counted = len(values) == len(cells.frame) and np.isfinite(cells.numbers(k)).all()
+        if k not in free and _key(heading) not in exempt and len(values) > 1 and not counted:
+            own, first, second = map(shown, (heading, *map(str, values[:2])))
+            raise ValueError(
+                f"{cells.name}: column {own} has several values, {first} and {second}, and is not used: state its "
+                f"quantity, as columns = {{field = {own}}}, or where = {{{own} = {first}}} for rows of one value, "
+                f"where = {{{own} = '*'}} for all"
+            )
+    return free
+
+
+def _unit(cells, place, column, stated):
+    """Unit of a column as it is written or stated; empty without one. Raises ValueError where both differ."""
+    unit, own = cells.units[place].strip(), (stated.units or {}).get(column.field, "")
+    unit = "" if unit in PURE else unit
+    if unit in ("1/s", "s^-1", "s-1", "s⁻¹") and RADIAN_PER_SECOND in column.units:
+        unit = "" if HERTZ in column.units else "rad/s"  # 1/s of a frequency may be either
+    if unit and own and "".join(unit.split()) != "".join(own.split()):
+        where = f"{cells.name}: column {shown(cells.headings[place])}"
+        raise ValueError(f"{where} is in {shown(unit)}, and units states {shown(own)}: they must agree")
+    return unit or own
+
+
+def _in_si(found, column, numbers, unit, si):
+    """Numbers in SI, and the unit of SI; None where there is no unit. si : whether that is then the unit"""
+    where = f"{found.name}: column {shown(found.headings[column.field])}"
+    symbols = [each.symbol for each in column.units]
+    state = f"state units = {{{column.field} = {(symbols or [''])[0]!r}}}"
+    if not unit and (column.unit_needed or (len(symbols) == 1 and not si)):
+        raise ValueError(f"{where} has no unit in the heading: {state}")
+    if not unit:
+        return numbers, None
+    for each in column.units:
+        try:
+            return in_unit(numbers, unit, each.symbol, each.difference), each
+        except ValueError:
+            continue
+    kinds = " or ".join(each.kind for each in column.units) or "a number without a unit"
+    raise ValueError(f"{where} is in {shown(unit)}, and is {kinds}: {state}")

@@ -1,0 +1,1 @@
+"""Rheology: models, modes of Prony series, tables of moduli, and what continues them."""

@@ -1,0 +1,159 @@
+"""Isotropic roughness that has a spectral density: what it is drawn by, whatever the density."""
+
+from dataclasses import replace
+from functools import lru_cache
+from itertools import pairwise
+from math import ceil, pi, sqrt
+from typing import TYPE_CHECKING, Any, Self
+
+import numpy as np
+
+from ..quantities import METRE, RADIAN_PER_METRE, takes
+
+# Nodes between two corners: for rounding those of a piece by its length, and enough over seven decades for 1e-12.
+_FEWEST, _MORE, _MOST = 4, 5, 28
+
+
+def power_integral(exponent, lower, upper):
+    """int_lower^upper q^exponent dq for 0 < lower <= upper, arrays allowed; exact also near exponent = -1."""
+    p = exponent + 1
+    ratio = np.log(upper / lower)
+    return lower**p * np.where(p == 0, ratio, np.expm1(p * ratio) / np.where(p == 0, 1.0, p))
+
+
+def over_directions(function, q, corners):
+    """Mean over all angles of function(q / cos(angle)), which is zero above the last corner.
+
+    corners : wave numbers [rad/m], ascending, between which the function is smooth
+
+    With 1 / cos(angle) = cosh(t) the integrand is analytic between the corners.
+    """
+    ends = [np.arccosh(np.maximum(corner / q, 1.0)) for corner in (q, *corners)]
+    total = 0.0
+    for start, end in pairwise(ends):
+        middle, half = (start + end) / 2, (end - start) / 2
+        nodes, weights = _rule(min(_FEWEST + ceil(_MORE * 2 * np.max(half)), _MOST))
+        for node, weight in zip(nodes, weights, strict=True):
+            stretch = np.cosh(middle + half * node)
+            total = total + weight * half * function(q * stretch) / stretch
+    return 2 / pi * total
+
+
+@lru_cache
+def _rule(nodes):
+    return np.polynomial.legendre.leggauss(nodes)
+
+
+of_waves = takes(**dict.fromkeys(("q", "q_max", "lower", "upper"), RADIAN_PER_METRE))
+
+
+class Isotropic:
+    """Randomly rough and isotropic, from a longest wave, after which it repeats, to a shortest one.
+
+    A class states rms_height [m], longest and shortest [m] (None where the cut-off is that of a grid), seed,
+    amplitudes ("fixed" or "gaussian"), its density, its moments int q^m C_2D dq, both in units of its own, and the
+    wave numbers where the density has corners.
+
+    Spectra are two-sided: <h^2> = 2 int_0^inf C_1D dq = 2 pi int_0^inf q C_2D dq. A line has the spectrum of the
+    method of dimensionality reduction, C_1D = pi q C_2D, which keeps the rms height and the rms of the full
+    gradient, or that of a line scan.
+    """
+
+    if TYPE_CHECKING:
+        seed: int
+        amplitudes: str
+
+        @property
+        def rms_height(self) -> float: ...
+        @property
+        def longest(self) -> float: ...
+        @property
+        def shortest(self) -> float | None: ...
+        @property
+        def _unit(self) -> float: ...
+        def _relative(self, q: Any) -> Any: ...
+        def _moment(self, m: int, lower: Any, upper: Any) -> Any: ...
+        def _corners(self, q_max: float) -> tuple[float, ...]: ...
+
+    @property
+    def normalized(self) -> Self:
+        """A spectrum of this shape, at a height of which the square does not vanish."""
+        return self
+
+    @property
+    def flat(self) -> bool:
+        """Whether the rms height is zero, so that there is no roughness."""
+        return self.rms_height == 0
+
+    @property
+    def period(self) -> float:
+        """Side of the square that repeats [m]."""
+        return self.longest
+
+    @property
+    def q_min(self) -> float:
+        """Lowest wave number 2 pi / longest [rad/m]."""
+        return 2 * pi / self.longest
+
+    @takes(pixel=METRE)
+    def q_max(self, pixel: float) -> float:
+        """Highest wave number [rad/m]: that of the shortest wavelength, else pi / pixel."""
+        return 2 * pi / self.shortest if self.shortest is not None else pi / pixel
+
+    @of_waves
+    def density_1d(self, q, q_max):
+        """C_1D(q) [m^3] by the rule pi q C_2D, zero outside q_min <= q <= q_max [rad/m]."""
+        return pi * q * self.density_2d(q, q_max)
+
+    @of_waves
+    def density_line_scan(self, q, q_max):
+        """C_1D(q) [m^3] of a line scan, 2 int_0^inf C_2D(sqrt(q^2 + s^2)) ds, for q > 0 [rad/m]; zero above q_max.
+
+        A wave of the surface at an angle to the line is seen on it at q cos(angle): the line scan has power also
+        below q_min, and half the mean square slope of the full gradient.
+        """
+        return self._seen(lambda seen: seen / q * self.density_1d(seen, q_max), q, q_max)
+
+    @of_waves
+    def density_2d(self, q, q_max):
+        """C_2D(q) [m^4], zero outside q_min <= q <= q_max [rad/m]."""
+        inside = (q >= self.q_min) & (q <= q_max)
+        relative = self._relative(np.where(inside, q, self.q_min))
+        at_unit = (self.rms_height / self._unit) ** 2 / (2 * pi * self._moment(1, self.q_min, q_max))
+        return np.where(inside, at_unit * relative, 0.0)
+
+    @of_waves
+    def share(self, lower, upper, q_max):
+        """Share of <h^2> that lies in q_min <= lower <= q <= upper <= q_max [rad/m], arrays allowed."""
+        return self._moment(1, lower, upper) / self._moment(1, self.q_min, q_max)
+
+    @of_waves
+    def share_line_scan(self, lower, upper, q_max):
+        """Share of <h^2> that a line scan has in 0 < lower <= q <= upper <= q_max [rad/m], arrays allowed."""
+
+        def above(q):
+            return self.share(np.maximum(q, self.q_min), q_max, q_max)
+
+        seen_above_lower, seen_above_upper = (self._seen(above, q, q_max) for q in (lower, upper))
+        return seen_above_lower - seen_above_upper
+
+    @of_waves
+    def rms_slope(self, q_max) -> float:
+        """Spectral rms of the full gradient [1] with the cut-off q_max [rad/m].
+
+        >>> from scene import SelfAffine
+        >>> rough = SelfAffine(hurst=0.8, rms_height=1e-6, longest=1e-3, shortest=1e-5, seed=1)
+        >>> round(rough.rms_slope(rough.q_max(pixel=1e-6)), 3)
+        0.029
+        """
+        ratio = self._moment(3, self.q_min, q_max) / self._moment(1, self.q_min, q_max)
+        return self.rms_height * self._unit * sqrt(ratio)
+
+    def _seen(self, function, q, q_max):
+        return over_directions(function, q, (*self._corners(q_max), q_max))
+
+
+def seeded(rough: Isotropic, seed: int) -> Any:
+    """The same roughness with another seed."""
+    drawn: Any = rough
+    return replace(drawn, seed=seed)

@@ -1,0 +1,208 @@
+"""What a measured map may be given as, and how it is prepared: read, laid out, cropped, mended."""
+
+from collections.abc import Mapping
+from dataclasses import fields
+from typing import Any, Literal
+
+import numpy as np
+from pydantic import ConfigDict, model_validator
+from pydantic.dataclasses import dataclass
+
+from ..files.heightfile import LINE, MAP, given_heights, read_heights
+from ..files.tabletext import FromTable, TableFormat, split_format
+from ..printable import brief
+from ..quantities import BARE, CLOSED, METRE, Length, argument, by_name
+from .heightmap import LEAST, HeightLine, HeightMap, MapHeights, Pixel, sides
+from .missing import LEAST_DEVIATIONS, mended
+
+QUOTIENT = 1e-12  # rounding of a quotient of lengths
+FILL = ("refuse", "fill")
+# What is asked of heights before they are a map or a line; no fields: what comes of it is in the heights.
+_READING = ("file", "unit", "channel", "missing")
+ASKED = {HeightMap: (*_READING, "crop", "outliers"), HeightLine: _READING}
+
+
+def schema_with_file(spacing: str, **more: Any) -> Any:
+    """Addition to JSON schema: a file in place of heights with their spacing, and what is asked of either."""
+
+    def added(schema: dict[str, Any]) -> None:
+        schema["properties"] |= {name: {"type": "string"} for name in ("file", "unit", "channel")}
+        schema["properties"] |= {"missing": {"enum": list(FILL), "default": FILL[0]}, **more}
+        del schema["required"]
+        schema["anyOf"] = [{"required": ["file"]}, {"required": ["heights", spacing]}]
+
+    return added
+
+
+_CROP = {"type": "array", "items": {"type": ["number", "string"]}, "minItems": 4, "maxItems": 4}
+_OUTLIERS = {"type": "number", "minimum": LEAST_DEVIATIONS}
+MAPPED = ConfigDict(**CLOSED, json_schema_extra=schema_with_file("pixel", crop=_CROP, outliers=_OUTLIERS))
+
+
+@dataclass(frozen=True, config=MAPPED, kw_only=True)
+class Scanned(FromTable):
+    """Measured map of heights.
+
+    heights : rows along y of heights along x [m], both ascending; of xarray, with the dimensions y and x; or
+        points as columns x, y and z of a table
+    pixel : side of a pixel [m]; of pixels that are no squares, along x and along y
+    peaks : "up", heights grow towards the elastomer, as instruments give them, and the highest point touches
+        first; "down", they are those of an indenter above the elastomer, and the lowest touches first
+    shortest_kept : waves shorter than this are left out [m]; absent, every wave of the map is kept
+
+    In place of heights `file` is the path of a file, read once and kept as numbers, see `heightfile`. `pixel`, and
+    `unit` of the heights, are needed where the file does not state them, and `channel` where it has several maps.
+    `skip`, `rows`, `separator`, `decimal`, `encoding`, `columns`, `units` and `where` state what differs of a
+    text, see `tabletext.TableFormat`.
+
+    Before heights are a map, in this order:
+
+    crop : x from, x to, y from, y to [m], from the corner of the first pixel: pixels whose middles lie between are
+        kept
+    outliers : heights farther off the median of the 5 x 5 pixels around them than so many robust standard
+        deviations, from 3 on, are filled in; absent, none is
+    missing : "fill", heights that are missing, NaN, masked or a number far off that stands for none, are filled in
+        harmonically, a twentieth of the pixels at most; "refuse", the default, they are an error
+
+    `notes` say what was done. Raises ValueError for what is none of these.
+    """
+
+    heights: MapHeights
+    pixel: Pixel
+    peaks: Literal["up", "down"] = "up"
+    shortest_kept: Length | None = None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _prepared(cls, given: Any) -> Any:
+        return prepared(given, HeightMap, "pixel", {each.name for each in fields(cls)})
+
+    @model_validator(mode="after")
+    def _waves_kept(self):
+        if self.shortest_kept is not None:
+            least, most = self.keepable
+            if not least * (1 - QUOTIENT) <= self.shortest_kept <= most:
+                raise ValueError(
+                    f"shortest_kept = {self.shortest_kept:g} m: from two pixels, {least:g} m, to half of what "
+                    f"repeats, {most:g} m"
+                )
+        return self
+
+    @property
+    def keepable(self) -> tuple[float, float]:
+        """Least and greatest `shortest_kept` [m]: two pixels, and half of what repeats."""
+        return 2 * max(self.pixel), min(self.sides) / 2
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What was done to the heights before they were a map, and what of a file was not used, a line each."""
+        return self.heights.notes
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Sides of the map, along x and along y [m]."""
+        rows, columns = self.heights.shape
+        return columns * self.pixel[0], rows * self.pixel[1]
+
+    @property
+    def sides(self) -> tuple[float, float]:
+        """Sides of the rectangle that repeats, the map with its mirror images, along x and along y [m]."""
+        return 2 * self.size[0], 2 * self.size[1]
+
+    def _turned(self) -> np.ndarray:
+        """Heights above the elastomer, from whatever level (rows, columns) [m]."""
+        return -self.heights.heights if self.peaks == "up" else self.heights.heights
+
+
+def prepared(given: Any, kind: type[HeightMap], spacing: str, names: set[str]) -> Any:
+    """Fields of a part whose heights are a map or a line: read, cropped and mended as stated.
+
+    kind : HeightMap or HeightLine; spacing : field with the pixel or the spacing; names : of all fields
+
+    What are no heights is left to its field to refuse, and so is a spacing that is none. Raises ValueError.
+    """
+    stated = by_name(given)
+    if stated is None or not ("file" in stated or "heights" in stated):
+        return given
+    written, stated = split_format(stated)
+    asked = {name: stated[name] for name in ASKED[kind] if stated.get(name) is not None}
+    left = {name: each for name, each in stated.items() if name not in ASKED[kind]}
+    path, heights = asked.pop("file", None), left.get("heights")
+    if path is not None and heights is not None:
+        raise ValueError(f"file = {brief(repr(path))} and heights are both stated: give one of them")
+    if left.keys() - names:
+        # First what is misspelt: another map may be meant.
+        return {spacing: 1.0} | left | {"heights": kind(np.eye(LEAST) if kind is HeightMap else np.zeros(1))}
+    plain = not (isinstance(heights, Mapping) or hasattr(heights, "columns") or hasattr(heights, "dims"))
+    if isinstance(heights, str) or (path is None and plain and not asked and written == TableFormat()):
+        return left
+    if isinstance(heights, HeightMap):
+        if {"unit", "channel"} & asked.keys() or written != TableFormat():
+            raise ValueError("heights are in metres: unit, channel and what is stated of a text are for a file")
+        numbers, notes = heights.heights, heights.notes
+    else:
+        read, units = given_heights if path is None else read_heights, written.units or {}
+        if "unit" in asked and "z" in units:
+            raise ValueError(f"unit = {asked['unit']!r} and units = {{z = {units['z']!r}}}: state one of them")
+        unit, dims = asked.get("unit", units.get("z")), MAP if kind is HeightMap else LINE
+        numbers, left[spacing], notes = read(
+            heights if path is None else path, dims, left.get(spacing), unit, asked.get("channel"), written
+        )
+    try:
+        kind.check_layout(numbers.shape, numbers.dtype)
+        numbers, more = _mended(numbers.astype(float), left.get(spacing), asked)
+        return left | {"heights": kind(numbers, (*notes, *more))}
+    except ValueError as error:
+        raise error if path is None else ValueError(f"file = {brief(repr(str(path)))}: {error}") from None
+
+
+def _mended(heights, pixel, asked):
+    """Heights cropped and filled in as stated, and what was done, in lines."""
+    crop, missing, deviations = (asked.get(name) for name in ("crop", "missing", "outliers"))
+    if missing not in (None, *FILL):
+        raise ValueError(f"missing = {brief(repr(missing))}: 'refuse' or 'fill'")
+    if deviations is not None:
+        deviations = argument("outliers", deviations, _deviations)
+    notes: tuple[str, ...] = ()
+    if crop is None and missing != "fill" and deviations is None:
+        return heights, notes
+    try:
+        pixel = sides(pixel)
+    except ValueError:
+        return heights, notes
+    if crop is not None:
+        heights, cropped = _cropped(heights, pixel, crop)
+        notes = (cropped,)
+    heights, more = mended(heights, pixel, missing == "fill", deviations)
+    return heights, (*notes, *more)
+
+
+def _deviations(given):
+    found = BARE.value(given)
+    if not LEAST_DEVIATIONS <= found < np.inf:
+        raise ValueError(f"a number of standard deviations, from {LEAST_DEVIATIONS:g} on")
+    return float(found)
+
+
+def _cropped(heights, pixel, crop):
+    """The part of a map whose middles of pixels lie in a rectangle, and what was left out, in words."""
+    rows, columns = heights.shape
+    size = columns * pixel[0], rows * pixel[1]
+    allowed = (
+        f"x from, x to, y from, y to as lengths, 0 to {size[0]:g} m along x and 0 to {size[1]:g} m along y, with "
+        f"at least {LEAST} pixels on either side"
+    )
+    ends = argument("crop", crop, METRE.row)
+    if len(ends) != 4 or not np.isfinite(ends).all():
+        raise ValueError(f"crop = {brief(repr(crop))}: {allowed}")
+    kept = []
+    for side, count, whole, (low, high) in zip(pixel, (columns, rows), size, (ends[:2], ends[2:]), strict=True):
+        close = QUOTIENT * whole
+        middles = (np.arange(count) + 0.5) * side
+        inside = np.flatnonzero((low - close <= middles) & (middles <= high + close))
+        if low < -close or high > whole + close or len(inside) < LEAST:
+            raise ValueError(f"crop = {brief(repr(crop))}: {allowed}")
+        kept.append(slice(inside[0], inside[-1] + 1))
+    along_x, along_y = kept
+    left = heights[along_y, along_x]
+    return left, f"cropped to {left.shape[1]} x {left.shape[0]} of {columns} x {rows} pixels"

@@ -1,0 +1,130 @@
+"""Roughness by a self-affine spectrum, from which each solver draws its own surface."""
+
+from dataclasses import replace
+from math import inf, pi
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from pydantic import AfterValidator, ConfigDict, Field, TypeAdapter, ValidationError, model_validator
+from pydantic.dataclasses import dataclass
+
+from ..printable import brief
+from ..quantities import CLOSED, Finite, Length, LengthOrZero, NonNegative, Seed, by_name
+from .isotropic import Isotropic, power_integral
+
+# Wavelength [m] down to which its wave number, and that of a grid that resolves it, is a number.
+_SHORTEST = 1e-300
+
+
+def _has_wave_number(wavelength):
+    if wavelength < _SHORTEST:
+        raise ValueError(f"wavelengths are at least {_SHORTEST:g} m, for their wave numbers to be finite")
+    return wavelength
+
+
+Wavelength = Annotated[Length, AfterValidator(_has_wave_number)]
+
+_SLOPE = TypeAdapter(NonNegative)
+
+
+def _or_slope(schema: dict[str, Any]) -> None:
+    """In JSON schema: a slope in place of the height."""
+    schema["properties"] |= {
+        "rms_slope": _SLOPE.json_schema() | {"description": "in place of rms_height: rms of the full gradient"}
+    }
+    schema["required"].remove("rms_height")
+    schema["oneOf"] = [{"required": ["rms_height"]}, {"required": ["rms_slope", "shortest"]}]
+
+
+@dataclass(frozen=True, config=ConfigDict(**CLOSED, json_schema_extra=_or_slope), kw_only=True)
+class SelfAffine(Isotropic):
+    """Randomly rough, isotropic, self-affine between two wavelengths.
+
+    hurst : Hurst exponent, 0 to 1
+    rms_height : rms height h_0 over the whole surface [m]
+    longest : longest wavelength and period of the surface [m], q_min = 2 pi / longest
+    shortest : shortest wavelength [m], q_max = 2 pi / shortest; without it the cut-off is the Nyquist wave
+        number of the solver's grid, as in the paper
+    rolloff : wavelength [m] above which, up to `longest`, the spectrum is flat; without it there is no roll-off
+    seed : of the random phases, and of the amplitudes where those are drawn
+    amplitudes : "fixed", those of the spectrum, so that each surface has its rms height, or "gaussian", complex
+        Gaussian variables of the same mean square, so that heights are a Gaussian process and the rms height of a
+        surface scatters
+
+    In place of rms_height `rms_slope` may be stated, the spectral rms of the full gradient [1], with `shortest`:
+    it becomes the rms_height that has it.
+    """
+
+    hurst: Annotated[Finite, Field(ge=0, le=1)]
+    rms_height: LengthOrZero
+    longest: Wavelength
+    shortest: Wavelength | None = None
+    rolloff: Wavelength | None = None
+    seed: Seed = 0
+    amplitudes: Literal["fixed", "gaussian"] = "fixed"
+    type: Literal["self-affine"] = Field(default="self-affine", repr=False)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _of_the_slope(cls, given: Any) -> Any:
+        stated = by_name(given)
+        if stated is None or "rms_slope" not in stated:
+            return given
+        stated = dict(stated)
+        said = f"rms_slope = {brief(repr(slope := stated.pop('rms_slope')))}"
+        if "rms_height" in stated:
+            raise ValueError(f"{said} beside rms_height = {brief(repr(stated['rms_height']))}: give one of them")
+        try:
+            slope = _SLOPE.validate_python(slope)
+        except ValidationError as error:
+            why = error.errors()[0]["msg"].removeprefix("Value error, ")
+            raise ValueError(f"{said}: {why}, the rms of the full gradient, a number without a unit") from None
+        try:
+            unit = cls(**stated, rms_height=1.0)
+        except ValueError:
+            return stated | {"rms_height": 1.0}  # for the mistakes to be told of the fields that have them
+        if unit.shortest is None:
+            raise ValueError(
+                f"{said} without shortest: the cut-off would be that of each solver's grid, and so would the "
+                "height; state shortest, the shortest wavelength, or rms_height in place of rms_slope"
+            )
+        steepness = unit.rms_slope(unit.q_max(0.0))
+        height = slope / steepness if 0 < steepness < inf else inf
+        if not height < inf or (slope and not height):
+            raise ValueError(f"{said}: its rms height is beyond the range of numbers")
+        return stated | {"rms_height": height}
+
+    @model_validator(mode="after")
+    def _wavelengths_in_order(self):
+        if self.shortest is not None and not self.shortest <= self.longest / 2:
+            raise ValueError(f"shortest = {self.shortest:g} must be at most half of longest = {self.longest:g}")
+        if self.rolloff is not None and not (self.shortest or 0.0) < self.rolloff <= self.longest:
+            least = "" if self.shortest is None else f"more than shortest = {self.shortest:g} and "
+            raise ValueError(f"rolloff = {self.rolloff:g} must be {least}at most longest = {self.longest:g}")
+        return self
+
+    @property
+    def normalized(self) -> "SelfAffine":
+        """The same spectrum at an rms height of 1 m, as the square of a tiny one vanishes."""
+        return replace(self, rms_height=1.0)
+
+    @property
+    def q_rolloff(self) -> float:
+        """Wave number [rad/m] below which the spectrum is flat: q_min without a roll-off."""
+        return self.q_min if self.rolloff is None else 2 * pi / self.rolloff
+
+    @property
+    def _unit(self):
+        return self.q_rolloff
+
+    def _corners(self, q_max):
+        return self.q_min, self.q_rolloff
+
+    def _relative(self, q):
+        return np.maximum(q / self.q_rolloff, 1.0) ** (-2 * self.hurst - 2)
+
+    def _moment(self, m, lower, upper):
+        """int t^m max(t, 1)^(-2H-2) dt over t = q / q_rolloff, from lower to upper [rad/m]."""
+        lower, upper = lower / self.q_rolloff, upper / self.q_rolloff
+        flat = power_integral(m, np.minimum(lower, 1.0), np.minimum(upper, 1.0))
+        return flat + power_integral(m - 2 * self.hurst - 2, np.maximum(lower, 1.0), np.maximum(upper, 1.0))
