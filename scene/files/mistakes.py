@@ -73,8 +73,8 @@ def mistakes(error: ValidationError, content: dict, adapter: TypeAdapter) -> lis
             near = name
             if name not in known:
                 near = like(name, known)
-                listed = f"{_meant(near)}{' Known' if near else '; known'} are {', '.join(known)}"
-                lines.append(f"{_written((*where, name), value)} unknown here{listed}")
+                listed = "" if where in untyped else f"{' Known' if near else '; known'} are {', '.join(known)}"
+                lines.append(f"{_written((*where, name), value)} unknown here{_meant(near)}{listed}")
             if near in known and (near == name or near not in content):
                 found[near] = renamed((*where, near), known[near], value)
         return found

@@ -221,7 +221,7 @@ def _select(cells, names, places, fields, stated):
             raise ValueError(
                 f"{cells.name}: column {own} has several values, {first} and {second}, and is not used: state its "
                 f"quantity, as columns = {{field = {own}}}, or where = {{{own} = {first}}} for rows of one value, "
-                f"where = {{{own} = '*'}} for all"
+                "and '*' for all"
             )
     return free
 

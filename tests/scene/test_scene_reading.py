@@ -234,7 +234,7 @@ TYPES = "one of 'elastic', 'fractional', 'kelvin', 'kelvin-chain', 'prony', 'sta
             'typ = "slide"',
             [
                 "motion.type: missing, one of 'indent', 'program', 'shear', 'slide'",
-                "motion.typ = 'slide': unknown here; did you mean type? Known are",
+                "motion.typ = 'slide': unknown here; did you mean type?",
             ],
         ),
         ("[indenter]", "speed = 0.1\n[indenter]", ["speed = 0.1: unknown here; known are indenter, elastomer, "]),
@@ -269,7 +269,7 @@ def test_a_type_that_is_missing_or_unknown_hides_nothing_of_its_table(tmp_path, 
     text = WHOLE.replace('type = "kelvin"\n', stated).replace("1e-3", "-1e-3\nfudge = 2\nmoduli = [1]")
     kind, unknown, wrong = lines_of(tmp_path, text)
     assert kind == f"elastomer.type{missing} {TYPES}"
-    assert unknown.startswith("elastomer.fudge = 2: unknown here; known are")
+    assert unknown == "elastomer.fudge = 2: unknown here"
     assert wrong == "elastomer.relaxation_time = -0.001: Input should be greater than 0"
 
 
