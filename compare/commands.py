@@ -84,7 +84,7 @@ from .options import (
     WithReport,
     Workers,
     Yes,
-    by_name,
+    table_form,
 )
 from .solving.suggest import checked
 
@@ -143,7 +143,7 @@ def solve(
 
 
 def _shown(progress: bool | str | Shown | None) -> AbstractContextManager[Shown | None]:
-    """What shows how far a run is; None where nothing is to be shown. One that is given is ended by its giver."""
+    """Progress display of a run; None where nothing is shown. The caller ends a display that it gives."""
     if not progress:
         return nullcontext()
     from .solving.terminal import Shown
@@ -292,9 +292,9 @@ def mastercurve(
     """Shift measured friction curves onto one, if they allow it. The curves are friction against load."""
     from .studies.mastercurve.study import Mastercurve
 
-    pairs = by_name(columns=columns, units=units, where=where)
-    form = {"separator": separator, "decimal": decimal, "encoding": encoding, "skip": skip, "rows": rows}
-    study = Mastercurve.of(table, tolerance, c1, c2, reference, **pairs, **form)
+    stated = {"separator": separator, "decimal": decimal, "encoding": encoding, "skip": skip, "rows": rows}
+    form = table_form(columns=columns, units=units, where=where, **stated)
+    study = Mastercurve.of(table, tolerance, c1, c2, reference, **form)
     return solve(study, output, **options)
 
 
@@ -327,9 +327,9 @@ def topography(
 
     asked = {"unit": unit, "channel": channel, "crop": crop, "outliers": outliers, "missing": missing}
     done = {"level": level, "shortest_kept": shortest_kept, "repeat": repeat, "peaks": peaks}
-    pairs = by_name(columns=columns, units=units, where=where)
-    form = {"separator": separator, "decimal": decimal, "encoding": encoding, "skip": skip, "rows": rows}
-    return solve(Map.of(file, pixel=pixel, **asked, **done, **pairs, **form), output, **options)
+    stated = {"separator": separator, "decimal": decimal, "encoding": encoding, "skip": skip, "rows": rows}
+    form = table_form(columns=columns, units=units, where=where, **stated)
+    return solve(Map.of(file, pixel=pixel, **asked, **done, **form), output, **options)
 
 
 @checked
@@ -440,7 +440,7 @@ def schema(kind: Kind = "scene", output: SchemaFile = None) -> dict[str, Any]:
 
 
 def as_json(found: Any) -> str:
-    """What a command returns, as its option --json prints it: see `schema` of answers."""
+    """JSON of what a command returns, as its option --json prints it: see `schema` of answers."""
     from .studies.answers import written
 
     return written(found)

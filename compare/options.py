@@ -63,19 +63,19 @@ def number(given: str | float) -> float:
         raise BadParameter(f"{given!r} is not a number.") from None
 
 
-def by_name(**options: "Named | None") -> dict[str, Mapping[str, Any] | None]:
-    """Options with their values by name, of texts as mu=3 on the command line. Raises InvalidInput."""
+def table_form(**options: Any) -> dict[str, Any]:
+    """Options on the form of a table, lists of texts as mu=3 as a mapping. Raises InvalidInput."""
     from scene.files.reading import InvalidInput
 
-    found: dict[str, Mapping[str, Any] | None] = {}
+    found: dict[str, Any] = {}
     for option, given in options.items():
-        if not given or not isinstance(given, list | tuple):
-            found[option] = given or None  # type: ignore[assignment]
+        if not isinstance(given, list | tuple):
+            found[option] = given
             continue
         pairs = [str(each).partition("=") for each in given]
         if wrong := next(("".join(each) for each in pairs if not (each[0] and each[1])), ""):
             raise InvalidInput(f"{option} = {wrong}: a name and a value are needed, as mu=3")
-        found[option] = {name: int(value) if value.isdecimal() else value for name, _, value in pairs}
+        found[option] = {name: int(value) if value.isdecimal() else value for name, _, value in pairs} or None
     return found
 
 

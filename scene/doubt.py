@@ -176,7 +176,7 @@ def _seen(found):
 
 
 def _beyond(end):
-    """What is said of frequencies beyond an end of a table: 0, the lower one, or 1."""
+    """Sentence on frequencies beyond an end of a table: 0 is the lower end, 1 the upper."""
 
     def said(found):
         low, high = found.shown

@@ -173,7 +173,7 @@ class Magnitudes:
 
     @property
     def stiffening(self) -> float:
-        """That modulus over the one at rest."""
+        """Modulus in the contact over the modulus at rest."""
         return self.modulus_at_speed / self.modulus_at_rest
 
     @property

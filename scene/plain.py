@@ -106,7 +106,7 @@ def relabelled(given: Any, found: Any) -> Any:
 
 
 def bare(given: Any) -> tuple[Any, str | None]:
-    """What something holds, without labels and masks, and the unit that it carries; None where it has none.
+    """Values of an object without labels and masks, and the unit that it carries; None where it has none.
 
     A unit is empty where something says that it has no dimension. Raises NotPlain of two units, and of bytes.
     """
@@ -123,7 +123,7 @@ def bare(given: Any) -> tuple[Any, str | None]:
 
 
 def _peeled(given):
-    """What is inside the outermost coat, and the unit on it."""
+    """Object inside the outermost wrapper, and the unit of the wrapper."""
     if isinstance(given, bytes | bytearray | memoryview):
         raise NotPlain("bytes are no numbers")
     if isinstance(given, np.ma.MaskedArray):

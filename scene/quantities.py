@@ -60,7 +60,7 @@ ROW = BeforeValidator(one_by_one)
 
 @dataclass(frozen=True)
 class Unit:
-    """What a number may be, as a part of its type: numbers, strings and arrays become plain numbers in SI.
+    """Unit of a number, as a part of its type: numbers, strings and arrays become plain numbers in SI.
 
     symbol : SI unit, as "m" or "W/(m K)"; in words or with names where it depends on other fields, as
         "m^(1-exponent)"; empty without a unit
@@ -125,7 +125,7 @@ class _Count(Unit):
 
 
 def argument(name: str, given: Any, take: Callable[[Any], _T]) -> _T:
-    """What a function of a number makes of an argument. Raises its ValueError, with the name and the value."""
+    """Argument as a function of a number reads it. Raises its ValueError, with the name and the value."""
     try:
         return take(given)
     except ValueError as error:

@@ -253,7 +253,7 @@ def _reference(names: Sequence[str]) -> str:
 
 
 def _made(found: Any, name: str) -> Any:
-    """What a class makes without settings, or the object itself."""
+    """Object of a class without settings, or the object itself."""
     try:
         return found() if isinstance(found, type) else found
     except (TypeError, ValueError) as error:

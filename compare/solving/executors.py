@@ -43,7 +43,7 @@ def counted(workers: int | None) -> int:
 
 @dataclass(frozen=True)
 class Answer:
-    """What a worker makes of a task: its outcome, or why it broke.
+    """Answer of a worker to a task: its outcome, or why it broke.
 
     reason : type and message of what was raised, in a line
     trace : where, for whoever mends it; empty where nothing was raised

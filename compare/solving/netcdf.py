@@ -32,12 +32,12 @@ def packed(answers: xarray.DataTree) -> bytes:
 
 
 def _encoding(variable: xarray.Variable) -> dict[str, Any]:
-    """How a variable is stored: texts as characters, as the texts of HDF5 cannot be compressed."""
+    """Encoding of a variable: texts are stored as characters, as HDF5 cannot compress its own texts."""
     return {"zlib": variable.nbytes >= LARGE} | ({"dtype": "S1"} if variable.dtype.kind in "UO" else {})
 
 
 def checksum(image: bytes) -> bytes:
-    """What stands at the end of a file: the digest of all before it."""
+    """Digest of a file without its end, where it stands."""
     return b"sha256:" + hashlib.sha256(image).hexdigest().encode()
 
 

@@ -72,7 +72,7 @@ class SmoothReference:
 
 @dataclass(frozen=True)
 class Waves:
-    """What any roughness has, by its spectrum and its heights.
+    """Waves of any roughness: its spectrum and its heights.
 
     bands : its waves
     slope : rms of the full gradient [1]

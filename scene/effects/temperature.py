@@ -9,7 +9,7 @@ import numpy as np
 from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 
-from ..files.tablefile import Column, filled
+from ..files.tablefile import Column, filled, read_columns
 from ..files.tabletext import FromTable
 from ..quantities import (
     CLOSED,
@@ -157,7 +157,9 @@ class ShiftFactors(FromTable, TemperatureLaw):
     @classmethod
     def _of_table(cls, given: Any) -> Any:
         stated = by_name(given)
-        return given if stated is None else filled(stated, (TEMPERATURES, *FACTORS))
+        if stated is None:
+            return given
+        return filled(stated, lambda table, form: read_columns(table, (TEMPERATURES, *FACTORS), form).values)
 
     @model_validator(mode="after")
     def _fall(self):

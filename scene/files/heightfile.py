@@ -139,7 +139,10 @@ def given_heights(
     channel: str | None = None,
     written: TableFormat | None = None,
 ) -> Settled:
-    """The same out of an array, a table or an array of xarray; arrays of numpy without a unit are in metres."""
+    """Heights [m] of an array, a table or an object of xarray, their pixel or spacing, and notes.
+
+    Arrays of numpy without a unit are in metres. The arguments are those of `read_heights`.
+    """
     if channel is not None:
         raise ValueError(f"channel = {brief(repr(channel))}: heights are no file, leave channel out")
     # A DataFrame whose columns are only counted is an array.

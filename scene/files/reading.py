@@ -79,7 +79,7 @@ def parsed(text: str, path: str | Path) -> dict[str, Any]:
 
 
 def _of_backslashes(error, text):
-    """What to do about a backslash in double quotes, as paths of Windows have them, in a line that is no TOML."""
+    """Hint on a backslash in double quotes, as paths of Windows have them, in a line that is no TOML."""
     found = _PLACE.search(error)
     line = text.split("\n")[int(found[1]) - 1] if found else ""
     if not _BACKSLASH.search(line):

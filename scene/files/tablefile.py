@@ -120,8 +120,10 @@ def read_columns(
     return found
 
 
-def filled(given: Mapping[str, Any], known: Sequence[Column]) -> dict[str, Any]:
-    """What is stated for a part of a scene, with fields out of the columns of `table`, where that is stated.
+def filled(given: Mapping[str, Any], read: Callable[[Any, TableFormat], Mapping[str, Any]]) -> dict[str, Any]:
+    """Fields of a part of a scene, where `table` is stated with those of its columns.
+
+    read : gives fields out of the table and its form
 
     Raises ValueError for what is stated of no table, and ValidationError, at table, for one that is refused.
     """
@@ -131,12 +133,12 @@ def filled(given: Mapping[str, Any], known: Sequence[Column]) -> dict[str, Any]:
             raise ValueError("table is missing, of which columns, units or lines are stated")
         return rest
     try:
-        columns = read_columns(table, known, written)
-        if both := columns.values.keys() & rest.keys():
-            raise ValueError(f"{columns.name}: {min(both)} is stated, and a column of the table: leave one out")
+        found = read(table, written)
+        if both := found.keys() & rest.keys():
+            raise ValueError(f"{min(both)} is stated, and a column of the table: leave one out")
     except ValueError as error:
         raise refused(table, error) from error
-    return rest | columns.values
+    return {**rest, **found}
 
 
 def refused(table: Any, reason: ValueError) -> ValidationError:

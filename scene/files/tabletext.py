@@ -32,7 +32,7 @@ _Lines = Annotated[int, Field(strict=True, ge=0)]
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
 class TableFormat:
-    """What a user states of a table that differs from the documented form.
+    """Form of a table where it differs from the documented one, as a user states it.
 
     columns : heading by field, as {"storage": "E' (MPa)"}; or number from 1 on, of a file without a heading
     units : unit by field, of columns whose heading has none
@@ -69,7 +69,7 @@ class FromTable:
 
 
 def split_format(given: Mapping[str, Any]) -> tuple[TableFormat, dict[str, Any]]:
-    """What is stated of the table among what is stated for a part of a scene, and the rest."""
+    """Form of the table and the other fields, out of those that are stated for a part of a scene."""
     names = TableFormat.__dataclass_fields__
     rest = {name: value for name, value in given.items() if name not in names}
     return TableFormat(**{name: value for name, value in given.items() if name in names}), rest

@@ -46,7 +46,7 @@ _ONE_FREQUENCY = 1.05  # frequencies within this factor are one
 
 @dataclass(frozen=True)
 class Read:
-    """What was read.
+    """Moduli as they were read.
 
     table : with its columns as numbers
     frequency_unit, kind : as the headings have them, or as stated; None where neither says so

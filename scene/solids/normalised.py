@@ -5,7 +5,7 @@ from typing import Annotated, Any
 
 from pydantic import ConfigDict, Field
 
-from ..files.tablefile import Column, filled
+from ..files.tablefile import Column, filled, read_columns
 from ..quantities import CLOSED, MODULUS, ROW, SECOND, Finite, ShearModulus, Time, by_name, some_of
 from .youngs import in_shear, in_tension, or_in_tension
 
@@ -29,14 +29,14 @@ TERMS = (
 
 
 def absolute(cls: type, given: Any) -> Any:
-    """What is stated for a Prony series, with moduli in shear in place of normalised ones.
+    """Fields of a Prony series, with moduli in shear in place of normalised ones.
 
     G_k = g_k G_0, at rest G_0 (1 - sum_k g_k), whichever of instantaneous_modulus, G_0, and equilibrium_modulus is
     stated. A validator before those of the fields. Raises ValueError where the terms leave nothing at rest, or
     contradict one another, and ValidationError, with its name, where one is no number of its kind.
     """
     if (stated := by_name(given)) is not None:
-        given = filled(stated, TERMS)
+        given = filled(stated, lambda table, form: read_columns(table, TERMS, form).values)
     given = in_shear(cls, given, INSTANT)
     stated = by_name(given)
     if stated is None or stated.keys().isdisjoint(("g", "tau", INSTANT)):

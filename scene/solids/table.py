@@ -139,7 +139,7 @@ class CreepTable(_Rows):
 
 
 def _kind(given):
-    """Which of them is given, by the name of its numbers."""
+    """Tag of the kind of table that is given, by the names of its numbers."""
     held = (
         given if isinstance(given, Mapping) else {name: 0 for name in getattr(given, "__dataclass_fields__", ())}
     )

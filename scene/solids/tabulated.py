@@ -129,7 +129,7 @@ class Tabulated(FromTable, Solid):
         return self
 
     def _seen_at_rest(self):
-        """What the table shows of the modulus at rest, in words."""
+        """Sentence on what the table shows of the modulus at rest."""
         modes = _fit(self)[0]
         rest = modes.equilibrium
         fitted = f"is {rest:.2g} Pa with a standard error of {self.equilibrium_error:.2g} Pa"

@@ -33,7 +33,7 @@ def shear_modulus(modulus: float, poisson_ratio: float) -> float:
 
 
 def in_shear(cls: type, given: Any, *others: str) -> Any:
-    """What is stated for a solid, with moduli and compliances in shear in place of those in tension.
+    """Fields of a solid, with moduli and compliances in shear in place of those in tension.
 
     others : names that may be stated in shear beside the fields of the class
 

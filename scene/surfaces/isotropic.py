@@ -154,6 +154,6 @@ class Isotropic:
 
 
 def seeded(rough: Isotropic, seed: int) -> Any:
-    """The same roughness with another seed."""
+    """Copy of the roughness with another seed."""
     drawn: Any = rough
     return replace(drawn, seed=seed)

@@ -126,7 +126,7 @@ class Profile(FromTable):
 
     @property
     def side(self) -> float:
-        """What repeats of the measured line, the line itself or with its mirror image [m]."""
+        """Length of what repeats, the measured line or the line with its mirror image [m]."""
         return self.length * (2 if self.repeat == "mirror" else 1)
 
     @property
@@ -189,7 +189,7 @@ class Profile(FromTable):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What was read and how it is used, a sentence each."""
+        """Sentences on what was read and how it is used."""
         kept = self.shortest_kept
         left = () if kept is None else (f"waves shorter than {kept:.3g} m are left out, as shortest_kept states",)
         return (*self.heights.notes, *(() if self.law is None else _sentences(self.law)), *left)

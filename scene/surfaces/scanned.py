@@ -95,7 +95,7 @@ class Scanned(FromTable):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What was done to the heights before they were a map, and what of a file was not used, a line each."""
+        """Lines on what was done to the heights before they were a map, and on what of a file was not used."""
         return self.heights.notes
 
     @property

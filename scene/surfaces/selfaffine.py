@@ -105,7 +105,7 @@ class SelfAffine(Isotropic):
 
     @property
     def normalized(self) -> "SelfAffine":
-        """The same spectrum at an rms height of 1 m, as the square of a tiny one vanishes."""
+        """Spectrum at an rms height of 1 m, as the square of a tiny height vanishes."""
         return replace(self, rms_height=1.0)
 
     @property

@@ -8,8 +8,8 @@ import numpy as np
 from pydantic import ConfigDict, Field, TypeAdapter, model_validator
 from pydantic.dataclasses import dataclass
 
-from ..files.tablefile import Column, read_columns, refused
-from ..files.tabletext import TableFormat, split_format
+from ..files.tablefile import Column, filled, read_columns
+from ..files.tabletext import TableFormat
 from ..quantities import CLOSED, METRE, RADIAN_PER_METRE, ROW, Positive, Seed, Unit, by_name, takes
 from .heightmap import LONGEST, SHORTEST
 from .isotropic import Isotropic
@@ -86,20 +86,7 @@ class Spectrum(Isotropic):
     @classmethod
     def _of_a_table(cls, given: Any) -> Any:
         stated = by_name(given)
-        if stated is None:
-            return given
-        written, rest = split_format(stated)
-        if (table := rest.pop("table", None)) is None:
-            if written != TableFormat():
-                raise ValueError("table is missing, of which columns, units or lines are stated")
-            return rest
-        try:
-            found = _read(table, written)
-        except ValueError as error:
-            raise refused(table, error) from error
-        if twice := found.keys() & rest.keys():
-            raise ValueError(f"{min(twice)} is stated, and a column of the table: leave one out")
-        return rest | found
+        return given if stated is None else filled(stated, _read)
 
     @model_validator(mode="after")
     def _is_one(self):

@@ -154,7 +154,7 @@ def held(found: Finding, value: float, share: float) -> Finding:
 
 @dataclass(frozen=True, kw_only=True)
 class Stored:
-    """What studies have in common whose numbers are held against a file.
+    """Base of studies whose numbers are held against a file.
 
     path : of the file; values : those in it; update : whether what has moved is stored afterwards
     """

@@ -106,7 +106,7 @@ class Checks(Study):
         return Finding(claim, row.misfit, where=where, stated=verdict, reason=shorten(reason, 200))
 
     def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
-        """How many laws hold, fail and are left out, and a sentence for each that fails."""
+        """Numbers of laws that hold, fail and are left out, and a sentence for each that fails."""
         count = Counter(each.verdict for each in findings)
         told = f"{self.title}: {count[HOLDS]} of {len(findings)} laws hold, {count[FAILS]} fail"
         return [f"{told}, {count[REPORTED]} are left out."] + [

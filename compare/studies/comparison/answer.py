@@ -25,7 +25,7 @@ MOST_NOTES = 4  # reasons of undecided claims that stand below a table
 
 
 def scene_table(series: Around, answers: Answers, points: DataFrame, findings: Sequence[Finding]) -> Table:
-    """What each model finds of the scene as it stands, their ratio, and what to do with 1D.
+    """Table of the answer: each model's numbers of the scene, their ratio, and what to do with 1D.
 
     points : every point of its curves; of a history it is that where the reference, else the first, has most
     """
@@ -56,7 +56,7 @@ def scene_table(series: Around, answers: Answers, points: DataFrame, findings: S
 
 
 def _advised(cheap: Correction, advice: Advice, solved: Finding | None) -> str:
-    """What the trust map says of the answer of 1D, and whether means over surfaces contradict it."""
+    """Advice of the trust map on the answer of 1D, and whether means over surfaces contradict it."""
     low, high = solved.interval if solved is not None and solved.draws else (nan, nan)
     apart = low > cheap.high or high < cheap.low
     law = advice.law if cheap is advice.friction and not apart else None

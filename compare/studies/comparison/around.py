@@ -211,7 +211,7 @@ class Around(Series):
                     yield Finding(claim, change, where=self.name, drawn=each.drawn, dimension=model.label)
 
     def _history(self, answers: Answers) -> Iterator[Finding]:
-        """How far apart models are over time, or over the displacement, each from the reference."""
+        """Differences of models from the reference over time, or over the displacement."""
         motion, reference = self.case.motion, self.models.reference
         moves = isinstance(motion, Shear) or motion.length > 0
         pressed = FORCE if motion.pressed_by in ("depth", "gap") else DEPTH

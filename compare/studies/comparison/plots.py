@@ -302,7 +302,7 @@ def _smooth_limit(series: Around, answers: Answers, points: DataFrame, folder: s
 
 
 def _causes(series: RoughSeries, answers: Answers, model: str, laws: Any) -> DataFrame:
-    """What makes slow friction depend on the load, over the numbers under the least load."""
+    """Causes of the dependence of slow friction on the load, over the numbers under the least load."""
     here = Here(series, laws, series.models[model])
     load = answers.interval(ROUGH, model, "normal_force").value[1]
     columns = {"normal_force": load, "contact_law": (load / load[0]) ** nominal_exponent(here)}

@@ -133,7 +133,7 @@ class Stated(_Asked):
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
 class Sizes:
-    """What is stated at one size alone, over what is stated at all.
+    """Settings of a study at one size, which replace those of all sizes.
 
     quick, standard, full : of the option --size
     """

@@ -46,7 +46,7 @@ NONE = Number(nan, nan, nan)
 
 @dataclass(frozen=True)
 class ShiftLaw:
-    """What found shifts say of the law of their temperatures.
+    """Law of the temperature that fits shifts, with its reasons.
 
     reference : T_r of the constants [K]
     c1, c2 : of WLF [1], [K]

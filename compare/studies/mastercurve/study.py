@@ -200,7 +200,7 @@ class Mastercurve(Study):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What was read of the table and not used."""
+        """Lines on what the table has and the study does not use."""
         if "temperature" not in self.data or self.shifts is not None:
             return self.friction.notes
         return (*self.friction.notes, temperatures.ONE.format(self.pooled.points["temperature"].iloc[0]))
