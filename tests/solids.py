@@ -1,4 +1,4 @@
-"""Solids that tests share: one of each type, and some of a unit modulus of indentation at rest, E* = 4G."""
+"""Solids that tests share: one of each type, some of E* = 4G = 1 at rest; and tables with scatter."""
 
 import numpy as np
 
@@ -52,3 +52,10 @@ def gel(lowest, exponent=0.2, **stated):
     modulus = 1e6 * (1j * omega) ** exponent
     table = Table(omega, modulus.real, modulus.imag)
     return Tabulated(table=table, frequency_unit="rad/s", kind="shear", **stated)
+
+
+def scattered(law, omega, noise=0.0, seed=0):
+    """Table of a complex modulus over angular frequency, with independent scatter on storage and loss."""
+    modulus = law(omega)
+    scatter = np.exp(noise * np.random.default_rng(seed).standard_normal((2, len(omega))))
+    return Table(omega, modulus.real * scatter[0], modulus.imag * scatter[1])

@@ -4,6 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from drawn_scenes import KELVIN, LOAD, ROUGH, STANDARD, TAU, A, G, R
+from drawn_scenes import SCENES as DRAWN
 from scipy.integrate import quad
 
 from bem3d import BEM
@@ -11,34 +13,22 @@ from bem3d.grid import Grid
 from bem3d.problem import Problem
 from bem3d.wake import surroundings
 from scene import (
-    Cylinder,
     Indent,
-    Kelvin,
     Layer,
-    Plane,
     PowerLaw,
     Program,
     Scene,
-    SelfAffine,
     Slide,
     SolveError,
     Sphere,
     Stage,
-    StandardLinearSolid,
 )
 
-R, G, TAU, LOAD = 1e-2, 1e6, 1e-3, 1.0
-KELVIN, STANDARD = Kelvin(G, TAU), StandardLinearSolid(G, 10 * G, TAU)
-A = (3 * LOAD * R / (16 * G)) ** (1 / 3)
-ROUGH = SelfAffine(hurst=0.2, rms_height=5e-5, longest=1e-2, shortest=5e-4, seed=1)
-SMALL = SelfAffine(hurst=0.8, rms_height=2e-6, longest=1e-3, shortest=1.25e-4, seed=1)
 SCENES = {
     "rough": Scene(Sphere(R), KELVIN, Slide(speed=0.5 * A / TAU, load=LOAD), ROUGH),
     "standard": Scene(Sphere(R), STANDARD, Slide(speed=A / TAU, depth=1e-4)),
-    "rest": Scene(Sphere(R), KELVIN, Indent(load=LOAD)),
     "layer": Scene(Sphere(R), KELVIN, Slide(speed=A / TAU, load=LOAD), layer=Layer(thickness=2e-3)),
-    "line": Scene(Cylinder(R), KELVIN, Slide(speed=0.1, line_load=100.0)),
-    "plane": Scene(Plane(), STANDARD, Slide(speed=0.1, pressure=5e4), SMALL),
+    **{kind: DRAWN[kind] for kind in ("rest", "line", "plane")},
 }
 BEYOND = {"upstream": 0.5 * A, "downstream": 4 * A, "aside": 0.5 * A}
 

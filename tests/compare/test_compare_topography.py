@@ -229,7 +229,6 @@ REPEATS = {"pixel": 1.0, "repeat": "periodic"}
     ("heights", "stated", "said"),
     [
         (NOISE, {"pixel": ["1", "2 um"]}, "there is no unit"),
-        (np.where(np.eye(9) > 0, np.nan, 1.0), REPEATS, "heights[0][0] = nan: 9 of 81 heights (11.1 %) missing"),
         (np.ones((9, 9)), REPEATS, "heights are none once level"),
         (CHECKERS, REPEATS, NO_WAVE),
     ],

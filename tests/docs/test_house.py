@@ -26,13 +26,13 @@ class Size(NamedTuple):
 # A change that makes a part smaller lowers its numbers to what it reached. None is ever raised.
 # fmt: off
 CEILINGS = {
-    "scene":    Size( 9_209,  66_709,  71),
+    "scene":    Size( 9_203,  66_646,  71),
     "mdr1d":    Size( 3_791,  27_406,  26),
     "bem3d":    Size( 6_328,  50_543,  45),
-    "compare":  Size(23_717, 181_328, 174),
-    "tests":    Size(31_874, 294_983, 171),
+    "compare":  Size(23_717, 181_301, 174),
+    "tests":    Size(31_804, 293_885, 170),
     "docs":     Size( 5_485,  48_239,  44),
-    "pages":    Size( 7_012,  73_626,  65),
+    "pages":    Size( 7_009,  73_541,  65),
 }
 # fmt: on
 

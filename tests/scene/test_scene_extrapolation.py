@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from solids import scattered
 
 from mdr1d import MDR
 from scene import (
@@ -15,7 +16,6 @@ from scene import (
     Slide,
     Sphere,
     StandardLinearSolid,
-    Table,
     Tabulated,
 )
 from scene.scales import elastic_contact
@@ -43,9 +43,7 @@ def gel(exponent):
 
 
 def table(solid, omega=OMEGA, noise=0.0, seed=0, **stated):
-    modulus = solid.complex_modulus(omega)
-    scatter = np.exp(noise * np.random.default_rng(seed).standard_normal((2, len(omega))))
-    measured = Table(omega, modulus.real * scatter[0], modulus.imag * scatter[1])
+    measured = scattered(solid.complex_modulus, omega, noise, seed)
     return Tabulated(table=measured, frequency_unit="rad/s", kind="shear", **stated)
 
 

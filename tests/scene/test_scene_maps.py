@@ -57,37 +57,6 @@ def written(tmp_path, content, name="map.txt"):
 GWYDDION = "# Channel: Height\n# Width: 14.00 µm\n# Height: 15.00 µm\n# Value units: m\n"
 NUMBERED = {"columns": {"x": 1, "y": 2, "z": 3}}
 IN_UM = dict.fromkeys("xyz", "um")
-# Texts of a map in um with pixels of 2 x 3 um, and what is stated of each.
-LAYOUTS = {
-    "semicolons": (lambda h: text(h), UM),
-    "decimal commas and tabs": (lambda h: text(h, "\t", ","), UM),
-    "blanks and decimal commas": (lambda h: text(h, " ", ","), UM | {"decimal": ","}),
-    "a separator at each end": (lambda h: text(h).replace("\n", ";\n"), UM),
-    "Gwyddion": (lambda h: GWYDDION + text(1e-6 * h, "\t"), {"skip": 4, "unit": "m", "pixel": ("2 um", "3 um")}),
-    "the second of two": (
-        lambda h: GWYDDION + text(0 * h) + GWYDDION + text(h) + "\n" + GWYDDION,
-        UM | {"skip": 13, "rows": 5},
-    ),
-    "points in any order": (
-        lambda h: "# um? nm\nx [um];y [um];Height [nm]\n" + text(points(1e3 * h, seed=1)),
-        {},
-    ),
-    "points and units below": (lambda h: "z\tx\ty\nnm\tum\tum\n" + text(points(1e3 * h)[:, [2, 0, 1]], "\t"), {}),
-    "points, units stated": (lambda h: "x y z\n" + text(points(h), " "), {"units": IN_UM}),
-    "points without a heading": (lambda h: text(points(h), ","), NUMBERED | {"units": IN_UM}),
-    "points and a unit": (
-        lambda h: "x [um];y [um];z\n" + text(points(h)),
-        {"unit": "um", "pixel": PIXEL},
-    ),
-}
-
-
-@pytest.mark.parametrize("layout", LAYOUTS)
-def test_a_map_is_the_same_in_every_text_that_is_read(tmp_path, layout):
-    heights, (write, stated) = noise((5, 7)), LAYOUTS[layout]
-    found = Topography(file=written(tmp_path, write(heights)), **stated)
-    np.testing.assert_allclose(found.heights.heights, 1e-6 * heights, rtol=DIGITS)
-    np.testing.assert_allclose(found.pixel, PIXEL, rtol=1e-9)
 
 
 def cell(text):
@@ -207,16 +176,36 @@ GIVEN = {
         "heights": dict(zip("xyz", points(h, seed=2).T, strict=True)),
         "units": IN_UM,
     },
-    "npy": lambda h, at: {"file": saved(h)(at / "a.npy"), **UM},
-    "npz": lambda h, at: {"file": saved(h)(at / "a.npz"), **UM},
     "npz of several": lambda h, at: {"file": archive(at / "a.npz", z=h, u=0 * h), "channel": "z", **UM},
     "NetCDF": lambda h, at: {"file": in_netcdf(at / "a.nc", h, "x", "y", unit="um")},
     "NetCDF without units": lambda h, at: {"file": in_netcdf(at / "a.nc", h), **UM},
+    "blanks and decimal commas": lambda h, at: {"file": written(at, text(h, " ", ",")), **UM, "decimal": ","},
+    "Gwyddion": lambda h, at: {
+        "file": written(at, GWYDDION + text(1e-6 * h, "\t")),
+        "skip": 4,
+        "unit": "m",
+        "pixel": ("2 um", "3 um"),
+    },
+    "the second of two": lambda h, at: {
+        "file": written(at, GWYDDION + text(0 * h) + GWYDDION + text(h) + "\n" + GWYDDION),
+        "skip": 13,
+        "rows": 5,
+        **UM,
+    },
+    "points in any order": lambda h, at: {
+        "file": written(at, "# um? nm\nx [um];y [um];Height [nm]\n" + text(points(1e3 * h, seed=1)))
+    },
+    "points without a heading": lambda h, at: {
+        "file": written(at, text(points(h), ",")),
+        **NUMBERED,
+        "units": IN_UM,
+    },
+    "points and a unit": lambda h, at: {"file": written(at, "x [um];y [um];z\n" + text(points(h))), **UM},
 }
 
 
 @pytest.mark.parametrize("kind", GIVEN)
-def test_a_map_is_the_same_in_every_array_and_library(tmp_path, kind):
+def test_a_map_is_the_same_in_every_text_array_and_library(tmp_path, kind):
     heights = noise((5, 7))
     found = Topography(**GIVEN[kind](heights, tmp_path))
     np.testing.assert_allclose(found.heights.heights, 1e-6 * heights, rtol=DIGITS)
@@ -242,7 +231,6 @@ BAD_ARRAYS = {
     "a pickle": (lambda path: path.write_bytes(pickle.dumps(Trap())), "cannot be read as an array: .*pickle"),
     "objects": (saved(np.full((5, 5), Trap(), object)), "cannot be read as an array: Object"),
     "truths": (saved(np.eye(5) > 0), "an array of type bool"),
-    "a line": (saved(np.zeros(9)), r"an array of shape \(9,\).*type = .profile"),
     "half of an array": (lambda path: path.write_bytes(saved(SQUARE)(path).read_bytes()[:400]), "cannot be read"),
 }
 
@@ -268,92 +256,84 @@ def test_what_is_larger_than_is_read_is_not(tmp_path, monkeypatch):
 
 
 AXES = np.vstack([np.arange(9.0), SQUARE])
+
+
+def in_metres(places):
+    return "x [m];y [m];z [m]\n" + text(places)
+
+
 WRONG = {
-    # name and content of a file, what is stated, what is said
+    # content of a file, what is stated, what is said
     "no unit and no pixel": (
-        "a.csv",
         text(SQUARE),
         {},
-        'a.csv does not state its unit: state it, as unit = "um"',
+        'map.txt does not state its unit: state it, as unit = "um"',
     ),
     "a wrong unit": (
-        "a.csv",
         text(SQUARE),
         {"unit": "mV", "pixel": 1.0},
         "unit = 'mV': a unit of length is needed",
     ),
     "Gwyddion": (
-        "a.txt",
         GWYDDION + text(SQUARE),
         {},
-        'a.txt, line 1, .* state skip = 4 .* unit = "um" and pixel',
+        'map.txt, line 1, .* state skip = 4 .* unit = "um" and pixel',
     ),
-    "a heading": ("a.txt", "a;b;c\n" + text(SQUARE[:, :3]), UM, "there is no column x .*columns = .* or skip"),
-    "no pixel": ("a.csv", text(SQUARE), {"unit": "um"}, 'a.csv does not state its pixel: .* pixel = "1 um"'),
-    "a line": ("a.txt", text(SQUARE[:, :1]), UM, "line 1: 1 columns of numbers alone"),
-    "points without a heading": ("a.txt", text(points(SQUARE)), UM, "line 1: 3 columns .*state columns = {x = 1"),
+    "a heading": ("a;b;c\n" + text(SQUARE[:, :3]), UM, "there is no column x .*columns = .* or skip"),
+    "no pixel": (text(SQUARE), {"unit": "um"}, 'map.txt does not state its pixel: .* pixel = "1 um"'),
+    "a line": (text(SQUARE[:, :1]), UM, "line 1: 1 columns of numbers alone"),
+    "points without a heading": (text(points(SQUARE)), UM, "line 1: 3 columns .*state columns = {x = 1"),
     "whole numbers": (
-        "a.csv",
         text(SQUARE, ",").replace(".", ","),
         UM,
         "commas may stand between .*state decimal",
     ),
     "whole numbers of points": (
-        "a.csv",
         "1,5,2,5,3,5\n" * 9,
         {**NUMBERED, "units": IN_UM},
         "commas may stand between .*state decimal",
     ),
-    "points of unknown units": ("a.txt", text(points(SQUARE)), {**NUMBERED, "unit": "um"}, "state units = {x = "),
+    "points of unknown units": (text(points(SQUARE)), {**NUMBERED, "unit": "um"}, "state units = {x = "),
     "points that are counted": (
-        "a.txt",
         text(np.column_stack([noise(81), points(SQUARE)])),
         UM,
         "columns 2 and 3 are places on a lattice: of points state columns = {x = 2, y = 3, z = 4}",
     ),
-    "an axis above": ("a.txt", text(AXES), UM, "the first row, .* is evenly spaced as places are"),
-    "an axis at the side": ("a.txt", text(AXES.T), UM, "the first column, .* is evenly spaced as places are"),
-    "a channel of a text": ("a.txt", text(SQUARE), {**UM, "channel": "Height"}, "is a text; skip and rows choose"),
-    "lines of an array": ("a.npz", archive, {**UM, "skip": 3}, "a.npz is no text: leave out columns"),
-    "points on a line": ("a.txt", "x [m] y [m] z [m]\n1 1 1\n2 1 2\n", {}, 'all y are 1: .* type = "profile"'),
+    "an axis above": (text(AXES), UM, "the first row, .* is evenly spaced as places are"),
+    "an axis at the side": (text(AXES.T), UM, "the first column, .* is evenly spaced as places are"),
+    "a channel of a text": (text(SQUARE), {**UM, "channel": "Height"}, "is a text; skip and rows choose"),
+    "points on a line": ("x [m] y [m] z [m]\n1 1 1\n2 1 2\n", {}, 'all y are 1: .* type = "profile"'),
     "points on a diagonal": (
-        "a.txt",
-        "x [m] y [m] z [m]\n" + text(np.repeat(np.arange(30.0), 3).reshape(30, 3), " "),
+        in_metres(np.repeat(np.arange(30.0), 3).reshape(30, 3)),
         {},
         "30 points on 30 x 30 places",
     ),
     "scattered points": (
-        "a.txt",
-        "x [m] y [m] z [m]\n" + text(noise((99, 3)), " "),
+        in_metres(noise((99, 3))),
         {},
         "is off by more than 5 %",
     ),
     "a point off its place": (
-        "a.txt",
-        "x [m] y [m] z [m]\n" + text(points(SQUARE) + np.where(np.arange(243) == 33, 0.2, 0).reshape(81, 3), " "),
+        in_metres(points(SQUARE) + np.where(np.arange(243) == 33, 0.2, 0).reshape(81, 3)),
         {},
         "line 13: x = 5.2 is off by more than 5 % of a step",
     ),
     "a place twice": (
-        "a.txt",
-        "x [m] y [m] z [m]\n" + text(np.vstack([points(SQUARE), [3, 4, 0.5]]), " "),
+        in_metres(np.vstack([points(SQUARE), [3, 4, 0.5]])),
         {},
         "line 83: a second height at x = 3, y = 4",
     ),
     "no place": (
-        "a.txt",
-        "x [m];y [m];z [m]\n" + text(np.vstack([points(SQUARE), [NAN, 4, 0.5]])),
+        in_metres(np.vstack([points(SQUARE), [NAN, 4, 0.5]])),
         {},
         "line 83, column 'x .m.': '' is no number",
     ),
 }
 
 
-@pytest.mark.parametrize("kind", WRONG)
-def test_what_is_not_in_the_one_form_is_refused_with_what_to_state(tmp_path, kind):
-    name, content, stated, message = WRONG[kind]
-    path = archive(tmp_path / name, z=SQUARE) if content is archive else written(tmp_path, content, name)
-    refused(message, file=path, **stated)
+@pytest.mark.parametrize(("content", "stated", "message"), WRONG.values(), ids=WRONG)
+def test_what_is_not_in_the_one_form_is_refused_with_what_to_state(tmp_path, content, stated, message):
+    refused(message, file=written(tmp_path, content), **stated)
 
 
 @pytest.mark.parametrize("ending", [".png", ".tif", ".xlsx", ".stl"])
@@ -372,6 +352,7 @@ def test_what_is_stated_twice_agrees_or_is_refused(tmp_path):
     refused("states its own, 2e-06 x 3e-06 m: leave pixel out", file=table, pixel="1 um")
     refused("must agree", file=table, unit="nm")
     refused("heights are no file", heights=SQUARE, channel="a", **UM)
+    refused("a.npz is no text: leave out columns", file=saved(SQUARE)(tmp_path / "a.npz"), skip=3, **UM)
     refused("heights are an array and no table", heights=SQUARE, skip=2, **UM)
     refused("heights are in metres", heights=found.heights, pixel=1.0, unit="um")
     refused("heights are both stated", heights=SQUARE, file=file)
@@ -390,7 +371,7 @@ def test_a_plane_is_heights_and_no_axes(tmp_path):
 
 def test_a_point_that_is_missing_is_a_missing_height(tmp_path):
     kept = points(SQUARE, (1, 1), keep=np.arange(81) != 40)
-    file = written(tmp_path, "x [m];y [m];z [m]\n" + text(kept))
+    file = written(tmp_path, in_metres(kept))
     refused(r"heights\[4\]\[4\] = nan: 1 of 81 heights \(1.23 %\) missing", file=file)
     found, known = Topography(file=file, missing="fill").heights.heights, SQUARE.copy()
     known[4, 4] = np.mean([known[3, 4], known[5, 4], known[4, 3], known[4, 5]])
@@ -462,12 +443,14 @@ HOLES = {
 }
 
 
+PARTS = [(Topography, (20, 20), "pixel"), (Measured, (20, 20), "pixel"), (Profile, (400,), "spacing")]
+
+
 @pytest.mark.parametrize("kind", HOLES)
-@pytest.mark.parametrize("part", [Topography, Measured])
-def test_missing_heights_are_refused_with_count_and_share_or_filled_in_and_told(kind, part):
-    heights, at = noise((20, 20)), np.zeros((20, 20), bool)
-    at[3:5, 7], at[0, 0] = True, True
-    stated = {"heights": HOLES[kind](heights, at), "pixel": 1e-6}
+@pytest.mark.parametrize(("part", "shape", "spacing"), PARTS)
+def test_missing_heights_are_refused_with_count_and_share_or_filled_in_and_told(kind, part, shape, spacing):
+    at = np.isin(np.arange(400), [0, 67, 87]).reshape(shape)
+    stated = {"heights": HOLES[kind](noise(400).reshape(shape), at), spacing: 1e-6}
     refused(r'3 of 400 heights \(0.75 %\) (are|missing).*missing = "fill"', part, **stated)
     found = part(**stated, missing="fill")
     given, kept = np.ma.getdata(stated["heights"])[~at], found.heights.heights
@@ -475,9 +458,9 @@ def test_missing_heights_are_refused_with_count_and_share_or_filled_in_and_told(
     assert given.min() <= kept[at].min() <= kept[at].max() <= given.max()
     assert "3 of 400 heights (0.75 %) were missing and are filled in" in found.notes
     # notes are told wherever the map goes, and make no other map of it
-    for twin in (pickle.loads(pickle.dumps(found)), replace(found, shortest_kept=4e-6)):
+    for twin in (pickle.loads(pickle.dumps(found)), replace(found, peaks="down")):
         assert twin.notes == found.notes
-    assert found == part(heights=kept, pixel=1e-6)
+    assert found == part(**stated | {"heights": kept})
 
 
 @pytest.mark.parametrize(
@@ -488,9 +471,7 @@ def test_missing_heights_are_refused_with_count_and_share_or_filled_in_and_told(
         (400, r"400 of 400 heights \(100 %\) missing"),
     ],
 )
-@pytest.mark.parametrize(
-    ("part", "shape", "spacing"), [(Topography, (20, 20), "pixel"), (Profile, (400,), "spacing")]
-)
+@pytest.mark.parametrize(("part", "shape", "spacing"), PARTS)
 def test_no_more_than_a_twentieth_is_filled_in(part, shape, spacing, holes, message):
     heights = np.where(np.arange(400) < holes, NAN, noise(400)).reshape(shape)
     stated = {"heights": heights, spacing: 1.0, "missing": "fill"}
@@ -539,14 +520,18 @@ def test_a_hole_in_a_harmonic_surface_is_filled_in_with_it():
     assert errors[1] < 1e-5
 
 
-@pytest.mark.parametrize("surface", [1 + 2 * X + 3 * Y, X * Y, X**2 - Y**2])
-def test_a_hole_in_a_surface_that_is_harmonic_on_any_lattice_is_filled_in_exactly(surface):
-    hole = (X > 3) & (X < 6) & (Y > 3) & (Y < 7)
-    assert filled(np.where(hole, NAN, surface), (1, 1)) == pytest.approx(surface)
+INSIDE = (X > 3) & (X < 6) & (Y > 3) & (Y < 7)
 
 
-def test_at_a_side_nothing_leaves():
-    assert filled(np.where((X < 3) & (Y < 2), NAN, 7.0), (1, 2)) == pytest.approx(7.0)
+@pytest.mark.parametrize(
+    ("surface", "hole", "pixel"),
+    [
+        *((each, INSIDE, (1, 1)) for each in (1 + 2 * X + 3 * Y, X * Y, X**2 - Y**2)),
+        (7.0, (X < 3) & (Y < 2), (1, 2)),  # at a side nothing leaves
+    ],
+)
+def test_a_hole_in_a_surface_that_is_harmonic_on_any_lattice_is_filled_in_exactly(surface, hole, pixel):
+    assert filled(np.where(hole, NAN, surface), pixel) == pytest.approx(surface)
 
 
 SMOOTH = np.sin(X / 8) + np.cos(Y / 6) + 0.02 * noise((30, 40))

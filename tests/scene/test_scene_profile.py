@@ -225,7 +225,6 @@ def test_a_line_with_more_waves_than_fit_is_refused_with_what_to_state():
     assert not any("fit in memory" in reason for reason in BEM(points=64).refusals(scene))
 
 
-THIRD = np.arange(512) == 3
 REGULAR = np.sin(2 * pi * np.arange(512) / 16.3)
 
 
@@ -234,14 +233,11 @@ REGULAR = np.sin(2 * pi * np.arange(512) / 16.3)
     [
         ("type = .wave", {"heights": REGULAR}),
         ("20 points", {"heights": HEIGHTS[:20]}),
-        ("heights.3. = inf: 1 of 512 heights .0.195 %. missing", {"heights": np.where(THIRD, np.inf, HEIGHTS)}),
-        ("1 of 512 .*missing = .fill. fills them in", {"heights": np.where(THIRD, np.nan, HEIGHTS)}),
-        ("1 of 512 heights .0.195 %. are -9999 m", {"heights": np.where(THIRD, -9999.0, HEIGHTS)}),
-        ("bool", {"heights": [True] * 100}),
+        ("heights.0. = inf: 1 of 512 heights .0.195 %. missing", {"heights": [np.inf, *HEIGHTS[1:]]}),
         ("periodic", {"repeat": "periodic", "level": "tilt"}),
         ("shortest_kept = 1e-06", {"shortest_kept": 1e-6}),
         ("roll-off", {"shortest_kept": 5e-4}),
-        ("shape", {"heights": np.ones((8, 8))}),
+        ("shape .8, 8.: a line is one row of heights", {"heights": np.ones((8, 8))}),
         ("one row of heights", {"heights": HEIGHTS[None]}),
         ("dimensions of heights = ", {"heights": xarray.DataArray(np.ones((8, 8)), dims=("y", "x"))}),
         ("column .z. has no unit.*state units = .z", {"heights": {"z": HEIGHTS}}),
@@ -338,11 +334,6 @@ def test_a_text_that_is_no_line_is_refused_with_what_to_state(tmp_path, content,
     refused(message, Profile, file=tmp_path / "line.txt", **stated)
 
 
-def test_an_array_of_a_map_is_no_line(tmp_path):
-    np.save(tmp_path / "map.npy", HEIGHTS.reshape(16, 32))
-    refused(r"shape \(16, 32\): a line is one row of heights", Profile, file=tmp_path / "map.npy", **UM)
-
-
 def test_missing_heights_are_filled_in_on_straight_lines_when_asked(tmp_path):
     path, rows = tmp_path / "line.csv", column().splitlines()
     rows[100:102] = ["0.200000;", "0.202000;nan"]
@@ -357,4 +348,3 @@ def test_a_line_is_compared_stored_and_sent_by_its_digest():
     assert (again, hash(again), again.fitted) == (PROFILE, hash(PROFILE), PROFILE.fitted)
     dumped = TypeAdapter(Roughness).dump_python(PROFILE, mode="json")
     assert dumped["heights"] == {"shape": [len(HEIGHTS)], "digest": PROFILE.heights.digest}
-    assert len(mdr1d.draw(PROFILE, 600).heights) == 600

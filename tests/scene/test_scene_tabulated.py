@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from solids import scattered
 
 from scene import Fractional, Prony, Scene, StandardLinearSolid, Table, Tabulated, read_table
 from scene.files.reading import InvalidInput, read
@@ -15,10 +16,8 @@ NEGLIGIBLE = 1e-3  # rms misfit at which the fit stops adding modes
 NOISE = 0.03
 
 
-def table(solid=SOLID, omega=OMEGA, noise=0.0, seed=0):
-    modulus = solid.complex_modulus(omega)
-    scatter = np.exp(noise * np.random.default_rng(seed).standard_normal((2, len(omega))))
-    return Table(frequency=omega, storage=modulus.real * scatter[0], loss=modulus.imag * scatter[1])
+def table(solid=SOLID, omega=OMEGA, **noise):
+    return scattered(solid.complex_modulus, omega, **noise)
 
 
 def columns(measured):
@@ -123,19 +122,12 @@ RUBBERS = {
 DRAWS, ALLOWED = 40, 2  # of tables with noise, and how many of them may be judged wrongly
 
 
-def drawn(law, omega, noise, seed):
-    """Table of a law with independent scatter on both moduli."""
-    modulus = law(omega)
-    scatter = np.exp(noise * np.random.default_rng([seed, len(omega)]).standard_normal((2, len(omega))))
-    return Table(omega, modulus.real * scatter[0], modulus.imag * scatter[1])
-
-
 def open_at_rest(law, band, count, noise):
     """Tables out of DRAWS whose modulus at rest is refused as open."""
     said = []
     for seed in range(DRAWS):
         try:
-            fitted(drawn(law, np.geomspace(*band, count), noise, seed), tolerance=0.3)
+            fitted(scattered(law, np.geomspace(*band, count), noise, [seed, count]), tolerance=0.3)
         except InvalidInput as error:
             said.append(str(error))
     assert all("modulus at rest open" in each for each in said)
@@ -164,7 +156,7 @@ def test_a_refusal_says_what_was_seen_at_rest():
 def test_the_error_of_the_modulus_at_rest_is_that_of_many_draws(noise):
     # The table shows the plateau; misfits over what was measured, itself with noise, hide a fifth of it.
     law, omega = StandardLinearSolid(1e6, 1e7, 1e-3).complex_modulus, np.geomspace(1.0, 1e5, 30)
-    found = [fitted(drawn(law, omega, noise, seed)) for seed in range(DRAWS)]
+    found = [fitted(scattered(law, omega, noise, [seed, 30])) for seed in range(DRAWS)]
     apart = [(each.static_modulus - 1e6) / each.equilibrium_error for each in found]
     assert 0.7 < np.sqrt(np.mean(np.square(apart))) < 1.6
     assert fitted(equilibrium_modulus=1e6).equilibrium_error == 0.0
@@ -255,32 +247,17 @@ kind = "shear"
 table = """
 
 
-def test_a_scene_names_a_file_in_its_folder_or_holds_the_numbers(tmp_path, monkeypatch):
-    (tmp_path / "measured").mkdir()
-    (tmp_path / "measured/rubber.csv").write_text(ROWS)
-    by_name, by_numbers = tmp_path / "measured/name.toml", tmp_path / "numbers.toml"
-    by_name.write_text(SCENE + '"rubber.csv"')
-    named = zip(("frequency", "storage", "loss"), columns(table()), strict=True)
-    by_numbers.write_text(SCENE + "{" + ", ".join(f"{name} = {list(values)}" for name, values in named) + "}")
-    expected = read(by_numbers, Scene)
-    for folder in (tmp_path, tmp_path / "measured"):
-        monkeypatch.chdir(folder)
-        for path in (by_name, by_name.relative_to(tmp_path) if folder == tmp_path else "name.toml"):
-            assert read(path, Scene) == expected
-    (tmp_path / "measured/rubber.csv").unlink()
-    monkeypatch.chdir(tmp_path)
-    with pytest.raises(InvalidInput, match=r"no such file in .*measured, the folder of the file that names it"):
-        read(by_name, Scene)
-
-
-def test_a_scene_states_what_differs_of_its_table(tmp_path):
+def test_a_scene_states_what_differs_of_its_table_or_holds_the_numbers(tmp_path):
     (tmp_path / "rubber.csv").write_text("Stress 1\n" + ROWS.replace("G'", "in phase", 1))
-    stated = (
-        '\nskip = 1\nunits = {frequency = "Hz", storage = "Pa", loss = "Pa"}\ncolumns = {storage = "in phase"}'
-    )
+    named = zip(("frequency", "storage", "loss"), map(list, columns(table())), strict=True)
     scene = tmp_path / "scene.toml"
-    scene.write_text(SCENE.replace("rad/s", "Hz") + f'"rubber.csv"{stated}')
-    assert columns(read(scene, Scene).elastomer.table) == columns(table())
+    for stated in (
+        '"rubber.csv"\nskip = 1\nunits = {frequency = "Hz", storage = "Pa", loss = "Pa"}\n'
+        'columns = {storage = "in phase"}',
+        "{" + ", ".join(map("{0[0]} = {0[1]}".format, named)) + "}",
+    ):
+        scene.write_text(SCENE.replace("rad/s", "Hz") + stated)
+        assert columns(read(scene, Scene).elastomer.table) == columns(table())
 
 
 def test_a_solid_keeps_the_numbers_and_says_little(tmp_path):
