@@ -1,13 +1,13 @@
-"""Products are plain sums, whatever the grid and library; every compiled loop is what whole arrays say."""
+"""Products are plain sums, whatever the grid, the library and the precision."""
 
 import numpy as np
 import pytest
 
-from bem3d import BEM, cerruti, influence, kernels
+from bem3d import BEM, cerruti, influence
 from bem3d.convolution import FreeConvolution, PeriodicFilter, autocorrelation
 from bem3d.engine import Engine
 from bem3d.grid import Grid
-from scene import Kelvin, Plane, Scene, SelfAffine, Slide, Sphere
+from scene import Cylinder, Kelvin, Plane, Scene, SelfAffine, Slide, Sphere
 
 ROUNDING = 1e-12
 SINGLE = 2e-6  # of the largest value: 2^-23 summed over a transform
@@ -57,44 +57,19 @@ def test_padded_sizes_are_even_products_of_small_primes_and_close():
         assert size == 1
 
 
-def test_compiled_loops_say_what_whole_arrays_say():
-    rng = np.random.default_rng(0)
-    contact = rng.random((9, 13)) < 0.4
-    where = np.flatnonzero(contact)
-    plane, heights = rng.standard_normal((2, 9, 13))
-    a, b, c, d = rng.standard_normal((4, where.size))
-
-    put = plane.copy()
-    kernels.put(a, where, put)
-    np.testing.assert_array_equal(put, np.where(contact, 0, plane) + np.bincount(where, a, 9 * 13).reshape(9, 13))
-
-    taken = np.empty_like(a)
-    sums = kernels.take(plane, where, taken, b, c)
-    np.testing.assert_array_equal(taken, plane[contact])
-    np.testing.assert_allclose(sums, (taken.sum(), taken @ b, taken @ c), atol=ROUNDING)
-
-    x, r = b.copy(), c.copy()
-    square, largest = kernels.advance(x, r, a, d, 0.3, 0.1)
-    np.testing.assert_allclose((x, r), (b + 0.3 * a, c - 0.3 * (d - 0.1)), atol=ROUNDING)
-    np.testing.assert_allclose((square, largest), (r @ r, abs(r).max()), rtol=ROUNDING)
-
-    turned = d.copy()
-    kernels.turn(turned, b, 0.2, -0.7)
-    np.testing.assert_allclose(turned, b - 0.2 - 0.7 * d, atol=ROUNDING)
-
-    gap, expected = np.empty_like(plane), plane + heights - 0.2
-    inside, outside = kernels.gaps(plane, heights, 0.2, contact, gap)
-    np.testing.assert_allclose(gap, expected, atol=ROUNDING)
-    assert inside == pytest.approx(abs(expected[contact]).max(), rel=ROUNDING)
-    assert outside == pytest.approx(-expected[~contact].min(), rel=ROUNDING)
-
-
 @pytest.mark.parametrize("scene", [CELL, BODY], ids=["cell", "body"])
 def test_single_precision_keeps_five_digits_of_friction(scene):
     double, single = (BEM(points=64, precision=precision).solve(scene) for precision in ("double", "single"))
     assert single.friction_coefficient == pytest.approx(double.friction_coefficient, rel=1e-4)
     assert single.depth == pytest.approx(double.depth, rel=1e-5)
     assert single.friction_coefficient != double.friction_coefficient
+
+
+def test_a_line_is_solved_in_double_whatever_the_precision_asked_for():
+    scene = Scene(Cylinder(1e-2), BODY.elastomer, Slide(speed=0.1, line_load=100.0))
+    single, double = (BEM(points=64, precision=precision).solve(scene) for precision in ("single", "double"))
+    assert single.friction_coefficient == double.friction_coefficient
+    assert single.settings["precision"] == "double"
 
 
 def test_single_precision_cannot_be_asked_for_more_than_it_has():

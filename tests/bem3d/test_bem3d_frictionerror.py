@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 
 from bem3d import BEM, frictionerror
-from bem3d.friction import Friction, curvature_by_pressure
+from bem3d.friction import Friction
 from bem3d.frictionerror import UNTOLD, Signs, at_tip, bound
 from bem3d.grid import Grid
-from bem3d.spots import Spots
 from scene import Cone, Kelvin, PowerLaw, Scene, SelfAffine, Slide, SolveError, Sphere, StandardLinearSolid
 from scene.scales import elastic_contact
 
@@ -88,21 +87,6 @@ def test_the_share_of_a_sharp_tip_falls_with_its_order_and_is_none_where_the_tip
     assert at_tip(indenter, coarse, ring, 0.5) == at_tip(Sphere(radius=1.0), coarse, discs[0], 0.5) == 0
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("speed", [1e-6, 3e-3, 0.3, 300.0])
-@pytest.mark.parametrize("points", [16, 24, 32])
-def test_no_body_is_given_half_or_twice_its_friction_in_silence(speed, points):
-    for exponent in (1, 10, 30, 50, 100):
-        scene = slid(blunt(exponent), speed)
-        answer = told(scene, points)
-        if answer is None:
-            continue
-        finer = BEM(points=256).solve(scene).friction_coefficient
-        apart = abs(answer.friction_coefficient / finer - 1)
-        assert apart < 0.5
-        assert apart < 0.35 or apart <= answer.measures["friction_error"]
-
-
 @pytest.mark.parametrize("solid", [KELVIN, GLASSY])
 @pytest.mark.parametrize("speed", [1e-3, 0.1, 10.0])
 @pytest.mark.parametrize("rough", [None, ROUGH])
@@ -158,23 +142,6 @@ def test_a_residual_is_part_of_the_error():
     assert bound(seen, estimates(), 64, 1e-2) - bound(seen, estimates(), 64, 0.0) == pytest.approx(0.03)
 
 
-@pytest.mark.parametrize("exponent", [2.0, 3.0, 7.5, 100.0])
-def test_the_curvature_of_a_smooth_body_is_that_of_its_formula(exponent):
-    indenter, grid = PowerLaw(coefficient=2.0, exponent=exponent), Grid(33, 1.6)
-    x, y = np.meshgrid(grid.x, grid.y)
-    step = 1e-7
-    differences = (indenter.slope(x + step, y) - indenter.slope(x - step, y)) / (2 * step)
-    scale = np.abs(differences).max(axis=None)
-    np.testing.assert_allclose(indenter.curvature(x, y), differences, rtol=1e-5, atol=1e-6 * scale)
-
-
-def test_the_curvature_of_a_cone_is_its_mean_around_the_tip():
-    # One pixel on the tip: a uniform pressure on it sees the jump of the slope over the pixel.
-    cone, pixel = Cone(angle=0.1), 0.1
-    grid = Grid(1, pixel)
-    assert curvature_by_pressure(cone, grid, np.ones((1, 1)), None) == pytest.approx(2 * np.tan(0.1) / pixel)
-
-
 @pytest.mark.parametrize("shift", [(0, 0), (1, 0), (0, -3), (5, 2)])
 @pytest.mark.parametrize("points", [16, 17, 22])
 def test_wider_pixels_keep_the_force_and_a_corner_on_the_axis(points, shift):
@@ -188,13 +155,6 @@ def test_wider_pixels_keep_the_force_and_a_corner_on_the_axis(points, shift):
     pressed = np.where(values > 0.6, values, 0.0)
     found = wider.averaged(pressed, grid)
     assert found.sum() * wider.patch == pytest.approx(pressed.sum() * grid.patch)
-    # The pixels in contact alone give the same.
-    row, column = np.nonzero(pressed)
-    spots = Spots.of(grid, row, column)
-    alone, same = spots.wider(), np.zeros(wider.shape)
-    assert (alone.points, alone.extent, alone.centre) == (wider.points, wider.extent, wider.centre)
-    same[alone.row, alone.column] = alone.averaged(pressed[row, column], spots)
-    np.testing.assert_allclose(same, found, atol=1e-12)
 
 
 @pytest.mark.parametrize("points", [16, 17])

@@ -32,20 +32,6 @@ def test_heights_are_those_of_a_result(name):
     assert found.pixel == answer.measures["pixel"]
 
 
-def test_what_touches_has_the_heights_of_the_deformed_surface():
-    # At the pixels' centres, where a contact at rest has its gap: all in touch lies at the depth less the height.
-    wide = BEM(points=64, tolerance=1e-9).solve(replace(BODY, roughness=None))
-    touched, height = wide.fields["pressure"] > 0, wide.fields["height"]
-    x, y = wide.fields["x"], wide.fields["y"]
-    np.testing.assert_allclose(height, (x[None, :] ** 2 + y[:, None] ** 2) / 2e-2, rtol=1e-14)
-    assert height[touched].max() < wide.depth
-
-
-def test_a_window_is_fitted_where_none_is_stated():
-    found = heights(BODY, 64)
-    assert found.pixel * 64 == pytest.approx(BEM(points=64).solve(BODY).settings["extent"], rel=0.1)
-
-
 def test_a_grid_that_cannot_carry_the_waves_is_refused():
     with pytest.raises(SolveError, match="less than two pixels"):
         heights(BODY, 64, extent=1.0)

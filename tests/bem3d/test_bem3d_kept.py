@@ -78,18 +78,6 @@ def test_many_surfaces_of_a_body_take_few_kernels_and_one_spectrum(monkeypatch):
     assert len(kernels.calls) == counts[-1]
 
 
-def test_all_surfaces_are_first_sought_on_the_same_pixels(monkeypatch):
-    elsewhere = replace(SLIDING, indenter=Sphere(1.02e-2))
-    sought = Counted(HalfSpace.operator)
-    monkeypatch.setattr(HalfSpace, "operator", lambda medium, grid: sought(medium, grid))
-    firsts = set()
-    for seed in range(5):
-        sought.calls.clear()
-        BEM(points=32).solve(of_seed(seed, elsewhere))
-        firsts.add(sought.calls[0])
-    assert len(firsts) == 1
-
-
 def test_what_is_kept_is_told_apart_by_all_but_the_place_and_is_bounded():
     found = kept(asked := Counted(lambda medium, grid: grid))
     flow = Flow.of(KELVIN, 0.1)

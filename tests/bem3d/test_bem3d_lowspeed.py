@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 from functools import cache
-from math import nan, pi, sqrt, tan
+from math import nan, pi, tan
 
 import numpy as np
 import pytest
@@ -25,7 +25,6 @@ from scene import (
     Slide,
     Sphere,
     StandardLinearSolid,
-    Wave,
 )
 from scene.scales import elastic_contact
 
@@ -65,13 +64,6 @@ def test_a_sphere_and_a_cylinder_are_curved_alike_everywhere(indenter, pressed, 
     assert curvature(Scene(indenter, KELVIN, Slide(speed=speed, **pressed)), 64) == pytest.approx(
         1 / R, rel=ROUNDING
     )
-
-
-def test_a_contact_that_all_but_fills_its_window_is_curved_as_in_any():
-    scene = Scene(Sphere(radius=R), KELVIN, Indent(load=1.0))
-    measures = BEM(points=64, extent=2.06 * elastic_contact(scene).radius).solve(scene).measures
-    assert round(measures["points_across_contact"]) == 62
-    assert measures["curvature_by_pressure"] == pytest.approx(1 / R, rel=ROUNDING)
 
 
 def test_a_cone_is_curved_by_half_pi_tan_theta_over_a_to_first_order_in_the_pixel():
@@ -129,36 +121,6 @@ def test_a_faint_mode_of_long_memory_keeps_curvature_from_counting():
     )
 
 
-@pytest.mark.parametrize("scene", ROUGH_SCENES)
-def test_the_curvature_of_what_presses_is_of_second_order_in_the_pixel(scene):
-    errors = np.array([abs(curvature(scene, points) / curvature(scene, 512) - 1) for points in (64, 128, 256)])
-    assert (np.log2(errors[:-1] / errors[1:]) > 1.5).all()
-
-
-@pytest.mark.parametrize("scene", ROUGH_SCENES)
-def test_on_two_pixels_a_wave_slow_friction_is_within_two_per_cent_of_a_fine_grid(scene):
-    slow_speed, extent = Slide(speed=1e-6, load=1.0), 3 * elastic_contact(scene).radius
-    scene = replace(scene, motion=slow_speed, roughness=replace(ROUGH, shortest=2.0001 * extent / 48))
-    coarse, fine = (BEM(points=points, extent=extent).solve(scene) for points in (48, 384))
-    assert coarse.measures["points_per_shortest_wave"] == pytest.approx(2.0, rel=1e-3)
-    assert coarse.friction_force == pytest.approx(fine.friction_force, rel=0.02)
-    assert coarse.measures["friction_by_loss"] < 0.9 * fine.friction_force
-
-
-@pytest.mark.parametrize(
-    ("wave", "waves"),
-    [(Wave(amplitude=1e-6, wavelength=1e-3), 1), (CrossedWaves(amplitude=1e-6, wavelength=1e-3), 2)],
-)
-def test_a_wave_in_full_contact_is_curved_as_its_pressure_says(wave, waves):
-    # p = p_mean - E* |q| z / 2 under z of mean square <z^2>: <p d2z/dx2> = E* |q| q_x^2 <z^2> / 2
-    q_x, mean_pressure, points = 2 * pi / 1e-3, 1e6, 64
-    measures = BEM(points=points).solve(Scene(Plane(), KELVIN, Indent(pressure=mean_pressure), wave)).measures
-    assert measures["contact_fraction"] == 1
-    expected = 2 * G * sqrt(waves) * q_x**3 * wave.rms_height**2 / mean_pressure
-    # A pressure that is constant on each pixel has an error of second order.
-    assert measures["curvature_by_pressure"] == pytest.approx(expected, rel=(q_x * 1e-3 / points) ** 2)
-
-
 def test_without_an_edge_slow_friction_is_the_energy_lost():
     slid = Scene(Plane(), KELVIN, Slide(speed=1e-6, pressure=1e6), CrossedWaves(amplitude=1e-6, wavelength=1e-3))
     answer = BEM(points=32, tolerance=1e-9).solve(slid)
@@ -186,18 +148,9 @@ def test_estimates_join_and_disagree_as_far_as_they_count(lag, slowness, most, f
     assert found.measures(2.0)["friction_disagreement"] == most / 2
 
 
-def test_a_plane_in_partial_contact_follows_the_law_too():
-    scene = Scene(Plane(), KELVIN, Indent(pressure=2e4), replace(ROUGH, shortest=5e-4))
-    at_rest = BEM(points=128).solve(scene)
-    assert 0.1 < at_rest.measures["contact_fraction"] < 0.9
-    slid = replace(scene, motion=Slide(speed=0.02 * 5e-4 / (2 * pi) / TAU, pressure=2e4))
-    law = slid.motion.speed * TAU * at_rest.measures["curvature_by_pressure"]
-    assert BEM(points=128).solve(slid).friction_coefficient == pytest.approx(law, rel=GRID)
-
-
 @pytest.mark.parametrize(
     ("indenter", "roughness", "elastomer"),
-    [(Sphere(radius=R), None, KELVIN), (Sphere(radius=R), ROUGH, SOLID), (Cone(angle=THETA), None, SOLID)],
+    [(Sphere(radius=R), ROUGH, SOLID), (Cone(angle=THETA), None, KELVIN)],
 )
 def test_slow_friction_in_one_dimension_is_the_squared_slope_in_the_contact_at_rest(
     indenter, roughness, elastomer
@@ -210,8 +163,3 @@ def test_slow_friction_in_one_dimension_is_the_squared_slope_in_the_contact_at_r
     found = MDR().solve(replace(scene, motion=Slide(speed=speed, load=1.0))).friction_force
     # A picometre of memory, on contacts of ten micrometres at least.
     assert found == pytest.approx(law, rel=1e-5, abs=0.0)
-    if roughness is None:
-        half = elastic_contact(scene).radius
-        body = indenter.mdr_coefficient, indenter.exponent
-        three = slow_friction_3d(speed, half, lag, elastomer.indentation_modulus, *body)
-        assert law == pytest.approx(2 * three, rel=1e-3, abs=0.0)  # of a profile linear between 5000 nodes

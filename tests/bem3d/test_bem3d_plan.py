@@ -7,9 +7,8 @@ import numpy as np
 import pytest
 from planned import FACTOR, KELVIN, LOAD, PRONY, SPHERE, STAGES, STANDARD, all_of_a_scene, held_by
 
-from bem3d import BEM, marching
+from bem3d import BEM
 from bem3d.convolution import FreeConvolution, FreePair, PeriodicFilter, PeriodicPair
-from bem3d.grid import Grid
 from bem3d.halfspace import HalfSpace
 from bem3d.layerwaves import PIECES, Taken, taking
 from bem3d.memory import _kept
@@ -172,22 +171,6 @@ def test_the_kernels_of_a_plan_are_those_that_a_solve_builds(name, built):
     assert plan.shape == answer.fields["pressure"].shape
 
 
-def test_a_plan_says_that_tractions_without_coupling_build_the_kernel_of_the_pressure_again():
-    scene = SCENES["shear-uncoupled"]
-    said = solver(scene).plan(scene).kernels
-    (again,) = [kernel for kernel in said if kernel.name == "tractions: that of the pressure, built again"]
-    assert (again.form, again.shape) in [(kernel.form, kernel.shape) for kernel in said if kernel is not again]
-
-
-def test_a_plan_that_leaves_a_kernel_out_is_found_out(built):
-    scene = SCENES["slide"]
-    asked = solver(scene)
-    plan = asked.plan(scene)
-    asked.solve(scene)
-    fewer = replace(plan, kernels=plan.kernels[1:])
-    assert planned(fewer) != of_the_finest(built, plan)
-
-
 @pytest.mark.parametrize(
     ("name", "points"),
     [
@@ -298,25 +281,6 @@ def test_what_an_estimated_window_could_not_carry_is_said():
     assert "as on a half-space" in str(asked.plan(SCENES["layer"]))
 
 
-def test_a_march_evaluates_heights_once_at_each_place_within_a_pixel(monkeypatch):
-    evaluated = []
-
-    def counted(self, of, pixels):
-        evaluated.append(pixels)
-        return evaluate(self, of, pixels)
-
-    evaluate = marching._Body._evaluated
-    monkeypatch.setattr(marching._Body, "_evaluated", counted)
-    program = Program(stages=(Stage(duration=1e-3, load=LOAD, speed=0.2),))
-    scene, asked = replace(SCENES["rough"], motion=program), BEM(points=32, extent=EXTENT, steps=40)
-    steps = asked.solve(scene).measures["time_steps"]
-    kept = marching.places(program, Grid(32, EXTENT), 40)
-    assert 8 < kept < 2 * steps / 1.5
-    assert len(evaluated) <= kept + 4  # the last two steps are out of line
-    monkeypatch.setattr(marching, "KEPT", 0)
-    assert marching.places(program, Grid(32, EXTENT), 40) == 2
-
-
 @pytest.mark.parametrize(
     ("scene", "error", "said"),
     [
@@ -344,7 +308,3 @@ def test_a_printed_plan_says_all_of_it():
         size(plan.memory),
     ):
         assert said in page
-    for heading in ("simulated", "method", "grids", "kernels", "modes", "memory", "expected", "left out"):
-        assert f"\n  {heading}" in page
-    assert "hurst=0.8" in plan.terms["roughness"]
-    assert "rolloff" not in plan.terms["roughness"]  # what is not stated is not repeated

@@ -61,7 +61,6 @@ ANSWERED = {
         SMOOTH, indenter=PowerLaw(coefficient=1e12, exponent=5), motion=Slide(speed=1, load=0.01)
     ),
     "rough": SCENE,
-    "rough, slow": replace(SCENE, motion=Slide(speed=1e-3, load=0.002)),
     "glassy, at a depth": replace(
         SCENE, indenter=Sphere(1e-3), elastomer=GLASSY, motion=Slide(speed=0.1, depth=5e-7)
     ),
@@ -79,15 +78,11 @@ ANSWERED = {
     ),
     "at rest": replace(SCENE, motion=Indent(load=0.002)),
     "layer": replace(SMOOTH, layer=Layer(thickness=3e-4)),
-    "layer, frictionless": replace(SCENE, layer=Layer(thickness=1e-4, base="frictionless")),
     "cold": replace(SCENE, temperature=COLD),
     "arrhenius": replace(SCENE, temperature=Arrhenius(temperature=310, reference=298, activation_energy=5e4)),
     "heating": replace(WARM, heating=Heating(conductivity=0.2)),
     "heating that acts back": replace(WARM, heating=Heating(conductivity=1e-3, feedback="flash")),
     "coulomb": replace(SCENE, interface=Coulomb(coefficient=0.3)),
-    "shear, by a displacement": replace(
-        SCENE, interface=Coulomb(coefficient=0.3), motion=Shear(load=0.002, displacement=5e-8)
-    ),
     "shear, by a force": replace(
         SCENE,
         elastomer=Kelvin(1e6, 1e-3, poisson_ratio=0.3),
@@ -105,8 +100,7 @@ COUNTS = ("applications", "rounds", "transform_pairs", "seconds", "residual")  #
 
 
 # Effects of which another one of the kind is quick.
-LONG = {"heating that acts back", "arrhenius", "shear, by a displacement", "shear, uncoupled", "measured line"}
-LONG |= {"rough, slow", "layer, frictionless"}
+LONG = {"heating that acts back", "arrhenius", "shear, uncoupled", "measured line"}
 
 
 @pytest.mark.parametrize(

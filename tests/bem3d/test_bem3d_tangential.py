@@ -24,7 +24,6 @@ from scene import (
     Shear,
     SolveError,
     Sphere,
-    Wave,
 )
 from scene.scales import elastic_contact
 
@@ -33,7 +32,6 @@ ROUGH = SelfAffine(hurst=0.8, rms_height=1e-5, longest=10e-3, shortest=0.5e-3, s
 CELL = SelfAffine(hurst=0.8, rms_height=2e-6, longest=1e-3, shortest=1.25e-4, seed=1)
 WAVES = CrossedWaves(amplitude=1e-6, wavelength=1e-3)
 TIGHT = 1e-9  # tolerance of solves that are compared with one another
-FORCE = 1e-3  # asked for: of the tangential force at 64 points across the contact
 EXTENT = 3.6e-3  # of contacts of a radius of 1.4 mm
 
 
@@ -51,31 +49,7 @@ def at_rest(scene, **pressed):
     return replace(scene, motion=Indent(**(pressed or {motion.pressed_by: motion.greatest})), interface=None)
 
 
-def greatest(scene, depth):
-    """Displacement [m] at which a smooth body slips everywhere."""
-    return closed.full_slip_displacement(scene.interface.coefficient, depth, scene.solid.poisson_ratio)
-
-
 # -- closed forms
-
-
-@pytest.mark.parametrize("share", [0.1, 0.9])
-def test_a_sphere_without_coupling_is_that_of_cattaneo_and_mindlin(share):
-    scene = sphere(nu=0.0, displacement=1.0)
-    contact = elastic_contact(scene)
-    scene = replace(scene, motion=replace(scene.motion, displacement=share * greatest(scene, contact.depth)))
-    answer = BEM(points=96, extent=3 * contact.radius).solve(scene)
-    fraction = float(closed.force(share))
-    assert answer.friction_force == pytest.approx(MU * LOAD * fraction, rel=2 * FORCE)
-    stick = np.sqrt(answer.measures["stick_area"] / np.pi)
-    # a rim one pixel wide is not known to belong to either
-    assert stick == pytest.approx(contact.radius * closed.stick_radius(fraction), abs=answer.measures["pixel"])
-    r = np.hypot(answer.fields["x"][None, :], answer.fields["y"][:, None]) / contact.radius
-    inside = np.abs(r - closed.stick_radius(fraction)) > 0.1
-    expected = closed.hertz_traction(r, closed.stick_radius(fraction))
-    found = answer.fields["traction_x"] / (MU * answer.fields["pressure"].max())
-    # the pressure itself is 3 % off at the rim of the contact at these points
-    assert np.abs(found - expected)[inside & (r < 0.95)].max() < 0.01
 
 
 @pytest.mark.parametrize("nu", [0.0, 0.5])
@@ -99,36 +73,6 @@ def test_what_sticks_everywhere_is_mindlins_disc_at_any_poisson_ratio(nu):
         assert np.abs(answer.fields["traction_y"])[inside].max() < 0.02 * expected.max()
 
 
-@pytest.mark.parametrize("share", [0.2, 0.8])
-def test_a_line_contact_slips_from_both_edges_as_by_cattaneo(share):
-    scene = Scene(Cylinder(R), Elastic(G), Shear(line_load=100.0, force=share * MU * 100), interface=Coulomb(MU))
-    contact = elastic_contact(scene)
-    answer = BEM(points=512, extent=3 * contact.radius).solve(scene)
-    stick = float(closed.line_stick_width(share))
-    assert answer.measures["stick_area"] == pytest.approx(
-        2 * stick * contact.radius, abs=2 * answer.measures["pixel"]
-    )
-    found = answer.fields["traction_x"][0] / (MU * answer.fields["pressure"].max())
-    x = answer.fields["x"] / contact.radius
-    away = (np.abs(np.abs(x) - 1) > 0.05) & (np.abs(np.abs(x) - stick) > 0.05)
-    assert np.abs(found - closed.hertz_traction(x, stick))[away].max() < 5e-3
-    less = elastic_contact(at_rest(scene, line_load=(1 - share) * 100))
-    # counted from the same datum as the depth, so that u = mu (d - d_c)
-    assert answer.measures["tangential_displacement"] == pytest.approx(
-        MU * (contact.depth - less.depth), rel=FORCE
-    )
-
-
-@pytest.mark.parametrize("share", [0.3, 0.9])
-def test_one_wave_slips_as_by_westergaard_and_ciavarella(share):
-    wave, closing = Wave(amplitude=1e-6, wavelength=1e-3), np.pi * 4 * G * 1e-6 / 1e-3
-    force = share * MU * 0.4 * closing * 1e-6
-    answer = BEM(points=512).solve(plane(wave, pressure=0.4 * closing, force=force))
-    expected = closed.wave_displacement(MU, share, 0.4, wave.amplitude)
-    assert answer.measures["tangential_displacement"] == pytest.approx(expected, rel=5e-3)
-    assert answer.friction_force == pytest.approx(force, rel=1e-5)
-
-
 # -- laws of any contact
 
 
@@ -137,12 +81,13 @@ def test_one_wave_slips_as_by_westergaard_and_ciavarella(share):
     [
         (sphere(nu=0.0, roughness=ROUGH, force=0.6 * MU * LOAD), 0.6),
         (plane(CELL, nu=0.0, pressure=1e4, force=0.95 * MU * 1e-2), 0.95),
+        (Scene(Cylinder(R), Elastic(G), Shear(line_load=100.0, force=20 * MU), interface=Coulomb(MU)), 0.2),
     ],
-    ids=["sphere", "plane"],
+    ids=["sphere", "plane", "line"],
 )
 def test_uncoupled_tractions_are_two_pressures_of_the_rough_body_itself(asked, share):
     # Jaeger and Ciavarella: exact on any grid where tractions displace as pressures do; another algorithm finds it
-    solver = BEM(points=64, extent=EXTENT if asked.motion.pressed_by == "load" else None, tolerance=TIGHT)
+    solver = BEM(points=64, extent=None if asked.motion.pressed_by == "pressure" else EXTENT, tolerance=TIGHT)
     answer = solver.solve(asked)
     less = solver.solve(at_rest(asked, **{asked.motion.pressed_by: (1 - share) * asked.motion.greatest}))
     expected = MU * (answer.fields["pressure"] - less.fields["pressure"])
@@ -175,18 +120,6 @@ def test_the_conditions_of_stick_and_slip_hold(nu):
     assert 0 < answer.measures["stick_area"] < answer.measures["contact_area"]
     assert traction[0].sum() * pixel**2 == pytest.approx(answer.friction_force, rel=1e-12)
     assert answer.friction_force == pytest.approx(0.6 * MU * LOAD, rel=answer.settings["tolerance"])
-
-
-def test_a_smooth_sphere_has_the_symmetry_of_its_pull():
-    answer = BEM(points=64).solve(sphere(force=0.5 * MU * LOAD))
-    along, across = answer.fields["traction_x"], answer.fields["traction_y"]
-    for plane, signs in ((along, (1, 1)), (across, (-1, -1))):
-        for axis, sign in enumerate(signs):
-            np.testing.assert_allclose(np.flip(plane, axis), sign * plane, atol=1e-4 * along.max())
-    # incompressible: tractions aside are a tenth of those along, and all is of Cattaneo and Mindlin to 0.3 %
-    assert 0.07 < np.abs(across).max() / along.max() < 0.13
-    u_max = greatest(answer.scene, answer.depth)
-    assert answer.measures["tangential_displacement"] / u_max == pytest.approx(closed.displacement(0.5), rel=3e-3)
 
 
 def test_two_components_tend_to_one_as_the_coupling_vanishes():
@@ -265,13 +198,6 @@ def test_the_mean_slip_of_a_cell_is_how_far_it_was_drawn():
     assert 0 < answer.measures["slip_area"] < answer.measures["contact_area"]
 
 
-def test_an_even_traction_displaces_a_cell_nowhere():
-    answer = BEM(points=64).solve(plane(force=0.01 * MU * 0.1))
-    assert answer.measures["contact_fraction"] == 1
-    assert abs(answer.measures["tangential_displacement"]) < 1e-20
-    assert np.ptp(answer.fields["traction_x"]) < 1e-9 * answer.fields["traction_x"].max()
-
-
 def test_the_pressure_is_that_of_the_contact_at_rest():
     scene = sphere(roughness=ROUGH, displacement=2e-5)
     one, other = BEM(points=48).solve(at_rest(scene)), BEM(points=48).solve(scene)
@@ -317,11 +243,3 @@ def test_tractions_take_a_few_times_the_products_of_the_pressure(drawn, most):
     # 108 and 70 of single planes were measured, a product of two components counting twice; the pressure takes
     # 22. Without the slipping points of the coarse grid it is 130 and 90
     assert tangential < most
-
-
-def test_where_nothing_sticks_the_displacement_is_the_least_at_which_all_but_one_point_slips_forward():
-    image, everywhere = np.array([[1.0, 3.0, 2.0]]), np.ones(3, bool)
-    assert stickslip._level(image, np.ones((1, 3)), everywhere) == 3.0
-    along = np.array([[1.0, 1.0, 1.0], [0.0, 0.0, 0.0]])
-    assert stickslip._level(np.vstack([image, 5 * image]), along, everywhere) == 3.0
-    assert stickslip._level(image, np.ones((1, 3)), np.array([True, False, False])) == 2.5

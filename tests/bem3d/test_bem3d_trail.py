@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bem3d import BEM, Trail, kernels
+from bem3d import BEM, Trail
 from bem3d.engine import Engine
 from bem3d.grid import Grid
 from bem3d.problem import Problem
@@ -94,25 +94,6 @@ def test_a_failed_solve_leaves_nothing_on_the_trail():
     assert trail.beside(64) is None
     found = solver.solve(SLIDING, trail)
     assert found.measures["transform_pairs"] == solver.solve(SLIDING).measures["transform_pairs"]
-
-
-@pytest.mark.parametrize(("before", "after"), [(0.0, 0.2), (0.2, 0.0), (0.2, 0.4), (0.0, 0.0)])
-def test_a_start_presses_where_it_pressed_and_sinks_the_foundation_as_much(before, after):
-    def problem(speed):
-        return Problem(Scene(Sphere(1e-2), SOLID, Slide(speed=speed, load=1.0)), Engine())
-
-    old, new = Grid(32, 4e-3), Grid(48, 3e-3, (3e-4, 0.0))
-    pressure = np.maximum(1 - (old.x**2 + old.y[:, None] ** 2) / 1e-6, 0.0)
-    one, other = problem(before), problem(after)
-    foundations = one.medium.foundation(old), other.medium.foundation(new)
-    taken, sunk = one.start(old, pressure).on(new, foundations[1]), pressure.copy()
-    there = taken > 0
-    assert there.sum() > 300
-    assert (taken[new.resampled_contact(pressure, old) == 0] == 0).all()
-    for plane, foundation in zip((sunk, taken), foundations, strict=True):
-        if foundation is not None:  # at rest what sinks is the pressure
-            kernels.sink(plane, foundation)
-    np.testing.assert_allclose(taken[there], new.resample(sunk, old)[there], rtol=1e-9)
 
 
 def test_a_trail_knows_where_the_scene_is_and_its_coarser_contacts_until_the_next_scene():

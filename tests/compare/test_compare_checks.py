@@ -47,6 +47,11 @@ FEW = (
     "limit.fast",
     "order.sphere",
 )
+# Of bodies, waves, lines and motions that no other quick test holds.
+MORE = {
+    *("cone.force", "r^4.depth", "sphere.area", "crossed.fraction.0.3", "line.depth", "line.hunter.1"),
+    *("full.wave.0.1", "mindlin.sphere.0.5", "history.withdrawn.cone", "history.creep"),
+}
 # Hard cases that cost little, one of each kind of law; the command and the slow tests examine all.
 SAMPLE = {
     *("speed-to-zero", "all-but-no-glass-1d", "ends-of-the-spectrum", "whole-domain", "nearly-full-contact"),
@@ -70,7 +75,7 @@ def asked():
             models, quick = [build(QUICK) for build in law.solvers], law.id in SAMPLE
         else:
             models = [model for model in (LINE, COARSE) if model_of(model).dimension in law.kinds]
-            quick = law.id in FEW
+            quick = law.id in FEW or law.id in MORE
         marks = () if quick else pytest.mark.slow
         for number, model in enumerate(models):
             yield pytest.param(Examination(law.id, model), marks=marks, id=f"{law.id}-{model.name}-{number}")

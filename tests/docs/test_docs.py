@@ -10,13 +10,11 @@ import matplotlib
 import numpy as np
 import pandas
 import pytest
-from scipy.integrate import trapezoid
 
 import compare
 import scene
 from compare import commands
 from compare.cli.app import app
-from scene import SelfAffine
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
@@ -306,14 +304,7 @@ def test_conventions_of_tamaas_are_as_the_page_has_them(wave):
     assert tamaas.Statistics2D.computeSpectralRMSSlope(wave) == pytest.approx(slope * SIDE, rel=1e-9)
     model = tamaas.ModelFactory.createModel(tamaas.model_type.basic_2d, [1.0, 1.0], [32, 32])
     model.E, model.nu = 3.0, 0.5
-    assert model.E_star == pytest.approx(3.0 / (1 - 0.5**2))
-    x = np.arange(32) / 32 - 0.5
-    peak = -(x[:, None] ** 2 + x[None, :] ** 2)
-    tamaas.PolonskyKeerRey(model, peak, 1e-10).solve(0.05)
-    assert model.traction[16, 16] == model.traction.max() > 0
-    assert model.traction.mean() == pytest.approx(0.05)
-    assert model.displacement[16, 16] > model.displacement[0, 0]
-    np.testing.assert_allclose(model.displacement - peak - model["gap"], 0, atol=1e-12)
+    assert model.E_star == pytest.approx(3.0 / (1 - 0.5**2))  # signs and means are those of test_bem3d_peers.py
 
 
 @pytest.mark.filterwarnings("ignore:Could not import mpi4py:ImportWarning")
@@ -325,8 +316,3 @@ def test_conventions_of_surfacetopography_are_as_the_page_has_them(wave):
     q, density = map_.power_spectrum_from_profile(resampling_method=None, reliable=False)
     assert q[np.argmax(density)] == pytest.approx(2 * np.pi * WAVES / SIDE)
     assert density.max() * (q[1] - q[0]) / np.pi == pytest.approx(HEIGHT**2 / 2)
-    # ours of a line scan, <h^2> = 2 int C dq
-    rough = SelfAffine(hurst=0.8, rms_height=1e-6, longest=1e-4, shortest=1e-6)
-    q = np.geomspace(1e-3 * rough.q_min, rough.q_max(1e-7), 20001)
-    scan = rough.density_line_scan(q, rough.q_max(1e-7))
-    assert 2 * trapezoid(scan, q) == pytest.approx(1e-12, rel=2e-3)

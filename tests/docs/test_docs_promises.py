@@ -6,10 +6,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from promises_page import costs, errors, promises, scenes
+from promises_page import errors, promises, scenes
 
 from bem3d import BEM, frictionerror
-from bem3d.costs import COSTS
 from bem3d.frictionerror import FITTED
 from compare.solving.outcome import Outcome, Row
 from scene.protocol import refuse
@@ -144,23 +143,3 @@ def test_a_promise_is_checked_where_the_truth_is_twice_as_fine_and_known():
     assert checked(256.0) == pytest.approx(0.05, rel=1e-3)
     assert np.isnan(checked(512.0))
     assert np.isnan(checked(256.0, [Row(reason="no converged contact")] * 3))
-
-
-def test_costs_are_medians_of_what_solves_took_by_body_speed_and_points():
-    tasks = list(costs.asked(range(6)))
-    spent = {
-        task: Outcome((Row(1.0, seconds=float(k), operator_applications=2.0 * k),)) for k, task in enumerate(tasks)
-    }
-    found = costs.rows(tasks, spent)
-    assert {each["cost"] for each in found} == set(COSTS)
-    rest = [
-        k
-        for k, task in enumerate(tasks)
-        if task.scenes[0].roughness is None and task.scenes[0].motion.speed == 0 and task.solver.points == 64
-    ]
-    (own,) = (
-        each
-        for each in found
-        if (each["body"], each["band"], each["cost"], each["points"]) == ("smooth", "rest", "seconds", 64)
-    )
-    assert (own["value"], own["answers"]) == (pytest.approx(np.median(rest), rel=1e-2), 6)

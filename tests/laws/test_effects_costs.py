@@ -11,7 +11,6 @@ from effects import COUNTED, PAGE, cells, costs, effects, priced, sheet, tasks
 import bem3d.plan
 import mdr1d.plan
 from bem3d import BEM
-from bem3d.surface import RoughSurface
 from compare.solving.outcome import Outcome, Row
 from mdr1d import MDR
 from scene import Layer, Program, Scene
@@ -32,15 +31,6 @@ def test_the_page_has_the_measured_costs(stored):
     page = PAGE.read_text(encoding="utf-8")
     rows = re.search(r"<!-- effects -->\n.*\n.*\n((?:\|.*\n)*)<!-- end -->", page)[1].splitlines()
     assert rows == [f"| {' | '.join(row)} |" for row in cells(stored)]
-
-
-def test_the_measured_surface_is_the_drawn_one():
-    # costs of both are compared: the same surface, not one with a plane taken off its period
-    asked = {each.title: each.scene.roughness for each in effects()}
-    map_, drawn = asked["measured topography"], asked["roughness"]
-    surface = RoughSurface.of(drawn, drawn.q_max(0.0))
-    assert map_.rms_height == pytest.approx(surface.rms_height, rel=1e-9)
-    assert map_.waves.rms_slope == pytest.approx(surface.rms_slope, rel=1e-9)
 
 
 def test_every_part_that_a_scene_may_lack_is_asked_for():
@@ -113,14 +103,6 @@ def test_times_are_those_of_the_effect_that_it_comes_on_top_of_and_a_solve_that_
     reasons = {row["dimension"]: row["reason"] for row in sheet(found) if row["effect"] == "layer"}
     assert reasons["3D"] == "did not converge"
     assert reasons["1D"].startswith("refused")
-
-
-def test_a_program_is_told_by_the_step_and_only_where_steps_are_not_counted():
-    found = costs(outcomes())
-    (program,) = (row for row in priced("3D", found["3D"]) if row["part"] == "Program")
-    place, rest = TITLES.index("program") + 1, TITLES.index("contact at rest") + 1
-    assert program["seconds"] == pytest.approx(place / rest / 100, rel=1e-2)
-    assert "Program" not in {row["part"] for row in priced("1D", found["1D"])}
 
 
 def test_multiples_of_parts_are_multiplied_and_unknown_ones_are_named(tmp_path):

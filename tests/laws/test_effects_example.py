@@ -4,7 +4,6 @@ import contextlib
 import io
 import re
 from dataclasses import replace
-from math import pi
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +15,7 @@ from compare.studies.comparison.claims import CLAIMS
 from compare.studies.comparison.measures import FRICTIONS
 from compare.studies.plan import planned
 from mdr1d import MDR
-from scene import Elastic, Indent, Kelvin, Layer, Plane, Refused, Scene, SelfAffine, Slide, Sphere
+from scene import Kelvin, Layer, Refused, Slide, Sphere
 
 PAGE = Path(__file__).parents[2] / "docs" / "howto" / "extending.md"
 
@@ -49,21 +48,6 @@ def test_the_claim_of_the_page_is_judged_of_both_models(page, friction, verdict)
     findings = obeying(lambda load, speed: friction + 0 * load * speed, FEW).judge().findings
     found = {each.dimension: each.verdict for each in findings if each.claim.id == "mine.fastest"}
     assert found == {"1D": verdict, "3D": verdict}
-
-
-def test_a_coating_on_a_plane_in_full_contact_adds_its_compliance_to_every_wave(page):
-    # full contact, p = mean + sum over waves of E* |q| / 2 h / (1 + c E* |q| / 2)
-    rough = SelfAffine(hurst=0.8, rms_height=1e-8, longest=1e-3, shortest=5e-4, seed=1)
-    compliance, modulus = 2e-11, 4e6
-    scene = page["CoatedScene"](
-        Plane(), Elastic(1e6), Indent(pressure=1e4), rough, coating=page["Coating"](compliance)
-    )
-    answer = page["CoatedBEM"](points=64, tolerance=1e-9).solve(scene)
-    assert answer.measures["contact_fraction"] == 1.0
-    bare = BEM(points=64, tolerance=1e-9).solve(Scene(scene.indenter, scene.elastomer, scene.motion, rough))
-    q = 2 * pi / 1e-3 * np.hypot(*np.meshgrid(np.fft.rfftfreq(64, 1 / 64), np.fft.fftfreq(64, 1 / 64)))
-    expected = np.fft.rfft2(bare.fields["pressure"]) / (1 + compliance * modulus * q / 2)
-    assert np.fft.rfft2(answer.fields["pressure"]) == pytest.approx(expected, abs=1e-6 * abs(expected[0, 1]))
 
 
 def test_a_scene_without_the_part_is_answered_to_the_last_digit(page):

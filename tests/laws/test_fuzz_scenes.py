@@ -1,4 +1,4 @@
-"""Scenes drawn over the whole vocabulary, with ratios beyond reason: each is answered by its laws, or is refused.
+"""Scenes of every part, with numbers beyond reason: each is answered by its laws, or is refused.
 
 Half a thousand by each solver, as FUZZ_SEED has them, see `damage`. A hang is a failure too.
 """
@@ -9,30 +9,22 @@ from math import isfinite
 import numpy as np
 import pytest
 from damage import TRIES, bounded, fuzz, unshowable
+from effects import effects
 from hypothesis import strategies as st
 from solids import OF_EACH_TYPE
-from strategies import bodies, decades, evenly, planes, rescaled
+from strategies import bodies, decades, planes
 
 from bem3d import BEM
 from mdr1d import MDR
 from scene import (
-    WLF,
-    Arrhenius,
-    Coulomb,
     Cylinder,
-    Heating,
-    Indent,
     InvalidInput,
-    Layer,
     Measured,
     Program,
     Refused,
     Result,
-    Shear,
     Slide,
     SolveError,
-    Stage,
-    Topography,
 )
 
 pytestmark = pytest.mark.slow
@@ -43,62 +35,21 @@ ROUNDING = 1e-9  # of sums that hold what is prescribed
 SENTENCES = 2000  # letters of all reasons of a refusal
 seldom = st.integers(0, 3).map(lambda one: one == 3)
 extremes = decades(-40, 40)
-heights = st.integers(0, 99).map(lambda one: np.random.default_rng(one).standard_normal((6, 8)))
-
-
-@st.composite
-def stages(draw, by, value, speed):
-    """Of a history: pressed in, then slid, held, lifted or shaken, forwards and backwards."""
-    found = [Stage(duration=1.0, **{by: value})]
-    for _ in range(draw(st.integers(0, 2))):
-        pressed = draw(st.sampled_from(({}, {by: 0.0}, {by: value / 2}, {by: value})))
-        moved = draw(st.sampled_from((0.0, speed, -speed)))
-        shaken = {"amplitude": value / 4, "frequency": 0.5} if {by: value} == pressed and draw(seldom) else {}
-        found.append(Stage(duration=draw(decades(-2, 1)) / max(speed, 1.0), speed=moved, **pressed, **shaken))
-    return tuple(found)
+BALL = effects()[0].scene
+SQUARES = np.arange(-20, 21) ** 2
+# Of every part that a scene may have; each solver refuses some.
+OF_EVERY_PART = (
+    *(effect.scene for effect in effects()),
+    *(replace(BALL, elastomer=solid) for solid in OF_EACH_TYPE.values()),
+    replace(BALL, indenter=Cylinder(radius=1e-2), motion=Slide(speed=0.1, line_load=100.0)),
+    replace(BALL, indenter=Measured(heights=1e-7 * np.add.outer(SQUARES, SQUARES), pixel=5e-5, peaks="down")),
+)
 
 
 @st.composite
 def scenes(draw):
-    """Any scene: most have a contact of radius 1, E* of 1 and times around 1; then single numbers go anywhere."""
-    scene = draw(st.one_of(bodies(), bodies(), bodies(), planes()))
-    by, speed = scene.motion.pressed_by, scene.motion.speed or 1.0
-    value, extra = scene.motion.greatest, {}
-    if by in ("load", "depth") and draw(seldom):
-        kind, shape, rough = draw(st.sampled_from(("cylinder", "measured", "map"))), draw(heights), scene.roughness
-        if kind == "cylinder":
-            by, shape, rough = "line_load", Cylinder(radius=1 / value), rough if draw(seldom) else None
-        elif kind == "measured":
-            x = np.linspace(-1, 1, 8)
-            shape = value * (shape / 10 + 2 * x**2 + 2 * x[:6, None] ** 2)
-            shape, rough = Measured(heights=shape, pixel=0.4, peaks="down"), None
-        else:
-            shape, rough = scene.indenter, Topography(heights=value * shape, pixel=draw(decades(-1, 1)))
-        extra |= {"indenter": shape, "roughness": rough}
-    if draw(seldom):
-        extra["elastomer"] = rescaled(draw(st.sampled_from(list(OF_EACH_TYPE.values()))), modulus=2.5e-7)
-    motions = {
-        "indent": lambda: Indent(**{by: value}),
-        "slide": lambda: Slide(speed=scene.motion.speed, **{by: value}),
-        "program": lambda: Program(stages=draw(stages(by, value, speed))),
-        "shear": lambda: Shear(displacement=value * draw(decades(-3, 1)), **{by: value}),
-    }
-    moved = draw(st.sampled_from(("slide", "slide", "slide", "indent", "program", "shear")))
-    extra["motion"] = motions[moved]()
-    if draw(seldom):
-        extra["layer"] = Layer(
-            thickness=draw(decades(-2, 3)), base=draw(st.sampled_from(("bonded", "frictionless")))
-        )
-    if draw(seldom):
-        warm = draw(evenly(-40, 200))
-        law = draw(st.sampled_from((WLF(temperature=300 + warm, reference=300, c1=17.44, c2=51.6), None)))
-        extra["temperature"] = law or Arrhenius(temperature=300 + warm, reference=300, activation_energy=5e4)
-    if draw(seldom):
-        feedback = draw(st.sampled_from((None, "average", "flash"))) if "temperature" in extra else None
-        extra["heating"] = Heating(conductivity=draw(decades(-6, 3)), feedback=feedback)
-    if moved == "shear" or draw(seldom):
-        extra["interface"] = Coulomb(coefficient=draw(st.sampled_from((0.0, 1e-3, 0.5, 10.0))))
-    return _stretched(draw, replace(scene, **extra))
+    """Any scene: at random around a contact of radius 1, or one of every part; then single numbers go anywhere."""
+    return _stretched(draw, draw(st.one_of(bodies(), planes(), st.sampled_from(OF_EVERY_PART))))
 
 
 def _stretched(draw, scene):

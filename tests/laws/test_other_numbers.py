@@ -5,7 +5,6 @@ has no example here fails.
 """
 
 import inspect
-import re
 from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import cache, partial
 from typing import Any, get_type_hints
@@ -501,11 +500,9 @@ ROWS = [place for place in PLACES if isinstance(place.value, tuple) and place.na
 
 
 @pytest.mark.parametrize("place", ROWS, ids=lambda place: place.name)
-def test_a_row_of_any_library_is_the_row(place):
-    plain, other = place.take(place.value), OTHERS[place.unit]
-    unit = {} if place.unit is None else {"units": other}
-    factor = 1.0 if place.unit is None else scale_of(other)
-    values = np.array(place.value) / factor
+def test_a_row_of_any_library_is_the_row(place, quantity):
+    plain, values = place.take(place.value), scaled(place.value, place, quantity).magnitude
+    unit = {} if place.unit is None else {"units": OTHERS[place.unit]}
     labelled = xarray.DataArray(values, dims="k", attrs=unit)
     listed = pandas.Series(values, index=range(5, 5 + len(values)))
     listed.attrs.update(unit)
@@ -513,16 +510,6 @@ def test_a_row_of_any_library_is_the_row(place):
         assert same(place.take(each), plain), f"{place.name}: {each!r}"
     if place.name != "equations.spectral_force(band)":
         refused(place, xarray.DataArray(values, dims="k", attrs={"units": "kg"}))
-
-
-def scale_of(unit):
-    from scene.units import scale
-
-    return float(scale(unit, unit_in_si(unit))[0])
-
-
-def unit_in_si(other):
-    return next(unit for unit, each in OTHERS.items() if each == other)
 
 
 def test_what_depends_on_others_takes_their_unit(quantity):
@@ -554,80 +541,6 @@ def test_what_depends_on_others_takes_their_unit(quantity):
 def test_counts_of_functions_are_whole_numbers(wrong):
     with pytest.raises(ValueError, match="draws"):
         replace(CURVE, draws={"BEM": wrong})
-
-
-class Unyt(np.ndarray):
-    """An array of unyt, or of astropy, as far as it goes: a subclass of numpy's with a unit."""
-
-    units = "mm"
-
-    @property
-    def value(self):
-        return self.view(np.ndarray)
-
-
-MM = {"units": "mm"}
-PLACES_MM = {"x": ("x", 2.0 * np.arange(6), MM), "y": ("y", 3.0 * np.arange(5), MM)}
-MAP = xarray.DataArray(HEIGHTS, dims=("y", "x"), attrs=MM)
-LAID_OUT = MAP.assign_coords(PLACES_MM)
-PIXEL = (2e-3, 3e-3)
-LIKE_THE_PLAIN_MAP = {
-    "a list": (HEIGHTS / 1e3).tolist(),
-    "strings": [[f"{each} mm" for each in row] for row in HEIGHTS],
-    "a subclass with a unit": HEIGHTS.view(Unyt),
-    "a table": pandas.DataFrame(HEIGHTS / 1e3),
-    "labels": MAP,
-    "x before y": MAP.T,
-    "with places": LAID_OUT.T,
-    "y falls": LAID_OUT[::-1],
-    "x falls": LAID_OUT[:, ::-1].T,
-    "places in single precision": LAID_OUT.assign_coords(x=PLACES_MM["x"][1].astype("f4") / 1e3),
-}
-
-
-@pytest.mark.parametrize("cls", [Topography, Measured])
-@pytest.mark.parametrize("given", LIKE_THE_PLAIN_MAP.values(), ids=LIKE_THE_PLAIN_MAP)
-def test_a_map_of_any_library_is_the_plain_map(cls, given):
-    heights = cls(heights=given, pixel=PIXEL).heights.heights
-    np.testing.assert_allclose(heights, HEIGHTS / 1e3, rtol=ROUNDING)
-    assert replace(cls(heights=np.eye(5, 6), pixel=PIXEL), heights=given) == cls(heights=given, pixel=PIXEL)
-
-
-def test_a_quantity_of_heights_has_its_unit(quantity):
-    for given in (quantity(HEIGHTS, "mm"), MAP.drop_attrs().copy(data=quantity(HEIGHTS, "mm"))):
-        np.testing.assert_allclose(
-            Topography(heights=given, pixel=1.0).heights.heights, HEIGHTS / 1e3, rtol=ROUNDING
-        )
-    for unit in ("s", "mm^2", "", "rad"):
-        with pytest.raises(ValueError, match=r"heights.*a length"):
-            Topography(heights=quantity(HEIGHTS, unit), pixel=1.0)
-    with pytest.raises(ValueError, match="two units"):
-        Topography(heights=MAP.copy(data=quantity(HEIGHTS, "mm")), pixel=1.0)
-
-
-@pytest.mark.parametrize(
-    ("given", "said"),
-    [
-        ([[True, *row[1:]] for row in HEIGHTS.tolist()], "type bool"),
-        ([[None, *row[1:]] for row in HEIGHTS.tolist()], "real numbers"),
-        (HEIGHTS.astype("m8[s]"), "type timedelta64"),
-        (MAP.rename(x="lon"), r"dimensions of heights = \('y', 'lon'\)"),
-        (MAP.assign_attrs(units="kg"), "unit of heights = 'kg': a unit of length is needed"),
-        (MAP.assign_attrs(units="mmm"), "did you mean 'mm'"),
-        (
-            LAID_OUT.assign_coords(
-                {dim: (dim, np.arange(n), {"units": "m"}) for dim, n in LAID_OUT.sizes.items()}
-            ),
-            "heights states its own, 1 x 1 m: leave pixel out",
-        ),
-        (LAID_OUT.assign_coords(x=[0, 1, 2, 3, 4, 6]), "x = 6 is not one step from the one before it"),
-    ],
-)
-def test_what_is_no_map_is_refused_by_name(given, said):
-    for cls in (Topography, Measured):
-        with pytest.raises(ValueError, match=said) as raised:
-            cls(heights=given, pixel=PIXEL)
-        assert re.search("heights|pixel", str(raised.value))
 
 
 def test_labels_of_arrays_join_what_formulas_make_of_them(quantity):

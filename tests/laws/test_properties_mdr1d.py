@@ -6,19 +6,12 @@ import numpy as np
 import pytest
 from hypothesis import given, reject
 from hypothesis import strategies as st
-from strategies import bodies, decades, evenly, examples, rescaled, solids, units, viscoelastic
+from strategies import bodies, decades, evenly, examples, rescaled, solids, units
 
 from mdr1d import MDR, Contact, modes_of, sweep, sweep_modes
 from scene import (
     Elastic,
     EmptyContact,
-    Kelvin,
-    Program,
-    Scene,
-    SolveError,
-    Sphere,
-    Stage,
-    StandardLinearSolid,
 )
 
 # Sums of some thousand terms in double precision; in units of what is summed, before it cancels.
@@ -178,28 +171,6 @@ def test_the_mirrored_profile_slid_the_other_way_has_the_mirrored_answer(line, m
     np.testing.assert_allclose(forth.displacement[::-1], back, rtol=0, atol=ROUNDING * line.depth)
 
 
-# Relative to a relaxation length in pixels. Measured over 600 lines: 4.1 in the force, 65 in friction over what it
-# is or, where that is next to nothing, over a billionth of the steepest slope times the force.
-KELVIN_FORCE, KELVIN_FRICTION = 10, 200
-
-
-@examples(80)
-@given(lines(), SPEEDS)
-def test_kelvin_is_the_limit_of_an_infinite_glassy_modulus(line, memory):
-    """At retardation time 1 forces come to Kelvin's at first order in the relaxation length, memory E_r/E_g."""
-    kelvin = flowed(line, Kelvin(1.0, 1.0), memory)
-    least = 1e-9 * line.steepest * kelvin.force
-    missed = []
-    for short in (1e-6, 1e-8):
-        ratio = max(memory / line.pixel, 1) / short
-        standard = flowed(line, StandardLinearSolid(1.0, ratio, 1 / ratio), memory)
-        missed.append(abs(standard.force / kelvin.force - 1))
-        assert missed[-1] <= KELVIN_FORCE * short
-        lost = abs(standard.dissipation - kelvin.dissipation)
-        assert lost <= KELVIN_FRICTION * short * max(kelvin.dissipation, least)
-    assert missed[1] <= 0.02 * missed[0] + ROUNDING
-
-
 def solved(scene):
     """The answer; a depth that does not reach the peaks is no example."""
     try:
@@ -229,41 +200,3 @@ def test_every_answer_has_forces_of_the_right_sign_and_the_load_asked_for(scene,
     if isinstance(scene.elastomer, Elastic) or scene.motion.speed == 0:
         assert result.friction_force == 0
     assert result.residual <= MET
-
-
-# A grid around a sphere of radius 10, and the slope at its ends.
-PIXELS, EXTENT = 60, 4.0
-STEEPEST = EXTENT / 2 / 10 * 2
-
-
-@st.composite
-def starts(draw):
-    """A sphere, a solid, and what presses it: depth or load of a contact of radius 1."""
-    solid = draw(viscoelastic())
-    by = draw(st.sampled_from(("depth", "load")))
-    return Sphere(10.0), solid, by, {"depth": 0.1, "load": 4 / 3 * 0.1}[by]
-
-
-@examples(25)
-@given(starts(), decades(-1.5, 1.5), st.integers(1, 40))
-def test_a_history_is_the_same_wherever_it_starts(start, speed, pixels):
-    """Slid by whole pixels over untouched elements first, later forces and depths are those without, to rounding.
-
-    With a dashpot forces under a load begin with jumps and are known to a pixel; here pixels are of the first
-    contact, and the law holds to their square. Measured over 300 starts: 1e-3, and otherwise 2e-13.
-    """
-    shape, solid, by, value = start
-    pixel = EXTENT / PIXELS
-    stages = (Stage(duration=1.0, speed=speed, **{by: value}), Stage(duration=4 * pixel / speed, speed=speed))
-    away = Stage(duration=pixels * pixel / speed, speed=speed, **{by: 0.0})
-    solver = MDR(points=PIXELS, extent=EXTENT, steps=1)
-    try:
-        here = solver.solve(Scene(shape, solid, Program(stages=stages)))
-    except SolveError:  # of a solid so stiff at first that it is touched on less than five pixels
-        reject()
-    there = solver.solve(Scene(shape, solid, Program(stages=(away, *stages))))
-    known = pixel**2 if by == "load" and solid.viscosity else ROUNDING
-    least = 1e-3 * STEEPEST * here.normal_force
-    assert there.normal_force == pytest.approx(here.normal_force, rel=known)
-    assert there.depth == pytest.approx(here.depth, rel=known)
-    assert abs(there.friction_force - here.friction_force) <= known * max(here.friction_force, least)

@@ -150,28 +150,6 @@ def test_stages_take_no_impossible_values(name):
             assert re.match(rf"Stage: {name}\b", str(caught.value)), value
 
 
-@pytest.mark.parametrize("name", ["duration", "speed", "load", "depth", "amplitude", "frequency"])
-@pytest.mark.parametrize(
-    "solver", [SOLVERS[0], pytest.param(SOLVERS[1], marks=pytest.mark.slow)], ids=["MDR", "BEM"]
-)
-def test_programs_of_extreme_stages_are_followed_or_declined_with_a_reason(name, solver):
-    """Friction by traction may cancel to rounding of the steepest slope times the force, whatever its sign."""
-    for value in EXTREME:
-        try:
-            stage = replace(START.stages[0], load=None if name == "depth" else 1.0)
-            shaken = {"amplitude": 0.5, "frequency": 1e3} if name in ("amplitude", "frequency") else {}
-            back = replace(START.stages[1], speed=-value if name == "speed" else 0.1)
-            program = Program(stages=(replace(stage, **shaken | {name: value}), back))
-        except InvalidInput:
-            continue
-        answer = answered(solver, replace(BALL, motion=program))
-        if isinstance(answer, str):
-            assert len(answer) > 20
-        else:
-            assert isfinite(answer.normal_force), value
-            assert isfinite(answer.friction_force), value
-
-
 @pytest.mark.parametrize("solver", SOLVERS, ids=lambda solver: solver.name)
 @pytest.mark.parametrize("value", [*NEVER, 0], ids=repr)
 def test_settings_that_can_be_no_value_are_named(solver, value):
@@ -213,11 +191,6 @@ def test_profiles_solved_together_name_bad_points_and_seeds(points, seeds, messa
     scene = replace(BALL, elastomer=Kelvin(1e6, 1e-3))
     with pytest.raises(ValueError, match=message):
         solve_profiles([scene], points, seeds)
-
-
-def test_profiles_that_fit_in_no_memory_are_an_error_before_they_are_drawn():
-    with pytest.raises(SolveError, match=r"points = 1000000000000 .* are more than"):
-        solve_profiles([replace(BALL, elastomer=Kelvin(1e6, 1e-3))], [10**12], [1])
 
 
 @pytest.mark.parametrize("name", ["longest", "shortest", "rolloff"])

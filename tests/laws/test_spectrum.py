@@ -10,12 +10,10 @@ from bem3d import BEM
 from bem3d.surface import RoughSurface
 from compare import trust
 from compare.models.law.persson import Persson
-from compare.solving.control_variates import control_variates
 from compare.trustmap.friction_law import FrictionLaw
 from mdr1d import MDR
 from mdr1d.lines import draw
-from mdr1d.surface import nodes_needed
-from scene import Doubtful, Kelvin, Plane, Refused, Scene, SelfAffine, Slide, SolveError, Spectrum, Sphere
+from scene import Doubtful, Kelvin, Refused, Scene, SelfAffine, Slide, SolveError, Spectrum, Sphere
 
 ROUGH = SelfAffine(hurst=0.8, rms_height=4e-6, longest=2e-3, rolloff=7e-4, shortest=2e-4, seed=3)
 TOP = ROUGH.q_max(0.0)
@@ -74,15 +72,6 @@ def test_the_trust_map_judges_a_table_as_its_law_and_says_what_was_measured():
         assert "Self-affine spectra were measured" not in worth.reason
 
 
-def test_control_variates_of_a_table_are_those_of_its_law():
-    scenes = [[replace(SCENE, roughness=rough)] for rough in (ROUGH, as_table(ROUGH, 200))]
-    for solver in (MDR(), BEM(points=64)):
-        law, table = (control_variates(solver, each, [3, 4]) for each in scenes)
-        assert np.abs(law).max() > 0
-        # but for their unit, the height to the power of each
-        np.testing.assert_allclose(table[0, 0] / table[0, 1], law[0, 0] / law[0, 1], rtol=1e-2)
-
-
 @pytest.mark.parametrize("amplitudes", ["fixed", "gaussian"])
 def test_a_drawn_surface_has_the_stated_spectrum_within_its_scatter(amplitudes):
     q = np.geomspace(1e3, 4e4, 8)
@@ -105,11 +94,6 @@ def test_a_drawn_surface_has_the_stated_spectrum_within_its_scatter(amplitudes):
     assert np.abs(wrong - 1).max() > 0.5
 
 
-def test_a_rough_plane_repeats_after_the_longest_wave():
-    plane = Scene(Plane(), SCENE.elastomer, Slide(speed=0.01, pressure=1e4), as_table(ROUGH, 10))
-    assert BEM(points=64).solve(plane).fields["x"].size * 2e-3 / 64 == pytest.approx(plane.roughness.longest)
-
-
 FINE = replace(ROUGH, shortest=2e-6)
 
 
@@ -128,12 +112,3 @@ def test_a_grid_too_coarse_is_refused_and_what_the_message_states_is_solved(solv
         solver.solve(scene)
     rough = replace(scene.roughness, shortest_kept=kept)
     assert solver.solve(replace(scene, roughness=rough)).friction_coefficient > 0
-
-
-@pytest.mark.parametrize("solver", [MDR(), BEM()], ids=["MDR", "BEM"])
-def test_ten_decades_are_refused_by_either_solver(solver):
-    q = np.array([1.0, 1e10])
-    scene = replace(SCENE, roughness=Spectrum(q=q, C2D=1e-14 * q**-3.6, convention="persson"))
-    reasons = " ".join([*solver.refusals(scene), *getattr(solver, "foreseen", lambda _: [])(scene)])
-    assert "shortest_kept" in reasons
-    assert nodes_needed(scene.roughness) == 2e10

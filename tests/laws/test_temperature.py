@@ -1,11 +1,9 @@
 """Temperature and frictional heating in both dimensionalities: laws that hold whatever the solver."""
 
 from dataclasses import replace
-from math import exp, sqrt
 
 import numpy as np
 import pytest
-from scipy.optimize import bisect
 
 from bem3d import BEM
 from mdr1d import MDR
@@ -17,16 +15,13 @@ from scene import (
     Indent,
     Kelvin,
     KelvinChain,
-    Program,
     Result,
     Scene,
     SelfAffine,
     Slide,
     Sphere,
-    Stage,
     StandardLinearSolid,
 )
-from scene.effects.temperature import GAS_CONSTANT
 
 SOLVERS = (MDR(points=400), BEM(points=32))
 names = pytest.mark.parametrize("solver", SOLVERS, ids=lambda solver: solver.name)
@@ -74,29 +69,6 @@ def test_a_warmer_contact_is_one_at_the_reference_that_slides_more_slowly(solver
 
 
 @names
-def test_a_history_of_a_warmer_contact_is_a_longer_one_at_the_reference(solver):
-    def program(factor):
-        return Program(
-            stages=(
-                Stage(duration=3e-3 / factor, load=10.0),
-                Stage(duration=2.3e-3 / factor, speed=0.5 * factor),
-                Stage(duration=1e-3 / factor, load=4.0, speed=0.1 * factor),
-            )
-        )
-
-    solver = replace(solver, steps=24)
-    found = solver.solve(replace(WARM, motion=program(1.0)))
-    wanted = solver.solve(replace(PLAIN, motion=program(LAW.shift)))
-    factors = {"time": 1 / LAW.shift, "speed": LAW.shift}
-    for name in found.fields:
-        one, other = found.fields[name] * factors.get(name, 1.0), wanted.fields[name]
-        kept = np.isfinite(other)
-        np.testing.assert_array_equal(np.isfinite(one), kept)
-        scale = np.abs(other[kept]).max()
-        np.testing.assert_allclose(one[kept], other[kept], rtol=0, atol=1e-7 * scale, err_msg=name)
-
-
-@names
 def test_estimates_are_read_off_one_solve_that_is_the_same(solver):
     rough = replace(WARM, roughness=ROUGH)
     plain, found = (solver.solve(each) for each in (rough, replace(rough, heating=Heating(conductivity=50.0))))
@@ -124,42 +96,6 @@ def test_feedback_without_speed_or_heat_is_the_answer_without_it(solver):
         np.testing.assert_array_equal(numbers(found), numbers(plain))
         assert found.measures["heating_solves"] == 1
         assert found.operator_applications == plain.operator_applications
-
-
-@names
-def test_slow_friction_settles_where_a_closed_form_does(solver):
-    speed, energy = 5e-3, 60e3
-    slow = replace(
-        PLAIN,
-        elastomer=Kelvin(RUBBERY, TIME),
-        motion=Slide(speed=speed, load=10.0),
-        temperature=Arrhenius(temperature=290.0, reference=REFERENCE, activation_energy=energy),
-    )
-    depth = (3 * 10.0 / (16 * RUBBERY * sqrt(RADIUS))) ** (2 / 3)
-
-    def friction(temperature):
-        return (
-            SLOW[solver.name]
-            * speed
-            * TIME
-            / RADIUS
-            * exp(energy / GAS_CONSTANT * (1 / temperature - 1 / REFERENCE))
-        )
-
-    # so little heat is conducted that 60 K are to be expected, and a third of that settles
-    conductivity = 2 * friction(290.0) * RUBBERY * depth * speed / 60.0
-    expected = bisect(
-        lambda t: t - 290.0 - 2 * friction(t) * RUBBERY * depth * speed / conductivity, 290.0, 360.0, xtol=1e-9
-    )
-    answer = solver.solve(replace(slow, heating=Heating(conductivity=conductivity, feedback="average")))
-    assert 10 < expected - 290 < 25
-    # v tau/a is 3e-4; three dimensions have a pixel of a tenth of the radius
-    assert answer.measures["temperature"] - 290 == pytest.approx(expected - 290, rel=0.01)
-    assert answer.friction_coefficient == pytest.approx(friction(expected), rel=0.02)
-
-
-# Slow sliding of a Kelvin sphere: mu = v tau a_T/R in three dimensions, twice that in one.
-SLOW = {"MDR": 2.0, "BEM": 1.0}
 
 
 @names

@@ -7,17 +7,10 @@ import pytest
 from scipy.integrate import trapezoid
 
 from compare.models.exact.indentation import force_of_depth
-from mdr1d import MDR, equations, estimates
+from mdr1d import equations, estimates
 from scene import (
     Cone,
-    Elastic,
-    Indent,
-    Kelvin,
     PowerLaw,
-    Scene,
-    SelfAffine,
-    Slide,
-    Sphere,
     StandardLinearSolid,
 )
 
@@ -63,21 +56,6 @@ def test_the_radius_depends_on_the_depth_alone_until_the_indenter_is_withdrawn(s
         _, radius = force_of_depth(shape, solid, TIMES, DEPTHS, time)
         elastic = estimates.radius_at_depth(np.interp(time, TIMES, DEPTHS), shape.mdr_coefficient, shape.exponent)
         assert radius[0] == pytest.approx(elastic, rel=1e-10) if kept else radius[0] < 0.99 * elastic
-
-
-def test_the_configuration_of_a_rough_contact_at_a_depth_is_the_same_for_every_modulus_but_not_in_sliding():
-    rough = SelfAffine(hurst=0.5, rms_height=5e-6, longest=1e-3, shortest=1e-4, seed=3)
-    shape, depth = Sphere(radius=1e-2), 3e-5
-
-    def touching(elastomer, motion):
-        return MDR(points=2000).solve(Scene(shape, elastomer, motion, rough)).fields["contact"]
-
-    first = touching(Elastic(modulus=1e5), Indent(depth=depth))
-    assert 0 < first.sum() < first.size
-    other = StandardLinearSolid(rubbery_modulus=3e7, glassy_modulus=1e9, relaxation_time=2.0)
-    np.testing.assert_array_equal(touching(other, Indent(depth=depth)), first)
-    fast = touching(Kelvin(modulus=1e6, relaxation_time=1e-3), Slide(speed=1.0, depth=depth))
-    assert fast.sum() < 0.9 * first.sum()
 
 
 def test_a_sphere_slips_throughout_at_one_and_a_half_times_friction_times_depth():

@@ -1,4 +1,4 @@
-"""The sweep over Maxwell branches against a plain march, against the sweep of Kelvin, and its own identities."""
+"""The sweep over Maxwell branches against the sweep of Kelvin, closed forms, and its own identities."""
 
 import numpy as np
 import pytest
@@ -8,15 +8,8 @@ from scene import Kelvin, KelvinChain, Prony, Scene, SelfAffine, Slide, Sphere, 
 
 # Sums of some thousand terms; friction of the order of a slope times the force may lose what cancels in it.
 ROUNDING = 1e-11
-# The march is of first order; two of them, extrapolated, are left with a part of second order. Measured: 2.3e-5.
-EXTRAPOLATED = 5e-5
-# Measured: 0.99 to 1.00.
-ORDER, ORDER_SPREAD = 1.0, 0.03
 
 SOLID = StandardLinearSolid(rubbery_modulus=1.0, glassy_modulus=10.0, relaxation_time=1.0)
-SERIES = Prony(equilibrium_modulus=1.0, moduli=(3.0, 0.5, 20.0), relaxation_times=(1.0, 30.0, 0.02))
-CHAIN = KelvinChain(instantaneous_compliance=0.0, compliances=(0.6, 0.4), retardation_times=(1.0, 0.03))
-SOLIDS = {"standard": SOLID, "series": SERIES, "chain with a dashpot": CHAIN}
 
 
 def line(points=160, seed=4):
@@ -29,41 +22,6 @@ def line(points=160, seed=4):
 
 def slope(heights, pixel):
     return np.abs(np.diff(heights)).max() / pixel
-
-
-def march(heights, pixel, elastomer, speed, depth, parts):
-    """Backward Euler for the retardation modes on a finer grid: force and friction, no events and no algebra."""
-    instantaneous, compliances, times = elastomer.retardation()
-    relaxed = instantaneous + compliances.sum()
-    count = heights.size
-    fine = np.interp(np.arange((count - 1) * parts + 1) / parts, np.arange(count), heights)
-    step = pixel / parts
-    gain = step / (step + speed * times)
-    kept, pushed = 1 - gain, gain * compliances / relaxed
-    softness = instantaneous / relaxed + pushed.sum()
-    w, f = np.zeros(times.size), np.zeros(fine.size)
-    for i, here in enumerate((depth - fine).tolist()):
-        w *= kept
-        f[i] = max(here - w.sum(), 0.0) / softness
-        w += pushed * f[i]
-    return f.sum() * step, -(f[1:] * np.diff(fine)).sum()
-
-
-@pytest.mark.parametrize(
-    ("solid", "speed"), [("standard", 1e-4), ("series", 1e-5), ("series", 1e-3), ("chain with a dashpot", 1e-4)]
-)
-def test_a_plain_march_converges_to_the_sweep_at_its_order(solid, speed):
-    heights, pixel = line(points=80)
-    contact = sweep_modes(heights, pixel, modes_of(SOLIDS[solid]), speed, 2e-5)
-    assert np.count_nonzero(np.diff(contact.touching.astype(int)) == 1) >= 2
-    parts = (100, 200, 400)
-    found = np.array([march(heights, pixel, SOLIDS[solid], speed, 2e-5, n) for n in parts])
-    exact = np.array([contact.force, contact.dissipation])
-    # Friction next to nothing is measured by the friction of a flank.
-    scale = np.maximum(exact, [0, 0.01 * slope(heights, pixel) * contact.force])
-    np.testing.assert_allclose((2 * found[2] - found[1]) / scale, exact / scale, atol=EXTRAPOLATED)
-    errors = np.linalg.norm((found - exact) / scale, axis=1)
-    assert -np.polyfit(np.log(parts), np.log(errors), 1)[0] == pytest.approx(ORDER, abs=ORDER_SPREAD)
 
 
 # At a memory of a pixel contact lands and is released again within the third interval, see the test of `sweep`.

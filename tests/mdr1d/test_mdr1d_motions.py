@@ -43,19 +43,6 @@ def test_what_leaves_the_grid_is_found_again_as_if_the_grid_had_held_it(solid, r
     np.testing.assert_allclose(near.fields["displacement"], far.fields["displacement"][inside], atol=ROUNDING)
 
 
-def test_a_wake_that_is_forgotten_is_felt(monkeypatch):
-    right, follow = solved(THERE_AND_BACK), marching._Returning.follow
-
-    def forgetful(row, line, k):
-        row._behind = {1: [], -1: []}
-        return follow(row, line, k)
-
-    monkeypatch.setattr(marching._Returning, "follow", forgetful)
-    monkeypatch.setattr(marching, "_BALANCED", np.inf)
-    wrong = solved(THERE_AND_BACK)
-    assert np.abs(wrong.fields["normal_force"] - right.fields["normal_force"]).max() > 0.02
-
-
 @pytest.mark.parametrize("solid", ["kelvin", "series"])
 def test_after_a_reversal_friction_comes_to_minus_that_of_steady_sliding(solid):
     steady = solved(Slide(speed=SPEED, depth=DEPTH), SOLIDS[solid])
@@ -78,19 +65,6 @@ def test_after_a_step_of_the_speed_friction_comes_to_that_of_the_new_one(speeds)
 def approached(speed, approach, **settings):
     motion = program({"duration": DEPTH / approach, "depth": DEPTH, "speed": speed})
     return solved(motion, KELVIN, steps=200, **settings)
-
-
-@pytest.mark.slow
-def test_friction_of_an_oblique_approach_converges_at_first_order_in_the_pixel():
-    counts, speed, approach = np.array([300, 1200, 4800]), 0.3, 0.2
-    exact = motions.oblique(1.0, KELVIN, speed, approach, DEPTH / approach)[1]
-    errors = [
-        1 - np.mean([approached(speed, approach, points=n, extent=e).friction_force for e in EXTENTS]) / exact
-        for n in counts
-    ]
-    # edges lie anywhere in their pixels, of which five places are an average
-    assert -np.polyfit(np.log(counts), np.log(errors), 1)[0] == pytest.approx(1.0, abs=0.2)
-    assert errors[-1] < 5e-3
 
 
 # Places of the edges in their pixels.
@@ -142,38 +116,6 @@ def test_work_of_the_indenter_is_what_is_stored_and_what_is_lost(solid, motion):
     assert np.all(lost == 0) if solid == "elastic" else lost[-1] > 0.01 * work.max()
 
 
-@pytest.mark.parametrize("solid", ["kelvin", "series"])
-def test_friction_over_the_path_is_the_work_forwards_and_backwards(solid):
-    """Over whole pixels of 1/200 the friction is the mean over the last one."""
-    result = solved(program(pressed(), slid(0.5), slid(-0.4), slid(0.2)), SOLIDS[solid])
-    fields, pixel = result.fields, result.settings["pixel"]
-    place = fields["path"] / pixel
-    at_nodes = (np.abs(place - np.rint(place)) < 1e-6) & (fields["time"] > 1.0 + 1e-9)
-    path, friction = fields["path"][at_nodes], fields["friction_force"][at_nodes]
-    work = fields["work"]
-    moved = np.diff(np.append(0.0, path))
-    np.testing.assert_allclose(np.abs(moved), pixel, rtol=1e-6)
-    done = np.sum(friction * moved)
-    assert done == pytest.approx(work[-1] - work[fields["time"] <= 1.0 + 1e-9][-1], rel=1e-9)
-    assert done > 0
-
-
-@pytest.mark.parametrize("solid", ["elastic", "kelvin", "series"])
-def test_an_indenter_lifted_away_and_back_finds_its_dent_as_if_it_had_waited_above_it(solid):
-    lifted, again = [pressed(), {"duration": 0.3, "depth": 0.0}], {"duration": 1.0, "depth": DEPTH}
-    moved = solved(program(*lifted, slid(1.5, 1.5), slid(-1.5, 1.5), again), SOLIDS[solid])
-    waited = solved(program(*lifted, {"duration": 2.0}, again), SOLIDS[solid])
-    fresh = solved(program(again), SOLIDS[solid])
-    assert moved.normal_force == pytest.approx(waited.normal_force, rel=1e-9)
-    # it lands later in a dent than on fresh ground
-    work = moved.fields["work"][-1] - moved.fields["work"][moved.fields["time"] <= 3.3 + 1e-9][-1]
-    assert (
-        work == pytest.approx(fresh.fields["work"][-1], rel=1e-9)
-        if solid == "elastic"
-        else (work < 0.99 * fresh.fields["work"][-1])
-    )
-
-
 SWUNG = {"duration": 2.0, "depth": 0.08, "speed": 0.01, "amplitude": 0.03, "frequency": 0.9}
 
 
@@ -196,22 +138,6 @@ def test_an_oscillation_has_two_hundred_steps_a_period_at_least_and_is_met_at_ea
     assert np.diff(fields["time"][within]).max() <= (1 + 1e-9) / 200 / 0.9
     found = fields["depth" if by == "depth" else "normal_force"]
     np.testing.assert_allclose(found, motion.prescribed(fields["time"]), rtol=1e-12)
-
-
-@pytest.mark.slow
-def test_friction_under_an_oscillating_load_departs_from_the_steady_one_at_second_order_of_the_amplitude():
-    period, count = 0.5, 8
-
-    def mean(amplitude):
-        swing = {"duration": count * period, "speed": SPEED, "amplitude": amplitude, "frequency": 1 / period}
-        fields = solved(program(pressed("load"), slid(2.0), swing), points=200).fields
-        late = fields["time"] > fields["time"][-1] - 4 * period * (1 + 1e-9)
-        time, friction = fields["time"][late], fields["friction_force"][late]
-        return np.sum((friction[1:] + friction[:-1]) / 2 * np.diff(time)) / np.ptp(time)
-
-    amplitudes = np.array([0.02, 0.04, 0.08])
-    changes = np.array([mean(amplitude) for amplitude in amplitudes]) - mean(0.0)
-    assert np.polyfit(np.log(amplitudes), np.log(np.abs(changes)), 1)[0] == pytest.approx(2.0, abs=0.3)
 
 
 def test_a_load_is_met_at_the_place_of_a_step_at_which_a_dashpot_creeps_linearly():

@@ -8,7 +8,6 @@ from planned import FACTOR, KELVIN, LOAD, PRONY, SPHERE, STAGES, STANDARD, all_o
 
 from bem3d.surface import RoughSurface
 from mdr1d import MDR
-from mdr1d.plan import EFFECTS
 from scene import (
     WLF,
     Coulomb,
@@ -27,7 +26,6 @@ from scene import (
     Stage,
     Topography,
 )
-from scene.costs import multiples
 
 MANY = Prony(1e6, (1e6,) * 16, tuple(1e-5 * 2.0**k for k in range(16)))
 ROUGH = SelfAffine(hurst=0.2, rms_height=5e-6, longest=10e-3, shortest=0.5e-3, seed=1)
@@ -112,13 +110,6 @@ def test_modes_are_followed_where_something_moves_and_there_are_any():
     shortest, longest = MDR().plan(SCENES["modes"]).modes.times
     assert 1e-4 < shortest < 1e-3
     assert longest > 1e-2
-
-
-def test_parts_that_are_not_counted_multiply_the_costs_by_what_they_were_measured_to_take():
-    plain, drawn = MDR().plan(SCENES["rest"]), MDR().plan(SCENES["shear"])
-    times = multiples(EFFECTS)["Shear"]["seconds"] * multiples(EFFECTS)["Coulomb"]["seconds"]
-    assert drawn.seconds.value == pytest.approx(plain.seconds.value * times)
-    assert "times what Shear and Coulomb took of a sphere" in drawn.seconds.why
 
 
 def test_feedback_is_said_to_take_several_solves():

@@ -21,7 +21,6 @@ from scene import (
     SelfAffine,
     Slide,
     Sphere,
-    StandardLinearSolid,
 )
 from scene.scales import elastic_contact
 
@@ -46,18 +45,6 @@ def test_the_line_as_given_is_the_meridian_of_the_body(shape):
         assert result.settings["shape"] == solver.shape
 
 
-def test_a_sphere_as_given_is_a_mapped_sphere_of_twice_the_radius():
-    for scene in (SCENE, PAPER, replace(SCENE, roughness=None)):
-        given = AS_GIVEN.solve(scene)
-        mapped = MDR().solve(replace(scene, indenter=Sphere(radius=2e-2)))
-        assert given.scene is scene
-        assert given.friction_force == pytest.approx(mapped.friction_force, rel=ROUNDING)
-        assert given.depth == pytest.approx(mapped.depth, rel=ROUNDING)
-        assert given.settings["extent"] == pytest.approx(mapped.settings["extent"], rel=ROUNDING)
-        # The load is that of the line: d = (3 F / (4 E*))^(2/3) / (2R)^(1/3).
-    assert given.depth < (3 / 16e6) ** (2 / 3) / 2e-2 ** (1 / 3)
-
-
 @pytest.mark.parametrize("spectrum", ["mapped", "line-scan"])
 @pytest.mark.parametrize("shape", SHAPES)
 def test_no_contact_is_deeper_or_wider_than_what_surely_holds_it(shape, spectrum):
@@ -73,15 +60,6 @@ def test_no_contact_is_deeper_or_wider_than_what_surely_holds_it(shape, spectrum
             assert result.depth <= greatest_depth(line, surface)
             reach = np.abs(result.fields["x"][result.fields["contact"]]).max(initial=0.0)
             assert 2 * reach <= contact_extent(line, surface)
-
-
-def test_a_line_scan_is_lower_and_half_as_steep_and_says_so():
-    mapped, scan = MDR().solve(PAPER), MDR(spectrum="line-scan").solve(PAPER)
-    assert scan.settings["spectrum"] == "line-scan"
-    assert sqrt(2 / 3) < scan.measures["rms_height"] / mapped.measures["rms_height"] < 1
-    slopes = scan.measures["rms_slope_spectral"] / mapped.measures["rms_slope_spectral"]
-    # Measured: 0.710; the cells of both spectra stand for their densities.
-    assert slopes == pytest.approx(1 / sqrt(2), rel=0.02)
 
 
 def shares(elastomer, speed):
@@ -100,13 +78,6 @@ def test_contact_on_a_kelvin_solid_becomes_one_sided_with_speed():
     assert np.all(np.diff(found, axis=0) > 0)
     # A trailing flank holds on over the depth over the memory and the slope.
     np.testing.assert_allclose(found[-1], 1.0, atol=1e-6)
-
-
-def test_contact_on_a_solid_with_a_glass_is_one_sided_only_between_rubber_and_glass():
-    rubber, between, glass = (shares(StandardLinearSolid(1e6, 1e8, 1e-3), speed) for speed in (1e-6, 1e-2, 1e3))
-    np.testing.assert_allclose(rubber, 0.5, atol=0.05)
-    np.testing.assert_allclose(glass, 0.5, atol=0.05)
-    assert np.all(between > 0.6)
 
 
 def test_the_regime_is_that_of_the_line_which_is_solved():
@@ -188,3 +159,15 @@ def test_points_and_waves_that_a_refusal_names_do_for_other_draws_too():
         drawn = replace(rough, seed=seed)
         assert MDR(points=points).refusals(replace(scene, roughness=drawn)) == []
         assert MDR(points=100).refusals(replace(scene, roughness=replace(drawn, shortest=shortest))) == []
+
+
+@pytest.mark.parametrize("ratio", [1e3, 1e12, 1e20, 1e30, 1e100])
+def test_a_fast_contact_far_smaller_than_the_one_at_rest_has_its_own_grid(ratio):
+    # a fluid: d = F/(K l), a = sqrt(R d), mu = int g'^2 / int |g'| = 4a/(3R) over the front half
+    radius, memory = 1e-2, ratio * 1e-3
+    scene = Scene(Sphere(radius=radius), KELVIN, Slide(speed=ratio, load=1.0))
+    result = MDR(points=2000).solve(scene)
+    assert result.measures["points_across_contact"] > 200
+    expected = 4 / 3 * sqrt(1.0 / (4e6 * memory * radius))
+    # elasticity adds terms of the order of the contact radius over the memory length
+    assert result.friction_coefficient == pytest.approx(expected, rel=1e-6 + 1e-3 / memory)

@@ -82,27 +82,6 @@ def test_a_spot_on_either_side_of_the_grid_counts(side):
             MDR(points=100, extent=1e-3).solve(each)
 
 
-@pytest.mark.parametrize(("extent", "points"), [(5e-3, 10000), (2**0.5 * 5e-3, 9973)])
-def test_roughness_repeats_over_an_extent_of_several_periods(extent, points):
-    short = replace(ROUGH, roughness=replace(ROUGH.roughness, longest=5e-4, shortest=5e-5))
-    one = MDR().solve(short)
-    wide = MDR(extent=extent, points=points).solve(short)
-    step = round(5e-4 / wide.settings["pixel"])
-    roughness = wide.fields["profile"] - wide.fields["x"] ** 2 / 1e-2
-    np.testing.assert_allclose(roughness[step:], roughness[:-step], atol=1e-15)
-    assert wide.friction_coefficient == pytest.approx(one.friction_coefficient, rel=1e-3)
-    assert wide.depth == pytest.approx(one.depth, rel=1e-4)
-
-
-def test_a_resolved_surface_is_solved_the_same_on_finer_grids():
-    found = [MDR(points=n, extent=4e-3).solve(ROUGH) for n in (500, 2000, 8000, 32000)]
-    errors = [abs(r.friction_coefficient / found[-1].friction_coefficient - 1) for r in found[:-1]]
-    # Second order: a factor 16 for each fourfold grid, and no worse than half of it in practice.
-    assert errors[1] < errors[0] / 8
-    assert errors[2] < errors[1] / 8
-    assert errors[2] < 1e-4
-
-
 @pytest.mark.parametrize(
     "scene",
     [

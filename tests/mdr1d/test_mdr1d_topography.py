@@ -11,11 +11,10 @@ from bem3d.grid import Grid
 from mdr1d import MDR, draw
 from mdr1d.surface import band_of
 from mdr1d.topography import amplitudes
-from scene import Kelvin, Program, Refused, Scene, SelfAffine, Slide, Sphere, Stage, Topography
+from scene import Kelvin, Refused, Scene, SelfAffine, Slide, Sphere, Topography
 
 ROUGH = SelfAffine(hurst=0.8, rms_height=2e-6, longest=4e-3, shortest=0.25e-3, seed=3)
 ROUNDING = 1e-12
-SIGMAS = 4  # of a difference of two means
 SLIDING = Scene(Sphere(1e-2), Kelvin(1e6, 1e-3), Slide(speed=0.1, load=1.0))
 
 
@@ -103,41 +102,12 @@ def test_on_as_many_nodes_as_pixels_a_row_is_whole():
         np.testing.assert_allclose(coarse, fine[::2], atol=1e-12)
 
 
-def test_rows_have_all_they_have_and_no_mean():
-    map_ = sampled(points=65)
-    squares = [draw(replace(map_, seed=seed), 130, "line-scan").rms_height ** 2 for seed in range(1, 300)]
-    rows = map_.relief - map_.relief.mean(axis=1, keepdims=True)
-    assert np.mean(squares) == pytest.approx(
-        np.mean(rows**2), rel=SIGMAS * np.std(squares) / 17 / np.mean(squares)
-    )
-
-
 def test_seeds_are_lines_and_equal_seeds_are_equal():
     map_ = sampled()
     for spectrum in ("mapped", "line-scan"):
         one, twin, other = (draw(replace(map_, seed=seed), 200, spectrum).heights for seed in (3, 3, 4))
         assert np.array_equal(one, twin)
         assert not np.allclose(one, other)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("spectrum", ["mapped", "line-scan"])
-def test_friction_by_a_map_is_that_by_the_spectrum_it_was_drawn_from(spectrum):
-    scene = replace(SLIDING, indenter=Sphere(0.1), motion=replace(SLIDING.motion, speed=0.01))
-    solver = MDR(points=1000, spectrum=spectrum)
-    rough = replace(ROUGH, amplitudes="gaussian", rms_height=2e-5)
-
-    def friction(roughness, seeds):
-        answers = (solver.solve(replace(scene, roughness=replace(roughness, seed=seed))) for seed in seeds)
-        return np.array([answer.friction_coefficient for answer in answers])
-
-    # of maps drawn anew: rows of one map are not independent
-    lines = friction(rough, range(1, 61))
-    rows = np.concatenate([friction(sampled(replace(rough, seed=k)), [k]) for k in range(1, 61)])
-    error = np.hypot(lines.std(), rows.std()) / np.sqrt(60)
-    assert rows.mean() == pytest.approx(lines.mean(), abs=SIGMAS * error)
-    smooth = solver.solve(scene).friction_coefficient
-    assert rows.mean() - smooth > 10 * error  # the roughness does something
 
 
 def test_a_map_without_heights_is_no_roughness():
@@ -147,16 +117,6 @@ def test_a_map_without_heights_is_no_roughness():
         with_it, without = solver.solve(replace(SLIDING, roughness=flat)), solver.solve(SLIDING)
         assert with_it.friction_force == pytest.approx(without.friction_force, rel=1e-9)
         assert with_it.depth == pytest.approx(without.depth, rel=1e-9)
-
-
-def test_a_program_slides_on_rows_of_a_map():
-    program = Program(stages=(Stage(duration=1e-2, load=1.0), Stage(duration=4e-3, speed=0.1)))
-    for spectrum in ("mapped", "line-scan"):
-        answer = MDR(points=400, spectrum=spectrum, steps=20).solve(
-            replace(SLIDING, motion=program, roughness=sampled())
-        )
-        assert answer.friction_force > 0
-        assert answer.normal_force == pytest.approx(1.0)
 
 
 def test_measures_are_those_of_the_line():
