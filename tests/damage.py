@@ -86,7 +86,7 @@ def _changed(content, random, others):
         return
     inside, name = random.choice(found)
     value, other = inside[name], random.choice(list(places(random.choice(others))))
-    match random.choice(("drop", "rename", "nasty", "nasty", "scale", "move", "nest", "twice", "graft", "swap")):
+    match random.choice(("drop", "rename", "nasty", "nasty", "scale", "nest", "graft")):
         case "drop":
             del inside[name]
         case "rename" if isinstance(inside, dict):
@@ -97,24 +97,12 @@ def _changed(content, random, others):
             inside[other_name] = inside.pop(name)
         case "scale" if isinstance(value, int | float):
             inside[name] = value * 10.0 ** random.randint(-40, 40)
-        case "move" | "twice" as what:
-            home, _ = random.choice(found)
-            if what == "move":
-                del inside[name]
-            kept = deepcopy(value)
-            if isinstance(home, dict):
-                home[name if isinstance(name, str) else random.choice(WORDS)] = kept
-            else:
-                home.extend([kept] * random.choice((1, 1, 2, 300)))
         case "nest":
             for _ in range(random.choice((1, 1, 2, 60))):
                 value = random.choice(([value], {random.choice(WORDS): value}))
             inside[name] = value
         case "graft":
             inside[name] = deepcopy(other[0][other[1]])
-        case "swap":
-            home, there = random.choice(found)
-            inside[name], home[there] = deepcopy(home[there]), deepcopy(value)
         case _:
             inside[name] = deepcopy(random.choice(random.choice(NASTY)))
 

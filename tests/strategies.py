@@ -194,9 +194,3 @@ def planes(draw, elastomers=solids):
 def units(draw):
     """Length [m], modulus [Pa] and time [s], each over 24 decades."""
     return {name: 10.0 ** draw(st.integers(-12, 12)) for name in ("length", "modulus", "time")}
-
-
-@st.composite
-def powers_of_two(draw):
-    """The same in powers of two, by which products are exact."""
-    return {name: 2.0 ** draw(st.integers(-40, 40)) for name in ("length", "modulus", "time")}

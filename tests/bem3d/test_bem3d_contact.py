@@ -4,7 +4,6 @@ from functools import partial
 
 import numpy as np
 import pytest
-from scipy.optimize import nnls
 
 from bem3d import contact
 from compare.studies.checks.conditions import collocation, influence, retarded
@@ -108,25 +107,6 @@ CASES = {
 def test_conditions_of_contact_hold_by_a_plain_product(name):
     matrix, heights, given = CASES[name]
     solved(matrix, heights, **given)
-
-
-@pytest.mark.parametrize("depth", [0.25, 1.0, 2.0])
-def test_terraces_have_the_pressure_of_nonnegative_least_squares(depth):
-    n = 16
-    heights = np.floor(from_the_middle(n) / 30) + np.random.default_rng(3).integers(0, 2, (n, n)) / 4
-    matrix = Matrix(n, n)
-    root = np.linalg.cholesky(matrix.values)
-    known, _ = nnls(root.T, np.linalg.solve(root, (depth - heights).ravel()), maxiter=10_000)
-    alike(solved(matrix, heights, start=np.maximum(depth - heights, 0.0), depth=depth).pressure, known)
-
-
-@pytest.mark.parametrize("load", [1e-12, 1e-3, 0.1])
-def test_a_spike_touches_alone_and_sinks_by_its_influence_on_itself(load):
-    matrix, heights = Matrix(12, 12), np.ones((12, 12))
-    heights[5, 7] = 0.0
-    found = solved(matrix, heights, load=load)
-    assert found.depth == pytest.approx(load * matrix.values[0, 0], rel=1e-12)  # rounding
-    assert np.count_nonzero(found.pressure) == 1
 
 
 @pytest.mark.parametrize("memory", [0.0, 8.0])

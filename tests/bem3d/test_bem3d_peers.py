@@ -87,14 +87,6 @@ def viscoelastic(tamaas, heights, tolerance, step):
     return tamaas.MaxwellViscoelastic(model, np.ascontiguousarray(-heights), tolerance, step, *modes)
 
 
-def held_by_tamaas(tamaas, heights, pressure, step, steps=1):
-    """Pressure and gap on a cell of PRONY, so many steps after it was pressed."""
-    solver = viscoelastic(tamaas, heights, LEFT, step)
-    for _ in range(steps):
-        assert solver.solve(pressure) <= LEFT
-    return solver.model.traction.copy(), solver.model["gap"].copy()
-
-
 def by_contact_mechanics(substrate, heights, side, **pressed):
     """Pressure and gap, on a cell under a load or on a free surface at a depth (as `offset`)."""
     from ContactMechanics.Systems import NonSmoothContactSystem
@@ -163,18 +155,6 @@ def test_the_comparison_of_cells_can_fail(tamaas):
     assert not agree(nearly, peer)  # a load larger by 1e-5
     assert not agree(result, (peer[0].T, peer[1].T))  # x for y
     assert not agree(result, by_tamaas(tamaas, heights, pressure, modulus=1 + 1e-5))
-
-
-def test_a_viscoelastic_cell_held_for_long_is_where_tamaas_ends(tamaas):
-    result, heights = ours(Plane(), Indent(pressure=0.1), rough_plane(128), PRONY)
-    peer = held_by_tamaas(tamaas, heights, 0.1, 100.0, steps=20)
-    assert agree(result, peer), apart(result, peer)
-
-
-def test_a_viscoelastic_cell_pressed_at_once_is_where_tamaas_begins(tamaas):
-    result, heights = ours(Plane(), Indent(pressure=0.1), rough_plane(128), Elastic(PRONY.glassy_modulus))
-    peer = held_by_tamaas(tamaas, heights, 0.1, 1e-9)
-    assert agree(result, peer), apart(result, peer)
 
 
 # Pressed for a second and held for another: 64 of our steps, of second order; 128 and 256 of theirs, of first

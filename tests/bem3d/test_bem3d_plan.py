@@ -15,7 +15,6 @@ from bem3d.memory import _kept
 from bem3d.plan import EFFECTS
 from bem3d.surface import RoughSurface
 from scene import (
-    WLF,
     Coulomb,
     CrossedWaves,
     Cylinder,
@@ -44,8 +43,6 @@ ROUGH = SelfAffine(hurst=0.8, rms_height=5e-6, longest=2e-3, shortest=0.25e-3, s
 CELL = SelfAffine(hurst=0.8, rms_height=2e-6, longest=1e-3, shortest=1.25e-4, seed=1)
 MANY = Prony(1e6, (1e6,) * 40, tuple(1e-4 * 1.3**k for k in range(40)))
 FAR = Program(stages=tuple(Stage(duration=1e-2, load=LOAD, speed=way) for way in (1.0, -1.0)))
-BACK = Program(stages=(Stage(duration=1e-3, load=LOAD, speed=1.0), Stage(duration=1e-3, speed=-1.0)))
-SWINGS = Program(stages=(Stage(duration=1e-3, load=LOAD, amplitude=0.1, frequency=1e3),))
 TOO_FAR = Program(stages=(Stage(duration=1.0, load=LOAD), Stage(duration=1e6, speed=1.0)))
 PRESSED = Program(stages=(Stage(duration=1e-3, load=LOAD),))
 SCENES = {
@@ -54,7 +51,6 @@ SCENES = {
     "slide": Scene(SPHERE, KELVIN, Slide(speed=1.0, load=LOAD)),
     "modes": Scene(SPHERE, PRONY, Slide(speed=1.0, load=LOAD)),
     "rough": Scene(SPHERE, STANDARD, Slide(speed=0.1, load=LOAD), ROUGH),
-    "rough-rest": Scene(SPHERE, KELVIN, Indent(load=LOAD), ROUGH),
     "plane": Scene(Plane(), KELVIN, Indent(pressure=1e4), CELL),
     "plane-slide": Scene(Plane(), STANDARD, Slide(speed=0.1, pressure=1e4), CELL),
     "waves": Scene(Plane(), KELVIN, Slide(speed=0.1, pressure=1e3), CrossedWaves(amplitude=1e-6, wavelength=1e-3)),
@@ -63,7 +59,6 @@ SCENES = {
     "line-slide": Scene(Cylinder(10e-3), KELVIN, Slide(speed=0.1, line_load=500.0)),
     "program": Scene(SPHERE, STANDARD, STAGES),
     "pressed": Scene(SPHERE, STANDARD, PRESSED),
-    "elastic-program": Scene(SPHERE, Elastic(1e6), STAGES),
     "plane-program": Scene(
         Plane(), STANDARD, Program(stages=(Stage(duration=1e-3, pressure=1e4, speed=0.1),)), CELL
     ),
@@ -77,16 +72,12 @@ SCENES |= {
     "layer-plane": replace(SCENES["plane"], layer=LAYER),
     "layer-line": replace(SCENES["line-slide"], layer=LAYER),
     "layer-program": replace(SCENES["pressed"], layer=LAYER),
-    "temperature": replace(SCENES["slide"], temperature=WLF(temperature=301, reference=300, c1=10, c2=100)),
     "interface": replace(SCENES["slide"], interface=STICKS),
-    "interface-rest": replace(SCENES["rest"], interface=STICKS),
     "shear": replace(SCENES["rest"], motion=DRAWN, interface=STICKS),
     "shear-uncoupled": Scene(SPHERE, Elastic(1e6, poisson_ratio=0.0), DRAWN, interface=STICKS),
     "shear-plane": replace(SCENES["plane"], motion=Shear(pressure=1e5, displacement=1e-7), interface=STICKS),
     "shear-not": replace(SCENES["rest"], motion=replace(DRAWN, displacement=0.0), interface=STICKS),
-    "reversal": Scene(SPHERE, STANDARD, BACK),
     "far-and-back": Scene(SPHERE, MANY, FAR),
-    "oscillation": Scene(SPHERE, STANDARD, SWINGS),
     "measured": replace(SCENES["slide"], indenter=Measured(heights=BOWL, pixel=1e-4, peaks="down")),
     "topography": replace(
         SCENES["slide"], roughness=Topography(heights=HEIGHTS, pixel=ROUGH.longest / 16, repeat="periodic")
@@ -219,11 +210,8 @@ def test_what_is_simulated_and_what_is_left_out_are_all_of_a_scene(name):
 def test_at_rest_no_mode_is_followed_and_no_loss_is_looked_for():
     rest, slide = (solver(SCENES[name]).plan(SCENES[name]) for name in ("rest", "slide"))
     assert (rest.modes.count, slide.modes.count) == (0, 1)
-    assert "flow" in rest.left_out
-    assert "flow" not in slide.left_out
-    assert not [kernel for kernel in rest.kernels if "loss" in kernel.name or "flow" in kernel.name]
-    assert "conjugate gradients" in rest.method
-    assert "GMRES" in slide.method
+    assert ("flow" in rest.left_out, "flow" in slide.left_out) == (True, False)
+    assert ("conjugate gradients" in rest.method, "GMRES" in slide.method) == (True, True)
     elastic = solver(SCENES["elastic"]).plan(SCENES["elastic"])  # whatever the motion
     assert elastic.modes.count == 0
     assert {"modes", "flow"} <= set(elastic.left_out)

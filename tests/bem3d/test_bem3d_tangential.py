@@ -65,12 +65,6 @@ def test_what_sticks_everywhere_is_mindlins_disc_at_any_poisson_ratio(nu):
     # tractions are infinite at the rim: first order in the pixel, whose size the rim is uncertain by
     assert errors[1] < 0.015
     assert errors[1] < errors[0] / 2
-    r = np.hypot(answer.fields["x"][None, :], answer.fields["y"][:, None])
-    inside = r < 0.8 * contact.radius
-    expected = closed.no_slip_traction(answer.friction_force, contact.radius, np.where(inside, r, 0.0))
-    assert np.abs(answer.fields["traction_x"] / expected - 1)[inside].max() < 0.02
-    if nu:
-        assert np.abs(answer.fields["traction_y"])[inside].max() < 0.02 * expected.max()
 
 
 # -- laws of any contact

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from maps import sampled
 
-import scene.surfaces.topography
 from bem3d import BEM
 from bem3d.grid import Grid
 from bem3d.surface import RoughSurface
@@ -106,16 +105,6 @@ def test_a_map_without_heights_is_no_roughness():
     smooth, bare = (BEM(points=32).solve(replace(SLIDING, roughness=each)) for each in (flat, None))
     same(smooth, bare, 0.0)
     assert smooth.operator_applications == bare.operator_applications
-
-
-def test_the_map_is_built_once_for_all_grids(monkeypatch):
-    calls = []
-    build = scene.surfaces.topography._mirrored
-    monkeypatch.setattr(scene.surfaces.topography, "_mirrored", lambda *given: calls.append(1) or build(*given))
-    fresh = sampled(SLIDING.roughness, 19, repeat="mirror")
-    for seed in (0, 1):
-        BEM(points=48).solve(replace(SLIDING, roughness=replace(fresh, seed=seed)))
-    assert len(calls) == 1
 
 
 def test_rectangles_are_roughness_but_no_cell():

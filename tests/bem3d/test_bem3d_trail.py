@@ -6,9 +6,6 @@ import numpy as np
 import pytest
 
 from bem3d import BEM, Trail
-from bem3d.engine import Engine
-from bem3d.grid import Grid
-from bem3d.problem import Problem
 from scene import Cylinder, EmptyContact, Indent, Kelvin, Plane, Scene, SelfAffine, Slide, Sphere
 
 SOLID = Kelvin(modulus=1e6, relaxation_time=1e-3)
@@ -94,20 +91,3 @@ def test_a_failed_solve_leaves_nothing_on_the_trail():
     assert trail.beside(64) is None
     found = solver.solve(SLIDING, trail)
     assert found.measures["transform_pairs"] == solver.solve(SLIDING).measures["transform_pairs"]
-
-
-def test_a_trail_knows_where_the_scene_is_and_its_coarser_contacts_until_the_next_scene():
-    trail = Trail()
-    for scene in (SLIDING, at(0.1)):
-        problem = Problem(scene, Engine())
-        trail.turn_to(scene)
-        assert trail.coarser(128) is None
-        placed = trail.placed(problem, 64)
-        assert trail.placed(problem, 128) is placed  # both are sought on as many points
-        assert trail.placed(problem, 32) is not placed
-        for points in (32, 64, 128):
-            trail.leave(problem.start(Grid(points, 4e-3), np.ones((points, points))))
-        assert [trail.coarser(each).grid.points for each in (64, 128, 256)] == [32, 64, 128]
-        assert trail.coarser(32) is None
-    assert trail.beside(64).foundation.kept == problem.medium.foundation(Grid(64, 4e-3)).kept
-    assert trail.beside(48) is None

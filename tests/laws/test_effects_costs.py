@@ -3,21 +3,18 @@
 import csv
 import re
 from dataclasses import fields
-from math import isnan, nan
+from math import nan
 
 import pytest
-from effects import COUNTED, PAGE, cells, costs, effects, priced, sheet, tasks
+from effects import COUNTED, PAGE, cells, effects
 
 import bem3d.plan
 import mdr1d.plan
 from bem3d import BEM
-from compare.solving.outcome import Outcome, Row
 from mdr1d import MDR
 from scene import Layer, Program, Scene
 from scene.costs import COSTS, expected, multiples
 from scene.terms import Lacking
-
-TITLES = [effect.title for effect in effects()]
 
 
 @pytest.fixture(scope="module")
@@ -73,36 +70,6 @@ def test_what_plans_multiply_costs_with_was_measured_together_with_the_page(stor
             assert multiples(table)[part] == pytest.approx(
                 {"operator_applications": applications, "seconds": seconds}, rel=5.01e-3
             )
-
-
-def outcomes(failed="layer", seconds=1.0):
-    """Of all tasks, each effect by its place a second dearer; one fails."""
-    solved = {}
-    for (_, title), task in tasks().items():
-        place = TITLES.index(title)
-        measures = {"processor": seconds * (1 + place), "wall": 1.0, "repeats": 3.0}
-        if isinstance(task.scenes[0].motion, Program):
-            measures["time_steps"] = 100.0
-        row = Row(1.0, 1.0, 1.0, 0.0, 10.0, 1.0, measures)
-        if title == failed:
-            row = Row(reason="did not converge")
-        solved[task] = Outcome((row,))
-    return solved
-
-
-def test_times_are_those_of_the_effect_that_it_comes_on_top_of_and_a_solve_that_fails_is_no_cheap_one():
-    found = costs(outcomes())
-    three, one = ({each.effect.title: each for each in found[name]} for name in ("3D", "1D"))
-    times = (TITLES.index("partial slip") + 1) / (TITLES.index("contact at rest") + 1)
-    assert three["partial slip"].times == times
-    assert one["steady sliding"].times == 1.0
-    layer = three["layer"]
-    assert isnan(layer.times)
-    assert layer.row.reason == "did not converge"
-    assert "Layer" not in {row["part"] for row in priced("3D", found["3D"])}
-    reasons = {row["dimension"]: row["reason"] for row in sheet(found) if row["effect"] == "layer"}
-    assert reasons["3D"] == "did not converge"
-    assert reasons["1D"].startswith("refused")
 
 
 def test_multiples_of_parts_are_multiplied_and_unknown_ones_are_named(tmp_path):

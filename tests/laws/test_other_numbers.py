@@ -541,19 +541,3 @@ def test_what_depends_on_others_takes_their_unit(quantity):
 def test_counts_of_functions_are_whole_numbers(wrong):
     with pytest.raises(ValueError, match="draws"):
         replace(CURVE, draws={"BEM": wrong})
-
-
-def test_labels_of_arrays_join_what_formulas_make_of_them(quantity):
-    load = xarray.DataArray([1.0, 2.0], dims="load")
-    speed = xarray.DataArray([100.0, 200.0], dims="speed", attrs={"units": "mm/s"})
-    stated = {"modulus": 1e6, "relaxation_time": 1e-3, "rms_slope": 0.1, "c": 100.0, "n": 2}
-    found = equations.low_speed_friction(load=load, speed=speed, **stated)
-    assert found.dims in (("load", "speed"), ("speed", "load"))
-    alone = equations.low_speed_friction(load=2.0, speed=0.2, **stated)
-    assert float(found.isel(load=1, speed=1)) == pytest.approx(alone, rel=ROUNDING)
-    assert equations.plateau(pandas.Series([0.1, 0.2], index=[3, 4])).index.tolist() == [3, 4]
-
-
-def test_a_set_has_no_order():
-    with pytest.raises(ValueError, match="a set has no order"):
-        Prony(1e6, {1e6, 2e6}, (1e-3, 1e-2))

@@ -10,7 +10,6 @@ from mdr1d import MDR
 from mdr1d.ensemble import solve_profiles
 from scene import (
     Cone,
-    Cylinder,
     Indent,
     Kelvin,
     PowerLaw,
@@ -104,12 +103,8 @@ def test_where_nothing_is_found_there_is_no_number():
 
 
 def test_numbers_too_far_apart_say_so():
-    for scene in (
-        replace(CONE, indenter=Sphere(radius=1e300)),
-        replace(CONE, elastomer=replace(SOLID, modulus=1e-300)),
-    ):
-        with pytest.raises(SolveError):
-            solve_profiles([scene], [POINTS], seeds=(1,))
+    with pytest.raises(SolveError):
+        solve_profiles([replace(CONE, elastomer=replace(SOLID, modulus=1e-300))], [POINTS], seeds=(1,))
     wide = replace(SPHERE, roughness=replace(ROUGH, rms_height=1e10))
     with pytest.raises(SolveError, match=r"contact may take \d\.\de\+09 pixels of 1e-05 m, more than 67108864"):
         solve_profiles([wide], [POINTS], seeds=(1,))
@@ -128,10 +123,7 @@ def test_roughness_that_is_not_resolved_is_refused(points, shortest, least):
         replace(CONE, motion=Slide(speed=1.0, depth=1e-4)),
         replace(CONE, motion=Indent(load=1.0)),
         replace(CONE, roughness=None),
-        replace(
-            CONE, elastomer=StandardLinearSolid(rubbery_modulus=1e6, glassy_modulus=1e7, relaxation_time=1e-3)
-        ),
-        replace(CONE, indenter=Cylinder(radius=1e-2), motion=Slide(speed=1.0, line_load=1.0), roughness=None),
+        replace(CONE, elastomer=StandardLinearSolid(1e6, 1e7, 1e-3)),
     ],
 )
 def test_other_scenes_are_refused_by_name(scene):

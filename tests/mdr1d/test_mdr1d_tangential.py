@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from compare.models.exact import tangential as closed
@@ -87,12 +88,8 @@ def test_springs_add_up_and_none_carries_more_than_friction_holds(roughness):
     assert springs.max() <= stiff * (1 + ROUNDING)
     measures = answer.measures
     assert measures["stick_length"] + measures["slip_length"] == pytest.approx(measures["contact_length"])
-    slip = answer.fields["slip"]
     sticks = MU * 4 * G * answer.fields["displacement"] > stiff
-    assert (slip[sticks] == 0).all()
-    rest = answer.fields["contact"] & ~sticks
-    assert (slip[rest] > 0).all()
-    assert not slip[~answer.fields["contact"]].any()
+    assert np.array_equal(answer.fields["slip"] > 0, answer.fields["contact"] & ~sticks)
 
 
 def test_all_slips_in_the_end_and_friction_holds_no_more():
