@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bem3d import BEM, cerruti, influence
-from bem3d.convolution import FreeConvolution, PeriodicFilter, autocorrelation
+from bem3d.convolution import FreeConvolution, PeriodicFilter
 from bem3d.engine import Engine
 from bem3d.grid import Grid
 from scene import Cylinder, Kelvin, Plane, Scene, SelfAffine, Slide, Sphere
@@ -72,11 +72,6 @@ def test_a_line_is_solved_in_double_whatever_the_precision_asked_for():
     assert single.settings["precision"] == "double"
 
 
-def test_single_precision_cannot_be_asked_for_more_than_it_has():
-    with pytest.raises(ValueError, match="1e-07 cannot be reached in single precision: at least 1e-05"):
-        BEM(precision="single", tolerance=1e-7)
-
-
 SHAPES = [(8, 8), (7, 11), (13, 6), (1, 5)]
 
 
@@ -97,17 +92,6 @@ def test_product_equals_the_direct_sum_without_wrapping_around(ny, nx, even):
     np.testing.assert_allclose(convolution(pressure), expected, rtol=ROUNDING)
     np.testing.assert_allclose(convolution(2 * pressure), 2 * expected, rtol=ROUNDING)
     assert convolution.operator_applications == 2
-
-
-@pytest.mark.parametrize(("ny", "nx"), SHAPES)
-def test_autocorrelation_is_the_direct_sum_over_pairs_of_points(ny, nx):
-    plane = np.random.default_rng(2).standard_normal((ny, nx))
-    expected = np.zeros((ny, nx))
-    for j in range(ny):
-        for i in range(nx):
-            here, aside, beyond = plane[: ny - j, : nx - i], plane[j:, i:], plane[j:, : nx - i]
-            expected[j, i] = np.sum(here * aside) + (np.sum(plane[: ny - j, i:] * beyond) if j else 0.0)
-    np.testing.assert_allclose(autocorrelation(plane), expected, atol=ROUNDING * nx * ny)
 
 
 def test_periodic_filter_multiplies_each_wave_by_its_symbol():

@@ -16,7 +16,6 @@ from bem3d.timeline import timeline
 from compare.models.exact import indentation
 from mdr1d import MDR
 from scene import (
-    CrossedWaves,
     Cylinder,
     Elastic,
     Kelvin,
@@ -25,7 +24,6 @@ from scene import (
     Prony,
     Scene,
     Slide,
-    SolveError,
     Sphere,
     Stage,
     StandardLinearSolid,
@@ -147,24 +145,6 @@ def test_after_a_ramp_steps_grow_by_a_quarter_to_those_of_the_hold():
     np.testing.assert_allclose(growth[:19], 0.0, atol=1e-9)
     np.testing.assert_allclose(growth[20:-5], np.log(1.25))
     assert np.diff(timeline(ramp, pixel=1.0, steps=10)).max() < 1.001
-
-
-def test_a_contact_that_reaches_the_edge_is_an_error():
-    with pytest.raises(SolveError, match=r"reaches the edge of extent = 0\.5 m; take a larger extent"):
-        marched(SPHERE, SOLID, RAMP, 8, 32, extent=0.5)
-
-
-@pytest.mark.parametrize(
-    ("solver", "roughness", "said"),
-    [
-        (BEM(points=64, extent=0.1), None, "take more points"),
-        (BEM(points=64), CrossedWaves(amplitude=2e-6, wavelength=2e-5), "less than two pixels"),
-    ],
-)
-def test_what_a_grid_cannot_show_of_a_program_is_an_error(solver, roughness, said):
-    ramp = Program(stages=(Stage(duration=1.0, depth=1e-4),))
-    with pytest.raises(SolveError, match=said):
-        solver.solve(Scene(Sphere(R), Elastic(G), ramp, roughness))
 
 
 @pytest.mark.parametrize("points", [16, 33])

@@ -16,9 +16,7 @@ from scene import (
     Cylinder,
     Elastic,
     Indent,
-    Layer,
     Plane,
-    Refused,
     Scene,
     SelfAffine,
     Shear,
@@ -203,11 +201,6 @@ def test_the_pressure_is_that_of_the_contact_at_rest():
 
 
 # -- what cannot be
-
-
-def test_a_layer_is_refused_by_name():
-    with pytest.raises(Refused, match="motion = Shear: tangential kernels are those of a half-space"):
-        BEM(points=48).solve(replace(sphere(displacement=1e-6), layer=Layer(thickness=1e-3)))
 
 
 def test_tractions_that_do_not_converge_are_an_error(monkeypatch):

@@ -12,15 +12,11 @@ from scene import (
     Elastic,
     Indent,
     Kelvin,
-    Program,
-    Refused,
     Scene,
     SelfAffine,
     Shear,
     Slide,
-    SolveError,
     Sphere,
-    Stage,
 )
 
 G, MU, LOAD = 1e6, 0.4, 1.0
@@ -82,20 +78,3 @@ def test_without_friction_all_slips_at_once(solver, untouched):
     assert answer.friction_force == answer.measures[f"stick_{SIZE[solver.name]}"] == 0
     _, slip = ADDED[solver.name]
     assert (answer.fields[slip][answer.fields[TOUCHES[solver.name]] > 0] == 1e-6).all()
-
-
-@solvers
-@pytest.mark.parametrize(("coefficient", "force"), [(MU, MU * LOAD), (MU, 2.0), (0.0, 1e-3)])
-def test_a_force_beyond_friction_slides_and_is_an_error(solver, coefficient, force):
-    # in one dimension the load itself is met to 1e-13
-    beyond = force * (1 + 1e-9) if solver.name == "MDR" else force
-    most = rf"motion.force = {force:g} slides: .* load = {coefficient * LOAD:g}; use Slide"
-    with pytest.raises(SolveError, match=most):
-        solver.solve(sphere(coefficient=coefficient, force=beyond))
-
-
-@solvers
-def test_a_history_of_partial_slip_is_refused_by_name(solver):
-    program = Program(stages=(Stage(duration=1.0, load=LOAD),))
-    with pytest.raises(Refused, match="interface = Coulomb: a history of partial slip is not simulated"):
-        solver.solve(replace(sphere(force=0.1), motion=program))

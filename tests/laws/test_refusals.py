@@ -28,10 +28,13 @@ from compare.studies.checks.ordinary import (
 from mdr1d import MDR
 from scene import (
     Cone,
+    Coulomb,
     CrossedWaves,
     Cylinder,
+    Elastic,
     EmptyContact,
     Indent,
+    Layer,
     Measured,
     Plane,
     PowerLaw,
@@ -39,6 +42,7 @@ from scene import (
     Refused,
     Scene,
     SelfAffine,
+    Shear,
     Slide,
     SolveError,
     StandardLinearSolid,
@@ -66,6 +70,7 @@ def above(surface, depth):
 
 crossed = CrossedWaves(**WAVES)
 cylinder = Cylinder(0.01)
+STICKS = Coulomb(coefficient=0.4)
 sought = "motion.depth | {:g} | lowest point"
 # What is asked, of whom, and the words of the error.
 CASES = {
@@ -147,6 +152,56 @@ CASES = {
         f"an extent of {extent:g} m": (resting(), [replace(each, extent=extent) for each in BOTH], said)
         for extent, said in ((1e-5, "extent"), (1e4, "take"), (5e-324, "units"), (1e300, "units"))
     },
+    "a program beyond the window": (
+        program(stage(TIME, depth=DEPTH)),
+        [replace(each, extent=RADIUS) for each in BOTH],
+        f"{RADIUS:g} m | take a larger extent",
+    ),
+    "a program on few pixels": (
+        program(stage(TIME, depth=DEPTH)),
+        [replace(SPACE, extent=0.1)],
+        "take more points",
+    ),
+    "too many periods": (
+        program(stage(TIME, depth=DEPTH), stage(1.0, amplitude=0.1 * DEPTH, frequency=1e6)),
+        BOTH,
+        "steps | oscillate for fewer periods",
+    ),
+    "a history of partial slip": (
+        program(stage(TIME, load=LOAD), interface=STICKS),
+        BOTH,
+        "interface = Coulomb | a history of partial slip is not simulated",
+    ),
+    "a pull on a layer": (
+        resting(motion=Shear(load=LOAD, force=0.1 * LOAD), interface=STICKS, layer=Layer(thickness=1e-3)),
+        [SPACE],
+        "motion = Shear | tangential kernels are those of a half-space",
+    ),
+    **{
+        f"a pull of {share:g} of what friction holds": (
+            resting(motion=Shear(load=LOAD, force=share * STICKS.coefficient * LOAD), interface=STICKS),
+            solvers,
+            f"motion.force = {share * STICKS.coefficient * LOAD:g} slides | use Slide",
+        )
+        # in one dimension the load itself is met to 1e-13
+        for share, solvers in ((1.0, [SPACE]), (1 + 1e-9, BOTH), (3.0, BOTH))
+    },
+    "friction beyond numbers": (
+        resting(elastomer=KELVIN, motion=Slide(speed=PACE, load=1e5), interface=Coulomb(1e308)),
+        [LINE],
+        "forces beyond the range of numbers",
+    ),
+    # The square of a slope of 1e290; a period of 1e310 pixels.
+    "a slope whose square is no number": (
+        Scene(PowerLaw(0.018, 100.0), Elastic(1e-300), Slide(speed=1.0, load=2e-5)),
+        [MDR(points=100)],
+        "too far apart to be computed with",
+    ),
+    "a period beyond numbers": (
+        resting(roughness=rough(longest=1e308, shortest=1e307)),
+        [MDR(points=100)],
+        "too far apart to be computed with",
+    ),
     "a gap above the peaks": (pressed(crossed, gap=1e-3), [SQUARE], "motion.gap | 0.001 | take a gap below"),
     "a measured body in 1D": (
         resting(indenter=Measured(heights=np.eye(5), pixel=1e-3)),
@@ -189,6 +244,9 @@ def test_a_contact_without_an_answer_is_refused_by_an_error_that_names_what_to_c
         (partial(BEM, points=16385), "points | 16385 | 16384"),
         (partial(MDR, points=7), "points | 7 | 8"),
         (partial(MDR, points=2**25 + 1), "points | 33554432"),
+        (partial(MDR, pixels=100), "pixels"),
+        (partial(MDR, shape="given"), "shape | 'mapped' or 'as-given'"),
+        (partial(MDR, spectrum="scan"), "spectrum | 'mapped' or 'line-scan'"),
         (partial(BEM, tolerance=1e-13), "tolerance | 1e-13 | 0.000000000001"),
         (partial(BEM, steps=10**7), "steps | 1000000"),
         (partial(BEM, precision="single", tolerance=1e-6), "tolerance | single"),

@@ -14,11 +14,8 @@ from scene import (
     Elastic,
     Heating,
     Indent,
-    Layer,
-    Plane,
     Program,
     Prony,
-    Refused,
     Scene,
     SelfAffine,
     Shear,
@@ -124,10 +121,3 @@ def test_feedback_is_said_to_take_several_solves():
     assert (
         often.operator_applications.value / once.operator_applications.value < 3 * taken.measures["heating_solves"]
     )
-
-
-def test_what_is_refused_has_no_plan():
-    with pytest.raises(Refused, match="layer = Layer"):
-        MDR().plan(replace(SCENES["slide"], layer=Layer(thickness=1e-3)))
-    with pytest.raises(Refused, match="indenter = Plane"):
-        MDR().plan(Scene(Plane(), KELVIN, Indent(pressure=1e4), ROUGH))

@@ -8,7 +8,7 @@ import pytest
 from sliding import PAPER, ROUGH, SMOOTH
 
 from mdr1d import MDR, draw
-from scene import Elastic, Indent, InvalidInput, PowerLaw, Program, Scene, Slide, SolveError, Sphere, Stage
+from scene import Indent, Program, Slide, SolveError, Sphere, Stage
 
 
 def test_smooth_and_resolved_scenes_say_so():
@@ -41,19 +41,6 @@ def test_a_grid_beyond_memory_is_refused():
     assert len(MDR(extent=1e290).refusals(PAPER)[0]) < 250
 
 
-@pytest.mark.parametrize(
-    ("settings", "said"),
-    [
-        ({"pixels": 100}, "pixels"),
-        ({"shape": "given"}, r"shape.*'mapped' or 'as-given'"),
-        ({"spectrum": "scan"}, r"spectrum.*'mapped' or 'line-scan'"),
-    ],
-)
-def test_bad_settings_are_named(settings, said):
-    with pytest.raises(InvalidInput, match=said):
-        MDR(**settings)
-
-
 @pytest.mark.parametrize("scene", [SMOOTH, PAPER])
 @pytest.mark.parametrize("motion", [Slide(speed=0.3, load=1.0), Slide(speed=0.0, depth=2e-4)])
 def test_contact_that_leaves_the_grid_is_an_error_whose_advice_works(scene, motion):
@@ -80,16 +67,3 @@ def test_a_spot_on_either_side_of_the_grid_counts(side):
     for each in (scene, in_time):
         with pytest.raises(SolveError, match="leaves the grid"):
             MDR(points=100, extent=1e-3).solve(each)
-
-
-@pytest.mark.parametrize(
-    "scene",
-    [
-        # The square of a slope of 1e290; a period of 1e310 pixels.
-        Scene(PowerLaw(coefficient=0.018, exponent=100.0), Elastic(1e-300), Slide(speed=1.0, load=2e-5)),
-        replace(ROUGH, roughness=replace(ROUGH.roughness, longest=1e308, shortest=1e307)),
-    ],
-)
-def test_numbers_too_far_apart_say_so(scene):
-    with pytest.raises(SolveError, match="too far apart to be computed with"):
-        MDR(points=100).solve(scene)
