@@ -257,8 +257,6 @@ def test_a_looser_tolerance_is_expected_to_take_less_and_a_closer_one_more():
         values = [getattr(plan, cost).value for plan in plans]
         assert values == sorted(values)
         assert values[0] < values[-1]
-    assert "brought to" in plans[1].seconds.why
-    assert "brought to" not in plans[2].seconds.why
 
 
 def test_what_an_estimated_window_could_not_carry_is_said():

@@ -1,6 +1,5 @@
 """Errors that are stated and wanted: the random contacts, the counts of what held, and the fit behind them."""
 
-from dataclasses import replace
 from math import nan
 from pathlib import Path
 
@@ -127,19 +126,3 @@ def test_promises_are_counted_by_what_became_of_them():
         "worst error": "2.00%",
     }
     assert "Of 5 promises 2 (40.0%, 5.3% to 85.3%) were not confirmed" in promises.said(made)
-
-
-def test_a_promise_is_checked_where_the_truth_is_twice_as_fine_and_known():
-    task = next(promises.asked())
-    finer = [
-        replace(row(1 + 0.01 * points**-1.0, 1.0), settings={"points": points}) for points in errors.REFERENCE
-    ]
-
-    def checked(points, finer=finer):
-        answer = replace(row(1.05, 0.1), measures={"points": points, "shown": 0.02})
-        solved = dict(zip(task.tasks, (Outcome((each,)) for each in (answer, *finer)), strict=True))
-        return promises.rows([task], solved)[0]["error"]
-
-    assert checked(256.0) == pytest.approx(0.05, rel=1e-3)
-    assert np.isnan(checked(512.0))
-    assert np.isnan(checked(256.0, [Row(reason="no converged contact")] * 3))

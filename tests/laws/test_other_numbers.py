@@ -531,13 +531,3 @@ def test_what_depends_on_others_takes_their_unit(quantity):
             Shear(load=1.0, force=wrong)
         with pytest.raises(ValueError, match="amplitude"):
             Stage(load=1.0, amplitude=wrong, **swung)
-    with pytest.raises(ValueError, match=r"frequency.*.*an? frequency"):
-        Stage(load=1.0, amplitude=0.1, duration=1.0, frequency=quantity(1.0, "rad/s"))
-    warm = WLF(temperature=quantity(25.0, "degC"), reference=250, c1=8, c2=quantity(50.0, "delta_degC"))
-    assert (warm.temperature, warm.c2) == (298.15, 50.0)
-
-
-@pytest.mark.parametrize("wrong", [True, 1.5, "many", 1j])
-def test_counts_of_functions_are_whole_numbers(wrong):
-    with pytest.raises(ValueError, match="draws"):
-        replace(CURVE, draws={"BEM": wrong})

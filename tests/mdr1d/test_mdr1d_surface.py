@@ -93,12 +93,6 @@ def test_gaussian_waves_keep_the_phases_and_have_rayleigh_moduli(spectrum):
     assert distance < KOLMOGOROV / sqrt(square.size)
 
 
-def test_a_later_cut_off_adds_waves_and_keeps_the_moduli_of_the_others():
-    near, far = (replace(ROUGH, shortest=s, amplitudes="gaussian") for s in (5e-5, 2.5e-5))
-    ratios = [draw(r, 1000).amplitudes / amplitudes(r, 1e-2 / r.shortest) for r in (near, far)]
-    np.testing.assert_allclose(ratios[1][:200], ratios[0], rtol=ROUNDING)
-
-
 def test_a_gaussian_wave_at_the_nyquist_wave_number_is_a_gaussian_height_of_its_variance():
     rough = replace(ROUGH, hurst=0.0, shortest=None, amplitudes="gaussian")
     heights = np.array([draw(replace(rough, seed=s), 10).heights for s in range(2000)])
