@@ -9,7 +9,7 @@ from programs import mirrored, program
 from bem3d import BEM, marching, upstream
 from bem3d.grid import Grid
 from bem3d.timeline import timeline
-from bem3d.upstream import Returning
+from bem3d.upstream import Returning, Sheet
 from compare.models.exact import full_contact
 from scene import (
     CrossedWaves,
@@ -143,6 +143,18 @@ def test_sheets_double_until_nothing_beyond_the_widest_comes_in_and_what_has_fad
     there = program(pressed(), slid(1.0, 0.5), slid(-0.25, 0.25))
     assert upstream.left_behind(there, np.array([1e-3, 1e-4])) == pytest.approx(0.5e-3 * -np.log(1e-17))
     assert upstream.left_behind(there, np.array([1e3])) == there.span
+
+
+def test_columns_that_come_back_bring_what_they_had_and_what_has_faded_is_dropped():
+    window = Sheet(Grid(16, 16.0), 1)
+    around = Returning(window, 10.0, lambda at: lambda p: np.zeros(at.shape), lambda time: np.exp([-time]))
+    window.fields[:] = 1 + np.arange(16)
+    around.follow(3.0, 0.0)
+    around.follow(0.0, 2.0)
+    assert window.fields[0, 0] == pytest.approx([*range(1, 14), *(np.exp(-2) * np.array([14, 15, 16]))])
+    around.follow(-2.0, 2.0)
+    around.follow(-5.0, 45.0)
+    assert len(around._behind[window][-1]) == 3
 
 
 HARD = {
