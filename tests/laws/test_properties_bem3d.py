@@ -1,11 +1,10 @@
-"""Laws of the three-dimensional contact over scenes drawn at random: signs, work, symmetry, invariance, scale."""
+"""Laws of the three-dimensional contact over heights drawn at random: symmetry, energy, reciprocity."""
 
-from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 import pytest
-from hypothesis import given, reject
+from hypothesis import given
 from hypothesis import strategies as st
 from strategies import (
     decades,
@@ -41,17 +40,14 @@ class Pressed(NamedTuple):
     def grid(self):
         return Grid(len(self.heights), float(len(self.heights)))
 
-    def solved(self, depth=None):
-        if depth is not None and depth <= self.heights.min():
-            reject()
+    def solved(self):
         start = contact.first_guess(self.heights, self.heights.size // 4)
         return contact.solve(
             self.medium.operator(self.grid),
             self.heights,
             start / np.sqrt(np.count_nonzero(start)),
             TOLERANCE,
-            depth=depth,
-            load=self.load if depth is None else None,
+            load=self.load,
             precondition=self.medium.preconditioner(self.grid),
             foundation=self.medium.foundation(self.grid),
             symmetric=self.medium.flow.at_rest,
@@ -78,44 +74,6 @@ def presses(draw, elastomers=solids, media=(Cell, HalfSpace)):
     along = np.arange(POINTS) - (POINTS - 1) / 2
     heights = heights / 4 + (along[:, None] ** 2 + along**2) / (2 * POINTS)
     return Pressed(heights, HalfSpace(flow, Engine()), POINTS * draw(decades(-1, 1)))
-
-
-def broken(pressed: Pressed, found: contact.Contact, load=None) -> list[str]:
-    """Which conditions of contact do not hold, of: no pull, no penetration, no gap under pressure, the load."""
-    p, z, touching = found.pressure, pressed.heights, found.pressure > 0
-    gap = pressed.medium.operator(pressed.grid)(p) + z - found.depth
-    lowest = np.sort(z, axis=None)
-    size = max(found.depth - lowest[0], z[touching].max() - lowest[0], lowest[contact.FEW] - lowest[0])
-    least = TOLERANCE * size * (1 + ROUNDING) + ROUNDING * np.ptp(z)
-    return [
-        name
-        for name, holds in {
-            "p >= 0": np.all(p >= 0),
-            "gap >= 0": np.all(gap >= -least),
-            "p gap = 0": np.all(np.abs(gap[touching]) <= least),
-            "the sum of p is the load": load is None or abs(p.sum() / load - 1) <= ROUNDING,
-        }.items()
-        if not holds
-    ]
-
-
-@examples(36)
-@given(presses())
-def test_contact_neither_penetrates_nor_pulls_and_pushes_only_where_it_touches(pressed):
-    """p >= 0, gap >= 0, p * gap = 0 and the load, with the gap computed again from the pressure: to the tolerance
-    of the solve over the depth of the lowest point, or what the heights in contact span."""
-    assert broken(pressed, pressed.solved(), pressed.load) == []
-
-
-def test_the_conditions_of_contact_can_be_broken():
-    """Of an answer that was spoilt, each by its name."""
-    pressed = Pressed(waves(3), Cell(Flow(1.0, 1.0, np.empty(0), np.empty(0)), Engine()), 100.0)
-    found = pressed.solved()
-    assert broken(pressed, found, 100.0) == []
-    assert broken(pressed, found, 101.0) == ["the sum of p is the load"]
-    assert broken(pressed, replace(found, depth=found.depth + 1e-6)) == ["gap >= 0", "p gap = 0"]
-    assert broken(pressed, replace(found, depth=found.depth - 1e-6)) == ["p gap = 0"]
-    assert "p >= 0" in broken(pressed, replace(found, pressure=found.pressure - 1e-6))
 
 
 # Pressures follow gaps by the stiffest wave of the grid, pi/2 a pixel: they are known to the tolerance of the gap
