@@ -157,24 +157,6 @@ def test_columns_that_come_back_bring_what_they_had_and_what_has_faded_is_droppe
     assert len(around._behind[window][-1]) == 3
 
 
-HARD = {
-    "within the first contact length": program(pressed(), slid(0.01 * A), slid(-2 * A)),
-    "without load": program(pressed("load", 0.5), slid(A, load=0.0), slid(-1.5 * A), slid(-A, load=0.5)),
-    "while it is pressed in": program(slid(0.5 * A, depth=DEPTH), slid(-A)),
-    "many times": FRETTING,
-}
-
-
-@pytest.mark.parametrize(("motion", "solid"), [*zip(HARD, (SOLID, KELVIN, KELVIN, SOLID), strict=True)])
-def test_reversal(motion, solid):
-    result = solved(HARD[motion], solid, points=32)
-    assert result.friction_coefficient < -1e-3
-    assert np.isfinite(result.fields["friction_force"]).all()
-    if HARD[motion].pressed_by == "load":
-        prescribed = HARD[motion].prescribed(result.fields["time"])
-        np.testing.assert_allclose(result.fields["normal_force"], prescribed, atol=1e-9)
-
-
 def test_an_oscillation_has_forty_steps_a_period_at_least_and_its_crest_is_in_the_window():
     motion = program(
         pressed("load", 0.3), {"duration": 2.5 * TAU, "amplitude": 0.25, "frequency": 1 / TAU, "speed": 0.1}

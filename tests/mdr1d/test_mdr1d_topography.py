@@ -54,15 +54,6 @@ def test_a_mapped_line_has_each_wave_of_the_map_at_its_own_wave_number():
     assert np.abs(np.delete(found, [1, 4])).max() < 1e-12
 
 
-def test_a_mapped_line_is_the_line_of_the_spectrum_that_the_map_was_drawn_from():
-    one, other = draw(ROUGH, 512), draw(sampled(seed=ROUGH.seed), 512)
-    assert other.rms_height == pytest.approx(one.rms_height, rel=1e-9)
-    # cells of the line and of the lattice of the surface share a power a little differently
-    assert other.rms_slope_spectral == pytest.approx(one.rms_slope_spectral, rel=0.05)
-    ratio = amplitudes(sampled())[4:16] / one.amplitudes[4:16]
-    assert np.exp(np.mean(np.log(ratio))) == pytest.approx(1.0, abs=0.03)
-
-
 def test_the_sign_of_heights_is_lost_on_mapped_lines_alone():
     for spectrum, sign in (("mapped", 1.0), ("line-scan", -1.0)):
         up, down = (draw(noise((9, 9), peaks=peaks), 64, spectrum).heights for peaks in ("up", "down"))
