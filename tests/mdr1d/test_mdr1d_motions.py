@@ -57,7 +57,7 @@ def test_after_a_change_of_the_speed_friction_comes_to_that_of_steady_sliding(so
     steady = solved(Slide(speed=SPEED, depth=DEPTH), SOLIDS[solid])
     result = solved(program(pressed(), *stages), SOLIDS[solid])
     assert result.friction_force == pytest.approx(np.sign(stages[-1]["speed"]) * steady.friction_force, rel=1e-9)
-    assert result.normal_force == pytest.approx(steady.normal_force, rel=0.02)  # of whole elements, first of them whole forces
+    assert result.normal_force == pytest.approx(steady.normal_force, rel=0.02)  # edges are known to an element
 
 
 def approached(speed, approach, **settings):
