@@ -129,6 +129,15 @@ def test_a_layer_no_thicker_than_a_pixel_yields_to_long_waves_as_it_should(base,
             )
 
 
+ENOUGH = 1.4  # pixels to the thickness with which every layer is shown
+
+
+@pytest.mark.parametrize("poisson_ratio", [-0.9, 0.499, 0.5])
+def test_enough_points_show_every_layer(poisson_ratio):
+    for radius in (0.3, 3.0, 30.0, 1e3):
+        assert Layered(1.0, Bonded(poisson_ratio)).falsified(1 / ENOUGH, radius) < FALSIFIED
+
+
 ON_HALF_SPACES = 3e-3  # of the force: what 20 points and more bring there, with contacts of 8 pixels across
 
 
