@@ -4,6 +4,7 @@ import multiprocessing
 import warnings
 from collections.abc import Callable
 from functools import cache
+from pathlib import Path
 from typing import Any
 
 from numba import njit
@@ -24,10 +25,17 @@ def compiled(**options: Any) -> Callable[[Callable], Callable]:
             _say()
             return njit(nogil=True, **options)(function)
         if hasattr(loop, "_cache"):  # and not the plain function, by NUMBA_DISABLE_JIT
+            loop._cache._cache_file._source_stamp = _stamp(Path(function.__code__.co_filename).parent)
             loop._cache.save_overload = _where_there_is_room(loop._cache.save_overload)
         return loop
 
     return made
+
+
+@cache
+def _stamp(package):
+    """When files of a package were last changed: a loop may call one of another file, of which numba sees none."""
+    return tuple(sorted((file.name, file.stat().st_mtime) for file in package.glob("*.py")))
 
 
 def _where_there_is_room(save):
