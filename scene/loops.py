@@ -4,6 +4,7 @@ import multiprocessing
 import warnings
 from collections.abc import Callable
 from functools import cache
+from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
@@ -34,8 +35,8 @@ def compiled(**options: Any) -> Callable[[Callable], Callable]:
 
 @cache
 def _stamp(package):
-    """When files of a package were last changed: a loop may call one of another file, of which numba sees none."""
-    return tuple(sorted((file.name, file.stat().st_mtime) for file in package.glob("*.py")))
+    """Digest of the files of a package: a loop may call one of another file, and numba looks at its own alone."""
+    return sha256(b"".join(file.read_bytes() for file in sorted(package.glob("*.py")))).digest()
 
 
 def _where_there_is_room(save):
