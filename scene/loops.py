@@ -34,9 +34,11 @@ def compiled(**options: Any) -> Callable[[Callable], Callable]:
 
 
 @cache
-def _stamp(package):
-    """Digest of the files of a package: a loop may call one of another file, and numba looks at its own alone."""
-    return sha256(b"".join(file.read_bytes() for file in sorted(package.glob("*.py")))).digest()
+def _stamp(folder):
+    """Digest of all files of a package: a loop may call one of another file, and numba looks at its own alone."""
+    while (folder.parent / "__init__.py").exists():
+        folder = folder.parent
+    return sha256(b"".join(file.read_bytes() for file in sorted(folder.rglob("*.py")))).digest()
 
 
 def _where_there_is_room(save):

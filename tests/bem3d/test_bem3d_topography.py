@@ -8,7 +8,7 @@ import pytest
 from maps import sampled
 
 import scene.surfaces.topography
-from bem3d import BEM
+from bem3d import BEM, for_accuracy
 from bem3d.engine import Engine
 from bem3d.grid import Grid
 from bem3d.problem import Problem
@@ -242,7 +242,7 @@ def test_a_body_that_is_not_reached_is_not_touched():
 def test_settings_for_a_map_keep_their_promise():
     rough = replace(SLIDING.roughness, shortest=L)
     asked = replace(SLIDING, roughness=sampled(rough, 9), elastomer=Kelvin(1e6, 1e-3))
-    choice = BEM.for_accuracy(asked, friction=0.05)
+    choice = for_accuracy(asked, friction=0.05)
     truth = BEM(points=256, tolerance=1e-6).solve(asked)
     assert choice.confirmed
     assert choice.result.friction_force == pytest.approx(truth.friction_force, rel=0.05)
