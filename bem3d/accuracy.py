@@ -100,23 +100,23 @@ def for_accuracy(
     for name in {"points", "tolerance"} & settings.keys():
         raise ValueError(f"{name} = {settings[name]!r}: it is chosen by the wanted errors, leave it out")
     asked, solver = {"friction": friction, "depth": depth, "load": load}, BEM(**settings)
-    wanted = {name: error for name, error in asked.items() if error is not None}
+    wanted = {name: each for name, each in asked.items() if each is not None}
     _check(solver, scene, wanted)
     answers: list[Result] = []
     choice: Choice | None = None
     left: Refused | SolveError | None = None
-    for settings in _doubled(solver, scene, min(SHARE * min(wanted.values()), LOOSEST)):
+    for finer in _doubled(solver, scene, min(SHARE * min(wanted.values()), LOOSEST)):
         try:
-            answers.append(settings.solve(scene))
+            answers.append(finer.solve(scene))
         except (Refused, SolveError) as reason:
             # Too coarse, or too large; what answered before may still be all that there is.
             left, answers = reason, []
             continue
         seen = {name: changes(scene, name, answers) for name in wanted}
-        choice = Choice(settings, answers[-1], dict(wanted), {name: error(*each) for name, each in seen.items()})
-        _LOG.info("%d points a side: errors %s", settings.points, choice.error)
+        choice = Choice(finer, answers[-1], dict(wanted), {name: error(*each) for name, each in seen.items()})
+        _LOG.info("%d points a side: errors %s", finer.points, choice.error)
         if choice.confirmed or any(
-            _needed(settings.points, *each, wanted[name]) > HOPELESS * MOST for name, each in seen.items()
+            _needed(finer.points, *each, wanted[name]) > HOPELESS * MOST for name, each in seen.items()
         ):
             break
     if choice is None:
