@@ -4,13 +4,13 @@ import logging
 
 from scene.signatures import make_readable
 
-from .accuracy import Unconfirmed
+from .accuracy import Unconfirmed, for_accuracy
 from .heights import Heights, heights
 from .refinement import refined
 from .solver import BEM
 from .trail import Trail
 
-__all__ = ["BEM", "Heights", "Trail", "Unconfirmed", "heights", "refined"]
+__all__ = ["BEM", "Heights", "Trail", "Unconfirmed", "for_accuracy", "heights", "refined"]
 
 make_readable(globals()[name] for name in __all__)
 logging.getLogger(__name__).addHandler(logging.NullHandler())

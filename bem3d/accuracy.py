@@ -7,23 +7,22 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import inf, log2
 from numbers import Real
-from typing import TYPE_CHECKING, Protocol
+from typing import Any, Protocol
 
 from scene import Cylinder, Doubtful, Measured, Plane, Program, Refused, Result, Scene, Shear, SolveError
+from scene.quantities import Unit, takes
 from scene.scales import elastic_contact
 
-if TYPE_CHECKING:
-    from .solver import BEM
+from .solver import BEM, LEAST_SINGLE, LOOSEST
 
 _LOG = logging.getLogger(__name__)
 FIRST, MOST = 32, 1024  # points a side
 SHARE = 1 / 30  # tolerance over wanted error: a tenth of that error is left to it
-LOOSEST = 1e-2  # tolerance that a solver takes
 NARROW = 1e-7  # tolerance of a prescribed gap, at least: a narrow one is lost in a looser one
 # Order at which an error is taken to fall with the points: no lower one is waited for, no higher one believed.
 ORDERS = 0.5, 2.0
 HOPELESS = 4  # times MOST: where so many points are needed by the order observed, no more are tried
-LEAST_SINGLE = 1e-5  # tolerance that transforms in single precision still reach
+RELATIVE = Unit("", "a relative error between 0 and 1")
 
 
 class Unconfirmed(Doubtful):
@@ -40,7 +39,7 @@ class Choice:
         contact at rest. An indication, and no bound; infinite where fewer than three grids have an answer
     """
 
-    solver: "BEM"
+    solver: BEM
     result: Result
     wanted: Mapping[str, float]
     error: Mapping[str, float]
@@ -80,28 +79,44 @@ def apart(scene: Scene, name: str, one: Answer, other: Answer) -> float:
     return abs(values[0] / values[1] - 1)
 
 
-def choose(solver: "BEM", scene: Scene, wanted: Mapping[str, float]) -> Choice:
-    """The first of grids, each twice as fine as the one before, that keeps every wanted error.
+@takes(friction=RELATIVE, depth=RELATIVE, load=RELATIVE)
+def for_accuracy(
+    scene: Scene,
+    friction: float | None = None,
+    depth: float | None = None,
+    load: float | None = None,
+    **settings: Any,
+) -> Choice:
+    """Settings of `BEM` that keep wanted relative errors in a scene, and their answer.
 
-    solver : everything else that is set. Warns Unconfirmed where even the last does not. Raises ValueError for
-    what cannot be promised, Refused and SolveError as the solver does where no grid has an answer.
+    friction, depth, load : wanted errors of the friction coefficient, and of the depth, over that of the
+        smooth contact at rest, or of the load, whichever is not prescribed
+    settings : of `BEM`, all but points and tolerance
+
+    Points are doubled until what changed over two halvings of the pixel keeps the errors. Warns Unconfirmed
+    where 1024 points do not, or would not. Raises ValueError for what cannot be promised: programs, roughness
+    without a shortest wave; Refused and SolveError as the solver does where no grid has an answer.
     """
+    for name in {"points", "tolerance"} & settings.keys():
+        raise ValueError(f"{name} = {settings[name]!r}: it is chosen by the wanted errors, leave it out")
+    asked, solver = {"friction": friction, "depth": depth, "load": load}, BEM(**settings)
+    wanted = {name: each for name, each in asked.items() if each is not None}
     _check(solver, scene, wanted)
     answers: list[Result] = []
     choice: Choice | None = None
     left: Refused | SolveError | None = None
-    for settings in _doubled(solver, scene, min(SHARE * min(wanted.values()), LOOSEST)):
+    for finer in _doubled(solver, scene, min(SHARE * min(wanted.values()), LOOSEST)):
         try:
-            answers.append(settings.solve(scene))
+            answers.append(finer.solve(scene))
         except (Refused, SolveError) as reason:
             # Too coarse, or too large; what answered before may still be all that there is.
             left, answers = reason, []
             continue
         seen = {name: changes(scene, name, answers) for name in wanted}
-        choice = Choice(settings, answers[-1], dict(wanted), {name: error(*each) for name, each in seen.items()})
-        _LOG.info("%d points a side: errors %s", settings.points, choice.error)
+        choice = Choice(finer, answers[-1], dict(wanted), {name: error(*each) for name, each in seen.items()})
+        _LOG.info("%d points a side: errors %s", finer.points, choice.error)
         if choice.confirmed or any(
-            _needed(settings.points, *each, wanted[name]) > HOPELESS * MOST for name, each in seen.items()
+            _needed(finer.points, *each, wanted[name]) > HOPELESS * MOST for name, each in seen.items()
         ):
             break
     if choice is None:
@@ -142,7 +157,7 @@ def _needed(points, last, before, wanted):
     return 0 if before == inf else points * (error(last, before) / wanted) ** (1 / _order(last, before))
 
 
-def _doubled(solver, scene, tolerance) -> Iterator["BEM"]:
+def _doubled(solver, scene, tolerance) -> Iterator[BEM]:
     """Settings on ever more points."""
     if scene.motion.pressed_by == "gap":
         tolerance = min(tolerance, NARROW)

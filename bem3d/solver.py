@@ -4,7 +4,7 @@ import logging
 import time
 from dataclasses import replace
 from functools import partial
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field, model_validator
@@ -14,10 +14,10 @@ from scene import Cylinder, Doubt, Plane, Program, Result, Scene, SolveError, do
 from scene.machine import shortage
 from scene.plan import Plan
 from scene.protocol import refuse, trusted
-from scene.quantities import CLOSED, Length, Positive, Unit, Whole, takes
+from scene.quantities import CLOSED, Length, Positive, Whole
 from scene.terms import Table, surrounded, terms_of
 
-from . import accuracy, frictionerror, window
+from . import frictionerror, window
 from .engine import Engine, Library
 from .grid import Grid
 from .history import marched
@@ -28,7 +28,8 @@ from .terms import TERMS
 from .trail import Trail
 
 _LOG = logging.getLogger(__name__)
-RELATIVE = Unit("", "a relative error between 0 and 1")
+LOOSEST = 1e-2  # tolerance
+LEAST_SINGLE = 1e-5  # tolerance that transforms in single precision still reach
 LEAST_GAP = 1e-2  # of a prescribed mean gap: what may be left uncertain of it
 
 
@@ -106,7 +107,7 @@ class BEM:
 
     points: Annotated[Whole, Field(ge=16, le=16384)] = 256
     extent: Length | None = None
-    tolerance: Annotated[Positive, Field(ge=1e-12, le=accuracy.LOOSEST)] = 1e-5
+    tolerance: Annotated[Positive, Field(ge=1e-12, le=LOOSEST)] = 1e-5
     threads: Annotated[Whole, Field(ge=1, le=1024)] = 1
     precision: Literal["double", "single"] = "double"
     transforms: Library = "ducc0"
@@ -115,39 +116,11 @@ class BEM:
 
     @model_validator(mode="after")
     def _within_precision(self):
-        if self.precision == "single" and self.tolerance < accuracy.LEAST_SINGLE:
+        if self.precision == "single" and self.tolerance < LEAST_SINGLE:
             raise ValueError(
-                f"tolerance = {self.tolerance:g} cannot be reached in single precision: "
-                f"at least {accuracy.LEAST_SINGLE:g}"
+                f"tolerance = {self.tolerance:g} cannot be reached in single precision: at least {LEAST_SINGLE:g}"
             )
         return self
-
-    @classmethod
-    @takes(friction=RELATIVE, depth=RELATIVE, load=RELATIVE)
-    def for_accuracy(
-        cls,
-        scene: Scene,
-        friction: float | None = None,
-        depth: float | None = None,
-        load: float | None = None,
-        **settings: Any,
-    ) -> accuracy.Choice:
-        """Settings that keep wanted relative errors in a scene, and their answer.
-
-        friction, depth, load : wanted errors of the friction coefficient, and of the depth, over that of the
-            smooth contact at rest, or of the load, whichever is not prescribed
-        settings : all others but points and tolerance
-
-        Points are doubled until what changed over two halvings of the pixel keeps the errors. Warns Unconfirmed
-        where 1024 points do not, or would not. Raises ValueError for what cannot be promised: programs, roughness
-        without a shortest wave; and as `solve` does where no grid has an answer.
-        """
-        wanted = {"friction": friction, "depth": depth, "load": load}
-        for name in {"points", "tolerance"} & settings.keys():
-            raise ValueError(f"{name} = {settings[name]!r}: it is chosen by the wanted errors, leave it out")
-        return accuracy.choose(
-            cls(**settings), scene, {name: error for name, error in wanted.items() if error is not None}
-        )
 
     @property
     def name(self) -> str:

@@ -5,12 +5,12 @@ import logging
 from scene.signatures import make_readable
 
 from . import equations, estimates
-from .foundation import Contact, sweep
+from .kelvin import sweep
 from .lines import draw
-from .maxwell import sweep_modes
 from .modes import Modes, modes_of
 from .profile import Grid, Profile, lay_out, map_profile
 from .solver import MDR
+from .steady import Contact, sweep_modes
 from .surface import Surface, amplitudes
 
 __all__ = [

@@ -2,9 +2,9 @@
 
 from math import inf
 
-from .foundation import Contact
 from .indentation import Sweep
 from .profile import Profile
+from .steady import Contact
 
 # Nodes that are left: each k-th. An error of second order changes by k^2 - 1 times itself; where the edges of a
 # contact lie between the nodes makes more or less of it, and the most is taken.

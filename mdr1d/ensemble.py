@@ -7,7 +7,7 @@ period.
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import nan, sqrt
+from math import inf, nan, sqrt
 from typing import Any
 
 import numpy as np
@@ -17,8 +17,9 @@ from scene.protocol import trusted
 from scene.scales import elastic_contact
 
 from .domain import whole
-from .foundation import press_many, summed
-from .indentation import ACCEPTED
+from .element import compiled, summed
+from .indentation import ACCEPTED, nearer
+from .kelvin import flow_kelvin
 from .surface import MOST_NODES, Surface, family_of, nodes_needed
 
 # Relative misfit of the load at which a search stops: friction needs no more.
@@ -111,7 +112,7 @@ class _Series:
         self.enough = self.coefficient * (radius + self.pixel) ** self.exponent
 
     def solve(self, surface: Surface, ratio: float):
-        """Answer of press_many on one profile, drawn with a unit rms height; its rms slope; and the last ratio.
+        """Answer of _press_many on one profile, drawn with a unit rms height; its rms slope; and the last ratio.
 
         ratio : of the depth to the smooth one, from which the first search starts
         """
@@ -126,7 +127,7 @@ class _Series:
                 "take fewer points, a longer period or a lesser load"
             )
         found = np.empty((self.rms.size, 6))
-        ratio = press_many(
+        ratio = _press_many(
             heights,
             top,
             self._powers(int(farthest) + 1),
@@ -150,6 +151,67 @@ class _Series:
         if self.powers.size < nodes:
             self.powers = (np.arange(1.1 * nodes) * self.pixel) ** self.exponent
         return self.powers
+
+
+@compiled
+def _raise_heights(unit, powers, coefficient, rms, heights):
+    """Write coefficient * powers + rms * unit on both sides of the tip, above its lowest node, and return that."""
+    half, period = heights.size // 2, unit.size
+    for begin in range(0, half + 1, period):
+        end = min(begin + period, half + 1)
+        rise = powers[begin:end]
+        right, left = heights[half + begin : half + end], heights[half - end + 1 : half - begin + 1]
+        for k in range(rise.size):
+            right[k] = coefficient * rise[k] + rms * unit[k]
+            left[rise.size - 1 - k] = coefficient * rise[k] + rms * unit[-k]
+    lowest = heights.min()
+    heights -= lowest
+    return lowest
+
+
+@compiled
+def _press_many(
+    unit, top, powers, pixel, half, coefficient, rms, memory, load, smooth, enough, ratio, aim, accepted, found
+):
+    """Press profiles coefficient * powers + rms * unit down with loads, as many as there are.
+
+    unit : one period of roughness (M,), top : its highest node; powers : |x|^n at the nodes from the tip on
+    half : nodes that contact may reach on each side; coefficient, rms, memory; load, over K [m^2]; smooth, the
+        depth of the smooth relaxed contact, and enough, one that surely carries the load on chords between the
+        nodes: all (scenes,)
+    aim, accepted : relative misfit of the load at which the search stops, and at which it may
+    found : misfit, friction, depth, length, span, sweeps (scenes, 6), to be filled; NaN where nothing is found
+
+    Each search starts from a ratio of the depth to the smooth one, where that makes sense: the ratio found before,
+    and at first the one given. The last is returned.
+    """
+    room = np.empty(2 * half.max() + 1)
+    for s in range(load.size):
+        heights = room[: 2 * half[s] + 1]
+        lowest = _raise_heights(unit, powers, coefficient[s], rms[s], heights)
+        # Beside the heights of roughness a tiny depth may be lost to rounding.
+        surely = max(enough[s] + rms[s] * top - lowest, enough[s])
+        approach = ratio * smooth[s] - lowest
+        if not 0.0 < approach < surely:
+            approach = surely
+        lower, upper = 0.0, inf
+        best, sweeps = inf, 0
+        found[s] = nan
+        while sweeps < 200 and lower < approach < upper:
+            force, lost, _, stiffness, length, _, first, last = flow_kelvin(heights, pixel, memory[s], approach)
+            sweeps += 1
+            misfit = abs(force / load[s] - 1.0)
+            if misfit < best:
+                best = misfit
+                found[s, 0], found[s, 1], found[s, 2] = misfit, lost / force, approach + lowest
+                found[s, 3], found[s, 4], found[s, 5] = length, last - first, sweeps
+            elif best <= accepted:
+                break
+            if misfit <= aim:
+                break
+            approach, lower, upper = nearer(approach, force, stiffness, load[s], lower, upper, surely)
+        ratio = found[s, 2] / smooth[s]
+    return ratio
 
 
 @summed

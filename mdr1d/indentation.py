@@ -8,8 +8,9 @@ import numpy as np
 from scene import EmptyContact, Scene, SolveError
 from scene.scales import elastic_contact
 
-from .foundation import Contact, nearer
+from .element import compiled
 from .profile import Profile, contact_extent, greatest_depth
+from .steady import Contact
 
 # Heights [m] at the nodes, pixel [m] and depth [m] to the contact.
 Sweep = Callable[[np.ndarray, float, float], Contact]
@@ -80,6 +81,24 @@ def under_load(scene: Scene, body: Profile, sweep: Sweep) -> tuple[float, Contac
         )
     _check_range(found)
     return approach, found, sweeps
+
+
+@compiled
+def nearer(approach, force, stiffness, load, lower, upper, most):
+    """Next trial of the approach that carries a load, and the bracket, once one carries a force.
+
+    As if the force went on as the power of the approach that it is here: Newton's step for their logarithms. Where
+    that leaves the bracket, its middle. most : an approach that is surely enough
+    """
+    if force < load:
+        lower = approach
+    else:
+        upper = approach
+    step = approach * (load / force) ** (force / (approach * stiffness)) if force > 0.0 else inf
+    step = min(step, most)
+    if not lower < step < upper:
+        step = 0.5 * (lower + upper)
+    return step, lower, upper
 
 
 def _check_range(contact: Contact) -> None:

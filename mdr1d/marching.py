@@ -16,10 +16,11 @@ import numpy as np
 from scene import Program, SolveError
 from scene.instants import Frames
 
-from .elements import Solid, State, Sums, advance, sinking
+from .element import Solid
 from .indentation import ACCEPTED
 from .modes import Modes
 from .profile import Profile
+from .stepping import State, Sums, advance, sinking
 from .timeline import Timeline, timeline
 
 # Relative misfit of the balance of energy that is still an answer; rounding of a million steps stays below.

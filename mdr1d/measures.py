@@ -7,8 +7,8 @@ import numpy as np
 from scene import Regime, Scene
 from scene.scales import elastic_contact
 
-from .foundation import Contact
 from .profile import Profile
+from .steady import Contact
 from .surface import Surface
 
 

@@ -19,14 +19,14 @@ from scene.surfaces.roughness import Roughness
 from scene.terms import Table, surrounded, terms_of
 
 from .accuracy import friction_error
-from .foundation import sweep
 from .history import at_greatest, marched
 from .indentation import Sweep, at_depth, under_load
-from .maxwell import sweep_modes
+from .kelvin import sweep
 from .measures import measures
 from .modes import modes_of
 from .plan import plan_of
 from .profile import Grid, check_resolved, drawn_closer, lay_out, map_profile, unmapped
+from .steady import sweep_modes
 from .surface import MOST_NODES, Band, Spectrum, band_of
 from .terms import TERMS
 

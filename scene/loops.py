@@ -4,6 +4,8 @@ import multiprocessing
 import warnings
 from collections.abc import Callable
 from functools import cache
+from hashlib import sha256
+from pathlib import Path
 from typing import Any
 
 from numba import njit
@@ -24,10 +26,19 @@ def compiled(**options: Any) -> Callable[[Callable], Callable]:
             _say()
             return njit(nogil=True, **options)(function)
         if hasattr(loop, "_cache"):  # and not the plain function, by NUMBA_DISABLE_JIT
+            loop._cache._cache_file._source_stamp = _stamp(Path(function.__code__.co_filename).parent)
             loop._cache.save_overload = _where_there_is_room(loop._cache.save_overload)
         return loop
 
     return made
+
+
+@cache
+def _stamp(folder):
+    """Digest of all files of a package: a loop may call one of another file, and numba looks at its own alone."""
+    while (folder.parent / "__init__.py").exists():
+        folder = folder.parent
+    return sha256(b"".join(file.read_bytes() for file in sorted(folder.rglob("*.py")))).digest()
 
 
 def _where_there_is_room(save):

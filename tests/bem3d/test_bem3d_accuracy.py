@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bem3d import BEM
+from bem3d import BEM, for_accuracy
 from bem3d.accuracy import FIRST, LOOSEST, MOST, SHARE, Choice, Unconfirmed, apart, changes, error
 from bem3d.costs import BANDS, COSTS, SLOW, band, measured, typical
 from scene import (
@@ -76,7 +76,7 @@ def test_a_change_that_is_small_by_chance_does_not_confirm():
 
 
 def test_a_choice_is_the_first_grid_that_confirms_and_its_answer_that_of_its_settings():
-    choice = BEM.for_accuracy(SMOOTH, friction=0.01)
+    choice = for_accuracy(SMOOTH, friction=0.01)
     points = choice.solver.points
     assert choice.solver.tolerance == pytest.approx(SHARE * 0.01)
     answers = [
@@ -105,22 +105,22 @@ def test_what_is_confirmed_is_kept(name):
     scene, wanted = FOOLING[name]
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", Unconfirmed)
-        choice = BEM.for_accuracy(scene, friction=wanted)
+        choice = for_accuracy(scene, friction=wanted)
     finer = replace(choice.solver, points=4 * choice.solver.points, tolerance=1e-5).solve(scene)
     assert not choice.confirmed or apart(scene, "friction", choice.result, finer) <= wanted
     assert choice.confirmed or choice.solver.points >= 4 * FIRST
 
 
 def test_other_settings_are_kept_and_units_do_not_matter():
-    chosen = BEM.for_accuracy(SMOOTH, friction=0.01, threads=2, extent=4e-3).solver
+    chosen = for_accuracy(SMOOTH, friction=0.01, threads=2, extent=4e-3).solver
     assert (chosen.threads, chosen.extent) == (2, 4e-3)
     scaled = Scene(Sphere(radius=1e6 * R), Kelvin(modulus=1.0, relaxation_time=TAU), Slide(speed=5e5, load=1e6))
-    assert BEM.for_accuracy(scaled, friction=0.01).solver == BEM.for_accuracy(SMOOTH, friction=0.01).solver
+    assert for_accuracy(scaled, friction=0.01).solver == for_accuracy(SMOOTH, friction=0.01).solver
 
 
 def test_what_is_not_confirmed_is_a_warning_and_said_in_the_answer():
     with pytest.warns(Unconfirmed, match=r"points a side do not confirm .*: friction by .*, wanted 1e-06"):
-        choice = BEM.for_accuracy(SMOOTH, friction=1e-6)
+        choice = for_accuracy(SMOOTH, friction=1e-6)
     assert not choice.confirmed
     # By the order it shows, the most would not do: it is given up early.
     assert choice.solver.points < MOST
@@ -136,14 +136,14 @@ def test_an_answer_is_kept_where_finer_grids_have_none(monkeypatch):
 
     monkeypatch.setattr(BEM, "solve", failing)
     with pytest.warns(Unconfirmed, match="friction by inf"):
-        choice = BEM.for_accuracy(SMOOTH, friction=0.01)
+        choice = for_accuracy(SMOOTH, friction=0.01)
     assert (choice.solver.points, choice.result.settings["points"]) == (2 * FIRST, 2 * FIRST)
 
 
 def test_where_no_grid_has_an_answer_the_reason_is_raised():
     finest = replace(ROUGH, shortest=1e-6)
     with pytest.raises(SolveError, match="state a longer shortest"):
-        BEM.for_accuracy(replace(SMOOTH, roughness=finest, motion=Indent(load=LOAD)), depth=0.1)
+        for_accuracy(replace(SMOOTH, roughness=finest, motion=Indent(load=LOAD)), depth=0.1)
 
 
 def test_how_fast_a_scene_slides_is_told_by_memory_over_the_shortest_length():
@@ -180,7 +180,7 @@ def test_costs_are_measured_of_every_body_and_speed_and_joined_by_a_power():
     ],
 )
 def test_every_kind_of_contact_is_promised_and_confirmed(scene, wanted):
-    choice = BEM.for_accuracy(scene, **wanted)
+    choice = for_accuracy(scene, **wanted)
     assert choice.confirmed
     assert choice.result.normal_force > 0
     ((name, most),) = wanted.items()
@@ -188,7 +188,7 @@ def test_every_kind_of_contact_is_promised_and_confirmed(scene, wanted):
 
 
 def test_a_wide_error_asks_for_no_looser_tolerance_than_a_solver_takes():
-    assert BEM.for_accuracy(SMOOTH, friction=0.9).solver.tolerance == LOOSEST
+    assert for_accuracy(SMOOTH, friction=0.9).solver.tolerance == LOOSEST
     assert BEM(tolerance=LOOSEST)
 
 
@@ -232,4 +232,4 @@ def test_two_answers_without_friction_are_alike_and_one_is_not():
 )
 def test_what_cannot_be_promised_is_said(scene, wanted, said):
     with pytest.raises(ValueError, match=said):
-        BEM.for_accuracy(scene, **wanted)
+        for_accuracy(scene, **wanted)

@@ -37,6 +37,7 @@ NOTHING = 1e-6
 # Measures that count work or tell the residual of an iteration.
 EFFORT = {"rounds", "transform_pairs", "time_steps", "heating_solves"}
 EFFORT |= {f"tangential_{name}" for name in ("applications", "residual", "rounds")}
+CONTACT = {"contact", "contact_length", "contact_fraction", "points_across_contact", "stiffness"}
 
 
 def findings(command: Callable, **options) -> pandas.DataFrame:
@@ -98,16 +99,19 @@ def numbers_of(result) -> Iterator[tuple[str, tuple[float, float]]]:
 
     That of a field is its mean under a weight that grows from 1 to 2 along it; its scale, the root mean square.
     A pressure far above that of the roughness says only that there is hardly any. An error that is far below LEAST
-    is only said to be less.
+    is only said to be less. Whether the last pixel still touches without a force is left to rounding.
     """
     forces = np.append(result.fields.get("normal_force", ()), result.normal_force)
     rounding = NOTHING * float(np.nanmax(np.abs(forces)))
     numbers = {name: getattr(result, name) for name in ("normal_force", "depth", "friction_force")}
+    left_out = EFFORT if result.normal_force else {*EFFORT, *CONTACT}
     for name, value in (numbers | dict(result.measures)).items():
-        if name not in EFFORT and not (name == "pressure_ratio" and value > 1 / NOTHING):
+        if name not in left_out and not (name == "pressure_ratio" and value > 1 / NOTHING):
             scale = LEAST if name == "friction_error" else rounding if "friction" in name else nan
             yield name, (value, scale)
     for name, field in result.fields.items():
+        if name in left_out:
+            continue
         values = np.nan_to_num(np.asarray(field, float).ravel())
         weighted = float(values @ np.linspace(1, 2, values.size)) / values.size
         scale = float(np.sqrt(np.mean(values**2)))

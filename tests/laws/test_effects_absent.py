@@ -160,10 +160,10 @@ def test_of_effects_that_are_absent_no_library_is_loaded():
 def test_what_is_steady_is_not_marched_and_what_rests_does_not_flow(solver):
     with watched() as called:
         solver.solve(PLAIN["rest"])
-    modules = ("marching", "material", "upstream", "timeline", "elements")
+    modules = ("marching", "material", "upstream", "timeline", "stepping")
     later = {f"{package(solver)}/{module}.py" for module in modules}
     drawn = {"bem3d/surface.py", "scene/surfaces/selfaffine.py"}
-    flowing = {"bem3d/memory.py march", "bem3d/krylov.py gmres", "mdr1d/maxwell.py sweep_modes"}
+    flowing = {"bem3d/memory.py march", "bem3d/krylov.py gmres", "mdr1d/steady.py sweep_modes"}
     assert not called.files & (later | drawn)
     assert not called.functions & flowing
     with watched() as called:

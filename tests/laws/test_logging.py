@@ -29,7 +29,7 @@ def test_a_solver_tells_what_it_chose_and_prints_nothing(name, caplog, capfd):
 
 def test_a_solver_that_chooses_its_grid_tells_every_grid(caplog):
     with caplog.at_level(logging.INFO, "bem3d"), pytest.warns(bem3d.Unconfirmed):
-        bem3d.BEM.for_accuracy(PRESSED, depth=1e-7)
+        bem3d.for_accuracy(PRESSED, depth=1e-7)
     told = [each.getMessage() for each in caplog.records if each.name == "bem3d.accuracy"]
     assert told[0].startswith("32 points a side")
     assert len(told) > 1

@@ -322,9 +322,14 @@ def asked(**given):
 
 
 def by_accuracy(**given):
+    def check(solver, scene, wanted):
+        raise InterruptedError(wanted)
+
     with pytest.MonkeyPatch.context() as patched:
-        patched.setattr("bem3d.accuracy.choose", lambda solver, scene, wanted: wanted)
-        return BEM.for_accuracy(SLIDING, **given)
+        patched.setattr("bem3d.accuracy._check", check)
+        with pytest.raises(InterruptedError) as asked:
+            bem3d.for_accuracy(SLIDING, **given)
+    return asked.value.args[0]
 
 
 LOADS, SPEEDS = (each.ravel() for each in np.meshgrid(np.geomspace(1, 16, 5), (0.1, 0.2, 0.4)))

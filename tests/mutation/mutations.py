@@ -1,8 +1,8 @@
 """Mutations: small wrong changes of the solvers and statistics, each of which a test has to notice.
 
 `python tests/mutation/mutations.py [--seed SEED] [--slow] [NUMBER ...]` draws sixty from the code as it stands.
-The same seed and code give the same sixty. Each is applied to a copy of the tree, whose tests run: those about
-what is changed first, then all.
+The same seed and code give the same sixty. Each is applied in turn to a copy of the tree, whose tests run: those
+about what is changed first, then all.
 """
 
 import argparse
@@ -33,27 +33,27 @@ EQUIVALENT = {
         "low * (1 + _ROUNDING)",
         "(low / (1 + _ROUNDING))",
     ): "rounds the bracket of a root by the last digit; Newton's steps end inside either",
-    ("mdr1d/maxwell.py", "u > 0.0", "(u >= 0.0)"): "at u = 0 both branches carry no displacement",
+    ("mdr1d/steady.py", "u > 0.0", "(u >= 0.0)"): "at u = 0 both branches carry no displacement",
     (
-        "mdr1d/foundation.py",
+        "mdr1d/kelvin.py",
         "t + step >= closest",
         "(t + step > closest)",
     ): "at the tie both branches return the same instant",
     ("bem3d/upstream.py", "way > 0", "(way >= 0)"): "the loop around it runs only where the way is not 0",
     (
-        "mdr1d/elements.py",
+        "mdr1d/stepping.py",
         "solid.drag > 0.0",
         "(solid.drag >= 0.0)",
     ): "the bracket closes off the load only where a dashpot makes the force jump",
     (
-        "mdr1d/foundation.py",
+        "mdr1d/ensemble.py",
         "2 * half[s] + 1",
         "(2 * half[s])",
     ): "the last node is a margin that no contact reaches",
     ("compare/statistics/commoncurve.py", "1e-12", "(2e-12)"): "singular values are of order one, or of rounding",
     ("bem3d/convolution.py", "kernels[0]", "(kernels[1])"): "only the shape is read, and all kernels have one",
     ("scene/solids/interconversion.py", "excess > 0", "(excess >= 0)"): "without an excess the root is found",
-    ("mdr1d/elements.py", "r[j] > 0.0", "(r[j] >= 0.0)"): "an element without a stretch relaxes without heat",
+    ("mdr1d/element.py", "r[j] > 0.0", "(r[j] >= 0.0)"): "an element without a stretch relaxes without heat",
     (
         "bem3d/topography.py",
         "abs(along_x / along_y - 1) > SQUARE",
@@ -65,7 +65,7 @@ EQUIVALENT = {
         "(slope >= STEEP)",
     ): "the number is a round one of order",
     ("compare/statistics/eq23.py", "high < 0", "(high <= 0)"): "no interval ends at nil",
-    ("mdr1d/maxwell.py", "slope < 0.0", "(slope <= 0.0)"): "above a level profile the surface was left before",
+    ("mdr1d/element.py", "slope < 0.0", "(slope <= 0.0)"): "above a level profile the surface was left before",
     (
         "compare/studies/topography/powerlaw.py",
         "range(count)",
@@ -169,34 +169,33 @@ def draw(seed, each=EACH):
     return chosen
 
 
-def near(mutation):
-    """Test files about the place of a change."""
-    package = mutation.path.partition("/")[0]
-    word = Path(mutation.path).stem if package == "compare" else package
-    files = sorted((ROOT / "tests").rglob("test_*.py"))
+def near(mutation, root):
+    """Test files about the place of a change, those with its name first."""
+    package, word = mutation.path.partition("/")[0], Path(mutation.path).stem
+    files = sorted((root / "tests").rglob("test_*.py"), key=lambda path: (word not in path.name, path.name))
     if package == "compare":
         return [str(path) for path in files if f".{word} import" in path.read_text() or word in path.name]
-    return [str(path) for path in files if word in path.name]
+    return [str(path) for path in files if package in path.name]
 
 
-def caught(mutation, slow):
-    """Name of the first test that fails under a change; None if all pass."""
-    with tempfile.TemporaryDirectory() as name:
-        copied = Path(name) / "tree"
-        left_out = shutil.ignore_patterns(".git", ".venv", "__pycache__", ".pytest_cache", "*.egg-info")
-        shutil.copytree(ROOT, copied, ignore=left_out)
-        place = copied / mutation.path
-        place.write_text(mutation.applied(place.read_text(encoding="utf-8")), encoding="utf-8")
-        environment = {**os.environ, "PYTHONPATH": str(copied), "NUMBA_CACHE_DIR": name}
-        marks = ["-m", "not hours"] if slow else []
-        chosen = [each.replace(str(ROOT), str(copied)) for each in near(mutation)]
+def caught(mutation, root, slow):
+    """Name of the first test that fails under a change in a copy of the tree; None if all pass."""
+    place = root / mutation.path
+    before = place.read_text(encoding="utf-8")
+    place.write_text(mutation.applied(before), encoding="utf-8")
+    try:
+        # Loops that are compiled are shared by all changes, but for those of the changed package.
+        environment = {**os.environ, "PYTHONPATH": str(root), "NUMBA_CACHE_DIR": str(root / "compiled")}
+        marks, chosen = ["-m", "not hours"] if slow else [], near(mutation, root)
         for files in ([chosen] if chosen else []) + [[]]:
-            command = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", *marks, *files]
-            done = subprocess.run(command, cwd=copied, env=environment, capture_output=True, text=True)
+            command = [sys.executable, "-P", "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", *marks, *files]
+            done = subprocess.run(command, cwd=root, env=environment, capture_output=True, text=True)
             if done.returncode:
                 lines = [line for line in done.stdout.splitlines() if line.startswith(("FAILED", "ERROR"))]
                 return lines[0] if lines else f"status {done.returncode}: {done.stdout[-300:]}{done.stderr[-300:]}"
-    return None
+        return None
+    finally:
+        place.write_text(before, encoding="utf-8")
 
 
 def main():
@@ -206,11 +205,14 @@ def main():
     parser.add_argument("--slow", action="store_true", help="with the tests that are marked slow")
     given = parser.parse_args()
     chosen = draw(given.seed)
-    for number in given.numbers or range(len(chosen)):
-        one = chosen[number]
-        print(f"{number:2d} {one.kind:12s} {one.path}:{one.line}: {one.before!r} -> {one.text!r}", flush=True)
-        why = EQUIVALENT.get((one.path, one.before, one.text), "WHY?")
-        print(f"   {caught(one, given.slow) or f'survives: {why}'}", flush=True)
+    with tempfile.TemporaryDirectory() as name:
+        left_out = shutil.ignore_patterns(".git", ".venv", "__pycache__", ".pytest_cache", "*.egg-info")
+        root = Path(shutil.copytree(ROOT, Path(name) / "tree", ignore=left_out))
+        for number in given.numbers or range(len(chosen)):
+            one = chosen[number]
+            print(f"{number:2d} {one.kind:12s} {one.path}:{one.line}: {one.before!r} -> {one.text!r}", flush=True)
+            why = EQUIVALENT.get((one.path, one.before, one.text), "WHY?")
+            print(f"   {caught(one, root, given.slow) or f'survives: {why}'}", flush=True)
 
 
 if __name__ == "__main__":

@@ -1,1 +1,1 @@
-"""The errors behind `BEM.for_accuracy`, and whether its promises are kept."""
+"""The errors behind `bem3d.for_accuracy`, and whether its promises are kept."""

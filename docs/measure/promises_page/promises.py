@@ -1,4 +1,4 @@
-"""Whether settings found by `BEM.for_accuracy` keep what was wanted, on random scenes."""
+"""Whether settings found by `bem3d.for_accuracy` keep what was wanted, on random scenes."""
 
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
@@ -7,8 +7,7 @@ from math import isfinite, nan
 
 from scipy.stats import beta
 
-from bem3d import BEM
-from bem3d.accuracy import Unconfirmed
+from bem3d import Unconfirmed, for_accuracy
 from bem3d.costs import band
 from compare.solving.outcome import Outcome, Row, row
 from compare.solving.task import SCENES, Task
@@ -59,7 +58,7 @@ class Promise(OneRow):
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", Unconfirmed)
-                choice = BEM.for_accuracy(self.scene, **{self.quantity: self.wanted})
+                choice = for_accuracy(self.scene, **{self.quantity: self.wanted})
         except (SolveError, ValueError) as reason:
             return self.failed(str(reason))
         found, error = row(choice.result), choice.error[self.quantity]

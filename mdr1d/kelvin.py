@@ -1,59 +1,24 @@
-"""Steady flow of a one-dimensional Kelvin foundation past a rigid, piecewise linear profile, solved exactly.
+"""Steady flow of a Kelvin foundation past a rigid, piecewise linear profile, in plain numbers.
 
-The elastomer enters undisturbed at the left and flows along +x. With l = v tau, the length that it travels in
-one relaxation time, and K the relaxed stiffness per length, an element displaced by u carries the force per
-length f = K (u + l u'), Eq. 5 of Popov et al., Sci. Rep. 4, 3750 (2014). Where it touches, u = d - g and
-f = K (d - g - l g') >= 0, Eq. 6; where it does not, f = 0 and u decays as exp(-x/l). In one formula,
-u(x) = max(0, max_{y <= x} (d - g(y)) exp(-(x - y)/l)), so that the force is a convex, increasing function of d.
+With l = v tau, the length that it travels in one relaxation time, an element displaced by u carries the force
+f = u + l u', Eq. 5 of Popov et al., Sci. Rep. 4, 3750 (2014). Where it touches, u = d - g and
+f = d - g - l g' >= 0, Eq. 6; where it does not, f = 0 and u decays as exp(-x/l). The sweep of `steady` does the
+same with arrays of modes: without them this is three times as fast, and most of what the paper asks is this.
 """
 
-from math import exp, expm1, inf, log, nan
-from typing import NamedTuple
+from math import exp, expm1, log, nan
 
 import numpy as np
 
-from scene import loops
 from scene.quantities import METRE, takes
 
-# How every loop of this package is compiled.
-compiled = loops.compiled(error_model="numpy")
-# Compiled for short loops that only sum: in any order, side by side, at the place of the call.
-summed = loops.compiled(error_model="numpy", fastmath={"reassoc", "contract", "nsz"}, forceinline=True)
+from .element import NOWHERE, compiled, summed
+from .steady import Contact
 
-NOWHERE = -1.0
 # Part of the lengths of an interval that squared is none.
 _CLOSE = 1e-9
 # Intervals of which it is asked together whether they touch throughout.
 _TOGETHER = 64
-
-
-class Contact(NamedTuple):
-    """Sums of one sweep, for stiffness K = 1 per length; multiply forces by K [Pa].
-
-    force : int f dx / K [m^2]
-    dissipation : friction force as the energy lost per length slid [m^2], int l u'^2 dx of a Kelvin foundation,
-        the wake included; a sum of terms >= 0, free of cancellation, and exactly zero for an elastic foundation
-    traction : the same friction force from its definition, -int g' f dx / K [m^2], Eq. 8; agrees to rounding
-    stiffness : d(force)/d(depth) [m]
-    length : of the real contact [m]
-    slope_square : int g'^2 dx over the real contact [m]
-    first, last : where contact begins and ends, from the first node [m]; nan without contact
-    displacement : u at the nodes (N,) [m]
-    touching : which nodes touch (N,)
-    pushed : in each interval between nodes, the length of the real contact [m] and int f dx / K [m^2] (N - 1, 2)
-    """
-
-    force: float
-    dissipation: float
-    traction: float
-    stiffness: float
-    length: float
-    slope_square: float
-    first: float
-    last: float
-    displacement: np.ndarray
-    touching: np.ndarray
-    pushed: np.ndarray
 
 
 @compiled
@@ -167,7 +132,7 @@ def _pressed(heights, i, pixel, memory, depth, displacement, touching, pushed):
 
 
 @compiled
-def _sweep(heights, pixel, memory, depth, displacement=None, touching=None, pushed=None):
+def flow_kelvin(heights, pixel, memory, depth, displacement=None, touching=None, pushed=None):
     decay = exp(-pixel / memory) if memory > 0.0 else 0.0
     force = traction = length = slope_square = lost = reach = 0.0
     first = last = nan
@@ -242,85 +207,6 @@ def _sweep(heights, pixel, memory, depth, displacement=None, touching=None, push
     return force, memory * slope_square + lost, traction, length + reach, length, slope_square, first, last
 
 
-@compiled
-def nearer(approach, force, stiffness, load, lower, upper, most):
-    """Next trial of the approach that carries a load, and the bracket, once one carries a force.
-
-    As if the force went on as the power of the approach that it is here: Newton's step for their logarithms. Where
-    that leaves the bracket, its middle. most : an approach that is surely enough
-    """
-    if force < load:
-        lower = approach
-    else:
-        upper = approach
-    step = approach * (load / force) ** (force / (approach * stiffness)) if force > 0.0 else inf
-    step = min(step, most)
-    if not lower < step < upper:
-        step = 0.5 * (lower + upper)
-    return step, lower, upper
-
-
-@compiled
-def _raise_heights(unit, powers, coefficient, rms, heights):
-    """Write coefficient * powers + rms * unit on both sides of the tip, above its lowest node, and return that."""
-    half, period = heights.size // 2, unit.size
-    for begin in range(0, half + 1, period):
-        end = min(begin + period, half + 1)
-        rise = powers[begin:end]
-        right, left = heights[half + begin : half + end], heights[half - end + 1 : half - begin + 1]
-        for k in range(rise.size):
-            right[k] = coefficient * rise[k] + rms * unit[k]
-            left[rise.size - 1 - k] = coefficient * rise[k] + rms * unit[-k]
-    lowest = heights.min()
-    heights -= lowest
-    return lowest
-
-
-@compiled
-def press_many(
-    unit, top, powers, pixel, half, coefficient, rms, memory, load, smooth, enough, ratio, aim, accepted, found
-):
-    """Press profiles coefficient * powers + rms * unit down with loads, as many as there are.
-
-    unit : one period of roughness (M,), top : its highest node; powers : |x|^n at the nodes from the tip on
-    half : nodes that contact may reach on each side; coefficient, rms, memory; load, over K [m^2]; smooth, the
-        depth of the smooth relaxed contact, and enough, one that surely carries the load on chords between the
-        nodes: all (scenes,)
-    aim, accepted : relative misfit of the load at which the search stops, and at which it may
-    found : misfit, friction, depth, length, span, sweeps (scenes, 6), to be filled; NaN where nothing is found
-
-    Each search starts from a ratio of the depth to the smooth one, where that makes sense: the ratio found before,
-    and at first the one given. The last is returned.
-    """
-    room = np.empty(2 * half.max() + 1)
-    for s in range(load.size):
-        heights = room[: 2 * half[s] + 1]
-        lowest = _raise_heights(unit, powers, coefficient[s], rms[s], heights)
-        # Beside the heights of roughness a tiny depth may be lost to rounding.
-        surely = max(enough[s] + rms[s] * top - lowest, enough[s])
-        approach = ratio * smooth[s] - lowest
-        if not 0.0 < approach < surely:
-            approach = surely
-        lower, upper = 0.0, inf
-        best, sweeps = inf, 0
-        found[s] = nan
-        while sweeps < 200 and lower < approach < upper:
-            force, lost, _, stiffness, length, _, first, last = _sweep(heights, pixel, memory[s], approach)
-            sweeps += 1
-            misfit = abs(force / load[s] - 1.0)
-            if misfit < best:
-                best = misfit
-                found[s, 0], found[s, 1], found[s, 2] = misfit, lost / force, approach + lowest
-                found[s, 3], found[s, 4], found[s, 5] = length, last - first, sweeps
-            elif best <= accepted:
-                break
-            if misfit <= aim:
-                break
-            approach, lower, upper = nearer(approach, force, stiffness, load[s], lower, upper, surely)
-        ratio = found[s, 2] / smooth[s]
-    return ratio
-
-
 @takes(heights=METRE, pixel=METRE, memory=METRE, depth=METRE)
 def sweep(heights, pixel: float, memory: float, depth: float) -> Contact:
     """Solve steady flow along +x past a rigid profile, linear between its nodes.
@@ -336,5 +222,5 @@ def sweep(heights, pixel: float, memory: float, depth: float) -> Contact:
     displacement = np.empty(heights.size)
     touching = np.zeros(heights.size, dtype=np.bool_)
     pushed = np.zeros((heights.size - 1, 2))
-    sums = _sweep(heights, float(pixel), float(memory), float(depth), displacement, touching, pushed)
+    sums = flow_kelvin(heights, float(pixel), float(memory), float(depth), displacement, touching, pushed)
     return Contact._make((*sums, displacement, touching, pushed))
