@@ -1,20 +1,20 @@
 """Number types of the fields of a scene: what each allows, and its unit, is declared once, here.
 
 A quantity is given as a number in SI or, in Python and in a file alike, as a string with a unit: 0.005 or "5 mm".
-In Python it may also be what other libraries hold, see `plain`. What is held is always the number in SI.
+In Python it may also be what other libraries hold, see `numeric_input`. What is held is always the number in SI.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import wraps
 from inspect import signature
 from numbers import Integral
 from typing import Annotated, Any, ParamSpec, TypeVar, get_args, get_type_hints
 
-from pydantic import BeforeValidator, ConfigDict, Field, GetCoreSchemaHandler, GetJsonSchemaHandler, create_model
+from pydantic import BeforeValidator, ConfigDict, Field, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import ArgsKwargs, CoreSchema, core_schema
 
-from .plain import NotPlain, number, numbers, one_by_one, relabelled
+from .numeric_input import NotPlain, number, numbers, one_by_one, relabelled
 from .printable import brief
 
 _P = ParamSpec("_P")
@@ -23,25 +23,25 @@ _T = TypeVar("_T")
 CLOSED = ConfigDict(extra="forbid")
 
 
-_REFUSED = (bool, str, list, tuple, dict, type(None))  # by the strict check
+_LEFT = (bool, str, list, tuple, dict, type(None))  # for the strict check to name
 
 
 def _as_float(value):
-    """Take any real number (numpy scalars too), leave the rest for the strict check to name."""
+    """Take any real number, numpy's too."""
     try:
-        return value if type(value) is float or isinstance(value, _REFUSED) else float(_bare(value, "number"))
+        return value if isinstance(value, _LEFT) else float(_bare(value, "number"))
     except OverflowError:
         raise ValueError("Input should be within the range of floating-point numbers") from None
 
 
 def _as_int(value):
-    """Take any whole number, leave the rest for the strict check to name."""
-    found = value if isinstance(value, _REFUSED) else _bare(value, "integer")
+    """Take any whole number."""
+    found = value if isinstance(value, _LEFT) else _bare(value, "integer")
     return int(found) if isinstance(found, Integral) and not isinstance(found, bool) else found
 
 
 def _bare(value, kind):
-    # numpy.bool_ and complex numbers convert to float: they are refused here.
+    # numpy.bool_ and complex numbers convert to float: reject them.
     try:
         return number(value, None)
     except NotPlain as error:
@@ -92,7 +92,7 @@ class Unit:
     def row(self, given: Any) -> tuple[Any, ...]:
         """A list of numbers, or an array of one dimension, in the same way."""
         found = one_by_one(given)
-        if isinstance(found, str) or getattr(found, "ndim", 1) == 0 or not isinstance(found, Iterable):
+        if not isinstance(found, list | tuple):
             raise ValueError("Input should be a list of numbers")
         return tuple(map(self.value, found))
 
@@ -118,10 +118,9 @@ class _Count(Unit):
     """A whole number."""
 
     def _taken(self, take, given):
-        found = super()._taken(number, given)
-        if not isinstance(found, Integral):
-            raise ValueError(f"Input should be {self.allowed}")
-        return int(found)
+        if isinstance(found := super()._taken(number, given), Integral):
+            return int(found)
+        raise ValueError(f"Input should be {self.allowed}")
 
 
 def argument(name: str, given: Any, take: Callable[[Any], _T]) -> _T:
@@ -129,8 +128,7 @@ def argument(name: str, given: Any, take: Callable[[Any], _T]) -> _T:
     try:
         return take(given)
     except ValueError as error:
-        allowed = str(error).removeprefix("Input should be ")
-        raise ValueError(f"{name} = {brief(repr(given))}: {allowed}") from None
+        raise ValueError(f"{name} = {brief(repr(given))}: {str(error).removeprefix('Input should be ')}") from None
 
 
 def takes(**units: Unit) -> Callable[[Callable[_P, _T]], Callable[_P, _T]]:
@@ -210,18 +208,12 @@ def unit_of(cls: type, field: str) -> str | None:
 
     Raises KeyError where there is no such field.
     """
-    hints = get_type_hints(cls, include_extras=True)
-    return next((unit.symbol for unit in _units(hints[field])), None)
-
-
-def some_of(types: Mapping[str, Any], stated: Mapping[str, Any]) -> dict[str, Any]:
-    """Values of what is stated that have one of these names, each as its type.
-
-    Raises ValidationError, in which a value has its name, as one of a field has.
-    """
-    found = {name: stated[name] for name in types if name in stated}
-    whole: Any = create_model("Stated", **{name: (types[name], ...) for name in found})  # type: ignore[call-overload]
-    return dict(whole(**found))
+    parts = [get_type_hints(cls, include_extras=True)[field]]
+    for part in parts:  # which grows by the arguments of each
+        if isinstance(part, Unit):
+            return part.symbol
+        parts += get_args(part)
+    return None
 
 
 def by_name(given: Any) -> dict[str, Any] | None:
@@ -229,11 +221,3 @@ def by_name(given: Any) -> dict[str, Any] | None:
     if isinstance(given, ArgsKwargs):
         return None if given.args else given.kwargs or {}
     return given if isinstance(given, dict) else None
-
-
-def _units(hint) -> Iterator[Unit]:
-    for part in get_args(hint):
-        if isinstance(part, Unit):
-            yield part
-        elif not isinstance(part, str):
-            yield from _units(part)

@@ -10,9 +10,10 @@ from typing import Any
 from unicodedata import normalize
 
 LONGEST = 100  # letters of a quantity
-PATTERN = r"^\s*[+\-−]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+\-−]?[0-9]+)?\s*[^\s0-9.,].*$"  # of a quantity, roughly
+_DIGITS = r"[+\-−]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+\-−]?[0-9]+)?"
+PATTERN = rf"^\s*{_DIGITS}\s*[^\s0-9.,].*$"  # of a quantity, roughly
 
-_NUMBER = re.compile(r"\s*([+\-−]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+\-−]?[0-9]+)?)(.*)", re.DOTALL)
+_NUMBER = re.compile(rf"\s*({_DIGITS})(.*)", re.DOTALL)
 _NAME = re.compile(r"[^\W\d_]++(?:_[^\W\d_]++)*+")
 # Names, each with a power of one digit, as mm2, mm^2 and s-1, between marks. What else pint computes is no unit.
 _UNIT = re.compile(
@@ -20,10 +21,7 @@ _UNIT = re.compile(
 )
 _GLUED = re.compile(r"(?<=[^\W\d_])(?=-?[1-9])")  # before the power of "mm2"
 _DEGREES = {"C": "degC", "F": "degF"}  # of temperatures, where pint has coulombs and farads
-_USUAL = (
-    "m mm um nm Pa MPa mPa kPa GPa N mN kN Hz kHz s ms us min rad deg K degC degF mol kg g J kJ W bar psi "
-    "meter pascal newton hertz second radian kelvin degree"
-)
+_USUAL = "m mm um nm Pa MPa mPa kPa GPa N mN kN Hz kHz s ms us min rad deg K degC mol kg J kJ W newton pascal".split()
 
 
 class Unreadable(ValueError):
@@ -100,10 +98,9 @@ def _parsed(text: str) -> Any:
 def _check_name(name):
     """Raise Unreadable for an unknown unit, and for the plural of a symbol, as Pas, which may be a product."""
     parsed = _registry().parse_unit_name
-    found, usual = parsed(name), _USUAL.split()
+    found = parsed(name)
     if not found or (len(name) <= 4 and name.endswith("s") and found[0] == (parsed(name[:-1]) or [None])[0]):
-        alike = [each for each in usual if each.casefold() == name.casefold()]
-        alike = alike or get_close_matches(name, usual, 1)
+        alike = [each for each in _USUAL if each.casefold() == name.casefold()] or get_close_matches(name, _USUAL, 1)
         question = f", did you mean {' or '.join(map(repr, alike))}?" if alike else ""
         raise Unreadable(f"no unit is called {name!r}{question}")
 

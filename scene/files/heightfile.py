@@ -25,7 +25,7 @@ from typing import Any
 
 import numpy as np
 
-from ..plain import bare, in_unit
+from ..numeric_input import bare, in_unit
 from ..printable import brief
 from ..quantities import METRE, argument
 from ..surfaces.heightmap import LEAST, sides, unmasked

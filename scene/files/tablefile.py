@@ -20,7 +20,7 @@ import numpy as np
 import pandas as pd
 from pydantic import ValidationError
 
-from ..plain import bare, in_unit
+from ..numeric_input import bare, in_unit
 from ..printable import brief
 from ..quantities import HERTZ, RADIAN_PER_SECOND, Unit
 from ..units import is_unit

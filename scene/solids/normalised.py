@@ -6,8 +6,8 @@ from typing import Annotated, Any
 from pydantic import ConfigDict, Field
 
 from ..files.tablefile import Column, filled, read_columns
-from ..quantities import CLOSED, MODULUS, ROW, SECOND, Finite, ShearModulus, Time, by_name, some_of
-from .youngs import in_shear, in_tension, or_in_tension
+from ..quantities import CLOSED, MODULUS, ROW, SECOND, Finite, ShearModulus, Time, by_name
+from .youngs import in_shear, in_tension, or_in_tension, some_of
 
 INSTANT, RELAXED = "instantaneous_modulus", "equilibrium_modulus"
 _MEANT = {"tau": "relaxation_times", "g": "moduli"}

@@ -13,7 +13,7 @@ from pydantic.dataclasses import dataclass
 from ..effects.temperature import TemperatureLaw
 from ..files.tablefile import refused
 from ..files.tabletext import FromTable, TableFormat, split_format
-from ..plain import bare
+from ..numeric_input import bare
 from ..quantities import CLOSED, Finite, ShearModulus, by_name
 from .extrapolation import Continued
 from .fit import NEGLIGIBLE, Creep, Measured, Modes, Oscillation, Stress, fitted, rms

@@ -6,9 +6,9 @@ from functools import lru_cache
 from math import inf, nextafter
 from typing import Annotated, Any
 
-from pydantic import ConfigDict, TypeAdapter, ValidationError
+from pydantic import ConfigDict, TypeAdapter, ValidationError, create_model
 
-from ..quantities import CLOSED, ROW, TENSILE_COMPLIANCE, YOUNGS, NonNegative, Positive, by_name, some_of
+from ..quantities import CLOSED, ROW, TENSILE_COMPLIANCE, YOUNGS, NonNegative, Positive, by_name
 from .viscoelastic import INCOMPRESSIBLE, PoissonRatio
 
 YoungsModulus = Annotated[Positive, YOUNGS]
@@ -55,6 +55,16 @@ def in_shear(cls: type, given: Any, *others: str) -> Any:
         ratio = INCOMPRESSIBLE
     left = {name: value for name, value in stated.items() if name not in tensile}
     return left | {pairs[name]: _each(name, value, ratio) for name, value in tensile.items()}
+
+
+def some_of(types: Mapping[str, Any], stated: Mapping[str, Any]) -> dict[str, Any]:
+    """Values of what is stated that have one of these names, each as its type.
+
+    Raises ValidationError, in which a value has its name, as one of a field has.
+    """
+    found = {name: stated[name] for name in types if name in stated}
+    whole: Any = create_model("Stated", **{name: (types[name], ...) for name in found})  # type: ignore[call-overload]
+    return dict(whole(**found))
 
 
 def or_in_tension(schema: dict[str, Any]) -> None:

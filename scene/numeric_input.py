@@ -44,12 +44,9 @@ def number(given: Any, unit: str | None, difference: bool = True) -> Any:
 
     Raises NotPlain, or Unreadable of a unit.
     """
-    if is_number(given):
-        return given
     held, own = bare(given)
     if isinstance(held, str) and unit is not None and own is None:
-        # Units take time to load, and only what has them needs them.
-        from .units import in_si
+        from .units import in_si  # takes time to load, and only what has units needs it
 
         return in_si(held, unit, difference)
     if not is_number(held):
@@ -62,21 +59,20 @@ def numbers(given: Any, unit: str | None, difference: bool = True) -> Any:
 
     Lists may hold whatever `number` takes. Raises NotPlain, or Unreadable of a unit.
     """
-    if is_number(given) or isinstance(given, str):
-        return number(given, unit, difference)
     held, own = bare(given)
+    if is_number(held) or isinstance(held, str):
+        return number(given, unit, difference)
     if isinstance(held, np.ndarray) and held.dtype.kind in "OU":
         held = held.tolist()
     if isinstance(held, list | tuple) and not _SIMPLE.issuperset(map(type, held)):
         held = [numbers(each, unit, difference) for each in held]
-    if not hasattr(held, "dtype"):
-        try:
-            held = np.asarray(held)
-        except ValueError:
-            raise NotPlain("rows of unequal lengths") from None
-    if held.dtype.kind not in _REAL:
-        raise NotPlain(f"an array of type {brief(str(held.dtype))}: real numbers are needed")
-    return in_unit(held if held.ndim else held[()], own, unit, difference)
+    try:
+        array = np.asarray(held)
+    except ValueError:
+        raise NotPlain("rows of unequal lengths") from None
+    if array.dtype.kind not in _REAL:
+        raise NotPlain(f"an array of type {brief(str(array.dtype))}: real numbers are needed")
+    return in_unit(array, own, unit, difference)
 
 
 def one_by_one(given: Any) -> Any:
@@ -98,9 +94,7 @@ def relabelled(given: Any, found: Any) -> Any:
     found : what `numbers` made of it
     """
     if np.ndim(found) and hasattr(given, "dims") and hasattr(given, "coords"):
-        labelled = given.copy(data=found)
-        labelled.attrs = {}
-        return labelled
+        return given.copy(data=found).drop_attrs(deep=False)
     same = hasattr(given, "to_numpy") and hasattr(given, "index") and bare(given)[1] is None
     return given if same else found
 
@@ -145,7 +139,7 @@ def _peeled(given):
     if own is not None and hasattr(given, "value"):  # of unyt, astropy
         return np.asarray(given.value), str(own).strip()
     if isinstance(given, np.ndarray):
-        return (given if type(given) is np.ndarray else given.view(np.ndarray)) if given.ndim else given[()], None
+        return (np.asarray(given) if given.ndim else given[()]), None
     return given, None
 
 
