@@ -42,7 +42,7 @@ def number(given: Any, unit: str | None, difference: bool = True) -> Any:
 
     unit : None where a number has none, and takes no string
 
-    Raises NotPlain, or Unreadable of a unit.
+    Raises NotPlain.
     """
     held, own = bare(given)
     if isinstance(held, str) and unit is not None and own is None:
@@ -57,7 +57,7 @@ def number(given: Any, unit: str | None, difference: bool = True) -> Any:
 def numbers(given: Any, unit: str | None, difference: bool = True) -> Any:
     """Real numbers in a unit of SI: one of them, or an array of any shape. Those without a unit stay as they are.
 
-    Lists may hold whatever `number` takes. Raises NotPlain, or Unreadable of a unit.
+    Lists may hold whatever `number` takes. Raises NotPlain.
     """
     held, own = bare(given)
     if is_number(held) or isinstance(held, str):
@@ -89,14 +89,9 @@ def one_by_one(given: Any) -> Any:
 
 
 def relabelled(given: Any, found: Any) -> Any:
-    """Numbers with the labels of what they came from, by which arrays of xarray and pandas are joined.
-
-    found : what `numbers` made of it
-    """
-    if np.ndim(found) and hasattr(given, "dims") and hasattr(given, "coords"):
-        return given.copy(data=found).drop_attrs(deep=False)
-    same = hasattr(given, "to_numpy") and hasattr(given, "index") and bare(given)[1] is None
-    return given if same else found
+    """Numbers with the labels of the array of xarray that they came from, by which such arrays are joined."""
+    labelled = np.ndim(found) and hasattr(given, "dims") and hasattr(given, "coords")
+    return given.copy(data=found).drop_attrs(deep=False) if labelled else found
 
 
 def bare(given: Any) -> tuple[Any, str | None]:
@@ -151,7 +146,7 @@ def _stated(given):
 
 
 def in_unit(held: Any, own: str | None, unit: str | None, difference: bool = True) -> Any:
-    """Numbers of one unit in another, of SI. Raises NotPlain, or Unreadable of a unit.
+    """Numbers of one unit in another, of SI. Raises NotPlain.
 
     own : None, numbers stay as they are; empty, they have no dimension
     unit : None where numbers have none

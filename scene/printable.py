@@ -22,5 +22,10 @@ def brief(text: str, most: int = LONGEST) -> str:
     return f"{line[:half]}...{line[-half:]}"
 
 
+def shown(text: object) -> str:
+    """A value in a message, a text in quotes, its middle left out where it is long."""
+    return brief(repr(text), 80)
+
+
 def _escape(letter):
     return " " if category(letter) == "Zs" else letter.encode("unicode_escape").decode("ascii")

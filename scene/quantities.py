@@ -9,12 +9,12 @@ from dataclasses import dataclass
 from functools import wraps
 from inspect import signature
 from numbers import Integral
-from typing import Annotated, Any, ParamSpec, TypeVar, get_args, get_type_hints
+from typing import Annotated, Any, ParamSpec, TypeVar
 
 from pydantic import BeforeValidator, ConfigDict, Field, GetCoreSchemaHandler, GetJsonSchemaHandler
-from pydantic_core import ArgsKwargs, CoreSchema, core_schema
+from pydantic_core import CoreSchema, core_schema
 
-from .numeric_input import NotPlain, number, numbers, one_by_one, relabelled
+from .numeric_input import NotPlain, is_number, number, numbers, one_by_one, relabelled
 from .printable import brief
 
 _P = ParamSpec("_P")
@@ -26,32 +26,28 @@ CLOSED = ConfigDict(extra="forbid")
 _LEFT = (bool, str, list, tuple, dict, type(None))  # for the strict check to name
 
 
-def _as_float(value):
-    """Take any real number, numpy's too."""
+def _real(value, kind="number"):
+    """Any real number, numpy's too."""
+    # numpy.bool_ and complex numbers convert to float: reject them.
     try:
-        return value if isinstance(value, _LEFT) else float(_bare(value, "number"))
+        found = value if isinstance(value, _LEFT) else number(value, None)
+        return float(found) if kind == "number" and is_number(found) else found
+    except NotPlain as error:
+        raise ValueError(f"Input should be a valid {kind}{f'; {error}' if str(error) else ''}") from None
     except OverflowError:
         raise ValueError("Input should be within the range of floating-point numbers") from None
 
 
-def _as_int(value):
-    """Take any whole number."""
-    found = value if isinstance(value, _LEFT) else _bare(value, "integer")
+def _whole(value):
+    """Any whole number, numpy's too."""
+    found = _real(value, "integer")
     return int(found) if isinstance(found, Integral) and not isinstance(found, bool) else found
 
 
-def _bare(value, kind):
-    # numpy.bool_ and complex numbers convert to float: reject them.
-    try:
-        return number(value, None)
-    except NotPlain as error:
-        raise ValueError(f"Input should be a valid {kind}{f'; {error}' if str(error) else ''}") from None
-
-
-Finite = Annotated[float, BeforeValidator(_as_float), Field(strict=True, allow_inf_nan=False)]
+Finite = Annotated[float, BeforeValidator(_real), Field(strict=True, allow_inf_nan=False)]
 Positive = Annotated[Finite, Field(gt=0)]
 NonNegative = Annotated[Finite, Field(ge=0)]
-Whole = Annotated[int, BeforeValidator(_as_int), Field(strict=True)]
+Whole = Annotated[int, BeforeValidator(_whole), Field(strict=True)]
 MOST_WHOLE = 2**63 - 1  # the largest whole number that files of results hold
 Seed = Annotated[Whole, Field(ge=0, le=MOST_WHOLE)]
 # Items of a tuple of numbers: an array of any library counts too, and keeps its unit.
@@ -134,7 +130,7 @@ def argument(name: str, given: Any, take: Callable[[Any], _T]) -> _T:
 def takes(**units: Unit) -> Callable[[Callable[_P, _T]], Callable[_P, _T]]:
     """Decorator of functions: arguments of these names become plain numbers or arrays in SI, as fields do.
 
-    None stays, and so do the labels of an array that has them. Raises ValueError, which names the argument.
+    None stays, and so do the labels of an array of xarray. Raises ValueError, which names the argument.
     """
 
     def decorated(function: Callable[_P, _T]) -> Callable[_P, _T]:
@@ -201,23 +197,3 @@ AbsoluteTemperature = Annotated[Positive, KELVIN]
 TemperatureDifference = Annotated[Positive, KELVIN_APART]
 Conductivity = Annotated[Positive, CONDUCTIVITY]
 MolarEnergy = Annotated[Positive, JOULE_PER_MOLE]
-
-
-def unit_of(cls: type, field: str) -> str | None:
-    """Symbol of the unit of a field of a dataclass, of each entry where there are several; None without one.
-
-    Raises KeyError where there is no such field.
-    """
-    parts = [get_type_hints(cls, include_extras=True)[field]]
-    for part in parts:  # which grows by the arguments of each
-        if isinstance(part, Unit):
-            return part.symbol
-        parts += get_args(part)
-    return None
-
-
-def by_name(given: Any) -> dict[str, Any] | None:
-    """Values stated for the fields of a dataclass, in Python or in a table, by name; None of anything else."""
-    if isinstance(given, ArgsKwargs):
-        return None if given.args else given.kwargs or {}
-    return given if isinstance(given, dict) else None

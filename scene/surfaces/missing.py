@@ -36,7 +36,7 @@ def refuse_missing(heights: np.ndarray) -> None:
         )
 
 
-def mended(
+def cleaned_heights(
     heights: np.ndarray, pixel: tuple[float, float], fill: bool, deviations: float | None = None
 ) -> tuple[np.ndarray, tuple[str, ...]]:
     """Heights of a map or a line with missing ones or outliers filled in, see `filled`; and what was done.

@@ -63,7 +63,7 @@ from scene import (
     Topography,
     Wave,
 )
-from scene.quantities import unit_of
+from scene.files.parts import unit_of
 
 # Each unit in another one, larger or smaller by a power of ten but for degrees; no dimension where there is none.
 OTHERS = {
@@ -638,7 +638,6 @@ def test_labels_of_arrays_join_what_formulas_make_of_them(quantity):
     assert found.dims in (("load", "speed"), ("speed", "load"))
     alone = equations.low_speed_friction(load=2.0, speed=0.2, **stated)
     assert float(found.isel(load=1, speed=1)) == pytest.approx(alone, rel=ROUNDING)
-    assert equations.plateau(pandas.Series([0.1, 0.2], index=[3, 4])).index.tolist() == [3, 4]
 
 
 def test_a_set_has_no_order():

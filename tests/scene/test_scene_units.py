@@ -28,8 +28,9 @@ from scene import (
     Topography,
 )
 from scene import quantities as q
+from scene.numeric_input import NotPlain
 from scene.quantities import Unit
-from scene.units import Unreadable, in_si
+from scene.units import in_si
 
 PREFIXES = {"f": -15, "p": -12, "n": -9, "u": -6, "µ": -6, "m": -3, "c": -2, "": 0, "k": 3, "M": 6, "G": 9}
 UNITS = [each for each in vars(q).values() if isinstance(each, Unit) and each.number is not None]
@@ -117,14 +118,14 @@ def test_an_absolute_temperature_has_degrees_of_any_scale(degrees):
     ],
 )
 def test_what_is_no_such_quantity_is_refused_with_a_reason(text, unit, why):
-    with pytest.raises(Unreadable) as raised:
+    with pytest.raises(NotPlain) as raised:
         in_si(text, unit)
     assert why in str(raised.value)
     assert len(str(raised.value)) < 300
 
 
 def test_a_temperature_is_no_difference():
-    with pytest.raises(Unreadable, match="difference of temperatures"):
+    with pytest.raises(NotPlain, match="difference of temperatures"):
         in_si("5 delta_degC", "K", difference=False)
 
 
