@@ -19,7 +19,7 @@ from .solids.extrapolation import REACH
 SMALL_SLOPE = 0.3  # up to which a linear theory of contact is taken at its word
 LINEAR_SLOPE = 1.0  # beyond which nothing of it is left
 LEFT_OUT = 0.1  # share of a mean square beyond an end of a measured spectrum
-LOPSIDED = 1.2  # ratio of the rms slopes along x and y above which a map is no isotropic one
+ANISOTROPIC = 1.2  # ratio of the rms slopes along x and y above which a map is no isotropic one
 
 
 class Doubtful(UserWarning):
@@ -284,9 +284,9 @@ LIMITS = (
         "the contact rests on few peaks, and differs much from surface to surface",
     ),
     Limit(
-        "lopsided",
+        "anisotropy",
         "greater over lesser rms slope along x and y",
-        LOPSIDED,
+        ANISOTROPIC,
         "",
         "1D takes the map as isotropic: it cannot tell along from across",
         beside=_slopes,

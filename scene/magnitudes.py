@@ -104,7 +104,7 @@ class Magnitudes:
         return self.rms_height / self.contact.depth
 
     @property
-    def lopsided(self) -> float:
+    def anisotropy(self) -> float:
         """Greater over lesser rms slope of a measured map along x and y."""
         least, most = sorted((self.scene.roughness.waves.rms_slope_x, self.scene.roughness.waves.rms_slope_y))
         return most / least if least else (inf if most else nan)

@@ -55,7 +55,7 @@ class OutOfMemory(MemoryError):
 
 
 @contextmanager
-def trusted():
+def numeric_guard():
     """Turn a fault of arithmetic into a SolveError: numbers so far apart that their quotients leave the range.
 
     Memory that runs out is OutOfMemory.
@@ -74,20 +74,20 @@ def trusted():
 
 
 def refuse(solver: Solver, scene: Scene) -> None:
-    """Raise Refused with every reason at once, if there is any; SolveError as `trusted`.
+    """Raise Refused with every reason at once, if there is any; SolveError as `numeric_guard`.
 
     Raises InvalidInput of what is no Scene.
     """
     if not isinstance(scene, Scene):
         raise InvalidInput(f"scene = {brief(repr(scene))}: a Scene is needed")
-    with trusted():
+    with numeric_guard():
         reasons = lacking(solver, scene)
     _raise(solver, reasons)
 
 
 def foresee(solver: Solver, scene: Scene) -> None:
     """Raise Refused and SolveError as `refuse`, and Refused where it shows beforehand that a solve would fail."""
-    with trusted():
+    with numeric_guard():
         reasons = why_not(solver, scene)
     _raise(solver, reasons)
 

@@ -18,7 +18,7 @@ from scene.files.reading import InvalidInput
 from scene.indenter import Indenter
 from scene.motion import Motion
 from scene.printable import brief
-from scene.protocol import trusted
+from scene.protocol import numeric_guard
 from scene.quantities import CLOSED, ROW, Positive, Speed, Whole
 from scene.scales import elastic_contact
 from scene.scene import fit_together
@@ -203,7 +203,7 @@ class Case:
     def refuse(self) -> None:
         """Raise NotCompared, with the reasons, if a solver lacks a part of the scene."""
         for solver in (self.mdr, self.bem):
-            with trusted():
+            with numeric_guard():
                 reasons = [why for term in terms_of(solver.terms, self.scene) for why in term.refusals(self.scene)]
             if reasons:
                 raise NotCompared(f"{solver.name} cannot solve this scene: {'; '.join(reasons)}")

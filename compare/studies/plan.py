@@ -15,7 +15,7 @@ from scene.costs import two_digits
 from scene.files.reading import InvalidInput
 from scene.plan import Plan, size
 from scene.printable import brief
-from scene.protocol import foresee, trusted
+from scene.protocol import foresee, numeric_guard
 
 from ..library.case import Case, NotCompared, doubted
 from ..library.lookup import SceneLike, case_of
@@ -134,7 +134,7 @@ class Plans(dict[str, Plan | str | Advice]):
 def _stiffness(scene):
     """Shear and Young's modulus of the solid at rest and at the instant, in words."""
     try:
-        with trusted():
+        with numeric_guard():
             rest, instant = scene.solid.static_modulus, scene.solid.glassy_modulus
     except SolveError as error:
         return f"not known: {error}"

@@ -118,7 +118,7 @@ def effects() -> tuple[Effect, ...]:
         Effect("measured topography", {"roughness": topography}, "roughness", ("Topography",)),
         Effect("plane", plane | SELF_AFFINE, "roughness"),
         Effect("layer", {"layer": {"thickness": 2e-3}}, "steady sliding", ("Layer",)),
-        Effect("temperature", WARM, "steady sliding", ("WLF", "Arrhenius")),
+        Effect("temperature", WARM, "steady sliding", ("WLF", "Arrhenius", "ShiftFactors")),
         Effect("heating, estimated", {"heating": {"conductivity": 50.0}}, "steady sliding", ("Heating",)),
         Effect("heating, fed back", WARM | fed_back, "temperature"),
         Effect("friction in the interface", RUBBED, "steady sliding", ("Coulomb",)),

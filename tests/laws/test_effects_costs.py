@@ -16,7 +16,7 @@ from compare.solving.outcome import Outcome, Row
 from mdr1d import MDR
 from scene import Layer, Program, Scene
 from scene.costs import COSTS, expected, multiples
-from scene.terms import Lacking
+from scene.terms import Unsupported
 
 TITLES = [effect.title for effect in effects()]
 
@@ -59,7 +59,7 @@ def test_plans_know_the_costs_of_every_part_that_the_solver_has():
         for kind, line in solver.terms.items():
             if kind.__name__ in unmeasured or issubclass(kind, counted):
                 continue
-            if not isinstance(line, type) and isinstance(line("", None), Lacking):
+            if not isinstance(line, type) and isinstance(line("", None), Unsupported):
                 continue
             measured = [multiples(table).get(each.__name__) for each in (kind, *kind.__subclasses__())]
             assert any(found and all(found[cost] > 0 for cost in COSTS) for found in measured), kind

@@ -107,7 +107,7 @@ BEYOND = {
     ("height_left_out", True): {"roughness": Spectrum(q=[1e3, 1e5], C2D=[1e-21, 1e-28], convention="persson")},
     ("slope_left_out", True): {"roughness": Spectrum(q=[1e3, 1e5], C2D=[1e-21, 1e-28], convention="persson")},
     ("height_over_depth", True): {"roughness": replace(ROUGH, rms_height=2e-4)},
-    ("lopsided", True): {"roughness": Topography(heights=GROOVES, pixel=1e-5, repeat="periodic")},
+    ("anisotropy", True): {"roughness": Topography(heights=GROOVES, pixel=1e-5, repeat="periodic")},
     ("spike", True): {"roughness": Topography(heights=SPIKE, pixel=1e-4)},
     ("depth_over_thickness", True): {"motion": Slide(speed=0.1, depth=5e-4), "layer": Layer(thickness=1e-3)},
     ("pressure_over_modulus", True): {"indenter": Plane(), "motion": Slide(speed=0.1, pressure=1e8)},

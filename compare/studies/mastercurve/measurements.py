@@ -9,7 +9,7 @@ import numpy as np
 import xarray
 from pydantic import ValidationError
 
-from scene.files.reading import InvalidInput, mistakes, validator
+from scene.files.reading import InvalidInput, error_text, validator
 from scene.files.stated import TableFormat
 from scene.files.tablefile import Column, Columns, read_columns
 from scene.printable import printable
@@ -66,7 +66,7 @@ class MeasuredFriction:
             columns = read_columns(path or table, COLUMNS, TableFormat(**stated))
             numbers, notes = _numbers(columns)
         except ValidationError as error:
-            lines = mistakes(error, stated, validator(TableFormat))
+            lines = error_text(error, stated, validator(TableFormat))
             raise InvalidInput("\n".join(lines)) from error
         except ValueError as error:
             raise InvalidInput(str(error)) from error
