@@ -184,6 +184,8 @@ def _cleaned(heights, pixel, asked):
     if crop is not None:
         heights, cropped = _cropped(heights, pixel, crop)
         notes = (cropped,)
+    if missing != "fill" and deviations is None:
+        return heights, notes
     heights, more = cleaned_heights(heights, pixel, missing == "fill", deviations)
     return heights, (*notes, *more)
 
