@@ -140,9 +140,8 @@ def _peeled(given):
 
 def _stated(given):
     """The unit among the attributes of an array."""
-    attributes = getattr(given, "attrs", {})
-    unit = attributes.get("units", attributes.get("unit"))
-    return None if unit is None else str(unit).strip()
+    found = [given.attrs[name] for name in ("units", "unit") if name in getattr(given, "attrs", ())]
+    return str(found[0]).strip() if found else None
 
 
 def in_unit(held: Any, own: str | None, unit: str | None, difference: bool = True) -> Any:
@@ -151,17 +150,13 @@ def in_unit(held: Any, own: str | None, unit: str | None, difference: bool = Tru
     own : None, numbers stay as they are; empty, they have no dimension
     unit : None where numbers have none
     """
-    if not own:
-        if own == "" and unit is not None:
-            raise NotPlain("this one has no dimension")
+    if own is None or (unit is None and not own):
         return held
-    reason = f"this one has the unit {brief(own)}"
+    if not own:
+        raise NotPlain("this one has no dimension")
     if unit is None:
-        raise NotPlain(reason)
+        raise NotPlain(f"this one has the unit {brief(own)}")
     from .units import scale
 
-    try:
-        one, zero = map(float, scale(own, unit, difference))
-    except ValueError as error:
-        raise NotPlain(str(error) or reason) from None
+    one, zero = map(float, scale(own, unit, difference))
     return held * one + zero if zero else held * one

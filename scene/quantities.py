@@ -14,44 +14,13 @@ from typing import Annotated, Any, ParamSpec, TypeVar
 from pydantic import BeforeValidator, ConfigDict, Field, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, core_schema
 
-from .numeric_input import NotPlain, is_number, number, numbers, one_by_one, relabelled
+from .numeric_input import number, numbers, one_by_one, relabelled
 from .printable import brief
 
 _P = ParamSpec("_P")
 _T = TypeVar("_T")
 # Unknown names are mistakes.
 CLOSED = ConfigDict(extra="forbid")
-
-
-_LEFT = (bool, str, list, tuple, dict, type(None))  # for the strict check to name
-
-
-def _real(value, kind="number"):
-    """Any real number, numpy's too."""
-    # numpy.bool_ and complex numbers convert to float: reject them.
-    try:
-        found = value if isinstance(value, _LEFT) else number(value, None)
-        return float(found) if kind == "number" and is_number(found) else found
-    except NotPlain as error:
-        raise ValueError(f"Input should be a valid {kind}{f'; {error}' if str(error) else ''}") from None
-    except OverflowError:
-        raise ValueError("Input should be within the range of floating-point numbers") from None
-
-
-def _whole(value):
-    """Any whole number, numpy's too."""
-    found = _real(value, "integer")
-    return int(found) if isinstance(found, Integral) and not isinstance(found, bool) else found
-
-
-Finite = Annotated[float, BeforeValidator(_real), Field(strict=True, allow_inf_nan=False)]
-Positive = Annotated[Finite, Field(gt=0)]
-NonNegative = Annotated[Finite, Field(ge=0)]
-Whole = Annotated[int, BeforeValidator(_whole), Field(strict=True)]
-MOST_WHOLE = 2**63 - 1  # the largest whole number that files of results hold
-Seed = Annotated[Whole, Field(ge=0, le=MOST_WHOLE)]
-# Items of a tuple of numbers: an array of any library counts too, and keeps its unit.
-ROW = BeforeValidator(one_by_one)
 
 
 @dataclass(frozen=True)
@@ -78,8 +47,11 @@ class Unit:
         return f"{self.kind}{such}{f' (in {self.symbol})' if self.symbol else ''}"
 
     def value(self, given: Any) -> Any:
-        """A string or quantity as a number in SI, a number as it is. Raises ValueError for anything else."""
-        return self._taken(number, given)
+        """A number, a string or a quantity as a float in SI. Raises ValueError for anything else."""
+        try:
+            return float(self._taken(number, given))
+        except OverflowError:
+            raise ValueError("Input should be within the range of floating-point numbers") from None
 
     def values(self, given: Any) -> Any:
         """One number or an array of any shape, in the same way."""
@@ -113,10 +85,12 @@ class Unit:
 class _Count(Unit):
     """A whole number."""
 
-    def _taken(self, take, given):
-        if isinstance(found := super()._taken(number, given), Integral):
+    def value(self, given: Any) -> Any:
+        if isinstance(found := self._taken(number, given), Integral):
             return int(found)
         raise ValueError(f"Input should be {self.allowed}")
+
+    values = value
 
 
 def argument(name: str, given: Any, take: Callable[[Any], _T]) -> _T:
@@ -152,6 +126,7 @@ def takes(**units: Unit) -> Callable[[Callable[_P, _T]], Callable[_P, _T]]:
     return decorated
 
 
+BARE, WHOLE = Unit("", "a number without a unit"), _Count("", "a whole number")
 METRE = Unit("m", "a length", "5 mm", 5e-3)
 PASCAL = Unit("Pa", "a pressure", "1.2 MPa", 1.2e6)
 SHEAR = Unit("Pa", "a shear modulus G", "1.2 MPa", 1.2e6)
@@ -169,12 +144,19 @@ RADIAN = Unit("rad", "an angle", "30 deg", 0.523599)
 HERTZ = Unit("Hz", "a frequency", "2 kHz", 2e3)
 RADIAN_PER_SECOND = Unit("rad/s", "an angular frequency (1 Hz is 2 pi rad/s)", "100 rad/s", 100.0)
 KELVIN = Unit("K", "an absolute temperature", "25 degC", 298.15, difference=False)
-BARE, WHOLE = Unit("", "a number without a unit"), _Count("", "a whole number")
 RADIAN_PER_METRE = Unit("rad/m", "a wave number (1/m are cycles)", "10 rad/mm", 1e4)
 KELVIN_APART = Unit("K", "a difference of temperatures", "0.06 K", 0.06)
 CONDUCTIVITY = Unit("W/(m K)", "a thermal conductivity", "20 W/(m K)", 20.0)
 JOULE_PER_MOLE = Unit("J/mol", "an energy per amount", "50 kJ/mol", 5e4)
 
+Finite = Annotated[float, BeforeValidator(BARE.value), Field(strict=True, allow_inf_nan=False)]
+Positive = Annotated[Finite, Field(gt=0)]
+NonNegative = Annotated[Finite, Field(ge=0)]
+Whole = Annotated[int, BeforeValidator(WHOLE.value), Field(strict=True)]
+MOST_WHOLE = 2**63 - 1  # the largest whole number that files of results hold
+Seed = Annotated[Whole, Field(ge=0, le=MOST_WHOLE)]
+# Items of a tuple of numbers: an array of any library counts too, and keeps its unit.
+ROW = BeforeValidator(one_by_one)
 Length = Annotated[Positive, METRE]
 LengthOrZero = Annotated[NonNegative, METRE]
 Pressure = Annotated[Positive, PASCAL]

@@ -61,7 +61,7 @@ def scale(given: str, unit: str, difference: bool = True) -> tuple[Decimal, Deci
         given = _DEGREES.get(given.strip(), given)
     asked, wanted = _parsed(given), _registry().parse_units(unit)
     if asked.dimensionality != wanted.dimensionality:
-        raise NotPlain
+        raise NotPlain(f"this one has the unit {given}")
     if difference and str(asked) in ("degree_Celsius", "degree_Fahrenheit"):
         raise NotPlain("degrees count from a zero of their own, and a difference is in K")
     if not difference and str(asked).startswith("delta"):

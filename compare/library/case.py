@@ -11,7 +11,7 @@ from pydantic.dataclasses import dataclass
 
 from bem3d import BEM
 from mdr1d import MDR
-from scene import Coulomb, Doubt, Heating, Layer, Refused, Scene, Slide, plain
+from scene import Coulomb, Doubt, Heating, Layer, Refused, Scene, Slide, numeric_input
 from scene.doubt import unseen
 from scene.effects.temperature import Temperature
 from scene.files.reading import InvalidInput
@@ -38,10 +38,10 @@ def _share(given: Any) -> float:
             text = given.strip()
             found = float(text.removesuffix("%")) / (100 if text.endswith("%") else 1)
         else:
-            held, unit = plain.bare(given)
+            held, unit = numeric_input.bare(given)
             percent = unit == "%"
-            found = float(plain.number(held if percent else given, None)) / (100 if percent else 1)
-    except plain.NotPlain as reason:
+            found = float(numeric_input.number(held if percent else given, None)) / (100 if percent else 1)
+    except numeric_input.NotPlain as reason:
         why = f"; {reason}" if str(reason) else ""
     except (ValueError, OverflowError):  # of a text that is no number, and of a number beyond floating point
         pass

@@ -10,10 +10,9 @@ from typing import cast
 
 from bem3d import BEM
 from mdr1d import MDR
-from scene import Refused, Scene, SolveError, markup, notes
-from scene.costs import two_digits
+from scene import Refused, Scene, SolveError, notes, printable
 from scene.files.reading import InvalidInput
-from scene.plan import Plan, size
+from scene.plan import Plan, size, two_digits
 from scene.printable import brief
 from scene.protocol import foresee, numeric_guard
 
@@ -89,8 +88,10 @@ class Plans(dict[str, Plan | str | Advice]):
     __repr__ = __str__
 
     def _repr_html_(self) -> str:
-        parts = (markup.paragraph(each) if isinstance(each, str) else each._repr_html_() for each in self.values())
-        return "".join([markup.table(list(self._summary())), *parts])
+        parts = (
+            printable.paragraph(each) if isinstance(each, str) else each._repr_html_() for each in self.values()
+        )
+        return "".join([printable.table(list(self._summary())), *parts])
 
     @property
     def _plans(self) -> dict[str, Plan]:

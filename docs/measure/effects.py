@@ -27,7 +27,7 @@ from compare.solving.task import Task
 from compare.studies.workprecision.timed import TimedSolve
 from mdr1d import MDR
 from scene import Scene, SelfAffine
-from scene.costs import COSTS, two_digits
+from scene.plan import COSTS, two_digits
 
 PAGE = Path(__file__).parents[1] / "results" / "effects.md"
 SOLVERS: Mapping[str, BEM | MDR] = {"3D": BEM(points=256, steps=40), "1D": MDR(points=5000, steps=40)}
@@ -91,7 +91,7 @@ class Cost:
 
     @property
     def multiples(self) -> dict[str, float]:
-        """By the names of `scene.costs.COSTS`: over those without the effect; of a program, for one step."""
+        """By the names of `scene.plan.COSTS`: over those without the effect; of a program, for one step."""
         steps = self.row.measures.get("time_steps", 1.0)
         applications = self.row.operator_applications / self.over.operator_applications
         return dict(zip(COSTS, (applications / steps, self.times / steps), strict=True))

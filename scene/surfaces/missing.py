@@ -12,7 +12,7 @@ NORMAL = 1.4826  # standard deviation of a normal distribution over its median a
 _NONES = re.compile(r"-999|-32768|32767|65535|-2147483648|2147483647|4294967295|-?9{4,}|-?[\d.]+e\+([3-9]|\d\d)\d")
 _METRES = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
 # How far off all others a number stands for none: over their range, and over the largest of them.
-_FAR, _FARTHER = 100.0, 10.0
+_FAR, _FARTHER = 1000.0, 10.0
 
 
 def refuse_missing(heights: np.ndarray) -> None:
@@ -52,7 +52,8 @@ def cleaned_heights(
     for value in sentinels(heights):
         same = heights == value
         notes.append(
-            f"{_share(np.count_nonzero(same), heights)} are {_in_words(value)}, far off all others, and count as missing"
+            f"{_share(np.count_nonzero(same), heights)} are {_in_words(value)}, far off all others, and count as "
+            "missing"
         )
         heights = np.where(same, np.nan, heights)
     holes = ~np.isfinite(heights)
@@ -90,7 +91,7 @@ def sentinels(heights: np.ndarray) -> list[float]:
     """Heights [m] that lie so far off all others that they stand for none: exact numbers, one at each end at most.
 
     A number that programs write for none, as -9999, 32767 or 1e38 in m, mm, um or nm, has to lie farther from all
-    others than those lie from one another; another one a hundred times as far, and to be ten times as large as any.
+    others than those lie from one another; another one a thousand times as far, and be ten times as large as any.
     Beside heights that are all alike none is far off.
     """
     known = heights[np.isfinite(heights)]

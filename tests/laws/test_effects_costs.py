@@ -15,7 +15,7 @@ from bem3d.surface import RoughSurface
 from compare.solving.outcome import Outcome, Row
 from mdr1d import MDR
 from scene import Layer, Program, Scene
-from scene.costs import COSTS, expected, multiples
+from scene.plan import COSTS, expected, multiples
 from scene.terms import Unsupported
 
 TITLES = [effect.title for effect in effects()]

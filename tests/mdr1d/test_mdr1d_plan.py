@@ -27,7 +27,7 @@ from scene import (
     Stage,
     Topography,
 )
-from scene.costs import multiples
+from scene.plan import multiples
 
 MANY = Prony(1e6, (1e6,) * 16, tuple(1e-5 * 2.0**k for k in range(16)))
 ROUGH = SelfAffine(hurst=0.2, rms_height=5e-6, longest=10e-3, shortest=0.5e-3, seed=1)

@@ -422,7 +422,7 @@ HOLES = {
     "-9999": lambda h, at: np.where(at, -9999.0, h),
     "32767": lambda h, at: np.where(at, 32767.0, np.rint(1000 * h)),
     "1e38": lambda h, at: np.where(at, 1e38, h),
-    "one number that no program writes": lambda h, at: np.where(at, 4321.0, h),
+    "one number that no program writes": lambda h, at: np.where(at, 43210.0, h),
 }
 
 
