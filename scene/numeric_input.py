@@ -119,8 +119,6 @@ def _peeled(given):
         if count := np.ma.count_masked(given):
             raise NotPlain(f"{count} of {given.size} numbers are masked: fill them in, or leave them out")
         return given.data, None
-    if isinstance(given, np.generic):
-        return given, None
     if hasattr(given, "dims") and hasattr(given, "attrs"):  # of xarray
         if not hasattr(given, "data"):
             raise NotPlain(f"a {type(given).__name__}: give one of its variables")
@@ -134,7 +132,7 @@ def _peeled(given):
     if own is not None and hasattr(given, "value"):  # of unyt, astropy
         return np.asarray(given.value), str(own).strip()
     if isinstance(given, np.ndarray):
-        return (np.asarray(given) if given.ndim else given[()]), None
+        return np.asarray(given) if given.ndim else given[()], None
     return given, None
 
 

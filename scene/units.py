@@ -12,10 +12,8 @@ from unicodedata import normalize
 from .numeric_input import NotPlain
 
 LONGEST = 100  # letters of a quantity
-_DIGITS = r"[+\-−]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+\-−]?[0-9]+)?"
-PATTERN = rf"^\s*{_DIGITS}\s*[^\s0-9.,].*$"  # of a quantity, roughly
 
-_NUMBER = re.compile(rf"\s*({_DIGITS})(.*)", re.DOTALL)
+_NUMBER = re.compile(r"\s*([+\-−]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+\-−]?[0-9]+)?)(.*)", re.DOTALL)
 _NAME = re.compile(r"[^\W\d_]++(?:_[^\W\d_]++)*+")
 # Names, each with a power of one digit, as mm2, mm^2 and s-1, between marks. What else pint computes is no unit.
 _UNIT = re.compile(
@@ -23,10 +21,7 @@ _UNIT = re.compile(
 )
 _GLUED = re.compile(r"(?<=[^\W\d_])(?=-?[1-9])")  # before the power of "mm2"
 _DEGREES = {"C": "degC", "F": "degF"}  # of temperatures, where pint has coulombs and farads
-_USUAL = (
-    *("m", "mm", "um", "nm", "Pa", "MPa", "mPa", "kPa", "GPa", "N", "mN", "kN", "Hz", "kHz", "s", "ms", "us"),
-    *("min", "rad", "deg", "K", "degC", "mol", "kg", "J", "kJ", "W", "newton", "pascal"),
-)
+_USUAL = "m mm um nm Pa MPa mPa kPa GPa N mN kN Hz kHz s ms us min rad deg K degC mol kg J kJ W newton pascal"
 
 
 def in_si(text: str, unit: str, difference: bool = True) -> float:
@@ -61,7 +56,7 @@ def scale(given: str, unit: str, difference: bool = True) -> tuple[Decimal, Deci
         given = _DEGREES.get(given.strip(), given)
     asked, wanted = _parsed(given), _registry().parse_units(unit)
     if asked.dimensionality != wanted.dimensionality:
-        raise NotPlain(f"this one has the unit {given}")
+        raise NotPlain(f"this one has the unit {given.strip()}")
     if difference and str(asked) in ("degree_Celsius", "degree_Fahrenheit"):
         raise NotPlain("degrees count from a zero of their own, and a difference is in K")
     if not difference and str(asked).startswith("delta"):
@@ -99,11 +94,10 @@ def _parsed(text: str) -> Any:
 def _check_name(name):
     """Raise NotPlain for an unknown unit, and for the plural of a symbol, as Pas, which may be a product."""
     parsed = _registry().parse_unit_name
-    found = parsed(name)
+    found, usual = parsed(name), _USUAL.split()
     if not found or (len(name) <= 4 and name.endswith("s") and found[0] == (parsed(name[:-1]) or [None])[0]):
-        alike = [each for each in _USUAL if each.casefold() == name.casefold()] or get_close_matches(
-            name, _USUAL, 1
-        )
+        alike = [each for each in usual if each.casefold() == name.casefold()]
+        alike = alike or get_close_matches(name, usual, 1)
         question = f", did you mean {' or '.join(map(repr, alike))}?" if alike else ""
         raise NotPlain(f"no unit is called {name!r}{question}")
 

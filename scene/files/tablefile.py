@@ -27,7 +27,6 @@ from ..units import is_unit
 from .stated import TableFormat
 from .tabletext import PURE, Cells, read_text
 
-MOST_BYTES = 20_000_000
 # Other quantities of one measurement: they may vary, and need not be used.
 REDUNDANT = (
     *("time", "t", "index", "point", "tan delta", "phase", "|G*|", "|E*|", "complex modulus"),
@@ -74,13 +73,12 @@ class Columns(dict[str, np.ndarray]):
 
     def refuse(self, name: str, wrong: np.ndarray, why: str) -> None:
         """Raise ValueError for the first row (rows,) in which a field is wrong."""
-        if wrong.any():
-            row = int(np.argmax(wrong))
+        for row in np.flatnonzero(wrong)[:1]:
             raise ValueError(f"{self.place(row)}: {name} = {self[name][row]:g} {why}")
 
 
 def read_columns(
-    table: Any, known: Sequence[Column], stated: TableFormat | None = None, most_bytes: int = MOST_BYTES
+    table: Any, known: Sequence[Column], stated: TableFormat | None = None, most_bytes: int = 20_000_000
 ) -> Columns:
     """Columns of a path, a DataFrame, a Dataset of xarray or a mapping of arrays. Raises ValueError, see above."""
     stated = stated or TableFormat()
@@ -99,17 +97,18 @@ def read_columns(
     unused = [name for k, name in enumerate(names) if k not in used and cells.frame[k].astype(str).any()]
     found = Columns(cells, {each: names[k] for each, k in places.items()}, unused)
     for each, unit in units.items():
-        numbers = cells.finite(places[each.field], each.gaps)
-        where = f"{cells.name}: column {shown(found.headings[each.field])}"
-        found[each.field], found.units[each.field] = _in_si(where, each, numbers, unit, si)
+        where, numbers = shown(found.headings[each.field]), cells.finite(places[each.field], each.gaps)
+        found[each.field], found.units[each.field] = _in_si(
+            f"{cells.name}: column {where}", each, numbers, unit, si
+        )
     return found
 
 
 def _of_python(table):
     if not (isinstance(table, Mapping) or hasattr(table, "columns")):
         raise ValueError(f"{shown(table)}: a path, a DataFrame, a Dataset of xarray or arrays by their names")
-    names = [*getattr(table, "variables", getattr(table, "columns", table))]  # of xarray, pandas, a mapping
-    names = [name for name in names if getattr(table[name], "ndim", 1)]  # of xarray one number may be a coordinate
+    every = getattr(table, "variables", getattr(table, "columns", table))  # of xarray, pandas, a mapping
+    names = [name for name in every if getattr(table[name], "ndim", 1)]  # of xarray one number may be a coordinate
     held = [bare(table[name]) for name in names]
     frame = pd.DataFrame({k: np.asarray(values) for k, (values, _) in enumerate(held)})
     if not frame.size:
@@ -191,8 +190,8 @@ def _unit(cells, place, column, stated):
     if unit in ("1/s", "s^-1", "s-1", "s⁻¹") and RADIAN_PER_SECOND in column.units:
         unit = "" if HERTZ in column.units else "rad/s"  # 1/s of a frequency may be either
     if unit and own and "".join(unit.split()) != "".join(own.split()):
-        where = f"{cells.name}: column {shown(cells.headings[place])}"
-        raise ValueError(f"{where} is in {shown(unit)}, and units states {shown(own)}: they must agree")
+        heading, both = shown(cells.headings[place]), f"is in {shown(unit)}, and units states {shown(own)}"
+        raise ValueError(f"{cells.name}: column {heading} {both}: they must agree")
     return unit or own
 
 

@@ -52,8 +52,7 @@ class Cells:
         """Numbers of a column. Raises ValueError for a cell that is none; gaps : but not for nan or nothing."""
         found, cells = self.numbers(column), self.frame[column]
         wrong = ~(np.isfinite(found) | (gaps & np.isnan(found)))
-        if wrong.any():
-            row = int(np.argmax(wrong))
+        for row in np.flatnonzero(wrong)[:1]:
             raise ValueError(
                 f"{self.place(row)}, column {shown(self.headings[column])}: {shown(cells.tolist()[row])} "
                 "is no number: state rows to end before it, where to leave it out, decimal, or separator"
@@ -76,12 +75,11 @@ def read_text(path: str | Path, stated: TableFormat, most_bytes: int, rectangle:
             f"{name}, line {start + 1}: {shown(lines[start])} is no heading: write one, state skip, or "
             "state the columns by number, as columns = {field = 1}"
         )
-    units = [cell.strip("[]()") for row in below for cell in row]
-    if numbered or len(units) != len(headings) or not any(map(is_unit, units)) or _has_number(units):
+    units = [cell.strip("[]()") for row in below for cell in row if not numbered]
+    if len(units) != len(headings) or not any(map(is_unit, units)) or _has_number(units):
         units = []
     frame, comma = _frame(name, lines, (start, start + (not numbered) + bool(units)), separator, stated)
-    headings = [str(k + 1) for k in frame] if numbered else headings
-    units = units or [""] * len(headings)
+    headings, units = ([str(k + 1) for k in frame] if numbered else headings), units or [""] * len(headings)
     return Cells(name, frame, headings, units, start == 0 and not numbered, comma)
 
 
@@ -96,11 +94,11 @@ def _lines(path, stated, most_bytes):
         raise ValueError(f'{name}, line {line}: {brief(str(error))}: state encoding, as "cp1252"') from None
     while lines and not lines[-1].strip(" \t;,"):  # spreadsheets write separators below a table
         lines.pop()
-    above = (k for k in range(stated.skip or 0, len(lines)) if lines[k].strip() and lines[k].lstrip()[0] != "#")
-    if (start := next(above, None)) is None:
+    below = (k for k, line in enumerate(lines) if k >= (stated.skip or 0) and line.strip()[:1] not in ("", "#"))
+    if (start := next(below, None)) is None:
         raise ValueError(f"{name}: there is no row in it")
-    outside = re.sub('"[^"]*"', "", lines[start])
-    own = next((each for each in "\t;," if each in outside and each != stated.decimal), " ")
+    unquoted = re.sub('"[^"]*"', "", lines[start]).replace(stated.decimal or " ", " ")
+    own = next((each for each in "\t;," if each in unquoted), " ")
     return name, lines, start, SEPARATORS.get(stated.separator, stated.separator) or own
 
 
@@ -135,14 +133,11 @@ def _frame(name, lines, places, separator, stated):
     commas, points = ([each for each in numbers if mark in each] for mark in ",.")
     unclear = start == body and len(points) < len(numbers) and all(map(_THOUSANDS.fullmatch, points))
     if separator == "," and (stated.decimal == "," or (unclear and stated.decimal is None)):
-        raise ValueError(
-            f"{name}: commas may stand between whole numbers or be those of decimals: state decimal, and separator"
-        )
+        raise ValueError(f"{name}: commas may stand between numbers or in decimals: state decimal, and separator")
     if stated.decimal is not None or separator not in "\t;":
         return frame, stated.decimal == ","
     if commas and (points or all(map(_THOUSANDS.fullmatch, commas))):
-        also = f", and {shown(points[0])} has a point" if points else ""
         raise ValueError(
-            f"{name}: {shown(commas[0])} may have decimals or thousands behind its comma{also}: state decimal"
+            f"{name}: {shown(commas[0])} may have decimals or thousands behind its comma: state decimal"
         )
     return frame, bool(commas)

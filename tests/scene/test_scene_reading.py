@@ -86,7 +86,7 @@ def test_a_file_says_what_python_says(tmp_path):
         ("load = 1.0", "", r"motion: none given: give exactly one of load \[N\], depth \[m\]"),
         ("load = 1.0", "pressure = 1.0", r"motion.pressure = 1 does not press a Sphere: give load \[N\] or depth"),
         ("[motion]", "[movement]", r"motion: missing, a table"),
-        ("longest = 1e-2", "longest = 1e-2\nseed = 5.0", r"seed = 5.0: .*valid integer"),
+        ("longest = 1e-2", "longest = 1e-2\nseed = 5.0", r"seed = 5.0: .*a whole number"),
         (
             "[roughness]",
             "[layer]\nthickness = 1\nbase = 'bondd'\n[roughness]",
@@ -276,16 +276,17 @@ LENGTH = 'a length, such as "5 mm" or 0.005 (in m)'
             lambda: Kelvin(-1, "1 m"),
             [
                 "modulus = -1: Input should be greater than 0",
-                "relaxation_time = '1 m': Input should be a time, such as \"1 ms\" or 0.001 (in s)",
+                "relaxation_time = '1 m': Input should be a time, such as \"1 ms\" or 0.001 (in s); "
+                "this one has the unit m",
             ],
         ),
         (lambda: Topography(HILLS, "2 um"), ["2 values without a name: 0 at most, others by name, each once"]),
         (
             lambda: Topography(heights=HILLS, pixel="2 s"),
-            [f"pixel = '2 s': Input should be {LENGTH}; or two of them, along x and y"],
+            [f"pixel = '2 s': Input should be {LENGTH}; this one has the unit s; or two of them, along x and y"],
         ),
         (lambda: Scene(1, Kelvin(1, 1), Indent(load=1)), ["indenter = 1: a table"]),
-        (lambda: BEM(points="many"), ["points = 'many': Input should be a valid integer"]),
+        (lambda: BEM(points="many"), ["points = 'many': Input should be a whole number"]),
         (lambda: MDR(shape="round"), ["shape = 'round': Input should be 'mapped' or 'as-given'"]),
     ],
 )
