@@ -137,7 +137,5 @@ def _frame(name, lines, places, separator, stated):
     if stated.decimal is not None or separator not in "\t;":
         return frame, stated.decimal == ","
     if commas and (points or all(map(_THOUSANDS.fullmatch, commas))):
-        raise ValueError(
-            f"{name}: {shown(commas[0])} may have decimals or thousands behind its comma: state decimal"
-        )
+        raise ValueError(f"{name}: {shown(commas[0])} may have decimals or thousands: state decimal")
     return frame, bool(commas)

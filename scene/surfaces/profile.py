@@ -12,10 +12,9 @@ from pydantic.dataclasses import dataclass
 from ..files.stated import FromTable, restated
 from ..quantities import CLOSED, METRE, RADIAN_PER_METRE, Length, Seed, takes
 from . import linescan
-from .form import DEGREES, ROUNDING
+from .form import DEGREES, levelled
 from .heightmap import LONGEST, SHORTEST, HeightLine, LineHeights
 from .linescan import Interval, LineLaw
-from .periodogram import taken_off
 from .scanned import QUOTIENT, level_of_what_repeats, prepared, refuse_step, schema_with_file
 from .selfaffine import SelfAffine
 
@@ -113,7 +112,7 @@ class Profile(FromTable):
     @property
     def relief(self) -> np.ndarray:
         """Heights above the elastomer along the line, levelled (N,) [m]."""
-        return _relief(self.heights, self.level) * (-1 if self.peaks == "up" else 1)
+        return levelled(self.heights.heights, self.level) * (-1 if self.peaks == "up" else 1)
 
     @property
     def side(self) -> float:
@@ -224,13 +223,6 @@ def _in_words(number: Interval, unit: str = "") -> str:
 
 
 @lru_cache(maxsize=8)
-def _relief(heights, level):
-    most = np.abs(heights.heights).max() or 1.0
-    left = taken_off(heights.heights / most, DEGREES[level])
-    return np.zeros(len(left)) if np.abs(left).max() <= ROUNDING else most * left
-
-
-@lru_cache(maxsize=8)
 def _law(heights, spacing, level, repeat):
-    relief = _relief(heights, level)
+    relief = levelled(heights.heights, level)
     return linescan.fit(relief, spacing, DEGREES[level], repeat == "periodic") if relief.any() else None

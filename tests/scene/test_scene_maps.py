@@ -19,7 +19,6 @@ from scipy.io import savemat
 from strategies import examples
 
 import scene.files.heightfile
-from compare.studies.topography.study import Map
 from scene import Measured, Profile, Scene, Topography
 from scene.files.reading import InvalidInput, read
 from scene.surfaces.form import DEGREES, levelled
@@ -208,14 +207,6 @@ def test_a_map_is_the_same_in_every_text_array_and_library(tmp_path, kind):
     found = Topography(**GIVEN[kind](heights, tmp_path))
     np.testing.assert_allclose(found.heights.heights, 1e-6 * heights, rtol=DIGITS)
     np.testing.assert_allclose(found.pixel, PIXEL, rtol=1e-9)
-
-
-@pytest.mark.parametrize("dtype", ["<f2", ">f4", ">u2", "|i1"])
-@pytest.mark.parametrize("ending", ["npy", "npz"])
-def test_numbers_of_any_real_type_and_order_are_read(tmp_path, dtype, ending):
-    heights = np.asarray((10 * np.abs(SQUARE)).astype(dtype), order="F")
-    found = Topography(file=saved(heights)(tmp_path / f"a.{ending}"), pixel=1.0, unit="nm")
-    assert np.array_equal(found.heights.heights, 1e-9 * heights.astype(float))
 
 
 class Trap:
@@ -491,18 +482,6 @@ def test_a_number_at_either_end_may_stand_for_none():
     assert sentinels(BOTH) == [-9999, 9999]
 
 
-def test_a_hole_in_a_harmonic_surface_is_filled_in_with_it():
-    # a product of cosine and cosh: to the error of second differences, a quarter on half the pixel
-    errors = []
-    for count in (20, 40):
-        y, x = np.ogrid[0.5 / count : 1 : 0.5 / count, 0.5 / count : 1 : 1 / count]
-        surface = np.cos(2 * x) * np.cosh(2 * (y - 0.25 / count))
-        hole = np.maximum(np.abs(x - 0.5), np.abs(y - 0.25 / count - 0.5)) < 0.1
-        errors.append(np.abs(filled(np.where(hole, NAN, surface), (1, 0.5)) - surface).max())
-    assert errors[1] == pytest.approx(errors[0] / 4, rel=0.25)
-    assert errors[1] < 1e-5
-
-
 INSIDE = (X > 3) & (X < 6) & (Y > 3) & (Y < 7)
 
 
@@ -622,14 +601,3 @@ def test_a_file_that_is_not_there_is_named_with_the_folder_in_which_it_was_sough
         (tmp_path / "scene.toml").write_text(FILE + f'file = "{written_}"\n')
         with pytest.raises(InvalidInput, match=said):
             read("scene.toml", Scene)
-
-
-def test_a_page_tells_what_was_done_to_a_map():
-    heights = np.ma.masked_array(noise((30, 30)), np.arange(900).reshape(30, 30) == 77)
-    study = Map.of(
-        heights, shortest_kept="4 um", pixel="1 um", unit="um", missing="fill", crop=["0 um", "20 um"] * 2
-    )
-    filled_in = "1 of 400 heights (0.25 %) were missing and are filled in"
-    assert {"cropped to 20 x 20 of 30 x 30 pixels", filled_in} < set(study.lines())
-    assert filled_in in study.notes  # which stand before the answer
-    assert study.title == "Topography of MaskedArray"

@@ -118,7 +118,7 @@ STATED = {
     "decimal": (
         [HEADED, "1,000;2,000;3,000", "2,000;3,000;4,000", "3,000;4,000;5,000"],
         {"decimal": ","},
-        "'1,000' may have decimals or thousands behind its comma: state decimal",
+        "'1,000' may have decimals or thousands: state decimal",
     ),
     "encoding": (
         ["# 25 °C", HEADED, *ROWS],

@@ -183,29 +183,6 @@ def test_scatter_beyond_the_tolerance_is_refused_until_it_is_allowed():
     assert fitted(coarse, tolerance=0.4).rms_error < 0.4
 
 
-@pytest.mark.parametrize(
-    ("change", "said"),
-    [
-        ({"frequency": (1.0, 2.0)}, r"have \[2, 46, 46\] values"),
-        ({"storage": (1e6,) * 45 + (-1.0,)}, r"storage\.45.*greater than 0"),
-        ({"loss": (1e6,) * 45 + (float("nan"),)}, r"loss\.45.*finite"),
-    ],
-)
-def test_a_wrong_table_is_refused_with_its_place(change, said):
-    with pytest.raises(InvalidInput, match=said):
-        replace(table(), **change)
-
-
-@pytest.mark.parametrize("missing", ["frequency_unit", "kind"])
-def test_the_unit_and_the_kind_must_be_said(missing):
-    settings = {"frequency_unit": "Hz", "kind": "shear"}
-    del settings[missing]
-    with pytest.raises(InvalidInput, match=rf"{missing}.*missing"):
-        Tabulated(table=table(), **settings)
-    with pytest.raises(InvalidInput, match="'rad/s' or 'Hz'"):
-        fitted(frequency_unit="rpm")
-
-
 ROWS = "\n".join(
     ["f,G',G''", *(",".join(f"{each:.17g}" for each in row) for row in zip(*columns(table()), strict=True))]
 )
