@@ -127,24 +127,8 @@ class Tabulated(FromTable, Solid):
 
     def _seen_at_rest(self):
         """Sentence on what the table shows of the modulus at rest."""
-        modes = _fit(self)[0]
-        rest = modes.equilibrium
-        fitted = f"is {rest:.2g} Pa with a standard error of {self.equilibrium_error:.2g} Pa"
-        fitted = f"and what is fitted {fitted if 0 < self.equilibrium_error < inf else 'is none'}"
-        place = self.measured()[0]
-        if isinstance(self.table, Table):
-            low, octave = modes.complex_modulus(place[0] * np.array([1.0, 2.0]))
-            liquid = "it shows a liquid, " if low.imag > low.real else ""
-            return (
-                f"{liquid}as at its lowest frequency, {min(self.table.frequency):g} {self.frequency_unit}, G'' is "
-                f"{low.imag / low.real:.2g} G' and G' grows as frequency^{np.log2(octave.real / low.real):.2g}, "
-                f"{fitted}"
-            )
-        half = place[-1] * np.array([0.5, 1.0])
-        creeps = isinstance(self.table, CreepTable)
-        early, late = modes.compliance(half) if creeps else modes.modulus(half)
-        does = "the compliance grows" if creeps else "the modulus falls"
-        return f"at its end, {place[-1]:g} s, {does} as time^{np.log2(late / early):.2g}, {fitted}"
+        rest, error = _fit(self)[0].equilibrium, self.equilibrium_error
+        return f"what is fitted is {f'{rest:.2g} Pa +- {error:.2g} Pa' if 0 < error < inf else 'none'}"
 
     def measured(self) -> tuple[np.ndarray, np.ndarray]:
         """The table in shear: angular frequencies (N,) [rad/s] ascending, and complex moduli (N,) [Pa].

@@ -142,16 +142,6 @@ def test_a_liquid_stays_a_liquid_and_a_rubber_a_solid_under_noise(count, noise):
         assert open_at_rest(*rubber, count, noise) <= ALLOWED, name
 
 
-def test_a_refusal_says_what_was_seen_at_rest():
-    law, band = LIQUIDS["two branches"]
-    omega = np.geomspace(*band, 40)
-    with pytest.raises(InvalidInput) as raised:
-        fitted(Table(omega / (2 * np.pi), law(omega).real, law(omega).imag), frequency_unit="Hz")
-    said = str(raised.value)
-    assert "it shows a liquid, as at its lowest frequency, 0.0477465 Hz, G'' is 3.7 G'" in said
-    assert "G' grows as frequency^1.7" in said
-
-
 @pytest.mark.parametrize("noise", [0.01, 0.03])
 def test_the_error_of_the_modulus_at_rest_is_that_of_many_draws(noise):
     # The table shows the plateau; misfits over what was measured, itself with noise, hide a fifth of it.
