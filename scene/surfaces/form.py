@@ -1,4 +1,4 @@
-"""Form of a map or a line of heights: its mean, plane, and polynomials of second and third degree that fit best."""
+"""Form of a map or a line of heights: its mean, plane, and polynomials of second and third degree that fit it."""
 
 from functools import lru_cache
 
