@@ -11,14 +11,11 @@ from typing import Any
 import numpy as np
 
 from .printable import brief
+from .units import NotPlain, in_si, scale
 
 _OWN = (float, int, str, bool, list, tuple, type(None))
 _SIMPLE = {float, int, np.float64}
 _REAL = "fiu"  # kinds of numpy's types
-
-
-class NotPlain(ValueError):
-    """There are no plain numbers in something; the message says why, unless that is obvious."""
 
 
 @dataclass(frozen=True)
@@ -46,8 +43,6 @@ def number(given: Any, unit: str | None, difference: bool = True) -> Any:
     """
     held, own = bare(given)
     if isinstance(held, str) and unit is not None and own is None:
-        from .units import in_si  # takes time to load, and only what has units needs it
-
         return in_si(held, unit, difference)
     if not is_number(held):
         raise NotPlain(f"an array of shape {held.shape}" if isinstance(held, np.ndarray) else "")
@@ -154,7 +149,5 @@ def in_unit(held: Any, own: str | None, unit: str | None, difference: bool = Tru
         raise NotPlain("this one has no dimension")
     if unit is None:
         raise NotPlain(f"this one has the unit {brief(own)}")
-    from .units import scale
-
     one, zero = map(float, scale(own, unit, difference))
     return held * one + zero if zero else held * one

@@ -9,8 +9,6 @@ from pathlib import Path
 from typing import Any
 from unicodedata import normalize
 
-from .numeric_input import NotPlain
-
 LONGEST = 100  # letters of a quantity
 
 _NUMBER = re.compile(r"\s*([+\-−]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+\-−]?[0-9]+)?)(.*)", re.DOTALL)
@@ -22,6 +20,10 @@ _UNIT = re.compile(
 _GLUED = re.compile(r"(?<=[^\W\d_])(?=-?[1-9])")  # before the power of "mm2"
 _DEGREES = {"C": "degC", "F": "degF"}  # of temperatures, where pint has coulombs and farads
 _USUAL = "m mm um nm Pa MPa mPa kPa GPa N mN kN Hz kHz s ms us min rad deg K degC mol kg J kJ W newton pascal"
+
+
+class NotPlain(ValueError):
+    """There are no plain numbers in something; the message says why, unless that is obvious."""
 
 
 def in_si(text: str, unit: str, difference: bool = True) -> float:

@@ -110,7 +110,6 @@ def effects() -> tuple[Effect, ...]:
     topography = {"type": "topography", **map_, "shortest_kept": ROUGH["shortest"]}
     plane = {"indenter": {"type": "plane"}, "motion": {"type": "slide", "speed": 0.1, "pressure": 2e4}}
     shear = {"motion": {"type": "shear", "load": 1.0, "displacement": 2e-5}}
-    fed_back = {"heating": {"conductivity": 0.2, "feedback": "average"}}
     return (
         Effect("steady sliding"),
         Effect("contact at rest", {"motion": {"type": "indent", "load": 1.0}}),
@@ -120,7 +119,9 @@ def effects() -> tuple[Effect, ...]:
         Effect("layer", {"layer": {"thickness": 2e-3}}, "steady sliding", ("Layer",)),
         Effect("temperature", WARM, "steady sliding", ("WLF", "Arrhenius", "ShiftFactors")),
         Effect("heating, estimated", {"heating": {"conductivity": 50.0}}, "steady sliding", ("Heating",)),
-        Effect("heating, fed back", WARM | fed_back, "temperature"),
+        Effect(
+            "heating, fed back", WARM | {"heating": {"conductivity": 0.2, "feedback": "average"}}, "temperature"
+        ),
         Effect("friction in the interface", RUBBED, "steady sliding", ("Coulomb",)),
         Effect("partial slip", shear | RUBBED, "contact at rest", ("Shear",)),
         Effect("program", _program(SLID), "contact at rest", ("Program",)),
