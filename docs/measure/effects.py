@@ -108,7 +108,6 @@ def effects() -> tuple[Effect, ...]:
     """All effects, plain contacts first."""
     map_ = {"heights": measured(), "pixel": ROUGH["longest"] / PIXELS, "repeat": "periodic", "level": "mean"}
     topography = {"type": "topography", **map_, "shortest_kept": ROUGH["shortest"]}
-    warm = WARM | {"heating": {"conductivity": 0.2, "feedback": "average"}}
     plane = {"indenter": {"type": "plane"}, "motion": {"type": "slide", "speed": 0.1, "pressure": 2e4}}
     shear = {"motion": {"type": "shear", "load": 1.0, "displacement": 2e-5}}
     return (
