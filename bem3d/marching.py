@@ -16,7 +16,7 @@ from itertools import pairwise
 import numpy as np
 
 from scene import Plane, Program, SolveError
-from scene.instants import Frames
+from scene.steps import Frames
 
 from . import contact
 from .grid import Grid
@@ -79,7 +79,7 @@ def march(
     problem : the same scene with the motion `program.held`
     tolerance : of each contact, see `contact`
     steps : of the whole program, see `timeline`
-    instants : at which the contact is kept, see `scene.instants`
+    instants : at which the contact is kept, see `scene.steps`
 
     Raises SolveError where there are too many steps, a contact does not converge or it reaches the grid's edge.
     """

@@ -6,9 +6,8 @@ from math import ceil, log10, pi, prod
 from pathlib import Path
 
 from scene import Indent, Measured, Plane, Profile, Program, Scene, Slide
-from scene.costs import at_tolerance, expected, not_known
 from scene.indenter import Axisymmetric
-from scene.plan import PIECE, Kernel, Modes, Plan, by, left_out
+from scene.plan import PIECE, Kernel, Modes, Plan, at_tolerance, by, expected, left_out, not_known
 from scene.scales import elastic_contact
 from scene.solids.viscoelastic import Linear
 from scene.surfaces.isotropic import Isotropic

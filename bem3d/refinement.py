@@ -12,9 +12,9 @@ from time import process_time
 import numpy as np
 
 from scene import Cylinder, Plane, Program, Refused, Result, SolveError
-from scene.protocol import trusted
+from scene.protocol import numeric_guard
 from scene.quantities import WHOLE, takes
-from scene.terms import surrounded, terms_of
+from scene.terms import terms_of, wrap_solve
 
 from . import frictionerror, wake, window
 from .grid import Grid, Piece
@@ -74,8 +74,8 @@ def refined(solver, result: Result, times: int = 2) -> Result:
     def answered(scene):
         return _refined(solver, scene, _grid_of(result.fields), fields, steps)
 
-    with trusted():
-        return surrounded(answered, terms_of(solver.terms, result.scene))(result.scene)
+    with numeric_guard():
+        return wrap_solve(answered, terms_of(solver.terms, result.scene))(result.scene)
 
 
 def _refusals(result):

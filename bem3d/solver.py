@@ -13,9 +13,9 @@ from pydantic.dataclasses import dataclass
 from scene import Cylinder, Doubt, Plane, Program, Result, Scene, SolveError, doubts
 from scene.machine import shortage
 from scene.plan import Plan
-from scene.protocol import refuse, trusted
+from scene.protocol import numeric_guard, refuse
 from scene.quantities import CLOSED, Length, Positive, Whole
-from scene.terms import Table, surrounded, terms_of
+from scene.terms import Table, terms_of, wrap_solve
 
 from . import frictionerror, window
 from .engine import Engine, Library
@@ -168,7 +168,7 @@ class BEM:
         of numbers. For which other reasons a solve would fail, as far as that shows beforehand, `foreseen` says.
         """
         refuse(self, scene)
-        with trusted():
+        with numeric_guard():
             return replace(plan_of(self, scene), doubts=self.doubts(scene))
 
     def solve(self, scene: Scene, trail: Trail | None = None) -> Result:
@@ -182,8 +182,8 @@ class BEM:
         """
         refuse(self, scene)
         solve = partial(self._solved, trail=trail)
-        with trusted():
-            result = surrounded(solve, terms_of(self.terms, scene))(scene)
+        with numeric_guard():
+            result = wrap_solve(solve, terms_of(self.terms, scene))(scene)
         if not np.isfinite([result.normal_force, result.friction_force]).all():
             raise SolveError("forces beyond the range of numbers; check the units of the scene")
         _LOG.info("answered with %s", result.settings)

@@ -12,8 +12,8 @@ import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 
 from scene import Plane, Result, Scene, SolveError
+from scene.effects.terms import Rubbed
 from scene.plan import Kernel, Plan
-from scene.rubbed import Rubbed
 
 from . import cerruti, stickslip
 from .contact import NotConverged

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from scene import Kelvin, Scene, SelfAffine, Slide, SolveError
-from scene.protocol import trusted
+from scene.protocol import numeric_guard
 from scene.scales import elastic_contact
 
 from .domain import whole
@@ -49,7 +49,7 @@ class Answers:
     sweeps: np.ndarray
 
 
-@trusted()
+@numeric_guard()
 def solve_profiles(scenes: Sequence[Scene], points: Sequence[int], seeds: Sequence[int]) -> Answers:
     """Solve every scene on the profiles of all seeds, repeated as far as contact goes.
 

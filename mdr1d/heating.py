@@ -1,6 +1,6 @@
 """Frictional heating in one dimension: that of every solver."""
 
-from scene.effects.heated import Heated
+from scene.effects.terms import Heated
 
 from .term import Term
 

@@ -14,7 +14,7 @@ from math import expm1
 import numpy as np
 
 from scene import Program, SolveError
-from scene.instants import Frames
+from scene.steps import Frames
 
 from .element import Solid
 from .indentation import ACCEPTED
@@ -68,7 +68,7 @@ def march(program: Program, body: Profile, modes: Modes, modulus: float, steps: 
 
     modulus : relaxed, of the foundation [Pa]
     steps : of the whole program, see `timeline`
-    instants : at which the elements are kept, see `scene.instants`
+    instants : at which the elements are kept, see `scene.steps`
 
     Raises SolveError where there are too many steps, the contact leaves the grid, or rounding spoils the answer.
     """

@@ -4,9 +4,8 @@ from math import ceil
 from pathlib import Path
 
 from scene import Indent, Profile, Program, Scene, Slide
-from scene.costs import expected
 from scene.indenter import Axisymmetric
-from scene.plan import PIECE, Modes, Plan, left_out
+from scene.plan import PIECE, Modes, Plan, expected, left_out
 from scene.solids.viscoelastic import Linear
 from scene.surfaces.isotropic import Isotropic
 from scene.terms import terms_of

@@ -13,10 +13,10 @@ from pydantic.dataclasses import dataclass
 from scene import Doubt, EmptyContact, Program, Result, Scene, SolveError, doubts
 from scene.machine import shortage
 from scene.plan import Plan
-from scene.protocol import refuse, trusted
+from scene.protocol import numeric_guard, refuse
 from scene.quantities import CLOSED, Length, Whole
 from scene.surfaces.roughness import Roughness
-from scene.terms import Table, surrounded, terms_of
+from scene.terms import Table, terms_of, wrap_solve
 
 from .accuracy import friction_error
 from .history import at_greatest, marched
@@ -137,7 +137,7 @@ class MDR:
         Raises Refused as `solve` does, and SolveError for a program of too many steps or lengths beyond the range
         of numbers. For which other reasons a solve would fail, as far as that shows beforehand, `foreseen` says.
         """
-        with trusted():
+        with numeric_guard():
             refuse(self, scene)
             return replace(plan_of(self, scene, self._laid_out(scene)), doubts=self.doubts(scene))
 
@@ -148,9 +148,9 @@ class MDR:
         asperity; SolveError if the contact leaves the grid, or a smooth one spans too few of its pixels;
         OutOfMemory where memory ran out.
         """
-        with trusted():
+        with numeric_guard():
             refuse(self, scene)
-            result = surrounded(self._solved, terms_of(self.terms, scene))(scene)
+            result = wrap_solve(self._solved, terms_of(self.terms, scene))(scene)
             if not np.isfinite([result.normal_force, result.friction_force]).all():
                 raise ArithmeticError("forces beyond the range of numbers")
             _LOG.info("answered with %s", result.settings)

@@ -11,8 +11,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from scene import Result, Scene, SolveError
+from scene.effects.terms import Rubbed
 from scene.plan import Plan
-from scene.rubbed import Rubbed
 
 from .term import Term
 

@@ -19,7 +19,7 @@ from scene.effects.temperature import TemperatureLaw
 from scene.indenter import Axisymmetric
 from scene.solids.viscoelastic import Linear
 from scene.surfaces.isotropic import Isotropic
-from scene.terms import Table, lacking
+from scene.terms import Table, unsupported
 
 from .heating import HeatedContact
 from .measuredline import FittedRoughness
@@ -29,15 +29,15 @@ from .topography import MeasuredRoughness
 
 __all__ = ["TERMS", "Term"]
 
-NO_BODY = lacking(
+NO_BODY = unsupported(
     "it is no body of revolution, so it has no one-dimensional profile: use a Sphere, Cone or PowerLaw, or a "
     "three-dimensional solver"
 )
-NOT_ISOTROPIC = lacking(
+NOT_ISOTROPIC = unsupported(
     "it is not isotropic, so no one-dimensional spectrum stands for it: use SelfAffine, or a three-dimensional "
     "solver"
 )
-NO_LAYER = lacking(
+NO_LAYER = unsupported(
     "its stiffness against a contact is no sum over lengths, so no one-dimensional foundation has the same force "
     "at every depth: leave layer out, or use a three-dimensional solver"
 )

@@ -1,9 +1,7 @@
 """The shared vocabulary: what is asked of a contact, what is answered, and nothing of how."""
 
 from .doubt import Doubt, Doubtful, doubts, notes
-from .effects.heating import Heating
-from .effects.interface import Coulomb
-from .effects.layer import Layer
+from .effects.parts import Coulomb, Heating, Layer
 from .effects.temperature import WLF, Arrhenius, ShiftFactors
 from .files.reading import InvalidInput
 from .indenter import Cone, Cylinder, Plane, PowerLaw, Sphere

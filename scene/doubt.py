@@ -6,6 +6,7 @@ One list of limits for every command and both solvers; nothing is solved for it.
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from math import isfinite, nan
+from operator import attrgetter
 from typing import Any
 
 import numpy as np
@@ -19,7 +20,7 @@ from .solids.extrapolation import REACH
 SMALL_SLOPE = 0.3  # up to which a linear theory of contact is taken at its word
 LINEAR_SLOPE = 1.0  # beyond which nothing of it is left
 LEFT_OUT = 0.1  # share of a mean square beyond an end of a measured spectrum
-LOPSIDED = 1.2  # ratio of the rms slopes along x and y above which a map is no isotropic one
+ANISOTROPIC = 1.2  # ratio of the rms slopes along x and y above which a map is no isotropic one
 
 
 class Doubtful(UserWarning):
@@ -57,7 +58,7 @@ class Doubt:
 class Limit:
     """One end of what a number of `Magnitudes` may be.
 
-    number : its name there; name : in words; limit, unit, why : of the `Doubt` beyond it
+    number : its name there, with dots; name : in words; limit, unit, why : of the `Doubt` beyond it
     most : whether it is the upper end
     meant : units that people forget to state, with what makes SI of them
     beside : further numbers in words
@@ -74,7 +75,7 @@ class Limit:
 
     def doubt(self, found: Magnitudes) -> Doubt | None:
         """Doubt about a scene; None within the limit, and where the scene has no such number."""
-        number = _known(lambda: float(getattr(found, self.number)), nan)
+        number = _known(lambda: float(attrgetter(self.number)(found)), nan)
         if not self.broken(number):
             return None
         guesses = (f"is {number:g} {unit} meant?" for unit, si in self.meant if not self.broken(si(number)))
@@ -158,7 +159,7 @@ LARGE = "larger than tyres and wheels"
 
 
 def _size(found):
-    return f"radius of the contact {found.contact_radius:.3g} m, depth {found.depth:.3g} m"
+    return f"radius of the contact {found.contact.radius:.3g} m, depth {found.contact.depth:.3g} m"
 
 
 def _slopes(found):
@@ -213,29 +214,53 @@ LIMITS = (
         "the table ends before the plateau: measure at lower frequencies, or state equilibrium_modulus",
         beside=_readings,
     ),
-    Limit("temperature", "temperature", COLDEST, "K", COLD, False, (DEGC,)),
-    Limit("temperature", "temperature", 1000.0, "K", HOT),
-    Limit("reference", "reference temperature", COLDEST, "K", COLD, False, (DEGC,)),
-    Limit("reference", "reference temperature", 1000.0, "K", HOT),
-    Limit("activation_energy", "activation energy", 1e3, "J/mol", "less than heat itself gives", False, (KJ,)),
-    Limit("activation_energy", "activation energy", 1e6, "J/mol", "more than a chemical bond takes"),
-    Limit("c1", "c1", 1.0, "", POLYMERS, False),
-    Limit("c1", "c1", 100.0, "", POLYMERS),
-    Limit("c2", "c2", 5.0, "K", POLYMERS, False),
-    Limit("c2", "c2", 1000.0, "K", POLYMERS),
-    Limit("modulus_at_rest", "shear modulus at rest", 1e3, "Pa", SOFT, False, (MPA,)),
-    Limit("modulus_at_rest", "shear modulus at rest", 1e11, "Pa", HARD),
+    Limit("scene.temperature.temperature", "temperature", COLDEST, "K", COLD, False, (DEGC,)),
+    Limit("scene.temperature.temperature", "temperature", 1000.0, "K", HOT),
+    Limit("scene.temperature.reference", "reference temperature", COLDEST, "K", COLD, False, (DEGC,)),
+    Limit("scene.temperature.reference", "reference temperature", 1000.0, "K", HOT),
+    Limit(
+        "scene.temperature.activation_energy",
+        "activation energy",
+        1e3,
+        "J/mol",
+        "less than heat itself gives",
+        False,
+        (KJ,),
+    ),
+    Limit(
+        "scene.temperature.activation_energy", "activation energy", 1e6, "J/mol", "more than a chemical bond takes"
+    ),
+    Limit("scene.temperature.c1", "c1", 1.0, "", POLYMERS, False),
+    Limit("scene.temperature.c1", "c1", 100.0, "", POLYMERS),
+    Limit("scene.temperature.c2", "c2", 5.0, "K", POLYMERS, False),
+    Limit("scene.temperature.c2", "c2", 1000.0, "K", POLYMERS),
+    Limit("scene.solid.static_modulus", "shear modulus at rest", 1e3, "Pa", SOFT, False, (MPA,)),
+    Limit("scene.solid.static_modulus", "shear modulus at rest", 1e11, "Pa", HARD),
     Limit("modulus_at_the_instant", "shear modulus at the instant", 1e11, "Pa", HARD),
-    Limit("body_radius", "radius of the body", 1.0, "m", LARGE, meant=(MM, UM)),
-    Limit("body_radius", "radius of the body", 1e-9, "m", ATOMS, False),
-    Limit("thickness", "thickness of the layer", 1.0, "m", "thicker than any layer of rubber", meant=(MM, UM)),
-    Limit("thickness", "thickness of the layer", 1e-9, "m", ATOMS, False),
-    Limit("longest", "longest wave of the roughness", 1.0, "m", "no roughness of a contact", meant=(MM, UM)),
+    Limit("scene.indenter.radius", "radius of the body", 1.0, "m", LARGE, meant=(MM, UM)),
+    Limit("scene.indenter.radius", "radius of the body", 1e-9, "m", ATOMS, False),
+    Limit(
+        "scene.layer.thickness",
+        "thickness of the layer",
+        1.0,
+        "m",
+        "thicker than any layer of rubber",
+        meant=(MM, UM),
+    ),
+    Limit("scene.layer.thickness", "thickness of the layer", 1e-9, "m", ATOMS, False),
+    Limit(
+        "scene.roughness.period",
+        "longest wave of the roughness",
+        1.0,
+        "m",
+        "no roughness of a contact",
+        meant=(MM, UM),
+    ),
     Limit("shortest", "shortest wave of the roughness", 1e-9, "m", ATOMS, False),
     Limit("rms_height", "rms height of the roughness", 1e-10, "m", ATOM, False),
-    Limit("coefficient", "coefficient of friction", 10.0, "", "no dry pair of bodies has it"),
-    Limit("conductivity", "conductivity", 1e-2, "W/(m K)", "less than that of still air", False),
-    Limit("conductivity", "conductivity", 3e3, "W/(m K)", "more than that of diamond"),
+    Limit("scene.interface.coefficient", "coefficient of friction", 10.0, "", "no dry pair of bodies has it"),
+    Limit("scene.heating.conductivity", "conductivity", 1e-2, "W/(m K)", "less than that of still air", False),
+    Limit("scene.heating.conductivity", "conductivity", 3e3, "W/(m K)", "more than that of diamond"),
     Limit(
         "mach",
         "speed over that of shear waves",
@@ -244,9 +269,9 @@ LIMITS = (
         "neither model has inertia",
         beside=lambda found: f"speed {found.speed:g} m/s",
     ),
-    Limit("contact_radius", "radius of the contact", 1.0, "m", LARGE),
-    Limit("contact_radius", "radius of the contact", 1e-9, "m", ATOMS, False),
-    Limit("depth", "depth of the contact", 1e-10, "m", ATOM, False),
+    Limit("contact.radius", "radius of the contact", 1.0, "m", LARGE),
+    Limit("contact.radius", "radius of the contact", 1e-9, "m", ATOMS, False),
+    Limit("contact.depth", "depth of the contact", 1e-10, "m", ATOM, False),
     Limit("edge_slope", "slope of the body at the edge of the contact", SMALL_SLOPE, "", LINEAR, beside=_size),
     Limit(
         "edge_slope",
@@ -284,9 +309,9 @@ LIMITS = (
         "the contact rests on few peaks, and differs much from surface to surface",
     ),
     Limit(
-        "lopsided",
+        "anisotropy",
         "greater over lesser rms slope along x and y",
-        LOPSIDED,
+        ANISOTROPIC,
         "",
         "1D takes the map as isotropic: it cannot tell along from across",
         beside=_slopes,

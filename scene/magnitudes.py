@@ -45,21 +45,6 @@ class Magnitudes:
         )
 
     @property
-    def body_radius(self) -> float:
-        """Radius of a sphere or a cylinder [m]."""
-        return self.scene.indenter.radius
-
-    @property
-    def contact_radius(self) -> float:
-        """Radius of the contact [m]."""
-        return self.contact.radius
-
-    @property
-    def depth(self) -> float:
-        """Depth of the contact [m]."""
-        return self.contact.depth
-
-    @property
     def edge_slope(self) -> float:
         """Slope of the body at the edge of the contact."""
         body, solid = self.scene.indenter, self.scene.elastomer
@@ -104,7 +89,7 @@ class Magnitudes:
         return self.rms_height / self.contact.depth
 
     @property
-    def lopsided(self) -> float:
+    def anisotropy(self) -> float:
         """Greater over lesser rms slope of a measured map along x and y."""
         least, most = sorted((self.scene.roughness.waves.rms_slope_x, self.scene.roughness.waves.rms_slope_y))
         return most / least if least else (inf if most else nan)
@@ -119,35 +104,24 @@ class Magnitudes:
         return np.abs(relief - relief.mean()).max() / deviation if deviation else nan
 
     @property
-    def longest(self) -> float:
-        """Length after which roughness repeats [m]."""
-        return self.scene.roughness.period
-
-    @property
     def shortest(self) -> float:
         """Shortest wave of the roughness [m]."""
         return nan if self.scene.roughness.shortest is None else self.scene.roughness.shortest
 
     @property
-    def thickness(self) -> float:
-        """Thickness of the layer [m]."""
-        return self.scene.layer.thickness
-
-    @property
     def depth_over_thickness(self) -> float:
         """Prescribed depth over the thickness of the layer."""
-        return nan if self.scene.motion.pressed_by != "depth" else self.scene.motion.greatest / self.thickness
+        return (
+            nan
+            if self.scene.motion.pressed_by != "depth"
+            else self.scene.motion.greatest / self.scene.layer.thickness
+        )
 
     @property
     def pressure_over_modulus(self) -> float:
         """Mean pressure on a plane over the modulus E* at rest."""
         motion = self.scene.motion
         return motion.greatest / self.scene.solid.indentation_modulus if motion.pressed_by == "pressure" else nan
-
-    @property
-    def modulus_at_rest(self) -> float:
-        """Relaxed modulus in shear [Pa]."""
-        return self.scene.solid.static_modulus
 
     @property
     def modulus_at_the_instant(self) -> float:
@@ -164,7 +138,7 @@ class Magnitudes:
     @property
     def length(self) -> float:
         """Length that is slid over: the radius of the contact, of a plane the period [m]."""
-        return self.longest if isinstance(self.scene.indenter, Plane) else self.contact.radius
+        return self.scene.roughness.period if isinstance(self.scene.indenter, Plane) else self.contact.radius
 
     @cached_property
     def modulus_at_speed(self) -> float:
@@ -174,7 +148,7 @@ class Magnitudes:
     @property
     def stiffening(self) -> float:
         """Modulus in the contact over the modulus at rest."""
-        return self.modulus_at_speed / self.modulus_at_rest
+        return self.modulus_at_speed / self.scene.solid.static_modulus
 
     @property
     def mach(self) -> float:
@@ -189,7 +163,7 @@ class Magnitudes:
             power = 1 / 2 if isinstance(body, Cylinder) else 1 / (body.exponent + 1)
             for _ in range(AGREED):
                 omega = self.speed / self.length * stiffer**power
-                stiffer = abs(complex(self.scene.solid.complex_modulus(omega))) / self.modulus_at_rest
+                stiffer = abs(complex(self.scene.solid.complex_modulus(omega))) / self.scene.solid.static_modulus
             return self.length / stiffer**power
         return self.length
 
@@ -279,38 +253,3 @@ class Magnitudes:
         solid, middle = self.scene.solid, sqrt(self.frequencies[0] * self.frequencies[-1])
         geometric_mean = sqrt(solid.static_modulus) * sqrt(solid.glassy_modulus)
         return "glassy" if abs(complex(solid.complex_modulus(middle))) > geometric_mean else "relaxed"
-
-    @property
-    def temperature(self) -> float:
-        """Temperature [K]."""
-        return self.scene.temperature.temperature
-
-    @property
-    def reference(self) -> float:
-        """Temperature at which the elastomer is stated [K]."""
-        return self.scene.temperature.reference
-
-    @property
-    def c1(self) -> float:
-        """First constant of the law of Williams, Landel and Ferry."""
-        return self.scene.temperature.c1
-
-    @property
-    def c2(self) -> float:
-        """Second constant [K]."""
-        return self.scene.temperature.c2
-
-    @property
-    def activation_energy(self) -> float:
-        """Activation energy [J/mol]."""
-        return self.scene.temperature.activation_energy
-
-    @property
-    def coefficient(self) -> float:
-        """Coefficient of friction of the interface."""
-        return self.scene.interface.coefficient
-
-    @property
-    def conductivity(self) -> float:
-        """Conductivity of the indenter [W/(m K)]."""
-        return self.scene.heating.conductivity

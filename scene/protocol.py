@@ -55,7 +55,7 @@ class OutOfMemory(MemoryError):
 
 
 @contextmanager
-def trusted():
+def numeric_guard():
     """Turn a fault of arithmetic into a SolveError: numbers so far apart that their quotients leave the range.
 
     Memory that runs out is OutOfMemory.
@@ -74,22 +74,18 @@ def trusted():
 
 
 def refuse(solver: Solver, scene: Scene) -> None:
-    """Raise Refused with every reason at once, if there is any; SolveError as `trusted`.
+    """Raise Refused with every reason at once, if there is any; SolveError as `numeric_guard`.
 
     Raises InvalidInput of what is no Scene.
     """
     if not isinstance(scene, Scene):
         raise InvalidInput(f"scene = {brief(repr(scene))}: a Scene is needed")
-    with trusted():
-        reasons = lacking(solver, scene)
-    _raise(solver, reasons)
+    _raise(solver, scene, lacking)
 
 
 def foresee(solver: Solver, scene: Scene) -> None:
     """Raise Refused and SolveError as `refuse`, and Refused where it shows beforehand that a solve would fail."""
-    with trusted():
-        reasons = why_not(solver, scene)
-    _raise(solver, reasons)
+    _raise(solver, scene, why_not)
 
 
 def why_not(solver: Solver, scene: Scene) -> list[str]:
@@ -102,6 +98,8 @@ def lacking(solver: Solver, scene: Scene) -> list[str]:
     return getattr(solver, "refusals", lambda scene: [])(scene)
 
 
-def _raise(solver, reasons):
-    if reasons:
-        raise Refused(f"{solver.name} cannot solve this scene: " + "; ".join(reasons))
+def _raise(solver, scene, reasons):
+    with numeric_guard():
+        found = reasons(solver, scene)
+    if found:
+        raise Refused(f"{solver.name} cannot solve this scene: " + "; ".join(found))

@@ -1,61 +1,26 @@
 """Number types of the fields of a scene: what each allows, and its unit, is declared once, here.
 
 A quantity is given as a number in SI or, in Python and in a file alike, as a string with a unit: 0.005 or "5 mm".
-In Python it may also be what other libraries hold, see `plain`. What is held is always the number in SI.
+In Python it may also be what other libraries hold, see `numeric_input`. What is held is always the number in SI.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import wraps
 from inspect import signature
 from numbers import Integral
-from typing import Annotated, Any, ParamSpec, TypeVar, get_args, get_type_hints
+from typing import Annotated, Any, ParamSpec, TypeVar
 
-from pydantic import BeforeValidator, ConfigDict, Field, GetCoreSchemaHandler, GetJsonSchemaHandler, create_model
-from pydantic_core import ArgsKwargs, CoreSchema, core_schema
+from pydantic import BeforeValidator, ConfigDict, Field, GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic_core import CoreSchema, core_schema
 
-from .plain import NotPlain, number, numbers, one_by_one, relabelled
+from .numeric_input import number, numbers, one_by_one, relabelled
 from .printable import brief
 
 _P = ParamSpec("_P")
 _T = TypeVar("_T")
 # Unknown names are mistakes.
 CLOSED = ConfigDict(extra="forbid")
-
-
-_REFUSED = (bool, str, list, tuple, dict, type(None))  # by the strict check
-
-
-def _as_float(value):
-    """Take any real number (numpy scalars too), leave the rest for the strict check to name."""
-    try:
-        return value if type(value) is float or isinstance(value, _REFUSED) else float(_bare(value, "number"))
-    except OverflowError:
-        raise ValueError("Input should be within the range of floating-point numbers") from None
-
-
-def _as_int(value):
-    """Take any whole number, leave the rest for the strict check to name."""
-    found = value if isinstance(value, _REFUSED) else _bare(value, "integer")
-    return int(found) if isinstance(found, Integral) and not isinstance(found, bool) else found
-
-
-def _bare(value, kind):
-    # numpy.bool_ and complex numbers convert to float: they are refused here.
-    try:
-        return number(value, None)
-    except NotPlain as error:
-        raise ValueError(f"Input should be a valid {kind}{f'; {error}' if str(error) else ''}") from None
-
-
-Finite = Annotated[float, BeforeValidator(_as_float), Field(strict=True, allow_inf_nan=False)]
-Positive = Annotated[Finite, Field(gt=0)]
-NonNegative = Annotated[Finite, Field(ge=0)]
-Whole = Annotated[int, BeforeValidator(_as_int), Field(strict=True)]
-MOST_WHOLE = 2**63 - 1  # the largest whole number that files of results hold
-Seed = Annotated[Whole, Field(ge=0, le=MOST_WHOLE)]
-# Items of a tuple of numbers: an array of any library counts too, and keeps its unit.
-ROW = BeforeValidator(one_by_one)
 
 
 @dataclass(frozen=True)
@@ -82,8 +47,11 @@ class Unit:
         return f"{self.kind}{such}{f' (in {self.symbol})' if self.symbol else ''}"
 
     def value(self, given: Any) -> Any:
-        """A string or quantity as a number in SI, a number as it is. Raises ValueError for anything else."""
-        return self._taken(number, given)
+        """A number, a string or a quantity as a float in SI. Raises ValueError for anything else."""
+        try:
+            return float(self._taken(number, given))
+        except OverflowError:
+            raise ValueError("Input should be within the range of floating-point numbers") from None
 
     def values(self, given: Any) -> Any:
         """One number or an array of any shape, in the same way."""
@@ -92,7 +60,7 @@ class Unit:
     def row(self, given: Any) -> tuple[Any, ...]:
         """A list of numbers, or an array of one dimension, in the same way."""
         found = one_by_one(given)
-        if isinstance(found, str) or getattr(found, "ndim", 1) == 0 or not isinstance(found, Iterable):
+        if not isinstance(found, list | tuple):
             raise ValueError("Input should be a list of numbers")
         return tuple(map(self.value, found))
 
@@ -107,9 +75,7 @@ class Unit:
         return core_schema.no_info_before_validator_function(self.value, handler(source))
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        from .units import PATTERN
-
-        plain, written = handler(schema), {"type": "string", "pattern": PATTERN, "examples": [self.example]}
+        plain, written = handler(schema), {"type": "string", "examples": [self.example]}
         kinds = {"anyOf": [plain, written]} if self.example else plain
         return kinds | {"description": self.allowed}
 
@@ -117,11 +83,12 @@ class Unit:
 class _Count(Unit):
     """A whole number."""
 
-    def _taken(self, take, given):
-        found = super()._taken(number, given)
-        if not isinstance(found, Integral):
-            raise ValueError(f"Input should be {self.allowed}")
-        return int(found)
+    def value(self, given: Any) -> Any:
+        if isinstance(found := self._taken(number, given), Integral):
+            return int(found)
+        raise ValueError(f"Input should be {self.allowed}")
+
+    values = value
 
 
 def argument(name: str, given: Any, take: Callable[[Any], _T]) -> _T:
@@ -129,23 +96,21 @@ def argument(name: str, given: Any, take: Callable[[Any], _T]) -> _T:
     try:
         return take(given)
     except ValueError as error:
-        allowed = str(error).removeprefix("Input should be ")
-        raise ValueError(f"{name} = {brief(repr(given))}: {allowed}") from None
+        raise ValueError(f"{name} = {brief(repr(given))}: {str(error).removeprefix('Input should be ')}") from None
 
 
 def takes(**units: Unit) -> Callable[[Callable[_P, _T]], Callable[_P, _T]]:
     """Decorator of functions: arguments of these names become plain numbers or arrays in SI, as fields do.
 
-    None stays, and so do the labels of an array that has them. Raises ValueError, which names the argument.
+    None stays, and so do the labels of an array of xarray. Raises ValueError, which names the argument.
     """
 
     def decorated(function: Callable[_P, _T]) -> Callable[_P, _T]:
         names = tuple(signature(function).parameters)
 
         def taken(name, given):
-            if given is None or name not in units:
-                return given
-            return relabelled(given, argument(name, given, units[name].values))
+            known = given is None or name not in units
+            return given if known else relabelled(given, argument(name, given, units[name].values))
 
         @wraps(function)
         def checked(*args: _P.args, **kwargs: _P.kwargs) -> _T:
@@ -158,9 +123,9 @@ def takes(**units: Unit) -> Callable[[Callable[_P, _T]], Callable[_P, _T]]:
     return decorated
 
 
+BARE, WHOLE = Unit("", "a number without a unit"), _Count("", "a whole number")
 METRE = Unit("m", "a length", "5 mm", 5e-3)
 PASCAL = Unit("Pa", "a pressure", "1.2 MPa", 1.2e6)
-SHEAR = Unit("Pa", "a shear modulus G", "1.2 MPa", 1.2e6)
 MODULUS = Unit("Pa", "a modulus", "1.2 MPa", 1.2e6)
 YOUNGS = Unit("Pa", "a Young's modulus E", "3 MPa", 3e6)
 PER_PASCAL = Unit("1/Pa", "a compliance in shear", "1/MPa", 1e-6)
@@ -175,17 +140,22 @@ RADIAN = Unit("rad", "an angle", "30 deg", 0.523599)
 HERTZ = Unit("Hz", "a frequency", "2 kHz", 2e3)
 RADIAN_PER_SECOND = Unit("rad/s", "an angular frequency (1 Hz is 2 pi rad/s)", "100 rad/s", 100.0)
 KELVIN = Unit("K", "an absolute temperature", "25 degC", 298.15, difference=False)
-BARE, WHOLE = Unit("", "a number without a unit"), _Count("", "a whole number")
 RADIAN_PER_METRE = Unit("rad/m", "a wave number (1/m are cycles)", "10 rad/mm", 1e4)
-KELVIN_APART = Unit("K", "a difference of temperatures", "0.06 K", 0.06)
 CONDUCTIVITY = Unit("W/(m K)", "a thermal conductivity", "20 W/(m K)", 20.0)
-JOULE_PER_MOLE = Unit("J/mol", "an energy per amount", "50 kJ/mol", 5e4)
 
+Finite = Annotated[float, BeforeValidator(BARE.value), Field(strict=True, allow_inf_nan=False)]
+Positive = Annotated[Finite, Field(gt=0)]
+NonNegative = Annotated[Finite, Field(ge=0)]
+Whole = Annotated[int, BeforeValidator(WHOLE.value), Field(strict=True)]
+MOST_WHOLE = 2**63 - 1  # the largest whole number that files of results hold
+Seed = Annotated[Whole, Field(ge=0, le=MOST_WHOLE)]
+# Items of a tuple of numbers: an array of any library counts too, and keeps its unit.
+ROW = BeforeValidator(one_by_one)
 Length = Annotated[Positive, METRE]
 LengthOrZero = Annotated[NonNegative, METRE]
 Pressure = Annotated[Positive, PASCAL]
 PressureOrZero = Annotated[NonNegative, PASCAL]
-ShearModulus = Annotated[Positive, SHEAR]
+ShearModulus = Annotated[Positive, Unit("Pa", "a shear modulus G", "1.2 MPa", 1.2e6)]
 Compliance = Annotated[Positive, PER_PASCAL]
 ComplianceOrZero = Annotated[NonNegative, PER_PASCAL]
 Time = Annotated[Positive, SECOND]
@@ -200,40 +170,6 @@ Angle = Annotated[Positive, RADIAN]
 Frequency = Annotated[Positive, HERTZ]
 AngularFrequency = Annotated[Positive, RADIAN_PER_SECOND]
 AbsoluteTemperature = Annotated[Positive, KELVIN]
-TemperatureDifference = Annotated[Positive, KELVIN_APART]
+TemperatureDifference = Annotated[Positive, Unit("K", "a difference of temperatures", "0.06 K", 0.06)]
 Conductivity = Annotated[Positive, CONDUCTIVITY]
-MolarEnergy = Annotated[Positive, JOULE_PER_MOLE]
-
-
-def unit_of(cls: type, field: str) -> str | None:
-    """Symbol of the unit of a field of a dataclass, of each entry where there are several; None without one.
-
-    Raises KeyError where there is no such field.
-    """
-    hints = get_type_hints(cls, include_extras=True)
-    return next((unit.symbol for unit in _units(hints[field])), None)
-
-
-def some_of(types: Mapping[str, Any], stated: Mapping[str, Any]) -> dict[str, Any]:
-    """Values of what is stated that have one of these names, each as its type.
-
-    Raises ValidationError, in which a value has its name, as one of a field has.
-    """
-    found = {name: stated[name] for name in types if name in stated}
-    whole: Any = create_model("Stated", **{name: (types[name], ...) for name in found})  # type: ignore[call-overload]
-    return dict(whole(**found))
-
-
-def by_name(given: Any) -> dict[str, Any] | None:
-    """Values stated for the fields of a dataclass, in Python or in a table, by name; None of anything else."""
-    if isinstance(given, ArgsKwargs):
-        return None if given.args else given.kwargs or {}
-    return given if isinstance(given, dict) else None
-
-
-def _units(hint) -> Iterator[Unit]:
-    for part in get_args(hint):
-        if isinstance(part, Unit):
-            yield part
-        elif not isinstance(part, str):
-            yield from _units(part)
+MolarEnergy = Annotated[Positive, Unit("J/mol", "an energy per amount", "50 kJ/mol", 5e4)]

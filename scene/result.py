@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .files.reading import validator
-from .markup import plain_table, table
+from .printable import plain_table, table
 from .scene import Scene
 from .vocabulary import FIELDS, MEASURES, NUMBERS, Entry
 

@@ -6,14 +6,12 @@ from typing import Any
 from pydantic import model_validator
 from pydantic.dataclasses import dataclass
 
-from .effects.heating import Heating
-from .effects.interface import Coulomb
-from .effects.layer import Layer
+from .effects.parts import Coulomb, Heating, Layer
 from .effects.temperature import Shifted, Temperature
 from .files.parts import rows
 from .indenter import Indenter, Plane
-from .markup import plain_table, table
 from .motion import UNITS, Motion, Shear
+from .printable import plain_table, table
 from .quantities import CLOSED
 from .solids.rheology import Elastomer
 from .solids.viscoelastic import Linear

@@ -14,7 +14,7 @@ from pydantic import ValidationError
 from pydantic.dataclasses import is_pydantic_dataclass
 
 from . import quantities
-from .files.mistakes import mistakes
+from .files.error_text import error_text
 from .files.reading import invalid, validator
 
 _T = TypeVar("_T", bound=Callable)
@@ -66,7 +66,7 @@ def _in_lines(cls):
         try:
             checked(self, **stated)
         except ValidationError as error:
-            raise invalid(cls.__name__, mistakes(error, stated, validator(cls))) from None
+            raise invalid(cls.__name__, error_text(error, stated, validator(cls))) from None
 
     return constructed
 

@@ -45,7 +45,7 @@ class Term:
 
 
 @dataclass(frozen=True)
-class Lacking(Term):
+class Unsupported(Term):
     """A part for which the solver has nothing; `why`, and what can be done."""
 
     why: str
@@ -57,12 +57,12 @@ class Lacking(Term):
 Table = Mapping[type, Callable[[str, Any], Term]]
 
 
-def lacking(why: str) -> Callable[[str, Any], Lacking]:
+def unsupported(why: str) -> Callable[[str, Any], Unsupported]:
     """A line for what a solver has not."""
-    return lambda field, part: Lacking(field, part, why)
+    return lambda field, part: Unsupported(field, part, why)
 
 
-UNKNOWN = lacking("this solver has no term for it; leave it out, or take a solver that has one")
+UNKNOWN = unsupported("this solver has no term for it; leave it out, or take a solver that has one")
 
 
 def terms_of(table: Table, scene: Scene) -> list[Any]:
@@ -74,7 +74,7 @@ def _line(table, kind):
     return next((table[each] for each in kind.__mro__ if each in table), UNKNOWN)
 
 
-def surrounded(solve: Solve, terms: list[Term]) -> Solve:
+def wrap_solve(solve: Solve, terms: list[Term]) -> Solve:
     """A solve with what the terms do around it, that of the first term inmost."""
     for term in terms:
         solve = term.around(solve)

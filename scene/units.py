@@ -10,7 +10,6 @@ from typing import Any
 from unicodedata import normalize
 
 LONGEST = 100  # letters of a quantity
-PATTERN = r"^\s*[+\-−]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+\-−]?[0-9]+)?\s*[^\s0-9.,].*$"  # of a quantity, roughly
 
 _NUMBER = re.compile(r"\s*([+\-−]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+\-−]?[0-9]+)?)(.*)", re.DOTALL)
 _NAME = re.compile(r"[^\W\d_]++(?:_[^\W\d_]++)*+")
@@ -20,14 +19,11 @@ _UNIT = re.compile(
 )
 _GLUED = re.compile(r"(?<=[^\W\d_])(?=-?[1-9])")  # before the power of "mm2"
 _DEGREES = {"C": "degC", "F": "degF"}  # of temperatures, where pint has coulombs and farads
-_USUAL = (
-    "m mm um nm Pa MPa mPa kPa GPa N mN kN Hz kHz s ms us min rad deg K degC degF mol kg g J kJ W bar psi "
-    "meter pascal newton hertz second radian kelvin degree"
-)
+_USUAL = "m mm um nm Pa MPa mPa kPa GPa N mN kN Hz kHz s ms us min rad deg K degC mol kg J kJ W newton pascal"
 
 
-class Unreadable(ValueError):
-    """A text is no quantity of the wanted unit; the message says why, unless that is obvious."""
+class NotPlain(ValueError):
+    """There are no plain numbers in something; the message says why, unless that is obvious."""
 
 
 def in_si(text: str, unit: str, difference: bool = True) -> float:
@@ -36,11 +32,11 @@ def in_si(text: str, unit: str, difference: bool = True) -> float:
     unit : such as "m", "m/s" or "W/(m K)"
     difference : whether a temperature is a difference, which has no degrees Celsius; else it is an absolute one
 
-    Raises Unreadable for any other dimension, for what is no number with a unit, and beyond the range of floats.
+    Raises NotPlain for any other dimension, for what is no number with a unit, and beyond the range of floats.
     """
     written = _NUMBER.fullmatch(text[: LONGEST + 1])
     if written is None:
-        raise Unreadable("there is no number before the unit" if text.strip() else "")
+        raise NotPlain("there is no number before the unit" if text.strip() else "")
     one, zero = scale(text[written.start(2) :], unit, difference)
     try:
         number = Decimal(written[1].replace("−", "-"))
@@ -48,7 +44,7 @@ def in_si(text: str, unit: str, difference: bool = True) -> float:
     except ArithmeticError:
         found = float("inf")
     if isinf(found) or (number and not found):
-        raise Unreadable("beyond the range of floating-point numbers")
+        raise NotPlain("beyond the range of floating-point numbers")
     return found
 
 
@@ -56,17 +52,17 @@ def in_si(text: str, unit: str, difference: bool = True) -> float:
 def scale(given: str, unit: str, difference: bool = True) -> tuple[Decimal, Decimal]:
     """One of a unit, and its zero, in an SI unit: a number of it times the first plus the second is in SI.
 
-    Raises Unreadable as `in_si`.
+    Raises NotPlain as `in_si`.
     """
     if unit == "K":
         given = _DEGREES.get(given.strip(), given)
     asked, wanted = _parsed(given), _registry().parse_units(unit)
     if asked.dimensionality != wanted.dimensionality:
-        raise Unreadable
+        raise NotPlain(f"this one has the unit {given.strip()}")
     if difference and str(asked) in ("degree_Celsius", "degree_Fahrenheit"):
-        raise Unreadable("degrees count from a zero of their own, and a difference is in K")
+        raise NotPlain("degrees count from a zero of their own, and a difference is in K")
     if not difference and str(asked).startswith("delta"):
-        raise Unreadable("this is a difference of temperatures")
+        raise NotPlain("this is a difference of temperatures")
     zero, one = (_registry().Quantity(Decimal(each), asked).to(wanted).magnitude for each in range(2))
     return one - zero, zero
 
@@ -76,17 +72,17 @@ def is_unit(given: str) -> bool:
     """Whether a text is a unit of anything."""
     try:
         return _parsed(given) is not None
-    except Unreadable:
+    except NotPlain:
         return False
 
 
 def _parsed(text: str) -> Any:
     """Unit of a text, as pint has it."""
     if len(text) > LONGEST:
-        raise Unreadable(f"more than {LONGEST} letters")
+        raise NotPlain(f"more than {LONGEST} letters")
     text = normalize("NFKC", text).replace("−", "-").replace("Δ°", "delta_deg").replace("°", "deg").strip()
     if not text:
-        raise Unreadable("there is no unit")
+        raise NotPlain("there is no unit")
     if _UNIT.fullmatch(text):
         for name in _NAME.findall(text):
             _check_name(name)
@@ -94,18 +90,18 @@ def _parsed(text: str) -> Any:
             return _registry().parse_units(_GLUED.sub("**", f"1{text}" if text.startswith("/") else text))
         except Exception:  # pint has no one error for what it cannot read
             pass
-    raise Unreadable(f"{text!r} is no unit; a number has a decimal point, and nothing else between its digits")
+    raise NotPlain(f"{text!r} is no unit; a number has a decimal point, and nothing else between its digits")
 
 
 def _check_name(name):
-    """Raise Unreadable for an unknown unit, and for the plural of a symbol, as Pas, which may be a product."""
+    """Raise NotPlain for an unknown unit, and for the plural of a symbol, as Pas, which may be a product."""
     parsed = _registry().parse_unit_name
     found, usual = parsed(name), _USUAL.split()
     if not found or (len(name) <= 4 and name.endswith("s") and found[0] == (parsed(name[:-1]) or [None])[0]):
         alike = [each for each in usual if each.casefold() == name.casefold()]
         alike = alike or get_close_matches(name, usual, 1)
         question = f", did you mean {' or '.join(map(repr, alike))}?" if alike else ""
-        raise Unreadable(f"no unit is called {name!r}{question}")
+        raise NotPlain(f"no unit is called {name!r}{question}")
 
 
 @lru_cache(maxsize=1)

@@ -11,14 +11,14 @@ from pydantic.dataclasses import dataclass
 
 from bem3d import BEM
 from mdr1d import MDR
-from scene import Coulomb, Doubt, Heating, Layer, Refused, Scene, Slide, plain
+from scene import Coulomb, Doubt, Heating, Layer, Refused, Scene, Slide, numeric_input
 from scene.doubt import unseen
 from scene.effects.temperature import Temperature
 from scene.files.reading import InvalidInput
 from scene.indenter import Indenter
 from scene.motion import Motion
 from scene.printable import brief
-from scene.protocol import trusted
+from scene.protocol import numeric_guard
 from scene.quantities import CLOSED, ROW, Positive, Speed, Whole
 from scene.scales import elastic_contact
 from scene.scene import fit_together
@@ -38,10 +38,10 @@ def _share(given: Any) -> float:
             text = given.strip()
             found = float(text.removesuffix("%")) / (100 if text.endswith("%") else 1)
         else:
-            held, unit = plain.bare(given)
+            held, unit = numeric_input.bare(given)
             percent = unit == "%"
-            found = float(plain.number(held if percent else given, None)) / (100 if percent else 1)
-    except plain.NotPlain as reason:
+            found = float(numeric_input.number(held if percent else given, None)) / (100 if percent else 1)
+    except numeric_input.NotPlain as reason:
         why = f"; {reason}" if str(reason) else ""
     except (ValueError, OverflowError):  # of a text that is no number, and of a number beyond floating point
         pass
@@ -203,7 +203,7 @@ class Case:
     def refuse(self) -> None:
         """Raise NotCompared, with the reasons, if a solver lacks a part of the scene."""
         for solver in (self.mdr, self.bem):
-            with trusted():
+            with numeric_guard():
                 reasons = [why for term in terms_of(solver.terms, self.scene) for why in term.refusals(self.scene)]
             if reasons:
                 raise NotCompared(f"{solver.name} cannot solve this scene: {'; '.join(reasons)}")

@@ -18,7 +18,7 @@ from mdr1d import MDR
 from scene import Indent, Program, Refused, Scene, Shear, Slide, Solver, Stage
 from scene.motion import PRESSES, UNITS
 from scene.printable import brief
-from scene.protocol import lacking, trusted, why_not
+from scene.protocol import lacking, numeric_guard, why_not
 from scene.quantities import SPEED, WHOLE, argument
 from scene.result import provenance
 from scene.scales import elastic_contact
@@ -359,7 +359,7 @@ def on_levels(solver: Solver, scenes: Iterable[Scene], most: int = len(LEVELS)) 
     """
     first, *others = scenes
     found: list[Any] = [solver]
-    with trusted():
+    with numeric_guard():
         # Half the points tell the error of the grid, however few they are.
         while len(found) < most and (len(found) == 1 or found[-1].points >= 2 * LEAST.get(solver.name, 1)):
             coarser = halved(found[-1])
@@ -396,7 +396,7 @@ def refuse(curves: Iterable[Curve]) -> None:
     asked = [(each, levels) for each in curves for levels in each.levels.values()]
     asked.sort(key=lambda pair: -width(pair[0].corners[0]))
     told: dict[str, str] = {}
-    with trusted():
+    with numeric_guard():
         for one, own in asked:
             # What mends the coarsest of a solver mends its finer ones, which may lack memory all the same.
             for solver in reversed([*own.values()]):

@@ -10,12 +10,11 @@ from typing import cast
 
 from bem3d import BEM
 from mdr1d import MDR
-from scene import Refused, Scene, SolveError, markup, notes
-from scene.costs import two_digits
+from scene import Refused, Scene, SolveError, notes, printable
 from scene.files.reading import InvalidInput
-from scene.plan import Plan, size
+from scene.plan import Plan, size, two_digits
 from scene.printable import brief
-from scene.protocol import foresee, trusted
+from scene.protocol import foresee, numeric_guard
 
 from ..library.case import Case, NotCompared, doubted
 from ..library.lookup import SceneLike, case_of
@@ -89,8 +88,10 @@ class Plans(dict[str, Plan | str | Advice]):
     __repr__ = __str__
 
     def _repr_html_(self) -> str:
-        parts = (markup.paragraph(each) if isinstance(each, str) else each._repr_html_() for each in self.values())
-        return "".join([markup.table(list(self._summary())), *parts])
+        parts = (
+            printable.paragraph(each) if isinstance(each, str) else each._repr_html_() for each in self.values()
+        )
+        return "".join([printable.table(list(self._summary())), *parts])
 
     @property
     def _plans(self) -> dict[str, Plan]:
@@ -134,7 +135,7 @@ class Plans(dict[str, Plan | str | Advice]):
 def _stiffness(scene):
     """Shear and Young's modulus of the solid at rest and at the instant, in words."""
     try:
-        with trusted():
+        with numeric_guard():
             rest, instant = scene.solid.static_modulus, scene.solid.glassy_modulus
     except SolveError as error:
         return f"not known: {error}"

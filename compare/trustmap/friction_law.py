@@ -9,7 +9,7 @@ import numpy as np
 from pydantic.dataclasses import dataclass
 
 from scene import Indent, Plane, Result, Scene, Slide
-from scene.protocol import refuse, trusted
+from scene.protocol import numeric_guard, refuse
 from scene.quantities import CLOSED
 from scene.signatures import readable
 from scene.terms import Term, terms_of
@@ -68,7 +68,7 @@ class FrictionLaw:
         """Friction and its parts. Raises Refused, and SolveError where the smooth contact has no answer."""
         start = process_time()
         refuse(self, scene)
-        with trusted():
+        with numeric_guard():
             if scene.roughness is None or scene.roughness.flat:
                 smooth = SmoothContact.of(scene)
                 friction, depth, own = smooth.friction_coefficient, smooth.depth, smooth.friction_coefficient

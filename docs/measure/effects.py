@@ -27,7 +27,7 @@ from compare.solving.task import Task
 from compare.studies.workprecision.timed import TimedSolve
 from mdr1d import MDR
 from scene import Scene, SelfAffine
-from scene.costs import COSTS, two_digits
+from scene.plan import COSTS, two_digits
 
 PAGE = Path(__file__).parents[1] / "results" / "effects.md"
 SOLVERS: Mapping[str, BEM | MDR] = {"3D": BEM(points=256, steps=40), "1D": MDR(points=5000, steps=40)}
@@ -91,7 +91,7 @@ class Cost:
 
     @property
     def multiples(self) -> dict[str, float]:
-        """By the names of `scene.costs.COSTS`: over those without the effect; of a program, for one step."""
+        """By the names of `scene.plan.COSTS`: over those without the effect; of a program, for one step."""
         steps = self.row.measures.get("time_steps", 1.0)
         applications = self.row.operator_applications / self.over.operator_applications
         return dict(zip(COSTS, (applications / steps, self.times / steps), strict=True))
@@ -110,7 +110,6 @@ def effects() -> tuple[Effect, ...]:
     topography = {"type": "topography", **map_, "shortest_kept": ROUGH["shortest"]}
     plane = {"indenter": {"type": "plane"}, "motion": {"type": "slide", "speed": 0.1, "pressure": 2e4}}
     shear = {"motion": {"type": "shear", "load": 1.0, "displacement": 2e-5}}
-    fed_back = {"heating": {"conductivity": 0.2, "feedback": "average"}}
     return (
         Effect("steady sliding"),
         Effect("contact at rest", {"motion": {"type": "indent", "load": 1.0}}),
@@ -118,9 +117,11 @@ def effects() -> tuple[Effect, ...]:
         Effect("measured topography", {"roughness": topography}, "roughness", ("Topography",)),
         Effect("plane", plane | SELF_AFFINE, "roughness"),
         Effect("layer", {"layer": {"thickness": 2e-3}}, "steady sliding", ("Layer",)),
-        Effect("temperature", WARM, "steady sliding", ("WLF", "Arrhenius")),
+        Effect("temperature", WARM, "steady sliding", ("WLF", "Arrhenius", "ShiftFactors")),
         Effect("heating, estimated", {"heating": {"conductivity": 50.0}}, "steady sliding", ("Heating",)),
-        Effect("heating, fed back", WARM | fed_back, "temperature"),
+        Effect(
+            "heating, fed back", WARM | {"heating": {"conductivity": 0.2, "feedback": "average"}}, "temperature"
+        ),
         Effect("friction in the interface", RUBBED, "steady sliding", ("Coulomb",)),
         Effect("partial slip", shear | RUBBED, "contact at rest", ("Shear",)),
         Effect("program", _program(SLID), "contact at rest", ("Program",)),

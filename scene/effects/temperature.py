@@ -9,8 +9,8 @@ import numpy as np
 from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 
-from ..files.tablefile import Column, filled, read_columns
-from ..files.tabletext import FromTable
+from ..files.stated import FromTable, filled, restated
+from ..files.tablefile import Column, read_columns
 from ..quantities import (
     CLOSED,
     KELVIN,
@@ -19,7 +19,6 @@ from ..quantities import (
     MolarEnergy,
     Positive,
     TemperatureDifference,
-    by_name,
 )
 from ..solids.modes import Relaxation, Retardation
 from ..solids.viscoelastic import Linear
@@ -132,6 +131,10 @@ TEMPERATURES = Column("temperatures", ("T", "temperature"), (KELVIN,), needed=Tr
 FACTORS = Column("a_T", ("shift factor",), needed=True), Column("b_T", ("vertical shift factor",))
 
 
+def _columns(table, form):
+    return read_columns(table, (TEMPERATURES, *FACTORS), form)
+
+
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
 class ShiftFactors(FromTable, TemperatureLaw):
     """Measured shift factors: times are a_T times as long as where a_T is 1, and moduli b_T times as high.
@@ -142,7 +145,7 @@ class ShiftFactors(FromTable, TemperatureLaw):
     temperatures : at least two [K]
     a_T, b_T : at each of them [1]; a_T falls with the temperature; b_T is 1 where it is absent
     table : with the columns T, a_T and, if there is one, b_T, in place of these three; with
-        columns, units, where, separator, decimal, encoding, skip, rows as `tabletext.TableFormat` has them
+        columns, units, where, separator, decimal, encoding, skip, rows as `stated.TableFormat` has them
     """
 
     temperature: AbsoluteTemperature
@@ -153,13 +156,7 @@ class ShiftFactors(FromTable, TemperatureLaw):
     table: InitVar[Any] = None
     type: Literal["shift-factors"] = Field(default="shift-factors", repr=False)
 
-    @model_validator(mode="before")
-    @classmethod
-    def _of_table(cls, given: Any) -> Any:
-        stated = by_name(given)
-        if stated is None:
-            return given
-        return filled(stated, lambda table, form: read_columns(table, (TEMPERATURES, *FACTORS), form).values)
+    _of_table = restated(lambda cls, stated: filled(stated, _columns))
 
     @model_validator(mode="after")
     def _fall(self):

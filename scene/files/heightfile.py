@@ -15,39 +15,32 @@ text or a table. A unit, a pixel or a spacing that a file lacks has to be stated
 
 import warnings
 from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager, redirect_stderr, redirect_stdout
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from io import StringIO
 from math import prod
 from pathlib import Path
-from reprlib import repr as briefly
 from typing import Any
 
 import numpy as np
 
-from ..plain import bare, in_unit
-from ..printable import brief
+from ..numeric_input import bare, in_unit
+from ..printable import brief, shown
 from ..quantities import METRE, argument
 from ..surfaces.heightmap import LEAST, sides, unmasked
 from .files import checked
 from .lattice import mapped, ordered, refuse_places
+from .stated import TableFormat
 from .tablefile import Column, read_columns
-from .tabletext import TableFormat, read_rows
+from .tabletext import read_text
 
 MAP, LINE = ("y", "x"), ("x",)
 EVEN = 1e-3  # relative, of units and spacings that are stated twice: a file rounds them
 MOST_PIXELS = 5120**2  # that are read of a file
-MOST_BYTES, MOST_TEXT = 2**28, 2**27  # of a file, as it is and unpacked; and of a text
+MOST_BYTES, MOST_TEXT = 2**28, 2**27  # of a file, and of a text
 ARRAYS, NETCDF, TEXTS = {".npy", ".npz"}, {".nc"}, {".txt", ".csv", ".tsv", ".xyz", ".asc", ".dat"}
-FOREIGN = {
-    *(".png", ".tif", ".tiff", ".jpg", ".jpeg", ".bmp", ".gif", ".webp", ".svg", ".pdf"),
-    *(".xlsx", ".xls", ".xlsm", ".ods"),
-    *(".stl", ".obj", ".ply", ".3mf", ".vtk", ".vtp", ".vtu"),
-}
 X = Column("x", ("x", "X", "distance", "position", "length"), (METRE,), unit_needed=True)
 Y = Column("y", ("y", "Y"), (METRE,), needed=True, unit_needed=True)
 Z = Column("z", ("z", "Z", "height", "heights"), (METRE,), needed=True, unit_needed=True, gaps=True)
-UNKNOWN = {"unit": 'unit = "um"', "pixel": 'pixel = "1 um"', "spacing": 'spacing = "1 um"'}
 COLUMNS = {MAP: (replace(X, needed=True), Y, Z), LINE: (X, Z)}
 
 
@@ -78,11 +71,12 @@ class Heights:
         size = None if spacing is None else argument(step, spacing, sides)
         for name, given, stated, read in (("unit", unit, metre, own), (step, spacing, size, self.spacings)):
             if stated is None and read is None:
-                raise ValueError(f"{self.name} does not state its {name}: state it, as {UNKNOWN[name]}")
+                example = "um" if name == "unit" else "1 um"
+                raise ValueError(f'{self.name} does not state its {name}: state it, as {name} = "{example}"')
             if stated is not None and read is not None and not np.allclose(stated, read, rtol=EVEN, atol=0):
-                shown = " x ".join(f"{each:.6g}" for each in np.ravel(read))
+                there = " x ".join(f"{each:.6g}" for each in np.ravel(read))
                 raise ValueError(
-                    f"{name} = {briefly(given)}: {self.name} states its own, {shown} m: leave {name} out"
+                    f"{name} = {shown(given)}: {self.name} states its own, {there} m: leave {name} out"
                 )
         # First the numbers in full: those of half precision end where nanometres begin.
         heights = np.asarray(argument(self.name, self.numbers, METRE.values), float)
@@ -113,16 +107,12 @@ def read_heights(
     Raises ValueError naming the file, with what is allowed.
     """
     if not isinstance(path, str | Path):
-        raise ValueError(f"file = {briefly(path)}: a path is needed")
+        raise ValueError(f"file = {shown(path)}: a path is needed")
     kind, name, written = Path(path).suffix.lower(), brief(str(path)), written or TableFormat()
-    if kind in FOREIGN:
-        raise ValueError(f"{name} is a picture, a workbook or a mesh: export its heights as numbers")
     place = checked(path, MOST_BYTES)
     if kind in TEXTS or (dims == LINE and kind not in ARRAYS | NETCDF):
         if channel is not None:
-            raise ValueError(
-                f"channel = {brief(repr(channel))}: {name} is a text; skip and rows choose a part of it"
-            )
+            raise ValueError(f"channel = {shown(channel)}: {name} is a text; skip and rows choose a part of it")
         rows = _of_rows(name, path, dims, written)
         return rows.settled(dims, spacing, unit) if rows else _of_table(path, dims, spacing, unit, written)
     if written != TableFormat():
@@ -144,7 +134,7 @@ def given_heights(
     Arrays of numpy without a unit are in metres. The arguments are those of `read_heights`.
     """
     if channel is not None:
-        raise ValueError(f"channel = {brief(repr(channel))}: heights are no file, leave channel out")
+        raise ValueError(f"channel = {shown(channel)}: heights are no file, leave channel out")
     # A DataFrame whose columns are only counted is an array.
     columns = list(getattr(heights, "columns", ()))
     if isinstance(heights, Mapping) or hasattr(heights, "data_vars") or columns != list(range(len(columns))):
@@ -163,7 +153,7 @@ def picked(channels: Iterable[str], channel: str | None) -> str:
     if channel is None and len(names) == 1:
         return names[0]
     if channel is None or names.count(channel) != 1:
-        raise ValueError(f"channel = {brief(repr(channel))}: state one of {brief(', '.join(map(repr, names)))}")
+        raise ValueError(f"channel = {shown(channel)}: state one of {brief(', '.join(map(repr, names)))}")
     return channel
 
 
@@ -172,11 +162,9 @@ def _of_arrays(name, path, dims, channel):
     with _reading(name, "as an array"), path.open("rb") as file:
         held = np.load(file)
         if not isinstance(held, np.ndarray):
-            if sum(each.file_size for each in held.zip.infolist()) > MOST_BYTES:
-                raise ValueError(f"unpacked it has more than {MOST_BYTES / 1e6:g} MB")
             held = np.asarray(held[picked(held.files, channel)])
         elif channel is not None:
-            raise ValueError(f"channel = {brief(repr(channel))}: it holds one array, leave channel out")
+            raise ValueError(f"channel = {shown(channel)}: it holds one array, leave channel out")
         _check_count(held.shape)
     return Heights(name, held)
 
@@ -220,18 +208,21 @@ def _of_table(table, dims, spacing, unit, written):
 
 def _of_rows(name, path, dims, stated):
     """Rows of numbers and nothing else, of a line also comments above; None of a table."""
-    found = None if stated.columns else read_rows(path, stated, MOST_TEXT)
-    if found is None:
+    cells = None if stated.columns else read_text(path, stated, MOST_TEXT, rectangle=True)
+    if cells is None:
         return None
-    (numbers, line), skipped = found, stated.skip or 0
+    line, skipped = cells.frame.index[0], stated.skip or 0
+    # Where a separator ends each row, there is no cell behind it.
+    width = len(cells.headings) - (not cells.frame.iloc[:, -1].any())
+    numbers = np.stack([cells.finite(k, gaps=True) for k in range(width)], axis=1)
     if dims == MAP and line > skipped + 1:
         raise ValueError(
             f"{name}, line {skipped + 1}, is no row of heights: state skip = {line - 1} for the lines above "
             'these, and what they may say, as unit = "um" and pixel = "1 um"'
         )
-    if numbers.shape[1] < LEAST if dims == MAP else numbers.shape[1] > 1:
+    if width < LEAST if dims == MAP else width > 1:
         raise ValueError(
-            f"{name}, line {line}: {numbers.shape[1]} columns of numbers alone: of points state columns = "
+            f"{name}, line {line}: {width} columns of numbers alone: of points state columns = "
             "{x = 1, z = 2}, of a map also y, and units"
         )
     if dims == MAP:
@@ -286,9 +277,9 @@ def _metres(name, unit):
 
 @contextmanager
 def _reading(name: str, how: str) -> Iterator[None]:
-    """Keep a reader from warning and printing. Raises ValueError for whatever it raises of a damaged file."""
+    """Keep a reader from warning. Raises ValueError for whatever it raises of a damaged file."""
     try:
-        with warnings.catch_warnings(), redirect_stdout(StringIO()), redirect_stderr(StringIO()):
+        with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             yield
     except Exception as error:

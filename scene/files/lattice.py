@@ -27,12 +27,12 @@ def mapped(x: np.ndarray, y: np.ndarray, z: np.ndarray, place: Place) -> tuple[n
     shape = int(rows.max()) + 1, int(columns.max()) + 1
     if len(z) < _LEAST_FULL * shape[0] * shape[1]:
         raise ValueError(f"{len(z):,} points on {shape[1]:,} x {shape[0]:,} places of x and y are no map")
-    flat = rows * shape[1] + columns
-    order = np.argsort(flat, kind="stable")
-    if len(twice := order[1:][np.diff(flat[order]) == 0]):
-        raise ValueError(f"{place(twice[0])}: a second height at x = {x[twice[0]]:g}, y = {y[twice[0]]:g}")
+    _, first, count = np.unique(rows * shape[1] + columns, return_index=True, return_counts=True)
+    if (count > 1).any():
+        twice = int(np.setdiff1d(np.arange(len(z)), first)[0])
+        raise ValueError(f"{place(twice)}: a second height at x = {x[twice]:g}, y = {y[twice]:g}")
     heights = np.full(shape, np.nan)
-    heights.ravel()[flat] = z
+    heights[rows, columns] = z
     return heights, (dx, dy)
 
 
@@ -43,10 +43,10 @@ def ordered(name: str, values: np.ndarray, place: Place) -> tuple[np.ndarray, fl
     """
     numbers, step = _placed(name, values, place)
     order = np.argsort(numbers, kind="stable")
-    if len(wrong := np.flatnonzero(np.diff(numbers[order]) != 1)):
+    if len(wrong := order[1:][np.diff(numbers[order]) != 1]):
         raise ValueError(
-            f"{place(order[wrong[0] + 1])}: {name} = {values[order[wrong[0] + 1]]:g} is not one step from the one "
-            "before it, and places of heights are evenly spaced: interpolate"
+            f"{place(wrong[0])}: {name} = {values[wrong[0]]:g} is not one step from the one before it, and "
+            "places of heights are evenly spaced: interpolate"
         )
     return order, step
 
@@ -55,9 +55,8 @@ def refuse_places(where: str, numbers: np.ndarray) -> None:
     """Raise ValueError where numbers of a map are places: its first row or column, or two columns of points."""
     for called, rows in (("row", numbers), ("column", numbers.T)):
         # Their common cell may hold anything; a few places are an axis only if it holds nothing.
-        (corner, *_), many = rows[0], rows.shape[1] > FEW
-        first, second = (np.diff(row[1:]) for row in rows[:2])
-        if (many or np.isnan(corner)) and _even(first) and np.isfinite(second).all() and not _even(second):
+        even, next_even = (_even(np.diff(row[1:])) for row in rows[:2])
+        if even and next_even is False and (rows.shape[1] > FEW or np.isnan(rows[0, 0])):
             raise ValueError(
                 f"{where}: the first {called}, {brief(str(rows[0, :4].tolist()))} and so on, is evenly spaced as "
                 "places are, and the next is not: leave axes out, state skip"
@@ -75,7 +74,9 @@ def refuse_places(where: str, numbers: np.ndarray) -> None:
 
 
 def _even(steps):
-    return bool(steps[0] and np.abs(steps - steps.mean()).max() <= _NOISE * abs(steps.mean()) * len(steps))
+    """Whether steps are equal and not zero; None where one is not known."""
+    close = _NOISE * abs(steps.mean()) * len(steps)
+    return bool(steps[0] and np.ptp(steps) <= close) if np.isfinite(steps).all() else None
 
 
 def _placed(name: str, values: np.ndarray, place: Place) -> tuple[np.ndarray, float]:
@@ -85,18 +86,16 @@ def _placed(name: str, values: np.ndarray, place: Place) -> tuple[np.ndarray, fl
     """
     if not np.isfinite(values).all():
         raise ValueError(f"{place(int(np.argmin(np.isfinite(values))))}: {name} is no finite number")
-    different = np.unique(values)
-    cluster = np.cumsum(np.diff(different, prepend=different[0]) > _NOISE * np.ptp(values))
-    middles = np.bincount(cluster, different) / np.bincount(cluster)
-    if len(middles) < 2:
+    places = np.unique(values)
+    places = places[np.diff(places, prepend=-np.inf) > _NOISE * np.ptp(values)]
+    if len(places) < 2:
         raise ValueError(
-            f'all {name} are {different[0]:g}: a line of heights along x is roughness of type = "profile"'
+            f'all {name} are {places[0]:g}: a line of heights along x is roughness of type = "profile"'
         )
-    apart = np.diff(middles)
-    numbers = np.concatenate([[0], np.cumsum(np.maximum(np.rint(apart / np.median(apart)), 1))])
-    step = float(np.sum((numbers - numbers.mean()) * middles) / np.sum((numbers - numbers.mean()) ** 2))
-    first = middles.mean() - step * numbers.mean()
-    found = np.rint((values - first) / step).astype(int)
+    apart = np.diff(places)
+    numbers = np.append(0.0, np.cumsum(np.maximum(np.rint(apart / np.median(apart)), 1)))
+    step, first = np.polyfit(numbers, places, 1)
+    found = np.rint((values - first) / step)
     off = np.abs(values - first - found * step) / step
     if off.max() > OFF:
         worst = int(off.argmax())
@@ -104,4 +103,4 @@ def _placed(name: str, values: np.ndarray, place: Place) -> tuple[np.ndarray, fl
             f"{place(worst)}: {name} = {values[worst]:g} is off by more than {100 * OFF:g} % of a step, "
             f"{step:g}: places of heights are evenly spaced"
         )
-    return found, step
+    return found.astype(int), float(step)

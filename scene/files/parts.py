@@ -2,10 +2,10 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import MISSING, Field, fields, is_dataclass
-from typing import Any
+from typing import Any, get_args, get_type_hints
 
 from ..motion import UNITS, Program
-from ..quantities import unit_of
+from ..quantities import Unit
 
 FEW = 4  # of a part's values or stages, that are said one by one
 
@@ -49,3 +49,16 @@ def _summed_up(program):
 def _usual(declared: Field, value: Any) -> bool:
     default = declared.default
     return default is not MISSING and type(value) is type(default) and value == default
+
+
+def unit_of(cls: type, field: str) -> str | None:
+    """Symbol of the unit of a field of a dataclass, of each entry where there are several; None without one.
+
+    Raises KeyError where there is no such field.
+    """
+    parts = [get_type_hints(cls, include_extras=True)[field]]
+    for part in parts:  # which grows by the arguments of each
+        if isinstance(part, Unit):
+            return part.symbol
+        parts += get_args(part)
+    return None

@@ -12,13 +12,13 @@ from pydantic import TypeAdapter, ValidationError
 from ..printable import brief, printable
 from ..quantities import WHOLE
 from . import files
-from .mistakes import LISTED, mistakes
+from .error_text import LISTED, error_text
 
 __all__ = [
     "InvalidInput",
+    "error_text",
     "invalid",
     "made",
-    "mistakes",
     "parsed",
     "read",
     "text_of",
@@ -27,12 +27,8 @@ __all__ = [
 ]
 
 MOST = 1_000_000  # bytes of a file
-DEEPEST = 20  # levels of tables and lists in one another
 LONGEST = 2000  # letters of a mistake
 
-# Names joined by so many dots take a parser time that grows with their square; no file that can be read has them.
-_NAME = r"""(?:[\w-]{1,200}+|"(?:[^"\\\n]|\\.){0,200}+"|'[^'\n]{0,200}+')"""
-_ENDLESS = re.compile(rf"(?<![\w\\\"'-]){_NAME}(?:[ \t]{{0,9}}+\.[ \t]{{0,9}}+{_NAME}){{{5 * DEEPEST}}}", re.ASCII)
 # A line in which tomllib found a mistake, and a backslash in a string whose backslashes mean something.
 _PLACE, _BACKSLASH = re.compile(r"\(at line (\d+), column \d+\)"), re.compile(r'"[^"\n]*\\')
 
@@ -64,18 +60,13 @@ def text_of(path: str | Path) -> str:
 def parsed(text: str, path: str | Path) -> dict[str, Any]:
     """Content of a text in TOML; path : of its file, for mistakes. Raises InvalidInput."""
     try:
-        if _ENDLESS.search(text):
-            raise RecursionError
-        content = tomllib.loads(text)
-        if _levels(content) > DEEPEST:
-            raise RecursionError
+        return tomllib.loads(text)
     except RecursionError as error:
-        raise invalid(path, [f"tables and lists stand in one another deeper than {DEEPEST} levels"]) from error
+        raise invalid(path, ["tables and lists stand in one another too deep"]) from error
     except tomllib.TOMLDecodeError as error:
         raise invalid(path, [f"is not valid TOML: {error}{_of_backslashes(str(error), text)}"]) from error
     except ValueError as error:  # of dates that are none, and of numbers too long to be read
         raise invalid(path, [f"is not valid TOML: {str(error).partition(';')[0]}"]) from error
-    return content
 
 
 def _of_backslashes(error, text):
@@ -94,7 +85,7 @@ def made(content: dict[str, Any], what: Any, path: str | Path):
         try:
             return adapter.validate_python(content)
         except ValidationError as error:
-            raise invalid(path, mistakes(error, content, adapter)) from error
+            raise invalid(path, error_text(error, content, adapter)) from error
 
 
 @lru_cache(maxsize=8)
@@ -119,16 +110,3 @@ def whole(name: str, given: Any, most: int) -> int:
     if not 1 <= found <= most:
         raise InvalidInput(f"{name} = {brief(repr(given))}: a whole number from 1 to {most}")
     return found
-
-
-def _levels(content):
-    """Levels of tables and lists in one another, counted up to one more than DEEPEST."""
-    level, count = [content], 0
-    while level and count <= DEEPEST:
-        level, count = [inner for each in level for inner in _inside(each)], count + 1
-    return count
-
-
-def _inside(part):
-    parts = part.values() if isinstance(part, dict) else part
-    return [each for each in parts if isinstance(each, dict | list)]

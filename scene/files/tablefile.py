@@ -10,23 +10,23 @@ quantities of pint and attributes have units. Nothing is guessed; what `TableFor
 """
 
 import re
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 from unicodedata import normalize
 
 import numpy as np
 import pandas as pd
-from pydantic import ValidationError
 
-from ..plain import bare, in_unit
-from ..printable import brief
+from ..numeric_input import bare, in_unit
+from ..printable import brief, shown
 from ..quantities import HERTZ, RADIAN_PER_SECOND, Unit
 from ..units import is_unit
-from .tabletext import PURE, Cells, TableFormat, read_text, shown, split_format
+from .stated import TableFormat
+from .tabletext import PURE, Cells, read_text
 
-MOST_BYTES = 20_000_000
 # Other quantities of one measurement: they may vary, and need not be used.
 REDUNDANT = (
     *("time", "t", "index", "point", "tan delta", "phase", "|G*|", "|E*|", "complex modulus"),
@@ -57,48 +57,32 @@ class Column:
     gaps: bool = False
 
 
-@dataclass(eq=False)
-class Columns:
-    """Columns that were found.
+class Columns(dict[str, np.ndarray]):
+    """Columns that were found, (rows,) in SI, by field.
 
-    name : of the table; place : of a row, for messages
-    notes : names of the columns that are not used, a line each
-    values : (rows,) by field, in SI
     units : of SI by field; None where the table states none
     headings : names in the table by field
+    name : of the table; place : of a row, for messages
+    notes : names of the columns that are not used, a line each
     """
 
-    name: str
-    place: Callable[[int], str]
-    notes: tuple[str, ...]
-    values: dict[str, np.ndarray] = field(default_factory=dict)
-    units: dict[str, Unit | None] = field(default_factory=dict)
-    headings: dict[str, str] = field(default_factory=dict)
-
-    def __contains__(self, name: str) -> bool:
-        return name in self.values
-
-    def __getitem__(self, name: str) -> np.ndarray:
-        return self.values[name]
+    def __init__(self, cells: Cells, headings: dict[str, str], unused: Sequence[str]):
+        self.name, self.place, self.headings = cells.name, cells.place, headings
+        self.notes = tuple(f"{cells.name}: column {shown(each)} is not used" for each in unused)
+        self.units: dict[str, Unit | None] = {}
 
     def refuse(self, name: str, wrong: np.ndarray, why: str) -> None:
         """Raise ValueError for the first row (rows,) in which a field is wrong."""
-        if wrong.any():
-            row = int(np.argmax(wrong))
-            raise ValueError(f"{self.place(row)}: {name} = {self.values[name][row]:g} {why}")
+        for row in np.flatnonzero(wrong)[:1]:
+            raise ValueError(f"{self.place(row)}: {name} = {self[name][row]:g} {why}")
 
 
 def read_columns(
-    table: Any, known: Sequence[Column], stated: TableFormat | None = None, most_bytes: int = MOST_BYTES
+    table: Any, known: Sequence[Column], stated: TableFormat | None = None, most_bytes: int = 20_000_000
 ) -> Columns:
     """Columns of a path, a DataFrame, a Dataset of xarray or a mapping of arrays. Raises ValueError, see above."""
     stated = stated or TableFormat()
-    if isinstance(table, str | Path):
-        cells = read_text(table, stated, most_bytes)
-    elif isinstance(table, Mapping) or hasattr(table, "columns"):
-        cells = _of_python(table)
-    else:
-        raise ValueError(f"{shown(table)}: a path, a DataFrame, a Dataset of xarray or arrays by their names")
+    cells: Any = read_text(table, stated, most_bytes) if isinstance(table, str | Path) else _of_python(table)
     fields = {_key(name): each.field for each in known for name in (each.field, *each.names)}
     names = [*cells.headings]
     for k, heading in enumerate(names):
@@ -108,49 +92,23 @@ def read_columns(
     places = _places(cells, names, known, fields, stated)
     used = _select(cells, names, places, fields, stated)
     units = {each: _unit(cells, places[each.field], each, stated) for each in known if each.field in places}
-    own = [(each.units, unit) for each, unit in units.items() if each.units and not each.unit_needed]
-    si = cells.first and all(unit in ("", *(one.symbol for one in several)) for several, unit in own)
-    others = [name for k, name in enumerate(names) if k not in used and cells.frame[k].astype(str).any()]
-    notes = tuple(f"{cells.name}: column {shown(name)} is not used" for name in others)
-    found = Columns(cells.name, cells.place, notes)
+    needed = [(each, unit) for each, unit in units.items() if each.units and not each.unit_needed]
+    si = cells.first and all(unit in ("", *(one.symbol for one in each.units)) for each, unit in needed)
+    unused = [name for k, name in enumerate(names) if k not in used and cells.frame[k].astype(str).any()]
+    found = Columns(cells, {each: names[k] for each, k in places.items()}, unused)
     for each, unit in units.items():
-        place = places[each.field]
-        found.headings[each.field], numbers = names[place], cells.finite(place, each.gaps)
-        found.values[each.field], found.units[each.field] = _in_si(found, each, numbers, unit, si)
+        where, numbers = shown(found.headings[each.field]), cells.finite(places[each.field], each.gaps)
+        found[each.field], found.units[each.field] = _in_si(
+            f"{cells.name}: column {where}", each, numbers, unit, si
+        )
     return found
 
 
-def filled(given: Mapping[str, Any], read: Callable[[Any, TableFormat], Mapping[str, Any]]) -> dict[str, Any]:
-    """Fields of a part of a scene, where `table` is stated with those of its columns.
-
-    read : gives fields out of the table and its form
-
-    Raises ValueError for what is stated of no table, and ValidationError, at table, for one that is refused.
-    """
-    written, rest = split_format(given)
-    if (table := rest.pop("table", None)) is None:
-        if written != TableFormat():
-            raise ValueError("table is missing, of which columns, units or lines are stated")
-        return rest
-    try:
-        found = read(table, written)
-        if both := found.keys() & rest.keys():
-            raise ValueError(f"{min(both)} is stated, and a column of the table: leave one out")
-    except ValueError as error:
-        raise refused(table, error) from error
-    return {**rest, **found}
-
-
-def refused(table: Any, reason: ValueError) -> ValidationError:
-    """A mistake of the field `table`."""
-    error = {"error": ValueError(str(reason))}
-    line: Any = {"type": "value_error", "loc": ("table",), "input": table, "ctx": error}
-    return ValidationError.from_exception_data("table", [line])
-
-
 def _of_python(table):
-    names = [*getattr(table, "variables", getattr(table, "columns", table))]  # of xarray, pandas, a mapping
-    names = [name for name in names if getattr(table[name], "ndim", 1)]  # of xarray one number may be a coordinate
+    if not (isinstance(table, Mapping) or hasattr(table, "columns")):
+        raise ValueError(f"{shown(table)}: a path, a DataFrame, a Dataset of xarray or arrays by their names")
+    every = getattr(table, "variables", getattr(table, "columns", table))  # of xarray, pandas, a mapping
+    names = [name for name in every if getattr(table[name], "ndim", 1)]  # of xarray one number may be a coordinate
     held = [bare(table[name]) for name in names]
     frame = pd.DataFrame({k: np.asarray(values) for k, (values, _) in enumerate(held)})
     if not frame.size:
@@ -178,13 +136,13 @@ def _find(cells, names, heading):
 
 def _places(cells, names, known, fields, stated):
     """Column by field. names : headings without units"""
-    columns, units, allowed = stated.columns or {}, stated.units or {}, [each.field for each in known]
-    if unknown := {*columns, *units}.difference(allowed):
+    columns, units = stated.columns or {}, stated.units or {}
+    if unknown := {*columns, *units}.difference(allowed := [each.field for each in known]):
         raise ValueError(f"{shown(min(unknown))} is none of the columns: {', '.join(allowed)}")
     places = {name: _find(cells, names, heading) for name, heading in columns.items()}
-    for k, heading in enumerate(names):
-        name = fields.get(_key(heading))
-        if name is None or name in columns or k in places.values():
+    taken = {*places.values()}
+    for k, name in enumerate(fields.get(_key(each)) for each in names):
+        if name in (None, *columns) or k in taken:
             continue
         if name in places:
             one, other = shown(cells.headings[places[name]]), shown(cells.headings[k])
@@ -206,24 +164,20 @@ def _select(cells, names, places, fields, stated):
     """Keep the rows that are stated, and return the columns that are used or stated. Raises ValueError."""
     kept, free, where = np.ones(len(cells.frame), bool), {*places.values()}, dict(stated.where or {})
     for heading, value in where.items():
-        place = _find(cells, names, heading)
-        free.add(place)
-        number = pd.to_numeric(str(value), errors="coerce")
-        same = np.isfinite(number) & (cells.numbers(place) == number)
-        kept &= (value == "*") | (cells.frame[place].astype(str) == str(value)) | same
+        free.add(place := _find(cells, names, heading))
+        there = cells.numbers(place) if isinstance(value, int | float) else cells.frame[place].to_numpy()
+        kept &= (value == "*") | (there == value)
     if not kept.any():
         raise ValueError(f"{cells.name}: no row has {brief(repr(where))}")
     cells.frame = cells.frame[kept]
-    exempt = {*fields, *map(_key, REDUNDANT)}
-    for k, heading in enumerate(names):
+    for k in {*cells.frame}.difference(free):
         values = cells.frame[k].unique()
         counted = len(values) == len(cells.frame) and np.isfinite(cells.numbers(k)).all()
-        if k not in free and _key(heading) not in exempt and len(values) > 1 and not counted:
-            own, first, second = map(shown, (heading, *map(str, values[:2])))
+        if len(values) > 1 and not counted and _key(names[k]) not in {*fields, *map(_key, REDUNDANT)}:
+            own, one, other = map(shown, (names[k], *map(str, values[:2])))
             raise ValueError(
-                f"{cells.name}: column {own} has several values, {first} and {second}, and is not used: state its "
-                f"quantity, as columns = {{field = {own}}}, or where = {{{own} = {first}}} for rows of one value, "
-                "and '*' for all"
+                f"{cells.name}: column {own} has several values, {one} and {other}, and is not used: state its "
+                f"quantity, as columns = {{field = {own}}}, or where = {{{own} = {one}}}, and '*' for all rows"
             )
     return free
 
@@ -231,28 +185,25 @@ def _select(cells, names, places, fields, stated):
 def _unit(cells, place, column, stated):
     """Unit of a column as it is written or stated; empty without one. Raises ValueError where both differ."""
     unit, own = cells.units[place].strip(), (stated.units or {}).get(column.field, "")
-    unit = "" if unit in PURE else unit
+    if unit in PURE:
+        return own
     if unit in ("1/s", "s^-1", "s-1", "s⁻¹") and RADIAN_PER_SECOND in column.units:
         unit = "" if HERTZ in column.units else "rad/s"  # 1/s of a frequency may be either
     if unit and own and "".join(unit.split()) != "".join(own.split()):
-        where = f"{cells.name}: column {shown(cells.headings[place])}"
-        raise ValueError(f"{where} is in {shown(unit)}, and units states {shown(own)}: they must agree")
+        heading, both = shown(cells.headings[place]), f"is in {shown(unit)}, and units states {shown(own)}"
+        raise ValueError(f"{cells.name}: column {heading} {both}: they must agree")
     return unit or own
 
 
-def _in_si(found, column, numbers, unit, si):
+def _in_si(where, column, numbers, unit, si):
     """Numbers in SI, and the unit of SI; None where there is no unit. si : whether that is then the unit"""
-    where = f"{found.name}: column {shown(found.headings[column.field])}"
-    symbols = [each.symbol for each in column.units]
-    state = f"state units = {{{column.field} = {(symbols or [''])[0]!r}}}"
-    if not unit and (column.unit_needed or (len(symbols) == 1 and not si)):
+    state = f"state units = {{{column.field} = {next((each.symbol for each in column.units), '')!r}}}"
+    if not unit and (column.unit_needed or (len(column.units) == 1 and not si)):
         raise ValueError(f"{where} has no unit in the heading: {state}")
     if not unit:
         return numbers, None
     for each in column.units:
-        try:
+        with suppress(ValueError):
             return in_unit(numbers, unit, each.symbol, each.difference), each
-        except ValueError:
-            continue
     kinds = " or ".join(each.kind for each in column.units) or "a number without a unit"
     raise ValueError(f"{where} is in {shown(unit)}, and is {kinds}: {state}")

@@ -9,10 +9,11 @@ from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 from scipy.linalg import eigh_tridiagonal
 
+from ..files.stated import restated
 from ..quantities import RADIAN_PER_SECOND, AngularFrequency, Finite, ShearModulus, Time, takes
+from .conventions import STATED, in_shear
 from .modes import Relaxation
 from .viscoelastic import PoissonRatio, Solid
-from .youngs import STATED, in_shear
 
 _MOST_DECADES = 30
 _REFINEMENTS = 40
@@ -46,7 +47,7 @@ class Fractional(Solid):
     poisson_ratio: PoissonRatio = 0.5
     type: Literal["fractional"] = Field(default="fractional", repr=False)
 
-    _in_tension = model_validator(mode="before")(in_shear)
+    _in_tension = restated(in_shear)
 
     @model_validator(mode="after")
     def _range_in_order(self):

@@ -81,11 +81,6 @@ class Retardation:
         """J(t) [1/Pa] for t >= 0 [s]."""
         return self.instantaneous + _decay(np.asarray(t, float), self.times, rise=True) @ self.compliances
 
-    def complex_compliance(self, omega):
-        """J(omega) = 1 / G(omega) = J' - i J'' [1/Pa]."""
-        phase = 1j * np.asarray(omega, float)[..., None] * self.times
-        return self.instantaneous + (1 / (1 + phase)) @ self.compliances
-
     def relaxation(self) -> Relaxation:
         """Relaxation of the same solid. Relaxation times are the zeros of J(s) at s = -1/time,
 

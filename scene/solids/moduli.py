@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 
 from ..files.reading import InvalidInput, made
+from ..files.stated import TableFormat
 from ..files.tablefile import Column, Columns, read_columns
-from ..files.tabletext import TableFormat, shown
+from ..printable import shown
 from ..quantities import COMPLIANCE, HERTZ, KELVIN, MODULUS, PASCAL_SECOND, RADIAN, RADIAN_PER_SECOND, SECOND
 from .table import MOST_ROWS, SCATTER, CreepTable, RelaxationTable, Table
 
@@ -93,7 +94,7 @@ def read_moduli(
 
 
 def read_table(path: str | Path, **stated: Any) -> Table | RelaxationTable | CreepTable:
-    """The table in a text file. stated : see `tabletext.TableFormat`. Raises ValueError naming file and line."""
+    """The table in a text file. stated : see `stated.TableFormat`. Raises ValueError naming file and line."""
     return read_moduli(path, stated=made(stated, TableFormat, path)).table
 
 
@@ -193,7 +194,7 @@ def _table(columns, made, kind):
     """The table, shifted to one temperature where columns say by how much."""
     (place, places), *moduli = made.items()
     reduced = REDUCED.field in columns
-    temperature = columns.values.get("temperature")
+    temperature = columns.get("temperature")
     if B_T.field in columns:
         if reduced:
             raise ValueError(

@@ -6,14 +6,13 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 
-from ..files.tabletext import FromTable
+from ..files.stated import FromTable, restated
 from ..quantities import ROW, Compliance, ComplianceOrZero, ShearModulus, Time
+from .conventions import NORMALISED, STATED, absolute, in_shear
 from .fractional import Fractional
 from .modes import Relaxation, Retardation
-from .normalised import NORMALISED, absolute
 from .tabulated import Tabulated
 from .viscoelastic import Linear, PoissonRatio, Solid
-from .youngs import STATED, in_shear
 
 MOST_MODES = 200  # of a solid: no measurement tells more apart
 _SOME = Field(min_length=1, max_length=MOST_MODES)
@@ -30,7 +29,7 @@ class Elastic(Solid):
     poisson_ratio: PoissonRatio = 0.5
     type: Literal["elastic"] = Field(default="elastic", repr=False)
 
-    _in_tension = model_validator(mode="before")(in_shear)
+    _in_tension = restated(in_shear)
 
     def modes(self) -> Relaxation:
         return Relaxation.of(self.modulus)
@@ -49,7 +48,7 @@ class Kelvin(Solid):
     poisson_ratio: PoissonRatio = 0.5
     type: Literal["kelvin"] = Field(default="kelvin", repr=False)
 
-    _in_tension = model_validator(mode="before")(in_shear)
+    _in_tension = restated(in_shear)
 
     def modes(self) -> Retardation:
         return Retardation.of(0.0, (1 / self.modulus,), (self.relaxation_time,))
@@ -74,7 +73,7 @@ class StandardLinearSolid(Linear):
     poisson_ratio: PoissonRatio = 0.5
     type: Literal["standard-linear-solid"] = Field(default="standard-linear-solid", repr=False)
 
-    _in_tension = model_validator(mode="before")(in_shear)
+    _in_tension = restated(in_shear)
 
     @model_validator(mode="after")
     def _stiffens_with_frequency(self):
@@ -96,7 +95,7 @@ class Prony(FromTable, Solid):
     equilibrium_modulus : shear modulus at rest [Pa]
     moduli, relaxation_times : of each Maxwell branch [Pa], [s]; 1 to 200, equally many
     table : with the columns tau, and G, E or g, in place of these two; with columns, units, where, separator,
-        decimal, encoding, skip, rows as `tabletext.TableFormat` has them
+        decimal, encoding, skip, rows as `stated.TableFormat` has them
     """
 
     equilibrium_modulus: ShearModulus
@@ -106,7 +105,7 @@ class Prony(FromTable, Solid):
     table: InitVar[Any] = None
     type: Literal["prony"] = Field(default="prony", repr=False)
 
-    _stated_otherwise = model_validator(mode="before")(absolute)
+    _stated_otherwise = restated(absolute)
 
     @model_validator(mode="after")
     def _one_time_a_modulus(self):
@@ -133,7 +132,7 @@ class KelvinChain(Solid):
     poisson_ratio: PoissonRatio = 0.5
     type: Literal["kelvin-chain"] = Field(default="kelvin-chain", repr=False)
 
-    _in_tension = model_validator(mode="before")(in_shear)
+    _in_tension = restated(in_shear)
 
     @model_validator(mode="after")
     def _one_time_a_compliance(self):

@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import Discriminator, Tag, model_validator
 from pydantic.dataclasses import dataclass
 
-from ..files.mistakes import CHOICE
+from ..files.error_text import CHOICE
 from ..quantities import CLOSED, COMPLIANCE, MODULUS, ROW, SECOND, AbsoluteTemperature, Positive, Unit
 
 MOST_ROWS = 5_000

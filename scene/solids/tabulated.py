@@ -11,17 +11,16 @@ from pydantic import ConfigDict, Field, model_validator
 from pydantic.dataclasses import dataclass
 
 from ..effects.temperature import TemperatureLaw
-from ..files.tablefile import refused
-from ..files.tabletext import FromTable, TableFormat, split_format
-from ..plain import bare
-from ..quantities import CLOSED, Finite, ShearModulus, by_name
+from ..files.stated import FromTable, TableFormat, refused, restated, split_format
+from ..numeric_input import bare
+from ..quantities import CLOSED, Finite, ShearModulus
+from .conventions import in_shear, or_in_tension
 from .extrapolation import Continued
 from .fit import NEGLIGIBLE, Creep, Measured, Modes, Oscillation, Stress, fitted, rms
 from .modes import Relaxation, Retardation
 from .moduli import read_moduli
 from .table import SCATTER, AnyTable, CreepTable, RelaxationTable, Table
 from .viscoelastic import PoissonRatio, Solid
-from .youngs import in_shear, or_in_tension
 
 _TABLES = (Table, RelaxationTable, CreepTable)
 # Standard errors of a fitted modulus at rest; what is less of them cannot be told from nothing.
@@ -45,7 +44,7 @@ class Tabulated(FromTable, Solid):
         the path of a text file, a DataFrame, a Dataset of xarray, or arrays by the names that columns may have. It
         is read once and kept as numbers; a relative path starts at the folder of a scene file that names it
     columns, units, where, separator, decimal, encoding, skip, rows : what differs of it from the documented form
-        of tables, see `tabletext.TableFormat`
+        of tables, see `stated.TableFormat`
     frequency_unit : "rad/s" or "Hz" (cycles per second), where no heading says so; None over the time
     kind : "shear" for G', G'', G(t), J(t); "tensile" for E', E'', E(t), D(t), where no heading says so;
         E = 2 (1 + poisson_ratio) G, and moduli are in Pa where no heading has another unit
@@ -72,14 +71,12 @@ class Tabulated(FromTable, Solid):
     poisson_ratio: PoissonRatio = 0.5
     type: Literal["tabulated"] = Field(default="tabulated", repr=False)
 
-    _in_tension = model_validator(mode="before")(in_shear)
+    _in_tension = restated(in_shear)
 
-    @model_validator(mode="before")
-    @classmethod
-    def _read(cls, given: Any) -> Any:
-        stated = by_name(given)
-        if stated is None or "table" not in stated:
-            return given
+    @restated
+    def _read(cls, stated):  # noqa: N805
+        if "table" not in stated:
+            return stated
         written, found = split_format(stated)
         table = found["table"]
         if written != TableFormat() or not _is_plain(table):
@@ -130,24 +127,8 @@ class Tabulated(FromTable, Solid):
 
     def _seen_at_rest(self):
         """Sentence on what the table shows of the modulus at rest."""
-        modes = _fit(self)[0]
-        rest = modes.equilibrium
-        fitted = f"is {rest:.2g} Pa with a standard error of {self.equilibrium_error:.2g} Pa"
-        fitted = f"and what is fitted {fitted if 0 < self.equilibrium_error < inf else 'is none'}"
-        place = self.measured()[0]
-        if isinstance(self.table, Table):
-            low, octave = modes.complex_modulus(place[0] * np.array([1.0, 2.0]))
-            liquid = "it shows a liquid, " if low.imag > low.real else ""
-            return (
-                f"{liquid}as at its lowest frequency, {min(self.table.frequency):g} {self.frequency_unit}, G'' is "
-                f"{low.imag / low.real:.2g} G' and G' grows as frequency^{np.log2(octave.real / low.real):.2g}, "
-                f"{fitted}"
-            )
-        half = place[-1] * np.array([0.5, 1.0])
-        creeps = isinstance(self.table, CreepTable)
-        early, late = modes.compliance(half) if creeps else modes.modulus(half)
-        does = "the compliance grows" if creeps else "the modulus falls"
-        return f"at its end, {place[-1]:g} s, {does} as time^{np.log2(late / early):.2g}, {fitted}"
+        rest, error = _fit(self)[0].equilibrium, self.equilibrium_error
+        return f"what is fitted is {f'{rest:.2g} Pa +- {error:.2g} Pa' if 0 < error < inf else 'none'}"
 
     def measured(self) -> tuple[np.ndarray, np.ndarray]:
         """The table in shear: angular frequencies (N,) [rad/s] ascending, and complex moduli (N,) [Pa].

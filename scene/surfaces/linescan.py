@@ -17,7 +17,8 @@ from math import log10, pi, sqrt
 
 import numpy as np
 
-from .periodogram import PER_DECADE, bins_of, periodogram, taken_off
+from .form import taken_off
+from .periodogram import PER_DECADE, bins_of, periodogram
 
 LEAST, MOST = 64, 2**20  # points of a line that is fitted
 LEVEL = 0.95  # of intervals

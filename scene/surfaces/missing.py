@@ -1,5 +1,7 @@
 """Missing heights of a map or a line: what was not measured, what stands for it, outliers, and filling in."""
 
+import re
+
 import numpy as np
 
 MOST_FILLED = 0.05  # of all heights
@@ -7,13 +9,10 @@ LEAST_DEVIATIONS = 3.0
 NEIGHBOURS = 5  # pixels a side of the square whose median an outlier is far from
 NORMAL = 1.4826  # standard deviation of a normal distribution over its median absolute deviation
 # Numbers that programs write where they have no height, whatever its unit, and any from 1e30 on.
-_NONES = (-999.0, -32768.0, 32767.0, 65535.0, -2147483648.0, 2147483647.0, 4294967295.0)
+_NONES = re.compile(r"-999|-32768|32767|65535|-2147483648|2147483647|4294967295|-?9{4,}|-?[\d.]+e\+([3-9]|\d\d)\d")
 _METRES = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
-_ENDLESS = 1e30
-# Over the range of all other heights: how far off is a number that stands for none, one that programs write, one
-# that is there more than once, and any other.
-_PROGRAMS, _REPEATED, _ALONE = 1.0, 100.0, 1000.0
-_FARTHER = 10.0  # and over the largest of them
+# How far off all others a number stands for none: over their range, and over the largest of them.
+_FAR, _FARTHER = 1000.0, 10.0
 
 
 def refuse_missing(heights: np.ndarray) -> None:
@@ -21,45 +20,43 @@ def refuse_missing(heights: np.ndarray) -> None:
 
     Missing is what is not finite, and what stands for none, see `sentinels`.
     """
+    crop = ", crop = [x from, x to, y from, y to] keeps a part of the map" if heights.ndim > 1 else ""
     holes = ~np.isfinite(heights)
+    few = np.count_nonzero(holes) <= MOST_FILLED * heights.size
+    remedy = f'missing = "fill" fills {"them in" if few else f"in at most {100 * MOST_FILLED:g} %"}{crop}'
     if count := np.count_nonzero(holes):
         place = tuple(np.argwhere(holes)[0])
         at = "".join(f"[{each}]" for each in place)
-        raise ValueError(
-            f"heights{at} = {heights[place]:g}: {_share(count, heights)} missing: {_remedy(count, heights)}"
-        )
+        raise ValueError(f"heights{at} = {heights[place]:g}: {_share(count, heights)} missing: {remedy}")
     if found := sentinels(heights):
         count = np.count_nonzero(np.isin(heights, found))
         raise ValueError(
             f"{_share(count, heights)} are {' or '.join(map(_in_words, found))}, far off all others, as programs "
-            f"write missing ones: {_remedy(count, heights)}"
+            f"write missing ones: {remedy}"
         )
 
 
-def mended(
+def cleaned_heights(
     heights: np.ndarray, pixel: tuple[float, float], fill: bool, deviations: float | None = None
 ) -> tuple[np.ndarray, tuple[str, ...]]:
     """Heights of a map or a line with missing ones or outliers filled in, see `filled`; and what was done.
 
-    fill : whether what is missing is filled in; where not, whoever makes a map of it refuses it
+    fill : whether what is missing is filled in; where not, it is refused
     deviations : heights of a map farther off their neighbours are outliers and filled in, see `outliers`; None
         leaves them
 
     Raises ValueError where more than a twentieth would be filled in.
     """
-    if not fill and deviations is None:
-        return heights, ()
     notes = []
-    if fill:
-        for value in sentinels(heights):
-            same = heights == value
-            notes.append(
-                f"{_share(np.count_nonzero(same), heights)} are {_in_words(value)}, far off all others, and count "
-                "as missing"
-            )
-            heights = np.where(same, np.nan, heights)
-    else:
+    if not fill:
         refuse_missing(heights)
+    for value in sentinels(heights):
+        same = heights == value
+        notes.append(
+            f"{_share(np.count_nonzero(same), heights)} are {_in_words(value)}, far off all others, and count as "
+            "missing"
+        )
+        heights = np.where(same, np.nan, heights)
     holes = ~np.isfinite(heights)
     if count := _checked(holes, "missing"):
         notes.append(f"{_share(count, heights)} were missing and are filled in")
@@ -78,9 +75,7 @@ def _checked(holes, what):
     """Number of the heights that are filled in. Raises ValueError for too many."""
     count = np.count_nonzero(holes)
     if count > MOST_FILLED * holes.size:
-        raise ValueError(
-            f"{_share(count, holes)} {what}: at most {100 * MOST_FILLED:g} % are filled in{_crop(holes)}"
-        )
+        raise ValueError(f"{_share(count, holes)} {what}: at most {100 * MOST_FILLED:g} % are filled in")
     return count
 
 
@@ -93,52 +88,33 @@ def _in_words(value):
     return f"{value:g} m{f' ({written})' * bool(written)}"
 
 
-def _remedy(count, heights):
-    if count > MOST_FILLED * heights.size:
-        return f'missing = "fill" fills in at most {100 * MOST_FILLED:g} %{_crop(heights)}'
-    return f'missing = "fill" fills them in{_crop(heights)}'
-
-
-def _crop(heights):
-    return ", crop = [x from, x to, y from, y to] keeps a part of the map" if heights.ndim > 1 else ""
-
-
 def sentinels(heights: np.ndarray) -> list[float]:
     """Heights [m] that lie so far off all others that they stand for none: exact numbers, one at each end at most.
 
     A number that programs write for none, as -9999, 32767 or 1e38 in m, mm, um or nm, has to lie farther from all
-    others than those lie from one another; another one a hundred times as far if it is there more than once, a
-    thousand times if not, and to be ten times as large as any. Beside heights that are all alike none is far off.
+    others than those lie from one another; another one a thousand times as far, and be ten times as large as any.
+    Beside heights that are all alike none is far off.
     """
     known = heights[np.isfinite(heights)]
-    if not known.size:
-        return []
-    ends, found = (known.min(), known.max()), set()
+    ends, found = [float(each(known)) for each in (np.min, np.max) if known.size], set()
     for taken in (ends, ends[:1], ends[1:]):
-        rest = known[~np.isin(known, taken)] if len(taken) < 2 else known[(known != ends[0]) & (known != ends[1])]
+        rest = known[~np.isin(known, taken)]
         if rest.size and rest.min() < rest.max():
-            found |= {float(end) for end in taken if _far(end, rest, np.count_nonzero(known == end))}
+            found |= {end for end in taken if _far(end, float(rest.min()), float(rest.max()))}
     return sorted(found)
 
 
-def _far(value, rest, count):
-    # Numbers of Python overflow without a word.
-    value, low, high = float(value), float(rest.min()) / 2, float(rest.max()) / 2  # their difference is a number
-    off, span = max(value / 2 - high, low - value / 2), high - low
-    if _written(value) and off > _PROGRAMS * span:
-        return True
-    return abs(value) > 2 * _FARTHER * max(-low, high) and off > (_REPEATED if count > 1 else _ALONE) * span
+def _far(value, low, high):
+    off = max(value - high, low - value)
+    if _written(value):
+        return off > high - low
+    return abs(value) > _FARTHER * max(-low, high) and off > _FAR * (high - low)
 
 
 def _written(value):
     """A number as a program writes it for a missing height, with its unit; empty of any other."""
-    for unit, metre in _METRES.items():
-        number = abs(value) / metre
-        nines = 10.0 ** np.round(np.log10(number + 1)) - 1
-        exact = [abs(each) for each in _NONES if value and (each > 0) == (value > 0)]
-        if number >= _ENDLESS or any(abs(number - each) <= 1e-9 * each for each in (*exact, max(nines, 9999.0))):
-            return f"{value / metre:.10g} {unit}"
-    return ""
+    texts = {unit: f"{value / metre:.10g}" for unit, metre in _METRES.items()}
+    return next((f"{text} {unit}" for unit, text in texts.items() if _NONES.fullmatch(text)), "")
 
 
 def outliers(heights: np.ndarray, deviations: float) -> np.ndarray:
@@ -178,24 +154,23 @@ def filled(heights: np.ndarray, pixel: tuple[float, float]) -> np.ndarray:
         return heights
     if heights.ndim == 1:
         return filled(heights[None], pixel)[0]
-    rows, columns = np.nonzero(holes)
-    numbers = np.full(heights.shape, -1)
-    numbers[holes] = np.arange(len(rows))
+    rows, columns = np.nonzero(np.pad(holes, 1))
     # Over a height of their own, so that no sum of them is beyond numbers.
     most = np.abs(heights[~holes]).max() or 1.0
+    values = np.pad(np.where(holes, 0.0, heights / most), 1)
+    numbers = np.pad(
+        np.where(holes, 0, -1), 1, constant_values=-2
+    )  # of holes from 0 on, -1 known, -2 beyond a side
+    numbers[rows, columns] = here = np.arange(len(rows))
     diagonal, known, pairs = np.zeros(len(rows)), np.zeros(len(rows)), []
     for down, right in ((1, 0), (-1, 0), (0, 1), (0, -1)):
-        weight = (min(pixel) / pixel[0 if right else 1]) ** 2
-        inside = (rows + down >= 0) & (rows + down < heights.shape[0])
-        inside &= (columns + right >= 0) & (columns + right < heights.shape[1])
-        here, there = np.flatnonzero(inside), (rows[inside] + down, columns[inside] + right)
-        diagonal[here] += weight
-        open_ = holes[there]
-        known[here[~open_]] += weight * (heights[there][~open_] / most)
-        pairs.append((here[open_], numbers[there][open_], np.full(np.count_nonzero(open_), -weight)))
-    pairs.append((np.arange(len(rows)), np.arange(len(rows)), diagonal))
-    place_, other, value = (np.concatenate(each) for each in zip(*pairs, strict=True))
-    matrix = coo_array((value, (place_, other)), shape=(len(rows),) * 2).tocsc()
+        weight, there = (min(pixel) / pixel[0 if right else 1]) ** 2, (rows + down, columns + right)
+        diagonal += weight * (numbers[there] > -2)
+        known += weight * values[there]
+        hole = numbers[there] >= 0
+        pairs.append((here[hole], numbers[there][hole], np.full(hole.sum(), -weight)))
+    place, other, value = (np.concatenate(each) for each in zip(*pairs, (here, here, diagonal), strict=True))
+    matrix = coo_array((value, (place, other)), shape=(len(rows),) * 2).tocsc()
     found = heights.copy()
     found[holes] = most * splu(matrix, permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True}).solve(known)
     return found

@@ -10,6 +10,8 @@ from math import log10, pi, sqrt
 
 import numpy as np
 
+from .form import polynomials
+
 PER_DECADE = 20  # bins
 COARSE = 0.05  # relative, of the density of a bin beside its scatter: its width, and what lattices of laws leave
 TAPERS = 3
@@ -17,19 +19,6 @@ TAPERS = 3
 LOW, REACH, STEP = 12, 24, 0.25
 SMEARED = 2  # of a wave alone and its neighbours: measured, for intervals of the rms height to hold
 FINE = 1024  # points on which the leakage of the lowest waves is found
-
-
-def taken_off(heights: np.ndarray, degree: int) -> np.ndarray:
-    """Heights less the polynomial of a degree that fits them best."""
-    basis = _polynomials(len(heights), degree)
-    left = heights - basis @ (basis.T @ heights)
-    return left - basis @ (basis.T @ left)
-
-
-@lru_cache(maxsize=4)
-def _polynomials(count, degree):
-    """Orthonormal polynomials at so many places (count, degree + 1)."""
-    return np.linalg.qr(np.polynomial.legendre.legvander(np.linspace(-1, 1, count), degree))[0]
 
 
 def _tapers(count):
@@ -119,7 +108,7 @@ def _leakage(offset):
 @lru_cache(maxsize=4)
 def _levelled_leakage(degree):
     """Shares of waves of the lattice in the lowest bins of a line that is levelled first (LOW, J)."""
-    basis, tapers = _polynomials(FINE, degree), _tapers(FINE)
+    basis, tapers = polynomials(FINE, degree), _tapers(FINE)
     places, size = np.arange(FINE) / FINE, int(FINE / STEP)
     rows = []
     for u in range(1, LOW + 1):

@@ -1,22 +1,21 @@
 """Roughness that was measured along a line: an isotropic surface whose spectrum is fitted to that of the line."""
 
-from dataclasses import fields, replace
+from dataclasses import replace
 from functools import lru_cache
 from math import pi, sqrt
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 from pydantic import ConfigDict, Field, model_validator
 from pydantic.dataclasses import dataclass
 
-from ..files.tabletext import FromTable
-from ..quantities import CLOSED, METRE, RADIAN_PER_METRE, Length, Seed, by_name, takes
+from ..files.stated import FromTable, restated
+from ..quantities import CLOSED, METRE, RADIAN_PER_METRE, Length, Seed, takes
 from . import linescan
-from .form import DEGREES, ROUNDING
+from .form import DEGREES, levelled
 from .heightmap import LONGEST, SHORTEST, HeightLine, LineHeights
 from .linescan import Interval, LineLaw
-from .periodogram import taken_off
-from .scanned import QUOTIENT, prepared, schema_with_file
+from .scanned import QUOTIENT, level_of_what_repeats, prepared, refuse_step, schema_with_file
 from .selfaffine import SelfAffine
 
 
@@ -36,7 +35,7 @@ class Profile(FromTable):
 
     In place of heights `file` is the path of a text or an array, see `heightfile`; `unit` of the heights is needed
     where it states none. `skip`, `rows`, `separator`, `decimal`, `encoding`, `columns`, `units` and `where` state
-    what differs of a text, see `tabletext.TableFormat`. Missing heights are refused; missing = "fill" fills in up
+    what differs of a text, see `stated.TableFormat`. Missing heights are refused; missing = "fill" fills in up
     to 5 % on straight lines.
 
     Solvers take up `fitted`, a self-affine surface with the roll-off and the cut-off that the line shows: in 3D
@@ -53,23 +52,14 @@ class Profile(FromTable):
     seed: Seed = 0
     type: Literal["profile"] = Field(default="profile", repr=False)
 
-    @model_validator(mode="before")
-    @classmethod
-    def _as_measured(cls, given: Any) -> Any:
-        stated = by_name(given)
-        if stated is not None and stated.get("repeat") == "periodic":
-            given = {"level": "mean"} | stated
-        return prepared(given, HeightLine, "spacing", {each.name for each in fields(cls)})
+    _prepared = restated(lambda cls, stated: prepared(cls, stated, HeightLine, "spacing"))
+    _level_of_what_repeats = restated(level_of_what_repeats)
 
     @model_validator(mode="after")
     def _can_be_fitted(self):
         if not SHORTEST <= self.spacing <= LONGEST:
             raise ValueError(f"spacing = {self.spacing:g} m: from {SHORTEST:g} to {LONGEST:g} m")
-        if self.repeat == "periodic" and self.level != "mean":
-            raise ValueError(
-                f'level = "{self.level}" with repeat = "periodic": taken off a period it would leave a step at '
-                'its ends: take level = "mean", or repeat = "mirror"'
-            )
+        refuse_step(self)
         (least, most), kept = self.keepable, self.shortest_kept
         if kept is not None and not least * (1 - QUOTIENT) <= kept <= most:
             raise ValueError(
@@ -122,7 +112,7 @@ class Profile(FromTable):
     @property
     def relief(self) -> np.ndarray:
         """Heights above the elastomer along the line, levelled (N,) [m]."""
-        return _relief(self.heights, self.level) * (-1 if self.peaks == "up" else 1)
+        return levelled(self.heights.heights, self.level) * (-1 if self.peaks == "up" else 1)
 
     @property
     def side(self) -> float:
@@ -233,13 +223,6 @@ def _in_words(number: Interval, unit: str = "") -> str:
 
 
 @lru_cache(maxsize=8)
-def _relief(heights, level):
-    most = np.abs(heights.heights).max() or 1.0
-    left = taken_off(heights.heights / most, DEGREES[level])
-    return np.zeros(len(left)) if np.abs(left).max() <= ROUNDING else most * left
-
-
-@lru_cache(maxsize=8)
 def _law(heights, spacing, level, repeat):
-    relief = _relief(heights, level)
+    relief = levelled(heights.heights, level)
     return linescan.fit(relief, spacing, DEGREES[level], repeat == "periodic") if relief.any() else None

@@ -1,4 +1,4 @@
-"""What a measured map may be given as, and how it is prepared: read, laid out, cropped, mended."""
+"""What a measured map may be given as, and how it is prepared: read, laid out, cropped, cleaned."""
 
 from collections.abc import Mapping
 from dataclasses import fields
@@ -9,11 +9,11 @@ from pydantic import ConfigDict, model_validator
 from pydantic.dataclasses import dataclass
 
 from ..files.heightfile import LINE, MAP, given_heights, read_heights
-from ..files.tabletext import FromTable, TableFormat, split_format
+from ..files.stated import FromTable, TableFormat, restated, split_format
 from ..printable import brief
-from ..quantities import BARE, CLOSED, METRE, Length, argument, by_name
+from ..quantities import BARE, CLOSED, METRE, Length, argument
 from .heightmap import LEAST, HeightLine, HeightMap, MapHeights, Pixel, sides
-from .missing import LEAST_DEVIATIONS, mended
+from .missing import LEAST_DEVIATIONS, cleaned_heights
 
 QUOTIENT = 1e-12  # rounding of a quotient of lengths
 FILL = ("refuse", "fill")
@@ -53,7 +53,7 @@ class Scanned(FromTable):
     In place of heights `file` is the path of a file, read once and kept as numbers, see `heightfile`. `pixel`, and
     `unit` of the heights, are needed where the file does not state them, and `channel` where it has several maps.
     `skip`, `rows`, `separator`, `decimal`, `encoding`, `columns`, `units` and `where` state what differs of a
-    text, see `tabletext.TableFormat`.
+    text, see `stated.TableFormat`.
 
     Before heights are a map, in this order:
 
@@ -72,10 +72,7 @@ class Scanned(FromTable):
     peaks: Literal["up", "down"] = "up"
     shortest_kept: Length | None = None
 
-    @model_validator(mode="before")
-    @classmethod
-    def _prepared(cls, given: Any) -> Any:
-        return prepared(given, HeightMap, "pixel", {each.name for each in fields(cls)})
+    _prepared = restated(lambda cls, stated: prepared(cls, stated, HeightMap, "pixel"))
 
     @model_validator(mode="after")
     def _waves_kept(self):
@@ -114,23 +111,37 @@ class Scanned(FromTable):
         return -self.heights.heights if self.peaks == "up" else self.heights.heights
 
 
-def prepared(given: Any, kind: type[HeightMap], spacing: str, names: set[str]) -> Any:
-    """Fields of a part whose heights are a map or a line: read, cropped and mended as stated.
+def level_of_what_repeats(cls: Any, stated: dict[str, Any]) -> dict[str, Any]:
+    """Fields with the level that heights have which repeat as they stand: a plane taken off would leave a step."""
+    return {"level": "mean"} | stated if stated.get("repeat") == "periodic" else stated
 
-    kind : HeightMap or HeightLine; spacing : field with the pixel or the spacing; names : of all fields
+
+def refuse_step(heights: Any) -> Any:
+    """Return measured roughness as it is. Raises ValueError where its level leaves a step at what repeats."""
+    if heights.repeat == "periodic" and heights.level != "mean":
+        raise ValueError(
+            f'level = "{heights.level}" with repeat = "periodic": taken off a period it would leave a step at '
+            'its ends: take level = "mean", or repeat = "mirror"'
+        )
+    return heights
+
+
+def prepared(cls: Any, stated: dict[str, Any], kind: type[HeightMap], spacing: str) -> dict[str, Any]:
+    """Fields of a part whose heights are a map or a line: read, cropped and cleaned as stated.
+
+    kind : HeightMap or HeightLine; spacing : field with the pixel or the spacing
 
     What are no heights is left to its field to refuse, and so is a spacing that is none. Raises ValueError.
     """
-    stated = by_name(given)
-    if stated is None or not ("file" in stated or "heights" in stated):
-        return given
+    if not ("file" in stated or "heights" in stated):
+        return stated
     written, stated = split_format(stated)
     asked = {name: stated[name] for name in ASKED[kind] if stated.get(name) is not None}
     left = {name: each for name, each in stated.items() if name not in ASKED[kind]}
     path, heights = asked.pop("file", None), left.get("heights")
     if path is not None and heights is not None:
         raise ValueError(f"file = {brief(repr(path))} and heights are both stated: give one of them")
-    if left.keys() - names:
+    if left.keys() - {each.name for each in fields(cls)}:
         # First what is misspelt: another map may be meant.
         return {spacing: 1.0} | left | {"heights": kind(np.eye(LEAST) if kind is HeightMap else np.zeros(1))}
     plain = not (isinstance(heights, Mapping) or hasattr(heights, "columns") or hasattr(heights, "dims"))
@@ -150,13 +161,13 @@ def prepared(given: Any, kind: type[HeightMap], spacing: str, names: set[str]) -
         )
     try:
         kind.check_layout(numbers.shape, numbers.dtype)
-        numbers, more = _mended(numbers.astype(float), left.get(spacing), asked)
+        numbers, more = _cleaned(numbers.astype(float), left.get(spacing), asked)
         return left | {"heights": kind(numbers, (*notes, *more))}
     except ValueError as error:
         raise error if path is None else ValueError(f"file = {brief(repr(str(path)))}: {error}") from None
 
 
-def _mended(heights, pixel, asked):
+def _cleaned(heights, pixel, asked):
     """Heights cropped and filled in as stated, and what was done, in lines."""
     crop, missing, deviations = (asked.get(name) for name in ("crop", "missing", "outliers"))
     if missing not in (None, *FILL):
@@ -173,7 +184,9 @@ def _mended(heights, pixel, asked):
     if crop is not None:
         heights, cropped = _cropped(heights, pixel, crop)
         notes = (cropped,)
-    heights, more = mended(heights, pixel, missing == "fill", deviations)
+    if missing != "fill" and deviations is None:
+        return heights, notes
+    heights, more = cleaned_heights(heights, pixel, missing == "fill", deviations)
     return heights, (*notes, *more)
 
 

@@ -8,8 +8,9 @@ import numpy as np
 from pydantic import AfterValidator, ConfigDict, Field, TypeAdapter, ValidationError, model_validator
 from pydantic.dataclasses import dataclass
 
+from ..files.stated import restated
 from ..printable import brief
-from ..quantities import CLOSED, Finite, Length, LengthOrZero, NonNegative, Seed, by_name
+from ..quantities import CLOSED, Finite, Length, LengthOrZero, NonNegative, Seed
 from .isotropic import Isotropic, power_integral
 
 # Wavelength [m] down to which its wave number, and that of a grid that resolves it, is a number.
@@ -64,13 +65,10 @@ class SelfAffine(Isotropic):
     amplitudes: Literal["fixed", "gaussian"] = "fixed"
     type: Literal["self-affine"] = Field(default="self-affine", repr=False)
 
-    @model_validator(mode="before")
-    @classmethod
-    def _of_the_slope(cls, given: Any) -> Any:
-        stated = by_name(given)
-        if stated is None or "rms_slope" not in stated:
-            return given
-        stated = dict(stated)
+    @restated
+    def _of_the_slope(cls, stated):  # noqa: N805
+        if "rms_slope" not in stated:
+            return stated
         said = f"rms_slope = {brief(repr(slope := stated.pop('rms_slope')))}"
         if "rms_height" in stated:
             raise ValueError(f"{said} beside rms_height = {brief(repr(stated['rms_height']))}: give one of them")

@@ -8,9 +8,9 @@ import numpy as np
 from pydantic import ConfigDict, Field, TypeAdapter, model_validator
 from pydantic.dataclasses import dataclass
 
-from ..files.tablefile import Column, filled, read_columns
-from ..files.tabletext import TableFormat
-from ..quantities import CLOSED, METRE, RADIAN_PER_METRE, ROW, Positive, Seed, Unit, by_name, takes
+from ..files.stated import TableFormat, filled, restated
+from ..files.tablefile import Column, read_columns
+from ..quantities import CLOSED, METRE, RADIAN_PER_METRE, ROW, Positive, Seed, Unit, takes
 from .heightmap import LONGEST, SHORTEST
 from .isotropic import Isotropic
 from .powerlaws import PowerLaws, of_surface
@@ -60,7 +60,7 @@ class Spectrum(Isotropic):
     names it, a DataFrame, a Dataset of xarray or arrays by name, with columns of these names; q, in rad/m or 1/m,
     is 2 pi / wavelength, and `frequency` [1/m] in its place 1 / wavelength. `columns`, `units`, `where`,
     `separator`, `decimal`, `encoding`, `skip` and `rows` state how it differs from the documented form of tables,
-    see `tabletext.TableFormat`.
+    see `stated.TableFormat`.
 
     Raises ValueError where there are fewer than two points or equal ones, where the waves span less than a factor
     of 2, and where no isotropic surface has such a C1D.
@@ -82,11 +82,7 @@ class Spectrum(Isotropic):
     amplitudes: Literal["fixed", "gaussian"] = "fixed"
     type: Literal["spectrum"] = Field(default="spectrum", repr=False)
 
-    @model_validator(mode="before")
-    @classmethod
-    def _of_a_table(cls, given: Any) -> Any:
-        stated = by_name(given)
-        return given if stated is None else filled(stated, _read)
+    _of_a_table = restated(lambda cls, stated: filled(stated, _read))
 
     @model_validator(mode="after")
     def _is_one(self):
@@ -220,9 +216,9 @@ def _read(table: Any, written: TableFormat) -> dict[str, Any]:
         raise ValueError(
             f'{found.name}: column {found.headings["q"]!r} has no unit: state units = {{q = "rad/m"}}'
         )
-    for name, values in found.values.items():
+    for name, values in found.items():
         found.refuse(name, values <= 0, "is not above zero: leave it out, as with where or rows")
-    columns = dict(found.values)
+    columns = dict(found)
     if "frequency" in columns:
         columns["q"] = 2 * pi * columns.pop("frequency")
     return columns

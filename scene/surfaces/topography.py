@@ -3,15 +3,16 @@
 from dataclasses import replace
 from functools import lru_cache
 from math import pi
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 
-from ..quantities import METRE, Seed, by_name, takes
+from ..files.stated import restated
+from ..quantities import METRE, Seed, takes
 from .form import levelled
-from .scanned import MAPPED, QUOTIENT, Scanned
+from .scanned import MAPPED, QUOTIENT, Scanned, level_of_what_repeats, refuse_step
 from .waves import MOST_WAVES, Waves
 
 # Maps whose waves are kept for the next solve.
@@ -39,22 +40,9 @@ class Topography(Scanned):
     seed: Seed = 0
     type: Literal["topography"] = Field(default="topography", repr=False)
 
-    @model_validator(mode="before")
-    @classmethod
-    def _level_of_what_repeats(cls, given: Any) -> Any:
-        stated = by_name(given)
-        if stated is None or "level" in stated or stated.get("repeat") != "periodic":
-            return given
-        return stated | {"level": "mean"}
+    _level_of_what_repeats = restated(level_of_what_repeats)
 
-    @model_validator(mode="after")
-    def _no_step_at_the_sides(self):
-        if self.repeat == "periodic" and self.level != "mean":
-            raise ValueError(
-                f'level = "{self.level}" with repeat = "periodic": taken off a period it would leave a step at '
-                'its sides: take level = "mean", or repeat = "mirror"'
-            )
-        return self
+    _no_step = model_validator(mode="after")(refuse_step)
 
     @property
     def sides(self) -> tuple[float, float]:

@@ -35,8 +35,7 @@ from scene import (
     Topography,
     Wave,
 )
-from scene.costs import multiples
-from scene.plan import size
+from scene.plan import multiples, size
 
 EXTENT = 3e-3
 ROUGH = SelfAffine(hurst=0.8, rms_height=5e-6, longest=2e-3, shortest=0.25e-3, seed=1)

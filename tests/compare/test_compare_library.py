@@ -208,5 +208,5 @@ def test_a_folder_of_an_earlier_run_does_not_hide_the_ready_scene_it_was_made_fr
     (tmp_path / "quick-start").mkdir()
     (tmp_path / "elsewhere").mkdir()
     assert located("quick-start").name == "quick-start.toml"
-    with pytest.raises(InvalidInput, match="is a folder, and a file is needed, and no ready scene"):
+    with pytest.raises(InvalidInput, match="is no regular file"):
         located("elsewhere")

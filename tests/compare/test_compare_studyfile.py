@@ -163,7 +163,7 @@ def test_a_file_is_a_study_of_the_command_and_a_name_that_is_neither_is_refused(
     assert (study.place, study.title, study.inputs["source"]) == ("mine-quick", "Mine", TEXT)
     for name, said in (
         ("colapse", "did you mean collapse"),
-        (str(tmp_path), "is a folder"),
+        (str(tmp_path), "is no regular file"),
         (str(tmp_path / "x.toml"), "no such"),
     ):
         with pytest.raises(InvalidInput, match=said):

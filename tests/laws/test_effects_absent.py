@@ -30,9 +30,9 @@ PLAIN = {
 MODULES = {
     "layer": {"bem3d/layer.py", "bem3d/layerwaves.py"},
     "temperature": {"scene/effects/temperature.py"},
-    "heating": {"scene/effects/heated.py", "scene/effects/heating.py", "scene/solids/settling.py"},
+    "heating": {"scene/effects/terms.py", "scene/effects/parts.py", "scene/effects/settling.py"},
     "tangential": {
-        "scene/rubbed.py",
+        "scene/effects/terms.py",
         "bem3d/tangential.py",
         "bem3d/cerruti.py",
         "bem3d/stickslip.py",
@@ -130,7 +130,7 @@ def test_of_a_measured_body_functions_are_called(tmp_path):
 
 ALONE = """
 import sys
-import scene, scene.effects.heated
+import scene, scene.effects.terms
 print(*sorted(set(sys.modules) & {of_scenes}), "| after scene")
 from test_effects_absent import PLAIN, SOLVERS
 for solver in SOLVERS.values():

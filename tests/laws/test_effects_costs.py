@@ -13,8 +13,8 @@ import mdr1d.plan
 from bem3d import BEM
 from mdr1d import MDR
 from scene import Layer, Program, Scene
-from scene.costs import COSTS, expected, multiples
-from scene.terms import Lacking
+from scene.plan import COSTS, expected, multiples
+from scene.terms import Unsupported
 
 
 @pytest.fixture(scope="module")
@@ -46,7 +46,7 @@ def test_plans_know_the_costs_of_every_part_that_the_solver_has():
         for kind, line in solver.terms.items():
             if kind.__name__ in unmeasured or issubclass(kind, counted):
                 continue
-            if not isinstance(line, type) and isinstance(line("", None), Lacking):
+            if not isinstance(line, type) and isinstance(line("", None), Unsupported):
                 continue
             measured = [multiples(table).get(each.__name__) for each in (kind, *kind.__subclasses__())]
             assert any(found and all(found[cost] > 0 for cost in COSTS) for found in measured), kind

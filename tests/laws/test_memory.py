@@ -15,7 +15,7 @@ from compare.solving.task import SceneTask
 from mdr1d import MDR
 from scene import Kelvin, OutOfMemory, Plane, Refused, Scene, SelfAffine, Slide, Sphere, Topography, machine
 from scene.machine import memory
-from scene.protocol import refuse, trusted
+from scene.protocol import numeric_guard, refuse
 from scene.surfaces.waves import MOST_WAVES
 
 SCENE = Scene(Sphere(radius=1e-2), Kelvin(modulus=1e6, relaxation_time=1e-3), Slide(speed=0.1, load=1.0))
@@ -70,9 +70,12 @@ def test_a_limit_of_the_process_is_what_it_has():
 
 
 def test_memory_that_runs_out_is_told_as_memory_and_no_mistake_of_the_scene():
-    with pytest.raises(OutOfMemory, match=r"memory ran out \(Unable to allocate.*take fewer points"), trusted():
+    with (
+        pytest.raises(OutOfMemory, match=r"memory ran out \(Unable to allocate.*take fewer points"),
+        numeric_guard(),
+    ):
         np.empty(2**60 // 8)
-    with pytest.raises(OutOfMemory, match="no size is known"), trusted():
+    with pytest.raises(OutOfMemory, match="no size is known"), numeric_guard():
         raise MemoryError
 
 
@@ -86,7 +89,7 @@ class Hungry:
         return []
 
     def solve(self, scene):
-        with trusted():
+        with numeric_guard():
             np.empty(2**60 // 8)
 
 

@@ -62,7 +62,7 @@ from scene import (
     Topography,
     Wave,
 )
-from scene.quantities import unit_of
+from scene.files.parts import unit_of
 
 # Each unit in another one, larger or smaller by a power of ten but for degrees; no dimension where there is none.
 OTHERS = {

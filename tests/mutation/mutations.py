@@ -71,7 +71,6 @@ EQUIVALENT = {
         "range(count)",
         "(range(count - 1))",
     ): "the last ring begins no band",
-    ("scene/files/mistakes.py", "range(_ROUNDS)", "(range(_ROUNDS - 1))"): "no tables are nine deep",
 }
 
 

@@ -172,14 +172,6 @@ def test_friction_and_depth_follow_where_the_law_goes_on(exponent):
         assert found == pytest.approx(slid(gel(exponent), decades), rel=0.03)
 
 
-def test_a_table_that_is_not_continued_is_followed_as_before():
-    omega = np.geomspace(1e-2, 1e4, 50)
-    found, continued = table(gel(0.2)), table(gel(0.2), extrapolate=True)
-    assert not found.extrapolate
-    inside = omega[(omega > 1) & (omega < 100)]
-    np.testing.assert_allclose(continued.complex_modulus(inside), found.complex_modulus(inside), rtol=5e-3)
-
-
 def test_what_does_not_relax_has_nothing_to_go_on():
     creep = {"t [s]": TIMES, "J(t)": np.full(len(TIMES), 1e-6)}
     found = Tabulated(table=creep, extrapolate=True)

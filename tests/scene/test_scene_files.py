@@ -31,7 +31,7 @@ def chained(folder):
 
 
 NOT_READ = {
-    "a folder": (lambda folder: folder, "is a folder, and a file is needed"),
+    "a folder": (lambda folder: folder, "is no regular file"),
     "nothing": (lambda folder: folder / "none", "no such file"),
     "a pipe": (fifo, "is no regular file"),
     "a socket": (unix_socket, "is no regular file"),
@@ -59,54 +59,3 @@ def test_a_file_of_the_greatest_size_is_read_whole(tmp_path):
     path.write_bytes(held := os.urandom(MOST))
     assert checked(path, MOST) == path
     assert content(path, MOST) == held
-
-
-def test_a_file_that_grows_after_it_was_checked_is_refused(tmp_path, monkeypatch):
-    path = tmp_path / "growing"
-    path.write_bytes(b"four")
-    fstat = os.fstat
-
-    def growing(handle):
-        status = fstat(handle)
-        with path.open("ab") as file:
-            file.write(bytes(MOST))
-        return status
-
-    monkeypatch.setattr(os, "fstat", growing)
-    with pytest.raises(Unreadable, match="at most 1 MB"):
-        content(path, MOST)
-
-
-def test_a_file_swapped_for_a_pipe_after_it_was_checked_is_refused(tmp_path, monkeypatch):
-    path, opened = tmp_path / "file", os.open
-    path.write_bytes(b"four")
-
-    def swapped(given, flags, **options):
-        path.unlink()
-        os.mkfifo(path)
-        return opened(given, flags, **options)
-
-    monkeypatch.setattr(os, "open", swapped)
-    with pytest.raises(Unreadable, match="is no regular file"):
-        content(path, MOST)
-
-
-def test_a_file_that_has_nothing_to_give_now_is_as_it_was_found(tmp_path, monkeypatch):
-    opened = open
-
-    class Waiting:
-        def __init__(self, handle, _):
-            self.file = opened(handle, "rb")
-
-        def __enter__(self):
-            return self
-
-        def __exit__(self, *_):
-            self.file.close()
-
-        def read(self, size):
-            return self.file.read(size) or None
-
-    (tmp_path / "log").write_bytes(b"held")
-    monkeypatch.setattr("builtins.open", Waiting)
-    assert content(tmp_path / "log", MOST) == b"held"

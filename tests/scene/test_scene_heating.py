@@ -27,8 +27,8 @@ from scene import (
     Stage,
     StandardLinearSolid,
 )
-from scene.effects.heated import Heated
-from scene.solids.settling import settled
+from scene.effects.settling import settled
+from scene.effects.terms import Heated
 
 ROUNDING = 1e-13
 # What temperature and heat agree to, as stated.

@@ -3,10 +3,8 @@
 import contextlib
 import pickle
 import sys
-import warnings
 from dataclasses import replace
 from types import SimpleNamespace
-from zipfile import ZIP_DEFLATED, ZipFile
 
 import numpy as np
 import pandas
@@ -21,7 +19,6 @@ from scipy.io import savemat
 from strategies import examples
 
 import scene.files.heightfile
-from compare.studies.topography.study import Map
 from scene import Measured, Profile, Scene, Topography
 from scene.files.reading import InvalidInput, read
 from scene.surfaces.form import DEGREES, levelled
@@ -212,14 +209,6 @@ def test_a_map_is_the_same_in_every_text_array_and_library(tmp_path, kind):
     np.testing.assert_allclose(found.pixel, PIXEL, rtol=1e-9)
 
 
-@pytest.mark.parametrize("dtype", ["<f2", ">f4", ">u2", "|i1"])
-@pytest.mark.parametrize("ending", ["npy", "npz"])
-def test_numbers_of_any_real_type_and_order_are_read(tmp_path, dtype, ending):
-    heights = np.asarray((10 * np.abs(SQUARE)).astype(dtype), order="F")
-    found = Topography(file=saved(heights)(tmp_path / f"a.{ending}"), pixel=1.0, unit="nm")
-    assert np.array_equal(found.heights.heights, 1e-9 * heights.astype(float))
-
-
 class Trap:
     """Whose loading would be seen."""
 
@@ -244,11 +233,8 @@ def test_an_array_that_is_no_map_is_refused(tmp_path, kind, ending):
 
 
 def test_what_is_larger_than_is_read_is_not(tmp_path, monkeypatch):
-    with ZipFile(tmp_path / "a.npz", "w", ZIP_DEFLATED) as file:
-        file.writestr("z.npy", bytes(2**20))
     saved(SQUARE)(tmp_path / "b.npy")
     monkeypatch.setattr(scene.files.heightfile, "MOST_BYTES", 2**12)
-    refused("unpacked", file=tmp_path / "a.npz", **UM)
     for name in ("a.npy", "a.csv", "a.sur"):
         refused("at most", file=written(tmp_path, bytes(2**12 + 1), name), **UM)
     monkeypatch.setattr(scene.files.heightfile, "MOST_PIXELS", 80)
@@ -421,25 +407,13 @@ def test_channels_sizes_units_and_holes_of_other_files_are_those_of_their_reader
     assert Topography(file=file, channel="Front", **UM).pixel == PIXEL
 
 
-def test_what_another_program_prints_and_warns_of_is_not_shown(tmp_path, monkeypatch, capfd):
-    def fails(_):
-        print("a line")
-        warnings.warn("a warning", stacklevel=1)
-        raise RuntimeError("\x1b[31mred" + "x" * 9999 + "\nand so on")
-
-    monkeypatch.setattr(pytest.importorskip("SurfaceTopography"), "open_topography", fails)
-    file = written(tmp_path, "0", "a.sur")
-    refused("a.sur cannot be read by SurfaceTopography .*red(?!.*and so on)", file=file)
-    assert capfd.readouterr() == ("", "")
-
-
 HOLES = {
     "NaN": lambda h, at: np.where(at, NAN, h),
     "masked": lambda h, at: np.ma.masked_array(h, at),
     "-9999": lambda h, at: np.where(at, -9999.0, h),
     "32767": lambda h, at: np.where(at, 32767.0, np.rint(1000 * h)),
     "1e38": lambda h, at: np.where(at, 1e38, h),
-    "one number that no program writes": lambda h, at: np.where(at, 4321.0, h),
+    "one number that no program writes": lambda h, at: np.where(at, 43210.0, h),
 }
 
 
@@ -506,18 +480,6 @@ def test_heights_that_are_rare_high_or_all_alike_are_not_missing(height, heights
 
 def test_a_number_at_either_end_may_stand_for_none():
     assert sentinels(BOTH) == [-9999, 9999]
-
-
-def test_a_hole_in_a_harmonic_surface_is_filled_in_with_it():
-    # a product of cosine and cosh: to the error of second differences, a quarter on half the pixel
-    errors = []
-    for count in (20, 40):
-        y, x = np.ogrid[0.5 / count : 1 : 0.5 / count, 0.5 / count : 1 : 1 / count]
-        surface = np.cos(2 * x) * np.cosh(2 * (y - 0.25 / count))
-        hole = np.maximum(np.abs(x - 0.5), np.abs(y - 0.25 / count - 0.5)) < 0.1
-        errors.append(np.abs(filled(np.where(hole, NAN, surface), (1, 0.5)) - surface).max())
-    assert errors[1] == pytest.approx(errors[0] / 4, rel=0.25)
-    assert errors[1] < 1e-5
 
 
 INSIDE = (X > 3) & (X < 6) & (Y > 3) & (Y < 7)
@@ -639,14 +601,3 @@ def test_a_file_that_is_not_there_is_named_with_the_folder_in_which_it_was_sough
         (tmp_path / "scene.toml").write_text(FILE + f'file = "{written_}"\n')
         with pytest.raises(InvalidInput, match=said):
             read("scene.toml", Scene)
-
-
-def test_a_page_tells_what_was_done_to_a_map():
-    heights = np.ma.masked_array(noise((30, 30)), np.arange(900).reshape(30, 30) == 77)
-    study = Map.of(
-        heights, shortest_kept="4 um", pixel="1 um", unit="um", missing="fill", crop=["0 um", "20 um"] * 2
-    )
-    filled_in = "1 of 400 heights (0.25 %) were missing and are filled in"
-    assert {"cropped to 20 x 20 of 30 x 30 pixels", filled_in} < set(study.lines())
-    assert filled_in in study.notes  # which stand before the answer
-    assert study.title == "Topography of MaskedArray"

@@ -332,26 +332,6 @@ def test_a_tangent_that_contradicts_the_moduli_beside_it_is_refused():
         Tabulated(table=table)
 
 
-def test_notes_are_no_part_of_what_is_compared_or_stored():
-    table = some(columns_of(SOLID, OMEGA), "omega", "G'")
-    with_one, without = Tabulated(table=table | {"gap [mm]": np.ones(50)}), Tabulated(table=table)
-    assert with_one.table.notes != without.table.notes == ()
-    assert with_one == without
-    assert hash(with_one) == hash(without)
-    whole = TypeAdapter(Tabulated)
-    assert whole.dump_json(with_one) == whole.dump_json(without)
-
-
-@pytest.mark.parametrize(("symbol", "kind"), [("G", "shear"), ("E", "tensile")])
-def test_what_is_stated_chooses_between_columns_of_both_kinds(symbol, kind):
-    both = columns_of(SOLID, OMEGA) | columns_of(SOLID, OMEGA, TENSILE, "E")
-    both = some(both, "omega", "G'", "E'")
-    with pytest.raises(InvalidInput, match="are both storage: state one"):
-        Tabulated(table=both)
-    found = Tabulated(table=both, columns={"storage": f"{symbol}'", "loss": f"{symbol}''"})
-    assert (found.kind, deviation(found) < FITTED) == (kind, True)
-
-
 LIQUID_TIME = np.geomspace(1e-4, 1e-1, 30)
 LIQUIDS = {
     "relaxation": {"t": np.geomspace(1e-4, 3e-2, 30), "G(t)": 1e6 * np.exp(-np.geomspace(1e-4, 3e-2, 30) / 1e-2)},

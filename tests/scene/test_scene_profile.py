@@ -1,6 +1,5 @@
 """Roughness measured along a line: the surface fitted to it, how surely, and lines read as files have them."""
 
-import pickle
 from dataclasses import replace
 from functools import cache
 from math import pi
@@ -9,7 +8,6 @@ import numpy as np
 import pytest
 import xarray
 from maps import refused
-from pydantic import TypeAdapter
 
 import mdr1d
 from bem3d import BEM
@@ -19,8 +17,8 @@ from compare.trustmap.verdict import FITTED, trust
 from mdr1d import MDR
 from scene import Kelvin, Profile, Refused, Scene, SelfAffine, Slide, Sphere
 from scene.surfaces import linescan
-from scene.surfaces.periodogram import bins_of, taken_off
-from scene.surfaces.roughness import Roughness
+from scene.surfaces.form import taken_off
+from scene.surfaces.periodogram import bins_of
 from scene.surfaces.waves import MOST_WAVES
 
 SPACING = 2e-6
@@ -93,15 +91,6 @@ def test_a_row_of_a_rough_surface_is_fitted_by_that_surface():
         held = [getattr(law, name).low <= getattr(rough, name) <= getattr(law, name).high for law in laws]
         assert sum(held) >= 6, (name, laws)
     assert [law.shortest.value for law in laws] == pytest.approx([rough.shortest] * 8, rel=0.1)
-
-
-def test_without_a_trend_taken_off_the_law_is_that_of_the_line_with_one():
-    trend = HEIGHTS + 1e-5 * np.linspace(0, 1, len(HEIGHTS))
-    assert linescan.fit(trend, SPACING).hurst.value == linescan.fit(HEIGHTS, SPACING).hurst.value
-    assert (
-        linescan.fit(trend, SPACING, degree=0).rms_height.value
-        > 1.1 * linescan.fit(HEIGHTS, SPACING).rms_height.value
-    )
 
 
 def test_waves_beyond_the_cut_off_have_the_slope_of_a_tapered_periodogram():
@@ -341,10 +330,3 @@ def test_missing_heights_are_filled_in_on_straight_lines_when_asked(tmp_path):
     profile = Profile(file=path, missing="fill")
     assert profile.heights.heights[99:103] == pytest.approx(np.linspace(*HEIGHTS[[99, 102]], 4), abs=1e-14)
     assert "2 of 512 heights (0.391 %) were missing" in profile.notes[0]
-
-
-def test_a_line_is_compared_stored_and_sent_by_its_digest():
-    again = pickle.loads(pickle.dumps(PROFILE))
-    assert (again, hash(again), again.fitted) == (PROFILE, hash(PROFILE), PROFILE.fitted)
-    dumped = TypeAdapter(Roughness).dump_python(PROFILE, mode="json")
-    assert dumped["heights"] == {"shape": [len(HEIGHTS)], "digest": PROFILE.heights.digest}

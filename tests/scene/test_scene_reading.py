@@ -1,9 +1,7 @@
 """A scene in Python and in TOML: the same fields, the same mistakes, each named with what is allowed."""
 
-import tomllib
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from difflib import get_close_matches
-from math import pi
 
 import numpy as np
 import pytest
@@ -12,14 +10,10 @@ from pydantic import TypeAdapter
 from bem3d import BEM
 from mdr1d import MDR
 from scene import (
-    Cone,
-    Cylinder,
-    Elastic,
     Fractional,
     Indent,
     Kelvin,
     KelvinChain,
-    PowerLaw,
     Program,
     Prony,
     Scene,
@@ -30,7 +24,7 @@ from scene import (
     StandardLinearSolid,
     Topography,
 )
-from scene.files.reading import DEEPEST, LISTED, InvalidInput, made, parsed, read
+from scene.files.reading import LISTED, InvalidInput, made, parsed, read
 from scene.printable import LONGEST, brief, printable
 
 INDENTER = '[indenter]\ntype = "sphere"\nradius = 1e-2\n'
@@ -87,7 +81,7 @@ def test_a_file_says_what_python_says(tmp_path):
         ("load = 1.0", "", r"motion: none given: give exactly one of load \[N\], depth \[m\]"),
         ("load = 1.0", "pressure = 1.0", r"motion.pressure = 1 does not press a Sphere: give load \[N\] or depth"),
         ("[motion]", "[movement]", r"motion: missing, a table"),
-        ("longest = 1e-2", "longest = 1e-2\nseed = 5.0", r"seed = 5.0: .*valid integer"),
+        ("longest = 1e-2", "longest = 1e-2\nseed = 5.0", r"seed = 5.0: .*a whole number"),
         (
             "[roughness]",
             "[layer]\nthickness = 1\nbase = 'bondd'\n[roughness]",
@@ -122,17 +116,6 @@ def test_a_program_of_stages_can_be_read(tmp_path):
     assert adapter.validate_json(adapter.dump_json(scene)) == scene
 
 
-def test_a_program_prescribes_by_straight_lines_from_zero_and_what_presses_it_suits_the_indenter():
-    stages = Stage(duration=1.0, load=2.0), Stage(duration=2.0, speed=0.5), Stage(duration=1.0, load=0.0)
-    program = Program(stages=stages)
-    np.testing.assert_allclose(program.prescribed([0, 0.5, 1, 2, 3, 3.5, 4]), [0, 1, 2, 2, 2, 1, 0])
-    np.testing.assert_allclose(program.path([1.0, 2.0, 4.0]), [0.0, 0.5, 1.0])
-    assert (program.duration, program.length, program.pressed_by) == (4.0, 1.0, "load")
-    assert program.held == Indent(load=2.0)
-    with pytest.raises(InvalidInput, match=r"motion.load = 2 does not press a Cylinder: give line_load"):
-        Scene(Cylinder(1.0), Elastic(1e6), program)
-
-
 def test_what_is_no_toml_or_no_file_is_said(tmp_path):
     with pytest.raises(InvalidInput, match=r"not valid TOML: .*line 1"):
         scene_from(tmp_path, "radius 3")
@@ -143,16 +126,6 @@ def test_what_is_no_toml_or_no_file_is_said(tmp_path):
         read(tmp_path / "nowhere.toml", Scene)
 
 
-def test_any_number_is_kept_as_a_float_and_a_whole_one_is_no_other():
-    for number in (2, np.float32(2), np.int64(2)):
-        assert (Sphere(number).radius, type(Sphere(number).radius)) == (2.0, float)
-    rough = SelfAffine(hurst=0.2, rms_height=1e-5, longest=1e-2, seed=np.int64(2))
-    assert type(rough.seed) is int
-    for value in (True, "2", 2.0, np.float64(2)):
-        with pytest.raises(InvalidInput, match="seed"):
-            replace(rough, seed=value)
-
-
 def test_rows_of_numbers_are_not_repeated_to_whoever_wrote_them(tmp_path):
     heights = "[" + ", ".join(["[1.0, 2.0, 3.0]"] * 50) + "]"
     text = f"[roughness]\ntype = 'topography'\npixel = 1.0\nheights = {heights}\n"
@@ -161,26 +134,6 @@ def test_rows_of_numbers_are_not_repeated_to_whoever_wrote_them(tmp_path):
     assert str(raised.value).endswith(
         "roughness.heights: an array of shape (50, 3): a map has at least 4 rows and columns"
     )
-
-
-def test_a_list_that_is_too_short_is_named_with_what_it_lacks(tmp_path):
-    @dataclass(frozen=True)
-    class Ends:
-        pair: tuple[float, float]
-
-    path = tmp_path / "ends.toml"
-    path.write_text("pair = [1.0]\n")
-    with pytest.raises(InvalidInput, match=r"ends.toml: pair.1: missing"):
-        read(path, Ends)
-
-
-@pytest.mark.parametrize("digits", [301, 4000])
-def test_numbers_of_any_length_are_named(tmp_path, digits):
-    hexadecimal = "0x" + "f" * digits
-    with pytest.raises(InvalidInput, match=r"indenter.radius.*within the range"):
-        scene_from(tmp_path, SCENE.replace("1e-2", hexadecimal))
-    with pytest.raises(InvalidInput, match=r"radius|valid TOML"):
-        scene_from(tmp_path, SCENE.replace("1e-2", "1" + "0" * 2 * digits))
 
 
 def test_what_does_not_fit_together_is_named_by_its_fields_alone(tmp_path):
@@ -277,16 +230,17 @@ LENGTH = 'a length, such as "5 mm" or 0.005 (in m)'
             lambda: Kelvin(-1, "1 m"),
             [
                 "modulus = -1: Input should be greater than 0",
-                "relaxation_time = '1 m': Input should be a time, such as \"1 ms\" or 0.001 (in s)",
+                "relaxation_time = '1 m': Input should be a time, such as \"1 ms\" or 0.001 (in s); "
+                "this one has the unit m",
             ],
         ),
         (lambda: Topography(HILLS, "2 um"), ["2 values without a name: 0 at most, others by name, each once"]),
         (
             lambda: Topography(heights=HILLS, pixel="2 s"),
-            [f"pixel = '2 s': Input should be {LENGTH}; or two of them, along x and y"],
+            [f"pixel = '2 s': Input should be {LENGTH}; this one has the unit s; or two of them, along x and y"],
         ),
         (lambda: Scene(1, Kelvin(1, 1), Indent(load=1)), ["indenter = 1: a table"]),
-        (lambda: BEM(points="many"), ["points = 'many': Input should be a valid integer"]),
+        (lambda: BEM(points="many"), ["points = 'many': Input should be a whole number"]),
         (lambda: MDR(shape="round"), ["shape = 'round': Input should be 'mapped' or 'as-given'"]),
     ],
 )
@@ -355,23 +309,10 @@ def test_a_name_that_is_called_as_the_type_of_its_table_is_a_name(tmp_path, kind
     assert f"indenter.{kind} = 1: unknown here" in lines[0]
 
 
-DEEP = {
-    "a header": f"[{'a.' * 500}a]\n",
-    "quoted and spaced": '"a" . ' * 100_000 + "'a' = 1\n",
-    "tables in a line": "a = " + "{a = " * 5000 + "1" + "}" * 5000,
-    "one level too many": "a = " + "[" * DEEPEST + "]" * DEEPEST,
-}
-
-
-@pytest.mark.parametrize("text", DEEP.values(), ids=DEEP)
-def test_what_is_nested_too_deep_is_said(tmp_path, text):
-    assert lines_of(tmp_path, text) == ["tables and lists stand in one another deeper than 20 levels"]
-
-
-def test_what_is_nested_less_deep_is_read():
-    text = "a = " + "[" * (DEEPEST - 1) + "]" * (DEEPEST - 1)
-    assert parsed(text, "file") == tomllib.loads(text)
-    assert parsed("# " + "a.b." * 20, "file") == {}
+def test_what_is_nested_too_deep_is_said(tmp_path):
+    assert lines_of(tmp_path, "a = " + "[" * 5000 + "]" * 5000) == [
+        "tables and lists stand in one another too deep"
+    ]
 
 
 @pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
@@ -401,7 +342,7 @@ def compared(monkeypatch):
         names.append(name)
         return get_close_matches(name, *others)
 
-    monkeypatch.setattr("scene.files.mistakes.get_close_matches", compare)
+    monkeypatch.setattr("scene.files.error_text.get_close_matches", compare)
     return names
 
 
@@ -411,15 +352,6 @@ def test_of_many_mistakes_the_first_are_listed_and_how_many_more_there_are(tmp_p
     assert len(lines) == LISTED + 1
     assert lines[-1] == "and 950 more mistakes"
     assert len(compared) <= LISTED
-
-
-def test_names_and_values_of_any_length_are_cut_before_they_are_compared(tmp_path, compared):
-    long = "load" * 50_000
-    lines = lines_of(tmp_path, SCENE.replace('"sphere"', f'"{long}"') + f"{long} = '{long}'\n")
-    assert max(map(len, lines)) < 1000
-    assert len(lines) == 2
-    assert compared
-    assert max(map(len, compared)) <= 100
 
 
 def test_nothing_of_a_file_controls_a_terminal(tmp_path):
@@ -438,23 +370,13 @@ ROUGH = SelfAffine(hurst=0.7, rms_height=3e-5, longest=1e-2, shortest=1e-4, seed
 @pytest.mark.parametrize(
     ("make", "said"),
     [
-        (lambda: Cone(angle=pi / 2), r"angle.*less than 1\.57"),
-        (lambda: PowerLaw(coefficient=1.0, exponent=0.9), r"exponent.*greater than or equal to 1"),
-        (lambda: Elastic(G, poisson_ratio=0.6), r"poisson_ratio.*less than or equal to 0\.5"),
         (lambda: StandardLinearSolid(G, G, 1.0), r"glassy_modulus = 1e\+06 must exceed rubbery_modulus = 1e\+06"),
-        (lambda: Prony(G, moduli=(), relaxation_times=()), r"moduli.*at least 1"),
         (lambda: Prony(G, (G, G), (1.0,)), "relaxation_times has 1 values, moduli has 2: each modulus"),
-        (lambda: Prony(G, moduli=(G, -G), relaxation_times=(1.0, 2.0)), r"moduli\.1.*greater than 0"),
         (lambda: KelvinChain(0.0, (1.0,), (1.0, 2.0)), "retardation_times has 2 values, compliances has 1"),
-        (lambda: replace(SPRINGPOT, exponent=1.0), r"exponent.*less than 1"),
-        (lambda: replace(SPRINGPOT, tolerance=0.5), r"tolerance.*less than or equal to 0\.1"),
         (lambda: replace(SPRINGPOT, highest_frequency=1e-4), r"0\.0001 must exceed lowest_frequency = 0\.0001"),
         (lambda: replace(SPRINGPOT, highest_frequency=1e27), r"highest_frequency = 1e\+27 .* at most 30 decades"),
-        (lambda: replace(ROUGH, hurst=1.1), r"hurst.*less than or equal to 1"),
         (lambda: replace(ROUGH, shortest=6e-3), r"shortest = 0\.006 must be at most half of longest = 0\.01"),
-        (lambda: replace(ROUGH, seed=-1), r"seed.*greater than or equal to 0"),
         (lambda: replace(ROUGH, rolloff=2e-2), "rolloff = 0.02 must be more than shortest .* at most longest"),
-        (lambda: replace(ROUGH, amplitudes="rayleigh"), r"amplitudes.*'fixed' or 'gaussian'"),
     ],
 )
 def test_a_wrong_value_is_refused_with_its_field_and_what_is_allowed(make, said):

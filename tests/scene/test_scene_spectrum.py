@@ -10,7 +10,6 @@ from scipy.integrate import quad
 
 from scene import Elastic, Indent, Scene, SelfAffine, Spectrum, Sphere, doubts, notes
 from scene.files.reading import InvalidInput, read
-from scene.surfaces.roughness import Roughness
 
 ROUNDING = 1e-12
 # Of scipy's quad between the points.
@@ -258,14 +257,3 @@ def test_a_table_that_leaves_something_open_is_refused_with_the_option(text, mes
     (tmp_path / "scene.toml").write_text(f'{SCENE}convention = "jacobs"\n', encoding="utf-8")
     with pytest.raises(InvalidInput, match=message):
         read(tmp_path / "scene.toml", Scene)
-
-
-def test_a_scene_file_that_states_no_convention_says_which_there_are(tmp_path):
-    (tmp_path / "psd.csv").write_text("q;C2D\n1;2\n10;0.1\n", encoding="utf-8")
-    (tmp_path / "scene.toml").write_text(SCENE, encoding="utf-8")
-    with pytest.raises(InvalidInput, match='roughness: state the convention of the density: "jacobs"'):
-        read(tmp_path / "scene.toml", Scene)
-
-
-def test_it_is_one_of_the_kinds_of_roughness():
-    assert Spectrum in Roughness.__origin__.__args__

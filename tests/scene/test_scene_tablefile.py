@@ -6,8 +6,9 @@ import pint
 import pytest
 import xarray
 
+from scene.files.stated import TableFormat
 from scene.files.tablefile import Column, read_columns
-from scene.files.tabletext import SEPARATORS, TableFormat
+from scene.files.tabletext import SEPARATORS
 from scene.quantities import HERTZ, KELVIN, PASCAL, RADIAN_PER_SECOND
 
 FREQUENCY = Column("frequency", ("f",), (HERTZ, RADIAN_PER_SECOND))
@@ -31,7 +32,7 @@ def read(path, **stated):
 
 
 def agree(columns, expected=READ):
-    assert sorted(columns.values) == sorted(expected)
+    assert sorted(columns) == sorted(expected)
     for name, numbers in expected.items():
         np.testing.assert_allclose(columns[name], numbers, rtol=ROUNDING)
 
@@ -74,7 +75,7 @@ STATED = {
     "skip": (
         ["Sample A", "1;2", HEADED, *ROWS],
         {"skip": 2},
-        "line 3: .* has not the 2 cells of line 1, 'Sample A': state skip",
+        "line 2: .* has not the 2 cells of line 1, 'Sample A': state skip",
     ),
     "rows": ([HEADED, *ROWS, "mean;3;4"], {"rows": 3}, "line 5, column 'f .Hz.': 'mean' is no number: state rows"),
     "after a blank line": (
@@ -117,7 +118,7 @@ STATED = {
     "decimal": (
         [HEADED, "1,000;2,000;3,000", "2,000;3,000;4,000", "3,000;4,000;5,000"],
         {"decimal": ","},
-        "'1,000' may have decimals or thousands behind its comma: state decimal",
+        "'1,000' may have decimals or thousands: state decimal",
     ),
     "encoding": (
         ["# 25 °C", HEADED, *ROWS],
@@ -164,13 +165,12 @@ def test_what_differs_is_refused_with_its_place_and_read_once_it_is_stated(tmp_p
         ([HEADED, "1;2;", *ROWS], {}, "line 2, column \"G'' .kPa.\": '' is no number"),
         ([HEADED, "1;2;1e999", *ROWS], {}, "line 2, column \"G'' .kPa.\": '1e999' is no number"),
         ([HEADED, "1;2;1,000,000", *ROWS], {}, "line 2, column \"G'' .kPa.\": '1,000,000' is no number"),
-        ([HEADED, "0.5;1,5;2"], {}, "'1,5' may have .*, and '0.5' has a point: state decimal"),
+        ([HEADED, "0.5;1,5;2"], {}, "'1,5' may have .*: state decimal"),
         ([HEADED, "0,5;1.5;2"], {"decimal": ","}, "line 2, column \"G' .MPa.\": '1.5' is no number"),
         (["G';remark", '1;a";"', '2;b";"'], {}, "line 2: .* has not the 2 cells of line 1"),
         ([HEADED], {}, "no row below line 1"),
         (["# nothing"], {}, "no row in it"),
-        (["PK\3\4"], {}, "is a workbook .*; a table is a text file"),
-        (["II*\0"], {}, "is a picture; a table is a text file"),
+        (["1.234,5,2.345,6"], {"columns": {"storage": 1}}, "commas may stand between .*state decimal"),
     ],
 )
 def test_what_is_no_table_is_refused_with_what_stands_there(tmp_path, lines, stated, refusal):
@@ -191,7 +191,7 @@ def test_a_single_letter_has_its_case_and_a_frequency_per_second_stays_open(tmp_
     known = Column("T", (), (KELVIN,)), Column("time", ("t",)), FREQUENCY
     columns = read_columns(written(tmp_path, "t,T [degC],f [1/s]\n1,20,5\n2,30,6\n"), known)
     agree(columns, {"time": [1, 2], "T": [293.15, 303.15], "frequency": [5, 6]})
-    assert [columns.units[name] for name in columns.values] == [KELVIN, None, None]
+    assert [columns.units[name] for name in columns] == [KELVIN, None, None]
 
 
 def test_gaps_are_read_where_a_column_may_have_them(tmp_path):

@@ -142,16 +142,6 @@ def test_a_liquid_stays_a_liquid_and_a_rubber_a_solid_under_noise(count, noise):
         assert open_at_rest(*rubber, count, noise) <= ALLOWED, name
 
 
-def test_a_refusal_says_what_was_seen_at_rest():
-    law, band = LIQUIDS["two branches"]
-    omega = np.geomspace(*band, 40)
-    with pytest.raises(InvalidInput) as raised:
-        fitted(Table(omega / (2 * np.pi), law(omega).real, law(omega).imag), frequency_unit="Hz")
-    said = str(raised.value)
-    assert "it shows a liquid, as at its lowest frequency, 0.0477465 Hz, G'' is 3.7 G'" in said
-    assert "G' grows as frequency^1.7" in said
-
-
 @pytest.mark.parametrize("noise", [0.01, 0.03])
 def test_the_error_of_the_modulus_at_rest_is_that_of_many_draws(noise):
     # The table shows the plateau; misfits over what was measured, itself with noise, hide a fifth of it.
@@ -181,29 +171,6 @@ def test_scatter_beyond_the_tolerance_is_refused_until_it_is_allowed():
     with pytest.raises(InvalidInput, match="raise tolerance"):
         fitted(coarse)
     assert fitted(coarse, tolerance=0.4).rms_error < 0.4
-
-
-@pytest.mark.parametrize(
-    ("change", "said"),
-    [
-        ({"frequency": (1.0, 2.0)}, r"have \[2, 46, 46\] values"),
-        ({"storage": (1e6,) * 45 + (-1.0,)}, r"storage\.45.*greater than 0"),
-        ({"loss": (1e6,) * 45 + (float("nan"),)}, r"loss\.45.*finite"),
-    ],
-)
-def test_a_wrong_table_is_refused_with_its_place(change, said):
-    with pytest.raises(InvalidInput, match=said):
-        replace(table(), **change)
-
-
-@pytest.mark.parametrize("missing", ["frequency_unit", "kind"])
-def test_the_unit_and_the_kind_must_be_said(missing):
-    settings = {"frequency_unit": "Hz", "kind": "shear"}
-    del settings[missing]
-    with pytest.raises(InvalidInput, match=rf"{missing}.*missing"):
-        Tabulated(table=table(), **settings)
-    with pytest.raises(InvalidInput, match="'rad/s' or 'Hz'"):
-        fitted(frequency_unit="rpm")
 
 
 ROWS = "\n".join(

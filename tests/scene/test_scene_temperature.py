@@ -1,6 +1,5 @@
 """Temperature of the elastomer: one factor on all its times, and nothing else."""
 
-import pickle
 from dataclasses import dataclass, replace
 from math import log, log10
 
@@ -108,15 +107,6 @@ def test_times_that_rounding_makes_equal_are_one_mode():
     chain = Shifted(KelvinChain(1e-7, (1e-6, 1e-6), (time, later)), factor)
     np.testing.assert_array_equal(chain.retardation()[1], [2e-6])
     assert chain.static_modulus == pytest.approx(1 / 2.1e-6, rel=ROUNDING)
-
-
-def test_shifted_solids_are_values_that_travel_between_processes():
-    scene = Scene(Sphere(radius=1e-2), OF_EACH_TYPE["tabulated"], Indent(load=1.0), temperature=universal(60.0))
-    back = pickle.loads(pickle.dumps(scene))
-    assert (back, hash(back)) == (scene, hash(scene))
-    assert (back.solid, hash(back.solid)) == (scene.solid, hash(scene.solid))
-    assert scene.solid != replace(scene, temperature=universal(61.0)).solid
-    assert not scene.solid.modes().times.flags.writeable
 
 
 def test_temperatures_where_a_law_ends_are_named():

@@ -26,7 +26,7 @@ from scene import (
     Sphere,
 )
 from scene.indenter import Axisymmetric
-from scene.terms import Lacking, Term, lacking, surrounded, terms_of
+from scene.terms import Term, Unsupported, terms_of, unsupported, wrap_solve
 
 PLAIN = Scene(Sphere(radius=10e-3), Kelvin(1e6, 1e-3), Slide(speed=0.1, load=1.0))
 WARM = WLF(temperature=310.0, reference=300.0, c1=10.0, c2=50.0)
@@ -75,12 +75,12 @@ def test_a_part_of_an_unknown_type_is_refused_by_its_name_and_that_of_the_solver
 
 
 def test_every_reason_is_given_at_once():
-    terms = terms_of({Sphere: lacking("first"), Kelvin: Term, Slide: lacking("second")}, PLAIN)
+    terms = terms_of({Sphere: unsupported("first"), Kelvin: Term, Slide: unsupported("second")}, PLAIN)
     assert [reason for term in terms for reason in term.refusals(PLAIN)] == [
         "indenter = Sphere: first",
         "motion = Slide: second",
     ]
-    assert sum(isinstance(term, Lacking) for term in terms) == 2
+    assert sum(isinstance(term, Unsupported) for term in terms) == 2
 
 
 def test_the_last_term_is_outmost_around_a_solve():
@@ -90,7 +90,7 @@ def test_the_last_term_is_outmost_around_a_solve():
             return lambda scene: f"{self.field}({solve(scene)})"
 
     terms = terms_of({Sphere: Marking, Kelvin: Term, Slide: Marking}, PLAIN)
-    assert surrounded(lambda scene: "solved", terms)(PLAIN) == "motion(indenter(solved))"
+    assert wrap_solve(lambda scene: "solved", terms)(PLAIN) == "motion(indenter(solved))"
 
 
 def test_what_one_dimension_lacks_is_refused_with_what_can_be_done():

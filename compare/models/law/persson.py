@@ -14,12 +14,12 @@ from scene import Cylinder, Indent, Plane, Profile, Program, Result, Scene, Shea
 from scene import Measured as MeasuredBody
 from scene.effects.temperature import TemperatureLaw
 from scene.indenter import Axisymmetric
-from scene.protocol import refuse, trusted
+from scene.protocol import numeric_guard, refuse
 from scene.quantities import CLOSED, Finite
 from scene.signatures import readable
 from scene.solids.viscoelastic import Linear
 from scene.surfaces.isotropic import Isotropic
-from scene.terms import Term, lacking, terms_of
+from scene.terms import Term, terms_of, unsupported
 
 from . import bands
 from .bands import Bands, FullContact
@@ -68,11 +68,11 @@ class Pressed(Term):
         return []
 
 
-BODY = lacking("a body of revolution (Sphere, Cone, PowerLaw) or a Plane is allowed")
-ROUGHNESS = lacking(
+BODY = unsupported("a body of revolution (Sphere, Cone, PowerLaw) or a Plane is allowed")
+ROUGHNESS = unsupported(
     "the theory is of a spectrum; SelfAffine with a shortest wave, Spectrum, Topography or Profile is allowed"
 )
-MOTION = lacking("the theory is of steady sliding; Slide or Indent is allowed")
+MOTION = unsupported("the theory is of steady sliding; Slide or Indent is allowed")
 TERMS = {
     **dict.fromkeys((Axisymmetric, Plane, Linear, TemperatureLaw), Term),
     **dict.fromkeys((Cylinder, MeasuredBody), BODY),
@@ -140,7 +140,7 @@ class Persson:
         """Friction and area of contact. Raises Refused, and SolveError where the smooth contact has no answer."""
         start = process_time()
         refuse(self, scene)
-        with trusted():
+        with numeric_guard():
             return (
                 self._of_plane(scene, start) if isinstance(scene.indenter, Plane) else self._of_body(scene, start)
             )

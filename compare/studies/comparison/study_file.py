@@ -27,7 +27,7 @@ from scene import (
 )
 from scene.effects.temperature import Temperature
 from scene.files import files
-from scene.files.mistakes import CHOICE
+from scene.files.error_text import CHOICE
 from scene.files.reading import InvalidInput, invalid, made, parsed
 from scene.quantities import CLOSED, Force, Length, Speed, Whole
 from scene.scales import elastic_contact

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from scene import SolveError, Solver
-from scene.protocol import trusted, why_not
+from scene.protocol import numeric_guard, why_not
 
 from ...models.law.persson import Persson
 from ...models.table import Model
@@ -28,7 +28,7 @@ def _answers(theory, curve):
     if not Model.of(theory).tells(motion.pressed_by, motion.speed > 0):
         return False
     try:
-        with trusted():
+        with numeric_guard():
             return not any(why_not(theory, scene) for scene in curve.corners)
     except SolveError:
         return False

@@ -9,7 +9,7 @@ import numpy as np
 
 from scene.files.reading import InvalidInput, whole
 from scene.motion import PRESSES
-from scene.plain import one_by_one
+from scene.numeric_input import one_by_one
 from scene.printable import brief
 from scene.quantities import SPEED
 

@@ -9,9 +9,9 @@ import numpy as np
 import xarray
 from pydantic import ValidationError
 
-from scene.files.reading import InvalidInput, mistakes, validator
+from scene.files.reading import InvalidInput, error_text, validator
+from scene.files.stated import TableFormat
 from scene.files.tablefile import Column, Columns, read_columns
-from scene.files.tabletext import TableFormat
 from scene.printable import printable
 from scene.quantities import KELVIN, NEWTON, SPEED
 
@@ -57,7 +57,7 @@ class MeasuredFriction:
     def of(cls, table: Measurements, **stated: Any) -> "MeasuredFriction":
         """Measurements of a file, a DataFrame, a Dataset, or arrays by the names of columns.
 
-        stated : what differs of a table from the documented form, see `scene.files.tabletext.TableFormat`
+        stated : what differs of a table from the documented form, see `scene.files.stated.TableFormat`
 
         Raises InvalidInput naming the place and what is allowed.
         """
@@ -66,7 +66,7 @@ class MeasuredFriction:
             columns = read_columns(path or table, COLUMNS, TableFormat(**stated))
             numbers, notes = _numbers(columns)
         except ValidationError as error:
-            lines = mistakes(error, stated, validator(TableFormat))
+            lines = error_text(error, stated, validator(TableFormat))
             raise InvalidInput("\n".join(lines)) from error
         except ValueError as error:
             raise InvalidInput(str(error)) from error
@@ -83,7 +83,7 @@ class MeasuredFriction:
 
 def _numbers(columns: Columns) -> tuple[dict[str, np.ndarray], tuple[str, ...]]:
     """Numbers above zero by field, and notes. Raises ValueError."""
-    name, notes, found = columns.name, list(columns.notes), columns.values
+    name, notes, found = columns.name, list(columns.notes), dict(columns)
     if not {"mu", "F_T"} & set(found):
         raise ValueError(f'{name}: there is no column mu and none F_T: state columns = {{mu = "..."}}')
     if len(found["F_N"]) > MOST_ROWS:

@@ -84,7 +84,7 @@ class Mastercurve(Study):
         """The study of a table. Raises InvalidInput naming the table, the place and what is allowed.
 
         c1, c2, reference : constants of WLF, where they are known
-        stated : what differs of the table from the documented form, see `scene.files.tabletext.TableFormat`
+        stated : what differs of the table from the documented form, see `scene.files.stated.TableFormat`
         """
         try:
             tolerance = argument("tolerance", tolerance, BARE.value)

@@ -10,7 +10,7 @@ from math import hypot, log10, pi
 import numpy as np
 
 from scene import Topography
-from scene.doubt import LOPSIDED
+from scene.doubt import ANISOTROPIC
 
 from .powerlaw import LEAST, SelfAffineLaw, fit
 
@@ -181,7 +181,7 @@ def _of_law(law) -> Iterator[str]:
 
 def _of_directions(slopes) -> Iterator[str]:
     low, high = sorted(slopes)
-    if high > LOPSIDED * low:
+    if high > ANISOTROPIC * low:
         yield (
             f"the rms slopes along x and y, {slopes[0]:.3g} and {slopes[1]:.3g}, are not those of an isotropic "
             "surface: a line drawn by C_1D = pi q C_2D stands for neither direction"

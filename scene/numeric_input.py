@@ -11,14 +11,11 @@ from typing import Any
 import numpy as np
 
 from .printable import brief
+from .units import NotPlain, in_si, scale
 
 _OWN = (float, int, str, bool, list, tuple, type(None))
 _SIMPLE = {float, int, np.float64}
 _REAL = "fiu"  # kinds of numpy's types
-
-
-class NotPlain(ValueError):
-    """There are no plain numbers in something; the message says why, unless that is obvious."""
 
 
 @dataclass(frozen=True)
@@ -42,15 +39,10 @@ def number(given: Any, unit: str | None, difference: bool = True) -> Any:
 
     unit : None where a number has none, and takes no string
 
-    Raises NotPlain, or Unreadable of a unit.
+    Raises NotPlain.
     """
-    if is_number(given):
-        return given
     held, own = bare(given)
     if isinstance(held, str) and unit is not None and own is None:
-        # Units take time to load, and only what has them needs them.
-        from .units import in_si
-
         return in_si(held, unit, difference)
     if not is_number(held):
         raise NotPlain(f"an array of shape {held.shape}" if isinstance(held, np.ndarray) else "")
@@ -60,23 +52,22 @@ def number(given: Any, unit: str | None, difference: bool = True) -> Any:
 def numbers(given: Any, unit: str | None, difference: bool = True) -> Any:
     """Real numbers in a unit of SI: one of them, or an array of any shape. Those without a unit stay as they are.
 
-    Lists may hold whatever `number` takes. Raises NotPlain, or Unreadable of a unit.
+    Lists may hold whatever `number` takes. Raises NotPlain.
     """
-    if is_number(given) or isinstance(given, str):
-        return number(given, unit, difference)
     held, own = bare(given)
+    if is_number(held) or isinstance(held, str):
+        return number(given, unit, difference)
     if isinstance(held, np.ndarray) and held.dtype.kind in "OU":
         held = held.tolist()
     if isinstance(held, list | tuple) and not _SIMPLE.issuperset(map(type, held)):
         held = [numbers(each, unit, difference) for each in held]
-    if not hasattr(held, "dtype"):
-        try:
-            held = np.asarray(held)
-        except ValueError:
-            raise NotPlain("rows of unequal lengths") from None
-    if held.dtype.kind not in _REAL:
-        raise NotPlain(f"an array of type {brief(str(held.dtype))}: real numbers are needed")
-    return in_unit(held if held.ndim else held[()], own, unit, difference)
+    try:
+        array = np.asarray(held)
+    except ValueError:
+        raise NotPlain("rows of unequal lengths") from None
+    if array.dtype.kind not in _REAL:
+        raise NotPlain(f"an array of type {brief(str(array.dtype))}: real numbers are needed")
+    return in_unit(array, own, unit, difference)
 
 
 def one_by_one(given: Any) -> Any:
@@ -93,16 +84,9 @@ def one_by_one(given: Any) -> Any:
 
 
 def relabelled(given: Any, found: Any) -> Any:
-    """Numbers with the labels of what they came from, by which arrays of xarray and pandas are joined.
-
-    found : what `numbers` made of it
-    """
-    if np.ndim(found) and hasattr(given, "dims") and hasattr(given, "coords"):
-        labelled = given.copy(data=found)
-        labelled.attrs = {}
-        return labelled
-    same = hasattr(given, "to_numpy") and hasattr(given, "index") and bare(given)[1] is None
-    return given if same else found
+    """Numbers with the labels of the array of xarray that they came from, by which such arrays are joined."""
+    labelled = np.ndim(found) and hasattr(given, "dims") and hasattr(given, "coords")
+    return given.copy(data=found).drop_attrs(deep=False) if labelled else found
 
 
 def bare(given: Any) -> tuple[Any, str | None]:
@@ -130,8 +114,6 @@ def _peeled(given):
         if count := np.ma.count_masked(given):
             raise NotPlain(f"{count} of {given.size} numbers are masked: fill them in, or leave them out")
         return given.data, None
-    if isinstance(given, np.generic):
-        return given, None
     if hasattr(given, "dims") and hasattr(given, "attrs"):  # of xarray
         if not hasattr(given, "data"):
             raise NotPlain(f"a {type(given).__name__}: give one of its variables")
@@ -145,34 +127,27 @@ def _peeled(given):
     if own is not None and hasattr(given, "value"):  # of unyt, astropy
         return np.asarray(given.value), str(own).strip()
     if isinstance(given, np.ndarray):
-        return (given if type(given) is np.ndarray else given.view(np.ndarray)) if given.ndim else given[()], None
+        return np.asarray(given) if given.ndim else given[()], None
     return given, None
 
 
 def _stated(given):
     """The unit among the attributes of an array."""
-    attributes = getattr(given, "attrs", {})
-    unit = attributes.get("units", attributes.get("unit"))
-    return None if unit is None else str(unit).strip()
+    found = [given.attrs[name] for name in ("units", "unit") if name in getattr(given, "attrs", ())]
+    return str(found[0]).strip() if found else None
 
 
 def in_unit(held: Any, own: str | None, unit: str | None, difference: bool = True) -> Any:
-    """Numbers of one unit in another, of SI. Raises NotPlain, or Unreadable of a unit.
+    """Numbers of one unit in another, of SI. Raises NotPlain.
 
     own : None, numbers stay as they are; empty, they have no dimension
     unit : None where numbers have none
     """
-    if not own:
-        if own == "" and unit is not None:
-            raise NotPlain("this one has no dimension")
+    if own is None or (unit is None and not own):
         return held
-    reason = f"this one has the unit {brief(own)}"
+    if not own:
+        raise NotPlain("this one has no dimension")
     if unit is None:
-        raise NotPlain(reason)
-    from .units import scale
-
-    try:
-        one, zero = map(float, scale(own, unit, difference))
-    except ValueError as error:
-        raise NotPlain(str(error) or reason) from None
+        raise NotPlain(f"this one has the unit {brief(own)}")
+    one, zero = map(float, scale(own, unit, difference))
     return held * one + zero if zero else held * one

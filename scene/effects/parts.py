@@ -1,10 +1,36 @@
-"""Frictional heating of the contact."""
+"""Effects that a part of a scene states: an elastic layer, heating by friction, friction in the interface."""
 
 from typing import Literal
 
+from pydantic import Field
 from pydantic.dataclasses import dataclass
 
-from ..quantities import CLOSED, Conductivity
+from ..quantities import CLOSED, Conductivity, Length, NonNegative
+
+
+@dataclass(frozen=True, config=CLOSED, kw_only=True)
+class Layer:
+    """The elastomer is a layer on a rigid, flat base; absent, it is a half-space.
+
+    thickness : [m]
+    base : "bonded", the lower side does not move, or "frictionless", it slides along the base and is not lifted
+    """
+
+    thickness: Length
+    base: Literal["bonded", "frictionless"] = "bonded"
+
+
+@dataclass(frozen=True, config=CLOSED)
+class Coulomb:
+    """Dry friction at every point of contact: it sticks under a traction of up to coefficient * pressure.
+
+    In steady sliding all of it slips, however slowly, and adds coefficient * F_N to friction; so it is at
+    Slide(speed=0) too, the limit v -> 0+, while under an Indent nothing pulls and there is no friction. Absent,
+    the interface has no friction of its own, and all friction is loss in the elastomer.
+    """
+
+    coefficient: NonNegative
+    type: Literal["coulomb"] = Field(default="coulomb", repr=False)
 
 
 def temperature_rise(friction, modulus, length, speed, conductivity):

@@ -1,17 +1,41 @@
-"""The contact that its own friction heats, as every solver has it: estimated, or answered as warm as that."""
+"""Effects of a scene as every solver has them: friction in the interface, and the heat that friction makes."""
 
 from dataclasses import dataclass, replace
 from math import isinf, nan
 
 from ..indenter import Axisymmetric
-from ..motion import Program
+from ..motion import Program, Slide
 from ..plan import Plan
 from ..protocol import SolveError
 from ..result import Result
 from ..scene import Scene
-from ..solids.settling import settled
 from ..terms import Solve, Term
-from .heating import temperature_rise
+from .parts import temperature_rise
+from .settling import settled
+
+
+class Rubbed(Term):
+    """Coulomb's friction where no point of contact is left to stick; see `Coulomb`."""
+
+    def refusals(self, scene: Scene) -> list[str]:
+        if isinstance(scene.motion, Program):
+            return [
+                "interface = Coulomb: a history of partial slip is not simulated, and motion = Program takes no "
+                "friction in the interface; use Slide or Shear, or leave interface out"
+            ]
+        return []
+
+    def rubbed(self, result: Result) -> Result:
+        """The answer, of sliding, with what the interface adds; any other as it is."""
+        if not isinstance(result.scene.motion, Slide):
+            return result
+        friction = self.part.coefficient * result.normal_force
+        total = result.friction_force + friction
+        parts = {"friction_in_elastomer": result.friction_force, "friction_in_interface": friction}
+        if "friction_error" in result.measures:  # that of the interface has none
+            parts["friction_error"] = result.measures["friction_error"] * result.friction_force / total
+        return replace(result, friction_force=total, measures={**result.measures, **parts})
+
 
 SOLVES = 5  # until temperature and heat agree; 3 to 10 are usual
 

@@ -14,12 +14,12 @@ from ..printable import brief
 CHOICE = "a choice: "  # with which the tags of a choice begin that no type decides: they are no names of the file
 LISTED = 50  # mistakes that are listed, and for which a near name is sought; of others there is only the number
 _LONGEST_NAME = 100  # letters that are compared
-_LONGEST_NUMBER, _LONGEST_LIST = 4096, 10  # bits of a whole number, and items of a list, that are shown
+_LONGEST_LIST = 10  # items of a list that are shown
 _KINDS = {dict: "object", list: "array"}
 _WORDS = {"array": "a list", "string": "a text", "boolean": "true or false", "number": "a number"}
 
 
-def mistakes(error: ValidationError, content: dict, adapter: TypeAdapter) -> list[str]:
+def error_text(error: ValidationError, content: dict, adapter: TypeAdapter) -> list[str]:
     """One line a mistake: where it is, what stands there, what is allowed; unknown names and types come first.
 
     What stands under a misspelt name, and in a table whose type is missing or unknown, is checked too: as if the
@@ -150,6 +150,4 @@ def _short(value):
     """Whether a value is short enough for a message: tables and rows of numbers are not."""
     if isinstance(value, list | tuple):
         return len(value) <= _LONGEST_LIST and all(map(_short, value))
-    if isinstance(value, int):
-        return value.bit_length() <= _LONGEST_NUMBER
-    return value is None or isinstance(value, str | float | date | time)
+    return value is None or isinstance(value, str | int | float | date | time)

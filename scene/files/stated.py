@@ -1,0 +1,110 @@
+"""Fields of a part of a scene as they are stated: by name, and in a table in place of others."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import InitVar
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, ValidationError, create_model, model_validator
+from pydantic.dataclasses import dataclass
+from pydantic_core import ArgsKwargs
+
+from ..quantities import CLOSED
+
+_Lines = Annotated[int, Field(strict=True, ge=0)]
+
+
+@dataclass(frozen=True, config=CLOSED, kw_only=True)
+class TableFormat:
+    """Form of a table where it differs from the documented one, as a user states it.
+
+    columns : heading by field, as {"storage": "E' (MPa)"}; or number from 1 on, of a file without a heading
+    units : unit by field, of columns whose heading has none
+    where : value by heading, of the rows that are read; "*" for rows of any value
+    separator : "tab", "semicolon", "comma" or "blanks", or the character itself
+    decimal : "." or ","
+    encoding : of the file, as "cp1252"
+    skip : number of lines above the heading
+    rows : number of rows below it that are read
+    """
+
+    columns: Mapping[str, str | Annotated[int, Field(strict=True, ge=1)]] | None = None
+    units: Mapping[str, str] | None = None
+    where: Mapping[str, str | int | float] | None = None
+    separator: Literal["tab", "semicolon", "comma", "blanks", "\t", ";", ",", " "] | None = None
+    decimal: Literal[".", ","] | None = None
+    encoding: str | None = None
+    skip: _Lines | None = None
+    rows: _Lines | None = None
+
+
+@dataclass(frozen=True, config=CLOSED, kw_only=True)
+class FromTable:
+    """A part of a scene that may be read from a table, with the fields of `TableFormat` as arguments."""
+
+    columns: InitVar[Mapping[str, str | int] | None] = None
+    units: InitVar[Mapping[str, str] | None] = None
+    where: InitVar[Mapping[str, str | int | float] | None] = None
+    separator: InitVar[str | None] = None
+    decimal: InitVar[str | None] = None
+    encoding: InitVar[str | None] = None
+    skip: InitVar[int | None] = None
+    rows: InitVar[int | None] = None
+
+
+def restated(make: Callable[[Any, dict[str, Any]], Any]) -> Any:
+    """Validator before those of the fields: `make` gets the class and what is stated for its fields, by name."""
+
+    def taken(cls, given):
+        if isinstance(given, ArgsKwargs) and not given.args:
+            given = given.kwargs or {}
+        return make(cls, dict(given)) if isinstance(given, dict) else given
+
+    return model_validator(mode="before")(taken)
+
+
+def split_format(given: Mapping[str, Any]) -> tuple[TableFormat, dict[str, Any]]:
+    """Form of the table and the other fields, out of those that are stated for a part of a scene."""
+    written = {name: given[name] for name in TableFormat.__dataclass_fields__ if name in given}
+    return TableFormat(**written), {name: value for name, value in given.items() if name not in written}
+
+
+def filled(given: Mapping[str, Any], read: Callable[[Any, TableFormat], Mapping[str, Any]]) -> dict[str, Any]:
+    """Fields of a part of a scene, where `table` is stated with those of its columns.
+
+    read : gives fields out of the table and its form
+
+    Raises ValueError for what is stated of no table, and ValidationError, at table, for one that is refused.
+    """
+    written, rest = split_format(given)
+    if (table := rest.pop("table", None)) is None:
+        if written != TableFormat():
+            raise ValueError("table is missing, of which columns, units or lines are stated")
+        return rest
+    try:
+        found = read(table, written)
+        if both := found.keys() & rest.keys():
+            raise ValueError(f"{min(both)} is stated, and a column of the table: leave one out")
+    except ValueError as error:
+        raise refused(table, error) from error
+    return {**rest, **found}
+
+
+def refused(table: Any, reason: ValueError) -> ValidationError:
+    """A mistake of the field `table`."""
+    line: Any = {
+        "type": "value_error",
+        "loc": ("table",),
+        "input": table,
+        "ctx": {"error": ValueError(str(reason))},
+    }
+    return ValidationError.from_exception_data("table", [line])
+
+
+def some_of(types: Mapping[str, Any], stated: Mapping[str, Any]) -> dict[str, Any]:
+    """Values of what is stated that have one of these names, each as its type.
+
+    Raises ValidationError, in which a value has its name, as one of a field has.
+    """
+    found = {name: stated[name] for name in types if name in stated}
+    whole: Any = create_model("Stated", **{name: (types[name], ...) for name in found})  # type: ignore[call-overload]
+    return dict(whole(**found))
