@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from contextlib import chdir
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from unittest import mock
 
 from typer.testing import CliRunner
 
@@ -43,7 +44,8 @@ def _output(command):
     assert program == "crosscheck"
     # Pages and figures change nothing of it, and take seconds.
     arguments += ["--no-report"] * (arguments[0] in ("mastercurve", "topography"))
-    lines = CliRunner().invoke(app, arguments).output.splitlines(keepends=True)
+    with mock.patch("compare.solving.terminal.PAUSE", 3600.0):  # no line of progress on a slow machine
+        lines = CliRunner().invoke(app, arguments).output.splitlines(keepends=True)
     return "".join(lines[: int(most)] if most else lines)
 
 
