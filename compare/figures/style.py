@@ -4,6 +4,7 @@ Settings stand in style sheets beside this module: `print.mplstyle`, and on top 
 each journal. Sizes of text, lines and markers are multiples of those of the sheets.
 """
 
+import textwrap
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -12,8 +13,7 @@ from io import BytesIO
 from itertools import cycle
 from os import PathLike
 from pathlib import Path
-from string import ascii_lowercase
-from textwrap import wrap
+from string import ascii_letters
 from threading import RLock
 from typing import Any, Literal
 from zlib import crc32
@@ -23,10 +23,10 @@ import numpy as np
 from matplotlib import rcParams
 from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap
-from matplotlib.figure import Figure, SubFigure
+from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
 from matplotlib.lines import Line2D
-from matplotlib.ticker import LogFormatterSciNotation, LogLocator, MaxNLocator, NullFormatter
+from matplotlib.ticker import LogFormatterSciNotation, LogLocator, MaxNLocator
 
 from scene.printable import printable
 
@@ -131,14 +131,13 @@ def look(solver: str, **other: Any) -> dict[str, Any]:
 
     Closed forms are in ink; a model that did not come with the package has looks of its own, the same everywhere.
     """
-    own = crc32(solver.encode())
-    known = {
-        "color": (COLOURS | {"exact": ink()}).get(solver, OTHERS[own % len(OTHERS)]),
-        "marker": MARKER.get(solver, SERIES_MARKERS[3 + own % 4]),
-        "linestyle": LINE.get(solver, SERIES_LINES[3 + own % 4]),
+    own = crc32(solver.encode()) % 4
+    return {
+        "color": ink() if solver == "exact" else COLOURS.get(solver, OTHERS[own]),
+        "marker": MARKER.get(solver, SERIES_MARKERS[3 + own]),
+        "linestyle": LINE.get(solver, SERIES_LINES[3 + own]),
         "label": label(solver),
-    }
-    return known | other
+    } | other
 
 
 def colour(solver: str) -> str:
@@ -190,35 +189,43 @@ def literal(text: str) -> str:
 
 
 def fill(text: str, inches: float, points: float) -> str:
-    """The text in lines of about that length, broken between words; lines of its own stay."""
-    letters = max(1, int(72 * inches / (WIDE * points)))
-    return "\n".join(part for given in text.split("\n") for part in wrap(given, letters))
+    """The text in lines of about that length, broken between words."""
+    return textwrap.fill(text, max(1, int(72 * inches / (WIDE * points))))
 
 
 def lettered(panels: Iterable[Axes]) -> None:
-    """A letter before the title of each panel: a to z, then aa to zz. Titles are broken where the panel ends."""
-    for k, axes in enumerate(panels):
-        place, text = (
-            axes.get_subplotspec(),
-            f"({ascii_lowercase[k % 26] * (1 + k // 26)}) {axes.get_title('left')}",
-        )
+    """A letter before the title of each panel. Titles are broken where the panel ends."""
+    for letter, axes in zip(ascii_letters, panels, strict=False):
+        place: Any = axes.get_subplotspec()
         share = len(place.colspan) / place.get_gridspec().ncols
         inches = share * axes.figure.bbox.width / axes.figure.dpi - BESIDE * rcParams["font.size"] / 72
-        axes.set_title(fill(text, inches, rcParams["font.size"]))
+        axes.set_title(fill(f"({letter}) {axes.get_title('left')}", inches, rcParams["font.size"]))
 
 
-def legend(drawing: Figure | SubFigure, panels: Iterable[Axes], most: int, *more: Any, **other: Any) -> None:
+def legend(drawing: Figure, panels: Iterable[Axes], most: int, *more: Any) -> None:
     """Below all panels, each label once, in as many columns as fit, at most so many.
 
-    more : artists that are named first; other : of the legend
+    more : artists that are named first
     """
     drawn = (each for axes in panels for each in axes.get_legend_handles_labels()[0])
     handles = [*more, *drawn, *more]  # of a label the last counts, at the place of the first
-    entries = {each.get_label(): each for each in handles}
-    around = rcParams["legend.handlelength"] + rcParams["legend.handletextpad"] + rcParams["legend.columnspacing"]
-    widest = (WIDE * max(map(len, entries)) + around) * small() / 72
-    look = {"ncols": max(1, min(most, int(drawing.bbox.width / drawing.dpi / widest)))} | other
-    drawing.legend(handles=[*entries.values()], loc="outside lower center", **look)
+    entries = [*{each.get_label(): each for each in handles}.values()]
+    for columns in range(most, 0, -1):
+        made = drawing.legend(handles=entries, loc="outside lower center", ncols=columns)
+        if columns == 1 or made.get_window_extent().width <= drawing.bbox.width:
+            return
+        made.remove()
+
+
+def finish(drawing: Figure, most: int, *more: Any) -> None:
+    """Readable logarithmic axes, a letter before each title, and one legend of at most so many columns.
+
+    more : entries of the legend that come first
+    """
+    panels = [axes for axes in drawing.axes if axes.get_label() != "<colorbar>"]
+    decades(*panels)
+    lettered(panels)
+    legend(drawing, panels, most, *more)
 
 
 def entry(label: str, **look: Any) -> Line2D:
@@ -227,21 +234,13 @@ def entry(label: str, **look: Any) -> Line2D:
 
 
 def decades(*panels: Axes) -> None:
-    """Readable ticks on logarithmic axes: few and round, two at least, plain numbers where they are short.
-
-    An axis on which all values are nearly the same has room around them.
-    """
+    """Readable ticks on logarithmic axes: few and round, two at least."""
     for axis in (axis for axes in panels for axis in (axes.xaxis, axes.yaxis) if axis.get_scale() == "log"):
         low, high = axis.get_view_interval()
-        if high < 1.02 * low:
-            low, high = getattr(axis.axes, f"set_{axis.axis_name}lim")(low / 2, 2 * high)
         powers = LogLocator(subs=(1,) if high >= 100 * low else (1, 2, 5))
         axis.set_major_locator(powers if high >= 5 * low else MaxNLocator(4))
         axis.set_major_formatter(LogFormatterSciNotation(minor_thresholds=(np.inf, np.inf)))  # every tick has one
-        axis.set_minor_formatter(NullFormatter())
-        axis.set_tick_params(which="minor", label1On=False)  # or empty labels are measured, which takes longest
-        if low >= 1e-4 and high <= 1e4:
-            axis.set_major_formatter(lambda value, _: f"{value:g}")
+        axis.set_tick_params(which="minor", label1On=False)
 
 
 def forms() -> Iterator[dict[str, Any]]:
@@ -255,10 +254,3 @@ def shades(solver: str, count: int) -> np.ndarray:
     """`count` shades of a model's colour (N, 4), from near ink to near paper."""
     scale = LinearSegmentedColormap.from_list(solver, [ink(), colour(solver), paper()])
     return scale(np.linspace(0.28, 0.66, count))
-
-
-def bars(values, low, high) -> np.ndarray:
-    """Lengths (2, N) of error bars from intervals, as `errorbar` takes them; NaN, no bar, with an end unknown."""
-    values, low, high = (np.asarray(each, float) for each in (values, low, high))
-    found = np.clip([values - low, high - values], 0.0, None)
-    return np.where(np.isfinite(found).all(axis=0), found, np.nan)

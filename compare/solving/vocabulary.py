@@ -123,8 +123,8 @@ friction_over_slope : Friction over the slope of the body at the edge of the con
 indenter : Height of the rigid indenter above the undeformed surface. [m]
 surface : Height of the surface of the elastomer above the undeformed one. [m]
 touching : Whether indenter and elastomer touch.
-line_force_1d : Force per length of the springs, mean over a strip along x. [N/m]
-line_force_3d : Pressure integrated over y, mean over a strip along x. [N/m]
+line_force_1d : Force per length of the springs, mean over a pixel along x. [N/m]
+line_force_3d : Pressure integrated over y, mean over a pixel along x. [N/m]
 
 Of series of contacts, and of the figures of a study.
 closed_form : Depth [m] or force [N] of the smooth body in closed form.

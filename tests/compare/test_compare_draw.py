@@ -105,14 +105,6 @@ def test_the_map_is_the_pressure_of_the_answer_on_what_touches():
     assert np.hypot(*circle.get_data()) == pytest.approx(1e3 * A, rel=1e-9)
 
 
-def test_a_map_is_no_larger_than_the_grids_that_are_solved():
-    plot = contact.plot(CONTACTS["rough"], seen("rough"))
-    far = plot.tables[contact.PRESSURE].assign(y=lambda table: 1e6 * table["y"])
-    with style.applied():
-        axes = plot.draw(plot.tables | {contact.PRESSURE: far}, **plot.options).axes[0]
-    assert axes.collections[0].get_array().shape[0] <= contact.MOST_PIXELS
-
-
 def test_bodies_touch_where_contact_is_bold_and_nowhere_overlap():
     for name in ("rough", "layer", "line", "plane", "back"):
         for section in (
