@@ -168,7 +168,8 @@ def _missed(fit) -> str:
 
 def _number(fit, name: str, times: float = 1.0) -> str:
     """A number of a fit with its interval as the answer has it."""
-    return interval(*(times * getattr(fit, f"{name}{end}") for end in ENDS), FIGURES)
+    value, low, high = (times * getattr(fit, f"{name}{end}") for end in ENDS)
+    return interval(value, low, high, FIGURES)
 
 
 def _shifts(axes: Axes, fit, shifts: DataFrame, look: Look) -> None:
