@@ -12,15 +12,15 @@ from pandas import DataFrame
 
 from scene import Program, Scene
 
-from . import style, touching
+from . import style
 from .plot import Plot, Tables
-from .prefixes import prefixed
 from .views import ROW, SURFACE, smooth_radius
 
 NAME = "contact"
 PRESSURE, LINES = f"{NAME}-pressure", f"{NAME}-line-force"
 SECTIONS = {"BEM": f"{NAME}-section-3d", "MDR": f"{NAME}-section-1d"}
 SECTION_TITLES = {"BEM": "3D: section y = 0", "MDR": "1D: row of elements"}
+ELASTOMER, SKIN = ("#8A7A45", 0.25), "#6E6237"  # inside of the elastomer, and the line where it ends
 HEIGHTS = "indenter", "surface", "touching"
 ELEMENTS = 56  # of the row that are drawn
 ABOVE, BELOW = 0.45, 0.35  # heights above and below what is shown of the surfaces, of their range
@@ -51,8 +51,8 @@ def plot(scene: Scene, seen: Mapping[str, xarray.Dataset], folder: str = "") -> 
         sections["BEM"] = middle.assign(indenter=height + middle["gap"], surface=height, touching=touched)
     if ROW in seen:
         sections["MDR"] = seen[ROW]
-    for solver, section in sections.items():
-        tables[SECTIONS[solver]] = section[[*HEIGHTS]].reset_coords(drop=True).to_dataframe().reset_index()
+    for solver, each in sections.items():
+        tables[SECTIONS[solver]] = each[[*HEIGHTS]].reset_coords(drop=True).to_dataframe().reset_index()
     caption = (
         "Pressure in 3D, colours cut at the 99th percentile; force per length, in 3D the pressure integrated over "
         "y; sections, the rigid indenter grey."
@@ -84,8 +84,8 @@ def figure(tables: Tables, aside: float = 1.0, radius: float | None = None, flow
         elif name == LINES:
             _line_forces(axes, table, span)
         else:
-            solver = next(solver for solver, section in SECTIONS.items() if section == name)
-            touching.section(axes, table, solver, span, limits, ELEMENTS * (solver == "MDR"))
+            solver = next(solver for solver, each in SECTIONS.items() if each == name)
+            section(axes, table, solver, span, limits, ELEMENTS * (solver == "MDR"))
             axes.set_title(SECTION_TITLES[solver])
     for axes in grid[len(tables) :]:
         axes.remove()
@@ -95,15 +95,43 @@ def figure(tables: Tables, aside: float = 1.0, radius: float | None = None, flow
     return drawing
 
 
+def section(
+    axes: Axes, table: DataFrame, solver: str, span: Sequence[float], limits: Sequence[float], elements: int = 0
+) -> None:
+    """Both bodies over a span of x between two heights [m], real contact in bold.
+
+    table : x, heights of indenter and surface above the undeformed surface [m], and where they are touching
+    elements : how many are drawn of the row that stands for the elastomer in 1D
+    """
+    (along, metres), (up, unit) = style.prefixed(span, "m"), style.prefixed(limits, "m")
+    x, indenter, surface = along * table["x"], up * table["indenter"], up * table["surface"]
+    bottom, top = (up * limit for limit in limits)
+    colour, touching = style.colour(solver), table["touching"].astype(bool)
+    axes.fill_between(x, np.maximum(surface, bottom), bottom, color=ELASTOMER, linewidth=0)
+    axes.fill_between(x, np.minimum(indenter, top), top, color=style.grey(0.7), linewidth=0)
+    if elements:
+        some = slice(None, None, max(1, round(len(x) / elements)))
+        colours = np.where(touching[some], colour, SKIN)
+        axes.vlines(x[some], bottom, surface[some], color=colours, linewidth=style.width(0.6))
+    axes.axhline(0.0, **style.line(0.35, 0.5, linestyle=(0, (5, 3)), label="undeformed surface"))
+    axes.plot(x, surface, color=SKIN, linewidth=style.width(0.65), label="surface")
+    # A marker, too, since contact may be at one point.
+    bold: dict[str, Any] = {"color": colour, "linewidth": style.width(2.2), "solid_capstyle": "butt"}
+    bold |= {"marker": ".", "markersize": style.width(2.2), "markeredgewidth": 0}
+    axes.plot(x, surface.where(touching), label="real contact", **bold)
+    axes.set(xlim=[along * end for end in span], ylim=(bottom, top))
+    axes.set(xlabel=f"x [{metres}]", ylabel=f"height [{unit}]")
+
+
 def pressure_map(axes: Axes, table: DataFrame, places, aside: float, radius: float | None) -> None:
     """Map of the pressure on what touches, with its bar below. places : x of its columns [m]"""
     highest, pixel = float(np.percentile(table["pressure"], HIGHEST)), places.iloc[1] - places.iloc[0]
-    (along, unit), (up, pascal) = prefixed([*places, aside], "m"), prefixed(highest, "Pa")
+    (along, unit), (up, pascal) = style.prefixed([*places, aside], "m"), style.prefixed(highest, "Pa")
     edges = [along * np.arange(each.min() - pixel / 2, each.max() + pixel, pixel) for each in (places, table["y"])]
     look: dict[str, Any] = {"cmap": "viridis_r", "vmin": 0.0, "vmax": up * highest, "rasterized": True}
     look |= {"weights": up * table["pressure"], "cmin": np.finfo(float).tiny}
     *_, image = axes.hist2d(along * table["x"], along * table["y"], edges, **look)
-    axes.set_facecolor(touching.ELASTOMER)
+    axes.set_facecolor(ELASTOMER)
     if radius is not None:
         angle, circle = np.linspace(0, 2 * np.pi, 181), along * radius
         look = style.line(0.0, 0.65, linestyle="--", label="smooth, relaxed contact")
@@ -118,7 +146,7 @@ def _line_forces(axes: Axes, lines: DataFrame, span) -> None:
     """Panel of the force per length of both models, or of the pressure of a contact that is alike along y."""
     both = "line_force_1d" in lines
     quantity, unit = ("force per length", "N/m") if both else ("pressure", "Pa")
-    (along, metres), (up, name) = prefixed(span, "m"), prefixed(lines.drop(columns="x"), unit)
+    (along, metres), (up, name) = style.prefixed(span, "m"), style.prefixed(lines.drop(columns="x"), unit)
     x = along * lines["x"]
     if both:
         one: dict[str, Any] = {"color": style.colour("MDR"), "alpha": 0.45, "label": style.label("MDR")}

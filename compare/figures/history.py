@@ -7,7 +7,6 @@ from scene import Cylinder, Scene
 
 from . import style
 from .plot import Plot, Tables
-from .prefixes import prefixed
 
 NAME = "history"
 # Words of each quantity, and its unit; those without one are forces.
@@ -44,7 +43,7 @@ def figure(tables: Tables, across: str, unit: str = "N") -> Figure:
     shown = [name for name in QUANTITIES if points[name].abs().max() > least.get(name, 0)]
     drawing = style.canvas("single", 0.8 + 1.6 * len(shown))
     panels = drawing.subplots(len(shown), 1, sharex=True, squeeze=False)[:, 0]
-    factors = {name: prefixed(points[name], UNITS.get(name, unit)) for name in (across, *shown)}
+    factors = {name: style.prefixed(points[name], UNITS.get(name, unit)) for name in (across, *shown)}
     for axes, name in zip(panels, shown, strict=True):
         for model, own in points.groupby("model", sort=False):
             look, x = style.look(str(model), marker=""), factors[across][0] * own[across]

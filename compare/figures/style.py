@@ -26,11 +26,10 @@ from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
 from matplotlib.lines import Line2D
-from matplotlib.ticker import LogFormatterSciNotation, LogLocator, MaxNLocator
+from matplotlib.ticker import EngFormatter, LogFormatterSciNotation, LogLocator, MaxNLocator
 
 from scene.printable import printable
-
-from . import journals
+from scene.quantities import METRE, argument
 
 # Okabe and Ito: blue and vermillion differ for every reader; marker and line tell them apart in grey.
 COLOURS = {"MDR": "#0072B2", "CorrectedMDR": "#56B4E9", "BEM": "#D55E00", "Persson": "#44AA99"}
@@ -52,19 +51,40 @@ TEXT = 8.0  # points of the text for which heights of figures are given
 WIDE = 0.65  # width of a letter over the size of its text
 BESIDE = 5.2  # what numbers and label of a vertical axis take, in multiples of the text
 
+INCH = 0.0254
+
+# Across one column and across the page [inch].
+COLUMNS = {
+    "default": (3.5, 7.2),
+    "acs": (3.333, 7.0),
+    "aip": (3.37, 6.69),
+    "aps": (3.375, 7.0),
+    "elsevier": (3.543, 7.480),
+    "ieee": (3.5, 7.16),
+    "iop": (3.346, 5.906),
+    "nature": (3.504, 7.205),
+    "royal-society": (3.307, 6.890),
+    "sage": (3.5, 7.2),
+    "springer": (3.307, 6.850),
+    "taylor-francis": (3.5, 7.2),
+    "wiley": (3.150, 7.087),
+}
+# Of columns that may be asked for [m], from that of the narrowest journal on: narrower ones cut titles.
+NARROWEST, WIDEST = 80e-3, 200e-3
+
 Sheet = str | PathLike | Mapping[str, Any]
 SHEETS = Path(__file__).parent
 DRAWING = RLock()  # of the thread that draws: settings of matplotlib are those of the process
-_columns: ContextVar[tuple[float, float]] = ContextVar("columns", default=journals.COLUMNS["default"])
+_columns: ContextVar[tuple[float, float]] = ContextVar("columns", default=COLUMNS["default"])
 
 
 @dataclass(frozen=True)
 class Look:
     """Look of figures.
 
-    journal : name in `journals.COLUMNS`, whose columns and style sheet hold
+    journal : name in `COLUMNS`, whose columns and style sheet hold
     sheet : a style of one's own on top: a .mplstyle file, the name of one of matplotlib's styles, or settings
-    width : of a column, in place of that of the journal, as `journals.columns` takes it
+    width : of a column, in place of that of the journal, as `columns` takes it
     """
 
     journal: str = "default"
@@ -81,6 +101,23 @@ class Look:
 PRINT, SCREEN = Look(), Look(sheet=SHEETS / "screen.mplstyle")
 
 
+def columns(journal: str, width: str | float | None = None) -> tuple[float, float]:
+    """Widths of a column and of the page [inch].
+
+    width : of a column, as "84 mm" or in metres, with the page as much wider or narrower; that of the journal if
+        absent
+
+    Raises ValueError of a width that is no length, or out of what is allowed.
+    """
+    single, double = COLUMNS[journal]
+    if width is None:
+        return single, double
+    metres = float(argument("width", width, METRE.value))
+    if not NARROWEST <= metres <= WIDEST:
+        raise ValueError(f"width = {width!r}: {1e3 * NARROWEST:g} mm to {1e3 * WIDEST:g} mm are allowed")
+    return metres / INCH, metres / INCH * double / single
+
+
 @contextmanager
 def applied(look: Look = PRINT) -> Iterator[None]:
     """The settings while a figure is drawn or saved, and those of the caller afterwards; one thread at a time.
@@ -88,7 +125,7 @@ def applied(look: Look = PRINT) -> Iterator[None]:
     What a matplotlibrc of the machine says is left out. Raises ValueError, KeyError or OSError of a look that does
     not exist.
     """
-    token = _columns.set(journals.columns(look.journal, look.width))
+    token = _columns.set(columns(look.journal, look.width))
     try:
         with DRAWING, matplotlib.style.context(look.sheets, after_reset=True):
             yield
@@ -254,3 +291,15 @@ def shades(solver: str, count: int) -> np.ndarray:
     """`count` shades of a model's colour (N, 4), from near ink to near paper."""
     scale = LinearSegmentedColormap.from_list(solver, [ink(), colour(solver), paper()])
     return scale(np.linspace(0.28, 0.66, count))
+
+
+def prefixed(values, unit: str) -> tuple[float, str]:
+    """Factor on values in a unit of SI, and the unit that they then have, so that the greatest is 1 to 1000.
+
+    Beyond the prefixes, and of nothing but zero or NaN, the unit stays.
+    """
+    finite = np.abs(np.asarray(values, float))
+    greatest = np.max(finite[np.isfinite(finite)], initial=0.0)
+    power = 3 * int(np.floor(np.log10(greatest) / 3 + 1e-12)) if greatest > 0 else 0
+    prefixes = EngFormatter.ENG_PREFIXES
+    return (10.0**-power, prefixes[power] + unit) if power in prefixes else (1.0, unit)

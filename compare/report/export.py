@@ -16,7 +16,6 @@ from scene.files.reading import InvalidInput
 from scene.printable import brief
 
 from ..figures import style as looks
-from ..figures.journals import COLUMNS
 from ..figures.plot import Plot
 from ..figures.rendering import FORMS, Picture, picture
 from ..solving import curve, netcdf
@@ -51,7 +50,7 @@ def export(
     if not isinstance(style, str | PathLike | Mapping | None):
         raise InvalidInput(f"style = {style!r}: a file .mplstyle, the name of a style of matplotlib, or settings")
     look = looks.Look(journal or "default", style, width)
-    known("journal", look.journal, COLUMNS)
+    known("journal", look.journal, looks.COLUMNS)
     try:
         with looks.applied(look):
             pass

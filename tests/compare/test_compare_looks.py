@@ -20,7 +20,6 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import same_color, to_rgba
 from matplotlib.figure import Figure
-from matplotlib.image import imread
 from matplotlib.legend import Legend
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
@@ -29,9 +28,9 @@ from matplotlib.transforms import Bbox
 from pandas import DataFrame
 
 from compare.figures import curves, shades, style
-from compare.figures.journals import COLUMNS
 from compare.figures.plot import Plot
 from compare.figures.rendering import FORMS, picture
+from compare.figures.style import COLUMNS
 from compare.report import csvfiles, manifest
 from compare.report.export import function
 from scene.files.reading import InvalidInput
@@ -359,29 +358,10 @@ def _streams(content):
             yield zlib.decompressobj().decompress(content[found.end() :])
 
 
-def test_pictures_have_300_dots_an_inch_and_the_width_of_the_column(files):
-    assert files.inches[0] in COLUMNS["default"]
-    assert imread(BytesIO(files.files["png"])).shape[1] == pytest.approx(300 * files.inches[0], abs=1)
-
-
 def test_vector_files_name_no_day_and_hold_their_letters(files):
     text = files.files["svg"].decode()
     assert "<dc:date>" not in text
     assert "<text" not in text  # letters are outlines: no font has to be at the reader's
-
-
-@pytest.mark.parametrize(
-    ("given", "said"),
-    [
-        ({"sheet": "no-such-style"}, "no-such-style"),
-        ({"sheet": {"lines.colour": "red"}}, "lines.colour"),
-        ({"width": "60 mm"}, "80 mm to 200 mm are allowed"),
-    ],
-)
-def test_a_look_that_does_not_exist_is_refused(given, said):
-    look = style.Look(**given)
-    with pytest.raises((ValueError, KeyError, OSError), match=re.escape(said)), style.applied(look):
-        pass
 
 
 def test_a_file_of_settings_is_a_style(tmp_path):

@@ -393,6 +393,8 @@ def test_nothing_is_written_out_of_the_folder(copied, tmp_path):
         ({"journal": "natur"}, "mean nature"),
         ({"width": "5 m"}, "width = '5 m': 80 mm to 200 mm"),
         ({"width": "84 s"}, "width = '84 s': a length"),
+        ({"style": "no-such-style"}, "no-such-style"),
+        ({"style": {"lines.colour": "red"}}, r"lines\.colour"),
         ({"format": "png,word"}, "format = word: allowed are csv, vtk, png, pdf, svg"),
     ],
 )
