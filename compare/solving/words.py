@@ -193,8 +193,8 @@ def basis(finding: "Finding") -> str:
     if not isfinite(finding.grid):
         return ""
     counts = finding.drawn or ({finding.dimension: finding.draws} if finding.draws else {})
-    drawn = "".join(f"{count} {DRAWS.get(name, f'draws of {name}')}, " for name, count in counts.items())
-    return f"{drawn}grid{f' {number(finding.grid, 2)}' if finding.grid else ''} ({finding.grid_method})"
+    parts = [f"{count} {DRAWS.get(name, f'draws of {name}')}" for name, count in counts.items()]
+    return ", ".join([*parts, f"grid {number(finding.grid, 2)}"])
 
 
 def sentences(findings: Sequence["Finding"]) -> list[str]:
