@@ -424,7 +424,7 @@ def test_what_has_no_answer_is_crossed_on_the_axis_and_without_an_end_there_is_n
     assert (crosses.get_xdata().tolist(), crosses.get_marker()) == ([0.1], "x")
     assert crosses.get_label() == "3D (BEM): no answer"
     (bars,) = axes.containers[0].lines[2]
-    assert [np.isfinite(each).all() for each in bars.get_segments()] == [False, True, False]
+    assert [len(each) > 1 for each in bars.get_segments()] == [False, True, False]  # places of both ends
 
 
 def test_threads_that_draw_at_once_draw_as_one_alone():
