@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 from numpy.polynomial import chebyshev
-from scipy.optimize import least_squares
+from scipy.optimize import least_squares, root
 
 # Neighbouring curves share at least this part of the shorter one's range of ln F: a fit that wants less is no fit.
 LEAST_OVERLAP = 0.25
@@ -203,35 +203,36 @@ def scaled_to_one(x: np.ndarray) -> tuple[np.ndarray, float]:
 
 
 def near(fit: Fit, guess: np.ndarray) -> Common:
-    """The fit of least misfit close to a guess of increments, or of a search within the bounds."""
-    lower, upper = fit.bounds
-    if found := _settled(fit, guess, np.ones(guess.size, bool)):
-        return found
-    searched = least_squares(
-        lambda at: fit.at(at).residuals,
-        fit.within(guess),
-        lambda at: fit.at(at).jacobian,
-        bounds=(lower, upper),
-        method="dogbox",
-    ).x
-    # About the least of them squares differ by less than rounding; their gradient does not.
-    return _settled(fit, searched, (lower < searched) & (searched < upper)) or fit.at(searched)
-
-
-def _settled(fit: Fit, guess: np.ndarray, free: np.ndarray) -> Common | None:
-    """The fit of least misfit by steps of Gauss-Newton of some increments; None where these lead to no least."""
+    """The fit of least misfit close to a guess of increments (Gauss-Newton), or of a search within the bounds."""
     (lower, upper), found, least = fit.bounds, fit.at(guess), np.inf
     for _ in range(_STEPS):
-        at, jacobian, cost = found.increments, found.jacobian * free, found.cost
-        if not cost <= least * (1 + _ROUNDING) or np.any(free & ((at <= lower) | (at >= upper))):
-            return None
+        at, jacobian, cost = found.increments, found.jacobian, found.cost
+        if not cost <= least * (1 + _ROUNDING) or np.any((at <= lower) | (at >= upper)):
+            break
         least = cost
         step = np.linalg.lstsq(jacobian, -found.residuals, rcond=LEAST_SINGULAR)[0]
         gain = jacobian @ step
         found = fit.at(at + step)
         if gain @ gain <= _SETTLED * (cost + LEAST_SINGULAR**2):
             return found
-    return None
+    searched = least_squares(
+        lambda each: fit.at(each).residuals,
+        fit.within(guess),
+        lambda each: fit.at(each).jacobian,
+        bounds=(lower, upper),
+        method="dogbox",
+    ).x
+    free = (lower < searched) & (searched < upper)
+
+    def gradient(at):
+        here = fit.at(at)
+        return np.where(free, here.jacobian.T @ here.residuals, at - searched)
+
+    # About the least of them squares differ by less than rounding; their gradient does not.
+    at = root(gradient, searched, tol=1e-13).x
+    before, now = fit.at(searched), fit.at(at)
+    better = now.cost <= before.cost * (1 + 2 * _ROUNDING)
+    return now if better and np.all((lower <= at) & (at <= upper)) else before
 
 
 def exponent_bias(found: Common, missed: float) -> np.ndarray:
