@@ -3,10 +3,10 @@
 Paper, Figs. 5 to 7.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from math import nan
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -19,12 +19,12 @@ from ..statistics import eq23
 from ..statistics.collapse import ENDS, Alignment, Collapse
 from ..statistics.finding import FAILS, Claim, Finding
 from . import shades, style
-from .curves import intervals
+from .curves import curves, intervals
 from .plot import Plot, Tables
 from .shades import CURVES, few
 
 NAME = "collapse"
-SHIFTS, FITS = "-shifts", "-fits"
+_, SHIFTS, FITS = ENDINGS = "", "-shifts", "-fits"
 LOG10 = np.log(10)
 # Degree of the one curve through those that no shift brings together: it only says where their middle is.
 APART = 2
@@ -37,6 +37,9 @@ SHIFTED = {
     BOTH: "shifted along force and friction",
     UNSHIFTED: "no shift brings them onto one",
 }
+
+
+Look: TypeAlias = Callable[[float], dict[str, Any]]  # of the curve at a speed
 
 
 @dataclass(frozen=True)
@@ -69,12 +72,9 @@ def plot(rows: Sequence[ShiftedCurves], name: str = NAME, folder: str = "", spee
     """The plot of some sets of curves; None without any. speed : label of what tells curves apart"""
     if not rows:
         return None
-    parts = {each.title: _tables(each) for each in rows}
+    every = zip(*map(_tables, rows), strict=True)
     tables = {
-        f"{name}{ending}": concat({title: own[k] for title, own in parts.items()}, names=["curves"])
-        .reset_index("curves")
-        .reset_index(drop=True)
-        for k, ending in enumerate(("", SHIFTS, FITS))
+        f"{name}{ending}": concat(parts, ignore_index=True) for ending, parts in zip(ENDINGS, every, strict=True)
     }
     caption = (
         f"Friction against normal force at up to {CURVES} speeds; shifted along the force (Eq. 23), and along "
@@ -82,8 +82,7 @@ def plot(rows: Sequence[ShiftedCurves], name: str = NAME, folder: str = "", spee
         "off; the shifts. Bars: 95 %. Hollow shifts leave curves apart; what no shift brings together is drawn as "
         "it is."
     )
-    fits = tables[f"{name}{FITS}"].itertuples()
-    told = "; ".join(f"{fit.curves}: {_missed(fit) or 'not known how far'} off one curve" for fit in fits)
+    told = "; ".join(f"{fit.curves}: {_missed(fit)} off one curve" for fit in tables[f"{name}{FITS}"].itertuples())
     return Plot(f"{folder}{name}", figure, tables, caption, told, {"name": name, "speed": speed})
 
 
@@ -105,99 +104,93 @@ def _tables(row: ShiftedCurves) -> tuple[DataFrame, DataFrame, DataFrame]:
     fit |= row.found("load_exponent", *(eq23.EXPONENT, eq23.BESIDE if both else eq23.ALONE)[: 2 * decided])
     fit |= row.found("friction_exponent", *(eq23.NOT_SHIFTED,)[:both]) | {"expected": row.expected}
     fit |= {"shifted_as": how, "decided": decided}
-    return points, found.shifts(lead).assign(expected=known - known[middle]), DataFrame([fit])
+    frames = points, found.shifts(lead).assign(expected=known - known[middle]), DataFrame([fit])
+    for frame in frames:
+        frame.insert(0, "curves", row.title)
+    return frames
 
 
 def figure(tables: Tables, name: str = NAME, speed: str = "speed") -> Figure:
     """A row for each set of curves: as they are, shifted, and the shifts. speed : what tells them apart"""
-    points, shifts, fits = (tables[f"{name}{each}"] for each in ("", SHIFTS, FITS))
-    points, shifts = (
-        concat(own[own["speed"].isin(few(own["speed"], CURVES))] for _, own in each.groupby("curves", sort=False))
-        for each in (points, shifts)
-    )
-    speeds = np.unique(shifts["speed"])
-    scale = shades.between(speeds)
+    speeds = few(tables[f"{name}{SHIFTS}"]["speed"], CURVES)
+    points, shifts = (each[each["speed"].isin(speeds)] for each in (tables[name], tables[f"{name}{SHIFTS}"]))
+    fits, scale = tables[f"{name}{FITS}"], shades.between(speeds)
     drawing = style.canvas("double", 0.6 + 2.6 * len(fits))
-    panels: list[Axes] = []
+
+    def look(at):
+        return {"color": shades.SPEED(scale(at))}
+
     for rows, fit in zip(drawing.subfigures(len(fits), 1, squeeze=False).flat, fits.itertuples(), strict=True):
         own, moved = (each[each["curves"] == fit.curves] for each in (points, shifts))
-        known = moved["log_shift"].notna().any()
-        shape = [
-            ["left", "above", "shifts" if known else "above"],
-            ["left", "below", "shifts" if known else "below"],
-        ]
-        named = rows.subplot_mosaic(shape, height_ratios=(3, 1))
-        _collapse(named["left"], named["above"], named["below"], fit, own, scale)
-        if known:
-            _shifts(named["shifts"], fit, moved, scale)
-            named["shifts"].set_xlabel(f"{speed} [m/s]")
-        panels += named.values()
-    style.decades(*panels)
-    style.lettered(panels)
+        last = ["shifts", "shifts"] if moved["log_shift"].notna().any() else ["above", "below"]
+        shape = [["left", first, second] for first, second in zip(("above", "below"), last, strict=True)]
+        panels = rows.subplot_mosaic(shape, height_ratios=(3, 1))
+        _collapse(panels["left"], panels["above"], panels["below"], fit, own, look)
+        if "shifts" in panels:
+            _shifts(panels["shifts"], fit, moved, look)
+            panels["shifts"].set_xlabel(f"{speed} [m/s]")
+    style.decades(*drawing.axes)
+    style.lettered(drawing.axes)
     style.legend(drawing, (), CURVES, *shades.key(shades.SPEED, speeds, "m/s"))
     return drawing
 
 
-def _collapse(left: Axes, above: Axes, below: Axes, fit, points: DataFrame, scale) -> None:
+def _collapse(left: Axes, above: Axes, below: Axes, fit, points: DataFrame, look: Look) -> None:
     """Curves of a fit as they are, shifted, and how far they are off one curve."""
     above.sharey(left)
     below.sharex(above)
+
+    def thin(speed):
+        return look(speed) | {"marker": ".", "linewidth": style.width(0.5)}
+
     for axes, across, up, times in (
         (left, "normal_force", "friction_coefficient", 1.0),
         (above, "shifted_force", "shifted_friction", 1.0),
         (below, "shifted_force", "deviation", 100.0),
     ):
-        axes.set_xscale("log")
-        for speed, own in points.groupby("speed"):
-            look = {"color": shades.SPEED(scale(speed)), "marker": ".", "linewidth": style.width(0.5)}
-            intervals(axes, own[across], own, up, times, **look)
+        curves(axes, points, across, up, times, ("speed",), thin)
     common = points.sort_values("shifted_force")
     curve = common["shifted_friction"] / (1 + common["deviation"])
     above.plot(common["shifted_force"], curve, **style.line(0.75, 2.0, zorder=1))
     above.tick_params(labelbottom=False)
-    above.set_title(SHIFTED[fit.shifted_as])
     below.axhline(0, **style.line(0.6, 0.55))
-    left.set(yscale="log", title=style.literal(fit.curves))
-    left.set(xlabel="normal force [N]", ylabel="friction coefficient [1]")
-    missed, shifted = _missed(fit), "" if fit.shifted_as == UNSHIFTED else "shifted "
-    below.set(xlabel=f"{shifted}normal force [N]", ylabel="off [%]", title=f"off by {missed}" if missed else "off")
+    left.set(xscale="log", yscale="log", xlabel="normal force [N]", ylabel="friction coefficient [1]")
+    left.set_title(style.literal(fit.curves))
+    above.set(xscale="log", title=SHIFTED[fit.shifted_as])
+    shifted = "" if fit.shifted_as == UNSHIFTED else "shifted "
+    below.set(xlabel=f"{shifted}normal force [N]", ylabel="off [%]", title=f"off by {_missed(fit)}")
 
 
 def _missed(fit) -> str:
-    """Misfit with its interval as findings have it; empty where it is not known."""
-    told = _number(fit, "misfit", 100)
-    return told and f"{told} %"
+    """Misfit with its interval as findings have it."""
+    return f"{_number(fit, 'misfit', 100)} %".replace("– %", "an unknown share")
 
 
 def _number(fit, name: str, times: float = 1.0) -> str:
-    """A number of a fit with its interval as the answer has it; empty where it is not known."""
+    """A number of a fit with its interval as the answer has it."""
     value, low, high = (times * getattr(fit, f"{name}{end}") for end in ENDS)
-    return interval(value, low, high, FIGURES) if np.isfinite(value) else ""
+    return interval(value, low, high, FIGURES)
 
 
-def _shifts(axes: Axes, fit, shifts: DataFrame, scale) -> None:
+def _shifts(axes: Axes, fit, shifts: DataFrame, look: Look) -> None:
     """Shifts with intervals, hollow where curves do not collapse, and exponents of the speed in words."""
-    hollow = {} if fit.decided else {"markerfacecolor": style.paper()}
-    for speed, own in shifts.groupby("speed"):
-        look: dict[str, Any] = {"color": shades.SPEED(scale(speed)), "marker": "o", "linestyle": "none"} | hollow
-        intervals(axes, own["speed"], own, "log_shift", 1 / LOG10, **look)
-    entries = [style.entry(f"along the load\n{_power(fit, 'load_exponent')}".strip(), **hollow)]
+    form: dict[str, Any] = {"marker": "o", "linestyle": "none"}
+    form |= {} if fit.decided else {"markerfacecolor": style.paper()}
+    curves(axes, shifts, "speed", "log_shift", 1 / LOG10, ("speed",), lambda at: look(at) | form)
+    entries = [style.entry(f"along the load{_power(fit, 'load_exponent')}", **form)]
     if fit.shifted_as == BOTH:
-        look = {"color": style.ink(), "marker": "s", "linestyle": "none"}
-        intervals(axes, shifts["speed"], shifts, "log_lift", 1 / LOG10, **look)
-        entries.append(style.entry(f"along friction\n{_power(fit, 'friction_exponent')}".strip(), **look))
+        lifts = {"color": style.ink(), "marker": "s", "linestyle": "none"}
+        intervals(axes, shifts["speed"], shifts, "log_lift", 1 / LOG10, **lifts)
+        entries.append(style.entry(f"along friction{_power(fit, 'friction_exponent')}", **lifts))
     if shifts["expected"].notna().all():
         power = f" v^{number(fit.expected, FIGURES)}" if np.isfinite(fit.expected) else ""
-        look = style.line(0, 0.8, linestyle="--", label=f"expected{power}")
-        entries += axes.plot(shifts["speed"], shifts["expected"] / LOG10, **look)
+        expected = style.line(0, 0.8, linestyle="--", label=f"expected{power}")
+        entries += axes.plot(shifts["speed"], shifts["expected"] / LOG10, **expected)
     low, high = axes.get_ylim()
-    axes.set(
-        xscale="log", ylabel="decades of the shift [1]", title="shifts", ylim=(low, high + 1.2 * (high - low))
-    )
+    axes.set(xscale="log", ylabel="decades of the shift [1]", title="shifts", ylim=(low, 2.2 * high - 1.2 * low))
     axes.legend(handles=entries, loc="upper right", handlelength=1.5)
 
 
 def _power(fit, name: str) -> str:
-    """The power of the speed that shifts follow, in words; empty where it is not known."""
-    told = _number(fit, name).replace(" (", "\n(")
-    return told and f"v^{told}"
+    """The power of the speed that shifts follow, on a line of its own; empty where it is not known."""
+    return f"\nv^{_number(fit, name)}".replace(" (", "\n(") if np.isfinite(getattr(fit, name)) else ""

@@ -12,31 +12,29 @@ from pandas import DataFrame
 
 from scene import Program, Scene
 
-from . import style, touching
+from . import style
 from .plot import Plot, Tables
-from .prefixes import prefixed
 from .views import ROW, SURFACE, smooth_radius
 
 NAME = "contact"
 PRESSURE, LINES = f"{NAME}-pressure", f"{NAME}-line-force"
 SECTIONS = {"BEM": f"{NAME}-section-3d", "MDR": f"{NAME}-section-1d"}
 SECTION_TITLES = {"BEM": "3D: section y = 0", "MDR": "1D: row of elements"}
+ELASTOMER, SKIN = ("#8A7A45", 0.25), "#6E6237"  # inside of the elastomer, and the line where it ends
 HEIGHTS = "indenter", "surface", "touching"
-STRIPS = 112  # along x, over each of which the force per length is averaged
 ELEMENTS = 56  # of the row that are drawn
 ABOVE, BELOW = 0.45, 0.35  # heights above and below what is shown of the surfaces, of their range
 HIGHEST = 99  # percentile of the pressures in contact at which colours end
-MOST_PIXELS = 4096  # of a side of the map
 PANEL, AROUND, LEGEND = 1.75, 1.2, 0.5  # heights of a panel, around a map, and of the legend [inch]
 BESIDE = 0.75  # what stands beside a map [inch]
 
 
 def plot(scene: Scene, seen: Mapping[str, xarray.Dataset], folder: str = "") -> Plot:
     """Plot of a contact, of which something is known: "surface" (y, x) or "row" (x), as `views.view` has them."""
-    motion = scene.motion
+    motion, radius = scene.motion, smooth_radius(scene)
     speed = motion.stages[-1].speed if isinstance(motion, Program) else motion.speed
     flow = "at rest" if speed == 0 else "← indenter slides" if speed > 0 else "indenter slides →"
-    options: dict[str, Any] = {"radius": smooth_radius(scene), "flow": flow}
+    options: dict[str, Any] = {"radius": radius, "flow": flow}
     tables: dict[str, DataFrame] = {}
     sections = {}
     if SURFACE in seen:
@@ -45,7 +43,7 @@ def plot(scene: Scene, seen: Mapping[str, xarray.Dataset], folder: str = "") -> 
         pressed = pressed[pressed["pressure"] > 0]
         if len(pressed) and not alike:
             tables[PRESSURE] = pressed
-            options["aside"] = 1.1 * max(options["radius"] or 0.0, *np.abs(pressed["y"]))
+            options["aside"] = 1.1 * max(radius or 0.0, *pressed["y"].abs())
         if alike or "line_force_1d" in lines:
             tables[LINES] = lines
         middle = surface.sel(y=0.0, method="nearest")
@@ -53,8 +51,8 @@ def plot(scene: Scene, seen: Mapping[str, xarray.Dataset], folder: str = "") -> 
         sections["BEM"] = middle.assign(indenter=height + middle["gap"], surface=height, touching=touched)
     if ROW in seen:
         sections["MDR"] = seen[ROW]
-    for solver, section in sections.items():
-        tables[SECTIONS[solver]] = section.to_dataframe().reset_index()[["x", *HEIGHTS]]
+    for solver, each in sections.items():
+        tables[SECTIONS[solver]] = each[[*HEIGHTS]].reset_coords(drop=True).to_dataframe().reset_index()
     caption = (
         "Pressure in 3D, colours cut at the 99th percentile; force per length, in 3D the pressure integrated over "
         "y; sections, the rigid indenter grey."
@@ -71,48 +69,73 @@ def figure(tables: Tables, aside: float = 1.0, radius: float | None = None, flow
     aside : farthest y of the map [m]; radius : of the smooth relaxed contact [m]
     flow : which way the indenter slides, in words
     """
-    sections = {solver: tables[name] for solver, name in SECTIONS.items() if name in tables}
-    limits, rows = heights_of([*sections.values()]), ceil(len(tables) / 2)
-    x: Any = next(iter(sections.values()))["x"]
+    sections = [tables[name] for name in SECTIONS.values() if name in tables]
+    limits, x = heights_of(sections), sections[0]["x"]
     span: list[float] = x.iloc[[0, -1]].tolist()
-    heights = [PANEL] * rows
+    heights = [PANEL] * ceil(len(tables) / 2)
     if PRESSURE in tables:
         tall = min(1.0, 2 * aside / (span[1] - span[0]))
         heights[0] = max(PANEL, (style.across("double") / 2 - BESIDE) * tall + AROUND)
     drawing = style.canvas("double", sum(heights) + LEGEND)
-    grid = drawing.subplots(rows, min(2, len(tables)), squeeze=False, height_ratios=heights).ravel()
-    panels = dict(zip(tables, grid, strict=False))
-    if PRESSURE in tables:
-        pressure_map(panels[PRESSURE], tables[PRESSURE], x, aside, radius)
-    if LINES in tables:
-        _line_forces(panels[LINES], tables[LINES], span)
-    for solver, table in sections.items():
-        axes = panels[SECTIONS[solver]]
-        touching.section(axes, table, solver, span, limits, ELEMENTS * (solver == "MDR"))
-        axes.set_title(SECTION_TITLES[solver])
+    grid = drawing.subplots(len(heights), min(2, len(tables)), squeeze=False, height_ratios=heights).ravel()
+    for axes, (name, table) in zip(grid, tables.items(), strict=False):
+        if name == PRESSURE:
+            pressure_map(axes, table, x, aside, radius)
+        elif name == LINES:
+            _line_forces(axes, table, span)
+        else:
+            solver = next(solver for solver, each in SECTIONS.items() if each == name)
+            section(axes, table, solver, span, limits, ELEMENTS * (solver == "MDR"))
+            axes.set_title(SECTION_TITLES[solver])
     for axes in grid[len(tables) :]:
         axes.remove()
-    style.lettered(panels.values())
+    style.finish(drawing, 4)
     grid[0].set_title(flow, loc="right", fontsize=style.small(), fontweight="normal")
-    style.legend(drawing, panels.values(), 4)
     drawing.get_layout_engine().execute(drawing)  # a map of equal scales finds its place in the second pass
     return drawing
 
 
+def section(
+    axes: Axes, table: DataFrame, solver: str, span: Sequence[float], limits: Sequence[float], elements: int = 0
+) -> None:
+    """Both bodies over a span of x between two heights [m], real contact in bold.
+
+    table : x, heights of indenter and surface above the undeformed surface [m], and where they are touching
+    elements : how many are drawn of the row that stands for the elastomer in 1D
+    """
+    (along, metres), (up, unit) = style.prefixed(span, "m"), style.prefixed(limits, "m")
+    x, indenter, surface = along * table["x"], up * table["indenter"], up * table["surface"]
+    bottom, top = (up * limit for limit in limits)
+    colour, touching = style.colour(solver), table["touching"].astype(bool)
+    axes.fill_between(x, np.maximum(surface, bottom), bottom, color=ELASTOMER, linewidth=0)
+    axes.fill_between(x, np.minimum(indenter, top), top, color=style.grey(0.7), linewidth=0)
+    if elements:
+        some = slice(None, None, max(1, round(len(x) / elements)))
+        colours = np.where(touching[some], colour, SKIN)
+        axes.vlines(x[some], bottom, surface[some], color=colours, linewidth=style.width(0.6))
+    axes.axhline(0.0, **style.line(0.35, 0.5, linestyle=(0, (5, 3)), label="undeformed surface"))
+    axes.plot(x, surface, color=SKIN, linewidth=style.width(0.65), label="surface")
+    # A marker, too, since contact may be at one point.
+    bold: dict[str, Any] = {"color": colour, "linewidth": style.width(2.2), "solid_capstyle": "butt"}
+    bold |= {"marker": ".", "markersize": style.width(2.2), "markeredgewidth": 0}
+    axes.plot(x, surface.where(touching), label="real contact", **bold)
+    axes.set(xlim=[along * end for end in span], ylim=(bottom, top))
+    axes.set(xlabel=f"x [{metres}]", ylabel=f"height [{unit}]")
+
+
 def pressure_map(axes: Axes, table: DataFrame, places, aside: float, radius: float | None) -> None:
     """Map of the pressure on what touches, with its bar below. places : x of its columns [m]"""
-    (along, unit), highest = prefixed([*places, aside], "m"), float(np.percentile(table["pressure"], HIGHEST))
-    up, pascal = prefixed(highest, "Pa")
-    half = (places.iloc[1] - places.iloc[0]) / 2
-    ends = [[each.min() - half, each.max() + half] for each in (places, table["y"])]
-    bins = [min(MOST_PIXELS, round((end - start) / (2 * half))) for start, end in ends]
+    highest, pixel = float(np.percentile(table["pressure"], HIGHEST)), places.iloc[1] - places.iloc[0]
+    (along, unit), (up, pascal) = style.prefixed([*places, aside], "m"), style.prefixed(highest, "Pa")
+    edges = [along * np.arange(each.min() - pixel / 2, each.max() + pixel, pixel) for each in (places, table["y"])]
     look: dict[str, Any] = {"cmap": "viridis_r", "vmin": 0.0, "vmax": up * highest, "rasterized": True}
-    look |= {"range": along * np.array(ends), "weights": up * table["pressure"], "cmin": np.finfo(float).tiny}
-    *_, image = axes.hist2d(along * table["x"], along * table["y"], bins, **look)
-    axes.set_facecolor(touching.ELASTOMER)
+    look |= {"weights": up * table["pressure"], "cmin": np.finfo(float).tiny}
+    *_, image = axes.hist2d(along * table["x"], along * table["y"], edges, **look)
+    axes.set_facecolor(ELASTOMER)
     if radius is not None:
+        angle, circle = np.linspace(0, 2 * np.pi, 181), along * radius
         look = style.line(0.0, 0.65, linestyle="--", label="smooth, relaxed contact")
-        axes.plot(*(along * radius * part(np.linspace(0, 2 * np.pi, 181)) for part in (np.cos, np.sin)), **look)
+        axes.plot(circle * np.cos(angle), circle * np.sin(angle), **look)
     axes.set(ylim=(-along * aside, along * aside), aspect="equal", anchor="NW")
     axes.set(xlabel=f"x [{unit}]", ylabel=f"y [{unit}]", title="3D: real contact")
     bar: dict[str, Any] = {"location": "bottom", "extend": "max", "aspect": 32}
@@ -121,15 +144,15 @@ def pressure_map(axes: Axes, table: DataFrame, places, aside: float, radius: flo
 
 def _line_forces(axes: Axes, lines: DataFrame, span) -> None:
     """Panel of the force per length of both models, or of the pressure of a contact that is alike along y."""
-    forces = lines.drop(columns="x")
-    quantity, unit = ("force per length", "N/m") if "line_force_1d" in lines else ("pressure", "Pa")
-    (along, metres), (up, name) = prefixed(span, "m"), prefixed(forces, unit)
+    both = "line_force_1d" in lines
+    quantity, unit = ("force per length", "N/m") if both else ("pressure", "Pa")
+    (along, metres), (up, name) = style.prefixed(span, "m"), style.prefixed(lines.drop(columns="x"), unit)
     x = along * lines["x"]
-    if "line_force_1d" in lines:
+    if both:
         one: dict[str, Any] = {"color": style.colour("MDR"), "alpha": 0.45, "label": style.label("MDR")}
         axes.fill_between(x, up * lines["line_force_1d"], step="mid", linewidth=0, **one)
-    three = style.look("BEM", marker="", linestyle="-")
-    axes.plot(x, up * lines["line_force_3d"], drawstyle="steps-mid", **three)
+    three = style.look("BEM", marker="", linestyle="-", drawstyle="steps-mid")
+    axes.plot(x, up * lines["line_force_3d"], **three)
     axes.set(xlim=[along * end for end in span], xlabel=f"x [{metres}]", ylabel=f"{quantity} [{name}]")
     axes.set_ylim(bottom=0)
     axes.set_title(quantity)
@@ -144,22 +167,16 @@ def heights_of(sections: Sequence[DataFrame]) -> tuple[float, float]:
 
 
 def line_forces(surface: xarray.Dataset, row: xarray.Dataset | None) -> DataFrame:
-    """Force per length of both models [N/m], means over strips along x; in 3D the pressure is integrated over y.
+    """Force per length of both models [N/m], over each pixel of the 3D grid along x, in 3D integrated over y.
 
     Of a contact that is alike along y it is the force per length and width of the line [N/m²].
     """
-    x, pressure = surface["x"].values, surface["pressure"].values
-    half, width = (x[1] - x[0]) / 2, 1.0 if surface.sizes["y"] == 1 else float(np.diff(surface["y"].values[:2])[0])
-    ends = np.append(x - half, x[-1] + half)
-    edges = np.linspace(ends[0], ends[-1], STRIPS + 1)
-    found = {"x": (edges[1:] + edges[:-1]) / 2}
+    x, pressure = surface["x"].values, surface["pressure"].sum("y").values
+    pixel, found = x[1] - x[0], {"x": x}
     if row is not None and "line_force" in row:
-        found["line_force_1d"] = _means(row["x"].values, row["line_force"].values[:-1], edges)
-    found["line_force_3d"] = _means(ends, width * pressure.sum(axis=0), edges)
+        ends, force = row["x"].values, row["line_force"].values
+        sums = np.append(0.0, np.cumsum(force[:-1] * np.diff(ends)))
+        edges = np.append(x - pixel / 2, x[-1] + pixel / 2)
+        found["line_force_1d"] = np.diff(np.interp(edges, ends, sums)) / pixel
+    found["line_force_3d"] = pressure * (1.0 if surface.sizes["y"] == 1 else pixel)
     return DataFrame(found)
-
-
-def _means(ends, values, edges):
-    """Means between edges of what is constant between ends, and zero beyond."""
-    sums = np.concatenate([[0.0], np.cumsum(values * np.diff(ends))])
-    return np.diff(np.interp(edges, ends, sums)) / np.diff(edges)

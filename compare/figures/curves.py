@@ -1,6 +1,6 @@
-"""What figures of curves share: which panels there are, points with intervals, ratios, and ends of axes."""
+"""Points with intervals along an axis, a curve for each model or other value of a column."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -27,14 +27,20 @@ def panels_of(points: DataFrame, others: Sequence[DataFrame | None], *columns: s
     column = next((each for each in columns if each in points), None)
     if column is None:
         return [("", [points, *others])]
-    titles = {place: style.literal(str(place)) for place in points[column].unique()}
-    if column in UNITS:
-        unit = EngFormatter(UNITS[column])
-        titles = {place: unit(float(f"{place:.3g}")) if place else "at rest" for place in few([*titles], PANELS)}
+    places = few(points[column], PANELS) if column in UNITS else points[column].unique()
     return [
-        (title, [None if each is None else each[each[column] == place] for each in (points, *others)])
-        for place, title in titles.items()
+        (
+            _title(column, place),
+            [None if each is None else each[each[column] == place] for each in (points, *others)],
+        )
+        for place in places
     ]
+
+
+def _title(column: str, place: Any) -> str:
+    if column not in UNITS:
+        return style.literal(str(place))
+    return EngFormatter(UNITS[column])(float(f"{place:.3g}")) if place else "at rest"
 
 
 def tables_of(tables: Mapping[str, DataFrame | None]) -> dict[str, DataFrame]:
@@ -45,32 +51,46 @@ def tables_of(tables: Mapping[str, DataFrame | None]) -> dict[str, DataFrame]:
 def intervals(axes: Axes, x: Any, points: DataFrame, name: str, times: float = 1.0, **look: Any) -> None:
     """Points with intervals of 95 %, of the columns `name` or `name`_mean, `name`_low and `name`_high.
 
-    times : factor on all three; look : of `errorbar`
+    times : factor on all three; look : of `errorbar`. A number with an unknown end has no bar.
     """
-    middle = "" if name in points else "_mean"
-    value, low, high = (times * points[f"{name}{end}"].to_numpy(float) for end in (middle, "_low", "_high"))
-    axes.errorbar(x, value, yerr=style.bars(value, low, high), **look)
+    value, low, high = (
+        times * points[f"{name}{end}"].to_numpy(float) for end in (_middle(points, name), "_low", "_high")
+    )
+    axes.errorbar(x, value, yerr=np.maximum([value - low, high - value], 0.0), **look)
 
 
-def curve(axes: Axes, points: DataFrame, across: str, name: str, times: float = 1.0, **look: Any) -> None:
-    """Points along an axis with intervals, and crosses on it without an answer. look : with colour and label"""
-    points = points.sort_values(across)
-    x, value = AXES.get(across, (1.0, ""))[0] * points[across], points[name if name in points else f"{name}_mean"]
-    intervals(axes, x, points, name, times, **look)
-    if (missing := x[~np.isfinite(value)]).size:
-        crosses = {"color": look["color"], "label": f"{look['label']}: no answer", "clip_on": False}
-        axes.plot(missing, 0 * missing, "x", transform=axes.get_xaxis_transform(), **crosses)
-
-
-def compared(
-    axes: Axes, table: DataFrame, across: str, name: str, level: float | None, times: float = 1.0
+def curves(
+    axes: Axes,
+    points: DataFrame,
+    across: str,
+    name: str,
+    times: float = 1.0,
+    by: Sequence[str] = ("model",),
+    look: Callable[..., dict[str, Any]] = style.look,
 ) -> None:
-    """Every model on each body, hollow on the smooth one, about a level if there is one."""
-    if level is not None:
-        axes.axhline(level, **style.line(0.6, 0.55))
-    for (model, body), own in table.groupby(["model", "body"], sort=False):
-        smooth = {"label": f"{style.label(str(model))}, smooth", "markerfacecolor": style.paper()}
-        curve(axes, own, across, name, times, **style.look(str(model), **smooth if body == "smooth" else {}))
+    """Points with intervals, as a curve for each value of some columns, and crosses on the axis without an answer.
+
+    by, look : columns that tell curves apart, and the settings of `errorbar` as a function of their values
+    """
+    for values, own in points.sort_values(across).groupby([*by], sort=False):
+        x, settings = AXES.get(across, (1.0,))[0] * own[across], look(*values)
+        intervals(axes, x, own, name, times, **settings)
+        missing = x[own[f"{name}{_middle(own, name)}"].isna()]
+        if len(missing) and "label" in settings:
+            crosses = {"color": settings["color"], "label": f"{settings['label']}: no answer", "clip_on": False}
+            axes.plot(missing, 0 * missing, "x", transform=axes.get_xaxis_transform(), **crosses)
+
+
+def of_body(model: str, body: str) -> dict[str, Any]:
+    """Look of a model on a body, hollow on the smooth one."""
+    hollow = {"label": f"{style.label(model)}, smooth", "markerfacecolor": style.paper()}
+    return style.look(model, **hollow if body == "smooth" else {})
+
+
+def about(axes: Axes, level: float, table: DataFrame, across: str, name: str, times: float = 1.0) -> None:
+    """Every model on each body about a level."""
+    axes.axhline(level, **style.line(0.6, 0.55))
+    curves(axes, table, across, name, times, ("model", "body"), of_body)
 
 
 def over(table: DataFrame) -> str:
@@ -80,9 +100,13 @@ def over(table: DataFrame) -> str:
 
 def limit(axes: Axes, points: DataFrame, name: str) -> None:
     """Ends of a logarithmic vertical axis around numbers and their intervals, whatever else is drawn."""
-    value = points[name if name in points else f"{name}_mean"]
+    value = points[f"{name}{_middle(points, name)}"]
     value = value.where(value > 0)
-    low = points[f"{name}_low"].fillna(value).clip(lower=LONGEST * value)
-    high = points[f"{name}_high"].fillna(value)
     if value.notna().any():
-        axes.set_ylim(low.min() / 1.2, high.max() * 1.2)
+        low, high = (points[f"{name}{end}"].fillna(value) for end in ("_low", "_high"))
+        axes.set_ylim(low.clip(lower=LONGEST * value).min() / 1.2, high.max() * 1.2)
+
+
+def _middle(points: DataFrame, name: str) -> str:
+    """Ending of the column with the numbers themselves."""
+    return "" if name in points else "_mean"

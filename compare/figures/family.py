@@ -4,7 +4,7 @@ from matplotlib.figure import Figure
 from pandas import DataFrame
 
 from . import shades, style
-from .curves import intervals, limit
+from .curves import curves, limit
 from .plot import Plot, Tables
 
 NAME = "family"
@@ -25,23 +25,24 @@ def plot(points: DataFrame) -> Plot:
 
 def figure(tables: Tables) -> Figure:
     """A panel for each model: a marker for each shape, a shade for each load."""
-    points = tables[NAME]
+    points = tables[NAME].dropna(subset="normal_force")
     models, shapes = points["model"].unique(), points["shape"].unique()
     drawing = style.canvas("double", 3.1)
     panels = drawing.subplots(1, len(models), sharex=True, sharey=True, squeeze=False)[0]
-    scale = shades.between(points["normal_force"].dropna())
+    scale = shades.between(points["normal_force"])
     markers = dict(zip(shapes, style.SERIES_MARKERS, strict=False))
+    thin = {"linestyle": "none", "elinewidth": style.width(0.5)}
+
+    def look(shape, force):
+        return {"color": shades.PRESS(scale(force)), "marker": markers[shape], **thin}
+
     for axes, model in zip(panels, models, strict=True):
         axes.axhline(1, **style.line(0.5, 0.8))
-        own = points[points["model"] == model].dropna(subset="normal_force")
-        for (shape, force), curve in own.groupby(["shape", "normal_force"]):
-            look = {"color": shades.PRESS(scale(force)), "marker": markers[shape], "linestyle": "none"}
-            intervals(axes, curve["xi"], curve, "over_eq_19", elinewidth=style.width(0.5), **look)
+        own = points[points["model"] == model]
+        curves(axes, own, "xi", "over_eq_19", by=("shape", "normal_force"), look=look)
         axes.set(xscale="log", yscale="log", title=style.label(str(model)), xlabel=r"$\xi$ [1]")
     limit(panels[0], points, "over_eq_19")
     panels[0].set_ylabel("friction / Eq. 19 [1]")
-    style.lettered(panels)
-    style.decades(*panels)
     entries = (style.entry(shape, marker=marker, markerfacecolor="none") for shape, marker in markers.items())
-    style.legend(drawing, (), 6, *entries, *shades.key(shades.PRESS, points["normal_force"].dropna(), "N"))
+    style.finish(drawing, 6, *entries, *shades.key(shades.PRESS, points["normal_force"], "N"))
     return drawing

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from pandas import DataFrame
 
 from . import style
-from .curves import AXES, compared, limit, over, panels_of, tables_of
+from .curves import AXES, about, curves, limit, over, panels_of, tables_of
 from .plot import Plot, Tables
 
 NAME = "force-depth"
@@ -58,19 +58,17 @@ def figure(tables: Tables) -> Figure:
         closed = own.drop_duplicates(prescribed).sort_values(prescribed)
         line = style.line(0.5, 0.8, label="closed form")
         above.plot(scale * closed[prescribed], times * closed["closed_form"], **line)
-        compared(above, own[own["body"] == "rough"], prescribed, name, None, times)
-        off = own[[f"{name}_{end}" for end in ("mean", "low", "high")]].sub(own["closed_form"], axis=0)
+        curves(above, own[own["body"] == "rough"], prescribed, name, times)
+        off = own.filter(regex=f"^{name}_").sub(own["closed_form"], axis=0)
         off = off.div(own["closed_form"], axis=0) if prescribed == "depth" else off
-        compared(middle, own.assign(**off), prescribed, name, 0, factor)
-        if differences is not None:
-            compared(below, apart, prescribed, "difference", 0, factor)
+        about(middle, 0, own.assign(**off), prescribed, name, factor)
+        if apart is not None:
+            about(below, 0, apart, prescribed, "difference", factor)
         below.set_xlabel(across)
     against = over(points).replace("1D / 3D", "1D off 3D").replace("over", "off")
     for axes, text in zip(panels[:, 0], (label, f"off smooth [{unit}]", f"{against} [{unit}]"), strict=True):
         axes.set_ylabel(text)
     if prescribed == "depth":
         limit(panels[0, 0], points, name)
-    style.decades(*panels.flat)
-    style.lettered(panels.flat)
-    style.legend(drawing, panels.flat, 2 if len(places) == 1 else 4)
+    style.finish(drawing, 2 if len(places) == 1 else 4)
     return drawing

@@ -7,7 +7,7 @@ from matplotlib.lines import Line2D
 from pandas import DataFrame
 
 from . import shades, style
-from .curves import AXES, curve, limit, tables_of
+from .curves import AXES, curves, limit, tables_of
 from .friction_speed import THEORY, line_look
 from .plot import Plot, Tables
 from .shades import CURVES, few
@@ -37,29 +37,23 @@ def figure(tables: Tables) -> Figure:
     scale, label = AXES[across]
     speeds = few(points["speed"][points["speed"] > 0], CURVES)
     points = points[points["speed"].isin(speeds)]
-    colours = shades.SPEED(shades.between(speeds)(speeds))
-    looks: dict[float, dict[str, Any]] = {
-        speed: form | {"color": colour, "label": f"{speed:.3g} m/s"}
-        for speed, colour, form in zip(speeds.tolist(), colours, style.forms(), strict=False)
-    }
     several, models = len(speeds) > 1, list(points["model"].unique())
+    by_speed = shades.looks(speeds, "m/s")
     drawing = style.canvas("double" if several else "single", 3.3)
     panels = drawing.subplots(1, len(models) if several else 1, sharex=True, sharey=True, squeeze=False)[0]
+    grey: list[Line2D] = []
     for axes, model in zip(panels if several else panels.repeat(len(models)), models, strict=True):
         axes.set(xscale="log", yscale="log", xlabel=label, title=style.label(model) if several else "")
-        for speed, own in points[points["model"] == model].groupby("speed"):
-            look = looks[speed] if several else style.look(model)
-            curve(axes, own, across, "friction_coefficient", **look)
+        by: tuple[str, Any] = ("speed", by_speed) if several else ("model", style.look)
+        curves(axes, points[points["model"] == model], across, "friction_coefficient", by=by[:1], look=by[1])
         if lines is not None:
             shown = lines[(lines["kind"] == THEORY) | (lines["model"] == model)].sort_values(across)
             for (kind, name, speed), own in shown[shown["speed"].isin(speeds)].groupby(["kind", "model", "speed"]):
-                colour = {"color": looks[speed]["color"]} if several else {}
-                axes.plot(scale * own[across], own["friction_coefficient"], **line_look(kind, name, **colour))
+                look = line_look(kind, name)
+                grey += [Line2D([], [], **look | {"color": style.grey(0.3)})] * several
+                look |= {"color": by_speed(speed)["color"]} if several else {}
+                axes.plot(scale * own[across], own["friction_coefficient"], **look)
     panels[0].set_ylabel("friction coefficient [1]")
     limit(panels[0], points, "friction_coefficient")
-    style.decades(*panels)
-    style.lettered(panels)
-    kinds = lines[["kind", "model"]].drop_duplicates() if several and lines is not None else DataFrame()
-    grey = [Line2D([], [], **line_look(*each, color=style.grey(0.3))) for each in kinds.to_numpy()]
-    style.legend(drawing, panels, 5 if several else 2, *grey)
+    style.finish(drawing, 5 if several else 2, *grey)
     return drawing

@@ -1,13 +1,15 @@
 """Friction against speed of every model, at up to three loads or depths or of several scenes; below, ratios."""
 
 from collections.abc import Sequence
+from math import ceil
 from typing import Any
 
+import numpy as np
 from matplotlib.figure import Figure
 from pandas import DataFrame
 
 from . import style
-from .curves import AXES, PANELS, compared, curve, limit, over, panels_of, tables_of
+from .curves import AXES, PANELS, about, curves, limit, over, panels_of, tables_of
 from .plot import Plot, Tables
 
 NAME = "friction-speed"
@@ -44,45 +46,49 @@ def figure(tables: Tables) -> Figure:
     return against(NAME, tables, "speed", (AXES["speed"][1], "friction coefficient [1]"), "friction_coefficient")
 
 
-def against(name: str, tables: Tables, across: str, labels: Sequence[str], quantity: str) -> Figure:
-    """A quantity of every model along an axis; below, over that of the reference where that is known."""
+def against(
+    name: str, tables: Tables, across: str, labels: Sequence[str], quantity: str, slow: Sequence[float] = ()
+) -> Figure:
+    """A quantity of every model along an axis; below, over that of the reference where that is known.
+
+    slow : where along the axis the ratio is 2 as derived for low speed
+    """
     points, ratios, lines = tables[name], tables.get(f"{name}{RATIOS}"), tables.get(f"{name}{LINES}")
     places = panels_of(points, (ratios, lines), *PLACES)
     heights = (1.0,) if ratios is None else (2.2, 1.0)
-    wide = min(len(places), PANELS)
-    deep = -(-len(places) // wide)
-    drawing = style.canvas("single" if wide == 1 else "double", 0.9 + deep * (2.2 if ratios is None else 3.2))
+    wide, deep = min(len(places), PANELS), ceil(len(places) / PANELS)
+    drawing = style.canvas("single" if wide == 1 else "double", 0.9 + deep * sum(heights))
     shape: dict[str, Any] = {"sharex": True, "sharey": "row", "squeeze": False, "height_ratios": heights * deep}
     grid = drawing.subplots(deep * len(heights), wide, **shape)
-    stacks = grid.reshape(deep, len(heights), wide).swapaxes(1, 2).reshape(-1, len(heights))
-    for spare in stacks[len(places) :].flat:
-        spare.remove()
+    stacks = [column for row in np.split(grid, deep) for column in row.T]
     for (above, *below), (title, (own, over_reference, beside)) in zip(stacks, places, strict=False):
         above.set(xscale="log", yscale="log", title=title)
-        for model, rows in own.groupby("model", sort=False):
-            curve(above, rows, across, quantity, **style.look(str(model)))
+        curves(above, own, across, quantity)
         if lines is not None:
             for (kind, model), line in beside.sort_values(across).groupby(["kind", "model"], sort=False):
                 above.plot(line[across], line[quantity], **line_look(kind, model))
         limit(above, points, quantity)
         for axes in below:
-            compared(axes, over_reference, across, "ratio", 1)
+            if slow:
+                axes.plot(slow, [2, 2], **style.line(0.75, 4.0, zorder=0, label="2, derived for low speed"))
+            about(axes, 1, over_reference, across, "ratio")
             axes.set_ylim(0, max(1.1, axes.get_ylim()[1]))
         (above, *below)[-1].set_xlabel(labels[0])
     for row, axes in enumerate(grid[:, 0]):
         axes.set_ylabel(f"{over(points)} [1]" if row % len(heights) else labels[1])
-    panels = [axes for axes in grid.flat if axes.figure]
-    style.decades(*panels)
-    style.lettered(panels)
-    style.legend(drawing, panels, 2 if wide == 1 else 5)
+    for spare in np.ravel(stacks[len(places) :]):
+        spare.remove()
+    style.finish(drawing, 2 if wide == 1 else 5)
     return drawing
 
 
-def line_look(kind: str, model: str, **other: Any) -> dict[str, Any]:
+def line_look(kind: str, model: str) -> dict[str, Any]:
     """Look of a line beside the models, thin and without markers."""
-    look = style.look(model) if kind == THEORY else style.look(model, label=f"{style.label(model)}, {kind}")
+    look = style.look(model, marker="", linewidth=style.width(0.7))
+    if kind != THEORY:
+        look["label"] += f", {kind}"
     if kind == EQ_19:  # dashes of 1D and of 3D lie in the gaps of each other: the laws of both may coincide
         look["linestyle"] = (0 if model == "MDR" else 3, (3, 3))
     elif model not in style.COLOURS:
         look |= {"color": style.ink(), "linestyle": ":"}
-    return look | {"marker": "", "linewidth": style.width(0.7)} | other
+    return look

@@ -7,7 +7,6 @@ from scene import Cylinder, Scene
 
 from . import style
 from .plot import Plot, Tables
-from .prefixes import prefixed
 
 NAME = "history"
 # Words of each quantity, and its unit; those without one are forces.
@@ -39,28 +38,21 @@ def plot(points: DataFrame, across: str, scene: Scene, folder: str = "") -> Plot
 
 def figure(tables: Tables, across: str, unit: str = "N") -> Figure:
     """A panel for each quantity that changes. unit : of forces"""
-    points = tables[NAME]
+    points = tables[NAME].sort_values(across)
     least = {name: ROUNDING * points["normal_force"].abs().max() for name in ("normal_force", "friction_force")}
     shown = [name for name in QUANTITIES if points[name].abs().max() > least.get(name, 0)]
     drawing = style.canvas("single", 0.8 + 1.6 * len(shown))
     panels = drawing.subplots(len(shown), 1, sharex=True, squeeze=False)[:, 0]
-    scale, label = _scaled(points, across, unit)
+    factors = {name: style.prefixed(points[name], UNITS.get(name, unit)) for name in (across, *shown)}
     for axes, name in zip(panels, shown, strict=True):
-        up, words = _scaled(points, name, unit)
-        for model, own in points.sort_values(across).groupby("model", sort=False):
-            look = style.look(str(model), marker="")
-            axes.plot(scale * own[across], up * own[name], **look)
-            if f"{name}_low" in own:
-                ends = up * own[f"{name}_low"], up * own[f"{name}_high"]
-                axes.fill_between(scale * own[across], *ends, color=look["color"], alpha=0.2, linewidth=0)
-        axes.set_ylabel(words)
-    panels[-1].set_xlabel(label)
-    style.lettered(panels)
-    style.legend(drawing, panels, 2)
+        for model, own in points.groupby("model", sort=False):
+            look, x = style.look(str(model), marker=""), factors[across][0] * own[across]
+            low, middle, high = (
+                factors[name][0] * own.get(f"{name}{end}", own[name]) for end in ("_low", "", "_high")
+            )
+            axes.plot(x, middle, **look)
+            axes.fill_between(x, low, high, color=look["color"], alpha=0.2, linewidth=0)
+        axes.set_ylabel(f"{WORDS[name]} [{factors[name][1]}]")
+    panels[-1].set_xlabel(f"{WORDS[across]} [{factors[across][1]}]")
+    style.finish(drawing, 2)
     return drawing
-
-
-def _scaled(points: DataFrame, name: str, unit: str) -> tuple[float, str]:
-    """Factor on a quantity, and its label with the unit that it then has."""
-    up, told = prefixed(points[name], UNITS.get(name, unit))
-    return up, f"{WORDS[name]} [{told}]"

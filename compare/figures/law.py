@@ -5,11 +5,10 @@ from matplotlib.figure import Figure
 from pandas import DataFrame
 
 from . import shades, style
-from .curves import intervals, limit
+from .curves import curves, limit
 from .plot import Plot, Tables
 
 NAME, SHARE = "law", "law-share"
-ENDS = ("", "_low", "_high")
 
 
 def plot(points: DataFrame, share: DataFrame, missed: str = "", folder: str = "") -> Plot:
@@ -33,36 +32,32 @@ def figure(tables: Tables, missed: str = "") -> Figure:
     """Above: share of full contact. Below: off S(x). missed : misfit in words"""
     points, share = tables[NAME], tables[SHARE]
     drawing = style.canvas("single", 4.6)
-    above, below = panels = drawing.subplots(2, 1, sharex=True, height_ratios=(1.5, 1))
+    above, below = drawing.subplots(2, 1, sharex=True, height_ratios=(1.5, 1))
     scale = shades.between(points["speed"])
     band = (share[f"share_of_full_contact_{end}"] for end in ("low", "high"))
     above.fill_between(share["pressure_ratio"], *band, color=style.grey(0.65), linewidth=0, label="S(x)")
     below.axhspan(-5, 5, color=style.grey(0.9), linewidth=0)
     below.axhline(0, **style.line(0, 0.8))
-    off = {
-        f"off{end}": np.log(points[f"measured_share{end}"].where(points[f"measured_share{end}"] > 0))
-        - np.log(points["share_of_full_contact"])
-        for end in ENDS
-    }
-    unclaimed = [f"{name}{end}" for name in ("measured_share", "off") for end in ENDS[1:]]
-    points = points.assign(**off, body=points["series"].str.partition(", ")[0])
-    points.loc[~points["claimed"], unclaimed] = np.nan
+    logs = np.log(points.filter(like="measured_share").where(lambda share: share > 0))
+    off = logs.sub(np.log(points["share_of_full_contact"]), axis=0)
+    points = points.assign(body=points["series"].str.partition(", ")[0])
+    for numbers in (points, off):
+        numbers.loc[~points["claimed"], ["measured_share_low", "measured_share_high"]] = np.nan
     markers = dict(zip(points["body"].unique(), style.SERIES_MARKERS, strict=False))
-    for (body, speed, claimed), own in points.groupby(["body", "speed", "claimed"], sort=False):
-        look = {"color": shades.SPEED(scale(speed)), "marker": markers[body], "linestyle": "none"}
-        look |= {} if claimed else {"markerfacecolor": style.paper()}
-        intervals(above, own["pressure_ratio"], own, "measured_share", **look)
-        intervals(below, own["pressure_ratio"], own, "off", 100, **look)
+
+    def look(body, speed, claimed):
+        own = {"color": shades.SPEED(scale(speed)), "marker": markers[body], "linestyle": "none"}
+        return own if claimed else own | {"markerfacecolor": style.paper()}
+
+    for axes, numbers, times in ((above, points, 1), (below, points.assign(**off), 100)):
+        curves(axes, numbers, "pressure_ratio", "measured_share", times, ("body", "speed", "claimed"), look)
     above.set(xscale="log", yscale="log", ylabel="share of full contact [1]")
     limit(above, points, "measured_share")
     below.set(title=missed, xlabel=r"$x = p\,/\,p_\mathrm{rms}$ [1]", ylabel="off S(x) [%]")
-    style.decades(*panels)
-    style.lettered(panels)
     entries = [
         style.entry(style.literal(name), marker=marker) for name, marker in markers.items() if len(markers) > 1
     ]
     if not points["claimed"].all():
         entries.append(style.entry("not claimed", markerfacecolor=style.paper()))
-    entries += shades.key(shades.SPEED, points["speed"], "m/s")
-    style.legend(drawing, [above], 3, *entries)
+    style.finish(drawing, 3, *entries, *shades.key(shades.SPEED, points["speed"], "m/s"))
     return drawing

@@ -4,7 +4,7 @@ from matplotlib.figure import Figure
 from pandas import DataFrame
 
 from . import style
-from .curves import intervals
+from .curves import curves
 from .plot import Plot, Tables
 
 NAME = "slow-friction"
@@ -32,15 +32,12 @@ def figure(tables: Tables) -> Figure:
     drawing = style.canvas("double", 2.7)
     panels = drawing.subplots(1, len(CAUSES), sharex=True)
     for axes, (name, title) in zip(panels, CAUSES.items(), strict=True):
+        curves(axes, points, "normal_force", name)
         for k, (model, own) in enumerate(points.groupby("model", sort=False)):
-            look = style.look(str(model))
-            intervals(axes, own["normal_force"], own, name, **look)
-            law = {"color": look["color"], "linestyle": (3 * k, (3, 3)), "label": f"{look['label']}, the paper"}
-            axes.plot(own["normal_force"], own[f"{name}_law"], linewidth=style.width(0.8), **law)
+            law = style.look(str(model), marker="", linewidth=style.width(0.8), linestyle=(3 * k, (3, 3)))
+            axes.plot(own["normal_force"], own[f"{name}_law"], **law | {"label": f"{law['label']}, the paper"})
         axes.set(xscale="log", xlabel="normal force [N]", title=title)
         axes.set_ylabel(f"over that at {points['normal_force'].min():.3g} N [1]")
     panels[0].set_yscale("log")
-    style.decades(*panels)
-    style.lettered(panels)
-    style.legend(drawing, panels, 4)
+    style.finish(drawing, 4)
     return drawing

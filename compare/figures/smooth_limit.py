@@ -3,7 +3,6 @@
 from matplotlib.figure import Figure
 from pandas import DataFrame
 
-from . import style
 from .curves import tables_of
 from .friction_speed import LINES, RATIOS, against
 from .plot import Plot, Tables
@@ -38,11 +37,5 @@ def plot(points: DataFrame, ratios: DataFrame, limits: DataFrame, folder: str = 
 
 def figure(tables: Tables) -> Figure:
     """Above: friction over slope. Below: 1D over 3D."""
-    drawing = against(NAME, tables, "v_tau_over_a", LABELS, "friction_over_slope")
-    if len(drawing.axes) > 1:
-        below = drawing.axes[1]
-        wide = style.line(0.75, 4.0, zorder=0)
-        below.plot([tables[NAME]["v_tau_over_a"].min(), SLOW], [2, 2], **wide)
-        below.set_title(f"{below.get_title(loc='left')} grey: 2, derived for low speed")
-        below.set_ylim(0, max(2.4, below.get_ylim()[1]))
-    return drawing
+    slow = tables[NAME]["v_tau_over_a"].min(), SLOW
+    return against(NAME, tables, "v_tau_over_a", LABELS, "friction_over_slope", slow)

@@ -1,9 +1,6 @@
 """Moduli of the solid of a scene against the frequency, and what was measured of it."""
 
-from typing import Any
-
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from pandas import DataFrame
 
@@ -11,7 +8,6 @@ from scene import CreepTable, Scene, Table, Tabulated
 
 from . import style
 from .plot import Plot, Tables
-from .prefixes import prefixed
 
 NAME = "solid"
 MEASURED, TIMES, MEASURED_TIMES = f"{NAME}-measured", f"{NAME}-times", f"{NAME}-times-measured"
@@ -50,50 +46,31 @@ def plot(scene: Scene) -> Plot:
             tables[MEASURED_TIMES] = DataFrame({"time": place * longer, name: numbers})
         shown += ": lines of the fit, a guess beyond the table, and points of the table"
     warm = "" if scene.temperature is None else f", at {scene.temperature.temperature:g} K"
-    caption = f"{shown}{warm}. Right axis: Young's moduli, by its Poisson ratio of {solid.poisson_ratio:g}."
     alternative = "Storage and loss modulus as two curves against the angular frequency."
-    return Plot(NAME, figure, tables, caption, alternative, {"stiffer": 2 * (1 + solid.poisson_ratio)})
+    return Plot(NAME, figure, tables, f"{shown}{warm}.", alternative)
 
 
-def figure(tables: Tables, stiffer: float = 3.0) -> Figure:
-    """(a) Storage and loss modulus. (b) The relaxation modulus or creep compliance, where that was measured.
-
-    stiffer : Young's modulus over shear modulus
-    """
+def figure(tables: Tables) -> Figure:
+    """(a) Storage and loss modulus. (b) The relaxation modulus or creep compliance, where that was measured."""
     over_time = TIMES in tables
     drawing = style.canvas("double" if over_time else "single", 2.6)
     panels = drawing.subplots(1, 1 + over_time, squeeze=False)[0]
-    unit = _curves(panels[0], tables[NAME], tables.get(MEASURED))
-    panels[0].set(ylabel=f"shear modulus [{unit}]", title="moduli")
-    right = panels[0].secondary_yaxis("right", functions=(lambda of: stiffer * of, lambda of: of / stiffer))
-    right.set_ylabel(f"Young's modulus [{unit}]")
-    if over_time:
-        unit = _curves(panels[1], tables[TIMES], tables[MEASURED_TIMES])
-        panels[1].set(ylabel=f"{tables[TIMES].columns[1]} [{unit}]", title="as measured")
+    for axes, lines, dots in zip(panels, (NAME, TIMES), (MEASURED, MEASURED_TIMES), strict=False):
+        fit, measured = tables[lines].set_index(tables[lines].columns[0]), tables.get(dots, DataFrame())
+        for name, (line, marker, label) in LOOKS.items():
+            if name in fit and (fit[name] > 0).any():
+                axes.plot(fit[name], line, color=style.ink(), label=label)
+            if name in measured:
+                look = {"markerfacecolor": style.paper() if name == "loss" else style.ink(), "label": "measured"}
+                axes.plot(measured.iloc[:, 0], measured[name], marker, color=style.ink(), **look)
+        label = "creep compliance [1/Pa]" if "compliance" in fit else "shear modulus [Pa]"
+        axes.set(xscale="log", yscale="log", xlim=fit.index[[0, -1]], xlabel=ACROSS[fit.index.name])
+        axes.set(ylabel=label, title="as measured" if lines == TIMES else "moduli")
+        axes.set_ylim(bottom=max(axes.get_ylim()[0], fit.iloc[0, 0] * 10**-DECADES))
+        axes.legend()
     style.decades(*panels)
     style.lettered(panels)
     return drawing
-
-
-def _curves(axes: Axes, fit: DataFrame, measured: DataFrame | None) -> str:
-    """Lines of the fit and points of the table over its first column, without what is zero; returns their unit."""
-    along, first = fit.columns[:2]
-    start = fit[first].iloc[0]
-    up, unit = prefixed(1 / start if first == "compliance" else start, "Pa")
-    if first == "compliance":
-        up, unit = 1 / up, f"1/{unit}"
-    axes.set(xscale="log", yscale="log", xlim=fit[along].iloc[[0, -1]], xlabel=ACROSS[along])
-    for name in fit.columns[1:]:
-        line, marker, label = LOOKS[name]
-        if (fit[name] > 0).any():
-            axes.plot(fit[along], up * fit[name], line, color=style.ink(), label=label)
-        if measured is not None:
-            inside = style.paper() if name == "loss" else style.ink()
-            look: dict[str, Any] = {"color": style.ink(), "markerfacecolor": inside, "label": "measured"}
-            axes.plot(measured[along], up * measured[name], marker, **look)
-    axes.set_ylim(bottom=max(axes.get_ylim()[0], up * start * 10**-DECADES))
-    axes.legend()
-    return unit
 
 
 def _moduli(omega, modulus):

@@ -4,6 +4,7 @@ Settings stand in style sheets beside this module: `print.mplstyle`, and on top 
 each journal. Sizes of text, lines and markers are multiples of those of the sheets.
 """
 
+import textwrap
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -12,8 +13,7 @@ from io import BytesIO
 from itertools import cycle
 from os import PathLike
 from pathlib import Path
-from string import ascii_lowercase
-from textwrap import wrap
+from string import ascii_letters
 from threading import RLock
 from typing import Any, Literal
 from zlib import crc32
@@ -23,14 +23,13 @@ import numpy as np
 from matplotlib import rcParams
 from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap
-from matplotlib.figure import Figure, SubFigure
+from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
 from matplotlib.lines import Line2D
-from matplotlib.ticker import LogFormatterSciNotation, LogLocator, MaxNLocator, NullFormatter
+from matplotlib.ticker import EngFormatter, LogFormatterSciNotation, LogLocator, MaxNLocator
 
 from scene.printable import printable
-
-from . import journals
+from scene.quantities import METRE, argument
 
 # Okabe and Ito: blue and vermillion differ for every reader; marker and line tell them apart in grey.
 COLOURS = {"MDR": "#0072B2", "CorrectedMDR": "#56B4E9", "BEM": "#D55E00", "Persson": "#44AA99"}
@@ -52,19 +51,40 @@ TEXT = 8.0  # points of the text for which heights of figures are given
 WIDE = 0.65  # width of a letter over the size of its text
 BESIDE = 5.2  # what numbers and label of a vertical axis take, in multiples of the text
 
+INCH = 0.0254
+
+# Across one column and across the page [inch].
+COLUMNS = {
+    "default": (3.5, 7.2),
+    "acs": (3.333, 7.0),
+    "aip": (3.37, 6.69),
+    "aps": (3.375, 7.0),
+    "elsevier": (3.543, 7.480),
+    "ieee": (3.5, 7.16),
+    "iop": (3.346, 5.906),
+    "nature": (3.504, 7.205),
+    "royal-society": (3.307, 6.890),
+    "sage": (3.5, 7.2),
+    "springer": (3.307, 6.850),
+    "taylor-francis": (3.5, 7.2),
+    "wiley": (3.150, 7.087),
+}
+# Of columns that may be asked for [m], from that of the narrowest journal on: narrower ones cut titles.
+NARROWEST, WIDEST = 80e-3, 200e-3
+
 Sheet = str | PathLike | Mapping[str, Any]
 SHEETS = Path(__file__).parent
 DRAWING = RLock()  # of the thread that draws: settings of matplotlib are those of the process
-_columns: ContextVar[tuple[float, float]] = ContextVar("columns", default=journals.COLUMNS["default"])
+_columns: ContextVar[tuple[float, float]] = ContextVar("columns", default=COLUMNS["default"])
 
 
 @dataclass(frozen=True)
 class Look:
     """Look of figures.
 
-    journal : name in `journals.COLUMNS`, whose columns and style sheet hold
+    journal : name in `COLUMNS`, whose columns and style sheet hold
     sheet : a style of one's own on top: a .mplstyle file, the name of one of matplotlib's styles, or settings
-    width : of a column, in place of that of the journal, as `journals.columns` takes it
+    width : of a column, in place of that of the journal, as `columns` takes it
     """
 
     journal: str = "default"
@@ -81,6 +101,23 @@ class Look:
 PRINT, SCREEN = Look(), Look(sheet=SHEETS / "screen.mplstyle")
 
 
+def columns(journal: str, width: str | float | None = None) -> tuple[float, float]:
+    """Widths of a column and of the page [inch].
+
+    width : of a column, as "84 mm" or in metres, with the page as much wider or narrower; that of the journal if
+        absent
+
+    Raises ValueError of a width that is no length, or out of what is allowed.
+    """
+    single, double = COLUMNS[journal]
+    if width is None:
+        return single, double
+    metres = float(argument("width", width, METRE.value))
+    if not NARROWEST <= metres <= WIDEST:
+        raise ValueError(f"width = {width!r}: {1e3 * NARROWEST:g} mm to {1e3 * WIDEST:g} mm are allowed")
+    return metres / INCH, metres / INCH * double / single
+
+
 @contextmanager
 def applied(look: Look = PRINT) -> Iterator[None]:
     """The settings while a figure is drawn or saved, and those of the caller afterwards; one thread at a time.
@@ -88,7 +125,7 @@ def applied(look: Look = PRINT) -> Iterator[None]:
     What a matplotlibrc of the machine says is left out. Raises ValueError, KeyError or OSError of a look that does
     not exist.
     """
-    token = _columns.set(journals.columns(look.journal, look.width))
+    token = _columns.set(columns(look.journal, look.width))
     try:
         with DRAWING, matplotlib.style.context(look.sheets, after_reset=True):
             yield
@@ -131,14 +168,13 @@ def look(solver: str, **other: Any) -> dict[str, Any]:
 
     Closed forms are in ink; a model that did not come with the package has looks of its own, the same everywhere.
     """
-    own = crc32(solver.encode())
-    known = {
-        "color": (COLOURS | {"exact": ink()}).get(solver, OTHERS[own % len(OTHERS)]),
-        "marker": MARKER.get(solver, SERIES_MARKERS[3 + own % 4]),
-        "linestyle": LINE.get(solver, SERIES_LINES[3 + own % 4]),
+    own = crc32(solver.encode()) % 4
+    return {
+        "color": ink() if solver == "exact" else COLOURS.get(solver, OTHERS[own]),
+        "marker": MARKER.get(solver, SERIES_MARKERS[3 + own]),
+        "linestyle": LINE.get(solver, SERIES_LINES[3 + own]),
         "label": label(solver),
-    }
-    return known | other
+    } | other
 
 
 def colour(solver: str) -> str:
@@ -190,35 +226,43 @@ def literal(text: str) -> str:
 
 
 def fill(text: str, inches: float, points: float) -> str:
-    """The text in lines of about that length, broken between words; lines of its own stay."""
-    letters = max(1, int(72 * inches / (WIDE * points)))
-    return "\n".join(part for given in text.split("\n") for part in wrap(given, letters))
+    """The text in lines of about that length, broken between words."""
+    return textwrap.fill(text, max(1, int(72 * inches / (WIDE * points))))
 
 
 def lettered(panels: Iterable[Axes]) -> None:
-    """A letter before the title of each panel: a to z, then aa to zz. Titles are broken where the panel ends."""
-    for k, axes in enumerate(panels):
-        place, text = (
-            axes.get_subplotspec(),
-            f"({ascii_lowercase[k % 26] * (1 + k // 26)}) {axes.get_title('left')}",
-        )
+    """A letter before the title of each panel. Titles are broken where the panel ends."""
+    for letter, axes in zip(ascii_letters, panels, strict=False):
+        place: Any = axes.get_subplotspec()
         share = len(place.colspan) / place.get_gridspec().ncols
         inches = share * axes.figure.bbox.width / axes.figure.dpi - BESIDE * rcParams["font.size"] / 72
-        axes.set_title(fill(text, inches, rcParams["font.size"]))
+        axes.set_title(fill(f"({letter}) {axes.get_title('left')}", inches, rcParams["font.size"]))
 
 
-def legend(drawing: Figure | SubFigure, panels: Iterable[Axes], most: int, *more: Any, **other: Any) -> None:
+def legend(drawing: Figure, panels: Iterable[Axes], most: int, *more: Any) -> None:
     """Below all panels, each label once, in as many columns as fit, at most so many.
 
-    more : artists that are named first; other : of the legend
+    more : artists that are named first
     """
     drawn = (each for axes in panels for each in axes.get_legend_handles_labels()[0])
     handles = [*more, *drawn, *more]  # of a label the last counts, at the place of the first
-    entries = {each.get_label(): each for each in handles}
-    around = rcParams["legend.handlelength"] + rcParams["legend.handletextpad"] + rcParams["legend.columnspacing"]
-    widest = (WIDE * max(map(len, entries)) + around) * small() / 72
-    look = {"ncols": max(1, min(most, int(drawing.bbox.width / drawing.dpi / widest)))} | other
-    drawing.legend(handles=[*entries.values()], loc="outside lower center", **look)
+    entries = [*{each.get_label(): each for each in handles}.values()]
+    for columns in range(most, 0, -1):
+        made = drawing.legend(handles=entries, loc="outside lower center", ncols=columns)
+        if columns == 1 or made.get_window_extent().width <= drawing.bbox.width:
+            return
+        made.remove()
+
+
+def finish(drawing: Figure, most: int, *more: Any) -> None:
+    """Readable logarithmic axes, a letter before each title, and one legend of at most so many columns.
+
+    more : entries of the legend that come first
+    """
+    panels = [axes for axes in drawing.axes if axes.get_label() != "<colorbar>"]
+    decades(*panels)
+    lettered(panels)
+    legend(drawing, panels, most, *more)
 
 
 def entry(label: str, **look: Any) -> Line2D:
@@ -227,21 +271,13 @@ def entry(label: str, **look: Any) -> Line2D:
 
 
 def decades(*panels: Axes) -> None:
-    """Readable ticks on logarithmic axes: few and round, two at least, plain numbers where they are short.
-
-    An axis on which all values are nearly the same has room around them.
-    """
+    """Readable ticks on logarithmic axes: few and round, two at least."""
     for axis in (axis for axes in panels for axis in (axes.xaxis, axes.yaxis) if axis.get_scale() == "log"):
         low, high = axis.get_view_interval()
-        if high < 1.02 * low:
-            low, high = getattr(axis.axes, f"set_{axis.axis_name}lim")(low / 2, 2 * high)
         powers = LogLocator(subs=(1,) if high >= 100 * low else (1, 2, 5))
         axis.set_major_locator(powers if high >= 5 * low else MaxNLocator(4))
         axis.set_major_formatter(LogFormatterSciNotation(minor_thresholds=(np.inf, np.inf)))  # every tick has one
-        axis.set_minor_formatter(NullFormatter())
-        axis.set_tick_params(which="minor", label1On=False)  # or empty labels are measured, which takes longest
-        if low >= 1e-4 and high <= 1e4:
-            axis.set_major_formatter(lambda value, _: f"{value:g}")
+        axis.set_tick_params(which="minor", label1On=False)
 
 
 def forms() -> Iterator[dict[str, Any]]:
@@ -257,8 +293,13 @@ def shades(solver: str, count: int) -> np.ndarray:
     return scale(np.linspace(0.28, 0.66, count))
 
 
-def bars(values, low, high) -> np.ndarray:
-    """Lengths (2, N) of error bars from intervals, as `errorbar` takes them; NaN, no bar, with an end unknown."""
-    values, low, high = (np.asarray(each, float) for each in (values, low, high))
-    found = np.clip([values - low, high - values], 0.0, None)
-    return np.where(np.isfinite(found).all(axis=0), found, np.nan)
+def prefixed(values, unit: str) -> tuple[float, str]:
+    """Factor on values in a unit of SI, and the unit that they then have, so that the greatest is 1 to 1000.
+
+    Beyond the prefixes, and of nothing but zero or NaN, the unit stays.
+    """
+    finite = np.abs(np.asarray(values, float))
+    greatest = np.max(finite[np.isfinite(finite)], initial=0.0)
+    power = 3 * int(np.floor(np.log10(greatest) / 3 + 1e-12)) if greatest > 0 else 0
+    prefixes = EngFormatter.ENG_PREFIXES
+    return (10.0**-power, prefixes[power] + unit) if power in prefixes else (1.0, unit)

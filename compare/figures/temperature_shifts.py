@@ -1,13 +1,11 @@
 """Friction against speed at several temperatures, shifted along the speed onto a curve a load; the shifts."""
 
-from typing import Any
-
 import numpy as np
 from matplotlib.figure import Figure
 from pandas import DataFrame
 
 from . import shades, style
-from .curves import intervals, limit
+from .curves import curves, limit
 from .plot import Plot, Tables
 from .shades import few
 
@@ -41,22 +39,24 @@ def figure(tables: Tables) -> Figure:
     """Left: as measured, at one load. Middle: shifted along the speed. Right: the shifts."""
     points, shifts, laws = (tables[name] for name in (NAME, SHIFTS, LAWS))
     drawing = style.canvas("double", 2.9)
-    left, middle, right = panels = drawing.subplots(1, 3)
+    left, middle, right = drawing.subplots(1, 3)
     middle.sharey(left)
     warmth = few(shifts["temperature"], TEMPERATURES)
-    colours = shades.SPEED(np.linspace(0, 1, warmth.size))
-    looks: dict[float, dict[str, Any]] = {
-        at: form | {"color": colour, "label": f"{at:.4g} K"}
-        for at, colour, form in zip(warmth.tolist(), colours, style.forms(), strict=False)
-    }
+    by_warmth = shades.looks(warmth, "K")
     points = points[points["temperature"].isin(warmth)]
     counts = points.groupby("load")["temperature"].nunique()
     loads = few(counts.index[counts == counts.max()], LOADS)
     middling = loads[loads.size // 2]
     points = points[points["load"].isin(loads)]
-    for (load, at), own in points.groupby(["load", "temperature"]):
-        for axes, across in ((left, "speed"), (middle, "reduced_speed"))[int(load != middling) :]:
-            intervals(axes, own[across], own, "friction_coefficient", **looks[at])
+
+    def look(temperature, *_):
+        return by_warmth(temperature) | {"label": f"{temperature:.4g} K"}
+
+    for axes, own, across in (
+        (left, points[points["load"] == middling], "speed"),
+        (middle, points, "reduced_speed"),
+    ):
+        curves(axes, own, across, "friction_coefficient", by=("temperature", "load"), look=look)
     for load, own in points.groupby("load"):
         end = own.loc[own["reduced_speed"].idxmax(), ["reduced_speed", "friction_coefficient"]]
         place = {"textcoords": "offset points", "va": "center", "fontsize": style.small()}
@@ -64,8 +64,8 @@ def figure(tables: Tables) -> Figure:
     for name, own in laws.groupby("law", sort=False):
         line = style.line(0.45, 0.8, linestyle=LINES[name], label=name)
         right.plot(own["temperature"], own["log_time_shift"] / LOG10, **line)
-    for at, own in shifts[shifts["temperature"].isin(warmth)].groupby("temperature"):
-        intervals(right, own["temperature"], own, "log_time_shift", 1 / LOG10, **looks[at])
+    shifts = shifts[shifts["temperature"].isin(warmth)]
+    curves(right, shifts, "temperature", "log_time_shift", 1 / LOG10, ("temperature",), look)
     left.set(xlabel="speed [m/s]", ylabel="friction coefficient [1]", title=f"as measured, {middling:.3g} N")
     middle.set(xlabel="speed times $a_T$ [m/s]", title="shifted")
     right.set(xlabel="temperature [K]", ylabel="decades of $a_T$ [1]", title="shifts")
@@ -76,7 +76,5 @@ def figure(tables: Tables) -> Figure:
     left.set_xlim(min(low, between / 10), max(high, 10 * between))
     middle.set_xlim(right=30 * points["reduced_speed"].max())
     limit(left, points, "friction_coefficient")
-    style.decades(left, middle)
-    style.lettered(panels)
-    style.legend(drawing, [right], 5)
+    style.finish(drawing, 5)
     return drawing

@@ -2,10 +2,10 @@
 
 from collections.abc import Mapping
 from dataclasses import replace
+from math import ceil
 
 import numpy as np
 import xarray
-from pandas import DataFrame
 
 from bem3d import BEM
 from bem3d.sliding import Flow
@@ -79,27 +79,15 @@ def _region(scene, fields):
 def _surface(scene, bem, plane, span, aside):
     """The surface in 3D, with the parts that the grid of the answer leaves out."""
     x, y = plane["x"], plane["y"]
-    around = surroundings(
-        bem,
-        scene,
-        plane,
-        upstream=max(x[0] - span[0], 0.0),
-        downstream=max(span[1] - x[-1], 0.0),
-        aside=max(aside - min(-y[0], y[-1]), 0.0),
-    )
-    first, above = (int(np.argmin(np.abs(all_of - own[0]))) for all_of, own in ((around.x, x), (around.y, y)))
+    reach = {"upstream": x[0] - span[0], "downstream": span[1] - x[-1], "aside": aside - min(-y[0], y[-1])}
+    around = surroundings(bem, scene, plane, **{name: max(each, 0.0) for name, each in reach.items()})
+    first, above = (int(np.argmin(np.abs(whole - own[0]))) for whole, own in ((around.x, x), (around.y, y)))
     pressure = np.zeros_like(around.displacement)
     pressure[above : above + len(y), first : first + len(x)] = plane["pressure"]
     # What is left of the gap in contact is the residual of the solver.
-    fields = {
-        "displacement": around.displacement,
-        "gap": np.where(pressure > 0, 0.0, around.gap),
-        "pressure": pressure,
-    }
-    whole = xarray.Dataset(
-        {name: (("y", "x"), values, attributes(name)) for name, values in fields.items()},
-        {"x": ("x", around.x + around.lag, attributes("x")), "y": ("y", around.y, attributes("y"))},
-    )
+    gap = np.where(pressure > 0, 0.0, around.gap)
+    fields = {"displacement": around.displacement, "gap": gap, "pressure": pressure}
+    whole = _dataset(fields, y=around.y, x=around.x + around.lag)
     return whole.sel(x=slice(*span), y=slice(-aside, aside) if len(y) > 1 else slice(None))
 
 
@@ -110,30 +98,30 @@ def _row(scene, fields, span):
     on its own from the forces that it has felt.
     """
     x, touching = fields["x"], fields["contact"].astype(bool)
-    if "depth" in fields:
-        depth = fields["depth"][-1]
-    else:
-        depth = (fields["displacement"] + fields["profile"])[touching].mean() if touching.any() else np.nan
-    columns = {
-        "indenter": fields["profile"] - depth,
-        "surface": -fields["displacement"],
-        "touching": 1.0 * touching,
-    }
+    profile, surface, force = fields["profile"], -fields["displacement"], fields["line_force"]
+    depth = (profile - surface)[touching].mean() if touching.any() else np.nan
     program, pixel = isinstance(scene.motion, Program), x[1] - x[0]
     missing = (0.0, 0.0) if program else (x[0] - span[0], span[1] - x[-1])
-    before, behind = (max(int(np.ceil(length / pixel)), 0) for length in missing)
+    before, behind = beyond = [max(ceil(length / pixel), 0) for length in missing]
+    places = x[0] + pixel * np.arange(-before, x.size + behind)
+    columns = {
+        "indenter": np.pad(profile - fields.get("depth", [depth])[-1], beyond, constant_values=np.nan),
+        "surface": np.pad(surface, beyond),
+        "touching": np.pad(touching, beyond),
+    }
     if not program:
-        columns["line_force"] = fields["line_force"]
-    row = DataFrame(columns).reindex(np.arange(-before, len(x) + behind), fill_value=0)
-    row["x"], outside = x[0] + pixel * row.index, ~row.index.isin(range(len(x)))
-    row.loc[outside, "indenter"] = np.nan
+        columns["line_force"] = np.pad(force, beyond)
     if behind:
         flow, last = Flow.of(scene.solid, scene.motion.speed), x[-1]
-        felt = fields["line_force"][:-1] @ np.diff(np.exp((x - last)[:, None] / flow.lengths), axis=0)
-        wake = row.index >= len(x)
-        left = np.exp((last - row.loc[wake, "x"].to_numpy())[:, None] / flow.lengths)
-        row.loc[wake, "surface"] = -left @ (flow.shares * felt / flow.modulus)
-    found = row.astype({"touching": bool}).set_index("x").to_xarray()
+        felt = force[:-1] @ np.diff(np.exp((x - last)[:, None] / flow.lengths), axis=0)
+        left = np.exp((last - places[-behind:, None]) / flow.lengths)
+        columns["surface"][-behind:] = -left @ (flow.shares * felt / flow.modulus)
+    return _dataset(columns, x=places).sel(x=slice(*span))
+
+
+def _dataset(fields, **places):
+    """Fields over their places, with units and definitions."""
+    found = xarray.Dataset({name: ([*places], values) for name, values in fields.items()}, places)
     for name in found.variables:
         found[name].attrs = attributes(name)
-    return found.sel(x=slice(*span))
+    return found

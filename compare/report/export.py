@@ -11,17 +11,14 @@ from typing import Any
 import xarray
 from matplotlib.figure import Figure
 from pandas import DataFrame
-from pydantic import ConfigDict, ValidationError, validate_call
 
 from scene.files.reading import InvalidInput
 from scene.printable import brief
 
 from ..figures import style as looks
-from ..figures.journals import COLUMNS
 from ..figures.plot import Plot
 from ..figures.rendering import FORMS, Picture, picture
 from ..solving import curve, netcdf
-from ..solving.folders import first_mistake
 from ..solving.suggest import known
 from ..solving.vocabulary import entry as vocabulary
 from . import csvfiles, manifest, render, vtk
@@ -53,7 +50,7 @@ def export(
     if not isinstance(style, str | PathLike | Mapping | None):
         raise InvalidInput(f"style = {style!r}: a file .mplstyle, the name of a style of matplotlib, or settings")
     look = looks.Look(journal or "default", style, width)
-    known("journal", look.journal, COLUMNS)
+    known("journal", look.journal, looks.COLUMNS)
     try:
         with looks.applied(look):
             pass
@@ -144,21 +141,18 @@ def _drawn(folder, entry, forms, look) -> Picture:
             return picture(Plot(entry.name, draw, tables, "", options=entry.options), forms, look)
     except InvalidInput:
         raise
-    except ValidationError as error:
-        why = f"option {first_mistake(error)}"
     except Exception as error:  # options or tables that were changed raise nearly anything
         why = f"cannot be drawn from its tables: {brief(repr(error))}"
-    raise InvalidInput(f"{brief(str(path))}: figure {entry.name}: {why}")
+        raise InvalidInput(f"{brief(str(path))}: figure {entry.name}: {why}") from error
 
 
 def function(entry: manifest.PlotEntry, path: Path) -> Callable[..., Figure]:
-    """The function that draws a figure, which checks its options; InvalidInput of all that draws none here."""
-    name = f"{entry.module}:{entry.function}"
+    """The function that draws a figure. Raises InvalidInput of all that draws none here."""
     draw: Any = None
-    if name.startswith(f"{PACKAGE}."):
+    if entry.module.startswith(f"{PACKAGE}."):
         with suppress(ImportError, AttributeError, ValueError):
-            draw = resolve_name(name)
+            draw = resolve_name(f"{entry.module}:{entry.function}")
     if getattr(draw, "__annotations__", {}).get("return") not in (Figure, "Figure"):
-        why = f"is drawn by {brief(name)}, which is no figure of {PACKAGE}: it cannot be drawn again"
-        raise InvalidInput(f"{path}: figure {entry.name} {why}")
-    return validate_call(config=ConfigDict(arbitrary_types_allowed=True, allow_inf_nan=False))(draw)
+        why = f"is drawn by {brief(entry.module)}:{brief(entry.function)}, which is no figure of {PACKAGE}"
+        raise InvalidInput(f"{path}: figure {entry.name} {why}: it cannot be drawn again")
+    return draw

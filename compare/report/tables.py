@@ -1,7 +1,6 @@
 """Tables as people read them: words with units in the heads, a number together with its interval."""
 
 from collections.abc import Sequence
-from itertools import chain
 
 from pandas import DataFrame, Series
 
@@ -9,29 +8,19 @@ from ..solving import words
 from ..solving.vocabulary import head
 from ..statistics.finding import Finding
 
-# Columns of findings that stand together in one.
-JOINED = {"value": ("low", "high"), "expected": ("tolerance",)}
-WRITTEN = (words.shown, words.plus_minus, words.interval)  # by the number of columns beside a number
+ENDS = "low", "high"
 
 
 def shown(frame: DataFrame) -> DataFrame:
-    """A table of texts: NAME_low and NAME_high, or NAME_error, stand in the cells of NAME."""
-    beside = {name: _beside(name, frame) for name in frame}
-    hidden = set(chain.from_iterable(beside.values()))
-    texts = {
-        head(str(name)): list(map(WRITTEN[len(ends)], *(frame[each].tolist() for each in (name, *ends))))
-        for name, ends in beside.items()
-        if name not in hidden
-    }
+    """A table of texts: NAME_low and NAME_high stand in the cells of NAME."""
+    texts = {}
+    for name in frame:
+        base, _, end = name.rpartition("_")
+        if base not in frame or end not in ENDS:
+            ends = [each for each in (f"{name}_{end}" for end in ENDS) if each in frame]
+            told = words.interval if ends else words.shown
+            texts[head(name)] = [*map(told, *(frame[each].tolist() for each in (name, *ends)))]
     return DataFrame(texts, frame.index, dtype=object)
-
-
-def _beside(name, frame):
-    """Columns that hold the interval of another, or its error."""
-    for ends in (JOINED.get(name, ()), (f"{name}_low", f"{name}_high"), (f"{name}_error",)):
-        if ends and {*ends} <= {*frame}:
-            return ends
-    return ()
 
 
 def claims(findings: Sequence[Finding], details: bool = True) -> DataFrame:

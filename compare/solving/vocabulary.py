@@ -101,7 +101,6 @@ friction_exponent : Exponent of the power of the speed by which curves are shift
 misfit : Rms of ln mu about one curve, without what scatter adds. [1]
 decided : Whether the shifts mean anything: not where curves do not collapse, nor where they part.
 shifted_as : Whether a figure shows curves shifted as fitted, or as expected.
-reference_speed : Speed whose curve is not shifted. [m/s]
 holds : Whether every condition of the laws holds at a point.
 
 Of measured maps.
@@ -123,8 +122,8 @@ friction_over_slope : Friction over the slope of the body at the edge of the con
 indenter : Height of the rigid indenter above the undeformed surface. [m]
 surface : Height of the surface of the elastomer above the undeformed one. [m]
 touching : Whether indenter and elastomer touch.
-line_force_1d : Force per length of the springs, mean over a strip along x. [N/m]
-line_force_3d : Pressure integrated over y, mean over a strip along x. [N/m]
+line_force_1d : Force per length of the springs, mean over a pixel along x. [N/m]
+line_force_3d : Pressure integrated over y, mean over a pixel along x. [N/m]
 
 Of series of contacts, and of the figures of a study.
 closed_form : Depth [m] or force [N] of the smooth body in closed form.
@@ -150,18 +149,14 @@ normalised_friction : Friction over that of the plateau, s the rms slope of the 
 alpha : Exponent of the law that joins low speed and plateau. [1]
 
 Of cost and accuracy.
-relative_error : Error of a quantity against a closed form, or against a far finer solution whose own error is
-    stated. [1]
 reference_error : Relative error of the reference; what is at or below it is only known to be as good as that. [1]
 processor : Processor time of one thread from the scene to the result: the least of several repeats, each alone in
     a process that has loaded compiled code. [s]
 wall : Least time of repeated solves by the clock. [s]
 memory : By how much a solve raises the peak memory of its process. [byte]
-change : Relative change of a quantity from half the points to all. [1]
 repeats : How often the solve was repeated. [1]
 
 Of the paper.
-sweeps : Sweeps along the profile. [1]
 study : Parameter that is varied while all others are held.
 step : Number of the value of the parameter. [1]
 parameter : Value of the parameter that is varied, in its SI unit; angles in radians.
@@ -171,7 +166,6 @@ plateau : μ̃ at the greatest ξ over Eq. 19 there. [1]
 loss_exponent : Power β of the frequency with which the loss modulus grows. [1]
 relaxation_time : Time τ of the elastomer. [s]
 smooth_depth : Depth of the smooth contact at rest. [m]
-rubber : Number of the elastomer in the study of loss moduli.
 angle : Angle of the side of the cone against the plane. [rad]
 radius : Radius of the sphere. [m]
 modulus : Static shear modulus of the elastomer. [Pa]
@@ -181,7 +175,6 @@ count : Number of contacts behind a mean. [1]
 Of accuracy and cost.
 setting : Number that is refined along the ladder: points, or steps in time. [1]
 steps : Number of settings of a ladder, or of steps in time. [1]
-precision : Floating-point numbers of the solve: single or double.
 extent : Side of the grid over the width of the contact. [1]
 reference : Solution that errors are measured against.
 """
@@ -213,7 +206,6 @@ ENDINGS = {
     "_mean": "Mean over draws. ",
     "_low": "Lower end of the interval of 95 %, scatter of surfaces and error of the grid. ",
     "_high": "Upper end of the interval of 95 %, scatter of surfaces and error of the grid. ",
-    "_error": "Half of the interval of 95 %, scatter of surfaces and error of the grid. ",
     "_deviation": "Standard deviation of one surface. ",
     "_surface": "Of one surface, not of the mean. ",
     "_corrected": "Corrected by the trust map. ",

@@ -55,10 +55,7 @@ def number(value: float, digits: int = DIGITS) -> str:
         return UNKNOWN if isnan(value) else "∞" if value > 0 else "−∞"
     value = float(f"{value:.{digits - 1}e}")  # 9.9999 is 10
     power = _power(value)
-    scaled = value / 10.0**power
-    decimals = digits - 1 - floor(log10(abs(scaled))) if scaled else 0
-    text = f"{scaled:.{max(decimals, 0)}f}"
-    return _signed(text.rstrip("0").rstrip(".") if "." in text else text) + _times(power)
+    return _signed(f"{value / 10.0**power:.15g}") + _times(power)
 
 
 def interval(value: float, low: float, high: float, digits: int = DIGITS) -> str:
@@ -82,16 +79,6 @@ def counted(findings: Sequence["Finding"]) -> str:
     if len(counts) == 1:
         return findings[0].verdict
     return ", ".join(f"{name} {counts[name]}" for name in VERDICTS if counts[name])
-
-
-def plus_minus(value: float, error: float, digits: int = DIGITS) -> str:
-    """value ± error, to two digits of the error; the number alone without one."""
-    if not _wide(value, error):
-        return number(value, digits)
-    error = float(f"{error:.1e}")  # 9.96 is 10
-    power = _power(max(abs(value), error))
-    both = " ± ".join(_scaled(power, _decimals(error, power), value, error))
-    return f"({both}){_times(power)}" if power else both
 
 
 def _wide(value, error):
@@ -206,8 +193,8 @@ def basis(finding: "Finding") -> str:
     if not isfinite(finding.grid):
         return ""
     counts = finding.drawn or ({finding.dimension: finding.draws} if finding.draws else {})
-    drawn = "".join(f"{count} {DRAWS.get(name, f'draws of {name}')}, " for name, count in counts.items())
-    return f"{drawn}grid{f' {number(finding.grid, 2)}' if finding.grid else ''} ({finding.grid_method})"
+    parts = [f"{count} {DRAWS.get(name, f'draws of {name}')}" for name, count in counts.items()]
+    return ", ".join([*parts, f"grid {number(finding.grid, 2)}"])
 
 
 def sentences(findings: Sequence["Finding"]) -> list[str]:
@@ -230,65 +217,40 @@ def _grouped(findings, name) -> dict[str, list]:
 
 
 def _sentence(claimed, findings) -> str:
-    models = [*_grouped(findings, "dimension").values()]
-    numbers = "; ".join(_numbers(here, len(models) > 1 or here[0].dimension in ALONE) for here in models)
+    models = _grouped(findings, "dimension")
+    one, *others = {each.verdict for each in findings}
+    numbers = []
+    for model, here in models.items():
+        named = f"in {model} " if len(models) > 1 or model in ALONE else ""
+        numbers.append(named + (_one_by_one(here, bool(others)) if len(here) <= FEW else _range(here)))
     against = {tested(each.claim) for each in findings} - {""}
     last = f", tested against {against.pop()}" if len(against) == 1 else ""
-    return f"{_verdicts(models)}{claimed}: {numbers}{last}.{_open(findings)}"
+    verdict = "" if one == REPORTED and not others else f"{capital(counted(findings))}: "
+    reasons = [*dict.fromkeys(each.why for each in findings if each.verdict == UNDECIDED and each.why)]
+    open_ = f" Undecided: {'. Also: '.join(reasons[:FEW_REASONS])}." if reasons else ""
+    more = " The table of findings says why the others are." if len(reasons) > FEW_REASONS else ""
+    return f"{verdict}{claimed}: {'; '.join(numbers)}{last}.{open_}{more}"
 
 
-def _open(findings) -> str:
-    """Reasons of the undecided findings and what would decide them; of many different ones the reasons alone."""
-    undecided, more = [each for each in findings if each.verdict == UNDECIDED], ""
-    reasons = dict.fromkeys(each.why for each in undecided)
-    if len(reasons) > FEW_REASONS:
-        reasons = dict.fromkeys(each.undecidable or crossed(each) for each in undecided)
-        more = " The table of findings says what would decide each."
-    return f" Undecided: {'. Also: '.join(reasons)}.{more}" if any(reasons) else ""
+def _one_by_one(findings, mixed) -> str:
+    """Each number with its place, and with its verdict where these differ."""
+    placed = []
+    for each in findings:
+        at = "at" if each.where[:1].isdigit() or "=" in each.where else "for"
+        place = f" {at} {each.where}" if each.where else ""
+        placed.append(f"{found(each, 3)}{place}{f' ({each.verdict})' if mixed else ''}")
+    return " and ".join(filter(None, [", ".join(placed[:-1]), placed[-1]]))
 
 
-def _verdicts(models) -> str:
-    """Verdicts on a claim, with the models where these differ and a colon; nothing of a number without a claim."""
-    stated = {here[0].dimension: _verdict(here) for here in models}
-    words, *others = dict.fromkeys(stated.values())
-    if others:
-        words = ", ".join(f"{verdict} in {model}" for model, verdict in stated.items())
-    return "" if words == REPORTED else f"{capital(words)}: "
-
-
-def _verdict(findings) -> str:
-    """Verdict of all, or how often each stands."""
-    counts = Counter(each.verdict for each in findings)
-    if len(counts) == 1:
-        return findings[0].verdict
-    stated = ", ".join(f"{name} in {counts[name]}" for name in VERDICTS if counts[name])
-    return f"{stated} of {len(findings)} places"
-
-
-def _numbers(findings, named) -> str:
-    """Numbers of a model on a claim: each with its place, or their range and how many are known."""
-    claim, count = findings[0].claim, len(findings)
-    model = f"in {findings[0].dimension} " if named else ""
-    places = "both places" if count == 2 else f"all {count} places"
-    if count <= FEW:
-        mixed = len({each.verdict for each in findings}) > 1
-        if len({found(each, 3) for each in findings}) == 1 < count:
-            return f"{model}{found(findings[0], 3)} in {places}"
-        *first, last = (_placed(each, mixed) for each in findings)
-        return model + (f"{', '.join(first)} and {last}" if first else last)
+def _range(findings) -> str:
+    """Range of the numbers, and in how many places they are known."""
+    claim, places = findings[0].claim, f"{len(findings)} places"
     known = [claim.scale * each.value for each in findings if isfinite(each.value)]
     if not known:
-        return f"{model}not known in any of {count} places"
-    if len(known) < count:
-        places = f"{len(known)} of {count} places"
+        return f"not known in any of {places}"
     reach = " to ".join(dict.fromkeys(number(end(known), 3) for end in (min, max)))
     halves = ((each.interval[1] - each.interval[0]) / 2 for each in findings)
     widest = max((half for half in halves if half > 0), default=0.0)
     about = f" (±{amount(claim, number(claim.scale * widest, 2))} at most)" if 0 < widest < inf else ""
-    return f"{model}{amount(claim, reach)} in {places}{about}"
-
-
-def _placed(finding, mixed) -> str:
-    at = "at" if finding.where[:1].isdigit() or "=" in finding.where else "for"
-    place = f" {at} {finding.where}" if finding.where else ""
-    return f"{found(finding, 3)}{place}{f' ({finding.verdict})' if mixed else ''}"
+    of = "all" if len(known) == len(findings) else f"{len(known)} of"
+    return f"{amount(claim, reach)} in {of} {places}{about}"

@@ -82,7 +82,7 @@ class Alignment:
 class Collapse:
     """Curves, and how far from one they are for each choice of shifts.
 
-    data : what was fitted; points_left_out, surfaces_left_out : how many were not
+    data : what was fitted
     log_friction : of every point of every curve, with standard errors to first order
     degree : of the common polynomial of curves shifted along the load
     straight : misfit of parallel straight lines, one a speed
@@ -90,8 +90,6 @@ class Collapse:
     """
 
     data: FrictionCurves = field(repr=False)
-    points_left_out: int
-    surfaces_left_out: int
     log_friction: Estimated = field(repr=False)
     degree: int
     straight: RmsMisfit
@@ -187,8 +185,6 @@ def collapse(data: FrictionCurves) -> Collapse:
         horizontal = replace(horizontal, mended=_taken(complete, along, both))
     return Collapse(
         data=complete,
-        points_left_out=data.points - count,
-        surfaces_left_out=data.surfaces - complete.surfaces,
         log_friction=complete.replicates(along.fit.y, complete.deviations()).estimated,
         degree=along.fit.degree,
         straight=straight,

@@ -154,13 +154,6 @@ class Finding:
         return max(less, 0.0) if self.size else less, high + self.grid
 
     @property
-    def grid_method(self) -> str:
-        """How the error of the grid is known."""
-        if not isfinite(self.grid):
-            return "unknown"
-        return "change on halving" if self.grid else "exact"
-
-    @property
     def verdict(self) -> str:
         """ "holds", "fails" or "undecided"; "reported" of a number without a claim."""
         if self.stated:

@@ -52,11 +52,6 @@ class SimulatedCurves:
         return cls(dataset["speed"].values, load, friction, strata, str(dataset.attrs.get("solver", "")))
 
     @property
-    def points(self) -> int:
-        """Number of speeds times loads or depths."""
-        return self.known.size
-
-    @property
     def surfaces(self) -> int:
         """Number of surfaces; 1 of a body without."""
         return self._forces.shape[3]
@@ -101,9 +96,10 @@ class SimulatedCurves:
         if not points.any() or not surfaces.any():
             raise ValueError("no surface has an answer at every point")
         forces, strata = forces[..., surfaces], self._strata[surfaces]
-        without = [np.delete(np.arange(strata.size), group.surfaces) for group in groups(strata)]
-        for part in (slice(None), *(each for each in without if each.size)):
-            points &= np.where(points, forces[..., part].mean(axis=3), 0).min(axis=0) > 0
+        left_out = [np.empty(0, int), *(group.surfaces for group in groups(strata) if strata.size > 1)]
+        for part in left_out:
+            means = np.delete(forces, part, axis=3).mean(axis=3)
+            points &= (means > 0).all(axis=0)
         speeds = points.sum(axis=1) > 1
         load, friction = np.where(points[..., None], forces, nan)[:, speeds]
         if self.load.ndim == 2:

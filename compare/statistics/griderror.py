@@ -3,7 +3,6 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-import numpy as np
 from pandas import Series, concat
 
 from scene import Doubtful
@@ -34,21 +33,19 @@ def stated(answers: "xarray.DataTree") -> Series:
             bounds = bounds if "model" in bounds.dims else bounds.expand_dims(model=[str(node.name)])
             bounds = bounds.sel(level="fine") if "level" in bounds.dims else bounds
             # Of a mean over surfaces the bound is the mean of theirs.
-            bounds = bounds.mean("surface") if "surface" in bounds.dims else bounds
-            models = [MODELS.get(each, each) for each in bounds["model"].values.tolist()]
-            found.append(Series(np.ravel(bounds.transpose("model", ...)), np.repeat(models, bounds[0].size)))
+            own = (bounds.mean("surface") if "surface" in bounds.dims else bounds).to_series()
+            own.index = [MODELS.get(each, each) for each in own.index.get_level_values("model")]
+            found.append(own)
     return concat([each for each in found if each.size] or found).dropna()
 
 
 def sentence(bounds: Series) -> str:
     """What the grids leave uncertain of friction, the model that errs most first; empty without friction."""
-    models = bounds.groupby(level=0).agg(["max", "median", "size"]).sort_values("max", ascending=False)
+    most = bounds.groupby(level=0).max().sort_values(ascending=False)
     told = ", ".join(
-        f"{_percent(each.max)} in {each.Index}" + (f" ({_percent(each.median)} in the median)" * (each.size > 1))
-        for each in models.itertuples()
-        if each.max > MUCH or not much(bounds)
+        f"{_percent(each)} in {model}" for model, each in most.items() if each > MUCH or not much(most)
     )
-    if much(bounds):
+    if much(most):
         return f"Friction may be wrong by up to {told} by the grid: take more points (bounds of 95 %)."
     return f"The grid leaves at most {told} of friction uncertain (bounds of 95 %)." if told else ""
 

@@ -200,7 +200,7 @@ def _figure(tree) -> Figure:
             for place, speed in enumerate(speeds):
                 value, *ends = (each[place] for each in (friction.value, *friction.interval()))
                 look = {"fmt": "o-", "color": SPEED(scale(speed)), "capsize": 0, **small}
-                axes.errorbar(shifted[place], value, yerr=style.bars(value, *ends), **look)
+                axes.errorbar(shifted[place], value, yerr=np.abs(ends - value), **look)
             letter = "abcd"[2 * (solver == "BEM") + column]
             axes.set(xscale="log", yscale="log", title=f"({letter}) {body}, {name}")
         panels[1, column].set_xlabel("load times p(v) over that of the slowest [N]")

@@ -19,7 +19,7 @@ from PIL import Image
 from tables import stored
 
 from bem3d import BEM, Trail
-from compare.figures import contact, style, touching
+from compare.figures import contact, style
 from compare.figures.curves import intervals
 from compare.figures.plot import Plot
 from compare.figures.shades import SPEED, between
@@ -64,7 +64,7 @@ def figure(plot: Plot, numbers: DataFrame, steep: DataFrame) -> Figure:
     space, row = (plot.tables[contact.SECTIONS[solver]] for solver in ("BEM", "MDR"))
     contact.pressure_map(left, plot.tables[contact.PRESSURE], space["x"], plot.options["aside"], None)
     left.set_title("(a) 3D: pressure")
-    touching.section(right, row, "MDR", (-SPAN, SPAN), contact.heights_of([row]), 125)
+    contact.section(right, row, "MDR", (-SPAN, SPAN), contact.heights_of([row]), 125)
     right.set_title("(b) 1D: springs")
     above, below, beside = lower.subplots(1, 3)
     for axes, solver, title in ((above, "MDR", "(c) 1D: one curve"), (below, "BEM", "(d) 3D: no such curve")):

@@ -206,7 +206,7 @@ def test_a_claim_is_measured_with_scatter_and_with_the_change_on_halving(answers
     fine, coarse = sample(answers), sample(answers, "coarse")
     found = measured(claim, fine, coarse)
     assert (found.value, found.verdict, found.grid, found.draws) == (1.0, "holds", 0.0, 2)
-    assert basis(found) == "4 profiles, 2 surfaces, grid (exact)"
+    assert basis(found) == "4 profiles, 2 surfaces, grid 0"
     coarse["rough/BEM"] = coarse["rough/BEM"].assign(normal_force=1.25 * coarse["rough/BEM"].normal_force)
     assert measured(claim, fine, coarse).grid == pytest.approx(0.2)
 

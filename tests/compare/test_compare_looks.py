@@ -17,10 +17,10 @@ import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+from drawn_again import from_files
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import same_color, to_rgba
 from matplotlib.figure import Figure
-from matplotlib.image import imread
 from matplotlib.legend import Legend
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
@@ -28,10 +28,10 @@ from matplotlib.text import Text
 from matplotlib.transforms import Bbox
 from pandas import DataFrame
 
-from compare.figures import curves, shades, style
-from compare.figures.journals import COLUMNS
+from compare.figures import curves, force_depth, friction_speed, shades, style
 from compare.figures.plot import Plot
 from compare.figures.rendering import FORMS, picture
+from compare.figures.style import COLUMNS
 from compare.report import csvfiles, manifest
 from compare.report.export import function
 from scene.files.reading import InvalidInput
@@ -359,29 +359,10 @@ def _streams(content):
             yield zlib.decompressobj().decompress(content[found.end() :])
 
 
-def test_pictures_have_300_dots_an_inch_and_the_width_of_the_column(files):
-    assert files.inches[0] in COLUMNS["default"]
-    assert imread(BytesIO(files.files["png"])).shape[1] == pytest.approx(300 * files.inches[0], abs=1)
-
-
 def test_vector_files_name_no_day_and_hold_their_letters(files):
     text = files.files["svg"].decode()
     assert "<dc:date>" not in text
     assert "<text" not in text  # letters are outlines: no font has to be at the reader's
-
-
-@pytest.mark.parametrize(
-    ("given", "said"),
-    [
-        ({"sheet": "no-such-style"}, "no-such-style"),
-        ({"sheet": {"lines.colour": "red"}}, "lines.colour"),
-        ({"width": "60 mm"}, "80 mm to 200 mm are allowed"),
-    ],
-)
-def test_a_look_that_does_not_exist_is_refused(given, said):
-    look = style.Look(**given)
-    with pytest.raises((ValueError, KeyError, OSError), match=re.escape(said)), style.applied(look):
-        pass
 
 
 def test_a_file_of_settings_is_a_style(tmp_path):
@@ -409,7 +390,6 @@ def test_a_text_is_broken_where_it_would_be_too_wide():
     lines = style.fill(words, 1.0, 8).split("\n")
     assert " ".join(lines) == words
     assert 1 < max(map(len, lines)) * style.WIDE * 8 <= 72
-    assert style.fill("a\nb", 1.0, 8) == "a\nb"
 
 
 def test_a_logarithmic_axis_has_few_round_numbers_however_short_it_is():
@@ -435,14 +415,16 @@ def test_a_legend_has_as_many_columns_as_fit(inches, columns):
         assert columns == 1 or legend.get_window_extent().width <= drawing.bbox.width
 
 
-def test_what_has_no_answer_is_crossed_on_the_axis_and_has_no_bar():
+def test_what_has_no_answer_is_crossed_on_the_axis_and_without_an_end_there_is_no_bar():
     axes = Figure().subplots()
-    points = DataFrame({"speed": [0.1, 1.0], "mu": [np.nan, 2.0], "mu_low": np.nan, "mu_high": np.nan})
-    curves.curve(axes, points, "speed", "mu", **style.look("BEM"))
+    ends = {"mu_low": [np.nan, 1.0, np.nan], "mu_high": [np.nan, 3.0, 3.0]}
+    points = DataFrame({"model": "BEM", "speed": [0.1, 1.0, 2.0], "mu": [np.nan, 2.0, 2.0], **ends})
+    curves.curves(axes, points, "speed", "mu")
     crosses = axes.lines[-1]
     assert (crosses.get_xdata().tolist(), crosses.get_marker()) == ([0.1], "x")
     assert crosses.get_label() == "3D (BEM): no answer"
-    assert np.isnan(style.bars([1.0, 1.0], [0.5, np.nan], [2.0, 2.0])).tolist() == 2 * [[False, True]]
+    (bars,) = axes.containers[0].lines[2]
+    assert [len(each) > 1 for each in bars.get_segments()] == [False, True, False]  # places of both ends
 
 
 def test_threads_that_draw_at_once_draw_as_one_alone():
@@ -454,3 +436,37 @@ def test_threads_that_draw_at_once_draw_as_one_alone():
         together = list(threads.map(drawn_in, asked))
     assert together == [drawn_in(each) for each in asked]
     assert dict(matplotlib.rcParams) == outside
+
+
+# Curves: axes end where the data do, a depth is one place for all models, and few curves are drawn.
+
+
+def points(name, across, places):
+    """Both models, 1D twice as high as 3D."""
+    rows = DataFrame([(solver, at, k * at) for solver, k in (("MDR", 2.0), ("BEM", 1.0)) for at in places])
+    rows.columns = ["model", across, f"{name}_mean"]
+    return rows.assign(**{f"{name}_{end}": k * rows[f"{name}_mean"] for end, k in (("low", 0.9), ("high", 1.1))})
+
+
+def test_a_line_decades_below_does_not_press_the_curves_together():
+    curves = points("friction_coefficient", "speed", (0.1, 1.0))
+    lines = DataFrame({"model": ["MDR"] * 2, "kind": "Eq. 19", "speed": [0.1, 1.0], "friction_coefficient": 1e-6})
+    axes = from_files(friction_speed.plot(curves, lines=lines)).axes[0]
+    assert axes.get_ylim() == pytest.approx((0.09 / 1.2, 2.2 * 1.2))
+    assert style.LABEL["MDR"] + ", Eq. 19" in axes.get_legend_handles_labels()[1]
+
+
+def test_both_models_stand_at_the_depth_that_was_prescribed():
+    depths = (1e-5, 2e-5)
+    forces = points("normal_force", "depth", depths).assign(body="rough", closed_form=1.0)
+    for axes in from_files(force_depth.plot(forces, DataFrame())).axes[:2]:
+        places = [bars[0].get_xdata().astype(float) for bars in axes.containers]
+        np.testing.assert_allclose(places, 2 * [1e6 * np.array(depths)], rtol=1e-12)
+
+
+@pytest.mark.parametrize("count", [1, 3, 8, 30])
+def test_few_values_keep_the_least_and_the_greatest(count):
+    values = np.geomspace(1, 10, count)
+    chosen = shades.few(values[::-1], 8)
+    assert len(chosen) == min(count, 8)
+    assert (chosen[0], chosen[-1]) == (values[0], values[-1])

@@ -124,17 +124,14 @@ def test_one_difference_alone_tells_no_interval():
     assert np.isnan(found["friction_force"]).all()
 
 
-@pytest.mark.parametrize(
-    ("variation", "least", "most"), [(0.15, 0.94, 0.96), (0.5, 0.94, 0.96), (1.0, 0.93, 0.96)]
-)
-def test_intervals_of_means_hold_as_often_as_stated(variation, least, most):
+def test_intervals_of_means_hold_as_often_as_stated():
     rng = np.random.default_rng(3)
     held, close = 0, 3 * sqrt(0.95 * 0.05 / STUDIES / 2)
     for _ in range(STUDIES):
-        given = pooled(answers(rng, variation=variation)).sel(level="fine")
+        given = pooled(answers(rng, variation=0.5)).sel(level="fine")
         low, high = mean_ratio(given["friction_force"].values, 1.0, strata_of(given)).interval()
         held += np.mean((low <= 1) & (high >= 1)) / STUDIES
-    assert least - close <= held <= most + close
+    assert 0.94 - close <= held <= 0.96 + close
 
 
 def test_leaving_surfaces_out_of_all_grids_has_the_error_of_the_mean():
@@ -160,8 +157,7 @@ def test_degrees_of_freedom_are_those_of_welch():
     assert student(0.95, even)[0] > student(0.95, 10)
 
 
-@pytest.mark.parametrize("counts", [(12, 50), (4, 50), (8, 8)])
-def test_a_ratio_of_two_models_of_unequal_numbers_of_draws_holds_as_often(counts):
+def test_a_ratio_of_two_models_of_unequal_numbers_of_draws_holds_as_often():
     rng, studies, held = np.random.default_rng(5), 400, 0
 
     def drawn(solver, count, spread):
@@ -172,7 +168,7 @@ def test_a_ratio_of_two_models_of_unequal_numbers_of_draws_holds_as_often(counts
         return {"": mean(sample["BEM"], "normal_force") / mean(sample["MDR"], "normal_force")}
 
     for _ in range(studies):
-        sample = DrawSet({"BEM": drawn("BEM", counts[0], 0.2), "MDR": drawn("MDR", counts[1], 0.4)})
+        sample = DrawSet({"BEM": drawn("BEM", 4, 0.2), "MDR": drawn("MDR", 50, 0.4)})
         low, high = resample(ratio, sample)[""].estimated.interval()
         held += (low[0] <= 1 <= high[0]) / studies
     assert abs(held - 0.95) <= 0.01 + 3 * sqrt(0.95 * 0.05 / studies)

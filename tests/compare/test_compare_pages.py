@@ -64,16 +64,6 @@ def test_a_value_is_shown_as(value, shown):
     assert words.shown(value) == shown
 
 
-@given(st.floats(1e-12, 1e12), st.floats(1e-6, 1.0))
-def test_a_value_and_its_error_are_shown_within_a_twentieth_of_the_error(value, relative):
-    error = value * relative
-    told = words.plus_minus(value, error).translate(str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-"))
-    middle, half, power = re.fullmatch(r"\(?(\S+) ± ([0-9.]+)\)?(?: × 10(\S+))?", told).groups()
-    scale = 10.0 ** int(power or 0)
-    assert abs(float(middle) * scale - value) <= 0.051 * error
-    assert abs(float(half) * scale - error) <= 0.051 * error
-
-
 def test_ends_of_an_interval_are_shown_to_two_digits_of_its_half_and_not_at_all_where_unknown():
     assert interval(1.98292, 1.9735, 1.9924) == "1.9829 (1.9735 to 1.9924)"
     assert interval(1e-6, -1e-6, 3e-6) == "1.0 (−1.0 to 3.0) × 10⁻⁶"
@@ -273,12 +263,12 @@ def test_a_changed_table_gives_another_picture(folder, tmp_path):
 FORGED = [
     ({"module": "os"}, "os:figure"),
     ({"function": "DataFrame"}, "no figure of compare"),
-    ({"name": "../friction"}, "names no file"),
+    ({"name": "../friction"}, "leads out of"),
     ({"tables": ["missing"]}, "missing.csv"),
     ({"tables": "friction"}, "plots.0.tables"),
-    ({"options": {"unheard": 1}}, "option unheard"),
-    ({"options": {"figsize": [1e9, 1e9]}}, "option figsize"),
-    ({"module": "compare.figures.contact", "options": {"aside": nan}}, "option aside"),
+    ({"options": {"unheard": 1}}, "unheard"),
+    ({"options": {"figsize": [1e9, 1e9]}}, "figsize"),
+    ({"module": "compare.figures.contact", "options": {"aside": nan}}, "cannot be drawn"),
     ({"options": 3}, "plots.0.options"),
 ]
 
@@ -331,7 +321,7 @@ def test_a_damaged_manifest_is_named_whatever_is_in_it(tmp_path_factory, content
         (b"", "cannot be drawn"),
         (b"\xff", "not a table"),
         (b"a,b\n1\n1,2,3\n", "not a table"),
-        (b"a\n1\n", "'model'"),
+        (b"a\n1\n", "cannot be drawn"),
     ],
 )
 def test_a_damaged_table_is_named(folder, tmp_path, damage, said):
@@ -385,7 +375,7 @@ def test_a_table_comes_back_whatever_its_numbers_are(tmp_path):
     with pytest.raises(InvalidInput, match="longer than its head"):
         csvfiles.read(tmp_path / "table.csv")
     (tmp_path / "table.csv").write_text(f"a\n{'1' * 30}\n2\n")
-    assert csvfiles.read(tmp_path / "table.csv")["a"].tolist() == [float("1" * 30), 2.0]
+    assert csvfiles.read(tmp_path / "table.csv")["a"].tolist() == [int("1" * 30), 2]
 
 
 def test_nothing_is_written_out_of_the_folder(copied, tmp_path):
@@ -403,6 +393,8 @@ def test_nothing_is_written_out_of_the_folder(copied, tmp_path):
         ({"journal": "natur"}, "mean nature"),
         ({"width": "5 m"}, "width = '5 m': 80 mm to 200 mm"),
         ({"width": "84 s"}, "width = '84 s': a length"),
+        ({"style": "no-such-style"}, "no-such-style"),
+        ({"style": {"lines.colour": "red"}}, r"lines\.colour"),
         ({"format": "png,word"}, "format = word: allowed are csv, vtk, png, pdf, svg"),
     ],
 )

@@ -143,13 +143,10 @@ def test_measured_moduli_are_drawn_as_points_on_their_fit_at_the_temperature_of_
     points = [line for line in axes.lines if line.get_label() == "measured"]
     for line, part in zip(points, (law.real, law.imag), strict=True):
         np.testing.assert_allclose(line.get_xdata(), omega / LAW.shift)
-        np.testing.assert_allclose(1e6 * np.asarray(line.get_ydata()), part)
+        np.testing.assert_allclose(line.get_ydata(), part)
     fit = drawn.tables[solid.NAME]
     at_points = np.interp(np.log(omega / LAW.shift), np.log(fit["omega"]), np.log(fit["storage"]))
     np.testing.assert_allclose(np.exp(at_points), law.real, rtol=5e-3)
-    axes.figure.draw_without_rendering()
-    (right,) = axes.child_axes
-    np.testing.assert_allclose(right.get_ylim(), np.multiply(2.6, axes.get_ylim()))
     assert "at 310 K" in drawn.caption
 
 

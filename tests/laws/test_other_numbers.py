@@ -19,7 +19,7 @@ import compare
 import mdr1d
 import scene
 from bem3d import BEM
-from compare.figures.journals import columns
+from compare.figures.style import columns
 from compare.library.case import Variations
 from compare.solving.curve import Curve
 from compare.studies.comparison.sweep import SweepSeries

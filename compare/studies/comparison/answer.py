@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from pandas import DataFrame
 
-from ...figures.prefixes import prefixed
+from ...figures.style import prefixed
 from ...library.describe import conditions
 from ...report.page import Table
 from ...solving import words

@@ -36,11 +36,6 @@ class MeasuredCurves:
         return np.array([curve.speed for curve in self.curves])
 
     @property
-    def points(self) -> int:
-        """Number of points."""
-        return sum(curve.log_load.size for curve in self.curves)
-
-    @property
     def surfaces(self) -> int:
         """1, as none is random."""
         return 1

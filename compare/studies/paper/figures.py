@@ -11,10 +11,10 @@ from pandas import DataFrame, concat
 
 from mdr1d.equations import interpolation
 
-from ...figures import shades, style, touching
+from ...figures import shades, style
+from ...figures.contact import section
 from ...figures.curves import intervals
 from ...figures.plot import Plot, Tables
-from ...figures.prefixes import prefixed
 
 CONTACTS, STUDIES, LAW = "paper-contacts", "paper-studies", "paper-law"
 ALPHA = f"{LAW}-alpha"
@@ -52,9 +52,9 @@ def draw_contacts(tables: Tables) -> Figure:
         margin = (SHOWN - 1) / 2 * np.ptp(touched)
         whole, close = (touched.min() - margin, touched.max() + margin), _close_up(table)
         for axes, span, title in ((above, whole, name.rpartition("-")[2]), (below, close, "close-up")):
-            touching.section(axes, table, "MDR", span, _limits(table, span))
+            section(axes, table, "MDR", span, _limits(table, span))
             axes.set_title(title)
-        along = prefixed(whole, "m")[0]
+        along = style.prefixed(whole, "m")[0]
         above.axvspan(along * close[0], along * close[1], **style.line(0.0, 0.4, fill=False, zorder=5))
     style.lettered(panels.flat)
     style.legend(drawing, panels.flat, 3)
