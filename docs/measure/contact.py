@@ -7,12 +7,12 @@ from math import inf, sqrt
 from typing import Any
 
 import numpy as np
+from ratios import FINE, HALF
 
 from bem3d import BEM
 from compare.models.law.bands import Bands
 from compare.solving.outcome import Outcome, Row
 from compare.solving.task import SCENES, SceneTask, Task, draws_of
-from compare.trustmap.ratio import FINE, HALF
 from mdr1d import MDR
 from scene import Scene, SelfAffine
 
