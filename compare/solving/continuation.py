@@ -5,29 +5,28 @@ from dataclasses import dataclass, replace
 from math import inf
 
 from bem3d import BEM, Trail
-from scene import Indent, Program, Scene
+from scene import Indent, Program
 
 from .outcome import Outcome
-from .task import Scenes, SceneTask, Task
+from .task import SceneTask, Task
 
 # Work of a path: about a minute, so that a kill costs no more.
 LONGEST = 1e9
 
 
 @dataclass(frozen=True)
-class Continuation(Scenes):
+class Continuation(Task):
     """Contacts of one body and surface, of which each starts from those before it; equal if these are.
 
     contacts : of one scene each, in the order in which they are solved
     """
 
     contacts: tuple[SceneTask, ...]
-    keeps_fields = False
 
     @property
-    def scenes(self) -> tuple[Scene, ...]:  # type: ignore[override]
-        """Scene of each contact."""
-        return tuple(scene for each in self.contacts for scene in each.scenes)
+    def count(self) -> int:
+        """A row for each contact."""
+        return len(self.contacts)
 
     @property
     def label(self) -> str:

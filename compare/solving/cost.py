@@ -34,8 +34,8 @@ class Cost:
     @classmethod
     def of(cls, tasks: Iterable[Task]) -> "Cost":
         """Cost of tasks that are built."""
-        each = [(len(getattr(task, "scenes", (task,))), task.work) for task in tasks]
-        return cls(sum(count for count, _ in each), sum(work for _, work in each))
+        every = list(tasks)
+        return cls(sum(task.count for task in every), sum(task.work for task in every))
 
     def __add__(self, other: "Cost") -> "Cost":
         return Cost(*(getattr(self, each.name) + getattr(other, each.name) for each in fields(self)))

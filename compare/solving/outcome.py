@@ -64,6 +64,11 @@ def row(result: Result) -> Row:
     )
 
 
+def reason_of(error: BaseException) -> str:
+    """Message of an error in a line; its type where it has none."""
+    return " ".join(str(error).split()) or type(error).__name__
+
+
 def _plain(value):
     value = value.item() if isinstance(value, np.generic) else value
     return value if isinstance(value, str | int | float | bool | None) else str(value)

@@ -15,7 +15,7 @@ from scene import EmptyContact, Program, Refused, Result, Scene, SolveError, Sol
 from scene.motion import UNITS
 from scene.quantities import MOST_WHOLE
 
-from .outcome import Outcome, Row, row
+from .outcome import Outcome, Row, reason_of, row
 
 REFUSED = "refused: "  # before the reason of a model that refuses in its solve
 SCENES = TypeAdapter(tuple[Scene, ...])
@@ -29,6 +29,7 @@ class Task(Protocol):
     question : everything that the answer depends on except code, as JSON can hold it
     packages : names of the packages whose code the answer depends on
     keeps_fields : whether the outcome has fields
+    count : number of rows of its outcome
     """
 
     @property
@@ -44,16 +45,23 @@ class Task(Protocol):
     def packages(self) -> Sequence[str]: ...
 
     @property
-    def keeps_fields(self) -> bool: ...
+    def keeps_fields(self) -> bool:
+        return False
+
+    @property
+    def count(self) -> int:
+        return 1
 
     def solve(self) -> Outcome:
         """Solve, and return the outcome."""
 
     def failed(self, reason: str) -> Outcome:
         """Outcome where there is no answer: as many rows, all NaN, each with the reason."""
+        return Outcome((Row(reason=reason),) * self.count)
 
     def fits(self, outcome: Outcome) -> bool:
         """Whether a stored outcome is whole."""
+        return len(outcome.rows) == self.count
 
 
 class Batch(NamedTuple):
@@ -63,22 +71,8 @@ class Batch(NamedTuple):
     timed: bool = False
 
 
-class Scenes:
-    """What tasks have in common whose outcomes have a row for each scene."""
-
-    scenes: tuple[Scene, ...]
-
-    def failed(self, reason: str) -> Outcome:
-        """Outcome with a row for each scene, each with the reason."""
-        return Outcome((Row(reason=reason),) * len(self.scenes))
-
-    def fits(self, outcome: Outcome) -> bool:
-        """Whether the outcome has a row for each scene."""
-        return len(outcome.rows) == len(self.scenes)
-
-
 @dataclass(frozen=True)
-class SceneTask(Scenes):
+class SceneTask(Task):
     """Scenes that differ only in the seed of their roughness, answered by one solver; equal if these are.
 
     finer : finer grids of the solver, of which the first that can answers where it cannot
@@ -103,6 +97,11 @@ class SceneTask(Scenes):
             body = f"{len(self.scenes)} profiles"
         pressed, moved = _pressed(motion), _moving(motion)
         return f"{self.solver.name} {type(scene.indenter).__name__.lower()} {pressed}, {moved}, {body}"
+
+    @property
+    def count(self) -> int:
+        """A row for each scene."""
+        return len(self.scenes)
 
     @property
     def question(self) -> dict:
@@ -158,9 +157,9 @@ def _answer(solver, scene, trail) -> tuple[Row, Result | None]:
         depth = scene.motion.greatest if scene.motion.pressed_by == "depth" else nan
         return Row(0.0, depth, 0.0, residual=0.0, operator_applications=0.0, seconds=0.0), None
     except (Refused, NotImplementedError) as error:
-        return Row(reason=f"{REFUSED}{' '.join(str(error).split()) or type(error).__name__}"), None
+        return Row(reason=REFUSED + reason_of(error)), None
     except SolveError as error:
-        return Row(reason=str(error) or type(error).__name__), None
+        return Row(reason=reason_of(error)), None
 
 
 def _importable(kind) -> bool:

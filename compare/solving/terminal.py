@@ -1,16 +1,12 @@
-"""Progress of a run on standard error: a bar on a terminal and in a notebook, else a line every ten seconds."""
+"""Progress of a run on standard error: a bar on a terminal, else a line every ten seconds."""
 
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from io import StringIO
-from typing import Any
 
 from rich import progress as bars
-from rich.console import Console, Group
-from rich.padding import Padding
+from rich.console import Console
 from rich.table import Column
-from rich.text import Text
 
 from scene.printable import printable
 
@@ -34,10 +30,9 @@ class Shown(Progress):
     def __init__(
         self, lines: bool = False, console: Console | None = None, clock: Callable[[], float] = time.monotonic
     ) -> None:
-        console = console or Console(stderr=True, highlight=False, soft_wrap=True)
-        self.lines, self.clock, self.notebook = lines, clock, console.is_jupyter
-        self.console = Console(file=StringIO(), force_jupyter=False) if self.notebook else console
-        drawn = console.is_interactive and not self.notebook
+        usual = Console(stderr=True, highlight=False, soft_wrap=True, force_jupyter=False)
+        self.lines, self.clock, self.console = lines, clock, console or usual
+        drawn = self.console.is_interactive
         # Where there is little room, the end of the last column is cut off.
         last = Column(ratio=1, no_wrap=True, overflow="ellipsis")
         self.bar = bars.Progress(
@@ -50,12 +45,11 @@ class Shown(Progress):
             expand=True,
             transient=True,
             redirect_stdout=False,
-            refresh_per_second=10 if drawn else 2 if self.notebook else 1 / PAUSE,
+            refresh_per_second=10 if drawn else 1 / PAUSE,
         )
         if not drawn:
             self.bar.live.refresh = self._refresh  # type: ignore[method-assign]
-        self.output: Any = None  # of a notebook: one for all lines, with the bar below them
-        self.told, self.last = list[Text](), clock()
+        self.last = clock()
         self.planned([], 0)
         self._begin("preparing")
 
@@ -76,24 +70,15 @@ class Shown(Progress):
             self.row = self.bar.add_task(phase, total=total, waits_for=waits_for)
 
     def _refresh(self) -> None:
-        """In place of drawing a bar: bring the output of a notebook up to date, or print a line of a log."""
-        if self.notebook:
-            from IPython.display import display
-
-            self.output = self.output or display(display_id=True)
-            self.output.update(Padding(Group(*self.told, self.bar.get_renderable()), 0, expand=False))
-        elif self.clock() - self.last >= PAUSE:
+        """In place of drawing a bar: print a line of a log."""
+        if self.clock() - self.last >= PAUSE:
             self.last = self.clock()
             for task in self.bar.tasks:
                 self.said(f"{task.description} {task.fields['waits_for']}".strip())
 
     def said(self, line: str) -> None:
         """Say a line to a person."""
-        if self.notebook:
-            self.told.append(Text(printable(line)))
-            self._refresh()
-        else:
-            self.console.print(printable(line), markup=False)
+        self.console.print(printable(line), markup=False)
 
     @contextmanager
     def writing(self, count: int) -> Iterator[Callable[[str], None]]:

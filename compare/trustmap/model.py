@@ -1,6 +1,6 @@
 """Model of one quantity: the ratio of 1D over 3D from groups, learned from scenes that both have solved."""
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
 from math import log
 from typing import NamedTuple, TypeAlias
 
@@ -19,18 +19,9 @@ ESTIMATES = {"friction": "friction", "depth": "smooth_depth", "force": "smooth_f
 UNITS = {"friction": "doubt", LAW: "doubt", "depth": "sliding_height", "force": "sliding_height"}
 # Change of the grid that is taken where half the points have no answer.
 UNKNOWN_GRID = 0.02
-# Noise beyond which a measured ratio says nothing, and surfaces below which it has no scatter.
-MOST_NOISE, LEAST_SURFACES = 0.25, 3
+LEAST_SURFACES = 3  # below which a measured ratio has no scatter
 LEAST_VARIANCE = 1e-8
-# Scenes from which the scatter of one surface is learned, and scenes of like error whose intervals widen alike.
-SCATTERED, ALIKE = 600, 150
-# Scenes that a process goes through at most: more take longer at each start, and hardly tell more.
-MOST_TAKEN = 2600
-# Share of the scenes left out that is to lie within, and that in a region of enough scenes: so large that 95 % of
-# those lie within to which no scale was fitted, also where the narrower of two intervals is taken.
-HELD, HELD_IN_PART, FEWEST = 0.96, 0.97, 40
-# Least factor on an error: noise that is larger says little of it.
-LEAST_FACTOR = 0.5
+SCATTERED = 600  # scenes from which the scatter of one surface is learned
 # How well a depth is known at best that is lost in the roughness: of the scenes left out fewer than 95 % lie in
 # narrower intervals.
 LEAST_LOST = 0.08
@@ -103,7 +94,8 @@ class Fitted:
         """Standard errors of the process (M,) at groups (M, D), as wide as those left out ask for."""
         error = error * np.interp(np.log(error), np.log(self.errors), self.widening)
         return error * np.prod(
-            [np.where(here, factor, 1.0) for here, factor in zip(_parts(groups), self.parts, strict=True)], axis=0
+            [np.where(here, factor, 1.0) for here, factor in zip(regions_of(groups), self.parts, strict=True)],
+            axis=0,
         )
 
 
@@ -122,22 +114,9 @@ class Model:
     @classmethod
     def of(cls, quantity: str, measured: Measurements, fitted: Fitted) -> "Model":
         """Model of measurements to which it was fitted."""
-        scatter = Process(*_scattered(measured.taken(_usable(measured))), fitted.scatter)
-        process = Process(*_learned(quantity, measured.taken(fitted.taken), scatter), fitted.process)
+        scatter = Process(*scattered(measured.taken(usable(measured))), fitted.scatter)
+        process = Process(*learned(quantity, measured.taken(fitted.taken), scatter), fitted.process)
         return cls(quantity, process, scatter, fitted)
-
-    @classmethod
-    def fit(cls, quantity: str, measured: Measurements) -> "Model":
-        """Model fitted to measurements; takes minutes for thousands of scenes."""
-        usable = _usable(measured)
-        scatter = Process.fitted(*_scattered(measured.taken(usable)))
-        # Where the noise lets it say something.
-        noise = measured.taken(usable).variance(np.exp(scatter.mean(measured.groups[usable])))
-        usable = usable[noise < MOST_NOISE**2]
-        everything = Process.fitted(*_learned(quantity, measured.taken(usable), scatter))
-        taken = everything.telling(MOST_TAKEN)
-        fitted = _fitted(quantity, everything, taken, scatter)
-        return cls(quantity, everything.taken(taken), scatter, replace(fitted, taken=usable[taken]))
 
     def predicted(self, groups: np.ndarray) -> Predicted:
         """Ratios at groups (M, D)."""
@@ -170,12 +149,12 @@ def scale(quantity: str, groups: np.ndarray) -> np.ndarray:
     return np.exp(groups[:, NAMES.index(UNITS[quantity])] / 2)
 
 
-def _usable(measured):
+def usable(measured):
     """Numbers of the scenes that have a ratio and enough surfaces."""
     return np.flatnonzero(np.isfinite(measured.logarithm) & (measured.surfaces >= LEAST_SURFACES))
 
 
-def _scattered(measured) -> Points:
+def scattered(measured) -> Points:
     """Groups, logarithms of the scatter without the bias of few surfaces, and their variances: of chi squared."""
     known = np.flatnonzero(measured.scatter > 0)
     known = known[np.linspace(0, known.size - 1, min(SCATTERED, known.size)).astype(int)]
@@ -185,43 +164,13 @@ def _scattered(measured) -> Points:
     return measured.groups, unbiased, polygamma(1, half) / 4
 
 
-def _learned(quantity, measured, scatter) -> Points:
+def learned(quantity, measured, scatter) -> Points:
     """Groups, what was measured beyond the estimate, and its variance."""
     variance = measured.variance(np.exp(scatter.mean(measured.groups)))
     beyond, unit = measured.logarithm - estimate(quantity, measured.groups), scale(quantity, measured.groups)
     return measured.groups, beyond / unit, variance / unit**2
 
 
-def _left_out(everything, taken):
-    """Errors (N,) of each value predicted from all others that are taken, and their standard errors, noiseless."""
-    process = everything.taken(taken)
-    error, variance = np.empty(everything.values.size), np.empty(everything.values.size)
-    error[taken], variance[taken] = process.left_out()
-    variance[taken] -= process.variances
-    others = np.setdiff1d(np.arange(error.size), taken)
-    if others.size:
-        found, variance[others] = process.predicted(everything.inputs[others])
-        error[others] = everything.values[others] - found
-    return error, np.sqrt(np.maximum(variance, LEAST_VARIANCE))
-
-
-def _fitted(quantity, everything, taken, scatter):
-    """Fitted part of a model: factors by which errors grow for as many of the values left out to lie within."""
-    (error, own), inputs = _left_out(everything, taken), everything.inputs
-    # How wide each error has to be for its value to lie within, beside the noise of what was measured.
-    needed = np.sqrt(np.maximum((error / NORMAL) ** 2 - everything.variances, 0))
-    counted = np.flatnonzero(~lost(inputs)) if quantity == "depth" else np.arange(own.size)
-    alike = np.array_split(counted[np.argsort(own[counted])], max(1, counted.size // ALIKE))
-    errors = np.array([np.median(own[few]) for few in alike])
-    factors = np.array([max(LEAST_FACTOR, np.quantile(needed[few] / own[few], HELD)) for few in alike])
-    parts = np.ones(len(_parts(inputs)))
-    found = Fitted(everything.scales, taken, scatter.scales, errors, factors, parts)
-    needed = needed / found.widened(own, inputs)
-    regions = [needed[counted[here[counted]]] for here in _parts(inputs)]
-    widest = [max(1.0, np.quantile(few, HELD_IN_PART)) if few.size >= FEWEST else 1.0 for few in regions]
-    return replace(found, parts=np.array(widest))
-
-
-def _parts(groups):
+def regions_of(groups):
     """Mask of scenes (M,) of each of the regions in which intervals widen."""
     return [here for _, here in parts(WIDENED, dict(zip(NAMES, groups.T, strict=True)))]

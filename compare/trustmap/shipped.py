@@ -1,7 +1,6 @@
 """The models that come with the package: measured tables, and what was fitted to them."""
 
 import json
-from dataclasses import asdict
 from functools import cache
 from pathlib import Path
 
@@ -26,12 +25,3 @@ def model(quantity: str) -> Model:
 
 def _scales(middle, spread, lengths, **numbers) -> Scales:
     return Scales(np.array(middle), np.array(spread), np.array(lengths), **numbers)
-
-
-def as_json(models: dict[str, Model]) -> str:
-    """Fitted parts of models by quantity, as the JSON that the package holds."""
-    return json.dumps({name: asdict(each.fitted) for name, each in models.items()}, default=_rounded)
-
-
-def _rounded(array):
-    return array.tolist() if array.dtype.kind == "i" else [float(f"{each:.5g}") for each in array]

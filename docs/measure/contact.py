@@ -7,12 +7,12 @@ from math import inf, sqrt
 from typing import Any
 
 import numpy as np
+from ratios import FINE, HALF
 
 from bem3d import BEM
 from compare.models.law.bands import Bands
 from compare.solving.outcome import Outcome, Row
-from compare.solving.task import SCENES, SceneTask, draws_of
-from compare.trustmap.ratio import FINE, HALF
+from compare.solving.task import SCENES, SceneTask, Task, draws_of
 from mdr1d import MDR
 from scene import Scene, SelfAffine
 
@@ -43,7 +43,7 @@ USUAL, GREAT = Grids(), Grids((512, 640, 768, 960, 1280, 1536, 1920, 2560, 3072)
 
 
 @dataclass(frozen=True)
-class Contact:
+class Contact(Task):
     """A task, see `task.Task`: a scene on profiles and on surfaces, until their means are known.
 
     scene : of the first surface
@@ -60,7 +60,6 @@ class Contact:
     wanted: float
     surfaces: int
     grids: Grids = USUAL
-    keeps_fields = False
     packages = ("scene", "mdr1d", "bem3d", "compare.models.law.bands", "contact")
 
     @property
@@ -86,10 +85,6 @@ class Contact:
         first = SceneTask(BEM(points=LEAST_POINTS), (self.scene,)).solve().rows[0]
         profiles = self._told(FINE, line, self._profiles(line))
         return Outcome(tuple(chain(profiles, self._surfaces(self._fine(first)))))
-
-    def failed(self, reason: str) -> Outcome:
-        """Outcome with the reason in its one row."""
-        return Outcome((Row(reason=reason),))
 
     def fits(self, outcome: Outcome) -> bool:
         """Whether the stored outcome has any rows."""

@@ -7,12 +7,13 @@ from itertools import product
 from typing import Any, TypeAlias
 
 import numpy as np
+from regions import BODIES, COVERED, REGIONS, SPEEDS, SURFACES
 from scipy.special import betaincinv, ndtr, ndtri
 
 from compare.trustmap.measured import beyond_measured, limits
 from compare.trustmap.model import NAMES, NORMAL, Measurements, Model, Predicted
 from compare.trustmap.ratio import LAW
-from compare.trustmap.regions import BODIES, COVERED, REGIONS, ROUGHNESS, SPEEDS, SURFACES, Condition, parts
+from compare.trustmap.regions import ROUGHNESS, Condition, parts
 from compare.trustmap.table import column, measurements
 from compare.trustmap.verdict import MULTIPLY, SOLVE, USE, advice_on
 

@@ -19,7 +19,10 @@ import design
 import numpy as np
 from campaign import solved
 from contact import GREAT, USUAL, Contact
+from fitting import as_json, fit
 from pandas import DataFrame
+from ratios import ratio_of
+from regions import BODIES, SURFACES
 from scoring import BEST, OWN, Scored, advice_rows, coverage_rows, error_rows, of_surfaces, scored
 from tables import by_column, replaced, stored
 
@@ -27,9 +30,7 @@ from compare.models.law.parts import LawParts
 from compare.solving.outcome import Outcome
 from compare.trustmap import shipped, table
 from compare.trustmap.groups import DimensionlessGroups, SmoothReference
-from compare.trustmap.model import Model
-from compare.trustmap.ratio import LAW, RATIOS, Ratio, asked_of, ratio_of
-from compare.trustmap.regions import BODIES, SURFACES
+from compare.trustmap.ratio import LAW, RATIOS, Ratio, asked_of
 from scene import Scene
 
 PAGE = Path(__file__).parents[1] / "results" / "trust.md"
@@ -81,8 +82,8 @@ def ship(workers: int | None = None) -> None:
         path.write_bytes(written(rows))
     table.read.cache_clear()
     learned = table.read(table.LEARNED)
-    models = {name: Model.fit(name, table.measurements(learned, name)[1]) for name in RATIOS}
-    shipped.FITTED.write_text(shipped.as_json(models) + "\n", encoding="utf-8")
+    models = {name: fit(name, table.measurements(learned, name)[1]) for name in RATIOS}
+    shipped.FITTED.write_text(as_json(models) + "\n", encoding="utf-8")
     shipped.model.cache_clear()
 
 

@@ -22,7 +22,8 @@ def test_a_path_is_all_speeds_of_one_surface_and_load_from_rest_on_and_from_coar
     paths = [each for each in tasks if isinstance(each, Continuation)]
     assert len(paths) == 2 * 2  # loads, surfaces
     for each in paths:
-        assert len({(scene.motion.load, scene.roughness.seed) for scene in each.scenes}) == 1
+        scenes = [contact.scenes[0] for contact in each.contacts]
+        assert len({(scene.motion.load, scene.roughness.seed) for scene in scenes}) == 1
         places = [(getattr(one.scenes[0].motion, "speed", 0.0), one.solver.points) for one in each.contacts]
         assert places == list(product((0.0, 0.1, 0.2), (32, 64)))
     assert {task.solver.name for task in tasks if task not in paths} == {"MDR"}

@@ -29,7 +29,9 @@ def test_peak_pressures_are_those_of_a_published_program():
     """Combined radius 50 mm, E_g = 1905 MPa, f = 1, 600 N/mm; memories in mm, pressures in MPa to its 4 digits."""
     for memory, peak in ((0, 60.32), (9, 78.74), (45, 84.72), (2000, 85.31)):
         contact = line_contact.sliding(50e-3, 952.5e6, 1905e6, 1.0, memory * 1e-3, 600e3)
-        assert contact.peak_pressure / 1e6 == pytest.approx(peak, rel=1.5e-4)
+        angle = pi * np.linspace(0, 1, 4002)[1:-1] ** 6  # drawn to the leading edge, where a soft solid peaks
+        found = contact.pressure(contact.centre - contact.half_width * np.cos(angle)).max()
+        assert found / 1e6 == pytest.approx(peak, rel=1.5e-4)
 
 
 # A rule drawn to the leading edge.
@@ -58,7 +60,6 @@ def test_line_contact_is_hertzian_slow_and_fast(f):
         contact, slow = cylinder(f, memory)
         half_width, peak = line_contact.hertz(RADIUS, modulus, LOAD)
         assert contact.half_width == pytest.approx(half_width, rel=1e-6)
-        assert contact.peak_pressure == pytest.approx(peak, rel=1e-5)
         x = np.linspace(-0.9, 0.9, 7) * half_width
         assert contact.pressure(x) == pytest.approx(peak * np.sqrt(1 - (x / half_width) ** 2), rel=1e-5)
         assert contact.friction_coefficient * RADIUS < 1e-6 * slow
@@ -72,20 +73,7 @@ def test_a_kelvin_cylinder_is_the_limit_of_stiff_glass():
     assert stiff.edges == pytest.approx(kelvin.edges, rel=1e-8)
     x = kelvin.centre + kelvin.half_width * np.array([-0.5, 0.0, 0.9])
     assert stiff.pressure(x) == pytest.approx(kelvin.pressure(x), rel=1e-8)
-    assert kelvin.peak_pressure == inf
     assert kelvin.pressure(np.array([-1.0, 1.0])).tolist() == [0, 0]
-
-
-def test_crossed_waves_tend_to_their_asymptotes():
-    table = waves.CROSSED_FRACTIONS
-    assert waves.crossed_contact_fraction_heavy(0.95) == pytest.approx(table[0.95], abs=3e-4)
-    assert waves.crossed_contact_fraction_heavy(0.85) == pytest.approx(table[0.85], abs=5e-3)
-    assert waves.crossed_contact_fraction_light(0.1) == pytest.approx(table[0.1], rel=0.15)
-    # Hertz at both crests of a period: a^3 = 3 F R / (4 E*), with h0 = lambda = E* = 1
-    fraction = 1e-3
-    force = fraction * waves.crossed_closure(1, 1, 1) / 2
-    hertz = 2 * pi * (3 * force / (4 * (2 * pi) ** 2)) ** (2 / 3)
-    assert waves.crossed_contact_fraction_light(fraction) == pytest.approx(hertz, rel=ROUNDING)
 
 
 @pytest.mark.parametrize("solid", [RUBBER, SOLID, CHAIN])

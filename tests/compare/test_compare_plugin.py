@@ -66,7 +66,7 @@ def pair(ratio=1.0, **others):
 @pytest.fixture(scope="module")
 def imported(tmp_path_factory):
     """What a check imports, here: what a project imports in this process is forgotten with it."""
-    study = Accuracy.of(SLIDING, {"depth": 0.5}, [MDR(points=512), BEM(points=32)], surfaces=2, profiles=2)
+    study = Accuracy.of(SLIDING, {"depth": 0.5}, models=[MDR(points=512), BEM(points=32)], surfaces=2, profiles=2)
     (found,) = findings(study, tmp_path_factory.mktemp("imported"))
     assert found.value == pytest.approx(1.0, abs=0.2)
 
@@ -156,11 +156,11 @@ def test_mistakes_are_named(project):
 
 
 def test_models_are_named_and_their_settings_are_those_of_the_scene():
-    found = Accuracy.of(SLIDING, {"friction": 0.1}, ["mdr", "bem"])
+    found = Accuracy.of(SLIDING, {"friction": 0.1}, models=["mdr", "bem"])
     assert [each.solver for each in found.series[0].models] == [MDR(points=5000), BEM(points=128)]
     assert list(found.within) == ["friction_coefficient"]
     with pytest.raises(InvalidInput, match="at least two are compared"):
-        Accuracy.of(SLIDING, {}, ["mdr"])
+        Accuracy.of(SLIDING, {}, models=["mdr"])
 
 
 INSTALLED = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["entry-points"]["pytest11"]

@@ -3,7 +3,6 @@
 import io
 from dataclasses import replace
 from operator import itemgetter
-from types import SimpleNamespace
 
 import pytest
 from rich.console import Console
@@ -101,16 +100,3 @@ def test_in_lines_each_solve_and_each_figure_has_one_that_controls_no_terminal()
         "1 tasks solved, 1 reused, 2 s",
         "  figure friction",
     ]
-
-
-def test_a_notebook_has_one_output_with_the_lines_and_a_bar_below_them(monkeypatch):
-    outputs, states = [], []
-    output = SimpleNamespace(update=states.append)
-    display = pytest.importorskip("IPython.display")
-    monkeypatch.setattr(display, "display", lambda display_id: outputs.append(output) or output)
-    with Seen(force_jupyter=True) as shown:
-        [*shown.solve(*loads(1.0, 2.0), seconds=2.0)]
-    printed = [(seen := Seen()).console.print(each) or seen.file.getvalue() for each in states]
-    assert len(outputs) == 1
-    assert any("solving" in each for each in printed)
-    assert "2 tasks solved, 1 reused, 4 s" in printed[-1]

@@ -16,6 +16,7 @@ from pydantic.dataclasses import dataclass
 from stand_in_solver import SCENE, Heard, Here, Stand, exactly, forces, loads, marks
 
 from compare.solving import runner
+from compare.solving import task as solving
 from compare.solving.digest import code_of
 from compare.solving.executors import MOST_FAILED_STARTS, ONE_THREAD, Processes, Workers
 from compare.solving.folders import hold
@@ -94,7 +95,7 @@ def test_a_mended_task_takes_the_note_of_its_fault_away(tmp_path, monkeypatch):
 
 
 @dataclass(frozen=True)
-class Odd:
+class Odd(solving.Task):
     """A task of one load that goes wrong in its own way."""
 
     way: str
@@ -122,12 +123,6 @@ class Odd:
         if self.way == "cannot come back":
             return Outcome((Row(settings={"what": lambda: None}),))
         return Outcome(() if self.way == "not whole" else (Row(1.0),))
-
-    def failed(self, reason):
-        return Outcome((Row(reason=reason),))
-
-    def fits(self, outcome):
-        return len(outcome.rows) == 1
 
 
 @pytest.mark.usefixtures("here")

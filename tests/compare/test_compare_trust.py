@@ -5,6 +5,7 @@ from dataclasses import astuple, replace
 from math import exp, log, pi
 
 import design
+import fitting
 import numpy as np
 import pytest
 import scoring
@@ -12,6 +13,7 @@ import trust as campaign
 from contact import Contact
 from maps import sampled
 from pandas import DataFrame
+from ratios import ratio_of
 from solids import gel
 from strategies import rescaled
 
@@ -22,8 +24,8 @@ from compare.solving.outcome import Outcome, Row
 from compare.trustmap import shipped, table, verdict
 from compare.trustmap.friction_law import FrictionLaw
 from compare.trustmap.groups import FullContact, SmoothReference
-from compare.trustmap.model import MOST_TAKEN, NAMES, NORMAL, Measurements, Predicted, lost
-from compare.trustmap.ratio import LAW, RATIOS, asked_of, ratio_of
+from compare.trustmap.model import NAMES, NORMAL, Measurements, Predicted, lost
+from compare.trustmap.ratio import LAW, RATIOS, asked_of
 from compare.trustmap.regions import ROUGHNESS
 from compare.trustmap.regression import Process, Scales
 from compare.trustmap.verdict import trust
@@ -311,7 +313,7 @@ def noisy(count, seed=0):
 
 
 def test_a_process_foretells_what_it_never_saw_within_its_own_error():
-    process = Process.fitted(*noisy(80))
+    process = fitting.fitted(*noisy(80))
     inputs, values, _ = noisy(400, seed=1)
     mean, variance = process.predicted(inputs)
     apart = np.abs(values - mean) / np.sqrt(variance + 1e-4)
@@ -323,8 +325,8 @@ def test_values_left_out_are_those_foretold_from_all_others():
     inputs, values, variances = noisy(12)
     scales = Scales(np.zeros(3), np.ones(3), np.array([0.6, 2.0, 5.0]), 1.0, 0.5, 0.05)
     whole = Process(inputs, values, variances, scales)
-    errors, spread = whole.left_out()
-    covariance = whole._factor @ whole._factor.T
+    errors, spread = fitting.left_out(whole)
+    covariance = whole.factor @ whole.factor.T
     for k in range(12):
         rest = np.arange(12) != k
         weights = np.linalg.solve(covariance[np.ix_(rest, rest)], covariance[rest, k])
@@ -334,8 +336,8 @@ def test_values_left_out_are_those_foretold_from_all_others():
 
 
 def test_the_points_that_tell_most_know_the_rest_better_than_any_others():
-    whole = Process.fitted(*noisy(300))
-    chosen = whole.telling(40)
+    whole = fitting.fitted(*noisy(300))
+    chosen = fitting.telling(whole, 40)
     others = np.setdiff1d(np.arange(300), chosen)
 
     def spread(points):
@@ -344,7 +346,7 @@ def test_the_points_that_tell_most_know_the_rest_better_than_any_others():
     assert np.unique(chosen).size == 40
     drawn = [np.random.default_rng(seed).permutation(300)[:40] for seed in range(5)]
     assert spread(chosen) < 0.8 * min(map(spread, drawn))
-    assert whole.telling(300).tolist() == list(range(300))
+    assert fitting.telling(whole, 300).tolist() == list(range(300))
 
 
 # What was measured.
@@ -412,10 +414,10 @@ def test_the_models_are_fitted_to_the_tables_they_come_with():
     """Half of what they do not go through is predicted within 3 %; scales of other data would not do that."""
     for name in RATIOS:
         model, (_, learned) = shipped.model(name), table.measurements(table.read(table.LEARNED), name)
-        error, variance = model.process.left_out()
+        error, variance = fitting.left_out(model.process)
         assert 0.85 < np.mean(np.abs(error) < 1.96 * np.sqrt(variance)) < 1
         others = learned.taken(np.setdiff1d(np.arange(len(learned.groups)), model.fitted.taken))
-        if model.fitted.taken.size == MOST_TAKEN:
+        if model.fitted.taken.size == fitting.MOST_TAKEN:
             error = others.logarithm - model.predicted(others.groups).logarithm
         assert np.nanmedian(np.abs(error)) < 0.03
 

@@ -9,7 +9,6 @@ import xarray
 from drawn_again import from_files
 
 from bem3d import BEM
-from compare.figures import style
 from compare.library.case import Case
 from compare.models.exact import Exact
 from compare.models.table import Model
@@ -251,19 +250,6 @@ def test_a_page_has_errors_and_times_of_what_solves_and_the_reasons_of_what_does
     assert "measured against 3D on 128 points" in found.answer[0]
     assert [each.claim.unit for each in found.findings] == ["s"] * 2 * len(LEVELS)
     assert list(tables["workprecision-times"]["model"]) == ["3D", "3D"]
-
-
-def test_a_figure_names_what_has_no_answer_and_is_hollow_within_the_error_of_the_reference(layered):
-    _, found, _ = layered
-    (plot,) = found.plots
-    texts = [text.get_text() for axes in from_files(plot).axes for text in axes.texts]
-    assert sum(text.startswith("no answer: 1D, ") for text in texts) == 2
-    for own, face in ((1e-9, style.colour("BEM")), (0.5, "white")):
-        table = plot.tables["workprecision-ways"].assign(reference_error=own)
-        axes = from_files(replace(plot, tables={"workprecision-ways": table})).axes[0]
-        assert axes.collections[0].get_facecolor() == pytest.approx(
-            np.array([style.matplotlib.colors.to_rgba(face)])
-        )
 
 
 def test_a_rough_scene_has_means_over_surfaces_and_the_curve_of_intervals(monkeypatch):

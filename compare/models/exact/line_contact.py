@@ -14,10 +14,9 @@ from dataclasses import dataclass
 from math import inf, isinf, pi, sqrt
 
 import numpy as np
-from scipy.optimize import brentq, minimize_scalar
+from scipy.optimize import brentq
 from scipy.special import i0e, i1e, ive, k0e, k1e
 
-SAMPLES = 400  # among which the peak is bracketed
 MANY = 40.0  # exp(-40): pressure has forgotten
 NODES = np.polynomial.legendre.leggauss(64)
 
@@ -126,20 +125,6 @@ class LineContact:
         back = reach * (1 - nodes) / 2
         age = 2 * np.sin(angle - back / 2) * np.sin(back / 2)
         return scale * k * np.sum(reach / 2 * weights * np.exp(-k * age) * numerator(angle - back), axis=-1)
-
-    @property
-    def peak_pressure(self) -> float:
-        """Largest p [Pa]; infinite of a moving Kelvin body, which is singular at the leading edge."""
-        if self.softening == 0 and self.memory > 0:
-            return inf
-
-        def pressure(v):
-            return self._pressure_at(pi * v**6)  # drawn to the leading edge, where a soft solid peaks
-
-        v = np.linspace(0, 1, SAMPLES + 2)[1:-1]
-        top = int(np.argmax(pressure(v)))
-        bracket = v[max(top - 1, 0)], v[min(top + 1, SAMPLES - 1)]
-        return -minimize_scalar(lambda v: -float(pressure(v)), bounds=bracket, method="bounded").fun
 
 
 def sliding(radius, relaxed_modulus, glassy_modulus, retardation_time, speed, line_load) -> LineContact:

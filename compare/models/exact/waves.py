@@ -58,24 +58,6 @@ def wave_mean_gap(fraction):
     return 1 - fraction + fraction * np.log(np.where(fraction > 0, fraction, 1.0))
 
 
-def crossed_contact_fraction_light(fraction):
-    """Contact fraction of crossed waves for p << p*: pi (3 p / (8 pi p*))^(2/3).
-
-    Two Hertzian contacts a period, 1/R = (2 pi/lambda)^2 h0; Johnson, Greenwood, Higginson, Int. J. Mech. Sci. 27,
-    383 (1985). Neighbours raise it: at p/p* = 0.1 it is 14 % low.
-    """
-    return pi * (3 * _checked(fraction) / (8 * pi)) ** (2 / 3)
-
-
-def crossed_contact_fraction_heavy(fraction):
-    """Contact fraction of crossed waves near p*: 1 - (3 / (2 pi)) (1 - p/p*).
-
-    Two round gaps a period, each a crack under the tension p* - p - p* q^2 r^2 / 2, q = 2 pi/lambda, whose stress
-    intensity vanishes: b^2 = 3 (1 - p/p*) / q^2. Johnson, Greenwood, Higginson (1985).
-    """
-    return 1 - 3 / (2 * pi) * (1 - _checked(fraction))
-
-
 def _checked(fraction):
     fraction = np.asarray(fraction, float)
     if not np.all((fraction >= 0) & (fraction <= 1)):

@@ -1,6 +1,7 @@
 """Accuracy of one dimension on a scene of one's own, in a test: what the fixture `mdr_accuracy` does."""
 
 from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
 from math import isfinite, nan
 from os import PathLike
@@ -12,11 +13,10 @@ import xarray
 from scene.files.reading import InvalidInput
 
 from ...library.lookup import SceneLike, case_of
-from ...models.table import QUANTITIES, ModelLike
+from ...models.table import QUANTITIES
 from ...solving import words
-from ...solving.outcome import Outcome
+from ...solving.runner import sweep
 from ...solving.store import Store
-from ...solving.task import Task
 from ...statistics.finding import HOLDS, Claim, Finding
 from ...statistics.multilevel import WORDS
 from ..comparison.comparison import Comparison
@@ -26,7 +26,6 @@ from ..study import Judgement
 from .stored import Stored, held, read_values
 
 SCENE = "scene"
-FINER = "a finer grid would decide it"
 
 
 @dataclass(frozen=True)
@@ -45,22 +44,22 @@ class Accuracy(Comparison):
         cls,
         scene: SceneLike,
         within: Mapping[str, float],
-        models: Sequence[ModelLike] | None = None,
-        reference: str | None = None,
         surfaces: int | None = None,
         profiles: int | None = None,
-        **others: Any,
+        **asked: Any,
     ) -> Self:
-        """Study of a scene; of all of its quantities where none is named. Raises InvalidInput, Refused."""
+        """Study of a scene; of all of its quantities where none is named. Raises InvalidInput, Refused.
+
+        asked : models and reference, see `MDRAccuracy.check`
+        """
         case = case_of(scene)
         plan = case.plan()
-        contact = SweepSeries.of(case, draws=surfaces or plan.surfaces, models=models, reference=reference)
-        contact = replace(contact, profiles=profiles or plan.profiles)
+        contact = SweepSeries.of(case, draws=surfaces or plan.surfaces, **asked)
         has = {WORDS[mean]: mean for _, mean, _ in contact.wanted}
         if unknown := sorted(within.keys() - has.keys()):
             raise InvalidInput(f"{unknown[0]}: the scene has {' and '.join(has)} to compare")
-        asked = {has[each]: within.get(each, nan) for each in within or has}
-        return cls((contact,), within=asked, **others)
+        wanted = {has[each]: within.get(each, nan) for each in within or has}
+        return cls((replace(contact, profiles=profiles or plan.profiles),), within=wanted)
 
     def judge(self, answers: xarray.DataTree) -> Judgement:
         """A finding a ratio, with what would decide it."""
@@ -74,7 +73,11 @@ class Accuracy(Comparison):
                 claim = Claim(id, f"{WORDS[mean]} {beside}", 1.0, allowed, dimension=beside)
                 for each in series.compared(known, claim, CONTACTS, both, ratio_of(mean, *both), {(0, 0): ""}):
                     told = series.told(each)
-                    found.append(told if told.remedy or told.undecidable else replace(told, remedy=FINER))
+                    found.append(
+                        told
+                        if told.remedy or told.undecidable
+                        else replace(told, remedy="a finer grid would decide it")
+                    )
         return Judgement(found)
 
 
@@ -108,7 +111,7 @@ class OwnScene(Stored, Accuracy):
             raise InvalidInput("baseline = None: the numbers of a scene of your own need a file, name one")
         path = Path(baseline)
         file: dict[str, Any] = {"path": path, "values": read_values(path, begin=update), "update": update}
-        return cls.of(scene, {}, name=named(scene), tolerance=tolerance, **file, **asked)
+        return replace(cls.of(scene, {}, **asked), name=named(scene), tolerance=tolerance, **file)
 
     def judge(self, answers: xarray.DataTree) -> Judgement:
         """A finding a ratio, held against its stored value."""
@@ -122,14 +125,10 @@ class OwnScene(Stored, Accuracy):
 
 def findings(study: Accuracy, folder: Path) -> list[Finding]:
     """Findings of a study that is solved in this process; what the folder has is not solved again."""
-    store = Store(folder)
     (batch,) = study.batches()
-    outcomes: dict[Task, Outcome] = dict(store.stored(batch.tasks))
-    with store.writing():
-        for task in set(batch.tasks) - outcomes.keys():
-            outcomes[task] = task.solve()
-            store.put(task, outcomes[task])
-    return list(study.judge(study.answers(outcomes)).findings)
+    with ThreadPoolExecutor(1) as here:
+        swept = sweep(batch.tasks, Store(folder), executor=here)
+    return list(study.judge(study.answers(swept.outcomes)).findings)
 
 
 @dataclass(frozen=True)

@@ -115,15 +115,18 @@ def away(name: str, value: float, scale: float = 1.0) -> Misfit:
 
 @laws(GRID)
 def galin_and_sneddon():
-    """Body of revolution at rest: force at a depth, and depth under a load, of Galin and Sneddon."""
+    """Body at rest on any solid: force at a depth, and depth under a load, of Galin and Sneddon."""
     for name, body in BODIES.items():
         scene = deep(body)
         load = elastic_contact(scene).load
-        bound = GRID.wider(
-            "steeper at its edge by the exponent", times=body.exponent if body.exponent > 2 else 1.0
-        )
+        why = "steeper at its edge by the exponent"
+        bound = GRID.wider(why, times=body.exponent if body.exponent > 2 else 1.0)
         yield f"{name}.force", scene, {"normal_force": load}, bound
         yield f"{name}.depth", replace(scene, motion=Indent(load=load)), {"depth": scene.motion.depth}, bound
+    compressible = {f"elastic-at-nu-{nu:g}": Elastic(MODULUS, nu) for nu in (0.3, -0.999999)}
+    for name, solid in (LOSSY | compressible).items():
+        scene = resting(elastomer=solid)
+        yield f"rest.{name}", scene, {"normal_force": elastic_contact(scene).load}
 
 
 @laws(RIM.wider("twice, an area", times=2), SPACE)
@@ -140,19 +143,10 @@ def lengths():
         yield f"{name}.length", deep(body), {"contact_length": 2 * RADIUS}
 
 
-@laws(GRID)
-def solids_at_rest():
-    """Sphere on a compressible or viscoelastic solid: force by the modulus at rest."""
-    compressible = {f"elastic-at-nu-{nu:g}": Elastic(MODULUS, nu) for nu in (0.3, -0.999999)}
-    for name, solid in (LOSSY | compressible).items():
-        scene = resting(elastomer=solid)
-        yield f"rest.{name}", scene, {"normal_force": elastic_contact(scene).load}
-
-
 @laws(RIM, SPACE)
 def on_waves():
-    """Westergaard: mean gap of one wave, and what touches; of crossed waves a solution on 512 x 512 points."""
-    for part in (0.2, 0.5, 0.8):
+    """Westergaard: mean gap of a wave, and what touches; of crossed waves a solution on 512 x 512 points."""
+    for part in (0.2, 0.5, 0.8, 0.99, 0.9999, 1.0):
         scene, gap = wavy(part * WAVE_CLOSURE, Wave(**WAVES)), waves.wave_mean_gap(part)
         yield f"wave.gap.{part:g}", scene, away("depth", -gap * AMPLITUDE, AMPLITUDE), GRID
         yield f"wave.fraction.{part:g}", scene, away("contact_fraction", waves.wave_contact_fraction(part))
@@ -196,9 +190,7 @@ def _falling(load: float) -> Misfit:
 def slow():
     """Slow body on a viscoelastic solid: friction is v tau E* int g'^2 dx, and twice as high in 1D."""
     for name, solid in SLOW_ONES:
-        body, elastomer = BODIES[name], LOSSY[solid]
-        motion = Slide(speed=SLOW * RADIUS / mean_lag(elastomer), load=elastic_contact(deep(body, elastomer)).load)
-        scene = Scene(body, elastomer, motion)
+        scene = deep(BODIES[name], LOSSY[solid], SLOW * TIME / mean_lag(LOSSY[solid]))
         yield f"slow.{name}.{solid}", scene, slow_friction(scene)
 
 
@@ -219,9 +211,9 @@ def hunter():
     """Cylinder sliding on a standard linear solid: friction of Hunter."""
     soft = SOLID.indentation_modulus
     for pace in (1e-6, 0.1, 1.0, 10.0, 1000.0):
-        scene = Scene(Cylinder(SPHERE.radius), SOLID, Slide(speed=pace * PACE, line_load=LINE_LOAD))
-        solid = soft, STIFFENING * soft, STIFFENING * TIME
-        form = line_contact.sliding(SPHERE.radius, *solid, pace * PACE, LINE_LOAD)
+        speed = pace * PACE
+        scene = Scene(Cylinder(SPHERE.radius), SOLID, Slide(speed=speed, line_load=LINE_LOAD))
+        form = line_contact.sliding(SPHERE.radius, soft, STIFFENING * soft, STIFFENING * TIME, speed, LINE_LOAD)
         yield f"line.hunter.{pace:g}", scene, {"friction_coefficient": form.friction_coefficient}
 
 
@@ -242,9 +234,8 @@ def founded(body: Any, elastomer: Any, pace: float) -> tuple[Scene, dict[str, An
 @laws(PERIOD, SPACE)
 def in_full_contact():
     """Wavy plane that touches everywhere: friction is the loss of the wave."""
-    one = Wave, full_contact.wave_friction
-    crossed = CrossedWaves, full_contact.crossed_friction
-    for (kind, friction), pace in [(one, 0.01), (one, 0.1), (one, 1.0), (crossed, 0.1)]:
+    one, crossed = (Wave, full_contact.wave_friction), (CrossedWaves, full_contact.crossed_friction)
+    for (kind, friction), pace in ((one, 0.01), (one, 0.1), (one, 1.0), (crossed, 0.1)):
         moved: dict[str, Any] = WAVES | {"elastomer": SOLID, "speed": pace * PACE}
         scene = wavy(3 * full_contact.crossed_closure(**moved), kind(**WAVES), SOLID, pace * PACE)
         yield f"full.{kind.__name__.lower()}.{pace:g}", scene, {"friction_force": friction(**moved) * CELL}
@@ -262,12 +253,12 @@ def of_interface():
 
     yield "coulomb.added", (loaded(1.0, KELVIN, interface=RUBBING), loaded(1.0, KELVIN)), added
     bound = GRID.wider("twice, two contacts, one less the other", times=2)
-    whole = tangential.full_slip_displacement(mu, DEPTH, 0.0)
+    compressible = resting(elastomer=Elastic(MODULUS, 0.0), interface=RUBBING)
     for part in (0.2, 0.5, 0.9):
-        motion = Shear(depth=DEPTH, displacement=part * whole)
-        scene = resting(elastomer=Elastic(MODULUS, 0.0), motion=motion, interface=RUBBING)
-        drawn = tangential.force(part, SPHERE.exponent) * mu
-        yield f"mindlin.sphere.{part:g}", scene, {"friction_coefficient": drawn}, bound
+        drawn = part * tangential.full_slip_displacement(mu, DEPTH, 0.0)
+        scene = replace(compressible, motion=Shear(depth=DEPTH, displacement=drawn))
+        pulled = {"friction_coefficient": tangential.force(part, SPHERE.exponent) * mu}
+        yield f"mindlin.sphere.{part:g}", scene, pulled, bound
 
 
 @laws(GRID.wider(f"{4 / STEPS:g}, of first order in {STEPS} steps, twice, as force falls fast", more=4 / STEPS))

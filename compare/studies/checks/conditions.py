@@ -9,13 +9,16 @@ from itertools import product
 from math import inf
 
 import numpy as np
+from numpy.polynomial.legendre import leggauss
 from scipy.signal import convolve
 
 from bem3d.surface import RoughSurface
 from scene import Plane, Result
 
-FAR = 300.0  # pixels from which 1/r and its first correction have more digits than the exact form
-NODES = np.polynomial.legendre.leggauss(20)
+FAR = 1e4  # pixels from which 1/r has more digits than the exact form
+T, W = ((each + shift) / 2 for each, shift in zip(leggauss(20), (1, 0), strict=True))
+# Places and weights on a panel from 0 to 1, dense at both ends, where the kernel has its kinks.
+PLACES, WEIGHTS = T**3 * (10 - 15 * T + 6 * T**2), W * 30 * T**2 * (1 - T) ** 2
 PANELS = 60  # beside those of pixels, in each of which exp(-s/l) and 1/s hardly change
 
 
@@ -80,7 +83,7 @@ def influence(x, ny) -> np.ndarray:
     corners = product((-1, 1), repeat=2)
     with np.errstate(divide="ignore", invalid="ignore"):
         near = sum(along * across * _corner(x + along / 2, y + across / 2) for along, across in corners)
-        return np.where(r < FAR, near, 1 / r + 1 / (24 * r**3)) / np.pi
+        return np.where(r < FAR, near, 1 / r) / np.pi
 
 
 def _corner(x, y):
@@ -95,14 +98,11 @@ def retarded(x, ny, shares, lengths):
     """
     total = np.zeros((*x.shape, ny))
     edges = np.arange(np.ceil(x.max() + 2)) + (x[0] + 0.5) % 1
-    t, w = (NODES[0] + 1) / 2, NODES[1] / 2
-    # Dense at both ends of a panel, where the kernel has its kinks.
-    t, w = t**3 * (10 - 15 * t + 6 * t**2), w * 30 * t**2 * (1 - t) ** 2
     for share, length in zip(shares, lengths, strict=True):
-        farther = np.geomspace(min(length / 4096, x.max() + 2), 40 * length, PANELS)
-        cuts = np.unique([0.0, *edges[edges < 40 * length], *farther])
+        end = 40 * length
+        cuts = np.unique([0.0, *edges[edges < end], *np.geomspace(min(length / 4096, x.max() + 2), end, PANELS)])
         widths = np.diff(cuts)[:, None]
-        s = (cuts[:-1, None] + widths * t).ravel()
-        weights = (widths * w).ravel() * np.exp(-s / length) / length
+        s = (cuts[:-1, None] + widths * PLACES).ravel()
+        weights = (widths * WEIGHTS).ravel() * np.exp(-s / length) / length
         total += share * np.array([weights @ influence(at - s, ny) for at in x])
     return total

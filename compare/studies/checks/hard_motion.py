@@ -1,6 +1,5 @@
-"""Hard cases of speeds, relaxation times and solids: from nothing to beyond all bounds."""
+"""Hard cases of programs, speeds, relaxation times and solids: from nothing to beyond all bounds."""
 
-from dataclasses import replace
 from functools import partial
 from itertools import product
 
@@ -23,15 +22,15 @@ from .hardcase import (
     touching,
 )
 from .invariances import falls
-from .law import FORCES, GRID, alike, apart
+from .law import FORCES, GRID, alike, apart, worst
 from .ordinary import (
     CONE,
     DEPTH,
     KELVIN,
+    LOAD,
     MODULUS,
     PACE,
     RADIUS,
-    ROUGH,
     SOLID,
     STIFFENING,
     TIME,
@@ -42,6 +41,8 @@ from .ordinary import (
     stage,
 )
 
+PRESSED = stage(TIME, depth=DEPTH)
+coarse_line, coarse_space = partial(line, points=400), partial(space, points=24)
 STILL, GLASSY = resting(), resting(elastomer=Elastic(STIFFENING * MODULUS))
 
 
@@ -61,14 +62,18 @@ def speed_zero():
 
 
 @hard(
-    "Force as at rest within the tolerance of contact; friction of the limit of low speed within the error of the "
-    "grid, 10/N in 1D and 2/N in 3D."
+    "Force as at rest within the tolerance of contact; friction of the limit of low speed within 1e-3 in 1D and "
+    "2/N, the error of the grid, in 3D."
 )
 def speed_to_zero():
-    """At v tau/a = 1e-9 the memory is a tiny part of a pixel and friction is nine digits below the force."""
-    scene = sliding(1e-9)
-    yield from equal(3 * TOLERANCE, (scene, resting(elastomer=SOLID)))
-    yield Part((scene,), slow_friction(scene), by_dimension(over_points(10), over_points(2)))
+    """At v tau/a = 1e-9 the memory is a tiny part of a pixel and friction is nine digits below the force.
+
+    It is fourteen digits below where the glassy modulus exceeds the rubbery one by 1e-10: six digits are left.
+    """
+    scenes = sliding(1e-9), sliding(1e-4, ratio(1 + 1e-10))
+    yield from equal(3 * TOLERANCE, (scenes[0], resting(elastomer=SOLID)))
+    for scene in scenes:
+        yield Part((scene,), slow_friction(scene), by_dimension(1e-3, over_points(2)))
 
 
 @hard(
@@ -78,33 +83,21 @@ def speed_to_zero():
 )
 def times_and_speeds_without_end():
     """Relaxation times of 1e-30 and 1e-300 s, of 1e30 and 1e100 s, and the speed v tau/a = 1e9."""
-    rows = [(sliding(1.0, Kelvin(MODULUS, time)), STILL) for time in (1e-30, 1e-300)]
+    for time in (1e-30, 1e-300):
+        yield from equal(3 * TOLERANCE, (sliding(1.0, Kelvin(MODULUS, time)), STILL))
     for time in (1e30, 1e100):
-        rows.append((sliding(1.0, StandardLinearSolid(MODULUS, STIFFENING * MODULUS, time)), GLASSY))
-    yield from equal(3 * TOLERANCE, *rows)
+        yield from equal(
+            3 * TOLERANCE, (sliding(1.0, StandardLinearSolid(MODULUS, STIFFENING * MODULUS, time)), GLASSY)
+        )
     yield from equal(1e-6, (sliding(1e9), GLASSY))
 
 
-@hard(
-    "Friction times speed is that at 1e9, within 30 a/(v tau), what relaxes in passing, and ten tolerances; in 3D "
-    "friction is the energy lost, to 1e-6."
-)
+@hard("Friction times speed is that at 1e9, within 30 a/(v tau), what relaxes in passing, and ten tolerances.")
 def glassy_friction():
     """At v tau/a = 1e5, 1e7 and 1e9 a standard linear solid loses hardly anything, ever less as 1/v."""
-    by = "friction_by_loss"
     for pace in (1e5, 1e7):
         pair = sliding(1e9), sliding(pace)
         yield Part(pair, alike(friction_force=1e9 / pace), 30 / pace + 10 * TOLERANCE)
-        yield each_of(lambda answer: apart(answer[by], answer["friction_force"]), 1e-6, *pair, only="3D")
-
-
-@hard("Friction by the traction on the slopes is the energy lost, to 1e-9.", partial(line, extent=4.5 * RADIUS))
-def lifted_off_in_a_flow():
-    """Roughness as high as the depth: most of the line is lifted off and lands again."""
-    rough, by = replace(ROUGH, hurst=0.0, rms_height=DEPTH), "friction_by_traction"
-    every = product((1e-3, 1.0, 1e3), (KELVIN, SOLID))
-    scenes = [sliding(pace, solid, roughness=rough) for pace, solid in every]
-    yield each_of(lambda answer: apart(answer[by], answer["friction_force"]), 1e-9, *scenes)
 
 
 @hard(
@@ -118,13 +111,6 @@ def all_but_no_glass_1d():
     yield from equal(over_points(20), *(founded(shape, *each) for shape in ROUND.values() for each in asked))
     known = {"friction_coefficient": CONE.mdr_coefficient}
     yield from equal(1e-9, *((deep(CONE, KELVIN, pace), known) for pace in (1.5, 1e3, 1e6)))
-
-
-@hard("Conditions of contact, computed anew point by point, within twice the tolerance.", dense)
-def all_but_no_glass_3d():
-    """The same in three dimensions: a memory of 1e9 contacts, and one of all but 1e-6 of the compliance."""
-    asked = [*product((1e3, 1e6, 1e9), [KELVIN]), *product((1e-9, 1e-3, 1.0, 1e9), [ratio(1e6)])]
-    yield touching(*(sliding(pace, solid) for pace, solid in asked))
 
 
 @hard(
@@ -142,38 +128,55 @@ def force_rises_with_speed():
 
 @hard(
     "Forces of the glassy and the rubbery solid: in 1D within 1e-8, what relaxes in the ramp, and 3/N^2 of the "
-    "grid; in 3D, of first order in 40 steps, within 0.1.",
+    "grid; in 3D, of first order in 40 steps, within 0.1. Where stages are held, force or depth at rest within "
+    "1e-4, of the sums over pixels, a depth in 3D within 0.02.",
     line,
     partial(space, steps=40),
     any_model=GRID.wider("0.02, of first order in 200 steps", more=0.02),
 )
-def depth_at_once_and_in_an_age():
-    """A depth is reached in 1e-300 s, in a billionth of the relaxation time, and in a billion of them."""
+def stages_without_end():
+    """A depth reached in 1e-300 s, or in a billion relaxation times; stages of 1e-15 and of 1e15 s."""
     ramps = (1e-300, GLASSY), (1e-9 * TIME, GLASSY), (1e9 * TIME, STILL)
     allowed = by_dimension(lambda answers: 1e-8 + over_points(3, 2)(answers), 0.1)
     yield from equal(allowed, *((program(stage(duration, depth=DEPTH)), known) for duration, known in ramps))
+    march = program(PRESSED, stage(1e-6 * TIME), stage(50 * TIME), elastomer=KELVIN)
+    yield from equal(1e-4, (program(stage(1e-15, depth=DEPTH), stage(1e15)), STILL), (march, STILL))
+    creep = program(stage(1e-3 * TIME, load=LOAD), stage(1e9 * TIME))
+    yield from equal(by_dimension(1e-4, 0.02), (creep, {"depth": DEPTH}))
 
 
-@hard("Friction of the limit of low speed to 1e-3: the difference of two moduli keeps six digits.", line)
-def barely_relaxing():
-    """The glassy modulus exceeds the rubbery one by 1e-10: friction comes from the last six digits."""
-    scene = sliding(1e-4, ratio(1 + 1e-10))
-    yield Part((scene,), slow_friction(scene), 1e-3)
-
-
-@hard("Conditions of contact, computed anew, within twice the tolerance.", partial(dense, points=16))
-def thirty_modes_over_fifteen_decades():
-    """Thirty Maxwell modes from 1e-12 to 1e3 s, of moduli four decades apart."""
+@hard("Conditions of contact, computed anew, within twice the tolerance.", dense)
+def memories_without_end():
+    """A memory of 1e9 contacts, one of all but 1e-6 of the compliance, and thirty modes from 1e-12 to 1e3 s."""
     moduli = MODULUS * 10.0 ** (np.arange(30) % 5 - 2)
-    solid = Prony(MODULUS, moduli, np.geomspace(1e-12, 1e3, 30))
-    yield touching(*(sliding(speed / PACE, solid) for speed in (1e-9, 1.0, 1e9)))
+    thirty = Prony(MODULUS, moduli, np.geomspace(1e-12, 1e3, 30))
+    asked = [*product((1e3, 1e6, 1e9), [KELVIN]), *product((1e-9, 1e-3, 1.0, 1e9), [ratio(1e6)])]
+    yield touching(*(sliding(*each) for each in (*asked, (1.0 / PACE, thirty))))
 
 
 @hard("Forces and friction as without them, to 1e-6: contact is solved to 1e-7.", line, dense, any_model=GRID)
 def all_but_absent_modes():
     """Modes of 1e-30 and 1e-150 Pa beside one of 1e7 Pa; an element of a chain that is all but rigid, no glass."""
-    rows = [(KelvinChain(0.0, (1 / MODULUS, 1e-300), (TIME, TIME / 3)), KELVIN)]
-    for faint in (1e-30, 1e-150):
-        rows.append((Prony(MODULUS, (9e6, faint, faint), (TIME, 1e-9, 1e9)), SOLID))
-    for solids, pace in product(rows, (0.1, 10.0)):
+    chain = KelvinChain(0.0, (1 / MODULUS, 1e-300), (TIME, TIME / 3)), KELVIN
+    series = [(Prony(MODULUS, (9e6, faint, faint), (TIME, 1e-9, 1e9)), SOLID) for faint in (1e-30, 1e-150)]
+    for solids, pace in product((chain, *series), (0.1, 10.0)):
         yield from equal(1e-6, [sliding(pace, solid) for solid in solids], of=FORCES)
+
+
+@hard(
+    "Forces of the last eighth are those before to 1e-4 in 1D, of the ripple of pixels, and 0.02 in 3D; friction "
+    "is that of steady sliding within 0.02 of 400 points and 0.05 of 24. The solver refuses what does not balance "
+    "work, energy lost and stored.",
+    lambda size: coarse_line(size, extent=2.4 * RADIUS, steps=size.steps),
+    lambda size: coarse_space(size, steps=size.march),
+)
+def many_steps():
+    """Up to 1e5 steps of sliding in 1D, thousands in 3D: rounding and forgotten memory would add up."""
+    scene = program(PRESSED, stage(8 * RADIUS / (0.1 * PACE), speed=0.1 * PACE))
+
+    def drift(answer):
+        eighths = (np.array_split(answer.result.fields[name], 8) for name in FORCES)
+        return worst(apart(late[-1].mean(), late[-4].mean()) for late in eighths)
+
+    yield each_of(drift, by_dimension(1e-4, 0.02), scene)
+    yield from equal(by_dimension(0.02, 0.05), (scene, sliding(0.1)), of=("friction_force",))

@@ -122,16 +122,12 @@ def equal(allowed: Allowed, *rows: tuple, of: tuple[str, ...] = ("normal_force",
 
 def touching(*scenes: Scene) -> Part:
     """Conditions of contact in three dimensions, computed anew, hold within twice the tolerance."""
-    return each_of(lambda answer: violation(answer.result), 2 * TOLERANCE, *scenes, only="3D")
+    return each_of(lambda answer: violation(answer.result), 2 * TOLERANCE, *scenes)
 
 
-def each_of(number: Callable[[Any], float], allowed: Allowed, *scenes: Scene, only: str = "") -> Part:
-    """A number of each answer, of models of one dimension alone if one is given: the largest counts."""
-
-    def misfit(answers: Answers) -> float:
-        return worst(number(each) for each in answers if only in ("", each.dimension))
-
-    return Part(scenes, misfit, allowed)
+def each_of(number: Callable[[Any], float], allowed: Allowed, *scenes: Scene) -> Part:
+    """A number of each answer, of which the largest counts."""
+    return Part(scenes, lambda answers: worst(map(number, answers)), allowed)
 
 
 def _value(allowed, answers):

@@ -61,22 +61,20 @@ def program(*stages: Stage, elastomer=SOLID, **changed) -> Scene:
     return resting(elastomer=elastomer, motion=Program(stages=stages), **changed)
 
 
-def family(kind: str, length: float = 1.0, modulus: float = 1.0, time: float = 1.0, steep: float = 1.0) -> Scene:
+def family(kind: str, length: float = 1.0, modulus: float = 1.0, time: float = 1.0) -> Scene:
     """The contact in units of length, modulus and time over those of the ordinary one.
 
-    kind : "at-rest", "sliding", "load", or "program"; after "rough-" of a rough body
-    steep : heights and depths over those of the contact
+    kind : "at-rest", which is smooth, "sliding", or "program"
     """
     solid = StandardLinearSolid(MODULUS * modulus, STIFFENING * MODULUS * modulus, TIME * time)
-    speed, depth, force = PACE * length / time, DEPTH * length * steep, LOAD * length**2 * modulus
-    stages = {"load": force}, {"duration": 2 * TIME * time, "speed": speed / 8}, {"load": force / 10}
-    motions: dict[str, Any] = {
+    speed, depth, force = PACE * length / time, DEPTH * length, LOAD * length**2 * modulus
+    seconds = TIME * time
+    stages = stage(seconds, load=force), stage(2 * seconds, speed=speed / 8), stage(seconds, load=force / 10)
+    motion: Any = {
         "at-rest": Indent(depth=depth),
         "sliding": Slide(speed=speed, depth=depth),
-        "load": Slide(speed=speed, load=force),
-        "program": Program(stages=tuple(Stage(**{"duration": TIME * time} | each) for each in stages)),
-    }
-    rough = {name: length * getattr(ROUGH, name) for name in ("longest", "shortest")}
-    rough |= {"rms_height": length * steep * ROUGH.rms_height}
-    body = replace(ROUGH, **rough) if kind.startswith("rough") else None
-    return Scene(Sphere(SPHERE.radius * length / steep), solid, motions[kind.removeprefix("rough-")], body)
+        "program": Program(stages=stages),
+    }[kind]
+    waves = {name: length * getattr(ROUGH, name) for name in ("rms_height", "longest", "shortest")}
+    rough = None if kind == "at-rest" else replace(ROUGH, **waves)
+    return Scene(Sphere(SPHERE.radius * length), solid, motion, rough)

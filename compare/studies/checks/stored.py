@@ -71,17 +71,15 @@ def tolerance(id: str) -> tuple[float, str]:
 def _law(asked: Ratio, sentence: str, value: float) -> Law:
     above = draws_of(asked.scene, asked.draws)
     below = draws_of(asked.scene, SURFACES) if asked.known is None else ()
-
-    def models(_):
-        return (asked.solver,) * len(above) + (SPACE,) * len(below)
+    solvers = (asked.solver,) * len(above) + (SPACE,) * len(below)
 
     def misfit(answers):
         found = [answer[asked.number] for answer in answers]
-        return np.mean(found[: len(above)]) / np.mean(found[len(above) :] or asked.known)
+        return np.mean(found[: len(above)]) / (asked.known or np.mean(found[len(above) :]))
 
     share, why = tolerance(asked.id)
     bound = stated(share * abs(value), f"{share:g}: {why}")
-    return Law(asked.id, STORED, sentence, above + below, misfit, bound, models=models, expected=value)
+    return Law(asked.id, STORED, sentence, above + below, misfit, bound, models=lambda _: solvers, expected=value)
 
 
 def _at_rest() -> Iterator[Ratio]:
@@ -193,8 +191,7 @@ def read_values(path: Path, begin: bool = False) -> dict[str, float]:
 
 def write_values(path: Path, values: Mapping[str, float]) -> None:
     """Write one line a number, in the order of their ids; printable JSON strings are TOML strings."""
-    lines = [
-        f"{json.dumps(id, ensure_ascii=False)} = {float(f'{values[id]:.{DIGITS}g}')!r}" for id in sorted(values)
-    ]
+    rounded = {id: float(f"{values[id]:.{DIGITS}g}") for id in sorted(values)}
+    lines = (f"{json.dumps(id, ensure_ascii=False)} = {value!r}" for id, value in rounded.items())
     text = "\n".join([HEADING, "", "[values]", *lines, ""])
     write(path, lambda file: file.write(text.encode()))

@@ -1,22 +1,22 @@
 """The table of laws, and the task that asks one of them of a model."""
 
-import time
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
+from time import process_time
 from typing import Any
 
 from scene import Refused, Scene, SolveError
 from scene.protocol import why_not
 
 from ...models.table import SURFACES, Model
-from ...solving.outcome import Outcome, Row
-from ...solving.task import REFUSED, SceneTask
-from . import closed_forms, hard_bodies, hard_histories, hard_motion, invariances, stored
+from ...solving.outcome import Outcome, Row, reason_of
+from ...solving.task import REFUSED, SceneTask, Task
+from . import closed_forms, hard_bodies, hard_motion, invariances, stored
 from .law import Answer, Law, Laws, Missing
 
 WORK = 1e6  # of a contact
-MODULES = closed_forms, invariances, hard_motion, hard_bodies, hard_histories
+MODULES = closed_forms, invariances, hard_motion, hard_bodies
 
 
 @cache
@@ -30,7 +30,7 @@ def table() -> Mapping[str, Law]:
 
 
 @dataclass(frozen=True)
-class Examination:
+class Examination(Task):
     """A task, see `solving.task.Task`: a model that answers the scenes of a law of the table.
 
     Its outcome has one row: `misfit` and `bound` in its measures, or the reason why there is none, which begins
@@ -39,7 +39,6 @@ class Examination:
 
     law_id: str
     solver: Any
-    keeps_fields = False
 
     @property
     def law(self) -> Law:
@@ -83,29 +82,22 @@ class Examination:
 
     def solve(self) -> Outcome:
         """Solve every scene, and hold the answers against the law."""
-        start, measures, reason = time.process_time(), {}, None
+        start = process_time()
         try:
-            measures = self._measures()
+            found = Row(measures=self._measures())
         except (Refused, NotImplementedError, Missing) as error:
-            reason = REFUSED + (" ".join(str(error).split()) or type(error).__name__)
+            found = Row(reason=REFUSED + reason_of(error))
         except SolveError as error:
-            reason = str(error) or type(error).__name__
-        return Outcome((Row(seconds=time.process_time() - start, measures=measures, reason=reason),))
+            found = Row(reason=reason_of(error))
+        return Outcome((replace(found, seconds=process_time() - start),))
 
     def _measures(self):
         law, model = self.law, Model.of(self.solver)
         if model.draws != SURFACES and any(scene.indenter.type == "plane" for scene in law.scenes):
             raise Missing("the model draws no surfaces")
         asked = list(zip(law.models(self.solver), law.scenes, strict=False))
-        for reason in (why for each in asked for why in why_not(*each)):
-            raise Refused(reason)
+        for each in asked:
+            if reasons := why_not(*each):
+                raise Refused(reasons[0])
         answers = [Answer(each.solve(scene), model.dimension) for each, scene in asked]
         return {"misfit": float(law.misfit(answers)), "bound": float(law.bound.of(answers))}
-
-    def failed(self, reason: str) -> Outcome:
-        """Outcome of a law that could not be asked."""
-        return Outcome((Row(reason=reason),))
-
-    def fits(self, outcome: Outcome) -> bool:
-        """Whether there is one row."""
-        return len(outcome.rows) == 1

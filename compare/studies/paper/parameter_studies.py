@@ -58,7 +58,7 @@ def contacts(values: int) -> tuple[Contact, ...]:
 
 
 @dataclass(frozen=True)
-class Profiles:
+class Profiles(Task):
     """A task, see `task.Task`: every contact of Fig. 3 on the profiles of some seeds; fields (contacts, seeds)."""
 
     values: int

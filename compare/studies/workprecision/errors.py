@@ -37,7 +37,7 @@ class Way:
     bias : error that no number of surfaces takes away, signed
     most : its largest size by the interval of 95 %, with the error of the grid of the reference
     processor : time of one surface, or of the pilot of an interval [s]
-    surfaces : number that was solved; failed : number without an answer
+    surfaces : number that was solved
     reference_error : error of the reference, scatter and grid
     """
 
@@ -52,7 +52,6 @@ class Way:
     processor: float = nan
     setup: float = 0.0
     surfaces: int = 0
-    failed: int = 1
     reference_error: float = nan
     reason: str = ""
 
@@ -166,7 +165,6 @@ def ways(
             scatter=_scatter(found[k]) / of.scale,
             processor=float(dataset["processor"][k]),
             surfaces=int(np.isfinite(found[k]).sum()),
-            failed=len(reasons),
             reference_error=of.error,
             reason=reasons[0] if reasons else "",
         )  # fmt: skip

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
@@ -19,7 +18,6 @@ from .errors import INTERVAL, Way
 COLUMNS, HEIGHT, AROUND = 2, 2.5, 0.7  # of panels; of one, and around all [inch]
 LEAST, WHOLE = 1e-6, 1.0  # errors beyond which they are drawn there
 MARKED = 10.0 ** np.arange(4)  # numbers of surfaces
-THIN = 0.5  # width of lines beyond the surfaces that were solved, in multiples of others
 BAND = 0.88  # between ink and paper
 
 
@@ -45,8 +43,7 @@ def figure(tables: Tables) -> Figure:
     style.lettered(panels)
     at = np.concatenate([line.get_xydata() for axes in panels for line in axes.lines])
     (left, low), (right, high) = np.nanmin(at, axis=0), np.nanmax(at, axis=0)
-    room = 2.5 if all(isfinite(way.bias) for way in every) else 12  # below curves, for what is written there
-    panels[0].set(xlim=(left / 1.6, right * 1.6), ylim=(low / room, high * 2))
+    panels[0].set(xlim=(left / 1.6, right * 1.6), ylim=(low / 2.5, high * 2))
     style.decades(*panels)
     labels = {way.model: way.label for way in every if isfinite(way.bias)}
     handles: list[Any] = [Line2D([], [], **_look(*each)) for each in labels.items()]
@@ -77,32 +74,23 @@ def _curves(ways: Sequence[Way]) -> Iterator[tuple[Way, Any]]:
 
 
 def _draw(axes: Axes, ways: Sequence[Way]) -> None:
-    """Curves, the error of the reference, and settings without an answer."""
-    grids = [way for way, _ in _curves(ways) if way.model == "BEM"]
-    for way, colour in _curves(ways):
+    """Curves, and the error of the reference."""
+    curves = list(_curves(ways))
+    grids = [way for way, _ in curves if way.model == "BEM"]
+    for way, colour in curves:
         look = _look(way.model) | {"color": colour}
-        counts = MARKED if way.scatter else MARKED[:1]
-        for first, last, thin in ((1, way.surfaces, 1.0), (way.surfaces, MARKED[-1], THIN)):
-            if way.scatter and last > first:
-                own = look | {"marker": "", "linewidth": style.width(thin)}
-                axes.plot(*_at(way, np.geomspace(first, last, 60)), **own)
-        told: Any = ~(way.error(counts) <= way.reference_error) | (way.model == "BEM" and way.scatter > 0)
-        x, y = _at(way, counts)
-        inside = np.where(told[:, None], to_rgba(colour), to_rgba(style.paper()))
-        axes.scatter(x, y, style.mark() ** 2, inside, marker=look["marker"], edgecolors=colour, zorder=3)
+        x, y = _at(way, MARKED if way.scatter else MARKED[:1])
+        axes.plot(x, y, **look)
         if way in (*grids[:1], *grids[-1:]):
             place = {"textcoords": "offset points", "fontsize": style.small(), "color": colour}
             axes.annotate(way.settings.partition(" ")[0], (x[-1], y[-1]), (3, 3), **place)
-    for model, group in groupby((way for way, _ in _curves(ways) if not way.scatter), lambda way: way.model):
+    for model, group in groupby((way for way, _ in curves if not way.scatter), lambda way: way.model):
         at = [_at(way, MARKED[:1]) for way in group]
         axes.plot(*np.concatenate(at, axis=1), **_look(model) | {"marker": ""})
     for way in (way for way in ways if way.settings == INTERVAL):
-        axes.plot(*_at(way, np.geomspace(1, MARKED[-1], 60)), **_thick(), zorder=4)
+        axes.plot(*_at(way, MARKED), **_thick(), zorder=4)
     error = max((way.reference_error for way in ways if isfinite(way.reference_error)), default=0.0)
     axes.axhspan(LEAST / 100, max(error, LEAST / 100), color=style.grey(BAND), zorder=0, linewidth=0)
-    if failed := [f"{way.label} {way.settings}".strip() for way in ways if not isfinite(way.bias)]:
-        text = style.fill(f"no answer: {', '.join(failed)}", style.across("double") / COLUMNS - 1, style.small())
-        axes.text(0.02, 0.02, text, transform=axes.transAxes, fontsize=style.small(), color=style.grey(0.3))
 
 
 def _at(way: Way, counts: np.ndarray) -> np.ndarray:

@@ -264,7 +264,7 @@ def _plot(ways: DataFrame) -> Plot:
     return Plot(
         "workprecision", figure.figure, {"workprecision-ways": ways},
         "Relative error over processor time. Smooth: a point a grid. Rough: expected error of means of 1, 10, "
-        "100, 1000 surfaces, a curve a grid; thin, beyond those solved; thick, on several grids as intervals "
-        "take them. Grey, hollow: below the error of the reference; 3D of rough scenes shares its surfaces.",
+        "100, 1000 surfaces, a curve a grid; thick, on several grids as intervals take them. Grey: below the "
+        "error of the reference; 3D of rough scenes shares its surfaces.",
         "Panels of error over time: 1D is quick and level, 3D slower and falling.",
     )  # fmt: skip

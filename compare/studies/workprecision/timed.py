@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 from scene import Refused, SolveError
 
-from ...solving.outcome import Outcome, Row, row
+from ...solving.outcome import Outcome, Row, reason_of, row
 from ...solving.task import SceneTask
 
 # A solve is repeated until so many seconds have gone, at least and at most as often as said; twice, if it is long.
@@ -33,13 +33,10 @@ class TimedSolve(SceneTask):
         """Packages of the scene, of the solver and of this measurement."""
         return *super().packages, __name__
 
-    def failed(self, reason: str) -> Outcome:
-        """Outcome with a row for each setting, each with the reason."""
-        return Outcome((Row(reason=reason),) * (1 + len(self.finer)))
-
-    def fits(self, outcome: Outcome) -> bool:
-        """Whether the outcome has a row for each setting."""
-        return len(outcome.rows) == 1 + len(self.finer)
+    @property
+    def count(self) -> int:
+        """A row for each setting."""
+        return 1 + len(self.finer)
 
     def solve(self) -> Outcome:
         """Numbers of the last repeat on each setting, with its times; NaN with its reason where a solve fails."""
@@ -54,7 +51,7 @@ def _timed(solver, scene) -> Row:
         try:
             found = row(solver.solve(scene))
         except (Refused, NotImplementedError, SolveError) as error:
-            return Row(reason=str(error) or type(error).__name__)
+            return Row(reason=reason_of(error))
         spent.append((time.process_time() - processor, time.perf_counter() - wall))
         passed = time.perf_counter() - started
         enough = 2 if passed > LONG else LEAST

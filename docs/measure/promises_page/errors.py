@@ -18,7 +18,7 @@ from bem3d import BEM, frictionerror
 from bem3d.costs import band
 from bem3d.grid import Grid
 from bem3d.problem import Problem
-from compare.solving.outcome import Outcome, Row, row
+from compare.solving.outcome import Outcome, row
 from compare.solving.task import SCENES, SceneTask, Task
 from mdr1d import MDR
 from scene import Refused, Scene, SolveError
@@ -135,22 +135,8 @@ def regions(found: Sequence[Mapping[str, Any]]) -> Iterator[dict[str, Any]]:
                     yield _coverage(model, label, group)
 
 
-class OneRow:
-    """A task with the answer to one scene."""
-
-    keeps_fields = False
-
-    def failed(self, reason: str) -> Outcome:
-        """One row, with the reason."""
-        return Outcome((Row(reason=reason),))
-
-    def fits(self, outcome: Outcome) -> bool:
-        """Whether there is one row."""
-        return len(outcome.rows) == 1
-
-
 @dataclass(frozen=True)
-class Signed(OneRow):
+class Signed(Task):
     """A task: the signs of the error of an answer, as measures of its row."""
 
     solver: BEM

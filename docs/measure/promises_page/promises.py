@@ -15,7 +15,7 @@ from scene import Scene, SolveError
 from scene.scales import elastic_contact
 
 from . import scenes
-from .errors import OneRow, reference, settled
+from .errors import reference, settled
 
 WANTED = (0.1, 0.03, 0.01, 0.003)
 FIRST = 7000  # seed
@@ -25,7 +25,7 @@ NUMBERS = ("asked", "answered", "confirmed", "checked", "broken", "worst error")
 
 
 @dataclass(frozen=True)
-class Promise(OneRow):
+class Promise(Task):
     """A task: an answer within a wanted error.
 
     Its row is the answer's; measures has besides those: points, and the error as three grids show it.
