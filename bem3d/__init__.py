@@ -8,9 +8,9 @@ from .accuracy import Unconfirmed, for_accuracy
 from .heights import Heights, heights
 from .refinement import refined
 from .solver import BEM
-from .trail import Trail
+from .warmstart import WarmStart
 
-__all__ = ["BEM", "Heights", "Trail", "Unconfirmed", "for_accuracy", "heights", "refined"]
+__all__ = ["BEM", "Heights", "Unconfirmed", "WarmStart", "for_accuracy", "heights", "refined"]
 
 make_readable(globals()[name] for name in __all__)
 logging.getLogger(__name__).addHandler(logging.NullHandler())

@@ -11,7 +11,7 @@ import numpy as np
 from scene import Scene
 from scene.scales import elastic_contact
 
-from .sliding import Flow
+from .motion.steady import Flow
 
 MEASURED = Path(__file__).with_name("costs.csv")
 BANDS = ("rest", "slow", "middle", "fast")

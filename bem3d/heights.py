@@ -7,9 +7,9 @@ import numpy as np
 from scene import Plane, Program, Scene
 
 from . import window
-from .engine import Engine
 from .grid import Grid
 from .problem import Problem
+from .response.engine import Engine
 
 
 @dataclass(frozen=True, eq=False)

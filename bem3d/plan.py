@@ -14,15 +14,15 @@ from scene.surfaces.isotropic import Isotropic
 from scene.terms import terms_of
 
 from . import window
-from .convolution import free_size
 from .costs import typical
 from .grid import Grid
-from .marching import places
-from .memory import SMALL
+from .motion.marching import places
+from .motion.steady import Flow
+from .motion.timeline import timeline
+from .motion.upstream import left_behind, wider_grids
 from .problem import COARSEST, row_width
-from .sliding import Flow
-from .timeline import timeline
-from .upstream import left_behind, wider_grids
+from .response.convolution import free_size
+from .response.memory import SMALL
 
 EFFECTS = Path(__file__).with_name("effects.csv")
 # What was measured. `effects.csv` has what other parts multiply its costs with: a Program, for a step.

@@ -10,15 +10,15 @@ from scene import CrossedWaves, Cylinder, EmptyContact, Measured, Plane, Result,
 from scene.scales import elastic_contact
 from scene.terms import Table, terms_of
 
-from . import contact, kernels
-from .cell import Cell
-from .engine import Engine
-from .foundation import Foundation
+from .contact import activeset, sums
 from .grid import Grid
-from .ground import Deep
-from .halfspace import HalfSpace
-from .line import Line
-from .sliding import Flow
+from .motion.steady import Flow
+from .response.cell import Cell
+from .response.engine import Engine
+from .response.foundation import Foundation
+from .response.halfspace import HalfSpace
+from .response.line import Line
+from .response.responsekernel import HalfSpaceKernel
 from .surface import RoughSurface
 from .terms import TERMS
 
@@ -48,7 +48,7 @@ def _medium(indenter, flow, engine):
         case Plane():
             return Cell(flow, engine)
         case Cylinder(radius=radius):
-            return Line(flow, engine, Deep(datum=radius))
+            return Line(flow, engine, HalfSpaceKernel(datum=radius))
         case _:
             return HalfSpace(flow, engine)
 
@@ -72,12 +72,12 @@ class Start:
         """
         sunk = self.pressure.copy()
         if self.foundation is not None:
-            kernels.sink(sunk, self.foundation)
+            sums.sink(sunk, self.foundation)
         contact = grid.nearest(self.pressure > 0, self.grid)
         taken = grid.resample(sunk, self.grid)
         if foundation is None:
             return taken * contact
-        kernels.push(taken, contact, foundation, least=0.0)
+        sums.push(taken, contact, foundation, least=0.0)
         return taken
 
 
@@ -158,7 +158,7 @@ class Problem:
 
     def solve(
         self, finest: Grid, tolerance: float, start: Start | None = None, beside: Start | None = None
-    ) -> contact.Contact:
+    ) -> activeset.Contact:
         """Contact on the finest grid, each grid started from the coarser one; in units of `solve_on`.
 
         start : whose points are then doubled until they are those of the finest
@@ -178,7 +178,7 @@ class Problem:
         """Start of the next solve, from a pressure in units of the relaxed E*."""
         return Start(grid, pressure, self.medium.foundation(grid))
 
-    def solve_on(self, grid: Grid, surface, tolerance: float, *starts: Start | None) -> contact.Contact:
+    def solve_on(self, grid: Grid, surface, tolerance: float, *starts: Start | None) -> activeset.Contact:
         """One grid, lengths in pixels, pressure in units of the relaxed E*. Raises SolveError.
 
         starts : of which the nearest to the answer is taken
@@ -192,9 +192,9 @@ class Problem:
         begun = [each.on(grid, foundation) for each in starts if each is not None]
         begun = [each for each in begun if each.any()] or [self._first_guess(heights, grid, depth, load)]
         if len(begun) > 1:
-            begun.sort(key=lambda pressure: contact.misfit(operator, heights, pressure, depth, load))
+            begun.sort(key=lambda pressure: activeset.misfit(operator, heights, pressure, depth, load))
         try:
-            return contact.solve(
+            return activeset.solve(
                 operator,
                 heights,
                 begun[0],
@@ -205,7 +205,7 @@ class Problem:
                 foundation=foundation,
                 symmetric=self.flow.at_rest,
             )
-        except contact.NotConverged as error:
+        except activeset.NotConverged as error:
             advice = "a larger tolerance" if self.engine.precision == "double" else 'precision = "double"'
             raise SolveError(
                 f"no converged contact on {grid.points} x {grid.rows} points: {error}; "
@@ -250,7 +250,7 @@ class Problem:
         """
         if depth is None:
             count = int(np.clip(self._smooth_count(grid, load), 4, heights.size - 1))
-            overlap = contact.first_guess(heights, count)
+            overlap = activeset.first_guess(heights, count)
         else:
             overlap = np.maximum(depth - heights, 0.0)
         return overlap / np.sqrt(np.count_nonzero(overlap))

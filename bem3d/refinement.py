@@ -16,9 +16,11 @@ from scene.protocol import numeric_guard
 from scene.quantities import WHOLE, takes
 from scene.terms import terms_of, wrap_solve
 
-from . import frictionerror, wake, window
+from . import window
+from .friction import bound
 from .grid import Grid, Piece
 from .measures import measured
+from .motion import wake
 from .problem import Problem
 from .spots import ROWS, Spots
 
@@ -104,7 +106,7 @@ def _refined(solver, scene, coarse, fields, steps):
         touching, pressure, depth, violation, rounds = _solved(problem, fine, near, begun, solver.tolerance)
     spots, force = Spots.of(fine, touching.row, touching.column), float(pressure.sum() * fine.patch)
     window.check(scene, spots, pressure > 0)
-    friction, estimates = frictionerror.on_grid(problem, spots, pressure, violation, partial(_lost, problem))
+    friction, estimates = bound.on_grid(problem, spots, pressure, violation, partial(_lost, problem))
     found = Result(
         scene=scene,
         solver=solver.name,
@@ -160,9 +162,9 @@ def _kernel(problem, grid):
     """Displacement by a loaded pixel (ny, 2 nx), that of the operator of the grid."""
     medium, flow = problem.medium, problem.flow
     if flow.at_rest:
-        return medium.ground.elastic(grid)
+        return medium.kernel.elastic(grid)
     shift = flow.collocation(grid) / grid.pixel
-    return medium.ground.flowing(grid, flow.instantaneous, flow.shares, flow.in_pixels(grid), shift)
+    return medium.kernel.flowing(grid, flow.instantaneous, flow.shares, flow.in_pixels(grid), shift)
 
 
 def _between(kernel, at: _Points | Spots, loaded: _Points | Spots, ahead: int = 0) -> np.ndarray:
@@ -235,7 +237,7 @@ def _lost(problem, spots: Spots, pressure):
         return 0.0, 0.0
     shares, lengths = problem.medium._seen(spots)
     rates, reach = shares / lengths, spots.reach + 1
-    wide, flowing = Piece(reach, reach * spots.pixel, lines=reach), problem.medium.ground.flowing
+    wide, flowing = Piece(reach, reach * spots.pixel, lines=reach), problem.medium.kernel.flowing
     pushed = pressure / problem.flow.modulus
 
     def moved(kernel, ahead=0):

@@ -17,15 +17,16 @@ from scene.protocol import numeric_guard, refuse
 from scene.quantities import CLOSED, Length, Positive, Whole
 from scene.terms import Table, terms_of, wrap_solve
 
-from . import frictionerror, window
-from .engine import Engine, Library
+from . import window
+from .friction import bound
 from .grid import Grid
-from .history import marched
 from .measures import measured
+from .motion.history import marched
 from .plan import likely_grid, plan_of
 from .problem import Problem
+from .response.engine import Engine, Library
 from .terms import TERMS
-from .trail import Trail
+from .warmstart import WarmStart
 
 _LOG = logging.getLogger(__name__)
 LOOSEST = 1e-2  # tolerance
@@ -56,7 +57,7 @@ class BEM:
     pressure times the indenter's slope; by loss, the energy lost per length slid; and by curvature, the first
     order in the speed. Traction counts in proportion to the lag of the grid's shortest wave, 0 to 1: an
     elastic contact has some friction by traction on a coarse grid and none by loss; a fast Kelvin contact,
-    singular at its edge, loses digits by loss alone. Curvature counts where the contact trails by less than a
+    singular at its edge, loses digits by loss alone. Curvature counts where the contact warm_starts by less than a
     quarter of a pixel: loss comes from short waves there, of which edges on a grid leave little.
 
     >>> from bem3d import BEM
@@ -171,17 +172,17 @@ class BEM:
         with numeric_guard():
             return replace(plan_of(self, scene), doubts=self.doubts(scene))
 
-    def solve(self, scene: Scene, trail: Trail | None = None) -> Result:
+    def solve(self, scene: Scene, warm_start: WarmStart | None = None) -> Result:
         """Pressure, gap and forces.
 
         Raises Refused, SolveError where the result could not be trusted, OutOfMemory where memory ran out.
 
-        trail : contacts of the same body and surface, at other speeds and loads or on other grids. The solve
+        warm_start : contacts of the same body and surface, at other speeds and loads or on other grids. The solve
             begins where they were and adds its own contact; the answer is the same to the tolerance. A Program
             ignores it
         """
         refuse(self, scene)
-        solve = partial(self._solved, trail=trail)
+        solve = partial(self._solved, warm_start=warm_start)
         with numeric_guard():
             result = wrap_solve(solve, terms_of(self.terms, scene))(scene)
         if not np.isfinite([result.normal_force, result.friction_force]).all():
@@ -189,26 +190,26 @@ class BEM:
         _LOG.info("answered with %s", result.settings)
         return result
 
-    def _solved(self, scene, trail):
+    def _solved(self, scene, warm_start):
         started = time.process_time()
         return (
             marched(self, scene, started)
             if isinstance(scene.motion, Program)
-            else self._steady(scene, trail, started)
+            else self._steady(scene, warm_start, started)
         )
 
-    def _steady(self, scene, trail, started):
-        problem, trail = Problem(scene, self.engine, self.terms), trail or Trail()
-        trail.turn_to(scene)
-        grid, answer = self._answer(problem, trail)
-        trail.leave(problem.start(grid, answer.pressure))
+    def _steady(self, scene, warm_start, started):
+        problem, warm_start = Problem(scene, self.engine, self.terms), warm_start or WarmStart()
+        warm_start.set_scene(scene)
+        grid, answer = self._answer(problem, warm_start)
+        warm_start.leave(problem.start(grid, answer.pressure))
         return problem.completed(self._result(problem, grid, answer, started), grid)
 
-    def _answer(self, problem, trail):
-        start, beside = trail.coarser(self.points), trail.beside(self.points)
+    def _answer(self, problem, warm_start):
+        start, beside = warm_start.coarser(self.points), warm_start.beside(self.points)
         repeats = isinstance(problem.scene.indenter, Plane)
         if not repeats and self.extent is None:
-            return self._windowed(problem, trail.placed(problem, self.points), start, beside)
+            return self._windowed(problem, warm_start.placed(problem, self.points), start, beside)
         extent = problem.scene.roughness.period if repeats else self.extent
         grid = Grid(self.points, extent, width=problem.width)
         answer = self._on(problem, grid, start, beside)
@@ -236,7 +237,7 @@ class BEM:
 
     def _result(self, problem, grid, answer, started):
         pressure = answer.pressure * problem.flow.modulus
-        friction, estimates = frictionerror.on_grid(problem, grid, pressure, answer.violation, problem.lost)
+        friction, estimates = bound.on_grid(problem, grid, pressure, answer.violation, problem.lost)
         return Result(
             scene=problem.scene,
             solver=self.name,

@@ -21,9 +21,9 @@ from scene.solids.viscoelastic import Linear
 from scene.surfaces.isotropic import Isotropic
 from scene.terms import Table
 
+from .contact.shear import Drawn, Interface
 from .heating import HeatedContact
-from .layer import LayerTerm
-from .tangential import Drawn, Interface
+from .response.layer import LayerTerm
 from .term import Term
 from .topography import FittedRoughness, MeasuredRoughness
 

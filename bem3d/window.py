@@ -8,9 +8,9 @@ import numpy as np
 from scene import Cylinder, Doubt, EmptyContact, Measured, Plane, Scene, SelfAffine, SolveError
 from scene.scales import elastic_contact
 
-from . import layer
 from .grid import Box, Grid
 from .problem import Problem, Start, Unseen
+from .response import layer
 
 PEAKS = 4.0  # rms heights between the mean plane and the highest peaks that the surroundings allow for
 MARGIN = 1.15  # window over contact

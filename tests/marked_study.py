@@ -35,9 +35,9 @@ class MarkedMDR(MDR):
 
 @dataclass(frozen=True)
 class MarkedBEM(BEM):
-    def solve(self, scene, *trail):
+    def solve(self, scene, *warm_start):
         mark(self, scene)
-        return super().solve(scene, *trail)
+        return super().solve(scene, *warm_start)
 
 
 def series():

@@ -8,8 +8,8 @@ import numpy as np
 import xarray
 
 from bem3d import BEM
-from bem3d.sliding import Flow
-from bem3d.wake import surroundings
+from bem3d.motion.steady import Flow
+from bem3d.motion.wake import surroundings
 from scene import Measured, Plane, Program, Scene, Slide
 from scene.motion import pressed as pressed_in
 from scene.scales import elastic_contact

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from math import inf
 
-from bem3d import BEM, Trail
+from bem3d import BEM, WarmStart
 from scene import Indent, Program
 
 from .outcome import Outcome
@@ -50,8 +50,8 @@ class Continuation(Task):
 
     def solve(self) -> Outcome:
         """Solve the contacts in their order, also behind one that fails."""
-        trail = Trail()
-        return Outcome(tuple(row for each in self.contacts for row in each.solve(trail).rows))
+        warm_start = WarmStart()
+        return Outcome(tuple(row for each in self.contacts for row in each.solve(warm_start).rows))
 
 
 def joined(contacts: Iterable[SceneTask]) -> list[SceneTask | Continuation]:

@@ -124,19 +124,19 @@ class SceneTask(Task):
         """Whether another process can import the class of the solver: not of a script, a notebook, a function."""
         return _importable(type(self.solver))
 
-    def solve(self, *trail: Any) -> Outcome:
+    def solve(self, *warm_start: Any) -> Outcome:
         """Solve every scene, one after the other.
 
-        trail : of neighbouring contacts, for a solver that begins where they were
+        warm_start : of neighbouring contacts, for a solver that begins where they were
 
         An empty contact has forces of zero; Refused, NotImplementedError and any other SolveError become a row of
         NaN with its reason; any other exception is a fault of the program and is raised.
         """
         rows, fields = [], {}
         for scene in self.scenes:
-            found, result = _answer(self.solver, scene, trail)
+            found, result = _answer(self.solver, scene, warm_start)
             for number, solver in enumerate(self.finer if found.reason is not None else (), 1):
-                other, result = _answer(solver, scene, trail)
+                other, result = _answer(solver, scene, warm_start)
                 if other.reason is None:
                     found = replace(other, finer=number)
                     break
@@ -146,11 +146,11 @@ class SceneTask(Task):
         return Outcome(tuple(rows), fields)
 
 
-def _answer(solver, scene, trail) -> tuple[Row, Result | None]:
+def _answer(solver, scene, warm_start) -> tuple[Row, Result | None]:
     """Row of a scene, and the result if there is one."""
     try:
         began = process_time()
-        result = solver.solve(scene, *trail)
+        result = solver.solve(scene, *warm_start)
         seconds = result.seconds if isfinite(result.seconds) else process_time() - began
         return row(replace(result, seconds=seconds)), result
     except EmptyContact:

@@ -18,7 +18,7 @@ from pandas import DataFrame
 from PIL import Image
 from tables import stored
 
-from bem3d import BEM, Trail
+from bem3d import BEM, WarmStart
 from compare.figures import contact, style
 from compare.figures.curves import intervals
 from compare.figures.plot import Plot
@@ -139,13 +139,13 @@ def shifted(load, speed):
 def solved() -> Iterator[dict[str, float | str]]:
     """Mean friction over mean load of some rough surfaces, with its interval, at each speed and load by model."""
     for solver, draws in DRAWS.items():
-        trails = [Trail() for _ in range(draws)]
+        warm_starts = [WarmStart() for _ in range(draws)]
         for load in LOADS:
             for speed in SPEEDS:
                 scenes = draws_of(replace(SCENE, motion=Slide(speed=speed, load=float(load))), draws)
                 results = [
-                    solver.solve(scene, *([trail] if solver is SPACE else []))
-                    for scene, trail in zip(scenes, trails, strict=True)
+                    solver.solve(scene, *([warm_start] if solver is SPACE else []))
+                    for scene, warm_start in zip(scenes, warm_starts, strict=True)
                 ]
                 forces = (
                     np.array([getattr(each, name) for each in results])

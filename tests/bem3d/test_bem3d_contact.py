@@ -5,7 +5,7 @@ from functools import partial
 import numpy as np
 import pytest
 
-from bem3d import contact
+from bem3d.contact import activeset as contact
 from compare.studies.checks.conditions import collocation, influence, retarded
 
 FINE = 1e-9  # tolerance of the contacts, and of their conditions by a plain product

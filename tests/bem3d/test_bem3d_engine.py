@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 
-from bem3d import BEM, cerruti, influence
-from bem3d.convolution import FreeConvolution, PeriodicFilter
-from bem3d.engine import Engine
+from bem3d import BEM
 from bem3d.grid import Grid
+from bem3d.response import cerruti, influence
+from bem3d.response.convolution import FreeConvolution, PeriodicFilter
+from bem3d.response.engine import Engine
 from scene import Cylinder, Kelvin, Plane, Scene, SelfAffine, Slide, Sphere
 
 ROUNDING = 1e-12

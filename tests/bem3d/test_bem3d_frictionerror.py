@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
-from bem3d import BEM, frictionerror
-from bem3d.friction import Friction
-from bem3d.frictionerror import UNTOLD, Signs, at_tip, bound
+from bem3d import BEM
+from bem3d.friction import bound as frictionerror
+from bem3d.friction.bound import UNTOLD, Signs, at_tip, bound
+from bem3d.friction.estimates import Friction
 from bem3d.grid import Grid
 from scene import Cone, Kelvin, PowerLaw, Scene, SelfAffine, Slide, SolveError, Sphere, StandardLinearSolid
 from scene.scales import elastic_contact

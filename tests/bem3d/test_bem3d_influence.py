@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from bem3d import influence
+from bem3d.response import influence
 
 KERNEL = 1e-9  # of the kernel's peak: the quadrature here; against panels in extended precision it is 1e-11
 ROUNDING = 1e-12

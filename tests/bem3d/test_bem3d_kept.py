@@ -5,12 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bem3d import BEM, influence, surface
-from bem3d.engine import Engine
+from bem3d import BEM, surface
 from bem3d.grid import Grid
-from bem3d.halfspace import HalfSpace
-from bem3d.kept import KEPT, SIZES, kept
-from bem3d.sliding import Flow
+from bem3d.motion.steady import Flow
+from bem3d.response import influence
+from bem3d.response.engine import Engine
+from bem3d.response.gridcache import KEPT, SIZES, cached_on_small_grids
+from bem3d.response.halfspace import HalfSpace
 from scene import Cone, Elastic, Indent, Kelvin, Plane, Scene, SelfAffine, Slide, Sphere
 
 ROUGH = SelfAffine(hurst=0.2, rms_height=5e-5, longest=1e-2, shortest=5e-4, seed=1)
@@ -79,7 +80,7 @@ def test_many_surfaces_of_a_body_take_few_kernels_and_one_spectrum(monkeypatch):
 
 
 def test_what_is_kept_is_told_apart_by_all_but_the_place_and_is_bounded():
-    found = kept(asked := Counted(lambda medium, grid: grid))
+    found = cached_on_small_grids(asked := Counted(lambda medium, grid: grid))
     flow = Flow.of(KELVIN, 0.1)
     medium, grid = HalfSpace(flow, Engine()), Grid(32, 4e-3, (1e-3, 0.0))
     again = HalfSpace(Flow.of(KELVIN, 0.1), Engine())

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from bem3d import BEM
-from bem3d.friction import Friction
+from bem3d.friction.estimates import Friction
 from compare.models.exact import mean_lag, slow_friction_3d, slow_friction_by_curvature, slow_friction_by_slope
 from mdr1d import MDR
 from scene import (

@@ -5,14 +5,15 @@ from math import sqrt
 import numpy as np
 import pytest
 
-import bem3d.timeline
-from bem3d import BEM, marching
-from bem3d.engine import Engine
+import bem3d.motion.timeline
+from bem3d import BEM
 from bem3d.grid import Grid
-from bem3d.marching import march
-from bem3d.material import Creep
+from bem3d.motion import marching
+from bem3d.motion.marching import march
+from bem3d.motion.material import Creep
+from bem3d.motion.timeline import timeline
 from bem3d.problem import Problem
-from bem3d.timeline import timeline
+from bem3d.response.engine import Engine
 from compare.models.exact import indentation
 from mdr1d import MDR
 from scene import (
@@ -60,7 +61,7 @@ def test_while_the_contact_grows_on_three_modes_its_force_is_that_of_lee_and_rad
 
 @pytest.mark.parametrize("late_by", [0, pytest.param(1, marks=pytest.mark.slow)])
 def test_the_force_is_of_second_order_in_the_step_and_of_first_if_met_at_its_end(late_by, monkeypatch):
-    monkeypatch.setattr(bem3d.timeline, "RAMP", 1)
+    monkeypatch.setattr(bem3d.motion.timeline, "RAMP", 1)
     if late_by:
         monkeypatch.setattr(Creep, "collocation", lambda creep, step: step)
     errors = []

@@ -6,10 +6,11 @@ import programs
 import pytest
 from programs import mirrored, program
 
-from bem3d import BEM, marching, upstream
+from bem3d import BEM
 from bem3d.grid import Grid
-from bem3d.timeline import timeline
-from bem3d.upstream import Returning, Sheet
+from bem3d.motion import marching, upstream
+from bem3d.motion.timeline import timeline
+from bem3d.motion.upstream import Returning, Sheet
 from compare.models.exact import full_contact
 from scene import (
     CrossedWaves,

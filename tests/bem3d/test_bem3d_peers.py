@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 
 from bem3d import BEM
-from bem3d.cell import Cell
-from bem3d.engine import Engine
 from bem3d.grid import Grid
-from bem3d.halfspace import HalfSpace
-from bem3d.marching import march
+from bem3d.motion.marching import march
+from bem3d.motion.steady import Flow
 from bem3d.problem import Problem
-from bem3d.sliding import Flow
+from bem3d.response.cell import Cell
+from bem3d.response.engine import Engine
+from bem3d.response.halfspace import HalfSpace
 from scene import Elastic, Indent, Plane, Program, Prony, Scene, SelfAffine, Sphere, Stage
 
 # A warning of the peers, not of ours: without mpi4py, NuMPI warns on import that it stands in for it.

@@ -8,11 +8,11 @@ import pytest
 from planned import FACTOR, KELVIN, LOAD, PRONY, SPHERE, STAGES, STANDARD, all_of_a_scene, held_by
 
 from bem3d import BEM
-from bem3d.convolution import FreeConvolution, FreePair, PeriodicFilter, PeriodicPair
-from bem3d.halfspace import HalfSpace
-from bem3d.layerwaves import PIECES, Taken, taking
-from bem3d.memory import _kept
 from bem3d.plan import EFFECTS
+from bem3d.response.convolution import FreeConvolution, FreePair, PeriodicFilter, PeriodicPair
+from bem3d.response.halfspace import HalfSpace
+from bem3d.response.layerwaves import PIECES, Taken, taking
+from bem3d.response.memory import _kept
 from bem3d.surface import RoughSurface
 from scene import (
     Coulomb,
@@ -125,7 +125,7 @@ def built(monkeypatch):
     monkeypatch.setattr(HalfSpace, "lost", noted)
     # What is kept from another solve is built as well.
     taking.cache_clear()
-    monkeypatch.setattr("bem3d.kept.SIZES", ())
+    monkeypatch.setattr("bem3d.response.gridcache.SIZES", ())
     forget_kernels(monkeypatch)
     return found
 

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from bem3d import BEM
-from bem3d.convolution import FreeConvolution
-from bem3d.engine import Engine
 from bem3d.grid import Grid
-from bem3d.halfspace import HalfSpace
-from bem3d.influence import flowing
-from bem3d.sliding import Flow
+from bem3d.motion.steady import Flow
+from bem3d.response.convolution import FreeConvolution
+from bem3d.response.engine import Engine
+from bem3d.response.halfspace import HalfSpace
+from bem3d.response.influence import flowing
 from scene import (
     Elastic,
     Kelvin,
@@ -51,7 +51,7 @@ def test_kelvin_sphere_reaches_the_reference_values(ratio, force, friction):
 
 def test_lengths_of_a_flow_and_how_far_estimates_of_friction_count_in_it():
     grid, flow = Grid(8, 8.0), Flow(1.0, 0.0, np.array([0.5, 0.5]), np.array([1.0, 3.0]))
-    assert (flow.trail, flow.memory) == (2.0, 2.5)  # (1 + 3)/2, and (1^2 + 3^2)/2 over it
+    assert (flow.lag_length, flow.memory) == (2.0, 2.5)  # (1 + 3)/2, and (1^2 + 3^2)/2 over it
     assert flow.compliance(2.0, 1.0) == pytest.approx(0.5 / (1 + 2j) + 0.5 / (1 + 6j))
     quarter, fluid = (Flow(1.0, 0.0, np.ones(1), np.array([length])) for length in (0.25, 1e9))
     assert quarter.slowness(grid) == 0.5

@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 from strategies import rescaled
 
-from bem3d import BEM, cerruti, stickslip
-from bem3d.engine import Engine
+from bem3d import BEM
+from bem3d.contact import stickslip
 from bem3d.grid import Grid
+from bem3d.response import cerruti
+from bem3d.response.engine import Engine
 from compare.models.exact import tangential as closed
 from scene import (
     Coulomb,

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from bem3d import cerruti, influence
-from bem3d.engine import Engine
 from bem3d.grid import Grid
+from bem3d.response import cerruti, influence
+from bem3d.response.engine import Engine
 
 ROUNDING = 1e-12
 PEAK = 1e-12  # of the greatest value: what the form of distant pixels leaves out, 100 pixels away

@@ -8,7 +8,7 @@ from drawn_scenes import KELVIN, LOAD, ROUGH, STANDARD, TAU, A, R
 from drawn_scenes import SCENES as DRAWN
 
 from bem3d import BEM
-from bem3d.wake import surroundings
+from bem3d.motion.wake import surroundings
 from scene import (
     Indent,
     Layer,

@@ -390,7 +390,7 @@ def test_the_stored_values_are_what_theory_says_where_it_says_something(part, li
         ("bem3d:Nothing", "has no attribute 'Nothing'"),
         ("scene:Scene", "cannot be made without settings"),
         ("scene.motion:UNITS", "frozen dataclass"),
-        ("bem3d:Trail", "frozen dataclass"),
+        ("bem3d:WarmStart", "frozen dataclass"),
     ],
 )
 def test_what_is_no_model_is_told_in_a_line(asked, said):

@@ -169,10 +169,10 @@ def test_a_run_stops_with_every_claim_decided_or_narrow_and_resumes(tmp_path):
 def test_hard_surfaces_are_solved_on_the_next_finer_grid_and_told(tmp_path, monkeypatch):
     solve = BEM.solve
 
-    def failing(self, scene, *trail):
+    def failing(self, scene, *warm_start):
         if self.points < CASE.bem.points and getattr(scene.roughness, "seed", 1) % 5 == 0:
             raise SolveError("a hard surface")
-        return solve(self, scene, *trail)
+        return solve(self, scene, *warm_start)
 
     monkeypatch.setattr(BEM, "solve", failing)
     asked = {"scene": CASE, "interval": "25%", "report": False, "output": tmp_path}

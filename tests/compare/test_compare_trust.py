@@ -262,7 +262,7 @@ def test_nothing_rough_is_solved(monkeypatch):
     for solver in (MDR, BEM):
         plain = solver.solve
         monkeypatch.setattr(
-            solver, "solve", lambda own, scene, *trail, plain=plain: solved.append(scene) or plain(own, scene)
+            solver, "solve", lambda own, scene, *warm_start, plain=plain: solved.append(scene) or plain(own, scene)
         )
     trust(PAPER)
     assert [scene.roughness for scene in solved] == [None, None]

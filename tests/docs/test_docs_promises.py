@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 from promises_page import errors, promises, scenes
 
-from bem3d import BEM, frictionerror
-from bem3d.frictionerror import FITTED
+from bem3d import BEM
+from bem3d.friction import bound as frictionerror
+from bem3d.friction.bound import FITTED
 from compare.solving.outcome import Outcome, Row
 from scene.protocol import refuse
 

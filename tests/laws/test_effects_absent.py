@@ -28,14 +28,14 @@ PLAIN = {
 }
 # What an effect is made of, and the parts that ask for it.
 MODULES = {
-    "layer": {"bem3d/layer.py", "bem3d/layerwaves.py"},
+    "layer": {"bem3d/response/layer.py", "bem3d/response/layerwaves.py"},
     "temperature": {"scene/effects/temperature.py"},
     "heating": {"scene/effects/terms.py", "scene/effects/parts.py", "scene/effects/settling.py"},
     "tangential": {
         "scene/effects/terms.py",
-        "bem3d/tangential.py",
-        "bem3d/cerruti.py",
-        "bem3d/stickslip.py",
+        "bem3d/contact/shear.py",
+        "bem3d/response/cerruti.py",
+        "bem3d/contact/stickslip.py",
         "mdr1d/tangential.py",
     },
     "topography": {
@@ -61,7 +61,7 @@ ASKED = {
     "oscillation": "oscillation",
 }
 # Classes that follow a wake for an indenter that comes back.
-RETURNING = {"bem3d/upstream.py Returning.__init__", "mdr1d/marching.py _Returning.__init__"}
+RETURNING = {"bem3d/motion/upstream.py Returning.__init__", "mdr1d/marching.py _Returning.__init__"}
 
 
 def package(solver):
@@ -163,7 +163,7 @@ def test_what_is_steady_is_not_marched_and_what_rests_does_not_flow(solver):
     modules = ("marching", "material", "upstream", "timeline", "stepping")
     later = {f"{package(solver)}/{module}.py" for module in modules}
     drawn = {"bem3d/surface.py", "scene/surfaces/selfaffine.py"}
-    flowing = {"bem3d/memory.py march", "bem3d/krylov.py gmres", "mdr1d/steady.py sweep_modes"}
+    flowing = {"bem3d/response/memory.py march", "bem3d/contact/krylov.py gmres", "mdr1d/steady.py sweep_modes"}
     assert not called.files & (later | drawn)
     assert not called.functions & flowing
     with watched() as called:

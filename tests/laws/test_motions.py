@@ -5,7 +5,7 @@ import pytest
 from changing_motion import harmonic, stiffness
 from programs import mirrored, program, slid
 
-import bem3d.timeline
+import bem3d.motion.timeline
 import mdr1d.timeline
 from bem3d import BEM
 from mdr1d import MDR
@@ -112,7 +112,7 @@ def test_a_small_oscillation_meets_the_complex_stiffness_of_a_contact_that_keeps
     assert np.angle(exact) > 0.1
 
 
-@pytest.mark.parametrize("timeline", [mdr1d.timeline.timeline, bem3d.timeline.timeline], ids=["MDR", "BEM"])
+@pytest.mark.parametrize("timeline", [mdr1d.timeline.timeline, bem3d.motion.timeline.timeline], ids=["MDR", "BEM"])
 def test_an_amplitude_of_zero_costs_no_step(timeline):
     pressed = {"duration": TAU, "depth": DEPTH}
     plain, still = program(pressed, FORTH), program(pressed, FORTH | {"amplitude": 0.0, "frequency": 1e6})

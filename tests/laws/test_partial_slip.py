@@ -5,7 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bem3d import BEM, cerruti, stickslip
+from bem3d import BEM
+from bem3d.contact import stickslip
+from bem3d.response import cerruti
 from mdr1d import MDR, tangential
 from scene import (
     Coulomb,

@@ -27,7 +27,7 @@ BOUNDS = {ast.Lt: ast.LtE, ast.LtE: ast.Lt, ast.Gt: ast.GtE, ast.GtE: ast.Gt}
 
 # Changes that no test can see, by their file, what stood there and what stands there then; and why.
 EQUIVALENT = {
-    ("bem3d/marching.py", "1e-12", "(2e-12)"): "an overlap below rounding of the heights is none",
+    ("bem3d/motion/marching.py", "1e-12", "(2e-12)"): "an overlap below rounding of the heights is none",
     (
         "scene/solids/interconversion.py",
         "low * (1 + _ROUNDING)",
@@ -39,7 +39,7 @@ EQUIVALENT = {
         "t + step >= closest",
         "(t + step > closest)",
     ): "at the tie both branches return the same instant",
-    ("bem3d/upstream.py", "way > 0", "(way >= 0)"): "the loop around it runs only where the way is not 0",
+    ("bem3d/motion/upstream.py", "way > 0", "(way >= 0)"): "the loop around it runs only where the way is not 0",
     (
         "mdr1d/stepping.py",
         "solid.drag > 0.0",
@@ -51,7 +51,11 @@ EQUIVALENT = {
         "(2 * half[s])",
     ): "the last node is a margin that no contact reaches",
     ("compare/statistics/commoncurve.py", "1e-12", "(2e-12)"): "singular values are of order one, or of rounding",
-    ("bem3d/convolution.py", "kernels[0]", "(kernels[1])"): "only the shape is read, and all kernels have one",
+    (
+        "bem3d/response/convolution.py",
+        "kernels[0]",
+        "(kernels[1])",
+    ): "only the shape is read, and all kernels have one",
     ("scene/solids/interconversion.py", "excess > 0", "(excess >= 0)"): "without an excess the root is found",
     ("mdr1d/element.py", "r[j] > 0.0", "(r[j] >= 0.0)"): "an element without a stretch relaxes without heat",
     (

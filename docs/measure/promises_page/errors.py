@@ -14,8 +14,9 @@ from scipy.optimize import linprog
 from scipy.sparse import csr_matrix, hstack, identity
 from scipy.stats import beta
 
-from bem3d import BEM, frictionerror
+from bem3d import BEM
 from bem3d.costs import band
+from bem3d.friction import bound as frictionerror
 from bem3d.grid import Grid
 from bem3d.problem import Problem
 from compare.solving.outcome import Outcome, row

@@ -7,30 +7,30 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..grid import Grid, Piece
+from ..motion.steady import Flow
 from .convolution import FreeConvolution, PeriodicFilter, autocorrelation, free_symbol
 from .engine import Engine
 from .foundation import Foundation
-from .grid import Grid, Piece
-from .ground import HALF_SPACE, Ground
-from .kept import kept
-from .sliding import Flow
+from .gridcache import cached_on_small_grids
+from .responsekernel import HALF_SPACE, ResponseKernel
 
 LEAST_DIFFERENCE = 1e-3  # memory [pixel] down to which losses are taken from differences of kernels
 
 
 @dataclass(frozen=True)
 class HalfSpace:
-    """The free surface of a half-space, unless the ground is another."""
+    """The free surface of a half-space, unless the kernel is another."""
 
     flow: Flow
     engine: Engine
-    ground: Ground = HALF_SPACE
+    kernel: ResponseKernel = HALF_SPACE
 
     def operator(self, grid: Grid) -> FreeConvolution:
         """Pressure -> displacement at the points of collocation."""
         return FreeConvolution(grid.shape, self._symbol(grid), self.engine)
 
-    @kept
+    @cached_on_small_grids
     def _symbol(self, grid):
         flow = self.flow
         if flow.at_rest:
@@ -53,7 +53,7 @@ class HalfSpace:
         loss = np.sum(even * pairs[:, 1:-1]) + at_once @ pairs[:, 0]
         return float(loss), float(np.sum(odd * (pairs[:, :-2] - pairs[:, 2:])) / 2)
 
-    @kept
+    @cached_on_small_grids
     def _losing(self, grid):
         """Slope of the displacement by a pixel: its even part from one pixel on (rows, points), and at the pixel
         (rows,); odd part of the displacement (rows, points).
@@ -82,17 +82,17 @@ class HalfSpace:
         def elastic(q_y, q_x):
             q = np.hypot(q_y, q_x)
             q[0, 0] = np.pi / grid.points  # half the lowest: a mean pressure on a free surface does push it in
-            return self.ground.stiffness(q, grid.pixel)
+            return self.kernel.stiffness(q, grid.pixel)
 
         return PeriodicFilter(grid.shape, elastic, self.engine)
 
-    @kept
+    @cached_on_small_grids
     def foundation(self, grid: Grid) -> Foundation | None:
         """Part of the operator that the elastic half-space does not have; None at rest."""
         return Foundation.of(self.flow, grid)
 
     def _elastic(self, grid):
-        return self.ground.elastic(grid)
+        return self.kernel.elastic(grid)
 
     def _flowing(self, grid, instantaneous, shares, lengths, shift):
-        return self.ground.flowing(grid, instantaneous, shares, lengths, shift)
+        return self.kernel.flowing(grid, instantaneous, shares, lengths, shift)

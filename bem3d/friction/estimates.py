@@ -9,9 +9,9 @@ import numpy as np
 
 from scene.indenter import Axisymmetric
 
-from .grid import Grid
-from .problem import Problem
-from .surface import RoughSurface
+from ..grid import Grid
+from ..problem import Problem
+from ..surface import RoughSurface
 
 # Grid and pressure [Pa] of its shape to the energy lost per length slid [J/m], as `Problem.lost` has it.
 Lost = Callable[[Grid, np.ndarray], tuple[float, float]]
@@ -46,7 +46,7 @@ class Friction:
             by_traction=float(-np.sum(pressure * slopes) * grid.patch),
             by_loss=loss,
             by_work=work,
-            by_curvature=problem.flow.trail * curvature * float(pressure.sum() * grid.patch),
+            by_curvature=problem.flow.lag_length * curvature * float(pressure.sum() * grid.patch),
             mean_curvature=curvature,
             lag=problem.flow.lag(grid),
             # Without an edge nothing is lost of the loss.

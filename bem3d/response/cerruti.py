@@ -11,9 +11,9 @@ and at nu = 0, a traction along x displaces along x alone, and just as a pressur
 
 import numpy as np
 
+from ..grid import Grid
 from .convolution import FreePair, PeriodicPair
 from .engine import Engine
-from .grid import Grid
 from .memory import NEAR
 
 

@@ -7,7 +7,7 @@ from math import sqrt
 
 import numpy as np
 
-from . import kernels
+from . import sums
 
 
 def conjugate_gradients(on_set, b, reduction, tolerance, iterations):
@@ -26,7 +26,7 @@ def conjugate_gradients(on_set, b, reduction, tolerance, iterations):
     for _ in range(iterations):
         mean, along, _ = on_set.operator(direction, image, direction, direction)
         step = descent / along
-        square, largest = kernels.advance(x, r, direction, image, step, mean)
+        square, largest = sums.advance(x, r, direction, image, step, mean)
         if sqrt(square) <= aim or largest <= tolerance / 2:
             break
         if mean:
@@ -34,7 +34,7 @@ def conjugate_gradients(on_set, b, reduction, tolerance, iterations):
         before = descent
         mean, descent, gained = on_set.precondition(r, z, r, image)
         # z * (r - r_before) without keeping r_before: that difference is -step * image.
-        kernels.turn(direction, z, mean, -step * gained / before)
+        sums.turn(direction, z, mean, -step * gained / before)
     return x
 
 
@@ -46,15 +46,15 @@ def gmres(on_set, b, reduction, tolerance, iterations):
     the preconditioned residual's 2-norm has fallen by `reduction`. Saad and Schultz, SIAM J. Sci. Stat. Comput. 7,
     856 (1986).
     """
-    on_set.weigh()
-    z = on_set.sunk(b)
+    on_set.prepare_load_constraint()
+    z = on_set.foundation_displacement(b)
     norm = sqrt(float((z * z).sum()))
     if norm == 0:
         return z
     basis, hessenberg, across = [z / norm], np.zeros((iterations + 1, iterations)), np.zeros(iterations + 1)
     across[0] = 1.0
     for k in range(iterations):
-        v = on_set.sunk(on_set.displaced(basis[k]))
+        v = on_set.foundation_displacement(on_set.displaced(basis[k]))
         for i, q in enumerate(basis):
             hessenberg[i, k] = float((q * v).sum())
             v -= hessenberg[i, k] * q

@@ -1,4 +1,4 @@
-"""Trail: where the contacts solved before were, for the next of the same body and surface."""
+"""WarmStart: where the contacts solved before were, for the next of the same body and surface."""
 
 from dataclasses import dataclass, field
 
@@ -9,11 +9,11 @@ from .problem import Problem, Start
 
 
 @dataclass
-class Trail:
+class WarmStart:
     """Starts that solves leave for those that follow: of the same scene on other grids, and of its neighbours.
 
     A scene is placed once for all grids. A contact starts from the next coarser one of the same scene, or from the
-    last on as many points, where that is nearer. Whatever the trail holds, the answer is that of a solve alone,
+    last on as many points, where that is nearer. Whatever it holds, the answer is that of a solve alone,
     to the tolerance.
     """
 
@@ -22,7 +22,7 @@ class Trail:
     _own: dict[int, Start] = field(default_factory=dict)
     _last: dict[int, Start] = field(default_factory=dict)
 
-    def turn_to(self, scene: Scene) -> None:
+    def set_scene(self, scene: Scene) -> None:
         """Say which scene is solved next; windows and coarser contacts of another are forgotten."""
         if scene != self._scene:
             self._scene = scene

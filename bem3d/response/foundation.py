@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .grid import Grid
-from .sliding import Flow
+from ..grid import Grid
+from ..motion.steady import Flow
 
 MERGED = 10.0  # modes shorter than that times the first of them are one with it: the inverse is approximate anyway
 

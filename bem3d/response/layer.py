@@ -16,10 +16,10 @@ import numpy as np
 from scene import Layer, Plan, Plane, Scene
 from scene.plan import Kernel
 
+from ..grid import Grid
+from ..term import Term
 from . import influence
-from .grid import Grid
 from .layerwaves import PIECES, REACH, Base, Bonded, Frictionless, taking
-from .term import Term
 
 MEAN = 1e13  # over the thickness: one over the error of the mean over a pixel of what the base takes off
 FALSIFIED = 1e-2  # of the force: what a grid may falsify beyond what it does on a half-space
@@ -222,7 +222,7 @@ class LayerTerm(Term):
 
     def medium(self, medium, scene: Scene):
         """Medium with the same surface on a layer."""
-        return replace(medium, ground=Layered.of(self.part, scene.solid.poisson_ratio))
+        return replace(medium, kernel=Layered.of(self.part, scene.solid.poisson_ratio))
 
     def planned(self, plan: Plan, scene: Scene) -> Plan:
         """Plan with the table of what the base takes off; a surface that repeats needs none."""

@@ -18,13 +18,13 @@ import numpy as np
 from scene import Plane, Program, SolveError
 from scene.steps import Frames
 
-from . import contact
-from .grid import Grid
+from ..contact import activeset
+from ..grid import Grid
+from ..problem import Problem
+from ..window import check_on_map
 from .material import Creep, Material
-from .problem import Problem
 from .timeline import in_a_pixel, timeline
 from .upstream import Endless, Repeating, Returning, Sheet
-from .window import check_on_map
 
 ROUNDING = 1e-12  # of depth, height and memory where they overlap most: an overlap of less is none
 FIRST = 1 / 64  # of the window that a load is guessed to touch first
@@ -238,7 +238,7 @@ class _Press:
 
     def _solved(self, heights, start, tolerance, depth, load, time):
         try:
-            return contact.solve(
+            return activeset.solve(
                 self._operator,
                 heights,
                 start,
@@ -248,7 +248,7 @@ class _Press:
                 precondition=self._preconditioner,
                 symmetric=True,
             )
-        except contact.NotConverged as error:
+        except activeset.NotConverged as error:
             raise SolveError(f"{time:g} s into the program: {error}; take more steps") from error
 
     def _check_edge(self, pressure, time):
@@ -264,7 +264,7 @@ class _Press:
 def _overlap(heights, depth):
     """Pressure to begin with, in proportion to what overlaps; without a depth, on some of the lowest points."""
     if depth is None:
-        return contact.first_guess(heights, int(heights.size * FIRST) + 1)
+        return activeset.first_guess(heights, int(heights.size * FIRST) + 1)
     return np.maximum(depth - heights, 0.0)
 
 

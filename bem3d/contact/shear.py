@@ -15,12 +15,13 @@ from scene import Plane, Result, Scene, SolveError
 from scene.effects.terms import Rubbed
 from scene.plan import Kernel, Plan
 
-from . import cerruti, stickslip
-from .contact import NotConverged
-from .engine import Engine
-from .grid import Grid
-from .spots import Spots
-from .term import Term
+from ..grid import Grid
+from ..response import cerruti
+from ..response.engine import Engine
+from ..spots import Spots
+from ..term import Term
+from . import stickslip
+from .activeset import NotConverged
 
 COARSEST = 32  # points a side from which a solve starts, as that of the pressure
 COARSE_TOLERANCE = 1e-3  # on all grids but the finest

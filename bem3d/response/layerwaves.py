@@ -42,7 +42,7 @@ class Base(Protocol):
     def yields(self, t):
         """M(t)."""
 
-    def hinders(self, t):
+    def one_minus_compliance(self, t):
         """1 - M(t)."""
 
 
@@ -68,7 +68,7 @@ class Bonded:
         k, excess, gone = self._k, 2 * (1 - 2 * self.poisson_ratio), np.exp(-2 * t)
         return 2 * (k * _sinh_less(2 * t, gone) + 2 * t * gone * excess) / self._divisor(t, gone)
 
-    def hinders(self, t):
+    def one_minus_compliance(self, t):
         t = np.minimum(t, THICK)
         k, gone = self._k, np.exp(-2 * t)
         return (2 * k * gone + (1 + 2 * t) ** 2 + k**2) * gone / self._divisor(t, gone)
@@ -92,7 +92,7 @@ class Frictionless:
         t = np.minimum(t, THICK)
         return np.expm1(-2 * t) ** 2 / 2 / self._divisor(t)
 
-    def hinders(self, t):
+    def one_minus_compliance(self, t):
         t = np.minimum(t, THICK)
         return (2 * t - np.expm1(-2 * t)) * np.exp(-2 * t) / self._divisor(t)
 
@@ -158,7 +158,7 @@ class Taking:
     def from_point(self) -> Taken:
         """c(r) = int_0^inf (1 - M) J0(r t) dt."""
         t, weights = _waves()
-        hindered = weights * self.base.hinders(t)
+        hindered = weights * self.base.one_minus_compliance(t)
         return Taken(lambda r: _summed(j0, r, t, hindered))
 
     @cached_property

@@ -9,28 +9,28 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.fft import fftfreq, rfft2, rfftfreq
 
+from ..grid import Grid
+from ..motion.steady import Flow
 from .convolution import PeriodicFilter
 from .engine import Engine
 from .foundation import Foundation
-from .grid import Grid
-from .ground import HALF_SPACE, Ground
-from .kept import kept
-from .sliding import Flow
+from .gridcache import cached_on_small_grids
+from .responsekernel import HALF_SPACE, ResponseKernel
 
 
 @dataclass(frozen=True)
 class Cell:
-    """One period of the surface: of a half-space, w(q) = 2 J(q_x v) p(q) / |q|, unless the ground is another."""
+    """One period of the surface: of a half-space, w(q) = 2 J(q_x v) p(q) / |q|, unless the kernel is another."""
 
     flow: Flow
     engine: Engine
-    ground: Ground = HALF_SPACE
+    kernel: ResponseKernel = HALF_SPACE
 
     def operator(self, grid: Grid) -> PeriodicFilter:
         """Pressure -> displacement, free of mean, at the points of collocation."""
 
         def symbol(q_y, q_x):
-            values = self.ground.compliance(_lengths(q_y, q_x, 1.0), grid.pixel) * self._response(grid, q_x)
+            values = self.kernel.compliance(_lengths(q_y, q_x, 1.0), grid.pixel) * self._response(grid, q_x)
             values[0, 0] = 0.0
             return values
 
@@ -40,11 +40,11 @@ class Cell:
         """Inverse of the operator without the foundation; a mean pressure is taken for the lowest wave."""
 
         def elastic(q_y, q_x):
-            return self.ground.stiffness(_lengths(q_y, q_x, 2 * np.pi / grid.points), grid.pixel)
+            return self.kernel.stiffness(_lengths(q_y, q_x, 2 * np.pi / grid.points), grid.pixel)
 
         return PeriodicFilter(grid.shape, elastic, self.engine)
 
-    @kept
+    @cached_on_small_grids
     def foundation(self, grid: Grid) -> Foundation | None:
         """Part of the operator that the elastic half-space does not have; None at rest."""
         return Foundation.of(self.flow, grid, wraps=True)
@@ -55,7 +55,7 @@ class Cell:
         """
         (ny, nx), spectrum = grid.shape, np.square(np.abs(rfft2(pressure)))
         q_y, q_x = 2 * np.pi * np.abs(fftfreq(ny))[:, None], 2 * np.pi * np.abs(rfftfreq(nx))
-        yielding = self.ground.compliance(_lengths(q_y, q_x, 1.0), grid.pixel)
+        yielding = self.kernel.compliance(_lengths(q_y, q_x, 1.0), grid.pixel)
         lost = -np.sum(yielding * spectrum, axis=0) * self.flow.compliance(q_x, grid.pixel).imag / (ny * nx)
         lost[1 : (nx + 1) // 2] *= 2  # with those of the opposite waves
         return float(q_x @ lost), float(np.sin(q_x) @ lost)

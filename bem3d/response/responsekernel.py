@@ -8,12 +8,12 @@ from typing import Protocol
 
 import numpy as np
 
+from ..grid import Grid
 from . import influence
-from .grid import Grid
 
 
-class Ground(Protocol):
-    """Ground below the surface, as a medium uses it."""
+class ResponseKernel(Protocol):
+    """ResponseKernel below the surface, as a medium uses it."""
 
     def elastic(self, grid: Grid) -> np.ndarray:
         """Elastic kernel of a pixel, as `influence.elastic`."""
@@ -35,7 +35,7 @@ class Ground(Protocol):
 
 
 @dataclass(frozen=True)
-class Deep:
+class HalfSpaceKernel:
     """The elastomer has no end: a half-space.
 
     datum : of lines, distance [m] from a line load at which the relaxed surface is left at its level: without
@@ -63,4 +63,4 @@ class Deep:
         return q / 2
 
 
-HALF_SPACE = Deep()
+HALF_SPACE = HalfSpaceKernel()

@@ -5,11 +5,11 @@ from dataclasses import replace
 
 from scene import EmptyContact, Plane, Result, Slide
 
-from . import window
-from .grid import Box, Grid
+from .. import window
+from ..grid import Box, Grid
+from ..measures import measured
+from ..problem import Problem
 from .marching import march
-from .measures import measured
-from .problem import Problem
 
 
 def marched(solver, scene, started) -> Result:

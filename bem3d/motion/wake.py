@@ -12,8 +12,8 @@ import numpy as np
 
 from scene import Plane, Program, Scene, SolveError
 
-from .grid import Grid, Piece
-from .problem import Problem
+from ..grid import Grid, Piece
+from ..problem import Problem
 
 AGREEMENT = 1e-3  # of the gap at a pixel and what displacements span: as well the pressure displaces the surface
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .grid import Grid
+from ..grid import Grid
 
 SHORTEST = 1e-9  # memory [pixel]: what is shorter changes nothing that is solved
 
@@ -63,16 +63,16 @@ class Flow:
         return self.collocation(grid) / (grid.pixel / 2)
 
     @property
-    def trail(self) -> float:
+    def lag_length(self) -> float:
         """Length [m] by which a slow contact trails the relaxed one: speed times the mean lag of the elastomer."""
         return float(self.shares @ self.lengths)
 
     @property
     def memory(self) -> float:
         """Mean length of the modes [m], each weighted with what of the trail it makes."""
-        if self.trail == 0:
+        if self.lag_length == 0:
             return 0.0
-        return float(self.shares * self.lengths / self.trail @ self.lengths)
+        return float(self.shares * self.lengths / self.lag_length @ self.lengths)
 
     def slowness(self, grid: Grid) -> float:
         """Weight of friction to first order in the speed against friction by the pressure: 1 to 0.

@@ -17,9 +17,9 @@ import numpy as np
 
 from scene import Plane, SolveError
 
-from .friction import Friction, Lost
-from .grid import Grid
-from .problem import Problem
+from ..grid import Grid
+from ..problem import Problem
+from .estimates import Friction, Lost
 
 FITTED = Path(__file__).with_name("friction_error.csv")
 # A change that vanishes by chance says little: none counts as less than this share of all together.
@@ -116,7 +116,7 @@ def signs(problem: Problem, grid: Grid, friction: Friction, coarser: Friction, t
     changes["curvature to answer"] = change(1.0, friction.by_curvature, force)  # of a fast flow it tells the speed
     scene, waves = problem.scene, problem.points_per_wave(grid)
     across, smooth = log(grid.spot_radius(touched) / grid.pixel), isnan(waves)
-    breadth = log(problem.flow.memory / problem.flow.trail)
+    breadth = log(problem.flow.memory / problem.flow.lag_length)
     kind = f"{'smooth' if smooth else 'rough'}, {'slow' if slow > 1 / 2 else 'fast'}"
     return Signs(
         kind,

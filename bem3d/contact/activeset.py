@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import kernels
-from .foundation import Foundation
+from ..response.foundation import Foundation
+from . import sums
 from .krylov import conjugate_gradients, direct, gmres
 
 ROUNDS = 400  # sets of contact tried before giving up, and one more a pixel along; 5 to 20 are usual
@@ -83,7 +83,7 @@ def solve(
         operator(pressure, out=displacement)
         mean, highest = _levels(displacement, heights, np.flatnonzero(contact))
         level = mean if depth is None else depth
-        inside, outside = kernels.gaps(displacement, heights, level, contact, gap)
+        inside, outside = sums.gaps(displacement, heights, level, contact, gap)
         aim = tolerance * max(level - lowest, highest - lowest, least)
         if inside <= aim and outside <= aim:
             violation = max(inside, outside) / aim * tolerance
@@ -99,7 +99,7 @@ def solve(
             marked, tried = contact, contact.copy()
         elif (contact == marked).all():
             contact = tried.copy()
-        on_set.turn_to(contact)
+        on_set.set_contact(contact)
         correction = solver(on_set, -on_set.restricted(gap), accuracy, aim, INNER_ITERATIONS)
         on_set.add(correction, pressure)
         if not pressure.any():  # a poor start, solved too roughly: begin again with what overlaps, and closer
@@ -148,7 +148,7 @@ class _OnSet:
         self._plane, self._image = np.zeros(shape), np.empty(shape)
         self._lifted = None
 
-    def turn_to(self, contact):
+    def set_contact(self, contact):
         """The set of contact (ny, nx)."""
         self.where, self._contact = np.flatnonzero(contact), contact
         self._plane[:] = 0
@@ -167,10 +167,10 @@ class _OnSet:
         values = pressure.reshape(-1)[self.where] + correction
         if self._foundation is None:
             values = np.maximum(values, 0.0)
-        kernels.put(values, self.where, pressure)
+        sums.put(values, self.where, pressure)
         if values.min() < 0:
-            kernels.sink(pressure, self._foundation)
-            kernels.push(pressure, self._contact, self._foundation, least=0.0)
+            sums.sink(pressure, self._foundation)
+            sums.push(pressure, self._contact, self._foundation, least=0.0)
 
     def row(self):
         """Displacement of a single row under a unit load on its first pixel, and on its last."""
@@ -194,22 +194,22 @@ class _OnSet:
         return self._through(self._precondition, values, out, first, second)
 
     def _through(self, product, values, out, first, second):
-        kernels.put(values, self.where, self._plane)
+        sums.put(values, self.where, self._plane)
         product(self._plane, out=self._image)
-        total, along, beside = kernels.take(self._image, self.where, out, first, second)
+        total, along, beside = sums.take(self._image, self.where, out, first, second)
         # The vectors are free of mean themselves where means are taken off: their products need no correction.
         return total / out.size if self.mean_free else 0.0, along, beside
 
-    def pressed(self, sunk):
+    def pressed(self, displaced_foundation):
         """Pressure (m,) under which the foundation has a given displacement (m,)."""
-        return self._push(sunk).reshape(-1)[self.where]
+        return self._push(displaced_foundation).reshape(-1)[self.where]
 
-    def displaced(self, sunk):
+    def displaced(self, displaced_foundation):
         """Displacement of the surface by the pressure of `pressed`; at given load without its mean."""
-        self._operator(self._push(sunk), out=self._image)
+        self._operator(self._push(displaced_foundation), out=self._image)
         return self.restricted(self._image)
 
-    def sunk(self, displacement):
+    def foundation_displacement(self, displacement):
         """Approximate displacement (m,) of the foundation for a displacement of the surface (m,).
 
         Behind each spot of contact the displacement continues as that of a surface left alone. Cut off there, it
@@ -220,8 +220,8 @@ class _OnSet:
             return values
         return values - float((self._worth * values).sum()) * self._level
 
-    def weigh(self):
-        """Make ready for `sunk` on this set: at given load, the level and what sinking is worth in load."""
+    def prepare_load_constraint(self):
+        """Prepare the load constraint of this set: the level, and what sinking is worth in load."""
         if not self.mean_free:
             return
         if self._lifted is None:  # by a displacement of one everywhere: near enough on all sets that follow
@@ -229,22 +229,22 @@ class _OnSet:
         # The sum of pressures as a sum of what sinks: the transpose of pushing is pushing upstream.
         worth, contact = np.ones(self._plane.shape), np.ascontiguousarray(self._contact[:, ::-1])
         if self._foundation is not None:
-            kernels.push(worth, contact, self._foundation)
+            sums.push(worth, contact, self._foundation)
         self._worth = np.ascontiguousarray(worth[:, ::-1]).reshape(-1)[self.where]
         level = self._lifted.reshape(-1)[self.where]
         self._level = level / float((self._worth * level).sum())
 
-    def _push(self, sunk):
-        kernels.put(sunk, self.where, self._plane)
+    def _push(self, displaced_foundation):
+        sums.put(displaced_foundation, self.where, self._plane)
         if self._foundation is not None:
-            kernels.push(self._plane, self._contact, self._foundation)
+            sums.push(self._plane, self._contact, self._foundation)
         return self._plane
 
     def _inverted(self, displacement):
         self._plane[:] = 0
-        kernels.put(displacement, self.where, self._plane)
+        sums.put(displacement, self.where, self._plane)
         if self._foundation is not None:
-            kernels.release(self._plane, self._contact, self._foundation)
+            sums.release(self._plane, self._contact, self._foundation)
         if self._precondition is None:
             return self._plane
         self._precondition(self._plane, out=self._image)

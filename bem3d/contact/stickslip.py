@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from .contact import NotConverged
+from .activeset import NotConverged
 
 ROUNDS = 200  # sets of slip tried before giving up; 3 to 15 are usual
 ACCURACY = 0.1  # of the error on one set of slip

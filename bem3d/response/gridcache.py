@@ -13,7 +13,7 @@ SIZES, KEPT = (2**10, 2**12, 2**14), 2**20
 _T = TypeVar("_T")
 
 
-def kept(evaluate: Callable[..., _T]) -> Callable[..., _T]:
+def cached_on_small_grids(evaluate: Callable[..., _T]) -> Callable[..., _T]:
     """A method of a frozen medium, of a grid wherever that lies, whose last values on small grids are kept.
 
     They are found by all that they depend on, to the last digit: an answer is the same whatever was solved before.

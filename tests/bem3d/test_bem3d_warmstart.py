@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bem3d import BEM, Trail
+from bem3d import BEM, WarmStart
 from scene import Cylinder, EmptyContact, Indent, Kelvin, Plane, Scene, SelfAffine, Slide, Sphere
 
 SOLID = Kelvin(modulus=1e6, relaxation_time=1e-3)
@@ -42,9 +42,9 @@ def smooth(load):
     ids=["near", "far", "other bodies and loads", "small and large"],
 )
 def test_whatever_was_solved_before_the_answer_is_that_of_a_solve_alone(scenes):
-    trail, solver = Trail(), BEM(points=64)
+    warm_start, solver = WarmStart(), BEM(points=64)
     for scene in scenes:
-        assert_alike(solver.solve(scene, trail), solver.solve(scene))
+        assert_alike(solver.solve(scene, warm_start), solver.solve(scene))
 
 
 def pairs(*answers):
@@ -54,8 +54,8 @@ def pairs(*answers):
 
 
 def test_a_scene_is_placed_once_and_its_coarse_contact_starts_the_fine_one():
-    trail, grids = Trail(), (BEM(points=64), BEM(points=128))
-    found, alone = [each.solve(SLIDING, trail) for each in grids], [each.solve(SLIDING) for each in grids]
+    warm_start, grids = WarmStart(), (BEM(points=64), BEM(points=128))
+    found, alone = [each.solve(SLIDING, warm_start) for each in grids], [each.solve(SLIDING) for each in grids]
     for one, other in zip(found, alone, strict=True):
         assert_alike(one, other)
     assert found[0].measures["transform_pairs"] == alone[0].measures["transform_pairs"]
@@ -64,10 +64,10 @@ def test_a_scene_is_placed_once_and_its_coarse_contact_starts_the_fine_one():
 
 def test_a_neighbour_starts_a_slow_contact_and_does_no_harm_to_a_fast_one():
     for slow, factor in ((True, 0.8), (False, 1.1)):
-        trail, solver = Trail(), BEM(points=128)
+        warm_start, solver = WarmStart(), BEM(points=128)
         speeds = (0.02, 0.025) if slow else (0.1, 5.0)
-        solver.solve(at(speeds[0]), trail)
-        assert pairs(solver.solve(at(speeds[1]), trail)) < factor * pairs(solver.solve(at(speeds[1])))
+        solver.solve(at(speeds[0]), warm_start)
+        assert pairs(solver.solve(at(speeds[1]), warm_start)) < factor * pairs(solver.solve(at(speeds[1])))
 
 
 def test_cells_lines_and_stated_windows_follow_a_trail():
@@ -77,17 +77,19 @@ def test_cells_lines_and_stated_windows_follow_a_trail():
         (Scene(Cylinder(radius=1e-2), SOLID, Slide(speed=0.1, line_load=50.0)), BEM(points=64)),
         (SLIDING, BEM(points=64, extent=4e-3)),
     ):
-        trail = Trail()
-        replace(solver, points=32).solve(scene, trail)
-        found, alone = solver.solve(scene, trail), solver.solve(scene)
+        warm_start = WarmStart()
+        replace(solver, points=32).solve(scene, warm_start)
+        found, alone = solver.solve(scene, warm_start), solver.solve(scene)
         assert_alike(found, alone)
         assert found.measures["transform_pairs"] <= alone.measures["transform_pairs"]
 
 
 def test_a_failed_solve_leaves_nothing_on_the_trail():
-    trail, solver = Trail(), BEM(points=64)
+    warm_start, solver = WarmStart(), BEM(points=64)
     with pytest.raises(EmptyContact):
-        solver.solve(replace(SLIDING, motion=Indent(depth=1e-9), roughness=replace(ROUGH, rms_height=1e-7)), trail)
-    assert trail.beside(64) is None
-    found = solver.solve(SLIDING, trail)
+        solver.solve(
+            replace(SLIDING, motion=Indent(depth=1e-9), roughness=replace(ROUGH, rms_height=1e-7)), warm_start
+        )
+    assert warm_start.beside(64) is None
+    found = solver.solve(SLIDING, warm_start)
     assert found.measures["transform_pairs"] == solver.solve(SLIDING).measures["transform_pairs"]

@@ -18,7 +18,7 @@ from scipy.sparse import csr_array
 
 from scene import Program
 
-from .grid import Grid
+from ..grid import Grid
 
 LEAST, MOST = 32, 128  # points along the first sheet, those of the window in between; of the next half, and so on
 FADED = 1e-17  # of what a column had as it left: less is not kept

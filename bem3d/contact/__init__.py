@@ -1,0 +1,1 @@
+"""Where a body touches: the search for the contact, its Krylov solvers and sums, and partial slip."""
