@@ -103,7 +103,7 @@ def test_the_laws_of_the_paper_take_the_plane_strain_modulus_for_storage_and_los
         contacts = curve.contacts_of(series.curves)
         outcomes = {each: each.solve() if each.solver.name == "MDR" else missing for each in contacts}
         answers = Answers({name: each.dataset(outcomes) for name, each in series.curves.items()}, series.models)
-        return laws(series, answers, "MDR")
+        return laws(series.curves["rough"], answers("rough", "MDR"))
 
     wanted, found = ruled(0.5), ruled(0.0)
     for name in ("xi", "shifts", "slowest_loss", "loss_exponent", "exponent", "plateau"):

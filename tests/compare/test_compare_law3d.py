@@ -8,7 +8,6 @@ import xarray
 from invented_answers import SERIES, SURFACES, changed, eq_19, joined, obeying
 
 from compare.figures import style
-from compare.figures.plot import Plot
 from compare.solving import words
 from compare.solving.curve import COARSE, FINE, SOLVED
 from compare.statistics.finding import FAILS, HOLDS, REPORTED
@@ -17,7 +16,6 @@ from compare.studies.comparison.comparison import Comparison
 from compare.studies.comparison.laws import laws
 from compare.studies.comparison.rough import ROUGH
 from compare.studies.comparison.theory import LAW, with_theory
-from compare.studies.comparison.together import Member
 from compare.studies.comparison.together import together as several
 from compare.studies.paper import parameters
 from scene import Slide
@@ -70,7 +68,7 @@ def answers(series=FEW, times=1.0, scatter=0.0, grid=0.0, seed=1, law=None):
 def found(contacts):
     """Findings on the master curve by the end of their names."""
     known = contacts.answers
-    ruled = {"BEM": laws(contacts.series, known, "BEM")}
+    ruled = {"BEM": laws(contacts.series.curves[ROUGH], known(ROUGH, "BEM"))}
     return {each.claim.id.removeprefix("law3d."): each for each in law_findings(contacts.series, known, ruled)}
 
 
@@ -102,7 +100,7 @@ def test_one_point_in_six_that_is_off_is_seen_by_nine_in_ten_and_not_by_the_medi
 
 def test_points_of_high_roughness_are_left_out():
     series, known = (made := answers()).series, made.answers
-    heights = LawPoints.of(series, known, {"BEM": laws(series, known, "BEM")}).height
+    heights = LawPoints.of(series, known, {"BEM": laws(series.curves[ROUGH], known(ROUGH, "BEM"))}).height
     np.testing.assert_array_equal(heights > SHALLOW, [[True, False, False]] * 3)
     times = np.where(heights > SHALLOW, 3.0, 1.0)
     findings = found(answers(times=times))
@@ -141,8 +139,7 @@ def test_intervals_hold_what_points_are_off_without_scatter(off):
 
 def together(*contacts):
     judged = [each.judge() for each in contacts]
-    members = [Member(each.series, each.answers, one.laws) for each, one in zip(contacts, judged, strict=True)]
-    return judged, {each.claim.id: each for each in several(members) if each.where == EVERY}
+    return judged, {each.claim.id: each for each in several(judged) if each.where == EVERY}
 
 
 def test_bodies_together_fall_on_one_curve_or_one_of_them_is_told():
@@ -165,31 +162,28 @@ def test_a_series_alone_has_no_findings_on_several():
     ids=["law", "3D"],
 )
 def test_without_the_law_or_three_dimensions_nothing_is_found(contacts):
-    ruled = {name: laws(contacts.series, contacts.answers, name) for name in ("MDR", "BEM")}
+    ruled = {name: laws(contacts.series.curves[ROUGH], contacts(name)) for name in ("MDR", "BEM")}
     assert not law_findings(contacts.series, contacts.answers, ruled)
 
 
-def test_figures_show_every_point_and_what_is_not_claimed_hollow():
-    made = [answers(times=1.05), answers(CONE)]
-    asked = Comparison(tuple(each.series for each in made), "study", "Bodies")
-    curves = {each.series.path(name): found for each in made for name, found in each.curves.items()}
-    judged = asked.judge(xarray.DataTree.from_dict(curves))
-    figures = {each.name: each for each in judged.plots}
-    for name, points, where in (("sphere/law", 9, "sphere"), ("law", 18, EVERY)):
-        plot: Plot = figures[name]
-        assert len(plot.tables["law"]) <= points
-        assert len(plot.caption.split()) <= 60
-        with style.applied():
-            drawing = plot.figure()
-        above, below = drawing.axes
-        own = {each.claim.id: 100 * each.value for each in judged.findings if each.where == where}
-        median, most = (words.number(own[f"law3d.collapse{end}"], 2) for end in ("", "-most"))
-        told = " ".join(below.get_title(loc="left").split())
-        assert f"off by {median} % (median), {most} % (nine in ten)" in told
-        drawn = [line for line in above.lines if line.get_marker() not in ("", "None", "_", "|")]
-        hollow = sum(line.get_xdata().size for line in drawn if line.get_markerfacecolor() == style.paper())
-        assert hollow == (plot.tables["law"]["height_over_depth"] > SHALLOW).sum() > 0
-        assert sum(line.get_xdata().size for line in drawn) == len(plot.tables["law"])
+def test_a_figure_shows_every_point_and_what_is_not_claimed_hollow():
+    made = answers(times=1.05)
+    curves = {made.series.path(name): found for name, found in made.curves.items()}
+    judged = Comparison((made.series,), "study", "Bodies").judge(xarray.DataTree.from_dict(curves))
+    (plot,) = (each for each in judged.plots if each.name == "sphere/law")
+    assert len(plot.tables["law"]) <= 9
+    assert len(plot.caption.split()) <= 60
+    with style.applied():
+        drawing = plot.figure()
+    above, below = drawing.axes
+    own = {each.claim.id: 100 * each.value for each in judged.findings}
+    median, most = (words.number(own[f"law3d.collapse{end}"], 2) for end in ("", "-most"))
+    told = " ".join(below.get_title(loc="left").split())
+    assert f"off by {median} % (median), {most} % (nine in ten)" in told
+    drawn = [line for line in above.lines if line.get_marker() not in ("", "None", "_", "|")]
+    hollow = sum(line.get_xdata().size for line in drawn if line.get_markerfacecolor() == style.paper())
+    assert hollow == (plot.tables["law"]["height_over_depth"] > SHALLOW).sum() > 0
+    assert sum(line.get_xdata().size for line in drawn) == len(plot.tables["law"])
 
 
 def test_studies_solve_the_law_under_a_load_and_runs_do_not():

@@ -23,7 +23,7 @@ from compare.statistics import eq23
 from compare.statistics.collapse import collapse
 from compare.statistics.frictioncurves import SimulatedCurves
 from compare.studies.comparison import asked
-from compare.studies.comparison.together import Member, together
+from compare.studies.comparison.together import together
 
 NUMBER = re.compile(r"[\u2212-]?\d+(?:\.\d+)?")
 
@@ -74,8 +74,7 @@ def test_a_number_of_a_study_lies_in_its_interval(scatter, grid):
         whole = obeying(eq_19, FEW, scatter=scatter, grid=grid, seed=seed)
         both = [whole, spoiled(whole, (0, 0, slice(5)))]
         judged = [each.judge() for each in both]
-        members = [Member(each.series, each.answers, one.laws) for each, one in zip(both, judged, strict=True)]
-        assert not outside([*(one for each in judged for one in each.findings), *together(members)])
+        assert not outside([*(one for each in judged for one in each.findings), *together(judged)])
 
 
 @pytest.mark.parametrize(

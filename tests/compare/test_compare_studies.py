@@ -15,7 +15,7 @@ from compare.statistics.jackknife import friction, mean
 from compare.studies.comparison import asked, together
 from compare.studies.comparison.laws import laws
 from compare.studies.comparison.measures import SLOW, loading
-from compare.studies.comparison.rough import SMOOTH, RoughSeries
+from compare.studies.comparison.rough import ROUGH, SMOOTH, RoughSeries
 from compare.studies.comparison.theory import THEORIES
 from mdr1d import MDR
 from scene import Indent, Kelvin, Program, Scene, SelfAffine, Slide, Sphere, Stage
@@ -164,20 +164,16 @@ def test_of_one_surface_the_scatter_is_not_known_but_smooth_bodies_need_none(who
     assert (least.verdict, greatest.verdict) == ("undecided", "fails")
 
 
-def member(invented):
-    return together.Member(invented.series, invented.answers, invented.judge().laws)
-
-
 def test_a_family_on_one_law_is_one_curve_and_one_of_two_laws_is_not():
     answers = obeying(eq_19, FEW)
-    first = member(answers)
+    first = answers.judge()
     for level, three in ((1.0, "holds"), (1.5, "fails")):
-        second = member(other(obeying(eq_19, FEW, level=level, seed=2), "second", hurst=0.7))
+        second = other(obeying(eq_19, FEW, level=level, seed=2), "second", hurst=0.7).judge()
         one, both = together.together([first, second])
         assert (one.dimension, one.verdict, both.verdict) == ("1D", "holds", three)
     # the same scene twice says nothing of roughness; one on fewer surfaces is no part of a family
     assert not list(together.together((first, first)))
-    third = member(cut(answers, surfaces=3))
+    third = cut(answers, surfaces=3).judge()
     assert together.families((third, first, second)) == {"every sphere": [first, second]}
 
 
@@ -188,7 +184,7 @@ def test_friction_that_obeys_the_law_has_its_powers_of_the_slope_near_the_limits
         slope = factor * SLOPE
         answers = obeying(lambda load, speed, slope=slope: eq_19(load, speed, slope=slope), FEW, slope=slope)
         height = factor * SERIES.scene.roughness.rms_height
-        members.append(member(other(answers, f"{factor:g}", rms_height=height)))
+        members.append(other(answers, f"{factor:g}", rms_height=height).judge())
 
     def powers(members):
         return [each for each in together.together(members) if "slope-exponent" in each.claim.id]
@@ -204,7 +200,7 @@ def test_friction_that_obeys_the_law_has_its_powers_of_the_slope_near_the_limits
 
 
 def test_theory_predicts_its_own_shifts(whole):
-    found = laws(whole.series, whole.answers, "BEM")
+    found = laws(whole.series.curves[ROUGH], whole("BEM"))
     assert found.exponent == pytest.approx(-1.5, rel=1e-12)
     assert np.ptp(np.diff(found.shifts) / np.diff(np.log(found.speeds))) < 1e-12
     assert np.allclose(found.law, eq_19(*np.meshgrid(SERIES.values, SERIES.speeds)), rtol=1e-12)
@@ -224,12 +220,10 @@ def test_a_series_pressed_by_depth_stays_so_and_is_solved_at_rest_too():
 
 def test_pressing_in_is_compared_at_the_depth_that_was_reached():
     # a march answers for the middle of its last step: half a step less deep, and F ~ d^m less force
-    scene = replace(SERIES.scene, motion=Program(stages=(Stage(duration=1.0, depth=1e-4),)))
-    series = replace(SERIES, scene=scene, speeds=(1e-2, 1e-1), values=(1e-4, 2e-4))
-    depths = np.broadcast_to(series.values, (2, 2))
-    whole, less = loading(series, depths), loading(series, 0.99 * depths)
+    depths, pressed = np.array([[1e-4, 2e-4]] * 2), (SERIES.scene, (1e-2, 1e-1))
+    whole, less = loading(*pressed, depths), loading(*pressed, 0.99 * depths)
     assert np.all((less < whole) & (less > 0.99**1.5 * whole * 0.99))
-    unknown = loading(series, np.array([[np.nan, 0.0], [1e-4, 2e-4]]))
+    unknown = loading(*pressed, np.array([[np.nan, 0.0], [1e-4, 2e-4]]))
     assert np.isnan(unknown[0]).all()
     assert np.array_equal(unknown[1], whole[1])
 

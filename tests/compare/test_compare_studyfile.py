@@ -7,7 +7,6 @@ import pytest
 from scene_files import HEAD, SHARED, TABLES
 
 from compare.studies.comparison import asked
-from compare.studies.comparison.rough import KINDS
 from compare.studies.comparison.study_file import STUDIES, study_of
 from scene import Cone, Indent, Kelvin, Program, Scene, SelfAffine, Slide, Sphere, Stage
 from scene.files.reading import InvalidInput
@@ -18,8 +17,6 @@ name = "a"
 [[series]]
 name = "b"
 title = "Another"
-note = "Steeper."
-claims = ["collapse"]
 [series.indenter]
 type = "cone"
 angle = "10 deg"
@@ -38,7 +35,7 @@ def stated(text, size="quick"):
 
 def mistakes_in(text):
     with pytest.raises(InvalidInput) as raised:
-        study_of(text, "mine")
+        stated(text)
     return str(raised.value).splitlines()
 
 
@@ -48,9 +45,8 @@ def test_a_file_says_what_python_says():
     assert first.scene == Scene(Sphere(10e-3), Kelvin(1e6, 1e-3), Slide(speed=0.05, load=0.5), rough)
     assert (first.speeds, first.values) == ((0.05, 0.1, 0.2), tuple(np.geomspace(0.5, 2.0, 4)))
     assert (first.surfaces, first.profiles, first.bem.points, first.mdr.points) == (2, 3, 32, 400)
-    assert (first.name, first.title, first.note, first.claims) == ("a", "a", "", KINDS)
+    assert (first.name, first.title, second.title) == ("a", "a", "Another")
     assert second.scene == replace(first.scene, indenter=Cone("10 deg"), roughness=replace(rough, hurst=0.6))
-    assert (second.title, second.note, second.claims) == ("Another", "Steeper.", ("collapse",))
     study = study_of(TEXT, "mine")
     assert (study.title, study.about) == ("Mine", "What I ask.")
     assert type(study) is type(STUDIES["collapse"])
@@ -83,8 +79,8 @@ def test_what_a_size_states_lies_over_what_is_stated_at_all_and_a_series_has_the
     bem = { points = 48 }
     interval = "10%"
     """
-    own = 'only = ["standard", "full"]\nbem.points = 64\nsizes.full.bem.points = 128\nnote ='
-    text = TEXT.replace("[[series]]", f"{sizes}[[series]]", 1).replace("note =", own)
+    own = 'only = ["standard", "full"]\nbem.points = 64\nsizes.full.bem.points = 128\ntitle ='
+    text = TEXT.replace("[[series]]", f"{sizes}[[series]]", 1).replace('title = "Another"', own + ' "Another"')
     quick, standard, full = (stated(text, size) for size in ("quick", "standard", "full"))
     assert [each.name for each in quick] == ["a"]
     assert (quick[0].surfaces, len(quick[0].values), quick[0].bem.points, quick[0].interval) == (2, 4, 32, None)

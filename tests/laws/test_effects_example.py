@@ -12,7 +12,7 @@ from invented_answers import FEW, obeying
 
 from bem3d import BEM
 from compare.studies.comparison.claims import CLAIMS
-from compare.studies.comparison.measures import FRICTIONS
+from compare.studies.comparison.measures import ROWS
 from compare.studies.plan import planned
 from mdr1d import MDR
 from scene import Kelvin, Layer, Refused, Slide, Sphere
@@ -29,7 +29,7 @@ def page(tmp_path_factory):
         for block in code:
             exec(compile(block, str(PAGE), "exec"), names)
     yield names | {"printed": printed.getvalue().splitlines()}
-    FRICTIONS.remove(next(row for row in FRICTIONS if row.id == "mine.fastest"))
+    ROWS.remove(next(row for row in ROWS if row.id == "mine.fastest"))
     del CLAIMS["mine.fastest"]
 
 

@@ -70,8 +70,9 @@ class Accuracy(Comparison):
             for model in judged:
                 both, beside = (model.name, series.models.reference), series.models.beside(model.name)
                 id = WORDS[mean] if len(judged) == 1 else f"{WORDS[mean]}.{model.name}"
-                claim = Claim(id, f"{WORDS[mean]} {beside}", 1.0, allowed, dimension=beside)
-                for each in series.compared(known, claim, CONTACTS, both, ratio_of(mean, *both), {(0, 0): ""}):
+                over: dict[str, Any] = {"dimension": beside, "measure": ratio_of(mean, *both)}
+                claim = Claim(id, f"{WORDS[mean]} {beside}", 1.0, allowed, **over)
+                for each in series.compared(known, claim, CONTACTS, both, {(0, 0): ""}):
                     told = series.told(each)
                     found.append(
                         told

@@ -13,10 +13,10 @@ from ...report.page import Table
 from ...solving import words
 from ...statistics.finding import BOTH, REPORTED, UNDECIDED, Finding
 from ...statistics.multilevel import WORDS
-from ...trustmap.verdict import CALLED, MULTIPLY, NONE, SOLVE, USE, Advice, Correction
-from .answers import Answers
-from .around import OWN, OWN_RATIOS, Around
+from ...trustmap.verdict import Correction
+from .around import OWN, OWN_RATIOS
 from .claims import SHORT
+from .series import Judged
 
 ENDS = "_mean", "_low", "_high"
 UNITS = {"depth_reached": "m", "normal_force": "N"}
@@ -24,12 +24,14 @@ ALL = "all"
 MOST_NOTES = 4  # reasons of undecided claims that stand below a table
 
 
-def scene_table(series: Around, answers: Answers, points: DataFrame, findings: Sequence[Finding]) -> Table:
+def scene_table(judged: Judged) -> Table:
     """Table of the answer: each model's numbers of the scene, their ratio, and what to do with 1D.
 
-    points : every point of its curves; of a history it is that where the reference, else the first, has most
+    Of a history it is the point where the reference, else the first model, has most.
     """
-    own, rows, names = points[points["curve"] == OWN].set_index("model"), [], series.models.labels
+    series, answers = judged.series, judged.answers
+    points, rows, names = answers.points, list[dict[str, Any]](), series.models.labels
+    own = points[points["curve"] == OWN].set_index("model")
     for name in series.own_means:
         models = [each.name for each in answers.claiming(OWN, WORDS[name])]
         ends = own[[f"{name}{end}" for end in ENDS]]
@@ -39,15 +41,15 @@ def scene_table(series: Around, answers: Answers, points: DataFrame, findings: S
         values = [each[0] for each in numbers.values()]
         factor, unit = prefixed(values, UNITS[name]) if name in UNITS else (1.0, "")
         place = series.place(OWN), OWN_RATIOS[name]
-        ratios = {each.dimension: each for each in findings if (each.curve, each.claim.id) == place}
-        row: dict[str, Any] = {"": WORDS[name] + (f" [{unit}]" if unit else "")}
+        ratios = {each.dimension: each for each in judged.findings if (each.curve, each.claim.id) == place}
+        row = {"": WORDS[name] + (f" [{unit}]" if unit else "")}
         for model, found in numbers.items():
             column = model if names[model] == model else f"{names[model]} ({model})"
             value, low, high = (factor * found).tolist()
             row[column] = words.interval(value, low, high, 3)
         row |= {beside: words.found(each, 3) for beside, each in ratios.items()}
         if {"MDR", "BEM"} <= {*names} and (cheap := getattr(series.advice, WORDS[name])):
-            row["advice"] = _advised(cheap, series.advice, ratios.get(BOTH))
+            row["advice"] = _advised(cheap, ratios.get(BOTH))
         rows.append(row)
     drawn = series.drawn["sliding"].counts if series.curves[OWN].random else {}
     surfaces = (f"{sum(counts)} {series.models[name].draws}" for name, counts in drawn.items())
@@ -55,19 +57,11 @@ def scene_table(series: Around, answers: Answers, points: DataFrame, findings: S
     return Table(series.path("answer"), DataFrame(rows).fillna(""), title)
 
 
-def _advised(cheap: Correction, advice: Advice, solved: Finding | None) -> str:
+def _advised(cheap: Correction, solved: Finding | None) -> str:
     """Advice of the trust map on the answer of 1D, and whether means over surfaces contradict it."""
     low, high = solved.interval if solved is not None and solved.draws else (nan, nan)
     apart = low > cheap.high or high < cheap.low
-    law = advice.law if cheap is advice.friction and not apart else None
-    other = f", or {CALLED[law.model]}" if law is not None and law.advice == USE else ""
-    told = {
-        NONE: f"none: {cheap.reason}",
-        USE: "use 1D",
-        MULTIPLY: f"multiply 1D by {cheap.times}{other}",
-        SOLVE: "solve in 3D",
-    }
-    return told[cheap.advice] + ("; map and means disagree" if apart else "")
+    return str(cheap).partition(". ")[0] + ("; map and means disagree" if apart else "")
 
 
 def claims_table(findings: Iterable[Finding], scenes: Iterable[str], name: str = "claims") -> Table:

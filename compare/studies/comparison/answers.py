@@ -2,17 +2,21 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import xarray
+from pandas import DataFrame, concat
 
-from ...models.table import Model, Models
+from ...models.table import NONE, PROFILES, SURFACES, Model, Models
 from ...solving.curve import COARSE, FINE, of_model
 from ...statistics import means
 from ...statistics.intervals import Estimated
 from ...statistics.jackknife import DrawSet, compared
 from ...statistics.multilevel import pooled
 
+# Variable of real contact by what is drawn [m], [m²].
+CONTACT = {PROFILES: "contact_length", SURFACES: "contact_area", NONE: "contact_area"}
 # Variables that claims are measured on; others are not copied for every surface that is left out.
 MEASURED = (
     "normal_force",
@@ -99,3 +103,26 @@ class Answers:
         if key not in self._kept:
             self._kept[key] = made()
         return self._kept[key]
+
+    @cached_property
+    def points(self) -> DataFrame:
+        """A row for each curve, model, speed, and load or depth: means over surfaces, intervals of 95 %."""
+        every = self._stacked(self._points)
+        first = [name for name in ("curve", "model", "points", "speed", "load", "depth") if name in every]
+        return every[[*first, *every.columns.difference(first, sort=False)]]
+
+    @property
+    def failures(self) -> DataFrame:
+        """Every solve that failed, with its reason."""
+        return self._stacked(lambda *place: means.failures(self.all_levels(*place)))
+
+    def _points(self, curve, model):
+        dataset, draws = self.all_levels(curve, model), {each.name: each.draws for each in self.models}
+        touching = CONTACT[draws.get(model, NONE)]
+        return means.means(dataset.assign(contact=dataset[touching]) if touching in dataset else dataset)
+
+    def _stacked(self, table):
+        """Tables of every model on every curve, one below the other, with both names in the first columns."""
+        places = [(name, model) for name, each in self.curves.items() for model in each["model"].values.tolist()]
+        frames = [DataFrame({"curve": place[0], "model": place[1]} | dict(table(*place))) for place in places]
+        return concat([each for each in frames if len(each)] or frames[:1], ignore_index=True)

@@ -4,15 +4,14 @@ The scene as it stands, force against depth, friction against speed and against 
 against friction in its interface, has one curve: over time, or over the displacement.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
-from math import isfinite
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
+import xarray
 
-from mdr1d import equations
 from scene import Indent, InvalidInput, Program, Refused, Scene, Shear, SolveError, Solver
 from scene.scales import elastic_contact
 
@@ -23,10 +22,12 @@ from ...solving.curve import FINE, LEVELS, Curve, levels, refuse
 from ...solving.task import SceneTask
 from ...statistics.finding import Finding
 from ...statistics.jackknife import mean
-from ...statistics.multilevel import WORDS
+from ...statistics.means import touches
+from ...statistics.multilevel import MEANS, WORDS
 from ...trustmap.verdict import Advice, trust
 from .answers import Answers
-from .claims import CLAIMS, TOLERANCE
+from .claims import CLAIMS
+from .measures import Here, Place, Row, Where, at
 from .series import Counts, Judged, Series, ratio_of
 from .theory import with_theory
 
@@ -34,16 +35,121 @@ OWN, SPEED, LOAD = "own", "friction-speed", "friction-load"
 ROUGH_DEPTH, SMOOTH_DEPTH, SMOOTH_SPEED = "force-depth-rough", "force-depth-smooth", "smooth-speed"
 # Rough curves whose contacts share their surfaces: those of one are as many as those of the others.
 SHARED = {"rest": (ROUGH_DEPTH,), "sliding": (OWN, SPEED, LOAD)}
-# Claims on the scene as it stands by the name of its mean; of force against depth, with their curves.
+# Claims on the scene as it stands by the name of its mean.
 OWN_RATIOS = {
     "friction_coefficient": "friction.ratio.own",
     "depth_reached": "own.depth",
     "normal_force": "own.force",
 }
-SLOW_RATIO, SPREAD, EXACT = "friction.ratio.smooth-slow", "friction_spread", "exact"
+SPREAD, EXACT = "friction_spread", "exact"
 MU = "friction_coefficient"
-FORCES = {"force.ratio.rough": ROUGH_DEPTH, "force.ratio.smooth": SMOOTH_DEPTH}
+HISTORIES = {FORCE: "normal_force", DEPTH: "depth_reached", FRICTION: "friction_force"}
 STEPS = 10  # displacements, or tangential forces, to which a shear is drawn
+
+
+def over(name: str, less: float = 0.0) -> Callable[..., np.ndarray]:
+    """Measure of a mean over that of the reference, less a number, at every place."""
+    return lambda here, one, three: mean(one, *MEANS[name]) / mean(three, *MEANS[name]) - less
+
+
+def own(name: str) -> Where:
+    """The scene as it stands, where this mean tells what it is."""
+    return at((0, 0), lambda here: name in here.series.own_means and not here.series.history)
+
+
+def slowest(here: Here) -> Iterator[Place]:
+    yield "", (int(np.argmin(here.series.curves[SMOOTH_SPEED].speeds)), 0)
+
+
+def slow_factor(here: Here) -> float:
+    """Friction of the smooth, slow body that a model has over that of the reference."""
+    return here.model.slow_factor / here.series.models[here.series.models.reference].slow_factor
+
+
+def speeds(here: Here) -> Iterator[Place]:
+    for k, speed in enumerate(here.series.curves[SPEED].speeds):
+        yield f"v = {speed:.3g} m/s", (k, 0)
+
+
+def spread(here: Here) -> Iterator[Place]:
+    """Speeds at which both estimates of friction in three dimensions are known."""
+    if SPREAD in (found := here.answers(SPEED, here.model.name)):
+        known = np.isfinite(mean(found, SPREAD)).ravel()
+        yield from (each for each, is_known in zip(speeds(here), known, strict=True) if is_known)
+
+
+def touching(curve: str, model: str = "") -> Where:
+    """Depths at which a model touches, the reference if none is named."""
+
+    def where(here: Here) -> Iterator[Place]:
+        name = model or here.series.models.reference
+        if here.answers.has(curve, name):
+            found = here.answers.two_levels(curve, name)
+            for k, depth in enumerate(found["depth"].values.tolist()):
+                if touches(found)[0, k]:
+                    yield f"{depth * 1e6:.3g} µm", (0, k)
+
+    return where
+
+
+def over_exact(here: Here, it: xarray.Dataset) -> np.ndarray:
+    return mean(it, "normal_force") / mean(here.answers(SMOOTH_DEPTH, EXACT), "normal_force") - 1
+
+
+def goes_on(quantity: str) -> Where:
+    """All instants of a history in which a quantity changes."""
+
+    def changes(here: Here) -> bool:
+        motion = here.series.case.motion
+        moves = isinstance(motion, Shear) or (here.series.history and motion.length > 0)
+        return here.series.history and (moves if quantity == FRICTION else quantity == here.series.pressed)
+
+    return at(..., changes)
+
+
+def apart(name: str) -> Callable[..., np.ndarray]:
+    """Measure of the differences from the reference over its rms."""
+
+    def measure(here: Here, *both: xarray.Dataset) -> np.ndarray:
+        one, three = (mean(each, name).ravel() for each in both)
+        return (one - three) / np.sqrt(np.mean(np.square(three)))
+
+    return measure
+
+
+ROWS = (
+    Row(
+        "friction.ratio.smooth-slow",
+        slowest,
+        over(MU),
+        pair=True,
+        curve=SMOOTH_SPEED,
+        each=True,
+        expected=slow_factor,
+    ),
+    *(
+        Row(id, own(name), over(name), pair=True, quantity=WORDS[name], curve=OWN, each=True)
+        for name, id in OWN_RATIOS.items()
+    ),
+    *(
+        Row(id, touching(curve), over("normal_force", 1.0), pair=True, quantity=FORCE, curve=curve, each=True)
+        for id, curve in (("force.ratio.rough", ROUGH_DEPTH), ("force.ratio.smooth", SMOOTH_DEPTH))
+    ),
+    Row("friction.ratio.speed", speeds, over(MU), pair=True, curve=SPEED, each=True),
+    Row(
+        "force.closed-form",
+        touching(SMOOTH_DEPTH, EXACT),
+        over_exact,
+        quantity=FORCE,
+        curve=SMOOTH_DEPTH,
+        each=True,
+    ),
+    Row("friction.spread", spread, lambda here, it: mean(it, SPREAD), curve=SPEED, each=True, size=True),
+    *(
+        Row(f"history.{quantity}", goes_on(quantity), apart(name), pair=True, quantity=quantity, curve=OWN)
+        for quantity, name in HISTORIES.items()
+    ),
+)
 
 
 def models_of(case: Case, asked: Sequence[ModelLike] | None = None, reference: str | None = None) -> Models:
@@ -67,6 +173,9 @@ class Around(Series):
     wanted_interval: float | None = None
     strata: Mapping[str, Counts] = field(default_factory=dict, hash=False)
     shared = SHARED
+    rows = ROWS
+    by_speed, by_load = SPEED, LOAD
+    bodies: ClassVar[Mapping[str, str]] = {ROUGH_DEPTH: "rough", SMOOTH_DEPTH: "smooth"}
 
     @property
     def title(self) -> str:  # type: ignore[override]
@@ -121,7 +230,7 @@ class Around(Series):
     @property
     def own_means(self) -> list[str]:
         """Means of the scene's own contact that tell what it is: friction, and what is not prescribed."""
-        friction = ["friction_coefficient"] if self.case.slides and self.case.motion.speed > 0 else []
+        friction = [MU] if self.case.slides and self.case.motion.speed > 0 else []
         return [*friction, "normal_force" if self.case.motion.pressed_by == "depth" else "depth_reached"]
 
     @property
@@ -129,103 +238,24 @@ class Around(Series):
         if not self.curves[OWN].over_time:
             yield from ((OWN, name, self.curves[OWN].speeds) for name in self.own_means)
 
+    @property
+    def history(self) -> bool:
+        """Whether it is judged over time, or over what it is drawn by."""
+        return isinstance(self.case.motion, Program | Shear)
+
     def judge(self, answers: Answers) -> Judged:
-        if self.curves[OWN].axis in ("time", "displacement", "force"):
-            return Judged([*self._history(answers)])
-        shifted = {}
-        if LOAD in self.curves:
-            exponent = predicted_exponent(self.case)
-            shifts = {speed: exponent * float(np.log(speed)) for speed in self.curves[LOAD].speeds}
-            for model in answers.claiming(LOAD, FRICTION):
-                shifted[model.name] = self.shifted(answers, LOAD, model, shifts, exponent)
-        rows: list[tuple] = [(OWN_RATIOS[name], OWN, name, {(0, 0): ""}) for name in self.own_means]
-        for name, curve in FORCES.items():
-            if curve in self.curves and answers.has(curve, self.models.reference):
-                places = self._depths(answers, curve, self.models.reference)
-                rows.append((name, curve, "normal_force", places, 1.0))
-        if SPEED in self.curves:
-            rows.append(("friction.ratio.speed", SPEED, MU, self._speeds()))
-        found = [
-            *self._slow(answers),
-            *(each for name, *row in rows for each in self.ratios(name, answers, *row)),
-            *(each for _, findings in shifted.values() for each in findings),
-            *self._closed_form(answers),
-            *self._spread(answers),
-            *self._grid(answers),
-        ]
-        return Judged(found, {name: fine for name, (fine, _) in shifted.items() if fine is not None})
-
-    def _slow(self, answers: Answers) -> Iterator[Finding]:
-        """Friction of the smooth body at its lowest speed: 2 of one dimension over three."""
-        if SMOOTH_SPEED not in self.curves:
-            return
-        speeds, factors = self.curves[SMOOTH_SPEED].speeds, {each.label: each.slow_factor for each in self.models}
-        lowest = int(np.argmin(speeds))
-        regime = f"v τ / a = {scaled_speed(self.case, speeds[lowest]):.2g}"
-        for each in self.ratios(SLOW_RATIO, answers, SMOOTH_SPEED, MU, {(lowest, 0): ""}, regime=regime):
-            one, _, other = each.dimension.partition("/")
-            factor = factors[one] / factors[other]
-            if factor != each.claim.expected:
-                sentence = f"Slow friction of the smooth body in {one} is {factor:g} times that in {other}"
-                meaning = f"Friction in {one} over {other} at the lowest speed; it tends to {factor:g}."
-                law: dict[str, Any] = {"sentence": sentence, "meaning": meaning, "expected": factor}
-                each = replace(each, claim=replace(each.claim, tolerance=factor * TOLERANCE, **law))
-            yield each
-
-    def _closed_form(self, answers: Answers) -> Iterator[Finding]:
-        """Force on the smooth body over the closed form, less one, at every depth."""
-        if answers.has(SMOOTH_DEPTH, EXACT):
-            places, claim = self._depths(answers, SMOOTH_DEPTH, EXACT), CLAIMS["force.closed-form"]
-            for model in answers.claiming(SMOOTH_DEPTH, FORCE):
-                both, told = (model.name, EXACT), {"dimension": model.label}
-                over = ratio_of("normal_force", *both, less=1.0)
-                yield from self.compared(answers, claim, SMOOTH_DEPTH, both, over, places, **told)
-
-    def _depths(self, answers, curve, model):
-        """Places at which a model touches, in words."""
-        return {at: f"{depth * 1e6:.3g} µm" for at, depth in self.touched(answers, curve, model)}
-
-    def _speeds(self):
-        """Places on the curve of friction against speed, in words."""
-        return {(k, 0): f"v = {speed:.3g} m/s" for k, speed in enumerate(self.curves[SPEED].speeds)}
-
-    def _spread(self, answers: Answers) -> Iterator[Finding]:
-        """Spread of both estimates of friction in three dimensions, at every speed at which it is known."""
-        for model in answers.claiming(SPEED, FRICTION):
-            if SPREAD in answers.two_levels(SPEED, model.name):
-                measure = lambda sample, name=model.name: mean(sample[name], SPREAD)  # noqa: E731
-                found = self.compared(
-                    answers, CLAIMS["friction.spread"], SPEED, (model.name,), measure, self._speeds(),
-                    size=True, dimension=model.label,
-                )  # fmt: skip
-                yield from (each for each in found if isfinite(each.value))
+        found = super().judge(answers)
+        return replace(found, findings=[*found.findings, *(() if self.history else self._grid(answers))])
 
     def _grid(self, answers: Answers) -> Iterator[Finding]:
         """Change of the scene's own answer from half the points to all."""
-        first, claim = self.own_means[0], CLAIMS["grid.change"]
+        first = self.own_means[0]
         for model in answers.claiming(OWN, WORDS[first]):
             if model.has_grid:
-                measure = ratio_of(first, model.name)
-                for each in self.compared(answers, claim, OWN, (model.name,), measure, {(0, 0): ""}):
-                    change = float(np.divide(each.grid, abs(each.value)))
-                    yield Finding(claim, change, where=self.name, drawn=each.drawn, dimension=model.label)
-
-    def _history(self, answers: Answers) -> Iterator[Finding]:
-        """Differences of models from the reference over time, or over the displacement."""
-        motion, reference = self.case.motion, self.models.reference
-        moves = isinstance(motion, Shear) or motion.length > 0
-        pressed = FORCE if motion.pressed_by in ("depth", "gap") else DEPTH
-        for quantity in (pressed, FRICTION)[: 1 + moves]:
-
-            def apart(one, three, name=HISTORIES[quantity]):
-                one, three = mean(one, name).ravel(), mean(three, name).ravel()
-                return (one - three) / np.sqrt(np.mean(np.square(three)))
-
-            for model in answers.judged(OWN, quantity):
-                yield self.measured(answers, f"history.{quantity}", OWN, (model.name, reference), apart)
-
-
-HISTORIES = {FORCE: "normal_force", DEPTH: "depth_reached", FRICTION: "friction_force"}
+                found = answers.compared(OWN, (model.name,), ratio_of(first, model.name)).at((0, 0))
+                change = float(np.divide(found.grid, abs(found.value)))
+                told: dict[str, Any] = {"drawn": found.drawn, "dimension": model.label}
+                yield Finding(CLAIMS["grid.change"], change, where=self.name, **told)
 
 
 def _curves(case, models):
@@ -272,26 +302,6 @@ def _curve(case: Case, models: Models, scene: Scene, speeds, values, keeps_field
 def _most_levels(scene):
     """A grid that cuts the roughness off has another surface on half the points."""
     return 1 if scene.roughness is not None and scene.roughness.shortest is None else len(LEVELS)
-
-
-def predicted_exponent(case: Case) -> float:
-    """d ln p / d ln v that Eq. 23 predicts for the shortest wave of the case, or of its 1D grid's cut-off."""
-    speeds, rough = case.plan().load_speeds, case.roughness
-    if rough is None or len(speeds) < 2:
-        return equations.force_shift_exponent(1.0, case.indenter.exponent)
-    q_max = rough.q_max(rough.longest / case.mdr.points)
-    beta = exact.loss_exponent(case.scene.solid, q_max, speeds)
-    return equations.force_shift_exponent(beta, case.indenter.exponent)
-
-
-def friction_law(case: Case, load, speed, rms_slope):
-    """Coefficient of friction of Eq. 19 at loads [N] and speeds [m/s]."""
-    time = float(case.scene.solid.retardation()[2].max())
-    shape = (case.indenter.mdr_coefficient, case.indenter.exponent)
-    # Eqs. 18 and 19 are written for a Poisson ratio of 1/2.
-    modulus = case.scene.solid.indentation_modulus / 4
-    xi = equations.similarity_variable(load, modulus, time, speed, rms_slope, *shape)
-    return equations.plateau(rms_slope) * equations.interpolation(xi)
 
 
 def scaled_speed(case: Case, speed: float) -> float:

@@ -1,13 +1,11 @@
 """Claims on one scene and on series, each by its id, and what measures them: powers, means, places along xi."""
 
-from collections.abc import Callable, Iterator
 from dataclasses import replace
-from math import nan
-from typing import Any
+from math import isfinite, nan
 
 import numpy as np
 
-from ...statistics.finding import BOTH, Claim
+from ...statistics.finding import Claim
 
 # How far from what is claimed still counts as it: what a reader of a diagram over decades of friction would not
 # see, and less than what any measured roughness is known to.
@@ -101,8 +99,9 @@ _TEXTS: dict[tuple[float, float], dict[str, tuple[str, str]]] = {
     },
     (2.0, 2 * TOLERANCE): {
         "friction.ratio.smooth-slow": (
-            "Slow friction of the smooth body is twice as high in 1D as in 3D",
-            "Friction in 1D over 3D at the lowest speed; as the speed tends to zero it tends to 2.",
+            "Slow friction of the smooth body, 1D over 3D, is that of the closed forms",
+            "Friction in 1D over 3D at the lowest speed: as the speed tends to zero it tends to 2, or to 1 of two "
+            "models of one dimensionality.",
         ),
         "eq17.slope-exponent": (
             "Eq. 17: friction at the slowest speed goes as the rms slope to the power 2",
@@ -248,14 +247,13 @@ CLAIMS = {
 }
 
 
-def claim(name: str, measure: Callable[[Any], Any], dimension: str = BOTH, expected: float | None = None) -> Claim:
-    """Claim of an id with what measures it in one place.
-
-    expected : number that the law has there; that of the claim if absent
-    """
+def claim(name: str, expected: float | None = None) -> Claim:
+    """Claim of an id, with the number that the law has in one place, and its tolerance in proportion."""
     found = CLAIMS[name]
-    number = found.expected if expected is None else expected
-    return replace(found, measure=measure, dimension=dimension, expected=number)
+    if expected is None:
+        return found
+    times = expected / found.expected if isfinite(found.expected) else 1.0
+    return replace(found, expected=expected, tolerance=found.tolerance * times)
 
 
 def power(abscissae: np.ndarray, values: np.ndarray) -> float:
@@ -268,15 +266,6 @@ def power(abscissae: np.ndarray, values: np.ndarray) -> float:
 def geometric(ratios: np.ndarray) -> float:
     """Geometric mean; NaN where any of them is not positive."""
     return float(np.exp(np.mean(np.log(ratios))))
-
-
-def at_ends(level: str, places: np.ndarray) -> Iterator[tuple[str, int]]:
-    """Claim on a level at the least and the greatest of some loads or depths, with its place; one alone is least.
-
-    places : whether it can be stated at each, from the least on
-    """
-    known = np.flatnonzero(places)[[0, -1]]
-    return ((f"{level}-{end}", place) for end, place in zip(ENDS, dict.fromkeys(known.tolist()), strict=False))
 
 
 # Claims in a few words, by their ids, in the order in which tables have them; two ids may answer one question.

@@ -6,7 +6,6 @@ from functools import cached_property
 from typing import Any
 
 import xarray
-from pandas import DataFrame
 
 from scene import notes
 from scene.result import labelled, provenance
@@ -22,12 +21,11 @@ from ..study import Judgement, Study
 from . import pages
 from .answer import claims_table, scene_table
 from .answer import notes as open_claims
-from .answers import Answers
 from .around import OWN, Around
-from .rough import FAMILIES, RoughSeries
-from .series import Counts, Series
+from .rough import RoughSeries
+from .series import Counts, Judged, Series
 from .sweep import SweepSeries
-from .together import Member, alike, together
+from .together import alike, together
 
 FIELDS = "fields"
 
@@ -96,33 +94,29 @@ class Comparison(Study):
         return replace(self, series=tuple(replace(s, strata=asked.get(s.name, s.strata)) for s in self.series))  # type: ignore[type-var]
 
     def judge(self, answers: xarray.DataTree) -> Judgement:
-        every, members, singles = [], [], list[Finding]()
+        every = []
         for series in self.series:
-            own = series.answers(answers)
-            judged = series.judge(own)
-            judged = replace(judged, findings=[*map(series.told, judged.findings)])
-            singles += judged.findings
-            every.append((series, own, judged, pages.points(series, own)))
-            if judged.laws and isinstance(series, RoughSeries) and FAMILIES in series.claims:
-                members.append(Member(series, own, judged.laws))
+            judged = series.judge(series.answers(answers))
+            every.append(replace(judged, findings=[*map(series.told, judged.findings)]))
+        members = [each for each in every if each.laws and isinstance(each.series, RoughSeries)]
         by_family = {each.series.family: each.series for each in members}
         several = [by_family[each.curve].told(each) if each.curve else each for each in together(members)]
-        findings = [*singles, *several]
-        opening = [table for s, a, _, points in every for table in opening_of(s, a, points, findings)]
+        findings = [*(found for each in every for found in each.findings), *several]
+        opening = [table for each in every for table in opening_of(each)]
         claims = claims_table(findings, [each.name for each in self.series if isinstance(each, Around)])
         opening += [claims] if len(claims.frame) else []
-        told = [*open_claims(findings), *(why for s, a, *_ in every if s.sampled for why in s.unreached(a))]
-        blocks = list(pages.blocks(every, members, several, answers))
-        return Judgement(findings, told, blocks, pages.setting(self.about, every), opening)
+        wide = (why for each in every if each.series.sampled for why in each.series.unreached(each.answers))
+        blocks = list(pages.blocks(every, several, answers))
+        return Judgement(
+            findings, [*open_claims(findings), *wide], blocks, pages.setting(self.about, every), opening
+        )
 
 
-def opening_of(
-    series: Series, answers: Answers, points: DataFrame, findings: Sequence[Finding]
-) -> Sequence[Table]:
+def opening_of(judged: Judged) -> Sequence[Table]:
     """Tables that answer what was asked of a scene; none of a series of a study."""
-    if isinstance(series, Around):
-        return [scene_table(series, answers, points, findings)]
-    return [*series.tables(answers, findings)] if isinstance(series, SweepSeries) else []
+    if isinstance(judged.series, Around):
+        return [scene_table(judged)]
+    return [*judged.series.tables(judged)] if isinstance(judged.series, SweepSeries) else []
 
 
 def _most(counts: Sequence[Mapping[str, Counts]]) -> dict[str, Counts]:

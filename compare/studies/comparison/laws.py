@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import nan, pi
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import xarray
@@ -15,11 +15,8 @@ from scene.indenter import Axisymmetric
 from scene.scales import elastic_contact
 
 from ...models.exact import mean_lag
+from ...solving.curve import Curve
 from ...statistics.jackknife import draws_of, off_the_ratio
-from .answers import Answers
-
-if TYPE_CHECKING:
-    from .rough import RoughSeries
 
 # Ratios by the order in which words tell them, behind load and speed.
 SYMBOLS = {
@@ -89,20 +86,21 @@ class Laws:
         return np.where(np.isfinite(xi), self.plateau * equations.interpolation(np.nan_to_num(xi)), nan)
 
 
-def laws(series: "RoughSeries", answers: Answers, model: str) -> Laws | None:
-    """Laws for the rough body that slides; None where no solve has an answer, or none measures the slope.
+def laws(curve: Curve, answers: xarray.Dataset) -> Laws | None:
+    """Laws for a rough body of revolution that slides; None of others, and where no solve has an answer.
 
-    The load in Eqs. 18 to 23 is that of the answers, that prescribed where every solve failed, the slope the
-    solver's own measure.
+    answers : of one model on the curve. The load in Eqs. 18 to 23 is theirs, that prescribed where every solve
+        failed, and the slope the solver's own measure
     """
-    moving = answers("rough", model).isel(speed=slice(1, None))
-    if not {"rms_slope", "pixel"} <= set(moving.variables):
+    moving, scene = answers.sel(speed=answers["speed"] > 0), curve.scene
+    speeds, shape = moving["speed"].values, scene.indenter
+    slides = isinstance(scene.motion, Indent | Slide) and speeds.size and isinstance(shape, Axisymmetric)
+    if not (slides and scene.roughness and {"rms_slope", "pixel"} <= set(moving.variables)):
         return None
-    groups = regimes(series, moving)
+    groups = regimes(curve, moving)
     if not np.isfinite(groups["depth_over_height"]).any():
         return None
-    scene, speeds = series.scene, np.array(series.speeds)
-    solid, shape = scene.solid, (scene.indenter.mdr_coefficient, scene.indenter.exponent)
+    solid, body = scene.solid, (shape.mdr_coefficient, shape.exponent)
     slope, pixel = (float(np.nanmean(moving[name].values)) for name in ("rms_slope", "pixel"))
     highest = scene.roughness.q_max(pixel)
     # Written for a Poisson ratio of 1/2: E*/4 stands for G, and its loss for that of G.
@@ -115,17 +113,17 @@ def laws(series: "RoughSeries", answers: Answers, model: str) -> Laws | None:
         return np.diff(np.log(values)) / np.diff(np.log(speeds))
 
     load, _, _ = off_the_ratio(draws_of(moving, "normal_force"))
-    if series.prescribed == "load":
-        load = np.where(np.isfinite(load), load, series.values)
+    if curve.prescribed == "load":
+        load = np.where(np.isfinite(load), load, curve.values)
     of_rough = modulus, loss, highest
-    one = equations.one_frequency_friction(np.nan_to_num(load, nan=1.0), *of_rough, speeds[:, None], slope, *shape)
-    shift = equations.force_shift(speeds, *of_rough, slope, *shape)
+    one = equations.one_frequency_friction(np.nan_to_num(load, nan=1.0), *of_rough, speeds[:, None], slope, *body)
+    shift = equations.force_shift(speeds, *of_rough, slope, *body)
     powers, slowest = rates(shift), solid.complex_modulus(highest * speeds[0])
     return Laws(
         speeds=speeds,
         ratios=groups,
         load=load,
-        exponent_of_load=-shape[1] / (shape[1] + 1),
+        exponent_of_load=-body[1] / (body[1] + 1),
         xi=np.where(np.isfinite(load), one / equations.plateau(slope), nan),
         wave_number=highest,
         slowest_loss=float(slowest.imag / slowest.real),
@@ -136,17 +134,16 @@ def laws(series: "RoughSeries", answers: Answers, model: str) -> Laws | None:
     )
 
 
-def regimes(series: "RoughSeries", answers: xarray.Dataset) -> dict[str, np.ndarray]:
-    """Groups of each rough contact of one grid by name, (speeds, values), from means over the surfaces.
+def regimes(curve: Curve, answers: xarray.Dataset) -> dict[str, np.ndarray]:
+    """Groups of each rough contact that slides by name, (speeds, values), from means over the surfaces.
 
-    NaN where it is pressed in at a rate, which has none, and where every solve failed.
+    NaN where every solve failed.
     """
     known = answers[[name for name in GROUPED if name in answers]].where(answers["normal_force"].notnull())
     means = (known.mean("surface") if "surface" in known.dims else known).to_dataframe()[[*known]]
     found = DataFrame(nan, index=means.index, columns=[*SYMBOLS])
     for (speed, value), measures in means.dropna(how="all").iterrows():
-        if not (speed and series.pressed_in):
-            found.loc[speed, value] = Series(ratios(series.at(value, speed), measures))
+        found.loc[speed, value] = Series(ratios(curve.at(value, speed), measures))
     return {name: each.unstack().to_numpy() for name, each in found.items()}
 
 

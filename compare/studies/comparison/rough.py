@@ -1,9 +1,8 @@
 """Rough series of a study: one scene at every speed and load or depth, rough and smooth, on the same surfaces."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from functools import cached_property, partial
-from itertools import product
+from functools import cached_property
 from typing import ClassVar
 
 import xarray
@@ -14,23 +13,13 @@ from scene import Program, Scene
 from scene.files.reading import InvalidInput
 
 from ...library.describe import slug
-from ...models.table import FRICTION as OF_FRICTION
-from ...models.table import Model, ModelLike, Models
+from ...models.table import ModelLike, Models
 from ...solving.curve import Curve, on_two_levels
-from ...statistics.collapse import Collapse
-from ...statistics.finding import Finding
 from .answers import Answers
 from .claims_law import law_findings
-from .laws import Laws, laws
-from .measures import BOTH, DEPTHS, FRICTIONS, MARCHES, REST, Here, Row
+from .measures import ROUGH, ROWS, SMOOTH
 from .series import Counts, Judged, Series
 from .theory import THEORIES, with_theory
-
-ROUGH, SMOOTH = BODIES = "rough", "smooth"
-# Kinds of claims: shifts of curves (Eq. 23), friction in each dimensionality (Eqs. 14 to 19), depth and force in
-# each, all that compares the dimensionalities, and what compares several series.
-COLLAPSE, FRICTION, DEPTH, PAIRS, FAMILIES = KINDS = "collapse", "friction", "depth", "dimensions", "families"
-SOLVERS = {"MDR": "1D", "BEM": "3D"}
 
 
 @dataclass(frozen=True)
@@ -44,8 +33,6 @@ class RoughSeries(Series):
     surfaces, profiles : drawn in three and in one dimension, with the seeds from that of the scene on; where an
         interval is wanted, of a pilot at least so many on its coarsest level
     bem, mdr : the finer settings; the coarser have half the points, and half the steps in time
-    note : what is to be said of it on the page
-    claims : which kinds of claims are judged, out of KINDS
     asked, reference : models and the reference among them, see `Models.of`; MDR and BEM if none is asked for
     """
 
@@ -58,31 +45,23 @@ class RoughSeries(Series):
     profiles: int
     bem: BEM
     mdr: MDR
-    note: str = ""
-    claims: tuple[str, ...] = KINDS
     asked: tuple[ModelLike, ...] = ()
     reference: str = ""
     interval: float | None = None
     strata: Mapping[str, Counts] = field(default_factory=dict, hash=False)
     shared: ClassVar[Mapping[str, tuple[str, ...]]] = {ROUGH: (ROUGH,)}
+    rows = ROWS
+    by_speed = by_load = ROUGH
+    bodies: ClassVar[Mapping[str, str]] = {ROUGH: "rough", SMOOTH: "smooth"}
 
     @property
     def folder(self) -> str:
         return "/".join(map(slug, self.name.split("/")))
 
     @property
-    def prescribed(self) -> str:
-        """Name of what is prescribed: "load" or "depth"."""
-        return self.scene.motion.pressed_by
-
-    @property
     def draws(self) -> dict[str, int]:
         """Number of profiles or surfaces by the name of the model."""
         return {each.name: sum(map(len, self.curves[ROUGH].strata(each.name))) for each in self.models}
-
-    @property
-    def remarks(self) -> Sequence[str]:
-        return (self.note,) if self.note else ()
 
     @cached_property
     def every_model(self) -> Models:
@@ -130,50 +109,12 @@ class RoughSeries(Series):
         return self.curves[ROUGH].at(value, speed)
 
     def judge(self, answers: Answers) -> Judged:
-        """Findings for the claims that it asks for."""
+        found = super().judge(answers)
         if not self.slides:
-            places = [Here(self, None, each) for each in self.models]
-            return Judged([*self._found(answers, DEPTH, (*DEPTHS, *REST, *MARCHES), places)])
-        rubbing = [each.name for each in self.models if OF_FRICTION in each.answers]
-        ruled = {name: found for name in rubbing if (found := laws(self, answers, name)) is not None}
-        if not {self.models.reference} | (set(SOLVERS) & set(rubbing)) <= set(ruled):
-            return Judged(())
-        places = [Here(self, found, self.models[name]) for name, found in ruled.items()]
-        friction = self._found(answers, FRICTION, (*FRICTIONS, *BOTH, *REST), places)
-        asked = ruled if COLLAPSE in self.claims else {}
-        shifted = {name: self._shifts(answers, self.models[name], own) for name, own in asked.items()}
-        findings = [each for _, found in shifted.values() for each in found]
-        findings += [*(law_findings(self, answers, asked) if asked else ()), *friction]
-        return Judged(findings, {name: fine for name, (fine, _) in shifted.items() if fine is not None}, ruled)
-
-    def _shifts(self, answers: Answers, model: Model, own: Laws) -> tuple[Collapse | None, list[Finding]]:
-        """Whether curves fall onto one, with the shifts that are best and with those predicted."""
-        shifts = dict(zip(self.speeds, own.shifts.tolist(), strict=True))
-        return self.shifted(answers, ROUGH, model, shifts, own.exponent, own.words())
-
-    def _found(
-        self, answers: Answers, kind: str, rows: Iterable[Row], places: Sequence[Here]
-    ) -> Iterator[Finding]:
-        """Findings of rows of claims that are asked for, on each model or on each against the reference.
-
-        kind : of claims on one model; those that compare two are a kind of their own
-        """
-        rows = [row for row in rows if (PAIRS if row.pair else kind) in self.claims]
-        (reference,) = (each for each in places if each.model.name == self.models.reference)
-        for here, row in product(places, rows):
-            if not row.pair:
-                yield from self._row(answers, row, here, here.model.name)
-        for row, model in product(rows, self.models.judged):
-            quantity = row.quantity or reference.pressed
-            if row.pair and quantity in model.answers and quantity in reference.model.answers:
-                yield from self._row(answers, row, reference, model.name, reference.model.name)
-
-    def _row(self, answers, row: Row, here: Here, *models: str) -> Iterator[Finding]:
-        for suffix, place, expected in row.where(here):
-            there = replace(here, place=place)
-            name = row.id.format(quantity=here.pressed) + suffix
-            measure = partial(row.measure, there)
-            yield self.measured(answers, name, row.body, models, measure, expected, there.regime)
+            return found
+        if self.models.reference not in found.laws:
+            return Judged(self, answers)
+        return replace(found, findings=[*found.findings, *law_findings(self, answers, found.laws)])
 
 
 def sliding(dataset: xarray.Dataset) -> xarray.Dataset:

@@ -1,7 +1,7 @@
 """Series: one scene with the curves that are solved of it, what is judged on them, and its surfaces."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import ceil, inf, nan
@@ -13,7 +13,7 @@ import xarray
 from scene import Scene, Solver
 
 from ...library.describe import slug
-from ...models.table import NONE, Model, Models
+from ...models.table import DEPTH, FORCE, FRICTION, NONE, Model, Models
 from ...solving.curve import COARSE, FINE, LEVELS, Curve, levels
 from ...solving.task import SceneTask
 from ...statistics import eq23
@@ -21,11 +21,11 @@ from ...statistics.collapse import Collapse, collapse
 from ...statistics.finding import Claim, Finding, said_of
 from ...statistics.frictioncurves import SimulatedCurves
 from ...statistics.jackknife import mean, measured
-from ...statistics.means import touches
 from ...statistics.multilevel import MEANS, WORDS, DrawnSurfaces, means_of, unreached
 from .answers import Answers
-from .claims import CLAIMS, claim
-from .laws import Laws
+from .claims import claim
+from .laws import Laws, laws
+from .measures import Here, Row
 
 Counts = Mapping[str, tuple[int, ...]]  # numbers of surfaces on each level, by model
 Places = Mapping[tuple[int, int], str]  # places of speed and value on a curve, in words
@@ -38,12 +38,15 @@ PILOT, DIFFERENCES, FINEST = 32, 8, 4
 class Judged:
     """What becomes of the claims on a series.
 
+    series, answers : that were judged
     findings : one by one
     collapses : what shifts of its curves achieve on the fine level, by model
-    laws : of the paper at its points, by model; none of a series that does not slide, or has no answers
+    laws : of the paper at the points of its curve of friction against load, by model
     """
 
-    findings: Sequence[Finding]
+    series: Any
+    answers: Answers
+    findings: Sequence[Finding] = ()
     collapses: Mapping[str, Collapse] = field(default_factory=dict)
     laws: Mapping[str, Laws] = field(default_factory=dict)
 
@@ -58,6 +61,10 @@ class Series(ABC):
     strata : then numbers of surfaces by the curves that share them, else those of a pilot. Fewer numbers than
         levels leave out the coarsest
     shared : names of the curves that share their surfaces, by a name of them
+    rows : of claims that are judged on it
+    by_speed, by_load : names of the curves of friction against speed, and against load, which is shifted onto one;
+        empty where there is none
+    bodies : rough or smooth, by the name of a curve of force against depth
     """
 
     name: str
@@ -67,15 +74,15 @@ class Series(ABC):
     interval: float | None
     strata: Mapping[str, Counts]
     shared: ClassVar[Mapping[str, tuple[str, ...]]]
+    rows: ClassVar[Sequence[Row]]
+    by_speed: ClassVar[str]
+    by_load: ClassVar[str] = ""
+    bodies: ClassVar[Mapping[str, str]] = {}
 
     @property
     @abstractmethod
     def curves(self) -> Mapping[str, Curve]:
         """Curves by name. Raises InvalidInput, Refused."""
-
-    @abstractmethod
-    def judge(self, answers: Answers) -> Judged:
-        """Findings on the answers, and what shows them."""
 
     @property
     def wanted(self) -> Iterator[tuple[str, str, tuple[float, ...]]]:
@@ -88,11 +95,6 @@ class Series(ABC):
         return ()
 
     @property
-    def every_model(self) -> Models:
-        """Models that are asked for, those among them that claim nothing here."""
-        return self.models
-
-    @property
     def remarks(self) -> Sequence[str]:
         """Sentences that its file has for people."""
         return ()
@@ -101,6 +103,16 @@ class Series(ABC):
     def doubts(self) -> Sequence[str]:
         """Doubts about the scene and the corners of its curves."""
         return ()
+
+    @property
+    def prescribed(self) -> str:
+        """Name of what presses: "load", "depth", or "gap"."""
+        return self.scene.motion.pressed_by
+
+    @property
+    def pressed(self) -> str:
+        """What is not prescribed: depth under loads, force at depths."""
+        return FORCE if self.prescribed in ("depth", "gap") else DEPTH
 
     @property
     def counts(self) -> dict[str, Counts]:
@@ -148,6 +160,11 @@ class Series(ABC):
             made |= {name: replace(each, levels=kept, draws={**each.draws, **draws}) for name, each in own.items()}
         return made
 
+    @property
+    def label(self) -> str:
+        """Its name where its findings stand with others."""
+        return self.name
+
     def place(self, curve: str) -> str:
         """Name of a curve among those of all series."""
         return f"{self.name}/{curve}"
@@ -182,11 +199,10 @@ class Series(ABC):
     def more(self, answers: Answers, findings: Sequence[Finding], growth: float) -> dict[str, Counts]:
         """Numbers of surfaces that undecided claims and wide intervals ask for, of the curves that share them."""
         made: dict[str, Counts] = {}
-        interval = self.interval or inf
         for name, drawn in self.drawn.items():
             own = [each for each in findings if self.behind(each) == name]
             own += [each for *_, found in self._means(name, answers) for each in found]
-            made[name] = drawn.more(own, interval, growth)
+            made[name] = drawn.more(own, self.interval or inf, growth)
         return made
 
     def unreached(self, answers: Answers) -> Iterator[str]:
@@ -205,102 +221,78 @@ class Series(ABC):
                     asked = found.at(np.isin(answers.two_levels(curve, model)["speed"], speeds))
                     yield model, mean_name, means_of(model, asked)
 
+    def judge(self, answers: Answers) -> Judged:
+        """Findings on the answers, and what shows them: a finding a claim, model and place."""
+        rubbing = answers.claiming(self.by_load, FRICTION)
+        found = {each.name: laws(self.curves[self.by_load], answers(self.by_load, each.name)) for each in rubbing}
+        ruled = {name: own for name, own in found.items() if own is not None}
+        collapses, findings = dict[str, Collapse](), list[Finding]()
+        for model in rubbing:
+            fine, own = self._shifted(answers, model, ruled.get(model.name))
+            collapses |= {model.name: fine} if fine else {}
+            findings += own
+        for row in self.rows:
+            findings += self._judged(answers, row, ruled)
+        return Judged(self, answers, findings, collapses, ruled)
+
+    def _judged(self, answers: Answers, row: Row, ruled: Mapping[str, Laws]) -> Iterator[Finding]:
+        """Findings of a row of claims, on each model with a claim on its quantity."""
+        quantity, reference = row.quantity or self.pressed, self.models.reference
+        for model in (answers.judged if row.pair else answers.claiming)(row.curve, quantity):
+            models = (model.name, reference) if row.pair else (model.name,)
+            dimension = self.models.beside(model.name) if row.pair else model.label
+            here = Here(self, model, answers, ruled.get(models[-1]))
+
+            def asked(ending="", here=here, models=models, dimension=dimension):
+                found = claim(row.id.format(quantity=quantity) + ending, row.expected(here))
+                found = said_of(found, dimension) if row.pair else found
+                measure = lambda sample: row.measure(here, *(sample[each] for each in models))  # noqa: E731
+                return replace(found, dimension=dimension, measure=measure)
+
+            if row.each and (places := {at: words for words, at in row.where(here)}):
+                yield from self.compared(answers, asked(), row.curve, models, places, row.size)
+            for ending, at in () if row.each else row.where(here):
+                there = replace(here, place=at)
+                fine, coarse = (answers.sample(level, row.curve, *models) for level in (FINE, COARSE))
+                found = measured(asked(ending, there), fine, coarse, self.name, there.regime)
+                yield replace(found, curve=self.place(row.curve))
+
     def compared(
-        self,
-        answers: Answers,
-        claim: Claim,
-        curve: str,
-        models: Sequence[str],
-        measure,
-        places: Places,
-        **told: Any,
+        self, answers: Answers, claim: Claim, curve: str, models: Sequence[str], places: Places, size: bool = False
     ) -> Iterator[Finding]:
-        """Findings of a claim on numbers of one or more models at some places of a curve; told : other fields"""
-        found = answers.compared(curve, tuple(models), measure, told.pop("size", False))
-        told |= {"drawn": found.drawn, "curve": self.place(curve)}
+        """Findings of a claim at places of a curve, on what it measures of one or more models at all of them."""
+        found = answers.compared(curve, tuple(models), claim.measure, size)
+        told: dict[str, Any] = {"drawn": found.drawn, "curve": self.place(curve)}
         for at, words in places.items():
-            yield Finding.of(claim, found.at(at), where=", ".join(filter(None, (self.name, words))), **told)
+            yield Finding.of(claim, found.at(at), where=", ".join(filter(None, (self.label, words))), **told)
 
-    def ratios(
-        self,
-        name: str,
-        answers: Answers,
-        curve: str,
-        mean_name: str,
-        places: Places,
-        less: float = 0.0,
-        **told: Any,
-    ) -> Iterator[Finding]:
-        """Findings on a mean of each model over that of the reference, less a number, at places of a curve."""
-        for model in answers.judged(curve, WORDS[mean_name]):
-            both, beside = (model.name, self.models.reference), self.models.beside(model.name)
-            own, over = said_of(CLAIMS[name], beside), ratio_of(mean_name, *both, less=less)
-            yield from self.compared(answers, own, curve, both, over, places, dimension=beside, **told)
-
-    def measured(
-        self,
-        answers: Answers,
-        name: str,
-        curve: str,
-        models: Sequence[str],
-        measure: Callable[..., Any],
-        expected: float | None = None,
-        regime: str = "",
-    ) -> Finding:
-        """Finding of a claim on a whole curve, of one model or of two that are compared.
-
-        measure : of their answers; a number, or an array of which the root mean square counts
-        """
-        pair = len(models) > 1
-        beside = self.models.beside(models[0]) if pair else self.models.labels[models[0]]
-        asked = claim(name, lambda sample: measure(*(sample[each] for each in models)), beside, expected)
-        fine, coarse = (answers.sample(level, curve, *models) for level in (FINE, COARSE))
-        found = measured(said_of(asked, beside) if pair else asked, fine, coarse, self.name, regime)
-        return replace(found, curve=self.place(curve))
-
-    def shifted(
-        self,
-        answers: Answers,
-        curve: str,
-        model: Model,
-        shifts: Mapping[float, float],
-        exponent: float,
-        regime: str = "",
-    ) -> tuple[Collapse | None, list[Finding]]:
-        """Findings on curves of friction that are shifted onto one, and the collapse, where points are enough.
-
-        shifts, exponent : ln p(v) that Eq. 23 predicts by speed, and its exponent; NaN where it is no power
-        """
-        own = self.curves[curve]
-        drawn = sum(map(len, own.strata(model.name))) if own.random else 0
-        place: dict[str, Any] = {"where": self.name, "draws": drawn, "regime": regime}
-        known = answers.halved(curve, model.name)
-        every = (answers(curve, model.name, level) for level in ((FINE, COARSE) if known else (FINE,)))
+    def _shifted(self, answers: Answers, model: Model, own: Laws | None) -> tuple[Collapse | None, list[Finding]]:
+        """Findings on curves of friction that are shifted onto one, and the collapse, where points are enough."""
+        name, curve = self.by_load, self.curves[self.by_load]
+        speeds = [speed for speed in curve.speeds if speed > 0]
+        drawn = sum(map(len, curve.strata(model.name))) if curve.random else 0
+        place: dict[str, Any] = {"where": self.name, "draws": drawn, "regime": own.words() if own else ""}
+        known = answers.halved(name, model.name)
+        every = (answers(name, model.name, level) for level in ((FINE, COARSE) if known else (FINE,)))
         try:
             fine, *coarse = [collapse(SimulatedCurves.of(each.sel(speed=each["speed"] > 0))) for each in every]
         except ValueError:
-            enough = eq23.shiftable(len(shifts), len(own.values))
+            enough = eq23.shiftable(len(speeds), len(curve.values))
             return None, [eq23.too_few(model.label, **place)] if enough else []
-        told = eq23.findings(
-            fine, coarse[0] if known else None, model.label, shifts, exponent, horizontal=not known, **place
-        )
+        shifts = dict(zip(speeds, own.shifts.tolist(), strict=True)) if own else None
+        exponent, half = own.exponent if own else nan, coarse[0] if known else None
+        told = eq23.findings(fine, half, model.label, shifts, exponent, horizontal=not known, **place)
         # Data without a grid are exact, a surface that has no other grid is not.
         unknown: dict[str, Any] = {} if known else {"grid": nan}
-        return fine, [replace(each, curve=self.place(curve), **unknown) for each in told]
-
-    def touched(self, answers: Answers, curve: str, model: str) -> Iterator[tuple[tuple[int, int], float]]:
-        """Places at rest, each with its depth, at which a model touches."""
-        depths = answers.curves[curve]["depth"].values.tolist()
-        seen = touches(answers.two_levels(curve, model))[0]
-        yield from (((0, k), depth) for k, depth in enumerate(depths) if seen[k])
+        return fine, [replace(each, curve=self.place(name), **unknown) for each in told]
 
 
-def ratio_of(mean_name: str, *models: str, less: float = 0.0):
-    """Measure of the mean of a model, or of that of one over that of another, less a number, at every place."""
+def ratio_of(mean_name: str, *models: str):
+    """Measure of the mean of a model, or of that of one over that of another, at every place."""
 
     def measure(sample):
         values = [mean(sample[model], *MEANS[mean_name]) for model in models]
-        return values[0] / values[1] - less if len(values) > 1 else values[0]
+        return values[0] / values[1] if len(values) > 1 else values[0]
 
     return measure
 

@@ -25,7 +25,6 @@ from scene import (
     Sphere,
     Stage,
 )
-from scene.effects.temperature import Temperature
 from scene.files import files
 from scene.files.error_text import CHOICE
 from scene.files.reading import InvalidInput, invalid, made, parsed
@@ -44,7 +43,7 @@ SIZES: tuple[Size, ...] = get_args(Size)
 MOST_SERIES = 100  # of a file
 # Of each pair one is stated: where a series does, it takes the place of the other stated for all.
 INSTEAD = {"loads": "depths", "depths": "loads", "speeds": "rates", "rates": "speeds"}
-TABLES = "indenter", "elastomer", "roughness", "temperature"  # of a ready scene
+TABLES = "indenter", "elastomer", "roughness"  # of a ready scene
 
 Quantity = TypeVar("Quantity")
 Partly: TypeAlias = Quantity | dict[str, Any] | None  # a table that others complete
@@ -84,7 +83,6 @@ Numbers = Annotated[
     Annotated[Range[Quantity], Tag(_RANGE)] | _List[Quantity],
     Discriminator(lambda given: _RANGE if isinstance(given, dict | Range) else _LIST),
 ]
-Kind = Literal["collapse", "friction", "depth", "dimensions", "families"]
 
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
@@ -97,7 +95,6 @@ class _Asked:
     depths: Numbers[Length] | None = None
     prescribed: Literal["depth"] | None = None
     interval: Share | None = None
-    claims: Annotated[tuple[Kind, ...], Field(min_length=1)] = get_args(Kind)
 
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
@@ -105,7 +102,7 @@ class Stated(_Asked):
     """Fields that a study states for all of its series, or each of them for itself, at all sizes or at one.
 
     scene : name of a ready scene, from which every table is taken that is not stated
-    indenter, elastomer, roughness, temperature : as in a scene; what a series states takes the place of what is
+    indenter, elastomer, roughness : as in a scene; what a series states takes the place of what is
         stated for all, name by name, unless it states another type. Bodies are spheres, cones and power laws, and
         roughness is self-affine
     speeds : of sliding [m/s], two at least; with rates absent too, the bodies are at rest
@@ -115,8 +112,6 @@ class Stated(_Asked):
     surfaces, profiles : drawn in three and in one dimension, at most 10,000; with an interval, at least, on the
         coarsest grid; absent, as many as the size of the study has
     interval : the half-width of intervals of 95 % that is wanted of claims, relative, as "5%"
-    claims : which are judged: "collapse" (Eq. 23), "friction" (Eqs. 14 to 19), "depth" (at rest, and pressed in),
-        "dimensions" (1D against 3D), "families" (several series together); absent, all of them
     bem, mdr : settings of the solvers on the finer grid; the coarser has half the points
     """
 
@@ -126,7 +121,6 @@ class Stated(_Asked):
     indenter: Partly[Body] = None
     elastomer: Partly[Elastomer] = None
     roughness: Partly[SelfAffine] = None
-    temperature: Partly[Temperature] = None
     bem: Partly[BEM] = None
     mdr: Partly[MDR] = None
 
@@ -149,14 +143,12 @@ class OwnSeries(Stated):
 
     name : of its folder
     title : for people; the name if absent
-    note : what is to be said of it on the page
     only : sizes at which it is solved; absent, all of them
     sizes : what it states at one size alone
     """
 
     name: Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_.-]*$")]
     title: str = ""
-    note: str = ""
     only: tuple[Size, ...] = SIZES
     sizes: Sizes = Sizes()
 
@@ -194,7 +186,6 @@ class _Complete(_Asked):
     indenter: Body
     elastomer: Elastomer
     roughness: SelfAffine
-    temperature: Temperature | None = None
     surfaces: Draws
     profiles: Draws
     bem: BEM
@@ -221,8 +212,6 @@ class _Complete(_Asked):
                 yield f"{name}: both ends of a range, or a list, from the least to the greatest, each once"
         if self.rates and self.loads and not self.prescribed:
             yield "rates: a body pressed in at a rate is pressed to depths, give depths"
-        if self.rates and self.temperature:
-            yield "rates: a pressed-in solid is stated at its own temperature, leave temperature out"
         if self.speeds and len(_numbers(self.speeds)) < 2:
             yield "speeds: at least two, or none for bodies at rest"
         for name, points, least in (("bem", self.bem.points, 32), ("mdr", self.mdr.points, 16)):
@@ -235,9 +224,8 @@ class _Complete(_Asked):
         """The series, as it is solved and judged."""
         many, several, *_ = USUAL[size]
         speeds, values = _numbers(self.speeds or self.rates, many), _numbers(self.loads or self.depths, several)
-        rest = Indent(depth=1.0)
-        scene = Scene(self.indenter, self.elastomer, rest, self.roughness, temperature=self.temperature)
         prescribed = "load" if self.loads else "depth"
+        scene = Scene(self.indenter, self.elastomer, Indent(depth=1.0), self.roughness)
         if self.loads and self.prescribed:
             pressed = (replace(scene, motion=Indent(load=load)) for load in values)
             values, prescribed = tuple(elastic_contact(each).depth for each in pressed), self.prescribed
@@ -247,12 +235,12 @@ class _Complete(_Asked):
             motion = Slide(speed=speeds[0], **press)
         elif self.rates:
             motion = Program(stages=(Stage(duration=1.0, **press),))
-        stated = ("surfaces", "profiles", "bem", "mdr", "interval", "claims")
-        others: dict[str, Any] = {"note": own.note, "asked": shared.models, "reference": shared.reference}
-        others |= {name: getattr(self, name) for name in stated}
+        others: dict[str, Any] = {each: getattr(self, each) for each in STATED}
+        others |= {"asked": shared.models, "reference": shared.reference}
         return Series(own.name, own.title or own.name, replace(scene, motion=motion), speeds, values, **others)
 
 
+STATED = "surfaces", "profiles", "bem", "mdr", "interval"
 FIELDS = [field.name for field in fields(_Complete)]
 # What holds at a size where a file states nothing else: speeds or rates, loads or depths, surfaces, profiles, and
 # points of a side in three dimensions.
@@ -260,32 +248,34 @@ USUAL = {"quick": (6, 4, 3, 12, 128), "standard": (12, 8, 10, 60, 256), "full": 
 
 
 def study_of(text: str, name: str) -> ReadyStudy:
-    """A study by the text of its file. Raises InvalidInput naming every mistake.
+    """A study by the text of its file. Raises InvalidInput; its series at a size do so of what is stated there.
 
     name : of the file, for mistakes
     """
+    file: StudyFile = made(parsed(text, name), StudyFile, name)
+    return ReadyStudy(file.title, file.about, partial(_series, text, name))
+
+
+def _series(text: str, name: str, size: str) -> Sequence[Series]:
+    """Series of a file at a size. Raises InvalidInput naming every mistake."""
+    content, found, lines = parsed(text, name), list[Series](), list[str]()
     with files.paths_from(name):
-        return _study_of(parsed(text, name), name)
-
-
-def _study_of(content, name):
-    file: StudyFile = made(content, StudyFile, name)
-    found: dict[str, list[Series]] = {size: [] for size in SIZES}
-    lines = []
-    for number, (own, stated) in enumerate(zip(file.series, content["series"], strict=True)):
-        for size in own.only:
+        file: StudyFile = made(content, StudyFile, name)
+        for number, (own, stated) in enumerate(zip(file.series, content["series"], strict=True)):
+            if size not in own.only:
+                continue
             place = f"series.{number}"
             try:
                 series = made(_put_together(content, stated, size), _Complete, place).series(own, file, size)
                 series.curves  # noqa: B018 - refuses what cannot be solved on two grids
-                found[size].append(series)
+                found.append(series)
             except InvalidInput as error:
                 lines += [f"{place}: {each.removeprefix(f'{place}: ')}" for each in str(error).splitlines()]
             except (Refused, SolveError, ArithmeticError) as error:
                 lines.append(f"{place}: {error}")
     if lines:
-        raise invalid(name, list(dict.fromkeys(lines)))
-    return ReadyStudy(file.title, file.about, found.__getitem__)
+        raise invalid(name, lines)
+    return found
 
 
 def _put_together(content: dict, own: dict, size: str) -> dict:
@@ -322,11 +312,7 @@ def _numbers(given: Any, usual: int = 2) -> tuple[float, ...]:
     return given or ()
 
 
-def _ready_series(text: str, name: str, size: str) -> Sequence[Series]:
-    return study_of(text, name).series(size)
-
-
 STUDIES = {
-    each.name: ReadyStudy(each.title, each.about, partial(_ready_series, each.text, each.name))
+    each.name: ReadyStudy(each.title, each.about, partial(_series, each.text, each.name))
     for each in map(find, CLAIMS)
 }

@@ -22,15 +22,32 @@ from ...solving.control_variates import VARIATES
 from ...solving.cost import MOST_DRAWS
 from ...solving.curve import Curve, on_two_levels, refuse
 from ...solving.vocabulary import attributes
+from ...statistics import intervals
 from ...statistics.multilevel import MEANS, WORDS, wanted
-from .answers import Answers
-from .around import OWN_RATIOS, models_of
+from .around import MU, OWN_RATIOS, models_of, over
+from .measures import Here, Place, Row, Where
 from .series import Counts, Judged, Series
 from .values import Values, values_of
 
 FEW = 8  # draws where nothing is asked
 CONTACTS = "contacts"
 ENDS = "_mean", "_low", "_high"
+
+
+def contacts(name: str) -> Where:
+    """Every contact, where this mean tells what is compared: friction, else what is not prescribed."""
+
+    def where(here: Here) -> Iterator[Place]:
+        series = here.series
+        if name == (MU if max(series.speeds) > 0 else next(series.wanted)[1]):
+            for i, speed in enumerate(series.speeds):
+                for j, value in enumerate(series.values):
+                    yield f"{speed:g} m/s, {value:g} {UNITS[series.prescribed]}", (i, j)
+
+    return where
+
+
+CLAIMED = {**OWN_RATIOS, MU: "friction.ratio.speed"}  # by the name of the mean; reported, and not claimed
 
 
 @dataclass(frozen=True)
@@ -53,6 +70,12 @@ class SweepSeries(Series):
     profiles: int | None = None
     name = title = CONTACTS
     shared: ClassVar[Mapping[str, tuple[str, ...]]] = {CONTACTS: (CONTACTS,)}
+    rows = tuple(
+        Row(id, contacts(name), over(name), pair=True, quantity=WORDS[name], curve=CONTACTS, each=True)
+        for name, id in CLAIMED.items()
+    )
+    by_speed = CONTACTS
+    label = ""
 
     @classmethod
     def of(
@@ -105,11 +128,6 @@ class SweepSeries(Series):
         corners = self.curves[CONTACTS].corners
         return doubted(*(replace(self.case, motion=each.motion) for each in corners))
 
-    @property
-    def prescribed(self) -> str:
-        """Name of what is prescribed: "load" or "depth"."""
-        return self.case.motion.pressed_by
-
     @cached_property
     def curves(self) -> Mapping[str, Curve]:
         fixed = Curve(
@@ -126,34 +144,19 @@ class SweepSeries(Series):
         for name, speeds in wanted(self.prescribed, self.speeds, self.case.slides):
             yield CONTACTS, name, speeds
 
-    def judge(self, answers: Answers) -> Judged:
-        """Friction, else force or depth, of each model over the reference at every contact, without a claim."""
-        name = "friction_coefficient" if max(self.speeds) > 0 else next(self.wanted)[1]
-        claim = _claim_on(name)
-        places = {
-            (i, j): f"{speed:g} m/s, {value:g} {UNITS[self.prescribed]}"
-            for (i, speed), (j, value) in product(enumerate(self.speeds), enumerate(self.values))
-        }
-        found = self.ratios(claim, answers, CONTACTS, name, places)
-        return Judged([replace(each, where=each.where.removeprefix(f"{self.name}, ")) for each in found])
-
-    def tables(self, answers: Answers, findings) -> Iterator[Table]:
+    def tables(self, judged: Judged) -> Iterator[Table]:
         """Friction, and depth or force, a row a contact and a column a model; what is judged also as a ratio."""
         places = DataFrame(list(product(self.speeds, self.values)), columns=["speed", self.prescribed])
         for name, speeds in reversed([*wanted(self.prescribed, self.speeds, max(self.speeds) > 0)]):
-            columns: dict[str, Any] = {
-                f"{name} ({model.label})": answers.interval(CONTACTS, model.name, *MEANS[name]).ends
-                for model in answers.claiming(CONTACTS, WORDS[name])
-            }
-            own = [each for each in findings if each.claim.id == _claim_on(name)]
+            numbers: dict[str, Any] = {}
+            for model in judged.answers.claiming(CONTACTS, WORDS[name]):
+                found = judged.answers.interval(CONTACTS, model.name, *MEANS[name])
+                numbers |= {each: np.ravel(of) for each, of in found.columns(f"{name} ({model.label})").items()}
+            own = [each for each in judged.findings if each.claim.id == CLAIMED[name]]
             for beside in dict.fromkeys(each.dimension for each in own):
                 rows = [(each.value, *each.interval) for each in own if each.dimension == beside]
-                columns[beside] = np.transpose(rows)
-            numbers = {
-                f"{column}{end}": np.ravel(values)
-                for column, found in columns.items()
-                for end, values in zip(("", "_low", "_high"), found, strict=True)
-            }
+                names = (f"{beside}{end}" for end in intervals.ENDS)
+                numbers |= dict(zip(names, np.transpose(rows), strict=True))
             frame = places.assign(**numbers)
             told = f"Mean {WORDS[name]} at every contact, with intervals of 95 %."
             yield Table(f"means-{WORDS[name]}", frame[frame["speed"].isin(speeds)], told)
@@ -168,11 +171,6 @@ class SweepSeries(Series):
                 dims = "model", "speed", self.prescribed
                 dataset[f"{name}{end}"] = dims, np.array(values), attributes(f"{name}{end}")
         return dataset
-
-
-def _claim_on(name):
-    """Id of the claim on a mean, which is reported and not claimed."""
-    return "friction.ratio.speed" if WORDS[name] == "friction" else OWN_RATIOS[name]
 
 
 def means(dataset: xarray.Dataset) -> DataFrame:

@@ -1,7 +1,7 @@
 """Claims on several rough series together: roughness and rheology count through one variable alone."""
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -12,30 +12,19 @@ from ...statistics.finding import Finding
 from ...statistics.frictioncurves import SimulatedCurves
 from ...statistics.intervals import RmsMisfit
 from ...statistics.jackknife import draws_of, friction, measured, off_the_ratio, strata_of
-from .answers import Answers
-from .claims import CLAIMS, claim, geometric, power
+from .claims import CLAIMS, geometric, power
 from .claims_law import LawPoints, drawn_of, law_findings_of
-from .laws import Laws
-from .measures import FAST, SLOW
-from .rough import FAMILIES, ROUGH, RoughSeries, sliding
-from .series import Series
+from .measures import FAST, ROUGH, SLOW
+from .rough import RoughSeries, sliding
+from .series import Judged, Series
 
 
-@dataclass(frozen=True)
-class Member:
-    """A series that slides, with its answers and the laws of its models."""
-
-    series: RoughSeries
-    answers: Answers
-    laws: Mapping[str, Laws]
-
-
-def families(members: Sequence[Member]) -> dict[str, list[Member]]:
+def families(members: Sequence[Judged]) -> dict[str, list[Judged]]:
     """Members by their family, where roughness or solid differ.
 
     All of a family have as many surfaces; of several such families of one shape it is the largest.
     """
-    found: dict[tuple[str, str], list[Member]] = {}
+    found: dict[tuple[str, str], list[Judged]] = {}
     for each in members:
         found.setdefault((each.series.family, str(each.series.drawn[ROUGH].counts)), []).append(each)
     rising = sorted(found.items(), key=lambda family: len(family[1]))
@@ -46,12 +35,12 @@ def alike(series: Sequence[Series]) -> list[list[str]]:
     """Names of series that slide, by their family, which are to have as many surfaces as each other."""
     found: dict[str, list[str]] = {}
     for each in series:
-        if isinstance(each, RoughSeries) and each.slides and FAMILIES in each.claims:
+        if isinstance(each, RoughSeries) and each.slides:
             found.setdefault(each.family, []).append(each.name)
     return list(found.values())
 
 
-def reduced(members: Sequence[Member], model: str, level: str = FINE) -> SimulatedCurves:
+def reduced(members: Sequence[Judged], model: str, level: str = FINE) -> SimulatedCurves:
     """mu over the plateau against 1/xi, a curve for each series; `speeds` count the series."""
     rows = []
     for each in members:
@@ -69,7 +58,7 @@ def reduced(members: Sequence[Member], model: str, level: str = FINE) -> Simulat
     return SimulatedCurves(np.arange(1.0, len(members) + 1), load, drag, strata, model)
 
 
-def together(members: Sequence[Member]) -> Iterator[Finding]:
+def together(members: Sequence[Judged]) -> Iterator[Finding]:
     """Findings for each family and dimensionality, then those on all series, whatever their shape."""
     for family, own in families(members).items():
         for model in own[0].laws:
@@ -117,7 +106,8 @@ def _slope_exponents(members, model):
             return power(np.array([each.plateau for each in laws]), np.array(levels))
 
         if values.any():
-            asked = claim(name, exponent, members[0].series.models.labels[model])
+            dimension = members[0].series.models.labels[model]
+            asked = replace(CLAIMS[name], measure=exponent, dimension=dimension)
             yield measured(asked, fine, coarse, "", _words(alike, model, (place, values)))
 
 

@@ -7,11 +7,11 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from scene.files.reading import InvalidInput, whole
+from scene.files.reading import InvalidInput
 from scene.motion import PRESSES
 from scene.numeric_input import one_by_one
 from scene.printable import brief
-from scene.quantities import SPEED
+from scene.quantities import SPEED, Unit
 
 from ...solving.cost import MOST_VALUES
 
@@ -28,43 +28,31 @@ def values_of(name: str, given: Any, least: float | None = None) -> tuple[float,
     least : 0 where zero is allowed too
     """
     single = isinstance(given, str) or getattr(given, "ndim", None) == 0 or not isinstance(given, Iterable)
+    unit, found = SPEED if name == "speed" else PRESSES[name], list[float]()
     try:
-        parts = [given] if single else list(islice(one_by_one(given), MOST_VALUES + 1))
-    except ValueError as error:
-        raise InvalidInput(f"{name} = {brief(repr(given))}: {error}") from None
-    found = [number for part in parts for number in _numbers(name, part, least)]
-    if len(found) > MOST_VALUES:
-        raise InvalidInput(f"{name}: more than {MOST_VALUES:,} values: at most so many are solved at")
-    if not found or len(set(found)) < len(found):
-        raise InvalidInput(f"{name} = {brief(repr(parts))}: at least one, and each once")
+        for part in [given] if single else islice(one_by_one(given), MOST_VALUES + 1):
+            found += _numbers(unit, part)
+            if len(found) > MOST_VALUES:
+                raise ValueError(f"at most {MOST_VALUES:,} values")
+        if not all(isfinite(each) and (each > 0 or each == least) for each in found):
+            raise ValueError(f"finite numbers {'of zero or more' if least == 0 else 'above zero'}")
+        if not found or len(set(found)) < len(found):
+            raise ValueError("at least one, and each once")
+    except (ValueError, OverflowError) as error:
+        reason = str(error).removeprefix("Input should be ")
+        raise InvalidInput(f"{name} = {brief(repr(given))}: {reason}") from None
     return tuple(sorted(found))
 
 
-def _numbers(name, given, least) -> Iterator[float]:
+def _numbers(unit: Unit, given: Any) -> Iterator[float]:
     """Numbers of one item, of which a text may state several."""
     for part in given.split(",") if isinstance(given, str) else [given]:
-        low, dots, rest = part.partition("..") if isinstance(part, str) else (part, "", "")
-        if not dots:
-            yield _number(name, part, least)
+        ends, colon, count = part.partition(":") if isinstance(part, str) else (part, "", "")
+        if not (isinstance(ends, str) and ".." in ends):
+            yield float(unit.value(part))
             continue
-        high, colon, count = rest.partition(":")
-        first, last = (_number(name, end, None) for end in (low, high))
-        points = 1 + round(TO_A_DECADE * abs(log10(last / first)))
-        if colon:
-            told = f"{name} = {brief(repr(part))}: points"
-            points = whole(told, int(count) if count.strip().isdecimal() else count, MOST_VALUES)
-        yield from np.geomspace(first, last, max(2, points)).tolist()
-
-
-def _number(name, given, least):
-    allowed = "finite numbers of zero or more" if least == 0 else "finite numbers above zero"
-    try:
-        value = float((SPEED if name == "speed" else PRESSES[name]).value(given))
-        wrong = "" if isfinite(value) and (value > 0 or value == least) else allowed
-    except OverflowError:  # of a whole number beyond those of floating point
-        wrong = allowed
-    except ValueError as error:
-        wrong = f"{allowed}, {str(error).removeprefix('Input should be ')}"
-    if wrong:
-        raise InvalidInput(f"{name} = {brief(repr(given))}: {wrong}")
-    return value
+        first, last = (float(unit.value(end)) for end in ends.split("..", 1))
+        if not (first > 0 and last > 0 and isfinite(first + last)):
+            raise ValueError("a range has finite ends above zero")
+        points = int(count) if colon else 1 + round(TO_A_DECADE * abs(log10(last / first)))
+        yield from np.geomspace(first, last, min(max(2, points), MOST_VALUES + 1)).tolist()
