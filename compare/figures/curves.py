@@ -22,24 +22,21 @@ LONGEST = 1 / 3
 def panels_of(points: DataFrame, others: Sequence[DataFrame | None], *columns: str) -> list[tuple[str, list[Any]]]:
     """Title of each panel, and its rows of some tables, by the first of some columns that the first table has.
 
-    Every scene has a panel; of loads, depths and rates the least, a middle and the greatest have one.
+    The least load, depth or rate, a middle one and the greatest have a panel.
     """
     column = next((each for each in columns if each in points), None)
     if column is None:
         return [("", [points, *others])]
-    places = few(points[column], PANELS) if column in UNITS else points[column].unique()
     return [
         (
             _title(column, place),
             [None if each is None else each[each[column] == place] for each in (points, *others)],
         )
-        for place in places
+        for place in few(points[column], PANELS)
     ]
 
 
 def _title(column: str, place: Any) -> str:
-    if column not in UNITS:
-        return style.literal(str(place))
     return EngFormatter(UNITS[column])(float(f"{place:.3g}")) if place else "at rest"
 
 

@@ -1,4 +1,4 @@
-"""Friction against speed of every model, at up to three loads or depths or of several scenes; below, ratios."""
+"""Friction against speed of every model, at up to three loads or depths; below, ratios."""
 
 from collections.abc import Sequence
 from math import ceil
@@ -14,7 +14,6 @@ from .plot import Plot, Tables
 
 NAME = "friction-speed"
 RATIOS, LINES = "-ratios", "-lines"
-PLACES = "case", "load", "depth"
 THEORY, EQ_19, SMOOTH = KINDS = "theory", "Eq. 19", "smooth"
 
 
@@ -27,8 +26,8 @@ def plot(
 ) -> Plot | None:
     """Plot of friction against speed; None where nothing slides.
 
-    points : model, speed [m/s], friction_coefficient_mean, _low and _high; case (name of a scene), else load [N]
-        or depth [m], where there are several panels
+    points : model, speed [m/s], friction_coefficient_mean, _low and _high; load [N] or depth [m] where there
+        are several panels
     ratios : model, body ("rough", "smooth"), speed, ratio, ratio_low and ratio_high: friction over that of the
         reference, in the same panels
     lines : model, speed, friction_coefficient, and kind, one of KINDS, in the same panels
@@ -42,7 +41,7 @@ def plot(
 
 
 def figure(tables: Tables) -> Figure:
-    """A panel for each load, depth or scene; at most three side by side."""
+    """A panel for each load or depth; at most three side by side."""
     return against(NAME, tables, "speed", (AXES["speed"][1], "friction coefficient [1]"), "friction_coefficient")
 
 
@@ -54,7 +53,7 @@ def against(
     slow : where along the axis the ratio is 2 as derived for low speed
     """
     points, ratios, lines = tables[name], tables.get(f"{name}{RATIOS}"), tables.get(f"{name}{LINES}")
-    places = panels_of(points, (ratios, lines), *PLACES)
+    places = panels_of(points, (ratios, lines), "load", "depth")
     heights = (1.0,) if ratios is None else (2.2, 1.0)
     wide, deep = min(len(places), PANELS), ceil(len(places) / PANELS)
     drawing = style.canvas("single" if wide == 1 else "double", 0.9 + deep * sum(heights))

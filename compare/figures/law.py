@@ -12,9 +12,9 @@ NAME, SHARE = "law", "law-share"
 
 
 def plot(points: DataFrame, share: DataFrame, missed: str = "", folder: str = "") -> Plot:
-    """Plot of the master curve of one series or of several.
+    """Plot of the master curve of one series.
 
-    points : series (title), speed [m/s], pressure_ratio (x), share_of_full_contact (S of x), measured_share,
+    points : speed [m/s], pressure_ratio (x), share_of_full_contact (S of x), measured_share,
         measured_share_low and measured_share_high; claimed, false where the law claims nothing
     share : pressure_ratio, share_of_full_contact_low and share_of_full_contact_high over all speeds
     missed : misfit in words
@@ -40,24 +40,18 @@ def figure(tables: Tables, missed: str = "") -> Figure:
     below.axhline(0, **style.line(0, 0.8))
     logs = np.log(points.filter(like="measured_share").where(lambda share: share > 0))
     off = logs.sub(np.log(points["share_of_full_contact"]), axis=0)
-    points = points.assign(body=points["series"].str.partition(", ")[0])
     for numbers in (points, off):
         numbers.loc[~points["claimed"], ["measured_share_low", "measured_share_high"]] = np.nan
-    markers = dict(zip(points["body"].unique(), style.SERIES_MARKERS, strict=False))
 
-    def look(body, speed, claimed):
-        own = {"color": shades.SPEED(scale(speed)), "marker": markers[body], "linestyle": "none"}
+    def look(speed, claimed):
+        own = {"color": shades.SPEED(scale(speed)), "marker": "o", "linestyle": "none"}
         return own if claimed else own | {"markerfacecolor": style.paper()}
 
     for axes, numbers, times in ((above, points, 1), (below, points.assign(**off), 100)):
-        curves(axes, numbers, "pressure_ratio", "measured_share", times, ("body", "speed", "claimed"), look)
+        curves(axes, numbers, "pressure_ratio", "measured_share", times, ("speed", "claimed"), look)
     above.set(xscale="log", yscale="log", ylabel="share of full contact [1]")
     limit(above, points, "measured_share")
     below.set(title=missed, xlabel=r"$x = p\,/\,p_\mathrm{rms}$ [1]", ylabel="off S(x) [%]")
-    entries = [
-        style.entry(style.literal(name), marker=marker) for name, marker in markers.items() if len(markers) > 1
-    ]
-    if not points["claimed"].all():
-        entries.append(style.entry("not claimed", markerfacecolor=style.paper()))
-    style.finish(drawing, 3, *entries, *shades.key(shades.SPEED, points["speed"], "m/s"))
+    hollow = [] if points["claimed"].all() else [style.entry("not claimed", markerfacecolor=style.paper())]
+    style.finish(drawing, 3, *hollow, *shades.key(shades.SPEED, points["speed"], "m/s"))
     return drawing

@@ -223,7 +223,7 @@ def _law(found: LawPoints, findings: Sequence[Finding], folder: str) -> Plot:
     numbers = {name: found.law.measured(each) for name, each in mu.columns("measured_share").items()}
     numbers |= {"pressure_ratio": found.law.x, "share_of_full_contact": found.law.share}
     numbers |= {"height_over_depth": found.height}
-    points = _at(found.series.curves[ROUGH], numbers)[found.counted.ravel()].assign(series=found.series.title)
+    points = _at(found.series.curves[ROUGH], numbers)[found.counted.ravel()]
     points["claimed"] = points["height_over_depth"] <= SHALLOW
     x = np.geomspace(points["pressure_ratio"].min(), points["pressure_ratio"].max(), 101)
     shares = np.array([share(x) for share in found.curves])
