@@ -166,7 +166,7 @@ class Models:
             raise InvalidInput(f"reference = {brief(repr(reference))}: one of {', '.join(names)} is allowed")
         return cls(tuple(found), by_name[reference.lower()] if reference else _reference(names))
 
-    def telling(self, pressed_by: str, slides: bool) -> "Models":
+    def claiming(self, pressed_by: str, slides: bool) -> "Models":
         """Models with a claim on some contacts, see `Model.tells`. Raises InvalidInput where there is none."""
         found = tuple(each for each in self.models if each.tells(pressed_by, slides))
         names = [each.name for each in found]

@@ -18,7 +18,7 @@ from scene.printable import brief
 
 from ..figures.plot import Plot
 from ..solving.digest import PACKAGES
-from ..solving.folders import FORMAT, Stated, clear, hold, read, write
+from ..solving.folders import FORMAT, Stated, clear, lock, read, write
 from ..solving.folders import MANIFEST as NAME
 from .page import Page
 
@@ -138,7 +138,7 @@ def folders(folder: str | Path) -> Iterator[tuple[Path, Manifest]]:
             f"{brief(str(folder))}: no {NAME} here or one level below: no command has written this folder"
         )
     for path in paths:
-        with hold([path.parent]):
+        with lock([path.parent]):
             yield path.parent, read(path, Manifest)
 
 

@@ -58,7 +58,7 @@ def locks(folder: Path) -> bool:
 
 
 @contextmanager
-def hold(folders: Iterable[Path], say: Callable[[str], Any] | None = None) -> Iterator[None]:
+def lock(folders: Iterable[Path], say: Callable[[str], Any] | None = None) -> Iterator[None]:
     """Folders for this run alone; they are made.
 
     say : told where nothing keeps other runs out; absent, of whoever only reads, nothing is made, a folder without

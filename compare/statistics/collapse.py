@@ -44,16 +44,16 @@ class Alignment:
         of the speed, least squares (2, S + 1)
     rms : of ln mu about the common curve, with scatter
     misfit : of ln mu about the common curve, without what scatter adds
-    mended : of that misfit, what vertical shifts would take away to first order
+    gain_from_vertical_shift : of that misfit, what vertical shifts would take away to first order
     curve : ln mu of ln F, that of the middle speed
-    reason : why the shifts are not known; empty where they are. Where the curves part, misfit and mended are those
-        at the least overlap of neighbours, and all else but rms is NaN
+    reason : why the shifts are not known; empty where they are. Where the curves part, misfit and gain are those at
+        the least overlap of neighbours, and all else but rms is NaN
     """
 
     shifts: Estimated
     rms: float
     misfit: RmsMisfit = UNKNOWN
-    mended: RmsMisfit = UNKNOWN
+    gain_from_vertical_shift: RmsMisfit = UNKNOWN
     curve: Chebyshev | None = field(default=None, repr=False)
     reason: str = ""
 
@@ -182,7 +182,7 @@ def collapse(data: FrictionCurves) -> Collapse:
         # Of a misfit of any direction as much lies along a gradient, 19 times in 20.
         horizontal = _widened(horizontal, exponent_bias(along, 2 * _known(horizontal.misfit)))
     elif not raised.reason:
-        horizontal = replace(horizontal, mended=_taken(complete, along, both))
+        horizontal = replace(horizontal, gain_from_vertical_shift=_taken(complete, along, both))
     return Collapse(
         data=complete,
         log_friction=complete.replicates(along.fit.y, complete.deviations()).estimated,
@@ -276,14 +276,18 @@ def _aligned(data: FrictionCurves, fit: Fit, sought: Callable[[Fit], Common]) ->
     def numbers(part):
         found = sought(replace(fit, curves=part.curves))
         missed, mending = found.residuals, _outside(found.tangent, found.fit.later)
-        return {"shifts": found.shifts, "misfit": missed, "mended": mending @ (mending.T @ missed)}
+        return {
+            "shifts": found.shifts,
+            "misfit": missed,
+            "gain_from_vertical_shift": mending @ (mending.T @ missed),
+        }
 
     found, best = data.resampled(numbers), sought(fit)
     # The common polynomial as the curve of the middle speed has it.
     along, lift = -best.shifts[:, 0]
     curve = Chebyshev(best.coefficients, domain=np.array([best.x.min(), best.x.max()]) - along) - lift
-    misfit, mended = (found[name].rms for name in ("misfit", "mended"))
-    return Alignment(found["shifts"].estimated, _rms(best.residuals), misfit, mended, curve)
+    misfit, gain_from_vertical_shift = (found[name].rms for name in ("misfit", "gain_from_vertical_shift"))
+    return Alignment(found["shifts"].estimated, _rms(best.residuals), misfit, gain_from_vertical_shift, curve)
 
 
 def _outside(tangent, others):

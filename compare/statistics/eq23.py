@@ -81,7 +81,7 @@ ALONE = Claim(
     meaning=_POWER,
 )
 NO_SHIFT = "none, as these shifts do not bring the curves onto one"
-MISFIT, MENDED = attrgetter("horizontal.misfit"), attrgetter("horizontal.mended")
+MISFIT, GAIN = attrgetter("horizontal.misfit"), attrgetter("horizontal.gain_from_vertical_shift")
 LEFT = attrgetter("both.misfit")
 _Number = TypeVar("_Number", RmsMisfit, Estimated)
 TOO_FEW = "too few points have an answer on half of the surfaces"
@@ -101,8 +101,8 @@ def findings(
 ) -> Iterator[Finding]:
     """Every finding on the shifts of one set of curves, that on horizontal shifts alone first.
 
-    Where friction itself is shifted (`raised`), the exponent is that of the fit of both shifts, and what vertical
-    shifts mend is reported without a claim: little to mend does not say that there is no shift.
+    Where friction itself is shifted (`needs_vertical_shift`), the exponent is that of the fit of both shifts, and
+    what vertical shifts mend is reported without a claim: little to mend does not say that there is no shift.
 
     coarse : the collapse on a grid of half the points; None of data without a grid, which have no error of one
     shifts : ln p(v) that the theory predicts, for `fine.speeds` (S,) or by speed; None where it predicts none
@@ -111,7 +111,7 @@ def findings(
     horizontal : whether these are the only shifts that are asked about, as in the paper
     place : other fields of a `Finding`, such as where; the number of draws is that of the fit unless it is stated
     """
-    both = not horizontal and raised(fine, coarse)
+    both = not horizontal and needs_vertical_shift(fine, coarse)
     parted, straight = fine.horizontal.reason, fine.inseparable
     if shifts is not None and not isinstance(shifts, Mapping):
         shifts = dict(zip(fine.speeds.tolist(), shifts, strict=True))
@@ -122,7 +122,7 @@ def findings(
 
     yield told(COLLAPSE, MISFIT, straight or _unless_beyond(MISFIT(fine), parted))
     vertical = replace(VERTICAL, tolerance=nan) if both else VERTICAL
-    yield told(vertical, MENDED, straight or _unless_beyond(MENDED(fine), parted))
+    yield told(vertical, GAIN, straight or _unless_beyond(GAIN(fine), parted))
     if shifts is not None:
         known = shifts
         yield told(
@@ -147,14 +147,14 @@ def findings(
             yield told(claim, (lambda found: Estimated(nan, nan, 0)) if reason else attrgetter(name), reason)
 
 
-def raised(fine: Collapse, coarse: Collapse | None = None) -> bool:
+def needs_vertical_shift(fine: Collapse, coarse: Collapse | None = None) -> bool:
     """Whether the fit of both shifts is the answer, and horizontal ones alone are its alternative.
 
     Where both can be told apart and bring the curves onto one, the interval of the vertical exponent has to leave
     out nil. Nearly straight lines tell them apart so little that the interval is found from a tangent that does
     not hold; there vertical shifts have to take something from the misfit, too.
     """
-    if _neither(fine, coarse) or not MENDED(fine).interval()[0] > ROUNDING:
+    if _neither(fine, coarse) or not GAIN(fine).interval()[0] > ROUNDING:
         return False
     grid = coarse.both.vertical_exponent if coarse else None
     low, high = finding(NOT_SHIFTED, fine.both.vertical_exponent, grid).interval

@@ -18,7 +18,7 @@ from ..figures.rendering import FORMS
 from ..report import manifest, render
 from ..solving import netcdf, runner
 from ..solving.executors import counted
-from ..solving.folders import Unwritable, hold, make
+from ..solving.folders import Unwritable, lock, make
 from ..solving.runner import Progress, SweepResult
 from ..solving.store import Store
 from ..solving.suggest import known
@@ -63,7 +63,7 @@ def run(
     if Path(study.place).parts[:1] == (SOLVED,):
         raise InvalidInput(f"place = {study.place}: this folder holds the solved contacts, choose another place")
     _make_folders(output, [SOLVED] if cost.contacts else [], study.place)
-    with hold((output, below), progress.said):
+    with lock((output, below), progress.said):
         if cost.contacts:
             progress.said(str(cost))
         done = _answered(study, output, workers, scheduler, executor, yes, limit, progress)

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from compare.solving.folders import hold
+from compare.solving.folders import lock
 from compare.solving.outcome import Outcome, Row
 from compare.solving.runner import sweep
 from compare.solving.store import Store
@@ -26,5 +26,5 @@ def solved(
 ) -> Mapping[Task, Outcome]:
     """Answers of tasks; what has been solved once lies in the folder `solved` beside the numbers of the page."""
     store = Store(page.with_suffix("") / "solved")
-    with hold([store.folder], print), Shown() as shown, shown.solving() as progress:
+    with lock([store.folder], print), Shown() as shown, shown.solving() as progress:
         return sweep(tasks, store, workers, progress, fresh=fresh).outcomes

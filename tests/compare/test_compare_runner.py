@@ -19,7 +19,7 @@ from compare.solving import runner
 from compare.solving import task as solving
 from compare.solving.digest import code_of
 from compare.solving.executors import MOST_FAILED_STARTS, ONE_THREAD, Processes, Workers
-from compare.solving.folders import hold
+from compare.solving.folders import lock
 from compare.solving.outcome import Outcome, Row
 from compare.solving.runner import sweep
 from compare.solving.store import Store
@@ -221,7 +221,7 @@ def test_workers_that_end_as_they_start_are_an_error_at_once(tmp_path, monkeypat
 
 def test_a_worker_that_runs_the_script_which_asked_for_it_ends_before_it_has_a_folder(tmp_path, monkeypatch):
     monkeypatch.setattr(multiprocessing.current_process(), "_inheriting", True, raising=False)
-    with pytest.raises(SystemExit), hold([tmp_path / "output"], str):
+    with pytest.raises(SystemExit), lock([tmp_path / "output"], str):
         pass
     assert not (tmp_path / "output").exists()
 
@@ -238,14 +238,14 @@ from pathlib import Path
 from stand_in_solver import Here, Stand, loads
 from compare.solving.digest import code_of
 from compare.solving.executors import ONE_THREAD, MOST_FAILED_STARTS, Processes, Workers
-from compare.solving.folders import hold
+from compare.solving.folders import lock
 from compare.solving.store import Store
 from compare.solving.runner import sweep
 
 if __name__ == "__main__":
     folder = Path(sys.argv[1])
     tasks = loads(*map(float, range(1, 13)), solver=Stand(marks=str(folder), seconds=0.05))
-    with hold([folder], print):
+    with lock([folder], print):
         sweep(tasks, Store(folder / "solved"), workers=1)
 """
 
@@ -273,11 +273,11 @@ def test_a_folder_is_held_until_the_run_that_has_it_ends_or_is_killed(tmp_path):
     with pytest.raises(InvalidInput, match=re.escape(f"{store.folder}: another run holds")):
         len(store)
     for say in (said.append, None):
-        with pytest.raises(InvalidInput, match=re.escape(f"{tmp_path}: another run holds")), hold([tmp_path], say):
+        with pytest.raises(InvalidInput, match=re.escape(f"{tmp_path}: another run holds")), lock([tmp_path], say):
             pass
     os.killpg(other.pid, signal.SIGKILL)
     other.communicate()
-    with hold([tmp_path], said.append), pytest.raises(InvalidInput), hold([tmp_path]):  # and no thread twice
+    with lock([tmp_path], said.append), pytest.raises(InvalidInput), lock([tmp_path]):  # and no thread twice
         pass
     assert said == []
     tasks = loads(*map(float, range(1, 13)), solver=Stand(marks=str(tmp_path), seconds=0.05))

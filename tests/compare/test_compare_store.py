@@ -23,7 +23,7 @@ from strategies import examples
 from compare.models.exact import Exact
 from compare.solving import folders
 from compare.solving.digest import canonical, digest, key
-from compare.solving.folders import LOCK, clear, hold, make, write
+from compare.solving.folders import LOCK, clear, lock, make, write
 from compare.solving.outcome import NUMBERS, Outcome, Row
 from compare.solving.store import FILE, Store, _covering
 from compare.solving.task import SceneTask as Task
@@ -280,7 +280,7 @@ def test_a_folder_that_nobody_may_write_can_be_read(unprivileged, ended):
     with pytest.raises(PermissionError) as caught:
         Store(unprivileged).put(TASK, Outcome((ROW,)))
     assert caught.value.filename == str(unprivileged)
-    with hold([unprivileged]):
+    with lock([unprivileged]):
         pass
 
 
@@ -302,7 +302,7 @@ def test_a_folder_that_cannot_be_locked_is_said_and_used(tmp_path, monkeypatch):
 
     monkeypatch.setattr(folders.sqlite3, "connect", connect)
     said = []
-    with hold([tmp_path], said.append):
+    with lock([tmp_path], said.append):
         assert os.listdir(tmp_path) == [LOCK]
         tasks, *_ = three(tmp_path)
         assert found(tmp_path, tasks) == [0, 1, 2]
@@ -413,7 +413,7 @@ def test_files_and_folders_have_the_permissions_of_the_user_s_others(tmp_path, m
     try:
         make(tmp_path / "page")
         write(tmp_path / "page" / "results.nc", lambda file: file.write(b"1"))
-        with hold([tmp_path / "page"], str):
+        with lock([tmp_path / "page"], str):
             Store(tmp_path / "page" / "solved").put(PICTURE, Outcome((ROW,), {"x": np.arange(3.0)}))
     finally:
         os.umask(before)

@@ -287,7 +287,7 @@ def _curve(case: Case, models: Models, scene: Scene, speeds, values, keeps_field
     """Contacts on the grid of each model, and on half its points where that is a grid of the same surface."""
     plan, motion = case.plan(), scene.motion
     sliding = any(speeds) or (isinstance(motion, Program) and motion.length > 0) or isinstance(motion, Shear)
-    own = models.telling(motion.pressed_by, sliding)
+    own = models.claiming(motion.pressed_by, sliding)
     found = Curve(
         scene=scene,
         speeds=tuple(speeds),

@@ -70,7 +70,7 @@ class RoughSeries(Series):
     @cached_property
     def models(self) -> Models:  # type: ignore[override]
         """Models with a claim on its contacts, which are compared. Raises InvalidInput."""
-        return self.every_model.telling(self.prescribed, self.slides)
+        return self.every_model.claiming(self.prescribed, self.slides)
 
     @property
     def pressed_in(self) -> bool:
