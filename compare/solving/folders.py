@@ -79,12 +79,12 @@ def lock(folders: Iterable[Path], say: Callable[[str], Any] | None = None) -> It
                     if not locks(folder):
                         say("this folder cannot be locked, as on some network drives: run one at a time")
                         continue
-                lock = held.enter_context(closing(connect(folder / LOCK, "rw" if say else "ro")))
+                database = held.enter_context(closing(connect(folder / LOCK, "rw" if say else "ro")))
                 if say:
-                    _lock(lock)
+                    _lock(database)
                 else:
-                    lock.execute("BEGIN")
-                    lock.execute("SELECT * FROM sqlite_master")
+                    database.execute("BEGIN")
+                    database.execute("SELECT * FROM sqlite_master")
             except (OSError, sqlite3.Error) as error:
                 if isinstance(error, sqlite3.Error) and code_of(error) == sqlite3.SQLITE_BUSY and locks(folder):
                     raise held_by_another(folder) from None

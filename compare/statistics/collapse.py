@@ -46,8 +46,8 @@ class Alignment:
     misfit : of ln mu about the common curve, without what scatter adds
     gain_from_vertical_shift : of that misfit, what vertical shifts would take away to first order
     curve : ln mu of ln F, that of the middle speed
-    reason : why the shifts are not known; empty where they are. Where the curves part, misfit and gain are those at
-        the least overlap of neighbours, and all else but rms is NaN
+    reason : why the shifts are not known; empty where they are. Where the curves part, misfit and gain are those
+        at the least overlap of neighbours, and all else but rms is NaN
     """
 
     shifts: Estimated

@@ -154,7 +154,7 @@ class Mastercurve(Study):
     @cached_property
     def lead(self) -> Alignment:
         """Alignment that is the answer: by both shifts where friction itself is shifted, else along the load."""
-        return self.collapse.both if eq23.raised(self.collapse) else self.collapse.horizontal
+        return self.collapse.both if eq23.needs_vertical_shift(self.collapse) else self.collapse.horizontal
 
     def judge(self, answers: xarray.DataTree) -> Judgement:
         findings = self._findings()
