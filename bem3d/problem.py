@@ -15,10 +15,8 @@ from .grid import Grid
 from .motion.steady import Flow
 from .response.cell import Cell
 from .response.engine import Engine
-from .response.foundation import Foundation
-from .response.halfspace import HalfSpace
-from .response.line import Line
-from .response.responsekernel import HalfSpaceKernel
+from .response.halfspace import HalfSpace, Line
+from .response.medium import Foundation, HalfSpaceKernel
 from .surface import RoughSurface
 from .terms import TERMS
 

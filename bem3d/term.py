@@ -1,8 +1,9 @@
-"""Term of the boundary elements: their treatment of one part of a scene."""
+"""Term of the boundary elements: their treatment of one part of a scene; heating as in every solver."""
 
 from typing import Any
 
 from scene import Result, Scene, terms
+from scene.effects.terms import Heated
 
 from .grid import Grid
 
@@ -20,3 +21,7 @@ class Term(terms.Term):
         problem : the `Problem` that was solved, on the grid
         """
         return result
+
+
+class HeatedContact(Heated, Term):
+    """A contact that its friction heats, solved again until it is as warm as that makes it, if asked for."""

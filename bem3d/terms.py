@@ -22,9 +22,8 @@ from scene.surfaces.isotropic import Isotropic
 from scene.terms import Table
 
 from .contact.shear import Drawn, Interface
-from .heating import HeatedContact
 from .response.layer import LayerTerm
-from .term import Term
+from .term import HeatedContact, Term
 from .topography import FittedRoughness, MeasuredRoughness
 
 __all__ = ["TERMS", "Term"]

@@ -5,7 +5,7 @@ from scene.quantities import WHOLE, takes
 from scene.surfaces.isotropic import Isotropic
 from scene.surfaces.roughness import Roughness
 
-from . import measuredline, surface, topography
+from . import surface, topography
 from .surface import Spectrum, Surface
 
 
@@ -16,7 +16,7 @@ def draw(roughness: Roughness, nodes: int, spectrum: Spectrum = "mapped") -> Sur
         case Topography():
             return topography.draw(roughness, nodes, spectrum)
         case Profile() if spectrum == "line-scan":
-            return measuredline.draw(roughness, nodes)
+            return topography.draw_line(roughness, nodes)
         case Profile():
             return surface.draw(roughness.fitted, nodes)
         case Isotropic():

@@ -1,6 +1,7 @@
-"""Term of the one-dimensional foundation: its treatment of one part of a scene."""
+"""Term of the one-dimensional foundation: its treatment of one part of a scene; heating as in every solver."""
 
 from scene import Result, terms
+from scene.effects.terms import Heated
 
 
 class Term(terms.Term):
@@ -9,3 +10,7 @@ class Term(terms.Term):
     def completed(self, result: Result) -> Result:
         """The answer with what the part adds once the normal contact is found."""
         return result
+
+
+class HeatedContact(Heated, Term):
+    """A contact that its friction heats, solved again until it is as warm as that makes it, if asked for."""

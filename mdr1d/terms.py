@@ -21,11 +21,9 @@ from scene.solids.viscoelastic import Linear
 from scene.surfaces.isotropic import Isotropic
 from scene.terms import Table, unsupported
 
-from .heating import HeatedContact
-from .measuredline import FittedRoughness
 from .tangential import Drawn, Interface
-from .term import Term
-from .topography import MeasuredRoughness
+from .term import HeatedContact, Term
+from .topography import FittedRoughness, MeasuredRoughness
 
 __all__ = ["TERMS", "Term"]
 

@@ -1,4 +1,4 @@
-"""Rough lines of a measured map: drawn from its spectrum by the rule of the MDR, or one of its rows."""
+"""Rough lines of what was measured: of a map by its spectrum or one of its rows, of a line by itself."""
 
 from dataclasses import replace
 from functools import lru_cache
@@ -6,7 +6,8 @@ from math import nan, pi, sqrt
 
 import numpy as np
 
-from scene import Scene, Topography
+from scene import Profile, Scene, Topography
+from scene.files.parts import said
 
 from .surface import Band, LineFamily, Spectrum, Surface, band_of, through
 from .term import Term
@@ -18,6 +19,15 @@ class MeasuredRoughness(Term):
     def refusals(self, scene: Scene) -> list[str]:
         """Reasons to refuse maps with more waves than fit in memory."""
         return [] if self.part.crowded is None else [f"roughness = Topography has {self.part.crowded}"]
+
+
+class FittedRoughness(Term):
+    """A measured line as the surface that is fitted to it; as a line scan, it is itself the rough line."""
+
+    @property
+    def says(self) -> str:
+        """The line, and the surface from which lines are drawn."""
+        return f'{said(self.part)} by {said(self.part.fitted)}; with spectrum = "line-scan" the line itself'
 
 
 def amplitudes(topography: Topography) -> np.ndarray:
@@ -57,3 +67,8 @@ def _row(topography: Topography, nodes: int, band: Band) -> Surface:
     y = (count // 2 + rows - (count - 1) / 2) * topography.pixel[1]
     found = waves.row(y) * np.exp(1j * waves.along_x[1:] * columns * topography.pixel[0])
     return through(found, nodes, band)
+
+
+def draw_line(profile: Profile, nodes: int) -> Surface:
+    """One period of the measured line on so many nodes, the point of its seed at the tip."""
+    return through(profile.waves, nodes, band_of(profile, "line-scan"))

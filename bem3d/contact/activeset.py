@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..response.foundation import Foundation
+from ..response.medium import Foundation
 from . import sums
 from .krylov import conjugate_gradients, direct, gmres
 

@@ -9,13 +9,11 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.fft import fftfreq, rfft2, rfftfreq
 
-from ..grid import Grid
+from ..grid import Grid, cached_on_small_grids
 from ..motion.steady import Flow
 from .convolution import PeriodicFilter
 from .engine import Engine
-from .foundation import Foundation
-from .gridcache import cached_on_small_grids
-from .responsekernel import HALF_SPACE, ResponseKernel
+from .medium import HALF_SPACE, Foundation, ResponseKernel
 
 
 @dataclass(frozen=True)

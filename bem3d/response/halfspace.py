@@ -1,4 +1,4 @@
-"""A surface that ends nowhere: what a pressure does to a half-space, or to what else lies below.
+"""A surface, or a line, that ends nowhere: what a pressure does to a half-space, or to what else lies below.
 
 Pressures are in units of the relaxed E* and displacements in pixels. The surface arrives undisturbed.
 """
@@ -7,13 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..grid import Grid, Piece
+from ..grid import Grid, Piece, cached_on_small_grids
 from ..motion.steady import Flow
 from .convolution import FreeConvolution, PeriodicFilter, autocorrelation, free_symbol
 from .engine import Engine
-from .foundation import Foundation
-from .gridcache import cached_on_small_grids
-from .responsekernel import HALF_SPACE, ResponseKernel
+from .medium import HALF_SPACE, Foundation, ResponseKernel
 
 LEAST_DIFFERENCE = 1e-3  # memory [pixel] down to which losses are taken from differences of kernels
 
@@ -96,3 +94,14 @@ class HalfSpace:
 
     def _flowing(self, grid, instantaneous, shares, lengths, shift):
         return self.kernel.flowing(grid, instantaneous, shares, lengths, shift)
+
+
+@dataclass(frozen=True)
+class Line(HalfSpace):
+    """The free surface under a load that is the same all along y; the depth of a half-space needs a datum."""
+
+    def _elastic(self, grid):
+        return self.kernel.line(grid)
+
+    def _flowing(self, grid, instantaneous, shares, lengths, shift):
+        return self.kernel.line_flowing(grid, instantaneous, shares, lengths, shift)

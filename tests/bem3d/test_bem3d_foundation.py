@@ -8,7 +8,7 @@ from bem3d import BEM
 from bem3d.contact import sums as kernels
 from bem3d.grid import Grid
 from bem3d.motion.steady import Flow
-from bem3d.response.foundation import MERGED, Foundation
+from bem3d.response.medium import MERGED, Foundation
 from scene import Kelvin, Prony, Scene, SelfAffine, Slide, Sphere, StandardLinearSolid
 
 ROWS, POINTS = 11, 40  # more rows than are marched side by side, and not a multiple

@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 
 from bem3d import BEM, surface
-from bem3d.grid import Grid
+from bem3d.grid import KEPT, SIZES, Grid, cached_on_small_grids
 from bem3d.motion.steady import Flow
 from bem3d.response import influence
 from bem3d.response.engine import Engine
-from bem3d.response.gridcache import KEPT, SIZES, cached_on_small_grids
 from bem3d.response.halfspace import HalfSpace
 from scene import Cone, Elastic, Indent, Kelvin, Plane, Scene, SelfAffine, Slide, Sphere
 

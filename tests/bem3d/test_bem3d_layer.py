@@ -12,10 +12,9 @@ from bem3d.grid import Grid
 from bem3d.motion.steady import Flow
 from bem3d.response import influence
 from bem3d.response.engine import Engine
-from bem3d.response.halfspace import HalfSpace
+from bem3d.response.halfspace import HalfSpace, Line
 from bem3d.response.layer import FALSIFIED, Layered
 from bem3d.response.layerwaves import Bonded, Frictionless
-from bem3d.response.line import Line
 from compare.models.exact import full_contact
 from compare.models.exact import layer as reference
 from scene import (

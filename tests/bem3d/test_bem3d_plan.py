@@ -125,7 +125,7 @@ def built(monkeypatch):
     monkeypatch.setattr(HalfSpace, "lost", noted)
     # What is kept from another solve is built as well.
     taking.cache_clear()
-    monkeypatch.setattr("bem3d.response.gridcache.SIZES", ())
+    monkeypatch.setattr("bem3d.grid.SIZES", ())
     forget_kernels(monkeypatch)
     return found
 
