@@ -4,19 +4,46 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields
 from functools import cached_property
 from itertools import product
+from math import log
 from typing import Any, TypeAlias
 
 import numpy as np
-from regions import BODIES, COVERED, REGIONS, SPEEDS, SURFACES
 from scipy.special import betaincinv, ndtr, ndtri
 
 from compare.trustmap.measured import beyond_measured, limits
 from compare.trustmap.model import NAMES, NORMAL, Measurements, Model, Predicted
 from compare.trustmap.ratio import LAW
-from compare.trustmap.regions import ROUGHNESS, Condition, parts
+from compare.trustmap.regions import FLOWS, ROUGHNESS, SHAPES, WIDENED, Condition, parts
 from compare.trustmap.table import column, measurements
 from compare.trustmap.verdict import MULTIPLY, SOLVE, USE, advice_on
 
+# Regions of the map, where errors and advice are stated, each a condition on groups.
+BODIES: dict[str, Condition] = {
+    "cone": SHAPES["cone"],
+    "sphere": SHAPES["sphere"],
+    "other powers": lambda g: (g["shape"] != 1) & (g["shape"] != 0.5),
+}
+SPEEDS: dict[str, Condition] = {
+    "at rest": lambda g: ~g["slides"],
+    "slow": lambda g: g["slides"] & FLOWS["slow"](g),
+    "fast": lambda g: g["slides"] & FLOWS["fast"](g),
+}
+SOLIDS: dict[str, Condition] = {
+    "Kelvin-like, E_g > 10^4 E_r": lambda g: g["stiffening"] > log(1e4),
+    "E_g 10^2 to 10^4 E_r": lambda g: (g["stiffening"] <= log(1e4)) & (g["stiffening"] > log(1e2)),
+    "E_g up to 10^2 E_r": lambda g: g["stiffening"] <= log(1e2),
+}
+WAVES: dict[str, Condition] = {
+    "less than 2 waves on the radius": lambda g: g["sliding_waves"] < log(2),
+    "2 to 6 waves": lambda g: (g["sliding_waves"] >= log(2)) & (g["sliding_waves"] < log(6)),
+    "more than 6 waves": lambda g: g["sliding_waves"] >= log(6),
+}
+SURFACES: dict[str, Condition] = {
+    "spectrum": lambda g: (g["side"] == 0) & (g["gaussian"] == 0),
+    "as measured": lambda g: (g["side"] > 0) | (g["gaussian"] > 0),
+}
+REGIONS = {"body": SHAPES, "speed": SPEEDS, "roughness": ROUGHNESS, "solid": SOLIDS, "waves": WAVES}
+COVERED = WIDENED | {"speed": SPEEDS}  # what coverage is stated by
 # Scenes of a regime below which nothing is said of its advice.
 FEWEST = 5
 # Scenes of a region from which on it fails if its coverage is below what was promised, with 95 % of confidence.
@@ -143,7 +170,7 @@ def scored(held_out: Mapping[str, np.ndarray], models: Mapping[str, Model]) -> d
 
 
 def of_surfaces(scores: Mapping[str, Scored], name: str) -> dict[str, Scored]:
-    """Scores on the scenes with surfaces of one kind, see `regions.SURFACES`."""
+    """Scores on the scenes with surfaces of one kind, see SURFACES."""
     found: dict[str, Scored] = {}
     for each, (score, groups) in scores.items():
         here = SURFACES[name](groups)

@@ -18,12 +18,21 @@ from typing import Any
 import design
 import numpy as np
 from campaign import solved
-from contact import GREAT, USUAL, Contact
+from contact import GREAT, USUAL, Contact, ratio_of
 from fitting import as_json, fit
 from pandas import DataFrame
-from ratios import ratio_of
-from regions import BODIES, SURFACES
-from scoring import BEST, OWN, Scored, advice_rows, coverage_rows, error_rows, of_surfaces, scored
+from scoring import (
+    BEST,
+    BODIES,
+    OWN,
+    SURFACES,
+    Scored,
+    advice_rows,
+    coverage_rows,
+    error_rows,
+    of_surfaces,
+    scored,
+)
 from tables import by_column, replaced, stored
 
 from compare.models.law.parts import LawParts

@@ -109,7 +109,7 @@ def test_the_integral_is_that_of_the_papers(ratio, gamma):
 def test_against_planes_in_three_dimensions_contact_is_too_little_slow_and_too_much_fast(
     loss, ratio, area, friction
 ):
-    """Over 3D: as stated in docs/explanation/theory.md, and full contact is right; two surfaces scatter by 15 %."""
+    """Theory over 3D, as docs/explanation/theory.md says; full contact is right. Two surfaces scatter by 15 %."""
     surface = SelfAffine(hurst=0.8, rms_height=1e-7, longest=16e-3, shortest=1e-3)
     scene = plane(ratio, loss / (2 * pi * SOLID.relaxation_time / surface.shortest), surface)
 
