@@ -8,7 +8,8 @@ from math import log
 from typing import Any, TypeAlias
 
 import numpy as np
-from scipy.special import betaincinv, ndtr, ndtri
+from scipy.special import ndtr, ndtri
+from tables import of_count
 
 from compare.trustmap.measured import beyond_measured, limits
 from compare.trustmap.model import NAMES, NORMAL, Measurements, Model, Predicted
@@ -138,13 +139,6 @@ class Score:
         width = NORMAL * np.hypot(self.predicted.error, self.predicted.scatter)
         scatter = np.maximum(np.nan_to_num(self.measured.scatter), 1e-9)
         return float(np.mean(ndtr((width - apart) / scatter) - ndtr((-width - apart) / scatter)))
-
-
-def of_count(held: int, tried: int) -> tuple[float, float]:
-    """Interval of 95 % of a share, from how many of those tried it held for (Clopper and Pearson)."""
-    low = betaincinv(held, tried - held + 1, 0.025) if held else 0.0
-    high = betaincinv(held + 1, tried - held, 0.975) if held < tried else 1.0
-    return float(low), float(high)
 
 
 # A score, and the groups of its scenes by name.
