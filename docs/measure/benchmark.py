@@ -6,9 +6,13 @@ The peers come with the extra `peers`. Every run is alone in a process of one th
 """
 
 import importlib.metadata
+import multiprocessing
 import os
 import platform
 import sys
+import time
+import timeit
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
 from datetime import date
 from math import sqrt
@@ -17,7 +21,6 @@ from pathlib import Path
 from codes import CODES, MOST, by_tamaas
 from scipy.optimize import brentq
 from tables import table, write
-from timing import alone, pair
 
 from bem3d import BEM
 from scene import Elastic, Indent, Kelvin, Plane, Refused, Scene, SelfAffine, Slide, SolveError, Sphere
@@ -44,6 +47,27 @@ def rough_plane(n: int) -> SelfAffine:
 def cell(n: int, pressure: float) -> tuple[Scene, BEM]:
     """A rough cell under a mean pressure over E*."""
     return Scene(Plane(), ELASTIC, Indent(pressure=pressure), rough_plane(n)), BEM(points=n)
+
+
+def alone(function, *arguments):
+    """The value of a call in a process of its own, on one thread."""
+    for name in ("OMP", "OPENBLAS", "MKL", "NUMBA"):
+        os.environ[f"{name}_NUM_THREADS"] = "1"
+    with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as process:
+        return process.submit(function, *arguments).result()
+
+
+def pair(n: int) -> float:
+    """Least processor seconds of one rfft2 and irfft2 of n x n by pyfftw, planned with MEASURE, one thread."""
+    import pyfftw
+
+    points, waves = pyfftw.zeros_aligned((n, n)), pyfftw.zeros_aligned((n, n // 2 + 1), complex)
+    axes = {"axes": (0, 1), "flags": ("FFTW_MEASURE", "FFTW_DESTROY_INPUT")}
+    forward = pyfftw.FFTW(points, waves, **axes)
+    backward = pyfftw.FFTW(waves, points, direction="FFTW_BACKWARD", **axes)
+    points[:] = 1.0
+    both = timeit.Timer(lambda: (forward.execute(), backward.execute()), timer=time.process_time)
+    return min(both.repeat(30, number=1))
 
 
 def measured(code, scene: Scene, solver: BEM) -> dict:

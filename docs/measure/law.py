@@ -9,8 +9,7 @@ import numpy as np
 import pandas
 from pandas import DataFrame
 from scenes import PAGE, SETS, RandomScene, scenes
-from scoring import of_count
-from tables import replaced, stored, table
+from tables import of_count, replaced, stored, table
 
 from compare import FrictionLaw, Persson
 from compare.models.law.share import FITTED

@@ -1,9 +1,8 @@
 """The share of its friction in full contact that a rough plane keeps in partial contact: rough planes, solved.
 
-python docs/measure/planes.py [WORKERS] solves what is not solved yet, and writes results/law/planes.csv
+python docs/measure/planes.py solves what is not solved yet, and writes results/law/planes.csv
 """
 
-import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from math import nan, pi
@@ -150,12 +149,12 @@ def _means(outcome):
     }
 
 
-def main(workers: int | None = None) -> None:
+def main() -> None:
     """Solve what is not solved yet, and write what was found."""
     found = list(contacts())
-    outcomes = solved(PAGE, [task for each in found for task in each.tasks], workers)
+    outcomes = solved(PAGE, [task for each in found for task in each.tasks])
     stored(PAGE.with_suffix(".csv"), rows(found, outcomes))
 
 
 if __name__ == "__main__":
-    main(*map(int, sys.argv[1:]))
+    main()

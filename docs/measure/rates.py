@@ -1,22 +1,21 @@
-"""How often the judge's intervals hold the truth and its verdicts are right: tables of results/rates.md, and .csv.
+"""How often the judge's intervals hold the truth and its verdicts are right: tables of results/rates.md.
 
 Friction is drawn with an answer that is known. It takes minutes on one core; every draw follows from SEED.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import sqrt
 from pathlib import Path
 
 import numpy as np
-from tables import stored, table, write
+from tables import table, write
 
 from compare.statistics import eq23
 from compare.statistics.collapse import Collapse, collapse
 from compare.statistics.eq23 import TOLERANCE
 from compare.statistics.frictioncurves import SimulatedCurves
 from compare.statistics.intervals import student
-from compare.statistics.jackknife import Group, mean_ratio, resample
+from compare.statistics.jackknife import mean_ratio
 from mdr1d.equations import interpolation
 
 PAGE = Path(__file__).parents[1] / "results" / "rates.md"
@@ -36,25 +35,8 @@ FIELDS = np.array(
 FIELDS /= np.sqrt(np.square(FIELDS).sum(axis=0).mean())
 # Relative: of a surface, and of a point by itself.
 SCATTER, OWN = 0.05, 0.005
-COUNTS = 3, 5, 10, 20
-RATIO_SCATTER = 0.4  # of the forces whose ratio is taken
-# Profiles in one dimension for each surface in three, as in the studies.
-PROFILES = 6
 DRAWN, SAMPLED = 20_000, (3, 5, 8, 10, 15, 20, 50)
-CHEAP, PIPELINE, SURFACES = 1000, 200, 10
-
-
-@dataclass(frozen=True)
-class Rate:
-    """How often something came out of so many repeats."""
-
-    hits: int
-    repeats: int
-
-    def __str__(self):
-        # With one more of either kind, so that the error is never nil.
-        share = (self.hits + 1) / (self.repeats + 2)
-        return f"{100 * self.hits / self.repeats:.1f} ± {100 * sqrt(share * (1 - share) / self.repeats):.1f}"
+REPEATS, SURFACES = 200, 10
 
 
 def drawn(rng: np.random.Generator, exact: np.ndarray) -> SimulatedCurves:
@@ -66,46 +48,20 @@ def drawn(rng: np.random.Generator, exact: np.ndarray) -> SimulatedCurves:
     return SimulatedCurves(SPEEDS, load, np.exp(exact[..., None] + shared + own - variance[..., None] / 2) * load)
 
 
-def exactly(exact: np.ndarray) -> SimulatedCurves:
-    """The same without scatter."""
-    load = np.broadcast_to(LOADS, exact.shape)
-    return SimulatedCurves(SPEEDS, load, np.exp(exact) * load)
-
-
 def knee(x: np.ndarray) -> np.ndarray:
     """ln of Eq. 19 for a sphere, over ln F shifted as at the middle speed."""
     return np.log(interpolation(MIDDLE * np.exp(-x * 2 / 3)))
 
 
-def friction(law: Callable = knee, power: float = POWER, vertical: float = 0.0, shape: float = 0.0) -> np.ndarray:
-    """ln mu (speeds, loads) shifted by a power of the speed, raised by another, bent by shape times ln v."""
+def friction(law=knee, vertical: float = 0.0, shape: float = 0.0) -> np.ndarray:
+    """ln mu (speeds, loads) shifted by POWER of the speed, raised by another, bent by shape times ln v."""
     bent = np.outer(ALONG, ACROSS**2 - np.mean(ACROSS**2))
-    return law(ACROSS + power * ALONG[:, None]) + vertical * ALONG[:, None] + shape * bent
+    return law(ACROSS + POWER * ALONG[:, None]) + vertical * ALONG[:, None] + shape * bent
 
 
 def generator(*cell: float) -> np.random.Generator:
     """Of one cell of a table."""
     return np.random.default_rng([SEED, *(round(1000 * number) for number in cell)])
-
-
-def has(ends: tuple, truth: float) -> bool:
-    return bool(ends[0] <= truth <= ends[1])
-
-
-@dataclass(frozen=True)
-class Pair:
-    """Forces in 1D and in 3D, whose surfaces are independent."""
-
-    one: SimulatedCurves
-    three: SimulatedCurves
-
-    @property
-    def groups(self) -> list[Group]:
-        return [*self.one.groups, *self.three.groups]
-
-    def without(self, group: Group) -> "Pair":
-        name = "one" if group.solver == self.one.solver else "three"
-        return replace(self, **{name: getattr(self, name).without(group)})
 
 
 # Means of skewed draws.
@@ -118,34 +74,6 @@ def mean_of_draws(normal: bool, variation: float, count: int) -> tuple[int, int,
     (low, high), half = found.interval(), found.error * student(0.95, found.dof)
     held = (low <= 1) & (high >= 1), np.abs(found.value - 1) <= half
     return *(int(each.sum()) for each in held), (high - low) / (2 * half)
-
-
-# Ratios of means.
-
-
-def ratio(part: SimulatedCurves | Pair) -> dict:
-    """Mean friction over mean load, or that in 1D over that in 3D."""
-    above, below = (part.one, part.three.friction_force) if isinstance(part, Pair) else (part, part.load)
-    return {"": above.friction_force.mean() / below.mean()}
-
-
-def ratios(surfaces: int, pair: bool) -> Rate:
-    """How often the interval of a ratio of means holds it; the true ratio is one."""
-    rng, hits = generator(1, surfaces, RATIO_SCATTER, pair), 0
-
-    def forces(count):
-        logs = RATIO_SCATTER * (rng.normal(size=count) + rng.normal(size=(2, count))) / sqrt(2)
-        return np.exp(logs - RATIO_SCATTER**2 / 2)
-
-    for _ in range(CHEAP):
-        three = forces(surfaces)
-        one = forces(PROFILES * surfaces) if pair else three
-        sides = [
-            SimulatedCurves(np.ones(1), load[None, None], force[None, None], solver=name)
-            for name, (load, force) in (("1D", one), ("3D", three))
-        ]
-        hits += has(resample(ratio, Pair(*sides) if pair else sides[0])[""].estimated.interval(), 1.0)
-    return Rate(hits, CHEAP)
 
 
 # Verdicts of the whole judge.
@@ -192,14 +120,10 @@ def asked(found: Collapse, theory: float) -> dict[str, tuple[float, str]]:
     return found
 
 
-def shares(counted: tuple[int, ...]) -> str:
-    return " / ".join(f"{100 * count / sum(counted):g}" for count in counted)
-
-
 def repeated(law: str) -> list[Collapse]:
     """The judge's fits of a law drawn again and again."""
     rng, exact = generator(3, list(LAWS).index(law), SURFACES, SCATTER), friction(**LAWS[law])
-    return [collapse(drawn(rng, exact)) for _ in range(PIPELINE)]
+    return [collapse(drawn(rng, exact)) for _ in range(REPEATS)]
 
 
 @dataclass(frozen=True)
@@ -224,16 +148,18 @@ class Said:
 
     def __str__(self):
         number = f"{100 * self.truth:.1f} %" if self.theory is None else f"{self.truth:.2f}".replace("-", "−")
-        return f"{number}: {shares(self.counts)}"
+        return f"{number}: " + " / ".join(f"{100 * count / sum(self.counts):g}" for count in self.counts)
 
 
 def verdicts() -> dict[str, dict[str, Said]]:
     """By row and claim."""
+    exact = {law: friction(**numbers) for law, numbers in LAWS.items()}
     fits = {law: repeated(law) for law in LAWS}
-    exact = {law: collapse(exactly(friction(**LAWS[law]))) for law in LAWS}
+    load = np.broadcast_to(LOADS, (len(SPEEDS), len(LOADS)))
     said = {}
     for row, (law, theory) in ROWS.items():
-        found, truth = [asked(each, theory) for each in fits[law]], asked(exact[law], theory)
+        found = [asked(each, theory) for each in fits[law]]
+        truth = asked(collapse(SimulatedCurves(SPEEDS, load, np.exp(exact[law]) * load)), theory)
         said[row] = {}
         for claim in CLAIMS:
             kinds = [each[claim][1] for each in found]
@@ -245,18 +171,13 @@ def verdicts() -> dict[str, dict[str, Said]]:
 # The page.
 
 
-def _row(section, case, surfaces, hits, repeats, counted="interval holds the truth"):
-    names = "section", "case", "surfaces", "counted", "hits", "repeats"
-    return dict(zip(names, (section, case, surfaces, counted, hits, repeats), strict=True))
-
-
-def _means(rows) -> str:
+def means() -> str:
+    """Share of the samples whose intervals hold the mean, by the distribution and the number of draws."""
     lines, wider, most = [], ["normal, wider by"], ["normal, at most by"]
     for kind, variation in (("normal", 0.5), ("lognormal", 0.2), ("lognormal", 0.5), ("lognormal", 1.0)):
         cells = []
         for count in SAMPLED:
             held, of_student, factor = mean_of_draws(kind == "normal", variation, count)
-            rows.append(_row("means", f"{kind}, scatter {variation:g}", count, held, DRAWN))
             cells.append(f"{100 * held / DRAWN:.1f} ({100 * of_student / DRAWN:.1f})")
             if kind == "normal":
                 wider.append(f"{factor.mean():.2f}")
@@ -265,43 +186,16 @@ def _means(rows) -> str:
     return table("draws|" + "|".join(f"n = {count}" for count in SAMPLED), [*lines, wider, most])
 
 
-def _ratios(rows) -> str:
-    lines = []
-    for pair, kind in ((False, "same surfaces"), (True, "1D over 3D")):
-        found = [ratios(surfaces, pair) for surfaces in COUNTS]
-        for surfaces, rate in zip(COUNTS, found, strict=True):
-            case = f"{kind}, scatter {RATIO_SCATTER:g}, judge"
-            rows.append(_row("ratios", case, surfaces, rate.hits, rate.repeats))
-        lines.append((kind, *map(str, found)))
-    return table("ratio|" + "|".join(f"n = {count}" for count in COUNTS), lines)
-
-
-def _verdicts(rows, said) -> str:
-    lines = []
-    for row, claims in said.items():
-        lines.append((row, *map(str, claims.values())))
-        for claim, each in claims.items():
-            for kind, count in zip(("kept", "undecided", "rejected"), each.counts, strict=True):
-                rows.append(_row("verdicts", f"{row}, {claim}", SURFACES, count, sum(each.counts), kind))
+def judged() -> str:
+    """What the judge says of each law, and of how many it is wrong at most."""
+    said = verdicts()
+    lines = ((row, *map(str, claims.values())) for row, claims in said.items())
     wrong, row, claim = max(
         (each.wrong, row, claim) for row, claims in said.items() for claim, each in claims.items()
     )
-    at_most = f', most often of "{claim}" where the law is "{row}"' if wrong else ""
-    told = f"Verdicts against the truth: {wrong} of {PIPELINE} at most in a cell{at_most}."
-    return table("law|" + "|".join(CLAIMS), lines) + "\n\n" + told
-
-
-def main() -> None:
-    """Measure all, and write the tables and the counts."""
-    rows = []
-    sections = {
-        "means": lambda: _means(rows),
-        "ratios": lambda: _ratios(rows),
-        "verdicts": lambda: _verdicts(rows, verdicts()),
-    }
-    write(PAGE, sections)
-    stored(PAGE.with_suffix(".csv"), rows)
+    told = f'{wrong} of {REPEATS} at most in a cell, most often of "{claim}" where the law is "{row}"'
+    return table("law|" + "|".join(CLAIMS), lines) + f"\n\nVerdicts against the truth: {told}."
 
 
 if __name__ == "__main__":
-    main()
+    write(PAGE, {"means": means, "verdicts": judged})

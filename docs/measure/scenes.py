@@ -1,9 +1,8 @@
 """Friction of random scenes in three dimensions, against which laws of friction are held.
 
-python docs/measure/scenes.py [WORKERS]   solves what is not solved yet, and writes results/law/scenes-*.csv
+python docs/measure/scenes.py   solves what is not solved yet, and writes results/law/scenes-*.csv
 """
 
-import sys
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from math import inf
@@ -120,16 +119,16 @@ def row(scene: RandomScene, space: Outcome, line: Outcome) -> dict:
     }
 
 
-def main(workers: int | None = None, *names: str) -> None:
+def main() -> None:
     """Solve what is not solved yet, and write what was found."""
-    for name in names or SETS:
+    for name in SETS:
         found = list(scenes(name))
-        first = solved(PAGE, [each.first for each in found], workers)
+        first = solved(PAGE, [each.first for each in found])
         spaces = {each: each.space(first[each.first]) for each in found}
-        outcomes = solved(PAGE, [task for each in found for task in (spaces[each], each.line)], workers)
+        outcomes = solved(PAGE, [task for each in found for task in (spaces[each], each.line)])
         told = [row(each, outcomes[spaces[each]], outcomes[each.line]) for each in found]
         stored(PAGE.with_name(f"scenes-{name}.csv"), told)
 
 
 if __name__ == "__main__":
-    main(*(int(each) if each.isdecimal() else each for each in sys.argv[1:]))
+    main()

@@ -4,19 +4,47 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields
 from functools import cached_property
 from itertools import product
+from math import log
 from typing import Any, TypeAlias
 
 import numpy as np
-from regions import BODIES, COVERED, REGIONS, SPEEDS, SURFACES
-from scipy.special import betaincinv, ndtr, ndtri
+from scipy.special import ndtr, ndtri
+from tables import of_count
 
 from compare.trustmap.measured import beyond_measured, limits
 from compare.trustmap.model import NAMES, NORMAL, Measurements, Model, Predicted
 from compare.trustmap.ratio import LAW
-from compare.trustmap.regions import ROUGHNESS, Condition, parts
+from compare.trustmap.regions import FLOWS, ROUGHNESS, SHAPES, WIDENED, Condition, parts
 from compare.trustmap.table import column, measurements
 from compare.trustmap.verdict import MULTIPLY, SOLVE, USE, advice_on
 
+# Regions of the map, where errors and advice are stated, each a condition on groups.
+BODIES: dict[str, Condition] = {
+    "cone": SHAPES["cone"],
+    "sphere": SHAPES["sphere"],
+    "other powers": lambda g: (g["shape"] != 1) & (g["shape"] != 0.5),
+}
+SPEEDS: dict[str, Condition] = {
+    "at rest": lambda g: ~g["slides"],
+    "slow": lambda g: g["slides"] & FLOWS["slow"](g),
+    "fast": lambda g: g["slides"] & FLOWS["fast"](g),
+}
+SOLIDS: dict[str, Condition] = {
+    "Kelvin-like, E_g > 10^4 E_r": lambda g: g["stiffening"] > log(1e4),
+    "E_g 10^2 to 10^4 E_r": lambda g: (g["stiffening"] <= log(1e4)) & (g["stiffening"] > log(1e2)),
+    "E_g up to 10^2 E_r": lambda g: g["stiffening"] <= log(1e2),
+}
+WAVES: dict[str, Condition] = {
+    "less than 2 waves on the radius": lambda g: g["sliding_waves"] < log(2),
+    "2 to 6 waves": lambda g: (g["sliding_waves"] >= log(2)) & (g["sliding_waves"] < log(6)),
+    "more than 6 waves": lambda g: g["sliding_waves"] >= log(6),
+}
+SURFACES: dict[str, Condition] = {
+    "spectrum": lambda g: (g["side"] == 0) & (g["gaussian"] == 0),
+    "as measured": lambda g: (g["side"] > 0) | (g["gaussian"] > 0),
+}
+REGIONS = {"body": SHAPES, "speed": SPEEDS, "roughness": ROUGHNESS, "solid": SOLIDS, "waves": WAVES}
+COVERED = WIDENED | {"speed": SPEEDS}  # what coverage is stated by
 # Scenes of a regime below which nothing is said of its advice.
 FEWEST = 5
 # Scenes of a region from which on it fails if its coverage is below what was promised, with 95 % of confidence.
@@ -113,13 +141,6 @@ class Score:
         return float(np.mean(ndtr((width - apart) / scatter) - ndtr((-width - apart) / scatter)))
 
 
-def of_count(held: int, tried: int) -> tuple[float, float]:
-    """Interval of 95 % of a share, from how many of those tried it held for (Clopper and Pearson)."""
-    low = betaincinv(held, tried - held + 1, 0.025) if held else 0.0
-    high = betaincinv(held + 1, tried - held, 0.975) if held < tried else 1.0
-    return float(low), float(high)
-
-
 # A score, and the groups of its scenes by name.
 Scored: TypeAlias = tuple[Score, Mapping[str, np.ndarray]]
 
@@ -143,7 +164,7 @@ def scored(held_out: Mapping[str, np.ndarray], models: Mapping[str, Model]) -> d
 
 
 def of_surfaces(scores: Mapping[str, Scored], name: str) -> dict[str, Scored]:
-    """Scores on the scenes with surfaces of one kind, see `regions.SURFACES`."""
+    """Scores on the scenes with surfaces of one kind, see SURFACES."""
     found: dict[str, Scored] = {}
     for each, (score, groups) in scores.items():
         here = SURFACES[name](groups)

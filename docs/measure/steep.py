@@ -1,9 +1,8 @@
 """The law of friction in the regime of the paper: steep sphere and cone, from slow to the plateau, against 3D.
 
-python docs/measure/steep.py [WORKERS]   solves what is not solved yet, and writes results/law/steep.csv
+python docs/measure/steep.py   solves what is not solved yet, and writes results/law/steep.csv
 """
 
-import sys
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from math import pi
@@ -61,10 +60,10 @@ def contacts() -> Iterator[SteepContact]:
                 yield SteepContact(body, load, speed, replace(scene, motion=slides))
 
 
-def main(workers: int | None = None) -> None:
+def main() -> None:
     """Solve what is not solved yet, and write friction in 3D, on ever finer grids, beside that of the law."""
     found = list(contacts())
-    outcomes = solved(PAGE, [task for each in found for task in each.tasks], workers)
+    outcomes = solved(PAGE, [task for each in found for task in each.tasks])
     rows = []
     for each in found:
         mean, few, fine, *finest = (friction(outcomes[task].rows) for task in each.tasks)
@@ -98,4 +97,4 @@ def main(workers: int | None = None) -> None:
 
 
 if __name__ == "__main__":
-    main(*map(int, sys.argv[1:]))
+    main()

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 from pandas import DataFrame, Series
+from scipy.special import betaincinv
 
 
 def table(header: str, rows: Iterable[tuple]) -> str:
@@ -54,6 +55,13 @@ def limit(values, least: float = 0.0) -> float:
     first, second = np.diff(values[-3:])
     ratio = first / second if second else np.nan
     return values[-1] + second / (ratio - 1) if ratio > 2**least else np.nan
+
+
+def of_count(held: int, tried: int) -> tuple[float, float]:
+    """Interval of 95 % of a share, from how many of those tried it held for (Clopper and Pearson)."""
+    low = betaincinv(held, tried - held + 1, 0.025) if held else 0.0
+    high = betaincinv(held + 1, tried - held, 0.975) if held < tried else 1.0
+    return float(low), float(high)
 
 
 def replaced(path: Path, name: str, part: str) -> None:

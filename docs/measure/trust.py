@@ -1,4 +1,4 @@
-"""The trust map, made of its campaign: `python docs/measure/trust.py solve [WORKERS]`.
+"""The trust map, made of its campaign: `python docs/measure/trust.py solve`.
 
 Solves the scenes of the tables in 1D and 3D, what is not solved yet, in hours, and writes into the package the
 tables and the models that are fitted to the one learned from. Without an argument it writes only what follows
@@ -18,12 +18,21 @@ from typing import Any
 import design
 import numpy as np
 from campaign import solved
-from contact import GREAT, USUAL, Contact
+from contact import GREAT, USUAL, Contact, ratio_of
 from fitting import as_json, fit
 from pandas import DataFrame
-from ratios import ratio_of
-from regions import BODIES, SURFACES
-from scoring import BEST, OWN, Scored, advice_rows, coverage_rows, error_rows, of_surfaces, scored
+from scoring import (
+    BEST,
+    BODIES,
+    OWN,
+    SURFACES,
+    Scored,
+    advice_rows,
+    coverage_rows,
+    error_rows,
+    of_surfaces,
+    scored,
+)
 from tables import by_column, replaced, stored
 
 from compare.models.law.parts import LawParts
@@ -73,11 +82,11 @@ def written(rows: DataFrame) -> bytes:
     return gzip.compress(text.encode(), mtime=0)
 
 
-def ship(workers: int | None = None) -> None:
+def ship() -> None:
     """Solve, and write the tables, and models fitted to what these hold, as they are read again."""
     for path in KNOWN:
         contacts = {int(point): contact_at(int(point), path) for point in table.read(path)["point"]}
-        outcomes = solved(PAGE, contacts.values(), workers)
+        outcomes = solved(PAGE, contacts.values())
         rows = DataFrame(row(point, each.scene, outcomes[each]) for point, each in contacts.items())
         path.write_bytes(written(rows))
     table.read.cache_clear()
@@ -166,10 +175,10 @@ def corrected() -> str:
     )
 
 
-def main(solve: str = "", workers: str | None = None) -> None:
+def main(solve: str = "") -> None:
     """Write everything; without `solve`, what follows from the tables of the package."""
     if solve:
-        ship(workers and int(workers))
+        ship()
     stored(PAGE.with_suffix("") / "coverage.csv", coverage_rows(scores()))
     for (page, part), told in parts().items():
         replaced(page, part, told)

@@ -10,10 +10,9 @@ import numpy as np
 import pytest
 import scoring
 import trust as campaign
-from contact import Contact
+from contact import Contact, ratio_of
 from maps import sampled
 from pandas import DataFrame
-from ratios import ratio_of
 from solids import gel
 from strategies import rescaled
 

@@ -4,6 +4,7 @@ from math import nan
 from pathlib import Path
 
 import numpy as np
+import pandas
 import pytest
 from promises_page import errors, promises, scenes
 
@@ -88,7 +89,7 @@ def test_the_fit_that_ships_is_that_of_the_table_that_ships():
 
 
 def test_the_fit_holds_what_it_is_to_hold():
-    table = errors._table(LEARNED)
+    table = pandas.read_csv(LEARNED).to_dict("records")
     weights = frictionerror._fitted()
     names = [name for name in table[0] if name not in ("scene", "kind", "error", "residual")]
     bounds = [

@@ -5,7 +5,7 @@ from dataclasses import replace
 from math import isnan
 from typing import Any
 
-import numpy as np
+from pandas import DataFrame
 
 from bem3d import BEM
 from bem3d.costs import COSTS, band, body
@@ -35,15 +35,16 @@ def asked(seeds: range) -> Iterator[SceneTask]:
 
 def rows(tasks: Sequence[SceneTask], outcomes: Mapping[Task, Outcome]) -> list[dict[str, Any]]:
     """Medians of each cost by body, band and points, of FEWEST solves at least."""
-    spent: dict[tuple[str, str, str, int], list[float]] = {}
-    for task in tasks:
-        answer, (scene,) = outcomes[task].rows[0], task.scenes
-        for cost in COSTS:
-            if not isnan(value := getattr(answer, cost)):
-                spent.setdefault((body(scene), band(scene), cost, task.solver.points), []).append(value)
-    names = "body", "band", "cost", "points"
+    spent = [
+        {"body": body(scene), "band": band(scene), "cost": cost, "points": task.solver.points, "value": value}
+        for task in tasks
+        for scene in task.scenes
+        for cost in COSTS
+        if not isnan(value := getattr(outcomes[task].rows[0], cost))
+    ]
+    names = ["body", "band", "cost", "points"]
     return [
-        {**dict(zip(names, key, strict=True)), "value": float(f"{np.median(each):.3g}"), "answers": len(each)}
-        for key, each in spent.items()
+        {**dict(zip(names, key, strict=True)), "value": float(f"{each.median():.3g}"), "answers": len(each)}
+        for key, each in DataFrame(spent).groupby(names, sort=False)["value"]
         if len(each) >= FEWEST
     ]

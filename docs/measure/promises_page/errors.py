@@ -1,8 +1,5 @@
 """Error of friction that an answer states, against finer grids: fitted to many, and tested on many others."""
 
-import csv
-import gzip
-import io
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import nan
@@ -10,9 +7,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas
+from pandas import DataFrame
 from scipy.optimize import linprog
 from scipy.sparse import csr_matrix, hstack, identity
-from scipy.stats import beta
+from tables import of_count
 
 from bem3d import BEM
 from bem3d.costs import band
@@ -124,14 +123,10 @@ def rows(every: Sequence[Judged], outcomes: Mapping[Task, Outcome]) -> list[dict
 
 def regions(found: Sequence[Mapping[str, Any]]) -> Iterator[dict[str, Any]]:
     """Coverage by model and region: of all, by solid, speed and body."""
-    for model in dict.fromkeys(each["model"] for each in found):
-        own = [each for each in found if each["model"] == model]
+    for model, own in DataFrame(found).groupby("model", sort=False):
         yield _coverage(model, "all", own)
         for name in ("solid", "speed", "body"):
-            groups: dict[str, list] = {}
-            for each in own:
-                groups.setdefault(each[name], []).append(each)
-            for label, group in sorted(groups.items()):
+            for label, group in own.groupby(name):
                 if len(group) >= FEWEST:
                     yield _coverage(model, label, group)
 
@@ -190,15 +185,7 @@ def learn(path: Path, every: Sequence[tuple], outcomes: Mapping[Task, Outcome]) 
             numbers = {each: f"{value:.4g}" for each, value in answer.measures.items() if each != "one"}
             error, residual = f"{error:.4g}", f"{answer.residual:.2g}"
             found.append({"scene": name, "kind": kind, "error": error, "residual": residual, **numbers})
-    with gzip.GzipFile(path, "wb", mtime=0) as packed, io.TextIOWrapper(packed, "utf-8", newline="") as file:
-        lines = csv.DictWriter(file, list(found[0]), lineterminator="\n")
-        lines.writeheader()
-        lines.writerows(found)
-
-
-def learned(path: Path) -> int:
-    """Number of answers that were learned from."""
-    return len(_table(path))
+    DataFrame(found).to_csv(path, index=False, compression={"method": "gzip", "mtime": 0})
 
 
 def refitted(path: Path) -> dict[str, dict[str, float]]:
@@ -207,16 +194,14 @@ def refitted(path: Path) -> dict[str, dict[str, float]]:
     The quantile SHARE of what the error is beside the residual, widened by what holds WIDENED of the answers to
     scenes that were left out of a fit, a fold of them at a time.
     """
-    table, weights = _table(path), {}
-    names = [name for name in table[0] if name not in ("scene", "kind", "error", "residual")]
-    scenes_of = list(dict.fromkeys(row["scene"] for row in table))
-    fold = {scene: k % FOLDS for k, scene in enumerate(scenes_of)}
+    table, weights = pandas.read_csv(path), {}
+    names = list(table.columns.drop(["scene", "kind", "error", "residual"]))
+    fold = pandas.factorize(table["scene"])[0] % FOLDS
     for kind in KINDS:
-        own = [row for row in table if row["kind"] == kind]
-        signs = np.array([[1.0, *(float(row[name]) for name in names)] for row in own])
-        error, residual = (np.array([float(row[name]) for row in own]) for name in ("error", "residual"))
-        left, folds = 3 * residual, np.array([fold[row["scene"]] for row in own])
-        assert frictionerror.OF_TOLERANCE == 3
+        here = table["kind"] == kind
+        own, folds = table[here], fold[here]
+        signs = np.column_stack([np.ones(len(own)), own[names]])
+        error, left = own["error"].to_numpy(), frictionerror.OF_TOLERANCE * own["residual"].to_numpy()
         values, short = np.log(np.maximum(error - left, LEAST)), np.empty(len(own))
         for k in range(FOLDS):
             bound = np.exp(signs[folds == k] @ _quantile(signs[folds != k], values[folds != k], SHARE))
@@ -229,16 +214,8 @@ def refitted(path: Path) -> dict[str, dict[str, float]]:
 
 def write(weights: Mapping[str, Mapping[str, float]]) -> None:
     """Write the weights where three dimensions read them."""
-    with frictionerror.FITTED.open("w", encoding="utf-8", newline="") as file:
-        lines = csv.writer(file, lineterminator="\n")
-        lines.writerow(["sign", *weights])
-        for name in next(iter(weights.values())):
-            lines.writerow([name, *(f"{own[name]:.4g}" for own in weights.values())])
-
-
-def _table(path):
-    with gzip.open(path, "rt", encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(file))
+    table = DataFrame(weights).map("{:.4g}".format)
+    table.to_csv(frictionerror.FITTED, index_label="sign", lineterminator="\n")
 
 
 def _quantile(table, values, share):
@@ -279,15 +256,15 @@ def settled(values: Sequence[float], unit: float | None = None) -> tuple[float, 
 
 
 def _coverage(model, region, group):
-    held, count = sum(each["error"] <= each["bound"] for each in group), len(group)
-    errors, bounds = (np.array([each[name] for each in group]) for name in ("error", "bound"))
+    held, count = int((group["error"] <= group["bound"]).sum()), len(group)
+    lower, upper = of_count(held, count)
     return {
         "model": model,
         "region": region,
         "answers": count,
         "held": held,
-        "lower": float(beta.ppf(0.025, held, count - held + 1)) if held else 0.0,
-        "upper": float(beta.ppf(0.975, held + 1, count - held)) if held < count else 1.0,
-        "median_error": float(np.median(errors)),
-        "median_bound": float(np.median(bounds)),
+        "lower": lower,
+        "upper": upper,
+        "median_error": group["error"].median(),
+        "median_bound": group["bound"].median(),
     }

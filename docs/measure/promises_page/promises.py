@@ -5,7 +5,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import isfinite, nan
 
-from scipy.stats import beta
+from pandas import DataFrame
+from tables import of_count
 
 from bem3d import Unconfirmed, for_accuracy
 from bem3d.costs import band
@@ -83,22 +84,19 @@ def rows(tasks: Sequence[Promise], outcomes: Mapping[Task, Outcome]) -> list[dic
 
 def kept(made: Sequence[Mapping]) -> list[dict]:
     """Counts of promises by quantity and wanted error, and of all."""
-    found = []
-    for quantity in dict.fromkeys(each["quantity"] for each in made):
-        for wanted in WANTED:
-            own = [each for each in made if (each["quantity"], each["wanted"]) == (quantity, wanted)]
-            found.append({"quantity": quantity, "wanted": wanted, **_counted(own)})
-    return found
+    groups = DataFrame(made).groupby(["quantity", "wanted"], sort=False)
+    return [{"quantity": quantity, "wanted": wanted, **_counted(own)} for (quantity, wanted), own in groups]
 
 
-def missed(made: Sequence[Mapping]) -> list[Mapping]:
+def missed(made: Sequence[Mapping]) -> DataFrame:
     """Promises that were not confirmed, or were broken."""
-    return [each for each in made if not each["shown"] <= each["wanted"] or each["error"] > each["wanted"]]
+    found = DataFrame(made)
+    return found[~(found["shown"] <= found["wanted"]) | (found["error"] > found["wanted"])]
 
 
 def said(made: Sequence[Mapping]) -> str:
     """Counts of all promises in words, with intervals."""
-    counts = _counted(made)
+    counts = _counted(DataFrame(made))
     left, broken = counts["asked"] - counts["confirmed"], counts["broken"]
     return (
         f"Of {counts['asked']} promises {left} ({_share(left, counts['asked'])}) were not confirmed, those "
@@ -108,22 +106,19 @@ def said(made: Sequence[Mapping]) -> str:
 
 
 def _counted(own):
-    sure = [each for each in own if each["shown"] <= each["wanted"]]
-    checked = [each for each in sure if isfinite(each["error"])]
-    worst = max((each["error"] for each in checked), default=nan)
+    sure = own[own["shown"] <= own["wanted"]]
     return {
         "asked": len(own),
-        "answered": sum(isfinite(each["points"]) for each in own),
+        "answered": own["points"].count(),
         "confirmed": len(sure),
-        "checked": len(checked),
-        "broken": sum(each["error"] > each["wanted"] for each in checked),
-        "worst error": f"{worst:.2%}",
+        "checked": sure["error"].count(),
+        "broken": (sure["error"] > sure["wanted"]).sum(),
+        "worst error": f"{sure['error'].max():.2%}",
     }
 
 
 def _share(part, whole):
-    low = beta.ppf(0.025, part, whole - part + 1) if part else 0.0
-    high = beta.ppf(0.975, part + 1, whole - part)
+    low, high = of_count(part, whole)
     return f"{part / whole:.1%}, {low:.1%} to {high:.1%}"
 
 
