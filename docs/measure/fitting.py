@@ -48,7 +48,7 @@ def fit(quantity: str, measured: Measurements) -> Model:
     noise = measured.taken(enough).variance(np.exp(scatter.mean(measured.groups[enough])))
     enough = enough[noise < MOST_NOISE**2]
     everything = fitted(*learned(quantity, measured.taken(enough), scatter))
-    taken = telling(everything, MOST_TAKEN)
+    taken = most_informative(everything, MOST_TAKEN)
     widened = _widened(quantity, everything, taken, scatter)
     return Model(quantity, everything.taken(taken), scatter, replace(widened, taken=enough[taken]))
 
@@ -100,7 +100,7 @@ def fitted(inputs: np.ndarray, values: np.ndarray, variances: np.ndarray) -> Pro
     return Process(*everything, scales)
 
 
-def telling(process: Process, most: int) -> np.ndarray:
+def most_informative(process: Process, most: int) -> np.ndarray:
     """Numbers of so many points, in order, that together tell most of all of them.
 
     One after the other is taken where what is not known yet, and a measurement would tell, is most.

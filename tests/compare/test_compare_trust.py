@@ -336,7 +336,7 @@ def test_values_left_out_are_those_foretold_from_all_others():
 
 def test_the_points_that_tell_most_know_the_rest_better_than_any_others():
     whole = fitting.fitted(*noisy(300))
-    chosen = fitting.telling(whole, 40)
+    chosen = fitting.most_informative(whole, 40)
     others = np.setdiff1d(np.arange(300), chosen)
 
     def spread(points):
@@ -345,7 +345,7 @@ def test_the_points_that_tell_most_know_the_rest_better_than_any_others():
     assert np.unique(chosen).size == 40
     drawn = [np.random.default_rng(seed).permutation(300)[:40] for seed in range(5)]
     assert spread(chosen) < 0.8 * min(map(spread, drawn))
-    assert fitting.telling(whole, 300).tolist() == list(range(300))
+    assert fitting.most_informative(whole, 300).tolist() == list(range(300))
 
 
 # What was measured.
