@@ -1,38 +1,40 @@
-"""What each effect multiplies the costs of a plan with: writes bem3d/effects.csv and mdr1d/effects.csv.
+"""What each effect costs in each solver: the table of results/effects.md, its numbers, and the tables of plans.
 
 python docs/measure/effects.py
 
-Each solve is measured alone in a process of its own, on a quiet machine.
+Each solve is measured alone in a process of its own, on a quiet machine. Plans multiply costs with
+bem3d/effects.csv and mdr1d/effects.csv, which are written from the same measurements.
 """
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from math import isfinite, nan
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from campaign import solved
 from pydantic import TypeAdapter
-from tables import stored
+from tables import replaced, stored, table
 
 import bem3d.plan
 import mdr1d.plan
 from bem3d import BEM
 from bem3d.surface import RoughSurface
-from compare.solving.outcome import Outcome
+from compare.report.manifest import machine, versions
+from compare.solving.outcome import Outcome, Row
 from compare.solving.task import Task
 from compare.studies.workprecision.timed import TimedSolve
 from mdr1d import MDR
 from scene import Scene, SelfAffine
-from scene.plan import COSTS
+from scene.plan import COSTS, two_digits
 
-STORE = Path(__file__).parents[1] / "results" / "effects.md"  # what is solved lies in the folder of this name
-SOLVERS: Mapping[Path, BEM | MDR] = {
-    bem3d.plan.EFFECTS: BEM(points=256, steps=40),
-    mdr1d.plan.EFFECTS: MDR(points=5000, steps=40),
-}
-COUNTED = {"BEM": (), "MDR": ("Program",)}  # parts that a plan counts by itself
+PAGE = Path(__file__).parents[1] / "results" / "effects.md"
+SOLVERS: Mapping[str, BEM | MDR] = {"3D": BEM(points=256, steps=40), "1D": MDR(points=5000, steps=40)}
+TABLES = {"3D": bem3d.plan.EFFECTS, "1D": mdr1d.plan.EFFECTS}
+COUNTED = {"3D": (), "1D": ("Program",)}  # parts that a plan counts by itself
 SCENES = TypeAdapter(Scene)
-SLIDING: dict[str, Any] = {
+PLAIN: Mapping[str, Any] = {
     "indenter": {"type": "sphere", "radius": 10e-3},
     "elastomer": {
         "type": "standard-linear-solid",
@@ -42,27 +44,57 @@ SLIDING: dict[str, Any] = {
     },
     "motion": {"type": "slide", "speed": 0.1, "load": 1.0},
 }
-AT_REST = SLIDING | {"motion": {"type": "indent", "load": 1.0}}
 ROUGH = {"hurst": 0.8, "rms_height": 5e-6, "longest": 4e-3, "shortest": 0.25e-3, "seed": 1}
+SELF_AFFINE = {"roughness": {"type": "self-affine", **ROUGH}}
+WARM = {"temperature": {"type": "wlf", "temperature": 301.0, "reference": 300.0, "c1": 10.0, "c2": 100.0}}
+RUBBED = {"interface": {"coefficient": 0.3}}
+PRESSED, SLID = {"duration": 1e-3, "load": 1.0}, {"duration": 1e-3, "speed": 0.1}
 PIXELS = 128  # a side of the measured surface; the shortest wave has eight
 
 
-class Effect(NamedTuple):
-    """One effect.
+@dataclass(frozen=True)
+class Effect:
+    """One effect, on a plain contact.
 
+    tables : its tables of a scene file, in place of those of PLAIN
+    over : title of the effect that it is added to
     parts : names of the types whose costs in a plan are multiplied by the cost of this effect
-    added : its tables of a scene file
-    plain : tables of the contact that it is added to
     """
 
-    parts: tuple[str, ...]
-    added: Mapping[str, Any]
-    plain: Mapping[str, Any] = SLIDING
+    title: str
+    tables: Mapping[str, Any] = field(default_factory=dict)
+    over: str | None = None
+    parts: tuple[str, ...] = ()
 
     @property
-    def scenes(self) -> tuple[Scene, Scene]:
-        """The contact with the effect, and without it."""
-        return SCENES.validate_python({**self.plain, **self.added}), SCENES.validate_python(self.plain)
+    def scene(self) -> Scene:
+        """The contact that is solved."""
+        return SCENES.validate_python({**PLAIN, **self.tables})
+
+
+@dataclass(frozen=True)
+class Cost:
+    """Cost of one effect in one solver.
+
+    row : NaN with a reason where it was refused or failed
+    over : row of the effect that it is added to; of a plain contact its own
+    """
+
+    effect: Effect
+    row: Row
+    over: Row
+
+    @property
+    def times(self) -> float:
+        """Processor time over that without the effect."""
+        return self.row.measures.get("processor", nan) / self.over.measures.get("processor", nan)
+
+    @property
+    def multiples(self) -> dict[str, float]:
+        """By the names of `scene.plan.COSTS`: over those without the effect; of a program, for one step."""
+        steps = self.row.measures.get("time_steps", 1.0)
+        applications = self.row.operator_applications / self.over.operator_applications
+        return dict(zip(COSTS, (applications / steps, self.times / steps), strict=True))
 
 
 def measured() -> np.ndarray:
@@ -73,56 +105,115 @@ def measured() -> np.ndarray:
 
 
 def effects() -> tuple[Effect, ...]:
-    """All effects."""
+    """All effects, plain contacts first."""
     map_ = {"heights": measured(), "pixel": ROUGH["longest"] / PIXELS, "repeat": "periodic", "level": "mean"}
     topography = {"type": "topography", **map_, "shortest_kept": ROUGH["shortest"]}
-    self_affine = {"type": "self-affine", **ROUGH}
-    warm = {"type": "wlf", "temperature": 301.0, "reference": 300.0, "c1": 10.0, "c2": 100.0}
-    rubbed = {"interface": {"coefficient": 0.3}}
+    plane = {"indenter": {"type": "plane"}, "motion": {"type": "slide", "speed": 0.1, "pressure": 2e4}}
     shear = {"motion": {"type": "shear", "load": 1.0, "displacement": 2e-5}}
-    stages = [{"duration": 1e-3, "load": 1.0}, {"duration": 1e-3, "speed": 0.1}]
     return (
-        Effect(("Topography",), {"roughness": topography}, SLIDING | {"roughness": self_affine}),
-        Effect(("Layer",), {"layer": {"thickness": 2e-3}}),
-        Effect(("WLF", "Arrhenius", "ShiftFactors"), {"temperature": warm}),
-        Effect(("Heating",), {"heating": {"conductivity": 50.0}}),
-        Effect(("Coulomb",), rubbed),
-        Effect(("Shear",), shear | rubbed, AT_REST),
-        Effect(("Program",), {"motion": {"type": "program", "stages": stages}}, AT_REST),
+        Effect("steady sliding"),
+        Effect("contact at rest", {"motion": {"type": "indent", "load": 1.0}}),
+        Effect("roughness", SELF_AFFINE, "steady sliding"),
+        Effect("measured topography", {"roughness": topography}, "roughness", ("Topography",)),
+        Effect("plane", plane | SELF_AFFINE, "roughness"),
+        Effect("layer", {"layer": {"thickness": 2e-3}}, "steady sliding", ("Layer",)),
+        Effect("temperature", WARM, "steady sliding", ("WLF", "Arrhenius", "ShiftFactors")),
+        Effect("heating, estimated", {"heating": {"conductivity": 50.0}}, "steady sliding", ("Heating",)),
+        Effect(
+            "heating, fed back", WARM | {"heating": {"conductivity": 0.2, "feedback": "average"}}, "temperature"
+        ),
+        Effect("friction in the interface", RUBBED, "steady sliding", ("Coulomb",)),
+        Effect("partial slip", shear | RUBBED, "contact at rest", ("Shear",)),
+        Effect("program", _program(SLID), "contact at rest", ("Program",)),
+        Effect("reversal", _program(SLID, {**SLID, "speed": -0.1}), "program"),
+        Effect("oscillation", _program({**SLID, "amplitude": 0.2, "frequency": 2000.0}), "program"),
     )
 
 
-def pairs(solver: BEM | MDR) -> dict[str, tuple[Task, Task]]:
-    """Solves with and without what a part stands for, by the part, of those that the solver does not refuse."""
-    size = solver.points if solver.name == "MDR" else solver.points**2
+def _program(*stages):
+    return {"motion": {"type": "program", "stages": [PRESSED, *stages]}}
+
+
+def tasks() -> dict[tuple[str, str], Task]:
+    """A solve for each dimensionality and title, except for effects that the solver refuses."""
     return {
-        part: tuple(TimedSolve(solver, (scene,), work=300.0 * size) for scene in effect.scenes)
+        (name, effect.title): TimedSolve(solver, (effect.scene,), work=_work(solver, effect))
+        for name, solver in SOLVERS.items()
         for effect in effects()
-        if not solver.refusals(effect.scenes[0])
-        for part in effect.parts
-        if part not in COUNTED[solver.name]
+        if not solver.refusals(effect.scene)
     }
 
 
-def priced(asked: Mapping[str, tuple[Task, Task]], outcomes: Mapping[Task, Outcome]) -> Iterator[dict]:
-    """Rows of a table: costs over those without the effect; of a program, for one step."""
-    for part, tasks in asked.items():
-        row, plain = (outcomes[task].rows[0] for task in tasks)
-        steps = row.measures.get("time_steps", 1.0)
-        times = row.measures["processor"] / plain.measures["processor"]
-        multiples = row.operator_applications / plain.operator_applications, times
-        yield {"part": part} | {
-            cost: float(f"{value / steps:.3g}") for cost, value in zip(COSTS, multiples, strict=True)
+def _work(solver, effect):
+    steps = 20.0 * solver.steps if effect.scene.motion.type == "program" else 300.0
+    return steps * (solver.points if solver.name == "MDR" else solver.points**2)
+
+
+def costs(outcomes: Mapping[Task, Outcome]) -> dict[str, list[Cost]]:
+    """Costs of all effects, by the keys of SOLVERS."""
+    found, asked = {}, tasks()
+    for name, solver in SOLVERS.items():
+        rows = {
+            effect.title: outcomes[asked[name, effect.title]].rows[0]
+            if (name, effect.title) in asked
+            else Row(reason=f"refused: {'; '.join(solver.refusals(effect.scene))}")
+            for effect in effects()
         }
+        found[name] = [Cost(each, rows[each.title], rows[each.over or each.title]) for each in effects()]
+    return found
+
+
+def priced(name: str, billed: list[Cost]) -> list[dict]:
+    """Rows of a table that plans multiply costs with: the parts whose cost was measured."""
+    return [
+        {"part": part} | {cost: float(f"{value:.3g}") for cost, value in each.multiples.items()}
+        for each in billed
+        for part in each.effect.parts
+        if isfinite(each.times) and part not in COUNTED[name]
+    ]
+
+
+def sheet(found: Mapping[str, list[Cost]]) -> list[dict]:
+    """Rows of results/effects.csv."""
+    measures = {"seconds": "processor", "wall": "wall", "repeats": "repeats"}
+    return [
+        {"dimension": name, "effect": cost.effect.title, "over": cost.effect.over or ""}
+        | {column: cost.row.measures.get(measure, nan) for column, measure in measures.items()}
+        | {"times": cost.times, "operator_applications": cost.row.operator_applications}
+        | {"time_steps": cost.row.measures.get("time_steps", nan), "reason": cost.row.reason or ""}
+        for name, billed in found.items()
+        for cost in billed
+    ]
+
+
+def cells(rows: list[dict]) -> Iterator[tuple[str, ...]]:
+    """Cells of the table of the page, of rows of results/effects.csv: times, or why there are none."""
+    by = {(row["dimension"], row["effect"]): row for row in rows}
+    for effect in effects():
+        both = (by[name, effect.title] for name in ("1D", "3D"))
+        yield effect.title, effect.over or "", *(_cell(row) for row in both)
+
+
+def _cell(row):
+    return row["reason"].split(":")[0] or two_digits(float(row["times"]))
 
 
 def main() -> None:
-    """Measure, and write the tables."""
-    asked = {path: pairs(solver) for path, solver in SOLVERS.items()}
-    tasks = (task for each in asked.values() for both in each.values() for task in both)
-    outcomes = solved(STORE, dict.fromkeys(tasks), fresh=True)
-    for path, each in asked.items():
-        stored(path, priced(each, outcomes))
+    """Measure, and write the tables and the page."""
+    found = costs(solved(PAGE, tasks().values(), fresh=True))
+    for name, billed in found.items():
+        stored(TABLES[name], priced(name, billed))
+    rows = sheet(found)
+    stored(PAGE.with_suffix(".csv"), rows)
+    where = "{system}, {machine}, {processors} processors".format(**machine())
+    with_what = ", ".join(f"{name} {number}" for name, number in versions().items())
+    replaced(PAGE, "machine", f"{where}; {with_what}.")
+    replaced(PAGE, "effects", table("effect|added to|1D|3D", cells(rows)))
+    refused = (row for row in rows if row["reason"].startswith("refused: "))
+    lines = (
+        f"- {row['effect']}, {row['dimension']}: {row['reason'].removeprefix('refused: ')}." for row in refused
+    )
+    replaced(PAGE, "refused", "\n".join(lines))
 
 
 if __name__ == "__main__":
