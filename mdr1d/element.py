@@ -176,16 +176,16 @@ def _fallen(t, pushes, retarded):
 
 
 @compiled
-def landing(c, rate, width, u, u_end, pushes, solid, decay):
+def landing(c, c_end, rate, width, u, u_end, pushes, solid, decay):
     """Where on its way a free surface meets c, which rises at a rate; else NOWHERE.
 
-    u, u_end : free surface at both ends of the width
+    c_end : at the end of the width, where a light touch has digits that c has not
+    u, u_end : free surface at both ends
     pushes : J_j r_j at the start; decay : what the width leaves of them
 
     The clearance is convex: Newton from the left never oversteps, and comes to where it rises again if there is no
     landing.
     """
-    c_end = c + rate * width
     if u == 0.0:
         if c > 0.0:
             return 0.0
@@ -264,13 +264,14 @@ def hold(f, c, rate, width, y, solid, table, part, ahead):
     which it touched, int f dt there, and the energy lost.
     """
     rise = rate * width
-    pull, push, square, cross = stretched(y, rise, table, solid.moduli, ahead)
-    end = c + rise + solid.drag * rate + pull
+    end = f + rise  # and not of c: a light touch keeps its digits
+    for k in range(y.size):
+        end += table[PUSH, k] * (rise - width * y[k] / solid.times[k])
     if end <= 0.0:
         width, table = _release(f, rate, width, y, solid), part
         rise = rate * width
         tabulate(width, solid, table)
-        _, push, square, cross = stretched(y, rise, table, solid.moduli, ahead)
+    _, push, square, cross = stretched(y, rise, table, solid.moduli, ahead)
     move(ahead, y)
     rising, warming = of_rise(table)
     mean = c + 0.5 * rise + solid.drag * rate + push + rise * rising

@@ -166,7 +166,7 @@ def _flow(heights, pixel, depth, solid, displacement, touching, pushed):
         if touches:
             f = here + solid.drag * rate + total(solid.moduli, y)
         else:
-            begin = landing(here, rate, pixel, u, u_end, pushes, solid, decay)
+            begin = landing(here, there, rate, pixel, u, u_end, pushes, solid, decay)
             if begin == NOWHERE:
                 apart += pixel
                 u = u_end

@@ -98,7 +98,8 @@ def _follow(c, rate, touches, y, r, solid, step):
             pushes[j] = solid.compliances[j] * r[j]
             u += pushes[j]
         u_end = faded(pushes, step.decay, step.fallen)
-        begin = landing(c, rate, step.duration, u, u_end, pushes, solid, step.decay)
+        c_end = c + rate * step.duration
+        begin = landing(c, c_end, rate, step.duration, u, u_end, pushes, solid, step.decay)
         if begin == NOWHERE:
             return False, 0.0, 0.0, 0.0, relax(r, step.duration, solid)
         heat = relax(r, begin, solid)
