@@ -271,9 +271,14 @@ def entry(label: str, **look: Any) -> Line2D:
 
 
 def decades(*panels: Axes) -> None:
-    """Readable ticks on logarithmic axes: few and round, two at least."""
+    """Readable ticks on logarithmic axes: few and round, two at least.
+
+    An axis on which all values are nearly the same has room around them.
+    """
     for axis in (axis for axes in panels for axis in (axes.xaxis, axes.yaxis) if axis.get_scale() == "log"):
         low, high = axis.get_view_interval()
+        if high < 1.02 * low:
+            low, high = getattr(axis.axes, f"set_{axis.axis_name}lim")(low / 2, 2 * high)
         powers = LogLocator(subs=(1,) if high >= 100 * low else (1, 2, 5))
         axis.set_major_locator(powers if high >= 5 * low else MaxNLocator(4))
         axis.set_major_formatter(LogFormatterSciNotation(minor_thresholds=(np.inf, np.inf)))  # every tick has one

@@ -98,7 +98,7 @@ def _row(scene, fields, span):
     on its own from the forces that it has felt.
     """
     x, touching = fields["x"], fields["contact"].astype(bool)
-    profile, surface, force = fields["profile"], -fields["displacement"], fields["line_force"]
+    profile, surface = fields["profile"], -fields["displacement"]
     depth = (profile - surface)[touching].mean() if touching.any() else np.nan
     program, pixel = isinstance(scene.motion, Program), x[1] - x[0]
     missing = (0.0, 0.0) if program else (x[0] - span[0], span[1] - x[-1])
@@ -110,10 +110,10 @@ def _row(scene, fields, span):
         "touching": np.pad(touching, beyond),
     }
     if not program:
-        columns["line_force"] = np.pad(force, beyond)
+        columns["line_force"] = np.pad(fields["line_force"], beyond)
     if behind:
         flow, last = Flow.of(scene.solid, scene.motion.speed), x[-1]
-        felt = force[:-1] @ np.diff(np.exp((x - last)[:, None] / flow.lengths), axis=0)
+        felt = fields["line_force"][:-1] @ np.diff(np.exp((x - last)[:, None] / flow.lengths), axis=0)
         left = np.exp((last - places[-behind:, None]) / flow.lengths)
         columns["surface"][-behind:] = -left @ (flow.shares * felt / flow.modulus)
     return _dataset(columns, x=places).sel(x=slice(*span))

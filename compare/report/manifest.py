@@ -144,9 +144,9 @@ def folders(folder: str | Path) -> Iterator[tuple[Path, Manifest]]:
 
 def inside(folder: Path, name: str) -> Path:
     """The path of a file below a folder by its name there. Raises InvalidInput of one that leads out of it."""
-    path = folder / name
+    path, odd = folder / name, set(name) & set("\\:") or {"", ".", ".."} & set(name.split("/"))
     try:
-        if path.resolve().is_relative_to(folder.resolve()):
+        if name.isprintable() and not odd and path.resolve().is_relative_to(folder.resolve()):
             return path
     except (OSError, RuntimeError, ValueError):  # of links in a circle, and of names that no file can have
         pass

@@ -116,7 +116,7 @@ def test_points_have_means_with_intervals_and_groups_and_failures_their_reason(s
 def test_a_series_of_which_nothing_was_solved_has_a_page_that_says_so():
     series = replace(SERIES, speeds=SERIES.speeds[:2], values=SERIES.values[:2])
     study = Comparison((series,), "study", "Empty", "About.")
-    outcomes = {task: Outcome((Row(reason="no"),) * len(task.scenes)) for task in tasks_of(study.grids())}
+    outcomes = {task: Outcome((Row(reason="no"),) * task.count) for task in tasks_of(study.grids())}
     answers = study.answers(outcomes)
     page = study.judge(answers).page(study.title, answers)
     assert (list(page.answer), page.opening) == ([], [])

@@ -168,5 +168,5 @@ def test_a_file_is_a_study_of_the_command_and_a_name_that_is_neither_is_refused(
         asked.study("collapse", "paper")
     path.write_bytes(b"\xff\xfe")
     for ask in (lambda: asked.study(path), lambda: study_of("x = " + "[" * 100_000, "mine")):
-        with pytest.raises(InvalidInput, match=r"no text in UTF-8|deeper than 20 levels"):
+        with pytest.raises(InvalidInput, match=r"no text in UTF-8|too deep"):
             ask()

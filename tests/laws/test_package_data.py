@@ -13,7 +13,7 @@ SETUP = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["to
 PACKAGES = ("scene", "mdr1d", "bem3d", "compare")
 READ = (
     *(f"{package}/py.typed" for package in PACKAGES),
-    *("bem3d/costs.csv", "bem3d/effects.csv", "bem3d/friction_error.csv", "mdr1d/effects.csv"),
+    *("bem3d/costs.csv", "bem3d/effects.csv", "bem3d/friction/friction_error.csv", "mdr1d/effects.csv"),
     *("compare/__init__.pyi", "compare/library/scenes/hertz.toml", "compare/library/studies/two-shapes.toml"),
     *("compare/studies/checks/baseline.toml", "compare/trustmap/fitted.json"),
 )
