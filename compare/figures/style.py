@@ -26,7 +26,7 @@ from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
 from matplotlib.lines import Line2D
-from matplotlib.ticker import EngFormatter, LogFormatterSciNotation, LogLocator, MaxNLocator
+from matplotlib.ticker import EngFormatter, LogFormatterSciNotation, LogLocator, MaxNLocator, NullFormatter
 
 from scene.printable import printable
 from scene.quantities import METRE, argument
@@ -271,7 +271,7 @@ def entry(label: str, **look: Any) -> Line2D:
 
 
 def decades(*panels: Axes) -> None:
-    """Readable ticks on logarithmic axes: few and round, two at least.
+    """Readable ticks on logarithmic axes: few and round, two at least, plain numbers where they are short.
 
     An axis on which all values are nearly the same has room around them.
     """
@@ -282,7 +282,10 @@ def decades(*panels: Axes) -> None:
         powers = LogLocator(subs=(1,) if high >= 100 * low else (1, 2, 5))
         axis.set_major_locator(powers if high >= 5 * low else MaxNLocator(4))
         axis.set_major_formatter(LogFormatterSciNotation(minor_thresholds=(np.inf, np.inf)))  # every tick has one
-        axis.set_tick_params(which="minor", label1On=False)
+        axis.set_minor_formatter(NullFormatter())
+        axis.set_tick_params(which="minor", label1On=False)  # or empty labels are measured, which takes longest
+        if low >= 1e-4 and high <= 1e4:  # also where a figure is saved in another style
+            axis.set_major_formatter(lambda value, _: f"{value:g}")
 
 
 def forms() -> Iterator[dict[str, Any]]:
