@@ -430,7 +430,7 @@ def _against(solver, scene, why, own):
         stated, coarsest = max(every), min(every)
         points = f" on {solver.points} points"
         if solver.points < stated:
-            points += f", which show the error of the grid of {stated}"
+            points += f", to show the error of {stated}"
 
         def for_all(named):
             number = int(named[0])

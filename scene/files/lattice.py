@@ -74,9 +74,12 @@ def refuse_places(where: str, numbers: np.ndarray) -> None:
 
 
 def _even(steps):
-    """Whether steps are equal and not zero; None where one is not known."""
-    close = _NOISE * abs(steps.mean()) * len(steps)
-    return bool(steps[0] and np.ptp(steps) <= close) if np.isfinite(steps).all() else None
+    """Whether steps are equal and not zero; None where one is not known, or there is none."""
+    return (
+        bool(steps[0] and np.ptp(steps) <= _NOISE * abs(steps.mean()) * steps.size)
+        if steps.size and np.isfinite(steps).all()
+        else None
+    )
 
 
 def _placed(name: str, values: np.ndarray, place: Place) -> tuple[np.ndarray, float]:
