@@ -1,4 +1,4 @@
-"""WarmStart: where the contacts solved before were, for the next of the same body and surface."""
+"""Start of a solve from contacts that were solved before, of the same body and surface."""
 
 from dataclasses import dataclass, field
 
@@ -13,8 +13,8 @@ class WarmStart:
     """Starts that solves leave for those that follow: of the same scene on other grids, and of its neighbours.
 
     A scene is placed once for all grids. A contact starts from the next coarser one of the same scene, or from the
-    last on as many points, where that is nearer. Whatever it holds, the answer is that of a solve alone,
-    to the tolerance.
+    last on as many points, where that is nearer. Whatever it holds, the answer is that of a solve
+    alone, to the tolerance.
     """
 
     _scene: Scene | None = None

@@ -8,12 +8,10 @@ same with arrays of modes: without them this is three times as fast, and most of
 
 from math import exp, expm1, log, nan
 
-import numpy as np
-
 from scene.quantities import METRE, takes
 
 from .element import NOWHERE, compiled, summed
-from .steady import Contact
+from .steady import Contact, swept
 
 # Part of the lengths of an interval that squared is none.
 _CLOSE = 1e-9
@@ -218,9 +216,4 @@ def sweep(heights, pixel: float, memory: float, depth: float) -> Contact:
 
     The elastomer is at rest before the first node, and relaxes freely behind the last one.
     """
-    heights = np.asarray(heights)
-    displacement = np.empty(heights.size)
-    touching = np.zeros(heights.size, dtype=np.bool_)
-    pushed = np.zeros((heights.size - 1, 2))
-    sums = flow_kelvin(heights, float(pixel), float(memory), float(depth), displacement, touching, pushed)
-    return Contact._make((*sums, displacement, touching, pushed))
+    return swept(flow_kelvin, heights, pixel, float(memory), depth)

@@ -125,7 +125,7 @@ def _firmness(stretch, shift, solid, table, shift_left):
 
 
 @compiled
-def _flow(heights, pixel, depth, solid, displacement, touching, pushed):
+def _flow(heights, pixel, solid, depth, displacement, touching, pushed):
     """Sums of `Contact` for a solid whose times are lengths of its flow; its fields are written."""
     n, q = solid.moduli.size, solid.compliances.size
     stiff = 1.0 + solid.moduli.sum()  # against a jump of u: glassy but for the dashpot
@@ -236,6 +236,13 @@ def _flow(heights, pixel, depth, solid, displacement, touching, pushed):
     return force, lost, traction, stiffness, length, slope_square, first, last
 
 
+def swept(flow, heights, pixel, memory, depth) -> Contact:
+    """Contact by the sums and the fields of a compiled flow with some memory."""
+    heights = np.asarray(heights)
+    fields = np.empty(heights.size), np.zeros(heights.size, np.bool_), np.zeros((heights.size - 1, 2))
+    return Contact._make((*flow(heights, float(pixel), memory, float(depth), *fields), *fields))
+
+
 @takes(heights=METRE, pixel=METRE, speed=SPEED, depth=METRE)
 def sweep_modes(heights, pixel: float, modes: Modes, speed: float, depth: float) -> Contact:
     """Solve steady flow along +x past a rigid profile, linear between its nodes.
@@ -247,10 +254,4 @@ def sweep_modes(heights, pixel: float, modes: Modes, speed: float, depth: float)
 
     The elastomer is at rest before the first node, and relaxes freely behind the last one.
     """
-    heights = np.asarray(heights)
-    displacement = np.empty(heights.size)
-    touching = np.zeros(heights.size, dtype=np.bool_)
-    pushed = np.zeros((heights.size - 1, 2))
-    solid = Solid.of(modes, speed, _SHORTEST * pixel)
-    sums = _flow(heights, float(pixel), float(depth), solid, displacement, touching, pushed)
-    return Contact._make((*sums, displacement, touching, pushed))
+    return swept(_flow, heights, pixel, Solid.of(modes, speed, _SHORTEST * pixel), depth)

@@ -1,1 +1,1 @@
-"""Where a body touches: the search for the contact, its Krylov solvers and sums, and partial slip."""
+"""Contact area: the search for it, its Krylov solvers and sums, and partial slip."""

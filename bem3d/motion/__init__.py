@@ -1,1 +1,1 @@
-"""How the contact moves: steady sliding, and steps in time with what an elastomer remembers."""
+"""Motion of the contact: steady sliding, and steps in time with the memory of the elastomer."""

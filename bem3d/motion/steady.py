@@ -69,7 +69,7 @@ class Flow:
 
     @property
     def memory(self) -> float:
-        """Mean length of the modes [m], each weighted with what of the trail it makes."""
+        """Mean length of the modes [m], each weighted with its part of the lag length."""
         if self.lag_length == 0:
             return 0.0
         return float(self.shares * self.lengths / self.lag_length @ self.lengths)

@@ -1,1 +1,1 @@
-"""What pressure does to the surface: kernels of half-space, layer and line, and the products with them."""
+"""Response of the surface to pressure: kernels of half-space, layer and line, and products with them."""

@@ -1,4 +1,4 @@
-"""What lies below the surface: a kernel that spreads a pressure, and modes under the flow that remember it.
+"""Medium below the surface: a kernel that spreads a pressure, and modes under the flow that remember it.
 
 Lengths are in pixels and pressures in units of the relaxed E*, as in `influence`. The modes alone are a
 foundation, of which no point feels another: the displacement of a half-space is that of this foundation, spread by

@@ -31,7 +31,7 @@ def plot(points: DataFrame, lines: DataFrame | None = None, caption: str = "", f
 
 
 def figure(tables: Tables) -> Figure:
-    """The same axes for all models."""
+    """Panel for each model, on the same axes."""
     points, lines = tables[NAME], tables.get(LINES)
     across = "load" if "load" in points else "depth"
     scale, label = AXES[across]

@@ -53,7 +53,7 @@ def main() -> None:
 
 
 def _counts(judged, outcomes, stated: Sequence[Mapping]) -> str:
-    """How many contacts were learned from, judged and left out, and the worst region."""
+    """Numbers of contacts that were learned from, judged and left out, and the worst region, in sentences."""
     answered = sum(outcomes[each.task].rows[0].reason is None for each in judged)
     low = [f"{each['model']}, {each['region']}" for each in errors.regions(stated) if each["upper"] < errors.SHARE]
     worst = f"Significantly below 95 %: {'; '.join(low)}." if low else "No region is significantly below 95 %."

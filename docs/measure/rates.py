@@ -1,4 +1,4 @@
-"""How often the judge's intervals hold the truth and its verdicts are right: tables of results/rates.md.
+"""Rates at which the judge's intervals hold the truth and its verdicts are right: tables of results/rates.md.
 
 Friction is drawn with an answer that is known. It takes minutes on one core; every draw follows from SEED.
 """
@@ -60,7 +60,7 @@ def friction(law=knee, vertical: float = 0.0, shape: float = 0.0) -> np.ndarray:
 
 
 def generator(*cell: float) -> np.random.Generator:
-    """Of one cell of a table."""
+    """Random numbers of one cell of a table."""
     return np.random.default_rng([SEED, *(round(1000 * number) for number in cell)])
 
 
@@ -68,7 +68,7 @@ def generator(*cell: float) -> np.random.Generator:
 
 
 def mean_of_draws(normal: bool, variation: float, count: int) -> tuple[int, int, np.ndarray]:
-    """How often the interval of a mean and Student's hold it, and how much wider the former is."""
+    """Counts of intervals of a mean, ours and Student's, that hold it, and ratios of their widths."""
     draws, width = generator(3, normal, variation, count).normal(size=(DRAWN, count)), sqrt(np.log1p(variation**2))
     found = mean_ratio(1 + variation * draws if normal else np.exp(width * draws - width**2 / 2))
     (low, high), half = found.interval(), found.error * student(0.95, found.dof)

@@ -70,7 +70,7 @@ def test_a_neighbour_starts_a_slow_contact_and_does_no_harm_to_a_fast_one():
         assert pairs(solver.solve(at(speeds[1]), warm_start)) < factor * pairs(solver.solve(at(speeds[1])))
 
 
-def test_cells_lines_and_stated_windows_follow_a_trail():
+def test_cells_lines_and_stated_windows_start_from_their_neighbours():
     for scene, solver in (
         (CELL, BEM(points=64)),
         (replace(CELL, motion=Slide(speed=0.1, pressure=2e4)), BEM(points=64)),
@@ -84,7 +84,7 @@ def test_cells_lines_and_stated_windows_follow_a_trail():
         assert found.measures["transform_pairs"] <= alone.measures["transform_pairs"]
 
 
-def test_a_failed_solve_leaves_nothing_on_the_trail():
+def test_a_failed_solve_leaves_nothing_to_start_from():
     warm_start, solver = WarmStart(), BEM(points=64)
     with pytest.raises(EmptyContact):
         solver.solve(

@@ -135,7 +135,7 @@ def _value(allowed, answers):
 
 
 def by_dimension(in_1d: Allowed, in_3d: Allowed) -> Misfit:
-    """What is allowed in one and in three dimensions."""
+    """Bound of a misfit, one in one dimension and another in three."""
     return lambda answers: _value(in_1d if answers[0].dimension == "1D" else in_3d, answers)
 
 

@@ -111,7 +111,7 @@ class Series(ABC):
 
     @property
     def pressed(self) -> str:
-        """What is not prescribed: depth under loads, force at depths."""
+        """Quantity that answers the pressing: the depth under loads, the force at depths."""
         return FORCE if self.prescribed in ("depth", "gap") else DEPTH
 
     @property
