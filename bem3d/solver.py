@@ -24,7 +24,8 @@ from .measures import measured
 from .motion.history import marched
 from .plan import likely_grid, plan_of
 from .problem import Problem
-from .response.engine import Engine, Library
+from .response.engine import Engine
+from .response.transforms import Library
 from .terms import TERMS
 from .warmstart import WarmStart
 

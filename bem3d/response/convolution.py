@@ -17,7 +17,7 @@ class FreeConvolution:
     def __init__(self, shape, symbol, engine=PLAIN):
         """symbol: see `free_symbol`."""
         self.shape, self.operator_applications = shape, 0
-        self._product = engine.product(symbol, shape, free_size(shape, engine))
+        self._product = engine.product([symbol], shape, free_size(shape, engine))
 
     @classmethod
     def of(cls, kernel, engine=PLAIN):
@@ -54,7 +54,7 @@ class FreePair:
             engine.symmetric(kernel, padded, parity) for kernel, parity in zip(kernels, (1, -1, 1), strict=True)
         ]
         self.shape, self.operator_applications = (ny, nx), 0
-        self._product = engine.pair(symbols, self.shape, padded)
+        self._product = engine.product(symbols, self.shape, padded)
 
     def __call__(self, planes, out=None):
         """Displacements (2, ny, nx) of tractions (2, ny, nx)."""
@@ -68,7 +68,7 @@ class PeriodicFilter:
     def __init__(self, shape, symbol, engine=PLAIN):
         """symbol: function of the wave numbers (q_y, q_x) in rad/pixel, even in q_y, broadcast, to an array."""
         self.shape, self.operator_applications = shape, 0
-        self._product = engine.product(symbol(*_wave_numbers(shape)), shape, shape)
+        self._product = engine.product([symbol(*_wave_numbers(shape))], shape, shape)
 
     def __call__(self, values, out=None):
         """The filtered values (ny, nx)."""
@@ -91,7 +91,7 @@ class PeriodicPair:
         xx, xy, yy = symbols(q_y, q_x)
         xy = np.where((q_y > SHORTEST) | (q_x > SHORTEST), 0.0, xy)
         self.shape, self.operator_applications = shape, 0
-        self._product = engine.pair((xx, xy, yy), shape, shape)
+        self._product = engine.product((xx, xy, yy), shape, shape)
 
     def __call__(self, planes, out=None):
         """The filtered planes (2, ny, nx)."""

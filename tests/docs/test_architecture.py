@@ -18,8 +18,8 @@ ARROWS = {
     "compare": set(PACKAGES),
 }
 DOORS = {  # files outside which a library is not imported, in whichever folder they stand
-    "pyfftw": {"engine"},
-    "ducc0": {"engine"},
+    "pyfftw": {"transforms"},
+    "ducc0": {"transforms"},
     "numba": {"loops"},
     "tomllib": {"reading"},
     "SurfaceTopography": {"heightfile"},
