@@ -6,7 +6,6 @@ are never transformed, and columns go block by block, forward, through the symbo
 
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from functools import partial
 from math import prod
 from typing import Literal
 
@@ -16,7 +15,8 @@ from scipy.fft import next_fast_len, rfft
 from . import transforms
 
 SMALL = 2**16  # points of a padded plane that is transformed at once: half a megabyte
-BLOCK = 32  # lines transformed at a time: half a megabyte at 512 points, padded
+POINTS = 2**15  # transformed at a time: half a megabyte of waves
+BLOCK = 32  # lines at a time, or a multiple: ducc0 rounds those that are left over otherwise
 SHARED = 128  # lines at a time of each of several threads: they wait less for one another
 
 
@@ -68,14 +68,24 @@ class Engine:
             transforms.transform_symmetric(symbol.view(float), 1, [0])
         return symbol
 
-    def lines(self, count, length, real):
-        """Transforms of as many of `count` lines, of `length` points, as a thread takes at a time."""
-        points = self.real if real else self.complex
-        return transforms.lines(self.library, self.blocks(count)[0].stop, length, points, self.complex)
+    def rows(self, count, length):
+        """Transforms of as many of `count` rows, of `length` points, as a thread takes at a time."""
+        return transforms.ROWS[self.library](self.blocks(count, length)[0].stop, length, self.real, self.complex)
 
-    def blocks(self, count):
-        """Slices of as many lines as a thread takes at a time."""
+    def columns(self, count, length):
+        """Transforms of as many of `count` columns, of `length` points, as a thread takes at a time."""
+        return transforms.COLUMNS[self.library](self.blocks(count, length)[0].stop, length, self.complex)
+
+    def normalized(self, symbol, padded):
+        """A symbol over the number of points, in the precision of the transforms and in their order in memory."""
+        kind = self.real if np.isrealobj(symbol) else self.complex
+        return (symbol / prod(padded)).astype(kind, order=transforms.ORDER[self.library])
+
+    def blocks(self, count, length):
+        """Slices of as many lines of `length` points as a thread takes at a time."""
         size = BLOCK if self.threads == 1 else SHARED
+        if self.library == "ducc0":  # FFTW transforms a whole block each time, however few lines are left
+            size = max(size, POINTS // length // BLOCK * BLOCK)
         return [slice(start, min(start + size, count)) for start in range(0, count, size)]
 
     def good_size(self, least: int) -> int:
@@ -93,60 +103,62 @@ class Product:
 
     def __init__(self, symbols, shape, padded, engine):
         self.shape, self._padded, self._engine = shape, padded, engine
-        self._symbols = [self._by_columns(symbol) for symbol in symbols]
+        self._symbols = [engine.normalized(symbol, padded) for symbol in symbols]
         (my, mx), planes = padded, range(1 if len(symbols) == 1 else 2)
         width, threads = mx // 2 + 1, range(engine.threads)
         self._waves = [transforms.spread_rows(shape[0], width, engine.complex) for _ in planes]
-        self._rows = [engine.lines(shape[0], mx, real=True) for _ in threads]
-        self._columns = [[engine.lines(width, my, real=False) for _ in planes] for _ in threads] if my > 1 else []
+        self._rows = [engine.rows(shape[0], mx) for _ in threads]
+        self._columns = [[engine.columns(width, my) for _ in planes] for _ in threads] if my > 1 else []
         self._pool = ThreadPoolExecutor(engine.threads) if engine.threads > 1 else None
 
     def __call__(self, planes, out=None):
         """The product with a plane (ny, nx), or with two (2, ny, nx)."""
         out = np.empty(planes.shape) if out is None else out
         given, images = ([each] if each.ndim == 2 else each for each in (planes, out))
-        for plane, waves in zip(given, self._waves, strict=True):
-            self._share(self.shape[0], self._rows, partial(_along_rows, plane, waves))
+
+        def forward(rows, block):
+            for plane, waves in zip(given, self._waves, strict=True):
+                rows.forward(plane[block], waves[block])
+
+        def backward(rows, block):
+            for waves, image in zip(self._waves, images, strict=True):
+                rows.backward(waves[block], image[block])
+
+        (my, mx), ny = self._padded, self.shape[0]
+        self._share(self._engine.blocks(ny, mx), self._rows, forward)
         if self._columns:
-            self._share(self._padded[1] // 2 + 1, self._columns, self._along_columns)
+            self._share(self._engine.blocks(mx // 2 + 1, my), self._columns, self._along_columns)
         else:
-            self._waves[0] *= self._symbols[0].T
-        for waves, image in zip(self._waves, images, strict=True):
-            self._share(self.shape[0], self._rows, partial(_back_along_rows, waves, image))
+            self._waves[0] *= self._symbols[0]
+        self._share(self._engine.blocks(ny, mx), self._rows, backward)
         return out
 
-    def _by_columns(self, symbol):
-        """A symbol (mx//2+1, my//2+1), over the number of points, as neither transform is normalized."""
-        kind = self._engine.real if np.isrealobj(symbol) else self._engine.complex
-        return np.ascontiguousarray((symbol / prod(self._padded)).T.astype(kind))
-
-    def _share(self, count, lines, work):
-        """Call work(block, lines) on all blocks of `count` lines, each thread with its own transforms."""
+    def _share(self, blocks, transforms, work):
+        """Call work(transforms, block) for all blocks of lines, each thread with its own transforms."""
 
         def run(thread):
-            for block in self._engine.blocks(count)[thread :: self._engine.threads]:
-                work(block, lines[thread])
+            for block in blocks[thread :: self._engine.threads]:
+                work(transforms[thread], block)
 
         if self._pool is None:
             run(0)
         else:
             list(self._pool.map(run, range(self._engine.threads)))
 
-    def _along_columns(self, columns, lines):
+    def _along_columns(self, columns, block):
         """Multiply a block of columns by the symbols, while it is in the cache."""
-        ny, half = self.shape[0], self._padded[0] // 2 + 1
-        blocks = [each.forward(waves[:, columns].T) for each, waves in zip(lines, self._waves, strict=True)]
-        symbols = [symbol[columns] for symbol in self._symbols]
+        given, half = [waves[:, block] for waves in self._waves], self._padded[0] // 2 + 1
+        waves = [each.forward(lines) for each, lines in zip(columns, given, strict=True)]
         mirrored = slice(self._padded[0] - half, 0, -1)  # rows of q_y < 0
         for part, rows, sign in ((slice(half), slice(half), 1), (slice(half, None), mirrored, -1)):
-            if len(blocks) == 1:
-                blocks[0][:, part] *= symbols[0][:, rows]
+            if len(waves) == 1:
+                waves[0][part] *= self._symbols[0][rows, block]
                 continue
-            (x, y), (xx, xy, yy) = (block[:, part] for block in blocks), (symbol[:, rows] for symbol in symbols)
+            (x, y), (xx, xy, yy) = (each[part] for each in waves), (each[rows, block] for each in self._symbols)
             across = sign * xy
             x[:], y[:] = xx * x + across * y, across * x + yy * y
-        for block, each, waves in zip(blocks, lines, self._waves, strict=True):
-            waves[:, columns] = each.backward(block)[:, :ny].T
+        for each, transformed, lines in zip(columns, waves, given, strict=True):
+            each.backward(transformed, lines)
 
 
 class SmallProduct:
@@ -156,8 +168,7 @@ class SmallProduct:
         self.shape, (symbol,) = shape, symbols
         self._plane = transforms.Plane(padded, engine.real, engine.complex)
         rows = np.minimum(np.arange(padded[0]), padded[0] - np.arange(padded[0]))
-        kind = engine.real if np.isrealobj(symbol) else engine.complex
-        self._symbol = (symbol[rows] / prod(padded)).astype(kind)
+        self._symbol = engine.normalized(symbol, padded)[rows]
 
     def __call__(self, plane, out=None):
         """The product with a plane (ny, nx)."""
@@ -169,11 +180,3 @@ class SmallProduct:
             return image.astype(float)
         out[:] = image
         return out
-
-
-def _along_rows(plane, waves, rows, lines):
-    waves[rows] = lines.forward(plane[rows])
-
-
-def _back_along_rows(waves, image, rows, lines):
-    image[rows] = lines.backward(waves[rows])[:, : image.shape[1]]

@@ -1,6 +1,7 @@
-"""Fourier transforms of many lines at once, by ducc0 or FFTW: no other module imports either library.
+"""Fourier transforms of blocks of rows and columns, by ducc0 or FFTW: no other module imports either library.
 
-ducc0 and pyfftw are imported on demand, as most solves need one of them only.
+Rows are real; columns are of the waves of rows. Transforms back are not normalized. Both libraries are imported on
+demand, as most solves need one of them only.
 """
 
 from typing import Literal
@@ -10,66 +11,117 @@ import numpy as np
 Library = Literal["ducc0", "fftw"]
 
 
-def lines(library, count, length, points, waves):
-    """Transforms of up to `count` lines of `length` points, forward and backward.
+class DuccRows:
+    """Up to `count` real rows of `length` points by ducc0, padded with zeros where fewer are given.
 
-    points, waves : number types of the lines and of their transforms; real lines have length // 2 + 1 waves
+    points, waves : number types of rows and of their transforms
     """
-    return {"ducc0": _Ducc, "fftw": _Fftw}[library](count, length, points, waves)
-
-
-class _Ducc:
-    """Lines by ducc0, which plans nothing."""
 
     def __init__(self, count, length, points, waves):
         import ducc0
 
-        self._fft, self._length, self._real = ducc0.fft, length, points != waves
-        self._points = spread_rows(count, length, points)
-        self._waves = spread_rows(count, length // 2 + 1, waves) if self._real else self._points
+        self._fft, self._length = ducc0.fft, length
+        self._padded = spread_rows(count, length, points)
 
-    def forward(self, values):
-        """Waves (n, length // 2 + 1 or length) of n lines; zeros are added up to their length."""
-        count, given = values.shape
-        points, waves = self._points[:count], self._waves[:count]
-        points[:, :given], points[:, given:] = values, 0
-        transform = self._fft.r2c if self._real else self._fft.c2c
-        return transform(points, axes=(1,), forward=True, out=waves)
+    def forward(self, rows, waves):
+        """Rows (n, nx) to waves (n, length // 2 + 1)."""
+        if not self._fits(rows):
+            padded, given = self._padded[: len(rows)], rows.shape[1]
+            padded[:, :given], padded[:, given:] = rows, 0
+            rows = padded
+        self._fft.r2c(rows, axes=(1,), out=waves)
 
-    def backward(self, waves):
-        """Lines (n, length) with these waves, not normalized."""
-        points = self._points[: len(waves)]
-        options = {"axes": (1,), "forward": False, "out": points}
-        if self._real:
-            return self._fft.c2r(waves, lastsize=self._length, **options)
-        return self._fft.c2c(waves, **options)
+    def backward(self, waves, rows):
+        """Waves (n, length // 2 + 1) to the first points (n, nx) of their rows."""
+        padded = rows if self._fits(rows) else self._padded[: len(rows)]
+        self._fft.c2r(waves, axes=(1,), lastsize=self._length, forward=False, out=padded)
+        if padded is not rows:
+            rows[:] = padded[:, : rows.shape[1]]
+
+    def _fits(self, rows):
+        return rows.shape[1] == self._length and rows.dtype == self._padded.dtype
 
 
-class _Fftw:
-    """Lines by FFTW, which measures a plan for each length once and remembers it."""
+class DuccColumns:
+    """Up to `count` complex columns of `length` points by ducc0, padded with zeros where fewer are given."""
+
+    def __init__(self, count, length, waves):
+        import ducc0
+
+        self._fft, self._padded = ducc0.fft, np.zeros((length, count), waves)
+
+    def forward(self, columns):
+        """Transform (length, n) of columns (ny, n), in place if they have this length."""
+        if len(columns) < len(self._padded):
+            padded, given = self._padded[:, : columns.shape[1]], len(columns)
+            padded[:given], padded[given:] = columns, 0
+            columns = padded
+        return self._fft.c2c(columns, axes=(0,), out=columns)
+
+    def backward(self, transformed, columns):
+        """Transforms, overwritten, to the first points (ny, n) of their columns."""
+        self._fft.c2c(transformed, axes=(0,), forward=False, out=transformed)
+        if len(columns) < len(transformed):
+            columns[:] = transformed[: len(columns)]
+
+
+class FftwRows:
+    """As `DuccRows`, by FFTW, which measures a plan for each length once and remembers it."""
 
     def __init__(self, count, length, points, waves):
         import pyfftw
 
         self._points = pyfftw.zeros_aligned((count, length), points)
-        self._waves = self._points if points == waves else pyfftw.empty_aligned((count, length // 2 + 1), waves)
-        plan = {"axes": (1,), "flags": ("FFTW_MEASURE", "FFTW_DESTROY_INPUT")}
-        self._forward = pyfftw.FFTW(self._points, self._waves, **plan)
-        self._backward = pyfftw.FFTW(self._waves, self._points, direction="FFTW_BACKWARD", **plan)
+        self._waves = pyfftw.empty_aligned((count, length // 2 + 1), waves)
+        self._forward, self._backward = _plans(self._points, self._waves)
 
-    def forward(self, values):
-        """As of `_Ducc`."""
-        count, given = values.shape
-        self._points[:count, :given], self._points[:count, given:] = values, 0
+    def forward(self, rows, waves):
+        """As of `DuccRows`."""
+        count, given = rows.shape
+        self._points[:count, :given], self._points[:count, given:] = rows, 0
         self._forward.execute()
-        return self._waves[:count]
+        waves[:] = self._waves[:count]
 
-    def backward(self, waves):
-        """As of `_Ducc`."""
-        if not np.may_share_memory(waves, self._waves):
-            self._waves[: len(waves)] = waves
+    def backward(self, waves, rows):
+        """As of `DuccRows`."""
+        self._waves[: len(waves)] = waves
         self._backward.execute()
-        return self._points[: len(waves)]
+        rows[:] = self._points[: len(rows), : rows.shape[1]]
+
+
+class FftwColumns:
+    """As `DuccColumns`, by FFTW."""
+
+    def __init__(self, count, length, waves):
+        import pyfftw
+
+        self._lines = pyfftw.zeros_aligned((count, length), waves)
+        self._forward, self._backward = _plans(self._lines, self._lines)
+
+    def forward(self, columns):
+        """As of `DuccColumns`, never in place."""
+        given, count = columns.shape
+        self._lines[:count, :given], self._lines[:count, given:] = columns.T, 0
+        self._forward.execute()
+        return self._lines[:count].T
+
+    def backward(self, transformed, columns):
+        """As of `DuccColumns`; `transformed` is what `forward` returned."""
+        self._backward.execute()
+        columns[:] = transformed[: len(columns)]
+
+
+def _plans(points, waves):
+    """Plans of FFTW forward and backward."""
+    import pyfftw
+
+    plan = {"axes": (1,), "flags": ("FFTW_MEASURE", "FFTW_DESTROY_INPUT")}
+    return pyfftw.FFTW(points, waves, **plan), pyfftw.FFTW(waves, points, direction="FFTW_BACKWARD", **plan)
+
+
+ROWS = {"ducc0": DuccRows, "fftw": FftwRows}
+COLUMNS = {"ducc0": DuccColumns, "fftw": FftwColumns}
+ORDER: dict[str, Literal["C", "F"]] = {"ducc0": "C", "fftw": "F"}  # of transformed columns in memory
 
 
 class Plane:
@@ -83,25 +135,25 @@ class Plane:
         self._waves = np.empty((padded[0], padded[1] // 2 + 1), waves)
 
     def forward(self, plane):
-        """Waves (my, mx // 2 + 1) of a plane (ny, nx), the same number of values each time."""
+        """Waves (my, mx // 2 + 1) of a plane (ny, nx), of the same shape each time."""
         self._points[: len(plane), : plane.shape[1]] = plane
         return self._fft.r2c(self._points, axes=(0, 1), out=self._waves)
 
     def backward(self, waves):
-        """Plane (my, mx) with these waves, not normalized; they are lost."""
+        """Plane (my, mx) of waves, which are overwritten."""
         return self._fft.c2r(waves, axes=(0, 1), lastsize=self._length, forward=False, out=self._image)
 
 
-def spread_rows(count, length, kind):
-    """Zeros (count, length), gaps between rows: of a power of two, all would share the same lines of the cache."""
-    return np.zeros((count, length + 8), kind)[:, :length]
-
-
 def transform_symmetric(values, parity, axes):
-    """Real waves, in place, of values that are even (parity 1) or odd (-1) along each of the axes.
+    """Transform, in place, values that are even (parity 1) or odd (-1) along each of the axes, to real waves.
 
     values : at 0, 1, ..., half the period; odd values without the two ends
     """
     import ducc0
 
     (ducc0.fft.dct if parity == 1 else ducc0.fft.dst)(values, type=1, axes=axes, out=values)
+
+
+def spread_rows(count, length, kind):
+    """Zeros (count, length), gaps between rows: of a power of two, all would share the same lines of the cache."""
+    return np.zeros((count, length + 8), kind)[:, :length]
