@@ -13,7 +13,7 @@ from scene.surfaces.waves import MOST_WAVES, Waves
 
 CORE = 16  # shells in which the density varies much across the cell of a wave vector
 CORE_SAMPLES, OUTER_SAMPLES = 8, 2  # per axis, in the cell
-SMALL, KEPT = 128, 16  # waves along x, and spectra of so few that are kept: 9 MB
+SMALL, KEPT = 128, 16  # waves along x, or points, up to which the last spectra and cosines are kept: 13 MB
 # Spawn keys keep a surface apart from a line drawn with the same seed, and the moduli of waves from the phases.
 PHASES, MODULI = (2,), (2, 0)
 
@@ -125,6 +125,17 @@ def _span_a_period(places, step):
 
 def _cosines(places, step, count):
     """Cosines, then sines, of `count` multiples of a wave number at the places (n,): (n, 2 count)."""
+    if max(len(places), count) <= SMALL:  # heights, slopes and curvatures of a small grid ask for the same ones
+        return _kept_cosines(places.tobytes(), step, count)
+    return _evaluated(places, step, count)
+
+
+@lru_cache(KEPT)
+def _kept_cosines(places, step, count):
+    return _evaluated(np.frombuffer(places), step, count)
+
+
+def _evaluated(places, step, count):
     side = isqrt(count - 1) + 1  # a wave is the product of two, of far fewer
     turns = np.exp(1j * step * places[:, None, None] * np.multiply.outer([side, 1], np.arange(side)))
     waves = (turns[:, 0, :, None] * turns[:, 1, None, :]).reshape(len(places), -1)[:, :count]

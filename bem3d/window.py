@@ -167,18 +167,10 @@ def _penetrating(problem, grid, answer, surface, shortest, inner, outer):
     gap = problem.heights(fine, surface) - depth
     if problem.scene.layer is None and (gap[outside] >= 0).all():  # a half-space does not rise under a pressure
         return None
-    displacement = problem.medium.operator(coarse)(_binned(grid, answer.pressure, coarse))
+    displacement = problem.medium.operator(coarse)(coarse.averaged(answer.pressure, grid))
     gap += fine.resample(displacement, coarse) * coarse.pixel
     penetrating = (gap < -OVERLAP * (depth - answer.lowest * grid.pixel)) & outside
     return fine.box(penetrating) if penetrating.any() else None
-
-
-def _binned(grid, pressure, coarse):
-    """Pressure of one grid averaged over the pixels of another around the same centre, the force kept."""
-    edges = (np.arange(coarse.points + 1) / coarse.points - 0.5) * coarse.extent
-    y, x = np.meshgrid(grid.y - grid.centre[1], grid.x - grid.centre[0], indexing="ij")
-    force, _, _ = np.histogram2d(y.ravel(), x.ravel(), bins=(edges, edges), weights=pressure.ravel())
-    return force * (grid.pixel / coarse.pixel) ** 2
 
 
 def check_on_map(scene: Scene, grid: Grid, touched: np.ndarray) -> None:
