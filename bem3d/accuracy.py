@@ -21,7 +21,7 @@ SHARE = 1 / 30  # tolerance over wanted error: a tenth of that error is left to 
 NARROW = 1e-7  # tolerance of a prescribed gap, at least: a narrow one is lost in a looser one
 # Order at which an error is taken to fall with the points: no lower one is waited for, no higher one believed.
 ORDERS = 0.5, 2.0
-HOPELESS = 4  # times MOST: where so many points are needed by the order observed, no more are tried
+HOPELESS = 4  # times MOST: no more points are tried where the observed order asks for more than this
 RELATIVE = Unit("", "a relative error between 0 and 1")
 
 
@@ -35,8 +35,8 @@ class Choice:
 
     solver, result : the settings, and their answer
     wanted, error : relative errors by name, as wanted, and as the answers on half and a quarter of the points show
-        them: friction, and depth or load, whichever the scene does not prescribe; depth over that of the smooth
-        contact at rest. An indication, and no bound; infinite where fewer than three grids have an answer
+        them: friction, and depth or load, whichever the scene does not prescribe; depth relative to the smooth
+        contact at rest. An indication, not a bound; infinite where fewer than three grids have an answer
     """
 
     solver: BEM
@@ -51,7 +51,7 @@ class Choice:
 
 
 class Answer(Protocol):
-    """Numbers by which two answers are compared: a Result, or numbers of one."""
+    """Numbers by which two answers are compared: a Result, or an object with these attributes."""
 
     @property
     def friction_coefficient(self) -> float: ...
@@ -89,8 +89,8 @@ def for_accuracy(
 ) -> Choice:
     """Settings of `BEM` that keep wanted relative errors in a scene, and their answer.
 
-    friction, depth, load : wanted errors of the friction coefficient, and of the depth, over that of the
-        smooth contact at rest, or of the load, whichever is not prescribed
+    friction, depth, load : wanted errors of the friction coefficient, and of the depth, relative to the smooth
+        contact at rest, or of the load, whichever is not prescribed
     settings : of `BEM`, all but points and tolerance
 
     Points are doubled until what changed over two halvings of the pixel keeps the errors. Warns Unconfirmed
@@ -123,8 +123,8 @@ def for_accuracy(
         assert left is not None
         raise left
     if not choice.confirmed:
-        said = ", ".join(f"{name} by {choice.error[name]:.2g}, wanted {wanted[name]:g}" for name in wanted)
-        message = f"{choice.solver.points} points a side do not confirm the wanted errors: {said}"
+        errors = ", ".join(f"{name} by {choice.error[name]:.2g}, wanted {wanted[name]:g}" for name in wanted)
+        message = f"{choice.solver.points} points a side do not confirm the wanted errors: {errors}"
         warnings.warn(message, Unconfirmed, stacklevel=3)
     return choice
 

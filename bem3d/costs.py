@@ -31,12 +31,12 @@ def band(scene: Scene) -> str:
 
 
 def body(scene: Scene) -> str:
-    """Kind of body by which costs are told apart."""
+    """Kind of body, smooth or rough, for which costs were measured."""
     return "smooth" if scene.roughness is None or scene.roughness.flat else "rough"
 
 
 def typical(scene: Scene, points: int) -> dict[str, float]:
-    """Costs of such a body at such a speed on a square of so many points a side, by the names of `COSTS`."""
+    """Costs of such a body at such a speed on a square of `points` a side, by the names of `COSTS`."""
     return {name: _between(measured()[body(scene), band(scene), name], points) for name in COSTS}
 
 

@@ -1,4 +1,4 @@
-"""Heights of a scene on a grid: what another code of contact is to be given."""
+"""Heights of a scene on a grid, as input for another contact code."""
 
 from dataclasses import dataclass, replace
 
@@ -30,7 +30,9 @@ class Heights:
 
 
 def heights(scene: Scene, points: int, extent: float | None = None) -> Heights:
-    """Heights of indenter and roughness on the grid of `BEM`, of so many points a side.
+    """Heights of indenter and roughness on the grid of `BEM`.
+
+    points : along each side of the grid
 
     extent : side of the grid [m], around the axis of the indenter. Without it, of a Plane the period of its
         roughness; of other bodies a square around the contact, for which a few coarse contacts are solved

@@ -36,7 +36,7 @@ SAMPLES = 7  # between two columns, in the mean
 DRAWN = 13  # arrays in which a surface is drawn, each as large as half of its waves
 LEFT_OUT = {
     "roughness": "no spectrum, and nothing is drawn on top of the indenter",
-    "layer": "the kernel is that of a half-space: no table and no thickness",
+    "layer": "a half-space: no table and no thickness",
     "interface": "no tangential kernels and no tractions: all friction is loss in the elastomer",
     "time": "no steps, and nothing is remembered from one to the next",
     "flow": "real kernels, conjugate gradients instead of GMRES, no kernels of loss",
@@ -46,7 +46,7 @@ LEFT_OUT = {
 def plan_of(solver, scene: Scene, priced: bool = True) -> Plan:
     """Plan of a scene for a BEM. Nothing is solved: where a window has to be found, its size is an estimate.
 
-    priced : with what it is expected to take; else nothing is said of that
+    priced : with the expected costs
     """
     terms, shape = terms_of(solver.terms, scene), _shape(solver, scene)
     flow = Flow.of(scene.solid, 0.0 if isinstance(scene.motion, Program) else scene.motion.speed)
@@ -97,7 +97,7 @@ class _March:
         ]
 
     def memory(self, engine, real):
-        """Bytes beside the contact of a step. real : bytes of a real number of the transforms"""
+        """Bytes in addition to the contact of a step. real : bytes of a real number of the transforms"""
         # Planes of the window: its modes; what is remembered, and displacements before and after; heights or
         # slopes at places within a pixel; pressure and displacements at instants.
         planes = self.modes + 3 + self.places + 3 * self.frames

@@ -64,9 +64,9 @@ class Start:
     foundation: Foundation | None
 
     def on(self, grid: Grid, foundation: Foundation | None) -> np.ndarray:
-        """Pressure on a grid that sinks the foundation as much there; what pulls is let go of.
+        """Pressure on a grid that displaces its foundation as much as here; where it would pull it is zero.
 
-        The pressure itself has spikes at leading edges, and another one at another speed.
+        The pressure itself is no good start: it has spikes at leading edges, and depends on the speed.
         """
         sunk = self.pressure.copy()
         if self.foundation is not None:
@@ -155,12 +155,12 @@ class Problem:
         return loss * self.flow.modulus * grid.patch, work * self.flow.modulus * grid.patch
 
     def solve(
-        self, finest: Grid, tolerance: float, start: Start | None = None, beside: Start | None = None
+        self, finest: Grid, tolerance: float, start: Start | None = None, neighbour: Start | None = None
     ) -> activeset.Contact:
         """Contact on the finest grid, each grid started from the coarser one; in units of `solve_on`.
 
-        start : whose points are then doubled until they are those of the finest
-        beside : of a neighbouring scene, from which the finest grid starts where it is the nearer one
+        start : contact on a coarser grid, whose points are doubled until the finest is reached
+        neighbour : contact of a neighbouring scene; the finest grid starts from it where that is closer
         """
         grids = finest.ladder(COARSEST if start is None else 2 * start.grid.points)
         surface = self.surface(finest)
@@ -170,7 +170,7 @@ class Problem:
                 start = self.start(grid, answer.pressure)
             except (EmptyContact, Unseen):
                 start = None  # the coarse grid misses the peaks that the finer one has
-        return self.solve_on(finest, surface, tolerance, start, beside)
+        return self.solve_on(finest, surface, tolerance, start, neighbour)
 
     def start(self, grid: Grid, pressure: np.ndarray) -> Start:
         """Start of the next solve, from a pressure in units of the relaxed E*."""
@@ -179,7 +179,7 @@ class Problem:
     def solve_on(self, grid: Grid, surface, tolerance: float, *starts: Start | None) -> activeset.Contact:
         """One grid, lengths in pixels, pressure in units of the relaxed E*. Raises SolveError.
 
-        starts : of which the nearest to the answer is taken
+        starts : the one closest to the answer is used
         """
         heights = self.heights(grid, surface, self.flow.collocation(grid)) / grid.pixel
         depth, load = self._pressed(grid, heights)

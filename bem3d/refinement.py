@@ -25,7 +25,7 @@ from .problem import Problem
 from .spots import ROWS, Spots
 
 NEAR = 0.05  # of the depth below the lowest point: gaps on the coarse grid that the fine one may close
-MOST = 16384  # points in contact, of which the matrix takes 2 GiB
+MOST = 16384  # points in contact: their matrix takes 2 GiB
 ROUNDS = 100
 
 
@@ -61,10 +61,10 @@ def refined(solver, result: Result, times: int = 2) -> Result:
     solver, result : the `BEM` that answered, and its answer with its fields
     times : a power of two
 
-    The answer is that of `solver` on as many points, to its tolerance, with all that the parts of the scene add to
-    it. Its fields are those of the points in contact: x, y [m] and pressure [Pa], (m,), and tractions and slip
-    under a Shear. Raises Refused for programs, planes and lines, and SolveError where too much touches or comes
-    close on the fine grid.
+    The answer is the one that `solver` would give on as many points, to its tolerance, with all that the parts of
+    the scene add. Its fields are those of the points in contact: x, y [m] and pressure [Pa], (m,), and tractions
+    and slip under a Shear. Raises Refused for programs, planes and lines, and SolveError where too much touches
+    or comes close on the fine grid.
     """
     steps = _steps(times)
     if reasons := _refusals(result):
@@ -159,7 +159,7 @@ def _near(problem, coarse: Grid, fine: Grid, around: wake.Surroundings) -> _Poin
 
 
 def _kernel(problem, grid):
-    """Displacement by a loaded pixel (ny, 2 nx), that of the operator of the grid."""
+    """Displacement by a loaded pixel (ny, 2 nx), as in the operator of the grid."""
     medium, flow = problem.medium, problem.flow
     if flow.at_rest:
         return medium.kernel.elastic(grid)
@@ -168,7 +168,7 @@ def _kernel(problem, grid):
 
 
 def _between(kernel, at: _Points | Spots, loaded: _Points | Spots, ahead: int = 0) -> np.ndarray:
-    """Kernel from each of the loaded points to each other point (m, n), or so many pixels downstream of it."""
+    """Kernel from each of the loaded points to each other point (m, n), or to `ahead` pixels downstream of it."""
     found = np.empty((len(at.row), len(loaded.row)))
     middle = kernel.shape[1] // 2
     for first in range(0, len(at.row), ROWS):

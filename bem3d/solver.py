@@ -1,4 +1,4 @@
-"""The three-dimensional solver: its settings, and what it answers."""
+"""The three-dimensional solver: its settings and its result."""
 
 import logging
 import time
@@ -54,12 +54,12 @@ class BEM:
     steps : in time, of the whole of a Program; while it slides, a step is a pixel of path at most
     frames : instants of a Program, alike apart, at which the contact is kept in the fields
 
-    Result.friction_force joins three estimates from one pressure, of which each has its strength: by traction, the
-    pressure times the indenter's slope; by loss, the energy lost per length slid; and by curvature, the first
-    order in the speed. Traction counts in proportion to the lag of the grid's shortest wave, 0 to 1: an
-    elastic contact has some friction by traction on a coarse grid and none by loss; a fast Kelvin contact,
-    singular at its edge, loses digits by loss alone. Curvature counts where the contact warm_starts by less than a
-    quarter of a pixel: loss comes from short waves there, of which edges on a grid leave little.
+    Result.friction_force combines three estimates from the pressure: by traction, the pressure times the
+    indenter's slope; by loss, the energy lost per length slid; and by curvature, the first order in the speed.
+    Traction counts in proportion to the lag of the grid's shortest wave, 0 to 1: an elastic contact has some
+    friction by traction on a coarse grid and none by loss; a fast Kelvin contact, singular at its edge, loses
+    digits by loss alone. Curvature counts where the contact lags by less than a quarter of a pixel: there loss
+    comes from short waves, which a grid hardly shows near edges.
 
     >>> from bem3d import BEM
     >>> from scene import Kelvin, Scene, Slide, Sphere
@@ -207,34 +207,34 @@ class BEM:
         return problem.completed(self._result(problem, grid, answer, started), grid)
 
     def _answer(self, problem, warm_start):
-        start, beside = warm_start.coarser(self.points), warm_start.beside(self.points)
+        start, neighbour = warm_start.coarser(self.points), warm_start.neighbour(self.points)
         repeats = isinstance(problem.scene.indenter, Plane)
         if not repeats and self.extent is None:
-            return self._windowed(problem, warm_start.placed(problem, self.points), start, beside)
+            return self._windowed(problem, warm_start.placed(problem, self.points), start, neighbour)
         extent = problem.scene.roughness.period if repeats else self.extent
         grid = Grid(self.points, extent, width=problem.width)
-        answer = self._on(problem, grid, start, beside)
+        answer = self._on(problem, grid, start, neighbour)
         window.check(problem.scene, grid, answer.pressure > 0, repeats)
         if repeats:
             _check_gap(problem.scene.motion.gap, grid, answer)
         return grid, answer
 
-    def _windowed(self, problem, placed, start, beside):
+    def _windowed(self, problem, placed, start, neighbour):
         grid = placed.grid(self.points, problem.width)
         if start is None or (placed.start is not None and placed.start.grid.points > start.grid.points):
             start = placed.start
         for _ in range(window.ATTEMPTS):
-            answer = self._on(problem, grid, start, beside)
+            answer = self._on(problem, grid, start, neighbour)
             better = window.improved(problem, grid, answer)
             if better is None:
                 return grid, answer
             _LOG.debug("the contact does not fit a window %.3g m wide: %.3g m next", grid.extent, better.extent)
-            grid, start, beside = better, None, None
+            grid, start, neighbour = better, None, None
         raise SolveError(f"no window holds the contact, the last was {grid.extent:g} m wide; state an extent")
 
-    def _on(self, problem, grid, start, beside):
+    def _on(self, problem, grid, start, neighbour):
         window.check_waves(problem.scene, grid, self.extent)
-        return problem.solve(grid, self.tolerance, start, beside)
+        return problem.solve(grid, self.tolerance, start, neighbour)
 
     def _result(self, problem, grid, answer, started):
         pressure = answer.pressure * problem.flow.modulus

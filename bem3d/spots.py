@@ -67,12 +67,12 @@ class Spots(Grid):
         return Spots(grid.points, grid.extent, grid.centre, row=row, column=column)
 
     def averaged(self, values: np.ndarray, given: Any) -> np.ndarray:
-        """Means over these pixels of values on others, of which they are the wider ones; zero between those."""
+        """Means over these pixels of values on pixels half as wide; zero where there are none of those."""
         place = np.searchsorted(self.row * self.points + self.column, given._twice(self.points))
         return np.bincount(place, values, len(self.row)) / 4
 
     def _twice(self, points):
-        """Places of the pixels, so many in a row and twice as wide, that these lie in."""
+        """Places of the pixels twice as wide, `points` in a row, that these lie in."""
         right, down = self._before
         return (self.row + down) // 2 * points + (self.column + right) // 2
 

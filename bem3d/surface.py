@@ -45,10 +45,11 @@ class RoughSurface:
     def draw(cls, roughness: Isotropic, q_max: float) -> "RoughSurface":
         """One surface with the cut-off q_max [rad/m].
 
-        Each wave vector carries the power of its cell of the lattice, int C_2D d^2q, so that the rms height over a
-        period is exactly that of the spectrum and its density is C_2D at every q; of Gaussian amplitudes both are
-        means over many surfaces. Waves are drawn shell by shell: a higher cut-off adds detail to the same surface.
-        Raises SolveError when it would not fit in memory, seven times as much while it is drawn.
+        Each wave vector carries the power of its cell of the lattice, int C_2D d^2q, so that the rms height over
+        a period is exactly the rms height of the spectrum, and its density is C_2D at every q. With Gaussian
+        amplitudes both hold in the mean over many surfaces. Waves are drawn shell by shell: a higher cut-off adds
+        detail to the same surface. Raises SolveError when it would not fit in memory, seven times as much while
+        it is drawn.
         """
         top = int(q_max / roughness.q_min * (1 + 1e-12))
         if top > MOST_WAVES:

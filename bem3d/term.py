@@ -1,4 +1,4 @@
-"""Term of the boundary elements: their treatment of one part of a scene; heating as in every solver."""
+"""Terms of the boundary elements: how they treat a part of a scene; heating as in every solver."""
 
 from typing import Any
 

@@ -10,11 +10,10 @@ from .problem import Problem, Start
 
 @dataclass
 class WarmStart:
-    """Starts that solves leave for those that follow: of the same scene on other grids, and of its neighbours.
+    """Contacts kept as starts of later solves: of the same scene on coarser grids, and of neighbouring scenes.
 
     A scene is placed once for all grids. A contact starts from the next coarser one of the same scene, or from the
-    last on as many points, where that is nearer. Whatever it holds, the answer is that of a solve
-    alone, to the tolerance.
+    last one on as many points, whichever is closer. The answer does not depend on the start, to the tolerance.
     """
 
     _scene: Scene | None = None
@@ -23,14 +22,14 @@ class WarmStart:
     _last: dict[int, Start] = field(default_factory=dict)
 
     def set_scene(self, scene: Scene) -> None:
-        """Say which scene is solved next; windows and coarser contacts of another are forgotten."""
+        """Set the scene to be solved next; windows and coarser contacts of other scenes are dropped."""
         if scene != self._scene:
             self._scene = scene
             self._placed.clear()
             self._own.clear()
 
     def placed(self, problem: Problem, points: int) -> window.Placed:
-        """Place of the contact of the scene, for a grid of so many points."""
+        """Place of the contact of the scene, for a grid of `points` a side."""
         coarse = min(points, window.COARSE)
         if coarse not in self._placed:
             self._placed[coarse] = window.fitted(problem, coarse)
@@ -41,8 +40,8 @@ class WarmStart:
         fewer = [each for each in self._own if each < points]
         return self._own[max(fewer)] if fewer else None
 
-    def beside(self, points: int) -> Start | None:
-        """Last contact on as many points, of whatever scene."""
+    def neighbour(self, points: int) -> Start | None:
+        """Last contact on as many points, of any scene."""
         return self._last.get(points)
 
     def leave(self, start: Start) -> None:

@@ -22,7 +22,7 @@ RING = 3.0  # outer over inner side of a ring of the surroundings
 RING_POINTS = 96  # a side, for the displacement in a ring: 16 pixels from the contact at least
 SAMPLES = 2048  # points a side at most, at which a ring is searched for what penetrates
 FEWEST = 9  # points in contact below which forces are no more than a guess
-SPARE = 1.25  # of a window, for that of other surfaces, whose peaks lie elsewhere
+SPARE = 1.25  # factor on a window, for other surfaces, whose peaks lie elsewhere
 RESOLVED = 8.0  # pixels on the shortest wave
 MOST_POINTS = 16384  # a side
 FULLER = 1.01  # of a pixel, so that two of them are carried with few digits too
@@ -67,7 +67,7 @@ class Placed(NamedTuple):
     start: Start | None
 
     def grid(self, points: int, width: float | None = None) -> Grid:
-        """The window on so many points a side."""
+        """The window on a grid of `points` a side."""
         return Grid.around(self.box, points, self.margin, width)
 
 
@@ -137,7 +137,7 @@ def improved(problem: Problem, grid: Grid, answer) -> Grid | None:
 def left_out(problem: Problem, grid: Grid, answer) -> Box | None:
     """A box around what the indenter penetrates outside the grid, None when there is nothing.
 
-    The displacement out there is that of the pressure found. It is smooth away from the contact, so rings of
+    The displacement outside is caused by the pressure found. It is smooth away from the contact, so rings of
     growing width around the window are searched, each on a grid as coarse as its distance allows.
     """
     surface, shortest = problem.surface(grid), problem.shortest(grid)
@@ -281,11 +281,11 @@ def _missed(scene, grid, spare=1.0):
     if shortest is None or 2 * grid.pixel <= shortest:
         return []
     least = ceil(2 * spare * grid.extent / shortest)
-    told = [f"points = {least} would do"] if least <= MOST_POINTS else []
-    if told and 4 * least <= MOST_POINTS:
-        told = [f"{told[0]}, points = {4 * least} would resolve it"]
+    advice = [f"points = {least} would do"] if least <= MOST_POINTS else []
+    if advice and 4 * least <= MOST_POINTS:
+        advice = [f"{advice[0]}, points = {4 * least} would resolve it"]
     remedy = (
-        "; ".join([*told, *_kept(scene, grid, spare)])
+        "; ".join([*advice, *_kept(scene, grid, spare)])
         or "no allowed number of points would do: press less, or use longer waves"
     )
     return [f"{field}.shortest = {shortest:g} m is less than two pixels of {grid.pixel:g} m; {remedy}"]

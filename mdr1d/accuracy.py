@@ -36,7 +36,7 @@ def friction_error(body: Profile, approach: float, contact: Contact, sweep: Swee
 
 
 def _on_fewer(body, approach, contact, sweep, load, step):
-    """Friction coefficient on every so many nodes, the tip among them; 0 where none of them touches."""
+    """Friction coefficient on every `step`-th node, the tip among them; 0 where none of them touches."""
     middle = len(body.heights) // 2
     heights = body.heights[middle % step :: step] - body.lowest
     found = sweep(heights, step * body.pixel, approach)

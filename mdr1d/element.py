@@ -33,10 +33,10 @@ summed = loops.compiled(error_model="numpy", fastmath={"reassoc", "contract", "n
 
 NOWHERE = -1.0
 _MOST_STEPS = 1000
-# Beside one, a term that leaves no trace.
+# Added to one, this leaves no trace.
 _NOTHING = 1e-18
-# Rows of a table: what a branch keeps of its stretch and gains of a rise of u; what a unit of stretch and one of
-# the rise add to the mean force; and to the heat, the square of either and their product.
+# Rows of a table: what a branch keeps of its stretch and gains of a rise of u; what a unit of stretch and a unit
+# of the rise add to the mean force; and to the heat, the square of either and their product.
 KEPT, GAINED, PUSH, RISE, SQUARE, OF_RISE, CROSS = range(7)
 
 

@@ -1,8 +1,7 @@
 """Many scenes on many rough profiles of a Kelvin foundation: the sweeps of MDR without a Result for each.
 
-Profiles of one spectrum differ in the seed. On each of them a whole list of scenes is solved, one after the other:
-it is drawn once, and every depth starts the search for the next. Every answer is that of MDR on as many points a
-period.
+Profiles of one spectrum differ in the seed. Each profile is drawn once, all scenes are solved on it,
+and every depth starts the search for the next. Every answer equals the answer of MDR on as many points a period.
 """
 
 from collections.abc import Sequence
@@ -73,7 +72,7 @@ def solve_profiles(scenes: Sequence[Scene], points: Sequence[int], seeds: Sequen
         rough: Any = scene.roughness
         unit = replace(rough, rms_height=1.0, seed=0)
         members.setdefault((count, unit, scene.indenter.exponent), []).append(i)
-    # One after the other what has as many points: transforms of one length share their factors.
+    # In the order of their points: transforms of equal length share their factors.
     series = [
         (indices, unit, family_of(unit, count), _Series([scenes[i] for i in indices], count))
         for (count, unit, _), indices in sorted(members.items(), key=lambda member: member[0][0])
@@ -147,7 +146,7 @@ class _Series:
         return found, rms_slope * self.rms, ratio
 
     def _powers(self, nodes):
-        """|x|^n at so many nodes from the tip on, or more: kept, as all profiles reach about as far."""
+        """|x|^n at `nodes` nodes or more, from the tip on: kept, as all profiles reach about as far."""
         if self.powers.size < nodes:
             self.powers = (np.arange(1.1 * nodes) * self.pixel) ** self.exponent
         return self.powers
@@ -189,7 +188,7 @@ def _press_many(
     for s in range(load.size):
         heights = room[: 2 * half[s] + 1]
         lowest = _raise_heights(unit, powers, coefficient[s], rms[s], heights)
-        # Beside the heights of roughness a tiny depth may be lost to rounding.
+        # A depth far below the heights of roughness may be lost to rounding.
         surely = max(enough[s] + rms[s] * top - lowest, enough[s])
         approach = ratio * smooth[s] - lowest
         if not 0.0 < approach < surely:

@@ -196,7 +196,7 @@ def general_friction(
 ):
     """mu = sqrt(2) s (1 + [q F_N / (4 sqrt(2) G''(q v) s a)]^alpha)^(-1/alpha), Eq. 22: Eqs. 21 and 14 joined.
 
-    As printed 2 sqrt(2) stands in the bracket, and the unit of mu is that of `normalised_friction`.
+    As printed 2 sqrt(2) stands in the bracket, and mu has the unit of `normalised_friction`.
     """
     positive(rms_slope=rms_slope)
     slow = one_frequency_friction(load, modulus, loss_modulus, wave_number, speed, rms_slope, c, n, form)
@@ -228,7 +228,7 @@ def master_curve(shifted_load, rms_slope, n, alpha=ALPHA):
 
 @in_si
 def force_shift_exponent(beta, n):
-    """d ln p / d ln v = -beta (n+1)/n of G'' ~ omega^beta, -1 to 1; the paper's -3 beta/2 is that of a sphere."""
+    """d ln p / d ln v = -beta (n+1)/n of G'' ~ omega^beta, -1 to 1; the paper's -3 beta/2 holds for a sphere."""
     between(-1, 1, beta=beta)
     between(1, 100, n=n)
     return -beta * (n + 1) / n
@@ -262,7 +262,7 @@ def power_law_friction(
     mu = sqrt(2) s (1 + y^alpha)^(-1/alpha)
     y = q^(1-b) w_0^b / (4 sqrt(2) G~ s) (16 G_0 / (3R))^(1/3) (F_N^2 / v^(3b))^(1/3)
 
-    As printed y has 2 sqrt(2) and lacks w_0^b, which is right at w_0 = 1 rad/s alone; the unit of mu is that of
+    As printed y has 2 sqrt(2) and lacks w_0^b, which is right at w_0 = 1 rad/s alone; mu has the unit of
     `normalised_friction`.
     """
     positive(load=load, modulus=modulus, loss=loss, reference_frequency=reference_frequency)
@@ -277,6 +277,6 @@ def power_law_friction(
 
 
 def _unit(rms_slope, form):
-    """sqrt(2) s, of which Eqs. 17 to 25 are printed with the root over both."""
+    """sqrt(2) s; Eqs. 17 to 25 are printed with the root over both factors."""
     one_of(get_args(Form), form=form)
     return np.sqrt(2) * rms_slope if form == "corrected" else np.sqrt(2 * rms_slope)

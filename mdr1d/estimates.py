@@ -28,7 +28,7 @@ def average_heating(friction, modulus, depth, speed, conductivity):
     and 1.16 mm and 1.7 K for R = 25 mm.
 
     An isothermal disc conducts 4 a lambda, and F_N = 8 G_0 a d n/(n+1): the rise is 2 mu G_0 d v / lambda times
-    n/(n+1). The estimate is that of a flat punch, and 3/2 of that of a sphere.
+    n/(n+1). The estimate holds for a flat punch; a sphere has 2/3 of it.
     """
     not_negative(friction=friction, depth=depth, speed=speed)
     positive(modulus=modulus, conductivity=conductivity)
@@ -102,7 +102,7 @@ def stiffness_exponent(n, base: Base):
 
     k ~ a^m and d ~ a^n make it m/(n+m), with m = 1, 2 and 4: a thin layer is a bed of springs, p ~ d - f, or if
     incompressible a film that is squeezed out, div grad p ~ f - d. For a sphere 1/3, 1/2 and 2/3; the paper's 1/2
-    is that of a compressible layer, and passed on the way from 1/3 to 2/3 on an incompressible one.
+    holds for a compressible layer; an incompressible one passes it on the way from 1/3 to 2/3.
     """
     between(1, 100, n=n)
     one_of(STIFFENING, base=base)

@@ -55,7 +55,7 @@ def under_load(scene: Scene, body: Profile, sweep: Sweep) -> tuple[float, Contac
     most = body.rim - body.lowest
     if most <= 0:
         raise _too_short(scene, body)
-    # Beside the heights of roughness a tiny depth may be lost to rounding.
+    # A depth far below the heights of roughness may be lost to rounding.
     surely = max(greatest_depth(scene, body.surface) - body.lowest, elastic_contact(scene).depth)
     approach = min(surely, most)
     lower, upper = 0.0, inf

@@ -15,7 +15,7 @@ from .steady import Contact, swept
 
 # Part of the lengths of an interval that squared is none.
 _CLOSE = 1e-9
-# Intervals of which it is asked together whether they touch throughout.
+# Intervals that are tested together for contact throughout.
 _TOGETHER = 64
 
 

@@ -11,7 +11,10 @@ from .surface import Spectrum, Surface
 
 @takes(nodes=WHOLE)
 def draw(roughness: Roughness, nodes: int, spectrum: Spectrum = "mapped") -> Surface:
-    """Draw one period of the rough line on so many nodes, from its seed. Raises TypeError for what has no line."""
+    """Draw one period of the rough line on a number of nodes, from its seed.
+
+    Raises TypeError for roughness that has no line.
+    """
     match roughness:
         case Topography():
             return topography.draw(roughness, nodes, spectrum)

@@ -3,8 +3,8 @@
 In a step the depth changes linearly and the indenter stays between the same nodes of its profile, so that the
 height over each element changes linearly, and it is followed exactly. A prescribed depth is linear between the
 turns of its program, unless it oscillates: the history of each element is then without error. An oscillation of
-the depth is followed by chords: what is done and lost in it is of second order in the step, and so is the force,
-except that of a dashpot, which is half a step late. A prescribed load is met once a step.
+the depth is followed by chords: its work and its loss are of second order in the step, and so is the force,
+except with a dashpot, whose force is half a step late. A prescribed load is met once a step.
 """
 
 from collections.abc import Mapping
@@ -31,7 +31,7 @@ _BALANCED = 1e-8
 class History:
     """A contact over time, for stiffness 1 per length: forces [m^2] and energies [m^3] over the relaxed modulus.
 
-    time, path, depth : at the end of each step (S,); the depth is that of the macroscopic tip
+    time, path, depth : at the end of each step (S,); depth of the macroscopic tip
     force, length : of the contact then; length [m]
     speed : of each step (S,); less than zero backwards, as the path may be
     friction : -int g' f dx (S,), > 0 opposes a motion forwards, < 0 one backwards; mean over the last whole pixel
@@ -124,7 +124,7 @@ def march(program: Program, body: Profile, modes: Modes, modulus: float, steps: 
 
 
 def _over_pixels(friction, line: Timeline):
-    """Friction of steps as that of the last whole pixel slid one way: within a pixel it has a ripple."""
+    """Friction of each step, averaged over the last whole pixel slid one way: within a pixel it has a ripple."""
     slid, place = line.end - line.begin, line.passed + line.end
     moving = np.flatnonzero(slid)
     turns = moving[1:][slid[moving[1:]] * slid[moving[:-1]] < 0]
@@ -270,9 +270,9 @@ class _Depth:
 class _Load:
     """Rate at which the indenter sinks by a program of loads.
 
-    The load is met at the end of a step. A dashpot feels the rate, and that of a step belongs to its middle: with
-    one, the load is met at the part 1/(1 - exp(-z)) - 1/z of a step of z = duration/T, so that a linear depth
-    creeps as far as in truth. T is the retardation time of the dashpot with all springs.
+    The load is met at the end of a step. A dashpot responds to the rate, and the rate of a step belongs to its
+    middle: with a dashpot, the load is met at the part 1/(1 - exp(-z)) - 1/z of a step of z = duration/T, so that
+    a linear depth creeps as far as in truth. T is the retardation time of the dashpot with all springs.
     """
 
     def __init__(self, program: Program, modes: Modes, stiffness):
@@ -294,7 +294,7 @@ def _place(z):
 
 
 def _check_met(misfit):
-    """Raise SolveError where rounding keeps the load, of which this is the relative misfit, from being met."""
+    """Raise SolveError where rounding keeps the load from being met; misfit : relative, of the load."""
     if not misfit <= ACCEPTED:
         raise SolveError(
             f"a load of the program is met only to a relative {misfit:.1e} of the greatest: the lengths or "

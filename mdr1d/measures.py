@@ -1,4 +1,4 @@
-"""Measures of a solved profile, beside its forces and its depth."""
+"""Measures of a solved profile, in addition to its forces and its depth."""
 
 from math import sqrt
 
@@ -13,7 +13,7 @@ from .surface import Surface
 
 
 def measures(scene: Scene, body: Profile, contact: Contact) -> dict[str, float]:
-    """Numbers of one contact, name -> value in SI units; the docstring of MDR says what each is.
+    """Numbers of a contact, name -> value in SI units, as the docstring of MDR lists them.
 
     scene : of the body whose mapped profile was pressed in
     """

@@ -1,4 +1,4 @@
-"""Relaxation and retardation modes of one solid, with the matrix that turns the state of one set into the other's.
+"""Relaxation and retardation modes of a solid, and the matrix from the states of the first to those of the second.
 
 In units of the relaxed modulus the modulus is E(s) = 1 + drag s + sum_k K_k s m_k/(1 + s m_k), and the compliance
 1/E(s) = J_0 + sum_j J_j/(1 + s l_j). The l_j are the zeros of E at s = -1/l, 1 = drag/l + sum_k K_k m_k/(l - m_k):

@@ -17,7 +17,7 @@ from .timeline import timeline
 EFFECTS = Path(__file__).with_name("effects.csv")
 # Parts whose costs are counted below; of all others `effects.csv` has what they multiply costs with.
 COUNTED = (Axisymmetric, Linear, Indent, Slide, Program, Isotropic, Profile)
-# Processor seconds of one thread on the machine where those of three dimensions were measured: of a solve, and for
+# Processor seconds of a single thread, on the machine where the 3D solver was measured: of a solve, and for
 # each node of a sweep of an elastic or Kelvin foundation, of Maxwell branches and each of them, of a step in time
 # and each of its modes, and of drawing a rough line.
 START, KELVIN, MAXWELL, BRANCH, STEP, MODE, DRAWN = 1e-4, 4e-9, 14e-9, 2.5e-9, 110e-9, 7e-9, 100e-9
@@ -25,7 +25,7 @@ SWEEPS = 5  # under a load; 2 to 7 are usual
 MEASURED = "by node and sweep, as measured on spheres"
 LEFT_OUT = {
     "roughness": "the profile is smooth: no line is drawn",
-    "layer": "the foundation is that of a half-space",
+    "layer": "a half-space: the foundation has no thickness",
     "interface": "no tangential springs: all friction is loss in the elastomer",
     "time": "no steps: elements have no state, one sweep along the profile finds them all",
     "flow": "springs alone: no memory from node to node",

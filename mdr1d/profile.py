@@ -71,7 +71,8 @@ class Profile:
 def unmapped(scene: Scene) -> Scene:
     """The scene of the body whose mapped profile is the meridian c |x|^n of the given one: it has c / kappa_n.
 
-    Its smooth relaxed contact is that of the meridian taken as the line: all that holds of a mapped profile holds.
+    It has the smooth relaxed contact of the meridian taken as the line, so all that holds for a mapped profile
+    holds.
     """
     given = scene.indenter
     c, n = given.coefficient, given.exponent

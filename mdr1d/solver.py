@@ -45,7 +45,8 @@ class MDR:
         its cut-off (as in the paper), else the least that surely holds the contact
     shape : "mapped", the line kappa_n c |x|^n of the body c r^n, which keeps its relaxed force and depth, or
         "as-given", its meridian c |x|^n; the paper leaves open which
-    spectrum : of the rough line, "mapped", C_1D = pi q C_2D, or "line-scan", that of a cut of the rough surface
+    spectrum : of the rough line, "mapped", C_1D = pi q C_2D, or "line-scan", the spectrum of a cut of the rough
+        surface
     steps : in time, of the whole of a Program; while it slides, a step is a pixel of path at most
     frames : instants of a Program, alike apart, at which the contact is kept in the fields
 
@@ -278,16 +279,16 @@ def _unresolved(rough: Roughness, band: Band, layout: Grid, points: int) -> list
 
 def _room(rough, band, layout, enough):
     """What works for other draws of the roughness too, whose contacts are wider, in words."""
-    told = f"; points = {ceil(SPARE * enough):.15g} would leave room for other draws"
+    advice = f"; points = {ceil(SPARE * enough):.15g} would leave room for other draws"
     kept = 2 * SPARE * layout.pixel
     if (keepable := getattr(rough, "keepable", None)) is not None:
         least, most = keepable
         kept = max(kept, FULLER * least)
         if kept <= most:
-            told += f"; roughness.shortest_kept = {kept:.3g} would leave out waves that the pixels cannot carry"
+            advice += f"; roughness.shortest_kept = {kept:.3g} would leave out waves that the pixels cannot carry"
     elif band.shortest is not None and kept <= band.period / 2:
-        told += f"; roughness.shortest = {kept:.3g} would do"
-    return told
+        advice += f"; roughness.shortest = {kept:.3g} would do"
+    return advice
 
 
 def _cutoff(scene: Scene) -> str | None:

@@ -1,7 +1,7 @@
 """Steady flow of a foundation past a rigid, piecewise linear profile, solved exactly.
 
-The elastomer enters undisturbed at the left and flows along +x: each element is that of `element`, with the way
-along the profile for its time. As the inverse of a completely monotone creep operator, u -> f is positive on the
+The elastomer enters undisturbed at the left and flows along +x: each element is one of `element`, with the way
+along the profile as its time. As the inverse of a completely monotone creep operator, u -> f is positive on the
 diagonal and nowhere else, so that u is the least of all displacements with f >= 0 and u >= d - g; of a Kelvin
 foundation u(x) = max(0, max_{y <= x} (d - g(y)) exp(-(x - y)/l)). Mixing two depths mixes such displacements: u is
 convex and increasing in d, and so is the force, int f dx = int u dx.
@@ -39,7 +39,7 @@ _SHORTEST = 1e-100
 
 
 class Contact(NamedTuple):
-    """Sums of one sweep, for stiffness K = 1 per length; multiply forces by K [Pa].
+    """Sums of a sweep, for stiffness K = 1 per length; multiply forces by K [Pa].
 
     force : int f dx / K [m^2]
     dissipation : friction force as the energy lost per length slid [m^2], int l u'^2 dx of a Kelvin foundation,

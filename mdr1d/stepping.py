@@ -1,6 +1,6 @@
 """A step in time of a row of elements, each on its own, and how far an indenter sinks in it under a load.
 
-Where an element touches at the end, its force there is that of the displacement max(u, c) and increases with c.
+Where an element touches at the end, its displacement is max(u, c), and its force increases with c.
 """
 
 from math import inf

@@ -14,7 +14,7 @@ from scene.quantities import BARE, takes
 from scene.surfaces.isotropic import Isotropic, seeded
 from scene.surfaces.roughness import Roughness
 
-# Spectrum of a line: C_1D = pi q C_2D, or that of a line scan of the surface.
+# Spectrum of a line: C_1D = pi q C_2D, or the spectrum of a line scan of the surface.
 Spectrum = Literal["mapped", "line-scan"]
 
 # Spawn keys keep a line apart from a surface drawn with the same seed, and the moduli of waves from the phases.
@@ -110,7 +110,7 @@ class Surface:
 
 
 def through(waves: np.ndarray, nodes: int, band: Band) -> Surface:
-    """The line of complex amplitudes of the waves k = 1, 2, ... (K,) [m] on so many nodes a period."""
+    """The line with complex amplitudes of the waves k = 1, 2, ... (K,) [m], on `nodes` nodes a period."""
     spread = np.zeros(nodes // 2 + 1, complex)
     spread[1 : waves.size + 1] = waves / 2
     if 2 * waves.size == nodes:
@@ -142,7 +142,7 @@ def amplitudes(roughness: Isotropic, bandwidth: float, spectrum: Spectrum = "map
 
 @dataclass(frozen=True, eq=False)
 class LineFamily:
-    """Family of lines of one spectrum on one grid, before a seed.
+    """Lines of a spectrum on a grid, one for each seed.
 
     amplitudes : of the waves k = 1, 2, ... (K,) [m], fixed or, if gaussian, the root of their mean squares
     nodes : in a period; pixel : their spacing [m]
@@ -184,7 +184,7 @@ class LineFamily:
 
 
 def family_of(roughness: Isotropic, nodes: int, spectrum: Spectrum = "mapped") -> LineFamily:
-    """The lines of a spectrum on so many nodes a period; the seed does not matter.
+    """The lines of a spectrum on `nodes` nodes a period; the seed does not matter.
 
     Their waves do not depend on the grid as long as the cut-off does not; without `shortest` the cut-off is the
     Nyquist wave number of this grid, as in the paper.
@@ -193,7 +193,7 @@ def family_of(roughness: Isotropic, nodes: int, spectrum: Spectrum = "mapped") -
 
 
 def draw(roughness: Isotropic, nodes: int, spectrum: Spectrum = "mapped") -> Surface:
-    """Draw one period of the rough line on so many nodes, from its seed."""
+    """Draw one period of the rough line, on `nodes` nodes, from its seed."""
     return family_of(roughness, nodes, spectrum).drawn(roughness.seed)
 
 

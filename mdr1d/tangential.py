@@ -1,4 +1,4 @@
-"""Friction in the interface in one dimension: tangential springs beside the normal ones, each held by its load.
+"""Friction in the interface in one dimension: each normal spring has a tangential one, held by its load.
 
 A spring of tangential stiffness G* = 4G/(2 - nu) per length, drawn by u, carries G* u until that is more than the
 coefficient of friction times its normal force; from there on it slips. At rest the normal force is linear between

@@ -1,4 +1,4 @@
-"""Term of the one-dimensional foundation: its treatment of one part of a scene; heating as in every solver."""
+"""Terms of the one-dimensional foundation: how it treats a part of a scene; heating as in every solver."""
 
 from scene import Result, terms
 from scene.effects.terms import Heated

@@ -31,7 +31,7 @@ class Timeline:
 
 
 def timeline(program: Program, pixel: float, steps: int) -> Timeline:
-    """Cut a program into about so many steps, shared out by duration, LEAST to a stage at least.
+    """Cut a program into about `steps` steps, shared out by duration, LEAST to a stage at least.
 
     In a stage they lengthen from its start in proportion, t_k = duration (k/n)^2: what follows a turn is quick at
     first. Where it oscillates, the last and longest are PERIOD to a period. Where the indenter slides, steps end

@@ -44,7 +44,7 @@ def amplitudes(topography: Topography) -> np.ndarray:
 
 
 def draw(topography: Topography, nodes: int, spectrum: Spectrum) -> Surface:
-    """One period of a line on so many nodes, from the seed of the topography: of its phases, or of the row."""
+    """One period of a line on `nodes` nodes; the seed of the topography chooses its phases, or the row."""
     band = band_of(topography, spectrum)
     if spectrum == "line-scan":
         return _row(topography, nodes, band)
@@ -70,5 +70,5 @@ def _row(topography: Topography, nodes: int, band: Band) -> Surface:
 
 
 def draw_line(profile: Profile, nodes: int) -> Surface:
-    """One period of the measured line on so many nodes, the point of its seed at the tip."""
+    """One period of the measured line on `nodes` nodes, the point of its seed at the tip."""
     return through(profile.waves, nodes, band_of(profile, "line-scan"))

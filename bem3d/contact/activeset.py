@@ -149,7 +149,7 @@ class _OnSet:
         self._lifted = None
 
     def set_contact(self, contact):
-        """The set of contact (ny, nx)."""
+        """Set the points of contact, a bool array (ny, nx)."""
         self.where, self._contact = np.flatnonzero(contact), contact
         self._plane[:] = 0
 
@@ -159,7 +159,7 @@ class _OnSet:
         return values - values.mean() if self.mean_free else values
 
     def add(self, correction, pressure):
-        """Add a correction (m,) on the set to the pressure (ny, nx), in place, and let go of what then pulls.
+        """Add a correction (m,) on the set to the pressure (ny, nx), in place, and drop what then pulls.
 
         Under a flow the pixels that still press keep the displacement of the foundation, and not their pressure:
         where a leading edge pulled, the pixels behind it press less.
@@ -183,11 +183,14 @@ class _OnSet:
         return images
 
     def operator(self, values, out, first, second):
-        """The operator's values into out; what is to be taken off them, and their products with two vectors."""
+        """Write the operator's values into `out`; return their mean and their inner products with two vectors.
+
+        The mean is zero unless corrections are to keep the load.
+        """
         return self._through(self._operator, values, out, first, second)
 
     def precondition(self, values, out, first, second):
-        """As `operator`, values of the approximate inverse into out, their mean and their products."""
+        """As `operator`, for the approximate inverse."""
         if self._precondition is None:
             out[:] = values
             return 0.0, float((values * first).sum()), float((values * second).sum())
@@ -196,9 +199,9 @@ class _OnSet:
     def _through(self, product, values, out, first, second):
         sums.put(values, self.where, self._plane)
         product(self._plane, out=self._image)
-        total, along, beside = sums.take(self._image, self.where, out, first, second)
+        total, with_first, with_second = sums.take(self._image, self.where, out, first, second)
         # The vectors are free of mean themselves where means are taken off: their products need no correction.
-        return total / out.size if self.mean_free else 0.0, along, beside
+        return total / out.size if self.mean_free else 0.0, with_first, with_second
 
     def pressed(self, displaced_foundation):
         """Pressure (m,) under which the foundation has a given displacement (m,)."""
@@ -212,8 +215,8 @@ class _OnSet:
     def foundation_displacement(self, displacement):
         """Approximate displacement (m,) of the foundation for a displacement of the surface (m,).
 
-        Behind each spot of contact the displacement continues as that of a surface left alone. Cut off there, it
-        would jump by as much as the memory is long. At given load a level is added that keeps the load.
+        Behind each spot of contact the displacement relaxes as on a free surface. If it were cut off there, it
+        would jump by more the longer the memory is. At given load a level is added that keeps the load.
         """
         values = self._inverted(displacement).reshape(-1)[self.where]
         if not self.mean_free:
@@ -221,10 +224,10 @@ class _OnSet:
         return values - float((self._worth * values).sum()) * self._level
 
     def prepare_load_constraint(self):
-        """Prepare the load constraint of this set: the level, and what sinking is worth in load."""
+        """Prepare the load constraint of this set: the level, and the load per displacement of each point."""
         if not self.mean_free:
             return
-        if self._lifted is None:  # by a displacement of one everywhere: near enough on all sets that follow
+        if self._lifted is None:  # by a unit displacement everywhere: close enough on all sets that follow
             self._lifted = self._inverted(np.ones(len(self.where))).copy()
         # The sum of pressures as a sum of what sinks: the transpose of pushing is pushing upstream.
         worth, contact = np.ones(self._plane.shape), np.ascontiguousarray(self._contact[:, ::-1])

@@ -41,10 +41,10 @@ def conjugate_gradients(on_set, b, reduction, tolerance, iterations):
 def gmres(on_set, b, reduction, tolerance, iterations):
     """GMRES, preconditioned, for an operator that is positive definite but not symmetric.
 
-    It lessens the error of what sinks the foundation of the flow: neither that of the gap, in which short waves of
-    pressure hardly show under a fast flow, nor that of the pressure, which has spikes at leading edges. Stops when
-    the preconditioned residual's 2-norm has fallen by `reduction`. Saad and Schultz, SIAM J. Sci. Stat. Comput. 7,
-    856 (1986).
+    It minimizes the error of the displacement of the foundation under the flow. Short waves of pressure hardly
+    show in the gap under a fast flow, and the pressure itself has spikes at leading edges. Stops when the 2-norm
+    of the preconditioned residual has fallen by `reduction`. Saad and Schultz, SIAM J. Sci. Stat. Comput. 7, 856
+    (1986).
     """
     on_set.prepare_load_constraint()
     z = on_set.foundation_displacement(b)

@@ -23,7 +23,7 @@ from ..term import Term
 from . import stickslip
 from .activeset import NotConverged
 
-COARSEST = 32  # points a side from which a solve starts, as that of the pressure
+COARSEST = 32  # points a side of the grid where a solve starts, as for the pressure
 COARSE_TOLERANCE = 1e-3  # on all grids but the finest
 SINGLE, PAIRED, VECTORS = 22, 32, 10  # held with one component and with two: planes, and vectors of each component
 SLIPS = 0.5  # share of the neighbours on a coarse grid that slip, from which on a point is expected to
@@ -50,7 +50,7 @@ class Drawn(Term):
         form = "symbol" if isinstance(scene.indenter, Plane) else "kernel"
         if components == 1:
             width = points if form == "symbol" else 2 * points
-            name = "tractions: that of the pressure, built again"
+            name = "tractions: the kernel of the pressure, built again"
             kernels, products = (Kernel(name, form, (rows, width)),), SINGLE
         else:
             kernels, products = (Kernel("tractions: xx, xy, yy", form, (3, *plan.shape)),), PAIRED
@@ -92,8 +92,8 @@ class Tangential:
     """Tractions under the pressure of a result. `work`, `transforms`: in equivalents of the finest grid.
 
     Tractions are in units of the relaxed E* times `_unit`, displacements in pixels times it, so that they are of
-    the order of one, or of the displacement. The coefficient is in `_unit` alone: multiplied by a number, together
-    with displacement or force, it multiplies the answer.
+    order one, or of the order of the displacement. The coefficient is in `_unit` alone: multiplied by a number,
+    together with displacement or force, it multiplies the answer.
     """
 
     def __init__(self, problem, grid: Grid, result: Result):
@@ -181,12 +181,12 @@ class Tangential:
 
     @property
     def _pressure(self):
-        """Pressure of a traction of one [Pa]."""
+        """Pressure of a unit traction [Pa]."""
         return self._unit * self._modulus
 
     @property
     def _length(self):
-        """Length of a displacement of one [m]."""
+        """Length of a unit displacement [m]."""
         return self._unit * self._grid.pixel
 
     def _uniform(self, displacement):
@@ -255,7 +255,7 @@ class Between(Tangential):
             )
 
     def _operators(self, grid):
-        """Tractions -> displacements, and an approximate inverse: that of both components' mean."""
+        """Tractions -> displacements, and an approximate inverse, built from the mean of both components."""
         xx, xy, yy = cerruti.paired(grid.reach, self._problem.scene.solid.poisson_ratio)
         mean = cho_factor(grid.matrix((xx + yy) / 2), overwrite_a=True)
         along, inverse = grid.matrix(xx), Counted(lambda planes: cho_solve(mean, planes.T).T)

@@ -57,10 +57,10 @@ def solve(
     limits : of |q| (ny, nx), zero where nothing touches
     start : tractions to begin with (components, ny, nx), not all zero under a force; what is beyond the limits is
         taken back to them
-    tolerance : largest violation; where the displacement is next to nothing, over that of a pixel by the mean
-        traction
+    tolerance : largest violation, over the displacement; where that is next to nothing, over the displacement of
+        a pixel by the mean traction
     displacement, force : what is given, above zero: the displacement alone; or the force, which is sum(q_x) and
-        less than sum(limits), and then the displacement, if any, is only that of the first round
+        less than sum(limits); a displacement given with a force is used in the first round alone
 
     All points may slip: with one component that takes a displacement, with two also a force a little less than
     sum(limits). Squares of limits, displacement and force have to be numbers. Raises NotConverged.
@@ -145,7 +145,7 @@ class _Face:
         self._pull = self._along_circles(pull)
         self._pull_square = _inner(self._pull, self._pull)
         self._held = held and self._pull_square > 0
-        if self._held:  # the tractions that answer a pull, of which corrections have none
+        if self._held:  # tractions by a unit pull; corrections have no share of them
             answer = self._eased(self._pull)
             self._answer = answer / _inner(self._pull, answer)
 

@@ -17,17 +17,17 @@ NOWHERE = np.zeros((0, 0), bool)
 
 
 def put(values, where, plane):
-    """values onto the plane at their places."""
+    """Write values to their places in the plane."""
     _put(values, where, plane.reshape(-1))
 
 
 def take(plane, where, out, first, second):
-    """Values at the places into out; their sum and their products with two vectors."""
+    """Read values at their places into `out`; return their sum and their inner products with two vectors."""
     return _take(plane.reshape(-1), where, out, first, second)
 
 
 def gaps(displacement, heights, level, contact, gap):
-    """gap = displacement + heights - level; largest |gap| in contact, deepest penetration outside."""
+    """Write gap = displacement + heights - level; return the largest |gap| in contact and penetration outside."""
     flat = (a.reshape(-1) for a in (displacement, heights))
     return _gaps(*flat, level, contact.reshape(-1), gap.reshape(-1))
 
@@ -42,7 +42,7 @@ def sink(plane, foundation):
 
 
 def release(plane, contact, foundation):
-    """Displacement of a foundation in contact (ny, nx): elsewhere it becomes that of a surface left alone."""
+    """Displacement of a foundation that is given in contact (ny, nx), and free elsewhere, in place."""
     _march(plane, contact, foundation, _entering(plane, contact, foundation), RELEASE)
 
 
@@ -105,14 +105,14 @@ def _put(values, where, plane):
 
 @compiled
 def _take(plane, where, out, first, second):
-    total = along = beside = 0.0
+    total = with_first = with_second = 0.0
     for i in range(where.size):
         value = plane[where[i]]
         out[i] = value
         total += value
-        along += value * first[i]
-        beside += value * second[i]
-    return total, along, beside
+        with_first += value * first[i]
+        with_second += value * second[i]
+    return total, with_first, with_second
 
 
 @compiled

@@ -1,7 +1,7 @@
 """Error of friction that the grid leaves: a bound of 95 %, from one pressure and without another solve.
 
-What is known of one pressure: estimates of friction that fail in different ways, and the same estimates on pixels
-twice as wide. `friction_error.csv` has what the error is in proportion to, fitted to random contacts that were
+One pressure gives estimates of friction that fail in different ways, and the same estimates on pixels twice as
+wide. `friction_error.csv` has the weights of these signs of the error, fitted to random contacts that were
 solved on finer grids: the 95 % quantile of its logarithm, linear in `signs` (Koenker and Bassett, Econometrica 46,
 33, 1978). The residual and a sharp tip add to it.
 """
@@ -29,7 +29,7 @@ LEAST = 1e-7  # change over friction: less is rounding, or the tolerance
 MOST = 10.0  # change over friction: more is no more
 OF_TOLERANCE = 3.0  # error of friction over the residual, at most
 OF_TIP = 0.045  # error of friction over `at_tip`: 0.044 to 0.047 for cones on a Kelvin solid, on fine grids
-UNTOLD = 0.5  # of friction: where estimates differ by more, or the error may be more, it is no answer
+UNCERTAIN = 0.5  # of friction: a solve fails where estimates differ by more, or the error may be more
 SPARE, FARTHEST = 1.5, 8.0  # points over what the estimates ask for, and over those there are, at most
 
 
@@ -70,10 +70,10 @@ def bound(seen: "Signs", friction: Friction, points: int, residual: float) -> fl
     found = exp(sum(weights[name] * value for name, value in seen.numbers.items()))
     found += OF_TIP * seen.tip + OF_TOLERANCE * residual
     apart = friction.contradiction
-    if max(apart, found) > UNTOLD:
+    if max(apart, found) > UNCERTAIN:
         times = min(max(found, apart / (1 - min(apart, 0.9))) * SPARE, FARTHEST)
         raise SolveError(
-            f"friction is not told by {points} points a side: its estimates differ by {apart:.0%} of it, and its "
+            f"friction is uncertain on {points} points a side: its estimates differ by {apart:.0%} of it, and its "
             f"error may be {min(found, 99):.0%}; take about {ceil(times * points / 2) * 2} points, or a smaller "
             "extent"
         )
@@ -91,7 +91,7 @@ class Signs(NamedTuple):
 def signs(problem: Problem, grid: Grid, friction: Friction, coarser: Friction, touched: np.ndarray) -> Signs:
     """Signs of the error of friction.
 
-    friction, coarser : of one pressure, on the pixels of the grid and on those twice as wide
+    friction, coarser : by the same pressure, on the pixels of the grid and on pixels twice as wide
     touched : pixels in contact, bool, of the shape of the grid
 
     Logarithms of what friction changes by, as far as that counts, from one estimate to another and from the pixels
@@ -113,7 +113,7 @@ def signs(problem: Problem, grid: Grid, friction: Friction, coarser: Friction, t
         "curvature to loss": change(slow, friction.by_curvature, friction.by_loss),
     }
     least = LEAST_SHARE * sqrt(sum(each**2 for each in changes.values()))
-    changes["curvature to answer"] = change(1.0, friction.by_curvature, force)  # of a fast flow it tells the speed
+    changes["curvature to answer"] = change(1.0, friction.by_curvature, force)  # of a fast flow it shows the speed
     scene, waves = problem.scene, problem.points_per_wave(grid)
     across, smooth = log(grid.spot_radius(touched) / grid.pixel), isnan(waves)
     breadth = log(problem.flow.memory / problem.flow.lag_length)

@@ -1,9 +1,9 @@
 """Marching in time through a program of loads or depths, at rest or sliding: one elastic contact a step.
 
-The pressure is constant in a step. Within it, the displacement is that of a stiffer half-space on top of what the
-material remembers, so each step is a symmetric problem of contact. The gap is collocated where a pressure held in
-steps displaces as a smooth one would (see `Creep.collocation`): forces are of second order in the step where
-they are smooth, and friction, which is all delay, keeps its digits however short the memory.
+The pressure is constant in a step. Within it, the surface responds like a stiffer half-space, displaced already
+by what the material remembers, so each step is a symmetric problem of contact. The gap is collocated where a
+pressure held in steps displaces as a smooth one would (see `Creep.collocation`): forces are of second order in
+the step where they are smooth, and friction, which is all delay, keeps its digits however short the memory.
 
 The window is attached to the material and is shifted by whole pixels as the indenter moves on.
 """
@@ -126,11 +126,11 @@ def _material(problem, program, grid):
 
 
 def places(program: Program, grid: Grid, steps: int) -> int:
-    """Within a pixel, of which heights or slopes are kept.
+    """Number of places within a pixel at which heights or slopes are kept.
 
     Steps that pass a pixel in equal parts come back to the same places, as many for heights as for slopes; at
-    rest there is one of each. If those of a pixel are more than KEPT, none but two are kept: the place that is
-    wanted next would always be the first to be dropped.
+    rest there is one of each. If a pixel has more than KEPT allows, only two are kept: otherwise the place needed
+    next would always have been dropped just before.
     """
     wanted = 2 * in_a_pixel(program, grid.pixel, steps)
     return wanted if wanted * grid.points * grid.rows <= KEPT else 2

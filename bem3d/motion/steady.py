@@ -1,4 +1,4 @@
-"""Steady sliding over a linear viscoelastic half-space, of which rest is the limit: physics put on a grid.
+"""Steady sliding over a linear viscoelastic half-space, with rest as the limit: physics put on a grid.
 
 In the frame of the indenter the contact is steady. A retardation mode of time lambda turns the elastic kernel into
 that kernel convolved downstream with exp(-s/l)/l, l = speed * lambda. Pressure is constant on a pixel, and the gap
@@ -78,8 +78,8 @@ class Flow:
         """Weight of friction to first order in the speed against friction by the pressure: 1 to 0.
 
         The next order is left out; relative to the first it is about the length of the modes that lose most, over
-        that of the shortest wave. Friction by loss has an error of about a pixel over that wave. Rough and smooth
-        contacts are best joined where that length is a quarter of a pixel, on all grids.
+        the length of the shortest wave. Friction by loss has an error of about a pixel over that wave. Rough and
+        smooth contacts are best joined where that length is a quarter of a pixel, on all grids.
         """
         if self.at_rest:
             return 0.0

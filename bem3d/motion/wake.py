@@ -66,15 +66,15 @@ def surroundings(
     problem, grid = Problem(scene, solver.engine, solver.terms), _grid_of(fields)
     if grid.shape[0] == 1:
         grid, aside = Grid(grid.points, grid.extent, grid.centre, problem.width), 0.0
-    left, right, beside = (int(np.ceil(length / grid.pixel)) for length in (upstream, downstream, aside))
+    left, right, sides = (int(np.ceil(length / grid.pixel)) for length in (upstream, downstream, aside))
     if isinstance(scene.indenter, Plane):
-        left = right = beside = 0
-    piece = _extended(grid, left, right, beside)
-    pressure = np.pad(fields["pressure"] / problem.flow.modulus, ((beside, beside), (left, right)))
+        left = right = sides = 0
+    piece = _extended(grid, left, right, sides)
+    pressure = np.pad(fields["pressure"] / problem.flow.modulus, ((sides, sides), (left, right)))
     displacement = problem.medium.operator(piece)(pressure) * grid.pixel
     lag = problem.flow.collocation(grid)
     indenter = problem.heights(piece, problem.surface(grid), lag)
-    inside = slice(beside, beside + grid.rows), slice(left, left + grid.points)
+    inside = slice(sides, sides + grid.rows), slice(left, left + grid.points)
     depths = (displacement + indenter)[inside] - fields["gap"]
     # Only in contact is the depth known to all digits: a blunt body is many orders higher at the corners.
     depth = float(np.mean(depths[fields["pressure"] > 0]))
@@ -112,7 +112,7 @@ def _grid_of(fields):
 
 
 def _extended(grid, left, right, aside):
-    """Grid with so many pixels more on its sides."""
+    """Grid with this many more pixels on its sides."""
     points = grid.points + left + right
     x, y = grid.centre
     return Piece(

@@ -44,7 +44,7 @@ def periodic(grid: Grid, poisson_ratio: float, engine: Engine) -> PeriodicPair:
 
 
 def preconditioner(grid: Grid, poisson_ratio: float, engine: Engine) -> PeriodicPair:
-    """Approximate inverse of either: that of the waves; a mean is taken for half the lowest wave."""
+    """Approximate inverse of both operators, wave by wave; a mean counts as half the lowest wave."""
 
     def symbols(q_y, q_x):
         q = _lengths(q_y, q_x)
@@ -58,7 +58,7 @@ def preconditioner(grid: Grid, poisson_ratio: float, engine: Engine) -> Periodic
 def kernels(points: int) -> tuple[np.ndarray, np.ndarray]:
     """Means of x^2/r^3 and x y/r^3 over pixels, over pi; both (points, points), y and x = 0, 1, ... pixels away.
 
-    That of y^2/r^3 is the first one transposed, and that of 1/r, Love's, the sum of both.
+    The mean of y^2/r^3 is the first one transposed; the mean of 1/r (Love) is their sum.
     """
     at = np.arange(points, dtype=float)
     x, y = at[None, :], at[:, None]

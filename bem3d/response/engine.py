@@ -44,7 +44,7 @@ class Engine:
         return np.complex128 if self.precision == "double" else np.complex64
 
     def product(self, symbols, shape, padded):
-        """The product of one plane with a symbol, or of two with a symmetric matrix of symbols, see `Product`."""
+        """The product of a plane with a symbol, or of two with a symmetric matrix of symbols, see `Product`."""
         at_once = self.library == "ducc0" and len(symbols) == 1 and shape[0] <= padded[0] and prod(padded) <= SMALL
         return (SmallProduct if at_once else Product)(symbols, shape, padded, self)
 
@@ -162,7 +162,7 @@ class Product:
 
 
 class SmallProduct:
-    """The product of one plane that stays in the cache: one transform each way, up to three times faster."""
+    """The product of a plane that stays in the cache: one transform each way, up to three times faster."""
 
     def __init__(self, symbols, shape, padded, engine):
         self.shape, (symbol,) = shape, symbols

@@ -42,8 +42,9 @@ class HalfSpace:
         displacement along the flow, and by its difference between the pixels on both sides.
 
         A mode's displacement obeys w + l dw/dx = w_elastic, so its slope is (w_elastic - w)/l without any
-        difference quotient. Of its kernel only the part even in x does work on the pressure, the sum of the loss
-        compliance over the spectrum of the pressure; of that of the displacement only the part odd in x.
+        difference quotient. Only the part of its kernel that is even in x does work on the pressure: the sum of
+        the loss compliance over the spectrum of the pressure. Of the kernel of the displacement it is the odd
+        part.
         """
         pairs = np.zeros((grid.rows, grid.points + 2))
         pairs[:, :-2] = autocorrelation(pressure, self.engine)

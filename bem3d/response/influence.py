@@ -20,7 +20,7 @@ from .memory import NEAR, chunks, gauss, remembered
 Displacement = Callable[..., np.ndarray]  # of (x, s, ny), see `by_pixel`
 
 TINY = np.finfo(float).tiny
-ALIKE = 1e-12  # of steps of one pixel
+ALIKE = 1e-12  # relative, of steps from pixel to pixel
 LINE_SHORT = 10.0  # memory [pixel] below which differences of primitives keep their digits
 KINK_REACH, KINK_NODES, SMOOTH_NODES = 16, 24, 6  # to 1e-13
 LAG_TERMS = 40  # of the asymptotic series of `_lag`, for z beyond as many: to exp(-40)
@@ -57,7 +57,7 @@ def elastic(nx, ny, shift=0.0, displacement: Displacement = by_pixel):
 
 
 def retarded(nx, ny, length, shift):
-    """Kernel of one retardation mode in flow along +x, (ny, 2 nx) as `elastic`.
+    """Kernel of a retardation mode in flow along +x, (ny, 2 nx) as `elastic`.
 
     shift : how far behind the pixel's centre it is sampled, 0 to 1/2 [pixel]
     """

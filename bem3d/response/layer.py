@@ -1,11 +1,12 @@
 """The elastomer is a layer on a rigid base: kernels and waves of its surface, and the term of a scene.
 
-Lengths are in pixels and pressures in units of the relaxed E*, as in `influence`. A kernel is that of a half-space
-less what the base takes off, smooth on the scale of the thickness; beyond REACH thicknesses it is zero.
+Lengths are in pixels and pressures in units of the relaxed E*, as in `influence`. The kernel is the one of a
+half-space less what the base takes off, smooth on the scale of the thickness; beyond REACH thicknesses it is
+zero.
 
-A grid does not show how the pressure varies within a layer thinner than a pixel. To it such a layer is a bed of
-springs, coupled by the next order in q h: its kernel is that of a layer a pixel thick, scaled, and springs that
-make up for what this is short of.
+A grid does not show how the pressure varies within a layer thinner than a pixel. On it such a layer is a bed of
+springs, coupled by the next order in q h: its kernel is the scaled kernel of a layer a pixel thick, and springs
+for the rest.
 """
 
 from dataclasses import dataclass, replace
@@ -82,17 +83,17 @@ class Layered:
         pixel and less, which at the pixels' centres look like long ones. Neither falls with D.
         """
         spread = min(self.base.spread * self.thickness / radius, 1e6) ** 2
-        (most, over), (added, beside) = UNSHOWN, ADDED
+        (most, over), (added, below) = UNSHOWN, ADDED
         unshown = most * spread / (1 + over * spread) * (pixel / radius) ** 2
         hidden = 1 - (np.minimum(self.thickness, pixel) / pixel) ** 2
         alike = added * (np.minimum(self.thickness, pixel) / self.thickness) ** 3
-        return unshown * hidden + alike * beside * spread / (1 + beside * spread)
+        return unshown * hidden + alike * below * spread / (1 + below * spread)
 
 
 def unresolved(scene: Scene, grid: Grid, radius: float | None = None) -> list[str]:
     """Reason why a grid on the free surface of a layer falsifies a contact, if it does.
 
-    radius : of the contact [m]; without one that of a contact that fills the grid
+    radius : of the contact [m]; by default the contact fills the grid
     """
     layer, poisson_ratio = scene.layer, scene.solid.poisson_ratio
     if layer is None or falsified(scene, grid, radius) <= FALSIFIED:
@@ -198,7 +199,7 @@ class Thin:
     thickness: float
 
     def __call__(self, x, s, ny):
-        """As that of a thicker one."""
+        """Displacement at x - s, as for a thicker layer."""
         out = self.thickness**3 * self.shown(x, s, ny)
         springs = 2 * self.shown.base.springs * (self.thickness - self.thickness**3)
         out[..., 0] += springs * (np.sign(0.5 - np.abs(x - s)) + 1) / 2
@@ -206,7 +207,7 @@ class Thin:
 
 
 def _reach(thickness):
-    """Distance of a pixel all parts of which are within REACH [pixel]."""
+    """Distance [pixel] up to which every part of a pixel is within REACH."""
     return REACH * thickness - 1
 
 

@@ -112,7 +112,7 @@ def _sinh_less(z, gone):
 class Taken:
     """Displacement by a load that the base takes off, over (1/pi) p dA / E*, at a distance in thicknesses.
 
-    Of a load on a point 1/r - c(r), of one along a line -2 ln r - 2 c(r): both vanish beyond REACH.
+    A point load displaces by 1/r - c(r), a line load by -2 ln r - 2 c(r): both vanish beyond REACH.
     """
 
     def __init__(self, values):
@@ -165,7 +165,7 @@ class Taking:
     def from_line(self) -> Taken:
         """c(x) = -ln(4 + x^2)/2 - int_0^inf [M - 1 + exp(-2t)] cos(x t) dt/t.
 
-        The logarithm is that of an image two thicknesses away, 1 - exp(-2t) in place of M.
+        The logarithm is the displacement by an image two thicknesses away, 1 - exp(-2t) in place of M.
         """
         t, weights = _waves()
         rest = weights * (self.base.yields(t) + np.expm1(-2 * t)) / t

@@ -1,8 +1,8 @@
 """Medium below the surface: a kernel that spreads a pressure, and modes under the flow that remember it.
 
 Lengths are in pixels and pressures in units of the relaxed E*, as in `influence`. The modes alone are a
-foundation, of which no point feels another: the displacement of a half-space is that of this foundation, spread by
-the elastic kernel. What spreads is inverted wave by wave; the foundation is inverted exactly, pixel by pixel
+foundation, whose points do not interact across the flow: a half-space is displaced as this foundation, spread by
+the elastic kernel. The spreading is inverted wave by wave, approximately; the foundation exactly, pixel by pixel
 downstream, on any set of contact.
 """
 
@@ -37,7 +37,7 @@ class Foundation:
 
     @classmethod
     def of(cls, flow: Flow, grid: Grid, wraps: bool = False) -> "Foundation | None":
-        """Foundation of a flow on a grid, with a relaxed compliance of one; None at rest."""
+        """Foundation of a flow on a grid, with a unit relaxed compliance; None at rest."""
         if flow.at_rest:
             return None
         lengths = flow.in_pixels(grid)

@@ -10,13 +10,13 @@ from itertools import pairwise
 
 import numpy as np
 
-NEAR = 100  # kernels take their exact form up to here and that of a distant load beyond, without loss of digits
-FINEST, BANDS = 2, ((8, 16), (64, 8), (np.inf, 5))  # |column| up to which so many nodes a pixel of flow give 1e-11
+NEAR = 100  # kernels are exact up to here, and beyond as for a distant load, without loss of digits
+FINEST, BANDS = 2, ((8, 16), (64, 8), (np.inf, 5))  # |column|, and nodes a pixel that give 1e-11 up to there
 FINE_ROWS = 3  # further aside the pixel's edges are far enough for the nodes of a band
 CHUNK = 32  # columns at a time
 EDGE_PANELS, LEAST_MEMORY = 14, -24  # to a kink, of a memory of a pixel or more; a power of 4 [pixel]
 UPSTREAM_NODES, MEMORY_NODES, PANEL_NODES = 64, 64, 12
-SMALL, KEPT = 256, 128  # rows, and runs of columns of so few that are kept sampled: of one grid a dozen
+SMALL, KEPT = 256, 128  # rows up to which sampled runs of columns are kept, and runs kept: a grid has a dozen
 MANY_LENGTHS = 40.0  # exp(-40) = 4e-18: nothing is remembered from further upstream
 
 

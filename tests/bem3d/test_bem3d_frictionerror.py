@@ -5,7 +5,7 @@ import pytest
 
 from bem3d import BEM
 from bem3d.friction import bound as frictionerror
-from bem3d.friction.bound import UNTOLD, Signs, at_tip, bound
+from bem3d.friction.bound import UNCERTAIN, Signs, at_tip, bound
 from bem3d.friction.estimates import Friction
 from bem3d.grid import Grid
 from scene import Cone, Kelvin, PowerLaw, Scene, SelfAffine, Slide, SolveError, Sphere, StandardLinearSolid
@@ -54,7 +54,7 @@ def test_friction_of_slow_bodies_is_within_its_error_or_refused(points):
         if answer is None:
             assert exponent > 30
             assert points <= 64
-            with pytest.raises(SolveError, match=f"friction is not told by {points} points a side") as refused:
+            with pytest.raises(SolveError, match=f"friction is uncertain on {points} points a side") as refused:
                 BEM(points=points).solve(scene)
             answer = BEM(points=named(refused.value)).solve(scene)
         error = abs(answer.friction_coefficient / slow_law(scene) - 1)
@@ -131,7 +131,7 @@ def nothing_seen():
 def test_estimates_that_contradict_one_another_as_far_as_they_count_are_refused(changed, contradiction):
     friction = estimates(**changed)
     assert friction.contradiction == pytest.approx(contradiction, abs=1e-3)
-    if contradiction > UNTOLD:
+    if contradiction > UNCERTAIN:
         with pytest.raises(SolveError, match="friction is not told by 64 points a side: its estimates differ by"):
             bound(nothing_seen(), friction, 64, 1e-5)
     else:

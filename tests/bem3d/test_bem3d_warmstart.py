@@ -90,6 +90,6 @@ def test_a_failed_solve_leaves_nothing_to_start_from():
         solver.solve(
             replace(SLIDING, motion=Indent(depth=1e-9), roughness=replace(ROUGH, rms_height=1e-7)), warm_start
         )
-    assert warm_start.beside(64) is None
+    assert warm_start.neighbour(64) is None
     found = solver.solve(SLIDING, warm_start)
     assert found.measures["transform_pairs"] == solver.solve(SLIDING).measures["transform_pairs"]
