@@ -70,12 +70,12 @@ class Start:
         """
         sunk = self.pressure.copy()
         if self.foundation is not None:
-            sums.sink(sunk, self.foundation)
+            sums.foundation_displacement(sunk, self.foundation)
         contact = grid.nearest(self.pressure > 0, self.grid)
         taken = grid.resample(sunk, self.grid)
         if foundation is None:
             return taken * contact
-        sums.push(taken, contact, foundation, least=0.0)
+        sums.foundation_pressure(taken, contact, foundation, least=0.0)
         return taken
 
 

@@ -167,10 +167,10 @@ class _OnSet:
         values = pressure.reshape(-1)[self.where] + correction
         if self._foundation is None:
             values = np.maximum(values, 0.0)
-        sums.put(values, self.where, pressure)
+        sums.scatter(values, self.where, pressure)
         if values.min() < 0:
-            sums.sink(pressure, self._foundation)
-            sums.push(pressure, self._contact, self._foundation, least=0.0)
+            sums.foundation_displacement(pressure, self._foundation)
+            sums.foundation_pressure(pressure, self._contact, self._foundation, least=0.0)
 
     def row(self):
         """Displacement of a single row under a unit load on its first pixel, and on its last."""
@@ -197,9 +197,9 @@ class _OnSet:
         return self._through(self._precondition, values, out, first, second)
 
     def _through(self, product, values, out, first, second):
-        sums.put(values, self.where, self._plane)
+        sums.scatter(values, self.where, self._plane)
         product(self._plane, out=self._image)
-        total, with_first, with_second = sums.take(self._image, self.where, out, first, second)
+        total, with_first, with_second = sums.gather(self._image, self.where, out, first, second)
         # The vectors are free of mean themselves where means are taken off: their products need no correction.
         return total / out.size if self.mean_free else 0.0, with_first, with_second
 
@@ -232,22 +232,22 @@ class _OnSet:
         # The sum of pressures as a sum of what sinks: the transpose of pushing is pushing upstream.
         worth, contact = np.ones(self._plane.shape), np.ascontiguousarray(self._contact[:, ::-1])
         if self._foundation is not None:
-            sums.push(worth, contact, self._foundation)
+            sums.foundation_pressure(worth, contact, self._foundation)
         self._worth = np.ascontiguousarray(worth[:, ::-1]).reshape(-1)[self.where]
         level = self._lifted.reshape(-1)[self.where]
         self._level = level / float((self._worth * level).sum())
 
     def _push(self, displaced_foundation):
-        sums.put(displaced_foundation, self.where, self._plane)
+        sums.scatter(displaced_foundation, self.where, self._plane)
         if self._foundation is not None:
-            sums.push(self._plane, self._contact, self._foundation)
+            sums.foundation_pressure(self._plane, self._contact, self._foundation)
         return self._plane
 
     def _inverted(self, displacement):
         self._plane[:] = 0
-        sums.put(displacement, self.where, self._plane)
+        sums.scatter(displacement, self.where, self._plane)
         if self._foundation is not None:
-            sums.release(self._plane, self._contact, self._foundation)
+            sums.with_free_surface(self._plane, self._contact, self._foundation)
         if self._precondition is None:
             return self._plane
         self._precondition(self._plane, out=self._image)

@@ -26,7 +26,7 @@ def conjugate_gradients(on_set, b, reduction, tolerance, iterations):
     for _ in range(iterations):
         mean, along, _ = on_set.operator(direction, image, direction, direction)
         step = descent / along
-        square, largest = sums.advance(x, r, direction, image, step, mean)
+        square, largest = sums.update_solution(x, r, direction, image, step, mean)
         if sqrt(square) <= aim or largest <= tolerance / 2:
             break
         if mean:
@@ -34,7 +34,7 @@ def conjugate_gradients(on_set, b, reduction, tolerance, iterations):
         before = descent
         mean, descent, gained = on_set.precondition(r, z, r, image)
         # z * (r - r_before) without keeping r_before: that difference is -step * image.
-        sums.turn(direction, z, mean, -step * gained / before)
+        sums.update_direction(direction, z, mean, -step * gained / before)
     return x
 
 

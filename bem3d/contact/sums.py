@@ -12,18 +12,18 @@ compiled = loops.compiled(fastmath={"reassoc", "contract", "nsz"})
 
 LEAST = -np.inf  # pressure that a foundation may have
 ROWS = 8  # marched side by side: a pixel waits for the one before it, but not for its neighbours aside
-SINK, RELEASE, PUSH = range(3)
+DISPLACEMENT, FREE, PRESSURE = range(3)
 NOWHERE = np.zeros((0, 0), bool)
 
 
-def put(values, where, plane):
+def scatter(values, where, plane):
     """Write values to their places in the plane."""
-    _put(values, where, plane.reshape(-1))
+    _scatter(values, where, plane.reshape(-1))
 
 
-def take(plane, where, out, first, second):
+def gather(plane, where, out, first, second):
     """Read values at their places into `out`; return their sum and their inner products with two vectors."""
-    return _take(plane.reshape(-1), where, out, first, second)
+    return _gather(plane.reshape(-1), where, out, first, second)
 
 
 def gaps(displacement, heights, level, contact, gap):
@@ -32,26 +32,29 @@ def gaps(displacement, heights, level, contact, gap):
     return _gaps(*flat, level, contact.reshape(-1), gap.reshape(-1))
 
 
-def sink(plane, foundation):
-    """Pressure (ny, nx) to the displacement that it makes of a foundation, in place, as `release` and `push`."""
+def foundation_displacement(plane, foundation):
+    """Replace a pressure (ny, nx), in place, by the displacement of a foundation under it."""
     states = _zeros(plane, foundation)
     if foundation.wraps:
-        _march(plane.copy(), NOWHERE, foundation, states, SINK)
+        _march(plane.copy(), NOWHERE, foundation, states, DISPLACEMENT)
         states /= 1 - foundation.kept[:, None] ** plane.shape[1]
-    _march(plane, NOWHERE, foundation, states, SINK)
+    _march(plane, NOWHERE, foundation, states, DISPLACEMENT)
 
 
-def release(plane, contact, foundation):
-    """Displacement of a foundation that is given in contact (ny, nx), and free elsewhere, in place."""
-    _march(plane, contact, foundation, _entering(plane, contact, foundation), RELEASE)
+def with_free_surface(plane, contact, foundation):
+    """Let the displacement (ny, nx) of a foundation relax freely, in place, wherever it is not in contact."""
+    _march(plane, contact, foundation, _entering(plane, contact, foundation), FREE)
 
 
-def push(plane, contact, foundation, least=LEAST):
-    """Displacement of a foundation in contact to pressure, zero elsewhere; no less than `least`."""
+def foundation_pressure(plane, contact, foundation, least=LEAST):
+    """Replace the displacement of a foundation, in place, by the pressure on it: zero out of contact.
+
+    least : lowest pressure allowed
+    """
     states = _entering(plane, contact, foundation)
     if foundation.wraps and least > LEAST:
-        _march(plane.copy(), contact, foundation, states, PUSH, least)
-    _march(plane, contact, foundation, states, PUSH, least)
+        _march(plane.copy(), contact, foundation, states, PRESSURE, least)
+    _march(plane, contact, foundation, states, PRESSURE, least)
 
 
 def _zeros(plane, foundation):
@@ -67,18 +70,18 @@ def _entering(plane, contact, foundation):
     given = _zeros(plane, foundation)
     if not foundation.wraps:
         return given
-    _march(plane.copy(), contact, foundation, given, PUSH)
+    _march(plane.copy(), contact, foundation, given, PRESSURE)
     # The end of a row is linear in its beginning.
     ends = [_zeros(plane, foundation) for _ in foundation.kept]
     for mode, end in enumerate(ends):
         end[mode] = 1.0
-        _march(np.zeros_like(plane), contact, foundation, end, PUSH)
+        _march(np.zeros_like(plane), contact, foundation, end, PRESSURE)
     gone = np.eye(len(ends)) - np.stack(ends).transpose(2, 1, 0)
     return np.linalg.solve(gone, given.T[..., None])[..., 0].T
 
 
 @compiled
-def advance(x, r, direction, image, step, mean):
+def update_solution(x, r, direction, image, step, mean):
     """x += step direction, r -= step (image - mean); returns the square norm and the largest entry of r."""
     square = largest = 0.0
     for i in range(x.size):
@@ -91,20 +94,20 @@ def advance(x, r, direction, image, step, mean):
 
 
 @compiled
-def turn(direction, z, mean, beta):
+def update_direction(direction, z, mean, beta):
     """direction = z - mean + beta direction."""
     for i in range(z.size):
         direction[i] = z[i] - mean + beta * direction[i]
 
 
 @compiled
-def _put(values, where, plane):
+def _scatter(values, where, plane):
     for i in range(where.size):
         plane[where[i]] = values[i]
 
 
 @compiled
-def _take(plane, where, out, first, second):
+def _gather(plane, where, out, first, second):
     total = with_first = with_second = 0.0
     for i in range(where.size):
         value = plane[where[i]]
@@ -143,12 +146,12 @@ def _lap(plane, contact, at_once, kept, gained, states, what, least):
                     known[j] += of_rows[k, j]
             for j in range(rows):
                 y, given = first + j, plane[first + j, x]
-                if what == SINK:
+                if what == DISPLACEMENT:
                     pressure[j] = given
                     plane[y, x] = known[j] + at_once * given
                 else:
                     pressure[j] = max((given - known[j]) * stiffness, least) if contact[y, x] else 0.0
-                    plane[y, x] = pressure[j] if what == PUSH else given if contact[y, x] else known[j]
+                    plane[y, x] = pressure[j] if what == PRESSURE else given if contact[y, x] else known[j]
             for k in range(modes):
                 for j in range(ROWS):
                     of_rows[k, j] += gained[k] * pressure[j]

@@ -132,7 +132,7 @@ def test_estimates_that_contradict_one_another_as_far_as_they_count_are_refused(
     friction = estimates(**changed)
     assert friction.contradiction == pytest.approx(contradiction, abs=1e-3)
     if contradiction > UNCERTAIN:
-        with pytest.raises(SolveError, match="friction is not told by 64 points a side: its estimates differ by"):
+        with pytest.raises(SolveError, match="friction is uncertain on 64 points a side: its estimates differ by"):
             bound(nothing_seen(), friction, 64, 1e-5)
     else:
         assert bound(nothing_seen(), friction, 64, 1e-5) < 1
