@@ -1,4 +1,4 @@
-"""The three-dimensional answer: boundary elements on a viscoelastic half-space."""
+"""Three-dimensional solver: boundary elements on a viscoelastic half-space."""
 
 import logging
 

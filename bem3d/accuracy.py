@@ -1,4 +1,4 @@
-"""Settings for a wanted accuracy: points are doubled until what changes over two halvings confirms it."""
+"""Settings for a wanted accuracy: points are doubled until the changes of the answer confirm it."""
 
 import logging
 import warnings
@@ -31,7 +31,7 @@ class Unconfirmed(Doubtful):
 
 @dataclass(frozen=True)
 class Choice:
-    """Settings that keep wanted errors in one scene, and the answer by which they were found.
+    """Settings that keep wanted errors in a scene, and the answer by which they were found.
 
     solver, result : the settings, and their answer
     wanted, error : relative errors by name, as wanted, and as the answers on half and a quarter of the points show
@@ -153,12 +153,12 @@ def _order(last, before):
 
 
 def _needed(points, last, before, wanted):
-    """Points at which the error would be as wanted, by its order."""
+    """Points at which the error would be as small as wanted, by its order of convergence."""
     return 0 if before == inf else points * (error(last, before) / wanted) ** (1 / _order(last, before))
 
 
 def _doubled(solver, scene, tolerance) -> Iterator[BEM]:
-    """Settings on ever more points."""
+    """Settings with more and more points."""
     if scene.motion.pressed_by == "gap":
         tolerance = min(tolerance, NARROW)
     points = FIRST

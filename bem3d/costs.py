@@ -1,4 +1,4 @@
-"""Costs of steady contacts by points, as measured: what plans and settings for an accuracy are priced by."""
+"""Measured costs of steady contacts by points a side, for plans and for settings of a wanted accuracy."""
 
 import csv
 from collections.abc import Mapping

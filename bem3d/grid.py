@@ -1,4 +1,4 @@
-"""The piece of surface on which a contact is sought."""
+"""Grids of pixels on the surface, and boxes around contacts."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -81,7 +81,7 @@ class Grid:
         return self.x[None, :], self.y[:, None]
 
     def sampled(self, evaluate: Callable[[np.ndarray, np.ndarray], np.ndarray]) -> np.ndarray:
-        """Values on the grid of what is evaluated on coordinates x (points,) and y (rows,)."""
+        """Values on the grid of a function of coordinates x (points,) and y (rows,)."""
         return evaluate(self.x, self.y)
 
     def coarser(self) -> "Grid":
@@ -96,7 +96,7 @@ class Grid:
         return grids
 
     def resample(self, values: np.ndarray, given: "Grid") -> np.ndarray:
-        """Values of another grid by bilinear interpolation; beyond its outermost points, those of the nearest."""
+        """Values of another grid by bilinear interpolation; beyond its outermost points, the nearest values."""
         for axis, position in enumerate(self._positions(given)):
             values = _interpolated(values, position, axis)
         return values
@@ -123,20 +123,20 @@ class Grid:
         return x, y if self.width is None else 0
 
     def averaged(self, values: np.ndarray, given: "Grid") -> np.ndarray:
-        """Means over the pixels of this grid of values that are constant on those of another, zero beyond them."""
+        """Means over these pixels of values that are constant on pixels of another grid, and zero beyond it."""
         along = _overlap(self, given, 0)
         across = _overlap(self, given, 1) if self.width is None else np.ones((1, 1))
         return across @ values @ along.T
 
     def resampled_contact(self, pressure: np.ndarray, given: "Grid") -> np.ndarray:
-        """A pressure of another grid, zero where it is zero at the nearest point, or has none.
+        """A pressure of another grid, zero where the nearest pixel there has none.
 
-        So the contact does not grow by a rim.
+        Otherwise interpolation would let the contact grow by a rim.
         """
         return self.resample(pressure, given) * self.nearest(pressure > 0, given)
 
     def nearest(self, chosen: np.ndarray, given: "Grid") -> np.ndarray:
-        """Whether the nearest pixel of another grid is a chosen one (rows, points); False beyond its outermost."""
+        """Whether the nearest pixel of another grid is chosen (rows, points); False beyond its outermost ones."""
         found = np.zeros((given.rows + 2, given.points + 2), bool)
         found[1:-1, 1:-1] = chosen
         for axis, position in enumerate(self._positions(given)):
@@ -186,7 +186,7 @@ class Piece(Grid):
 
 
 def _overlap(grid, given, axis):
-    """Shares of the pixels of a grid along an axis that those of another cover (points, given points)."""
+    """Shares of the pixels of a grid that pixels of another cover, along an axis (points, given points)."""
     edges, others = (
         (np.arange(each.points + 1) - each.points / 2) * each.pixel + each.centre[axis] for each in (grid, given)
     )
@@ -242,10 +242,10 @@ class Box:
 
 
 def cached_on_small_grids(evaluate: Callable[..., _T]) -> Callable[..., _T]:
-    """A method of a frozen medium, of a grid wherever that lies, whose last values on small grids are kept.
+    """Decorator of a method of a frozen medium and a grid: keep its last values on small grids, wherever they lie.
 
-    They are found by all that they depend on, to the last digit: an answer is the same whatever was solved before.
-    Nothing may be written into them.
+    Values are found by the digits of all that they depend on, so that an answer does not depend on earlier solves.
+    They must not be written into.
     """
     remembered = {size: lru_cache(KEPT // size)(evaluate) for size in SIZES}
 

@@ -1,4 +1,4 @@
-"""Plan of this solver for a scene: grids and kernels as `Problem` builds them, costs as measured."""
+"""Plan of the 3D solver for a scene: its grids and kernels, and measured costs."""
 
 from dataclasses import replace
 from itertools import pairwise

@@ -1,4 +1,4 @@
-"""One scene put on grids: heights and operators for each, and the way from a coarse grid to a fine one."""
+"""A scene on grids: heights and operators on each, and the way from the coarsest grid to the finest."""
 
 from dataclasses import dataclass, replace
 from math import nan
@@ -53,7 +53,7 @@ def _medium(indenter, flow, engine):
 
 @dataclass(frozen=True, eq=False)
 class Start:
-    """A contact found before, from which the next is sought: on another grid, or of a neighbouring scene.
+    """A solved contact from which the next solve starts: on another grid, or of a neighbouring scene.
 
     pressure : in units of the relaxed E* (rows, points)
     foundation : of its flow on its grid; None at rest
@@ -105,7 +105,7 @@ class Problem:
         return row_width(self.scene)
 
     def completed(self, result: Result, grid: Grid) -> Result:
-        """An answer found on the grid, with what the terms of the scene add to it."""
+        """An answer on the grid, completed by the terms of the scene."""
         for term in self._terms:
             result = term.completed(result, self, grid)
         return result
@@ -121,7 +121,7 @@ class Problem:
         return self._surface
 
     def shortest(self, grid: Grid) -> float | None:
-        """Wavelength [m] of the finest that a grid has to show, of roughness or a measured body; else None."""
+        """Shortest wavelength [m] of roughness or of a measured body on a grid; else None."""
         if self.surface(grid) is not None:
             return 2 * np.pi / self.scene.roughness.q_max(grid.pixel)
         return self.scene.indenter.shortest if isinstance(self.scene.indenter, Measured) else None
@@ -143,7 +143,7 @@ class Problem:
         return macroscopic if surface is None else macroscopic + grid.sampled(surface.slopes)
 
     def lost(self, grid: Grid, pressure: np.ndarray) -> tuple[float, float]:
-        """Energy lost per length slid under a pressure [Pa], without looking at the indenter [J/m].
+        """Energy lost per length slid [J/m] under a pressure [Pa], from the displacement alone.
 
         By the slope of the displacement, the sum of the loss compliance over the spectrum of the pressure; and by
         the work done on the surface on its way from pixel to pixel.
@@ -177,7 +177,7 @@ class Problem:
         return Start(grid, pressure, self.medium.foundation(grid))
 
     def solve_on(self, grid: Grid, surface, tolerance: float, *starts: Start | None) -> activeset.Contact:
-        """One grid, lengths in pixels, pressure in units of the relaxed E*. Raises SolveError.
+        """Contact on a single grid, lengths in pixels, pressure in units of the relaxed E*. Raises SolveError.
 
         starts : the one closest to the answer is used
         """

@@ -1,4 +1,4 @@
-"""A contact of few small spots on pixels finer than any grid could hold, solved at the points of its spots alone.
+"""A contact of few small spots, solved on very fine pixels at the points of its spots alone.
 
 Where next to nothing touches, a grid is empty pixels. Between points of contact the operator is a dense matrix,
 taken from the kernel of a grid; where else they might touch is seen on the coarse grid and looked at on the fine
@@ -95,7 +95,7 @@ def _refusals(result):
 
 
 def _refined(solver, scene, coarse, fields, steps):
-    """The answer, from fields on the coarse grid; without any they are solved first."""
+    """The refined answer, from fields on the coarse grid; without fields, they are solved first."""
     started, problem = process_time(), Problem(scene, solver.engine, solver.terms)
     around = wake.surroundings(solver, scene, fields or _fields(problem, coarse, solver.tolerance))
     fine, touching = coarse, None

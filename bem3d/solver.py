@@ -130,7 +130,7 @@ class BEM:
 
     @property
     def engine(self) -> Engine:
-        """Engine that computes."""
+        """Engine of the products in Fourier space."""
         return Engine(self.transforms, self.threads, self.precision)
 
     def refusals(self, scene: Scene) -> list[str]:
@@ -147,7 +147,7 @@ class BEM:
         return reasons or shortage(plan_of(self, scene, priced=False).memory)
 
     def foreseen(self, scene: Scene) -> list[str]:
-        """Reasons why a solve of what is not refused would fail all the same, as far as a coarse contact shows.
+        """Reasons why a solve would fail although the scene is not refused, as far as a coarse contact shows.
 
         One is solved only where the widest window there can be leaves a doubt, and not for a Program.
         """
@@ -174,7 +174,7 @@ class BEM:
             return replace(plan_of(self, scene), doubts=self.doubts(scene))
 
     def solve(self, scene: Scene, warm_start: WarmStart | None = None) -> Result:
-        """Pressure, gap and forces.
+        """Solve the scene for pressure, gap and forces.
 
         Raises Refused, SolveError where the result could not be trusted, OutOfMemory where memory ran out.
 
@@ -280,7 +280,7 @@ class BEM:
 
 
 def _check_gap(gap, grid, answer):
-    """Raise SolveError where what is left of a prescribed mean gap [m] is no less than the residual."""
+    """Raise SolveError where the residual is not small against a prescribed mean gap [m]."""
     left = answer.violation * (answer.depth - answer.lowest) * grid.pixel
     if gap is not None and left > LEAST_GAP * gap:
         raise SolveError(

@@ -1,4 +1,4 @@
-"""The pixels in contact alone, as a grid: what is evaluated on them are vectors, and operators are matrices."""
+"""The pixels in contact alone, as a grid: functions on them are vectors, and operators are matrices."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -28,7 +28,7 @@ class Spots(Grid):
 
     @property
     def shape(self):
-        """(m,)"""
+        """Shape (m,) of every array on these pixels."""
         return self.row.shape
 
     @property
@@ -47,7 +47,7 @@ class Spots(Grid):
         return self.x, self.y
 
     def sampled(self, evaluate: Callable[[np.ndarray, np.ndarray], np.ndarray]) -> np.ndarray:
-        """Values (m,) of what is evaluated on coordinates of columns and of rows."""
+        """Values (m,) of a function of the coordinates of columns and of rows."""
         rows, row = np.unique(self.row, return_inverse=True)
         columns, column = np.unique(self.column, return_inverse=True)
         x, y, found = super().x[columns], super().y[rows], np.empty(self.shape)
@@ -57,7 +57,7 @@ class Spots(Grid):
         return found
 
     def ladder(self, least: int) -> list[Grid]:
-        """The pixels alone: of their matrices there are no coarser ones."""
+        """These pixels alone: their matrices have no coarser ones."""
         return [self]
 
     def wider(self) -> "Spots":
@@ -93,7 +93,7 @@ class Spots(Grid):
 
     @property
     def reach(self) -> int:
-        """Pixels that a kernel needs along each axis for all of them to feel each other."""
+        """Pixels along each axis that a kernel between all of these needs."""
         return int(max(np.ptp(self.row), np.ptp(self.column))) + 1
 
     def matrix(self, kernel: np.ndarray, odd: bool = False) -> np.ndarray:

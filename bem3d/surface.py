@@ -20,7 +20,7 @@ PHASES, MODULI = (2,), (2, 0)
 
 @dataclass(frozen=True)
 class RoughSurface:
-    """Periodic sum of cosines on grids: of random phases where a spectrum is drawn, of its own of a map."""
+    """Periodic sum of cosines on grids: with random phases for a spectrum, with its own phases for a map."""
 
     waves: Waves
 
@@ -69,7 +69,7 @@ class RoughSurface:
 
     @property
     def amplitudes(self) -> np.ndarray:
-        """Amplitudes of its waves."""
+        """Complex amplitudes of the waves [m]."""
         return self.waves.amplitudes
 
     def heights(self, x, y):

@@ -9,7 +9,7 @@ from .grid import Grid
 
 
 class Term(terms.Term):
-    """A part of a scene as boundary elements take it up."""
+    """A part of a scene as boundary elements treat it."""
 
     def medium(self, medium: Any, scene: Scene) -> Any:
         """The response of the elastomer, as changed by the part: what `HalfSpace`, `Cell` and `Line` offer."""

@@ -1,4 +1,4 @@
-"""Roughness that was measured, as boundary elements take it up: a map by its waves, a line by a fitted surface."""
+"""Measured roughness in boundary elements: a map by its waves, a line by a fitted surface."""
 
 from scene import Plane, Scene
 from scene.files.parts import said

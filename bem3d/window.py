@@ -1,4 +1,4 @@
-"""The window of surface that a contact needs: found on coarse grids, then checked for what it left out."""
+"""The window of surface around a contact: found on coarse grids, then checked for contact outside."""
 
 from math import ceil
 from typing import NamedTuple
@@ -30,7 +30,7 @@ OVERLAP = 1e-2  # of the depth below the lowest point: what may penetrate outsid
 
 
 def surroundings(problem: Problem) -> Box:
-    """A square that no contact can leave.
+    """A square that contains any contact of the scene.
 
     Everything below the undeformed surface at the depth of the smooth contact at rest, which at the same load a
     viscous one does not exceed, with the highest peaks allowed for; of a measured body all of its map.
@@ -95,9 +95,9 @@ def fitted(problem: Problem, points: int) -> Placed:
 
 
 def check(scene: Scene, grid: Grid, touched: np.ndarray, repeats: bool = False) -> None:
-    """Raise SolveError if the grid holds too little of the contact or too little of it, or its layer, is resolved.
+    """Raise SolveError if a contact reaches the edge of the grid, or if it or its layer is not resolved.
 
-    A surface that repeats has no edge to reach.
+    A surface that repeats has no edge.
     """
     check_on_map(scene, grid, touched)
     if not repeats and grid.on_rim(touched):
@@ -116,7 +116,7 @@ def check_resolved(grid: Grid, touched: np.ndarray) -> None:
 
 
 def improved(problem: Problem, grid: Grid, answer) -> Grid | None:
-    """The grid on which to solve next: wider for what this one left out, closer where it resolves next to nothing.
+    """The next grid to solve on: wider where this one left out contact, closer where too few pixels touch.
 
     None when this one will do. Raises SolveError when only more points would help.
     """
@@ -135,7 +135,7 @@ def improved(problem: Problem, grid: Grid, answer) -> Grid | None:
 
 
 def left_out(problem: Problem, grid: Grid, answer) -> Box | None:
-    """A box around what the indenter penetrates outside the grid, None when there is nothing.
+    """A box around penetration by the indenter outside the grid; None where there is none.
 
     The displacement outside is caused by the pressure found. It is smooth away from the contact, so rings of
     growing width around the window are searched, each on a grid as coarse as its distance allows.
@@ -155,7 +155,7 @@ def left_out(problem: Problem, grid: Grid, answer) -> Box | None:
 
 
 def _penetrating(problem, grid, answer, surface, shortest, inner, outer):
-    """A box around what is penetrated between two squares of these sides [m] around the window's centre."""
+    """A box around penetration between two squares of these sides [m] around the centre of the window."""
     coarse = Grid(RING_POINTS, outer, grid.centre)
     # No finer than the roughness asks for, nor than the solution itself was.
     step = max(grid.pixel, shortest / 8)
@@ -206,7 +206,7 @@ def unresolved(scene, grid: Grid) -> list[str]:
 
 
 def foreseen(problem: Problem, points: int, extent: float | None) -> list[str]:
-    """Reasons why a steady solve would fail by its window, with values that work.
+    """Reasons why no window would hold a steady contact, with values that work.
 
     A coarse contact is sought, as by `fitted`, where the widest window that there can be does not settle it.
     extent : as stated [m]; None where the window is fitted
@@ -276,7 +276,7 @@ def _shortest(scene):
 
 
 def _missed(scene, grid, spare=1.0):
-    """Whether waves are shorter than two pixels, and the values that would do; spare : factor on the window."""
+    """Reason why the grid cannot carry the shortest wave, with values that work; spare : factor on the window."""
     field, shortest = _shortest(scene)
     if shortest is None or 2 * grid.pixel <= shortest:
         return []
@@ -292,7 +292,7 @@ def _missed(scene, grid, spare=1.0):
 
 
 def _kept(scene, grid, spare=1.0):
-    """The shortest wave that a grid carries, as the field that states it, in words; empty where it carries all."""
+    """Advice on the shortest wave that the grid carries, by its field; empty where it carries all."""
     field, shortest = _shortest(scene)
     if shortest is None or 2 * grid.pixel <= shortest:
         return []

@@ -1,4 +1,4 @@
-"""Arguments of a formula: their units, by their names, and checks, which name the argument and its value."""
+"""Arguments of formulas: their units, by name, and checks that name the argument and its value."""
 
 from numbers import Integral
 
@@ -69,7 +69,7 @@ def whole(least, **arguments):
 
 
 def one_of(allowed, **arguments):
-    """Words out of a list."""
+    """Values out of a list."""
     for name, value in arguments.items():
         if value not in allowed:
             raise ValueError(f"{name} = {value!r} must be one of {', '.join(allowed)}")

@@ -156,7 +156,7 @@ def add(amount, values):
 
 @summed
 def faded(pushes, decay, ahead):
-    """Let the free surface relax, the parts J_j r_j into ahead; returns u then."""
+    """Let the free surface relax: write its parts J_j r_j into `ahead`, and return u then."""
     u = 0.0
     for j in range(pushes.size):
         ahead[j] = pushes[j] * decay[j]
@@ -177,7 +177,7 @@ def _fallen(t, pushes, retarded):
 
 @compiled
 def landing(c, c_end, rate, width, u, u_end, pushes, solid, decay):
-    """Where on its way a free surface meets c, which rises at a rate; else NOWHERE.
+    """Place at which a free surface meets c, which rises at a rate; else NOWHERE.
 
     c_end : at the end of the width, where a light touch has digits that c has not
     u, u_end : free surface at both ends

@@ -31,7 +31,7 @@ _PARTS = {"indenter", "elastomer", "motion", "roughness"}
 
 @dataclass(frozen=True)
 class Answers:
-    """One number a scene and a seed, arrays (scenes, seeds); NaN where a load is not met to a relative 1e-10.
+    """Answers for each scene and seed, arrays (scenes, seeds); NaN where a load is not met to a relative 1e-10.
 
     friction : coefficient of friction [1]
     depth : of the macroscopic tip [m]

@@ -1,4 +1,4 @@
-"""The answer to a program: a grid that holds all of it, the march, and what is kept of it as a result."""
+"""The result of a program: a grid that holds all its contacts, the march, and the fields of the result."""
 
 from dataclasses import replace
 from time import process_time

@@ -85,7 +85,7 @@ def under_load(scene: Scene, body: Profile, sweep: Sweep) -> tuple[float, Contac
 
 @compiled
 def nearer(approach, force, stiffness, load, lower, upper, most):
-    """Next trial of the approach that carries a load, and the bracket, once one carries a force.
+    """Next trial of the approach that carries a load, and its bracket, from the force at the last trial.
 
     As if the force went on as the power of the approach that it is here: Newton's step for their logarithms. Where
     that leaves the bracket, its middle. most : an approach that is surely enough

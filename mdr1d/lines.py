@@ -1,4 +1,4 @@
-"""The rough line of a scene, by whatever its roughness is."""
+"""The rough line of a scene, for every kind of roughness."""
 
 from scene import Profile, Topography
 from scene.quantities import WHOLE, takes

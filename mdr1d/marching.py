@@ -64,7 +64,7 @@ class History:
 
 
 def march(program: Program, body: Profile, modes: Modes, modulus: float, steps: int, instants: int = 0) -> History:
-    """Through a program on one profile.
+    """March through a program on a profile.
 
     modulus : relaxed, of the foundation [Pa]
     steps : of the whole program, see `timeline`
@@ -158,7 +158,7 @@ class _Row:
 
     @property
     def x(self):
-        """Places of the elements [m]."""
+        """Coordinates of the elements [m]."""
         return self._body.x[:-1] + self._place * self._body.pixel
 
     @property
@@ -168,7 +168,7 @@ class _Row:
 
     @property
     def reach(self):
-        """Farthest from the axis that one touches [m]."""
+        """Largest distance from the axis at which an element touches [m]."""
         touching = np.flatnonzero(self.state.touching)
         return float(np.abs(self.x[touching[[0, -1]]]).max()) if len(touching) else 0.0
 

@@ -1,4 +1,4 @@
-"""Plan of this solver for a scene: a foundation needs no kernels, and its costs go by node and sweep."""
+"""Plan of the 1D solver for a scene: no kernels, and costs by node and sweep."""
 
 from math import ceil
 from pathlib import Path
@@ -93,7 +93,7 @@ def _memory(solver, scene, layout, steps):
 
 
 def _expected(scene, nodes, steps):
-    """Counted, times what parts that are not counted were measured to make of it."""
+    """Expected costs: by nodes and sweeps, times measured factors of the other parts of the scene."""
     moduli = scene.solid.relaxation()[1]
     if steps:
         sweeps, each = steps, STEP + MODE * len(modes_of(scene.solid).compliances)

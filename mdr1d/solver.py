@@ -206,7 +206,7 @@ class MDR:
         }
 
     def _laid_out(self, scene: Scene) -> Grid:
-        """The grid to begin with."""
+        """The first grid."""
         reduced = self._reduced(scene)
         if isinstance(scene.motion, Program):
             reduced = at_greatest(reduced)
@@ -248,7 +248,7 @@ def _flow(scene: Scene) -> Sweep:
 
 
 def _too_broad(band: Band) -> list[str]:
-    """Whether the spectrum alone asks for too much."""
+    """Reason why the spectrum has too many waves on any grid."""
     if band.shortest is None or band.period / band.shortest <= MOST_NODES / 16:
         return []
     return [
@@ -278,7 +278,7 @@ def _unresolved(rough: Roughness, band: Band, layout: Grid, points: int) -> list
 
 
 def _room(rough, band, layout, enough):
-    """What works for other draws of the roughness too, whose contacts are wider, in words."""
+    """Advice that leaves room for other draws of the roughness, whose contacts may be wider."""
     advice = f"; points = {ceil(SPARE * enough):.15g} would leave room for other draws"
     kept = 2 * SPARE * layout.pixel
     if (keepable := getattr(rough, "keepable", None)) is not None:

@@ -199,7 +199,7 @@ def draw(roughness: Isotropic, nodes: int, spectrum: Spectrum = "mapped") -> Sur
 
 @lru_cache(maxsize=16)
 def _unseeded(roughness, nodes, spectrum):
-    """Once for all seeds: the amplitudes of a line scan take longer than a sweep."""
+    """Lines of a spectrum, evaluated once for all seeds: amplitudes of a line scan take longer than a sweep."""
     pixel = roughness.longest / nodes
     q_max = roughness.q_max(pixel)
     waves = amplitudes(roughness, q_max / roughness.q_min, spectrum)

@@ -5,7 +5,7 @@ from scene.effects.terms import Heated
 
 
 class Term(terms.Term):
-    """A part of a scene as the one-dimensional foundation takes it up."""
+    """A part of a scene as the one-dimensional foundation treats it."""
 
     def completed(self, result: Result) -> Result:
         """The answer with what the part adds once the normal contact is found."""

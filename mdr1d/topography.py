@@ -1,4 +1,4 @@
-"""Rough lines of what was measured: of a map by its spectrum or one of its rows, of a line by itself."""
+"""Rough lines of measured roughness: from the spectrum or a row of a map, or a measured line itself."""
 
 from dataclasses import replace
 from functools import lru_cache
@@ -53,7 +53,7 @@ def draw(topography: Topography, nodes: int, spectrum: Spectrum) -> Surface:
 
 @lru_cache(maxsize=16)
 def _mapped(topography, nodes):
-    """Once for all seeds."""
+    """Mapped amplitudes, evaluated once for all seeds."""
     band, waves = band_of(topography, "mapped"), amplitudes(topography)
     waves.setflags(write=False)
     return LineFamily(waves, False, nodes, band.period / nodes, band.shortest or nan)

@@ -1,4 +1,4 @@
-"""The complementarity problem of contact: operator and heights in, pressure out. Knows no physics.
+"""The complementarity problem of contact: from an operator and heights to a pressure, without physics.
 
 Find p >= 0 with gap = A p + z - d >= 0 and p * gap = 0 on every point, for a depth d given or such that
 sum(p) = load. The operator A is positive definite; it need not be symmetric.
@@ -27,7 +27,7 @@ class NotConverged(RuntimeError):
 
 @dataclass(frozen=True)
 class Contact:
-    """A contact found: planes (ny, nx), and numbers.
+    """A solved contact: planes (ny, nx), and numbers.
 
     displacement : by the pressure; where heights are many orders greater, the gap has lost it
     violation : as `tolerance` measures it; rounds : sets tried
@@ -110,7 +110,7 @@ def solve(
 
 
 def misfit(operator: Callable, heights, pressure, depth: float | None = None, load: float | None = None) -> float:
-    """Mean |gap| that a pressure leaves where it presses, weighted with it: how far a start is from the answer.
+    """Mean |gap| under a pressure, weighted with it: how far a start is from the answer.
 
     The pressure is scaled to the load, if there is one.
     """
@@ -121,7 +121,7 @@ def misfit(operator: Callable, heights, pressure, depth: float | None = None, lo
 
 
 def first_guess(heights: np.ndarray, count: int) -> np.ndarray:
-    """Pressure to begin with under a load, on some `count` of the lowest points, as deep as they overlap."""
+    """First pressure under a load: on about `count` of the lowest points, in proportion to their overlap."""
     level = np.partition(heights, count, axis=None)[count]
     overlap = np.maximum(level - heights, 0.0)
     # Where they are all alike, none is deeper than the others.

@@ -73,7 +73,7 @@ def gmres(on_set, b, reduction, tolerance, iterations):
 
 
 def direct(on_set, b, reduction, tolerance, iterations):
-    """Gauss elimination, for the few points of a single row: exact, whatever the flow does to the condition.
+    """Gaussian elimination for a single row, accurate where a fast flow makes the matrix ill-conditioned.
 
     The operator is the same everywhere, so its columns are those of a load on the first and on the last pixel.
     """

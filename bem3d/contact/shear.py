@@ -175,7 +175,7 @@ class Tangential:
         }
 
     def _displacement(self, found):
-        """Displacement [m]: the one given, or the one that the given force makes."""
+        """Displacement [m]: as prescribed, or as caused by the prescribed force."""
         given = self._problem.scene.motion.displacement
         return found.displacement * self._length if given is None else given
 
@@ -266,12 +266,12 @@ class Between(Tangential):
 
 
 def _components(scene, rows):
-    """Number of components of the tractions: where nothing couples both axes, those along the pull alone."""
+    """Number of components of the tractions: only the one along the pull where nothing couples both axes."""
     return 1 if rows == 1 or scene.solid.poisson_ratio == 0 else 2
 
 
 def _carried_over(other, coarse, grid, limits):
-    """Tractions of another grid on this one: at their limit where they were."""
+    """Tractions of a coarser grid on this one; where points slipped they are put at their limit."""
     start = np.stack([grid.resample(plane, other) for plane in coarse.traction])
     length = np.sqrt((start * start).sum(axis=0))
     slipping = (grid.resample(coarse.slipping.astype(float), other) > SLIPS) & (length > 0)
@@ -290,7 +290,7 @@ class Counted:
 
 
 class Alone:
-    """The product of a single plane as one of planes with one component."""
+    """The product of a plane as a product of planes with a single component."""
 
     def __init__(self, product):
         self._product = product

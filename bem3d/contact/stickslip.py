@@ -1,4 +1,4 @@
-"""Stick and slip under a given pressure: operator and limits in, traction out. Knows no physics.
+"""Stick and slip under a given pressure: from an operator and limits to tractions, without physics.
 
 Find tractions q with |q| <= limit on every point such that the slip s = u - A q vanishes where |q| < limit, and
 points along q where it does not; for a displacement u along x given or such that the sum of q_x is a force. That
@@ -99,7 +99,7 @@ def solve(
 
 
 def _level(image, direction, at_limit):
-    """The displacement that suits a traction best where it sticks.
+    """The displacement that fits a traction best where points stick.
 
     Where nothing does, the one that leaves the least slip across; if all tractions point along x, the least at
     which everything but one point slips forward.
@@ -191,7 +191,7 @@ class _Face:
         return self._along_circles(self._ease * image)
 
     def _free(self, values):
-        """The part of them along which tractions may move."""
+        """The part of vectors along which tractions may move."""
         values = self._along_circles(values)
         return values - self._pull * (_inner(self._pull, values) / self._pull_square) if self._held else values
 

@@ -1,4 +1,4 @@
-"""Error of friction that the grid leaves: a bound of 95 %, from one pressure and without another solve.
+"""Bound of 95 % on the error of friction by the grid, from a single pressure and without another solve.
 
 One pressure gives estimates of friction that fail in different ways, and the same estimates on pixels twice as
 wide. `friction_error.csv` has the weights of these signs of the error, fitted to random contacts that were
@@ -81,7 +81,7 @@ def bound(seen: "Signs", friction: Friction, points: int, residual: float) -> fl
 
 
 class Signs(NamedTuple):
-    """Signs of an error: the kind of contact, by which they weigh, numbers by name, and `at_tip`, which adds."""
+    """Signs of an error: the kind of contact, which selects their weights, numbers by name, and `at_tip`."""
 
     kind: str
     numbers: Mapping[str, float]

@@ -1,4 +1,4 @@
-"""Friction of a steady contact: estimates from one pressure, and the answer that joins their strengths."""
+"""Friction of a steady contact: estimates from a pressure, and the answer that combines them."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -38,7 +38,7 @@ class Friction:
     def of(
         cls, problem: Problem, grid: Grid, pressure: np.ndarray, surface: RoughSurface | None, lost: Lost
     ) -> Self:
-        """Friction from the pressure [Pa] on a grid, of its shape, on this roughness."""
+        """Friction by the pressure [Pa], of the shape of the grid, with this roughness."""
         slopes = problem.slopes(grid, surface)
         loss, work = lost(grid, pressure)
         curvature = curvature_by_pressure(problem.scene.indenter, grid, pressure, surface)
@@ -55,17 +55,17 @@ class Friction:
 
     @property
     def force(self) -> float:
-        """The answer [N]."""
+        """The combined estimates [N]."""
         return self.joined(self)
 
     def joined(self, other: Self) -> float:
-        """Estimates of another joined as those of this are [N]."""
+        """Estimates of another pressure, combined with the weights of this one [N]."""
         fast = self.lag * other.by_traction + (1 - self.lag) * other.by_loss
         return self.slowness * other.by_curvature + (1 - self.slowness) * fast
 
     @property
     def contradiction(self) -> float:
-        """The most that traction or curvature differ from the loss, as far as they count, over the answer."""
+        """Largest weighted difference of traction or curvature from the loss, over the combined estimates."""
         most = max(
             self.lag * abs(self.by_traction - self.by_loss), self.slowness * abs(self.by_curvature - self.by_loss)
         )
@@ -73,7 +73,7 @@ class Friction:
 
     @property
     def disagreement(self) -> float:
-        """The most that the loss differs from another, as far as that counts [N]."""
+        """Largest weighted difference of another estimate from the loss [N]."""
         return max(
             (1 - self.slowness) * abs(self.by_work - self.by_loss),
             self.lag * abs(self.by_traction - self.by_loss),

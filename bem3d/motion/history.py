@@ -1,4 +1,4 @@
-"""The answer to a program: a window that holds all of it, the march, and what is kept of it as a result."""
+"""The result of a program: a window that holds all its contacts, the march, and the fields of the result."""
 
 import time
 from dataclasses import replace
@@ -69,7 +69,7 @@ def _frames(history):
 
 
 def _check(grid, history):
-    """Raise SolveError where the grid never saw the contact, or ends with next to nothing of it."""
+    """Raise SolveError where nothing ever touches on the grid, or too few pixels do at the end."""
     if not history.contact_area.any():
         raise EmptyContact(
             f"nothing touches in the whole program on pixels of {grid.pixel:g} m; "
@@ -101,7 +101,7 @@ def _grid(solver, problem, program):
 
 
 class _Mirrored(Problem):
-    """A scene seen in a mirror across the flow, where what slides backwards slides forwards."""
+    """A scene with x reversed, so that sliding backwards becomes sliding forwards."""
 
     def heights(self, grid, surface, shift=0.0):
         x, y = grid.centre

@@ -74,7 +74,7 @@ class History:
 def march(
     problem: Problem, program: Program, grid: Grid, tolerance: float, steps: int, instants: int = 0
 ) -> History:
-    """Through a program on one grid.
+    """March through a program on a grid.
 
     problem : the same scene with the motion `program.held`
     tolerance : of each contact, see `contact`
@@ -137,7 +137,7 @@ def places(program: Program, grid: Grid, steps: int) -> int:
 
 
 class _Body:
-    """The indenter over the material: where it comes back to a place within a pixel, it is evaluated once.
+    """The indenter over the material, evaluated once for each place within a pixel.
 
     kept : how many places
     """
@@ -147,11 +147,11 @@ class _Body:
         self._at = lru_cache(kept)(self._evaluated)
 
     def heights(self, offset):
-        """z [m] at points so far [m] downstream of the grid's."""
+        """z [m] at the points of the grid, moved downstream by an offset [m]."""
         return self._at(self._problem.heights, round(offset / self._grid.pixel, 9))
 
     def slopes(self, offset):
-        """dz/dx there."""
+        """dz/dx at the same points."""
         return self._at(self._problem.slopes, round(offset / self._grid.pixel, 9))
 
     def _evaluated(self, of, pixels):
@@ -161,7 +161,7 @@ class _Body:
 
 @dataclass(frozen=True)
 class _Touch:
-    """A contact: pressure over E*, displacement by it and gap [m] (ny, nx), depth [m], and what it took."""
+    """A contact: pressure over E*, displacement by it and gap [m] (ny, nx), depth [m], and its effort."""
 
     pressure: np.ndarray
     displacement: np.ndarray
@@ -224,7 +224,7 @@ class _Press:
         return touch
 
     def count(self):
-        """Add what all contacts took to the work of the problem."""
+        """Add the effort of all contacts to the counts of the problem."""
         problem, points = self._problem, self._grid.points * self._grid.rows
         problem.work += self._operator.operator_applications * points
         problem.transforms += (
@@ -262,7 +262,7 @@ class _Press:
 
 
 def _overlap(heights, depth):
-    """Pressure to begin with, in proportion to what overlaps; without a depth, on some of the lowest points."""
+    """First pressure, in proportion to the overlap; without a depth, on some of the lowest points."""
     if depth is None:
         return activeset.first_guess(heights, int(heights.size * FIRST) + 1)
     return np.maximum(depth - heights, 0.0)
@@ -298,7 +298,7 @@ def _history(problem, program, grid, times, rows, frames, end):
 
 
 def _back(seen, depth, middle):
-    """Depth in the middle of each step, on the way there from where it was seen in the one before."""
+    """Depth in the middle of each step, interpolated from the times at which the gap was measured."""
     seen_before, before = np.roll(seen, 1), np.roll(depth, 1)
     before[0] = np.nan
     between = depth + (before - depth) * (seen - middle) / (seen - seen_before)

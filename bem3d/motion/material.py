@@ -58,7 +58,7 @@ class Creep:
         return -np.expm1(-time / self.times)
 
     def compliance(self, time: float) -> float:
-        """J(t) over the relaxed one."""
+        """Creep compliance J(t), over the relaxed compliance."""
         return self.instantaneous + float(self.shares @ self.gained(time))
 
     def loss_in_steps(self, step: float) -> np.ndarray:
@@ -90,7 +90,7 @@ class Material:
         return self._window.shifts - before
 
     def remembered(self, time: float) -> np.ndarray:
-        """Displacement [m] (ny, nx) left of what was, a time [s] from now."""
+        """Displacement [m] (ny, nx) that will be left, without pressure, a time [s] from now."""
         return np.einsum("k,kyx->yx", self.creep.shares * self.creep.kept(time), self._window.fields)
 
     def crept(self, time: float, pressure: np.ndarray, relaxed: np.ndarray) -> float:

@@ -93,7 +93,7 @@ class Endless:
             sheet.fields += gained[:, None, None] * displaced(pressure)
 
     def follow(self, path, time):
-        """Keep all sheets around an indenter that has slid so far [m] at a time [s]."""
+        """Keep all sheets around an indenter on its path [m], at a time [s]."""
         for sheet, wider in pairwise(self._sheets):
             while way := sheet.way(path):
                 sheet.shift(way, self._entering(sheet, wider, way, time))
@@ -102,7 +102,7 @@ class Endless:
             widest.shift(way, 0.0)
 
     def _entering(self, sheet, wider, way, time):
-        """The column (K, ny) that comes into a sheet, and has not been there before."""
+        """The column (K, ny) that enters a sheet for the first time."""
         return _interpolated(sheet, wider, -1 if way > 0 else len(sheet.x))
 
 
@@ -141,16 +141,16 @@ class Repeating:
         self.window = window
 
     def creep(self, pressure, kept, gained):
-        """There is nothing but the window."""
+        """Do nothing: there is only the window."""
 
     def follow(self, path, time):
-        """Keep the window around an indenter that has slid so far [m]."""
+        """Keep the window around an indenter on its path [m]."""
         while way := self.window.way(path):
             self.window.shift(way, self.window.fields[:, :, -1 if way > 0 else 0].copy())
 
 
 def _handed_on(pressure, finer, wider):
-    """Pressure on a wider sheet: its forces and their moments up to the third order are those of the finer one."""
+    """Pressure on a wider sheet with the forces, and their moments up to the third order, of the finer one."""
     along, across = _cubic(finer.x, wider.x), _across(finer.grid, wider.grid)
     return (along.T @ (across.T @ pressure).T).T * (finer.grid.patch / wider.grid.patch)
 

@@ -50,7 +50,7 @@ def surroundings(
     downstream: float = 0.0,
     aside: float = 0.0,
 ) -> Surroundings:
-    """The surface on the grid of an answer and beyond.
+    """Surface and indenter on the grid of an answer and beyond.
 
     solver, scene : the `BEM` that answered, and what; of a contact heated by its friction the scene as warm as it
         has become
