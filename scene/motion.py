@@ -14,7 +14,6 @@ from .quantities import (
     NEWTON,
     NEWTON_PER_METRE,
     PASCAL,
-    SECOND,
     Force,
     ForceOrZero,
     Frequency,
@@ -29,7 +28,6 @@ from .quantities import (
     Time,
     Unit,
     Velocity,
-    takes,
 )
 
 PRESSES = {"load": NEWTON, "depth": METRE, "line_load": NEWTON_PER_METRE, "pressure": PASCAL, "gap": METRE}
@@ -267,7 +265,6 @@ class Program:
         """Whether the indenter ever moves backwards."""
         return any(stage.speed < 0 for stage in self.stages)
 
-    @takes(time=SECOND)
     def prescribed(self, time):
         """Load, depth or pressure at a time [s], any shape, in its unit."""
         times = self._times
@@ -277,7 +274,6 @@ class Program:
                 values = np.maximum(values + stage.oscillation.beyond_chord(np.subtract(time, begin)), 0.0)
         return values
 
-    @takes(time=SECOND)
     def path(self, time):
         """Path of the indenter forwards from its start [m] at a time [s], any shape."""
         return np.interp(time, self._times, self._paths)

@@ -10,7 +10,7 @@ from pydantic.dataclasses import dataclass
 from scipy.linalg import eigh_tridiagonal
 
 from ..files.stated import restated
-from ..quantities import RADIAN_PER_SECOND, AngularFrequency, Finite, ShearModulus, Time, takes
+from ..quantities import AngularFrequency, Finite, ShearModulus, Time
 from .conventions import STATED, in_shear
 from .modes import Relaxation
 from .viscoelastic import PoissonRatio, Solid
@@ -59,7 +59,6 @@ class Fractional(Solid):
             )
         return self
 
-    @takes(omega=RADIAN_PER_SECOND)
     def law(self, omega):
         """The power law itself, modulus (1 + (i omega tau)^exponent) [Pa], without the limits of the series."""
         return self.modulus * (1 + (1j * np.asarray(omega, float) * self.relaxation_time) ** self.exponent)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import Field
 
-from ..quantities import RADIAN_PER_SECOND, SECOND, Finite, takes
+from ..quantities import Finite
 from .modes import Relaxation, Retardation
 
 PoissonRatio = Annotated[Finite, Field(gt=-1, le=0.5)]
@@ -61,17 +61,14 @@ class Linear:
         """
         return _forms(self)[0].viscosity
 
-    @takes(t=SECOND)
     def relaxation_modulus(self, t):
         """G(t) [Pa] in shear for t >= 0 [s], any shape; with a dashpot infinite at t = 0."""
         return _forms(self)[0].modulus(t)
 
-    @takes(t=SECOND)
     def creep_compliance(self, t):
         """J(t) [1/Pa] in shear for t >= 0 [s], any shape."""
         return _forms(self)[1].compliance(t)
 
-    @takes(omega=RADIAN_PER_SECOND)
     def complex_modulus(self, omega):
         """G(omega) [Pa] in shear, complex, for angular frequencies [rad/s] of any shape."""
         return _forms(self)[0].complex_modulus(omega)

@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
-from ..quantities import METRE, RADIAN_PER_METRE, takes
-
 # Nodes between two corners: for rounding those of a piece by its length, and enough over seven decades for 1e-12.
 _FEWEST, _MORE, _MOST = 4, 5, 28
 
@@ -42,9 +40,6 @@ def over_directions(function, q, corners):
 @lru_cache
 def _rule(nodes):
     return np.polynomial.legendre.leggauss(nodes)
-
-
-of_waves = takes(**dict.fromkeys(("q", "q_max", "lower", "upper"), RADIAN_PER_METRE))
 
 
 class Isotropic:
@@ -95,17 +90,14 @@ class Isotropic:
         """Lowest wave number 2 pi / longest [rad/m]."""
         return 2 * pi / self.longest
 
-    @takes(pixel=METRE)
     def q_max(self, pixel: float) -> float:
         """Highest wave number [rad/m]: that of the shortest wavelength, else pi / pixel."""
         return 2 * pi / self.shortest if self.shortest is not None else pi / pixel
 
-    @of_waves
     def density_1d(self, q, q_max):
         """C_1D(q) [m^3] by the rule pi q C_2D, zero outside q_min <= q <= q_max [rad/m]."""
         return pi * q * self.density_2d(q, q_max)
 
-    @of_waves
     def density_line_scan(self, q, q_max):
         """C_1D(q) [m^3] of a line scan, 2 int_0^inf C_2D(sqrt(q^2 + s^2)) ds, for q > 0 [rad/m]; zero above q_max.
 
@@ -114,7 +106,6 @@ class Isotropic:
         """
         return self._seen(lambda seen: seen / q * self.density_1d(seen, q_max), q, q_max)
 
-    @of_waves
     def density_2d(self, q, q_max):
         """C_2D(q) [m^4], zero outside q_min <= q <= q_max [rad/m]."""
         inside = (q >= self.q_min) & (q <= q_max)
@@ -122,12 +113,10 @@ class Isotropic:
         at_unit = (self.rms_height / self._unit) ** 2 / (2 * pi * self._moment(1, self.q_min, q_max))
         return np.where(inside, at_unit * relative, 0.0)
 
-    @of_waves
     def share(self, lower, upper, q_max):
         """Share of <h^2> that lies in q_min <= lower <= q <= upper <= q_max [rad/m], arrays allowed."""
         return self._moment(1, lower, upper) / self._moment(1, self.q_min, q_max)
 
-    @of_waves
     def share_line_scan(self, lower, upper, q_max):
         """Share of <h^2> that a line scan has in 0 < lower <= q <= upper <= q_max [rad/m], arrays allowed."""
 
@@ -137,7 +126,6 @@ class Isotropic:
         seen_above_lower, seen_above_upper = (self._seen(above, q, q_max) for q in (lower, upper))
         return seen_above_lower - seen_above_upper
 
-    @of_waves
     def rms_slope(self, q_max) -> float:
         """Spectral rms of the full gradient [1] with the cut-off q_max [rad/m].
 

@@ -10,7 +10,7 @@ from pydantic import ConfigDict, Field, model_validator
 from pydantic.dataclasses import dataclass
 
 from ..files.stated import FromTable, restated
-from ..quantities import CLOSED, METRE, RADIAN_PER_METRE, Length, Seed, takes
+from ..quantities import CLOSED, Length, Seed
 from . import linescan
 from .form import DEGREES, levelled
 from .heightmap import LONGEST, SHORTEST, HeightLine, LineHeights
@@ -167,12 +167,10 @@ class Profile(FromTable):
         """Shortest wavelength of the fitted surface [m]."""
         return 2 * pi / self.q_max(0.0)
 
-    @takes(pixel=METRE)
     def q_max(self, pixel: float) -> float:
         """Highest wave number of the fitted surface [rad/m]; the pixel of a grid does not matter."""
         return self.fitted.q_max(pixel)
 
-    @takes(q_max=RADIAN_PER_METRE)
     def rms_slope(self, q_max: float) -> float:
         """Rms slope of the full gradient of the fitted surface [1] with the cut-off q_max [rad/m]."""
         return self.fitted.rms_slope(q_max)

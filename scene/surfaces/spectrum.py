@@ -10,7 +10,7 @@ from pydantic.dataclasses import dataclass
 
 from ..files.stated import TableFormat, filled, restated
 from ..files.tablefile import Column, read_columns
-from ..quantities import CLOSED, METRE, RADIAN_PER_METRE, ROW, Positive, Seed, Unit, takes
+from ..quantities import CLOSED, RADIAN_PER_METRE, ROW, Positive, Seed, Unit
 from .heightmap import LONGEST, SHORTEST
 from .isotropic import Isotropic
 from .powerlaws import PowerLaws, of_surface
@@ -124,7 +124,6 @@ class Spectrum(Isotropic):
         """Lowest wave number that is kept [rad/m]."""
         return float(self._kept.q[0])
 
-    @takes(pixel=METRE)
     def q_max(self, pixel: float) -> float:
         """Highest wave number that is kept [rad/m]; the pixel of a grid does not matter."""
         return float(self._kept.q[-1])

@@ -10,7 +10,7 @@ from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 
 from ..files.stated import restated
-from ..quantities import METRE, Seed, takes
+from ..quantities import Seed
 from .form import levelled
 from .scanned import MAPPED, QUOTIENT, Scanned, level_of_what_repeats, refuse_step
 from .waves import MOST_WAVES, Waves
@@ -73,7 +73,6 @@ class Topography(Scanned):
         """Shortest wavelength along a side [m]."""
         return min(side / top for side, top in zip(self.sides, self.tops, strict=True))
 
-    @takes(pixel=METRE)
     def q_max(self, pixel: float) -> float:
         """Highest wave number along a side [rad/m]; the pixel of a grid does not matter."""
         return 2 * pi / self.shortest

@@ -45,7 +45,6 @@ from scene import (
     Measured,
     Plane,
     PowerLaw,
-    Program,
     Prony,
     RelaxationTable,
     Scene,
@@ -243,14 +242,6 @@ FORMULAS = {
     "loss_modulus": (lambda omega: 1e3 * omega**0.5, None),
     "spectrum": (lambda q: q**-2.0, None),
 }
-METHODS = {
-    **dict.fromkeys(("x", "y", "height", "pixel"), (1e-3, "m")),
-    **dict.fromkeys(("t", "time"), (0.5, "s")),
-    **dict.fromkeys(("q", "upper"), (2e4, "rad/m")),
-    "omega": (50.0, "rad/s"),
-    "q_max": (5e4, "rad/m"),
-    "lower": (1e4, "rad/m"),
-}
 NOT_NUMBERS = {
     "models",
     "reference",
@@ -302,14 +293,6 @@ def formulas():
             if function.__module__ == module.__name__ and not name.startswith("_") and name != "temperature_rise":
                 words = {"base": "half-space"} if "base" in inspect.signature(function).parameters else {}
                 yield from arguments_of(function, f"{module.__name__}.{name}", FORMULAS, **words)
-
-
-def methods_of(thing):
-    """Places of the methods of an object of `scene`."""
-    for name, method in inspect.getmembers(thing, inspect.ismethod):
-        taken = [each for each in inspect.signature(method).parameters if each in METHODS]
-        if not name.startswith("_") and taken:
-            yield from arguments_of(method, f"{type(thing).__name__}.{name}", METHODS)
 
 
 def drawn(given, seed=1):
@@ -401,8 +384,6 @@ CALLED = [
 ]
 PLACES = [
     *(place for thing in OBJECTS for place in fields_of(thing)),
-    *(place for thing in OBJECTS if hasattr(thing, "__pydantic_fields__") for place in methods_of(thing)),
-    *methods_of(Program(stages=(Stage(duration=1.0, load=1.0),))),
     *formulas(),
     *CALLED,
 ]
