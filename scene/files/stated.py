@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import InitVar
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, ValidationError, create_model, model_validator
+from pydantic import Field, ValidationError, model_validator
 from pydantic.dataclasses import dataclass
 from pydantic_core import ArgsKwargs
 
@@ -98,13 +98,3 @@ def refused(table: Any, reason: ValueError) -> ValidationError:
         "ctx": {"error": ValueError(str(reason))},
     }
     return ValidationError.from_exception_data("table", [line])
-
-
-def some_of(types: Mapping[str, Any], stated: Mapping[str, Any]) -> dict[str, Any]:
-    """Values of what is stated that have one of these names, each as its type.
-
-    Raises ValidationError, in which a value has its name, as one of a field has.
-    """
-    found = {name: stated[name] for name in types if name in stated}
-    whole: Any = create_model("Stated", **{name: (types[name], ...) for name in found})  # type: ignore[call-overload]
-    return dict(whole(**found))

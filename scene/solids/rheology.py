@@ -7,7 +7,7 @@ from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 
 from ..files.stated import FromTable, restated
-from ..quantities import ROW, Compliance, ComplianceOrZero, ShearModulus, Time
+from ..quantities import CLOSED, ROW, Compliance, ComplianceOrZero, ShearModulus, Time
 from .conventions import NORMALISED, STATED, absolute, in_shear
 from .fractional import Fractional
 from .modes import Relaxation, Retardation
@@ -116,7 +116,7 @@ class Prony(FromTable, Solid):
         return Relaxation.of(self.equilibrium_modulus, self.moduli, self.relaxation_times)
 
 
-@dataclass(frozen=True, config=STATED)
+@dataclass(frozen=True, config=CLOSED)
 class KelvinChain(Solid):
     """Kelvin elements in series with a spring: a Prony series in retardation form,
 
@@ -131,8 +131,6 @@ class KelvinChain(Solid):
     retardation_times: Times
     poisson_ratio: PoissonRatio = 0.5
     type: Literal["kelvin-chain"] = Field(default="kelvin-chain", repr=False)
-
-    _in_tension = restated(in_shear)
 
     @model_validator(mode="after")
     def _one_time_a_compliance(self):
