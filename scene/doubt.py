@@ -154,7 +154,7 @@ ATOM, ATOMS = "less than an atom is wide", "a few atoms, where no solid is conti
 SOFT, HARD = "softer than a gel", "stiffer than steel"
 COLD, HOT = "every elastomer is a glass there", "no elastomer stands that"
 POLYMERS = "polymers have some 5 to 30, and 20 to 200 K"
-SPIKE = "a spike of the instrument? outliers = 6 fills it in"
+SPIKE = "a spike of the instrument? take it out before"
 LARGE = "larger than tyres and wheels"
 
 

@@ -1,10 +1,9 @@
 """Fields of a part of a scene as they are stated: by name, and in a table in place of others."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import InitVar
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, ValidationError, model_validator
+from pydantic import ConfigDict, Field, TypeAdapter, ValidationError, model_validator
 from pydantic.dataclasses import dataclass
 from pydantic_core import ArgsKwargs
 
@@ -37,18 +36,21 @@ class TableFormat:
     rows: _Lines | None = None
 
 
-@dataclass(frozen=True, config=CLOSED, kw_only=True)
-class FromTable:
-    """A part of a scene that may be read from a table, with the fields of `TableFormat` as arguments."""
+FORM: dict[str, Any] = TypeAdapter(TableFormat).json_schema()["properties"]
 
-    columns: InitVar[Mapping[str, str | int] | None] = None
-    units: InitVar[Mapping[str, str] | None] = None
-    where: InitVar[Mapping[str, str | int | float] | None] = None
-    separator: InitVar[str | None] = None
-    decimal: InitVar[str | None] = None
-    encoding: InitVar[str | None] = None
-    skip: InitVar[int | None] = None
-    rows: InitVar[int | None] = None
+
+def alternatives(*needless: str, **properties: Any) -> ConfigDict:
+    """Configuration of a part of a scene that may be stated otherwise than by its fields.
+
+    needless : fields that then are not needed
+    properties : in JSON schema, of what stands in their place; it becomes fields by a `restated`
+    """
+
+    def added(schema: dict[str, Any]) -> None:
+        schema["properties"] |= properties
+        schema["required"] = [name for name in schema.get("required", ()) if name not in needless]
+
+    return ConfigDict(**CLOSED, json_schema_extra=added)
 
 
 def restated(make: Callable[[Any, dict[str, Any]], Any]) -> Any:

@@ -2,14 +2,14 @@
 
 from dataclasses import fields
 from math import fsum
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
-from pydantic import ConfigDict, TypeAdapter, ValidationError
+from pydantic import TypeAdapter, ValidationError
 
 from ..files.stated import filled
 from ..files.tablefile import Column, read_columns
-from ..quantities import BARE, CLOSED, MODULUS, SECOND, YOUNGS, argument
+from ..quantities import BARE, MODULUS, SECOND, YOUNGS, Positive, argument
 from .viscoelastic import INCOMPRESSIBLE, PoissonRatio
 
 _RATIO = TypeAdapter(PoissonRatio)
@@ -21,6 +21,9 @@ TERMS = (
     Column("youngs_moduli", ("E",), (MODULUS,)),
     Column("g", ()),
 )
+
+
+YOUNG: dict[str, Any] = TypeAdapter(Annotated[Positive, YOUNGS]).json_schema()  # in JSON schema
 
 
 def in_tension(field: str) -> str:
@@ -77,24 +80,3 @@ def absolute(cls: type, stated: dict[str, Any]) -> dict[str, Any]:
     modulus = argument(stated_as, found.pop(stated_as), MODULUS.value)
     at_once = modulus if stated_as == INSTANT else modulus / rest
     return found | {RELAXED: at_once * rest, "moduli": [share * at_once for share in shares]}
-
-
-def or_in_tension(schema: dict[str, Any]) -> None:
-    """In JSON schema: Young's moduli in place of those in shear."""
-    properties = schema["properties"]
-    schema["required"] = [name for name in schema["required"] if in_tension(name) == name]
-    for name in [each for each in properties if in_tension(each) != each]:
-        properties[in_tension(name)] = properties[name] | {"description": f"in tension, in place of {name}"}
-
-
-def _or_normalised(schema: dict[str, Any]) -> None:
-    """In JSON schema: g, tau and the instantaneous modulus in place of those of the fields."""
-    properties = schema["properties"]
-    shares = {"type": "array", "items": {"type": "number"}, "description": f"moduli over {INSTANT}"}
-    properties |= {"g": shares, "tau": properties["relaxation_times"], INSTANT: properties[RELAXED]}
-    or_in_tension(schema)
-    schema["required"] = []
-
-
-STATED = ConfigDict(**CLOSED, json_schema_extra=or_in_tension)
-NORMALISED = ConfigDict(**CLOSED, json_schema_extra=_or_normalised)

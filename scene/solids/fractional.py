@@ -9,9 +9,9 @@ from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 from scipy.linalg import eigh_tridiagonal
 
-from ..files.stated import restated
+from ..files.stated import alternatives, restated
 from ..quantities import AngularFrequency, Finite, ShearModulus, Time
-from .conventions import STATED, in_shear
+from .conventions import YOUNG, in_shear
 from .modes import Relaxation
 from .viscoelastic import PoissonRatio, Solid
 
@@ -23,7 +23,7 @@ _SAMPLES = 32
 _ELLIPSE = 4.61
 
 
-@dataclass(frozen=True, config=STATED, kw_only=True)
+@dataclass(frozen=True, config=alternatives("modulus", youngs_modulus=YOUNG), kw_only=True)
 class Fractional(Solid):
     """Fractional Kelvin-Voigt solid, a spring beside a springpot: G(omega) = modulus (1 + (i omega tau)^exponent).
 

@@ -4,17 +4,17 @@ from collections.abc import Mapping
 from dataclasses import replace
 from functools import lru_cache
 from math import inf, pi, sqrt
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import ConfigDict, Field, model_validator
+from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 
 from ..effects.temperature import TemperatureLaw
-from ..files.stated import FromTable, TableFormat, refused, restated, split_format
+from ..files.stated import FORM, TableFormat, alternatives, refused, restated, split_format
 from ..numeric_input import bare
-from ..quantities import CLOSED, Finite, ShearModulus
-from .conventions import in_shear, or_in_tension
+from ..quantities import Finite, ShearModulus
+from .conventions import YOUNG, in_shear
 from .extrapolation import Continued
 from .fit import NEGLIGIBLE, Creep, Measured, Modes, Oscillation, Stress, fitted, rms
 from .modes import Relaxation, Retardation
@@ -29,15 +29,16 @@ _TOLD = 3
 _SURE = 1.96
 
 
-def _or_file(schema: dict[str, Any]) -> None:
-    """In JSON schema: a file in place of the numbers, whose headings may say what fields say."""
-    or_in_tension(schema)
-    schema["properties"]["table"] = {"anyOf": [{"type": "string"}, schema["properties"]["table"]]}
-    schema["required"] = ["table"]
+_OF_A_FILE = alternatives(
+    *("frequency_unit", "kind"),
+    equilibrium_youngs_modulus=YOUNG,
+    table={"anyOf": [{"type": "string"}, {"type": "object"}]},
+    **FORM,
+)
 
 
-@dataclass(frozen=True, config=ConfigDict(**CLOSED, json_schema_extra=_or_file), kw_only=True)
-class Tabulated(FromTable, Solid):
+@dataclass(frozen=True, config=_OF_A_FILE, kw_only=True)
+class Tabulated(Solid):
     """Solid of measured moduli, fitted with a Prony series by nonnegative least squares.
 
     table : a Table of storage and loss modulus over the frequency, a RelaxationTable or a CreepTable over time; or

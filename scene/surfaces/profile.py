@@ -6,21 +6,21 @@ from math import pi, sqrt
 from typing import Literal
 
 import numpy as np
-from pydantic import ConfigDict, Field, model_validator
+from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 
-from ..files.stated import FromTable, restated
-from ..quantities import CLOSED, Length, Seed
+from ..files.stated import alternatives, restated
+from ..quantities import Length, Seed
 from . import linescan
 from .form import DEGREES, levelled
 from .heightmap import LONGEST, SHORTEST, HeightLine, LineHeights
 from .linescan import Interval, LineLaw
-from .scanned import QUOTIENT, level_of_what_repeats, prepared, refuse_step, schema_with_file
+from .scanned import OF_A_FILE, QUOTIENT, level_of_what_repeats, prepared, refuse_step
 from .selfaffine import SelfAffine
 
 
-@dataclass(frozen=True, config=ConfigDict(**CLOSED, json_schema_extra=schema_with_file("spacing")), kw_only=True)
-class Profile(FromTable):
+@dataclass(frozen=True, config=alternatives("heights", "spacing", **OF_A_FILE), kw_only=True)
+class Profile:
     """Roughness of an isotropic surface that was measured along a line, as by a stylus.
 
     heights : along the line [m], evenly spaced; a table with a column of heights and maybe one of places

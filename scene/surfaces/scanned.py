@@ -5,42 +5,31 @@ from dataclasses import fields
 from typing import Any, Literal
 
 import numpy as np
-from pydantic import ConfigDict, model_validator
+from pydantic import model_validator
 from pydantic.dataclasses import dataclass
 
 from ..files.heightfile import LINE, MAP, given_heights, read_heights
-from ..files.stated import FromTable, TableFormat, restated, split_format
+from ..files.stated import FORM, TableFormat, alternatives, restated, split_format
 from ..printable import brief
-from ..quantities import BARE, CLOSED, METRE, Length, argument
+from ..quantities import METRE, Length, argument
 from .heightmap import LEAST, HeightLine, HeightMap, MapHeights, Pixel, sides
-from .missing import LEAST_DEVIATIONS, cleaned_heights
+from .missing import cleaned_heights
 
 QUOTIENT = 1e-12  # rounding of a quotient of lengths
 FILL = ("refuse", "fill")
 # What is asked of heights before they are a map or a line; no fields: what comes of it is in the heights.
 _READING = ("file", "unit", "channel", "missing")
-ASKED = {HeightMap: (*_READING, "crop", "outliers"), HeightLine: _READING}
+ASKED = {HeightMap: (*_READING, "crop"), HeightLine: _READING}
 
 
-def schema_with_file(spacing: str, **more: Any) -> Any:
-    """Addition to JSON schema: a file in place of heights with their spacing, and what is asked of either."""
-
-    def added(schema: dict[str, Any]) -> None:
-        schema["properties"] |= {name: {"type": "string"} for name in ("file", "unit", "channel")}
-        schema["properties"] |= {"missing": {"enum": list(FILL), "default": FILL[0]}, **more}
-        del schema["required"]
-        schema["anyOf"] = [{"required": ["file"]}, {"required": ["heights", spacing]}]
-
-    return added
-
-
+_TEXT = {"type": "string"}
+OF_A_FILE: dict[str, Any] = FORM | {"file": _TEXT, "unit": _TEXT, "channel": _TEXT, "missing": {"enum": [*FILL]}}
 _CROP = {"type": "array", "items": {"type": ["number", "string"]}, "minItems": 4, "maxItems": 4}
-_OUTLIERS = {"type": "number", "minimum": LEAST_DEVIATIONS}
-MAPPED = ConfigDict(**CLOSED, json_schema_extra=schema_with_file("pixel", crop=_CROP, outliers=_OUTLIERS))
+MAPPED = alternatives("heights", "pixel", **OF_A_FILE, crop=_CROP)
 
 
 @dataclass(frozen=True, config=MAPPED, kw_only=True)
-class Scanned(FromTable):
+class Scanned:
     """Measured map of heights.
 
     heights : rows along y of heights along x [m], both ascending; of xarray, with the dimensions y and x; or
@@ -59,8 +48,6 @@ class Scanned(FromTable):
 
     crop : x from, x to, y from, y to [m], from the corner of the first pixel: pixels whose middles lie between are
         kept
-    outliers : heights farther off the median of the 5 x 5 pixels around them than so many robust standard
-        deviations, from 3 on, are filled in; absent, none is
     missing : "fill", heights that are missing, NaN, masked or a number far off that stands for none, are filled in
         harmonically, a twentieth of the pixels at most; "refuse", the default, they are an error
 
@@ -169,32 +156,21 @@ def prepared(cls: Any, stated: dict[str, Any], kind: type[HeightMap], spacing: s
 
 def _cleaned(heights, pixel, asked):
     """Heights cropped and filled in as stated, and what was done, in lines."""
-    crop, missing, deviations = (asked.get(name) for name in ("crop", "missing", "outliers"))
+    crop, missing, notes = asked.get("crop"), asked.get("missing"), ()
     if missing not in (None, *FILL):
         raise ValueError(f"missing = {brief(repr(missing))}: 'refuse' or 'fill'")
-    if deviations is not None:
-        deviations = argument("outliers", deviations, _deviations)
-    notes: tuple[str, ...] = ()
-    if crop is None and missing != "fill" and deviations is None:
+    if crop is None and missing != "fill":
         return heights, notes
     try:
         pixel = sides(pixel)
     except ValueError:
         return heights, notes
     if crop is not None:
-        heights, cropped = _cropped(heights, pixel, crop)
-        notes = (cropped,)
-    if missing != "fill" and deviations is None:
-        return heights, notes
-    heights, more = cleaned_heights(heights, pixel, missing == "fill", deviations)
-    return heights, (*notes, *more)
-
-
-def _deviations(given):
-    found = BARE.value(given)
-    if not LEAST_DEVIATIONS <= found < np.inf:
-        raise ValueError(f"a number of standard deviations, from {LEAST_DEVIATIONS:g} on")
-    return float(found)
+        heights, notes = _cropped(heights, pixel, crop)
+    if missing == "fill":
+        heights, more = cleaned_heights(heights, pixel)
+        notes = (*notes, *more)
+    return heights, notes
 
 
 def _cropped(heights, pixel, crop):
@@ -218,4 +194,4 @@ def _cropped(heights, pixel, crop):
         kept.append(slice(inside[0], inside[-1] + 1))
     along_x, along_y = kept
     left = heights[along_y, along_x]
-    return left, f"cropped to {left.shape[1]} x {left.shape[0]} of {columns} x {rows} pixels"
+    return left, (f"cropped to {left.shape[1]} x {left.shape[0]} of {columns} x {rows} pixels",)

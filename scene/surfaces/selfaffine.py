@@ -2,15 +2,15 @@
 
 from dataclasses import replace
 from math import inf, pi
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import AfterValidator, ConfigDict, Field, TypeAdapter, ValidationError, model_validator
+from pydantic import AfterValidator, Field, TypeAdapter, ValidationError, model_validator
 from pydantic.dataclasses import dataclass
 
-from ..files.stated import restated
+from ..files.stated import alternatives, restated
 from ..printable import brief
-from ..quantities import CLOSED, Finite, Length, LengthOrZero, NonNegative, Seed
+from ..quantities import Finite, Length, LengthOrZero, NonNegative, Seed
 from .isotropic import Isotropic, power_integral
 
 # Wavelength [m] down to which its wave number, and that of a grid that resolves it, is a number.
@@ -28,16 +28,7 @@ Wavelength = Annotated[Length, AfterValidator(_has_wave_number)]
 _SLOPE = TypeAdapter(NonNegative)
 
 
-def _or_slope(schema: dict[str, Any]) -> None:
-    """In JSON schema: a slope in place of the height."""
-    schema["properties"] |= {
-        "rms_slope": _SLOPE.json_schema() | {"description": "in place of rms_height: rms of the full gradient"}
-    }
-    schema["required"].remove("rms_height")
-    schema["oneOf"] = [{"required": ["rms_height"]}, {"required": ["rms_slope", "shortest"]}]
-
-
-@dataclass(frozen=True, config=ConfigDict(**CLOSED, json_schema_extra=_or_slope), kw_only=True)
+@dataclass(frozen=True, config=alternatives("rms_height", rms_slope=_SLOPE.json_schema()), kw_only=True)
 class SelfAffine(Isotropic):
     """Randomly rough, isotropic, self-affine between two wavelengths.
 

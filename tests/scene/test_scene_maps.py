@@ -22,7 +22,7 @@ import scene.files.heightfile
 from scene import Measured, Profile, Scene, Topography
 from scene.files.reading import InvalidInput, read
 from scene.surfaces.form import DEGREES, levelled
-from scene.surfaces.missing import NEIGHBOURS, filled, outliers, sentinels
+from scene.surfaces.missing import filled, sentinels
 
 DIGITS = 1e-12  # what texts with 15 digits keep
 NAN = np.nan
@@ -496,40 +496,6 @@ def test_a_hole_in_a_surface_that_is_harmonic_on_any_lattice_is_filled_in_exactl
     assert filled(np.where(hole, NAN, surface), pixel) == pytest.approx(surface)
 
 
-SMOOTH = np.sin(X / 8) + np.cos(Y / 6) + 0.02 * noise((30, 40))
-SPIKES = np.isin(40 * Y + X, [125, 580, 39])
-
-
-def test_outliers_are_found_on_request_and_counted():
-    heights = SMOOTH + SPIKES
-    assert np.array_equal(outliers(heights, 15.0), SPIKES)
-    assert Topography(heights=heights, pixel=1e-3).notes == ()
-    found = Topography(heights=heights, pixel=1e-3, outliers=15)
-    (note,) = found.notes
-    assert note.startswith(
-        "3 of 1200 heights (0.25 %) were more than 15 robust standard deviations off the median"
-    )
-    assert np.abs(found.heights.heights - SMOOTH).max() < 0.1
-    assert np.array_equal(found.heights.heights[~SPIKES], heights[~SPIKES])
-    # of normal noise 0.27 % lie beyond three deviations, up to twice that as the median has noise of its own
-    assert 0.0027 < outliers(noise((300, 300)), 3.0).mean() < 0.0054
-
-
-@pytest.mark.parametrize(
-    ("heights", "deviations", "message"),
-    [
-        (1.0 * SPIKES, 10, rf"more than half of the heights are the median of the {NEIGHBOURS} x"),
-        *(
-            (SMOOTH, wrong, r"outliers = .*(a number of standard deviations|number)")
-            for wrong in (2.9, NAN, "ten", True)
-        ),
-        (np.where(SPIKES, NAN, SMOOTH), 10, r"3 of 1200 heights \(0.25 %\) missing: missing"),
-    ],
-)
-def test_outliers_that_cannot_be_found_are_refused(heights, deviations, message):
-    refused(message, heights=heights, pixel=1e-3, outliers=deviations)
-
-
 def test_a_crop_is_the_map_of_what_it_keeps():
     heights, crop = noise((20, 30)), ["10 um", "40 um", "9 um", "39 um"]
     whole, kept = ({"heights": each, "pixel": PIXEL} for each in (heights, heights[3:13, 5:20].copy()))
@@ -579,10 +545,10 @@ def test_a_scene_file_states_what_is_done_to_a_map(tmp_path):
     heights = noise((30, 30))
     heights[2, 2] = NAN
     written(tmp_path, text(heights), "map.csv")
-    more = 'file = "map.csv"\nmissing = "fill"\noutliers = 6\ncrop = ["0 um", "20 um", "0 um", "10 um"]\n'
+    more = 'file = "map.csv"\nmissing = "fill"\ncrop = ["0 um", "20 um", "0 um", "10 um"]\n'
     found = read(written(tmp_path, FILE + more, "scene.toml"), Scene).roughness
     assert found.heights.shape == (10, 20)
-    assert len(found.notes) == 3
+    assert len(found.notes) == 2
     with pytest.raises(InvalidInput, match=r"missing = 'full': 'refuse' or 'fill'"):
         read(written(tmp_path, FILE + more.replace('"fill"', '"full"'), "scene.toml"), Scene)
 
