@@ -1,6 +1,5 @@
 """Reading TOML files into validated objects, with every mistake named at once."""
 
-import re
 import tomllib
 from collections.abc import Sequence
 from functools import lru_cache
@@ -28,9 +27,6 @@ __all__ = [
 
 MOST = 1_000_000  # bytes of a file
 LONGEST = 2000  # letters of a mistake
-
-# A line in which tomllib found a mistake, and a backslash in a string whose backslashes mean something.
-_PLACE, _BACKSLASH = re.compile(r"\(at line (\d+), column \d+\)"), re.compile(r'"[^"\n]*\\')
 
 
 class InvalidInput(ValueError):
@@ -64,18 +60,9 @@ def parsed(text: str, path: str | Path) -> dict[str, Any]:
     except RecursionError as error:
         raise invalid(path, ["tables and lists stand in one another too deep"]) from error
     except tomllib.TOMLDecodeError as error:
-        raise invalid(path, [f"is not valid TOML: {error}{_of_backslashes(str(error), text)}"]) from error
+        raise invalid(path, [f"is not valid TOML: {error}"]) from error
     except ValueError as error:  # of dates that are none, and of numbers too long to be read
         raise invalid(path, [f"is not valid TOML: {str(error).partition(';')[0]}"]) from error
-
-
-def _of_backslashes(error, text):
-    """Hint on a backslash in double quotes, as paths of Windows have them, in a line that is no TOML."""
-    found = _PLACE.search(error)
-    line = text.split("\n")[int(found[1]) - 1] if found else ""
-    if not _BACKSLASH.search(line):
-        return ""
-    return "; a path with backslashes stands in single quotes, as 'C:\\data\\map.csv', or has forward slashes"
 
 
 def made(content: dict[str, Any], what: Any, path: str | Path):

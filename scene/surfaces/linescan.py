@@ -69,12 +69,11 @@ class LineLaw:
     beyond: float
 
 
-def fit(heights: np.ndarray, spacing: float, degree: int = 1, periodic: bool = False) -> LineLaw:
+def fit(heights: np.ndarray, spacing: float, degree: int = 1) -> LineLaw:
     """Law of a line.
 
     heights : (N,) [m], from any level; spacing : of the points [m]
     degree : of the polynomial that is taken off first
-    periodic : the line repeats, and is no piece of a longer one
 
     Raises ValueError for too few or too many points, and for a line that is nothing like any law, such as a single
     wave.
@@ -84,8 +83,8 @@ def fit(heights: np.ndarray, spacing: float, degree: int = 1, periodic: bool = F
         raise ValueError(f"{count:,} points: {LEAST} to {MOST:,} are fitted")
     unit = float(np.abs(heights).max())
     left = taken_off(heights / unit, degree) if unit else heights
-    bins = bins_of(count, degree, periodic)
-    seen = bins.means(periodogram(left, periodic))
+    bins = bins_of(count, degree)
+    seen = bins.means(periodogram(left))
     return _weighed(bins, np.maximum(seen, NOTHING * seen.max()), unit, count * spacing)
 
 

@@ -27,11 +27,10 @@ def _tapers(count):
     return sqrt(2 / (count + 1)) * np.sin(np.arange(1, TAPERS + 1)[:, None] * place)
 
 
-def periodogram(heights: np.ndarray, periodic: bool) -> np.ndarray:
+def periodogram(heights: np.ndarray) -> np.ndarray:
     """c at u = 1, 2, ... below the Nyquist wave number."""
     count = len(heights)
-    tapers = np.full((1, count), 1 / sqrt(count)) if periodic else _tapers(count)
-    waves = np.fft.rfft(tapers * heights, axis=1)[:, 1 : (count + 1) // 2]
+    waves = np.fft.rfft(_tapers(count) * heights, axis=1)[:, 1 : (count + 1) // 2]
     return np.mean(np.abs(waves) ** 2, axis=0) / count
 
 
@@ -61,8 +60,8 @@ class Bins:
 
 
 @lru_cache(maxsize=8)
-def bins_of(count: int, degree: int, periodic: bool) -> Bins:
-    """Bins of a line of so many points, less a polynomial of a degree; one that is periodic has no tapers.
+def bins_of(count: int, degree: int) -> Bins:
+    """Bins of a line of so many points, less a polynomial of a degree.
 
     count : more than three times the waves that are a bin each
     """
@@ -75,21 +74,18 @@ def bins_of(count: int, degree: int, periodic: bool) -> Bins:
     waves = np.arange(1, top + 1.0)
     u = (np.add.reduceat(waves**-2.5, starts) / number) ** (-1 / 2.5)
     # Neighbours share what a taper smears: in the sum over many of them.
-    shared = 1.0 if periodic else 1 + 1 / (2 * TAPERS)
-    freedoms = 2 * number / shared / np.where((u > LOW) | periodic, 1.0, SMEARED)
+    shared = 1 + 1 / (2 * TAPERS)
+    freedoms = 2 * number / shared / np.where(u > LOW, 1.0, SMEARED)
     freedoms = 1 / (1 / freedoms + COARSE**2 / 2)
     u_low = np.maximum(np.arange(REACH / STEP) * STEP, 1e-3)
-    if periodic:
-        leaked, own = np.zeros((len(u), len(u_low))), np.ones(len(u))
-    else:
-        low = u <= LOW
-        leaked = np.empty((len(u), len(u_low)))
-        leaked[low] = _levelled_leakage(degree)[: low.sum()]
-        centres = np.rint(u[~low])[:, None]
-        leaked[~low] = _leakage(centres - u_low) + _leakage(centres + u_low)
-        leaked[:, 0] /= 2
-        leaked *= STEP
-        own = np.where(low, 0.0, np.maximum(1 - leaked.sum(axis=1), 0.0))
+    low = u <= LOW
+    leaked = np.empty((len(u), len(u_low)))
+    leaked[low] = _levelled_leakage(degree)[: low.sum()]
+    centres = np.rint(u[~low])[:, None]
+    leaked[~low] = _leakage(centres - u_low) + _leakage(centres + u_low)
+    leaked[:, 0] /= 2
+    leaked *= STEP
+    own = np.where(low, 0.0, np.maximum(1 - leaked.sum(axis=1), 0.0))
     return Bins(starts, number, u, freedoms, leaked, u_low, own, count / 2)
 
 

@@ -98,21 +98,6 @@ class Scanned:
         return -self.heights.heights if self.peaks == "up" else self.heights.heights
 
 
-def level_of_what_repeats(cls: Any, stated: dict[str, Any]) -> dict[str, Any]:
-    """Fields with the level that heights have which repeat as they stand: a plane taken off would leave a step."""
-    return {"level": "mean"} | stated if stated.get("repeat") == "periodic" else stated
-
-
-def refuse_step(heights: Any) -> Any:
-    """Return measured roughness as it is. Raises ValueError where its level leaves a step at what repeats."""
-    if heights.repeat == "periodic" and heights.level != "mean":
-        raise ValueError(
-            f'level = "{heights.level}" with repeat = "periodic": taken off a period it would leave a step at '
-            'its ends: take level = "mean", or repeat = "mirror"'
-        )
-    return heights
-
-
 def prepared(cls: Any, stated: dict[str, Any], kind: type[HeightMap], spacing: str) -> dict[str, Any]:
     """Fields of a part whose heights are a map or a line: read, cropped and cleaned as stated.
 

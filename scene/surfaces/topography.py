@@ -12,7 +12,7 @@ from pydantic.dataclasses import dataclass
 from ..files.stated import restated
 from ..quantities import Seed
 from .form import levelled
-from .scanned import MAPPED, QUOTIENT, Scanned, level_of_what_repeats, refuse_step
+from .scanned import MAPPED, QUOTIENT, Scanned
 from .waves import MOST_WAVES, Waves
 
 # Maps whose waves are kept for the next solve.
@@ -40,9 +40,18 @@ class Topography(Scanned):
     seed: Seed = 0
     type: Literal["topography"] = Field(default="topography", repr=False)
 
-    _level_of_what_repeats = restated(level_of_what_repeats)
+    _level_of_what_repeats = restated(
+        lambda cls, stated: {"level": "mean"} | stated if stated.get("repeat") == "periodic" else stated
+    )
 
-    _no_step = model_validator(mode="after")(refuse_step)
+    @model_validator(mode="after")
+    def _no_step(self):
+        if self.repeat == "periodic" and self.level != "mean":
+            raise ValueError(
+                f'level = "{self.level}" with repeat = "periodic": taken off a period it would leave a step at '
+                'its ends: take level = "mean", or repeat = "mirror"'
+            )
+        return self
 
     @property
     def sides(self) -> tuple[float, float]:

@@ -558,11 +558,6 @@ def test_a_file_that_is_not_there_is_named_with_the_folder_in_which_it_was_sough
     for written_, said in (
         ("maps/a.csv", f"maps/a.csv: no such file in {tmp_path}, the working directory"),
         (f"{tmp_path}/a.csv", f"{tmp_path}/a.csv: no such file"),
-        (
-            "C:\\new\\table.csv",
-            "no such file: a backslash in double quotes .* single quotes, or with forward slashes",
-        ),
-        ("C:\\Users\\map.csv", "is not valid TOML: .* a path with backslashes stands in single quotes"),
     ):
         (tmp_path / "scene.toml").write_text(FILE + f'file = "{written_}"\n')
         with pytest.raises(InvalidInput, match=said):

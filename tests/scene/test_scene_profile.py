@@ -85,7 +85,7 @@ def test_a_row_of_a_rough_surface_is_fitted_by_that_surface():
     grid = Grid(1024, rough.longest)
     x, y = grid.x, np.linspace(0, rough.longest, 8, endpoint=False)
     rows = RoughSurface.of(rough, rough.q_max(0.0)).heights(x, y)
-    laws = [linescan.fit(row, grid.pixel, degree=0, periodic=True) for row in rows]
+    laws = [linescan.fit(row, grid.pixel, degree=0) for row in rows]
     for name in ("hurst", "rms_height", "rolloff"):
         # one of 20 may miss
         held = [getattr(law, name).low <= getattr(rough, name) <= getattr(law, name).high for law in laws]
@@ -104,7 +104,7 @@ def test_waves_beyond_the_cut_off_have_the_slope_of_a_tapered_periodogram():
 
 
 def test_laws_on_the_lattice_are_line_scans_of_self_affine_surfaces():
-    laws = linescan._Laws(bins_of(512, 1, False))
+    laws = linescan._Laws(bins_of(512, 1))
     at = 30, int(np.argmin(np.abs(laws.rolloffs - 5))), int(np.argmin(np.abs(laws.cutoffs - 100)))
     hurst, rolloff, cutoff = (float(each) for each in laws.numbers(at))
     # a longest wave far beyond the line; a plateau of one
@@ -152,11 +152,10 @@ def test_solvers_answer_a_line_as_its_fitted_surface(solver):
 
 
 @pytest.mark.parametrize("seed", [0, 5])
-@pytest.mark.parametrize("repeat", ["mirror", "periodic"])
 @pytest.mark.parametrize("points", [96, 97])
-def test_a_line_scan_is_the_measured_line_at_its_points(repeat, seed, points):
-    profile = Profile(heights=HEIGHTS[:points], spacing=SPACING, repeat=repeat, seed=seed)
-    whole = np.append(profile.relief, profile.relief[::-1]) if repeat == "mirror" else profile.relief
+def test_a_line_scan_is_the_measured_line_at_its_points(seed, points):
+    profile = Profile(heights=HEIGHTS[:points], spacing=SPACING, seed=seed)
+    whole = np.append(profile.relief, profile.relief[::-1])
     for fine in (1, 3):
         found = mdr1d.draw(profile, fine * len(whole), "line-scan").heights[::fine]
         shifts = [
@@ -223,7 +222,6 @@ REGULAR = np.sin(2 * pi * np.arange(512) / 16.3)
         ("type = .wave", {"heights": REGULAR}),
         ("20 points", {"heights": HEIGHTS[:20]}),
         ("heights.0. = inf: 1 of 512 heights .0.195 %. missing", {"heights": [np.inf, *HEIGHTS[1:]]}),
-        ("periodic", {"repeat": "periodic", "level": "tilt"}),
         ("shortest_kept = 1e-06", {"shortest_kept": 1e-6}),
         ("roll-off", {"shortest_kept": 5e-4}),
         ("shape .8, 8.: a line is one row of heights", {"heights": np.ones((8, 8))}),
