@@ -14,10 +14,10 @@ import numpy as np
 from .effects.temperature import COLDEST
 from .magnitudes import WITHIN, Magnitudes
 from .motion import Slide
+from .scales import SMALL_SLOPE
 from .scene import Scene
-from .solids.extrapolation import REACH
+from .solids.fit import REACH
 
-SMALL_SLOPE = 0.3  # up to which a linear theory of contact is taken at its word
 LINEAR_SLOPE = 1.0  # beyond which nothing of it is left
 LEFT_OUT = 0.1  # share of a mean square beyond an end of a measured spectrum
 ANISOTROPIC = 1.2  # ratio of the rms slopes along x and y above which a map is no isotropic one

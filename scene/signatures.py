@@ -14,8 +14,7 @@ from pydantic import ValidationError
 from pydantic.dataclasses import is_pydantic_dataclass
 
 from . import quantities
-from .files.error_text import error_text
-from .files.reading import invalid, validator
+from .files.reading import error_text, invalid, validator
 
 _T = TypeVar("_T", bound=Callable)
 

@@ -11,9 +11,8 @@ from scipy.linalg import eigh_tridiagonal
 
 from ..files.stated import alternatives, restated
 from ..quantities import AngularFrequency, Finite, ShearModulus, Time
-from .conventions import YOUNG, in_shear
 from .modes import Relaxation
-from .viscoelastic import PoissonRatio, Solid
+from .viscoelastic import YOUNG, PoissonRatio, Solid, in_shear
 
 _MOST_DECADES = 30
 _REFINEMENTS = 40

@@ -7,11 +7,10 @@ from pydantic.dataclasses import dataclass
 
 from ..files.stated import FORM, alternatives, restated
 from ..quantities import CLOSED, ROW, Compliance, ComplianceOrZero, ShearModulus, Time
-from .conventions import INSTANT, RELAXED, YOUNG, absolute, in_shear, in_tension
 from .fractional import Fractional
 from .modes import Relaxation, Retardation
 from .tabulated import Tabulated
-from .viscoelastic import Linear, PoissonRatio, Solid
+from .viscoelastic import INSTANT, RELAXED, YOUNG, Linear, PoissonRatio, Solid, absolute, in_shear, in_tension
 
 MOST_MODES = 200  # of a solid: no measurement tells more apart
 _SOME = Field(min_length=1, max_length=MOST_MODES)

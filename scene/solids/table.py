@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import Discriminator, Tag, model_validator
 from pydantic.dataclasses import dataclass
 
-from ..files.error_text import CHOICE
+from ..files.reading import CHOICE
 from ..quantities import CLOSED, COMPLIANCE, MODULUS, ROW, SECOND, AbsoluteTemperature, Positive, Unit
 
 MOST_ROWS = 5_000

@@ -14,13 +14,11 @@ from ..effects.temperature import TemperatureLaw
 from ..files.stated import FORM, TableFormat, alternatives, refused, restated, split_format
 from ..numeric_input import bare
 from ..quantities import Finite, ShearModulus
-from .conventions import YOUNG, in_shear
-from .extrapolation import Continued
-from .fit import NEGLIGIBLE, Creep, Measured, Modes, Oscillation, Stress, fitted, rms
+from .fit import NEGLIGIBLE, Continued, Creep, Measured, Modes, Oscillation, Stress, fitted, rms
 from .modes import Relaxation, Retardation
 from .moduli import read_moduli
 from .table import SCATTER, AnyTable, CreepTable, RelaxationTable, Table
-from .viscoelastic import PoissonRatio, Solid
+from .viscoelastic import YOUNG, PoissonRatio, Solid, in_shear
 
 _TABLES = (Table, RelaxationTable, CreepTable)
 # Standard errors of a fitted modulus at rest; what is less of them cannot be told from nothing.

@@ -7,7 +7,7 @@ import numpy as np
 from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 
-from .form import ROUNDING, levelled
+from .heightmap import ROUNDING, levelled
 from .scanned import MAPPED, QUOTIENT, Scanned
 
 

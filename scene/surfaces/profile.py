@@ -12,8 +12,7 @@ from pydantic.dataclasses import dataclass
 from ..files.stated import alternatives, restated
 from ..quantities import Length, Seed
 from . import linescan
-from .form import DEGREES, levelled
-from .heightmap import LONGEST, SHORTEST, HeightLine, LineHeights
+from .heightmap import DEGREES, LONGEST, SHORTEST, HeightLine, LineHeights, levelled
 from .linescan import Interval, LineLaw
 from .scanned import OF_A_FILE, QUOTIENT, prepared
 from .selfaffine import SelfAffine

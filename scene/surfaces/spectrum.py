@@ -12,8 +12,7 @@ from ..files.stated import FORM, TableFormat, alternatives, filled, restated
 from ..files.tablefile import Column, read_columns
 from ..quantities import RADIAN_PER_METRE, ROW, Positive, Seed, Unit
 from .heightmap import LONGEST, SHORTEST
-from .isotropic import Isotropic
-from .powerlaws import PowerLaws, of_surface
+from .isotropic import Isotropic, PowerLaws, of_surface
 from .scanned import QUOTIENT
 from .selfaffine import Wavelength
 

@@ -61,7 +61,7 @@ from scene import (
     Topography,
     Wave,
 )
-from scene.files.parts import unit_of
+from scene.scene import unit_of
 
 # Each unit in another one, larger or smaller by a power of ten but for degrees; no dimension where there is none.
 OTHERS = {

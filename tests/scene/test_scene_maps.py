@@ -21,7 +21,7 @@ from strategies import examples
 import scene.files.heightfile
 from scene import Measured, Profile, Scene, Topography
 from scene.files.reading import InvalidInput, read
-from scene.surfaces.form import DEGREES, levelled
+from scene.surfaces.heightmap import DEGREES, levelled
 from scene.surfaces.missing import filled, sentinels
 
 DIGITS = 1e-12  # what texts with 15 digits keep

@@ -17,9 +17,9 @@ from compare.trustmap.verdict import FITTED, trust
 from mdr1d import MDR
 from scene import Kelvin, Profile, Refused, Scene, SelfAffine, Slide, Sphere
 from scene.surfaces import linescan
-from scene.surfaces.form import taken_off
-from scene.surfaces.periodogram import bins_of
-from scene.surfaces.waves import MOST_WAVES
+from scene.surfaces.heightmap import taken_off
+from scene.surfaces.linescan import bins_of
+from scene.surfaces.topography import MOST_WAVES
 
 SPACING = 2e-6
 ROUGH = SelfAffine(hurst=0.7, rms_height=2e-6, longest=8e-3, rolloff=2e-4, shortest=2e-5)

@@ -316,7 +316,7 @@ def compared(monkeypatch):
         names.append(name)
         return get_close_matches(name, *others)
 
-    monkeypatch.setattr("scene.files.error_text.get_close_matches", compare)
+    monkeypatch.setattr("scene.files.reading.get_close_matches", compare)
     return names
 
 

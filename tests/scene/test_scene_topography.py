@@ -16,7 +16,7 @@ from compare.library.case import Case
 from compare.solving.task import SCENES
 from scene import Elastic, Indent, Measured, Plane, Scene, SelfAffine, Sphere, Topography
 from scene.files.reading import InvalidInput, read
-from scene.surfaces.waves import MOST_WAVES
+from scene.surfaces.topography import MOST_WAVES
 
 ROUNDING = 1e-13  # of heights of order one, summed over some ten waves
 SPLINE = 1e-12  # a paraboloid is a bicubic spline: what is left is rounding
