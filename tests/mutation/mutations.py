@@ -29,7 +29,7 @@ BOUNDS = {ast.Lt: ast.LtE, ast.LtE: ast.Lt, ast.Gt: ast.GtE, ast.GtE: ast.Gt}
 EQUIVALENT = {
     ("bem3d/motion/marching.py", "1e-12", "(2e-12)"): "an overlap below rounding of the heights is none",
     (
-        "scene/solids/interconversion.py",
+        "scene/solids/modes.py",
         "low * (1 + _ROUNDING)",
         "(low / (1 + _ROUNDING))",
     ): "rounds the bracket of a root by the last digit; Newton's steps end inside either",
@@ -56,7 +56,7 @@ EQUIVALENT = {
         "kernels[0]",
         "(kernels[1])",
     ): "only the shape is read, and all kernels have one",
-    ("scene/solids/interconversion.py", "excess > 0", "(excess >= 0)"): "without an excess the root is found",
+    ("scene/solids/modes.py", "excess > 0", "(excess >= 0)"): "without an excess the root is found",
     ("mdr1d/element.py", "r[j] > 0.0", "(r[j] >= 0.0)"): "an element without a stretch relaxes without heat",
     (
         "bem3d/topography.py",
