@@ -14,7 +14,7 @@ from .signatures import make_readable
 from .solids.fractional import Fractional
 from .solids.moduli import read_table
 from .solids.rheology import Elastic, Kelvin, KelvinChain, Prony, StandardLinearSolid
-from .solids.table import CreepTable, RelaxationTable, Table
+from .solids.table import Table
 from .solids.tabulated import Tabulated
 from .surfaces.measured import Measured
 from .surfaces.profile import Profile
@@ -28,7 +28,6 @@ __all__ = [
     "Arrhenius",
     "Cone",
     "Coulomb",
-    "CreepTable",
     "CrossedWaves",
     "Cylinder",
     "Doubt",
@@ -52,7 +51,6 @@ __all__ = [
     "Prony",
     "Refused",
     "Regime",
-    "RelaxationTable",
     "Result",
     "Scene",
     "SelfAffine",
