@@ -2,13 +2,14 @@
 
 from collections.abc import Mapping
 from dataclasses import fields
+from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
 from pydantic import model_validator
 from pydantic.dataclasses import dataclass
 
-from ..files.heightfile import LINE, MAP, given_heights, read_heights
+from ..files.heightfile import LINE, MAP, read_heights
 from ..files.stated import FORM, TableFormat, alternatives, restated, split_format
 from ..printable import brief
 from ..quantities import METRE, Length, argument
@@ -124,12 +125,14 @@ def prepared(cls: Any, stated: dict[str, Any], kind: type[HeightMap], spacing: s
             raise ValueError("heights are in metres: unit, channel and what is stated of a text are for a file")
         numbers, notes = heights.heights, heights.notes
     else:
-        read, units = given_heights if path is None else read_heights, written.units or {}
+        if not isinstance(path, str | Path | None):
+            raise ValueError(f"file = {brief(repr(path))}: a path is needed")
+        source, units = heights if path is None else Path(path), written.units or {}
         if "unit" in asked and "z" in units:
             raise ValueError(f"unit = {asked['unit']!r} and units = {{z = {units['z']!r}}}: state one of them")
         unit, dims = asked.get("unit", units.get("z")), MAP if kind is HeightMap else LINE
-        numbers, left[spacing], notes = read(
-            heights if path is None else path, dims, left.get(spacing), unit, asked.get("channel"), written
+        numbers, left[spacing], notes = read_heights(
+            source, dims, left.get(spacing), unit, asked.get("channel"), written
         )
     try:
         kind.check_layout(numbers.shape, numbers.dtype)
@@ -160,23 +163,18 @@ def _cleaned(heights, pixel, asked):
 
 def _cropped(heights, pixel, crop):
     """The part of a map whose middles of pixels lie in a rectangle, and what was left out, in words."""
-    rows, columns = heights.shape
-    size = columns * pixel[0], rows * pixel[1]
-    allowed = (
-        f"x from, x to, y from, y to as lengths, 0 to {size[0]:g} m along x and 0 to {size[1]:g} m along y, with "
-        f"at least {LEAST} pixels on either side"
-    )
-    ends = argument("crop", crop, METRE.row)
-    if len(ends) != 4 or not np.isfinite(ends).all():
-        raise ValueError(f"crop = {brief(repr(crop))}: {allowed}")
-    kept = []
-    for side, count, whole, (low, high) in zip(pixel, (columns, rows), size, (ends[:2], ends[2:]), strict=True):
-        close = QUOTIENT * whole
-        middles = (np.arange(count) + 0.5) * side
-        inside = np.flatnonzero((low - close <= middles) & (middles <= high + close))
-        if low < -close or high > whole + close or len(inside) < LEAST:
-            raise ValueError(f"crop = {brief(repr(crop))}: {allowed}")
-        kept.append(slice(inside[0], inside[-1] + 1))
-    along_x, along_y = kept
-    left = heights[along_y, along_x]
-    return left, (f"cropped to {left.shape[1]} x {left.shape[0]} of {columns} x {rows} pixels",)
+    ends, kept, counts = argument("crop", crop, METRE.row), [], heights.shape[::-1]
+    size = [count * side for count, side in zip(counts, pixel, strict=True)]
+    if len(ends) == 4 and np.isfinite(ends).all():
+        for side, count, whole, (low, high) in zip(pixel, counts, size, (ends[:2], ends[2:]), strict=True):
+            middles, close = (np.arange(count) + 0.5) * side, QUOTIENT * whole
+            inside = np.flatnonzero((low - close <= middles) & (middles <= high + close))
+            if low >= -close and high <= whole + close and len(inside) >= LEAST:
+                kept.append(slice(inside[0], inside[-1] + 1))
+    if len(kept) < 2:
+        raise ValueError(
+            f"crop = {brief(repr(crop))}: x from, x to, y from, y to as lengths, 0 to {size[0]:g} m along x and 0 "
+            f"to {size[1]:g} m along y, with at least {LEAST} pixels on either side"
+        )
+    left = heights[kept[1], kept[0]]
+    return left, (f"cropped to {left.shape[1]} x {left.shape[0]} of {counts[0]} x {counts[1]} pixels",)
