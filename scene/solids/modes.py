@@ -12,7 +12,7 @@ from math import frexp
 import numpy as np
 
 _ROUNDING = 2 * np.finfo(float).eps
-_STEPS = 400
+_MARGIN = 1e-9  # beyond the ends of a bracket, for ends that are roots but for rounding
 
 
 def zeros(poles, weights, constant):
@@ -53,13 +53,12 @@ def distances(poles, weights, constant):
     below = np.arange(len(p)) <= gap[:, None]
     half = np.append(np.diff(p) / 2, w.sum() / c if c else [])
 
-    def sides(apart):
-        """The terms of the poles below and of those above, all >= 0."""
-        terms = w / apart
-        return np.where(below, terms, 0.0), np.where(below, 0.0, -terms)
+    def terms(apart, row):
+        """Sums of the terms of the poles below, and of those above with the constant, >= 0."""
+        each = w / apart
+        return np.where(below[row], each, 0.0).sum(axis=1), np.where(below[row], 0.0, -each).sum(axis=1) + c
 
-    falling, rising = (side.sum(axis=1) for side in sides(p[gap, None] - p + half[:, None]))
-    rising += c
+    falling, rising = terms(p[gap, None] - p + half[:, None], gap)
     last = gap == len(p) - 1
     left = last | (rising >= falling)
     nearer, sign = np.where(left, gap, gap + 1), np.where(left, 1.0, -1.0)
@@ -67,7 +66,7 @@ def distances(poles, weights, constant):
     # The term of the nearer pole alone outweighs the other side below this distance.
     least = w[nearer] / np.where(last, c, np.where(left, rising, falling))
     with np.errstate(divide="raise", invalid="raise"):
-        return unit * _balanced(sides, offsets, sign, c, least, half)
+        return unit * _balanced(terms, offsets, sign, least, half)
 
 
 def _ratios(apart):
@@ -80,27 +79,20 @@ def _ratios(apart):
     return np.prod(np.where(here == there, 1.0, distances / np.abs(apart[:, :count])), axis=1)
 
 
-def _balanced(sides, offsets, sign, constant, low, high):
-    """offsets + sign d with low <= d <= high at which both sides are equal: Newton's method for the logarithm of
-    their ratio in ln d. Every fourth step halves the bracket instead, so that it ends whatever the modes are.
-    """
-    low, high = low * (1 - _ROUNDING), high * (1 + _ROUNDING)
-    d = np.sqrt(low) * np.sqrt(high)
-    for step in range(_STEPS):
-        apart = offsets + (sign * d)[:, None]
-        falling, rising = sides(apart)
-        down, up = falling.sum(axis=1), rising.sum(axis=1) + constant
-        near = d[:, None] / np.abs(apart)
-        slope = (falling * near).sum(axis=1) / down + (rising * near).sum(axis=1) / up
-        excess = sign * np.log(up / down)
-        high, low = np.where(excess > 0, d, high), np.where(excess > 0, low, d)
-        newton = d * np.exp(np.clip(-excess / slope, -700.0, 700.0))
-        settled = (np.abs(excess) <= _ROUNDING) | (high <= low * (1 + _ROUNDING))
-        if settled.all():
-            return offsets + (sign * np.clip(newton, low, high))[:, None]
-        inside = (newton > low) & (newton < high) & (step % 4 != 3)
-        d = np.where(settled, d, np.where(inside, newton, np.sqrt(low) * np.sqrt(high)))
-    raise ArithmeticError(f"modes not found in {_STEPS} steps: times or moduli beyond the range of numbers")
+def _balanced(terms, offsets, sign, low, high):
+    """offsets + sign d with low <= d <= high at which both terms, falling and rising, are equal."""
+    # Only solids with modes need it.
+    from scipy.optimize.elementwise import find_root
+
+    def excess(log_distance, row):
+        falling, rising = terms(offsets[row] + (sign[row] * np.exp(log_distance))[:, None], row)
+        return sign[row] * np.log(rising / falling)
+
+    bracket = np.log(low) - _MARGIN, np.log(high) + _MARGIN
+    found = find_root(excess, bracket, args=(np.arange(len(low)),), tolerances={"xrtol": _ROUNDING})
+    if not found.success.all():
+        raise ArithmeticError("modes not found: times or moduli beyond the range of numbers")
+    return offsets + (sign * np.clip(np.exp(found.x), low, high))[:, None]
 
 
 @dataclass(frozen=True, eq=False)

@@ -39,7 +39,7 @@ MODULES = {
         "mdr1d/tangential.py",
     },
     "topography": {
-        "scene/surfaces/topography.py",
+        "scene/surfaces/topography.py _waves",
         "scene/surfaces/heightmap.py",
         "bem3d/topography.py",
         "mdr1d/topography.py",
