@@ -18,6 +18,7 @@ from math import log10, pi, sqrt
 import numpy as np
 
 from .heightmap import polynomials, taken_off
+from .isotropic import power_integral
 
 PER_DECADE = 20  # bins
 COARSE = 0.05  # relative, of the density of a bin beside its scatter: its width, and what lattices of laws leave
@@ -279,11 +280,9 @@ def _tail(hurst, u, start):
 
 def _moment(power, hurst, rolloff, cutoff):
     """2 pi int u^power C_2D du of a unit plateau from u = 1 to the cut-off."""
-    fall, start = power - 2 * hurst - 1, np.maximum(rolloff, 1.0)
-    ratio = np.log(cutoff / start)
-    falling = np.where(np.abs(fall) > 1e-9, np.expm1(fall * ratio) / np.where(fall, fall, 1.0), ratio)
-    flat = (start ** (power + 1) - 1) / (power + 1)
-    return 2 * pi * (flat + rolloff ** (2 * hurst + 2) * start**fall * falling)
+    start, fall = np.maximum(rolloff, 1.0), 2 * hurst + 2
+    falling = rolloff**fall * power_integral(power - fall, start, cutoff)
+    return 2 * pi * (power_integral(power, 1.0, start) + falling)
 
 
 def _weighed(bins, seen, unit, length):
