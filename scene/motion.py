@@ -96,8 +96,15 @@ OF_WHAT_PRESSES = Unit("the unit of what presses, stated in this stage for a str
 TANGENTIAL = Unit("N, or N/m of a cylinder", example="0.3 N")
 
 
+@dataclass(frozen=True, config=CLOSED, kw_only=True)
 class _Pressed:
     """Load or depth of the indenter: exactly one of `UNITS`."""
+
+    load: Force | None = None
+    depth: Length | None = None
+    line_load: LineLoad | None = None
+    pressure: Pressure | None = None
+    gap: Length | None = None
 
     @model_validator(mode="after")
     def _exactly_one(self):
@@ -127,11 +134,6 @@ class Indent(_Pressed):
     gap [m] of a plane: one of them.
     """
 
-    load: Force | None = None
-    depth: Length | None = None
-    line_load: LineLoad | None = None
-    pressure: Pressure | None = None
-    gap: Length | None = None
     type: Literal["indent"] = Field(default="indent", repr=False)
 
     @property
@@ -154,11 +156,6 @@ class Slide(_Pressed):
     """
 
     speed: SpeedOrZero
-    load: Force | None = None
-    depth: Length | None = None
-    line_load: LineLoad | None = None
-    pressure: Pressure | None = None
-    gap: Length | None = None
     type: Literal["slide"] = Field(default="slide", repr=False)
 
 
@@ -170,11 +167,6 @@ class Shear(_Pressed):
     force : tangential [N], less than coefficient * F_N; per length of a cylinder [N/m], on one cell of a plane
     """
 
-    load: Force | None = None
-    depth: Length | None = None
-    line_load: LineLoad | None = None
-    pressure: Pressure | None = None
-    gap: Length | None = None
     displacement: LengthOrZero | None = None
     force: Annotated[NonNegative, TANGENTIAL] | None = None
     type: Literal["shear"] = Field(default="shear", repr=False)
