@@ -234,7 +234,8 @@ def test_an_array_that_is_no_map_is_refused(tmp_path, kind, ending):
 
 def test_what_is_larger_than_is_read_is_not(tmp_path, monkeypatch):
     saved(SQUARE)(tmp_path / "b.npy")
-    monkeypatch.setattr(scene.files.heightfile, "MOST_BYTES", 2**12)
+    for name in ("MOST_BYTES", "MOST_TEXT"):
+        monkeypatch.setattr(scene.files.heightfile, name, 2**12)
     for name in ("a.npy", "a.csv", "a.sur"):
         refused("at most", file=written(tmp_path, bytes(2**12 + 1), name), **UM)
     monkeypatch.setattr(scene.files.heightfile, "MOST_PIXELS", 80)
@@ -287,7 +288,7 @@ WRONG = {
     ),
     "an axis above": (text(AXES), UM, "the first row, .* is evenly spaced as places are"),
     "an axis at the side": (text(AXES.T), UM, "the first column, .* is evenly spaced as places are"),
-    "a channel of a text": (text(SQUARE), {**UM, "channel": "Height"}, "is a text; skip and rows choose"),
+    "a channel of a text": (text(SQUARE), {**UM, "channel": "Height"}, "map.txt is one map; skip and rows choose"),
     "points on a line": ("x [m] y [m] z [m]\n1 1 1\n2 1 2\n", {}, 'all y are 1: .* type = "profile"'),
     "points on a diagonal": (
         in_metres(np.repeat(np.arange(30.0), 3).reshape(30, 3)),
@@ -337,9 +338,9 @@ def test_what_is_stated_twice_agrees_or_is_refused(tmp_path):
     refused("a.nc states its own, 1e-06 m: leave unit out", file=file, unit="nm")
     refused("states its own, 2e-06 x 3e-06 m: leave pixel out", file=table, pixel="1 um")
     refused("must agree", file=table, unit="nm")
-    refused("heights are no file", heights=SQUARE, channel="a", **UM)
+    refused("heights is one map", heights=SQUARE, channel="a", **UM)
     refused("a.npz is no text: leave out columns", file=saved(SQUARE)(tmp_path / "a.npz"), skip=3, **UM)
-    refused("heights are an array and no table", heights=SQUARE, skip=2, **UM)
+    refused("heights is no text and no table", heights=SQUARE, skip=2, **UM)
     refused("heights are in metres", heights=found.heights, pixel=1.0, unit="um")
     refused("heights are both stated", heights=SQUARE, file=file)
     refused(r"dimensions of heights = \('y', 'u'\)", heights=array.rename(x="u"))
