@@ -104,6 +104,7 @@ def read_heights(
     """
     file, columns = isinstance(source, Path), list(getattr(source, "columns", ()))
     name, kind = (brief(str(source)), source.suffix.lower()) if file else ("heights", "")
+    place = checked(source, MOST_BYTES) if file else source
     text = file and (kind in TEXTS or (dims == LINE and kind not in ARRAYS | NETCDF))
     # A DataFrame whose columns are only counted is an array.
     mapping = isinstance(source, Mapping) or hasattr(source, "data_vars") or columns != list(range(len(columns)))
@@ -116,7 +117,7 @@ def read_heights(
         return _of_table(source, dims, spacing, unit, written)
     if found is None and file:
         read = _of_arrays if kind in ARRAYS else _of_netcdf if kind in NETCDF else _of_instrument
-        found = read(name, checked(source, MOST_BYTES), dims, channel)
+        found = read(name, place, dims, channel)
     elif found is None and hasattr(source, "dims"):
         found = _of_labelled(name, source, dims)
     elif found is None:

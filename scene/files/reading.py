@@ -129,18 +129,6 @@ def _short(value):
     return value is None or isinstance(value, str | int | float | date | time)
 
 
-__all__ = [
-    "InvalidInput",
-    "error_text",
-    "invalid",
-    "made",
-    "parsed",
-    "read",
-    "text_of",
-    "validator",
-    "whole",
-]
-
 MOST = 1_000_000  # bytes of a file
 LONGEST = 2000  # letters of a mistake
 

@@ -234,8 +234,7 @@ def test_an_array_that_is_no_map_is_refused(tmp_path, kind, ending):
 
 def test_what_is_larger_than_is_read_is_not(tmp_path, monkeypatch):
     saved(SQUARE)(tmp_path / "b.npy")
-    for name in ("MOST_BYTES", "MOST_TEXT"):
-        monkeypatch.setattr(scene.files.heightfile, name, 2**12)
+    monkeypatch.setattr(scene.files.heightfile, "MOST_BYTES", 2**12)
     for name in ("a.npy", "a.csv", "a.sur"):
         refused("at most", file=written(tmp_path, bytes(2**12 + 1), name), **UM)
     monkeypatch.setattr(scene.files.heightfile, "MOST_PIXELS", 80)
@@ -491,6 +490,7 @@ INSIDE = (X > 3) & (X < 6) & (Y > 3) & (Y < 7)
     [
         *((each, INSIDE, (1, 1)) for each in (1 + 2 * X + 3 * Y, X * Y, X**2 - Y**2)),
         (7.0, (X < 3) & (Y < 2), (1, 2)),  # at a side nothing leaves
+        (1 + 2 * X[0], INSIDE[5], (1, 1)),  # a line, on which a straight one is harmonic
     ],
 )
 def test_a_hole_in_a_surface_that_is_harmonic_on_any_lattice_is_filled_in_exactly(surface, hole, pixel):

@@ -319,12 +319,3 @@ def test_a_line_is_the_same_in_every_text_that_is_read(tmp_path, content, stated
 def test_a_text_that_is_no_line_is_refused_with_what_to_state(tmp_path, content, stated, message):
     (tmp_path / "line.txt").write_text(content)
     refused(message, Profile, file=tmp_path / "line.txt", **stated)
-
-
-def test_missing_heights_are_filled_in_on_straight_lines_when_asked(tmp_path):
-    path, rows = tmp_path / "line.csv", column().splitlines()
-    rows[100:102] = ["0.200000;", "0.202000;nan"]
-    path.write_text("\n".join(["x [mm];z [um]", *rows]))
-    profile = Profile(file=path, missing="fill")
-    assert profile.heights.heights[99:103] == pytest.approx(np.linspace(*HEIGHTS[[99, 102]], 4), abs=1e-14)
-    assert "2 of 512 heights (0.391 %) were missing" in profile.notes[0]
