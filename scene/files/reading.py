@@ -43,7 +43,9 @@ def error_text(error: ValidationError, content: dict, adapter: TypeAdapter) -> l
             kinds, kind = node["discriminator"]["mapping"], _part(("type",), held)
             return followed({"$ref": kinds[kind]}, held) if isinstance(kind, str) and kind in kinds else node
         choices = [followed(each, held) for each in node.get("anyOf", ())]
-        return next((each for each in choices if each.get("type", "object") == _KINDS.get(type(held))), node)
+        return next(
+            (each for each in choices if each.get("type", "object") == _KINDS.get(type(held), "object")), node
+        )
 
     def node_at(where):
         """The schema at a place."""

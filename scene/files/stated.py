@@ -87,16 +87,24 @@ def filled(given: Mapping[str, Any], read: Callable[[Any, TableFormat], Mapping[
         if both := found.keys() & rest.keys():
             raise ValueError(f"{min(both)} is stated, and a column of the table: leave one out")
     except ValueError as error:
-        raise refused(table, error) from error
+        raise refused("table", table, error) from error
     return {**rest, **found}
 
 
-def refused(table: Any, reason: ValueError) -> ValidationError:
-    """A mistake of the field `table`."""
+def taken(name: str, stated: Mapping[str, Any], take: Callable[[Any], Any]) -> Any:
+    """Value that is stated under a name, as `take` reads it. Raises ValidationError, at the name."""
+    try:
+        return take(stated[name])
+    except ValueError as error:
+        raise refused(name, stated[name], error) from error
+
+
+def refused(name: str, given: Any, reason: ValueError) -> ValidationError:
+    """A mistake of a field, or of what stands in its place."""
     line: Any = {
         "type": "value_error",
-        "loc": ("table",),
-        "input": table,
+        "loc": (name,),
+        "input": given,
         "ctx": {"error": ValueError(str(reason))},
     }
-    return ValidationError.from_exception_data("table", [line])
+    return ValidationError.from_exception_data(name, [line])

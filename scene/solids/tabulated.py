@@ -83,7 +83,7 @@ class Tabulated(Solid):
                 words = {name: each for name, each in found.items() if isinstance(each, str)}
                 read = read_moduli(table, words.get("frequency_unit"), words.get("kind"), written)
             except ValueError as error:
-                raise refused(table, error) from error
+                raise refused("table", table, error) from error
             found["table"] = table = read.table
             told = {"frequency_unit": read.frequency_unit, "kind": read.kind}
             found = {name: value for name, value in told.items() if value is not None} | found

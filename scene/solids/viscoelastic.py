@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 import numpy as np
 from pydantic import Field, TypeAdapter, ValidationError
 
-from ..files.stated import filled
+from ..files.stated import filled, taken
 from ..files.tablefile import Column, read_columns
-from ..quantities import BARE, MODULUS, SECOND, YOUNGS, Finite, Positive, argument
+from ..quantities import BARE, MODULUS, SECOND, YOUNGS, Finite, Positive
 from .modes import Relaxation, Retardation
 
 PoissonRatio = Annotated[Finite, Field(gt=-1, le=0.5)]
@@ -130,7 +130,8 @@ def in_shear(cls: type, stated: dict[str, Any], *others: str) -> dict[str, Any]:
 
     others : names that may be stated in shear besides the fields of the class
 
-    A validator before those of the fields. Raises ValueError where one is stated both ways, or is no number.
+    A validator before those of the fields. Raises ValueError where one is stated both ways, and
+    ValidationError, with its name, where one is no number.
     """
     try:
         ratio = _RATIO.validate_python(stated.get("poisson_ratio", INCOMPRESSIBLE))
@@ -143,8 +144,9 @@ def in_shear(cls: type, stated: dict[str, Any], *others: str) -> dict[str, Any]:
         if name in stated:
             raise ValueError(f"{tensile} beside {name}: give one of them")
         take = YOUNGS.row if name.endswith("moduli") else YOUNGS.value
-        moduli = np.array(argument(tensile, found.pop(tensile), take))
+        moduli = np.array(taken(tensile, stated, take))
         found[name] = (moduli / (2 * (1 + ratio))).tolist()
+        del found[tensile]
     return found
 
 
@@ -153,7 +155,7 @@ def absolute(cls: type, stated: dict[str, Any]) -> dict[str, Any]:
 
     G_k = g_k G_0, at rest G_0 (1 - sum_k g_k), whichever of instantaneous_modulus, G_0, and equilibrium_modulus is
     stated. A validator before those of the fields. Raises ValueError where the terms leave nothing at rest, or
-    contradict one another, and where one is no number.
+    contradict one another, and ValidationError where one is no number.
     """
     found = in_shear(cls, filled(stated, lambda table, form: read_columns(table, TERMS, form)), INSTANT)
     for name, field in (("tau", "relaxation_times"), ("g", "moduli")):
@@ -167,10 +169,11 @@ def absolute(cls: type, stated: dict[str, Any]) -> dict[str, Any]:
         return found
     if (INSTANT in found) == (RELAXED in found):
         raise ValueError(f"g are shares of a modulus: give one of {INSTANT} and {RELAXED}")
-    shares = argument("g", found.pop("g"), BARE.row)
+    shares = taken("g", found, BARE.row)
     if not (min(shares, default=1.0) > 0 and (rest := 1 - fsum(shares)) > 0):
         raise ValueError(f"g: the sum {fsum(shares):g} leaves no modulus at rest: each above 0, their sum below 1")
     stated_as = INSTANT if INSTANT in found else RELAXED
-    modulus = argument(stated_as, found.pop(stated_as), MODULUS.value)
+    modulus = taken(stated_as, found, MODULUS.value)
     at_once = modulus if stated_as == INSTANT else modulus / rest
-    return found | {RELAXED: at_once * rest, "moduli": [share * at_once for share in shares]}
+    left = {name: value for name, value in found.items() if name not in ("g", INSTANT)}
+    return left | {RELAXED: at_once * rest, "moduli": [share * at_once for share in shares]}

@@ -1,15 +1,15 @@
 """Roughness by a self-affine spectrum, from which each solver draws its own surface."""
 
 from dataclasses import replace
-from math import pi
+from math import inf, pi
 from typing import Annotated, Literal
 
 import numpy as np
 from pydantic import AfterValidator, Field, TypeAdapter, model_validator
 from pydantic.dataclasses import dataclass
 
-from ..files.stated import alternatives, restated
-from ..quantities import BARE, Finite, Length, LengthOrZero, NonNegative, Seed, argument
+from ..files.stated import alternatives, restated, taken
+from ..quantities import BARE, Finite, Length, LengthOrZero, NonNegative, Seed
 from .isotropic import Isotropic, power_integral
 
 # Wavelength [m] down to which its wave number, and that of a grid that resolves it, is a number.
@@ -25,6 +25,12 @@ def _has_wave_number(wavelength):
 Wavelength = Annotated[Length, AfterValidator(_has_wave_number)]
 
 _SLOPE = TypeAdapter(NonNegative)
+
+
+def _slope(given):
+    if not 0 <= (found := BARE.value(given)) < inf:
+        raise ValueError("Input should be the rms of the full gradient, a number from 0 on")
+    return found
 
 
 @dataclass(frozen=True, config=alternatives("rms_height", rms_slope=_SLOPE.json_schema()), kw_only=True)
@@ -59,7 +65,8 @@ class SelfAffine(Isotropic):
     def _of_the_slope(cls, stated):  # noqa: N805
         if "rms_slope" not in stated:
             return stated
-        slope = argument("rms_slope", stated.pop("rms_slope"), BARE.value)
+        slope = taken("rms_slope", stated, _slope)
+        del stated["rms_slope"]
         if "rms_height" in stated or stated.get("shortest") is None:
             raise ValueError(
                 f"rms_slope = {slope:g}: state shortest, up to which it is found, and no rms_height beside it"

@@ -338,7 +338,7 @@ def test_what_is_stated_twice_agrees_or_is_refused(tmp_path):
     refused("states its own, 2e-06 x 3e-06 m: leave pixel out", file=table, pixel="1 um")
     refused("must agree", file=table, unit="nm")
     refused("heights is one map", heights=SQUARE, channel="a", **UM)
-    refused("a.npz is no text and no table: leave out columns", file=saved(SQUARE)(tmp_path / "a.npz"), skip=3, **UM)
+    refused("a.npz is no text and no table: leave out", file=saved(SQUARE)(tmp_path / "a.npz"), skip=3, **UM)
     refused("heights is no text and no table", heights=SQUARE, skip=2, **UM)
     refused("heights are in metres", heights=found.heights, pixel=1.0, unit="um")
     refused("heights are both stated", heights=SQUARE, file=file)
