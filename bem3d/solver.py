@@ -11,9 +11,8 @@ from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 
 from scene import Cylinder, Doubt, Plane, Program, Result, Scene, SolveError, doubts
-from scene.machine import shortage
 from scene.plan import Plan
-from scene.protocol import numeric_guard, refuse
+from scene.protocol import numeric_guard, refuse, shortage
 from scene.quantities import CLOSED, Length, Positive, Whole
 from scene.terms import Table, terms_of, wrap_solve
 

@@ -9,7 +9,7 @@ from scipy.fft import ifft, irfft
 
 from scene import CrossedWaves, Profile, SolveError, Topography
 from scene.surfaces.isotropic import Isotropic, seeded
-from scene.surfaces.waves import MOST_WAVES, Waves
+from scene.surfaces.topography import MOST_WAVES, Waves
 
 CORE = 16  # shells in which the density varies much across the cell of a wave vector
 CORE_SAMPLES, OUTER_SAMPLES = 8, 2  # per axis, in the cell

@@ -1,8 +1,8 @@
 """Measured roughness in boundary elements: a map by its waves, a line by a fitted surface."""
 
 from scene import Plane, Scene
-from scene.files.parts import said
-from scene.surfaces.waves import MOST_WAVES
+from scene.scene import said
+from scene.surfaces.topography import MOST_WAVES
 
 from .term import Term
 

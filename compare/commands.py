@@ -50,7 +50,6 @@ from .options import (
     ModulusFigure,
     NewFile,
     Options,
-    Outliers,
     Output,
     OwnScene,
     PaperSize,
@@ -305,7 +304,6 @@ def topography(
     unit: LengthUnit = None,
     channel: Channel = None,
     crop: Crop = None,
-    outliers: Outliers = None,
     missing: Missing = "refuse",
     level: Level = None,
     shortest_kept: ShortestKept = None,
@@ -325,7 +323,7 @@ def topography(
     """Describe a measured surface: slopes, spectra, exponent H."""
     from .studies.topography.study import Map
 
-    asked = {"unit": unit, "channel": channel, "crop": crop, "outliers": outliers, "missing": missing}
+    asked = {"unit": unit, "channel": channel, "crop": crop, "missing": missing}
     done = {"level": level, "shortest_kept": shortest_kept, "repeat": repeat, "peaks": peaks}
     stated = {"separator": separator, "decimal": decimal, "encoding": encoding, "skip": skip, "rows": rows}
     form = table_form(columns=columns, units=units, where=where, **stated)

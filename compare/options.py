@@ -297,13 +297,6 @@ Crop = Annotated[
         " map."
     ),
 ]
-Outliers = Annotated[
-    float | None,
-    Option(
-        help="Heights so many robust standard deviations off the median around them are filled in, 3 or more.",
-        parser=number,
-    ),
-]
 Missing = Annotated[
     Literal["refuse", "fill"],
     Option(help="fill fills in missing heights, at most 5 % of the pixels; refuse makes them an error."),

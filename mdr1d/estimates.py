@@ -9,7 +9,7 @@ from typing import Literal
 
 import numpy as np
 
-from scene.effects.parts import temperature_rise
+from scene.scene import temperature_rise
 
 from .domain import between, in_si, not_negative, one_of, positive
 

@@ -10,7 +10,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from scene.solids.interconversion import distances
+from scene.solids.modes import distances
 from scene.solids.viscoelastic import Linear
 
 

@@ -11,9 +11,8 @@ from pydantic import Field
 from pydantic.dataclasses import dataclass
 
 from scene import Doubt, EmptyContact, Program, Result, Scene, SolveError, doubts
-from scene.machine import shortage
 from scene.plan import Plan
-from scene.protocol import numeric_guard, refuse
+from scene.protocol import numeric_guard, refuse, shortage
 from scene.quantities import CLOSED, Length, Whole
 from scene.surfaces.roughness import Roughness
 from scene.terms import Table, terms_of, wrap_solve

@@ -7,7 +7,7 @@ from math import nan, pi, sqrt
 import numpy as np
 
 from scene import Profile, Scene, Topography
-from scene.files.parts import said
+from scene.scene import said
 
 from .surface import Band, LineFamily, Spectrum, Surface, band_of, through
 from .term import Term

@@ -1,21 +1,20 @@
 """The shared vocabulary: what is asked of a contact, what is answered, and nothing of how."""
 
 from .doubt import Doubt, Doubtful, doubts, notes
-from .effects.parts import Coulomb, Heating, Layer
 from .effects.temperature import WLF, Arrhenius, ShiftFactors
 from .files.reading import InvalidInput
 from .indenter import Cone, Cylinder, Plane, PowerLaw, Sphere
 from .motion import Indent, Program, Shear, Slide, Stage
 from .plan import Plan
 from .protocol import EmptyContact, OutOfMemory, Refused, SolveError, Solver
-from .regime import Regime
 from .result import Result
-from .scene import Scene
+from .scales import Regime
+from .scene import Coulomb, Heating, Layer, Scene
 from .signatures import make_readable
 from .solids.fractional import Fractional
 from .solids.moduli import read_table
 from .solids.rheology import Elastic, Kelvin, KelvinChain, Prony, StandardLinearSolid
-from .solids.table import CreepTable, RelaxationTable, Table
+from .solids.table import Table
 from .solids.tabulated import Tabulated
 from .surfaces.measured import Measured
 from .surfaces.profile import Profile
@@ -29,7 +28,6 @@ __all__ = [
     "Arrhenius",
     "Cone",
     "Coulomb",
-    "CreepTable",
     "CrossedWaves",
     "Cylinder",
     "Doubt",
@@ -53,7 +51,6 @@ __all__ = [
     "Prony",
     "Refused",
     "Regime",
-    "RelaxationTable",
     "Result",
     "Scene",
     "SelfAffine",

@@ -14,10 +14,10 @@ import numpy as np
 from .effects.temperature import COLDEST
 from .magnitudes import WITHIN, Magnitudes
 from .motion import Slide
+from .scales import SMALL_SLOPE
 from .scene import Scene
-from .solids.extrapolation import REACH
+from .solids.fit import REACH
 
-SMALL_SLOPE = 0.3  # up to which a linear theory of contact is taken at its word
 LINEAR_SLOPE = 1.0  # beyond which nothing of it is left
 LEFT_OUT = 0.1  # share of a mean square beyond an end of a measured spectrum
 ANISOTROPIC = 1.2  # ratio of the rms slopes along x and y above which a map is no isotropic one
@@ -154,7 +154,7 @@ ATOM, ATOMS = "less than an atom is wide", "a few atoms, where no solid is conti
 SOFT, HARD = "softer than a gel", "stiffer than steel"
 COLD, HOT = "every elastomer is a glass there", "no elastomer stands that"
 POLYMERS = "polymers have some 5 to 30, and 20 to 200 K"
-SPIKE = "a spike of the instrument? outliers = 6 fills it in"
+SPIKE = "a spike of the instrument? take it out before"
 LARGE = "larger than tyres and wheels"
 
 

@@ -7,7 +7,7 @@ import numpy as np
 from pydantic import Field
 from pydantic.dataclasses import dataclass
 
-from .quantities import CLOSED, METRE, Angle, Finite, Length, Positive, Unit, takes
+from .quantities import CLOSED, Angle, Finite, Length, Positive, Unit
 from .surfaces.measured import Measured
 
 
@@ -24,19 +24,16 @@ class Axisymmetric:
 
     pressed_by: ClassVar[tuple[str, ...]] = ("load", "depth")
 
-    @takes(x=METRE, y=METRE)
     def height(self, x, y):
         """z(x, y) [m] for coordinates [m] of any broadcastable shapes."""
         return self.coefficient * np.hypot(x, y) ** self.exponent
 
-    @takes(x=METRE, y=METRE)
     def slope(self, x, y):
         """dz/dx [1]; at the tip of a cone, where it jumps, the mean of both sides: zero."""
         r = np.hypot(x, y)
         c, n = self.coefficient, self.exponent
         return np.where(r > 0, c * n * x * np.where(r > 0, r, 1.0) ** (n - 2), 0.0)
 
-    @takes(x=METRE, y=METRE)
     def curvature(self, x, y):
         """d2z/dx2 [1/m]; at the tip infinite for exponents below 2, there NaN."""
         r = np.hypot(x, y)
@@ -44,7 +41,6 @@ class Axisymmetric:
         away = np.where(r > 0, r, 1.0 if n >= 2 else np.nan)
         return c * n * np.where(r > 0, r, 0.0 if n > 2 else 1.0) ** (n - 2) * (1 + (n - 2) * np.square(x / away))
 
-    @takes(height=METRE)
     def radius_at(self, height):
         """Radius [m] at which the shape reaches a height [m] >= 0."""
         return (height / self.coefficient) ** (1 / self.exponent)
@@ -113,17 +109,14 @@ class Cylinder:
     radius: Length
     type: Literal["cylinder"] = Field(default="cylinder", repr=False)
 
-    @takes(x=METRE, y=METRE)
     def height(self, x, y):
         """z(x) [m], the same for every y."""
         return np.broadcast_to(np.square(x) / (2 * self.radius), np.broadcast_shapes(np.shape(x), np.shape(y)))
 
-    @takes(x=METRE, y=METRE)
     def slope(self, x, y):
         """dz/dx [1]."""
         return np.broadcast_to(x / self.radius, np.broadcast_shapes(np.shape(x), np.shape(y)))
 
-    @takes(height=METRE)
     def radius_at(self, height):
         """Half-width [m] at which the shape reaches a height [m] >= 0."""
         return np.sqrt(2 * self.radius * height)
@@ -140,12 +133,10 @@ class Plane:
     pressed_by: ClassVar[tuple[str, ...]] = ("pressure", "gap")
     type: Literal["plane"] = Field(default="plane", repr=False)
 
-    @takes(x=METRE, y=METRE)
     def height(self, x, y):
         """z [m]: zero."""
         return np.zeros(np.broadcast_shapes(np.shape(x), np.shape(y)))
 
-    @takes(x=METRE, y=METRE)
     def slope(self, x, y):
         """dz/dx [1]: zero."""
         return np.zeros(np.broadcast_shapes(np.shape(x), np.shape(y)))

@@ -10,7 +10,7 @@ from .indenter import Cylinder, Plane
 from .motion import Program, Slide
 from .scales import ElasticContact, elastic_contact
 from .scene import Scene
-from .solids.extrapolation import REACH
+from .solids.fit import REACH
 from .solids.tabulated import Tabulated
 from .surfaces.isotropic import Isotropic
 from .surfaces.measured import Measured

@@ -1,20 +1,20 @@
 """Motions of the indenter: to rest, sliding steadily, sheared or by a program, under a load or to a depth."""
 
+from dataclasses import dataclass as plain
 from functools import cached_property
+from math import acos, floor, pi
 from typing import Annotated, Any, Literal
 
 import numpy as np
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 from pydantic.dataclasses import dataclass
 
-from .oscillation import ROUNDING, Oscillation
 from .quantities import (
     CLOSED,
     METRE,
     NEWTON,
     NEWTON_PER_METRE,
     PASCAL,
-    SECOND,
     Force,
     ForceOrZero,
     Frequency,
@@ -29,8 +29,65 @@ from .quantities import (
     Time,
     Unit,
     Velocity,
-    takes,
 )
+
+ROUNDING = 1e-12  # of the half periods that have passed: what is closer to a whole number of them is at zero
+
+
+@plain(frozen=True)
+class Oscillation:
+    """amplitude * sin(2 pi frequency t), from t = 0 to a duration.
+
+    amplitude > 0, in the unit of what oscillates; frequency [Hz]; duration [s]
+    """
+
+    amplitude: float
+    frequency: float
+    duration: float
+
+    @property
+    def periods(self) -> float:
+        """Number of periods in the duration; any number."""
+        return self.frequency * self.duration
+
+    @property
+    def last(self) -> float:
+        """Value at the end."""
+        return float(self.at(self.duration))
+
+    def at(self, time):
+        """Values at times [s], any shape; exactly zero after whole half periods."""
+        halves = 2 * self.frequency * np.asarray(time, float)
+        nearest = np.rint(halves)
+        beyond = halves - nearest
+        beyond = np.where(np.abs(beyond) <= ROUNDING * np.maximum(nearest, 1.0), 0.0, beyond)
+        return self.amplitude * np.where(nearest % 2 == 0, 1.0, -1.0) * np.sin(pi * beyond)
+
+    def beyond_chord(self, time):
+        """Values at times [s] less the chord from the start to the end; zero before and after the duration."""
+        within = np.clip(time, 0.0, self.duration)
+        return self.at(within) - self.last * within / self.duration
+
+    def about(self, start: float, end: float) -> tuple[float, float]:
+        """Lowest and highest value of the oscillation on a ramp from `start` to `end`.
+
+        Ends of the duration, and where the slopes of both cancel: on a ramp that does not outrun the oscillation,
+        the first and the last crest and trough of those.
+        """
+        omega, rise = 2 * pi * self.frequency, (end - start) / self.duration
+        values = [start, end + self.last]
+        steepest = self.amplitude * omega
+        if abs(rise) < steepest:
+            crest = acos(-rise / steepest)
+            for first in (crest, 2 * pi - crest):
+                last = first + 2 * pi * floor(self.periods - first / (2 * pi))
+                values += [
+                    start + rise * phase / omega + float(self.at(phase / omega))
+                    for phase in (first, last)
+                    if last >= first
+                ]
+        return min(values), max(values)
+
 
 PRESSES = {"load": NEWTON, "depth": METRE, "line_load": NEWTON_PER_METRE, "pressure": PASCAL, "gap": METRE}
 UNITS = {name: unit.symbol for name, unit in PRESSES.items()}
@@ -39,8 +96,15 @@ OF_WHAT_PRESSES = Unit("the unit of what presses, stated in this stage for a str
 TANGENTIAL = Unit("N, or N/m of a cylinder", example="0.3 N")
 
 
+@dataclass(frozen=True, config=CLOSED, kw_only=True)
 class _Pressed:
     """Load or depth of the indenter: exactly one of `UNITS`."""
+
+    load: Force | None = None
+    depth: Length | None = None
+    line_load: LineLoad | None = None
+    pressure: Pressure | None = None
+    gap: Length | None = None
 
     @model_validator(mode="after")
     def _exactly_one(self):
@@ -70,11 +134,6 @@ class Indent(_Pressed):
     gap [m] of a plane: one of them.
     """
 
-    load: Force | None = None
-    depth: Length | None = None
-    line_load: LineLoad | None = None
-    pressure: Pressure | None = None
-    gap: Length | None = None
     type: Literal["indent"] = Field(default="indent", repr=False)
 
     @property
@@ -97,11 +156,6 @@ class Slide(_Pressed):
     """
 
     speed: SpeedOrZero
-    load: Force | None = None
-    depth: Length | None = None
-    line_load: LineLoad | None = None
-    pressure: Pressure | None = None
-    gap: Length | None = None
     type: Literal["slide"] = Field(default="slide", repr=False)
 
 
@@ -113,11 +167,6 @@ class Shear(_Pressed):
     force : tangential [N], less than coefficient * F_N; per length of a cylinder [N/m], on one cell of a plane
     """
 
-    load: Force | None = None
-    depth: Length | None = None
-    line_load: LineLoad | None = None
-    pressure: Pressure | None = None
-    gap: Length | None = None
     displacement: LengthOrZero | None = None
     force: Annotated[NonNegative, TANGENTIAL] | None = None
     type: Literal["shear"] = Field(default="shear", repr=False)
@@ -267,7 +316,6 @@ class Program:
         """Whether the indenter ever moves backwards."""
         return any(stage.speed < 0 for stage in self.stages)
 
-    @takes(time=SECOND)
     def prescribed(self, time):
         """Load, depth or pressure at a time [s], any shape, in its unit."""
         times = self._times
@@ -277,7 +325,6 @@ class Program:
                 values = np.maximum(values + stage.oscillation.beyond_chord(np.subtract(time, begin)), 0.0)
         return values
 
-    @takes(time=SECOND)
     def path(self, time):
         """Path of the indenter forwards from its start [m] at a time [s], any shape."""
         return np.interp(time, self._times, self._paths)

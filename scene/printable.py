@@ -38,17 +38,18 @@ MOST_ROWS = 60  # rows of a table that are shown
 
 
 def table(rows: Iterable[Sequence[Any]], heading: Sequence[str] = (), title: str = "") -> str:
-    """Rows of cells as a table: the first cell of a row names it, and lines of a cell stay lines.
+    """Rows of cells as a table in HTML.
 
     title : said above; heading : of the columns
     """
-    every = [[_text(cell) for cell in row] for row in rows]
-    caption = f'<caption style="text-align:left;font-weight:bold">{_text(title)}</caption>' if title else ""
-    head = "".join(f'<th scope="col" style="text-align:left">{_text(name)}</th>' for name in heading)
-    body = "".join(_row(cells) for cells in every[:MOST_ROWS])
-    if len(every) > MOST_ROWS:
-        body += f"<tr><td>and {len(every) - MOST_ROWS} more</td></tr>"
-    return f"<table>{caption}{f'<thead><tr>{head}</tr></thead>' if head else ''}<tbody>{body}</tbody></table>"
+    from pandas import DataFrame, option_context  # only notebooks need it
+
+    frame = DataFrame([[printable(_said(cell)) for cell in row] for row in rows], columns=heading or None)
+    with option_context("display.max_colwidth", None):
+        lines = frame.to_html(
+            index=False, header=bool(heading), max_rows=MOST_ROWS, border=0, justify="left", na_rep=""
+        )
+    return (paragraph(title) if title else "") + "".join(lines.splitlines())
 
 
 def plain_table(rows: Iterable[tuple[str, Any, str]], title: str = "") -> str:
@@ -61,17 +62,7 @@ def plain_table(rows: Iterable[tuple[str, Any, str]], title: str = "") -> str:
 
 def paragraph(text: str) -> str:
     """A sentence."""
-    return f"<p>{_text(text)}</p>"
-
-
-def _row(cells):
-    name, *rest = cells or [""]
-    others = "".join(f'<td style="text-align:left">{cell}</td>' for cell in rest)
-    return f'<tr><th scope="row" style="text-align:left;font-weight:normal">{name}</th>{others}</tr>'
-
-
-def _text(cell):
-    return escape(printable(_said(cell))).replace("\n", "<br>")
+    return f"<p>{escape(printable(text))}</p>"
 
 
 def _said(cell):

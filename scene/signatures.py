@@ -14,8 +14,7 @@ from pydantic import ValidationError
 from pydantic.dataclasses import is_pydantic_dataclass
 
 from . import quantities
-from .files.error_text import error_text
-from .files.reading import invalid, validator
+from .files.reading import error_text, invalid, validator
 
 _T = TypeVar("_T", bound=Callable)
 
@@ -85,20 +84,14 @@ def words(annotation: Any, names: Mapping[str, Any]) -> str:
     origin, arguments = typing.get_origin(annotation), typing.get_args(annotation)
     if isinstance(annotation, str):
         return annotation
-    if isinstance(annotation, dataclasses.InitVar):
-        return words(annotation.type, names)
     if origin is typing.Annotated:
         return _named(annotation, names) or words(arguments[0], names)
     if origin in (typing.Union, types.UnionType):
         return " | ".join(words(each, names) for each in arguments)
-    if origin is typing.Literal:
-        return " | ".join(repr(each) for each in arguments)
     if origin is tuple:
         return f"tuple[{', '.join('...' if each is ... else words(each, names) for each in arguments)}]"
     if annotation is type(None):
         return "None"
-    if inspect.isclass(annotation) and not arguments:
-        return annotation.__name__
     return re.sub(r"\b(?:\w+\.)+(\w+)", r"\1", inspect.formatannotation(annotation))
 
 

@@ -8,10 +8,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from .files.parts import said
 from .plan import Plan
 from .result import Result
-from .scene import Scene
+from .scene import Scene, said
 
 Solve = Callable[[Scene], Result]
 

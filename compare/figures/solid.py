@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from pandas import DataFrame
 
-from scene import CreepTable, Scene, Table, Tabulated
+from scene import Scene, Tabulated
 
 from . import style
 from .plot import Plot, Tables
@@ -36,10 +36,10 @@ def plot(scene: Scene) -> Plot:
         stated = scene.elastomer.at_reference(scene.temperature)
         place, numbers = stated.measured()
         longer = 1.0 if scene.temperature is None else scene.temperature.shift
-        if isinstance(stated.table, Table):
+        if not stated.table.over_time:
             tables[MEASURED] = _moduli(place / longer, numbers)
         else:
-            creeps = isinstance(stated.table, CreepTable)
+            creeps = stated.table.compliance is not None
             name, law = ("compliance", solid.creep_compliance) if creeps else ("modulus", solid.relaxation_modulus)
             time = np.geomspace(place[0], place[-1], PLACES) * longer
             tables[TIMES] = DataFrame({"time": time, name: law(time)})

@@ -8,11 +8,11 @@ from math import degrees
 from typing import Any
 
 from scene import Program, Shear, Slide
-from scene.files.parts import FEW, unit_of
 from scene.files.reading import InvalidInput
 from scene.motion import PRESSES
 from scene.plan import by
 from scene.printable import brief
+from scene.scene import FEW, unit_of
 
 # Units that take prefixes: 10 mm for 0.01 m.
 PREFIXED = ("m", "Pa", "s", "N", "N/m", "Hz")

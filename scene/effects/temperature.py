@@ -1,15 +1,15 @@
 """Temperature of the elastomer: one factor on all its times (thermorheologically simple solids)."""
 
-from dataclasses import InitVar, replace
 from dataclasses import dataclass as plain
+from dataclasses import replace
 from math import exp, log
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
 from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 
-from ..files.stated import FromTable, filled, restated
+from ..files.stated import FORM, alternatives, filled, restated
 from ..files.tablefile import Column, read_columns
 from ..quantities import (
     CLOSED,
@@ -135,8 +135,11 @@ def _columns(table, form):
     return read_columns(table, (TEMPERATURES, *FACTORS), form)
 
 
-@dataclass(frozen=True, config=CLOSED, kw_only=True)
-class ShiftFactors(FromTable, TemperatureLaw):
+_OF_A_TABLE = alternatives("temperatures", "a_T", table={"type": "string"}, **FORM)
+
+
+@dataclass(frozen=True, config=_OF_A_TABLE, kw_only=True)
+class ShiftFactors(TemperatureLaw):
     """Measured shift factors: times are a_T times as long as where a_T is 1, and moduli b_T times as high.
 
     Between the temperatures ln a_T is linear in 1/T, and b_T in T.
@@ -153,7 +156,6 @@ class ShiftFactors(FromTable, TemperatureLaw):
     temperatures: Annotated[tuple[AbsoluteTemperature, ...], ROW, Field(min_length=2)]
     a_T: Annotated[tuple[Positive, ...], ROW]  # noqa: N815 - as the field writes it
     b_T: Annotated[tuple[Positive, ...], ROW] | None = None  # noqa: N815
-    table: InitVar[Any] = None
     type: Literal["shift-factors"] = Field(default="shift-factors", repr=False)
 
     _of_table = restated(lambda cls, stated: filled(stated, _columns))

@@ -8,8 +8,6 @@ from pathlib import Path
 
 from ..printable import brief
 
-# What a name of a file has if "C:\\new" stood in double quotes.
-_ESCAPED = "\n\t\r\b\f"
 FOREIGN = {
     *(".png", ".tif", ".tiff", ".jpg", ".jpeg", ".bmp", ".gif", ".webp", ".svg", ".pdf"),
     *(".xlsx", ".xls", ".xlsm", ".ods"),
@@ -75,12 +73,7 @@ def text(path: str | Path, most: int) -> str:
 
 
 def _not_found(path):
-    """Where a path that leads nowhere was sought, and what became of a backslash that was none."""
-    if any(mark in str(path) for mark in _ESCAPED):
-        return (
-            "no such file: a backslash in double quotes was read as the beginning of a sign; write the path in "
-            "single quotes, or with forward slashes"
-        )
+    """Where a path that leads nowhere was sought."""
     if Path(path).is_absolute():
         return "no such file"
     if _folder.get() != Path():

@@ -91,60 +91,39 @@ Settled = tuple[np.ndarray, Any, tuple[str, ...]]
 
 
 def read_heights(
-    path: Any,
-    dims: tuple[str, ...],
-    spacing: Any = None,
-    unit: str | None = None,
-    channel: str | None = None,
-    written: TableFormat | None = None,
+    source: Any, dims: tuple[str, ...], spacing: Any, unit: str | None, channel: str | None, written: TableFormat
 ) -> Settled:
-    """Heights [m] out of a file, their pixel or spacing, and notes.
+    """Heights [m], their pixel or spacing, and notes.
 
+    source : the path of a file; or an array, a table or an object of xarray, arrays without a unit in metres
     dims : MAP or LINE
-    spacing, unit : as stated, where the file has none; channel : which of several arrays or maps is read
+    spacing, unit : as stated, where the source has none; channel : which of several arrays or maps is read
     written : what is stated of a text or a table
 
     Raises ValueError naming the file, with what is allowed.
     """
-    if not isinstance(path, str | Path):
-        raise ValueError(f"file = {shown(path)}: a path is needed")
-    kind, name, written = Path(path).suffix.lower(), brief(str(path)), written or TableFormat()
-    place = checked(path, MOST_BYTES)
-    if kind in TEXTS or (dims == LINE and kind not in ARRAYS | NETCDF):
-        if channel is not None:
-            raise ValueError(f"channel = {shown(channel)}: {name} is a text; skip and rows choose a part of it")
-        rows = _of_rows(name, path, dims, written)
-        return rows.settled(dims, spacing, unit) if rows else _of_table(path, dims, spacing, unit, written)
-    if written != TableFormat():
-        raise ValueError(f"{name} is no text: leave out columns, units, separators and lines")
-    read = _of_arrays if kind in ARRAYS else _of_netcdf if kind in NETCDF else _of_instrument
-    return read(name, place, dims, channel).settled(dims, spacing, unit)
-
-
-def given_heights(
-    heights: Any,
-    dims: tuple[str, ...],
-    spacing: Any = None,
-    unit: str | None = None,
-    channel: str | None = None,
-    written: TableFormat | None = None,
-) -> Settled:
-    """Heights [m] of an array, a table or an object of xarray, their pixel or spacing, and notes.
-
-    Arrays of numpy without a unit are in metres. The arguments are those of `read_heights`.
-    """
-    if channel is not None:
-        raise ValueError(f"channel = {shown(channel)}: heights are no file, leave channel out")
+    file, columns = isinstance(source, Path), list(getattr(source, "columns", ()))
+    name, kind = (brief(str(source)), source.suffix.lower()) if file else ("heights", "")
+    place = checked(source, MOST_BYTES) if file else source
+    text = file and (kind in TEXTS or (dims == LINE and kind not in ARRAYS | NETCDF))
     # A DataFrame whose columns are only counted is an array.
-    columns = list(getattr(heights, "columns", ()))
-    if isinstance(heights, Mapping) or hasattr(heights, "data_vars") or columns != list(range(len(columns))):
-        return _of_table(heights, dims, spacing, unit, written or TableFormat())
-    if written not in (None, TableFormat()):
-        raise ValueError("heights are an array and no table: leave out columns, units, separators and lines")
-    if hasattr(heights, "dims"):
-        return _of_labelled("heights", heights, dims).settled(dims, spacing, unit)
-    numbers, own = argument("heights", heights, lambda each: bare(unmasked(each)))
-    return Heights("heights", numbers, "m" if own is None and unit is None else own).settled(dims, spacing, unit)
+    mapping = isinstance(source, Mapping) or hasattr(source, "data_vars") or columns != list(range(len(columns)))
+    if channel is not None and (text or not file):
+        raise ValueError(f"channel = {shown(channel)}: {name} is one map; skip and rows choose a part of a text")
+    if written != TableFormat() and not (text or mapping):
+        raise ValueError(f"{name} is no text and no table: leave out columns, units, separators and lines")
+    found = _of_rows(name, source, dims, written) if text else None
+    if found is None and (text or mapping):
+        return _of_table(source, dims, spacing, unit, written)
+    if found is None and file:
+        read = _of_arrays if kind in ARRAYS else _of_netcdf if kind in NETCDF else _of_instrument
+        found = read(name, place, dims, channel)
+    elif found is None and hasattr(source, "dims"):
+        found = _of_labelled(name, source, dims)
+    elif found is None:
+        numbers, own = argument(name, source, lambda each: bare(unmasked(each)))
+        found = Heights(name, numbers, "m" if own is None and unit is None else own)
+    return found.settled(dims, spacing, unit)
 
 
 def picked(channels: Iterable[str], channel: str | None) -> str:

@@ -1,9 +1,11 @@
-"""Reading TOML files into validated objects, with every mistake named at once."""
+"""Reading TOML files into validated objects, with every mistake named at once, one line each."""
 
-import re
 import tomllib
-from collections.abc import Sequence
-from functools import lru_cache
+from collections.abc import Iterable, Sequence
+from datetime import date, time
+from difflib import get_close_matches
+from functools import lru_cache, reduce
+from operator import getitem
 from pathlib import Path
 from typing import Any
 
@@ -12,25 +14,125 @@ from pydantic import TypeAdapter, ValidationError
 from ..printable import brief, printable
 from ..quantities import WHOLE
 from . import files
-from .error_text import LISTED, error_text
 
-__all__ = [
-    "InvalidInput",
-    "error_text",
-    "invalid",
-    "made",
-    "parsed",
-    "read",
-    "text_of",
-    "validator",
-    "whole",
-]
+CHOICE = "a choice: "  # with which the tags of a choice begin that no type decides: they are no names of the file
+LISTED = 50  # mistakes that are listed, and for which a near name is sought; of others there is only the number
+_LONGEST_NAME = 100  # letters that are compared
+_LONGEST_LIST = 10  # items of a list that are shown
+_KINDS = {dict: "object", list: "array"}
+_WORDS = {"array": "a list", "string": "a text", "boolean": "true or false", "number": "a number"}
+_UNKNOWN, _UNTYPED = _FIRST = "unexpected_keyword_argument", "union_tag"
+
+
+def error_text(error: ValidationError, content: dict, adapter: TypeAdapter) -> list[str]:
+    """One line a mistake: where it is, what stands there, what is allowed; unknown names and types come first."""
+    lines: list[str] = []
+    schema, meant = adapter.json_schema(), set()
+
+    def like(name, known):
+        """The known name that one is most like; None where none is, and beyond the mistakes that are listed."""
+        if len(lines) >= LISTED or not isinstance(name, str):
+            return None
+        return next(iter(get_close_matches(name[:_LONGEST_NAME].lower(), known, 1)), None)
+
+    def followed(node, held):
+        """The schema of a value without references, of those of a choice the one that the value is of."""
+        while "$ref" in node:
+            node = schema["$defs"][node["$ref"].rpartition("/")[2]]
+        if "discriminator" in node:
+            kinds, kind = node["discriminator"]["mapping"], _part(("type",), held)
+            return followed({"$ref": kinds[kind]}, held) if isinstance(kind, str) and kind in kinds else node
+        choices = [followed(each, held) for each in node.get("anyOf", ())]
+        return next(
+            (each for each in choices if each.get("type", "object") == _KINDS.get(type(held), "object")), node
+        )
+
+    def node_at(where):
+        """The schema at a place."""
+        node, held = followed(schema, content), content
+        for name in where:
+            held = _part((name,), held)
+            inner = node.get("items", {}) if isinstance(name, int) else node.get("properties", {}).get(name, {})
+            node = followed(inner, held)
+        return node
+
+    for each in sorted(error.errors(include_url=False), key=lambda each: not each["type"].startswith(_FIRST)):
+        kind, value, allowed = each["type"], each["input"], each["msg"].removeprefix("Value error, ")
+        where = place(each["loc"], content)
+        if kind == _UNKNOWN:
+            known = node_at(where[:-1]).get("properties", {})
+            near = like(where[-1], known)
+            meant.add((*where[:-1], near))
+            listed = f"{' Known' if near else '; known'} are {', '.join(known)}"
+            lines.append(f"{_written(where, value)} unknown here{_meant(near)}{listed}")
+        elif kind.startswith(_UNTYPED):
+            kinds = node_at(where)["discriminator"]["mapping"]
+            place_of_type, given = (*where, "type"), _part(("type",), value)
+            stated = f"{_dotted(place_of_type)}: missing," if given is None else _written(place_of_type, given)
+            lines.append(f"{stated} one of {', '.join(map(repr, kinds))}{_meant(like(given, kinds))}")
+        elif kind == "missing":
+            if where not in meant:
+                node = node_at(where[:-1]).get("properties", {}).get(where[-1], {})
+                usual = "a table" if {"$ref", "discriminator"} & node.keys() else "a value"
+                allowed = node.get("description") or _WORDS.get(node.get("type"), usual)
+                lines.append(f"{_dotted(where)}: missing, {allowed}")
+        elif kind == "too_short" and len(value) >= each["ctx"]["min_length"]:
+            continue  # it is long enough: what is wrong with its items has a line of its own
+        else:
+            stated = _part(where, content, value)
+            if kind.endswith("attributes_type") or kind == "dataclass_type":
+                allowed = "a table"
+            elif kind == "literal_error":
+                allowed += _meant(like(value, each["ctx"]["expected"].split("'")[1::2]))
+            elif "than" in kind and isinstance(stated, str):
+                allowed += ", in SI units"
+            # What is wrong with the parts of the whole names them itself.
+            lines.append(f"{_written(where, stated)} {allowed}" if where else allowed)
+    return list(dict.fromkeys(lines))
+
+
+def place(location: Iterable[str | int], content: Any) -> tuple[str | int, ...]:
+    """The names on the way to a mistake as they stand in the file: the type of a table, or a choice, is none."""
+    where: tuple[str | int, ...] = ()
+    tag = None
+    for part in location:
+        if part == tag or str(part).startswith(CHOICE):
+            tag = None
+        elif isinstance(part, int) or isinstance(content, dict):
+            where, content = (*where, part), _part((part,), content)
+            tag = content.get("type") if isinstance(content, dict) else None
+    return where
+
+
+def _part(where, content, absent=None):
+    """Content at a place; another value where there is nothing."""
+    try:
+        return reduce(getitem, where, content)
+    except (LookupError, TypeError):
+        return absent
+
+
+def _written(where, value):
+    return _dotted(where) + (f" = {brief(repr(value))}:" if _short(value) else ":")
+
+
+def _dotted(where):
+    return ".".join(brief(str(part)) for part in where)
+
+
+def _meant(near):
+    return f"; did you mean {near}?" if near else ""
+
+
+def _short(value):
+    """Whether a value is short enough for a message: tables and rows of numbers are not."""
+    if isinstance(value, list | tuple):
+        return len(value) <= _LONGEST_LIST and all(map(_short, value))
+    return value is None or isinstance(value, str | int | float | date | time)
+
 
 MOST = 1_000_000  # bytes of a file
 LONGEST = 2000  # letters of a mistake
-
-# A line in which tomllib found a mistake, and a backslash in a string whose backslashes mean something.
-_PLACE, _BACKSLASH = re.compile(r"\(at line (\d+), column \d+\)"), re.compile(r'"[^"\n]*\\')
 
 
 class InvalidInput(ValueError):
@@ -64,18 +166,9 @@ def parsed(text: str, path: str | Path) -> dict[str, Any]:
     except RecursionError as error:
         raise invalid(path, ["tables and lists stand in one another too deep"]) from error
     except tomllib.TOMLDecodeError as error:
-        raise invalid(path, [f"is not valid TOML: {error}{_of_backslashes(str(error), text)}"]) from error
+        raise invalid(path, [f"is not valid TOML: {error}"]) from error
     except ValueError as error:  # of dates that are none, and of numbers too long to be read
         raise invalid(path, [f"is not valid TOML: {str(error).partition(';')[0]}"]) from error
-
-
-def _of_backslashes(error, text):
-    """Hint on a backslash in double quotes, as paths of Windows have them, in a line that is no TOML."""
-    found = _PLACE.search(error)
-    line = text.split("\n")[int(found[1]) - 1] if found else ""
-    if not _BACKSLASH.search(line):
-        return ""
-    return "; a path with backslashes stands in single quotes, as 'C:\\data\\map.csv', or has forward slashes"
 
 
 def made(content: dict[str, Any], what: Any, path: str | Path):

@@ -1,10 +1,9 @@
 """Fields of a part of a scene as they are stated: by name, and in a table in place of others."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import InitVar
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, ValidationError, create_model, model_validator
+from pydantic import ConfigDict, Field, TypeAdapter, ValidationError, model_validator
 from pydantic.dataclasses import dataclass
 from pydantic_core import ArgsKwargs
 
@@ -37,18 +36,21 @@ class TableFormat:
     rows: _Lines | None = None
 
 
-@dataclass(frozen=True, config=CLOSED, kw_only=True)
-class FromTable:
-    """A part of a scene that may be read from a table, with the fields of `TableFormat` as arguments."""
+FORM: dict[str, Any] = TypeAdapter(TableFormat).json_schema()["properties"]
 
-    columns: InitVar[Mapping[str, str | int] | None] = None
-    units: InitVar[Mapping[str, str] | None] = None
-    where: InitVar[Mapping[str, str | int | float] | None] = None
-    separator: InitVar[str | None] = None
-    decimal: InitVar[str | None] = None
-    encoding: InitVar[str | None] = None
-    skip: InitVar[int | None] = None
-    rows: InitVar[int | None] = None
+
+def alternatives(*needless: str, **properties: Any) -> ConfigDict:
+    """Configuration of a part of a scene that may be stated otherwise than by its fields.
+
+    needless : fields that then are not needed
+    properties : in JSON schema, of what stands in their place; it becomes fields by a `restated`
+    """
+
+    def added(schema: dict[str, Any]) -> None:
+        schema["properties"] |= properties
+        schema["required"] = [name for name in schema.get("required", ()) if name not in needless]
+
+    return ConfigDict(**CLOSED, json_schema_extra=added)
 
 
 def restated(make: Callable[[Any, dict[str, Any]], Any]) -> Any:
@@ -85,26 +87,24 @@ def filled(given: Mapping[str, Any], read: Callable[[Any, TableFormat], Mapping[
         if both := found.keys() & rest.keys():
             raise ValueError(f"{min(both)} is stated, and a column of the table: leave one out")
     except ValueError as error:
-        raise refused(table, error) from error
+        raise refused("table", table, error) from error
     return {**rest, **found}
 
 
-def refused(table: Any, reason: ValueError) -> ValidationError:
-    """A mistake of the field `table`."""
+def taken(name: str, stated: Mapping[str, Any], take: Callable[[Any], Any]) -> Any:
+    """Value that is stated under a name, as `take` reads it. Raises ValidationError, at the name."""
+    try:
+        return take(stated[name])
+    except ValueError as error:
+        raise refused(name, stated[name], error) from error
+
+
+def refused(name: str, given: Any, reason: ValueError) -> ValidationError:
+    """A mistake of a field, or of what stands in its place."""
     line: Any = {
         "type": "value_error",
-        "loc": ("table",),
-        "input": table,
+        "loc": (name,),
+        "input": given,
         "ctx": {"error": ValueError(str(reason))},
     }
-    return ValidationError.from_exception_data("table", [line])
-
-
-def some_of(types: Mapping[str, Any], stated: Mapping[str, Any]) -> dict[str, Any]:
-    """Values of what is stated that have one of these names, each as its type.
-
-    Raises ValidationError, in which a value has its name, as one of a field has.
-    """
-    found = {name: stated[name] for name in types if name in stated}
-    whole: Any = create_model("Stated", **{name: (types[name], ...) for name in found})  # type: ignore[call-overload]
-    return dict(whole(**found))
+    return ValidationError.from_exception_data(name, [line])

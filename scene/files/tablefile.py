@@ -20,10 +20,9 @@ from unicodedata import normalize
 import numpy as np
 import pandas as pd
 
-from ..numeric_input import bare, in_unit
+from ..numeric_input import bare, in_unit, is_unit
 from ..printable import brief, shown
 from ..quantities import HERTZ, RADIAN_PER_SECOND, Unit
-from ..units import is_unit
 from .stated import TableFormat
 from .tabletext import PURE, Cells, read_text
 

@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from ..numeric_input import is_unit
 from ..printable import brief, shown
-from ..units import is_unit
 from . import files
 from .stated import TableFormat
 

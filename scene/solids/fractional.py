@@ -9,11 +9,10 @@ from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 from scipy.linalg import eigh_tridiagonal
 
-from ..files.stated import restated
-from ..quantities import RADIAN_PER_SECOND, AngularFrequency, Finite, ShearModulus, Time, takes
-from .conventions import STATED, in_shear
+from ..files.stated import alternatives, restated
+from ..quantities import AngularFrequency, Finite, ShearModulus, Time
 from .modes import Relaxation
-from .viscoelastic import PoissonRatio, Solid
+from .viscoelastic import YOUNG, PoissonRatio, Solid, in_shear
 
 _MOST_DECADES = 30
 _REFINEMENTS = 40
@@ -23,7 +22,7 @@ _SAMPLES = 32
 _ELLIPSE = 4.61
 
 
-@dataclass(frozen=True, config=STATED, kw_only=True)
+@dataclass(frozen=True, config=alternatives("modulus", youngs_modulus=YOUNG), kw_only=True)
 class Fractional(Solid):
     """Fractional Kelvin-Voigt solid, a spring beside a springpot: G(omega) = modulus (1 + (i omega tau)^exponent).
 
@@ -59,7 +58,6 @@ class Fractional(Solid):
             )
         return self
 
-    @takes(omega=RADIAN_PER_SECOND)
     def law(self, omega):
         """The power law itself, modulus (1 + (i omega tau)^exponent) [Pa], without the limits of the series."""
         return self.modulus * (1 + (1j * np.asarray(omega, float) * self.relaxation_time) ** self.exponent)

@@ -12,7 +12,7 @@ from ..files.stated import TableFormat
 from ..files.tablefile import Column, Columns, read_columns
 from ..printable import shown
 from ..quantities import COMPLIANCE, HERTZ, KELVIN, MODULUS, PASCAL_SECOND, RADIAN, RADIAN_PER_SECOND, SECOND
-from .table import MOST_ROWS, SCATTER, CreepTable, RelaxationTable, Table
+from .table import MOST_ROWS, SCATTER, Table
 
 FREQUENCY = Column("frequency", ("f",), (HERTZ, RADIAN_PER_SECOND))
 OMEGA = Column("omega", ("angular frequency",), (RADIAN_PER_SECOND,))
@@ -53,7 +53,7 @@ class Read:
     frequency_unit, kind : as the headings have them, or as stated; None where neither says so
     """
 
-    table: Table | RelaxationTable | CreepTable
+    table: Table
     frequency_unit: str | None
     kind: str | None
 
@@ -73,7 +73,7 @@ def read_moduli(
         kind = _kind(columns, OVER_FREQUENCY, kind)
         places, frequency_unit = _frequencies(columns, frequency_unit)
         made = {"frequency": places} | _complex_modulus(columns)
-        return Read(_table(columns, made, Table), frequency_unit, kind)
+        return Read(_table(columns, made), frequency_unit, kind)
     found = [each for each in (RELAXATION, CREEP) if each.field in columns]
     if len(found) != 1 or TIME.field not in columns:
         raise ValueError(
@@ -86,14 +86,10 @@ def read_moduli(
     name = found[0].field
     columns.refuse("time", columns["time"] < 0, "must not be below 0")
     made = {"time": columns["time"], name: _positive(columns, name)}
-    return Read(
-        _table(columns, made, RelaxationTable if name == "modulus" else CreepTable),
-        None,
-        _kind(columns, found, kind),
-    )
+    return Read(_table(columns, made), None, _kind(columns, found, kind))
 
 
-def read_table(path: str | Path, **stated: Any) -> Table | RelaxationTable | CreepTable:
+def read_table(path: str | Path, **stated: Any) -> Table:
     """The table in a text file. stated : see `stated.TableFormat`. Raises ValueError naming file and line."""
     return read_moduli(path, stated=made(stated, TableFormat, path)).table
 
@@ -190,7 +186,7 @@ def _complex_modulus(columns):
     return {"storage": storage, "loss": loss}
 
 
-def _table(columns, made, kind):
+def _table(columns, made):
     """The table, shifted to one temperature where columns say by how much."""
     (place, places), *moduli = made.items()
     reduced = REDUCED.field in columns
@@ -201,7 +197,7 @@ def _table(columns, made, kind):
                 f"{columns.name}: b_T beside reduced frequencies leaves open whether moduli are reduced"
             )
         lift = _positive(columns, "b_T")
-        made |= {name: each * lift if kind is CreepTable else each / lift for name, each in moduli}
+        made |= {name: each * lift if name == "compliance" else each / lift for name, each in moduli}
     if temperature is not None and np.ptp(temperature) > SCATTER:
         if place == "frequency" and places.max() < _ONE_FREQUENCY * places.min():
             raise ValueError(
@@ -221,7 +217,7 @@ def _table(columns, made, kind):
     if len(places) > MOST_ROWS:
         raise ValueError(f"{columns.name}: {len(places):,} rows: at most {MOST_ROWS:,} are fitted: state rows")
     try:
-        return kind(**{name: tuple(values.tolist()) for name, values in made.items()}).noted(notes)
+        return Table(**made).noted(notes)
     except InvalidInput as error:
         raise ValueError(f"{columns.name}: {str(error).partition(': ')[2]}") from None
 

@@ -1,18 +1,16 @@
 """Solids stated by their springs and dashpots, and the list of all that a scene may be made of."""
 
-from dataclasses import InitVar
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 
-from ..files.stated import FromTable, restated
-from ..quantities import ROW, Compliance, ComplianceOrZero, ShearModulus, Time
-from .conventions import NORMALISED, STATED, absolute, in_shear
+from ..files.stated import FORM, alternatives, restated
+from ..quantities import CLOSED, ROW, Compliance, ComplianceOrZero, ShearModulus, Time
 from .fractional import Fractional
 from .modes import Relaxation, Retardation
 from .tabulated import Tabulated
-from .viscoelastic import Linear, PoissonRatio, Solid
+from .viscoelastic import INSTANT, RELAXED, YOUNG, Linear, PoissonRatio, Solid, absolute, in_shear, in_tension
 
 MOST_MODES = 200  # of a solid: no measurement tells more apart
 _SOME = Field(min_length=1, max_length=MOST_MODES)
@@ -21,7 +19,7 @@ Compliances = Annotated[tuple[Compliance, ...], ROW, _SOME]
 Times = Annotated[tuple[Time, ...], ROW, _SOME]
 
 
-@dataclass(frozen=True, config=STATED)
+@dataclass(frozen=True, config=alternatives("modulus", youngs_modulus=YOUNG))
 class Elastic(Solid):
     """Elastic solid. modulus: shear modulus [Pa]."""
 
@@ -35,7 +33,7 @@ class Elastic(Solid):
         return Relaxation.of(self.modulus)
 
 
-@dataclass(frozen=True, config=STATED)
+@dataclass(frozen=True, config=alternatives("modulus", youngs_modulus=YOUNG))
 class Kelvin(Solid):
     """Kelvin-Voigt solid, G(omega) = modulus * (1 + i omega relaxation_time).
 
@@ -54,7 +52,12 @@ class Kelvin(Solid):
         return Retardation.of(0.0, (1 / self.modulus,), (self.relaxation_time,))
 
 
-@dataclass(frozen=True, config=STATED)
+@dataclass(
+    frozen=True,
+    config=alternatives(
+        "rubbery_modulus", "glassy_modulus", rubbery_youngs_modulus=YOUNG, glassy_youngs_modulus=YOUNG
+    ),
+)
 class StandardLinearSolid(Linear):
     """Standard linear solid, G(t) = rubbery + (glassy - rubbery) exp(-t / relaxation_time).
 
@@ -88,8 +91,17 @@ class StandardLinearSolid(Linear):
         return Relaxation.of(rubbery, (self.glassy_modulus - rubbery,), (self.relaxation_time,))
 
 
-@dataclass(frozen=True, config=NORMALISED)
-class Prony(FromTable, Solid):
+_OF_PRONY = alternatives(
+    *(RELAXED, "moduli", "relaxation_times"),
+    **dict.fromkeys((INSTANT, in_tension(INSTANT), in_tension(RELAXED)), YOUNG),
+    **{name: {"type": "array"} for name in ("youngs_moduli", "g", "tau")},
+    table={"type": "string"},
+    **FORM,
+)
+
+
+@dataclass(frozen=True, config=_OF_PRONY)
+class Prony(Solid):
     """Generalized Maxwell solid, G(t) = equilibrium_modulus + sum_k moduli[k] exp(-t / relaxation_times[k]).
 
     equilibrium_modulus : shear modulus at rest [Pa]
@@ -102,7 +114,6 @@ class Prony(FromTable, Solid):
     moduli: ShearModuli
     relaxation_times: Times
     poisson_ratio: PoissonRatio = 0.5
-    table: InitVar[Any] = None
     type: Literal["prony"] = Field(default="prony", repr=False)
 
     _stated_otherwise = restated(absolute)
@@ -116,7 +127,7 @@ class Prony(FromTable, Solid):
         return Relaxation.of(self.equilibrium_modulus, self.moduli, self.relaxation_times)
 
 
-@dataclass(frozen=True, config=STATED)
+@dataclass(frozen=True, config=CLOSED)
 class KelvinChain(Solid):
     """Kelvin elements in series with a spring: a Prony series in retardation form,
 
@@ -131,8 +142,6 @@ class KelvinChain(Solid):
     retardation_times: Times
     poisson_ratio: PoissonRatio = 0.5
     type: Literal["kelvin-chain"] = Field(default="kelvin-chain", repr=False)
-
-    _in_tension = restated(in_shear)
 
     @model_validator(mode="after")
     def _one_time_a_compliance(self):

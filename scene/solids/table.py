@@ -1,19 +1,19 @@
 """Measured moduli as numbers: over the frequency, or over the time of relaxation or creep."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import fields, replace
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Annotated, Any
 
 import numpy as np
-from pydantic import Discriminator, Tag, model_validator
+from pydantic import model_validator
 from pydantic.dataclasses import dataclass
 
-from ..files.error_text import CHOICE
 from ..quantities import CLOSED, COMPLIANCE, MODULUS, ROW, SECOND, AbsoluteTemperature, Positive, Unit
 
 MOST_ROWS = 5_000
 _LEAST, _LEAST_OF_SEVERAL, _WIDEST = 4, 2, 1e40
 SCATTER = 1.0  # [K] within which temperatures are one
+FORMS = ("frequency", "storage", "loss"), ("time", "modulus"), ("time", "compliance")
 Frequencies = Annotated[tuple[Annotated[Positive, Unit("frequency_unit")], ...], ROW]
 Moduli = Annotated[tuple[Annotated[Positive, MODULUS], ...], ROW]
 Compliances = Annotated[tuple[Annotated[Positive, COMPLIANCE], ...], ROW]
@@ -21,22 +21,42 @@ Times = Annotated[tuple[Annotated[Positive, SECOND], ...], ROW]
 Temperatures = Annotated[tuple[AbsoluteTemperature, ...], ROW]
 
 
-class _Rows:
-    """Rows of numbers, the first of which says where.
+@dataclass(frozen=True, config=CLOSED, repr=False)
+class Table:
+    """Measured moduli in one of three forms: columns of equally many numbers, all > 0.
 
-    notes : what was read beside them and is not used; no field, and no part of what is compared or stored
+    frequency, storage, loss : storage and loss modulus over the frequency
+    time, modulus : relaxation modulus [Pa] at times [s] after a sudden strain
+    time, compliance : creep compliance [1/Pa] at times [s] after a sudden stress
+    temperature : of each row [K]; absent where it is not known
+
+    At least 4 frequencies or times, 2 at several temperatures, and at most 5,000 rows over 40 decades of them, in
+    any order; one may stand there more than once, and then each of its rows counts. `notes` say what was read
+    beside the columns and is not used; they are no part of what is compared or stored.
     """
 
-    PLACE: ClassVar[tuple[str, str]]  # its field, and more of them
-    notes: Sequence[str] = ()
+    frequency: Frequencies | None = None
+    storage: Moduli | None = None
+    loss: Moduli | None = None
+    time: Times | None = None
+    modulus: Moduli | None = None
+    compliance: Compliances | None = None
+    temperature: Temperatures | None = None
 
-    if TYPE_CHECKING:
-        temperature: tuple[float, ...] | None
+    @property
+    def form(self) -> tuple[str, ...]:
+        """Names of the columns, one of `FORMS`; of a table over time the last one says which."""
+        return tuple(name for name in dict.fromkeys(sum(FORMS, ())) if getattr(self, name) is not None)
+
+    @property
+    def over_time(self) -> bool:
+        """Whether it is a table of relaxation or creep."""
+        return self.time is not None
 
     @property
     def places(self) -> np.ndarray:
         """Frequencies or times (rows,)."""
-        return np.array(getattr(self, self.PLACE[0]))
+        return np.array(getattr(self, self.form[0]))
 
     @property
     def several(self) -> bool:
@@ -44,112 +64,44 @@ class _Rows:
         given = self.temperature
         return given is not None and max(given) - min(given) > SCATTER
 
-    def noted(self, notes: Sequence[str]) -> Self:
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Lines on what was read beside the columns."""
+        return self.__dict__.get("_notes", ())
+
+    def noted(self, notes: Sequence[str]) -> "Table":
         """The table with such notes."""
-        object.__setattr__(self, "notes", tuple(notes))
+        object.__setattr__(self, "_notes", tuple(notes))
         return self
 
-    def shifted(self, longer: np.ndarray, stiffer: np.ndarray) -> Self:
+    def shifted(self, longer: np.ndarray, stiffer: np.ndarray) -> "Table":
         """The rows at one temperature, at which times are shorter and moduli lower by these factors (rows,)."""
-        name = self.PLACE[0]
         changed: dict[str, Any] = {"temperature": None}
-        names = [each.name for each in fields(self)]  # type: ignore[arg-type]
-        for field in (each for each in names if each != "temperature"):
-            numbers = np.array(getattr(self, field))
-            by = longer if field == name else stiffer
-            numbers = numbers * by if field in ("frequency", "compliance") else numbers / by
-            changed[field] = tuple(numbers.tolist())
-        return replace(self, **changed).noted(self.notes)  # type: ignore[type-var]
+        for name in self.form:
+            by = longer if name == self.form[0] else stiffer
+            numbers = np.array(getattr(self, name))
+            changed[name] = numbers * by if name in ("frequency", "compliance") else numbers / by
+        return replace(self, **changed).noted(self.notes)
 
-    def _check(self):
-        name, many = self.PLACE
-        columns = [each.name for each in fields(self) if each.name != "temperature"]
-        lengths = [len(getattr(self, each)) for each in columns]
+    @model_validator(mode="after")
+    def _sound(self):
+        if self.form not in FORMS:
+            forms = "; or ".join(", ".join(form) for form in FORMS)
+            raise ValueError(f"a table of {', '.join(self.form) or 'nothing'}: give {forms}")
+        many = "times" if self.over_time else "frequencies"
+        columns = (*self.form, *(["temperature"] if self.temperature is not None else []))
+        lengths = [len(getattr(self, name)) for name in columns]
         if len(set(lengths)) > 1:
-            named = f"{', '.join(columns[:-1])} and {columns[-1]}"
-            raise ValueError(f"{named} have {lengths} values: they must be equally many")
-        if self.temperature is not None and len(self.temperature) != lengths[0]:
-            raise ValueError(f"temperature has {len(self.temperature)} values, {name} has {lengths[0]}: one each")
+            raise ValueError(f"{', '.join(columns)} have {lengths} values: they must be equally many")
         if lengths[0] > MOST_ROWS:
             raise ValueError(f"{lengths[0]:,} rows: at most {MOST_ROWS:,} are fitted")
-        places = getattr(self, name)
-        if max(places, default=0.0) > _WIDEST * min(places, default=0.0):
-            raise ValueError(f"{many} lie farther apart than by a factor of {_WIDEST:g}")
+        places = set(self.places.tolist())
         least = _LEAST_OF_SEVERAL if self.several else _LEAST  # temperatures, which spread them
-        if (count := len(set(places))) < least:
-            raise ValueError(f"{count} {many}: at least {least} are needed")
+        if len(places) < least:
+            raise ValueError(f"{len(places)} {many}: at least {least} are needed")
+        if max(places) > _WIDEST * min(places):
+            raise ValueError(f"{many} lie farther apart than by a factor of {_WIDEST:g}")
         return self
 
     def __repr__(self):
-        places = getattr(self, self.PLACE[0])
-        return f"{type(self).__name__}({len(places)} rows from {min(places):g} to {max(places):g})"
-
-
-@dataclass(frozen=True, config=CLOSED, repr=False)
-class Table(_Rows):
-    """Measured moduli: frequency, storage and loss modulus, equally many, all > 0; at least 4 frequencies.
-
-    At most 5,000 rows, over 40 decades of the frequency.
-
-    In any order; a frequency may stand there more than once, and then each of its rows counts.
-
-    temperature : of each row [K]; absent where it is not known
-    """
-
-    PLACE = "frequency", "frequencies"
-
-    frequency: Frequencies
-    storage: Moduli
-    loss: Moduli
-    temperature: Temperatures | None = None
-
-    _sound = model_validator(mode="after")(_Rows._check)
-
-
-@dataclass(frozen=True, config=CLOSED, repr=False)
-class RelaxationTable(_Rows):
-    """Measured relaxation modulus: time [s] after a sudden strain and modulus [Pa], as many as in `Table`.
-
-    temperature : of each row [K]; absent where it is not known
-    """
-
-    PLACE = "time", "times"
-
-    time: Times
-    modulus: Moduli
-    temperature: Temperatures | None = None
-
-    _sound = model_validator(mode="after")(_Rows._check)
-
-
-@dataclass(frozen=True, config=CLOSED, repr=False)
-class CreepTable(_Rows):
-    """Measured creep compliance: time [s] after a sudden stress and compliance [1/Pa], as many as in `Table`.
-
-    temperature : of each row [K]; absent where it is not known
-    """
-
-    PLACE = "time", "times"
-
-    time: Times
-    compliance: Compliances
-    temperature: Temperatures | None = None
-
-    _sound = model_validator(mode="after")(_Rows._check)
-
-
-def _kind(given):
-    """Tag of the kind of table that is given, by the names of its numbers."""
-    held = (
-        given if isinstance(given, Mapping) else {name: 0 for name in getattr(given, "__dataclass_fields__", ())}
-    )
-    named = (each for each in (CreepTable, RelaxationTable) if fields(each)[1].name in held)
-    return CHOICE + next(named, Table).__name__
-
-
-AnyTable = Annotated[
-    Annotated[Table, Tag(f"{CHOICE}Table")]
-    | Annotated[RelaxationTable, Tag(f"{CHOICE}RelaxationTable")]
-    | Annotated[CreepTable, Tag(f"{CHOICE}CreepTable")],
-    Discriminator(_kind),
-]
+        return f"Table({len(self.places)} rows from {self.places.min():g} to {self.places.max():g})"

@@ -4,43 +4,41 @@ from collections.abc import Mapping
 from dataclasses import replace
 from functools import lru_cache
 from math import inf, pi, sqrt
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import ConfigDict, Field, model_validator
+from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 
 from ..effects.temperature import TemperatureLaw
-from ..files.stated import FromTable, TableFormat, refused, restated, split_format
+from ..files.stated import FORM, TableFormat, alternatives, refused, restated, split_format
 from ..numeric_input import bare
-from ..quantities import CLOSED, Finite, ShearModulus
-from .conventions import in_shear, or_in_tension
-from .extrapolation import Continued
-from .fit import NEGLIGIBLE, Creep, Measured, Modes, Oscillation, Stress, fitted, rms
+from ..quantities import Finite, ShearModulus
+from .fit import NEGLIGIBLE, Continued, Creep, Measured, Modes, Oscillation, Stress, fitted, rms
 from .modes import Relaxation, Retardation
 from .moduli import read_moduli
-from .table import SCATTER, AnyTable, CreepTable, RelaxationTable, Table
-from .viscoelastic import PoissonRatio, Solid
+from .table import SCATTER, Table
+from .viscoelastic import YOUNG, PoissonRatio, Solid, in_shear
 
-_TABLES = (Table, RelaxationTable, CreepTable)
 # Standard errors of a fitted modulus at rest; what is less of them cannot be told from nothing.
 _TOLD = 3
 # Standard errors in half an interval of 95 %.
 _SURE = 1.96
 
 
-def _or_file(schema: dict[str, Any]) -> None:
-    """In JSON schema: a file in place of the numbers, whose headings may say what fields say."""
-    or_in_tension(schema)
-    schema["properties"]["table"] = {"anyOf": [{"type": "string"}, schema["properties"]["table"]]}
-    schema["required"] = ["table"]
+_OF_A_FILE = alternatives(
+    *("frequency_unit", "kind"),
+    equilibrium_youngs_modulus=YOUNG,
+    table={"anyOf": [{"type": "string"}, {"type": "object"}]},
+    **FORM,
+)
 
 
-@dataclass(frozen=True, config=ConfigDict(**CLOSED, json_schema_extra=_or_file), kw_only=True)
-class Tabulated(FromTable, Solid):
+@dataclass(frozen=True, config=_OF_A_FILE, kw_only=True)
+class Tabulated(Solid):
     """Solid of measured moduli, fitted with a Prony series by nonnegative least squares.
 
-    table : a Table of storage and loss modulus over the frequency, a RelaxationTable or a CreepTable over time; or
+    table : a Table; or
         the path of a text file, a DataFrame, a Dataset of xarray, or arrays by the names that columns may have. It
         is read once and kept as numbers; a relative path starts at the folder of a scene file that names it
     columns, units, where, separator, decimal, encoding, skip, rows : what differs of it from the documented form
@@ -62,7 +60,7 @@ class Tabulated(FromTable, Solid):
     shift is known, as in a Scene: see `at_reference`.
     """
 
-    table: AnyTable
+    table: Table
     frequency_unit: Literal["rad/s", "Hz"] | None
     kind: Literal["shear", "tensile"]
     equilibrium_modulus: ShearModulus | None = None
@@ -85,18 +83,16 @@ class Tabulated(FromTable, Solid):
                 words = {name: each for name, each in found.items() if isinstance(each, str)}
                 read = read_moduli(table, words.get("frequency_unit"), words.get("kind"), written)
             except ValueError as error:
-                raise refused(table, error) from error
+                raise refused("table", table, error) from error
             found["table"] = table = read.table
             told = {"frequency_unit": read.frequency_unit, "kind": read.kind}
             found = {name: value for name, value in told.items() if value is not None} | found
-        over_time = isinstance(table, RelaxationTable | CreepTable) or (
-            isinstance(table, Mapping) and "time" in table
-        )
-        return {"frequency_unit": None} | found if over_time else found
+        time = table.get("time") if isinstance(table, Mapping) else getattr(table, "time", None)
+        return found if time is None else {"frequency_unit": None} | found
 
     @model_validator(mode="after")
     def _can_be_fitted(self):
-        over_time = not isinstance(self.table, Table)
+        over_time = self.table.over_time
         if over_time != (self.frequency_unit is None):
             where = "the time: leave frequency_unit out" if over_time else "the frequency: state frequency_unit"
             raise ValueError(f"{self.table!r} is a table over {where}")
@@ -138,9 +134,9 @@ class Tabulated(FromTable, Solid):
         table, places = self.table, self.table.places
         order = np.argsort(places, kind="stable")
         stiffer = 2 * (1 + self.poisson_ratio) if self.kind == "tensile" else 1.0
-        if isinstance(table, RelaxationTable):
+        if table.modulus:
             return places[order], np.array(table.modulus)[order] / stiffer
-        if isinstance(table, CreepTable):
+        if table.compliance:
             return places[order], np.array(table.compliance)[order] * stiffer
         cycle = 2 * pi if self.frequency_unit == "Hz" else 1.0
         return cycle * places[order], (np.array(table.storage) + 1j * np.array(table.loss))[order] / stiffer
@@ -170,7 +166,7 @@ class Tabulated(FromTable, Solid):
             return self.equilibrium_modulus, self.equilibrium_modulus
         readings = _fit(self)[0].equilibrium, self.continued.at_rest
         error = _SURE * self.equilibrium_error / readings[0]
-        if not isinstance(self.table, Table):
+        if self.table.over_time:
             # A liquid of so slow modes is far off in a few rows alone, and tells less than the rows of the end.
             times = self.measured()[0]
             scatter = max(rms(_rows(self).misfit(_fit(self)[0])), NEGLIGIBLE)
@@ -181,7 +177,7 @@ class Tabulated(FromTable, Solid):
     def frequencies(self) -> tuple[float, float]:
         """Lowest and highest angular frequency of the table [rad/s]; over time, 1/time."""
         ends = self.measured()[0][[0, -1]]
-        low, high = ends if isinstance(self.table, Table) else 1 / ends[::-1]
+        low, high = 1 / ends[::-1] if self.table.over_time else ends
         return float(low), float(high)
 
     @property
@@ -196,7 +192,7 @@ class Tabulated(FromTable, Solid):
         if not self.extrapolate:
             return _fit(self)[0]
         series = _continued(self).series
-        over = isinstance(self.table, CreepTable) and isinstance(series, Relaxation)
+        over = self.table.compliance and isinstance(series, Relaxation)
         return series.retardation() if over else series
 
     def at_reference(self, law: TemperatureLaw | None) -> "Tabulated":
@@ -216,9 +212,9 @@ class Tabulated(FromTable, Solid):
 def _is_plain(table):
     """Whether a table stands there by the names of our fields."""
     if not isinstance(table, Mapping):
-        return isinstance(table, _TABLES)
-    known = any(set(table) <= set(each.__dataclass_fields__) for each in _TABLES)
-    return known and all(bare(each)[1] is None for each in table.values())
+        return isinstance(table, Table)
+    known = Table.__dataclass_fields__.keys()
+    return table.keys() <= known and all(bare(each)[1] is None for each in table.values())
 
 
 def _no_law(table):
@@ -261,7 +257,7 @@ def _continued(solid: Tabulated) -> Continued:
     whole = modes.relaxation() if isinstance(modes, Retardation) else modes
     scatter = max(rms(rows.misfit(modes)), NEGLIGIBLE)
     end = complex(whole.complex_modulus(low))
-    if not isinstance(solid.table, Table):
+    if solid.table.over_time:
         high /= sqrt(10)  # modes that had relaxed before the first row are not seen, and part of the loss there
         if end.imag:  # the loss follows from differences of the moduli
             scatter *= abs(end) / end.imag
@@ -269,5 +265,5 @@ def _continued(solid: Tabulated) -> Continued:
 
 
 def _rows(solid: Tabulated) -> Measured:
-    kinds = {Table: Oscillation, RelaxationTable: Stress, CreepTable: Creep}
-    return kinds[type(solid.table)](*solid.measured())
+    kinds = {"loss": Oscillation, "modulus": Stress, "compliance": Creep}
+    return kinds[solid.table.form[-1]](*solid.measured())

@@ -17,8 +17,112 @@ from math import log10, pi, sqrt
 
 import numpy as np
 
-from .form import taken_off
-from .periodogram import PER_DECADE, bins_of, periodogram
+from .heightmap import polynomials, taken_off
+from .isotropic import power_integral
+
+PER_DECADE = 20  # bins
+COARSE = 0.05  # relative, of the density of a bin beside its scatter: its width, and what lattices of laws leave
+TAPERS = 3
+# Waves in the line that are a bin each, of which levelling takes something; and those that leak into others.
+LOW, REACH, STEP = 12, 24, 0.25
+SMEARED = 2  # of a wave alone and its neighbours: measured, for intervals of the rms height to hold
+FINE = 1024  # points on which the leakage of the lowest waves is found
+
+
+def _tapers(count):
+    """Sine tapers (TAPERS, count), each of unit sum of squares."""
+    place = pi / (count + 1) * np.arange(1, count + 1)
+    return sqrt(2 / (count + 1)) * np.sin(np.arange(1, TAPERS + 1)[:, None] * place)
+
+
+def periodogram(heights: np.ndarray) -> np.ndarray:
+    """c at u = 1, 2, ... below the Nyquist wave number."""
+    count = len(heights)
+    waves = np.fft.rfft(_tapers(count) * heights, axis=1)[:, 1 : (count + 1) // 2]
+    return np.mean(np.abs(waves) ** 2, axis=0) / count
+
+
+@dataclass(frozen=True, eq=False)
+class Bins:
+    """Bins of waves u, the lowest a bin each.
+
+    starts : waves before each bin (B,); number : of its waves (B,); u : of their centres (B,)
+    freedoms : of the chi square of each (B,)
+    leaked : shares (B, J) of the waves u_low (J,) in each bin, by tapers and levelling
+    own : share of its own waves (B,)
+    nyquist : waves of two spacings
+    """
+
+    starts: np.ndarray
+    number: np.ndarray
+    u: np.ndarray
+    freedoms: np.ndarray
+    leaked: np.ndarray
+    u_low: np.ndarray
+    own: np.ndarray
+    nyquist: float
+
+    def means(self, periodogram):
+        """Means of a periodogram over the bins."""
+        return np.add.reduceat(periodogram, self.starts) / self.number
+
+
+@lru_cache(maxsize=8)
+def bins_of(count: int, degree: int) -> Bins:
+    """Bins of a line of so many points, less a polynomial of a degree.
+
+    count : more than three times the waves that are a bin each
+    """
+    top = (count - 1) // 2
+    wide = round(PER_DECADE * log10(top / LOW))
+    edges = np.append(np.arange(LOW), np.rint(LOW * (top / LOW) ** (np.arange(wide + 1) / wide)))
+    edges = np.unique(edges.astype(int))
+    starts, number = edges[:-1], np.diff(edges)
+    # The mean of a falling spectrum over a bin is that at a mean which favours its lower end.
+    waves = np.arange(1, top + 1.0)
+    u = (np.add.reduceat(waves**-2.5, starts) / number) ** (-1 / 2.5)
+    # Neighbours share what a taper smears: in the sum over many of them.
+    shared = 1 + 1 / (2 * TAPERS)
+    freedoms = 2 * number / shared / np.where(u > LOW, 1.0, SMEARED)
+    freedoms = 1 / (1 / freedoms + COARSE**2 / 2)
+    u_low = np.maximum(np.arange(REACH / STEP) * STEP, 1e-3)
+    low = u <= LOW
+    leaked = np.empty((len(u), len(u_low)))
+    leaked[low] = _levelled_leakage(degree)[: low.sum()]
+    centres = np.rint(u[~low])[:, None]
+    leaked[~low] = _leakage(centres - u_low) + _leakage(centres + u_low)
+    leaked[:, 0] /= 2
+    leaked *= STEP
+    own = np.where(low, 0.0, np.maximum(1 - leaked.sum(axis=1), 0.0))
+    return Bins(starts, number, u, freedoms, leaked, u_low, own, count / 2)
+
+
+def _leakage(offset):
+    """Mean square of the tapers' transforms at offsets in waves, its integral one."""
+    total = 0.0
+    for order in range(1, TAPERS + 1):
+        turns, centre = 2 * pi * offset, pi * order
+        apart = turns**2 - centre**2
+        near = np.abs(apart) < 1e-6
+        found = 4 * centre**2 * (1 - (-1) ** order * np.cos(turns)) / np.where(near, 1.0, apart) ** 2
+        total = total + np.where(near, 0.5, found)
+    return total / TAPERS
+
+
+@lru_cache(maxsize=4)
+def _levelled_leakage(degree):
+    """Shares of waves of the lattice in the lowest bins of a line that is levelled first (LOW, J)."""
+    basis, tapers = polynomials(FINE, degree), _tapers(FINE)
+    places, size = np.arange(FINE) / FINE, int(FINE / STEP)
+    rows = []
+    for u in range(1, LOW + 1):
+        tapered = tapers * np.exp(-2j * pi * u * places)
+        tapered = tapered - (tapered @ basis) @ basis.T
+        power = np.mean(np.abs(np.fft.fft(tapered, size, axis=1)) ** 2, axis=0) / FINE
+        lattice = np.arange(int(REACH / STEP))
+        rows.append(power[lattice] + power[-lattice])
+    return np.array(rows)
+
 
 LEAST, MOST = 64, 2**20  # points of a line that is fitted
 LEVEL = 0.95  # of intervals
@@ -69,12 +173,11 @@ class LineLaw:
     beyond: float
 
 
-def fit(heights: np.ndarray, spacing: float, degree: int = 1, periodic: bool = False) -> LineLaw:
+def fit(heights: np.ndarray, spacing: float, degree: int = 1) -> LineLaw:
     """Law of a line.
 
     heights : (N,) [m], from any level; spacing : of the points [m]
     degree : of the polynomial that is taken off first
-    periodic : the line repeats, and is no piece of a longer one
 
     Raises ValueError for too few or too many points, and for a line that is nothing like any law, such as a single
     wave.
@@ -84,8 +187,8 @@ def fit(heights: np.ndarray, spacing: float, degree: int = 1, periodic: bool = F
         raise ValueError(f"{count:,} points: {LEAST} to {MOST:,} are fitted")
     unit = float(np.abs(heights).max())
     left = taken_off(heights / unit, degree) if unit else heights
-    bins = bins_of(count, degree, periodic)
-    seen = bins.means(periodogram(left, periodic))
+    bins = bins_of(count, degree)
+    seen = bins.means(periodogram(left))
     return _weighed(bins, np.maximum(seen, NOTHING * seen.max()), unit, count * spacing)
 
 
@@ -177,11 +280,9 @@ def _tail(hurst, u, start):
 
 def _moment(power, hurst, rolloff, cutoff):
     """2 pi int u^power C_2D du of a unit plateau from u = 1 to the cut-off."""
-    fall, start = power - 2 * hurst - 1, np.maximum(rolloff, 1.0)
-    ratio = np.log(cutoff / start)
-    falling = np.where(np.abs(fall) > 1e-9, np.expm1(fall * ratio) / np.where(fall, fall, 1.0), ratio)
-    flat = (start ** (power + 1) - 1) / (power + 1)
-    return 2 * pi * (flat + rolloff ** (2 * hurst + 2) * start**fall * falling)
+    start, fall = np.maximum(rolloff, 1.0), 2 * hurst + 2
+    falling = rolloff**fall * power_integral(power - fall, start, cutoff)
+    return 2 * pi * (power_integral(power, 1.0, start) + falling)
 
 
 def _weighed(bins, seen, unit, length):

@@ -7,8 +7,7 @@ import numpy as np
 from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 
-from ..quantities import METRE, takes
-from .form import ROUNDING, levelled
+from .heightmap import ROUNDING, levelled
 from .scanned import MAPPED, QUOTIENT, Scanned
 
 
@@ -56,17 +55,14 @@ class Measured(Scanned):
             heights = _without_waves(heights, self.sides, self.shortest_kept)
         return heights - heights.min()
 
-    @takes(x=METRE, y=METRE)
     def height(self, x, y):
         """z(x, y) [m] for coordinates [m] of any broadcastable shapes."""
         return self._evaluated(x, y, _spline(self).greatest)
 
-    @takes(x=METRE, y=METRE)
     def slope(self, x, y):
         """dz/dx [1]; zero beyond the map."""
         return self._evaluated(x, y, 0.0, dy=1) / self.pixel[0]
 
-    @takes(x=METRE, y=METRE)
     def on_rim(self, x, y):
         """Whether points [m] lie on the outermost pixels of the map, or beyond it (bool)."""
         column, row = self._lattice(x, y)

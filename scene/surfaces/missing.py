@@ -1,13 +1,10 @@
-"""Missing heights of a map or a line: what was not measured, what stands for it, outliers, and filling in."""
+"""Missing heights of a map or a line: what was not measured, what stands for it, and filling in."""
 
 import re
 
 import numpy as np
 
 MOST_FILLED = 0.05  # of all heights
-LEAST_DEVIATIONS = 3.0
-NEIGHBOURS = 5  # pixels a side of the square whose median an outlier is far from
-NORMAL = 1.4826  # standard deviation of a normal distribution over its median absolute deviation
 # Numbers that programs write where they have no height, whatever its unit, and any from 1e30 on.
 _NONES = re.compile(r"-999|-32768|32767|65535|-2147483648|2147483647|4294967295|-?9{4,}|-?[\d.]+e\+([3-9]|\d\d)\d")
 _METRES = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
@@ -36,20 +33,12 @@ def refuse_missing(heights: np.ndarray) -> None:
         )
 
 
-def cleaned_heights(
-    heights: np.ndarray, pixel: tuple[float, float], fill: bool, deviations: float | None = None
-) -> tuple[np.ndarray, tuple[str, ...]]:
-    """Heights of a map or a line with missing ones or outliers filled in, see `filled`; and what was done.
-
-    fill : whether what is missing is filled in; where not, it is refused
-    deviations : heights of a map farther off their neighbours are outliers and filled in, see `outliers`; None
-        leaves them
+def cleaned_heights(heights: np.ndarray, pixel: tuple[float, float]) -> tuple[np.ndarray, tuple[str, ...]]:
+    """Heights of a map or a line with missing ones filled in, see `filled`; and what was done.
 
     Raises ValueError where more than a twentieth would be filled in.
     """
     notes = []
-    if not fill:
-        refuse_missing(heights)
     for value in sentinels(heights):
         same = heights == value
         notes.append(
@@ -58,25 +47,12 @@ def cleaned_heights(
         )
         heights = np.where(same, np.nan, heights)
     holes = ~np.isfinite(heights)
-    if count := _checked(holes, "missing"):
-        notes.append(f"{_share(count, heights)} were missing and are filled in")
-    if deviations is not None:
-        off = outliers(filled(heights, pixel), deviations) & ~holes
-        _checked(off | holes, "outliers or missing")
-        heights = np.where(off, np.nan, heights)
-        notes.append(
-            f"{_share(np.count_nonzero(off), heights)} were more than {deviations:g} robust standard deviations "
-            "off the median around them and are filled in"
-        )
-    return filled(heights, pixel), tuple(notes)
-
-
-def _checked(holes, what):
-    """Number of the heights that are filled in. Raises ValueError for too many."""
     count = np.count_nonzero(holes)
-    if count > MOST_FILLED * holes.size:
-        raise ValueError(f"{_share(count, holes)} {what}: at most {100 * MOST_FILLED:g} % are filled in")
-    return count
+    if count > MOST_FILLED * heights.size:
+        raise ValueError(f"{_share(count, heights)} missing: at most {100 * MOST_FILLED:g} % are filled in")
+    if count:
+        notes.append(f"{_share(count, heights)} were missing and are filled in")
+    return filled(heights, pixel), tuple(notes)
 
 
 def _share(count, heights):
@@ -115,28 +91,6 @@ def _written(value):
     """A number as a program writes it for a missing height, with its unit; empty of any other."""
     texts = {unit: f"{value / metre:.10g}" for unit, metre in _METRES.items()}
     return next((f"{text} {unit}" for unit, text in texts.items() if _NONES.fullmatch(text)), "")
-
-
-def outliers(heights: np.ndarray, deviations: float) -> np.ndarray:
-    """Whether heights of a whole map are farther off the median of the square around them than so many deviations.
-
-    The standard deviation is the robust one of all these distances, 1.4826 times the median of their sizes. Raises
-    ValueError where more than half of them are 0, which leaves none.
-    """
-    # Only who asks for it needs it.
-    from scipy.ndimage import median_filter
-
-    # Beyond its sides the map goes on as it came: a slope is no outlier there.
-    beyond = NEIGHBOURS // 2
-    around = median_filter(np.pad(heights, beyond, mode="reflect", reflect_type="odd"), size=NEIGHBOURS)
-    off = np.abs(heights - around[beyond:-beyond, beyond:-beyond])
-    deviation = NORMAL * np.median(off)
-    if not deviation:
-        raise ValueError(
-            f"outliers = {deviations:g}: more than half of the heights are the median of the {NEIGHBOURS} x "
-            f"{NEIGHBOURS} pixels around them, so that they do not scatter: leave outliers out"
-        )
-    return off > deviations * deviation
 
 
 def filled(heights: np.ndarray, pixel: tuple[float, float]) -> np.ndarray:

@@ -6,21 +6,20 @@ from math import pi, sqrt
 from typing import Literal
 
 import numpy as np
-from pydantic import ConfigDict, Field, model_validator
+from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 
-from ..files.stated import FromTable, restated
-from ..quantities import CLOSED, METRE, RADIAN_PER_METRE, Length, Seed, takes
+from ..files.stated import alternatives, restated
+from ..quantities import Length, Seed
 from . import linescan
-from .form import DEGREES, levelled
-from .heightmap import LONGEST, SHORTEST, HeightLine, LineHeights
+from .heightmap import DEGREES, LONGEST, SHORTEST, HeightLine, LineHeights, levelled
 from .linescan import Interval, LineLaw
-from .scanned import QUOTIENT, level_of_what_repeats, prepared, refuse_step, schema_with_file
+from .scanned import OF_A_FILE, QUOTIENT, prepared
 from .selfaffine import SelfAffine
 
 
-@dataclass(frozen=True, config=ConfigDict(**CLOSED, json_schema_extra=schema_with_file("spacing")), kw_only=True)
-class Profile(FromTable):
+@dataclass(frozen=True, config=alternatives("heights", "spacing", **OF_A_FILE), kw_only=True)
+class Profile:
     """Roughness of an isotropic surface that was measured along a line, as by a stylus.
 
     heights : along the line [m], evenly spaced; a table with a column of heights and maybe one of places
@@ -28,8 +27,6 @@ class Profile(FromTable):
     peaks : "up", heights grow towards the elastomer, as instruments give them; "down", the other way
     level : what is taken off the heights first, their "mean", the straight line ("tilt"), the parabola
         ("curvature") or the "cubic" that fits them best
-    repeat : how the line goes on beyond its ends where it is itself taken as the rough line, "mirror" or
-        "periodic"; what is periodic is fitted as such, less its mean alone
     shortest_kept : waves shorter than this are left out, of the line and of the surface [m]
     seed : of the surface that is drawn, and of the point of the line under the axis: 0 is its middle
 
@@ -47,19 +44,16 @@ class Profile(FromTable):
     spacing: Length
     peaks: Literal["up", "down"] = "up"
     level: Literal["mean", "tilt", "curvature", "cubic"] = "tilt"
-    repeat: Literal["mirror", "periodic"] = "mirror"
     shortest_kept: Length | None = None
     seed: Seed = 0
     type: Literal["profile"] = Field(default="profile", repr=False)
 
     _prepared = restated(lambda cls, stated: prepared(cls, stated, HeightLine, "spacing"))
-    _level_of_what_repeats = restated(level_of_what_repeats)
 
     @model_validator(mode="after")
     def _can_be_fitted(self):
         if not SHORTEST <= self.spacing <= LONGEST:
             raise ValueError(f"spacing = {self.spacing:g} m: from {SHORTEST:g} to {LONGEST:g} m")
-        refuse_step(self)
         (least, most), kept = self.keepable, self.shortest_kept
         if kept is not None and not least * (1 - QUOTIENT) <= kept <= most:
             raise ValueError(
@@ -86,7 +80,7 @@ class Profile(FromTable):
     @property
     def law(self) -> LineLaw | None:
         """Law of the isotropic surface with the intervals of its numbers; None of a flat line."""
-        return _law(self.heights, self.spacing, self.level, self.repeat)
+        return _law(self.heights, self.spacing, self.level)
 
     @property
     def fitted(self) -> SelfAffine:
@@ -116,14 +110,13 @@ class Profile(FromTable):
 
     @property
     def side(self) -> float:
-        """Length of what repeats, the measured line or the line with its mirror image [m]."""
-        return self.length * (2 if self.repeat == "mirror" else 1)
+        """Length of what repeats where the line is itself the rough line, with its mirror image [m]."""
+        return 2 * self.length
 
     @property
     def top(self) -> int:
         """Number of the shortest wave of the measured line that is kept, on what repeats."""
-        count = self.heights.shape[0]
-        top = count - 1 if self.repeat == "mirror" else count // 2
+        top = self.heights.shape[0] - 1
         return (
             top if self.shortest_kept is None else min(top, int(self.side / self.shortest_kept * (1 + QUOTIENT)))
         )
@@ -137,10 +130,8 @@ class Profile(FromTable):
         relief = self.relief
         count = len(relief)
         place = count // 2 if self.seed == 0 else int(np.random.default_rng(self.seed).integers(count))
-        whole = np.concatenate([relief, relief[::-1]]) if self.repeat == "mirror" else relief
-        found = np.fft.rfft(np.roll(whole, -place), norm="forward")[1 : self.top + 1]
-        # A wave of two points counts once.
-        return np.where(2 * np.arange(1, self.top + 1) == len(whole), 1, 2) * found
+        whole = np.concatenate([relief, relief[::-1]])
+        return 2 * np.fft.rfft(np.roll(whole, -place), norm="forward")[1 : self.top + 1]
 
     @property
     def flat(self) -> bool:
@@ -167,12 +158,10 @@ class Profile(FromTable):
         """Shortest wavelength of the fitted surface [m]."""
         return 2 * pi / self.q_max(0.0)
 
-    @takes(pixel=METRE)
     def q_max(self, pixel: float) -> float:
         """Highest wave number of the fitted surface [rad/m]; the pixel of a grid does not matter."""
         return self.fitted.q_max(pixel)
 
-    @takes(q_max=RADIAN_PER_METRE)
     def rms_slope(self, q_max: float) -> float:
         """Rms slope of the full gradient of the fitted surface [1] with the cut-off q_max [rad/m]."""
         return self.fitted.rms_slope(q_max)
@@ -223,6 +212,6 @@ def _in_words(number: Interval, unit: str = "") -> str:
 
 
 @lru_cache(maxsize=8)
-def _law(heights, spacing, level, repeat):
+def _law(heights, spacing, level):
     relief = levelled(heights.heights, level)
-    return linescan.fit(relief, spacing, DEGREES[level], repeat == "periodic") if relief.any() else None
+    return linescan.fit(relief, spacing, DEGREES[level]) if relief.any() else None

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 from pydantic.dataclasses import dataclass
 
-from ..quantities import CLOSED, METRE, LengthOrZero, takes
+from ..quantities import CLOSED, LengthOrZero
 from .profile import Profile
 from .selfaffine import SelfAffine, Wavelength
 from .spectrum import Spectrum
@@ -38,7 +38,6 @@ class Wave:
         """[m]"""
         return self.amplitude / sqrt(2)
 
-    @takes(pixel=METRE)
     def q_max(self, pixel: float) -> float:
         """Highest wave number along a side [rad/m]; the pixel does not matter."""
         return 2 * pi / self.wavelength

@@ -2,45 +2,35 @@
 
 from collections.abc import Mapping
 from dataclasses import fields
+from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
-from pydantic import ConfigDict, model_validator
+from pydantic import model_validator
 from pydantic.dataclasses import dataclass
 
-from ..files.heightfile import LINE, MAP, given_heights, read_heights
-from ..files.stated import FromTable, TableFormat, restated, split_format
+from ..files.heightfile import LINE, MAP, read_heights
+from ..files.stated import FORM, TableFormat, alternatives, restated, split_format
 from ..printable import brief
-from ..quantities import BARE, CLOSED, METRE, Length, argument
+from ..quantities import METRE, Length, argument
 from .heightmap import LEAST, HeightLine, HeightMap, MapHeights, Pixel, sides
-from .missing import LEAST_DEVIATIONS, cleaned_heights
+from .missing import cleaned_heights
 
 QUOTIENT = 1e-12  # rounding of a quotient of lengths
 FILL = ("refuse", "fill")
 # What is asked of heights before they are a map or a line; no fields: what comes of it is in the heights.
 _READING = ("file", "unit", "channel", "missing")
-ASKED = {HeightMap: (*_READING, "crop", "outliers"), HeightLine: _READING}
+ASKED = {HeightMap: (*_READING, "crop"), HeightLine: _READING}
 
 
-def schema_with_file(spacing: str, **more: Any) -> Any:
-    """Addition to JSON schema: a file in place of heights with their spacing, and what is asked of either."""
-
-    def added(schema: dict[str, Any]) -> None:
-        schema["properties"] |= {name: {"type": "string"} for name in ("file", "unit", "channel")}
-        schema["properties"] |= {"missing": {"enum": list(FILL), "default": FILL[0]}, **more}
-        del schema["required"]
-        schema["anyOf"] = [{"required": ["file"]}, {"required": ["heights", spacing]}]
-
-    return added
-
-
+_TEXT = {"type": "string"}
+OF_A_FILE: dict[str, Any] = FORM | {"file": _TEXT, "unit": _TEXT, "channel": _TEXT, "missing": {"enum": [*FILL]}}
 _CROP = {"type": "array", "items": {"type": ["number", "string"]}, "minItems": 4, "maxItems": 4}
-_OUTLIERS = {"type": "number", "minimum": LEAST_DEVIATIONS}
-MAPPED = ConfigDict(**CLOSED, json_schema_extra=schema_with_file("pixel", crop=_CROP, outliers=_OUTLIERS))
+MAPPED = alternatives("heights", "pixel", **OF_A_FILE, crop=_CROP)
 
 
 @dataclass(frozen=True, config=MAPPED, kw_only=True)
-class Scanned(FromTable):
+class Scanned:
     """Measured map of heights.
 
     heights : rows along y of heights along x [m], both ascending; of xarray, with the dimensions y and x; or
@@ -59,8 +49,6 @@ class Scanned(FromTable):
 
     crop : x from, x to, y from, y to [m], from the corner of the first pixel: pixels whose middles lie between are
         kept
-    outliers : heights farther off the median of the 5 x 5 pixels around them than so many robust standard
-        deviations, from 3 on, are filled in; absent, none is
     missing : "fill", heights that are missing, NaN, masked or a number far off that stands for none, are filled in
         harmonically, a twentieth of the pixels at most; "refuse", the default, they are an error
 
@@ -111,21 +99,6 @@ class Scanned(FromTable):
         return -self.heights.heights if self.peaks == "up" else self.heights.heights
 
 
-def level_of_what_repeats(cls: Any, stated: dict[str, Any]) -> dict[str, Any]:
-    """Fields with the level that heights have which repeat as they stand: a plane taken off would leave a step."""
-    return {"level": "mean"} | stated if stated.get("repeat") == "periodic" else stated
-
-
-def refuse_step(heights: Any) -> Any:
-    """Return measured roughness as it is. Raises ValueError where its level leaves a step at what repeats."""
-    if heights.repeat == "periodic" and heights.level != "mean":
-        raise ValueError(
-            f'level = "{heights.level}" with repeat = "periodic": taken off a period it would leave a step at '
-            'its ends: take level = "mean", or repeat = "mirror"'
-        )
-    return heights
-
-
 def prepared(cls: Any, stated: dict[str, Any], kind: type[HeightMap], spacing: str) -> dict[str, Any]:
     """Fields of a part whose heights are a map or a line: read, cropped and cleaned as stated.
 
@@ -152,12 +125,14 @@ def prepared(cls: Any, stated: dict[str, Any], kind: type[HeightMap], spacing: s
             raise ValueError("heights are in metres: unit, channel and what is stated of a text are for a file")
         numbers, notes = heights.heights, heights.notes
     else:
-        read, units = given_heights if path is None else read_heights, written.units or {}
+        if not isinstance(path, str | Path | None):
+            raise ValueError(f"file = {brief(repr(path))}: a path is needed")
+        source, units = heights if path is None else Path(path), written.units or {}
         if "unit" in asked and "z" in units:
             raise ValueError(f"unit = {asked['unit']!r} and units = {{z = {units['z']!r}}}: state one of them")
         unit, dims = asked.get("unit", units.get("z")), MAP if kind is HeightMap else LINE
-        numbers, left[spacing], notes = read(
-            heights if path is None else path, dims, left.get(spacing), unit, asked.get("channel"), written
+        numbers, left[spacing], notes = read_heights(
+            source, dims, left.get(spacing), unit, asked.get("channel"), written
         )
     try:
         kind.check_layout(numbers.shape, numbers.dtype)
@@ -169,53 +144,37 @@ def prepared(cls: Any, stated: dict[str, Any], kind: type[HeightMap], spacing: s
 
 def _cleaned(heights, pixel, asked):
     """Heights cropped and filled in as stated, and what was done, in lines."""
-    crop, missing, deviations = (asked.get(name) for name in ("crop", "missing", "outliers"))
+    crop, missing, notes = asked.get("crop"), asked.get("missing"), ()
     if missing not in (None, *FILL):
         raise ValueError(f"missing = {brief(repr(missing))}: 'refuse' or 'fill'")
-    if deviations is not None:
-        deviations = argument("outliers", deviations, _deviations)
-    notes: tuple[str, ...] = ()
-    if crop is None and missing != "fill" and deviations is None:
+    if crop is None and missing != "fill":
         return heights, notes
     try:
         pixel = sides(pixel)
     except ValueError:
         return heights, notes
     if crop is not None:
-        heights, cropped = _cropped(heights, pixel, crop)
-        notes = (cropped,)
-    if missing != "fill" and deviations is None:
-        return heights, notes
-    heights, more = cleaned_heights(heights, pixel, missing == "fill", deviations)
-    return heights, (*notes, *more)
-
-
-def _deviations(given):
-    found = BARE.value(given)
-    if not LEAST_DEVIATIONS <= found < np.inf:
-        raise ValueError(f"a number of standard deviations, from {LEAST_DEVIATIONS:g} on")
-    return float(found)
+        heights, notes = _cropped(heights, pixel, crop)
+    if missing == "fill":
+        heights, more = cleaned_heights(heights, pixel)
+        notes = (*notes, *more)
+    return heights, notes
 
 
 def _cropped(heights, pixel, crop):
     """The part of a map whose middles of pixels lie in a rectangle, and what was left out, in words."""
-    rows, columns = heights.shape
-    size = columns * pixel[0], rows * pixel[1]
-    allowed = (
-        f"x from, x to, y from, y to as lengths, 0 to {size[0]:g} m along x and 0 to {size[1]:g} m along y, with "
-        f"at least {LEAST} pixels on either side"
-    )
-    ends = argument("crop", crop, METRE.row)
-    if len(ends) != 4 or not np.isfinite(ends).all():
-        raise ValueError(f"crop = {brief(repr(crop))}: {allowed}")
-    kept = []
-    for side, count, whole, (low, high) in zip(pixel, (columns, rows), size, (ends[:2], ends[2:]), strict=True):
-        close = QUOTIENT * whole
-        middles = (np.arange(count) + 0.5) * side
-        inside = np.flatnonzero((low - close <= middles) & (middles <= high + close))
-        if low < -close or high > whole + close or len(inside) < LEAST:
-            raise ValueError(f"crop = {brief(repr(crop))}: {allowed}")
-        kept.append(slice(inside[0], inside[-1] + 1))
-    along_x, along_y = kept
-    left = heights[along_y, along_x]
-    return left, f"cropped to {left.shape[1]} x {left.shape[0]} of {columns} x {rows} pixels"
+    ends, kept, counts = argument("crop", crop, METRE.row), [], heights.shape[::-1]
+    size = [count * side for count, side in zip(counts, pixel, strict=True)]
+    if len(ends) == 4 and np.isfinite(ends).all():
+        for side, count, whole, (low, high) in zip(pixel, counts, size, (ends[:2], ends[2:]), strict=True):
+            middles, close = (np.arange(count) + 0.5) * side, QUOTIENT * whole
+            inside = np.flatnonzero((low - close <= middles) & (middles <= high + close))
+            if low >= -close and high <= whole + close and len(inside) >= LEAST:
+                kept.append(slice(inside[0], inside[-1] + 1))
+    if len(kept) < 2:
+        raise ValueError(
+            f"crop = {brief(repr(crop))}: x from, x to, y from, y to as lengths, 0 to {size[0]:g} m along x and 0 "
+            f"to {size[1]:g} m along y, with at least {LEAST} pixels on either side"
+        )
+    left = heights[kept[1], kept[0]]
+    return left, (f"cropped to {left.shape[1]} x {left.shape[0]} of {counts[0]} x {counts[1]} pixels",)

@@ -2,15 +2,14 @@
 
 from dataclasses import replace
 from math import inf, pi
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import AfterValidator, ConfigDict, Field, TypeAdapter, ValidationError, model_validator
+from pydantic import AfterValidator, Field, TypeAdapter, model_validator
 from pydantic.dataclasses import dataclass
 
-from ..files.stated import restated
-from ..printable import brief
-from ..quantities import CLOSED, Finite, Length, LengthOrZero, NonNegative, Seed
+from ..files.stated import alternatives, restated, taken
+from ..quantities import BARE, Finite, Length, LengthOrZero, NonNegative, Seed
 from .isotropic import Isotropic, power_integral
 
 # Wavelength [m] down to which its wave number, and that of a grid that resolves it, is a number.
@@ -28,16 +27,13 @@ Wavelength = Annotated[Length, AfterValidator(_has_wave_number)]
 _SLOPE = TypeAdapter(NonNegative)
 
 
-def _or_slope(schema: dict[str, Any]) -> None:
-    """In JSON schema: a slope in place of the height."""
-    schema["properties"] |= {
-        "rms_slope": _SLOPE.json_schema() | {"description": "in place of rms_height: rms of the full gradient"}
-    }
-    schema["required"].remove("rms_height")
-    schema["oneOf"] = [{"required": ["rms_height"]}, {"required": ["rms_slope", "shortest"]}]
+def _slope(given):
+    if not 0 <= (found := BARE.value(given)) < inf:
+        raise ValueError("Input should be the rms of the full gradient, a number from 0 on")
+    return found
 
 
-@dataclass(frozen=True, config=ConfigDict(**CLOSED, json_schema_extra=_or_slope), kw_only=True)
+@dataclass(frozen=True, config=alternatives("rms_height", rms_slope=_SLOPE.json_schema()), kw_only=True)
 class SelfAffine(Isotropic):
     """Randomly rough, isotropic, self-affine between two wavelengths.
 
@@ -69,28 +65,17 @@ class SelfAffine(Isotropic):
     def _of_the_slope(cls, stated):  # noqa: N805
         if "rms_slope" not in stated:
             return stated
-        said = f"rms_slope = {brief(repr(slope := stated.pop('rms_slope')))}"
-        if "rms_height" in stated:
-            raise ValueError(f"{said} beside rms_height = {brief(repr(stated['rms_height']))}: give one of them")
-        try:
-            slope = _SLOPE.validate_python(slope)
-        except ValidationError as error:
-            why = error.errors()[0]["msg"].removeprefix("Value error, ")
-            raise ValueError(f"{said}: {why}, the rms of the full gradient, a number without a unit") from None
+        slope = taken("rms_slope", stated, _slope)
+        del stated["rms_slope"]
+        if "rms_height" in stated or stated.get("shortest") is None:
+            raise ValueError(
+                f"rms_slope = {slope:g}: state shortest, up to which it is found, and no rms_height beside it"
+            )
         try:
             unit = cls(**stated, rms_height=1.0)
         except ValueError:
-            return stated | {"rms_height": 1.0}  # for the mistakes to be told of the fields that have them
-        if unit.shortest is None:
-            raise ValueError(
-                f"{said} without shortest: the cut-off would be that of each solver's grid, and so would the "
-                "height; state shortest, the shortest wavelength, or rms_height in place of rms_slope"
-            )
-        steepness = unit.rms_slope(unit.q_max(0.0))
-        height = slope / steepness if 0 < steepness < inf else inf
-        if not height < inf or (slope and not height):
-            raise ValueError(f"{said}: its rms height is beyond the range of numbers")
-        return stated | {"rms_height": height}
+            return stated | {"rms_height": 1.0}  # for the mistakes of the fields that have them
+        return stated | {"rms_height": slope / unit.rms_slope(unit.q_max(0.0))}
 
     @model_validator(mode="after")
     def _wavelengths_in_order(self):

@@ -5,15 +5,14 @@ from math import inf, isfinite, pi, sqrt
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import ConfigDict, Field, TypeAdapter, model_validator
+from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 
-from ..files.stated import TableFormat, filled, restated
+from ..files.stated import FORM, TableFormat, alternatives, filled, restated
 from ..files.tablefile import Column, read_columns
-from ..quantities import CLOSED, METRE, RADIAN_PER_METRE, ROW, Positive, Seed, Unit, takes
+from ..quantities import RADIAN_PER_METRE, ROW, Positive, Seed, Unit
 from .heightmap import LONGEST, SHORTEST
-from .isotropic import Isotropic
-from .powerlaws import PowerLaws, of_surface
+from .isotropic import Isotropic, PowerLaws, of_surface
 from .scanned import QUOTIENT
 from .selfaffine import Wavelength
 
@@ -31,14 +30,7 @@ COLUMNS = (
 )
 
 
-def _or_table(schema: dict[str, Any]) -> None:
-    """In JSON schema: a table in place of q and a density."""
-    schema["properties"] |= {"table": {"type": "string"}, **TypeAdapter(TableFormat).json_schema()["properties"]}
-    schema["required"] = ["convention"]
-    schema["anyOf"] = [{"required": ["table"]}, {"required": ["q"]}]
-
-
-@dataclass(frozen=True, config=ConfigDict(**CLOSED, json_schema_extra=_or_table), kw_only=True)
+@dataclass(frozen=True, config=alternatives("q", table={"type": "string"}, **FORM), kw_only=True)
 class Spectrum(Isotropic):
     """Randomly rough and isotropic, with a measured spectral density.
 
@@ -124,7 +116,6 @@ class Spectrum(Isotropic):
         """Lowest wave number that is kept [rad/m]."""
         return float(self._kept.q[0])
 
-    @takes(pixel=METRE)
     def q_max(self, pixel: float) -> float:
         """Highest wave number that is kept [rad/m]; the pixel of a grid does not matter."""
         return float(self._kept.q[-1])

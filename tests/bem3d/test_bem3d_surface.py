@@ -8,7 +8,7 @@ from scipy.fft import irfft
 
 from bem3d.surface import RoughSurface
 from scene import SelfAffine
-from scene.surfaces.waves import Waves
+from scene.surfaces.topography import Waves
 
 L = 10e-3
 ROUNDING = 1e-10

@@ -17,7 +17,7 @@ from mdr1d import equations
 from mdr1d.ensemble import solve_profiles
 from scene import Cone, Regime, SolveError
 from scene.files.reading import InvalidInput
-from scene.regime import SMALL_SLOPE
+from scene.scales import SMALL_SLOPE
 
 VALUES, PROFILES = 3, 10
 # Sampling of a smaller campaign; at full size the demand is 2 %.

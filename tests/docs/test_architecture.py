@@ -23,7 +23,7 @@ DOORS = {  # files outside which a library is not imported, in whichever folder 
     "numba": {"loops"},
     "tomllib": {"reading"},
     "SurfaceTopography": {"heightfile"},
-    "pint": {"units"},
+    "pint": {"numeric_input"},
     "distributed": {"cluster"},
     "meshio": {"vtk"},
 }

@@ -12,7 +12,7 @@ from compare.cli.app import app
 from compare.studies.mastercurve import measurements
 from scene.effects import temperature
 from scene.files.heightfile import X, Y, Z
-from scene.solids import conventions, moduli
+from scene.solids import moduli, viscoelastic
 
 PAGES = sorted(yourdata.FOLDER.glob("*.md"))
 # Seconds and bytes, which the machine decides.
@@ -27,7 +27,7 @@ def test_commands_print_what_the_page_shows(page):
 
 REFERENCE = yourdata.FOLDER.parents[1] / "reference"
 COLUMNS = {
-    *(*moduli.COLUMNS, *conventions.TERMS, temperature.TEMPERATURES, *temperature.FACTORS, *measurements.COLUMNS),
+    *(*moduli.COLUMNS, *viscoelastic.TERMS, temperature.TEMPERATURES, *temperature.FACTORS, *measurements.COLUMNS),
     *(X, Y, Z),
 }
 

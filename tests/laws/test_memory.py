@@ -13,10 +13,9 @@ from compare.solving.runner import sweep
 from compare.solving.store import Store
 from compare.solving.task import SceneTask
 from mdr1d import MDR
-from scene import Kelvin, OutOfMemory, Plane, Refused, Scene, SelfAffine, Slide, Sphere, Topography, machine
-from scene.machine import memory
-from scene.protocol import numeric_guard, refuse
-from scene.surfaces.waves import MOST_WAVES
+from scene import Kelvin, OutOfMemory, Plane, Refused, Scene, SelfAffine, Slide, Sphere, Topography, protocol
+from scene.protocol import memory, numeric_guard, refuse
+from scene.surfaces.topography import MOST_WAVES
 
 SCENE = Scene(Sphere(radius=1e-2), Kelvin(modulus=1e6, relaxation_time=1e-3), Slide(speed=0.1, load=1.0))
 # Waves of which no machine holds the amplitudes, but which each grid alone would not mind.
@@ -27,7 +26,7 @@ BROAD = SelfAffine(hurst=0.8, rms_height=1e-6, longest=100.0, shortest=1e-4)
 def test_plan_and_solve_refuse_with_both_figures_what_the_machine_has_not(monkeypatch, solver, least):
     needed = solver.plan(SCENE).memory
     assert needed > least
-    monkeypatch.setattr(machine, "memory", lambda: needed - 1)
+    monkeypatch.setattr(protocol, "memory", lambda: needed - 1)
     reasons = set()
     for ask in (solver.plan, solver.solve, lambda scene: refuse(solver, scene)):
         with pytest.raises(
@@ -36,7 +35,7 @@ def test_plan_and_solve_refuse_with_both_figures_what_the_machine_has_not(monkey
             ask(SCENE)
         reasons.add(str(told.value))
     assert len(reasons) == 1
-    monkeypatch.setattr(machine, "memory", lambda: needed)
+    monkeypatch.setattr(protocol, "memory", lambda: needed)
     assert solver.plan(SCENE).memory == needed
 
 
@@ -63,7 +62,7 @@ def test_a_limit_of_the_process_is_what_it_has():
     limit = min(memory(), 3 * 10**9) // 4096 * 4096
     code = (
         f"import resource; resource.setrlimit(resource.RLIMIT_AS, ({limit}, {limit}))\n"
-        "from scene.machine import memory; print(memory())"
+        "from scene.protocol import memory; print(memory())"
     )
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert int(run.stdout) == limit

@@ -31,7 +31,6 @@ from scene import (
     Arrhenius,
     Cone,
     Coulomb,
-    CreepTable,
     CrossedWaves,
     Cylinder,
     Elastic,
@@ -45,9 +44,7 @@ from scene import (
     Measured,
     Plane,
     PowerLaw,
-    Program,
     Prony,
-    RelaxationTable,
     Scene,
     SelfAffine,
     Shear,
@@ -62,7 +59,7 @@ from scene import (
     Topography,
     Wave,
 )
-from scene.files.parts import unit_of
+from scene.scene import unit_of
 
 # Each unit in another one, larger or smaller by a power of ten but for degrees; no dimension where there is none.
 OTHERS = {
@@ -112,8 +109,8 @@ OBJECTS = [
     Fractional(modulus=1e6, relaxation_time=1e-3, exponent=0.5, lowest_frequency=1.0, highest_frequency=1e3),
     Tabulated(table=TABLE, frequency_unit="Hz", kind="shear", equilibrium_modulus=9e5, tolerance=0.5),
     TABLE,
-    RelaxationTable(FREQUENCY, STORAGE[::-1], temperature=WARM),
-    CreepTable(FREQUENCY, (1e-6, 2e-6, 3e-6, 4e-6), temperature=WARM),
+    Table(time=FREQUENCY, modulus=STORAGE[::-1], temperature=WARM),
+    Table(time=FREQUENCY, compliance=(1e-6, 2e-6, 3e-6, 4e-6), temperature=WARM),
     Heating(conductivity=20.0),
     Layer(thickness=1e-2),
     *(Indent(**{name: value}) for name, value in PRESSED.items()),
@@ -243,14 +240,6 @@ FORMULAS = {
     "loss_modulus": (lambda omega: 1e3 * omega**0.5, None),
     "spectrum": (lambda q: q**-2.0, None),
 }
-METHODS = {
-    **dict.fromkeys(("x", "y", "height", "pixel"), (1e-3, "m")),
-    **dict.fromkeys(("t", "time"), (0.5, "s")),
-    **dict.fromkeys(("q", "upper"), (2e4, "rad/m")),
-    "omega": (50.0, "rad/s"),
-    "q_max": (5e4, "rad/m"),
-    "lower": (1e4, "rad/m"),
-}
 NOT_NUMBERS = {
     "models",
     "reference",
@@ -302,14 +291,6 @@ def formulas():
             if function.__module__ == module.__name__ and not name.startswith("_") and name != "temperature_rise":
                 words = {"base": "half-space"} if "base" in inspect.signature(function).parameters else {}
                 yield from arguments_of(function, f"{module.__name__}.{name}", FORMULAS, **words)
-
-
-def methods_of(thing):
-    """Places of the methods of an object of `scene`."""
-    for name, method in inspect.getmembers(thing, inspect.ismethod):
-        taken = [each for each in inspect.signature(method).parameters if each in METHODS]
-        if not name.startswith("_") and taken:
-            yield from arguments_of(method, f"{type(thing).__name__}.{name}", METHODS)
 
 
 def drawn(given, seed=1):
@@ -401,8 +382,6 @@ CALLED = [
 ]
 PLACES = [
     *(place for thing in OBJECTS for place in fields_of(thing)),
-    *(place for thing in OBJECTS if hasattr(thing, "__pydantic_fields__") for place in methods_of(thing)),
-    *methods_of(Program(stages=(Stage(duration=1.0, load=1.0),))),
     *formulas(),
     *CALLED,
 ]

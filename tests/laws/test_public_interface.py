@@ -45,7 +45,7 @@ def test_every_signature_can_be_read():
 
 
 def test_a_signature_says_what_the_source_says():
-    assert str(inspect.signature(scene.Sphere)) == "(radius: Length, type: 'sphere' = 'sphere') -> None"
+    assert str(inspect.signature(scene.Sphere)) == "(radius: Length, type: Literal['sphere'] = 'sphere') -> None"
     assert "roughness: Roughness | None = None" in str(inspect.signature(scene.Scene))
     assert "bem: BEM = BEM(...)" in str(inspect.signature(compare.Case))
 

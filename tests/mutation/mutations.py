@@ -28,11 +28,6 @@ BOUNDS = {ast.Lt: ast.LtE, ast.LtE: ast.Lt, ast.Gt: ast.GtE, ast.GtE: ast.Gt}
 # Changes that no test can see, by their file, what stood there and what stands there then; and why.
 EQUIVALENT = {
     ("bem3d/motion/marching.py", "1e-12", "(2e-12)"): "an overlap below rounding of the heights is none",
-    (
-        "scene/solids/interconversion.py",
-        "low * (1 + _ROUNDING)",
-        "(low / (1 + _ROUNDING))",
-    ): "rounds the bracket of a root by the last digit; Newton's steps end inside either",
     ("mdr1d/steady.py", "u > 0.0", "(u >= 0.0)"): "at u = 0 both branches carry no displacement",
     (
         "mdr1d/kelvin.py",
@@ -56,7 +51,6 @@ EQUIVALENT = {
         "kernels[0]",
         "(kernels[1])",
     ): "only the shape is read, and all kernels have one",
-    ("scene/solids/interconversion.py", "excess > 0", "(excess >= 0)"): "without an excess the root is found",
     ("mdr1d/element.py", "r[j] > 0.0", "(r[j] >= 0.0)"): "an element without a stretch relaxes without heat",
     (
         "bem3d/topography.py",

@@ -27,8 +27,7 @@ from scene import (
     Stage,
     StandardLinearSolid,
 )
-from scene.effects.settling import settled
-from scene.effects.terms import Heated
+from scene.effects.terms import Heated, settled
 
 ROUNDING = 1e-13
 # What temperature and heat agree to, as stated.

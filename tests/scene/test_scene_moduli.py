@@ -12,14 +12,13 @@ from strategies import decades, examples
 from scene import (
     WLF,
     Arrhenius,
-    CreepTable,
     Indent,
     InvalidInput,
     Prony,
-    RelaxationTable,
     Scene,
     ShiftFactors,
     Sphere,
+    Table,
     Tabulated,
 )
 from scene.solids.moduli import (
@@ -271,7 +270,7 @@ def test_a_scene_of_several_temperatures_is_stored_and_read_back():
     assert again == scene
     assert hash(again) == hash(scene)
     relaxed, crept = SOLID.relaxation_modulus(TIME), SOLID.creep_compliance(TIME)
-    for table in (RelaxationTable(TIME, relaxed), CreepTable(TIME, crept)):
+    for table in (Table(time=TIME, modulus=relaxed), Table(time=TIME, compliance=crept)):
         whole = TypeAdapter(Tabulated)
         solid = Tabulated(table=table, kind="shear")
         assert whole.validate_json(whole.dump_json(solid)) == solid
@@ -367,13 +366,17 @@ def test_a_solid_stays_one_under_noise(name):
     ("change", "said"),
     [
         ({"modulus": (1.0,) * 5}, "have \\[4, 5\\] values"),
-        ({"temperature": (300.0,) * 3}, "temperature has 3 values, time has 4"),
+        ({"temperature": (300.0,) * 3}, r"time, modulus, temperature have \[4, 4, 3\] values"),
         ({"time": (1.0, 1.0, 2.0, 3.0)}, "3 times: at least 4"),
+        (
+            {"loss": (1.0,) * 4},
+            "a table of loss, time, modulus: give frequency, storage, loss; or",
+        ),
     ],
 )
 def test_a_wrong_table_over_time_is_refused_with_its_place(change, said):
     with pytest.raises(InvalidInput, match=said):
-        RelaxationTable(**({"time": (1.0, 2.0, 3.0, 4.0), "modulus": (4.0, 3.0, 2.0, 1.0)} | change))
+        Table(**({"time": (1.0, 2.0, 3.0, 4.0), "modulus": (4.0, 3.0, 2.0, 1.0)} | change))
 
 
 def test_every_name_is_that_of_one_column():

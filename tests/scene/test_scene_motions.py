@@ -8,7 +8,7 @@ from programs import program
 
 from scene import InvalidInput, Scene, Stage
 from scene.files.reading import read
-from scene.oscillation import Oscillation
+from scene.motion import Oscillation
 
 # Sums of a few terms in double precision.
 ROUNDING = 1e-12

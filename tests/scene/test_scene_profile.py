@@ -17,9 +17,9 @@ from compare.trustmap.verdict import FITTED, trust
 from mdr1d import MDR
 from scene import Kelvin, Profile, Refused, Scene, SelfAffine, Slide, Sphere
 from scene.surfaces import linescan
-from scene.surfaces.form import taken_off
-from scene.surfaces.periodogram import bins_of
-from scene.surfaces.waves import MOST_WAVES
+from scene.surfaces.heightmap import taken_off
+from scene.surfaces.linescan import bins_of
+from scene.surfaces.topography import MOST_WAVES
 
 SPACING = 2e-6
 ROUGH = SelfAffine(hurst=0.7, rms_height=2e-6, longest=8e-3, rolloff=2e-4, shortest=2e-5)
@@ -85,7 +85,7 @@ def test_a_row_of_a_rough_surface_is_fitted_by_that_surface():
     grid = Grid(1024, rough.longest)
     x, y = grid.x, np.linspace(0, rough.longest, 8, endpoint=False)
     rows = RoughSurface.of(rough, rough.q_max(0.0)).heights(x, y)
-    laws = [linescan.fit(row, grid.pixel, degree=0, periodic=True) for row in rows]
+    laws = [linescan.fit(row, grid.pixel, degree=0) for row in rows]
     for name in ("hurst", "rms_height", "rolloff"):
         # one of 20 may miss
         held = [getattr(law, name).low <= getattr(rough, name) <= getattr(law, name).high for law in laws]
@@ -104,7 +104,7 @@ def test_waves_beyond_the_cut_off_have_the_slope_of_a_tapered_periodogram():
 
 
 def test_laws_on_the_lattice_are_line_scans_of_self_affine_surfaces():
-    laws = linescan._Laws(bins_of(512, 1, False))
+    laws = linescan._Laws(bins_of(512, 1))
     at = 30, int(np.argmin(np.abs(laws.rolloffs - 5))), int(np.argmin(np.abs(laws.cutoffs - 100)))
     hurst, rolloff, cutoff = (float(each) for each in laws.numbers(at))
     # a longest wave far beyond the line; a plateau of one
@@ -152,11 +152,10 @@ def test_solvers_answer_a_line_as_its_fitted_surface(solver):
 
 
 @pytest.mark.parametrize("seed", [0, 5])
-@pytest.mark.parametrize("repeat", ["mirror", "periodic"])
 @pytest.mark.parametrize("points", [96, 97])
-def test_a_line_scan_is_the_measured_line_at_its_points(repeat, seed, points):
-    profile = Profile(heights=HEIGHTS[:points], spacing=SPACING, repeat=repeat, seed=seed)
-    whole = np.append(profile.relief, profile.relief[::-1]) if repeat == "mirror" else profile.relief
+def test_a_line_scan_is_the_measured_line_at_its_points(seed, points):
+    profile = Profile(heights=HEIGHTS[:points], spacing=SPACING, seed=seed)
+    whole = np.append(profile.relief, profile.relief[::-1])
     for fine in (1, 3):
         found = mdr1d.draw(profile, fine * len(whole), "line-scan").heights[::fine]
         shifts = [
@@ -223,7 +222,6 @@ REGULAR = np.sin(2 * pi * np.arange(512) / 16.3)
         ("type = .wave", {"heights": REGULAR}),
         ("20 points", {"heights": HEIGHTS[:20]}),
         ("heights.0. = inf: 1 of 512 heights .0.195 %. missing", {"heights": [np.inf, *HEIGHTS[1:]]}),
-        ("periodic", {"repeat": "periodic", "level": "tilt"}),
         ("shortest_kept = 1e-06", {"shortest_kept": 1e-6}),
         ("roll-off", {"shortest_kept": 5e-4}),
         ("shape .8, 8.: a line is one row of heights", {"heights": np.ones((8, 8))}),
@@ -321,12 +319,3 @@ def test_a_line_is_the_same_in_every_text_that_is_read(tmp_path, content, stated
 def test_a_text_that_is_no_line_is_refused_with_what_to_state(tmp_path, content, stated, message):
     (tmp_path / "line.txt").write_text(content)
     refused(message, Profile, file=tmp_path / "line.txt", **stated)
-
-
-def test_missing_heights_are_filled_in_on_straight_lines_when_asked(tmp_path):
-    path, rows = tmp_path / "line.csv", column().splitlines()
-    rows[100:102] = ["0.200000;", "0.202000;nan"]
-    path.write_text("\n".join(["x [mm];z [um]", *rows]))
-    profile = Profile(file=path, missing="fill")
-    assert profile.heights.heights[99:103] == pytest.approx(np.linspace(*HEIGHTS[[99, 102]], 4), abs=1e-14)
-    assert "2 of 512 heights (0.391 %) were missing" in profile.notes[0]

@@ -166,10 +166,7 @@ TYPES = "one of 'elastic', 'fractional', 'kelvin', 'kelvin-chain', 'prony', 'sta
         (
             'type = "slide"',
             'typ = "slide"',
-            [
-                "motion.type: missing, one of 'indent', 'program', 'shear', 'slide'",
-                "motion.typ = 'slide': unknown here; did you mean type?",
-            ],
+            ["motion.type: missing, one of 'indent', 'program', 'shear', 'slide'"],
         ),
         ("[indenter]", "speed = 0.1\n[indenter]", ["speed = 0.1: unknown here; known are indenter, elastomer, "]),
         ("seed = 1", "fudge = 1", ["roughness.fudge = 1: unknown here; known are type, hurst, "]),
@@ -182,29 +179,6 @@ def test_an_unknown_name_is_one_mistake_with_the_nearest_known_one(tmp_path, old
     assert old in text
     for found, begins in zip(lines_of(tmp_path, text.replace(old, new, 1)), lines, strict=True):
         assert found.startswith(begins)
-
-
-def test_what_stands_under_a_misspelt_name_is_checked_as_if_it_were_right(tmp_path):
-    text = WHOLE.replace("[elastomer]", "[elastomr]").replace("modulus = 1e6", "modulis = '1 N'")
-    text = text.replace('"sphere"\nradius = 1e-2', '"spher"\nradius = -1').replace("hurst = 0.2", "hurst = 2")
-    assert [line.partition(":")[0] for line in lines_of(tmp_path, text)] == [
-        "indenter.type = 'spher'",
-        "elastomr",
-        "elastomer.modulis = '1 N'",
-        "indenter.radius = -1",
-        "elastomer.modulus = '1 N'",
-        "roughness.hurst = 2",
-    ]
-
-
-@pytest.mark.parametrize(("stated", "missing"), [("", ": missing,"), ('type = "rubber"\n', " = 'rubber':")])
-def test_a_type_that_is_missing_or_unknown_hides_nothing_of_its_table(tmp_path, stated, missing):
-    """What another type could take is no mistake, nor what does not fit a type that was not stated."""
-    text = WHOLE.replace('type = "kelvin"\n', stated).replace("1e-3", "-1e-3\nfudge = 2\nmoduli = [1]")
-    kind, unknown, wrong = lines_of(tmp_path, text)
-    assert kind == f"elastomer.type{missing} {TYPES}"
-    assert unknown == "elastomer.fudge = 2: unknown here"
-    assert wrong == "elastomer.relaxation_time = -0.001: Input should be greater than 0"
 
 
 def test_everything_that_is_missing_is_listed(tmp_path):
@@ -342,7 +316,7 @@ def compared(monkeypatch):
         names.append(name)
         return get_close_matches(name, *others)
 
-    monkeypatch.setattr("scene.files.error_text.get_close_matches", compare)
+    monkeypatch.setattr("scene.files.reading.get_close_matches", compare)
     return names
 
 

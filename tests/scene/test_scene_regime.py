@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 from scene import Cone, Elastic, Indent, PowerLaw, Regime, Scene, Sphere
-from scene.regime import MUCH_LESS_HEIGHT, MUCH_LESS_SLOPE, SMALL_SLOPE
-from scene.scales import elastic_contact
+from scene.scales import MUCH_LESS_HEIGHT, MUCH_LESS_SLOPE, SMALL_SLOPE, elastic_contact
 
 # A mean over 20000 points of a smooth function.
 QUADRATURE = 1e-8

@@ -63,13 +63,13 @@ def test_a_slope_in_place_of_the_height_is_the_slope_of_the_surface(hurst, rollo
 @pytest.mark.parametrize(
     ("message", "stated"),
     [
-        ("without shortest: the cut-off would be that of each solver's grid", {"shortest": None}),
-        ("rms_slope = 0.1 beside rms_height = 1e-06: give one of them", {"rms_height": 1e-6}),
-        ("rms_slope = -1: .* greater than or equal to 0", {"rms_slope": -1}),
+        ("rms_slope = 0.1: state shortest", {"shortest": None}),
+        ("rms_slope = 0.1: .* no rms_height beside it", {"rms_height": 1e-6}),
+        ("rms_slope = -1: .* a number from 0 on", {"rms_slope": -1}),
         ("rms_slope = '3 deg': .*a number without a unit", {"rms_slope": "3 deg"}),
         ("rms_slope = True", {"rms_slope": True}),
-        ("rms_slope = nan: .*finite", {"rms_slope": float("nan")}),
-        ("beyond the range of numbers", {"rms_slope": 1e300, "longest": 1e300, "shortest": 1e200}),
+        ("rms_slope = nan: .* a number from 0 on", {"rms_slope": float("nan")}),
+        ("rms_height = inf: .*finite", {"rms_slope": 1e300, "longest": 1e300, "shortest": 1e200}),
         # mistakes of other fields are their own
         ("hurst.*Input should be less than or equal to 1", {"hurst": 2}),
         ("longest: missing", {"longest": None}),

@@ -15,8 +15,8 @@ from scene import (
     Stage,
 )
 from scene import quantities as q
+from scene.numeric_input import NotPlain, in_si
 from scene.quantities import Unit
-from scene.units import NotPlain, in_si
 
 PREFIXES = {"f": -15, "p": -12, "n": -9, "u": -6, "µ": -6, "m": -3, "c": -2, "": 0, "k": 3, "M": 6, "G": 9}
 UNITS = [each for each in vars(q).values() if isinstance(each, Unit) and each.number is not None]

@@ -9,7 +9,7 @@ from scipy.special import j1, jv
 from scene import Profile, Spectrum, Topography
 from scene.solids.viscoelastic import Linear
 from scene.surfaces.isotropic import Isotropic
-from scene.surfaces.waves import Waves
+from scene.surfaces.topography import Waves
 
 from ..exact.full_contact import complex_stiffness
 

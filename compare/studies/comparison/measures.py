@@ -15,8 +15,7 @@ import numpy as np
 import xarray
 
 from scene import Program, Scene
-from scene.regime import MUCH_LESS_HEIGHT
-from scene.scales import elastic_contact
+from scene.scales import MUCH_LESS_HEIGHT, elastic_contact
 
 from ...models import exact
 from ...models.exact.indentation import loading_force

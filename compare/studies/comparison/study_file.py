@@ -26,8 +26,7 @@ from scene import (
     Stage,
 )
 from scene.files import files
-from scene.files.error_text import CHOICE
-from scene.files.reading import InvalidInput, invalid, made, parsed
+from scene.files.reading import CHOICE, InvalidInput, invalid, made, parsed
 from scene.quantities import CLOSED, Force, Length, Speed, Whole
 from scene.scales import elastic_contact
 from scene.solids.rheology import Elastomer
