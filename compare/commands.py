@@ -26,13 +26,11 @@ from typing import TYPE_CHECKING, Any, Unpack, cast
 
 from .options import (
     Baseline,
-    Budget,
     CaseSize,
     Channel,
     Crop,
     Draws,
     ExportFormat,
-    FigureFormat,
     FilesFolder,
     Folder,
     HeightMap,
@@ -113,10 +111,8 @@ def solve(
     workers: Workers = None,
     scheduler: Scheduler = None,
     executor: Executor | None = None,
-    figure_format: FigureFormat = "png",
     report: WithReport = True,
     yes: Yes = False,
-    budget: Budget = None,
     progress: bool | str | Shown | None = False,
 ) -> Report:
     """Do a study, one of your own too: solve what the folder has not, judge, and write the page.
@@ -135,9 +131,7 @@ def solve(
         raise InvalidInput(f"study = {brief(repr(study))}: an object of a class derived from Study is needed")
     _warn(study.doubts)
     with _shown(progress) as shown:
-        found = pipeline.run(
-            study, output, workers, scheduler, executor, figure_format, report, yes, budget, shown
-        )
+        found = pipeline.run(study, output, workers, scheduler, executor, report, yes, shown)
     _warn([" ".join(found.unsolved.sentences)] if found.unsolved.failed else [])
     return found
 
@@ -173,7 +167,6 @@ def run(
     models: Models = None,
     reference: Reference = None,
     interval: Interval = None,
-    budget: Budget = None,
     **options: Unpack[Options],
 ) -> Report:
     """Solve a scene in 1D and in 3D, compare, and write a report.
@@ -184,7 +177,7 @@ def run(
     """
     from .studies.comparison import asked
 
-    return solve(asked.run(scene, models, reference, interval), output, budget=budget, **options)
+    return solve(asked.run(scene, models, reference, interval), output, **options)
 
 
 @checked
@@ -195,7 +188,6 @@ def study(
     models: Models = None,
     reference: Reference = None,
     interval: Interval = None,
-    budget: Budget = None,
     **options: Unpack[Options],
 ) -> Report | Listing:
     """Test the paper's claims on many contacts in 1D and 3D."""
@@ -205,7 +197,7 @@ def study(
         return studies()
     from .studies.comparison import asked
 
-    return solve(asked.study(str(name), size, models, reference, interval), output, budget=budget, **options)
+    return solve(asked.study(str(name), size, models, reference, interval), output, **options)
 
 
 @checked
@@ -343,7 +335,6 @@ def sweep(
     models: Models = None,
     reference: Reference = None,
     interval: Interval = None,
-    budget: Budget = None,
     **options: Unpack[Options],
 ) -> xarray.Dataset:
     """Solve a scene at many speeds and loads, in 1D and 3D.
@@ -363,18 +354,18 @@ def sweep(
 
     asked = {"scene": scene, "speed": speed, "load": load, "depth": depth, "draws": draws}
     compared = {"models": models, "reference": reference, "interval": interval}
-    report = swept(output, budget, **asked, **compared, **options)
+    report = swept(output, **asked, **compared, **options)
     _warn(griderror.warnings_of(report.answers))
     return cast("SweepSeries", cast("Comparison", report.study).series[0]).dataset(report.answers)
 
 
 @checked
-def swept(output: Output = "crosscheck-sweep", budget: Budget = None, **given: Any) -> Report:
+def swept(output: Output = "crosscheck-sweep", **given: Any) -> Report:
     """Report of a sweep, of the arguments of `sweep`: the command prints it."""
     from .studies.comparison import asked
 
     options: Any = {name: given.pop(name) for name in Options.__annotations__ if name in given}
-    return solve(asked.sweep(**given), output, budget=budget, **options)
+    return solve(asked.sweep(**given), output, **options)
 
 
 @checked

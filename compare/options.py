@@ -91,14 +91,6 @@ Scheduler = Annotated[
     ),
     TEXT,
 ]
-FigureFormat = Annotated[
-    str,
-    Option(
-        help="File formats of the figures, separated by commas: png, pdf, svg. A PNG is always written.",
-        autocompletion=lambda: ["png", "pdf", "svg"],
-    ),
-    TEXT,
-]
 WithReport = Annotated[
     bool,
     Option(help="Write the page and its figures. Findings, tables and results are written in any case."),
@@ -114,7 +106,6 @@ class Options(TypedDict, total=False):
     workers: Workers
     scheduler: Scheduler
     executor: "Executor | None"
-    figure_format: FigureFormat
     report: WithReport
     yes: Yes
     progress: "bool | str | Shown | None"
@@ -175,14 +166,6 @@ Interval = Annotated[
         " or every interval is so narrow."
     ),
     "From Python also a number, as 0.02.",
-]
-Budget = Annotated[
-    Amount | None,
-    Option(
-        help="Time after which no more surfaces are asked for, as 10min. It alone makes results depend on the"
-        " speed of the machine."
-    ),
-    "From Python also a number [s].",
 ]
 Speeds = Annotated[
     Values | None,

@@ -171,12 +171,10 @@ class DrawnSurfaces:
             left = max(left, wanted - finding.grid, OWN_SHARE * wanted)
         return self._least_cost(finding.parts, scatter / left) if left > 0 else {}
 
-    def more(
-        self, findings: Iterable[Finding], interval: float, growth: float = GROWTH
-    ) -> dict[str, tuple[int, ...]]:
+    def more(self, findings: Iterable[Finding], interval: float) -> dict[str, tuple[int, ...]]:
         """Numbers of draws that decide findings, or make their intervals narrow enough; no fewer than now.
 
-        Of no stratum there are more than MOST_DRAWS. growth : times the draws at most
+        Of no stratum there are more than MOST_DRAWS, and at most GROWTH times the draws of now.
         """
         asked = [self.deciding(each, interval) for each in findings]
 
@@ -184,7 +182,7 @@ class DrawnSurfaces:
             return max((each.get(source, 0.0) for each in asked), default=0.0)
 
         return {
-            name: tuple(_more(had, most(name, k), growth) for k, had in enumerate(counts))
+            name: tuple(_more(had, most(name, k)) for k, had in enumerate(counts))
             for name, counts in self.counts.items()
         }
 
@@ -231,10 +229,10 @@ def _open(finding):
     return finding.verdict == UNDECIDED and bool(finding.parts) and known and (parted or not finding.reason)
 
 
-def _more(had, asked, growth):
+def _more(had, asked):
     """Number of surfaces of a stratum, of which so many are asked for."""
     enough = TOGETHER * ceil(MARGIN * min(asked, MOST_DRAWS) / TOGETHER)
-    return min(max(had, min(enough, int(growth * had))), MOST_DRAWS)
+    return min(max(had, min(enough, int(GROWTH * had))), MOST_DRAWS)
 
 
 def _some(count):

@@ -107,7 +107,7 @@ def test_a_command_has_the_arguments_and_defaults_of_its_function_and_says_what_
         python = {**inspect.signature(compare.solve).parameters, **python}
     own = COMMANDS[name].keys() - {"quiet", "verbose", "json"}
     assert all(COMMANDS[name][each].default == python[each].default for each in own)
-    assert python.keys() - own <= {"progress", "quantities", "options", "study", "budget", "output", "executor"}
+    assert python.keys() - own <= {"progress", "quantities", "options", "study", "output", "executor"}
     told = " ".join(ask(name, "--help").output.split())
     helps = [each.annotation.__metadata__[0].help for each in COMMANDS[name].values()]
     assert all(" ".join(each.split()) in told for each in helps)  # brackets included
@@ -147,7 +147,6 @@ MISTAKES = {
     "study collapse --size big": "'--size': Value error, 'big' is not one of 'quick', 'standard', 'full'",
     "run quick-start --workers few": "'--workers': 'few' is not a number",
     "run quick-start --workers 0": "workers = 0: a whole number from 1 to ",
-    "run quick-start --figure-format gif": "figure_format = gif: allowed are png, ",
     "study mine.toml": "mine.toml: ",
     "workprecision paper-spere": "did you mean paper-sphere?",
     "new quick-start mine.toml": "is there already, and nothing is overwritten",

@@ -194,24 +194,9 @@ def test_hard_surfaces_are_solved_on_the_next_finer_grid_and_told(tmp_path, monk
     assert again.findings.equals(report.findings)
 
 
-@pytest.mark.usefixtures("in_this_process")
-def test_a_budget_that_is_spent_asks_for_no_more(tmp_path):
-    report = compare.run(CASE, interval="1%", budget="1 ms", report=False, output=tmp_path)
-    drawn = {name: each.strata("BEM") for name, each in report.study.grids().items() if each.random}
-    assert {sum(map(len, each)) for each in drawn.values()} == {PILOT + 8}
-    assert report.study.more(report.answers, report.judged) is not None
-
-
 def test_an_interval_and_numbers_of_surfaces_are_not_both_stated():
     with pytest.raises(ValueError, match=r"interval = 0\.02: it takes the place of surfaces and profiles"):
         Variations(interval="2%", surfaces=3)
-
-
-@pytest.mark.parametrize("budget", ["0 s", "-1 s", "3 m", "soon", float("inf")])
-def test_a_budget_is_a_time(budget, tmp_path):
-    with pytest.raises(InvalidInput, match=r"budget = .*: a time above zero, as 10min or 600 s"):
-        compare.run(CASE, interval="5%", budget=budget, output=tmp_path / "none")
-    assert not (tmp_path / "none").exists()
 
 
 STUDY = """

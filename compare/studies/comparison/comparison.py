@@ -16,7 +16,6 @@ from ...solving.curve import Curve
 from ...solving.outcome import Outcome
 from ...solving.task import SceneTask, Task
 from ...statistics.finding import Finding
-from ...statistics.multilevel import GROWTH
 from ..study import Judgement, Study
 from . import pages
 from .answer import claims_table, scene_table
@@ -81,12 +80,10 @@ class Comparison(Study):
                     below[f"{FIELDS}/{model}"] = xarray.DataTree(fields)
         return tree
 
-    def more(
-        self, answers: xarray.DataTree, findings: Sequence[Finding], growth: float = GROWTH
-    ) -> "Comparison | None":
+    def more(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> "Comparison | None":
         """The comparison with the surfaces that open claims and wide intervals ask for; None where none does."""
         sampled = [each for each in self.series if each.sampled]
-        asked = {each.name: each.more(each.answers(answers), findings, growth) for each in sampled}
+        asked = {each.name: each.more(each.answers(answers), findings) for each in sampled}
         for names in alike([each for each in self.series if each.name in asked]):
             asked |= dict.fromkeys(names, _most([asked[name] for name in names]))
         if all(asked.get(each.name, each.counts) == each.counts for each in self.series):

@@ -196,13 +196,13 @@ class Series(ABC):
         words = {each.name: each.draws for each in self.models}
         return found if name is None else self.drawn[name].told(found, words)
 
-    def more(self, answers: Answers, findings: Sequence[Finding], growth: float) -> dict[str, Counts]:
+    def more(self, answers: Answers, findings: Sequence[Finding]) -> dict[str, Counts]:
         """Numbers of surfaces that undecided claims and wide intervals ask for, of the curves that share them."""
         made: dict[str, Counts] = {}
         for name, drawn in self.drawn.items():
             own = [each for each in findings if self.behind(each) == name]
             own += [each for *_, found in self._means(name, answers) for each in found]
-            made[name] = drawn.more(own, self.interval or inf, growth)
+            made[name] = drawn.more(own, self.interval or inf)
         return made
 
     def unreached(self, answers: Answers) -> Iterator[str]:
