@@ -45,7 +45,6 @@ from .options import (
     Missing,
     Model,
     Models,
-    ModulusFigure,
     NewFile,
     Options,
     Outliers,
@@ -388,14 +387,12 @@ def trust(scene: SceneFile) -> Advice:
 
 
 @checked
-def plan(scene: SceneFile, figure: ModulusFigure = None) -> Plans:
+def plan(scene: SceneFile) -> Plans:
     """Say what a scene costs and what is simulated of it. The status is 2 if no solver can solve it."""
     from .studies.plan import plans
 
     found = plans(scene)
     _warn(found.doubts)
-    if figure is not None:
-        found.draw(figure)
     return found
 
 

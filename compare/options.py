@@ -310,12 +310,6 @@ Peaks = Annotated[
 
 # Files that are read and written.
 Folder = Annotated[File, Argument(help="Folder that a command has written, or its results.nc for export.")]
-ModulusFigure = Annotated[
-    File | None,
-    Option(
-        help="File (.png, .pdf or .svg) for the shear moduli G', G'' of the solid; if absent, they are not drawn."
-    ),
-]
 ReadyName = Annotated[
     str,
     Argument(help="Ready scene or study, see crosscheck scenes.", autocompletion=copies),

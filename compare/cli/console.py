@@ -1,9 +1,7 @@
 """Output of a command for people, and every mistake in a line."""
 
-import codecs
 import errno
 import os
-import re
 import signal
 import sys
 from collections.abc import Iterator
@@ -13,14 +11,6 @@ from io import TextIOWrapper
 import typer
 
 FAILED, MISTAKE, INTERRUPTED = 1, 2, 130
-# Stand-ins for letters that an older encoding lacks; others are the names of Greek letters, or escapes.
-EXPONENT = re.compile("[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+")
-FIGURES = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻₀₁₂₃₄₅₆₇₈₉", "0123456789-0123456789")
-PLAIN = {"−": "-", "–": "-", "±": "+-", "×": "x", "·": "*", "µ": "u", "°": " deg", "√": "sqrt ", "≤": "<="} | {
-    "≥": ">=", "≈": "~", "∞": "inf", "′": "'", "…": "...", "½": "1/2", "→": "->"
-}  # fmt: skip
-GREEK = "alpha beta gamma delta epsilon eta theta lambda mu nu xi pi rho sigma tau phi omega Delta"
-PLAIN |= dict(zip("αβγδεηθλμνξπρστφωΔ", GREEK.split(), strict=True))
 
 
 def say(text: str, error: bool = False) -> None:
@@ -33,23 +23,10 @@ def say(text: str, error: bool = False) -> None:
 
 
 def print_in_any_encoding() -> None:
-    """From now on what is printed has stand-ins for the letters that the encoding of the terminal lacks."""
-    codecs.register_error("readable", _readable)
+    """From now on letters that the encoding of the terminal lacks are printed as escapes."""
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):
-            stream.reconfigure(errors="readable")
-
-
-def _readable(error):
-    """Plain letters for those that cannot be encoded, and where to go on: an exponent is written whole, 10^-12."""
-    text, start, end = error.object, error.start, error.end
-    if start and EXPONENT.match(text, start - 1):  # its first figures are written
-        return text[start:end].encode("ascii", "backslashreplace").decode(), end
-    if exponent := EXPONENT.match(text, end - 1):
-        end = exponent.end()
-    plain = EXPONENT.sub(lambda found: f"^{found[0]}", text[start:end]).translate(FIGURES)
-    plain = "".join(PLAIN.get(each, each) for each in plain)
-    return plain.encode("ascii", "backslashreplace").decode(), end
+            stream.reconfigure(errors="backslashreplace")
 
 
 @contextmanager

@@ -1,6 +1,5 @@
 """Friction against speed of every model, at up to three loads or depths; below, ratios."""
 
-from collections.abc import Sequence
 from math import ceil
 from typing import Any
 
@@ -14,6 +13,7 @@ from .plot import Plot, Tables
 
 NAME = "friction-speed"
 RATIOS, LINES = "-ratios", "-lines"
+QUANTITY = "friction_coefficient"
 THEORY, EQ_19, SMOOTH = KINDS = "theory", "Eq. 19", "smooth"
 
 
@@ -41,18 +41,8 @@ def plot(
 
 
 def figure(tables: Tables) -> Figure:
-    """A panel for each load or depth; at most three side by side."""
-    return against(NAME, tables, "speed", (AXES["speed"][1], "friction coefficient [1]"), "friction_coefficient")
-
-
-def against(
-    name: str, tables: Tables, across: str, labels: Sequence[str], quantity: str, slow: Sequence[float] = ()
-) -> Figure:
-    """A quantity of every model along an axis; below, over that of the reference where that is known.
-
-    slow : where along the axis the ratio is 2 as derived for low speed
-    """
-    points, ratios, lines = tables[name], tables.get(f"{name}{RATIOS}"), tables.get(f"{name}{LINES}")
+    """A panel for each load or depth, three side by side at most; below, over the reference where it is known."""
+    points, ratios, lines = tables[NAME], tables.get(f"{NAME}{RATIOS}"), tables.get(f"{NAME}{LINES}")
     places = panels_of(points, (ratios, lines), "load", "depth")
     heights = (1.0,) if ratios is None else (2.2, 1.0)
     wide, deep = min(len(places), PANELS), ceil(len(places) / PANELS)
@@ -62,19 +52,17 @@ def against(
     stacks = [column for row in np.split(grid, deep) for column in row.T]
     for (above, *below), (title, (own, over_reference, beside)) in zip(stacks, places, strict=False):
         above.set(xscale="log", yscale="log", title=title)
-        curves(above, own, across, quantity)
+        curves(above, own, "speed", QUANTITY)
         if lines is not None:
-            for (kind, model), line in beside.sort_values(across).groupby(["kind", "model"], sort=False):
-                above.plot(line[across], line[quantity], **line_look(kind, model))
-        limit(above, points, quantity)
+            for (kind, model), line in beside.sort_values("speed").groupby(["kind", "model"], sort=False):
+                above.plot(line["speed"], line[QUANTITY], **line_look(kind, model))
+        limit(above, points, QUANTITY)
         for axes in below:
-            if slow:
-                axes.plot(slow, [2, 2], **style.line(0.75, 4.0, zorder=0, label="2, derived for low speed"))
-            about(axes, 1, over_reference, across, "ratio")
+            about(axes, 1, over_reference, "speed", "ratio")
             axes.set_ylim(0, max(1.1, axes.get_ylim()[1]))
-        (above, *below)[-1].set_xlabel(labels[0])
+        (above, *below)[-1].set_xlabel(AXES["speed"][1])
     for row, axes in enumerate(grid[:, 0]):
-        axes.set_ylabel(f"{over(points)} [1]" if row % len(heights) else labels[1])
+        axes.set_ylabel(f"{over(points)} [1]" if row % len(heights) else "friction coefficient [1]")
     for spare in np.ravel(stacks[len(places) :]):
         spare.remove()
     style.finish(drawing, 2 if wide == 1 else 5)

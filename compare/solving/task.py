@@ -90,13 +90,13 @@ class SceneTask(Task):
     def label(self) -> str:
         """Short description for people."""
         scene = self.scenes[0]
-        motion, rough = scene.motion, scene.roughness
+        rough = scene.roughness
         seed = getattr(rough, "seed", None)
         body = "smooth" if rough is None else "waves" if seed is None else f"surface {seed}"
         if len(self.scenes) > 1:
             body = f"{len(self.scenes)} profiles"
-        pressed, moved = _pressed(motion), _moving(motion)
-        return f"{self.solver.name} {type(scene.indenter).__name__.lower()} {pressed}, {moved}, {body}"
+        shape = type(scene.indenter).__name__.lower()
+        return f"{self.solver.name} {shape} {conditions(scene.motion)}, {body}"
 
     @property
     def count(self) -> int:
@@ -202,13 +202,10 @@ def draws_of(scene: Scene, seeds: int | Iterable[int]) -> tuple[Scene, ...]:
     return tuple(replace(scene, roughness=replace(rough, seed=rough.seed + each)) for each in added)
 
 
-def _pressed(motion):
-    """Load or depth that is prescribed, with its unit; depths in micrometres."""
+def conditions(motion: Any) -> str:
+    """Load or depth that is prescribed, depths in micrometres, and the speed, in words: 1 N, 0.1 m/s."""
     value, unit = motion.greatest, UNITS[motion.pressed_by]
-    return f"{value * 1e6:.3g} µm" if unit == "m" else f"{value:.3g} {unit}"
-
-
-def _moving(motion):
+    pressed = f"{value * 1e6:.3g} µm" if unit == "m" else f"{value:.3g} {unit}"
     if isinstance(motion, Program):
-        return f"{len(motion.stages)} stages"
-    return f"{motion.speed:.3g} m/s" if motion.speed else "at rest"
+        return f"{pressed}, {len(motion.stages)} stages"
+    return f"{pressed}, {motion.speed:.3g} m/s" if motion.speed else f"{pressed}, at rest"

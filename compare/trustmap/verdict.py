@@ -18,7 +18,7 @@ from scene.scales import elastic_contact
 from ..models.law.bands import Bands
 from ..solving.words import capital, interval, off, seconds, share
 from .groups import LINE, SPACE, SmoothReference
-from .measured import Neighbour, OffTheMap, Place, as_judged, nearest, placed, unmeasured
+from .measured import OffTheMap, Place, as_judged, placed, unmeasured
 from .model import MOST_SCATTER, NORMAL, lost
 from .ratio import LAW, RATIOS, asked_of
 
@@ -114,7 +114,6 @@ class Advice:
     solving : processor time of as many surfaces in 3D as know friction, or depth or force at rest, to 5 % (95 %),
         as planned [s]; nan where nothing tells how they scatter
     groups : dimensionless groups by name, as numbers; empty of a smooth body and of what was never measured
-    nearest : scenes that were measured, the nearest first, of the first quantity
     doubts : about the scene
     notes : on what was read for it
     """
@@ -124,7 +123,6 @@ class Advice:
     force: Correction | None
     law: Correction | None
     groups: Mapping[str, float]
-    nearest: tuple[Neighbour, ...]
     solving: float = nan
     doubts: tuple[Doubt, ...] = ()
     notes: tuple[str, ...] = ()
@@ -166,8 +164,6 @@ class Advice:
         lines += [f"{TOLD[name]}: {worth}" for name, worth in self.corrections.items()]
         if self.groups:
             lines.append(f"place on the map: {placed(self.groups)}")
-        first = next(iter(self.corrections), "")
-        lines += [f"measured: {first} 1D/3D = {each.ratio:.3g} at {placed(each.groups)}" for each in self.nearest]
         return "\n".join(lines)
 
     def _repr_html_(self) -> str:
@@ -221,7 +217,7 @@ def _advised(scene):
     rubs = bool(place.smooth.friction_coefficient)
     asked = [name for name in asked_of(scene) if rubs or name not in ("friction", LAW)]
     corrections = {name: _predicted(name, place, _cost(name, scene)) for name in asked}
-    found = _of(corrections, place.named, tuple(nearest(asked[0], place.values)))
+    found = _of(corrections, place.named)
     return replace(found, solving=_solving(scene, asked[0], place))
 
 
@@ -230,13 +226,9 @@ def _unknown(scene, reason, advice=SOLVE):
     return _of({name: Correction(MODELS[name], *[nan] * 5, advice, nan, reason) for name in asked})
 
 
-def _of(
-    corrections: Mapping[str, Correction],
-    groups: Mapping[str, float] | None = None,
-    nearest: tuple[Neighbour, ...] = (),
-) -> Advice:
+def _of(corrections: Mapping[str, Correction], groups: Mapping[str, float] | None = None) -> Advice:
     friction, depth, force, law = (corrections.get(name) for name in RATIOS)
-    return Advice(friction, depth, force, law, groups or {}, nearest)
+    return Advice(friction, depth, force, law, groups or {})
 
 
 def _smooth(scene) -> Advice:

@@ -186,14 +186,13 @@ def printed(text, encoding, monkeypatch):
 @pytest.mark.parametrize(
     ("encoding", "said"),
     [
-        ("utf-8", "−2 ± 1 × 10⁻¹² Pa, λ ≤ 5 µm, 3 · 10¹⁰ h₀, 摩"),
-        ("cp1252", r"-2 ± 1 × 10^-12 Pa, lambda <= 5 µm, 3 · 10¹\u2070 h0, \u6469"),
-        ("latin-1", r"-2 ± 1 × 10^-12 Pa, lambda <= 5 µm, 3 · 10¹\u2070 h0, \u6469"),
-        ("ascii", r"-2 +- 1 x 10^-12 Pa, lambda <= 5 um, 3 * 10^10 h0, \u6469"),
+        ("utf-8", "−2 ± 1 Pa, 5 µm, 10¹⁰ 摩"),
+        ("cp1252", r"\u22122 ± 1 Pa, 5 µm, 10¹\u2070 \u6469"),
+        ("ascii", r"\u22122 \xb1 1 Pa, 5 \xb5m, 10\xb9\u2070 \u6469"),
     ],
 )
-def test_letters_that_an_encoding_lacks_have_stand_ins_that_say_the_same_number(encoding, said, monkeypatch):
-    assert printed("−2 ± 1 × 10⁻¹² Pa, λ ≤ 5 µm, 3 · 10¹⁰ h₀, 摩", encoding, monkeypatch) == f"{said}\n"
+def test_letters_that_an_encoding_lacks_are_printed_as_escapes(encoding, said, monkeypatch):
+    assert printed("−2 ± 1 Pa, 5 µm, 10¹⁰ 摩", encoding, monkeypatch) == f"{said}\n"
     every = "".join(map(chr, range(0x3000))) + "\ud800\U0001f600"
     assert len(printed(every, encoding, monkeypatch)) > 0x3000
 

@@ -17,10 +17,8 @@ from compare.solving.curve import FINER, NOT_ASKED, SOLVED, of_model
 from compare.statistics.finding import FAILS, HOLDS, UNDECIDED, Claim, Finding
 from compare.statistics.jackknife import DrawSet, friction, measured
 from compare.statistics.multilevel import GROWTH, DrawnSurfaces, pooled
-from compare.studies.comparison.series import PILOT
 from mdr1d import MDR
 from scene import SolveError
-from scene.files.reading import InvalidInput
 
 RATIO = Claim("ratio", "The ratio is one", 1.0, 0.05, measure=lambda sample: float(friction(sample["BEM"])[0]))
 DRAWN = DrawnSurfaces({"BEM": (8, 32), "MDR": (100,)}, {"BEM": (1e8, 1e7), "MDR": (1e5,)})
@@ -77,7 +75,6 @@ def test_more_draws_are_bounded_and_never_fewer():
     assert counts == {"BEM": (32, 128), "MDR": (400,)}
     assert GROWTH == 4
     assert DRAWN.more([found(0.7, 0.05)], 0.001) == DRAWN.counts
-    assert DRAWN.more([found(0.951, 0.3)], 0.001, 2.0) == {"BEM": (16, 64), "MDR": (200,)}
 
 
 def test_a_finding_says_what_would_decide_it():

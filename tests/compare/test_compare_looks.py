@@ -429,7 +429,7 @@ def test_what_has_no_answer_is_crossed_on_the_axis_and_without_an_end_there_is_n
 
 def test_threads_that_draw_at_once_draw_as_one_alone():
     def drawn_in(chosen):
-        return picture(sample("smooth_limit-figure"), look=style.Look(chosen)).files
+        return picture(sample("friction_load-figure"), look=style.Look(chosen)).files
 
     asked, outside = ("default", "nature", "default"), dict(matplotlib.rcParams)
     with ThreadPoolExecutor(len(asked)) as threads:

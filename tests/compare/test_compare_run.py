@@ -27,8 +27,6 @@ from compare.studies.comparison.around import (
     SMOOTH_SPEED,
     SPEED,
     Around,
-    models_of,
-    slow_friction,
 )
 from compare.studies.report import SOLVED
 from compare.studies.study import Study
@@ -313,11 +311,6 @@ def test_a_shear_is_compared_over_the_displacement():
     found = {each.claim.id: each for each in run.judge(answers).findings}
     assert found["history.friction"].value == pytest.approx(0.2, rel=1e-9)
     assert found["history.depth"].verdict == "holds"
-
-
-def test_slow_friction_of_the_smooth_body_is_twice_as_high_in_one_dimension():
-    slow = slow_friction(CASE, models_of(CASE))
-    assert slow["MDR"] == pytest.approx(2 * slow["BEM"], rel=1e-12)
 
 
 def test_what_cannot_be_compared_is_refused_before_anything_is_solved(tmp_path):

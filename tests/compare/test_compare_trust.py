@@ -167,7 +167,6 @@ def test_off_the_map_the_advice_is_to_solve_and_the_reason_names_what_is_missing
         assert np.isnan(worth.ratio)
         assert "Off the map" in worth.reason
         assert said in worth.reason
-    assert found.nearest == ()
 
 
 @pytest.mark.parametrize(
@@ -267,10 +266,7 @@ def test_nothing_rough_is_solved(monkeypatch):
     assert [scene.roughness for scene in solved] == [None, None]
 
 
-def test_it_says_where_the_scene_lies_and_what_was_measured_near_it():
-    found = trust(PAPER)
-    distances = [each.distance for each in found.nearest]
-    assert distances == sorted(distances)
+def test_it_says_where_the_scene_lies():
     solids = KELVIN, STANDARD, replace(STANDARD, glassy_modulus=2e11)
     texts = (str(trust(replace(PAPER, elastomer=each))) for each in solids)
     places = [next(line for line in each.splitlines() if line.startswith("place")) for each in texts]

@@ -8,9 +8,9 @@ import numpy as np
 from pandas import DataFrame
 
 from ...figures.style import prefixed
-from ...library.describe import conditions
 from ...report.page import Table
 from ...solving import words
+from ...solving.task import conditions
 from ...statistics.finding import BOTH, REPORTED, UNDECIDED, Finding
 from ...statistics.multilevel import WORDS
 from ...trustmap.verdict import Correction

@@ -6,8 +6,8 @@ from dataclasses import fields
 import xarray
 
 from scene import Scene
+from scene.files.parts import said
 
-from ...library.describe import described
 from ...report.page import Block, Findings, Section, Table, Text
 from ...statistics.finding import Finding
 from . import plots
@@ -58,7 +58,7 @@ def setting(about: str, every: Sequence[Judged]) -> list[Block]:
 def _contacts(series: Series, judged: Judged) -> Iterator[str]:
     """Scene in words, draws and grids of each model, regime, and notes."""
     parts = (getattr(series.scene, each.name) for each in fields(Scene) if each.name != "motion")
-    yield from (described(part) for part in parts if part is not None)
+    yield from (said(part) for part in parts if part is not None)
     for name, drawn in series.drawn.items() if series.scene.roughness else ():
         for model, counts in drawn.counts.items():
             told = " and ".join(f"{count:,}" for count in counts)

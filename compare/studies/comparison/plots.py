@@ -12,7 +12,7 @@ from pandas import DataFrame, concat
 from scene.files.reading import InvalidInput
 from scene.printable import brief
 
-from ...figures import collapse, contact, force_depth, friction_load, friction_speed, history, law, smooth_limit
+from ...figures import collapse, contact, force_depth, friction_load, friction_speed, history, law
 from ...figures.plot import Plot
 from ...figures.rendering import finished
 from ...figures.views import view
@@ -23,9 +23,8 @@ from ...statistics import eq23
 from ...statistics.finding import Finding
 from ...statistics.jackknife import mean
 from ...statistics.multilevel import MEANS
-from . import around
 from .answers import Answers
-from .around import EXACT, MU, OWN, SMOOTH_SPEED, Around
+from .around import EXACT, MU, OWN, Around
 from .claims_law import SHALLOW, LawPoints
 from .laws import laws
 from .measures import ROUGH, SMOOTH, closed_forms, loading
@@ -48,7 +47,6 @@ def of_series(judged: Judged, tree: xarray.DataTree) -> Iterator[Plot]:
             own = points[(points["curve"] == OWN) & points["model"].isin([*series.models.labels])]
             own = own.rename(columns=lambda name: name.removesuffix("_mean"))
             drawn.append(history.plot(own, series.curves[OWN].axis, series.scene, folder))
-        drawn.append(_smooth_limit(series, answers, points[points["curve"] == SMOOTH_SPEED], folder))
     drawn += _friction(judged, folder)
     if isinstance(series, RoughSeries) and (found := LawPoints.of(series, answers, judged.laws)):
         drawn.append(_law(found, judged.findings, folder))
@@ -202,19 +200,6 @@ def _map(series: Around, tree: xarray.DataTree, folder: str) -> Plot | None:
     }
     seen = view(series.scene, series.case.bem, fields)
     return contact.plot(series.scene, seen, folder) if seen else None
-
-
-def _smooth_limit(series: Around, answers: Answers, points: DataFrame, folder: str) -> Plot | None:
-    """Friction of the smooth body from slow to fast."""
-    if points.empty:
-        return None
-    slope = around.edge_slope(series.case)
-    columns = {f"friction_over_slope{end}": points[f"{MU}{end}"] / slope for end in ("_mean", "_low", "_high")}
-    tables = points[["model", "speed"]].assign(**columns), _ratios(series, answers, {SMOOTH_SPEED: "smooth"})
-    table, ratios = (each.assign(v_tau_over_a=around.scaled_speed(series.case, each["speed"])) for each in tables)
-    slow = around.slow_friction(series.case, series.models)
-    limits = DataFrame(slow.items(), columns=["model", "friction_over_slope"])
-    return smooth_limit.plot(table, ratios, limits[limits["model"].isin(table["model"])], folder)
 
 
 def _law(found: LawPoints, findings: Sequence[Finding], folder: str) -> Plot:

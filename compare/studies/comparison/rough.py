@@ -12,9 +12,9 @@ from mdr1d import MDR
 from scene import Program, Scene
 from scene.files.reading import InvalidInput
 
-from ...library.describe import slug
 from ...models.table import ModelLike, Models
 from ...solving.curve import Curve, on_two_levels
+from ...solving.folders import slug
 from .answers import Answers
 from .claims_law import law_findings
 from .measures import ROUGH, ROWS, SMOOTH

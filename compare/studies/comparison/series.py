@@ -12,9 +12,9 @@ import xarray
 
 from scene import Scene, Solver
 
-from ...library.describe import slug
 from ...models.table import DEPTH, FORCE, FRICTION, NONE, Model, Models
 from ...solving.curve import COARSE, FINE, LEVELS, Curve, levels
+from ...solving.folders import slug
 from ...solving.task import SceneTask
 from ...statistics import eq23
 from ...statistics.collapse import Collapse, collapse

@@ -135,7 +135,7 @@ class Paper(Study):
             plots.append(rubber.plot(collapses, judged))
         table = Findings(found, "Claims of the paper, with intervals of 95 % over rough profiles.")
         blocks: list[Block] = [*(each for each in plots if each), table]
-        return Judgement(found, blocks=blocks, setting=[Text(ABOUT), Text(_solved(answers))])
+        return Judgement(found, (), blocks, setting=[Text(ABOUT), Text(_solved(answers))])
 
 
 def contact_grid(shape: str) -> Curve:

@@ -18,13 +18,13 @@ from scene.scales import elastic_contact
 
 from ...figures.plot import Plot
 from ...library.case import Case, doubted
-from ...library.describe import folders
 from ...library.lookup import SceneLike, case_of, named_cases
 from ...models.exact import Exact
 from ...models.law.persson import Persson
 from ...models.table import Model, ModelLike, listed, named
 from ...report.page import Block, Table
 from ...solving.curve import Curve, of_model
+from ...solving.folders import folders
 from ...solving.outcome import Outcome
 from ...solving.task import Batch, Task
 from ...solving.words import seconds, share
