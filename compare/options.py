@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from .library.lookup import SceneLike
     from .models.table import ModelLike
     from .solving.terminal import Shown
-    from .studies.comparison.values import Values
+    from .studies.comparison.sweep import Values
     from .studies.mastercurve.measurements import Measurements
     from .studies.topography.study import Surface
 

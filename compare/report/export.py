@@ -16,8 +16,7 @@ from scene.files.reading import InvalidInput
 from scene.printable import brief
 
 from ..figures import style as looks
-from ..figures.plot import Plot
-from ..figures.rendering import FORMS, Picture, picture
+from ..figures.plot import FORMS, Picture, Plot, picture
 from ..solving import curve, netcdf
 from ..solving.suggest import known
 from ..solving.vocabulary import entry as vocabulary

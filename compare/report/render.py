@@ -11,8 +11,7 @@ import jinja2
 
 from scene.printable import printable
 
-from ..figures.plot import Plot
-from ..figures.rendering import picture
+from ..figures.plot import Plot, picture
 from ..solving.folders import write as write_whole
 from ..statistics import finding
 from ..statistics.finding import Finding

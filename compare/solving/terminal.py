@@ -11,9 +11,8 @@ from rich.table import Column
 from scene.printable import printable
 
 from .cost import SECONDS
-from .outcome import Outcome
 from .runner import Progress
-from .task import Task
+from .task import Outcome, Task
 from .words import duration
 
 PAUSE = 10.0  # seconds between lines where there is no terminal to draw a bar on

@@ -19,8 +19,7 @@ from ..library.case import Case, doubted
 from ..library.lookup import SceneLike, case_of
 from ..report.page import Text
 from ..solving.curve import work_of
-from ..solving.outcome import Outcome
-from ..solving.task import Batch, SceneTask, Task
+from ..solving.task import Batch, Outcome, SceneTask, Task
 from ..solving.vocabulary import attributes
 from ..statistics import griderror
 from .study import Judgement, Study

@@ -13,8 +13,7 @@ from ..report.page import Block, Findings, Page, Section, Table, Text
 from ..solving import words
 from ..solving.cost import Cost
 from ..solving.curve import Curve, contacts_of, tasks_of, tree
-from ..solving.outcome import Outcome
-from ..solving.task import Batch, SceneTask, Task
+from ..solving.task import Batch, Outcome, SceneTask, Task
 from ..solving.unsolved import Unsolved
 from ..statistics import griderror
 from ..statistics.finding import FAILS, Finding

@@ -11,7 +11,7 @@ from scene import Cone, Indent, PowerLaw, Profile, Scene, Slide, SolveError, Sph
 from scene.surfaces.isotropic import Isotropic
 
 from ..models.law.parts import LawParts
-from . import shipped, table
+from . import table
 from .groups import MOST_STIFFENING, DimensionlessGroups, SmoothReference
 from .model import NAMES
 
@@ -92,7 +92,7 @@ class Place:
 
     def predicted(self, name: str) -> tuple[float, float, float]:
         """Logarithm of the ratio of a name, its standard error, and the relative scatter of one surface."""
-        logarithm, error, scatter = shipped.model(name).predicted(self.values[None])
+        logarithm, error, scatter = table.model(name).predicted(self.values[None])
         return float(logarithm[0]), float(error[0]), float(scatter[0])
 
 

@@ -19,8 +19,7 @@ from ..models.law.bands import Bands
 from ..solving.words import capital, interval, off, seconds, share
 from .groups import LINE, SPACE, SmoothReference
 from .measured import OffTheMap, Place, as_judged, placed, unmeasured
-from .model import MOST_SCATTER, NORMAL, lost
-from .ratio import LAW, RATIOS, asked_of
+from .model import LAW, MOST_SCATTER, NORMAL, RATIOS, asked_of, lost
 
 if TYPE_CHECKING:
     from pandas import DataFrame

@@ -13,13 +13,12 @@ import compare
 from bem3d import BEM
 from compare.models.table import model_of
 from compare.report.page import Findings
-from compare.solving.outcome import Outcome, Row
+from compare.solving.task import Outcome, Row
 from compare.statistics.finding import FAILS, HOLDS, REPORTED, UNDECIDED
 from compare.studies.checks import stored
 from compare.studies.checks.hardcase import SIZES
 from compare.studies.checks.law import GROUPS, HARD, STORED
-from compare.studies.checks.study import LEFT_OUT, SHOWN, Checks, Regress
-from compare.studies.checks.table import Examination, table
+from compare.studies.checks.study import LEFT_OUT, SHOWN, Checks, Examination, Regress, table
 from mdr1d import MDR
 from scene import Indent, Refused, Result, Scene, SolveError
 from scene.files.reading import InvalidInput

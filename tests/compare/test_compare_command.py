@@ -15,8 +15,7 @@ from scene_files import SCENE, SMALL
 from typer.testing import CliRunner
 
 import compare
-from compare.cli.app import app
-from compare.cli.console import print_in_any_encoding, say
+from compare.cli.app import app, print_in_any_encoding, say
 from compare.library.ready import ready
 from compare.solving.store import Store
 
@@ -274,7 +273,7 @@ STEPS = [
         "bem3d",
         PLANNED | {"compare.solving.runner", "compare.solving.store", "compare.studies.pipeline"},
     ),
-    ("command('trust', 'scene.toml')", "compare.trustmap.shipped", PLANNED | {"compare.solving.runner"}),
+    ("command('trust', 'scene.toml')", "compare.trustmap.table", PLANNED | {"compare.solving.runner"}),
 ]
 
 

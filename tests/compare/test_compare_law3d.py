@@ -11,11 +11,11 @@ from compare.figures import style
 from compare.solving import words
 from compare.solving.curve import COARSE, FINE, SOLVED
 from compare.statistics.finding import FAILS, HOLDS, REPORTED
+from compare.studies.comparison.answers import LAW, with_theory
 from compare.studies.comparison.claims_law import EVERY, SHALLOW, LawPoints, law_findings
 from compare.studies.comparison.comparison import Comparison
 from compare.studies.comparison.laws import laws
 from compare.studies.comparison.rough import ROUGH
-from compare.studies.comparison.theory import LAW, with_theory
 from compare.studies.comparison.together import together as several
 from compare.studies.paper import parameters
 from scene import Slide

@@ -29,8 +29,7 @@ from matplotlib.transforms import Bbox
 from pandas import DataFrame
 
 from compare.figures import curves, force_depth, friction_speed, shades, style
-from compare.figures.plot import Plot
-from compare.figures.rendering import FORMS, picture
+from compare.figures.plot import FORMS, Plot, picture
 from compare.figures.style import COLUMNS
 from compare.report import csvfiles, manifest
 from compare.report.export import function

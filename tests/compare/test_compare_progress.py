@@ -8,7 +8,7 @@ import pytest
 from rich.console import Console
 from stand_in_solver import Stand, loads
 
-from compare.solving.outcome import Outcome, Row
+from compare.solving.task import Outcome, Row
 from compare.solving.terminal import PAUSE, Shown
 
 ANSWER = Outcome((Row(1.0),))

@@ -16,7 +16,7 @@ from compare.solving import netcdf
 from compare.solving.continuation import Continuation
 from compare.solving.curve import COARSE, FINE, tasks_of
 from compare.solving.folders import Unwritable
-from compare.solving.outcome import Outcome, Row
+from compare.solving.task import Outcome, Row
 from compare.statistics import finding
 from compare.studies.comparison import asked
 from compare.studies.comparison.around import (

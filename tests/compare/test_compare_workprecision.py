@@ -15,11 +15,10 @@ from compare.models.table import Model
 from compare.report.page import Table
 from compare.solving.curve import SOLVED
 from compare.studies.comparison.series import pilot
-from compare.studies.workprecision import errors, ladder, timed
+from compare.studies.workprecision import errors, ladder
 from compare.studies.workprecision.errors import INTERVAL, Way
-from compare.studies.workprecision.ladder import COARSEST, Ladder
+from compare.studies.workprecision.ladder import COARSEST, Ladder, TimedSolve
 from compare.studies.workprecision.study import LEVELS, WorkPrecision
-from compare.studies.workprecision.timed import TimedSolve
 from compare.trustmap.corrected import CorrectedMDR
 from mdr1d import MDR
 from scene import Indent, Kelvin, Layer, Refused, SelfAffine, Slide, Sphere
@@ -41,7 +40,7 @@ BEM_LADDER, MDR_LADDER = (
 @pytest.fixture(autouse=True)
 def briefly(monkeypatch):
     """Repeats of a timed solve that end at once."""
-    monkeypatch.setattr(timed, "SECONDS", 0.0)
+    monkeypatch.setattr(ladder, "REPEATED", 0.0)
 
 
 def dataset(values, processor, points, strata=None):

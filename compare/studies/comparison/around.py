@@ -25,11 +25,10 @@ from ...statistics.jackknife import mean
 from ...statistics.means import touches
 from ...statistics.multilevel import MEANS, WORDS
 from ...trustmap.verdict import Advice, trust
-from .answers import Answers
+from .answers import Answers, with_theory
 from .claims import CLAIMS
 from .measures import Here, Place, Row, Where, at
 from .series import Counts, Judged, Series, ratio_of
-from .theory import with_theory
 
 OWN, SPEED, LOAD = "own", "friction-speed", "friction-load"
 ROUGH_DEPTH, SMOOTH_DEPTH, SMOOTH_SPEED = "force-depth-rough", "force-depth-smooth", "smooth-speed"

@@ -12,15 +12,14 @@ from scipy.special import ndtri
 from scene.surfaces.isotropic import Isotropic
 
 from ...models.law.bands import Bands, FullContact
-from ...models.law.share import Share
+from ...models.law.parts import Share
 from ...models.table import SURFACES
 from ...solving.curve import COARSE, FINE, of_model
 from ...statistics.finding import Claim, Finding
 from ...statistics.jackknife import DrawSet, friction, mean, resample
-from .answers import Answers
+from .answers import LAW, Answers
 from .claims import CLAIMS
 from .laws import Laws, words
-from .theory import LAW
 
 if TYPE_CHECKING:
     from .rough import RoughSeries

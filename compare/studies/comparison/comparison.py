@@ -13,14 +13,13 @@ from scene.result import labelled, provenance
 from ...report.page import Table
 from ...solving.continuation import by_contact
 from ...solving.curve import Curve
-from ...solving.outcome import Outcome
-from ...solving.task import SceneTask, Task
+from ...solving.task import Outcome, SceneTask, Task
 from ...statistics.finding import Finding
 from ..study import Judgement, Study
 from . import pages
-from .answer import claims_table, scene_table
-from .answer import notes as open_claims
 from .around import OWN, Around
+from .pages import claims_table, scene_table
+from .pages import notes as open_claims
 from .rough import RoughSeries
 from .series import Counts, Judged, Series
 from .sweep import SweepSeries

@@ -13,8 +13,7 @@ from scene.files.reading import InvalidInput
 from scene.printable import brief
 
 from ...figures import collapse, contact, force_depth, friction_load, friction_speed, history, law
-from ...figures.plot import Plot
-from ...figures.rendering import finished
+from ...figures.plot import Plot, finished
 from ...figures.views import view
 from ...models.table import DEPTH, FORCE, FRICTION
 from ...solving.curve import Curve

@@ -15,11 +15,10 @@ from scene.files.reading import InvalidInput
 from ...models.table import ModelLike, Models
 from ...solving.curve import Curve, on_two_levels
 from ...solving.folders import slug
-from .answers import Answers
+from .answers import THEORIES, Answers, with_theory
 from .claims_law import law_findings
 from .measures import ROUGH, ROWS, SMOOTH
 from .series import Counts, Judged, Series
-from .theory import THEORIES, with_theory
 
 
 @dataclass(frozen=True)

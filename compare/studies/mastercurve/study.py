@@ -16,20 +16,17 @@ from scene.quantities import BARE, argument
 from ...figures import collapse as collapsed
 from ...figures import temperature_shifts
 from ...report.page import Block, Findings, Table, Text
-from ...solving.outcome import Outcome
-from ...solving.task import Batch, Task
+from ...solving.task import Batch, Outcome, Task
 from ...solving.words import capital, sentences
 from ...statistics import eq23
 from ...statistics.collapse import Alignment, Collapse, collapse
 from ...statistics.finding import claimed
 from ..study import Judgement, Study
 from . import temperatures
-from .measuredcurves import CURVE, check, curves_of, in_order
+from .measuredcurves import CURVE, WARMTH, Pooled, check, curves_of, in_order, pooled
 from .measurements import MeasuredFriction, Measurements
-from .pooling import WARMTH, Pooled, pooled
 from .shiftlaws import ShiftLaw, law_of
-from .temperature_tables import laws_table, points_table, shifts_table
-from .temperatures import Constants
+from .temperatures import Constants, laws_table, points_table, shifts_table
 from .temperatureshifts import TemperatureShifts
 
 TOLERANCE = (

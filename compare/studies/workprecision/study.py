@@ -25,8 +25,7 @@ from ...models.table import Model, ModelLike, listed, named
 from ...report.page import Block, Table
 from ...solving.curve import Curve, of_model
 from ...solving.folders import folders
-from ...solving.outcome import Outcome
-from ...solving.task import Batch, Task
+from ...solving.task import Batch, Outcome, Task
 from ...solving.words import seconds, share
 from ...statistics.finding import Claim, Finding
 from ...trustmap.corrected import CorrectedMDR
