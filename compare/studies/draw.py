@@ -13,8 +13,8 @@ from scene import Program, Refused, SolveError, notes
 from scene.protocol import foresee
 
 from ..figures import contact, history
+from ..figures.contact import ROW, SURFACE, view
 from ..figures.plot import Plot
-from ..figures.views import ROW, SURFACE, view
 from ..library.case import Case, doubted
 from ..library.lookup import SceneLike, case_of
 from ..report.page import Text

@@ -23,7 +23,6 @@ from compare.figures import contact, style
 from compare.figures.curves import intervals
 from compare.figures.plot import Plot
 from compare.figures.shades import SPEED, between
-from compare.figures.views import view
 from compare.report.csvfiles import read
 from compare.solving.task import draws_of
 from compare.statistics.jackknife import mean_ratio
@@ -49,7 +48,7 @@ def main() -> None:
         stored(NUMBERS, solved())
     fields = {solver.name: solver.solve(SHOWN).fields for solver in (LINE, SPACE)}
     with style.applied():
-        shown = contact.plot(SHOWN, view(SHOWN, SPACE, fields))
+        shown = contact.plot(SHOWN, contact.view(SHOWN, SPACE, fields))
         drawing = figure(shown, read(NUMBERS), read(STEEP_CONTACTS))
         image = BytesIO()
         drawing.savefig(image, dpi=WIDTH / drawing.get_figwidth())

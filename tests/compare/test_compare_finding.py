@@ -64,8 +64,8 @@ def test_a_law_states_its_verdict_and_a_number_without_a_claim_is_reported():
 def test_the_answer_has_every_finding_those_that_contradict_included():
     lines = sentences([found(where="sphere"), found(value=1.3, where="cone")])
     assert lines == [
-        "Holds: Friction in 1D is that in 3D: 1 (0.98 to 1.02) (sphere, 1D/3D), tested against 1 ± 0.05.",
-        "Fails: Friction in 1D is that in 3D: 1.3 (1.28 to 1.32) (cone, 1D/3D), tested against 1 ± 0.05.",
+        "Holds: Friction in 1D is that in 3D: 1.000 (0.980 to 1.020) (sphere, 1D/3D), tested against 1 ± 0.05.",
+        "Fails: Friction in 1D is that in 3D: 1.300 (1.280 to 1.320) (cone, 1D/3D), tested against 1 ± 0.05.",
     ]
     assert sentences([Finding(Claim("time", "Time", unit="s"), 0.5, dimension="3D")]) == ["Time: 0.5 s (3D)."]
 

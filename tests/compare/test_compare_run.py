@@ -256,7 +256,7 @@ def opening_of(case, **how):
 
 def test_a_run_opens_with_a_table_of_answers_ratios_and_advice_then_a_line_a_claim():
     table, claims, told = opening_of(CASE)
-    assert table.caption == "a case, 0.1 m/s, 1 N, 4 profiles, 2 surfaces"
+    assert table.caption == "a case, 1 N, 0.1 m/s, 4 profiles, 2 surfaces"
     assert told.loc["friction", ["1D (MDR)", "3D (BEM)", "1D/3D"]].tolist() == ["0.252", "0.126", "2"]
     advice = compare.trust(CASE.scene)
     assert told.loc["friction", "advice"].startswith(f"multiply 1D by {advice.friction.times}")

@@ -14,7 +14,6 @@ from scene.printable import brief
 
 from ...figures import collapse, contact, force_depth, friction_load, friction_speed, history, law
 from ...figures.plot import Plot, finished
-from ...figures.views import view
 from ...models.table import DEPTH, FORCE, FRICTION
 from ...solving.curve import Curve
 from ...solving.words import number
@@ -197,7 +196,7 @@ def _map(series: Around, tree: xarray.DataTree, folder: str) -> Plot | None:
         model: {str(name): each.values for name, each in node.variables.items()}
         for model, node in below.children.items()
     }
-    seen = view(series.scene, series.case.bem, fields)
+    seen = contact.view(series.scene, series.case.bem, fields)
     return contact.plot(series.scene, seen, folder) if seen else None
 
 
