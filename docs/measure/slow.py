@@ -4,14 +4,17 @@ They are those of `crosscheck study steep-and-slow --size standard`, in whose fo
 it takes half an hour on two cores.
 """
 
-import re
 import shutil
+from math import pi
 from pathlib import Path
 
 from pandas import DataFrame
 from tables import finding, replaced, said, stored, table
 
 import compare
+from compare.studies.comparison.rough import RoughSeries
+from compare.trustmap.groups import Waves
+from scene.scales import elastic_contact
 
 PAGE = Path(__file__).parents[1] / "results" / "slow.md"
 BODIES, MODELS = ("sphere", "cone"), ("1D", "3D")
@@ -44,24 +47,23 @@ def main() -> None:
         (words, *(_said(found, claim, model, body) for body, model in columns)) for claim, words in CLAIMS.items()
     )
     replaced(PAGE, "numbers", table("|".join(["", *(f"{body}, {dim}" for body, dim in columns)]), rows))
-    replaced(PAGE, "slow", answer(found))
+    replaced(PAGE, "slow", answer(found, *report.study.series))
 
 
-def answer(found: DataFrame) -> str:
+def answer(found: DataFrame, sphere: RoughSeries, cone: RoughSeries) -> str:
     """The answer in one sentence."""
     powers = (_said(found, "eq17.load-exponent", "3D", body) for body in BODIES)
-    (least, greatest), cone = ([_said(found, claim, "3D", body) for claim in LEVELS] for body in BODIES)
-    light, heavy = (_regime(found, claim, "sphere", "p/(E* h')") for claim in LEVELS)
-    loads = (_regime(found, claim, "cone", "F_N") for claim in LEVELS)
-    alike = _regime(found, LEVELS[0], "cone", "p/(E* h')")
-    first, last = loads
-    return ANSWER.format(*powers, least, light, greatest, heavy, cone[0], first, cone[1], last, alike)
+    (least, greatest), levels = ([_said(found, claim, "3D", body) for claim in LEVELS] for body in BODIES)
+    (light, heavy), (alike, _) = map(_pressures, (sphere, cone))
+    first, last = (f"{load:.3g}" for load in (cone.values[0], cone.values[-1]))
+    return ANSWER.format(*powers, least, light, greatest, heavy, levels[0], first, levels[1], last, alike)
 
 
-def _regime(found: DataFrame, claim: str, body: str, symbol: str) -> str:
-    """A number of the place of a level, of those that its words tell."""
-    regime = finding(found, claim, body, "3D")["regime"]
-    return re.search(rf"{re.escape(symbol)} ([\d.e-]+)", regime)[1]
+def _pressures(series: RoughSeries) -> list[str]:
+    """p/(E* h') under the least and the greatest load, p the mean pressure of the smooth relaxed contact."""
+    unit = series.scene.solid.indentation_modulus * Waves.of(series.scene.roughness).slope
+    contacts = (elastic_contact(series.at(load)) for load in (series.values[0], series.values[-1]))
+    return [f"{each.load / (pi * each.radius**2 * unit):.2g}" for each in contacts]
 
 
 def _said(found: DataFrame, claim: str, model: str, body: str) -> str:

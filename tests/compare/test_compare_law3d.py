@@ -99,8 +99,8 @@ def test_one_point_in_six_that_is_off_is_seen_by_nine_in_ten_and_not_by_the_medi
 
 
 def test_points_of_high_roughness_are_left_out():
-    series, known = (made := answers()).series, made.answers
-    heights = LawPoints.of(series, known, {"BEM": laws(series.curves[ROUGH], known(ROUGH, "BEM"))}).height
+    made = answers()
+    heights = LawPoints.of(made.series, made.answers).height
     np.testing.assert_array_equal(heights > SHALLOW, [[True, False, False]] * 3)
     times = np.where(heights > SHALLOW, 3.0, 1.0)
     findings = found(answers(times=times))

@@ -46,7 +46,7 @@ def of_series(judged: Judged, tree: xarray.DataTree) -> Iterator[Plot]:
             own = own.rename(columns=lambda name: name.removesuffix("_mean"))
             drawn.append(history.plot(own, series.curves[OWN].axis, series.scene, folder))
     drawn += _friction(judged, folder)
-    if isinstance(series, RoughSeries) and (found := LawPoints.of(series, answers, judged.laws)):
+    if isinstance(series, RoughSeries) and (found := LawPoints.of(series, answers)):
         drawn.append(_law(found, judged.findings, folder))
     drawn.append(_forces(series, answers, points, folder))
     yield from (each for each in drawn if each is not None)
