@@ -199,5 +199,5 @@ def _sentence(finding) -> str:
     place = ", ".join(filter(None, [finding.where, finding.dimension]))
     against = tested(finding.claim)
     parts = [f"{found(finding, 3)} ({place})", f"tested against {against}" if against else ""]
-    why = f" {capital(finding.why)}." if finding.verdict == UNDECIDED and finding.why else ""
+    why = f" {capital(finding.why)}." if finding.why else ""
     return f"{verdict}{finding.claim.sentence}: {', '.join(filter(None, parts))}.{why}"

@@ -8,7 +8,6 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from ..solving import words
 from .collapse import DEGREE, PARTED, ROUNDING, Alignment, Collapse
 from .commoncurve import LEAST_OVERLAP
 from .finding import FAILS, Claim, Finding
@@ -165,16 +164,6 @@ def leading(found: Collapse, findings: Iterable[Finding]) -> Alignment:
     """Alignment that findings on curves have as the answer."""
     both = any(each.claim.id == NOT_SHIFTED.id and each.verdict == FAILS for each in findings)
     return found.both if both else found.horizontal
-
-
-def answer(across: Finding, along: Finding, alone: Finding, collapsed: Finding) -> str:
-    """Both shifts in words, with horizontal ones alone as the alternative."""
-    powers = [f"v^{words.found(each, 3)}" for each in (across, along, alone)]
-    missed = f"as {powers[2]}, they miss one by {words.found(collapsed, 3)} (rms)"
-    return (
-        f"the curves form one if friction is shifted as {powers[0]} and the load as {powers[1]}; "
-        f"shifted along the load alone, {missed if isfinite(alone.value) else 'they form none'}."
-    )
 
 
 def finding(claim: Claim, fine: _Number, coarse: _Number | None = None, reason: str = "", **place: Any) -> Finding:

@@ -214,11 +214,6 @@ def table(findings: Iterable[Finding]) -> pandas.DataFrame:
     return pandas.DataFrame([each.row for each in findings], columns=list(COLUMNS))
 
 
-def claimed(findings: Iterable[Finding]) -> list[Finding]:
-    """Findings on claims, without numbers that are only reported."""
-    return [each for each in findings if each.verdict != REPORTED]
-
-
 def said_of(claim: Claim, beside: str) -> Claim:
     """A claim on 1D over 3D, said of two other models. beside : their labels, with a slash between"""
     if beside == BOTH:

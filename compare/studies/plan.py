@@ -9,7 +9,7 @@ from typing import cast
 
 from bem3d import BEM
 from mdr1d import MDR
-from scene import Refused, Scene, SolveError, notes, printable
+from scene import Refused, Scene, SolveError, notes
 from scene.plan import Plan, size, two_digits
 from scene.protocol import foresee, numeric_guard
 
@@ -65,12 +65,6 @@ class Plans(dict[str, Plan | str | Advice]):
         return _lines(self._summary())
 
     __repr__ = __str__
-
-    def _repr_html_(self) -> str:
-        parts = (
-            printable.paragraph(each) if isinstance(each, str) else each._repr_html_() for each in self.values()
-        )
-        return "".join([printable.table(list(self._summary())), *parts])
 
     @property
     def _plans(self) -> dict[str, Plan]:

@@ -11,7 +11,7 @@ import numpy as np
 
 from bem3d import BEM
 from mdr1d import MDR
-from scene import Doubt, Indent, Profile, Scene, Slide, SolveError, Spectrum, doubts, notes, printable
+from scene import Doubt, Indent, Profile, Scene, Slide, SolveError, Spectrum, doubts, notes
 from scene.doubt import beyond_linear, beyond_table
 from scene.scales import elastic_contact
 
@@ -164,10 +164,6 @@ class Advice:
         if self.groups:
             lines.append(f"place on the map: {placed(self.groups)}")
         return "\n".join(lines)
-
-    def _repr_html_(self) -> str:
-        first = "".join(printable.paragraph(f"doubtful: {each}") for each in self.doubts)
-        return first + printable.table(self._rows, HEADINGS, "Trust map")
 
     def table(self) -> DataFrame:
         """A row for each quantity and model."""

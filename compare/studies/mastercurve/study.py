@@ -17,10 +17,10 @@ from ...figures import collapse as collapsed
 from ...figures import temperature_shifts
 from ...report.page import Block, Findings, Table, Text
 from ...solving.task import Batch, Outcome, Task
-from ...solving.words import capital, sentences
+from ...solving.words import sentences
 from ...statistics import eq23
 from ...statistics.collapse import Alignment, Collapse, collapse
-from ...statistics.finding import claimed
+from ...statistics.finding import REPORTED
 from ..study import Judgement, Study
 from . import temperatures
 from .measuredcurves import CURVE, WARMTH, Pooled, check, curves_of, in_order, pooled
@@ -185,15 +185,11 @@ class Mastercurve(Study):
         return [*findings, *warm]
 
     def _answer(self, findings):
-        named = {each.claim.id: each for each in findings}
-        across, along, alone, collapsed = (
-            named[CLAIMS[claim.id][0]] for claim in (eq23.NOT_SHIFTED, eq23.BESIDE, eq23.ALONE, eq23.COLLAPSE)
-        )
-        lines = temperatures.sentences_of(self.shifts, self.law, findings) if self.shifts else []
-        told = sentences([each for each in claimed(findings) if each.claim.id != temperatures.TOGETHER.id])
-        if self.lead is self.collapse.both and isfinite(across.value):
-            return [capital(eq23.answer(across, along, alone, collapsed)), *told, *lines]
-        return [*told, *sentences([alone]), *lines]
+        """Sentences on claims, on the exponents of the fit that is the answer, and on the laws of its shifts."""
+        both = self.lead is self.collapse.both
+        powers = {CLAIMS[claim.id][0] for claim in (eq23.ALONE, *(eq23.BESIDE, eq23.NOT_SHIFTED)[: 2 * both])}
+        said = powers | {claim.id for claim in (temperatures.C1, temperatures.C2, temperatures.ENERGY)}
+        return sentences([each for each in findings if each.verdict != REPORTED or each.claim.id in said])
 
     @property
     def notes(self) -> tuple[str, ...]:

@@ -10,7 +10,6 @@ from pandas import DataFrame, Series, concat
 from scene.effects.temperature import WLF
 from scene.files.reading import InvalidInput
 
-from ...solving import words
 from ...statistics import eq23
 from ...statistics.finding import FAILS, Claim, Finding
 from ...statistics.intervals import student
@@ -120,26 +119,6 @@ def unshifted(shifts: TemperatureShifts | None, findings: Sequence[Finding]) -> 
     if any(each.claim.id == TOGETHER.id and each.verdict == FAILS for each in findings):
         return NOT_TOGETHER
     return shifts.inseparable if shifts else ""
-
-
-def sentences_of(shifts: TemperatureShifts, law: ShiftLaw | None, findings: Sequence[Finding]) -> list[str]:
-    """Whether the temperatures come together, and by which law of their shifts."""
-    named = {each.claim.id: each for each in findings}
-    told = words.sentences([named[TOGETHER.id]])
-    if law is None or unshifted(shifts, findings):
-        return told
-    c1, c2, energy = (words.found(named[claim.id], 3) for claim in (C1, C2, ENERGY))
-    at = f"at {law.reference:.5g} K"
-    if not law.reason:
-        told.append(f"Their shifts follow WLF with c1 = {c1} and c2 = {c2} {at}.")
-        told.append(
-            f"Arrhenius is ruled out: {law.against}." if law.against else f"Arrhenius does as well: {energy}."
-        )
-    elif not law.against:
-        told.append(f"Their shifts allow the law of Arrhenius with {energy}; those of WLF: {law.reason}.")
-    else:
-        told.append(f"No law of their shifts is told: {law.reason}.")
-    return told
 
 
 def points_table(pooled: Pooled, shifts: TemperatureShifts) -> DataFrame:
