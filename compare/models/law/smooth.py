@@ -43,7 +43,7 @@ class SmoothContact:
 
     @classmethod
     def of_answer(cls, found: Any, pressure: np.ndarray = NOT_KEPT) -> "SmoothContact":
-        """Smooth contact of a Result or a row of an outcome, and of the pressure of each pixel if that was kept."""
+        """Smooth contact of a Result or a row of an outcome, and of the pressure of each pixel if it was kept."""
         return cls(
             load=found.normal_force,
             depth=found.depth,
