@@ -247,7 +247,6 @@ def test_the_narrower_interval_is_taken_and_of_many_waves_the_law_is_right_where
     many = trust(replace(PAPER, roughness=replace(MANY, shortest=5e-5)))
     assert many.friction.ratio < 0.4
     assert many.law.low < 1 < many.law.high
-    assert max(many.law.seconds, many.friction.seconds) < 0.1 * many.solving
     assert str(many).splitlines()[0].startswith("For friction take ")
     far = trust(replace(PAPER, roughness=replace(ROUGH, rms_height=2e-4)))
     assert (far.taken, far.choice) == (None, "For friction solve in 3D.")
