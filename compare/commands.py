@@ -440,7 +440,7 @@ def export(
     width: Width = None,
     output: FilesFolder = None,
 ) -> list[Path]:
-    """Write tables, surfaces for ParaView, figures for a journal. Nothing is solved."""
+    """Write surfaces for ParaView, figures for a journal. Nothing is solved."""
     from .report.export import export
 
     return export(folder, format, journal, style, width, output)

@@ -354,12 +354,9 @@ Width = Annotated[
 ExportFormat = Annotated[
     str | None,
     Option(
-        help="File formats, separated by commas: csv (every digit, units in the heading), vtk (surfaces for"
-        " ParaView, which takes the extra vtk), png, pdf, svg (figures). If absent, csv; with a journal, a style"
-        " or a width, png,pdf,svg."
+        help="File formats, separated by commas: png, pdf, svg (figures), vtk (surfaces for ParaView; it takes the"
+        " extra vtk). If absent, png,pdf,svg."
     ),
     TEXT,
 ]
-FilesFolder = Annotated[
-    File | None, Option(help="Folder for the files; if absent, `tables` and `figures` in the folder.")
-]
+FilesFolder = Annotated[File | None, Option(help="Folder for the files; if absent, `figures` in the folder.")]

@@ -151,7 +151,7 @@ MISTAKES = {
     "new quick-start mine.toml": "is there already, and nothing is overwritten",
     "export nowhere --journal acs": "nowhere: no such folder",
     "export . --format png": "no manifest.json here",
-    "export . --format csv,word": "format = word: allowed are csv, vtk, png, pdf, svg",
+    "export . --format vtk,word": "format = word: allowed are vtk, png, pdf, svg",
 }
 
 

@@ -11,7 +11,7 @@ from bem3d import BEM
 from compare.figures import style
 from compare.library.case import Case, Variations
 from compare.library.ready import ready
-from compare.report.export import FIGURES, TABLES
+from compare.report.export import FIGURES
 from compare.solving import netcdf
 from compare.solving.continuation import Continuation
 from compare.solving.curve import COARSE, FINE, tasks_of
@@ -321,7 +321,7 @@ def test_what_cannot_be_compared_is_refused_before_anything_is_solved(tmp_path):
 
 
 SHARED = [("A", "a"), ("é", "e\u0301"), ("日本", "東京"), ("a b", "a-b")]
-TAKEN = [SOLVED, FIGURES, TABLES, "NUL", "x" * 5000, 3, "\ud800", "a\u202eb", "\x1b[2J"]
+TAKEN = [SOLVED, FIGURES, "tables", "NUL", "x" * 5000, 3, "\ud800", "a\u202eb", "\x1b[2J"]
 
 
 @pytest.mark.parametrize("names", [*SHARED, *((name,) for name in TAKEN)], ids=lambda names: str(names)[:20])
