@@ -228,10 +228,7 @@ def _smooth(scene) -> Advice:
 
 def _predicted(name, place):
     (logarithm, error, scatter), groups = place.predicted(name), place.groups
-    because = _because(name, groups)
-    if name == LAW:
-        return _of_law(exp(logarithm), error, scatter, because)
-    worth = _worth(name, exp(logarithm), error, scatter, because)
+    worth = _worth(name, exp(logarithm), error, scatter, _because(name, groups))
     return replace(worth, reason=f"{worth.reason} {NARROW}") if name == "force" and _lost(groups) else worth
 
 
@@ -244,26 +241,19 @@ def advice_on(ratio: float, error: float) -> Treatment:
 
 
 def _worth(name, ratio, error, scatter, because):
-    low, high = (ratio * exp(end * NORMAL * error) for end in (-1, 1))
-    advice, called = advice_on(ratio, error), CALLED[MODELS[name]]
+    """Correction by a ratio; the answer of `FrictionLaw` has that of the bare law in it: it is used, or not."""
+    left, advice, bare = ratio, advice_on(ratio, error), ""
+    if name == LAW:
+        left, advice = 1.0, USE if NORMAL * error <= WIDE else SOLVE
+        bare = f"; its formula alone is {off(ratio)}"
+    called, (low, high) = CALLED[MODELS[name]], (left * exp(end * NORMAL * error) for end in (-1, 1))
+    within = "" if name == LAW else f"within {share(SMALL)} of 3D, "
     reason = {
-        USE: f"{capital(called)} is within {share(SMALL)} of 3D, {off(low)} to {off(high)}",
+        USE: f"{capital(called)} is {within}{off(low)} to {off(high)}",
         MULTIPLY: f"{capital(called)} is {off(ratio)}",
         SOLVE: f"The map knows no more than that {called} is {off(low)} to {off(high)}",
     }[advice]
-    return _correction(name, ratio, error, scatter, advice, f"{reason}: {because}.")
-
-
-def _of_law(ratio, error, scatter, because):
-    """Correction of the answer of `FrictionLaw`, which has the ratio of the bare law in it: to be used, or not."""
-    low, high = (exp(end * NORMAL * error) for end in (-1, 1))
-    bare = f"its formula alone is {off(ratio)}"
-    advice = USE if NORMAL * error <= WIDE else SOLVE
-    reason = {
-        USE: f"The 3D law is {off(low)} to {off(high)}; {bare}",
-        SOLVE: f"The map knows no more than that the 3D law is {off(low)} to {off(high)}; {bare}",
-    }[advice]
-    return _correction(LAW, 1.0, error, scatter, advice, f"{reason}: {because}.")
+    return _correction(name, left, error, scatter, advice, f"{reason}{bare}: {because}.")
 
 
 def _correction(name, ratio, error, scatter, advice, reason):

@@ -139,7 +139,6 @@ def test_the_schema_is_printed_or_written(tmp_path, kind):
 MISTAKES = {
     "run zzzzzz": "the working directory, and no ready scene\n",
     "run two-shapes": "is a ready study, and no scene: crosscheck study two-shapes",
-    "run study.toml": "is a study, and no scene: crosscheck study study.toml",
     "run thin-layer": "crosscheck plan says what each solver makes of it",
     "run quick-start --output mine.toml": "crosscheck: --output mine.toml: mine.toml: is a file, and no folder",
     "study colapse": "NAME = colapse: allowed are collapse, ",
