@@ -206,7 +206,6 @@ ENDINGS = {
     "_mean": "Mean over draws. ",
     "_low": "Lower end of the interval of 95 %, scatter of surfaces and error of the grid. ",
     "_high": "Upper end of the interval of 95 %, scatter of surfaces and error of the grid. ",
-    "_deviation": "Standard deviation of one surface. ",
     "_surface": "Of one surface, not of the mean. ",
     "_corrected": "Corrected by the trust map. ",
     "_least": "Lower end of the interval of 95 %. ",

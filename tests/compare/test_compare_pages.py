@@ -182,12 +182,12 @@ def test_a_claim_stands_in_its_first_row_and_a_regime_in_that_of_its_place():
     assert "Where" not in claims((FINDINGS[3],))
 
 
-def test_the_terminal_shows_a_claim_once_with_all_that_was_found():
+def test_the_table_of_the_terminal_shows_a_claim_once_with_all_that_was_found():
     text = terminal.text(page())
     table = [line for line in text.splitlines() if "  1D/3D  " in line]
     assert [line.split()[0] for line in table] == ["holds", "fails"]
-    assert [text.count(words) for words in ("1.010 (0.986 to 1.034)", "1 ± 0.05")] == [2, 3]
-    assert text.count("Depths at rest agree") == 2  # in the answer and in the table
+    assert [text.count(words) for words in ("1.010 (0.986 to 1.034)", "1 ± 0.05")] == [2, 4]
+    assert text.count("Depths at rest agree") == 3  # twice in the answer, once in the table
     assert "Some *words* of code_x & <b>50 %</b> over two lines." in text
     assert "\n- one\n- two, on and on" in text
     assert all(len(line) <= terminal.WIDEST for line in text.splitlines())

@@ -27,7 +27,6 @@ from .series import Judged, Series
 
 ENDS = "_mean", "_low", "_high"
 UNITS = {"depth_reached": "m", "normal_force": "N"}
-ALL = "all"
 MOST_NOTES = 4  # reasons of undecided claims that stand below a table
 
 
@@ -74,15 +73,12 @@ def _advised(cheap: Correction, solved: Finding | None) -> str:
 def claims_table(findings: Iterable[Finding], scenes: Iterable[str], name: str = "claims") -> Table:
     """A line a claim and scene: what it is tested against, what each model gives, and the verdict.
 
-    scenes : by the beginning of the place of a finding; what holds in all of them is one line
+    scenes : by the beginning of the place of a finding
     """
     told = [each for each in findings if each.verdict != REPORTED and each.claim.id not in OWN_RATIOS.values()]
     places = [[one for one in scenes if f"{each.where}, ".startswith(f"{one}, ")] for each in told]
     frame = DataFrame({"claim": map(_short, told), "scene": [(*own, "")[0] for own in places], "finding": told})
     frame["model"] = [each.dimension.partition("/")[0] for each in told]
-    claims = frame.groupby("claim")
-    holds = claims["finding"].transform(lambda own: all(each.verdict == words.HOLDS for each in own)).astype(bool)
-    frame.loc[holds & (claims["scene"].transform("nunique") > 1), "scene"] = ALL
     order = {short: place for place, short in reversed([*enumerate(SHORT.values())])}
     frame = frame.sort_values("claim", kind="stable", key=lambda own: own.map(order).fillna(len(order)))
     lines = [_line(short, scene, own) for (short, scene), own in frame.groupby(["claim", "scene"], sort=False)]

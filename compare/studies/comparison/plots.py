@@ -12,7 +12,7 @@ from pandas import DataFrame, concat
 from scene.files.reading import InvalidInput
 from scene.printable import brief
 
-from ...figures import collapse, contact, force_depth, friction_load, friction_speed, history, law
+from ...figures import collapse, contact, force_depth, friction, history, law
 from ...figures.plot import Plot, finished
 from ...models.table import DEPTH, FORCE, FRICTION
 from ...solving.curve import Curve
@@ -98,10 +98,10 @@ def _along(series: Series, answers: Answers, curve: str) -> tuple[DataFrame, Dat
     bodies = {curve: "rough"} | ({SMOOTH: "smooth"} if curve == ROUGH else {})
     ruled = {model: laws(series.curves[curve], answers(curve, model)) for model in own["model"].unique()}
     lines = [
-        own[~judged[own.index]].assign(kind=friction_speed.THEORY),
-        smooth.assign(kind=friction_speed.SMOOTH),
+        own[~judged[own.index]].assign(kind=friction.THEORY),
+        smooth.assign(kind=friction.SMOOTH),
         *(
-            _at(series.curves[curve], {f"{MU}_mean": each.law}).assign(model=model, kind=friction_speed.EQ_19)
+            _at(series.curves[curve], {f"{MU}_mean": each.law}).assign(model=model, kind=friction.EQ_19)
             for model, each in ruled.items()
             if each
         ),
@@ -115,17 +115,16 @@ def _friction(judged: Judged, folder: str) -> Iterator[Plot | None]:
     """Friction against speed, against load or depth at several speeds, and shifted onto one curve."""
     series, answers = judged.series, judged.answers
     shifted = collapse.plot(list(_shifted(judged)), folder=folder)
-    for curve, figure in ((series.by_speed, friction_speed), (series.by_load or series.by_speed, friction_load)):
+    for curve, name in ((series.by_speed, friction.SPEED), (series.by_load or series.by_speed, friction.LOAD)):
         if not (answers.claiming(curve, FRICTION) and max(series.curves[curve].speeds) > 0):
             continue
         found, ratios, lines = _along(series, answers, curve)
         several, alone = len(series.curves[curve].values) > 1, found["speed"].nunique() == 1
-        if figure is friction_speed and not (several and alone):
-            caption = f"Friction against speed; below, over the reference. {LINES}"
-            yield friction_speed.plot(found, ratios, lines, caption, folder)
-        elif figure is friction_load and several and not (shifted and isinstance(series, RoughSeries)):
-            caption = f"Friction against load or depth, a curve for each speed. {LINES}"
-            yield friction_load.plot(found, lines, caption, folder)
+        shown = several and not (shifted and isinstance(series, RoughSeries))
+        if shown if name == friction.LOAD else not (several and alone):
+            across = "speed" if name == friction.SPEED else "load or depth"
+            caption = f"Friction against {across}; below, over the reference. {LINES}"
+            yield friction.plot(found, ratios, lines, caption, folder, name)
     yield shifted
 
 
@@ -223,5 +222,7 @@ def figure_of(dataset: xarray.Dataset) -> Figure:
         raise InvalidInput(f"dataset = {brief(repr(dataset))}: the Dataset of a sweep is needed")
     points = means(dataset)
     points = points[points["speed"] > 0]
-    plot = friction_speed if points["speed"].nunique() > 1 else friction_load
-    return finished(plot.plot(points))
+    name = friction.SPEED if points["speed"].nunique() > 1 else friction.LOAD
+    if (plot := friction.plot(points, name=name)) is None:
+        raise InvalidInput("dataset: nothing slides, so that there is no friction to draw")
+    return finished(plot)
