@@ -21,7 +21,7 @@ from scene.printable import brief
 
 LOCK = ".crosscheck-lock"  # an empty file, which stays: one that is removed could be locked twice
 PART = ".crosscheck-*.part"  # names of files that are being written
-FORMAT = 3  # of folders: it changes with the names of figures, columns and studies
+FORMAT = 4  # of folders: it changes with the names of figures, columns and studies
 UNSTATED = 1  # files of the first format do not state it
 MANIFEST = "manifest.json"
 # Folders that commands write into themselves, and devices of Windows; letters of a folder.
