@@ -26,13 +26,11 @@ from typing import TYPE_CHECKING, Any, Unpack, cast
 
 from .options import (
     Baseline,
-    Budget,
     CaseSize,
     Channel,
     Crop,
     Draws,
     ExportFormat,
-    FigureFormat,
     FilesFolder,
     Folder,
     HeightMap,
@@ -47,11 +45,9 @@ from .options import (
     Missing,
     Model,
     Models,
-    ModulusFigure,
     NewFile,
     Options,
     Output,
-    OwnScene,
     PaperSize,
     Peaks,
     Pixel,
@@ -112,10 +108,8 @@ def solve(
     workers: Workers = None,
     scheduler: Scheduler = None,
     executor: Executor | None = None,
-    figure_format: FigureFormat = "png",
     report: WithReport = True,
     yes: Yes = False,
-    budget: Budget = None,
     progress: bool | str | Shown | None = False,
 ) -> Report:
     """Do a study, one of your own too: solve what the folder has not, judge, and write the page.
@@ -134,9 +128,7 @@ def solve(
         raise InvalidInput(f"study = {brief(repr(study))}: an object of a class derived from Study is needed")
     _warn(study.doubts)
     with _shown(progress) as shown:
-        found = pipeline.run(
-            study, output, workers, scheduler, executor, figure_format, report, yes, budget, shown
-        )
+        found = pipeline.run(study, output, workers, scheduler, executor, report, yes, shown)
     _warn([" ".join(found.unsolved.sentences)] if found.unsolved.failed else [])
     return found
 
@@ -172,7 +164,6 @@ def run(
     models: Models = None,
     reference: Reference = None,
     interval: Interval = None,
-    budget: Budget = None,
     **options: Unpack[Options],
 ) -> Report:
     """Solve a scene in 1D and in 3D, compare, and write a report.
@@ -183,7 +174,7 @@ def run(
     """
     from .studies.comparison import asked
 
-    return solve(asked.run(scene, models, reference, interval), output, budget=budget, **options)
+    return solve(asked.run(scene, models, reference, interval), output, **options)
 
 
 @checked
@@ -194,7 +185,6 @@ def study(
     models: Models = None,
     reference: Reference = None,
     interval: Interval = None,
-    budget: Budget = None,
     **options: Unpack[Options],
 ) -> Report | Listing:
     """Test the paper's claims on many contacts in 1D and 3D."""
@@ -204,7 +194,7 @@ def study(
         return studies()
     from .studies.comparison import asked
 
-    return solve(asked.study(str(name), size, models, reference, interval), output, budget=budget, **options)
+    return solve(asked.study(str(name), size, models, reference, interval), output, **options)
 
 
 @checked
@@ -255,15 +245,13 @@ def verify(model: Model, output: Output = "crosscheck-verify", **options: Unpack
 def regress(
     baseline: Baseline = None,
     update: Update = False,
-    scene: OwnScene = None,
     output: Output = "crosscheck-regress",
     **options: Unpack[Options],
 ) -> Report:
     """Compare the accuracy of 1D with stored values. The status is 1 if any value has changed."""
-    from .studies.checks.accuracy import OwnScene
     from .studies.checks.study import Regress
 
-    asked = Regress.of(baseline, update) if scene is None else OwnScene.stored(scene, baseline, update)
+    asked = Regress.of(baseline, update)
     report = solve(asked, output, **options)
     if update:
         asked.store(report.judged)
@@ -341,7 +329,6 @@ def sweep(
     models: Models = None,
     reference: Reference = None,
     interval: Interval = None,
-    budget: Budget = None,
     **options: Unpack[Options],
 ) -> xarray.Dataset:
     """Solve a scene at many speeds and loads, in 1D and 3D.
@@ -361,18 +348,18 @@ def sweep(
 
     asked = {"scene": scene, "speed": speed, "load": load, "depth": depth, "draws": draws}
     compared = {"models": models, "reference": reference, "interval": interval}
-    report = swept(output, budget, **asked, **compared, **options)
+    report = swept(output, **asked, **compared, **options)
     _warn(griderror.warnings_of(report.answers))
     return cast("SweepSeries", cast("Comparison", report.study).series[0]).dataset(report.answers)
 
 
 @checked
-def swept(output: Output = "crosscheck-sweep", budget: Budget = None, **given: Any) -> Report:
+def swept(output: Output = "crosscheck-sweep", **given: Any) -> Report:
     """Report of a sweep, of the arguments of `sweep`: the command prints it."""
     from .studies.comparison import asked
 
     options: Any = {name: given.pop(name) for name in Options.__annotations__ if name in given}
-    return solve(asked.sweep(**given), output, budget=budget, **options)
+    return solve(asked.sweep(**given), output, **options)
 
 
 @checked
@@ -395,14 +382,12 @@ def trust(scene: SceneFile) -> Advice:
 
 
 @checked
-def plan(scene: SceneFile, figure: ModulusFigure = None) -> Plans:
+def plan(scene: SceneFile) -> Plans:
     """Say what a scene costs and what is simulated of it. The status is 2 if no solver can solve it."""
     from .studies.plan import plans
 
     found = plans(scene)
     _warn(found.doubts)
-    if figure is not None:
-        found.draw(figure)
     return found
 
 
@@ -453,7 +438,7 @@ def export(
     width: Width = None,
     output: FilesFolder = None,
 ) -> list[Path]:
-    """Write tables, surfaces for ParaView, figures for a journal. Nothing is solved."""
+    """Write surfaces for ParaView, figures for a journal. Nothing is solved."""
     from .report.export import export
 
     return export(folder, format, journal, style, width, output)

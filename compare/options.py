@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from .library.lookup import SceneLike
     from .models.table import ModelLike
     from .solving.terminal import Shown
-    from .studies.comparison.values import Values
+    from .studies.comparison.sweep import Values
     from .studies.mastercurve.measurements import Measurements
     from .studies.topography.study import Surface
 
@@ -91,14 +91,6 @@ Scheduler = Annotated[
     ),
     TEXT,
 ]
-FigureFormat = Annotated[
-    str,
-    Option(
-        help="File formats of the figures, separated by commas: png, pdf, svg. A PNG is always written.",
-        autocompletion=lambda: ["png", "pdf", "svg"],
-    ),
-    TEXT,
-]
 WithReport = Annotated[
     bool,
     Option(help="Write the page and its figures. Findings, tables and results are written in any case."),
@@ -114,7 +106,6 @@ class Options(TypedDict, total=False):
     workers: Workers
     scheduler: Scheduler
     executor: "Executor | None"
-    figure_format: FigureFormat
     report: WithReport
     yes: Yes
     progress: "bool | str | Shown | None"
@@ -176,14 +167,6 @@ Interval = Annotated[
     ),
     "From Python also a number, as 0.02.",
 ]
-Budget = Annotated[
-    Amount | None,
-    Option(
-        help="Time after which no more surfaces are asked for, as 10min. It alone makes results depend on the"
-        " speed of the machine."
-    ),
-    "From Python also a number [s].",
-]
 Speeds = Annotated[
     Values | None,
     Option(
@@ -210,13 +193,6 @@ StudyName = Annotated[
 Baseline = Annotated[
     File | None,
     Option(help="File of stored values (TOML); if absent, the values that come with the package."),
-]
-OwnScene = Annotated[
-    SceneLike | None,
-    Argument(
-        help="File of a scene (TOML) of your own, whose ratios --baseline has; if absent, those of the package."
-    ),
-    "From Python also a Scene or a Case.",
 ]
 Update = Annotated[bool, Option("--update", help="Store the values that have changed.")]
 
@@ -320,12 +296,6 @@ Peaks = Annotated[
 
 # Files that are read and written.
 Folder = Annotated[File, Argument(help="Folder that a command has written, or its results.nc for export.")]
-ModulusFigure = Annotated[
-    File | None,
-    Option(
-        help="File (.png, .pdf or .svg) for the shear moduli G', G'' of the solid; if absent, they are not drawn."
-    ),
-]
 ReadyName = Annotated[
     str,
     Argument(help="Ready scene or study, see crosscheck scenes.", autocompletion=copies),
@@ -377,12 +347,9 @@ Width = Annotated[
 ExportFormat = Annotated[
     str | None,
     Option(
-        help="File formats, separated by commas: csv (every digit, units in the heading), vtk (surfaces for"
-        " ParaView, which takes the extra vtk), png, pdf, svg (figures). If absent, csv; with a journal, a style"
-        " or a width, png,pdf,svg."
+        help="File formats, separated by commas: png, pdf, svg (figures), vtk (surfaces for ParaView; it takes the"
+        " extra vtk). If absent, png,pdf,svg."
     ),
     TEXT,
 ]
-FilesFolder = Annotated[
-    File | None, Option(help="Folder for the files; if absent, `tables` and `figures` in the folder.")
-]
+FilesFolder = Annotated[File | None, Option(help="Folder for the files; if absent, `figures` in the folder.")]

@@ -6,7 +6,7 @@ from math import nan
 import numpy as np
 from pandas import DataFrame
 
-from compare.figures import friction_speed
+from compare.figures import friction
 from compare.report import render
 from compare.report.page import Findings, Page, Section, Table, Text
 from compare.solving.words import sentences
@@ -44,7 +44,7 @@ def written(page, findings, folder):
 
 
 def page() -> Page:
-    plot = friction_speed.plot(MEANS)
+    plot = friction.plot(MEANS)
     plot = type(plot)("sphere/friction", plot.draw, plot.tables, plot.caption, plot.alternative)
     blocks = [Text(PROSE), Table("sphere/rows", ROWS, "Rows."), Table("sphere/long", LONG, "All.", long=True)]
     return Page(
@@ -85,7 +85,7 @@ def hostile_page() -> Page:
     text = " ".join(HOSTILE)
     claim = Claim("x", f"{text} xi", 1.0, 0.1, text, dimension="1D")
     found = Finding(claim, 1.0, (0.9, 1.1), nan, where=f"{text} a", draws=3, regime=text, reason=text)
-    plot = friction_speed.plot(MEANS)
+    plot = friction.plot(MEANS)
     plot = replace(plot, name="friction", caption=text, alternative=text)
     frame = DataFrame({"reason": HOSTILE, text: range(len(HOSTILE)), "body": [each[:9] for each in HOSTILE]})
     blocks = [*(Text(each) for each in HOSTILE), Text("\n".join(f"- {each}" for each in HOSTILE)), plot]

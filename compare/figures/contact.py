@@ -1,6 +1,7 @@
 """One contact, 3D beside 1D: pressure from above, force per length, and sections of both bodies."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from math import ceil
 from typing import Any
 
@@ -10,12 +11,17 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from pandas import DataFrame
 
-from scene import Program, Scene
+from bem3d import BEM
+from bem3d.motion.wake import surroundings
+from scene import Measured, Plane, Program, Scene
+from scene.motion import pressed as pressed_in
+from scene.scales import elastic_contact
 
+from ..solving.vocabulary import attributes
 from . import style
 from .plot import Plot, Tables
-from .views import ROW, SURFACE, smooth_radius
 
+SURFACE, ROW = "surface", "row"
 NAME = "contact"
 PRESSURE, LINES = f"{NAME}-pressure", f"{NAME}-line-force"
 SECTIONS = {"BEM": f"{NAME}-section-3d", "MDR": f"{NAME}-section-1d"}
@@ -29,8 +35,56 @@ PANEL, AROUND, LEGEND = 1.75, 1.2, 0.5  # heights of a panel, around a map, and 
 BESIDE = 0.75  # what stands beside a map [inch]
 
 
+def view(scene: Scene, bem: BEM, fields: Mapping[str, Mapping[str, np.ndarray]]) -> dict[str, xarray.Dataset]:
+    """Both bodies in 3D and 1D on the grids of their answers, x from the axis of the indenter downstream.
+
+    bem : the settings that the three-dimensional answer was solved with
+    fields : of answers by the name of their solver, of a program at its end
+
+    Returns "surface" (y, x) in three dimensions: displacement and gap [m], pressure [Pa]; and "row" (x) in one:
+    heights of indenter and surface above the undeformed one [m], whether they touch and, but of a program,
+    line_force [N/m]. None of them where friction has heated the contact, since the fields do not say how warm it
+    is.
+    """
+    found: dict[str, xarray.Dataset] = {}
+    if scene.heating is not None and scene.heating.feedback is not None:
+        return found
+    if "BEM" in fields:
+        around, pressure = surroundings(bem, scene, fields["BEM"]), fields["BEM"]["pressure"]
+        # What is left of the gap in contact is the residual of the solver.
+        gap = np.where(pressure > 0, 0.0, around.gap)
+        columns = {"displacement": around.displacement, "gap": gap, "pressure": pressure}
+        found[SURFACE] = _dataset(columns, y=around.y, x=around.x + around.lag)
+    if "MDR" in fields:
+        row = fields["MDR"]
+        touching, surface = row["contact"].astype(bool), -row["displacement"]
+        depth = (row["profile"] - surface)[touching].mean() if touching.any() else np.nan
+        columns = {"indenter": row["profile"] - row.get("depth", [depth])[-1], "surface": surface}
+        columns |= {"touching": touching} | {name: row[name] for name in ("line_force",) if name in row}
+        found[ROW] = _dataset(columns, x=row["x"])
+    return found
+
+
+def _dataset(fields, **places):
+    """Fields over their places, with units and definitions."""
+    found = xarray.Dataset({name: ([*places], values) for name, values in fields.items()}, places)
+    for name in found.variables:
+        found[name].attrs = attributes(name)
+    return found
+
+
+def smooth_radius(scene: Scene) -> float | None:
+    """Radius of the smooth relaxed contact on a half-space [m], half the width of a line; None without one."""
+    motion = scene.motion
+    value = float(motion.prescribed(motion.duration)) if isinstance(motion, Program) else motion.greatest
+    if isinstance(scene.indenter, Plane | Measured) or scene.layer is not None or not value > 0:
+        return None
+    held = pressed_in(motion.pressed_by, value)
+    return elastic_contact(replace(scene, motion=held, roughness=None, interface=None)).radius
+
+
 def plot(scene: Scene, seen: Mapping[str, xarray.Dataset], folder: str = "") -> Plot:
-    """Plot of a contact, of which something is known: "surface" (y, x) or "row" (x), as `views.view` has them."""
+    """Plot of a contact, of which something is known: "surface" (y, x) or "row" (x), as `view` has them."""
     motion, radius = scene.motion, smooth_radius(scene)
     speed = motion.stages[-1].speed if isinstance(motion, Program) else motion.speed
     flow = "at rest" if speed == 0 else "← indenter slides" if speed > 0 else "indenter slides →"

@@ -13,7 +13,7 @@ from .shades import few
 
 # Factor and label of an axis.
 AXES = {"load": (1.0, "normal force [N]"), "depth": (1e6, "depth [µm]"), "speed": (1.0, "speed [m/s]")}
-UNITS = {"load": "N", "depth": "m", "rate": "m/s"}
+UNITS = {"load": "N", "depth": "m", "rate": "m/s", "speed": "m/s"}
 PANELS = 3  # most of them side by side
 # Below a number, a bar reaches at most to this part of it on a logarithmic axis: more of it is cut off.
 LONGEST = 1 / 3
@@ -22,7 +22,7 @@ LONGEST = 1 / 3
 def panels_of(points: DataFrame, others: Sequence[DataFrame | None], *columns: str) -> list[tuple[str, list[Any]]]:
     """Title of each panel, and its rows of some tables, by the first of some columns that the first table has.
 
-    The least load, depth or rate, a middle one and the greatest have a panel.
+    The least load, depth, rate or speed, a middle one and the greatest have a panel.
     """
     column = next((each for each in columns if each in points), None)
     if column is None:

@@ -1,12 +1,19 @@
-"""Plot: a figure as a function of tables, from which it can be drawn again."""
+"""Plot: a figure as a function of tables, from which it can be drawn again, and its files: PNG, PDF and SVG."""
 
-from collections.abc import Callable, Mapping
+import io
+import warnings
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import PurePosixPath
 from typing import Any, TypeAlias
 
+from matplotlib import rcParams
 from matplotlib.figure import Figure
 from pandas import DataFrame
+
+from scene.files.reading import InvalidInput
+
+from . import style
 
 Tables: TypeAlias = Mapping[str, DataFrame]
 
@@ -39,3 +46,64 @@ class Plot:
     def figure(self) -> Figure:
         """The figure, drawn from the tables in the style that is applied."""
         return self.draw(self.tables, **self.options)
+
+
+FORMS = ("png", "pdf", "svg")
+# What is said of a file, without the date: the same numbers give the same file.
+METADATA: Mapping[str, Mapping[str, None]] = {"pdf": {"CreationDate": None}, "svg": {"Date": None}, "png": {}}
+NO_ROOM = "constrained_layout not applied"
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A figure as it lies in files.
+
+    files : content by form, "png" first
+    inches : width and height
+    """
+
+    files: Mapping[str, bytes]
+    inches: tuple[float, float]
+
+    def named(self, name: str) -> dict[str, bytes]:
+        """The files by name; name : without ending."""
+        return {f"{name}.{form}": content for form, content in self.files.items()}
+
+
+def picture(plot: Plot, forms: Sequence[str] = FORMS[:1], look: style.Look = style.PRINT) -> Picture:
+    """Draw a plot in a look, with a PNG whatever the forms; vector files hold images at the resolution of the PNG.
+
+    Raises InvalidInput where the look has text too large for the figure.
+    """
+    files = {}
+    drawing = finished(plot, look)
+    with style.applied(look):
+        # As wide as the journal says, whatever a style of one's own says.
+        whole = drawing.bbox_inches
+        for form in ("png", *(form for form in forms if form != "png")):
+            file = io.BytesIO()
+            drawing.savefig(file, format=form, bbox_inches=whole, metadata=dict(METADATA[form]))
+            files[form] = file.getvalue()
+    return Picture(files, (float(whole.width), float(whole.height)))
+
+
+def finished(plot: Plot, look: style.Look = style.PRINT) -> Figure:
+    """The figure of a plot, laid out for its PNG: whatever saves it later cuts nothing off.
+
+    Raises InvalidInput where the look has text too large for the figure.
+    """
+    with style.applied(look), warnings.catch_warnings():
+        warnings.filterwarnings("error", NO_ROOM, UserWarning)
+        try:
+            drawing = plot.figure()
+            drawing.set_dpi(rcParams["savefig.dpi"])
+            drawing.draw_without_rendering()
+            drawing.set_layout_engine("none")
+        except UserWarning as warning:
+            if NO_ROOM not in str(warning):
+                raise
+            text = (
+                f"text of {rcParams['font.size']:g} points leaves its panels no room: a lower font.size is needed"
+            )
+            raise InvalidInput(f"{plot.name}: {text}") from None
+    return drawing

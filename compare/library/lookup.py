@@ -10,14 +10,13 @@ from typing import Any, TypeAlias
 
 from scene import Scene
 from scene.files.files import Unreadable, checked
-from scene.files.reading import MOST, InvalidInput, parsed, read, text_of
+from scene.files.reading import MOST, InvalidInput, read
 from scene.printable import brief, printable
 
 from ..solving.suggest import suggestion
 from .case import Case
 from .ready import FOLDERS, ready
 
-COMMANDS = {"scene": "run", "study": "study"}  # which command takes a file of which kind
 PAPER = "paper-sphere", "paper-cone"
 # A scene as a file, as the name of a ready one, or as an object.
 SceneLike: TypeAlias = str | Path | Case | Scene
@@ -75,19 +74,4 @@ def located(asked: str | Path, kind: str = "scene") -> Path:
         known = [each.name for each in every.values() if each.kind == kind]
         beside = [str(each) for each in path.parent.glob("*.toml")] if isdir(path.parent) else []
         raise InvalidInput(f"{error}, and no ready {kind}{suggestion(name, [*known, *beside])}") from error
-    if (other := _other_kind(path, kind)) is not None:
-        raise InvalidInput(
-            f"{brief(name)}: is a {other}, and no {kind}: crosscheck {COMMANDS[other]} {brief(name)}"
-        )
     return path
-
-
-def _other_kind(path: Path, kind: str) -> str | None:
-    """Kind of a file that is not of this kind: a study has series, a scene its motion; None if that is open."""
-    try:
-        tables = parsed(text_of(path), path)
-    except InvalidInput:
-        return None  # whoever reads it says what is wrong
-    has = {"scene": "motion" in tables, "study": "series" in tables}
-    other = "study" if kind == "scene" else "scene"
-    return other if has[other] and not has[kind] else None

@@ -128,17 +128,15 @@ def find(name: str) -> Ready:
     return ready()[name]
 
 
-def write(name: str, path: str | Path, schema: str | Path | None = None) -> Path:
+def write(name: str, path: str | Path) -> Path:
     """Write a copy of one of them, never over a file that is there, and return its path.
-
-    schema : of a JSON schema, by which editors check and complete: named in the first line. Absent, none is
 
     Raises InvalidInput for another name or a file that is there, OSError where it cannot be written.
     """
     text, path = find(name).text, Path(path)
     try:
         with path.open("x", encoding="utf-8", newline="\n") as file:
-            file.write((f"#:schema {schema}\n" if schema is not None else "") + text)
+            file.write(text)
     except FileExistsError as error:
         from scene.files.reading import InvalidInput
         from scene.printable import brief

@@ -1,4 +1,4 @@
-"""Results of a folder for others: tables with units, surfaces for ParaView, figures for a journal."""
+"""Results of a folder for others: surfaces for ParaView, figures for a journal."""
 
 import warnings
 from collections.abc import Callable, Iterator, Mapping
@@ -10,21 +10,18 @@ from typing import Any
 
 import xarray
 from matplotlib.figure import Figure
-from pandas import DataFrame
 
 from scene.files.reading import InvalidInput
 from scene.printable import brief
 
 from ..figures import style as looks
-from ..figures.plot import Plot
-from ..figures.rendering import FORMS, Picture, picture
-from ..solving import curve, netcdf
+from ..figures.plot import FORMS, Picture, Plot, picture
+from ..solving import netcdf
 from ..solving.suggest import known
-from ..solving.vocabulary import entry as vocabulary
 from . import csvfiles, manifest, render, vtk
 
-FORMATS = ("csv", "vtk", *FORMS)
-TABLES, FIGURES = "tables", "figures"  # folders that are written into
+FORMATS = ("vtk", *FORMS)
+FIGURES = "figures"  # folder that is written into
 PACKAGE = __name__.partition(".")[0]
 
 
@@ -41,8 +38,7 @@ def export(
     Raises InvalidInput where there is nothing of the kind, a file is damaged, a run holds the folder, or a format,
     journal, style or width is not known; Refused of vtk without its extra; OSError for what cannot be written.
     """
-    in_a_look = (journal, style, width) != (None, None, None)
-    formats = [each.strip() for each in (format or (",".join(FORMS) if in_a_look else "csv")).split(",")]
+    formats = [each.strip() for each in (format or ",".join(FORMS)).split(",")]
     for each in formats:
         known("format", each, FORMATS)
     if "vtk" in formats:
@@ -58,54 +54,17 @@ def export(
         raise InvalidInput(f"{error.args[0]}" if isinstance(error, KeyError) else str(error)) from error
     folder = Path(folder)
     below = folder.parent if folder.is_file() else folder
-    tables, figures = (Path(output) if output else manifest.inside(below, each) for each in (TABLES, FIGURES))
-    found = {} if "csv" not in formats else _csv(folder)
-    if "vtk" in formats:
-        found |= _surfaces(folder)
-    forms = [each for each in FORMS if each in formats]
-    drawn = _drawn_again(folder, forms, look) if forms else {}
-    return [*render.write(found, tables), *render.write(drawn, figures)]
-
-
-def _csv(folder) -> dict[str, bytes]:
-    """Tables beside the pages of a folder and of what was solved, with units in the heads, as files by name."""
-    tables: dict[str, DataFrame] = {}
-    if folder.is_dir():
-        for place, left in manifest.folders(folder):
-            paths = [manifest.inside(place, name) for name in left.files if name.endswith(".csv")]
-            tables |= {path.relative_to(folder).as_posix(): csvfiles.read(path) for path in paths}
-    if not folder.is_dir() or any(folder.rglob(netcdf.NAME)):
-        for name, dataset in _solved(folder):
-            tables |= {f"{each}.csv": frame for each, frame in _flat(name, dataset)}
-    filled = {name: frame.rename(columns=_head) for name, frame in tables.items() if not frame.empty}
-    if not filled:
-        raise InvalidInput(f"{brief(str(folder))}: holds no table")
-    return {name: csvfiles.text(frame).encode() for name, frame in filled.items()}
+    place = Path(output) if output else manifest.inside(below, FIGURES)
+    found = _surfaces(folder) if "vtk" in formats else {}
+    if forms := [each for each in FORMS if each in formats]:
+        found |= _drawn_again(folder, forms, look)
+    return render.write(found, place)
 
 
 def _solved(folder: Path) -> Iterator[tuple[str, xarray.Dataset]]:
     """Everything that was solved, by name."""
     for node in netcdf.load(folder).subtree:
         yield node.path.strip("/") or folder.stem, node.to_dataset(inherit=False)
-
-
-def _flat(name: str, dataset: xarray.Dataset) -> Iterator[tuple[str, DataFrame]]:
-    """A Dataset as one table for each set of dimensions, a row a point; what was not asked for is left out."""
-    families: dict[tuple, list] = {}
-    for variable, values in dataset.data_vars.items():
-        families.setdefault(values.dims, []).append(variable)
-    largest = max(map(len, families.values()), default=0)
-    for dims, variables in families.items():
-        frame = dataset[variables].to_dataframe().reset_index() if dims else DataFrame()
-        if "status" in frame:
-            frame = frame[frame["status"] != curve.NOT_ASKED]
-        yield name if len(variables) == largest else "-".join([name, *dims]), frame
-
-
-def _head(name) -> str:
-    """Name of a column with its unit."""
-    found = vocabulary(name)
-    return name if found is None or found.unit in ("", "1") else f"{name} [{found.unit}]"
 
 
 def _surfaces(folder) -> dict[str, bytes]:

@@ -11,8 +11,7 @@ import jinja2
 
 from scene.printable import printable
 
-from ..figures.plot import Plot
-from ..figures.rendering import picture
+from ..figures.plot import Plot, picture
 from ..solving.folders import write as write_whole
 from ..statistics import finding
 from ..statistics.finding import Finding
@@ -27,20 +26,18 @@ PAGE = "report.html"
 def files(
     page: Page,
     findings: Sequence[Finding],
-    forms: Sequence[str] = ("png",),
     told: Callable[[str], Any] = lambda name: None,
 ) -> dict[str, bytes]:
     """A page with its figures and tables, as files by name; the page comes last.
 
     findings : that findings.csv has, of the page and beyond it
-    forms : of the figures; a PNG is always among them
     told : called with the name of each figure once it is drawn
 
     Raises InvalidInput where the look has text too large for a figure.
     """
     found, pictures = tables(page, findings), {}
     for plot in page.every(Plot):
-        pictures[plot.name] = picture(plot, forms)
+        pictures[plot.name] = picture(plot)
         found |= pictures[plot.name].named(plot.name)
         told(plot.name)
     text = _rendered(page, whole=True, pictures=pictures, versions=versions(), machine=machine())

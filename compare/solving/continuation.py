@@ -7,8 +7,7 @@ from math import inf
 from bem3d import BEM, WarmStart
 from scene import Indent, Program
 
-from .outcome import Outcome
-from .task import SceneTask, Task
+from .task import Outcome, SceneTask, Task
 
 # Work of a path: about a minute, so that a kill costs no more.
 LONGEST = 1e9

@@ -26,8 +26,7 @@ from scene.scales import elastic_contact
 from .continuation import Continuation, by_contact, joined
 from .control_variates import VARIATES, control_variates
 from .cost import MOST_DRAWS, Cost
-from .outcome import Outcome, Row
-from .task import SceneTask, Task, draws_of, refuse_seed
+from .task import Outcome, Row, SceneTask, Task, draws_of, refuse_seed
 from .vocabulary import attributes
 
 if TYPE_CHECKING:

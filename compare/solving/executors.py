@@ -19,8 +19,7 @@ from scene import Refused
 from scene.files.reading import whole
 
 from .digest import code_of
-from .outcome import Outcome
-from .task import Task
+from .task import Outcome, Task
 
 MOST = 1024
 # A worker solves on one thread; two workers with two threads each are slower than either alone.

@@ -1,9 +1,11 @@
-"""Folders that one run holds, files that are written whole or not at all, and the format of such folders."""
+"""Folders: their names and format, the run that holds them, and files that are written whole or not at all."""
 
 import errno
 import multiprocessing
 import os
+import re
 import sqlite3
+import unicodedata
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack, closing, contextmanager, suppress
 from functools import cache
@@ -19,9 +21,14 @@ from scene.printable import brief
 
 LOCK = ".crosscheck-lock"  # an empty file, which stays: one that is removed could be locked twice
 PART = ".crosscheck-*.part"  # names of files that are being written
-FORMAT = 3  # of folders: it changes with the names of figures, columns and studies
+FORMAT = 4  # of folders: it changes with the names of figures, columns and studies
 UNSTATED = 1  # files of the first format do not state it
 MANIFEST = "manifest.json"
+# Folders that commands write into themselves, and devices of Windows; letters of a folder.
+TAKEN = {"solved", "figures", "tables", "con", "prn", "aux", "nul"} | {
+    f"{device}{number}" for device in ("com", "lpt") for number in range(10)
+}
+MOST_LETTERS = 200
 MOST_BYTES = 2**30  # of a manifest, which has the heights of measured maps in it
 
 
@@ -218,3 +225,33 @@ def refuse_other(path: Path, found: int) -> None:
             f"{brief(str(path))}: was written by {age} version of this program, which has other names: run the "
             "command again, which solves its contacts again"
         )
+
+
+def slug(name: str) -> str:
+    """Name as it may stand in a path."""
+    plain = unicodedata.normalize("NFKD", name).encode("ascii", "ignore").decode()
+    return re.sub(r"[^a-z0-9]+", "-", plain.lower()).strip("-") or "case"
+
+
+def folders(names: Iterable[str], what: str) -> dict[str, str]:
+    """Folders of what has these names, by name.
+
+    what : that has the names, for mistakes
+
+    Raises InvalidInput of a name whose folder has another use, and of two that share one.
+    """
+    found: dict[str, str] = {}  # names by folder
+    for name in names:
+        if not (isinstance(name, str) and name.isprintable()):
+            raise InvalidInput(f"{what} {brief(repr(name))}: a name is a text in printable letters")
+        folder, why = slug(name), ""
+        if folder in TAKEN:
+            why = f"its folder, {folder}, has another use"
+        elif len(folder) > MOST_LETTERS:
+            why = f"its folder has more than {MOST_LETTERS} letters"
+        elif folder in found:
+            why = f"has the folder of {brief(found[folder])!r}, {folder}"
+        if why:
+            raise InvalidInput(f"{what} {brief(name)!r}: {why}: choose another name")
+        found[folder] = name
+    return {name: folder for folder, name in found.items()}

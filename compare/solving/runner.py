@@ -16,9 +16,8 @@ from scene import InvalidInput, Refused
 from .digest import code_of
 from .executors import Answer, Processes, Workers, caught, counted, solved
 from .folders import write
-from .outcome import Outcome
 from .store import Store
-from .task import Task
+from .task import Outcome, Task
 
 PULSE = 0.2  # time after which an interrupt is noticed [s]
 _LOG = logging.getLogger(__name__)

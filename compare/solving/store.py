@@ -18,8 +18,7 @@ from scene.printable import brief
 
 from .digest import DIGEST, digest, key
 from .folders import clear, code_of, connect, held_by_another, make, touch
-from .outcome import Outcome, Row
-from .task import Task
+from .task import Outcome, Row, Task
 
 FILE = "answers.sqlite"
 TRACE = ".fault.txt"  # of how a task broke, behind its key

@@ -1,4 +1,4 @@
-"""Task: what one worker solves in one go, and the scenes of one solver as such a task."""
+"""Task: what one worker solves in one go, its outcome, and the scenes of one solver as such a task."""
 
 import sys
 from collections.abc import Iterable, Mapping, Sequence
@@ -9,13 +9,77 @@ from math import isfinite, nan
 from time import process_time
 from typing import Any, NamedTuple, Protocol
 
+import numpy as np
 from pydantic import TypeAdapter
 
 from scene import EmptyContact, Program, Refused, Result, Scene, SolveError, Solver
 from scene.motion import UNITS
+from scene.printable import brief
 from scene.quantities import MOST_WHOLE
 
-from .outcome import Outcome, Row, reason_of, row
+NUMBERS = ("normal_force", "depth", "friction_force", "residual", "operator_applications", "seconds")
+# Names of what stands beside the measures of a model, which may have no other.
+TAKEN = {*NUMBERS, "level", "speed", "load", "surface", "points", "stratum", "variate", "control_variates"} | {
+    "friction_coefficient", "depth_reached", "status", "reason"
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Row:
+    """The numbers of one solved scene, as in Result; NaN with a reason where the solve failed.
+
+    finer : which of the finer grids of its task answered; 0 where the solver itself did
+    """
+
+    normal_force: float = nan
+    depth: float = nan
+    friction_force: float = nan
+    residual: float = nan
+    operator_applications: float = nan
+    seconds: float = nan
+    measures: Mapping[str, float] = field(default_factory=dict)
+    settings: Mapping[str, Any] = field(default_factory=dict)
+    reason: str | None = None
+    finer: int = 0
+
+    @property
+    def friction_coefficient(self) -> float:
+        """mu = F_x / F_N; NaN where nothing carries a load."""
+        return self.friction_force / self.normal_force if self.normal_force else nan
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """The rows of a task, one a scene, and the fields of its first scene if the task keeps them."""
+
+    rows: tuple[Row, ...]
+    fields: Mapping[str, np.ndarray] = field(default_factory=dict, repr=False)
+
+
+def row(result: Result) -> Row:
+    """The numbers of a result, as plain Python numbers. Raises SolveError of measures that no table can hold."""
+    for name in (*result.measures, *result.fields):
+        if not (isinstance(name, str) and name.isprintable() and name.strip(". ")) or "/" in name:
+            raise SolveError(f"measure or field {brief(repr(name))}: printable letters without / are allowed")
+    if taken := sorted(TAKEN & result.measures.keys()):
+        raise SolveError(f"measure {taken[0]!r}: the name has another use, choose another")
+    numbers: dict[str, Any] = {name: float(getattr(result, name)) for name in NUMBERS}
+    return Row(
+        **numbers,
+        measures={name: float(value) for name, value in result.measures.items()},
+        settings={name: _plain(value) for name, value in result.settings.items()},
+    )
+
+
+def reason_of(error: BaseException) -> str:
+    """Message of an error in a line; its type where it has none."""
+    return " ".join(str(error).split()) or type(error).__name__
+
+
+def _plain(value):
+    value = value.item() if isinstance(value, np.generic) else value
+    return value if isinstance(value, str | int | float | bool | None) else str(value)
+
 
 REFUSED = "refused: "  # before the reason of a model that refuses in its solve
 SCENES = TypeAdapter(tuple[Scene, ...])
@@ -90,13 +154,13 @@ class SceneTask(Task):
     def label(self) -> str:
         """Short description for people."""
         scene = self.scenes[0]
-        motion, rough = scene.motion, scene.roughness
+        rough = scene.roughness
         seed = getattr(rough, "seed", None)
         body = "smooth" if rough is None else "waves" if seed is None else f"surface {seed}"
         if len(self.scenes) > 1:
             body = f"{len(self.scenes)} profiles"
-        pressed, moved = _pressed(motion), _moving(motion)
-        return f"{self.solver.name} {type(scene.indenter).__name__.lower()} {pressed}, {moved}, {body}"
+        shape = type(scene.indenter).__name__.lower()
+        return f"{self.solver.name} {shape} {conditions(scene.motion)}, {body}"
 
     @property
     def count(self) -> int:
@@ -202,13 +266,10 @@ def draws_of(scene: Scene, seeds: int | Iterable[int]) -> tuple[Scene, ...]:
     return tuple(replace(scene, roughness=replace(rough, seed=rough.seed + each)) for each in added)
 
 
-def _pressed(motion):
-    """Load or depth that is prescribed, with its unit; depths in micrometres."""
+def conditions(motion: Any) -> str:
+    """Load or depth that is prescribed, depths in micrometres, and the speed, in words: 1 N, 0.1 m/s."""
     value, unit = motion.greatest, UNITS[motion.pressed_by]
-    return f"{value * 1e6:.3g} µm" if unit == "m" else f"{value:.3g} {unit}"
-
-
-def _moving(motion):
+    pressed = f"{value * 1e6:.3g} µm" if unit == "m" else f"{value:.3g} {unit}"
     if isinstance(motion, Program):
-        return f"{len(motion.stages)} stages"
-    return f"{motion.speed:.3g} m/s" if motion.speed else "at rest"
+        return f"{pressed}, {len(motion.stages)} stages"
+    return f"{pressed}, {motion.speed:.3g} m/s" if motion.speed else f"{pressed}, at rest"

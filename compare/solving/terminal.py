@@ -10,14 +10,11 @@ from rich.table import Column
 
 from scene.printable import printable
 
-from .cost import SECONDS
-from .outcome import Outcome
 from .runner import Progress
-from .task import Task
+from .task import Outcome, Task
 from .words import duration
 
 PAUSE = 10.0  # seconds between lines where there is no terminal to draw a bar on
-LONG = 60.0  # seconds of a task of which compiling is a small part
 
 
 class Shown(Progress):
@@ -46,6 +43,7 @@ class Shown(Progress):
             transient=True,
             redirect_stdout=False,
             refresh_per_second=10 if drawn else 1 / PAUSE,
+            speed_estimate_period=3600.0,  # of long tasks, too
         )
         if not drawn:
             self.bar.live.refresh = self._refresh  # type: ignore[method-assign]
@@ -108,47 +106,30 @@ class Shown(Progress):
 
     def planned(self, tasks: Sequence[Task], reused: int) -> None:
         self.count, self.work, self.reused = len(tasks), sum(task.work for task in tasks), reused
-        self.left, self.running = self.work, dict[Task, float]()
-        self.done = self.failed = self.workers = 0
-        # Seconds and work of the tasks that tell the pace.
-        self.spent = self.paced = 0.0
+        self.done, self.failed, self.label = 0, 0, ""
         self._begin("compiling", waits_for=self)
 
     def started(self, task: Task) -> None:
-        self.running[task] = self.clock()
-        self.workers = max(self.workers, len(self.running))
+        self.label = task.label
 
     def finished(self, task: Task, outcome: Outcome) -> None:
-        spent = self.clock() - self.running.pop(task, self.clock())
-        seconds = sum(row.seconds for row in outcome.rows if row.seconds > 0) or spent
-        # The first task of each worker compiles too: if short, it tells no pace.
-        if self.done >= self.workers or seconds > LONG:
-            self.spent += seconds
-            self.paced += task.work
         self.done += 1
-        self.left -= task.work
         self.failed += any(row.reason is not None for row in outcome.rows)
         self.bar.update(self.row, advance=task.work, total=self.work, description="solving")
         if self.lines:
             self.said(", ".join([*self._counts(), f"solved {task.label}"]))
 
-    def seconds(self) -> float:
-        """Seconds left at the pace until now; before any is known, at that which `cost` expects."""
-        now, unit, running = self.clock(), self.spent / self.paced if self.paced else SECONDS, self.running.copy()
-        under_way = sum(min(now - began, unit * task.work) for task, began in running.items())
-        return (unit * self.left - under_way) / max(1, min(self.workers, self.count - self.done))
-
     def _failures(self) -> list[str]:
         return [f"{self.failed} failed"] if self.failed else []
 
     def _counts(self) -> list[str]:
-        """Counts and the time left, in words."""
-        left = [f"{duration(left)} left"] if (left := self.seconds()) >= 0.5 else []
-        return [f"{self.done}/{self.count}", *self._failures(), *left]
+        """Counts in words, and the time left at the pace until now, as far as there is one."""
+        left = next((task.time_remaining for task in self.bar.tasks), None)
+        return [f"{self.done}/{self.count}", *self._failures(), *([f"{duration(left)} left"] if left else [])]
 
     def __str__(self) -> str:
-        """Counts, the time left, and what runs now."""
-        return ", ".join([*self._counts(), *(printable(task.label) for task in [*self.running][:1])])
+        """Counts, the time left, and what was begun last."""
+        return ", ".join(filter(None, [*self._counts(), printable(self.label)]))
 
     def interrupted(self) -> None:
         self.bar.update(self.row, description="finishing")

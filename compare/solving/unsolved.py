@@ -6,8 +6,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from .continuation import by_contact
-from .outcome import Outcome, Row
-from .task import SceneTask, Task
+from .task import Outcome, Row, SceneTask, Task
 
 DIMENSIONS = {"MDR": "1D", "BEM": "3D"}
 MANY = 10  # as few contacts to one without an answer make a command fail

@@ -117,8 +117,6 @@ friction_ratio : Coefficient of friction in one dimension over that in three, as
 depth_ratio : Depth in one dimension over that in three, as the trust map predicts it. [1]
 force_ratio : Normal force in one dimension over that in three, as the trust map predicts it. [1]
 deviation : Friction over that of the common curve, or a number over that of the reference, less one. [1]
-v_tau_over_a : Speed times retardation time over the radius of the smooth relaxed contact. [1]
-friction_over_slope : Friction over the slope of the body at the edge of the contact. [1]
 indenter : Height of the rigid indenter above the undeformed surface. [m]
 surface : Height of the surface of the elastomer above the undeformed one. [m]
 touching : Whether indenter and elastomer touch.
@@ -129,7 +127,6 @@ Of series of contacts, and of the figures of a study.
 closed_form : Depth [m] or force [N] of the smooth body in closed form.
 difference : Model against the reference: of forces their ratio less one [1], of depths their difference [m].
 rate : Rate of pressing in. [m/s]
-over_eq_19 : Friction over that of Eq. 19 at the same ξ and plateau. [1]
 measured_share : Friction that roughness adds, over that in full contact. [1]
 contact_fraction : Real over nominal contact: of the area π a² in 3D, of the length 2a in 1D. [1]
 contact_over_period : Diameter of the smooth relaxed contact over the period of the roughness. [1]
@@ -139,11 +136,6 @@ series : Title of the series.
 shape : Shape of the bodies.
 
 Dimensionless groups.
-depth_over_height : Depth of the smooth relaxed contact over the rms height of the roughness. [1]
-shortest_in_contact : Radius of the smooth relaxed contact times the highest wave number of the roughness. [1]
-pressure_over_slope : Mean pressure over modulus times rms slope; far above 1 the contact is full in 3D. [1]
-memory_over_contact : Length slid in the mean lag τ of the solid over the radius of the contact. [1]
-memory_over_shortest : Length slid in the mean lag τ times the highest wave number. [1]
 xi : Variable of the law; friction over its plateau in the limit of low speed. [1]
 normalised_friction : Friction over that of the plateau, s the rms slope of the roughness. [1]
 alpha : Exponent of the law that joins low speed and plateau. [1]
@@ -206,7 +198,6 @@ ENDINGS = {
     "_mean": "Mean over draws. ",
     "_low": "Lower end of the interval of 95 %, scatter of surfaces and error of the grid. ",
     "_high": "Upper end of the interval of 95 %, scatter of surfaces and error of the grid. ",
-    "_deviation": "Standard deviation of one surface. ",
     "_surface": "Of one surface, not of the mean. ",
     "_corrected": "Corrected by the trust map. ",
     "_least": "Lower end of the interval of 95 %. ",

@@ -5,10 +5,8 @@ It imports neither what solves nor what judges, so that both may word what they 
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import replace
 from math import floor, inf, isfinite, isnan, log10
 from numbers import Integral, Real
-from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -28,14 +26,8 @@ TIMES = (0.995e-4, 1e-6, "µs"), (0.0995, 1e-3, "ms"), (2 * HOUR, 1.0, "s"), (in
 MODULI = (1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa"), (1.0, "Pa")
 VERDICTS = ("holds", "fails", "undecided", "reported")
 HOLDS, FAILS, UNDECIDED, REPORTED = VERDICTS
-# Models of which a number is said alone.
-ALONE = ("1D", "1D corrected", "3D")
 # What draws of a solver, or of a model, are called.
 DRAWS = {"MDR": "profiles", "BEM": "surfaces", "1D": "profiles", "1D corrected": "profiles", "3D": "surfaces"}
-# Findings on a claim of one model that a sentence has one by one.
-FEW = 4
-# Different reasons of undecided findings that a sentence has whole.
-FEW_REASONS = 2
 
 
 def shown(value: Any, digits: int = DIGITS) -> str:
@@ -198,59 +190,14 @@ def basis(finding: "Finding") -> str:
 
 
 def sentences(findings: Sequence["Finding"]) -> list[str]:
-    """A line for each claim, from all of its findings: the verdict, the claim, the numbers, and why it is open.
-
-    Few findings on one model stand there one by one, many by the number of places and the range of values.
-    """
-    cases = {each.where.partition(", ")[0] for each in findings}
-    if len(cases) == 1:  # of the only case the place is said alone
-        findings = [replace(each, where=each.where.partition(", ")[2]) for each in findings]
-    return [_sentence(*each) for each in _grouped(findings, "claim.sentence").items()]
+    """A line for each finding: the verdict, the claim, the number in its place, and why it is open."""
+    return list(map(_sentence, findings))
 
 
-def _grouped(findings, name) -> dict[str, list]:
-    """Findings by an attribute, in their order."""
-    groups: dict[str, list] = {}
-    for each in findings:
-        groups.setdefault(attrgetter(name)(each), []).append(each)
-    return groups
-
-
-def _sentence(claimed, findings) -> str:
-    models = _grouped(findings, "dimension")
-    one, *others = {each.verdict for each in findings}
-    numbers = []
-    for model, here in models.items():
-        named = f"in {model} " if len(models) > 1 or model in ALONE else ""
-        numbers.append(named + (_one_by_one(here, bool(others)) if len(here) <= FEW else _range(here)))
-    against = {tested(each.claim) for each in findings} - {""}
-    last = f", tested against {against.pop()}" if len(against) == 1 else ""
-    verdict = "" if one == REPORTED and not others else f"{capital(counted(findings))}: "
-    reasons = [*dict.fromkeys(each.why for each in findings if each.verdict == UNDECIDED and each.why)]
-    open_ = f" Undecided: {'. Also: '.join(reasons[:FEW_REASONS])}." if reasons else ""
-    more = " The table of findings says why the others are." if len(reasons) > FEW_REASONS else ""
-    return f"{verdict}{claimed}: {'; '.join(numbers)}{last}.{open_}{more}"
-
-
-def _one_by_one(findings, mixed) -> str:
-    """Each number with its place, and with its verdict where these differ."""
-    placed = []
-    for each in findings:
-        at = "at" if each.where[:1].isdigit() or "=" in each.where else "for"
-        place = f" {at} {each.where}" if each.where else ""
-        placed.append(f"{found(each, 3)}{place}{f' ({each.verdict})' if mixed else ''}")
-    return " and ".join(filter(None, [", ".join(placed[:-1]), placed[-1]]))
-
-
-def _range(findings) -> str:
-    """Range of the numbers, and in how many places they are known."""
-    claim, places = findings[0].claim, f"{len(findings)} places"
-    known = [claim.scale * each.value for each in findings if isfinite(each.value)]
-    if not known:
-        return f"not known in any of {places}"
-    reach = " to ".join(dict.fromkeys(number(end(known), 3) for end in (min, max)))
-    halves = ((each.interval[1] - each.interval[0]) / 2 for each in findings)
-    widest = max((half for half in halves if half > 0), default=0.0)
-    about = f" (±{amount(claim, number(claim.scale * widest, 2))} at most)" if 0 < widest < inf else ""
-    of = "all" if len(known) == len(findings) else f"{len(known)} of"
-    return f"{amount(claim, reach)} in {of} {places}{about}"
+def _sentence(finding) -> str:
+    verdict = "" if finding.verdict == REPORTED else f"{capital(finding.verdict)}: "
+    place = ", ".join(filter(None, [finding.where, finding.dimension]))
+    against = tested(finding.claim)
+    parts = [f"{found(finding, 3)} ({place})", f"tested against {against}" if against else ""]
+    why = f" {capital(finding.why)}." if finding.why else ""
+    return f"{verdict}{finding.claim.sentence}: {', '.join(filter(None, parts))}.{why}"

@@ -8,8 +8,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from ..solving import words
-from .collapse import DEGREE, PARTED, ROUNDING, Alignment, Collapse
+from .collapse import DEGREE, ROUNDING, Alignment, Collapse
 from .commoncurve import LEAST_OVERLAP
 from .finding import FAILS, Claim, Finding
 from .intervals import Estimated, RmsMisfit
@@ -85,7 +84,6 @@ MISFIT, GAIN = attrgetter("horizontal.misfit"), attrgetter("horizontal.gain_from
 LEFT = attrgetter("both.misfit")
 _Number = TypeVar("_Number", RmsMisfit, Estimated)
 TOO_FEW = "too few points have an answer on half of the surfaces"
-CLOSER = "speeds closer to each other may tell"
 _UNKNOWN = "its scatter is not known, or neighbouring curves share too little once shifted"
 
 
@@ -167,21 +165,10 @@ def leading(found: Collapse, findings: Iterable[Finding]) -> Alignment:
     return found.both if both else found.horizontal
 
 
-def answer(across: Finding, along: Finding, alone: Finding, collapsed: Finding) -> str:
-    """Both shifts in words, with horizontal ones alone as the alternative."""
-    powers = [f"v^{words.found(each, 3)}" for each in (across, along, alone)]
-    missed = f"as {powers[2]}, they miss one by {words.found(collapsed, 3)} (rms)"
-    return (
-        f"the curves form one if friction is shifted as {powers[0]} and the load as {powers[1]}; "
-        f"shifted along the load alone, {missed if isfinite(alone.value) else 'they form none'}."
-    )
-
-
 def finding(claim: Claim, fine: _Number, coarse: _Number | None = None, reason: str = "", **place: Any) -> Finding:
     """Finding of a number that fits on two grids give; on one, with None, of data that have no grid."""
     found = replace(fine, grid=0.0 if coarse is None else fine.apart(coarse))
-    remedy = CLOSER if reason == PARTED else ""
-    return Finding.of(claim, found, _UNKNOWN, reason, remedy=remedy, **place)
+    return Finding.of(claim, found, _UNKNOWN, reason, **place)
 
 
 def too_few(dimension: str, **place: Any) -> Finding:

@@ -12,12 +12,12 @@ from .intervals import Estimated
 from .jackknife import estimated
 from .multilevel import MEANS, pooled
 
-# Told with deviation and interval; told as a mean alone, of what is never negative.
+# Told with an interval; told as a mean alone, of what is never negative.
 ESTIMATED = ("normal_force", "depth_reached", "friction_force", "friction_coefficient", "rms_slope", "contact")
 AVERAGED = ("friction_spread", "pixel", "points_across_contact")
 # Never negative: their intervals are those of their logarithms.
 SIZES = ("rms_slope",)
-ENDS = "_mean", "_deviation", "_low", "_high"
+ENDS = "_mean", "_low", "_high"
 
 
 def pressed(dataset: xarray.Dataset) -> str:
@@ -37,11 +37,10 @@ def with_spread(dataset: xarray.Dataset) -> xarray.Dataset:
 def means(dataset: xarray.Dataset) -> DataFrame:
     """A row for each speed, and load or depth, on the fine grid.
 
-    Each mean has the standard deviation of one draw and an interval of 95 % that counts scatter and grid. Of draws
-    in strata that is the deviation on the coarsest grid, which has the most of them.
+    Each mean has an interval of 95 % that counts scatter and grid.
     """
     every, prescribed = with_spread(dataset), pressed(dataset)
-    drawn, dataset = _most_drawn(every), pooled(every)
+    dataset = pooled(every)
     fine = dataset.sel(level=FINE)
     places = [fine["speed"].values, fine[prescribed].values]
     columns: dict[str, np.ndarray] = {}
@@ -49,11 +48,8 @@ def means(dataset: xarray.Dataset) -> DataFrame:
         above, below = MEANS.get(name, (name, None))
         if above not in fine:
             continue
-        value, low, high = interval(dataset, above, below, name in SIZES).ends
-        one = drawn[above] if below is None else drawn[above] / drawn[below].where(drawn[below] != 0)
-        deviation = one.std("surface", ddof=1) if "surface" in one.dims else xarray.full_like(one, nan)
-        numbers = value, deviation.transpose("speed", prescribed).values, low, high
-        columns |= {f"{name}{end}": each for end, each in zip(ENDS, numbers, strict=True)}
+        ends = interval(dataset, above, below, name in SIZES).ends
+        columns |= {f"{name}{end}": each for end, each in zip(ENDS, ends, strict=True)}
     columns |= {name: interval(dataset, name, size=True).ends[0] for name in AVERAGED if name in fine}
     columns |= {
         "residual": _over_draws(fine["residual"], "max"),
@@ -89,13 +85,6 @@ def interval(dataset: xarray.Dataset, above: str, below: str | None = None, size
     for coarse in others:
         grid = np.abs(fine.value - coarse.value)
     return replace(fine, grid=grid, size=size)
-
-
-def _most_drawn(dataset):
-    """Draws of one grid: all of them, or those of the stratum that is solved on the coarsest grid alone."""
-    if "stratum" not in dataset.coords:
-        return dataset.sel(level=FINE)
-    return dataset.isel(level=-1, surface=np.flatnonzero(dataset["stratum"] == dataset.sizes["level"] - 1))
 
 
 def _over_draws(array, how):

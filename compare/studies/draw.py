@@ -4,7 +4,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
 import xarray
 from pandas import concat
 
@@ -14,27 +13,19 @@ from scene import Program, Refused, SolveError, notes
 from scene.protocol import foresee
 
 from ..figures import contact, history
+from ..figures.contact import ROW, SURFACE, view
 from ..figures.plot import Plot
-from ..figures.views import ROW, SURFACE, view
 from ..library.case import Case, doubted
 from ..library.lookup import SceneLike, case_of
 from ..report.page import Text
-from ..solving import words
 from ..solving.curve import work_of
-from ..solving.outcome import Outcome
-from ..solving.task import Batch, SceneTask, Task
+from ..solving.task import Batch, Outcome, SceneTask, Task
 from ..solving.vocabulary import attributes
 from ..statistics import griderror
-from ..statistics.finding import Claim, Finding
 from .study import Judgement, Study
 
 PROGRAM = "program"
 NUMBERS = ("normal_force", "depth", "friction_force")
-APART = Claim(
-    "draw.apart",
-    "The part of the normal force that 1D puts at another x than 3D",
-    meaning="Half of the sum of differences of force between strips along x, each model over its own force.",
-)
 
 
 @dataclass(frozen=True)
@@ -110,40 +101,15 @@ class Drawing(Study):
                 parts[f"{PROGRAM}/{name}"] = xarray.Dataset(histories).set_coords("time")
         return xarray.DataTree.from_dict({f"/{name}": each for name, each in parts.items()})
 
-    def _findings(self, answers):
-        """What 1D gives over what 3D gives, and how far apart the forces of both stand; nothing is claimed."""
-        if ROW not in answers:
-            return []
-        surface, row = (answers[name].to_dataset() for name in (SURFACE, ROW))
-        ratios = {}
-        if surface["normal_force"] > 0 and row["normal_force"] > 0:
-            pressed = "normal_force" if self.case.motion.pressed_by == "depth" else "depth"
-            ratios = {pressed: float(row[pressed] / surface[pressed])}
-            if self.case.slides:
-                one, three = (float(each["friction_force"] / each["normal_force"]) for each in (row, surface))
-                ratios["friction coefficient"] = one / three
-        claims = [
-            Claim(f"draw.{name.split('_')[-1].split()[0]}", f"The {name.replace('_', ' ')} in 1D over that in 3D")
-            for name in ratios
-        ]
-        values = [*ratios.values()]
-        if row.get("line_force", np.zeros(1)).any():
-            lines = contact.line_forces(surface, row).drop(columns="x")
-            claims.append(APART)
-            values.append(float((lines / lines.sum()).diff(axis=1).iloc[:, 1].abs().sum() / 2))
-        return [Finding(claim, value) for claim, value in zip(claims, values, strict=True)]
-
     def judge(self, answers: xarray.DataTree) -> Judgement:
-        findings = self._findings(answers)
         said = [Text(f"No row of springs: {self.refused}.")] if self.refused else []
-        answer = [f"{each.claim.sentence}: {words.found(each)}." for each in findings]
         seen = {name: answers[name].to_dataset() for name in (SURFACE, ROW) if name in answers}
         shown: list[Plot | Text] = [contact.plot(self.case.scene, seen)] if seen else []
         if PROGRAM in answers:
             marched = {name: each.to_dataset().to_dataframe() for name, each in answers[PROGRAM].children.items()}
             points = concat(marched, names=["model"]).reset_index().rename(columns={"depth": "depth_reached"})
             shown.append(history.plot(points, "time", self.case.scene))
-        return Judgement(findings, answer, [*shown, *said], self.setting)
+        return Judgement((), (), [*shown, *said], self.setting)
 
 
 def _task(solver: BEM | MDR, case: Case) -> SceneTask:

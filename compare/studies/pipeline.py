@@ -4,29 +4,21 @@ import errno
 import os
 from concurrent.futures import Executor
 from dataclasses import replace
-from math import inf, nan
 from pathlib import Path
-from time import monotonic
 
 from scene import SolveError
 from scene.files.reading import InvalidInput
 from scene.printable import brief
-from scene.quantities import SECOND
 
 from ..figures.plot import Plot
-from ..figures.rendering import FORMS
 from ..report import manifest, render
 from ..solving import netcdf, runner
 from ..solving.executors import counted
 from ..solving.folders import Unwritable, lock, make
 from ..solving.runner import Progress, SweepResult
 from ..solving.store import Store
-from ..solving.suggest import known
-from ..statistics.multilevel import GROWTH
 from .report import SOLVED, Report, faults
 from .study import Study
-
-GROWTHS = GROWTH, 2.0, 1.4  # times the surfaces that are tried in turn where time is limited
 
 
 def run(
@@ -35,10 +27,8 @@ def run(
     workers: int | None = None,
     scheduler: str | None = None,
     executor: Executor | None = None,
-    figure_format: str = "png",
     report: bool = True,
     yes: bool = False,
-    budget: str | float | None = None,
     progress: Progress | None = None,
 ) -> Report:
     """Do a study from its tasks to its page; what the folder has is not solved again.
@@ -50,10 +40,6 @@ def run(
     tasks broke that nothing can be judged.
     """
     output, progress = Path(output), progress or Progress()
-    forms = tuple(dict.fromkeys(["png", *(form.strip() for form in figure_format.split(",") if form.strip())]))
-    for form in forms:
-        known("figure_format", form, FORMS)
-    limit = inf if budget is None else _seconds(budget)
     if executor is not None and (scheduler is not None or not callable(getattr(executor, "submit", None))):
         needed = "an object with submit is needed, without a scheduler"
         raise InvalidInput(f"executor = {brief(repr(executor))}: {needed}")
@@ -66,25 +52,14 @@ def run(
     with lock((output, below), progress.said):
         if cost.contacts:
             progress.said(str(cost))
-        done = _answered(study, output, workers, scheduler, executor, yes, limit, progress)
-        path = _write(done, below, forms, report, progress)
+        done = _answered(study, output, workers, scheduler, executor, yes, progress)
+        path = _write(done, below, report, progress)
         return replace(done, path=path)
 
 
-def _seconds(budget):
-    """Seconds above zero, of a number or a text with a unit. Raises InvalidInput."""
-    try:
-        found = float(SECOND.value(budget))
-    except ValueError:
-        found = nan
-    if not 0 < found < inf:
-        raise InvalidInput(f"budget = {brief(repr(budget))}: a time above zero, as 10min or 600 s")
-    return found
-
-
-def _answered(study, output, workers, scheduler, executor, yes, limit, progress) -> Report:
+def _answered(study, output, workers, scheduler, executor, yes, progress) -> Report:
     """Report of a study, of which nothing is written yet."""
-    swept, count, began = SweepResult({}, 0, 0, 0.0), counted(workers), monotonic()
+    swept, count = SweepResult({}, 0, 0, 0.0), counted(workers)
     more: Study | None = study
     try:
         while more is not None:
@@ -96,7 +71,7 @@ def _answered(study, output, workers, scheduler, executor, yes, limit, progress)
             answers = study.answers(swept.outcomes)
             judged = study.judge(answers)
             # What breaks with few surfaces breaks with more.
-            more = None if swept.faults else _more(study, answers, judged.findings, limit, began)
+            more = None if swept.faults else study.more(answers, judged.findings)
         findings, page = judged.findings, judged.page(study.title, answers)
         whole = {task: each for task, each in swept.outcomes.items() if task not in swept.faults}
         unsolved = study.unsolved(whole)
@@ -113,7 +88,7 @@ def _answered(study, output, workers, scheduler, executor, yes, limit, progress)
     return Report(study, answers, findings, page, swept, output, None, unsolved)
 
 
-def _write(done, folder, forms, report, progress) -> Path | None:
+def _write(done, folder, report, progress) -> Path | None:
     """Write a page and all beside it in place of what earlier runs wrote there; returns the file of the page.
 
     All is drawn before the folder is touched.
@@ -122,7 +97,7 @@ def _write(done, folder, forms, report, progress) -> Path | None:
     files = {netcdf.NAME: results}
     if report:
         with progress.writing(len(list(page.every(Plot)))) as told:
-            files |= render.files(page, done.judged, forms, told)
+            files |= render.files(page, done.judged, told)
     else:
         files |= render.tables(page, done.judged)
     manifest.begin(folder, study, files)
@@ -130,21 +105,6 @@ def _write(done, folder, forms, report, progress) -> Path | None:
     solved = os.path.relpath(done.output / SOLVED, folder)
     manifest.stamp(folder, study, page, done.swept, solved, files, netcdf.digest(results))
     return written[-1] if report else None
-
-
-def _more(study, answers, findings, limit, began):
-    """The study with more surfaces, of which as many as fit into the time that is left; None where none do.
-
-    More work takes as long as what was done so far.
-    """
-    for growth in GROWTHS:
-        more = study.more(answers, findings, growth)
-        if more is None:
-            return None
-        done, spent = study.cost().work, monotonic() - began
-        if limit == inf or spent * (more.cost().work - done) <= (limit - spent) * done:
-            return more
-    return None
 
 
 def _solve(study, had, output, workers, scheduler, executor, progress) -> SweepResult:

@@ -4,16 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from math import isinf
-from pathlib import Path
 from textwrap import fill
 from typing import cast
 
 from bem3d import BEM
 from mdr1d import MDR
-from scene import Refused, Scene, SolveError, notes, printable
-from scene.files.reading import InvalidInput
+from scene import Refused, Scene, SolveError, notes
 from scene.plan import Plan, size, two_digits
-from scene.printable import brief
 from scene.protocol import foresee, numeric_guard
 
 from ..library.case import Case, NotCompared, doubted
@@ -54,24 +51,6 @@ class Plans(dict[str, Plan | str | Advice]):
         self.interval = interval
         self.scene, self.cost, self.refused, self.doubts = scene, cost, refused, tuple(doubts)
 
-    def draw(self, file: str | Path) -> Path:
-        """Draw G', G'' of the solid into a .png, .pdf or .svg file; returns its path.
-
-        Raises InvalidInput for other files, and OSError.
-        """
-        # Only figures need what draws them.
-        from ..figures import solid
-        from ..figures.rendering import FORMS, picture
-        from ..solving.folders import write
-
-        path = Path(file)
-        form = path.suffix.lower().lstrip(".")
-        if form not in FORMS:
-            raise InvalidInput(f"figure = {brief(str(file))}: a file that ends in .{', .'.join(FORMS)}")
-        content = picture(solid.plot(self.scene), (form,)).files[form]
-        write(path, lambda held: held.write(content))
-        return path
-
     @property
     def feasible(self) -> bool:
         """Whether any solver would solve it, and `crosscheck run` would not refuse it for its numbers."""
@@ -86,12 +65,6 @@ class Plans(dict[str, Plan | str | Advice]):
         return _lines(self._summary())
 
     __repr__ = __str__
-
-    def _repr_html_(self) -> str:
-        parts = (
-            printable.paragraph(each) if isinstance(each, str) else each._repr_html_() for each in self.values()
-        )
-        return "".join([printable.table(list(self._summary())), *parts])
 
     @property
     def _plans(self) -> dict[str, Plan]:

@@ -12,8 +12,7 @@ from pandas import DataFrame
 
 from scene.signatures import readable
 
-from ..figures.plot import Plot
-from ..figures.rendering import finished
+from ..figures.plot import Plot, finished
 from ..figures.style import png
 from ..report import render, terminal
 from ..report.page import Page

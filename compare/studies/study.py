@@ -13,12 +13,10 @@ from ..report.page import Block, Findings, Page, Section, Table, Text
 from ..solving import words
 from ..solving.cost import Cost
 from ..solving.curve import Curve, contacts_of, tasks_of, tree
-from ..solving.outcome import Outcome
-from ..solving.task import Batch, SceneTask, Task
+from ..solving.task import Batch, Outcome, SceneTask, Task
 from ..solving.unsolved import Unsolved
 from ..statistics import griderror
 from ..statistics.finding import FAILS, Finding
-from ..statistics.multilevel import GROWTH
 
 SETTING = "Setting"
 
@@ -111,13 +109,8 @@ class Study:
         """Everything that was solved, labelled."""
         return tree(self.grids(), outcomes)
 
-    def more(
-        self, answers: xarray.DataTree, findings: Sequence[Finding], growth: float = GROWTH
-    ) -> "Study | None":
-        """The study with more surfaces, as its answers and what they come to ask for; None where they say enough.
-
-        growth : times the surfaces at most
-        """
+    def more(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> "Study | None":
+        """The study with more surfaces, as its answers and findings ask for; None where they say enough."""
         return None
 
     def judge(self, answers: xarray.DataTree) -> Judgement:

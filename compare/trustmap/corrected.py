@@ -15,8 +15,7 @@ from scene.quantities import CLOSED
 from scene.signatures import readable
 
 from ..library.case import Draws
-from ..solving.outcome import Row
-from ..solving.task import SceneTask, draws_of
+from ..solving.task import Row, SceneTask, draws_of
 from ..statistics.jackknife import mean_ratio
 from .measured import unmeasured
 from .verdict import Correction, trust

@@ -18,8 +18,7 @@ from ..models.law.parts import LawParts
 from ..models.law.persson import BODY, TERMS
 from ..models.law.smooth import SPACE, SmoothContact
 from .measured import OffTheMap, Place, as_judged
-from .model import NORMAL
-from .ratio import LAW
+from .model import LAW, NORMAL
 
 # At a depth it answers for the load of the smooth body.
 TERMS = {**TERMS, Plane: BODY, Indent: Term, Slide: Term}

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, replace
 from math import erf, hypot, inf, log, pi, sqrt
+from typing import Any
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from scene.surfaces.isotropic import Isotropic
 from ..models.exact.full_contact import complex_stiffness
 from ..models.law import bands as surface
 from ..models.law.parts import LawParts
-from ..models.law.smooth import Answer, SmoothContact
+from ..models.law.smooth import SmoothContact
 
 # Solvers of the smooth body, which answer in a few hundredths of a second.
 LINE, SPACE = MDR(points=2000), BEM(points=64)
@@ -50,7 +51,7 @@ class SmoothReference:
     contact: SmoothContact
 
     @classmethod
-    def of(cls, scene: Scene, line: Answer | None = None, space: Answer | None = None) -> "SmoothReference":
+    def of(cls, scene: Scene, line: Any = None, space: Any = None) -> "SmoothReference":
         """Smooth body of a scene; line, space : its answers, solved here if absent. Raises SolveError."""
         smooth = replace(scene, roughness=None)
         line = LINE.solve(smooth) if line is None else line

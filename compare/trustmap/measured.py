@@ -1,6 +1,6 @@
-"""What was measured for the map: parts of scenes, ranges of groups, and the scenes near another."""
+"""What was measured for the map: parts of scenes and ranges of groups, and the place of a scene among them."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import asdict, astuple, dataclass, replace
 from functools import cache, cached_property
 from math import exp, inf
@@ -11,13 +11,12 @@ from scene import Cone, Indent, PowerLaw, Profile, Scene, Slide, SolveError, Sph
 from scene.surfaces.isotropic import Isotropic
 
 from ..models.law.parts import LawParts
-from . import shipped, table
+from . import table
 from .groups import MOST_STIFFENING, DimensionlessGroups, SmoothReference
 from .model import NAMES
 
 # Tolerated extrapolation, as a fraction of the measured range.
 SLACK = 0.02
-NEAREST = 3
 # Towards these ends the ratio has a limit, which what was measured has reached: slow, low, pressed flat.
 LIMITED_BELOW = "height", "sliding_height", "lost_waves", "lost_contact", "stiffening", "doubt"
 LIMITED_ABOVE = "pressure", "slope", "sliding_pressure", "line_pressure", "nominal"
@@ -93,24 +92,8 @@ class Place:
 
     def predicted(self, name: str) -> tuple[float, float, float]:
         """Logarithm of the ratio of a name, its standard error, and the relative scatter of one surface."""
-        logarithm, error, scatter = shipped.model(name).predicted(self.values[None])
+        logarithm, error, scatter = table.model(name).predicted(self.values[None])
         return float(logarithm[0]), float(error[0]), float(scatter[0])
-
-
-@dataclass(frozen=True)
-class Neighbour:
-    """A scene that was measured.
-
-    point : its number in the design
-    distance : in lengths over which the ratio changes
-    ratio : of 1D over 3D, as measured
-    groups : by name, as numbers
-    """
-
-    point: int
-    distance: float
-    ratio: float
-    groups: Mapping[str, float]
 
 
 def as_judged(scene: Scene) -> Scene:
@@ -182,14 +165,3 @@ def numbers(groups: Mapping[str, float]) -> dict[str, float]:
 def placed(groups: Mapping[str, float]) -> str:
     """Place on the map, in standard groups with their numbers."""
     return ", ".join(f"{SYMBOLS[name]} = {groups[name]:.2g}" for name in PLACED).replace("= inf", "is infinite")
-
-
-def nearest(name: str, place: np.ndarray) -> Iterator[Neighbour]:
-    """Scenes that were measured, the nearest first, by their ratio of a name; place : groups (D,)."""
-    measured = table.read(table.LEARNED)
-    rows, found = table.measurements(measured, name)
-    apart = shipped.model(name).process.distances(place, found.groups)
-    apart[np.isnan(found.logarithm)] = np.inf
-    for row in np.argsort(apart)[:NEAREST]:
-        groups = numbers(dict(zip(NAMES, found.groups[row], strict=True)))
-        yield Neighbour(int(measured["point"][rows[row]]), float(apart[row]), exp(found.logarithm[row]), groups)

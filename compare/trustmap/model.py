@@ -1,16 +1,85 @@
 """Model of one quantity: the ratio of 1D over 3D from groups, learned from scenes that both have solved."""
 
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, fields
+from itertools import product
 from math import log
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from scipy.special import digamma, polygamma
 
+from scene import Scene
+
 from .groups import DimensionlessGroups
-from .ratio import LAW
-from .regions import LOST, WIDENED, parts
 from .regression import Process, Scales
+
+# Ratios that are learned: friction, depth and force of 1D over those of 3D, and friction by the law over 3D.
+QUANTITIES = "friction", "depth", "force"
+LAW = "law"
+RATIOS = (*QUANTITIES, LAW)
+
+
+@dataclass(frozen=True)
+class Ratio:
+    """Ratio of the mean over profiles in 1D and the mean over surfaces in 3D.
+
+    logarithm : of the ratio; nan where one of the means is not above zero
+    line_error : relative standard error of the mean in 1D
+    scatter : relative standard deviation of one surface in 3D; nan of fewer than two
+    surfaces : in 3D that would know their mean as well, if all of them were on all points
+    grid : relative change of the mean in 3D from half the points to all
+    """
+
+    logarithm: float
+    line_error: float
+    scatter: float
+    surfaces: float
+    grid: float
+
+
+def asked_of(scene: Scene) -> tuple[str, ...]:
+    """Ratios that a scene has: of friction if it slides, of depth under a load, of force at a depth."""
+    free = "depth" if scene.motion.pressed_by == "load" else "force"
+    return ("friction", LAW, free) if scene.motion.speed else (free,)
+
+
+# Height over depth from which a depth is lost in a roughness that touches in part.
+LOST = 0.3
+Columns = Mapping[str, np.ndarray]
+Condition = Callable[[Columns], np.ndarray]
+
+SHAPES: dict[str, Condition] = {
+    "cone": lambda g: g["shape"] == 1,
+    "n from 1 to 2": lambda g: (g["shape"] < 1) & (g["shape"] > 0.5),
+    "sphere": lambda g: g["shape"] == 0.5,
+    "blunt, n > 2": lambda g: g["shape"] < 0.5,
+}
+# Slow and fast: G''(v/a) against a tenth of G_0; rest is as slow as can be.
+FLOWS: dict[str, Condition] = {
+    "slow": lambda g: g["lost_contact"] < log(0.1),
+    "fast": lambda g: g["lost_contact"] >= log(0.1),
+}
+# Flat: the smooth contact presses harder than the waves resist.
+ROUGHNESS: dict[str, Condition] = {
+    "pressed flat": lambda g: g["sliding_pressure"] >= 0,
+    "touching in part": lambda g: (g["sliding_pressure"] < 0) & (g["sliding_height"] < log(LOST)),
+    "as high as the body is deep": lambda g: (g["sliding_pressure"] < 0) & (g["sliding_height"] >= log(LOST)),
+}
+PRESCRIBED: dict[str, Condition] = {
+    "load": lambda g: g["prescribed"] == 0,
+    "depth": lambda g: g["prescribed"] == 1,
+}
+WIDENED = {"speed": FLOWS, "roughness": ROUGHNESS, "prescribed": PRESCRIBED, "body": SHAPES}
+
+
+def parts(
+    kinds: Mapping[str, Mapping[str, Condition]], groups: Columns
+) -> Iterator[tuple[tuple[str, ...], np.ndarray]]:
+    """Names of each combination of regions, one of each kind, and the mask of its scenes."""
+    for named in product(*(regions.items() for regions in kinds.values())):
+        yield tuple(name for name, _ in named), np.all([condition(groups) for _, condition in named], axis=0)
+
 
 NAMES = tuple(each.name for each in fields(DimensionlessGroups))
 # Estimate in closed form, of which the model learns the rest: exact where the body is smooth, and in full contact.

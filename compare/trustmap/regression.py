@@ -61,11 +61,6 @@ class Process:
         own = scales.amplitude**2 + scales.slope**2 * np.sum(self._standard(inputs) ** 2, axis=1) + 1
         return self.mean(inputs), own - np.sum(left**2, axis=0) + scales.noise**2
 
-    def distances(self, place: np.ndarray, points: np.ndarray) -> np.ndarray:
-        """Distances (M,) of inputs (D,) from points (M, D), in lengths over which values change."""
-        apart = self._standard(points) - self._standard(place[None])
-        return np.sqrt(np.sum((apart / self.scales.lengths) ** 2, axis=1))
-
     def _standard(self, inputs):
         return self.scales.standard(inputs)
 

@@ -1,8 +1,9 @@
-"""Measurements behind the trust map, as tables: a row for each rough scene, its groups and its ratios."""
+"""Measurements behind the trust map as tables, a row for each rough scene, and the models fitted to them."""
 
 from __future__ import annotations
 
 import gzip
+import json
 from collections.abc import Mapping
 from dataclasses import fields
 from functools import cache
@@ -10,8 +11,8 @@ from pathlib import Path
 
 import numpy as np
 
-from .model import NAMES, Measurements
-from .ratio import RATIOS, Ratio
+from .model import NAMES, RATIOS, Fitted, Measurements, Model, Ratio
+from .regression import Scales
 
 HERE = Path(__file__).parent
 LEARNED, HELD_OUT = HERE / "learned.csv.gz", HERE / "held-out.csv.gz"
@@ -45,3 +46,20 @@ def measurements(table: Mapping[str, np.ndarray], quantity: str) -> tuple[np.nda
     rows = np.flatnonzero(table[column(quantity, "surfaces")] > 0)
     numbers = (table[column(quantity, number)][rows] for number in NUMBERS)
     return rows, Measurements(groups(table)[rows], *numbers)
+
+
+FITTED = Path(__file__).with_name("fitted.json")
+
+
+@cache
+def model(quantity: str) -> Model:
+    """Model of friction, depth or force; the same object each time."""
+    told = json.loads(FITTED.read_text(encoding="utf-8"))[quantity]
+    process, scatter = (_scales(**told[each]) for each in ("process", "scatter"))
+    errors, widening, parts = (np.array(told[each]) for each in ("errors", "widening", "parts"))
+    fitted = Fitted(process, np.array(told["taken"]), scatter, errors, widening, parts)
+    return Model.of(quantity, measurements(read(LEARNED), quantity)[1], fitted)
+
+
+def _scales(middle, spread, lengths, **numbers) -> Scales:
+    return Scales(np.array(middle), np.array(spread), np.array(lengths), **numbers)

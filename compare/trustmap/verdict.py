@@ -4,23 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import astuple, dataclass, fields, replace
-from math import ceil, exp, hypot, isfinite, log, nan
+from math import exp, hypot, isfinite, log, nan
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from bem3d import BEM
-from mdr1d import MDR
-from scene import Doubt, Indent, Profile, Scene, Slide, SolveError, Spectrum, doubts, notes, printable
+from scene import Doubt, Indent, Profile, Scene, Slide, SolveError, Spectrum, doubts, notes
 from scene.doubt import beyond_linear, beyond_table
-from scene.scales import elastic_contact
 
-from ..models.law.bands import Bands
-from ..solving.words import capital, interval, off, seconds, share
+from ..solving.words import capital, interval, off, share
 from .groups import LINE, SPACE, SmoothReference
-from .measured import Neighbour, OffTheMap, Place, as_judged, nearest, placed, unmeasured
-from .model import MOST_SCATTER, NORMAL, lost
-from .ratio import LAW, RATIOS, asked_of
+from .measured import OffTheMap, Place, as_judged, placed, unmeasured
+from .model import LAW, MOST_SCATTER, NORMAL, RATIOS, asked_of, lost
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -42,11 +37,6 @@ NARROW = "Here it held 90 of 103 scenes held out, and one half as wide again 96:
 MODELS = {"friction": "MDR", LAW: "FrictionLaw", "depth": "MDR", "force": "MDR"}
 CALLED = {"MDR": "1D", "FrictionLaw": "the 3D law"}
 TOLD = {name: f"{'friction' if name == LAW else name} by {CALLED[model]}" for name, model in MODELS.items()}
-# Profiles in 1D that a mean takes, and the interval of 95 % for which surfaces in 3D are counted.
-PROFILES, CLOSE = 40, 0.05
-# Window of a solve over the radius of its contact, its pixels to the shortest wave, its points, and surfaces at
-# least.
-EXTENT, PIXELS, LEAST_POINTS, MOST_POINTS, FEWEST = 3.0, 10, 64, 4096, 4
 # Share of friction, and radius over the shortest wave at which the reason names them.
 MOST, FEW = 0.5, 2.0
 
@@ -63,7 +53,6 @@ class Correction:
         surfaces differ so much that one says nothing, as the reason then tells
     advice : "use" it as it is, "multiply" it by 1 / ratio, "solve" in 3D, or "none" beyond every linear theory and
         beyond the table of an elastomer
-    seconds : of processor time that the model takes, as planned; of MDR for PROFILES profiles
     reason : in a sentence or two
     """
 
@@ -74,7 +63,6 @@ class Correction:
     surface_low: float
     surface_high: float
     advice: Treatment
-    seconds: float
     reason: str
 
     @property
@@ -111,10 +99,7 @@ class Advice:
 
     friction, depth, force : of 1D: of the coefficient of friction, the depth under a load, the force at a depth
     law : of the law of friction in three dimensions: of the coefficient of friction
-    solving : processor time of as many surfaces in 3D as know friction, or depth or force at rest, to 5 % (95 %),
-        as planned [s]; nan where nothing tells how they scatter
     groups : dimensionless groups by name, as numbers; empty of a smooth body and of what was never measured
-    nearest : scenes that were measured, the nearest first, of the first quantity
     doubts : about the scene
     notes : on what was read for it
     """
@@ -124,8 +109,6 @@ class Advice:
     force: Correction | None
     law: Correction | None
     groups: Mapping[str, float]
-    nearest: tuple[Neighbour, ...]
-    solving: float = nan
     doubts: tuple[Doubt, ...] = ()
     notes: tuple[str, ...] = ()
 
@@ -151,14 +134,12 @@ class Advice:
             return ""
         if self.friction.advice == NONE:
             return "For friction take no model as it is."
-        solve = f" 3D to 5 % takes {seconds(self.solving)}." if isfinite(self.solving) else ""
         if (best := self.taken) is None:
-            return f"For friction solve in 3D.{solve}"
+            return "For friction solve in 3D."
         as_it_is = (
             f"as it is, {off(best.low)} to {off(best.high)}" if best.advice == USE else f"times {best.times}"
         )
-        spent = f"; it takes {seconds(best.seconds)}" if best.seconds > 0 else ""
-        return f"For friction take {CALLED[best.model]} {as_it_is}{spent}.{solve}"
+        return f"For friction take {CALLED[best.model]} {as_it_is}."
 
     def __str__(self) -> str:
         lines = [*(f"doubtful: {each}" for each in self.doubts), *(f"note: {each}" for each in self.notes)]
@@ -166,13 +147,7 @@ class Advice:
         lines += [f"{TOLD[name]}: {worth}" for name, worth in self.corrections.items()]
         if self.groups:
             lines.append(f"place on the map: {placed(self.groups)}")
-        first = next(iter(self.corrections), "")
-        lines += [f"measured: {first} 1D/3D = {each.ratio:.3g} at {placed(each.groups)}" for each in self.nearest]
         return "\n".join(lines)
-
-    def _repr_html_(self) -> str:
-        first = "".join(printable.paragraph(f"doubtful: {each}") for each in self.doubts)
-        return first + printable.table(self._rows, HEADINGS, "Trust map")
 
     def table(self) -> DataFrame:
         """A row for each quantity and model."""
@@ -220,23 +195,17 @@ def _advised(scene):
         return replace(_unknown(scene, place.beyond), groups=place.named)
     rubs = bool(place.smooth.friction_coefficient)
     asked = [name for name in asked_of(scene) if rubs or name not in ("friction", LAW)]
-    corrections = {name: _predicted(name, place, _cost(name, scene)) for name in asked}
-    found = _of(corrections, place.named, tuple(nearest(asked[0], place.values)))
-    return replace(found, solving=_solving(scene, asked[0], place))
+    return _of({name: _predicted(name, place) for name in asked}, place.named)
 
 
 def _unknown(scene, reason, advice=SOLVE):
     asked = asked_of(scene) if isinstance(scene.motion, Indent | Slide) else RATIOS
-    return _of({name: Correction(MODELS[name], *[nan] * 5, advice, nan, reason) for name in asked})
+    return _of({name: Correction(MODELS[name], *[nan] * 5, advice, reason) for name in asked})
 
 
-def _of(
-    corrections: Mapping[str, Correction],
-    groups: Mapping[str, float] | None = None,
-    nearest: tuple[Neighbour, ...] = (),
-) -> Advice:
+def _of(corrections: Mapping[str, Correction], groups: Mapping[str, float] | None = None) -> Advice:
     friction, depth, force, law = (corrections.get(name) for name in RATIOS)
-    return Advice(friction, depth, force, law, groups or {}, nearest)
+    return Advice(friction, depth, force, law, groups or {})
 
 
 def _smooth(scene) -> Advice:
@@ -253,40 +222,14 @@ def _smooth(scene) -> Advice:
             continue
         ratio, other = getattr(fine, name), getattr(coarse, name)
         error = abs(log(ratio / other)) / NORMAL
-        corrections[name] = _worth(name, ratio, error, 0.0, 0.0, SOLVED)
+        corrections[name] = _worth(name, ratio, error, 0.0, SOLVED)
     return _of(corrections)
 
 
-def _predicted(name, place, seconds):
+def _predicted(name, place):
     (logarithm, error, scatter), groups = place.predicted(name), place.groups
-    because = _because(name, groups)
-    if name == LAW:
-        return _of_law(exp(logarithm), error, scatter, seconds, because)
-    worth = _worth(name, exp(logarithm), error, scatter, seconds, because)
+    worth = _worth(name, exp(logarithm), error, scatter, _because(name, groups))
     return replace(worth, reason=f"{worth.reason} {NARROW}") if name == "force" and _lost(groups) else worth
-
-
-def _cost(name, scene) -> float:
-    """Processor time of a cheap model, as planned [s]; nan where that is not known."""
-    if name == LAW:
-        return _planned(SPACE, replace(scene, roughness=None))
-    return PROFILES * _planned(MDR(points=4000), scene)
-
-
-def _solving(scene, name, place):
-    """Processor time of as many surfaces as know a quantity to CLOSE, as planned [s]; see `Advice.solving`."""
-    _, _, scatter = place.predicted(name)
-    window = EXTENT * place.smooth.radius * elastic_contact(scene).radius
-    points = max(LEAST_POINTS, ceil(PIXELS * window / Bands.of(scene.roughness).finest))
-    if not scatter < MOST_SCATTER or points > MOST_POINTS:
-        return nan
-    surfaces = max(FEWEST, ceil((NORMAL * scatter / CLOSE) ** 2))
-    return surfaces * _planned(BEM(points=points + points % 2), scene)
-
-
-def _planned(solver, scene):
-    expected = solver.plan(scene).seconds.value
-    return nan if expected is None else expected
 
 
 def advice_on(ratio: float, error: float) -> Treatment:
@@ -297,36 +240,29 @@ def advice_on(ratio: float, error: float) -> Treatment:
     return MULTIPLY if half <= WIDE else SOLVE
 
 
-def _worth(name, ratio, error, scatter, seconds, because):
-    low, high = (ratio * exp(end * NORMAL * error) for end in (-1, 1))
-    advice, called = advice_on(ratio, error), CALLED[MODELS[name]]
+def _worth(name, ratio, error, scatter, because):
+    """Correction by a ratio; the answer of `FrictionLaw` has that of the bare law in it: it is used, or not."""
+    left, advice, bare = ratio, advice_on(ratio, error), ""
+    if name == LAW:
+        left, advice = 1.0, USE if NORMAL * error <= WIDE else SOLVE
+        bare = f"; its formula alone is {off(ratio)}"
+    called, (low, high) = CALLED[MODELS[name]], (left * exp(end * NORMAL * error) for end in (-1, 1))
+    within = "" if name == LAW else f"within {share(SMALL)} of 3D, "
     reason = {
-        USE: f"{capital(called)} is within {share(SMALL)} of 3D, {off(low)} to {off(high)}",
+        USE: f"{capital(called)} is {within}{off(low)} to {off(high)}",
         MULTIPLY: f"{capital(called)} is {off(ratio)}",
         SOLVE: f"The map knows no more than that {called} is {off(low)} to {off(high)}",
     }[advice]
-    return _correction(name, ratio, error, scatter, advice, seconds, f"{reason}: {because}.")
+    return _correction(name, left, error, scatter, advice, f"{reason}{bare}: {because}.")
 
 
-def _of_law(ratio, error, scatter, seconds, because):
-    """Correction of the answer of `FrictionLaw`, which has the ratio of the bare law in it: to be used, or not."""
-    low, high = (exp(end * NORMAL * error) for end in (-1, 1))
-    bare = f"its formula alone is {off(ratio)}"
-    advice = USE if NORMAL * error <= WIDE else SOLVE
-    reason = {
-        USE: f"The 3D law is {off(low)} to {off(high)}; {bare}",
-        SOLVE: f"The map knows no more than that the 3D law is {off(low)} to {off(high)}; {bare}",
-    }[advice]
-    return _correction(LAW, 1.0, error, scatter, advice, seconds, f"{reason}: {because}.")
-
-
-def _correction(name, ratio, error, scatter, advice, seconds, reason):
+def _correction(name, ratio, error, scatter, advice, reason):
     """Correction with its intervals, of the mean and of one surface."""
     half = NORMAL * error
     whole = NORMAL * hypot(error, scatter) if scatter < MOST_SCATTER else nan
     ends = (ratio * exp(each) for each in (-half, half, -whole, whole))
     told = reason if isfinite(whole) else f"{reason} {NOTHING}"
-    return Correction(MODELS[name], ratio, *ends, advice, seconds, told)
+    return Correction(MODELS[name], ratio, *ends, advice, told)
 
 
 def _lost(groups):

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from bem3d import BEM
 from compare.models.law.bands import Bands, FullContact
-from compare.models.law.share import Share
+from compare.models.law.parts import Share
 from compare.statistics.collapse import collapse
 from compare.statistics.frictioncurves import SimulatedCurves
 from scene import Fractional, Layer, Scene, SelfAffine, Slide, Sphere

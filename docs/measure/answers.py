@@ -73,6 +73,7 @@ def parts() -> Mapping[tuple[Path, str], str]:
     slow_found, fast_found, waves = (
         pandas.read_csv(each.PAGE.with_suffix(".csv")) for each in (slow, fast, spectrum)
     )
+    behind = slow.answer(slow_found)
     return {
         (PAGE, "run"): table("|rough sphere|rough cone", _of_run(run)),
         (PAGE, "paper"): table("|sphere|cone", _of_paper(pandas.read_csv(DOCS / "paper" / "findings.csv"))),
@@ -80,9 +81,9 @@ def parts() -> Mapping[tuple[Path, str], str]:
         (PAGE, "spectrum"): " ".join(spectrum.sentence(body, waves[waves["shape"] == body]) for body in BODIES),
         (README, "answer"): _answer(run, slow_found, fast_found),
         (PAPER, "answer"): _answer(run, slow_found, fast_found).replace("(docs/", "(../"),
-        (PAPER, "slow"): slow.answer(slow_found),
+        (PAPER, "slow"): behind,
         (README, "prints"): f"```text\n{(RUN.parent / 'run.txt').read_text(encoding='utf-8').strip()}\n```",
-        (slow.PAGE, "slow"): slow.answer(slow_found),
+        (slow.PAGE, "slow"): behind,
         (fast.PAGE, "fast"): fast.answer(fast_found),
         **trust.parts(),
     }

@@ -6,10 +6,9 @@ from pathlib import Path
 import numpy as np
 
 from compare.solving.folders import lock
-from compare.solving.outcome import Outcome, Row
 from compare.solving.runner import sweep
 from compare.solving.store import Store
-from compare.solving.task import Task
+from compare.solving.task import Outcome, Row, Task
 from compare.solving.terminal import Shown
 from compare.statistics.intervals import Estimated
 from compare.statistics.jackknife import mean_ratio

@@ -10,9 +10,8 @@ import numpy as np
 
 from bem3d import BEM
 from compare.models.law.bands import Bands
-from compare.solving.outcome import Outcome, Row
-from compare.solving.task import SCENES, SceneTask, Task, draws_of
-from compare.trustmap.ratio import LAW, Ratio
+from compare.solving.task import SCENES, Outcome, Row, SceneTask, Task, draws_of
+from compare.trustmap.model import LAW, Ratio
 from mdr1d import MDR
 from scene import Scene, SelfAffine
 

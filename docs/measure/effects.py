@@ -22,9 +22,8 @@ import mdr1d.plan
 from bem3d import BEM
 from bem3d.surface import RoughSurface
 from compare.report.manifest import machine, versions
-from compare.solving.outcome import Outcome, Row
-from compare.solving.task import Task
-from compare.studies.workprecision.timed import TimedSolve
+from compare.solving.task import Outcome, Row, Task
+from compare.studies.workprecision.ladder import TimedSolve
 from mdr1d import MDR
 from scene import Scene, SelfAffine
 from scene.plan import COSTS, two_digits

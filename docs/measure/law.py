@@ -12,7 +12,7 @@ from scenes import PAGE, SETS, RandomScene, scenes
 from tables import of_count, replaced, stored, table
 
 from compare import FrictionLaw, Persson
-from compare.models.law.share import FITTED
+from compare.models.law.parts import FITTED
 from compare.trustmap.model import NORMAL
 from scene.scales import elastic_contact
 

@@ -18,9 +18,8 @@ from bem3d import BEM
 from bem3d.heights import heights
 from compare.models.exact import full_contact
 from compare.models.law.bands import Bands, FullContact
-from compare.models.law.share import waves
-from compare.solving.outcome import Outcome
-from compare.solving.task import SceneTask, Task
+from compare.models.law.parts import waves
+from compare.solving.task import Outcome, SceneTask, Task
 from compare.statistics.jackknife import mean_ratio
 from scene import Plane, Scene, SelfAffine, Slide
 

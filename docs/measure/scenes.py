@@ -16,8 +16,7 @@ from tables import stored
 
 from bem3d import BEM
 from compare.models.law.parts import LawParts
-from compare.solving.outcome import Outcome
-from compare.solving.task import SceneTask, draws_of
+from compare.solving.task import Outcome, SceneTask, draws_of
 from mdr1d import MDR
 from scene import Scene, Slide
 

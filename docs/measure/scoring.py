@@ -12,9 +12,20 @@ from scipy.special import ndtr, ndtri
 from tables import of_count
 
 from compare.trustmap.measured import beyond_measured, limits
-from compare.trustmap.model import NAMES, NORMAL, Measurements, Model, Predicted
-from compare.trustmap.ratio import LAW
-from compare.trustmap.regions import FLOWS, ROUGHNESS, SHAPES, WIDENED, Condition, parts
+from compare.trustmap.model import (
+    FLOWS,
+    LAW,
+    NAMES,
+    NORMAL,
+    ROUGHNESS,
+    SHAPES,
+    WIDENED,
+    Condition,
+    Measurements,
+    Model,
+    Predicted,
+    parts,
+)
 from compare.trustmap.table import column, measurements
 from compare.trustmap.verdict import MULTIPLY, SOLVE, USE, advice_on
 

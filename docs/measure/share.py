@@ -12,7 +12,7 @@ from planes import HELD_OUT, PAGE
 from scipy.optimize import least_squares
 from tables import stored
 
-from compare.models.law.share import FITTED, Share, coefficients
+from compare.models.law.parts import FITTED, Share, coefficients
 
 BOOTSTRAPS, SEED = 200, 36
 FLOOR = 0.02  # of the misfit of a plane, below which one counts no more than another

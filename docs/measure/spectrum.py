@@ -16,8 +16,7 @@ from tables import limit, replaced, stored, table
 
 from bem3d import BEM, refined
 from compare.figures import style
-from compare.solving.outcome import Outcome
-from compare.solving.task import SceneTask, draws_of
+from compare.solving.task import Outcome, SceneTask, draws_of
 from compare.studies.paper import parameters
 from mdr1d import MDR
 from scene import Result, Scene

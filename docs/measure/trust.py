@@ -36,10 +36,10 @@ from scoring import (
 from tables import by_column, replaced, stored
 
 from compare.models.law.parts import LawParts
-from compare.solving.outcome import Outcome
-from compare.trustmap import shipped, table
+from compare.solving.task import Outcome
+from compare.trustmap import table
 from compare.trustmap.groups import DimensionlessGroups, SmoothReference
-from compare.trustmap.ratio import LAW, RATIOS, Ratio, asked_of
+from compare.trustmap.model import LAW, RATIOS, Ratio, asked_of
 from scene import Scene
 
 PAGE = Path(__file__).parents[1] / "results" / "trust.md"
@@ -92,14 +92,14 @@ def ship() -> None:
     table.read.cache_clear()
     learned = table.read(table.LEARNED)
     models = {name: fit(name, table.measurements(learned, name)[1]) for name in RATIOS}
-    shipped.FITTED.write_text(as_json(models) + "\n", encoding="utf-8")
-    shipped.model.cache_clear()
+    table.FITTED.write_text(as_json(models) + "\n", encoding="utf-8")
+    table.model.cache_clear()
 
 
 @cache
 def scores() -> dict[str, Scored]:
     """Scores of the models that come with the package."""
-    return scored(table.read(table.HELD_OUT), {name: shipped.model(name) for name in RATIOS})
+    return scored(table.read(table.HELD_OUT), {name: table.model(name) for name in RATIOS})
 
 
 def advice(rows: list[dict[str, Any]], quantity: str) -> Iterator[dict[str, str]]:

@@ -273,7 +273,7 @@ ASKED = {
 }
 
 
-OPTIONS = {"workers", "figure_format", "report", "yes"}
+OPTIONS = {"workers", "report", "yes"}
 CALLED = {"table": "a DataFrame", "file": "heights"}  # arguments that messages name otherwise
 
 

@@ -7,19 +7,17 @@ from pathlib import Path
 import numpy as np
 import pandas
 import pytest
-from small_cases import TINY
 
 import compare
 from bem3d import BEM
 from compare.models.table import model_of
 from compare.report.page import Findings
-from compare.solving.outcome import Outcome, Row
+from compare.solving.task import Outcome, Row
 from compare.statistics.finding import FAILS, HOLDS, REPORTED, UNDECIDED
 from compare.studies.checks import stored
 from compare.studies.checks.hardcase import SIZES
 from compare.studies.checks.law import GROUPS, HARD, STORED
-from compare.studies.checks.study import LEFT_OUT, SHOWN, Checks, Regress
-from compare.studies.checks.table import Examination, table
+from compare.studies.checks.study import LEFT_OUT, SHOWN, Checks, Examination, Regress, table
 from mdr1d import MDR
 from scene import Indent, Refused, Result, Scene, SolveError
 from scene.files.reading import InvalidInput
@@ -326,22 +324,6 @@ def test_what_is_new_or_without_an_answer_is_told_and_the_file_changes_only_wher
     study, found = held(stored.read_values(path), ratios, True, path)
     study.store(list(found.values()))
     assert path.stat().st_mtime_ns == changed
-
-
-def test_the_command_holds_a_scene_of_ones_own_against_a_file_of_ones_own(tmp_path):
-    scene, file = replace(TINY, roughness=None, mdr=MDR(points=512)), tmp_path / "mine.toml"
-
-    def failed(**given):
-        return compare.regress(file, scene=scene, output=tmp_path / "out", workers=1, report=False, **given).failed
-
-    assert not failed(update=True)
-    values = stored.read_values(file)
-    assert values.keys() == {f"{TINY.title}.friction", f"{TINY.title}.depth"}
-    assert not failed()
-    stored.write_values(file, {id: 1.01 * value for id, value in values.items()})
-    assert failed()
-    with pytest.raises(InvalidInput, match="need a file, name one"):
-        compare.regress(scene=scene)
 
 
 @pytest.mark.parametrize(

@@ -135,7 +135,7 @@ CLIENT = """
 from pathlib import Path
 import typer
 from stand_in_solver import Stand, loads
-from compare.cli.console import said_to_people
+from compare.cli.app import said_to_people
 from compare.solving.store import Store
 from compare.solving.runner import sweep
 

@@ -15,8 +15,7 @@ from scene_files import SCENE, SMALL
 from typer.testing import CliRunner
 
 import compare
-from compare.cli.app import app
-from compare.cli.console import print_in_any_encoding, say
+from compare.cli.app import app, print_in_any_encoding, say
 from compare.library.ready import ready
 from compare.solving.store import Store
 
@@ -107,7 +106,7 @@ def test_a_command_has_the_arguments_and_defaults_of_its_function_and_says_what_
         python = {**inspect.signature(compare.solve).parameters, **python}
     own = COMMANDS[name].keys() - {"quiet", "verbose", "json"}
     assert all(COMMANDS[name][each].default == python[each].default for each in own)
-    assert python.keys() - own <= {"progress", "quantities", "options", "study", "budget", "output", "executor"}
+    assert python.keys() - own <= {"progress", "quantities", "options", "study", "output", "executor"}
     told = " ".join(ask(name, "--help").output.split())
     helps = [each.annotation.__metadata__[0].help for each in COMMANDS[name].values()]
     assert all(" ".join(each.split()) in told for each in helps)  # brackets included
@@ -140,20 +139,18 @@ def test_the_schema_is_printed_or_written(tmp_path, kind):
 MISTAKES = {
     "run zzzzzz": "the working directory, and no ready scene\n",
     "run two-shapes": "is a ready study, and no scene: crosscheck study two-shapes",
-    "run study.toml": "is a study, and no scene: crosscheck study study.toml",
     "run thin-layer": "crosscheck plan says what each solver makes of it",
     "run quick-start --output mine.toml": "crosscheck: --output mine.toml: mine.toml: is a file, and no folder",
     "study colapse": "NAME = colapse: allowed are collapse, ",
     "study collapse --size big": "'--size': Value error, 'big' is not one of 'quick', 'standard', 'full'",
     "run quick-start --workers few": "'--workers': 'few' is not a number",
     "run quick-start --workers 0": "workers = 0: a whole number from 1 to ",
-    "run quick-start --figure-format gif": "figure_format = gif: allowed are png, ",
     "study mine.toml": "mine.toml: ",
     "workprecision paper-spere": "did you mean paper-sphere?",
     "new quick-start mine.toml": "is there already, and nothing is overwritten",
     "export nowhere --journal acs": "nowhere: no such folder",
     "export . --format png": "no manifest.json here",
-    "export . --format csv,word": "format = word: allowed are csv, vtk, png, pdf, svg",
+    "export . --format vtk,word": "format = word: allowed are vtk, png, pdf, svg",
 }
 
 
@@ -187,14 +184,13 @@ def printed(text, encoding, monkeypatch):
 @pytest.mark.parametrize(
     ("encoding", "said"),
     [
-        ("utf-8", "−2 ± 1 × 10⁻¹² Pa, λ ≤ 5 µm, 3 · 10¹⁰ h₀, 摩"),
-        ("cp1252", r"-2 ± 1 × 10^-12 Pa, lambda <= 5 µm, 3 · 10¹\u2070 h0, \u6469"),
-        ("latin-1", r"-2 ± 1 × 10^-12 Pa, lambda <= 5 µm, 3 · 10¹\u2070 h0, \u6469"),
-        ("ascii", r"-2 +- 1 x 10^-12 Pa, lambda <= 5 um, 3 * 10^10 h0, \u6469"),
+        ("utf-8", "−2 ± 1 Pa, 5 µm, 10¹⁰ 摩"),
+        ("cp1252", r"\u22122 ± 1 Pa, 5 µm, 10¹\u2070 \u6469"),
+        ("ascii", r"\u22122 \xb1 1 Pa, 5 \xb5m, 10\xb9\u2070 \u6469"),
     ],
 )
-def test_letters_that_an_encoding_lacks_have_stand_ins_that_say_the_same_number(encoding, said, monkeypatch):
-    assert printed("−2 ± 1 × 10⁻¹² Pa, λ ≤ 5 µm, 3 · 10¹⁰ h₀, 摩", encoding, monkeypatch) == f"{said}\n"
+def test_letters_that_an_encoding_lacks_are_printed_as_escapes(encoding, said, monkeypatch):
+    assert printed("−2 ± 1 Pa, 5 µm, 10¹⁰ 摩", encoding, monkeypatch) == f"{said}\n"
     every = "".join(map(chr, range(0x3000))) + "\ud800\U0001f600"
     assert len(printed(every, encoding, monkeypatch)) > 0x3000
 
@@ -276,7 +272,7 @@ STEPS = [
         "bem3d",
         PLANNED | {"compare.solving.runner", "compare.solving.store", "compare.studies.pipeline"},
     ),
-    ("command('trust', 'scene.toml')", "compare.trustmap.shipped", PLANNED | {"compare.solving.runner"}),
+    ("command('trust', 'scene.toml')", "compare.trustmap.table", PLANNED | {"compare.solving.runner"}),
 ]
 
 

@@ -9,7 +9,7 @@ import pytest
 
 from bem3d import BEM
 from compare.solving import curve
-from compare.solving.outcome import Outcome, Row
+from compare.solving.task import Outcome, Row
 from compare.studies.comparison.answers import Answers
 from compare.studies.comparison.laws import laws
 from compare.studies.comparison.rough import RoughSeries

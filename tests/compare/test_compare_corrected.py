@@ -39,7 +39,7 @@ SMOOTH = replace(ROUGH, roughness=None)
 FEW = CorrectedMDR(MDR(points=1000), profiles=8)
 # Sums in another order.
 ROUNDING = 1e-12
-WORTH = Correction("MDR", 2.0, 1.9, 2.1, 1.5, 2.5, "multiply", 0.1, "Made up.")
+WORTH = Correction("MDR", 2.0, 1.9, 2.1, 1.5, 2.5, "multiply", "Made up.")
 
 
 @pytest.fixture

@@ -25,8 +25,7 @@ from compare.solving.curve import (
     tasks_of,
     tree,
 )
-from compare.solving.outcome import Outcome, Row
-from compare.solving.task import draws_of
+from compare.solving.task import Outcome, Row, draws_of
 from compare.solving.words import basis
 from compare.statistics.finding import Claim
 from compare.statistics.jackknife import DrawSet, friction, mean, measured

@@ -1,4 +1,4 @@
-"""Claims that are not decided ask for surfaces, and say how many would decide them."""
+"""Claims that are not decided ask for as many surfaces as decide them."""
 
 from dataclasses import replace
 
@@ -17,15 +17,12 @@ from compare.solving.curve import FINER, NOT_ASKED, SOLVED, of_model
 from compare.statistics.finding import FAILS, HOLDS, UNDECIDED, Claim, Finding
 from compare.statistics.jackknife import DrawSet, friction, measured
 from compare.statistics.multilevel import GROWTH, DrawnSurfaces, pooled
-from compare.studies.comparison.series import PILOT
 from mdr1d import MDR
 from scene import SolveError
-from scene.files.reading import InvalidInput
 
 RATIO = Claim("ratio", "The ratio is one", 1.0, 0.05, measure=lambda sample: float(friction(sample["BEM"])[0]))
 DRAWN = DrawnSurfaces({"BEM": (8, 32), "MDR": (100,)}, {"BEM": (1e8, 1e7), "MDR": (1e5,)})
 PARTS = {("BEM", 0): 0.1, ("BEM", 1): 0.6, ("MDR", 0): 0.3}
-WORDS = {"BEM": "surfaces", "MDR": "profiles"}
 
 
 def found(value=0.9, half=0.1, grid=0.002, parts=PARTS, **changed):
@@ -61,7 +58,6 @@ def test_what_is_decided_unknown_or_without_surfaces_asks_for_none():
         replace(found(), claim=replace(RATIO, tolerance=float("nan"))),
     ):
         assert DRAWN.deciding(each, 0.01) == {}
-        assert DRAWN.told(each, WORDS).remedy == ""
 
 
 def test_an_interval_that_is_narrow_enough_needs_no_verdict():
@@ -77,20 +73,6 @@ def test_more_draws_are_bounded_and_never_fewer():
     assert counts == {"BEM": (32, 128), "MDR": (400,)}
     assert GROWTH == 4
     assert DRAWN.more([found(0.7, 0.05)], 0.001) == DRAWN.counts
-    assert DRAWN.more([found(0.951, 0.3)], 0.001, 2.0) == {"BEM": (16, 64), "MDR": (200,)}
-
-
-def test_a_finding_says_what_would_decide_it():
-    told = DRAWN.told(found(), WORDS)
-    asked = DRAWN.deciding(found())
-    surfaces = sum(asked["BEM", k] - had for k, had in enumerate(DRAWN.counts["BEM"]) if asked["BEM", k] > had)
-    number = float(told.remedy.split()[1].replace(",", ""))
-    assert number == pytest.approx(surfaces, rel=0.1)
-    assert told.remedy.endswith("s of processor time, would decide it")
-    assert told.why == f"its interval reaches across 0.95; {told.remedy}"
-    hopeless = DRAWN.told(found(0.951, 0.3, 0.0), WORDS)
-    assert hopeless.remedy == "only more than 10,000 surfaces or profiles would decide it"
-    assert "finer one" in DRAWN.told(found(0.951, 0.3, 0.01), WORDS).remedy
 
 
 def verdict_of(rng, claim, variation, interval):
@@ -194,24 +176,9 @@ def test_hard_surfaces_are_solved_on_the_next_finer_grid_and_told(tmp_path, monk
     assert again.findings.equals(report.findings)
 
 
-@pytest.mark.usefixtures("in_this_process")
-def test_a_budget_that_is_spent_asks_for_no_more(tmp_path):
-    report = compare.run(CASE, interval="1%", budget="1 ms", report=False, output=tmp_path)
-    drawn = {name: each.strata("BEM") for name, each in report.study.grids().items() if each.random}
-    assert {sum(map(len, each)) for each in drawn.values()} == {PILOT + 8}
-    assert report.study.more(report.answers, report.judged) is not None
-
-
 def test_an_interval_and_numbers_of_surfaces_are_not_both_stated():
     with pytest.raises(ValueError, match=r"interval = 0\.02: it takes the place of surfaces and profiles"):
         Variations(interval="2%", surfaces=3)
-
-
-@pytest.mark.parametrize("budget", ["0 s", "-1 s", "3 m", "soon", float("inf")])
-def test_a_budget_is_a_time(budget, tmp_path):
-    with pytest.raises(InvalidInput, match=r"budget = .*: a time above zero, as 10min or 600 s"):
-        compare.run(CASE, interval="5%", budget=budget, output=tmp_path / "none")
-    assert not (tmp_path / "none").exists()
 
 
 STUDY = """

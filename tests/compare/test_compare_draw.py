@@ -6,18 +6,17 @@ from functools import cache
 
 import numpy as np
 import pytest
-from drawn_scenes import KELVIN, LOAD, ROUGH, SCENES, STANDARD, TAU, A, G, R
+from drawn_scenes import KELVIN, LOAD, ROUGH, SCENES, STANDARD, TAU, A, R
 from typer.testing import CliRunner
 
 import compare
 from bem3d import BEM
 from compare.cli.app import app
 from compare.figures import contact, history, style
+from compare.figures.contact import SURFACE, view
 from compare.figures.plot import Plot
-from compare.figures.views import ROW, SURFACE, view
 from compare.library.lookup import case_of
 from compare.report import vtk
-from compare.studies.draw import APART
 from mdr1d import MDR
 from scene import (
     WLF,
@@ -26,7 +25,6 @@ from scene import (
     Indent,
     Layer,
     Program,
-    Prony,
     Refused,
     Scene,
     SelfAffine,
@@ -125,33 +123,17 @@ def test_the_surface_is_deepest_under_the_sphere_and_lower_behind_it_than_before
     surface = drawn["fast"].answers["surface"].to_dataset()
     middle = surface["displacement"].sel(y=0, method="nearest")
     assert float(middle.max()) == pytest.approx(float(surface["depth"]), rel=1e-2)
-    behind, before = (float(middle.interp(x=at)) for at in (1.3 * A, -1.3 * A))
-    assert behind > 1.3 * before > 0
-    assert float(surface["x"].max()) > 2 * A
+    assert float(middle[-1]) > 1.1 * float(middle.interp(x=-surface["x"][-1])) > 0
     rest = drawn["rest"].answers["surface"].to_dataset()["displacement"].sel(y=0, method="nearest")
-    # as far from both edges alike at rest, to the digits of the interpolation
-    assert float(rest.interp(x=1.9 * A)) == pytest.approx(float(rest.interp(x=-1.9 * A)), rel=1e-3)
-
-
-@pytest.mark.parametrize("solid", [KELVIN, STANDARD, Prony(G, (3 * G, 2 * G, G), (TAU / 10, TAU, 10 * TAU))])
-def test_in_one_dimension_the_wake_behind_the_grid_recovers_as_it_does_on_it(solid):
-    scene = Scene(Sphere(R), solid, Slide(speed=3 * A / TAU, load=LOAD))
-    near, far = (
-        view(scene, SPACE, {"MDR": MDR(points=1000, extent=extent).solve(scene).fields})[ROW]["surface"]
-        for extent in (3 * A, 24 * A)
-    )
-    x = np.linspace(2 * A, float(min(near["x"].max(), far["x"].max())), 20)
-    assert x[-1] > 4 * A
-    # of the greatest depression; profiles on pixels of a 40th of the radius
-    np.testing.assert_allclose(near.interp(x=x), far.interp(x=x), rtol=0, atol=1e-3 * float(np.ptp(far.values)))
+    assert float(rest[-1]) == pytest.approx(float(rest[0]), rel=1e-9)
 
 
 def test_under_a_smooth_sphere_at_rest_the_springs_carry_the_pressure_integrated_over_y(drawn):
     """The force per length of the MDR is the Abel transform of the pressure, which is its integral over y."""
     lines = table(drawn["rest"], contact.LINES)
     assert lines["line_force_1d"].max() == pytest.approx(lines["line_force_3d"].max(), rel=5e-3)
-    rest, rough = (drawn[name].findings.set_index("claim")["value"][APART.id] for name in ("rest", "rough"))
-    assert rest < 0.01 < rough
+    shares = [line_forces / line_forces.sum() for line_forces in (lines["line_force_1d"], lines["line_force_3d"])]
+    assert abs(shares[0] - shares[1]).sum() / 2 < 0.01
 
 
 @pytest.mark.parametrize("name", ["rest", "fast", "rough"])

@@ -167,7 +167,7 @@ def killed(word, folder, step):
             return done
 
         os.replace, os.unlink, os.rmdir = map(dying, (os.replace, os.unlink, os.rmdir))
-        written(word, folder, figure_format="svg")
+        written(word, folder)
 
     process = multiprocessing.get_context("fork").Process(target=to_its_death)
     process.start()
@@ -185,9 +185,7 @@ def titled(folder):
 
 
 def test_a_new_scene_takes_the_place_of_all_that_the_one_before_it_left_and_of_nothing_else(tmp_path):
-    assert written("one", tmp_path, figure_format="pdf, svg") == of(
-        "one", "one/picture.pdf", "one/picture.svg", "report.html"
-    )
+    assert written("one", tmp_path) == of("one", "report.html")
     mine = {"one/notes.txt", "one/mine.csv", "mine.pdf", "figures/one/picture.pdf", "two.md"}
     for name in mine:
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
@@ -226,7 +224,7 @@ def test_killed_at_a_step_a_run_leaves_the_old_scene_or_says_that_it_did_not_end
         if step // stride % 3 == 2:
             assert written(f"old{step}", tmp_path) == of(f"old{step}", "report.html")
     assert titled(tmp_path) == f"new{step}"
-    assert files(tmp_path) == of(f"new{step}", "report.html", f"new{step}/picture.svg")
+    assert files(tmp_path) == of(f"new{step}", "report.html")
     assert states["old"] >= 1
     assert states["unfinished"] >= 20 / stride
 

@@ -18,7 +18,7 @@ from compare import FrictionLaw
 from compare.models.exact import slow_friction_3d
 from compare.models.law.bands import FASTER, Bands, FullContact
 from compare.models.law.nominal import GAPS, NominalContact, Rings
-from compare.models.law.share import LEAST, MOST, Share, coefficients
+from compare.models.law.parts import LEAST, MOST, Share, coefficients
 from mdr1d import MDR
 from scene import (
     Cone,

@@ -11,11 +11,11 @@ from compare.figures import style
 from compare.solving import words
 from compare.solving.curve import COARSE, FINE, SOLVED
 from compare.statistics.finding import FAILS, HOLDS, REPORTED
+from compare.studies.comparison.answers import LAW, with_theory
 from compare.studies.comparison.claims_law import EVERY, SHALLOW, LawPoints, law_findings
 from compare.studies.comparison.comparison import Comparison
 from compare.studies.comparison.laws import laws
 from compare.studies.comparison.rough import ROUGH
-from compare.studies.comparison.theory import LAW, with_theory
 from compare.studies.comparison.together import together as several
 from compare.studies.paper import parameters
 from scene import Slide
@@ -99,8 +99,8 @@ def test_one_point_in_six_that_is_off_is_seen_by_nine_in_ten_and_not_by_the_medi
 
 
 def test_points_of_high_roughness_are_left_out():
-    series, known = (made := answers()).series, made.answers
-    heights = LawPoints.of(series, known, {"BEM": laws(series.curves[ROUGH], known(ROUGH, "BEM"))}).height
+    made = answers()
+    heights = LawPoints.of(made.series, made.answers).height
     np.testing.assert_array_equal(heights > SHALLOW, [[True, False, False]] * 3)
     times = np.where(heights > SHALLOW, 3.0, 1.0)
     findings = found(answers(times=times))

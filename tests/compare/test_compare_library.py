@@ -56,12 +56,6 @@ def test_every_scene_that_can_be_compared_is(name, tmp_path):
     assert len(report.findings)
 
 
-def test_a_copy_may_name_a_schema_for_editors(tmp_path):
-    path = write("hertz", tmp_path / "mine.toml", schema="scene.json")
-    assert path.read_text(encoding="utf-8").startswith("#:schema scene.json\n# ")
-    assert read(path, Case) == read(written("hertz", tmp_path), Case)
-
-
 def test_a_name_that_is_not_there_is_said_with_what_is():
     with pytest.raises(InvalidInput, match=r"NAME = hert: .*paper-sphere.*; did you mean hertz\?"):
         find("hert")

@@ -28,9 +28,8 @@ from matplotlib.text import Text
 from matplotlib.transforms import Bbox
 from pandas import DataFrame
 
-from compare.figures import curves, force_depth, friction_speed, shades, style
-from compare.figures.plot import Plot
-from compare.figures.rendering import FORMS, picture
+from compare.figures import curves, force_depth, friction, shades, style
+from compare.figures.plot import FORMS, Plot, picture
 from compare.figures.style import COLUMNS
 from compare.report import csvfiles, manifest
 from compare.report.export import function
@@ -375,14 +374,14 @@ def test_a_file_of_settings_is_a_style(tmp_path):
 
 def test_what_the_machine_has_set_does_not_show():
     with matplotlib.rc_context({"lines.linewidth": 9.0, "font.size": 30, "axes.facecolor": "yellow"}):
-        figure = drawn("friction_speed-figure")
+        figure = drawn("friction-figure")
     assert figure.axes[0].get_facecolor() == (1.0, 1.0, 1.0, 1.0)
     assert max(_widths(figure)) < 2
 
 
 def test_text_too_large_for_the_panels_is_refused_with_the_size():
     with pytest.raises(InvalidInput, match="text of 80 points"):
-        picture(sample("friction_speed-figure"), look=style.Look(sheet={"font.size": 80}))
+        picture(sample("friction-figure"), look=style.Look(sheet={"font.size": 80}))
 
 
 def test_a_text_is_broken_where_it_would_be_too_wide():
@@ -429,7 +428,7 @@ def test_what_has_no_answer_is_crossed_on_the_axis_and_without_an_end_there_is_n
 
 def test_threads_that_draw_at_once_draw_as_one_alone():
     def drawn_in(chosen):
-        return picture(sample("smooth_limit-figure"), look=style.Look(chosen)).files
+        return picture(sample("friction-figure"), look=style.Look(chosen)).files
 
     asked, outside = ("default", "nature", "default"), dict(matplotlib.rcParams)
     with ThreadPoolExecutor(len(asked)) as threads:
@@ -451,7 +450,7 @@ def points(name, across, places):
 def test_a_line_decades_below_does_not_press_the_curves_together():
     curves = points("friction_coefficient", "speed", (0.1, 1.0))
     lines = DataFrame({"model": ["MDR"] * 2, "kind": "Eq. 19", "speed": [0.1, 1.0], "friction_coefficient": 1e-6})
-    axes = from_files(friction_speed.plot(curves, lines=lines)).axes[0]
+    axes = from_files(friction.plot(curves, lines=lines)).axes[0]
     assert axes.get_ylim() == pytest.approx((0.09 / 1.2, 2.2 * 1.2))
     assert style.LABEL["MDR"] + ", Eq. 19" in axes.get_legend_handles_labels()[1]
 

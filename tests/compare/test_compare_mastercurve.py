@@ -72,7 +72,6 @@ def test_a_file_whose_name_is_no_text_is_named_by_letters_that_stand_for_it(tmp_
     ):
         assert r"ball\udcff" in str(left)
         assert r"ball\udcff" in left.study.title
-        assert set(compare.export(left.output)) >= {left.output / "tables/findings.csv"}
     assert [each.name for each in asked.run(tmp_path / f"{name}.toml").series] == [r"ball\udcff"]
 
 
@@ -85,18 +84,16 @@ def test_the_answer_holds_the_pair_of_shifts_that_was_planted(tmp_path, vertical
     for name, planted in pair.items():
         low, high = told[name].interval
         assert low - ROUNDING <= planted <= high + ROUNDING, name
-    first, *others = made.judge(made.answers({})).answer
+    said = " ".join(made.judge(made.answers({})).answer)
+    for name in pair:
+        assert f"{told[name].claim.sentence}: {worded(told[name], 3)}" in said
     if vertical:
         assert (told["vertical-exponent"].verdict, told["vertical"].verdict) == (FAILS, REPORTED)
-        assert first.startswith(
-            f"The curves form one if friction is shifted as v^{worded(told['vertical-exponent'], 3)} and the load"
-        )
-        assert "shifted along the load alone, as v^" in first
-        assert not any("No shift along friction" in each for each in others)
+        assert "No shift along friction" not in said
         assert not told["exponent"].interval[0] <= -1.5 <= told["exponent"].interval[1]
     else:
         assert told["vertical"].verdict == HOLDS
-        assert not any("is shifted as" in each for each in [first, *others])
+        assert "shift along friction, beside" not in said
 
 
 # Curves of friction, which are one of the load times a power of the speed.

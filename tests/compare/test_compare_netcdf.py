@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 import xarray
 
-from compare.report.export import export
 from compare.solving import netcdf
 from scene.files.reading import InvalidInput
 
@@ -63,10 +62,9 @@ def test_nothing_but_numbers_and_texts_is_written(foreign):
 
 
 def refused(path, why):
-    """Whether both readers of a file of results refuse it, name it and say why."""
-    for read in (netcdf.load, export):
-        with pytest.raises(InvalidInput, match=rf"results\.nc: {why}"):
-            read(path)
+    """Whether a file of results is refused by its name, with the reason."""
+    with pytest.raises(InvalidInput, match=rf"results\.nc: {why}"):
+        netcdf.load(path)
 
 
 def test_every_changed_or_shortened_file_is_refused_before_hdf5_sees_it(tmp_path, monkeypatch):

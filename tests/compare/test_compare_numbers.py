@@ -17,7 +17,7 @@ from compare.report import terminal
 from compare.report.page import Page, Table
 from compare.solving.continuation import Continuation
 from compare.solving.cost import MOST_DRAWS
-from compare.solving.outcome import Outcome, Row
+from compare.solving.task import Outcome, Row
 from compare.solving.words import found as worded
 from compare.statistics import eq23
 from compare.statistics.collapse import collapse

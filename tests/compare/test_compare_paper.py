@@ -7,9 +7,9 @@ import pytest
 from pandas import DataFrame
 
 from compare.solving.curve import of_model
-from compare.solving.outcome import Outcome, Row
+from compare.solving.task import Outcome, Row
 from compare.statistics.intervals import Estimated
-from compare.studies.paper import claims, law, parameter_studies, parameters
+from compare.studies.paper import law, parameter_studies, parameters
 from compare.studies.paper.parameter_studies import SlowFriction, contacts, dataset, slow_friction, tasks
 from compare.studies.paper.shifts import ROUGH, WHOLE, Rubber
 from compare.studies.paper.study import Paper
@@ -203,7 +203,7 @@ def test_without_what_the_smooth_body_has_friction_shifts_as_the_loss_does(monke
 
 def test_an_interval_of_profiles_decides_a_claim_and_none_leaves_it_open():
     for value, error, verdict in ((1.5, 0.01, "holds"), (1.3, 0.01, "fails"), (1.5, np.nan, "undecided")):
-        found = claims.exact(claims.ALPHA, Estimated(value, error, 19), 20)
+        found = law.exact(law.ALPHA, Estimated(value, error, 19), 20)
         assert (found.verdict, found.grid) == (verdict, 0.0)
 
 

@@ -11,11 +11,10 @@ from typer.testing import CliRunner
 import compare
 from compare import run
 from compare.cli.app import app
-from compare.figures import solid, style
 from compare.solving.curve import contacts_of
 from compare.studies.comparison import asked
 from compare.studies.plan import plans
-from scene import WLF, Doubtful, Indent, Prony, Scene, Sphere, Tabulated
+from scene import Doubtful
 
 PLANE = """
 [indenter]
@@ -123,39 +122,6 @@ def test_a_plan_holds_next_to_nothing_whatever_the_solve_would(written):
         tracemalloc.stop()
     assert found["BEM"].memory > 2e9
     assert most < 1e7  # the profile's surface is drawn on few nodes to lay out its grid
-
-
-LAW = WLF(temperature=310.0, reference=300.0, c1=8.86, c2=101.6)
-SERIES = Prony(1e6, (1e6, 3e6), (1e-1, 1e-3))
-
-
-def moduli_drawn(table):
-    scene = Scene(Sphere(1e-2), Tabulated(table=table, poisson_ratio=0.3), Indent(load=1.0), temperature=LAW)
-    drawn = solid.plot(scene)
-    with style.applied():
-        return drawn, drawn.figure().axes
-
-
-def test_measured_moduli_are_drawn_as_points_on_their_fit_at_the_temperature_of_the_scene():
-    omega = np.geomspace(1e-1, 1e5, 20)
-    law = SERIES.complex_modulus(omega)
-    drawn, (axes,) = moduli_drawn({"omega": omega, "G'": law.real, "G''": law.imag})
-    points = [line for line in axes.lines if line.get_label() == "measured"]
-    for line, part in zip(points, (law.real, law.imag), strict=True):
-        np.testing.assert_allclose(line.get_xdata(), omega / LAW.shift)
-        np.testing.assert_allclose(line.get_ydata(), part)
-    fit = drawn.tables[solid.NAME]
-    at_points = np.interp(np.log(omega / LAW.shift), np.log(fit["omega"]), np.log(fit["storage"]))
-    np.testing.assert_allclose(np.exp(at_points), law.real, rtol=5e-3)
-    assert "at 310 K" in drawn.caption
-
-
-@pytest.mark.parametrize("form", ["png", "pdf", "svg"])
-def test_a_plan_draws_the_solid_into_a_file(written, tmp_path, form):
-    path = tmp_path / f"solid.{form}"
-    answer = told(written(SCENE), "--figure", str(path))
-    assert answer.exit_code == 0
-    assert path.stat().st_size > 1000
 
 
 def fine_map(folder, **stated):

@@ -20,9 +20,9 @@ from compare.solving import task as solving
 from compare.solving.digest import code_of
 from compare.solving.executors import MOST_FAILED_STARTS, ONE_THREAD, Processes, Workers
 from compare.solving.folders import lock
-from compare.solving.outcome import Outcome, Row
 from compare.solving.runner import sweep
 from compare.solving.store import Store
+from compare.solving.task import Outcome, Row
 from compare.solving.task import SceneTask as Task
 from mdr1d import MDR
 from scene import EmptyContact, Indent, Refused, SelfAffine, Slide

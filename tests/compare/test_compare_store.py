@@ -24,8 +24,8 @@ from compare.models.exact import Exact
 from compare.solving import folders
 from compare.solving.digest import canonical, digest, key
 from compare.solving.folders import LOCK, clear, lock, make, write
-from compare.solving.outcome import NUMBERS, Outcome, Row
 from compare.solving.store import FILE, Store, _covering
+from compare.solving.task import NUMBERS, Outcome, Row
 from compare.solving.task import SceneTask as Task
 from mdr1d import MDR
 from scene import Kelvin, Scene, SelfAffine, Slide, Sphere

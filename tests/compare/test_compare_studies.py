@@ -13,10 +13,10 @@ from compare.solving.curve import COARSE, FINE
 from compare.statistics.finding import REPORTED
 from compare.statistics.jackknife import friction, mean
 from compare.studies.comparison import asked, together
+from compare.studies.comparison.answers import THEORIES
 from compare.studies.comparison.laws import laws
 from compare.studies.comparison.measures import SLOW, loading
 from compare.studies.comparison.rough import ROUGH, SMOOTH, RoughSeries
-from compare.studies.comparison.theory import THEORIES
 from mdr1d import MDR
 from scene import Indent, Kelvin, Program, Scene, SelfAffine, Slide, Sphere, Stage
 from scene.files.reading import InvalidInput

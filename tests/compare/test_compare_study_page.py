@@ -14,7 +14,7 @@ from compare.figures.plot import Plot
 from compare.report import csvfiles
 from compare.report.page import Findings, Section, Table
 from compare.solving.curve import tasks_of
-from compare.solving.outcome import Outcome, Row
+from compare.solving.task import Outcome, Row
 from compare.statistics.finding import REPORTED, UNDECIDED
 from compare.studies.comparison.claims import SHORT
 from compare.studies.comparison.comparison import Comparison

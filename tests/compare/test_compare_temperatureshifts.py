@@ -8,8 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from compare.studies.mastercurve import shiftlaws
-from compare.studies.mastercurve.measuredcurves import MeasuredCurves, curves_of, isotherms
-from compare.studies.mastercurve.pooling import pooled
+from compare.studies.mastercurve.measuredcurves import MeasuredCurves, curves_of, isotherms, pooled
 from compare.studies.mastercurve.temperatureshifts import POWERS, found
 
 C1, C2, REFERENCE = 8.86, 101.6, 293.15

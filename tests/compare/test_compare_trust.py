@@ -19,13 +19,11 @@ from strategies import rescaled
 from bem3d import BEM
 from compare.models.exact import full_contact
 from compare.models.law.bands import Bands
-from compare.solving.outcome import Outcome, Row
-from compare.trustmap import shipped, table, verdict
+from compare.solving.task import Outcome, Row
+from compare.trustmap import table, verdict
 from compare.trustmap.friction_law import FrictionLaw
 from compare.trustmap.groups import FullContact, SmoothReference
-from compare.trustmap.model import NAMES, NORMAL, Measurements, Predicted, lost
-from compare.trustmap.ratio import LAW, RATIOS, asked_of
-from compare.trustmap.regions import ROUGHNESS
+from compare.trustmap.model import LAW, NAMES, NORMAL, RATIOS, ROUGHNESS, Measurements, Predicted, asked_of, lost
 from compare.trustmap.regression import Process, Scales
 from compare.trustmap.verdict import trust
 from mdr1d import MDR
@@ -87,7 +85,7 @@ def test_a_depth_that_is_lost_in_the_roughness_asks_for_3d_however_many_scenes_w
     groups = table.groups(table.read(table.LEARNED))
     hidden = groups[lost(groups)]
     assert len(hidden) > 100
-    assert (shipped.model("depth").predicted(hidden).error * NORMAL > verdict.WIDE).all()
+    assert (table.model("depth").predicted(hidden).error * NORMAL > verdict.WIDE).all()
 
 
 def test_the_paper_s_rough_sphere_agrees_with_what_the_default_run_measured():
@@ -167,7 +165,6 @@ def test_off_the_map_the_advice_is_to_solve_and_the_reason_names_what_is_missing
         assert np.isnan(worth.ratio)
         assert "Off the map" in worth.reason
         assert said in worth.reason
-    assert found.nearest == ()
 
 
 @pytest.mark.parametrize(
@@ -250,7 +247,6 @@ def test_the_narrower_interval_is_taken_and_of_many_waves_the_law_is_right_where
     many = trust(replace(PAPER, roughness=replace(MANY, shortest=5e-5)))
     assert many.friction.ratio < 0.4
     assert many.law.low < 1 < many.law.high
-    assert max(many.law.seconds, many.friction.seconds) < 0.1 * many.solving
     assert str(many).splitlines()[0].startswith("For friction take ")
     far = trust(replace(PAPER, roughness=replace(ROUGH, rms_height=2e-4)))
     assert (far.taken, far.choice) == (None, "For friction solve in 3D.")
@@ -267,10 +263,7 @@ def test_nothing_rough_is_solved(monkeypatch):
     assert [scene.roughness for scene in solved] == [None, None]
 
 
-def test_it_says_where_the_scene_lies_and_what_was_measured_near_it():
-    found = trust(PAPER)
-    distances = [each.distance for each in found.nearest]
-    assert distances == sorted(distances)
+def test_it_says_where_the_scene_lies():
     solids = KELVIN, STANDARD, replace(STANDARD, glassy_modulus=2e11)
     texts = (str(trust(replace(PAPER, elastomer=each))) for each in solids)
     places = [next(line for line in each.splitlines() if line.startswith("place")) for each in texts]
@@ -412,7 +405,7 @@ def test_no_scene_held_out_was_learned_from():
 def test_the_models_are_fitted_to_the_tables_they_come_with():
     """Half of what they do not go through is predicted within 3 %; scales of other data would not do that."""
     for name in RATIOS:
-        model, (_, learned) = shipped.model(name), table.measurements(table.read(table.LEARNED), name)
+        model, (_, learned) = table.model(name), table.measurements(table.read(table.LEARNED), name)
         error, variance = fitting.left_out(model.process)
         assert 0.85 < np.mean(np.abs(error) < 1.96 * np.sqrt(variance)) < 1
         others = learned.taken(np.setdiff1d(np.arange(len(learned.groups)), model.fitted.taken))

@@ -8,8 +8,7 @@ from typer.testing import CliRunner
 import compare
 from bem3d import BEM
 from compare.cli.app import app
-from compare.solving.outcome import Outcome, Row
-from compare.solving.task import SceneTask
+from compare.solving.task import Outcome, Row, SceneTask
 from compare.solving.unsolved import Unsolved
 from scene import Doubtful, Indent, Kelvin, Scene, Sphere
 

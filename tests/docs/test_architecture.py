@@ -156,7 +156,7 @@ def test_figures_neither_solve_nor_save():
             "compare.solving.store",
             "compare.studies.pipeline",
         }, path
-        assert "savefig" not in path.read_text(encoding="utf-8") or path.name == "rendering.py", path
+        assert "savefig" not in path.read_text(encoding="utf-8") or path.name == "plot.py", path
 
 
 def test_the_arrows_can_be_broken(tmp_path):

@@ -11,7 +11,7 @@ from promises_page import errors, promises, scenes
 from bem3d import BEM
 from bem3d.friction import bound as frictionerror
 from bem3d.friction.bound import FITTED
-from compare.solving.outcome import Outcome, Row
+from compare.solving.task import Outcome, Row
 from scene.protocol import refuse
 
 LEARNED = Path(__file__).parents[2] / "docs" / "results" / "promises" / "learned.csv.gz"

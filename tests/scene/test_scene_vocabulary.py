@@ -11,7 +11,7 @@ from strategies import rescaled
 import compare
 from bem3d import BEM
 from compare.library.case import Case
-from compare.studies.comparison.theory import THEORIES
+from compare.studies.comparison.answers import THEORIES
 from mdr1d import MDR
 from scene import (
     Coulomb,

@@ -31,7 +31,7 @@ def wave_contact_fraction(fraction):
 
     Westergaard, J. Appl. Mech. 6, 49 (1939).
     """
-    return 2 / pi * np.arcsin(np.sqrt(_checked(fraction)))
+    return 2 / pi * np.arcsin(np.sqrt(checked_fraction(fraction)))
 
 
 def wave_pressure(fraction, phase):
@@ -39,7 +39,7 @@ def wave_pressure(fraction, phase):
 
     Westergaard (1939), with t_a = pi a / lambda; zero outside the contact. At p/p* = 1 it is 1 + cos(2 t).
     """
-    fraction = _checked(fraction)
+    fraction = checked_fraction(fraction)
     if not np.all(fraction > 0):
         raise ValueError("without load there is no mean pressure to refer to")
     t = np.mod(np.asarray(phase, float) + pi / 2, pi) - pi / 2
@@ -54,12 +54,13 @@ def wave_mean_gap(fraction):
     punches, of pressure cos t / sqrt(sin^2 t_a - sin^2 t), under which -(2/(pi E*)) int ln|2 sin t| dp dx is
     -(2 lambda/(pi E*)) ln(sin t_a) = -(h0/p*) ln P; its integral over P is P - P ln P.
     """
-    fraction = _checked(fraction)
+    fraction = checked_fraction(fraction)
     return 1 - fraction + fraction * np.log(np.where(fraction > 0, fraction, 1.0))
 
 
-def _checked(fraction):
+def checked_fraction(fraction):
+    """An array of fractions, ValueError outside 0 to 1."""
     fraction = np.asarray(fraction, float)
     if not np.all((fraction >= 0) & (fraction <= 1)):
-        raise ValueError(f"p/p* = {fraction} must lie from 0 to 1")
+        raise ValueError(f"a fraction of {fraction} must lie from 0 to 1")
     return fraction[()]

@@ -1,9 +1,8 @@
 """The smooth contact that a rough body of revolution slides on: what all of its roughness is added to."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from math import pi, sqrt
-from typing import Protocol
+from typing import Any
 
 import numpy as np
 
@@ -14,28 +13,6 @@ from scene import Scene
 # up to 5 % too wide at high speed.
 SPACE = BEM(points=64)
 NOT_KEPT = np.empty(0)
-
-
-class Answer(Protocol):
-    """Answer to a smooth scene, as far as it is needed: a Result, or a row of an outcome."""
-
-    @property
-    def normal_force(self) -> float: ...
-
-    @property
-    def depth(self) -> float: ...
-
-    @property
-    def friction_coefficient(self) -> float: ...
-
-    @property
-    def residual(self) -> float: ...
-
-    @property
-    def operator_applications(self) -> float: ...
-
-    @property
-    def measures(self) -> Mapping[str, float]: ...
 
 
 @dataclass(frozen=True)
@@ -65,8 +42,8 @@ class SmoothContact:
         return cls.of_answer(found, found.fields["pressure"])
 
     @classmethod
-    def of_answer(cls, found: Answer, pressure: np.ndarray = NOT_KEPT) -> "SmoothContact":
-        """Smooth contact of its answer, and of the pressure of each pixel if that was kept."""
+    def of_answer(cls, found: Any, pressure: np.ndarray = NOT_KEPT) -> "SmoothContact":
+        """Smooth contact of a Result or a row of an outcome, and of the pressure of each pixel if it was kept."""
         return cls(
             load=found.normal_force,
             depth=found.depth,

@@ -62,8 +62,8 @@ class Accuracy(Comparison):
         return cls((replace(contact, profiles=profiles or plan.profiles),), within=wanted)
 
     def judge(self, answers: xarray.DataTree) -> Judgement:
-        """A finding a ratio, with what would decide it."""
-        found, (series,) = [], self.series
+        """A finding a ratio."""
+        found, (series,) = list[Finding](), self.series
         known = series.answers(answers)
         for mean, allowed in self.within.items():
             judged = known.judged(CONTACTS, WORDS[mean])
@@ -72,13 +72,7 @@ class Accuracy(Comparison):
                 id = WORDS[mean] if len(judged) == 1 else f"{WORDS[mean]}.{model.name}"
                 over: dict[str, Any] = {"dimension": beside, "measure": ratio_of(mean, *both)}
                 claim = Claim(id, f"{WORDS[mean]} {beside}", 1.0, allowed, **over)
-                for each in series.compared(known, claim, CONTACTS, both, {(0, 0): ""}):
-                    told = series.told(each)
-                    found.append(
-                        told
-                        if told.remedy or told.undecidable
-                        else replace(told, remedy="a finer grid would decide it")
-                    )
+                found += series.compared(known, claim, CONTACTS, both, {(0, 0): ""})
         return Judgement(found)
 
 
@@ -92,26 +86,13 @@ class OwnScene(Stored, Accuracy):
     name: str = SCENE
     tolerance: float = 1e-3
 
-    command: str = "regress"  # type: ignore[misc]
-    title: str = "Has the accuracy of the scene moved?"
-
     @classmethod
-    def stored(
-        cls,
-        scene: Any,
-        baseline: str | Path | None,
-        update: bool = False,
-        tolerance: float = 1e-3,
-        **asked: Any,
-    ) -> Self:
-        """Study of a scene and a file; one to be updated need not be there yet. Raises InvalidInput.
+    def stored(cls, scene: Any, path: Path, tolerance: float = 1e-3, **asked: Any) -> Self:
+        """Study of a scene and a file, which need not be there yet. Raises InvalidInput.
 
         asked : models, reference, surfaces and profiles, see `MDRAccuracy.check`
         """
-        if baseline is None:
-            raise InvalidInput("baseline = None: the numbers of a scene of your own need a file, name one")
-        path = Path(baseline)
-        file: dict[str, Any] = {"path": path, "values": read_values(path, begin=update), "update": update}
+        file: dict[str, Any] = {"path": path, "values": read_values(path, begin=True)}
         return replace(cls.of(scene, {}, **asked), name=named(scene), tolerance=tolerance, **file)
 
     def judge(self, answers: xarray.DataTree) -> Judgement:
@@ -168,7 +149,7 @@ class MDRAccuracy:
         The first run writes the file and fails. With --mdr-regen numbers that moved are stored, and it fails.
         The other arguments are those of `check`.
         """
-        study = OwnScene.stored(self._located(scene), self.file, True, tolerance, **asked)
+        study = OwnScene.stored(self._located(scene), self.file, tolerance, **asked)
         found = findings(study, self.folder)
         moved = any(each.verdict != HOLDS and isfinite(each.value) for each in found)
         if moved and (self.rewrite or not study.values):

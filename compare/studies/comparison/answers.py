@@ -1,19 +1,47 @@
-"""Answers of one scene on its curves, by model, and samples of them from which surfaces can be left out."""
+"""Answers of one scene on its curves, by model, samples of them, and theories that stand beside the models."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
 import xarray
 from pandas import DataFrame, concat
 
+from scene import SolveError, Solver
+from scene.protocol import numeric_guard, why_not
+
+from ...models.law.persson import Persson
 from ...models.table import NONE, PROFILES, SURFACES, Model, Models
-from ...solving.curve import COARSE, FINE, of_model
+from ...solving.curve import COARSE, FINE, Curve, of_model
 from ...statistics import means
 from ...statistics.intervals import Estimated
 from ...statistics.jackknife import DrawSet, compared
 from ...statistics.multilevel import pooled
+from ...trustmap.friction_law import FrictionLaw
+
+THEORY, LAW = THEORIES = Persson(), FrictionLaw()
+
+
+def with_theory(curve: Curve, theories: Sequence[Solver] = (THEORY,)) -> Curve:
+    """A curve with theories beside the models, those that are none of them and answer all of it."""
+    beside = {
+        each.name: {FINE: each} for each in theories if each.name not in curve.levels and _answers(each, curve)
+    }
+    return replace(curve, levels={**curve.levels, **beside})
+
+
+def _answers(theory, curve):
+    """Whether a theory answers a curve; not where its numbers are too far apart, which others tell."""
+    motion = curve.scene.motion
+    if not Model.of(theory).tells(motion.pressed_by, motion.speed > 0):
+        return False
+    try:
+        with numeric_guard():
+            return not any(why_not(theory, scene) for scene in curve.corners)
+    except SolveError:
+        return False
+
 
 # Variable of real contact by what is drawn [m], [m²].
 CONTACT = {PROFILES: "contact_length", SURFACES: "contact_area", NONE: "contact_area"}

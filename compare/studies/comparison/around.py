@@ -17,7 +17,7 @@ from scene.scales import elastic_contact
 
 from ...library.case import Case, doubted
 from ...models import exact
-from ...models.table import DEPTH, FORCE, FRICTION, PROFILES, ModelLike, Models
+from ...models.table import DEPTH, FORCE, FRICTION, ModelLike, Models
 from ...solving.curve import FINE, LEVELS, Curve, levels, refuse
 from ...solving.task import SceneTask
 from ...statistics.finding import Finding
@@ -25,11 +25,10 @@ from ...statistics.jackknife import mean
 from ...statistics.means import touches
 from ...statistics.multilevel import MEANS, WORDS
 from ...trustmap.verdict import Advice, trust
-from .answers import Answers
+from .answers import Answers, with_theory
 from .claims import CLAIMS
 from .measures import Here, Place, Row, Where, at
 from .series import Counts, Judged, Series, ratio_of
-from .theory import with_theory
 
 OWN, SPEED, LOAD = "own", "friction-speed", "friction-load"
 ROUGH_DEPTH, SMOOTH_DEPTH, SMOOTH_SPEED = "force-depth-rough", "force-depth-smooth", "smooth-speed"
@@ -302,25 +301,3 @@ def _curve(case: Case, models: Models, scene: Scene, speeds, values, keeps_field
 def _most_levels(scene):
     """A grid that cuts the roughness off has another surface on half the points."""
     return 1 if scene.roughness is not None and scene.roughness.shortest is None else len(LEVELS)
-
-
-def scaled_speed(case: Case, speed: float) -> float:
-    """v tau / a with the radius of the smooth relaxed contact; tau is the retardation time of the one mode."""
-    return speed * float(case.scene.solid.retardation()[2][0]) / elastic_contact(case.scene).radius
-
-
-def slow_friction(case: Case, models: Models) -> Mapping[str, float]:
-    """Friction of the smooth body over the slope at the contact's edge, per v tau / a at low speed, by model."""
-    contact, solid, body = elastic_contact(case.scene), case.scene.solid, case.indenter
-    speed = contact.radius / float(solid.retardation()[2][0])
-    given = speed, contact.radius, exact.mean_lag(solid), solid.indentation_modulus
-    one, three = (
-        law(*given, body.mdr_coefficient, body.exponent) / contact.load / edge_slope(case)
-        for law in (exact.slow_friction_1d, exact.slow_friction_3d)
-    )
-    return {each.name: one if each.draws == PROFILES else three for each in models}
-
-
-def edge_slope(case: Case) -> float:
-    """Slope of the smooth body at the edge of the smooth relaxed contact."""
-    return exact.edge_slope(case.indenter, elastic_contact(case.scene).radius)

@@ -10,11 +10,11 @@ from scene.files.reading import InvalidInput, text_of
 from scene.printable import printable
 
 from ...library.case import NotCompared, share_of
-from ...library.describe import folders, slug
 from ...library.lookup import SceneLike, located, named_cases
 from ...library.ready import ready, studies
 from ...models.table import ModelLike, listed
 from ...solving.curve import refuse
+from ...solving.folders import folders, slug
 from ...solving.suggest import known
 from .around import Around
 from .comparison import Comparison

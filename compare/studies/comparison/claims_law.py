@@ -12,15 +12,15 @@ from scipy.special import ndtri
 from scene.surfaces.isotropic import Isotropic
 
 from ...models.law.bands import Bands, FullContact
-from ...models.law.share import Share
+from ...models.law.parts import Share
 from ...models.table import SURFACES
 from ...solving.curve import COARSE, FINE, of_model
 from ...statistics.finding import Claim, Finding
 from ...statistics.jackknife import DrawSet, friction, mean, resample
-from .answers import Answers
+from .answers import LAW, Answers
 from .claims import CLAIMS
-from .laws import Laws, words
-from .theory import LAW
+from .laws import Laws
+from .measures import closed_forms
 
 if TYPE_CHECKING:
     from .rough import RoughSeries
@@ -87,7 +87,7 @@ class LawPoints:
     counted: np.ndarray
 
     @classmethod
-    def of(cls, series: "RoughSeries", answers: Answers, laws: Mapping[str, Laws]) -> "LawPoints | None":
+    def of(cls, series: "RoughSeries", answers: Answers) -> "LawPoints | None":
         """Points of the reference, where it is in three dimensions and the law answers; None where it is not."""
         model, roughness = series.models.reference, series.scene.roughness
         if not answers.has("rough", LAW.name) or series.models[model].draws != SURFACES:
@@ -114,7 +114,7 @@ class LawPoints:
                 averaged=replace(coordinates, share=rough / full),  # as S is bent and the pressure peaks
                 bare=Coordinates.of_bare(answers("smooth", model).isel(speed=slice(1, None)), waves),
                 curves=tuple(map(Share.of, waves)),
-                height=1 / laws[model].ratios["depth_over_height"],
+                height=np.broadcast_to(roughness.rms_height / closed_forms(series.curves["rough"])[1], x.shape),
                 counted=(rough / (own + rough) > LEAST_ROUGH) & known[0] & known[1],
             )
         return found if found.counted.any() else None
@@ -127,10 +127,10 @@ class LawPoints:
 
 def law_findings(series: "RoughSeries", answers: Answers, laws: Mapping[str, Laws]) -> list[Finding]:
     """Findings on the master curve of one series; none where the law claims nothing."""
-    found = LawPoints.of(series, answers, laws)
+    found = LawPoints.of(series, answers)
     if found is None:
         return []
-    regime = words({name: each[found.claimed] for name, each in laws[found.model].ratios.items()})
+    regime = laws[found.model].words(found.claimed)
     return [*law_findings_of([found], series.name, regime, series.place("rough"))]
 
 

@@ -13,15 +13,13 @@ from scene.result import labelled, provenance
 from ...report.page import Table
 from ...solving.continuation import by_contact
 from ...solving.curve import Curve
-from ...solving.outcome import Outcome
-from ...solving.task import SceneTask, Task
+from ...solving.task import Outcome, SceneTask, Task
 from ...statistics.finding import Finding
-from ...statistics.multilevel import GROWTH
 from ..study import Judgement, Study
 from . import pages
-from .answer import claims_table, scene_table
-from .answer import notes as open_claims
 from .around import OWN, Around
+from .pages import claims_table, scene_table
+from .pages import notes as open_claims
 from .rough import RoughSeries
 from .series import Counts, Judged, Series
 from .sweep import SweepSeries
@@ -81,12 +79,10 @@ class Comparison(Study):
                     below[f"{FIELDS}/{model}"] = xarray.DataTree(fields)
         return tree
 
-    def more(
-        self, answers: xarray.DataTree, findings: Sequence[Finding], growth: float = GROWTH
-    ) -> "Comparison | None":
+    def more(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> "Comparison | None":
         """The comparison with the surfaces that open claims and wide intervals ask for; None where none does."""
         sampled = [each for each in self.series if each.sampled]
-        asked = {each.name: each.more(each.answers(answers), findings, growth) for each in sampled}
+        asked = {each.name: each.more(each.answers(answers), findings) for each in sampled}
         for names in alike([each for each in self.series if each.name in asked]):
             asked |= dict.fromkeys(names, _most([asked[name] for name in names]))
         if all(asked.get(each.name, each.counts) == each.counts for each in self.series):
@@ -94,13 +90,8 @@ class Comparison(Study):
         return replace(self, series=tuple(replace(s, strata=asked.get(s.name, s.strata)) for s in self.series))  # type: ignore[type-var]
 
     def judge(self, answers: xarray.DataTree) -> Judgement:
-        every = []
-        for series in self.series:
-            judged = series.judge(series.answers(answers))
-            every.append(replace(judged, findings=[*map(series.told, judged.findings)]))
-        members = [each for each in every if each.laws and isinstance(each.series, RoughSeries)]
-        by_family = {each.series.family: each.series for each in members}
-        several = [by_family[each.curve].told(each) if each.curve else each for each in together(members)]
+        every = [series.judge(series.answers(answers)) for series in self.series]
+        several = [*together([each for each in every if each.laws and isinstance(each.series, RoughSeries)])]
         findings = [*(found for each in every for found in each.findings), *several]
         opening = [table for each in every for table in opening_of(each)]
         claims = claims_table(findings, [each.name for each in self.series if isinstance(each, Around)])

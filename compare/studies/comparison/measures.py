@@ -55,14 +55,8 @@ class Here:
 
     @property
     def regime(self) -> str:
-        """Dimensionless groups of the place in words; empty where it has none."""
-        if self.laws is not None:
-            return self.laws.words(self.place)
-        if ROUGH not in self.series.curves:
-            return ""
-        over = closed_forms(self.curve)[1] / self.series.scene.roughness.rms_height
-        words = f"d/h0 {over.min():.2g} to {over.max():.2g}"
-        return words if self.place is ... else f"{self.rates[self.place]:.2g} m/s; {words}"
+        """Ranges of load and xi of the place in words; empty where it does not slide."""
+        return "" if self.laws is None else self.laws.words(self.place)
 
     @property
     def curve(self) -> Curve:

@@ -12,10 +12,8 @@ from pandas import DataFrame, concat
 from scene.files.reading import InvalidInput
 from scene.printable import brief
 
-from ...figures import collapse, contact, force_depth, friction_load, friction_speed, history, law, smooth_limit
-from ...figures.plot import Plot
-from ...figures.rendering import finished
-from ...figures.views import view
+from ...figures import collapse, contact, force_depth, friction, history, law
+from ...figures.plot import Plot, finished
 from ...models.table import DEPTH, FORCE, FRICTION
 from ...solving.curve import Curve
 from ...solving.words import number
@@ -23,9 +21,8 @@ from ...statistics import eq23
 from ...statistics.finding import Finding
 from ...statistics.jackknife import mean
 from ...statistics.multilevel import MEANS
-from . import around
 from .answers import Answers
-from .around import EXACT, MU, OWN, SMOOTH_SPEED, Around
+from .around import EXACT, MU, OWN, Around
 from .claims_law import SHALLOW, LawPoints
 from .laws import laws
 from .measures import ROUGH, SMOOTH, closed_forms, loading
@@ -48,9 +45,8 @@ def of_series(judged: Judged, tree: xarray.DataTree) -> Iterator[Plot]:
             own = points[(points["curve"] == OWN) & points["model"].isin([*series.models.labels])]
             own = own.rename(columns=lambda name: name.removesuffix("_mean"))
             drawn.append(history.plot(own, series.curves[OWN].axis, series.scene, folder))
-        drawn.append(_smooth_limit(series, answers, points[points["curve"] == SMOOTH_SPEED], folder))
     drawn += _friction(judged, folder)
-    if isinstance(series, RoughSeries) and (found := LawPoints.of(series, answers, judged.laws)):
+    if isinstance(series, RoughSeries) and (found := LawPoints.of(series, answers)):
         drawn.append(_law(found, judged.findings, folder))
     drawn.append(_forces(series, answers, points, folder))
     yield from (each for each in drawn if each is not None)
@@ -102,10 +98,10 @@ def _along(series: Series, answers: Answers, curve: str) -> tuple[DataFrame, Dat
     bodies = {curve: "rough"} | ({SMOOTH: "smooth"} if curve == ROUGH else {})
     ruled = {model: laws(series.curves[curve], answers(curve, model)) for model in own["model"].unique()}
     lines = [
-        own[~judged[own.index]].assign(kind=friction_speed.THEORY),
-        smooth.assign(kind=friction_speed.SMOOTH),
+        own[~judged[own.index]].assign(kind=friction.THEORY),
+        smooth.assign(kind=friction.SMOOTH),
         *(
-            _at(series.curves[curve], {f"{MU}_mean": each.law}).assign(model=model, kind=friction_speed.EQ_19)
+            _at(series.curves[curve], {f"{MU}_mean": each.law}).assign(model=model, kind=friction.EQ_19)
             for model, each in ruled.items()
             if each
         ),
@@ -119,17 +115,16 @@ def _friction(judged: Judged, folder: str) -> Iterator[Plot | None]:
     """Friction against speed, against load or depth at several speeds, and shifted onto one curve."""
     series, answers = judged.series, judged.answers
     shifted = collapse.plot(list(_shifted(judged)), folder=folder)
-    for curve, figure in ((series.by_speed, friction_speed), (series.by_load or series.by_speed, friction_load)):
+    for curve, name in ((series.by_speed, friction.SPEED), (series.by_load or series.by_speed, friction.LOAD)):
         if not (answers.claiming(curve, FRICTION) and max(series.curves[curve].speeds) > 0):
             continue
         found, ratios, lines = _along(series, answers, curve)
         several, alone = len(series.curves[curve].values) > 1, found["speed"].nunique() == 1
-        if figure is friction_speed and not (several and alone):
-            caption = f"Friction against speed; below, over the reference. {LINES}"
-            yield friction_speed.plot(found, ratios, lines, caption, folder)
-        elif figure is friction_load and several and not (shifted and isinstance(series, RoughSeries)):
-            caption = f"Friction against load or depth, a curve for each speed. {LINES}"
-            yield friction_load.plot(found, lines, caption, folder)
+        shown = several and not (shifted and isinstance(series, RoughSeries))
+        if shown if name == friction.LOAD else not (several and alone):
+            across = "speed" if name == friction.SPEED else "load or depth"
+            caption = f"Friction against {across}; below, over the reference. {LINES}"
+            yield friction.plot(found, ratios, lines, caption, folder, name)
     yield shifted
 
 
@@ -200,21 +195,8 @@ def _map(series: Around, tree: xarray.DataTree, folder: str) -> Plot | None:
         model: {str(name): each.values for name, each in node.variables.items()}
         for model, node in below.children.items()
     }
-    seen = view(series.scene, series.case.bem, fields)
+    seen = contact.view(series.scene, series.case.bem, fields)
     return contact.plot(series.scene, seen, folder) if seen else None
-
-
-def _smooth_limit(series: Around, answers: Answers, points: DataFrame, folder: str) -> Plot | None:
-    """Friction of the smooth body from slow to fast."""
-    if points.empty:
-        return None
-    slope = around.edge_slope(series.case)
-    columns = {f"friction_over_slope{end}": points[f"{MU}{end}"] / slope for end in ("_mean", "_low", "_high")}
-    tables = points[["model", "speed"]].assign(**columns), _ratios(series, answers, {SMOOTH_SPEED: "smooth"})
-    table, ratios = (each.assign(v_tau_over_a=around.scaled_speed(series.case, each["speed"])) for each in tables)
-    slow = around.slow_friction(series.case, series.models)
-    limits = DataFrame(slow.items(), columns=["model", "friction_over_slope"])
-    return smooth_limit.plot(table, ratios, limits[limits["model"].isin(table["model"])], folder)
 
 
 def _law(found: LawPoints, findings: Sequence[Finding], folder: str) -> Plot:
@@ -240,5 +222,7 @@ def figure_of(dataset: xarray.Dataset) -> Figure:
         raise InvalidInput(f"dataset = {brief(repr(dataset))}: the Dataset of a sweep is needed")
     points = means(dataset)
     points = points[points["speed"] > 0]
-    plot = friction_speed if points["speed"].nunique() > 1 else friction_load
-    return finished(plot.plot(points))
+    name = friction.SPEED if points["speed"].nunique() > 1 else friction.LOAD
+    if (plot := friction.plot(points, name=name)) is None:
+        raise InvalidInput("dataset: nothing slides, so that there is no friction to draw")
+    return finished(plot)

@@ -12,14 +12,13 @@ from mdr1d import MDR
 from scene import Program, Scene
 from scene.files.reading import InvalidInput
 
-from ...library.describe import slug
 from ...models.table import ModelLike, Models
 from ...solving.curve import Curve, on_two_levels
-from .answers import Answers
+from ...solving.folders import slug
+from .answers import THEORIES, Answers, with_theory
 from .claims_law import law_findings
 from .measures import ROUGH, ROWS, SMOOTH
 from .series import Counts, Judged, Series
-from .theory import THEORIES, with_theory
 
 
 @dataclass(frozen=True)

@@ -12,9 +12,9 @@ import xarray
 
 from scene import Scene, Solver
 
-from ...library.describe import slug
 from ...models.table import DEPTH, FORCE, FRICTION, NONE, Model, Models
 from ...solving.curve import COARSE, FINE, LEVELS, Curve, levels
+from ...solving.folders import slug
 from ...solving.task import SceneTask
 from ...statistics import eq23
 from ...statistics.collapse import Collapse, collapse
@@ -190,19 +190,13 @@ class Series(ABC):
         places = {name: (*map(self.place, curves), self.family) for name, curves in self.shared.items()}
         return next((name for name in self.drawn if found.curve in places[name]), None)
 
-    def told(self, found: Finding) -> Finding:
-        """A finding with what would decide it."""
-        name = self.behind(found)
-        words = {each.name: each.draws for each in self.models}
-        return found if name is None else self.drawn[name].told(found, words)
-
-    def more(self, answers: Answers, findings: Sequence[Finding], growth: float) -> dict[str, Counts]:
+    def more(self, answers: Answers, findings: Sequence[Finding]) -> dict[str, Counts]:
         """Numbers of surfaces that undecided claims and wide intervals ask for, of the curves that share them."""
         made: dict[str, Counts] = {}
         for name, drawn in self.drawn.items():
             own = [each for each in findings if self.behind(each) == name]
             own += [each for *_, found in self._means(name, answers) for each in found]
-            made[name] = drawn.more(own, self.interval or inf, growth)
+            made[name] = drawn.more(own, self.interval or inf)
         return made
 
     def unreached(self, answers: Answers) -> Iterator[str]:

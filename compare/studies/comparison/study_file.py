@@ -32,9 +32,9 @@ from scene.scales import elastic_contact
 from scene.solids.rheology import Elastomer
 
 from ...library.case import Draws, ModelNames, Share
-from ...library.describe import folders
 from ...library.ready import CLAIMS, find, ready
 from ...solving.cost import MOST_VALUES
+from ...solving.folders import folders
 from .rough import RoughSeries as Series
 
 Size = Literal["quick", "standard", "full"]

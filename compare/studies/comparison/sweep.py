@@ -1,10 +1,11 @@
 """Contacts of one scene at speeds and loads or depths of one's own: `compare.sweep`."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from itertools import product
-from typing import Any, ClassVar
+from itertools import islice, product
+from math import isfinite, log10
+from typing import Any, ClassVar, TypeAlias
 
 import numpy as np
 import xarray
@@ -12,14 +13,17 @@ from pandas import DataFrame
 
 from scene import Indent, Scene, Slide
 from scene.files.reading import InvalidInput, whole
-from scene.motion import UNITS
+from scene.motion import PRESSES, UNITS
+from scene.numeric_input import one_by_one
+from scene.printable import brief
+from scene.quantities import SPEED, Unit
 
 from ...library.case import Case, doubted, share_of
 from ...library.lookup import SceneLike, case_of
 from ...models.table import ModelLike, Models
 from ...report.page import Table
 from ...solving.control_variates import VARIATES
-from ...solving.cost import MOST_DRAWS
+from ...solving.cost import MOST_DRAWS, MOST_VALUES
 from ...solving.curve import Curve, on_two_levels, refuse
 from ...solving.vocabulary import attributes
 from ...statistics import intervals
@@ -27,7 +31,49 @@ from ...statistics.multilevel import MEANS, WORDS, wanted
 from .around import MU, OWN_RATIOS, models_of, over
 from .measures import Here, Place, Row, Where
 from .series import Counts, Judged, Series
-from .values import Values, values_of
+
+# Speeds, loads or depths as they are given: numbers in SI, or texts, see `values_of`.
+Values: TypeAlias = Sequence[str | float] | str | float
+# Points of a range over a factor of ten where no number of them is stated.
+TO_A_DECADE = 3
+
+
+def values_of(name: str, given: Any, least: float | None = None) -> tuple[float, ...]:
+    """Distinct finite numbers in SI, in rising order, of a speed, load or depth. Raises InvalidInput.
+
+    given : numbers, or texts as "1 mm/s", "1mm/s,10mm/s", "1mm/s..1m/s" or, of seven points, "1mm/s..1m/s:7"
+    least : 0 where zero is allowed too
+    """
+    single = isinstance(given, str) or getattr(given, "ndim", None) == 0 or not isinstance(given, Iterable)
+    unit, found = SPEED if name == "speed" else PRESSES[name], list[float]()
+    try:
+        for part in [given] if single else islice(one_by_one(given), MOST_VALUES + 1):
+            found += _numbers(unit, part)
+            if len(found) > MOST_VALUES:
+                raise ValueError(f"at most {MOST_VALUES:,} values")
+        if not all(isfinite(each) and (each > 0 or each == least) for each in found):
+            raise ValueError(f"finite numbers {'of zero or more' if least == 0 else 'above zero'}")
+        if not found or len(set(found)) < len(found):
+            raise ValueError("at least one, and each once")
+    except (ValueError, OverflowError) as error:
+        reason = str(error).removeprefix("Input should be ")
+        raise InvalidInput(f"{name} = {brief(repr(given))}: {reason}") from None
+    return tuple(sorted(found))
+
+
+def _numbers(unit: Unit, given: Any) -> Iterator[float]:
+    """Numbers of one item, of which a text may state several."""
+    for part in given.split(",") if isinstance(given, str) else [given]:
+        ends, colon, count = part.partition(":") if isinstance(part, str) else (part, "", "")
+        if not (isinstance(ends, str) and ".." in ends):
+            yield float(unit.value(part))
+            continue
+        first, last = (float(unit.value(end)) for end in ends.split("..", 1))
+        if not (first > 0 and last > 0 and isfinite(first + last)):
+            raise ValueError("a range has finite ends above zero")
+        points = int(count) if colon else 1 + round(TO_A_DECADE * abs(log10(last / first)))
+        yield from np.geomspace(first, last, min(max(2, points), MOST_VALUES + 1)).tolist()
+
 
 FEW = 8  # draws where nothing is asked
 CONTACTS = "contacts"

@@ -64,7 +64,7 @@ def together(members: Sequence[Judged]) -> Iterator[Finding]:
         for model in own[0].laws:
             for each in (_one_curve(own, model), *_slope_exponents(own, model)):
                 yield replace(each, where=family, curve=family)
-    points = [found for each in members if (found := LawPoints.of(each.series, each.answers, each.laws))]
+    points = [found for each in members if (found := LawPoints.of(each.series, each.answers))]
     if len(points) > 1:
         yield from law_findings_of(points)
 

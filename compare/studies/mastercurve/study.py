@@ -16,20 +16,17 @@ from scene.quantities import BARE, argument
 from ...figures import collapse as collapsed
 from ...figures import temperature_shifts
 from ...report.page import Block, Findings, Table, Text
-from ...solving.outcome import Outcome
-from ...solving.task import Batch, Task
-from ...solving.words import capital, sentences
+from ...solving.task import Batch, Outcome, Task
+from ...solving.words import sentences
 from ...statistics import eq23
 from ...statistics.collapse import Alignment, Collapse, collapse
-from ...statistics.finding import claimed
+from ...statistics.finding import REPORTED
 from ..study import Judgement, Study
 from . import temperatures
-from .measuredcurves import CURVE, check, curves_of, in_order
+from .measuredcurves import CURVE, WARMTH, Pooled, check, curves_of, in_order, pooled
 from .measurements import MeasuredFriction, Measurements
-from .pooling import WARMTH, Pooled, pooled
 from .shiftlaws import ShiftLaw, law_of
-from .temperature_tables import laws_table, points_table, shifts_table
-from .temperatures import Constants
+from .temperatures import Constants, laws_table, points_table, shifts_table
 from .temperatureshifts import TemperatureShifts
 
 TOLERANCE = (
@@ -188,15 +185,11 @@ class Mastercurve(Study):
         return [*findings, *warm]
 
     def _answer(self, findings):
-        named = {each.claim.id: each for each in findings}
-        across, along, alone, collapsed = (
-            named[CLAIMS[claim.id][0]] for claim in (eq23.NOT_SHIFTED, eq23.BESIDE, eq23.ALONE, eq23.COLLAPSE)
-        )
-        lines = temperatures.sentences_of(self.shifts, self.law, findings) if self.shifts else []
-        told = sentences([each for each in claimed(findings) if each.claim.id != temperatures.TOGETHER.id])
-        if self.lead is self.collapse.both and isfinite(across.value):
-            return [capital(eq23.answer(across, along, alone, collapsed)), *told, *lines]
-        return [*told, *sentences([alone]), *lines]
+        """Sentences on claims, on the exponents of the fit that is the answer, and on the laws of its shifts."""
+        both = self.lead is self.collapse.both
+        powers = {CLAIMS[claim.id][0] for claim in (eq23.ALONE, *(eq23.BESIDE, eq23.NOT_SHIFTED)[: 2 * both])}
+        said = powers | {claim.id for claim in (temperatures.C1, temperatures.C2, temperatures.ENERGY)}
+        return sentences([each for each in findings if each.verdict != REPORTED or each.claim.id in said])
 
     @property
     def notes(self) -> tuple[str, ...]:

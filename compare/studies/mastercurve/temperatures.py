@@ -5,16 +5,16 @@ from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
+from pandas import DataFrame, Series, concat
 
 from scene.effects.temperature import WLF
 from scene.files.reading import InvalidInput
 
-from ...solving import words
 from ...statistics import eq23
 from ...statistics.finding import FAILS, Claim, Finding
-from .measuredcurves import isotherms
+from ...statistics.intervals import student
+from .measuredcurves import Pooled, isotherms
 from .measurements import COLDEST
-from .pooling import Pooled
 from .shiftlaws import NONE, ShiftLaw
 from .temperatureshifts import TemperatureShifts, found, stated
 
@@ -121,21 +121,31 @@ def unshifted(shifts: TemperatureShifts | None, findings: Sequence[Finding]) -> 
     return shifts.inseparable if shifts else ""
 
 
-def sentences_of(shifts: TemperatureShifts, law: ShiftLaw | None, findings: Sequence[Finding]) -> list[str]:
-    """Whether the temperatures come together, and by which law of their shifts."""
-    named = {each.claim.id: each for each in findings}
-    told = words.sentences([named[TOGETHER.id]])
-    if law is None or unshifted(shifts, findings):
-        return told
-    c1, c2, energy = (words.found(named[claim.id], 3) for claim in (C1, C2, ENERGY))
-    at = f"at {law.reference:.5g} K"
-    if not law.reason:
-        told.append(f"Their shifts follow WLF with c1 = {c1} and c2 = {c2} {at}.")
-        told.append(
-            f"Arrhenius is ruled out: {law.against}." if law.against else f"Arrhenius does as well: {energy}."
-        )
-    elif not law.against:
-        told.append(f"Their shifts allow the law of Arrhenius with {energy}; those of WLF: {law.reason}.")
-    else:
-        told.append(f"No law of their shifts is told: {law.reason}.")
-    return told
+def points_table(pooled: Pooled, shifts: TemperatureShifts) -> DataFrame:
+    """Every point with the speed to which its temperature shifts it, and the mean load of its curve."""
+    frame = pooled.points.rename(columns={"load": "normal_force", "friction": "friction_coefficient"})
+    by = Series(shifts.shifts.value, shifts.temperatures)
+    frame["reduced_speed"] = frame["speed"] * np.exp(frame["temperature"].map(by))
+    frame["load"] = frame.groupby("press")["normal_force"].transform("mean")
+    columns = ["temperature", "speed", "reduced_speed", "load", "normal_force", "friction_coefficient"]
+    width = frame["error"] * student(0.95, pooled.dof)
+    for end, by_end in (("low", -width), ("high", width)):
+        columns.append(f"friction_coefficient_{end}")
+        frame[columns[-1]] = frame["friction_coefficient"] * np.exp(by_end)
+    return frame[columns].sort_values(["load", "temperature", "speed"])
+
+
+def shifts_table(shifts: TemperatureShifts) -> DataFrame:
+    """Shift ln a_T of each temperature with its interval of 95 %."""
+    return DataFrame({"temperature": shifts.temperatures, **shifts.shifts.columns("log_time_shift")})
+
+
+def laws_table(shifts: TemperatureShifts, law: ShiftLaw | None) -> DataFrame:
+    """The laws that found shifts allow, on lines."""
+    kelvins = np.linspace(shifts.temperatures[0], shifts.temperatures[-1], 101)
+    names = () if law is None else law.allowed
+    found = [
+        DataFrame({"law": each, "temperature": kelvins, "log_time_shift": law.log_shift(kelvins, each)})
+        for each in names
+    ]
+    return concat(found) if found else DataFrame(columns=["law", "temperature", "log_time_shift"])

@@ -14,8 +14,7 @@ from mdr1d import equations
 from mdr1d.ensemble import Answers, solve_profiles
 from scene import Scene, SolveError
 
-from ...solving.outcome import Outcome, Row
-from ...solving.task import Task
+from ...solving.task import Outcome, Row, Task
 from ...solving.vocabulary import attributes
 from ...statistics.intervals import Estimated
 from ...statistics.jackknife import Replicates, left_out, mean_ratio

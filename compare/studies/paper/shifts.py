@@ -11,7 +11,6 @@ import numpy as np
 import xarray
 
 from mdr1d import equations
-from scene.scales import elastic_contact
 
 from ...figures import collapse as figure
 from ...figures.plot import Plot
@@ -74,7 +73,6 @@ class Rubber:
                 shifts=self.shift * np.log(found.speeds / middle),
                 exponent=self.shift,
                 where=self.where(of),
-                regime=f"|G(v/a)|/G₀ up to {self._stiffening:.3g}",
                 horizontal=True,
             ):
                 if each.claim.id == eq23.COLLAPSE.id:
@@ -83,13 +81,6 @@ class Rubber:
                     each = replace(each, reason=MEANINGLESS)
                 if each.claim.id in CLAIMS:
                     yield each
-
-    @property
-    def _stiffening(self):
-        """Greatest modulus on the scale of the contact over the static one, that of the least load."""
-        scene = parameters.lossy(self.exponent, self.relaxation_time)
-        fastest = parameters.SPEEDS[-1] / elastic_contact(scene).radius
-        return abs(scene.elastomer.complex_modulus(fastest)) / scene.elastomer.modulus
 
     def plot(self, collapses: Mapping[str, Collapse], findings: list[Finding]) -> Plot | None:
         """Curves as they are and shifted, and the shifts."""

@@ -15,11 +15,10 @@ from ...report.page import Block, Findings, Text
 from ...solving import curve
 from ...solving.cost import MOST_DRAWS, Cost
 from ...solving.curve import FAILED, Curve
-from ...solving.outcome import Outcome
-from ...solving.task import Batch, Task
+from ...solving.task import Batch, Outcome, Task
 from ...solving.vocabulary import attributes
 from ..study import Judgement, Study
-from . import claims, figures, law, parameter_studies, parameters
+from . import figures, law, parameter_studies, parameters
 from .shifts import RUBBERS
 
 SIZES = {"quick": 20, "standard": 50, "full": parameters.PROFILES}
@@ -119,7 +118,7 @@ class Paper(Study):
         """Figures of the paper and its claims. Raises SolveError where all of a figure is missing."""
         slow = parameter_studies.slow_friction(self.values, _dataset(answers, SLOW))
         cone, sphere = (law.law(shape, _dataset(answers, f"law-{shape}")) for shape in parameters.SHAPES)
-        found = [*claims.of_low_speed(slow), *claims.of_law(cone, sphere)]
+        found = [*law.of_low_speed(slow), *law.of_law(cone, sphere)]
         fits = DataFrame(
             [{"shape": each.shape, **parameter_studies.with_ends("alpha", each.alpha)} for each in (cone, sphere)]
         )
@@ -135,7 +134,7 @@ class Paper(Study):
             plots.append(rubber.plot(collapses, judged))
         table = Findings(found, "Claims of the paper, with intervals of 95 % over rough profiles.")
         blocks: list[Block] = [*(each for each in plots if each), table]
-        return Judgement(found, blocks=blocks, setting=[Text(ABOUT), Text(_solved(answers))])
+        return Judgement(found, (), blocks, setting=[Text(ABOUT), Text(_solved(answers))])
 
 
 def contact_grid(shape: str) -> Curve:

@@ -16,8 +16,7 @@ from scene.printable import printable
 from scene.quantities import METRE, argument
 
 from ...report.page import Block, Findings, Text
-from ...solving.outcome import Outcome
-from ...solving.task import Batch, Task
+from ...solving.task import Batch, Outcome, Task
 from ...solving.vocabulary import attributes
 from ...solving.words import sentences
 from ...statistics.finding import Claim, Finding

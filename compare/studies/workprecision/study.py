@@ -18,15 +18,14 @@ from scene.scales import elastic_contact
 
 from ...figures.plot import Plot
 from ...library.case import Case, doubted
-from ...library.describe import folders
 from ...library.lookup import SceneLike, case_of, named_cases
 from ...models.exact import Exact
 from ...models.law.persson import Persson
 from ...models.table import Model, ModelLike, listed, named
 from ...report.page import Block, Table
 from ...solving.curve import Curve, of_model
-from ...solving.outcome import Outcome
-from ...solving.task import Batch, Task
+from ...solving.folders import folders
+from ...solving.task import Batch, Outcome, Task
 from ...solving.words import seconds, share
 from ...statistics.finding import Claim, Finding
 from ...trustmap.corrected import CorrectedMDR
@@ -37,7 +36,6 @@ from .errors import INTERVAL, Way
 from .ladder import Ladder, grid_of
 
 LEVELS = (0.1, 0.05, 0.02, 0.01)  # wanted errors
-SAID = (0.05, 0.01)  # of these, those that the answer tells
 ABOUT = """Errors are relative, of rough scenes those expected (rms) of a mean over surfaces. The reference is a
 closed form where there is one, else 3D on four times the points of the finest grid that is timed, or on the finest
 that solves; its error is half of its interval of 95 %. 3D is compared with it on the same surfaces, so that the
@@ -163,13 +161,12 @@ class WorkPrecision(Study):
                 yield f"{name}, {quantity}", f"measured against {of.source}{known}", found
 
     def judge(self, answers: xarray.DataTree) -> Judgement:
-        """Times to wanted errors: one figure, one table, and a sentence for each quantity of each scene."""
+        """Times to wanted errors: a figure, a table, and what each quantity of each scene is measured against."""
         told, findings = [], []
         rows: list[dict[str, Any]] = []
         every: list[Way] = []
         for where, sentence, ways in self.ways(answers):
-            said = [f"to {share(level)}: {_said(ways, level)}" for level in SAID]
-            told.append(f"{where}: {'; '.join([*said, sentence])}.")
+            told.append(f"{where}: {sentence}.")
             for level, claim in CLAIMS.items():
                 best = _cheapest(ways, level)
                 known = (best.effort(level), best.label, "") if best else (nan, "", _missed(ways))
@@ -224,19 +221,12 @@ def _cheapest(ways: Sequence[Way], level: float) -> Way | None:
     return best if best and isfinite(best.effort(level)) else None
 
 
-def _said(ways, level):
-    """The cheapest way to an error, and the cheapest in 3D where it is another."""
-    both = _cheapest(ways, level), _cheapest([way for way in ways if way.model == "BEM"], level)
-    texts = [_taken(each, level, f" by {each.label}") for each in dict.fromkeys(both) if each]
-    return ", ".join(texts) or _missed(ways)
-
-
 def _missed(ways):
     best = min((way.most for way in ways if isfinite(way.most)), default=nan)
     return f"not reached, {share(best)} at best" if isfinite(best) else "not known"
 
 
-def _taken(way: Way | None, level: float, by: str = "") -> str:
+def _taken(way: Way | None, level: float) -> str:
     """Time and settings of a way to an error in words."""
     if way is None:
         return "–"
@@ -246,7 +236,7 @@ def _taken(way: Way | None, level: float, by: str = "") -> str:
     elif way.scatter:
         draws = "profiles" if way.label.startswith("1D") else "surfaces"
         settings = f"{count:,.0f} {draws if count > 1 else draws[:-1]}, {settings}"
-    return f"{seconds(way.effort(level))}{by}{f' ({settings})' if settings else ''}"
+    return f"{seconds(way.effort(level))}{f' ({settings})' if settings else ''}"
 
 
 def _rows(ways: Sequence[Way]) -> Iterator[dict[str, Any]]:

@@ -9,8 +9,7 @@ from pandas import DataFrame
 
 from bem3d import BEM
 from bem3d.costs import COSTS, band, body
-from compare.solving.outcome import Outcome
-from compare.solving.task import SceneTask, Task
+from compare.solving.task import Outcome, SceneTask, Task
 from scene import Indent
 
 from . import scenes

@@ -18,8 +18,7 @@ from bem3d.costs import band
 from bem3d.friction import bound as frictionerror
 from bem3d.grid import Grid
 from bem3d.problem import Problem
-from compare.solving.outcome import Outcome, row
-from compare.solving.task import SCENES, SceneTask, Task
+from compare.solving.task import SCENES, Outcome, SceneTask, Task, row
 from mdr1d import MDR
 from scene import Refused, Scene, SolveError
 

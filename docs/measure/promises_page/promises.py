@@ -10,8 +10,7 @@ from tables import of_count
 
 from bem3d import Unconfirmed, for_accuracy
 from bem3d.costs import band
-from compare.solving.outcome import Outcome, Row, row
-from compare.solving.task import SCENES, Task
+from compare.solving.task import SCENES, Outcome, Row, Task, row
 from scene import Scene, SolveError
 from scene.scales import elastic_contact
 

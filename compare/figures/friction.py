@@ -1,6 +1,5 @@
-"""Friction against speed of every model, at up to three loads or depths; below, ratios."""
+"""Friction against speed, or against load or depth, of every model in up to three panels; below, ratios."""
 
-from collections.abc import Sequence
 from math import ceil
 from typing import Any
 
@@ -12,8 +11,9 @@ from . import style
 from .curves import AXES, PANELS, about, curves, limit, over, panels_of, tables_of
 from .plot import Plot, Tables
 
-NAME = "friction-speed"
+SPEED, LOAD = "friction-speed", "friction-load"
 RATIOS, LINES = "-ratios", "-lines"
+QUANTITY = "friction_coefficient"
 THEORY, EQ_19, SMOOTH = KINDS = "theory", "Eq. 19", "smooth"
 
 
@@ -23,58 +23,51 @@ def plot(
     lines: DataFrame | None = None,
     caption: str = "",
     folder: str = "",
+    name: str = SPEED,
 ) -> Plot | None:
-    """Plot of friction against speed; None where nothing slides.
+    """Plot of friction; None where nothing slides.
 
     points : model, speed [m/s], friction_coefficient_mean, _low and _high; load [N] or depth [m] where there
-        are several panels
-    ratios : model, body ("rough", "smooth"), speed, ratio, ratio_low and ratio_high: friction over that of the
-        reference, in the same panels
-    lines : model, speed, friction_coefficient, and kind, one of KINDS, in the same panels
+        are several
+    ratios : model, body ("rough", "smooth"), speed, load or depth, ratio, ratio_low and ratio_high: friction over
+        that of the reference
+    lines : model, speed, load or depth, friction_coefficient, and kind, one of KINDS
+    name : SPEED, with a panel for each load or depth, or LOAD, with one for each speed
     """
     if not (points["speed"] > 0).any():
         return None
-    told = caption or "Coefficient of friction against speed; below, over that of the reference."
-    alternative = "Friction of all models against speed on logarithmic axes; below, their ratio."
-    tables = tables_of({NAME: points, f"{NAME}{RATIOS}": ratios, f"{NAME}{LINES}": lines})
-    return Plot(f"{folder}{NAME}", figure, tables, told, alternative)
+    across = "speed" if name == SPEED else "load or depth"
+    told = caption or f"Coefficient of friction against {across}; below, over that of the reference."
+    alternative = f"Friction of all models against {across} on logarithmic axes; below, their ratio."
+    tables = tables_of({name: points, f"{name}{RATIOS}": ratios, f"{name}{LINES}": lines})
+    return Plot(f"{folder}{name}", figure, tables, told, alternative, {"name": name})
 
 
-def figure(tables: Tables) -> Figure:
-    """A panel for each load or depth; at most three side by side."""
-    return against(NAME, tables, "speed", (AXES["speed"][1], "friction coefficient [1]"), "friction_coefficient")
-
-
-def against(
-    name: str, tables: Tables, across: str, labels: Sequence[str], quantity: str, slow: Sequence[float] = ()
-) -> Figure:
-    """A quantity of every model along an axis; below, over that of the reference where that is known.
-
-    slow : where along the axis the ratio is 2 as derived for low speed
-    """
+def figure(tables: Tables, name: str = SPEED) -> Figure:
+    """Three panels side by side at most; below, over the reference where it is known."""
     points, ratios, lines = tables[name], tables.get(f"{name}{RATIOS}"), tables.get(f"{name}{LINES}")
-    places = panels_of(points, (ratios, lines), "load", "depth")
+    pressed = "load" if "load" in points else "depth"
+    across, beside = ("speed", pressed) if name == SPEED else (pressed, "speed")
+    places, (scale, label) = panels_of(points, (ratios, lines), beside), AXES[across]
     heights = (1.0,) if ratios is None else (2.2, 1.0)
     wide, deep = min(len(places), PANELS), ceil(len(places) / PANELS)
     drawing = style.canvas("single" if wide == 1 else "double", 0.9 + deep * sum(heights))
     shape: dict[str, Any] = {"sharex": True, "sharey": "row", "squeeze": False, "height_ratios": heights * deep}
     grid = drawing.subplots(deep * len(heights), wide, **shape)
     stacks = [column for row in np.split(grid, deep) for column in row.T]
-    for (above, *below), (title, (own, over_reference, beside)) in zip(stacks, places, strict=False):
+    for (above, *below), (title, (own, over_reference, known)) in zip(stacks, places, strict=False):
         above.set(xscale="log", yscale="log", title=title)
-        curves(above, own, across, quantity)
+        curves(above, own, across, QUANTITY)
         if lines is not None:
-            for (kind, model), line in beside.sort_values(across).groupby(["kind", "model"], sort=False):
-                above.plot(line[across], line[quantity], **line_look(kind, model))
-        limit(above, points, quantity)
+            for (kind, model), line in known.sort_values(across).groupby(["kind", "model"], sort=False):
+                above.plot(scale * line[across], line[QUANTITY], **line_look(kind, model))
+        limit(above, points, QUANTITY)
         for axes in below:
-            if slow:
-                axes.plot(slow, [2, 2], **style.line(0.75, 4.0, zorder=0, label="2, derived for low speed"))
             about(axes, 1, over_reference, across, "ratio")
             axes.set_ylim(0, max(1.1, axes.get_ylim()[1]))
-        (above, *below)[-1].set_xlabel(labels[0])
+        (above, *below)[-1].set_xlabel(label)
     for row, axes in enumerate(grid[:, 0]):
-        axes.set_ylabel(f"{over(points)} [1]" if row % len(heights) else labels[1])
+        axes.set_ylabel(f"{over(points)} [1]" if row % len(heights) else "friction coefficient [1]")
     for spare in np.ravel(stacks[len(places) :]):
         spare.remove()
     style.finish(drawing, 2 if wide == 1 else 5)
