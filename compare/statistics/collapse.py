@@ -32,7 +32,7 @@ POWERS, FOLLOWED = np.linspace(-3.0, 3.0, 25), 3
 ROUNDING = 1e-9
 UNKNOWN = RmsMisfit()
 PARALLEL = "straight parallel lines fit: a horizontal shift cannot be told from a vertical one"
-PARTED = "once shifted, curves of neighbouring speeds share too small a range of loads: closer speeds may tell"
+PARTED = "once shifted, curves of neighbouring speeds share too small a range of loads"
 UNSCATTERED = "scatter is not known, nor whether the curves are bent"
 
 

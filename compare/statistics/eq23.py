@@ -8,7 +8,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from .collapse import DEGREE, ROUNDING, Alignment, Collapse
+from .collapse import DEGREE, PARTED, ROUNDING, Alignment, Collapse
 from .commoncurve import LEAST_OVERLAP
 from .finding import FAILS, Claim, Finding
 from .intervals import Estimated, RmsMisfit
@@ -84,6 +84,7 @@ MISFIT, GAIN = attrgetter("horizontal.misfit"), attrgetter("horizontal.gain_from
 LEFT = attrgetter("both.misfit")
 _Number = TypeVar("_Number", RmsMisfit, Estimated)
 TOO_FEW = "too few points have an answer on half of the surfaces"
+CLOSER = "speeds closer to each other may tell"
 _UNKNOWN = "its scatter is not known, or neighbouring curves share too little once shifted"
 
 
@@ -168,7 +169,8 @@ def leading(found: Collapse, findings: Iterable[Finding]) -> Alignment:
 def finding(claim: Claim, fine: _Number, coarse: _Number | None = None, reason: str = "", **place: Any) -> Finding:
     """Finding of a number that fits on two grids give; on one, with None, of data that have no grid."""
     found = replace(fine, grid=0.0 if coarse is None else fine.apart(coarse))
-    return Finding.of(claim, found, _UNKNOWN, reason, **place)
+    remedy = CLOSER if reason == PARTED else ""
+    return Finding.of(claim, found, _UNKNOWN, reason, remedy=remedy, **place)
 
 
 def too_few(dimension: str, **place: Any) -> Finding:

@@ -83,6 +83,7 @@ class Finding:
     dimension : "1D", "3D", "1D/3D"; that of the claim if none is given
     size : whether the number is one that is never negative, such as an rms
     parts : share in the scatter by solver and stratum of the surfaces; empty where not told apart
+    remedy : what would decide it, in words, where it is undecided; empty where nothing is known that would
     drawn : numbers of surfaces or profiles by solver, which `draws` then follows from
     curve : place of the curve that it was measured on, whose surfaces are behind it
     """
@@ -99,6 +100,7 @@ class Finding:
     dimension: str = ""
     size: bool = False
     parts: Mapping[tuple[str, int], float] = field(default_factory=dict, repr=False, compare=False)
+    remedy: str = ""
     drawn: Mapping[str, int] = field(default_factory=dict)
     curve: str = ""
 
@@ -175,8 +177,10 @@ class Finding:
 
     @property
     def why(self) -> str:
-        """Reason why there is no verdict, or a remark on a stated verdict; else empty."""
-        return (self.undecidable or crossed(self)) if self.verdict == UNDECIDED else self.reason
+        """Reason why there is no verdict and what would give one, or a remark on a stated verdict; else empty."""
+        open_ = self.verdict == UNDECIDED
+        told = (self.undecidable or crossed(self), self.remedy) if open_ else (self.reason,)
+        return "; ".join(filter(None, told))
 
     @property
     def row(self) -> dict[str, Any]:

@@ -13,17 +13,18 @@ pilot large enough to show the scatter, and few looks, keep the level; the tests
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import ceil, isfinite, nan, sqrt
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
 from ..solving.control_variates import VARIATES, controlled
-from ..solving.cost import MOST_DRAWS
+from ..solving.cost import MOST_DRAWS, SECONDS
 from ..solving.curve import EMPTY, TOGETHER, Curve
-from ..solving.words import share
+from ..solving.words import duration, share
 from .collapse import PARTED
 from .finding import UNDECIDED, Claim, Finding
 from .intervals import Estimated
@@ -185,6 +186,26 @@ class DrawnSurfaces:
             for name, counts in self.counts.items()
         }
 
+    def told(self, finding: Finding, words: Mapping[str, str]) -> Finding:
+        """The finding with what would decide it. words : what a draw of each model is called, in the plural"""
+        if not _open(finding):
+            return finding
+        asked = self.deciding(finding)
+        if not asked:
+            remedy = "its grid leaves too much open: a finer one would have to decide it"
+        elif not max(asked.values()) <= MOST_DRAWS:
+            drawn = " or ".join(dict.fromkeys(words[name] for name, _ in asked))
+            remedy = f"only more than {MOST_DRAWS:,} {drawn} would decide it"
+        else:
+            totals, seconds = defaultdict[str, float](float), 0.0
+            for (name, k), count in asked.items():
+                lacking = max(count - self.counts[name][k], 0.0)
+                totals[words[name]] += lacking
+                seconds += SECONDS * lacking * self.costs[name][k]
+            said = " and ".join(f"{_some(max(more, 1.0))} more {word}" for word, more in totals.items() if more)
+            remedy = f"some {said}, {duration(max(seconds, 1.0))} of processor time, would decide it"
+        return replace(finding, remedy=remedy)
+
     def _least_cost(self, parts, times):
         """Numbers of draws by source for a standard error that is so many times smaller, at least cost.
 
@@ -212,3 +233,8 @@ def _more(had, asked):
     """Number of surfaces of a stratum, of which so many are asked for."""
     enough = TOGETHER * ceil(MARGIN * min(asked, MOST_DRAWS) / TOGETHER)
     return min(max(had, min(enough, int(GROWTH * had))), MOST_DRAWS)
+
+
+def _some(count):
+    """A number that is roughly known, rounded."""
+    return f"{ceil(float(f'{count:.1g}' if count < 100 else f'{count:.2g}')):,}"

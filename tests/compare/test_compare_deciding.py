@@ -1,4 +1,4 @@
-"""Claims that are not decided ask for as many surfaces as decide them."""
+"""Claims that are not decided ask for surfaces, and say how many would decide them."""
 
 from dataclasses import replace
 
@@ -23,6 +23,7 @@ from scene import SolveError
 RATIO = Claim("ratio", "The ratio is one", 1.0, 0.05, measure=lambda sample: float(friction(sample["BEM"])[0]))
 DRAWN = DrawnSurfaces({"BEM": (8, 32), "MDR": (100,)}, {"BEM": (1e8, 1e7), "MDR": (1e5,)})
 PARTS = {("BEM", 0): 0.1, ("BEM", 1): 0.6, ("MDR", 0): 0.3}
+WORDS = {"BEM": "surfaces", "MDR": "profiles"}
 
 
 def found(value=0.9, half=0.1, grid=0.002, parts=PARTS, **changed):
@@ -58,6 +59,7 @@ def test_what_is_decided_unknown_or_without_surfaces_asks_for_none():
         replace(found(), claim=replace(RATIO, tolerance=float("nan"))),
     ):
         assert DRAWN.deciding(each, 0.01) == {}
+        assert DRAWN.told(each, WORDS).remedy == ""
 
 
 def test_an_interval_that_is_narrow_enough_needs_no_verdict():
@@ -73,6 +75,19 @@ def test_more_draws_are_bounded_and_never_fewer():
     assert counts == {"BEM": (32, 128), "MDR": (400,)}
     assert GROWTH == 4
     assert DRAWN.more([found(0.7, 0.05)], 0.001) == DRAWN.counts
+
+
+def test_a_finding_says_what_would_decide_it():
+    told = DRAWN.told(found(), WORDS)
+    asked = DRAWN.deciding(found())
+    surfaces = sum(asked["BEM", k] - had for k, had in enumerate(DRAWN.counts["BEM"]) if asked["BEM", k] > had)
+    number = float(told.remedy.split()[1].replace(",", ""))
+    assert number == pytest.approx(surfaces, rel=0.1)
+    assert told.remedy.endswith("s of processor time, would decide it")
+    assert told.why == f"its interval reaches across 0.95; {told.remedy}"
+    hopeless = DRAWN.told(found(0.951, 0.3, 0.0), WORDS)
+    assert hopeless.remedy == "only more than 10,000 surfaces or profiles would decide it"
+    assert "finer one" in DRAWN.told(found(0.951, 0.3, 0.01), WORDS).remedy
 
 
 def verdict_of(rng, claim, variation, interval):

@@ -70,14 +70,14 @@ def test_the_answer_has_every_finding_those_that_contradict_included():
     assert sentences([Finding(Claim("time", "Time", unit="s"), 0.5, dimension="3D")]) == ["Time: 0.5 s (3D)."]
 
 
-def test_an_open_claim_says_across_what_its_interval_reaches():
-    open_ = found(value=1.04)
-    assert open_.why == "its interval reaches across 1.05"
+def test_an_open_claim_says_across_what_its_interval_reaches_and_what_would_decide_it():
+    open_ = found(value=1.04, remedy="some 30 more surfaces would decide it")
+    assert open_.why == "its interval reaches across 1.05; some 30 more surfaces would decide it"
     assert found(scatter=0.1).why == "its interval reaches across 0.95 and 1.05"
-    assert found(value=1.3).why == found().why == ""
+    assert found(value=1.3, remedy="more").why == found().why == ""
     (line,) = sentences([open_])
     assert line.startswith("Undecided: ")
-    assert line.endswith("Its interval reaches across 1.05.")
+    assert line.endswith(" Its interval reaches across 1.05; some 30 more surfaces would decide it.")
 
 
 def test_a_deviation_is_said_in_percent_and_stored_as_it_is():

@@ -62,8 +62,8 @@ class Accuracy(Comparison):
         return cls((replace(contact, profiles=profiles or plan.profiles),), within=wanted)
 
     def judge(self, answers: xarray.DataTree) -> Judgement:
-        """A finding a ratio."""
-        found, (series,) = list[Finding](), self.series
+        """A finding a ratio, with what would decide it."""
+        found, (series,) = [], self.series
         known = series.answers(answers)
         for mean, allowed in self.within.items():
             judged = known.judged(CONTACTS, WORDS[mean])
@@ -72,7 +72,13 @@ class Accuracy(Comparison):
                 id = WORDS[mean] if len(judged) == 1 else f"{WORDS[mean]}.{model.name}"
                 over: dict[str, Any] = {"dimension": beside, "measure": ratio_of(mean, *both)}
                 claim = Claim(id, f"{WORDS[mean]} {beside}", 1.0, allowed, **over)
-                found += series.compared(known, claim, CONTACTS, both, {(0, 0): ""})
+                for each in series.compared(known, claim, CONTACTS, both, {(0, 0): ""}):
+                    told = series.told(each)
+                    found.append(
+                        told
+                        if told.remedy or told.undecidable
+                        else replace(told, remedy="a finer grid would decide it")
+                    )
         return Judgement(found)
 
 

@@ -145,7 +145,7 @@ def held(found: Finding, value: float, share: float) -> Finding:
     distance = abs(found.value - value)
     if isfinite(distance):
         stated = HOLDS if distance <= claim.tolerance else FAILS
-        return replace(found, claim=claim, stated=stated, reason="")
+        return replace(found, claim=claim, stated=stated, reason="", remedy="")
     new = f"{NEW}: {found.value:.{DIGITS}g}"
     return replace(found, claim=claim, stated=UNDECIDED, reason=found.reason or new)
 

@@ -90,8 +90,13 @@ class Comparison(Study):
         return replace(self, series=tuple(replace(s, strata=asked.get(s.name, s.strata)) for s in self.series))  # type: ignore[type-var]
 
     def judge(self, answers: xarray.DataTree) -> Judgement:
-        every = [series.judge(series.answers(answers)) for series in self.series]
-        several = [*together([each for each in every if each.laws and isinstance(each.series, RoughSeries)])]
+        every = []
+        for series in self.series:
+            judged = series.judge(series.answers(answers))
+            every.append(replace(judged, findings=[*map(series.told, judged.findings)]))
+        members = [each for each in every if each.laws and isinstance(each.series, RoughSeries)]
+        by_family = {each.series.family: each.series for each in members}
+        several = [by_family[each.curve].told(each) if each.curve else each for each in together(members)]
         findings = [*(found for each in every for found in each.findings), *several]
         opening = [table for each in every for table in opening_of(each)]
         claims = claims_table(findings, [each.name for each in self.series if isinstance(each, Around)])

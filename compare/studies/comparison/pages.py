@@ -108,7 +108,7 @@ def _cell(findings: Sequence[Finding]) -> str:
 
 
 def notes(findings: Iterable[Finding]) -> list[str]:
-    """Why claims are undecided, a sentence a claim; of many those that stand first."""
+    """Why claims are undecided and what would decide them, a sentence a claim; of many those that stand first."""
     reasons: dict[str, list[Finding]] = {}
     for each in findings:
         if each.verdict == UNDECIDED:

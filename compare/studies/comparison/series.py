@@ -190,6 +190,12 @@ class Series(ABC):
         places = {name: (*map(self.place, curves), self.family) for name, curves in self.shared.items()}
         return next((name for name in self.drawn if found.curve in places[name]), None)
 
+    def told(self, found: Finding) -> Finding:
+        """A finding with what would decide it."""
+        name = self.behind(found)
+        words = {each.name: each.draws for each in self.models}
+        return found if name is None else self.drawn[name].told(found, words)
+
     def more(self, answers: Answers, findings: Sequence[Finding]) -> dict[str, Counts]:
         """Numbers of surfaces that undecided claims and wide intervals ask for, of the curves that share them."""
         made: dict[str, Counts] = {}
