@@ -48,6 +48,7 @@ from .options import (
     NewFile,
     Options,
     Output,
+    OwnScene,
     PaperSize,
     Peaks,
     Pixel,
@@ -245,13 +246,15 @@ def verify(model: Model, output: Output = "crosscheck-verify", **options: Unpack
 def regress(
     baseline: Baseline = None,
     update: Update = False,
+    scene: OwnScene = None,
     output: Output = "crosscheck-regress",
     **options: Unpack[Options],
 ) -> Report:
     """Compare the accuracy of 1D with stored values. The status is 1 if any value has changed."""
+    from .studies.checks.accuracy import OwnScene
     from .studies.checks.study import Regress
 
-    asked = Regress.of(baseline, update)
+    asked = Regress.of(baseline, update) if scene is None else OwnScene.stored(scene, baseline, update)
     report = solve(asked, output, **options)
     if update:
         asked.store(report.judged)

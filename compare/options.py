@@ -194,6 +194,13 @@ Baseline = Annotated[
     File | None,
     Option(help="File of stored values (TOML); if absent, the values that come with the package."),
 ]
+OwnScene = Annotated[
+    SceneLike | None,
+    Argument(
+        help="File of a scene (TOML) of your own, whose ratios --baseline has; if absent, those of the package."
+    ),
+    "From Python also a Scene or a Case.",
+]
 Update = Annotated[bool, Option("--update", help="Store the values that have changed.")]
 
 # Measured tables and surfaces.

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pandas
 import pytest
+from small_cases import TINY
 
 import compare
 from bem3d import BEM
@@ -324,6 +325,22 @@ def test_what_is_new_or_without_an_answer_is_told_and_the_file_changes_only_wher
     study, found = held(stored.read_values(path), ratios, True, path)
     study.store(list(found.values()))
     assert path.stat().st_mtime_ns == changed
+
+
+def test_the_command_holds_a_scene_of_ones_own_against_a_file_of_ones_own(tmp_path):
+    scene, file = replace(TINY, roughness=None, mdr=MDR(points=512)), tmp_path / "mine.toml"
+
+    def failed(**given):
+        return compare.regress(file, scene=scene, output=tmp_path / "out", workers=1, report=False, **given).failed
+
+    assert not failed(update=True)
+    values = stored.read_values(file)
+    assert values.keys() == {f"{TINY.title}.friction", f"{TINY.title}.depth"}
+    assert not failed()
+    stored.write_values(file, {id: 1.01 * value for id, value in values.items()})
+    assert failed()
+    with pytest.raises(InvalidInput, match="need a file, name one"):
+        compare.regress(scene=scene)
 
 
 @pytest.mark.parametrize(

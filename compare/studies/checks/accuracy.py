@@ -92,13 +92,26 @@ class OwnScene(Stored, Accuracy):
     name: str = SCENE
     tolerance: float = 1e-3
 
+    command: str = "regress"  # type: ignore[misc]
+    title: str = "Has the accuracy of the scene moved?"
+
     @classmethod
-    def stored(cls, scene: Any, path: Path, tolerance: float = 1e-3, **asked: Any) -> Self:
-        """Study of a scene and a file, which need not be there yet. Raises InvalidInput.
+    def stored(
+        cls,
+        scene: Any,
+        baseline: str | Path | None,
+        update: bool = False,
+        tolerance: float = 1e-3,
+        **asked: Any,
+    ) -> Self:
+        """Study of a scene and a file; one to be updated need not be there yet. Raises InvalidInput.
 
         asked : models, reference, surfaces and profiles, see `MDRAccuracy.check`
         """
-        file: dict[str, Any] = {"path": path, "values": read_values(path, begin=True)}
+        if baseline is None:
+            raise InvalidInput("baseline = None: the numbers of a scene of your own need a file, name one")
+        path = Path(baseline)
+        file: dict[str, Any] = {"path": path, "values": read_values(path, begin=update), "update": update}
         return replace(cls.of(scene, {}, **asked), name=named(scene), tolerance=tolerance, **file)
 
     def judge(self, answers: xarray.DataTree) -> Judgement:
@@ -155,7 +168,7 @@ class MDRAccuracy:
         The first run writes the file and fails. With --mdr-regen numbers that moved are stored, and it fails.
         The other arguments are those of `check`.
         """
-        study = OwnScene.stored(self._located(scene), self.file, tolerance, **asked)
+        study = OwnScene.stored(self._located(scene), self.file, True, tolerance, **asked)
         found = findings(study, self.folder)
         moved = any(each.verdict != HOLDS and isfinite(each.value) for each in found)
         if moved and (self.rewrite or not study.values):
