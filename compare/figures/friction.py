@@ -11,7 +11,8 @@ from . import style
 from .curves import AXES, PANELS, about, curves, limit, over, panels_of, tables_of
 from .plot import Plot, Tables
 
-SPEED, LOAD = "friction-speed", "friction-load"
+SPEED, LOAD, SMOOTH_SPEED = "friction-speed", "friction-load", "smooth-speed"
+SLOW = 2  # friction of a smooth body in 1D over that in 3D at low speed, as derived for a sphere
 RATIOS, LINES = "-ratios", "-lines"
 QUANTITY = "friction_coefficient"
 THEORY, EQ_19, SMOOTH = KINDS = "theory", "Eq. 19", "smooth"
@@ -32,11 +33,11 @@ def plot(
     ratios : model, body ("rough", "smooth"), speed, load or depth, ratio, ratio_low and ratio_high: friction over
         that of the reference
     lines : model, speed, load or depth, friction_coefficient, and kind, one of KINDS
-    name : SPEED, with a panel for each load or depth, or LOAD, with one for each speed
+    name : SPEED, with a panel for each load or depth, LOAD, with one for each speed, or SMOOTH_SPEED, of a smooth body
     """
     if not (points["speed"] > 0).any():
         return None
-    across = "speed" if name == SPEED else "load or depth"
+    across = "load or depth" if name == LOAD else "speed"
     told = caption or f"Coefficient of friction against {across}; below, over that of the reference."
     alternative = f"Friction of all models against {across} on logarithmic axes; below, their ratio."
     tables = tables_of({name: points, f"{name}{RATIOS}": ratios, f"{name}{LINES}": lines})
@@ -47,7 +48,7 @@ def figure(tables: Tables, name: str = SPEED) -> Figure:
     """Three panels side by side at most; below, over the reference where it is known."""
     points, ratios, lines = tables[name], tables.get(f"{name}{RATIOS}"), tables.get(f"{name}{LINES}")
     pressed = "load" if "load" in points else "depth"
-    across, beside = ("speed", pressed) if name == SPEED else (pressed, "speed")
+    across, beside = (pressed, "speed") if name == LOAD else ("speed", pressed)
     places, (scale, label) = panels_of(points, (ratios, lines), beside), AXES[across]
     heights = (1.0,) if ratios is None else (2.2, 1.0)
     wide, deep = min(len(places), PANELS), ceil(len(places) / PANELS)
@@ -63,6 +64,8 @@ def figure(tables: Tables, name: str = SPEED) -> Figure:
                 above.plot(scale * line[across], line[QUANTITY], **line_look(kind, model))
         limit(above, points, QUANTITY)
         for axes in below:
+            if name == SMOOTH_SPEED:
+                axes.axhline(SLOW, **style.line(0.75, 4.0, zorder=0, label="2, derived for low speed"))
             about(axes, 1, over_reference, across, "ratio")
             axes.set_ylim(0, max(1.1, axes.get_ylim()[1]))
         (above, *below)[-1].set_xlabel(label)

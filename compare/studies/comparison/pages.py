@@ -10,7 +10,7 @@ import xarray
 from pandas import DataFrame
 
 from scene import Scene
-from scene.files.parts import said
+from scene.scene import said
 
 from ...figures.style import prefixed
 from ...report.page import Block, Findings, Section, Table, Text

@@ -22,7 +22,7 @@ from ...statistics.finding import Finding
 from ...statistics.jackknife import mean
 from ...statistics.multilevel import MEANS
 from .answers import Answers
-from .around import EXACT, MU, OWN, Around
+from .around import EXACT, MU, OWN, SMOOTH_SPEED, Around
 from .claims_law import SHALLOW, LawPoints
 from .laws import laws
 from .measures import ROUGH, SMOOTH, closed_forms, loading
@@ -126,6 +126,12 @@ def _friction(judged: Judged, folder: str) -> Iterator[Plot | None]:
             caption = f"Friction against {across}; below, over the reference. {LINES}"
             yield friction.plot(found, ratios, lines, caption, folder, name)
     yield shifted
+    if isinstance(series, Around) and SMOOTH_SPEED in series.curves:
+        caption = (
+            "Friction of the smooth body from slow to fast; below, over the reference: 2 for a slow sphere in 1D over "
+            "3D. Bars: change on halving the grid."
+        )
+        yield friction.plot(*_along(series, answers, SMOOTH_SPEED), caption, folder, friction.SMOOTH_SPEED)
 
 
 def _shifted(judged: Judged) -> Iterator[collapse.ShiftedCurves]:
