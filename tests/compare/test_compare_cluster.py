@@ -69,22 +69,6 @@ def test_answers_are_those_of_this_machine_bit_for_bit_and_this_process_stores_t
 
 
 @pytest.mark.slow
-def test_no_more_is_handed_out_than_workers_have_threads_and_a_few(cluster, tmp_path):
-    out = []
-
-    class Counting(Heard):
-        def started(self, task):
-            out.append(out[-1] + 1 if out else 1)
-
-        def finished(self, task, outcome):
-            out.append(out[-1] - 1)
-
-    tasks = loads(*range(1, 31), solver=Stand(seconds=0.02))
-    sweep(tasks, Store(tmp_path), scheduler=cluster.scheduler_address, progress=Counting())
-    assert (max(out), out[-1]) == (4 + 2, 0)
-
-
-@pytest.mark.slow
 def test_a_worker_killed_in_the_middle_is_survived_and_its_tasks_are_redone(cluster, tmp_path):
     class Killing(Heard):
         def finished(self, task, outcome):

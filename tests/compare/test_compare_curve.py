@@ -26,12 +26,11 @@ from compare.solving.curve import (
     tree,
 )
 from compare.solving.outcome import Outcome, Row
-from compare.solving.task import draws_of
 from compare.solving.words import basis
 from compare.statistics.finding import Claim
 from compare.statistics.jackknife import DrawSet, friction, mean, measured
 from mdr1d import MDR
-from scene import Indent, InvalidInput, Layer, Refused
+from scene import Indent, Layer, Refused
 from scene.quantities import MOST_WHOLE
 
 ROUGH = Curve(
@@ -224,19 +223,6 @@ def test_the_largest_seeds_are_told_apart_in_a_file_of_results(tmp_path):
         seeds = of(made, "rough", "MDR").surface
         assert seeds.dtype == np.int64
         assert seeds.values.tolist() == [last + k for k in range(4)]
-
-
-@pytest.mark.parametrize("seed", [MOST_WHOLE + 1, 2**64])
-def test_a_seed_that_no_file_holds_is_refused_by_its_field(seed):
-    with pytest.raises(InvalidInput, match=rf"seed.*less than or equal to {MOST_WHOLE}"):
-        seeded(seed)
-
-
-def test_surfaces_whose_seeds_no_file_holds_are_refused():
-    (last,) = draws_of(seeded(MOST_WHOLE - 1), [1])
-    assert last.roughness.seed == MOST_WHOLE
-    with pytest.raises(Refused, match=rf"roughness\.seed = {MOST_WHOLE}: at most {MOST_WHOLE - 1} is allowed"):
-        draws_of(last, 2)
 
 
 @pytest.mark.parametrize("command", ["run", "sweep", "study", "plan"])

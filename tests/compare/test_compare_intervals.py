@@ -10,7 +10,16 @@ import xarray
 from compare.solving.curve import FINE
 from compare.statistics.frictioncurves import SimulatedCurves
 from compare.statistics.intervals import Estimated, RmsMisfit, student
-from compare.statistics.jackknife import MOST_GROUPS, DrawSet, Replicates, compared, groups, mean_ratio, resample
+from compare.statistics.jackknife import (
+    MOST_GROUPS,
+    DrawSet,
+    Replicates,
+    compared,
+    groups,
+    left_out,
+    mean_ratio,
+    resample,
+)
 from compare.statistics.means import interval
 
 DRAWS = 10_000
@@ -129,10 +138,8 @@ def test_every_place_gives_the_same_interval_of_the_same_draws():
     told = compared(lambda sample: sample["a"]["normal_force"].mean("surface").values, sample, None)
     curves = SimulatedCurves(np.ones(1), np.ones((1, 1, 12)), values[None, None])
     friction = curves.replicates(1.0, values.mean() * curves.deviations()[:, 0]).estimated.interval()
-    for low, high in (
-        told.at((0, 0)).interval(),
-        np.array(friction) + values.mean() - 1,
-    ):
+    one_out = Replicates.without_one(values.mean(), left_out(values)).estimated
+    for low, high in (told.at((0, 0)).interval(), np.array(friction) + values.mean() - 1, one_out.interval()):
         assert (low, high) == pytest.approx(expected, rel=1e-9)
     # A Dataset on one grid has no error of the grid, and so no end.
     assert np.isnan(interval(grids, "normal_force").ends[1]).all()

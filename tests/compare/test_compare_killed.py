@@ -1,122 +1,27 @@
-"""Killed at any instant, a study that is asked for again ends as if nothing had happened; no runs are mixed."""
+"""Killed at any instant, a folder has one run whole or says that it has none; no runs are mixed."""
 
 import json
 import multiprocessing
 import os
-import random
 import signal
 import threading
-import time
 from collections import Counter
 from dataclasses import dataclass
 from functools import partial
 from itertools import count
-from pathlib import Path
 
-import marked_study
 import pytest
 import xarray
 from matplotlib.figure import Figure
 from pandas import DataFrame
-from processes import PATIENCE, finish, start, wait_for
-from stand_in_solver import exactly
 
 import compare
 from compare.figures.plot import Plot
 from compare.report.page import Table
 from compare.solving.folders import LOCK
-from compare.solving.runner import sweep
-from compare.solving.store import Store
 from compare.statistics.finding import Claim, Finding
 from compare.studies.study import Judgement, Study
 from scene.files.reading import InvalidInput
-
-ROOT = Path(__file__).parents[2]
-PATHS = os.pathsep.join([str(ROOT), str(ROOT / "tests")])
-
-
-class Killed:
-    """A folder with the study, run by the command in a process group of its own."""
-
-    def __init__(self, folder):
-        self.folder = folder
-        self.marks = folder / "marks"
-        self.tasks = marked_study.tasks()
-        self.store = Store(folder / "crosscheck-study" / "solved")
-
-    def start(self):
-        program = ("-c", "import marked_study; marked_study.command()")
-        environment = {"MARKS": str(self.marks), "PYTHONPATH": PATHS}
-        return start(self.folder, "study", "collapse", "--workers", "2", program=program, **environment)
-
-    def stored(self):
-        """Tasks with an answer. Every answer that is there is whole."""
-        stored = self.store.stored(self.tasks)
-        assert len(stored) == len(self.store)
-        return [task for task in self.tasks if task in stored]
-
-    def begun(self, tasks):
-        """How often each solve of tasks began so far."""
-        begun = Counter(self.marks.read_text().split() if self.marks.exists() else ())
-        return [begun[name] for task in tasks for name in marked_study.names(task)]
-
-    def kill(self, more, seconds):
-        """Start it, kill all of it in the middle, and see that nothing stored is lost or was solved again.
-
-        more, seconds : solves that begin before, and time after the last of them. Returns whether it had not ended
-        """
-        before = self.stored()
-        solves, begun = self.begun(before), sum(self.begun(self.tasks))
-        process = self.start()
-        wait_for(lambda: sum(self.begun(self.tasks)) >= begun + more or process.poll() is not None)
-        time.sleep(seconds)
-        ended = process.poll()
-        if ended is None:
-            os.killpg(process.pid, signal.SIGKILL)
-        process.communicate(timeout=PATIENCE)
-        assert ended in (None, 0)
-        assert set(before) <= set(self.stored())
-        assert self.begun(before) == solves
-        return ended is None
-
-    def finish(self, expected):
-        """Run it to its end, and compare with undisturbed answers."""
-        before = self.stored()
-        fresh = [task for task in self.tasks if task not in before]
-        solves, begun = self.begun(before), self.begun(fresh)
-        status, _, told = finish(self.start())
-        assert status == 0
-        assert self.stored() == self.tasks
-        assert self.begun(before) == solves
-        assert self.begun(fresh) == [times + 1 for times in begun]
-        assert f"{len(fresh)} tasks solved, {len(before)} reused" in told
-        for task in self.tasks:
-            assert exactly(self.store.get(task)) == expected[task]
-        assert {path.name for path in self.folder.rglob(".*") if path.is_file()} == {LOCK}
-        manifest = self.store.folder.parent / "collapse-quick" / "manifest.json"
-        assert json.loads(manifest.read_text())
-
-
-@pytest.fixture(scope="module")
-def expected(tmp_path_factory):
-    """Answers of an undisturbed sweep, whose workers have one thread as those of the command."""
-    folder = tmp_path_factory.mktemp("undisturbed")
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("MARKS", str(folder / "marks"))
-        outcomes = sweep(marked_study.tasks(), Store(folder), workers=1).outcomes
-        return {task: exactly(outcome) for task, outcome in outcomes.items()}
-
-
-@pytest.mark.slow
-def test_killed_at_twenty_moments_studies_end_as_undisturbed_ones(tmp_path, expected):
-    draw, kills, studies = random.Random(20), 0, 0
-    while kills < 20:
-        (tmp_path / str(studies)).mkdir()
-        study = Killed(tmp_path / str(studies))
-        studies += 1
-        while kills < 20 and len(study.stored()) < len(study.tasks):
-            kills += study.kill(draw.randint(0, len(study.tasks) // 3), draw.uniform(0.0, 0.1))
-        study.finish(expected)
 
 
 def blank(tables):

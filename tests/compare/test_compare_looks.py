@@ -365,14 +365,6 @@ def test_vector_files_name_no_day_and_hold_their_letters(files):
     assert "<text" not in text  # letters are outlines: no font has to be at the reader's
 
 
-def test_a_file_of_settings_is_a_style(tmp_path):
-    path = tmp_path / "own.mplstyle"
-    path.write_text("font.size: 12\naxes.grid: True\n")
-    with style.applied(style.Look(sheet=path)):
-        assert (matplotlib.rcParams["font.size"], matplotlib.rcParams["axes.grid"]) == (12, True)
-        assert style.small() == pytest.approx(10, rel=1e-3)
-
-
 def test_what_the_machine_has_set_does_not_show():
     with matplotlib.rc_context({"lines.linewidth": 9.0, "font.size": 30, "axes.facecolor": "yellow"}):
         figure = drawn("friction_speed-figure")

@@ -239,17 +239,6 @@ name = "sphere"
 """
 
 
-@pytest.mark.slow
-def test_a_study_judges_every_model_against_the_reference(tmp_path):
-    (tmp_path / "own.toml").write_text(OWN)
-    asked = tmp_path / "own.toml", "quick", tmp_path
-    report = compare.study(*asked, models=["mdr", "bem", Stiff()])
-    told = set(report.findings["model"])
-    assert {"1D", "3D", "1D/3D", "Stiff/3D"} <= told
-    alone = compare.study(*asked)
-    assert of_the_pair(alone) == of_the_pair(report)
-
-
 STRANGER = {
     "scene": "models = ['mdr', 'bem', 'stranger:Model']\n"
     + """

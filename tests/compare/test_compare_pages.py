@@ -251,15 +251,6 @@ def test_figures_of_a_journal_have_the_width_of_its_column(folder, tmp_path, loo
         assert drawn.width == pytest.approx(millimetres / 25.4 * 300, abs=1)
 
 
-def test_a_changed_table_gives_another_picture(folder, tmp_path):
-    (tmp_path / "sphere").mkdir()
-    (tmp_path / "manifest.json").write_bytes((folder / "manifest.json").read_bytes())
-    (tmp_path / "sphere/friction-speed.csv").write_text(csvfiles.text(MEANS.assign(friction_coefficient_mean=0.3)))
-    drawn = draw_again(tmp_path)
-    assert drawn[0] == tmp_path / "figures/sphere/friction.png"
-    assert drawn[0].read_bytes() != (folder / "sphere/friction.png").read_bytes()
-
-
 FORGED = [
     ({"module": "os"}, "os:figure"),
     ({"function": "DataFrame"}, "no figure of compare"),

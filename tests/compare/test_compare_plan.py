@@ -184,15 +184,6 @@ def test_what_no_grid_carries_is_refused_alike_by_plan_and_run_before_any_work(t
     assert reason in " ".join(planned.stdout.split())
 
 
-@pytest.mark.parametrize("name", ["points", "shortest_kept"])
-def test_the_values_that_a_refusal_names_work(tmp_path, name):
-    refusal = str(plans(fine_map(tmp_path)).cost)
-    (value,) = re.findall(rf"{name} = ([\d.e-]+) would (?:do|leave)", refusal)
-    accepted = plans(fine_map(tmp_path, **{name: value}))
-    assert accepted.feasible
-    assert not isinstance(accepted.cost, str)
-
-
 def test_doubts_stand_first_in_a_plan_and_in_what_trust_says_and_are_warnings_in_python(written):
     path = written(SCENE.replace("radius = 1e-2", "radius = 12.7").split("[roughness]")[0])
     for command in ("plan", "trust"):
