@@ -12,7 +12,7 @@ from io import BytesIO, TextIOWrapper
 import pytest
 from pandas.testing import assert_frame_equal
 from processes import finish, start, stored_so_far, wait_for
-from scene_files import SCENE, SMALL
+from scene_files import HEAD, SCENE, SHARED, SMALL, TABLES
 from typer.testing import CliRunner
 
 import compare
@@ -20,6 +20,7 @@ from compare.cli.app import app
 from compare.cli.console import print_in_any_encoding, say
 from compare.library.ready import ready
 from compare.solving.store import Store
+from scene.quantities import MOST_WHOLE
 
 # Solvers with a fault.
 FAULTY = """
@@ -59,12 +60,10 @@ def test_an_interrupted_run_resumes_and_ends_in_a_report(folder):
 
     status, said, told = finish(start(folder, "run", "tiny.toml", "--workers", "2"))
     assert (status, "tasks solved" in said) == (0, False)
-    now, reused = map(int, re.search(r"(\d+) tasks solved, (\d+) reused", told).groups())
-    assert reused == kept >= 3
-    assert now > 0
+    assert kept >= 3
+    assert f", {kept} reused" in told
     assert str(folder / "crosscheck-report" / "report.html") in said
-    assert (folder / "crosscheck-report" / "tiny" / "friction-speed.png").exists()
-    assert not list((folder / "crosscheck-report").rglob("*.pdf"))  # nobody asked for it
+    assert {path.suffix for path in (folder / "crosscheck-report" / "tiny").iterdir()} == {".png", ".csv"}
 
     status, said, complained = finish(start(folder, "run", "tiny.toml", "--no-report", "-q"))
     assert (status, said, complained) == (0, "", "")
@@ -174,25 +173,37 @@ MISTAKES = {
     "export nowhere --journal acs": "nowhere: no such folder",
     "export . --format png": "no manifest.json here",
     "export . --format csv,word": "format = word: allowed are csv, vtk, png, pdf, svg",
+    "run twice.toml": "twice",
+    "run cylinder.toml": "indenter = Cylinder",
+    "run apart.toml": "far apart",
+    "run seed.toml": f"roughness.seed = {MOST_WHOLE}: ",
+    "sweep seed.toml": f"roughness.seed = {MOST_WHOLE}: ",
+    "study seeds.toml": f"roughness.seed = {MOST_WHOLE}: ",
+}
+LAST_SEED = f"seed = {MOST_WHOLE}"  # which leaves none for further surfaces
+TEXTS = {
+    "mine.toml": 'titel = "a mistake"\n',
+    "scene.toml": ready()["quick-start"].text,
+    "study.toml": ready()["two-shapes"].text,
+    "twice.toml": SCENE + "[study]\nspeeds = [0.1, 0.1]\n",
+    "cylinder.toml": SCENE.replace('"sphere"', '"cylinder"').replace("load = 1.0", "line_load = 1.0"),
+    "apart.toml": SCENE.replace("load = 1.0", "depth = 1e300"),
+    "seed.toml": SCENE.replace("seed = 5", LAST_SEED),
+    "seeds.toml": HEAD + SHARED + TABLES.replace("seed = 1", LAST_SEED) + "[[series]]\nname = 'a'\n",
 }
 
 
 @pytest.mark.parametrize("said", MISTAKES)
 def test_a_mistake_is_one_clear_line_and_status_2_before_anything_is_solved(tmp_path, monkeypatch, said):
     monkeypatch.chdir(tmp_path)
-    texts = {
-        "mine.toml": 'titel = "a mistake"\n',
-        "scene.toml": ready()["quick-start"].text,
-        "study.toml": ready()["two-shapes"].text,
-    }
-    for name, text in texts.items():
+    for name, text in TEXTS.items():
         (tmp_path / name).write_text(text)
     answer = ask(*said.split())
     assert answer.exit_code == 2, answer.exception
     assert MISTAKES[said] in answer.stderr
     assert "Traceback" not in answer.output
     assert not answer.stdout
-    assert {path.name: path.read_text() for path in tmp_path.iterdir()} == texts
+    assert {path.name: path.read_text() for path in tmp_path.iterdir()} == TEXTS
 
 
 def printed(text, encoding, monkeypatch):

@@ -5,15 +5,12 @@ from functools import cache
 
 import numpy as np
 import pytest
+from invented_answers import FEW, eq_19, obeying
 
 from bem3d import BEM
-from compare.solving import curve
-from compare.solving.outcome import Outcome, Row
-from compare.studies.comparison.answers import Answers
 from compare.studies.comparison.laws import laws
-from compare.studies.comparison.rough import RoughSeries
 from mdr1d import MDR
-from scene import Program, Scene, SelfAffine, Slide, Sphere, Stage, StandardLinearSolid
+from scene import Program, Scene, SelfAffine, Sphere, Stage, StandardLinearSolid
 
 SOLVERS = (MDR(points=400, steps=24), BEM(points=32, steps=24))
 solvers = pytest.mark.parametrize("solver", SOLVERS, ids=lambda solver: solver.name)
@@ -77,15 +74,10 @@ def test_creep_relaxation_and_a_start_from_rest_scale_alike(solver, nu, pressed_
 
 
 def test_the_laws_of_the_paper_take_the_plane_strain_modulus_for_storage_and_loss():
+    curve, answers = FEW.curves["rough"], obeying(eq_19, FEW)("MDR")
+
     def ruled(nu):
-        scene = softened(Scene(SPHERE, SOLID, Slide(speed=0.1, load=0.1), ROUGH), nu, (1 - nu) / 0.5)
-        grids = {"bem": BEM(points=64), "mdr": MDR(points=200)}
-        series = RoughSeries("one", "One", scene, (0.1, 0.3), (0.05, 0.1), surfaces=1, profiles=1, **grids)
-        missing = Outcome((Row(reason="not asked for"),))
-        contacts = curve.contacts_of(series.curves)
-        outcomes = {each: each.solve() if each.solver.name == "MDR" else missing for each in contacts}
-        answers = Answers({name: each.dataset(outcomes) for name, each in series.curves.items()}, series.models)
-        return laws(series.curves["rough"], answers("rough", "MDR"))
+        return laws(replace(curve, scene=softened(curve.scene, nu, (1 - nu) / 0.5)), answers)
 
     wanted, found = ruled(0.5), ruled(0.0)
     for name in ("xi", "shifts", "slowest_loss", "loss_exponent", "exponent", "plateau"):

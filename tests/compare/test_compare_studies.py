@@ -4,9 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from invented_answers import FEW, SERIES, SLOPE, Invented, changed, cut, eq_19, obeying, other, spoiled
+from invented_answers import FEW, SERIES, SLOPE, changed, cut, eq_19, obeying, other, spoiled
 
-from bem3d import BEM
 from compare.library.ready import studies
 from compare.solving import curve
 from compare.solving.curve import COARSE, FINE
@@ -15,10 +14,9 @@ from compare.statistics.jackknife import friction, mean
 from compare.studies.comparison import asked, together
 from compare.studies.comparison.laws import laws
 from compare.studies.comparison.measures import SLOW, loading
-from compare.studies.comparison.rough import ROUGH, SMOOTH, RoughSeries
+from compare.studies.comparison.rough import ROUGH, SMOOTH
 from compare.studies.comparison.theory import THEORIES
-from mdr1d import MDR
-from scene import Indent, Kelvin, Program, Scene, SelfAffine, Slide, Sphere, Stage
+from scene import Indent, Program, Slide, Stage
 from scene.files.reading import InvalidInput
 
 # Friction that grows as a length is none that is the same over every part of an area.
@@ -49,6 +47,7 @@ def judged(whole):
 def test_answers_that_obey_the_law_are_said_to_in_both_dimensionalities_by_the_same_claims(judged):
     one, three = verdicts(judged, "1D"), verdicts(judged, "3D")
     assert set(one.values()) == {"holds"}, one
+    assert "limit.slow" in one
     assert three == one | {DRAG: "fails"}
 
 
@@ -226,27 +225,6 @@ def test_pressing_in_is_compared_at_the_depth_that_was_reached():
     unknown = loading(*pressed, np.array([[np.nan, 0.0], [1e-4, 2e-4]]))
     assert np.isnan(unknown[0]).all()
     assert np.array_equal(unknown[1], whole[1])
-
-
-@pytest.fixture(scope="module")
-def solved():
-    """Answers of both solvers to a small series."""
-    rough = SelfAffine(hurst=0.2, rms_height=5e-5, longest=1e-2, shortest=2e-3, seed=1)
-    scene = Scene(Sphere(radius=1e-2), Kelvin(1e6, 1e-3), Slide(speed=1.0, load=1.0), rough)
-    series = RoughSeries("s", "S", scene, (1e-2, 1.5e-2), (4.0,), 4, 4, BEM(points=64), MDR(points=1000))
-    outcomes = {task: task.solve() for task in curve.tasks_of(series.curves)}
-    return Invented(series, {name: each.dataset(outcomes) for name, each in series.curves.items()})
-
-
-def test_solved_contacts_tell_the_known_truths(solved):
-    # at low speed the exact limits hold, and the smooth bodies differ by 2
-    found = solved.judge()
-    assert [each.verdict for each in of(found, "limit.slow")] == ["holds", "holds"]
-    (smooth,) = of(found, "friction.ratio.smooth")
-    assert smooth.verdict == "holds"
-    assert smooth.value == pytest.approx(2, abs=smooth.grid + 0.02)
-    rest = cut(solved, speeds=0).judge()
-    assert [each.verdict for each in of(rest, "smooth.rest-depth")] == ["holds", "holds"]
 
 
 MANY_TASKS = ("solids", "hurst", "parameters", "regime")
