@@ -11,15 +11,14 @@ import numpy as np
 import pytest
 import xarray
 from matplotlib.figure import Figure
+from processes import ask
 from scene_files import SCENE, SMALL
 from small_cases import SLIDING, TINY
 from stand_in_solver import Here
-from typer.testing import CliRunner
 
 import compare
 from bem3d import BEM
 from compare import commands
-from compare.cli.app import app
 from compare.statistics.finding import COLUMNS
 from compare.statistics.jackknife import friction
 from compare.studies import pipeline
@@ -54,14 +53,10 @@ def valid():
     return valid
 
 
-def printed(*arguments):
-    return CliRunner().invoke(app, [*map(str, arguments), "--json"], catch_exceptions=False).stdout
-
-
 @pytest.mark.parametrize("asked", ["trust hertz", "plan thin-layer", "scenes", "study", "new hertz"])
 def test_every_command_answers_in_json_as_its_schema_says(valid, asked, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    assert valid(printed(*asked.split()))
+    assert valid(ask(*asked.split(), "--json").stdout)
 
 
 @pytest.fixture(scope="module")
@@ -100,15 +95,10 @@ def test_figures_are_drawn_when_they_are_taken_out_and_show_themselves(found):
     assert str(figures).startswith(f"Figures({name}, ")
 
 
-def test_a_folder_holds_every_draw_with_its_status_and_says_what_wrote_it(folder, found):
-    tree = compare.load(folder)
-    datasets = [node for node in tree.subtree if "status" in node]
-    assert any("surface" in node.dims for node in datasets)
-    found = {str(each) for node in datasets for each in node.status.values.ravel()}
-    assert found <= {"solved", "no contact", "not asked"}
-    content = json.loads((folder / "manifest.json").read_text())
-    assert content["command"] == "run"
-    assert str(folder) not in json.dumps(content)  # it may be moved
+def test_a_folder_says_what_wrote_it_and_may_be_moved(folder, found):
+    text = (folder / "manifest.json").read_text()
+    assert json.loads(text)["command"] == "run"
+    assert str(folder) not in text
 
 
 def test_a_plan_is_asked_of_a_scene_a_case_or_a_file(tmp_path):
@@ -139,7 +129,7 @@ def test_a_sweep_is_a_dataset_of_every_draw_with_means_and_intervals(tmp_path, v
     again = compare.sweep(scene, speed="0 m/s, 10cm/s", load="0.5N..1N:2", draws=2, output=output, report=False)
     xarray.testing.assert_identical(again, answers)
     words = "sweep", scene, "--speed", "0 m/s,10cm/s", "--load", "0.5 N", "--load", "1N"
-    told = valid(printed(*words, "--draws", 2, "--output", output, "--no-report"))
+    told = valid(ask(*words, "--draws", 2, "--output", output, "--no-report", "--json").stdout)
     row = next(each for each in told["tables"]["means-friction"] if each["load"] == 0.5)
     mean = answers.friction_coefficient_mean.sel(model="BEM", speed=0.1, load=0.5).item()
     assert row["friction_coefficient (3D)"] == mean

@@ -3,10 +3,9 @@
 from dataclasses import replace
 
 import pytest
+from processes import ask
 from scene_files import SCENE
-from typer.testing import CliRunner
 
-from compare.cli.app import app
 from compare.library.lookup import named_cases
 from compare.studies.comparison.around import OWN, SMOOTH_DEPTH, Around
 from scene import Coulomb, Elastic, Indent, Slide
@@ -63,6 +62,6 @@ def test_a_folder_that_cannot_be_written_into_is_named_before_anything_is_solved
     (tmp_path / "out").mkdir()
     taken = tmp_path / "out" / name
     taken.mkdir() if name == "report.html" else taken.write_text("")
-    answer = CliRunner().invoke(app, ["run", str(tmp_path / "case.toml"), "--output", str(tmp_path / "out")])
+    answer = ask("run", tmp_path / "case.toml", "--output", tmp_path / "out")
     assert answer.exit_code == 2
     assert f"{taken}: " in answer.stderr

@@ -11,7 +11,7 @@ from io import BytesIO, TextIOWrapper
 
 import pytest
 from pandas.testing import assert_frame_equal
-from processes import finish, start, stored_so_far, wait_for
+from processes import ask, finish, start, stored_so_far, wait_for
 from scene_files import HEAD, SCENE, SHARED, SMALL, TABLES
 from typer.testing import CliRunner
 
@@ -111,11 +111,6 @@ def test_no_worker_outlives_its_parent(folder, number, status):
     assert finish(process)[0] == status
 
 
-def ask(*arguments):
-    """In this process, for what solves nothing."""
-    return CliRunner().invoke(app, list(map(str, arguments)))
-
-
 COMMANDS = {each.name: inspect.signature(each.callback).parameters for each in app.registered_commands}
 
 
@@ -170,6 +165,7 @@ MISTAKES = {
     "study mine.toml": "mine.toml: ",
     "workprecision paper-spere": "did you mean paper-sphere?",
     "new quick-start mine.toml": "is there already, and nothing is overwritten",
+    "run quick-start --models bem,nothing": "'nothing': no model of that name",
     "export nowhere --journal acs": "nowhere: no such folder",
     "export . --format png": "no manifest.json here",
     "export . --format csv,word": "format = word: allowed are csv, vtk, png, pdf, svg",

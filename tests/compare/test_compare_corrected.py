@@ -87,18 +87,22 @@ def test_a_smooth_body_slides_with_the_answers_of_three_dimensions(motion):
 @pytest.mark.parametrize("scene", [ROUGH, AT_DEPTH], ids=["load", "depth"])
 def test_what_is_prescribed_stays_and_all_else_is_its_mean_over_the_ratio(scene):
     found, drawn, corrections = FEW.solve(scene), profiles_of(scene), trust(scene).of_model("MDR")
-    force, friction, depth = (
-        np.mean([getattr(each, name) for each in drawn]) for name in ("normal_force", "friction_force", "depth")
+    given, free, name = (
+        ("normal_force", "depth", "depth") if scene is ROUGH else ("depth", "normal_force", "force")
     )
-    given, free = (found.normal_force, found.depth) if scene is ROUGH else (found.depth, found.normal_force)
-    name, mean = ("depth", depth) if scene is ROUGH else ("force", force)
-    assert given == scene.motion.greatest
-    assert mean / free == pytest.approx(corrections[name].ratio, rel=ROUNDING)
-    assert friction / force / found.friction_coefficient == pytest.approx(
-        corrections["friction"].ratio, rel=ROUNDING
-    )
-    assert found.measures[f"{name}_ratio"] == corrections[name].ratio
+    assert getattr(found, given) == scene.motion.greatest
     assert set(corrections) == {"friction", name}
+
+    def mean(number):
+        return np.mean([getattr(each, number) for each in drawn])
+
+    ratios = {
+        "friction": mean("friction_force") / mean("normal_force") / found.friction_coefficient,
+        name: mean(free) / getattr(found, free),
+    }
+    for quantity, ratio in ratios.items():
+        assert ratio == pytest.approx(corrections[quantity].ratio, rel=ROUNDING)
+        assert found.measures[f"{quantity}_ratio"] == corrections[quantity].ratio
 
 
 def test_at_rest_and_in_an_elastic_solid_there_is_no_friction():

@@ -5,12 +5,11 @@ from dataclasses import replace
 import pint
 import pytest
 import xarray
+from processes import ask
 from scene_files import HEAD, SCENE, SHARED, TABLES
 from small_cases import CURVE
-from typer.testing import CliRunner
 
 from bem3d import BEM
-from compare.cli.app import app
 from compare.library.case import Case, share_of
 from compare.solving.cost import DAY, MANY_CONTACTS, MOST_CONTACTS, SECONDS, Cost
 from compare.studies.comparison import asked as questions
@@ -76,7 +75,7 @@ def test_the_command_says_the_cost_first_and_takes_the_yes(tmp_path, monkeypatch
     monkeypatch.chdir(tmp_path)
     text = SCENE + "[bem]\npoints = 4096\n[study]\nsurfaces = 1000\n"
     (tmp_path / "scene.toml").write_text(text)
-    answer = CliRunner().invoke(app, ["run", "scene.toml"])
+    answer = ask("run", "scene.toml")
     assert answer.exit_code == 2
     assert "of processor time" in answer.stderr
     assert "--yes" in answer.stderr

@@ -147,19 +147,16 @@ def test_what_a_solver_lacks_is_refused_before_anything_is_solved():
 
 @pytest.mark.parametrize("points", [32, 64, 96])
 def test_the_values_that_a_refusal_names_are_enough_for_the_coarser_grid_too(points):
-    def refined(settings, shortest):
-        rough = replace(SLIDING.roughness, shortest=shortest)
-        scene, grids = replace(SLIDING, roughness=rough), on_two_levels(BEM(points=settings))
-        return replace(ROUGH, scene=scene, levels=grids, draws={"BEM": 1})
+    def refused(points=points, shortest=SLIDING.roughness.longest / 200):
+        scene = replace(SLIDING, roughness=replace(SLIDING.roughness, shortest=float(shortest)))
+        refuse([replace(ROUGH, scene=scene, levels=on_two_levels(BEM(points=int(points))), draws={"BEM": 1})])
 
-    shortest = SLIDING.roughness.longest / 200
-    with pytest.raises(Refused, match="would do") as refused:
-        refuse([refined(points, shortest)])
-    enough, longer = (
-        re.search(rf"{name} = ([\d.e-]+) would do", str(refused.value))[1] for name in ("points", "shortest")
-    )
-    assert refuse([refined(int(enough), shortest)]) is None
-    assert refuse([refined(points, float(longer))]) is None
+    with pytest.raises(Refused) as error:
+        refused()
+    found = re.findall(r"(points|shortest) = ([\d.e-]+) would do", str(error.value))
+    assert {name for name, _ in found} == {"points", "shortest"}
+    for name, value in found:
+        refused(**{name: value})
 
 
 PARTS = "rough/MDR", "rough/BEM", "smooth/MDR"

@@ -15,9 +15,8 @@ from share import share
 
 from bem3d import BEM
 from compare import FrictionLaw
-from compare.models.exact import slow_friction_3d
 from compare.models.law.bands import FASTER, Bands, FullContact
-from compare.models.law.nominal import GAPS, NominalContact, Rings
+from compare.models.law.nominal import GAPS, NominalContact
 from compare.models.law.share import LEAST, MOST, Share, coefficients
 from scene import (
     CrossedWaves,
@@ -26,7 +25,6 @@ from scene import (
     Indent,
     Kelvin,
     Plane,
-    PowerLaw,
     Refused,
     Scene,
     SelfAffine,
@@ -80,21 +78,6 @@ def test_a_long_wave_carries_the_contact_and_a_short_one_is_left():
         beyond = waves - planes @ np.linalg.lstsq(planes, waves, rcond=None)[0]
         one = replace(bands, q=np.array([q]), power=np.array([1.0])).beneath(1.0)
         assert one.power[0] == pytest.approx(np.mean(np.sum(beyond**2, axis=1)), rel=0.01)
-
-
-@pytest.mark.parametrize("n", EXPONENTS)
-def test_the_smooth_nominal_contact_is_that_of_galin_and_sneddon(n):
-    body = PowerLaw(1.0, n)
-    smooth = NominalContact.smooth(n, RADIUS, LOAD)
-    modulus = LOAD * (n + 1) / (2 * n * body.mdr_coefficient * RADIUS ** (n + 1))
-    depth, rings = body.mdr_coefficient * RADIUS**n, Rings.all()
-    inside = rings.middle < 0.95
-    sunk = rings.compliance @ smooth.pressure * RADIUS / modulus + body.height(rings.middle * RADIUS, 0.0)
-    assert smooth.load == pytest.approx(LOAD, rel=1e-12)
-    assert sunk[inside] == pytest.approx(depth, rel=5e-3)
-    solid, speed = Kelvin(modulus / 4, 1e-7), 1e-3
-    slow = slow_friction_3d(speed, RADIUS, 1e-7, modulus, body.mdr_coefficient, n)
-    assert smooth.lost(solid, speed) == pytest.approx(slow, rel=0.06)  # the edge on rings
 
 
 @pytest.mark.parametrize("n", EXPONENTS)

@@ -6,10 +6,9 @@ import pytest
 import xarray
 import yourdata
 from drawn_again import from_files
-from typer.testing import CliRunner
+from processes import ask
 
 import compare
-from compare.cli.app import app
 from compare.figures import collapse
 from compare.solving.words import found as worded
 from compare.statistics.eq23 import NO_SHIFT
@@ -191,11 +190,11 @@ def test_a_table_of_another_form_is_stated_on_the_command_line(tmp_path):
     path.write_text(f"Loads in N\nrun;Reibwert;Last;v\nwarm;0;1;1\n{rows}end\n".replace(".", ","))
     options = "--skip 1 --rows 97 --decimal , --where run=a --columns mu=Reibwert --columns F_N=Last --units F_N=N"
     asked = ["mastercurve", str(path), *options.split(), "--units", "v=m/s", "--no-report", "--output", str(out)]
-    assert CliRunner().invoke(app, asked).exit_code == 0
+    assert ask(*asked).exit_code == 0
     kept = compare.load(out)["measured"]
     for name, wanted in zip(NAMES, COLUMNS, strict=True):
         np.testing.assert_array_equal(kept[name], wanted)
-    refused = CliRunner().invoke(app, [*asked, "--columns=mu"])
+    refused = ask(*asked, "--columns=mu")
     assert (refused.exit_code, "columns" in refused.output) == (2, True)
 
 

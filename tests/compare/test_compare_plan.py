@@ -5,11 +5,10 @@ import re
 import numpy as np
 import pytest
 from planned import held_by
+from processes import ask
 from scene_files import SCENE, SMALL
-from typer.testing import CliRunner
 
 import compare
-from compare.cli.app import app
 from compare.figures import solid, style
 from compare.studies.comparison import asked
 from compare.studies.plan import plans
@@ -43,15 +42,11 @@ def written(tmp_path):
     return write
 
 
-def told(path, *options):
-    return CliRunner().invoke(app, ["plan", str(path), *options])
-
-
 def test_a_plan_counts_the_contacts_that_a_run_solves(written):
     path = written(SCENE + SMALL)
     cost = asked.run(path).cost()
     assert plans(path).cost == cost
-    assert f"contacts   at most {cost.contacts:,}, " in told(path).output
+    assert f"contacts   at most {cost.contacts:,}, " in ask("plan", path).output
 
 
 def test_a_plan_names_the_interval_of_a_scene_and_the_option_that_asks_for_another():
@@ -102,7 +97,7 @@ PROGRAM = (
     ids=["refused by one", "refused by both", "too many steps", "shortest time of all"],
 )
 def test_what_is_refused_stands_in_the_plan_and_in_its_status(written, text, status, said):
-    answer = told(written(text))
+    answer = ask("plan", written(text))
     assert answer.exit_code == status
     for each in said:
         assert each in answer.output
@@ -144,7 +139,7 @@ def test_measured_moduli_are_drawn_as_points_on_their_fit_at_the_temperature_of_
 @pytest.mark.parametrize("form", ["png", "pdf", "svg"])
 def test_a_plan_draws_the_solid_into_a_file(written, tmp_path, form):
     path = tmp_path / f"solid.{form}"
-    answer = told(written(SCENE), "--figure", str(path))
+    answer = ask("plan", written(SCENE), "--figure", path)
     assert answer.exit_code == 0
     assert path.stat().st_size > 1000
 
@@ -156,8 +151,8 @@ def test_what_no_grid_carries_is_refused_alike_by_plan_and_run_before_any_work(w
     path = written(
         f'{text}[roughness]\ntype = "topography"\nfile = "{tmp_path}/map.npy"\npixel = "1 um"\nunit = "m"\n'
     )
-    planned = told(path)
-    ran = CliRunner().invoke(app, ["run", str(path), "--output", str(tmp_path / "out")])
+    planned = ask("plan", path)
+    ran = ask("run", path, "--output", tmp_path / "out")
     assert planned.exit_code == ran.exit_code == 2
     assert not (tmp_path / "out").exists()
     # of the widest contact of all, ten times the load of the scene, slowly
@@ -171,7 +166,7 @@ def test_what_no_grid_carries_is_refused_alike_by_plan_and_run_before_any_work(w
 def test_doubts_stand_first_in_a_plan_and_in_what_trust_says_and_are_warnings_in_python(written):
     path = written(SCENE.replace("radius = 1e-2", "radius = 12.7").split("[roughness]")[0])
     for command in ("plan", "trust"):
-        answer = CliRunner().invoke(app, [command, str(path)])
+        answer = ask(command, path)
         first = " ".join(answer.output.split())
         assert re.match(r"doubtful:? +radius of the body = 12.7 m, above 1 m: .* is 12.7 mm meant\?", first)
         assert not answer.stderr

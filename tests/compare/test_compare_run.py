@@ -275,14 +275,12 @@ def marched(task):
     return Outcome((Row(force[-1], 2e-5, 0.0, 0.0, 1.0, 1.0),), fields)
 
 
-@pytest.mark.parametrize("roughness", [None, CASE.roughness], ids=["smooth", "rough"])
-def test_a_program_is_compared_over_time(roughness):
+def test_a_program_is_compared_over_time():
     motion = Program(stages=(Stage(duration=1.0, depth=1e-5), Stage(duration=1.0, depth=2e-5)))
-    run = asked.run({"a case": replace(CASE, motion=motion, roughness=roughness)})
+    run = asked.run({"a case": replace(CASE, motion=motion)})
     answers = run.answers({task: marched(task) for task in run.batches()[0].tasks})
     answers["a-case"] = answers["a-case"].drop_nodes("fields")  # without surfaces
-    dims = {"model", "level", "time"} | ({"surface"} if roughness else set())
-    assert set(answers["a-case/own"].dims) == dims
+    assert set(answers["a-case/own"].dims) == {"model", "level", "time", "surface"}
     judged = run.judge(answers)
     (found,) = judged.findings
     assert (found.claim.id, found.verdict) == ("history.force", "fails")

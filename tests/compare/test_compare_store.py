@@ -130,8 +130,8 @@ def found(folder, tasks):
 def test_damage_costs_the_outcome_that_it_hits_and_a_file_that_cannot_be_read_is_left_as_it_is(tmp_path):
     tasks, path, whole = three(tmp_path)
     used = np.flatnonzero(np.frombuffer(whole, np.uint8))
-    places, costs = np.random.default_rng(0).choice(used, size=200), []
-    for place, bit in zip(places, 1 << np.arange(200) % 8, strict=True):
+    places, costs = np.random.default_rng(0).choice(used, size=100), []
+    for place, bit in zip(places, 1 << np.arange(100) % 8, strict=True):
         damaged = whole[:place] + bytes([whole[place] ^ int(bit)]) + whole[place + 1 :]
         path.write_bytes(damaged)
         message = ""
@@ -144,7 +144,7 @@ def test_damage_costs_the_outcome_that_it_hits_and_a_file_that_cannot_be_read_is
         refused = message.startswith(f"{path}: is ") and path.read_bytes() == damaged
         assert refused or found(tmp_path, tasks) == [0, 1, 2], place
         costs.append(3 - len(kept))
-    assert np.bincount(costs, minlength=4)[:2].sum() > 150  # the others are in the tables of so small a file
+    assert np.bincount(costs, minlength=4)[:2].sum() > 75  # the others are in the tables of so small a file
 
 
 def rewrite(store, **values):
@@ -386,12 +386,10 @@ def test_files_and_folders_have_the_permissions_of_the_user_s_others(tmp_path, m
 
 
 def test_the_name_changes_with_everything_that_the_answer_depends_on():
-    rough = SCENE.roughness
     others = [
         replace(TASK, scenes=(replace(SCENE, indenter=Sphere(radius=1.0000000000000002e-2)),)),
         replace(TASK, scenes=(replace(SCENE, motion=Slide(speed=0.1, depth=1.0)),)),
-        replace(TASK, scenes=(replace(SCENE, roughness=replace(rough, seed=4)),)),
-        replace(TASK, scenes=(SCENE, SCENE)),
+        drawn(2),
         replace(TASK, solver=MDR(points=101)),
         replace(TASK, solver=Exact()),
     ]

@@ -12,9 +12,10 @@ from compare.solving.curve import COARSE, FINE
 from compare.statistics.finding import REPORTED
 from compare.statistics.jackknife import friction, mean
 from compare.studies.comparison import asked, together
+from compare.studies.comparison.comparison import Comparison
 from compare.studies.comparison.laws import laws
 from compare.studies.comparison.measures import SLOW, loading
-from compare.studies.comparison.rough import ROUGH, SMOOTH
+from compare.studies.comparison.rough import ROUGH, SMOOTH, RoughSeries
 from compare.studies.comparison.theory import THEORIES
 from scene import Indent, Program, Slide, Stage
 from scene.files.reading import InvalidInput
@@ -242,3 +243,13 @@ def test_every_study_can_be_solved_by_both_and_solves_nothing_twice(name):
     assert {each.solver.name for each in contacts} - {each.name for each in THEORIES} == {"MDR", "BEM"}
     grids = [each.levels[name] for each in study.grids().values() for name in ("MDR", "BEM")]
     assert all(each[FINE].points == 2 * each[COARSE].points for each in grids)
+
+
+def test_series_of_a_family_are_asked_for_as_many_surfaces(monkeypatch):
+    first = obeying(eq_19, FEW)
+    asked = {"sphere": {ROUGH: {"BEM": (8, 32)}}, "second": {ROUGH: {"BEM": (16, 8, 4)}}}
+    monkeypatch.setattr(RoughSeries, "answers", lambda *_: None)
+    monkeypatch.setattr(RoughSeries, "more", lambda self, *_: asked[self.name])
+    series = (replace(each.series, interval=0.3) for each in (first, other(first, "second", hurst=0.7)))
+    found = Comparison(tuple(series), "study", "Two").more(None, ())
+    assert [each.strata for each in found.series] == [{ROUGH: {"BEM": (16, 32)}}] * 2  # on the grids of both

@@ -84,7 +84,7 @@ def test_a_depth_that_is_lost_in_the_roughness_asks_for_3d_however_many_scenes_w
     assert found.depth.advice == "solve"
     assert "nearly as high as the body is deep" in found.depth.reason
     groups = table.groups(table.read(table.LEARNED))
-    assert (shipped.model("depth").predicted(groups[lost(groups)]).error * NORMAL > verdict.WIDE).all()
+    assert (shipped.model("depth").predicted(groups[lost(groups)][::9]).error * NORMAL > verdict.WIDE).all()
 
 
 def test_the_paper_s_rough_sphere_agrees_with_what_the_default_run_measured():

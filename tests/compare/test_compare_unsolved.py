@@ -3,10 +3,9 @@
 import json
 
 import pytest
-from typer.testing import CliRunner
+from processes import ask
 
 from bem3d import BEM
-from compare.cli.app import app
 from compare.solving.outcome import Outcome, Row
 from compare.solving.task import SceneTask
 from compare.solving.unsolved import Unsolved
@@ -96,7 +95,7 @@ def blunt(tmp_path_factory):
 
 def test_a_run_without_its_own_contact_says_so_before_the_answer_and_ends_with_1(blunt, tmp_path):
     def told(*options):
-        return CliRunner().invoke(app, ["run", str(blunt), "--output", str(tmp_path), "--workers", "1", *options])
+        return ask("run", blunt, "--output", tmp_path, "--workers", 1, *options)
 
     shown = told()
     assert shown.exit_code == 1
