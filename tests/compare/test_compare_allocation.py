@@ -17,7 +17,7 @@ from compare.solving.cost import MOST_DRAWS
 from compare.statistics.jackknife import mean_ratio
 from compare.statistics.means import interval as interval_of
 from compare.statistics.multilevel import DrawnSurfaces, means_of, pooled, unreached
-from compare.studies.comparison.series import DIFFERENCES, FINEST, PILOT, pilot
+from compare.studies.comparison.series import PILOT, pilot
 from mdr1d import MDR
 from scene import Refused
 
@@ -89,11 +89,6 @@ def test_sampling_stops_with_intervals_as_narrow_as_wanted():
         low, high = told.interval()
         assert np.all((high - low) / 2 + grid <= interval * told.value)
         assert looks <= 5
-
-
-def test_what_is_narrow_enough_asks_for_nothing_more():
-    found = answers(np.random.default_rng(2), pilot(3), 0.1)
-    assert needed(found, 0.5) == pilot(3) == (FINEST, DIFFERENCES, PILOT)
 
 
 def test_an_interval_that_is_not_reached_says_why():

@@ -122,10 +122,7 @@ def test_a_sweep_is_a_dataset_of_every_draw_with_means_and_intervals(tmp_path, v
     assert answers.friction_coefficient_mean.sel(model="BEM").values == pytest.approx(friction(bem))
     assert bem.normal_force.values == pytest.approx(np.broadcast_to([[0.5], [1.0]], (2, 2, 2)), rel=1e-6)
     assert (answers.friction_coefficient_low <= answers.friction_coefficient_mean).all()
-    drawing = compare.friction_plot(answers)
-    assert drawing._repr_png_().startswith(b"\x89PNG")
-    box, (width, height) = drawing.get_tightbbox(), drawing.get_size_inches()
-    assert min(box.x0, box.y0, width - box.x1, height - box.y1) >= 0  # nothing is cut where it is saved as it is
+    assert compare.friction_plot(answers)._repr_png_().startswith(b"\x89PNG")
     again = compare.sweep(scene, speed="0 m/s, 10cm/s", load="0.5N..1N:2", draws=2, output=output, report=False)
     xarray.testing.assert_identical(again, answers)
     words = "sweep", scene, "--speed", "0 m/s,10cm/s", "--load", "0.5 N", "--load", "1N"
@@ -148,14 +145,6 @@ def test_a_dataset_names_its_scene_version_and_seeds_and_its_axes_have_names_and
     for name, unit, axis in (("x", "m", {"axis": "X"}), ("pressure", "Pa", {})):
         assert fields[name].attrs == {"units": unit, "long_name": name, "comment": FIELDS[name].text, **axis}
     assert stored.speed.attrs["units"] == "m/s"
-
-
-def test_a_smooth_sweep_has_no_draws_and_the_grid_alone_in_its_interval(tmp_path):
-    answers = compare.sweep(
-        replace(SLIDING, roughness=None), speed=[0.1], output=tmp_path, workers=1, report=False
-    )
-    assert "surface" not in answers.dims
-    assert (answers.friction_coefficient_high > answers.friction_coefficient_mean).all()
 
 
 SHARES = 0, 1, "2 mm", "200%", True, float("nan"), "-1%"

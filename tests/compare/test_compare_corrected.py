@@ -6,7 +6,6 @@ from math import isnan, log, nan
 import numpy as np
 import pytest
 
-from bem3d import BEM
 from compare import CorrectedMDR
 from compare.solving import vocabulary
 from compare.solving.task import SceneTask, draws_of
@@ -68,20 +67,6 @@ def rms(values):
 def profiles_of(scene, solver=FEW):
     """Results of each profile."""
     return [solver.mdr.solve(each) for each in draws_of(scene, solver.profiles)]
-
-
-@pytest.mark.parametrize(
-    "motion", [*(Slide(speed=speed, load=1.0) for speed in (1e-3, 0.1, 10.0)), Slide(speed=2.0, depth=1e-4)]
-)
-def test_a_smooth_body_slides_with_the_answers_of_three_dimensions(motion):
-    """Against twice the points of the map in 3D, which change friction by half a percent where it is slowest."""
-    scene = replace(SMOOTH, motion=motion)
-    found, fine = CorrectedMDR().solve(scene), BEM(points=256).solve(scene)
-    assert found.friction_coefficient == pytest.approx(fine.friction_coefficient, rel=5e-3)
-    assert (found.depth, found.normal_force) == pytest.approx((fine.depth, fine.normal_force), rel=1e-4)
-    assert found.measures["friction_low"] <= found.friction_coefficient <= found.measures["friction_high"]
-    # Uncorrected it is another number.
-    assert abs(MDR(points=4000).solve(scene).friction_coefficient / fine.friction_coefficient - 1) > 0.3
 
 
 @pytest.mark.parametrize("scene", [ROUGH, AT_DEPTH], ids=["load", "depth"])

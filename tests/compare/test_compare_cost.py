@@ -5,7 +5,6 @@ from dataclasses import replace
 import pint
 import pytest
 import xarray
-from processes import ask
 from scene_files import HEAD, SCENE, SHARED, TABLES
 from small_cases import CURVE
 
@@ -69,17 +68,6 @@ def test_what_takes_long_is_begun_on_a_yes_alone(tmp_path, contacts, days, said)
 def test_more_than_memory_holds_is_begun_on_no_yes(tmp_path):
     with pytest.raises(Refused, match="at most 2,000,000 contacts"):
         run(Costly(MOST_CONTACTS + 1, 0.0), tmp_path, yes=True)
-
-
-def test_the_command_says_the_cost_first_and_takes_the_yes(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    text = SCENE + "[bem]\npoints = 4096\n[study]\nsurfaces = 1000\n"
-    (tmp_path / "scene.toml").write_text(text)
-    answer = ask("run", "scene.toml")
-    assert answer.exit_code == 2
-    assert "of processor time" in answer.stderr
-    assert "--yes" in answer.stderr
-    assert [each.name for each in tmp_path.iterdir()] == ["scene.toml"]
 
 
 @pytest.mark.parametrize("count", [0, 10_001, 10**30])

@@ -62,13 +62,6 @@ def test_a_copy_may_name_a_schema_for_editors(tmp_path):
     assert read(path, Case) == read(written("hertz", tmp_path), Case)
 
 
-def test_a_name_that_is_not_there_is_said_with_what_is():
-    with pytest.raises(InvalidInput, match=r"NAME = hert: .*paper-sphere.*; did you mean hertz\?"):
-        find("hert")
-    with pytest.raises(InvalidInput, match=r"NAME = nothing: allowed are cold-rubber"):
-        write("nothing", "nowhere.toml")
-
-
 # Schemas for editors
 
 

@@ -53,7 +53,7 @@ NARROW, OTHERS = "iop", [name for name in COLUMNS if name != "iop"]
 # Boxes of texts hold a pixel of nothing on each side [pixel].
 TOUCHING = 1.0
 ROUNDING = 1e-9
-# Lightness in CIE Lab: ten are a step of a grey scale of eleven, as print tells them apart. Two colours so different
+# Lightness in CIE Lab: ten are a step of a grey scale of eleven, as print tells them apart. Colours so different
 # in lightness differ for every reader; the two of the models are of the set of Okabe and Ito.
 LIGHTER = 10.0
 
@@ -318,13 +318,6 @@ def test_text_too_large_for_the_panels_is_refused_with_the_size():
         picture(sample("friction_speed-figure"), look=style.Look(sheet={"font.size": 80}))
 
 
-def test_a_text_is_broken_where_it_would_be_too_wide():
-    words = "one word after another until the line is full"
-    lines = style.fill(words, 1.0, 8).split("\n")
-    assert " ".join(lines) == words
-    assert 1 < max(map(len, lines)) * style.WIDE * 8 <= 72
-
-
 def test_a_logarithmic_axis_has_few_round_numbers_however_short_it_is():
     axes = Figure().subplots()
     axes.set_xscale("log")
@@ -334,18 +327,6 @@ def test_a_logarithmic_axis_has_few_round_numbers_however_short_it_is():
         seen = [tick for tick in axes.get_xticks() if low <= tick <= share * low]
         assert 2 <= len(seen) <= 9, (low, share)
         assert seen == pytest.approx([float(f"{tick:.4g}") for tick in seen])
-
-
-@pytest.mark.parametrize(("inches", "columns"), [(0.1, 1), (2.5, 2), (30.0, 4)])
-def test_a_legend_has_as_many_columns_as_fit(inches, columns):
-    with style.applied():
-        drawing = style.canvas("double", 2.0)
-        drawing.set_figwidth(inches)
-        style.legend(drawing, (), 4, *(style.entry(f"a legend {k}") for k in range(5)))
-        drawing.draw_without_rendering()
-        (legend,) = drawing.legends
-        assert legend._ncols == columns
-        assert columns == 1 or legend.get_window_extent().width <= drawing.bbox.width
 
 
 def test_what_has_no_answer_is_crossed_on_the_axis_and_without_an_end_there_is_no_bar():

@@ -4,7 +4,6 @@ import json
 import os
 import re
 import shutil
-from dataclasses import replace
 from functools import partial
 from html.parser import HTMLParser
 from math import inf, nan
@@ -25,7 +24,6 @@ from PIL import Image
 from compare.report import csvfiles, manifest, render, terminal
 from compare.report.export import export
 from compare.report.page import Page, Table, Text
-from compare.report.tables import claims
 from compare.solving import netcdf, vocabulary, words
 from compare.solving.words import interval
 from compare.statistics.finding import COLUMNS
@@ -148,23 +146,6 @@ def test_a_page_has_answer_findings_tables_and_figures_escaped(tmp_path):
     assert "sphere/friction.png" in text
     assert "<speed>" not in text
     assert "0.9009009" not in shown  # a long table is a file alone
-
-
-def test_a_claim_stands_in_its_first_row_and_a_regime_in_that_of_its_place():
-    slow, fast = (replace(FINDINGS[0], where="sphere", regime=regime) for regime in ("slowly", "fast"))
-    shown = claims((slow, fast, slow, replace(slow, where="cone"), FINDINGS[2], slow))
-    assert [text.partition("\n")[0] for text in shown["Claim"]] == [
-        slow.claim.sentence, "", "", "", FINDINGS[2].claim.sentence, slow.claim.sentence
-    ]  # fmt: skip
-    assert shown["Where"].tolist() == [
-        "sphere\nslowly",
-        "sphere\nfast",
-        "sphere",
-        "cone\nslowly",
-        "rough sphere",
-        "sphere",
-    ]
-    assert "Where" not in claims((FINDINGS[3],))
 
 
 def test_the_terminal_shows_a_claim_once_with_all_that_was_found():

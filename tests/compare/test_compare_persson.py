@@ -6,6 +6,7 @@ from math import isnan, pi, sqrt
 import numpy as np
 import pytest
 from invented_answers import SERIES
+from scipy.integrate import cumulative_trapezoid
 from scipy.special import erf
 
 import compare
@@ -90,8 +91,7 @@ def test_the_integral_is_that_of_the_papers(ratio, gamma):
     lost = 4 * np.trapezoid(np.cos(angle) * around.imag, angle, axis=1)
     squares = 4 * np.trapezoid(np.abs(around) ** 2, angle, axis=1)
     weight = q**3 * SURFACE.density_2d(q, SURFACE.q_max(0.0))
-    steps = np.diff(q) / 2
-    grown = np.concatenate([[0.0], np.cumsum(steps * (weight[1:] * squares[1:] + weight[:-1] * squares[:-1]))]) / 8
+    grown = cumulative_trapezoid(weight * squares, q, initial=0) / 8
     with np.errstate(divide="ignore"):
         touching = erf(1 / (2 * np.sqrt(grown)))
     kept = touching * (1 if gamma is None else gamma + (1 - gamma) * touching**2)

@@ -14,7 +14,6 @@ from compare.figures import style
 from compare.library.case import Variations
 from compare.library.ready import ready
 from compare.report.export import FIGURES, TABLES
-from compare.solving import netcdf
 from compare.solving.cost import MOST_DRAWS
 from compare.solving.curve import COARSE, FINE, contacts_of
 from compare.solving.folders import Unwritable
@@ -334,18 +333,6 @@ def test_names_that_have_no_folder_of_their_own_are_refused_before_anything_is_s
 def test_a_folder_that_cannot_be_is_refused_before_anything_is_solved(output):
     with pytest.raises(Unwritable, match="name that no file can have"):
         compare.run(CASE, output)
-
-
-def test_no_name_of_a_case_is_a_part_of_another(tmp_path):
-    rest = replace(CASE, elastomer=Elastic(modulus=1e6), motion=Indent(load=1.0), roughness=None)
-    rest = replace(rest, title=r"$\frac$ \input{x} <b>")
-    names = ["sentence", OWN, r"$\frac{$ \input{x} <b> a/../b"]
-    run = asked.run(dict.fromkeys(names, rest))
-    answers = run.answers(invented_of(run))
-    made = run.judge(answers)
-    assert {each.where.partition(",")[0] for each in made.findings} == set(names)
-    (tmp_path / netcdf.NAME).write_bytes(netcdf.packed(answers))
-    assert set(netcdf.load(tmp_path).children) == {each.folder for each in run.series}
 
 
 @pytest.mark.parametrize("place", ["../out", "/elsewhere/out", "a/../..", SOLVED, f"{SOLVED}/a"])

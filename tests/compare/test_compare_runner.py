@@ -25,7 +25,7 @@ from compare.solving.runner import sweep
 from compare.solving.store import Store
 from compare.solving.task import SceneTask as Task
 from mdr1d import MDR
-from scene import EmptyContact, Indent, Refused, SelfAffine, Slide
+from scene import Indent, Refused, SelfAffine, Slide
 from scene.files.reading import InvalidInput
 
 
@@ -294,16 +294,6 @@ def test_the_longest_task_goes_first_and_every_step_is_told(tmp_path):
     sweep(loads(1.0, 3.0, 2.0), Store(tmp_path), workers=1, progress=heard)
     steps = [(step, work) for work in (3.0, 2.0, 1.0) for step in ("started", "finished")]
     assert heard.heard == [("planned", [3.0, 2.0, 1.0], 0), *steps]
-
-
-def test_an_empty_contact_is_an_answer_with_forces_of_zero():
-    class Floats:
-        def solve(self, scene):
-            raise EmptyContact("nothing touches")
-
-    (row,) = Task(Floats(), (replace(SCENE, motion=Indent(depth=1e-4)),)).solve().rows
-    assert (row.normal_force, row.friction_force, row.depth, row.reason) == (0.0, 0.0, 1e-4, None)
-    assert np.isnan(row.friction_coefficient)
 
 
 @pytest.fixture

@@ -27,6 +27,7 @@ from compare.trustmap.groups import FullContact, SmoothReference
 from compare.trustmap.model import NAMES, NORMAL, Measurements, Predicted, lost
 from compare.trustmap.ratio import LAW, RATIOS, asked_of
 from compare.trustmap.regions import ROUGHNESS
+from compare.trustmap.regression import Process, Scales
 from compare.trustmap.verdict import trust
 from mdr1d import MDR
 from mdr1d.surface import amplitudes
@@ -303,6 +304,32 @@ def test_a_process_foretells_what_it_never_saw_within_its_own_error():
     apart = np.abs(values - mean) / np.sqrt(variance + 1e-4)
     assert np.mean(apart < 1.96) == pytest.approx(0.95, abs=0.04)
     assert process.scales.lengths[2] > 2 * process.scales.lengths[0]
+
+
+def test_values_left_out_are_those_foretold_from_all_others():
+    inputs, values, variances = noisy(12)
+    scales = Scales(np.zeros(3), np.ones(3), np.array([0.6, 2.0, 5.0]), 1.0, 0.5, 0.05)
+    whole = Process(inputs, values, variances, scales)
+    covariance, centred = whole.factor @ whole.factor.T, values - values.mean()
+    for k, found in enumerate(zip(*fitting.left_out(whole), strict=True)):
+        rest = np.delete(np.arange(12), k)
+        weights = np.linalg.solve(covariance[np.ix_(rest, rest)], covariance[rest, k])
+        expected = centred[k] - weights @ centred[rest], covariance[k, k] - weights @ covariance[rest, k]
+        assert found == pytest.approx(expected, rel=1e-6)
+
+
+def test_the_points_that_tell_most_know_the_rest_better_than_any_others():
+    whole = fitting.fitted(*noisy(300))
+    chosen = fitting.most_informative(whole, 40)
+    others = np.setdiff1d(np.arange(300), chosen)
+
+    def spread(points):
+        return whole.taken(points).predicted(whole.inputs[others])[1].mean()
+
+    assert np.unique(chosen).size == 40
+    drawn = [np.random.default_rng(seed).permutation(300)[:40] for seed in range(5)]
+    assert spread(chosen) < 0.8 * min(map(spread, drawn))
+    assert fitting.most_informative(whole, 300).tolist() == list(range(300))
 
 
 # What was measured.
