@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from math import isnan
 
 import numpy as np
 import xarray
@@ -164,3 +165,13 @@ def other(invented, name, **roughness):
     return replace(
         invented, series=replace(invented.series, name=name, scene=replace(invented.series.scene, roughness=rough))
     )
+
+
+def outside(findings):
+    """Findings whose number is not in its interval."""
+    return [
+        each
+        for each in findings
+        for low, high in [each.interval]
+        if not (isnan(each.value + low + high) or low <= each.value <= high)
+    ]

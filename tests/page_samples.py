@@ -47,9 +47,9 @@ def page() -> Page:
     plot = friction.plot(MEANS)
     plot = type(plot)("sphere/friction", plot.draw, plot.tables, plot.caption, plot.alternative)
     blocks = [Text(PROSE), Table("sphere/rows", ROWS, "Rows."), Table("sphere/long", LONG, "All.", long=True)]
-    return Page(
-        "1D & 3D: *demo* of µ_x", sentences(FINDINGS), [plot, Findings(FINDINGS), Section("A sphere", blocks)]
-    )
+    # out of the order of reading, which a page has by itself
+    given = [Section("A sphere", blocks[::-1]), Findings(FINDINGS), plot]
+    return Page("1D & 3D: *demo* of µ_x", sentences(FINDINGS), given)
 
 
 # Where the texts of a stranger would have a browser, Markdown, Sphinx, LaTeX or a terminal go.

@@ -1,4 +1,4 @@
-"""The command in a process of its own, as a person starts it."""
+"""The command in a process of its own, as a person starts it, and in this one."""
 
 import os
 import signal
@@ -6,6 +6,9 @@ import subprocess
 import sys
 import time
 
+from typer.testing import CliRunner
+
+from compare.cli.app import app
 from compare.solving.store import FILE
 
 # A machine under load starts processes slowly [s].
@@ -30,6 +33,11 @@ def start(folder, *arguments, program=("-m", "compare"), output=subprocess.PIPE,
         preexec_fn=heed_signals,
         env=os.environ | {"PYTHONWARNINGS": "error"} | environment,
     )
+
+
+def ask(*words):
+    """What the command answers in this process, for what needs no process of its own."""
+    return CliRunner().invoke(app, list(map(str, words)))
 
 
 def stored_so_far(folder):

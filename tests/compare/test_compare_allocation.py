@@ -17,10 +17,9 @@ from compare.solving.cost import MOST_DRAWS
 from compare.statistics.jackknife import mean_ratio
 from compare.statistics.means import interval as interval_of
 from compare.statistics.multilevel import DrawnSurfaces, means_of, pooled, unreached
-from compare.studies.comparison.series import DIFFERENCES, FINEST, PILOT, pilot
+from compare.studies.comparison.series import PILOT, pilot
 from mdr1d import MDR
 from scene import Refused
-from scene.files.reading import InvalidInput
 
 COSTS = 10.0, 3.0, 1.0
 
@@ -42,8 +41,8 @@ def grown(rng, had, counts, variation, told=None):
     if had is None:
         return new
     parts = []
-    for stratum in range(len(counts)):
-        old, more = (each.isel(surface=np.flatnonzero(each["stratum"] == stratum)) for each in (had, new))
+    for stratum, old in had.groupby("stratum"):
+        more = new.isel(surface=np.flatnonzero(new["stratum"] == stratum))
         parts += [old, more.isel(surface=slice(old.sizes["surface"], None))]
     return xarray.concat(parts, "surface")
 
@@ -92,11 +91,6 @@ def test_sampling_stops_with_intervals_as_narrow_as_wanted():
         assert looks <= 5
 
 
-def test_what_is_narrow_enough_asks_for_nothing_more():
-    found = answers(np.random.default_rng(2), pilot(3), 0.1)
-    assert needed(found, 0.5) == pilot(3) == (FINEST, DIFFERENCES, PILOT)
-
-
 def test_an_interval_that_is_not_reached_says_why():
     found = answers(np.random.default_rng(2), pilot(3), 0.1)
     assert unreached(means(found), 0.5) == ""
@@ -140,7 +134,8 @@ def friction(dataset, end):
 
 @pytest.mark.usefixtures("in_this_process")
 def test_a_sweep_reaches_the_interval_resumes_and_agrees_with_fixed_draws(tmp_path):
-    asked = {"scene": CASE, "speed": [0.1, 1.0], "report": False}
+    # rest among the speeds hides no friction of those that slide
+    asked = {"scene": CASE, "speed": [0.0, 0.1, 1.0], "report": False}
     found = compare.sweep(**asked, interval="12%", output=tmp_path / "few")
     half = (friction(found, "high") - friction(found, "low")) / 2
     assert np.all(half <= 0.12 * friction(found, "mean"))
@@ -151,17 +146,6 @@ def test_a_sweep_reaches_the_interval_resumes_and_agrees_with_fixed_draws(tmp_pa
     fixed = compare.sweep(**asked, draws=24, output=tmp_path / "many")
     apart = abs(friction(found, "mean") - friction(fixed, "mean"))
     assert np.all(apart <= half + (friction(fixed, "high") - friction(fixed, "low")) / 2)
-    status = found["status"].sel(model="BEM", speed=0.1)
-    solved = [(status.sel(level=grid) == "solved").sum().item() for grid in ("fine", "coarse")]
-    assert solved[0] == DIFFERENCES
-    assert solved[1] >= DIFFERENCES + PILOT
-
-
-@pytest.mark.usefixtures("in_this_process")
-def test_rest_among_the_speeds_does_not_hide_friction_of_those_that_slide(tmp_path):
-    found = compare.sweep(CASE, [0.0, 1.0], interval="12%", output=tmp_path, report=False).sel(speed=1.0)
-    low, mean, high = (found[f"friction_coefficient_{end}"].values for end in ("low", "mean", "high"))
-    assert np.all((high - low) / 2 <= 0.12 * mean)
 
 
 @pytest.mark.usefixtures("in_this_process")
@@ -170,15 +154,3 @@ def test_more_than_a_day_is_refused_where_a_look_asks_for_it(tmp_path, monkeypat
     with pytest.raises(Refused, match="--yes"):
         compare.sweep(CASE, [0.1], interval="0.1%", output=tmp_path, workers=1, report=False)
     assert (tmp_path / "solved" / "answers.sqlite").exists()
-
-
-@pytest.mark.parametrize("interval", [0, 1, "2 mm", "200%", True, float("nan"), "-1%"])
-def test_an_interval_is_a_share(interval, tmp_path):
-    with pytest.raises(InvalidInput, match=r"interval = .*: a share above 0 and below 1, as 2% or 0\.02"):
-        compare.sweep(CASE, [0.1], interval=interval, output=tmp_path / "none")
-    assert not (tmp_path / "none").exists()
-
-
-def test_draws_and_an_interval_are_not_both_given(tmp_path):
-    with pytest.raises(InvalidInput, match="draws, interval: both given"):
-        compare.sweep(CASE, [0.1], draws=3, interval="2%", output=tmp_path / "none")

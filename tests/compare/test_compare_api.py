@@ -3,6 +3,7 @@
 import inspect
 import itertools
 import json
+import re
 from dataclasses import replace
 from importlib.metadata import version
 
@@ -10,15 +11,14 @@ import numpy as np
 import pytest
 import xarray
 from matplotlib.figure import Figure
+from processes import ask
 from scene_files import SCENE, SMALL
 from small_cases import SLIDING, TINY
-from typer.testing import CliRunner
+from stand_in_solver import Here
 
 import compare
 from bem3d import BEM
 from compare import commands
-from compare.cli.app import app
-from compare.library.lookup import case_of
 from compare.statistics.finding import COLUMNS
 from compare.statistics.jackknife import friction
 from compare.studies import pipeline
@@ -53,14 +53,10 @@ def valid():
     return valid
 
 
-def printed(*arguments):
-    return CliRunner().invoke(app, [*map(str, arguments), "--json"], catch_exceptions=False).stdout
-
-
 @pytest.mark.parametrize("asked", ["trust hertz", "plan thin-layer", "scenes", "study", "new hertz"])
 def test_every_command_answers_in_json_as_its_schema_says(valid, asked, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    assert valid(printed(*asked.split()))
+    assert valid(ask(*asked.split(), "--json").stdout)
 
 
 @pytest.fixture(scope="module")
@@ -99,15 +95,10 @@ def test_figures_are_drawn_when_they_are_taken_out_and_show_themselves(found):
     assert str(figures).startswith(f"Figures({name}, ")
 
 
-def test_a_folder_holds_every_draw_with_its_status_and_says_what_wrote_it(folder, found):
-    tree = compare.load(folder)
-    datasets = [node for node in tree.subtree if "status" in node]
-    assert any("surface" in node.dims for node in datasets)
-    found = {str(each) for node in datasets for each in node.status.values.ravel()}
-    assert found <= {"solved", "no contact", "not asked"}
-    content = json.loads((folder / "manifest.json").read_text())
-    assert content["command"] == "run"
-    assert str(folder) not in json.dumps(content)  # it may be moved
+def test_a_folder_says_what_wrote_it_and_may_be_moved(folder, found):
+    text = (folder / "manifest.json").read_text()
+    assert json.loads(text)["command"] == "run"
+    assert str(folder) not in text
 
 
 def test_a_plan_is_asked_of_a_scene_a_case_or_a_file(tmp_path):
@@ -131,22 +122,11 @@ def test_a_sweep_is_a_dataset_of_every_draw_with_means_and_intervals(tmp_path, v
     assert answers.friction_coefficient_mean.sel(model="BEM").values == pytest.approx(friction(bem))
     assert bem.normal_force.values == pytest.approx(np.broadcast_to([[0.5], [1.0]], (2, 2, 2)), rel=1e-6)
     assert (answers.friction_coefficient_low <= answers.friction_coefficient_mean).all()
-    grid = abs(friction(bem) - friction(answers.sel(model="BEM", level="coarse")))
-    assert (
-        answers.friction_coefficient_high.sel(model="BEM") - answers.friction_coefficient_mean.sel(model="BEM")
-        >= grid - 1e-12
-    ).all()
-    drawing = compare.friction_plot(answers)
-    assert drawing._repr_png_().startswith(b"\x89PNG")
-    box, (width, height) = drawing.get_tightbbox(), drawing.get_size_inches()
-    assert min(box.x0, box.y0, width - box.x1, height - box.y1) >= 0  # nothing is cut where it is saved as it is
+    assert compare.friction_plot(answers)._repr_png_().startswith(b"\x89PNG")
     again = compare.sweep(scene, speed="0 m/s, 10cm/s", load="0.5N..1N:2", draws=2, output=output, report=False)
     xarray.testing.assert_identical(again, answers)
-    answers.to_netcdf(tmp_path / "copy.nc", engine="h5netcdf")
-    with xarray.open_dataset(tmp_path / "copy.nc", engine="h5netcdf") as copy:
-        xarray.testing.assert_identical(copy.load(), answers)
     words = "sweep", scene, "--speed", "0 m/s,10cm/s", "--load", "0.5 N", "--load", "1N"
-    told = valid(printed(*words, "--draws", 2, "--output", output, "--no-report"))
+    told = valid(ask(*words, "--draws", 2, "--output", output, "--no-report", "--json").stdout)
     row = next(each for each in told["tables"]["means-friction"] if each["load"] == 0.5)
     mean = answers.friction_coefficient_mean.sel(model="BEM", speed=0.1, load=0.5).item()
     assert row["friction_coefficient (3D)"] == mean
@@ -162,18 +142,13 @@ def test_a_dataset_names_its_scene_version_and_seeds_and_its_axes_have_names_and
         assert (attributes["source"], attributes["seeds"]) == (source, seeds)
     assert tree.attrs == {"source": source}
     assert provenance(SLIDING, [1, 2, 3, 5, 10_001])["seeds"] == "1 to 3, 5, 10001"
-    for name, unit in {"x": "m", "y": "m", "pressure": "Pa"}.items():
-        axis = {"axis": name.upper()} if name in fields.dims else {}
+    for name, unit, axis in (("x", "m", {"axis": "X"}), ("pressure", "Pa", {})):
         assert fields[name].attrs == {"units": unit, "long_name": name, "comment": FIELDS[name].text, **axis}
     assert stored.speed.attrs["units"] == "m/s"
 
 
-def test_a_smooth_sweep_has_no_draws_and_the_grid_alone_in_its_interval(tmp_path):
-    answers = compare.sweep(
-        replace(SLIDING, roughness=None), speed=[0.1], output=tmp_path, workers=1, report=False
-    )
-    assert "surface" not in answers.dims
-    assert (answers.friction_coefficient_high > answers.friction_coefficient_mean).all()
+SHARES = 0, 1, "2 mm", "200%", True, float("nan"), "-1%"
+NO_EXECUTOR = r"executor = .*: an object with submit is needed, without a scheduler"
 
 
 @pytest.mark.parametrize(
@@ -191,6 +166,13 @@ def test_a_smooth_sweep_has_no_draws_and_the_grid_alone_in_its_interval(tmp_path
         ({"speeds": [1.0]}, "argument of sweep = speeds: allowed are scene, speed, .*; did you mean speed"),
         ({"speed": {"a": 1.0}}, "speed = .*a set has no order, nor has a mapping"),
         ({"speed": object()}, "speed = <object.*a speed, such as"),
+        *(({"interval": each}, r"interval = .*: a share above 0 and below 1, as 2% or 0\.02") for each in SHARES),
+        ({"draws": 3, "interval": "2%"}, "draws, interval: both given"),
+        *(
+            ({"workers": each}, f"workers = {each}: a whole number from 1 to 1024")
+            for each in (0, 1025, True, 1.5)
+        ),
+        *(({"executor": each, "scheduler": "tcp://name:1"}, NO_EXECUTOR) for each in ("mine", Here())),
     ],
 )
 def test_a_mistake_in_a_sweep_is_said_before_anything_is_solved(tmp_path, asked, message):
@@ -212,16 +194,6 @@ def test_speeds_are_numbers_texts_with_units_and_ranges_of_three_to_a_decade(giv
     assert SweepSeries.of(SLIDING, given).speeds == pytest.approx(tuple(numbers))
 
 
-def test_a_comparison_goes_the_same_way(tmp_path):
-    case = replace(case_of(SLIDING), roughness=None, mdr=MDR(points=300), bem=BEM(points=48))
-    comparison = asked.sweep(case, speed=0.005)
-    report = compare.solve(comparison, tmp_path, workers=1)
-    assert report.findings["value"].tolist() == pytest.approx([2.0], rel=0.05)
-    assert report.path == tmp_path / "report.html"
-    assert compare.load(tmp_path)["contacts"].sizes["level"] == 2
-    assert compare.solve(comparison, tmp_path, report=False).path is None
-
-
 def test_a_scene_shows_the_fields_of_its_parts_with_their_units():
     text, lines = shown(SLIDING), str(SLIDING).splitlines()
     for cell in ("indenter", "Sphere", "motion.load", "N", "roughness.amplitudes", "fixed"):
@@ -239,12 +211,10 @@ def test_a_result_shows_every_number_with_its_unit_and_escapes_what_it_holds():
     title, *lines = str(result).splitlines()
     assert title.startswith(f"MDR, points = {result.settings['points']}, ")
     assert lines[0].split() == ["normal_force", f"{result.normal_force:.6g}", "N"]
-    assert [line.split()[0] for line in lines] == [*result._numbers, *result.fields]
     hostile = replace(result, settings={"points": "<script>"}, measures={"<b>\u202e": 1.0})
-    assert "<script>" not in hostile._repr_html_()
-    assert "<b>" not in hostile._repr_html_()
-    assert hostile._repr_html_().isprintable()
-    assert str(hostile).replace("\n", "").isprintable()
+    for shown_as in (hostile._repr_html_(), str(hostile).replace("\n", "")):
+        assert shown_as.isprintable()
+    assert not re.search("<script>|<b>", hostile._repr_html_())
 
 
 HEIGHTS = 1e-6 * np.random.default_rng(0).normal(size=(8, 8))

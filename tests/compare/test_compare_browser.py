@@ -221,19 +221,3 @@ def test_the_texts_of_a_stranger_run_nothing_and_load_nothing_even_without_the_p
     assert HOSTILE[0] in shown.locator("main").inner_text()
     assert not asked
     assert complaints == []
-
-
-def test_the_policy_of_a_page_stops_what_was_not_escaped(written, tmp_path, opened, stranger):
-    address, asked = stranger
-    place = f"http://{address}"
-    part = f"""<script>owned = 1</script><img src=x onerror='owned = 1' alt=''><img src='{place}/a' alt=''>
-        <iframe src='{place}/b'></iframe><link rel=stylesheet href='{place}/c'><script src='{place}/d'></script>
-        <style>main {{ display: none; background: url({place}/e) }}</style><object data='{place}/f'></object>"""
-    (policy,) = re.findall("<meta http-equiv.*>", written.read_text(encoding="utf-8"))
-    shown, _ = opened(changed(written, tmp_path, part, policy), offline=False)
-    assert shown.evaluate("typeof owned") == "undefined"
-    assert shown.locator("main").is_visible()
-    assert not asked
-    shown, _ = opened(changed(written, tmp_path, part), offline=False)
-    assert shown.evaluate("typeof owned") == "number"
-    assert {"/a", "/b", "/c", "/d"} <= set(asked)

@@ -3,14 +3,12 @@
 from dataclasses import replace
 
 import pytest
+from processes import ask
 from scene_files import SCENE
-from typer.testing import CliRunner
 
-from compare.cli.app import app
-from compare.library.lookup import case_of, named_cases
+from compare.library.lookup import named_cases
 from compare.studies.comparison.around import OWN, SMOOTH_DEPTH, Around
 from scene import Coulomb, Elastic, Indent, Slide
-from scene.files.reading import InvalidInput
 from scene.scales import elastic_contact
 
 
@@ -58,63 +56,12 @@ def test_what_has_no_friction_has_no_speeds_and_a_smooth_case_one_surface(case):
     assert (flat.plan().surfaces, flat.plan().profiles) == (1, 1)
 
 
-MISTAKES = {
-    "a value that stands there twice": (SCENE + "[study]\nspeeds = [0.1, 0.1]\n", "twice"),
-    "a shape that one solver lacks": (
-        SCENE.replace('"sphere"', '"cylinder"').replace("load = 1.0", "line_load = 1.0"),
-        "indenter = Cylinder",
-    ),
-    "numbers too far apart": (SCENE.replace("load = 1.0", "depth = 1e300"), "far apart"),
-}
-
-
-@pytest.mark.parametrize("mistake", MISTAKES)
-def test_a_mistake_is_named_with_exit_status_2_and_nothing_is_written(tmp_path, mistake):
-    text, said = MISTAKES[mistake]
-    path = tmp_path / "case.toml"
-    path.write_text(text)
-    answer = CliRunner().invoke(app, ["run", str(path), "--output", str(tmp_path / "out")])
-    assert answer.exit_code == 2
-    assert said in answer.stderr
-    assert not answer.stdout
-    assert not (tmp_path / "out").exists()
-
-
 @pytest.mark.parametrize("name", ["solved", "report.html"])
 def test_a_folder_that_cannot_be_written_into_is_named_before_anything_is_solved(tmp_path, name):
     (tmp_path / "case.toml").write_text(SCENE)
     (tmp_path / "out").mkdir()
     taken = tmp_path / "out" / name
     taken.mkdir() if name == "report.html" else taken.write_text("")
-    answer = CliRunner().invoke(app, ["run", str(tmp_path / "case.toml"), "--output", str(tmp_path / "out")])
+    answer = ask("run", tmp_path / "case.toml", "--output", tmp_path / "out")
     assert answer.exit_code == 2
     assert f"{taken}: " in answer.stderr
-
-
-NAMED = {"tolerance": 1e-5, "surfaces": 2, "speed": 0.1, "modulus": 1.0, "radius": 1.0, "stages": [], "hurst": 0.5}
-TABLES = {
-    "indenter": '[indenter]\ntype = "sphere"\nradius = 1e-2\n',
-    "elastomer": '[elastomer]\ntype = "kelvin"\nmodulus = 1e6\nrelaxation_time = 1e-3\n',
-    "motion": '[motion]\ntype = "slide"\nspeed = 0.1\nload = 1.0\n',
-}
-VALUES = [
-    "64",
-    "true",
-    "[1, [2]]",
-    "[{}]",
-    "{type = 1}",
-]
-
-
-@pytest.mark.parametrize("value", VALUES)
-@pytest.mark.parametrize("table", ["indenter", "elastomer", "motion", "roughness", "study", "bem", "mdr", "layer"])
-def test_a_table_that_is_something_else_is_a_mistake_wherever_its_names_stand(tmp_path, table, value):
-    names = "".join(f"{name} = {each}\n" for name, each in NAMED.items())
-    parts = "".join(text for name, text in TABLES.items() if name != table)
-    path = tmp_path / "case.toml"
-    path.write_text(f"{table} = {value}\n{names}{parts}", encoding="utf-8")
-    with pytest.raises(InvalidInput) as raised:
-        case_of(path)
-    said = str(raised.value)
-    for name in NAMED:
-        assert f": {name}" in said

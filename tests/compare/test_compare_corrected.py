@@ -6,7 +6,6 @@ from math import isnan, log, nan
 import numpy as np
 import pytest
 
-from bem3d import BEM
 from compare import CorrectedMDR
 from compare.solving import vocabulary
 from compare.solving.task import SceneTask, draws_of
@@ -70,35 +69,25 @@ def profiles_of(scene, solver=FEW):
     return [solver.mdr.solve(each) for each in draws_of(scene, solver.profiles)]
 
 
-@pytest.mark.parametrize(
-    "motion", [*(Slide(speed=speed, load=1.0) for speed in (1e-3, 0.1, 10.0)), Slide(speed=2.0, depth=1e-4)]
-)
-def test_a_smooth_body_slides_with_the_answers_of_three_dimensions(motion):
-    """Against twice the points of the map in 3D, which change friction by half a percent where it is slowest."""
-    scene = replace(SMOOTH, motion=motion)
-    found, fine = CorrectedMDR().solve(scene), BEM(points=256).solve(scene)
-    assert found.friction_coefficient == pytest.approx(fine.friction_coefficient, rel=5e-3)
-    assert (found.depth, found.normal_force) == pytest.approx((fine.depth, fine.normal_force), rel=1e-4)
-    assert found.measures["friction_low"] <= found.friction_coefficient <= found.measures["friction_high"]
-    # Uncorrected it is another number.
-    assert abs(MDR(points=4000).solve(scene).friction_coefficient / fine.friction_coefficient - 1) > 0.3
-
-
 @pytest.mark.parametrize("scene", [ROUGH, AT_DEPTH], ids=["load", "depth"])
 def test_what_is_prescribed_stays_and_all_else_is_its_mean_over_the_ratio(scene):
     found, drawn, corrections = FEW.solve(scene), profiles_of(scene), trust(scene).of_model("MDR")
-    force, friction, depth = (
-        np.mean([getattr(each, name) for each in drawn]) for name in ("normal_force", "friction_force", "depth")
+    given, free, name = (
+        ("normal_force", "depth", "depth") if scene is ROUGH else ("depth", "normal_force", "force")
     )
-    given, free = (found.normal_force, found.depth) if scene is ROUGH else (found.depth, found.normal_force)
-    name, mean = ("depth", depth) if scene is ROUGH else ("force", force)
-    assert given == scene.motion.greatest
-    assert mean / free == pytest.approx(corrections[name].ratio, rel=ROUNDING)
-    assert friction / force / found.friction_coefficient == pytest.approx(
-        corrections["friction"].ratio, rel=ROUNDING
-    )
-    assert found.measures[f"{name}_ratio"] == corrections[name].ratio
+    assert getattr(found, given) == scene.motion.greatest
     assert set(corrections) == {"friction", name}
+
+    def mean(number):
+        return np.mean([getattr(each, number) for each in drawn])
+
+    ratios = {
+        "friction": mean("friction_force") / mean("normal_force") / found.friction_coefficient,
+        name: mean(free) / getattr(found, free),
+    }
+    for quantity, ratio in ratios.items():
+        assert ratio == pytest.approx(corrections[quantity].ratio, rel=ROUNDING)
+        assert found.measures[f"{quantity}_ratio"] == corrections[quantity].ratio
 
 
 def test_at_rest_and_in_an_elastic_solid_there_is_no_friction():
@@ -129,10 +118,8 @@ def test_where_one_surface_says_nothing_its_interval_has_no_ends_and_the_mean_s_
     silent = Advice(replace(WORTH, surface_low=nan, surface_high=nan), WORTH, None, None, {}, ())
     monkeypatch.setattr(corrected, "trust", lambda scene: silent)
     ends = FEW.solve(ROUGH).measures
-    assert isnan(ends["friction_surface_low"])
-    assert isnan(ends["friction_surface_high"])
+    assert isnan(ends["friction_surface_low"] + ends["friction_surface_high"])
     assert ends["friction_low"] < ends["friction_high"]
-    assert ends["depth_surface_low"] < ends["depth_low"]
 
 
 @pytest.mark.parametrize("scene", [ROUGH, AT_DEPTH], ids=["load", "depth"])
@@ -206,8 +193,7 @@ def test_equal_scenes_have_equal_answers_and_costs_are_those_of_every_profile():
     assert first.operator_applications == sum(each.operator_applications for each in drawn)
     assert first.residual == max(each.residual for each in drawn)
     assert first.settings["profiles"] == FEW.profiles
-    assert first.settings["points"] == drawn[0].settings["points"]
-    assert FEW.solve(replace(ROUGH, roughness=replace(ROUGH.roughness, rms_height=0.0))).settings["profiles"] == 1
+    assert FEW.solve(SMOOTH).settings["profiles"] == 1
 
 
 def test_every_measure_has_a_unit_and_a_meaning():

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from pandas.testing import assert_frame_equal
+import xarray
 from small_cases import SLIDING
 from test_compare_allocation import COSTS, sampled
 from test_compare_multilevel import answers
@@ -13,7 +13,7 @@ import compare
 from bem3d import BEM
 from compare.library.case import Variations
 from compare.library.lookup import case_of
-from compare.solving.curve import FINER, NOT_ASKED, SOLVED, of_model
+from compare.solving.curve import EMPTY, FINER, NOT_ASKED, SOLVED, of_model
 from compare.statistics.finding import FAILS, HOLDS, UNDECIDED, Claim, Finding
 from compare.statistics.jackknife import DrawSet, friction, measured
 from compare.statistics.multilevel import GROWTH, DrawnSurfaces, pooled
@@ -120,20 +120,14 @@ def test_verdicts_contradict_the_truth_in_one_study_of_twenty_at_most(variation)
 
 def test_what_does_not_touch_adds_nothing_to_either_force():
     given = answers(np.random.default_rng(0), (8, 8, 40))
-    dims, status = given["friction_force"].dims, np.full(given["friction_force"].shape, "solved", object)
-    status[2, :, -1] = "no contact"  # which is asked for there alone
-    empty = given.assign(
-        status=(dims, status),
-        friction_force=given["friction_force"].where(given["surface"] != 55),
-        normal_force=given["normal_force"]
-        .where(given["surface"] != 55, 0.0)
-        .where(given["normal_force"].notnull()),
+    away = (given["surface"] == 55) & given["normal_force"].notnull()
+    forces = given[["friction_force", "normal_force"]]
+    nothing = forces.where(~away, 0.0)
+    empty = forces.where(~away).assign(
+        normal_force=nothing["normal_force"], status=xarray.where(away, EMPTY, SOLVED).astype(object)
     )
-    nothing = empty.drop_vars("status").assign(friction_force=empty["friction_force"].fillna(0.0))
-    nothing = nothing.assign(friction_force=nothing["friction_force"].where(given["normal_force"].notnull()))
-    np.testing.assert_allclose(
-        friction(pooled(empty).sel(level="fine")), friction(pooled(nothing).sel(level="fine")), rtol=1e-12
-    )
+    found, wanted = (friction(pooled(each).sel(level="fine")) for each in (empty, nothing))
+    np.testing.assert_allclose(found, wanted, rtol=1e-12)
 
 
 CASE = replace(
@@ -176,16 +170,14 @@ def test_hard_surfaces_are_solved_on_the_next_finer_grid_and_told(tmp_path, monk
     report = compare.run(**asked)
     assert report.unsolved.failed == []
     (note,) = report.unsolved.notes
-    finer = sum(row.finer > 0 for _, row in report.unsolved.contacts)
-    assert note == f"{finer} contacts are too much for a coarse grid, and the next finer one answers in its place."
-    dataset = of_model(report.answers["scene/own"].to_dataset(inherit=False), "BEM")
+    assert note.endswith("too much for a coarse grid, and the next finer one answers in its place.")
+    dataset = of_model(report.answers["scene/own"].to_dataset(inherit=False), "BEM").isel(speed=0, load=0)
     hard, last = dataset["surface"] % 5 == 0, dataset["stratum"] == 1
-    status = dataset["status"].isel(speed=0, load=0)
-    assert (status.sel(level="coarse", surface=hard) == FINER).all()
-    assert (status.sel(level="coarse", surface=~hard) == SOLVED).all()
-    assert (status.sel(level="fine", surface=last) == NOT_ASKED).all()
-    friction = dataset["friction_force"].isel(speed=0, load=0).sel(surface=hard & ~last)
-    np.testing.assert_allclose(friction.sel(level="coarse"), friction.sel(level="fine"), rtol=1e-3)
+    coarse, fine = (dataset.sel(level=level) for level in ("coarse", "fine"))
+    assert (coarse["status"] == np.where(hard, FINER, SOLVED)).all()
+    assert (fine["status"] == np.where(last, NOT_ASKED, SOLVED)).all()
+    both = (each["friction_force"].sel(surface=hard & ~last) for each in (coarse, fine))
+    np.testing.assert_allclose(*both, rtol=1e-3)
     again = compare.run(**asked)
     assert (again.swept.solved, again.unsolved.notes) == (0, (note,))
     assert again.findings.equals(report.findings)
@@ -194,47 +186,3 @@ def test_hard_surfaces_are_solved_on_the_next_finer_grid_and_told(tmp_path, monk
 def test_an_interval_and_numbers_of_surfaces_are_not_both_stated():
     with pytest.raises(ValueError, match=r"interval = 0\.02: it takes the place of surfaces and profiles"):
         Variations(interval="2%", surfaces=3)
-
-
-STUDY = """
-title = "Two heights"
-interval = "30%"
-speeds = [0.1, 0.3]
-loads = [0.5, 1.0, 2.0]
-indenter = {type = "sphere", radius = 0.01}
-elastomer = {type = "kelvin", modulus = 1e6, relaxation_time = 1e-3}
-bem = {points = 64}
-mdr = {points = 512}
-
-[roughness]
-type = "self-affine"
-hurst = 0.8
-rms_height = 5e-6
-longest = 1e-2
-shortest = 1e-3
-seed = 3
-
-[[series]]
-name = "low"
-
-[[series]]
-name = "high"
-roughness = {rms_height = 1e-5}
-bem = {points = 128}
-"""
-
-
-@pytest.mark.slow
-@pytest.mark.usefixtures("in_this_process")
-def test_a_study_stops_likewise_and_series_of_a_family_have_as_many_surfaces(tmp_path):
-    path = tmp_path / "heights.toml"
-    path.write_text(STUDY)
-    report = compare.study(path, output=tmp_path / "study", report=False)
-    assert_decided_or_narrow(report, 0.3)
-    low, high = (each.drawn["rough"].counts for each in report.study.series)
-    assert low == high
-    assert len(low["BEM"]) < 3  # as many grids as the coarser of both has
-    assert any(each.where == "every sphere" for each in report.judged)
-    again = compare.study(path, output=tmp_path / "study", report=False)
-    assert again.swept.solved == 0
-    assert_frame_equal(again.findings, report.findings)

@@ -1,6 +1,5 @@
 """The digest of code, which names stored answers and workers, has every file that an answer depends on."""
 
-import ast
 import json
 import subprocess
 import sys
@@ -9,6 +8,7 @@ from pathlib import Path
 from shutil import copytree
 
 import pytest
+from imports import ROOT, module, used
 
 from compare.models.table import THEORIES, Models, model_of
 from compare.solving import digest
@@ -16,8 +16,6 @@ from compare.solving.digest import code_digest, key, shipped
 from compare.solving.task import SceneTask
 from scene import Indent, Kelvin, Scene, SelfAffine, Slide, Sphere
 
-ROOT = Path(__file__).parents[2]
-OURS = ("scene", "mdr1d", "bem3d", "compare")
 MODELS = ("mdr", "bem", *THEORIES, "corrected", "exact")
 SCENE = Scene(Sphere(radius=1e-2), Kelvin(modulus=1e6, relaxation_time=1e-3), Indent(load=1.0))
 ROUGH = Scene(
@@ -35,7 +33,8 @@ import json, sys
 from pathlib import Path
 opened = []
 sys.addaudithook(lambda event, given: opened.append(str(given[0])) if event == "open" else None)
-from test_compare_digest import MODELS, OURS, ROOT, ROUGH, SCENE
+from imports import PACKAGES, ROOT
+from test_compare_digest import MODELS, ROUGH, SCENE
 from compare.models.table import model_of
 CODE = (".py", ".pyc", ".pyi", ".nbi", ".nbc")
 for model in MODELS:
@@ -43,7 +42,8 @@ for model in MODELS:
     solver.solve(SCENE if model == "exact" else ROUGH)
     paths = {Path(each) for each in opened if Path(each).suffix not in CODE and Path(each).is_file()}
     opened.clear()
-    print(json.dumps([model, *(str(each) for each in paths if any(ROOT / own in each.parents for own in OURS))]))
+    ours = {each for each in paths if any(ROOT / own in each.parents for own in PACKAGES)}
+    print(json.dumps([model, *map(str, ours)]))
 """
 
 
@@ -71,7 +71,7 @@ def test_a_copy_has_the_same_digest_and_a_change_of_any_file_another(package, tm
     here = tmp_path / "copy"
     copytree(folder(package), here)
     first = code_digest(folder(package))
-    for name in (
+    for name in [
         "__pycache__/a.py",
         ".a.csv.swp",
         "a.csv~",
@@ -80,7 +80,7 @@ def test_a_copy_has_the_same_digest_and_a_change_of_any_file_another(package, tm
         "a.py.rej",
         "a.bak",
         ".b/a.py",
-    ):
+    ]:
         (here / name).parent.mkdir(exist_ok=True)
         (here / name).write_text("left behind")
     assert code_digest(here) == first
@@ -100,7 +100,7 @@ def test_a_copy_has_the_same_digest_and_a_change_of_any_file_another(package, tm
 
 @pytest.mark.slow
 def test_every_file_that_a_model_opens_is_in_the_digest_of_its_packages():
-    places = [str(ROOT), str(Path(__file__).parent)]
+    places = [str(ROOT), str(ROOT / "tests"), str(Path(__file__).parent)]
     program = f"import sys; sys.path[:0] = {places}\n{OPENING}"
     ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True, cwd=ROOT)
     seen = set()
@@ -112,39 +112,16 @@ def test_every_file_that_a_model_opens_is_in_the_digest_of_its_packages():
     assert {"friction_error.csv", "share.csv", "fitted.json"} <= seen
 
 
-def imported(module):
-    """Modules of ours that a module imports, by its source."""
-    spec = find_spec(module)
-    parent = module if spec.submodule_search_locations else spec.parent
-    found = set()
-    for node in ast.walk(ast.parse(Path(spec.origin).read_text(encoding="utf-8"))):
-        if isinstance(node, ast.Import):
-            found |= {each.name for each in node.names}
-        elif isinstance(node, ast.ImportFrom):
-            base = parent.split(".")[: len(parent.split(".")) - node.level + 1] if node.level else []
-            name = ".".join([*base, *filter(None, [node.module])])
-            inner = {f"{name}.{each.name}" for each in node.names}
-            found |= {name} | (inner if name.partition(".")[0] in OURS else set())
-    return {each for each in found if each.partition(".")[0] in OURS and exists(each)}
-
-
-def exists(module):
-    """Whether a name is that of a module."""
-    path = ROOT.joinpath(*module.split("."))
-    return path.with_suffix(".py").exists() or (path / "__init__.py").exists()
-
-
 @pytest.mark.parametrize("model", MODELS)
 def test_every_module_that_a_model_imports_is_in_its_packages(model):
     solver = model_of(model).solver
-    packages = (*SceneTask(solver, (SCENE,)).packages, *CARRYING)
-    within = tuple(f"{package}." for package in packages)
-    left, seen = [type(solver).__module__], set()
+    left, seen = [Path(find_spec(type(solver).__module__).origin)], set()
     while left:
-        if (module := left.pop()) not in seen:
-            seen.add(module)
-            left += [] if f"{module}.".startswith(tuple(f"{each}." for each in CARRYING)) else imported(module)
-    assert [each for each in sorted(seen) if not f"{each}.".startswith(within)] == []
+        if (path := left.pop()) not in seen and not module(path).startswith(CARRYING):
+            seen.add(path)
+            left += used(path)
+    within = tuple(f"{package}." for package in SceneTask(solver, (SCENE,)).packages)
+    assert [path for path in sorted(seen) if not f"{module(path)}.".startswith(within)] == []
 
 
 OWN = """

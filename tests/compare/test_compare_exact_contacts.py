@@ -7,7 +7,7 @@ import pytest
 
 from compare.models.exact import foundation, full_contact, indentation, line_contact, waves
 from mdr1d import MDR
-from scene import Cone, Kelvin, KelvinChain, PowerLaw, Prony, Scene, Slide, Sphere, StandardLinearSolid
+from scene import Cone, Kelvin, PowerLaw, Prony, Scene, Slide, Sphere, StandardLinearSolid
 
 # Sums and powers of a few numbers.
 ROUNDING = 1e-12
@@ -121,31 +121,23 @@ STANDARD = StandardLinearSolid(rubbery_modulus=1.0, glassy_modulus=10.0, relaxat
 BODIES = (Sphere(radius=2.0), Cone(angle=0.4))
 
 
-def static(shape, a):
-    """Depth, and 2n/(n+1) c a^(n+1) of its force over E*."""
-    c, n = shape.mdr_coefficient, shape.exponent
-    return c * a**n, 2 * n / (n + 1) * c * a ** (n + 1)
-
-
 @pytest.mark.parametrize("shape", BODIES)
 @pytest.mark.parametrize("solid", [RUBBER, STANDARD])
 @pytest.mark.parametrize("memory", [0.01, 1.0, 100.0])
 def test_the_one_dimensional_solver_tends_to_the_closed_form_at_second_order(shape, solid, memory):
     """A cone is linear between nodes and has no error at all."""
-    depth, _ = static(shape, 1.0)
+    depth = shape.mdr_coefficient  # of a radius of one
     scene = Scene(shape, solid, Slide(speed=memory / solid.relaxation_time, depth=depth))
     exact = np.array(foundation.sliding_forces(shape, solid, scene.motion.speed, depth))
     points = (201, 401, 801, 1601, 3201)
     found = [MDR(points=n, extent=2.2).solve(scene) for n in points]
-    errors = np.array([[each.normal_force, each.friction_force] / exact - 1 for each in found])
-    if shape.exponent == 1:
-        np.testing.assert_allclose(errors, 0.0, atol=1e-11)
-        return
-    order = -np.polyfit(np.log(points), np.log(np.abs(errors)), 1)[0]
-    # The edge falls anywhere within a pixel: constants jump about, of friction at low speed most.
-    assert order[0] == pytest.approx(2.0, abs=0.4)
-    assert order[1] > 1.4
-    assert np.abs(errors[-1]).max() < 2e-6
+    errors = np.abs([[each.normal_force, each.friction_force] / exact - 1 for each in found])
+    assert errors[-1].max() < (1e-11 if shape.exponent == 1 else 2e-6)
+    if shape.exponent > 1:
+        # The edge falls anywhere within a pixel: constants jump about, of friction at low speed most.
+        order = -np.polyfit(np.log(points), np.log(errors), 1)[0]
+        assert order[0] == pytest.approx(2.0, abs=0.4)
+        assert order[1] > 1.4
 
 
 SPHERE = Sphere(radius=1.0)
@@ -173,6 +165,3 @@ def test_dashpot_of_a_kelvin_body_adds_its_rate():
     force = indentation.loading_force(Sphere(radius=1.0), RUBBER, [0, 2.0], [0, 0.2], [0.5, 2.0])
     d = np.array([0.05, 0.2])
     assert force == pytest.approx(4 / 3 * (d**1.5 + 0.3 * 1.5 * np.sqrt(d) * 0.1), rel=1e-12)
-    chain = KelvinChain(instantaneous_compliance=0.0, compliances=(4.0,), retardation_times=(0.3,))
-    again = indentation.loading_force(Sphere(radius=1.0), chain, [0, 2.0], [0, 0.2], [0.5, 2.0])
-    assert again == pytest.approx(force, rel=1e-12)

@@ -10,7 +10,16 @@ import xarray
 from compare.solving.curve import FINE
 from compare.statistics.frictioncurves import SimulatedCurves
 from compare.statistics.intervals import Estimated, RmsMisfit, student
-from compare.statistics.jackknife import MOST_GROUPS, DrawSet, Replicates, compared, groups, mean_ratio, resample
+from compare.statistics.jackknife import (
+    MOST_GROUPS,
+    DrawSet,
+    Replicates,
+    compared,
+    groups,
+    left_out,
+    mean_ratio,
+    resample,
+)
 from compare.statistics.means import interval
 
 DRAWS = 10_000
@@ -31,6 +40,20 @@ def drawn(kind, variation, count, seed=1, draws=DRAWS):
 def held(ends, truth=1.0):
     low, high = ends
     return np.mean((low <= truth) & (truth <= high))
+
+
+@dataclass(frozen=True)
+class Columns:
+    """Quantities on the same surfaces (..., surfaces)."""
+
+    values: np.ndarray
+
+    @property
+    def groups(self):
+        return groups(np.zeros(self.values.shape[-1], int))
+
+    def without(self, group):
+        return Columns(np.delete(self.values, group.surfaces, axis=-1))
 
 
 @pytest.mark.parametrize("kind", ["normal", "lognormal", "mirrored"])
@@ -58,32 +81,16 @@ def test_draws_that_lie_alike_to_both_sides_have_students_interval():
     assert found.interval() == pytest.approx((2 - 4.30265 / sqrt(3), 2 + 4.30265 / sqrt(3)), rel=1e-5)
 
 
-def test_mirrored_draws_have_the_mirrored_interval_and_the_longer_side_is_that_of_the_long_tail():
-    low, high = mean_ratio(drawn("lognormal", 1.0, 12)).interval()
-    lower, higher = mean_ratio(drawn("mirrored", 1.0, 12)).interval()
-    np.testing.assert_allclose([2 - higher, 2 - lower], [low, high], rtol=1e-9)
-    found = mean_ratio(np.array([1.0, 1.1, 1.2, 4.0]))
-    low, high = found.interval()
-    assert high - found.value > 1.3 * (found.value - low) > 0
-
-
 @pytest.mark.parametrize("count", [20, 100])
 def test_what_leaving_surfaces_out_gives_holds_as_often(count):
     """Ratio of two means of skewed draws, that of its logarithm, and a power of it; a hundred in groups."""
 
-    class Draws:
-        def __init__(self, above, below):
-            self.above, self.below = above, below
-            self.groups = groups(np.zeros(count, int))
-
-        def without(self, group):
-            return Draws(*(np.delete(each, group.surfaces, axis=1) for each in (self.above, self.below)))
-
     def numbers(part):
-        ratio = part.above.mean(axis=1) / part.below.mean(axis=1)
+        ratio = np.divide(*part.values.mean(axis=-1))
         return {"ratio": ratio, "logarithm": np.log(ratio), "root": np.sqrt(ratio)}
 
-    found = resample(numbers, Draws(drawn("lognormal", 1.0, count, 3), drawn("normal", 0.1, count, 4)))
+    draws = np.stack([drawn("lognormal", 1.0, count, 3), drawn("normal", 0.1, count, 4)])
+    found = resample(numbers, Columns(draws))
     for name, each in found.items():
         assert held(each.estimated.interval(), 0.0 if name == "logarithm" else 1.0) >= least(0.92), name
 
@@ -91,10 +98,6 @@ def test_what_leaving_surfaces_out_gives_holds_as_often(count):
 def test_the_difference_of_two_independent_means_holds_as_often():
     one, other = mean_ratio(drawn("lognormal", 1.0, 20, 5)), mean_ratio(drawn("normal", 0.5, 8, 6))
     assert held(one.less(other).interval(), 0.0) >= least(0.92)
-    back = other.less(one)
-    np.testing.assert_allclose(
-        np.sort(np.negative(back.interval()), axis=0), one.less(other).interval(), rtol=1e-9
-    )
 
 
 @pytest.mark.parametrize(("variation", "counts"), [(0.3, (3, 5, 10)), (1.0, (5, 10, 20, 50))])
@@ -129,10 +132,8 @@ def test_every_place_gives_the_same_interval_of_the_same_draws():
     told = compared(lambda sample: sample["a"]["normal_force"].mean("surface").values, sample, None)
     curves = SimulatedCurves(np.ones(1), np.ones((1, 1, 12)), values[None, None])
     friction = curves.replicates(1.0, values.mean() * curves.deviations()[:, 0]).estimated.interval()
-    for low, high in (
-        told.at((0, 0)).interval(),
-        np.array(friction) + values.mean() - 1,
-    ):
+    one_out = Replicates.without_one(values.mean(), left_out(values)).estimated
+    for low, high in (told.at((0, 0)).interval(), np.array(friction) + values.mean() - 1, one_out.interval()):
         assert (low, high) == pytest.approx(expected, rel=1e-9)
     # A Dataset on one grid has no error of the grid, and so no end.
     assert np.isnan(interval(grids, "normal_force").ends[1]).all()
@@ -143,20 +144,6 @@ def test_every_place_gives_the_same_interval_of_the_same_draws():
 REPEATS = 250
 # Least coverage of an interval of 95 %: 2 % lost to first-order theory, and three deviations of as many draws.
 LEAST = 0.93 - 3 * sqrt(0.93 * 0.07 / REPEATS)
-
-
-@dataclass(frozen=True)
-class Columns:
-    """Two quantities on the same surfaces (2, surfaces)."""
-
-    values: np.ndarray
-
-    @property
-    def groups(self):
-        return groups(np.zeros(self.values.shape[1], int))
-
-    def without(self, group):
-        return Columns(np.delete(self.values, group.surfaces, axis=1))
 
 
 def first(part):
@@ -248,17 +235,13 @@ def test_a_size_scales_and_forgets_the_sign():
 
 @pytest.mark.parametrize("dof", [4, 40])
 def test_a_misfit_of_points_with_one_pooled_scatter_is_in_its_interval_as_often_as_stated(dof):
-    rng, truth = np.random.default_rng(13), np.array([0.5, 0.0, 0.0, -0.5] * 5)
-    kept = dict.fromkeys((True, False), 0)
+    rng, truth, kept = np.random.default_rng(13), np.array([0.5, 0.0, 0.0, -0.5] * 5), 0
     for _ in range(REPEATS):
         scatter = 0.2 * sqrt(rng.chisquare(dof) / dof)
         value = truth + 0.2 * rng.normal(size=truth.size)
-        for right in kept:
-            error = scatter * (1.0 if right else 0.5)
-            low, high = Replicates(value, error * np.eye(truth.size), dof).rms.interval()
-            kept[right] += low <= sqrt(0.125) <= high
-    assert kept[True] >= LEAST * REPEATS
-    assert kept[False] < LEAST * REPEATS
+        low, high = Replicates(value, scatter * np.eye(truth.size), dof).rms.interval()
+        kept += low <= sqrt(0.125) <= high
+    assert kept >= LEAST * REPEATS
 
 
 @pytest.mark.parametrize(

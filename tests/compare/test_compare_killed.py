@@ -1,122 +1,27 @@
-"""Killed at any instant, a study that is asked for again ends as if nothing had happened; no runs are mixed."""
+"""Killed at any instant, a folder has one run whole or says that it has none; no runs are mixed."""
 
 import json
 import multiprocessing
 import os
-import random
 import signal
-import threading
-import time
 from collections import Counter
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import partial
 from itertools import count
-from pathlib import Path
 
-import marked_study
 import pytest
 import xarray
 from matplotlib.figure import Figure
 from pandas import DataFrame
-from processes import PATIENCE, finish, start, wait_for
-from stand_in_solver import exactly
 
 import compare
 from compare.figures.plot import Plot
 from compare.report.page import Table
 from compare.solving.folders import LOCK
-from compare.solving.runner import sweep
-from compare.solving.store import Store
 from compare.statistics.finding import Claim, Finding
 from compare.studies.study import Judgement, Study
 from scene.files.reading import InvalidInput
-
-ROOT = Path(__file__).parents[2]
-PATHS = os.pathsep.join([str(ROOT), str(ROOT / "tests")])
-
-
-class Killed:
-    """A folder with the study, run by the command in a process group of its own."""
-
-    def __init__(self, folder):
-        self.folder = folder
-        self.marks = folder / "marks"
-        self.tasks = marked_study.tasks()
-        self.store = Store(folder / "crosscheck-study" / "solved")
-
-    def start(self):
-        program = ("-c", "import marked_study; marked_study.command()")
-        environment = {"MARKS": str(self.marks), "PYTHONPATH": PATHS}
-        return start(self.folder, "study", "collapse", "--workers", "2", program=program, **environment)
-
-    def stored(self):
-        """Tasks with an answer. Every answer that is there is whole."""
-        stored = self.store.stored(self.tasks)
-        assert len(stored) == len(self.store)
-        return [task for task in self.tasks if task in stored]
-
-    def begun(self, tasks):
-        """How often each solve of tasks began so far."""
-        begun = Counter(self.marks.read_text().split() if self.marks.exists() else ())
-        return [begun[name] for task in tasks for name in marked_study.names(task)]
-
-    def kill(self, more, seconds):
-        """Start it, kill all of it in the middle, and see that nothing stored is lost or was solved again.
-
-        more, seconds : solves that begin before, and time after the last of them. Returns whether it had not ended
-        """
-        before = self.stored()
-        solves, begun = self.begun(before), sum(self.begun(self.tasks))
-        process = self.start()
-        wait_for(lambda: sum(self.begun(self.tasks)) >= begun + more or process.poll() is not None)
-        time.sleep(seconds)
-        ended = process.poll()
-        if ended is None:
-            os.killpg(process.pid, signal.SIGKILL)
-        process.communicate(timeout=PATIENCE)
-        assert ended in (None, 0)
-        assert set(before) <= set(self.stored())
-        assert self.begun(before) == solves
-        return ended is None
-
-    def finish(self, expected):
-        """Run it to its end, and compare with undisturbed answers."""
-        before = self.stored()
-        fresh = [task for task in self.tasks if task not in before]
-        solves, begun = self.begun(before), self.begun(fresh)
-        status, _, told = finish(self.start())
-        assert status == 0
-        assert self.stored() == self.tasks
-        assert self.begun(before) == solves
-        assert self.begun(fresh) == [times + 1 for times in begun]
-        assert f"{len(fresh)} tasks solved, {len(before)} reused" in told
-        for task in self.tasks:
-            assert exactly(self.store.get(task)) == expected[task]
-        assert {path.name for path in self.folder.rglob(".*") if path.is_file()} == {LOCK}
-        manifest = self.store.folder.parent / "collapse-quick" / "manifest.json"
-        assert json.loads(manifest.read_text())
-
-
-@pytest.fixture(scope="module")
-def expected(tmp_path_factory):
-    """Answers of an undisturbed sweep, whose workers have one thread as those of the command."""
-    folder = tmp_path_factory.mktemp("undisturbed")
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("MARKS", str(folder / "marks"))
-        outcomes = sweep(marked_study.tasks(), Store(folder), workers=1).outcomes
-        return {task: exactly(outcome) for task, outcome in outcomes.items()}
-
-
-@pytest.mark.slow
-def test_killed_at_twenty_moments_studies_end_as_undisturbed_ones(tmp_path, expected):
-    draw, kills, studies = random.Random(20), 0, 0
-    while kills < 20:
-        (tmp_path / str(studies)).mkdir()
-        study = Killed(tmp_path / str(studies))
-        studies += 1
-        while kills < 20 and len(study.stored()) < len(study.tasks):
-            kills += study.kill(draw.randint(0, len(study.tasks) // 3), draw.uniform(0.0, 0.1))
-        study.finish(expected)
 
 
 def blank(tables):
@@ -187,7 +92,8 @@ def titled(folder):
 def test_a_new_scene_takes_the_place_of_all_that_the_one_before_it_left_and_of_nothing_else(tmp_path):
     assert written("one", tmp_path) == of("one", "report.html")
     mine = {"one/notes.txt", "one/mine.csv", "mine.pdf", "figures/one/picture.pdf", "two.md"}
-    for name in mine:
+    mine |= {".hidden", ".crosscheck-notes.part.csv", "mine.part"}
+    for name in (*mine, ".crosscheck-0123456789abcdef.part"):  # the last half written by a killed run
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).touch()
     assert written("two", tmp_path) == of("two", "report.html") | mine
@@ -207,11 +113,8 @@ def test_a_new_scene_takes_the_place_of_all_that_the_one_before_it_left_and_of_n
 
 
 @pytest.mark.filterwarnings("ignore:This process:DeprecationWarning")
-@pytest.mark.parametrize("stride", [7, pytest.param(3, marks=pytest.mark.slow)])
-def test_killed_at_a_step_a_run_leaves_the_old_scene_or_says_that_it_did_not_end_and_the_next_clears_all(
-    tmp_path, stride
-):
-    states = Counter()
+def test_killed_at_a_step_a_run_leaves_the_old_scene_or_says_that_it_did_not_end_and_the_next_clears_all(tmp_path):
+    states, stride = Counter(), 7
     written("old", tmp_path)
     for step in count(1, stride):
         if not killed(f"new{step}", tmp_path, step):
@@ -247,19 +150,17 @@ def test_while_a_run_holds_a_folder_others_are_refused_before_they_change_anythi
         place = "page"
 
         def judge(self, answers):
-            another = threading.Thread(target=ask)
-            another.start()
-            another.join()
+            with ThreadPoolExecutor(1) as another:
+                another.submit(ask).result()
             ask()
             return super().judge(answers)
 
     def ask():
-        for other in (compare.export, partial(compare.export, format="png"), partial(written, "two")):
-            with pytest.raises(InvalidInput, match=f"{below}: another run holds this folder"):
-                other(below)
+        solve = partial(compare.solve, Below("two"))
+        for other, folder in ((compare.export, below), (partial(written, "two"), below), (solve, tmp_path)):
+            with pytest.raises(InvalidInput, match=f"{folder}: another run holds this folder"):
+                other(folder)
             refused.append(other)
-        with pytest.raises(InvalidInput, match=f"{tmp_path}: another run holds this folder"):
-            compare.solve(Below("two"), tmp_path)
         assert {path: path.stat().st_mtime_ns for path in below.iterdir()} == before
 
     compare.solve(Below("three"), tmp_path, report=False)

@@ -9,39 +9,27 @@ from invented_answers import SERIES, SURFACES, changed, eq_19, joined, obeying
 
 from compare.figures import style
 from compare.solving import words
-from compare.solving.curve import COARSE, FINE, SOLVED
+from compare.solving.curve import COARSE, FINE
 from compare.statistics.finding import FAILS, HOLDS, REPORTED
-from compare.studies.comparison.answers import LAW, with_theory
+from compare.studies.comparison.answers import LAW
 from compare.studies.comparison.claims_law import EVERY, SHALLOW, LawPoints, law_findings
 from compare.studies.comparison.comparison import Comparison
 from compare.studies.comparison.laws import laws
 from compare.studies.comparison.rough import ROUGH
 from compare.studies.comparison.together import together as several
 from compare.studies.paper import parameters
-from scene import Slide
 
 # Under the first load the roughness is more than a tenth of the depth.
 FEW = replace(SERIES, speeds=(0.03, 0.1, 0.5), values=(0.9, 20.0, 50.0))
 CONE = replace(FEW, name="cone", title="Rough cone", scene=parameters.resolved("cone"))
 ROUNDING = 1e-9
-MEASURES = "friction_of_shape", "friction_of_roughness", "full_contact_friction", "share_of_full_contact"
 
 
 def solved(series):
-    """What the law says of all points of a series, rest first."""
-    found = [[LAW.solve(series.at(load, speed)) for load in series.values] for speed in (0.0, *series.speeds)]
-    names = (*MEASURES, "pressure_ratio", "nominal_radius")
-
-    def array(number):
-        return ("level", "speed", "load"), np.array([[[number(each) for each in row] for row in found]])
-
-    columns = {name: array(lambda each, name=name: each.measures[name]) for name in names}
-    columns |= {
-        name: array(lambda each, name=name: getattr(each, name)) for name in ("normal_force", "friction_force")
-    }
-    columns["friction_coefficient"] = array(lambda each: each.friction_coefficient)
-    places = {"level": [FINE], "speed": [0.0, *series.speeds], "load": list(series.values)}
-    return xarray.Dataset(columns, places, {"solver": LAW.name})
+    """What the law says of all points of a series."""
+    rough = series.curves[ROUGH]
+    law = replace(rough, levels={LAW.name: rough.levels[LAW.name]})
+    return law.dataset({task: task.solve() for task in law.tasks()})
 
 
 def answers(series=FEW, times=1.0, scatter=0.0, grid=0.0, seed=1, law=None):
@@ -50,7 +38,7 @@ def answers(series=FEW, times=1.0, scatter=0.0, grid=0.0, seed=1, law=None):
     times : (speeds, loads), or one number; scatter : of each point and surface; grid : error of the coarse one
     """
     law, made = solved(series) if law is None else law, obeying(eq_19, series, scatter=0.0)
-    known = law.isel(level=0, speed=slice(1, None))
+    known = law.isel(model=0, level=0, surface=0, speed=slice(1, None))
     adds = times * known["share_of_full_contact"] * known["full_contact_friction"]
     drawn = scatter * np.random.default_rng(seed).standard_normal(
         (len(series.speeds), len(series.values), SURFACES)
@@ -58,11 +46,7 @@ def answers(series=FEW, times=1.0, scatter=0.0, grid=0.0, seed=1, law=None):
     found = (known["friction_of_shape"] + adds).values[..., None] * np.exp(drawn)
     for level, off in ((FINE, 1.0), (COARSE, 1 + grid)):
         made = changed(made, level=level, place=np.s_[1:], friction_force=found * off)
-    own = law.expand_dims(model=[LAW.name], surface=[0]).assign(status=SOLVED, reason="")
-    rough = joined(
-        [made.curves[ROUGH], own.assign_coords(draws=("model", ["none"]), points=(("model", "level"), [[0]]))]
-    )
-    return replace(made, curves={**made.curves, ROUGH: rough})
+    return replace(made, curves={**made.curves, ROUGH: joined([made.curves[ROUGH], law])})
 
 
 def found(contacts):
@@ -110,7 +94,7 @@ def test_points_of_high_roughness_are_left_out():
 
 def test_points_where_the_body_has_most_of_the_friction_are_left_out():
     law = solved(FEW).copy(deep=True)
-    law["friction_of_roughness"].values[:, 1, 1] *= 0.01
+    law["friction_of_roughness"][:, :, 1, 1] *= 0.01
     times = np.ones((3, 3))
     times[0, 1] = 3.0
     findings = found(answers(times=times, law=law))
@@ -171,27 +155,13 @@ def test_a_figure_shows_every_point_and_what_is_not_claimed_hollow():
     curves = {made.series.path(name): found for name, found in made.curves.items()}
     judged = Comparison((made.series,), "study", "Bodies").judge(xarray.DataTree.from_dict(curves))
     (plot,) = (each for each in judged.plots if each.name == "sphere/law")
-    assert len(plot.tables["law"]) <= 9
-    assert len(plot.caption.split()) <= 60
     with style.applied():
-        drawing = plot.figure()
-    above, below = drawing.axes
-    own = {each.claim.id: 100 * each.value for each in judged.findings}
-    median, most = (words.number(own[f"law3d.collapse{end}"], 2) for end in ("", "-most"))
+        above, below = plot.figure().axes
+        paper = style.paper()
+    own = {each.claim.id: words.number(100 * each.value, 2) for each in judged.findings}
     told = " ".join(below.get_title(loc="left").split())
-    assert f"off by {median} % (median), {most} % (nine in ten)" in told
+    assert f"off by {own['law3d.collapse']} % (median), {own['law3d.collapse-most']} % (nine in ten)" in told
     drawn = [line for line in above.lines if line.get_marker() not in ("", "None", "_", "|")]
-    hollow = sum(line.get_xdata().size for line in drawn if line.get_markerfacecolor() == style.paper())
+    hollow = sum(line.get_xdata().size for line in drawn if line.get_markerfacecolor() == paper)
     assert hollow == (plot.tables["law"]["height_over_depth"] > SHALLOW).sum() > 0
     assert sum(line.get_xdata().size for line in drawn) == len(plot.tables["law"])
-
-
-def test_studies_solve_the_law_under_a_load_and_runs_do_not():
-    rough = SERIES.curves[ROUGH]
-    assert LAW.name in rough.levels
-    plain = replace(rough, levels={name: rough.levels[name] for name in ("MDR", "BEM")})
-    assert LAW.name not in with_theory(plain).levels
-    at_depth = replace(
-        SERIES, scene=replace(SERIES.scene, motion=Slide(speed=1.0, depth=1e-4)), values=(1e-4, 2e-4)
-    )
-    assert LAW.name not in at_depth.curves[ROUGH].levels

@@ -56,13 +56,6 @@ def test_every_scene_that_can_be_compared_is(name, tmp_path):
     assert len(report.findings)
 
 
-def test_a_name_that_is_not_there_is_said_with_what_is():
-    with pytest.raises(InvalidInput, match=r"NAME = hert: .*paper-sphere.*; did you mean hertz\?"):
-        find("hert")
-    with pytest.raises(InvalidInput, match=r"NAME = nothing: allowed are cold-rubber"):
-        write("nothing", "nowhere.toml")
-
-
 # Schemas for editors
 
 
@@ -107,39 +100,23 @@ def test_what_a_file_may_not_say_is_no_valid_file_by_the_schema_either(old, new,
     assert not validators["scene"].is_valid(tomllib.loads(path.read_text(encoding="utf-8")))
 
 
-def truths(value):
-    """A value with a truth in place of everything that is no list and no table."""
-    if isinstance(value, dict):
-        return {name: truths(each) for name, each in value.items()}
-    return [truths(each) for each in value] if isinstance(value, list) else True
-
-
 TABLES = {"indenter", "elastomer", "roughness", "temperature", "mdr", "bem"}
-WAVY = [[1e-6 * ((3 * i + 5 * j) % 7) for i in range(6)] for j in range(6)]
-SURFACES = {
-    "map": {"roughness": {"type": "topography", "heights": WAVY, "pixel": [1e-3, 1e-3]}},
-    "line": {"roughness": {"type": "profile", "heights": [sum(row) for row in WAVY * 5], "spacing": 1e-4}},
-    "body": {"indenter": {"type": "measured", "heights": WAVY, "pixel": 1e-3}},
-}
 
 
-@pytest.mark.parametrize("name", [*ready(), *SURFACES])
+@pytest.mark.parametrize("name", ready())
 def test_a_truth_is_no_number_to_the_reader_nor_to_the_schema(name, validators):
-    kind = ready()[name].kind if name in ready() else "scene"
-    content = tomllib.loads(ready()[name if name in ready() else "hertz"].text) | SURFACES.get(name, {})
-    what = {"scene": Case, "study": StudyFile}[kind]
+    kind, content = ready()[name].kind, tomllib.loads(ready()[name].text)
     found = list(places(content))
     # Both leave tables of a study open that a series may complete.
-    partial = [inside[key] for inside, key in found if kind == "study" and key in TABLES]
+    partial = [id(inside[key]) for inside, key in found if kind == "study" and key in TABLES]
     for inside, key in found:
         value = inside[key]
-        if isinstance(value, dict) or any(inside is each for each in partial) or (isinstance(key, int) and key):
+        if isinstance(value, dict) or id(inside) in partial or (isinstance(key, int) and key):
             continue
-        for wrong in ([True], [[True]], truths(value)):
-            inside[key] = wrong
-            assert not validators[kind].is_valid(content), (key, wrong)
-            with pytest.raises(InvalidInput):
-                made(content, what, name)
+        inside[key] = [True]
+        assert not validators[kind].is_valid(content), key
+        with pytest.raises(InvalidInput):
+            made(content, {"scene": Case, "study": StudyFile}[kind], name)
         inside[key] = value
 
 
@@ -177,15 +154,13 @@ def test_every_file_of_the_page_about_scenes_is_read(text, tmp_path, monkeypatch
     solid = Prony(1e6, (1e6, 1e6), (1e-2, 1.0))
     frequency = np.geomspace(1e-3, 1e3, 30)
     moduli = 1e-6 * 3 * solid.complex_modulus(2 * np.pi * frequency)
-    rows = np.column_stack([frequency, moduli.real, moduli.imag])
-    np.savetxt(
-        "psd.csv",
-        [(1e3, 1e-14), (1e4, 1e-15), (1e6, 1e-21)],
-        delimiter=";",
-        header="q [rad/m];C1D [m^3]",
-        comments="",
-    )
-    np.savetxt("rubber.csv", rows, delimiter=";", header="f [Hz];E' [MPa];E'' [MPa]", comments="")
+    moduli = np.column_stack([frequency, moduli.real, moduli.imag])
+    densities = [(1e3, 1e-14), (1e4, 1e-15), (1e6, 1e-21)]
+    for name, rows, head in (
+        ("psd.csv", densities, "q [rad/m];C1D [m^3]"),
+        ("rubber.csv", moduli, "f [Hz];E' [MPa];E'' [MPa]"),
+    ):
+        np.savetxt(name, rows, delimiter=";", header=head, comments="")
     if "[[series]]" in text:
         assert study_of(text, "mine").series("quick")
         return

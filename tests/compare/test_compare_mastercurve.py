@@ -1,24 +1,18 @@
 """Friction that a user measured: the table is read or refused by its line, and shifted onto one curve."""
 
-import os
-import sys
-
 import numpy as np
 import pandas
 import pytest
 import xarray
 import yourdata
 from drawn_again import from_files
-from typer.testing import CliRunner
+from processes import ask
 
 import compare
-from compare.cli.app import app
 from compare.figures import collapse
-from compare.library.ready import ready
 from compare.solving.words import found as worded
 from compare.statistics.eq23 import NO_SHIFT
 from compare.statistics.finding import FAILS, HOLDS, REPORTED, UNDECIDED
-from compare.studies.comparison import asked
 from compare.studies.mastercurve.measurements import MeasuredFriction
 from compare.studies.mastercurve.study import NOT_REPEATED, Mastercurve
 from scene.files.reading import InvalidInput
@@ -42,6 +36,7 @@ def table(repeats=3, seed=4, vertical=0.0, noise=0.01):
     return columns(lambda load, v: knee(load, v) * v**-vertical, speeds, loads, repeats, noise, seed)
 
 
+NAMES = "friction_coefficient", "normal_force", "speed"
 MU, LOAD, SPEED = COLUMNS = tuple(table().values())
 
 
@@ -58,21 +53,6 @@ def study(tmp_path, columns, name="ball.csv"):
 
 def found(study):
     return {each.claim.id.removeprefix("mastercurve."): each for each in study.judge(study.answers({})).findings}
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="names of files are texts elsewhere")
-def test_a_file_whose_name_is_no_text_is_named_by_letters_that_stand_for_it(tmp_path):
-    name = os.fsdecode(b"ball\xff")
-    np.save(tmp_path / f"{name}.npy", np.random.default_rng(1).normal(size=(16, 16)))
-    study(tmp_path, table(), f"{name}.csv")
-    (tmp_path / f"{name}.toml").write_text(ready()["hertz"].text, encoding="utf-8")
-    for left in (
-        compare.mastercurve(tmp_path / f"{name}.csv", output=tmp_path / name, report=False),
-        compare.topography(tmp_path / f"{name}.npy", 1e-6, unit="um", output=tmp_path / name, report=False),
-    ):
-        assert r"ball\udcff" in str(left)
-        assert r"ball\udcff" in left.study.title
-    assert [each.name for each in asked.run(tmp_path / f"{name}.toml").series] == [r"ball\udcff"]
 
 
 @pytest.mark.parametrize("noise", [0.0, 0.003, 0.01])
@@ -185,43 +165,6 @@ def test_friction_that_does_not_collapse_has_no_exponent(tmp_path):
     assert np.isfinite(made.collapse.horizontal.exponent.value)
 
 
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        ("\x1b[31m,F,v\n1,2,3\n", r"there is no column F_N .*, but '\\x1b\[31m', 'F', 'v': state its heading"),
-        ("mu,F_N,v\n1,2,3\n1,,3\n", "line 3, column 'F_N': '' is no number"),
-    ],
-)
-def test_a_table_that_says_too_little_is_refused_with_its_line_and_leaves_no_folder(tmp_path, text, said):
-    path = tmp_path / "ball.csv"
-    path.write_text(text)
-    with pytest.raises(InvalidInput, match=said) as refused:
-        compare.mastercurve(path, tmp_path / "out")
-    assert str(path) in str(refused.value)
-    assert not (tmp_path / "out").exists()
-    with pytest.raises(InvalidInput, match="no such file"):
-        compare.mastercurve(tmp_path / "none.csv", tmp_path / "out")
-
-
-def jittered(seed=1, jitter=0.003):
-    """The table, with loads and speeds that scatter as those of devices do, friction following them."""
-    by = np.exp(jitter * np.random.default_rng(seed).normal(size=(2, MU.size)))
-    follows = knee(LOAD * by[0], SPEED * by[1]) / knee(LOAD, SPEED)
-    return {"mu": MU * follows, "F_N": LOAD * by[0], "v": SPEED * by[1]}
-
-
-def test_loads_and_speeds_that_scatter_give_the_exponent_of_nominal_ones():
-    scattering = Mastercurve.of(jittered())
-    nominal, told = found(Mastercurve.of(table()))["exponent"], found(scattering)
-    assert len(scattering.pooled.points) == 32
-    assert told["horizontal"].verdict == HOLDS
-    numbers = (np.array([each.value, *each.interval]) for each in (told["exponent"], nominal))
-    assert np.all(np.abs(np.subtract(*numbers)) <= (0.003, 0.006, 0.006))
-    with pytest.raises(InvalidInput, match=r"has 1 load|speeds: 2 to 100"):
-        Mastercurve.of(jittered(), tolerance=0)
-    assert "Loads within 5 % of one another are one" in scattering.setting[0].text
-
-
 ALIKE = {
     "Time [s],Friction force [mN],Velocity [mm/s],Load [N]": (np.arange(96.0), 1e3 * MU * LOAD, 1e3 * SPEED, LOAD),
     "F_N (mN),Tangential force (mN),Sliding velocity (mm/s)": (1e3 * LOAD, 1e3 * MU * LOAD, 1e3 * SPEED),
@@ -234,7 +177,7 @@ ALIKE = {
 def test_names_order_units_and_the_friction_force_change_no_digit(heading):
     numbers = ALIKE[heading]
     read = MeasuredFriction.of(dict(zip(heading.split(","), numbers, strict=True)))
-    for name, wanted in zip(("friction_coefficient", "normal_force", "speed"), COLUMNS, strict=True):
+    for name, wanted in zip(NAMES, COLUMNS, strict=True):
         np.testing.assert_allclose(read.data[name], wanted, rtol=1e-14)
     for said, count in (
         ("not used", heading.lower().count("time")),
@@ -245,17 +188,17 @@ def test_names_order_units_and_the_friction_force_change_no_digit(heading):
 
 def test_a_table_of_another_form_is_stated_on_the_command_line(tmp_path):
     path, out = tmp_path / "other.csv", tmp_path / "out"
-    rows = "\n".join(f"a;{mu!r};{load!r};{v!r}" for mu, load, v in np.column_stack(COLUMNS).tolist())
-    path.write_text(f"Loads in N\nrun;Reibwert;Last;v\nwarm;0;1;1\n{rows}\nend\n".replace(".", ","))
+    _, *rows = written(table(), ";").split("\n")
+    rows = "".join(f"a;{row}\n" for row in rows)
+    path.write_text(f"Loads in N\nrun;Reibwert;Last;v\nwarm;0;1;1\n{rows}end\n".replace(".", ","))
     options = "--skip 1 --rows 97 --decimal , --where run=a --columns mu=Reibwert --columns F_N=Last --units F_N=N"
     asked = ["mastercurve", str(path), *options.split(), "--units", "v=m/s", "--no-report", "--output", str(out)]
-    assert CliRunner().invoke(app, asked).exit_code == 0
+    assert ask(*asked).exit_code == 0
     kept = compare.load(out)["measured"]
-    for name, wanted in zip(("friction_coefficient", "normal_force", "speed"), COLUMNS, strict=True):
+    for name, wanted in zip(NAMES, COLUMNS, strict=True):
         np.testing.assert_array_equal(kept[name], wanted)
-    for wrong in ("--columns=mu", "--separator=dot", "--rows=-1"):
-        refused = CliRunner().invoke(app, [*asked, wrong])
-        assert (refused.exit_code, wrong[2:6] in refused.output) == (2, True)
+    refused = ask(*asked, "--columns=mu")
+    assert (refused.exit_code, "columns" in refused.output) == (2, True)
 
 
 def test_tables_of_python_give_the_numbers_of_the_file(tmp_path):
@@ -281,40 +224,31 @@ def test_one_temperature_is_told_and_changes_nothing():
     first, second = ({name: worded(each, 6) for name, each in found(made).items()} for made in (read, plain))
     assert first == second
     assert "one temperature, 298.2 K" in read.notes[0]
-    constants = {"c1": 8.86, "c2": "101.6 K", "reference": "20 degC"}
-    assert Mastercurve.of(warm, **constants).shifts is None
+    assert Mastercurve.of(warm, **STATED).shifts is None
     with pytest.raises(InvalidInput, match="ask for a column of temperature"):
-        Mastercurve.of(table(), **constants)
+        Mastercurve.of(table(), **STATED)
 
 
 # Five speeds, four loads, three temperatures: one curve of F_N (v a_T)^-0.6, of WLF with c1 = 8.9, c2 = 145 K.
 WARMED = yourdata.FOLDER / "tribometer.csv"
+STATED = {"c1": 8.86, "c2": "145 K", "reference": "20 degC"}
 
 
-def test_several_temperatures_are_shifted_along_the_speed_and_judged():
-    made = Mastercurve.of(WARMED)
-    judged = made.judge(None)
-    told = {each.claim.id.removeprefix("mastercurve."): each for each in judged.findings}
-    assert (told["temperatures"].verdict, told["horizontal"].verdict) == (HOLDS, HOLDS)
-    low, high = told["exponent"].interval
-    assert low <= -0.6 <= high
-    assert high - low < 0.05
-    assert told["temperatures-unshifted"].value > 0.2
-    assert judged.answer[0].startswith("Holds: Shifts along the load")
-    assert "Shifts along the speed bring the temperatures together" in " ".join(judged.answer)
-    shifts = judged.plots[1].tables["temperature-shifts"]
-    by = dict(zip(made.shifts.temperatures, made.shifts.shifts.value, strict=True))
+def test_constants_that_are_found_or_stated_are_used_and_wrong_ones_leave_no_exponent():
+    sought, right, wrong = (
+        Mastercurve.of(WARMED, **stated) for stated in ({}, *(STATED | {"c1": c1} for c1 in (8.9, 20.0)))
+    )
+    assert right.inputs["reference"] == "20 degC"
+    known, told, missed = map(found, (sought, right, wrong))
+    verdicts = [each["temperatures"].verdict for each in (known, told, missed)]
+    assert verdicts == [HOLDS, HOLDS, FAILS]
+    for each in (known, told):
+        low, high = each["exponent"].interval
+        assert low <= -0.6 <= high < low + 0.05
+    shifts = sought.judge(None).plots[1].tables["temperature-shifts"]
+    by = dict(zip(sought.shifts.temperatures, sought.shifts.shifts.value, strict=True))
     moved = np.log(shifts["reduced_speed"] / shifts["speed"])
     np.testing.assert_allclose(moved, shifts["temperature"].map(by), atol=1e-12)
-
-
-def test_stated_constants_are_used_and_wrong_ones_leave_no_exponent():
-    right, wrong = (Mastercurve.of(WARMED, c1=c1, c2="145 K", reference="20 degC") for c1 in (8.9, 20.0))
-    assert right.inputs["reference"] == "20 degC"
-    told, missed = found(right), found(wrong)
-    assert (told["temperatures"].verdict, missed["temperatures"].verdict) == (HOLDS, FAILS)
-    low, high = told["exponent"].interval
-    assert low <= -0.6 <= high
     assert np.isnan(missed["exponent"].value)
     assert "temperatures together" in missed["exponent"].reason
     # Whether the curves are one does not depend on the speed that they have.
@@ -324,8 +258,8 @@ def test_stated_constants_are_used_and_wrong_ones_leave_no_exponent():
 @pytest.mark.parametrize(
     ("stated", "said"),
     [
-        ({"c1": 8.86, "c2": 101.6, "reference": "500 degC"}, "the law ends at reference - c2"),
-        ({"c1": 8.86, "c2": 101.6, "reference": 20}, "is degC meant"),
+        (STATED | {"reference": "500 degC"}, "the law ends at reference - c2"),
+        (STATED | {"reference": 20}, "is degC meant"),
         ({"tolerance": -0.1}, "tolerance = "),
         ({"tolerance": 0.6}, "tolerance = "),
     ],
@@ -335,16 +269,13 @@ def test_constants_and_tolerances_that_are_none_are_refused(stated, said):
         Mastercurve.of(WARMED, **stated)
 
 
-@pytest.mark.parametrize("text", [table(), bent()], ids=["holds", "fails"])
-def test_the_figure_is_a_function_of_its_csv_files(tmp_path, text):
-    made = study(tmp_path, text, r"$\frac{$.csv")
+@pytest.mark.parametrize("columns", [table(), bent()], ids=["holds", "fails"])
+def test_the_figure_is_a_function_of_its_csv_files(tmp_path, columns):
+    made = study(tmp_path, columns, r"$\frac{$.csv")
     (plot,) = made.judge(made.answers({})).plots
     left, middle, *shifts, below = from_files(plot).axes
-    points = plot.tables[collapse.NAME]
     assert left.get_title(loc="left") == r"(a) \$\frac{\$"  # a name that would be a formula
     for axes, across in ((left, "normal_force"), (middle, "shifted_force"), (below, "shifted_force")):
-        curves = [bars[0].get_xdata().astype(float) for bars in axes.containers]
-        assert len(curves) == len(made.collapse.speeds)
-        np.testing.assert_allclose(np.sort(np.concatenate(curves)), np.sort(points[across]), rtol=1e-12)
+        curves = np.concatenate([bars[0].get_xdata().astype(float) for bars in axes.containers])
+        np.testing.assert_allclose(np.sort(curves), np.sort(plot.tables[collapse.NAME][across]), rtol=1e-12)
     assert bool(shifts) == plot.tables[collapse.NAME + collapse.SHIFTS]["log_shift"].notna().all()
-    assert len(plot.caption.split()) <= 60

@@ -11,7 +11,6 @@ from processes import finish, start
 
 import compare
 from bem3d import BEM
-from compare.cli.app import app
 from compare.library.lookup import case_of
 from compare.models.table import Model, Models
 from compare.solving.digest import key
@@ -208,20 +207,6 @@ def test_the_class_of_a_script_is_solved_in_its_process(tmp_path):
     assert "is the same in smooth limit and 3D" in told.stdout
 
 
-@pytest.mark.slow
-def test_the_command_takes_models_by_name(tmp_path, monkeypatch):
-    from typer.testing import CliRunner
-
-    model = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)[0]
-    (tmp_path / "mymodels.py").write_text(model)
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.syspath_prepend(tmp_path)
-    names = ["--models", "bem,mymodels:SmoothLimit", "--no-report", "--workers", "1"]
-    answer = CliRunner().invoke(app, ["run", "quick-start", *names])
-    assert answer.exit_code == 0, answer.output
-    assert "smooth limit/3D" in (tmp_path / "crosscheck-report" / "findings.csv").read_text(encoding="utf-8")
-
-
 OWN = """
 title = "Three models"
 models = ["mdr", "bem"]
@@ -237,17 +222,6 @@ mdr = {points = 500}
 [[series]]
 name = "sphere"
 """
-
-
-@pytest.mark.slow
-def test_a_study_judges_every_model_against_the_reference(tmp_path):
-    (tmp_path / "own.toml").write_text(OWN)
-    asked = tmp_path / "own.toml", "quick", tmp_path
-    report = compare.study(*asked, models=["mdr", "bem", Stiff()])
-    told = set(report.findings["model"])
-    assert {"1D", "3D", "1D/3D", "Stiff/3D"} <= told
-    alone = compare.study(*asked)
-    assert of_the_pair(alone) == of_the_pair(report)
 
 
 STRANGER = {

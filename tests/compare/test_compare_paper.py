@@ -4,13 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from pandas import DataFrame
 
 from compare.solving.curve import of_model
 from compare.solving.task import Outcome, Row
 from compare.statistics.intervals import Estimated
 from compare.studies.paper import law, parameter_studies, parameters
-from compare.studies.paper.parameter_studies import SlowFriction, contacts, dataset, slow_friction, tasks
+from compare.studies.paper.parameter_studies import contacts, dataset, slow_friction, tasks
 from compare.studies.paper.shifts import ROUGH, WHOLE, Rubber
 from compare.studies.paper.study import Paper
 from mdr1d import equations
@@ -83,30 +82,11 @@ def test_what_does_not_collapse_is_the_macroscopic_slope(slow):
     np.testing.assert_allclose((printed / slow.with_macro_slope)[where], 1.0, atol=0.1)
 
 
-@pytest.mark.parametrize("profiles", [3, 12])
-def test_intervals_have_what_they_estimate_as_often_as_stated(profiles):
-    generator, draws, inside = np.random.default_rng(5), 300, 0
-    xi = np.geomspace(1e-3, parameter_studies.SLOW, 20)
-    lever = np.log(xi / xi[0])[:, None]
-    for _ in range(draws):
-        level, tilt = generator.normal(size=(2, profiles))
-        samples = xi[:, None] * (1 + 0.05 * level + 0.02 * tilt * lever)
-        slope, _ = SlowFriction(DataFrame({"xi": xi}), samples).power(np.ones(xi.size, bool))
-        low, high = slope.interval()
-        inside += low <= 1 <= high
-    # 300 draws know 95 % to 1.3 %.
-    assert inside / draws == pytest.approx(0.95, abs=0.04)
-
-
-def test_a_solve_without_an_answer_is_left_out(data):
+def test_a_point_without_an_answer_and_profiles_that_broke_are_left_out(slow, data):
     lost = data.copy(deep=True)
     lost["friction_coefficient"][5, 2] = np.nan
     found = slow_friction(VALUES, lost)
-    assert np.isfinite(found.points["normalised_friction"]).all()
     assert found.power(np.ones(len(found.points), bool))[1] == len(found.points) - 1
-
-
-def test_profiles_that_broke_are_left_out(slow):
     asked = tasks(VALUES, PROFILES + parameter_studies.TOGETHER)
     first = replace(asked[0], seeds=tuple(range(PROFILES)))
     outcomes = solved([first]) | failed(asked)
@@ -152,17 +132,6 @@ def law_of(shape, profiles, outcomes=None):
     return law.law(shape, of_model(asked.dataset(outcomes or solved(asked.tasks())), "MDR"))
 
 
-def test_fig_4_follows_the_law_and_reaches_its_plateau():
-    result = law_of("sphere", 8)
-    low, high = result.alpha.interval()
-    assert low < result.alpha.value < high
-    assert result.alpha.value == pytest.approx(1.5, abs=0.2)
-    # Eight profiles: a standard error of 4 %.
-    assert result.plateau.value == pytest.approx(1.0, abs=3 * result.plateau.error)
-    friction = result.points["normalised_friction"]
-    np.testing.assert_allclose(friction, equations.interpolation(law.VARIABLES), rtol=0.15)
-
-
 def test_a_point_of_the_law_that_broke_is_left_out():
     asked, scatter = law.curve("sphere", 3).tasks(), 1 + 1e-3 * np.array([-1, 0, 1])
     level = equations.plateau(parameters.rms_slope()) * equations.interpolation(law.VARIABLES)
@@ -192,12 +161,8 @@ def test_without_what_the_smooth_body_has_friction_shifts_as_the_loss_does(monke
     assert whole.misfit.value > 5 * rough.misfit.value
     judged = [*rubber.findings(collapses)]
     found = [each for each in judged if each.claim.id == "eq23.exponent"]
-    assert [each.grid for each in found] == [0.0] * 2
-    assert found[1].value == rough.exponent.value
-    assert [each.claim.expected for each in found] == [-0.75] * 2
-    assert found[0].reason
+    assert [(each.grid, each.claim.expected) for each in found] == [(0.0, -0.75)] * 2
     drawn = rubber.plot(collapses, judged)
-    assert drawn.name == "shifted-curves-0.5-0.001"
     assert drawn.alternative.startswith("β = 0.5, τ = 0.001 s, whole friction: ")
 
 

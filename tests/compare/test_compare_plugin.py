@@ -133,14 +133,19 @@ def test_the_first_run_writes_a_file_beside_the_test_and_later_ones_hold_against
     project(asked.format(1.6), options=["--mdr-regen"]).assert_outcomes(passed=1)
 
 
+PLAIN = "-p", "no:cacheprovider"
+
+
 def test_what_is_solved_is_kept_in_the_cache_or_for_the_session(project, pytester, monkeypatch):
-    monkeypatch.delenv("PYTEST_XDIST_WORKER", raising=False)
     asked = 'check("seal.toml", models=pair(), friction=0.05, depth=0.05)'
     solved = pytester.path / "solved.txt"
-    for options, count in (((), 4), ((), 4), (("-p", "no:cacheprovider"), 8)):
+    # workers of xdist have a store each
+    for worker, options, count in (("gw0", (), 4), ("gw1", (), 8), ("gw1", (), 8), ("gw1", PLAIN, 12)):
+        monkeypatch.setenv("PYTEST_XDIST_WORKER", worker)
         project(asked, asked, options=options).assert_outcomes(passed=2)
         assert len(solved.read_text().split()) == count  # two models, each on two grids
-    assert (pytester.path / ".pytest_cache" / "d" / "crosscheck" / "main").is_dir()
+    stores = pytester.path / ".pytest_cache" / "d" / "crosscheck"
+    assert {each.name for each in stores.iterdir()} == {"gw0", "gw1"}
 
 
 def test_mistakes_are_named(project):
@@ -193,18 +198,3 @@ def test_installed_it_imports_nothing_before_a_fixture_is_used_and_can_be_taken_
     result = installed("-p", "no:crosscheck")
     result.assert_outcomes(errors=1)
     assert "fixture 'mdr_accuracy' not found" in text(result)
-
-
-@pytest.mark.slow
-def test_workers_of_xdist_have_a_store_each_and_files_of_their_tests(installed, pytester):
-    pytester.makepyfile(models=MODELS)
-    pytester.makefile(".toml", seal=SCENE)
-    tests = (
-        f"def test_{k}(mdr_accuracy):\n    mdr_accuracy.regression('seal.toml', models=pair())" for k in range(4)
-    )
-    pytester.makepyfile(test_mine="\n".join(["from models import pair", *tests]))
-    for outcome in ("failed", "passed"):
-        installed("-n", "2").assert_outcomes(**{outcome: 4})
-    assert len(list((pytester.path / "test_mine").iterdir())) == 4
-    stores = pytester.path / ".pytest_cache" / "d" / "crosscheck"
-    assert {each.name for each in stores.iterdir()} == {"gw0", "gw1"}

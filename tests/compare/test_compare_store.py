@@ -1,5 +1,6 @@
 """What is stored comes back as it was, under a name that changes with everything the answer depends on."""
 
+import io
 import json
 import multiprocessing
 import os
@@ -23,7 +24,7 @@ from strategies import examples
 from compare.models.exact import Exact
 from compare.solving import folders
 from compare.solving.digest import canonical, digest, key
-from compare.solving.folders import LOCK, clear, lock, make, write
+from compare.solving.folders import LOCK, lock, make, write
 from compare.solving.store import FILE, Store, _covering
 from compare.solving.task import NUMBERS, Outcome, Row
 from compare.solving.task import SceneTask as Task
@@ -48,18 +49,11 @@ def drawn(count):
     return replace(TASK, scenes=(SCENE,) * count)
 
 
-def same(first, second):
-    """Whether two outcomes are the same, bit for bit."""
-    return (
-        list(map(told, first.rows)) == list(map(told, second.rows))
-        and first.fields.keys() == second.fields.keys()
-        and all(same_array(first.fields[name], second.fields[name]) for name in first.fields)
-    )
-
-
-def same_array(first, second):
-    first, second = np.asarray(first), np.asarray(second)
-    return (first.dtype, first.shape, first.tobytes()) == (second.dtype, second.shape, second.tobytes())
+def bits(outcome):
+    """All of an outcome, bit for bit."""
+    fields = {name: np.asarray(each) for name, each in outcome.fields.items()}
+    arrays = {name: (each.dtype, each.shape, each.tobytes()) for name, each in fields.items()}
+    return list(map(told, outcome.rows)), arrays
 
 
 FLOATS = st.floats(width=64)  # NaN with any payload that NumPy keeps, infinities, subnormals, both zeros
@@ -88,7 +82,7 @@ def test_whatever_an_outcome_holds_comes_back_bit_for_bit(tmp_path_factory, rows
     task, store = replace(drawn(len(rows)), keeps_fields=True), Store(tmp_path_factory.mktemp("store"))
     outcome = Outcome(tuple(rows), fields)
     store.put(task, outcome)
-    assert same(store.get(task), outcome)
+    assert bits(store.get(task)) == bits(outcome)
 
 
 def test_fields_come_back_and_are_missed_where_they_are_wanted(tmp_path):
@@ -113,31 +107,31 @@ def test_what_no_file_can_hold_is_refused_and_leaves_nothing(tmp_path):
 
 
 def three(folder):
-    """A store of three tasks, and what its file holds."""
+    """A store of three tasks with fields, and what its file holds."""
     store = Store(folder)
-    tasks = [replace(TASK, solver=MDR(points=100 + k)) for k in range(3)]
+    tasks = [replace(PICTURE, solver=MDR(points=100 + k)) for k in range(3)]
     for k, task in enumerate(tasks):
         store.put(task, numbered(k))
     return tasks, store.path, store.path.read_bytes()
 
 
 def numbered(k):
-    return Outcome((replace(ROW, depth=float(k)),))
+    return Outcome((replace(ROW, depth=float(k)),), {"x": np.full(100, float(k))})
 
 
 def found(folder, tasks):
     """Which of the tasks a fresh look finds, each with its own answer."""
     store = Store(folder)
     outcomes = [store.get(task) for task in tasks]
-    assert all(outcome.rows[0].depth == k for k, outcome in enumerate(outcomes) if outcome is not None)
+    assert all(bits(outcome) == bits(numbered(k)) for k, outcome in enumerate(outcomes) if outcome is not None)
     return [k for k, outcome in enumerate(outcomes) if outcome is not None]
 
 
 def test_damage_costs_the_outcome_that_it_hits_and_a_file_that_cannot_be_read_is_left_as_it_is(tmp_path):
     tasks, path, whole = three(tmp_path)
     used = np.flatnonzero(np.frombuffer(whole, np.uint8))
-    places, costs = np.random.default_rng(0).choice(used, size=200), []
-    for place, bit in zip(places, 1 << np.arange(200) % 8, strict=True):
+    places, costs = np.random.default_rng(0).choice(used, size=100), []
+    for place, bit in zip(places, 1 << np.arange(100) % 8, strict=True):
         damaged = whole[:place] + bytes([whole[place] ^ int(bit)]) + whole[place + 1 :]
         path.write_bytes(damaged)
         message = ""
@@ -150,69 +144,48 @@ def test_damage_costs_the_outcome_that_it_hits_and_a_file_that_cannot_be_read_is
         refused = message.startswith(f"{path}: is ") and path.read_bytes() == damaged
         assert refused or found(tmp_path, tasks) == [0, 1, 2], place
         costs.append(3 - len(kept))
-    assert np.bincount(costs, minlength=4)[:2].sum() > 150  # the others are in the tables of so small a file
+    assert np.bincount(costs, minlength=4)[:2].sum() > 75  # the others are in the tables of so small a file
 
 
-def test_fields_that_are_damaged_count_as_absent(tmp_path):
-    store = Store(tmp_path)
-    store.put(PICTURE, Outcome((ROW,), {"x": np.arange(300.0)}))
-    whole = stored(store, "fields")
-    for place in range(0, len(whole), 50):
-        change(store, field=whole[:place] + bytes([whole[place] ^ 4]) + whole[place + 1 :])
-        assert store.get(PICTURE) is None
-    change(store, field=None)
-    assert store.get(PICTURE) is None
-    change(store, field=whole)
-    assert store.get(PICTURE) is not None
-
-
-def change(store, **values):
-    """Forge the content, the digest or the field of the answer in a file."""
+def rewrite(store, **values):
+    """Forge columns of the one row of tables, as answers_digest."""
     with closing(sqlite3.connect(store.path)) as connection, connection:
-        for name, value in values.items():
-            place = "fields SET content" if name == "field" else f"answers SET {name}"
-            connection.execute(f"UPDATE {place} = ?", (value,))
+        for place, value in values.items():
+            connection.execute(f"UPDATE {place.replace('_', ' SET ')} = ?", (value,))
 
 
-def forge(store, content):
-    """Forge the content of an answer, under a digest that fits."""
-    change(store, content=content, digest=_covering(key(PICTURE), content.encode()))
-
-
-def stored(store, table="answers"):
-    """Content of the one row of a table."""
+def forge(store, change):
+    """Forge the content of an answer, under a digest that fits. change : text, or some of the names in it"""
     with closing(sqlite3.connect(store.path)) as connection:
-        ((content,),) = connection.execute(f"SELECT content FROM {table}")
-        return content
+        ((content,),) = connection.execute("SELECT content FROM answers")
+    text = change if isinstance(change, str) else json.dumps(json.loads(content) | change)
+    rewrite(store, answers_content=text, answers_digest=_covering(key(PICTURE), text.encode()))
 
 
-@pytest.mark.parametrize("values", [np.array([print], object), np.zeros(3, "V8"), b"", b"PK"], ids=repr)
-def test_fields_that_are_forged_under_a_digest_that_fits_count_as_absent(tmp_path, values):
-    store, packed = Store(tmp_path), values
+@pytest.mark.parametrize("values", [np.array([print], object), np.zeros(3, "V8"), b"", None], ids=repr)
+def test_fields_that_are_forged_under_a_digest_that_fits_or_gone_count_as_absent(tmp_path, values):
+    store, packed = Store(tmp_path), io.BytesIO()
     store.put(PICTURE, Outcome((ROW,), {"x": np.arange(3.0)}))
-    if not isinstance(values, bytes):
-        np.save(tmp_path / "x.npy", values)
-        packed = (tmp_path / "x.npy").read_bytes()
-    change(store, field=packed)
-    forge(store, json.dumps(json.loads(stored(store)) | {"fields": {"x": digest(packed)}}))
+    if isinstance(values, np.ndarray):
+        np.save(packed, values)
+    rewrite(store, fields_content=None if values is None else packed.getvalue())
+    forge(store, {"fields": {"x": digest(packed.getvalue())}})
     assert store.get(TASK) is not None
     assert store.get(PICTURE) is None
 
 
 FORGED = [
     {"rows": []}, {"rows": None}, {"rows": [{"depth": "deep"}]}, {"rows": [{"settings": []}]},
-    {"rows": [{"measures": {"a": []}}]}, {"rows": [{"reason": 1}]},
+    {"rows": [{"measures": {"a": []}}]}, {"rows": [{"reason": 1}]}, "[" * 10**5, "[]", "1" * 10**4, "{}",
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(
-    "change", [*FORGED, "[" * 10**5, "[]", "1" * 10**4, "{}"], ids=lambda each: str(each)[:40]
-)
+@pytest.mark.parametrize("change", FORGED, ids=lambda each: str(each)[:40])
 def test_an_answer_that_is_forged_under_a_digest_that_fits_counts_as_absent(tmp_path, change):
     store = Store(tmp_path)
     store.put(TASK, Outcome((ROW,)))
-    forge(store, change if isinstance(change, str) else json.dumps(json.loads(stored(store)) | change))
-    assert Store(tmp_path).get(TASK) is None
+    forge(store, change)
+    assert store.get(TASK) is None
 
 
 def text(path):
@@ -276,7 +249,7 @@ def test_a_folder_that_nobody_may_write_can_be_read(unprivileged, ended):
         process.kill()
         process.join()
     os.seteuid(65534)
-    assert same(Store(unprivileged).get(tasks[2]), numbered(2))
+    assert bits(Store(unprivileged).get(tasks[2])) == bits(numbered(2))
     with pytest.raises(PermissionError) as caught:
         Store(unprivileged).put(TASK, Outcome((ROW,)))
     assert caught.value.filename == str(unprivileged)
@@ -350,12 +323,11 @@ def test_a_full_disk_is_an_error_that_names_the_file_and_what_is_stored_stays(tm
     with pytest.raises(OSError, match=r"disk I/O error|No space left") as caught:
         fill()
     assert caught.value.filename == str(store.path)
-    stored = [task for task in tasks if Store(tmp_path).get(task) is not None]
-    assert stored == tasks[: len(stored)]
-    assert stored
+    stored = [*Store(tmp_path).stored(tasks)]
+    assert stored == tasks[: len(stored)] != []
     with pytest.raises(OSError, match="disk I/O error"):
         store.put(PICTURE, Outcome((ROW,), {"x": np.arange(30000.0)}))
-    assert [task for task in tasks if Store(tmp_path).get(task) is not None] == stored
+    assert [*Store(tmp_path).stored(tasks)] == stored
 
 
 FORKS = pytest.mark.filterwarnings("ignore:This process:DeprecationWarning")
@@ -377,12 +349,11 @@ def _write(folder, times):
 
 
 @FORKS
-@pytest.mark.parametrize("times", [5, pytest.param(50, marks=pytest.mark.slow)])
-def test_a_writer_killed_at_any_moment_leaves_whole_answers_and_nothing_else(tmp_path, times):
-    moments, last, halves = np.random.default_rng(times), -1.0, 0
-    for _ in range(times):
+def test_a_writer_killed_at_any_moment_leaves_whole_answers_and_nothing_else(tmp_path):
+    last, halves = -1.0, 0
+    for moment in np.random.default_rng(5).uniform(0.0, 0.3, 8):
         process = writer(tmp_path, 10**6)
-        time.sleep(moments.uniform(0.0, 0.3))
+        time.sleep(moment)
         process.kill()
         process.join()
         halves += (tmp_path / f"{FILE}-wal").exists()
@@ -398,37 +369,27 @@ def test_a_writer_killed_at_any_moment_leaves_whole_answers_and_nothing_else(tmp
     assert halves
 
 
-def test_what_killed_runs_left_half_written_is_cleared_and_nothing_else(tmp_path):
-    kept = [".hidden", ".crosscheck-lock", ".crosscheck-notes.part.csv", "mine.part"]
-    for name in (*kept, ".crosscheck-0123456789abcdef.part"):
-        (tmp_path / name).touch()
-    clear(tmp_path)
-    assert sorted(os.listdir(tmp_path)) == sorted(kept)
-
-
 @pytest.mark.skipif(os.name != "posix", reason="permissions")
 @pytest.mark.parametrize("mask", [0o077, 0o022, 0o002], ids=oct)
 def test_files_and_folders_have_the_permissions_of_the_user_s_others(tmp_path, mask):
-    before = os.umask(mask)
+    before, page = os.umask(mask), tmp_path / "page"
     try:
-        make(tmp_path / "page")
-        write(tmp_path / "page" / "results.nc", lambda file: file.write(b"1"))
-        with lock([tmp_path / "page"], str):
-            Store(tmp_path / "page" / "solved").put(PICTURE, Outcome((ROW,), {"x": np.arange(3.0)}))
+        make(page)
+        write(page / "results.nc", lambda file: file.write(b"1"))
+        with lock([page], str):
+            Store(page / "solved").put(PICTURE, numbered(0))
     finally:
         os.umask(before)
-    modes = {path.name: path.stat().st_mode & 0o777 for path in (tmp_path / "page").rglob("*")}
-    assert modes.pop("solved") == 0o777 & ~mask == (tmp_path / "page").stat().st_mode & 0o777
-    assert modes == dict.fromkeys(["results.nc", LOCK, FILE], 0o666 & ~mask)
+    modes = {path.name: path.stat().st_mode & 0o777 for path in (page, *page.rglob("*"))}
+    files = dict.fromkeys(["results.nc", LOCK, FILE], 0o666 & ~mask)
+    assert modes == dict.fromkeys(["page", "solved"], 0o777 & ~mask) | files
 
 
 def test_the_name_changes_with_everything_that_the_answer_depends_on():
-    rough = SCENE.roughness
     others = [
         replace(TASK, scenes=(replace(SCENE, indenter=Sphere(radius=1.0000000000000002e-2)),)),
         replace(TASK, scenes=(replace(SCENE, motion=Slide(speed=0.1, depth=1.0)),)),
-        replace(TASK, scenes=(replace(SCENE, roughness=replace(rough, seed=4)),)),
-        replace(TASK, scenes=(SCENE, SCENE)),
+        drawn(2),
         replace(TASK, solver=MDR(points=101)),
         replace(TASK, solver=Exact()),
     ]

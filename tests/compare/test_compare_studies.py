@@ -4,21 +4,19 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from invented_answers import FEW, SERIES, SLOPE, Invented, changed, cut, eq_19, obeying, other, spoiled
+from invented_answers import FEW, SERIES, SLOPE, changed, cut, eq_19, obeying, other, spoiled
 
-from bem3d import BEM
 from compare.library.ready import studies
 from compare.solving import curve
-from compare.solving.curve import COARSE, FINE
 from compare.statistics.finding import REPORTED
 from compare.statistics.jackknife import friction, mean
 from compare.studies.comparison import asked, together
 from compare.studies.comparison.answers import THEORIES
+from compare.studies.comparison.comparison import Comparison
 from compare.studies.comparison.laws import laws
 from compare.studies.comparison.measures import SLOW, loading
 from compare.studies.comparison.rough import ROUGH, SMOOTH, RoughSeries
-from mdr1d import MDR
-from scene import Indent, Kelvin, Program, Scene, SelfAffine, Slide, Sphere, Stage
+from scene import Indent, Program, Slide, Stage
 from scene.files.reading import InvalidInput
 
 # Friction that grows as a length is none that is the same over every part of an area.
@@ -49,6 +47,7 @@ def judged(whole):
 def test_answers_that_obey_the_law_are_said_to_in_both_dimensionalities_by_the_same_claims(judged):
     one, three = verdicts(judged, "1D"), verdicts(judged, "3D")
     assert set(one.values()) == {"holds"}, one
+    assert "limit.slow" in one
     assert three == one | {DRAG: "fails"}
 
 
@@ -228,27 +227,6 @@ def test_pressing_in_is_compared_at_the_depth_that_was_reached():
     assert np.array_equal(unknown[1], whole[1])
 
 
-@pytest.fixture(scope="module")
-def solved():
-    """Answers of both solvers to a small series."""
-    rough = SelfAffine(hurst=0.2, rms_height=5e-5, longest=1e-2, shortest=2e-3, seed=1)
-    scene = Scene(Sphere(radius=1e-2), Kelvin(1e6, 1e-3), Slide(speed=1.0, load=1.0), rough)
-    series = RoughSeries("s", "S", scene, (1e-2, 1.5e-2), (4.0,), 4, 4, BEM(points=64), MDR(points=1000))
-    outcomes = {task: task.solve() for task in curve.tasks_of(series.curves)}
-    return Invented(series, {name: each.dataset(outcomes) for name, each in series.curves.items()})
-
-
-def test_solved_contacts_tell_the_known_truths(solved):
-    # at low speed the exact limits hold, and the smooth bodies differ by 2
-    found = solved.judge()
-    assert [each.verdict for each in of(found, "limit.slow")] == ["holds", "holds"]
-    (smooth,) = of(found, "friction.ratio.smooth")
-    assert smooth.verdict == "holds"
-    assert smooth.value == pytest.approx(2, abs=smooth.grid + 0.02)
-    rest = cut(solved, speeds=0).judge()
-    assert [each.verdict for each in of(rest, "smooth.rest-depth")] == ["holds", "holds"]
-
-
 MANY_TASKS = ("solids", "hurst", "parameters", "regime")
 
 
@@ -262,5 +240,13 @@ def test_every_study_can_be_solved_by_both_and_solves_nothing_twice(name):
     contacts = curve.contacts_of(study.grids())
     assert len({(each.solver, each.scenes) for each in contacts}) == len(contacts)
     assert {each.solver.name for each in contacts} - {each.name for each in THEORIES} == {"MDR", "BEM"}
-    grids = [each.levels[name] for each in study.grids().values() for name in ("MDR", "BEM")]
-    assert all(each[FINE].points == 2 * each[COARSE].points for each in grids)
+
+
+def test_series_of_a_family_are_asked_for_as_many_surfaces(monkeypatch):
+    first = obeying(eq_19, FEW)
+    asked = {"sphere": {ROUGH: {"BEM": (8, 32)}}, "second": {ROUGH: {"BEM": (16, 8, 4)}}}
+    monkeypatch.setattr(RoughSeries, "answers", lambda *_: None)
+    monkeypatch.setattr(RoughSeries, "more", lambda self, *_: asked[self.name])
+    series = (replace(each.series, interval=0.3) for each in (first, other(first, "second", hurst=0.7)))
+    found = Comparison(tuple(series), "study", "Two").more(None, ())
+    assert [each.strata for each in found.series] == [{ROUGH: {"BEM": (16, 32)}}] * 2  # on the grids of both

@@ -7,11 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import xarray
+from drawn_again import from_files
 from invented_answers import FEW, SERIES, cut, eq_19, obeying, other, spoiled
 
-from compare.figures import style
 from compare.figures.plot import Plot
-from compare.report import csvfiles
 from compare.report.page import Findings, Section, Table
 from compare.solving.curve import tasks_of
 from compare.solving.task import Outcome, Row
@@ -81,35 +80,15 @@ def _place(found):
     return found.claim.id, found.dimension, found.where
 
 
-def test_figures_are_functions_of_their_tables_as_files_have_them(page, tmp_path):
+def test_a_page_has_the_figures_and_tables_of_what_was_asked(page):
     plots = {plot.name: plot for plot in page.every(Plot)}
     assert {"sphere/collapse", "sphere/friction-speed", "rest/force-depth"} <= set(plots)
     assert "rest/friction-speed" not in plots
-    for name, plot in plots.items():
-        assert 5 < len(plot.caption.split()) <= 60, name
-        if name not in ("sphere/collapse", "pressed/force-depth"):
-            continue  # drawn with all figures, from stored tables
-        tables = {}
-        for table, frame in plot.tables.items():
-            (tmp_path / f"{table}.csv").write_text(csvfiles.text(frame), "utf-8")
-            tables[table] = csvfiles.read(tmp_path / f"{table}.csv")
-        with style.applied():
-            assert plot.draw(tables, **plot.options).axes
-
-
-def test_points_have_means_with_intervals_and_groups_and_failures_their_reason(study, page):
-    asked, answers = study
+    assert all(5 < len(plot.caption.split()) <= 60 for plot in plots.values())
+    assert from_files(plots["pressed/force-depth"]).axes
     tables = {table.name: table.frame for table in page.every(Table)}
-    points, known = tables["sphere/points"], asked.series[0].answers(answers)
-    assert len(points) == 2 * 2 * (1 + 6) * 5
-    rough = points[(points["model"] == "BEM") & (points["curve"] == "rough")]
-    forces = (known("rough", "BEM")[name].mean("surface").values for name in ("friction_force", "normal_force"))
-    ratio = np.divide(*forces)
-    np.testing.assert_allclose(rough["friction_coefficient_mean"].to_numpy().reshape(7, 5), ratio, rtol=1e-12)
-    assert (rough["normal_force_low"] <= rough["normal_force_mean"]).all()
-    assert rough["surfaces"].min() == SERIES.surfaces - 1
-    (reason,) = tables["sphere/failures"]["reason"]
-    assert reason == "it would not <converge>"
+    assert len(tables["sphere/points"]) == 2 * 2 * (1 + 6) * 5
+    assert tables["sphere/failures"]["reason"].tolist() == ["it would not <converge>"]
     assert "smoother/failures" not in tables
 
 

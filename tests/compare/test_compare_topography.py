@@ -5,7 +5,6 @@ from dataclasses import replace
 from math import pi
 
 import numpy as np
-import pandas
 import pytest
 from drawn_again import from_files
 from maps import sampled
@@ -157,10 +156,10 @@ def test_a_number_is_finite_or_has_its_reason(tmp_path, kind, length, pixel):
     heights = EDGES[kind].astype(float)
     heights *= length / np.abs(heights).max()
     study = Map.of(saved(tmp_path, heights), pixel=pixel, unit="m")
-    findings = study.judge(study.answers({})).findings
-    assert all(np.isfinite(each.value) for each in findings if each.claim.id not in LAW)
-    assert all(np.isfinite(each.value) or study.description.warnings for each in findings)
-    assert all(np.isfinite(each.density).all() for each in (study.description.rings, study.description.rows))
+    found = study.description
+    for each in study.judge(study.answers({})).findings:
+        assert np.isfinite(each.value) or (each.claim.id in LAW and found.warnings)
+    assert all(np.isfinite(each.density).all() for each in (found.rings, found.rows))
 
 
 LAW = {f"topography.{name}" for name in ("hurst", "longest", "shortest")}
@@ -210,14 +209,10 @@ def test_the_command_describes_a_map(tmp_path):
     stated = {"skip": 1, "unit": "um", "pixel": [map_.pixel[0]], "repeat": "periodic", "peaks": "down"}
     report = compare.topography(path, output=tmp_path / "out", **stated)
     expected = describe(replace(map_, heights=1e-6 * (1e6 * map_.heights.heights)))
-    told = report.findings.set_index("claim")
+    told, law = report.findings.set_index("claim"), expected.law
     assert told.loc["topography.rms-height", "value"] == expected.rms_height
-    law = expected.law
-    assert told.loc["topography.hurst", ["value", "low", "high"]].tolist() == [law.hurst, law.low, law.high]
-    assert told.loc["topography.hurst", "regime"] == expected.band
-    assert set(told["verdict"]) == {"reported"}
-    table = pandas.read_csv(tmp_path / "out" / "topography.csv")
-    np.testing.assert_allclose(table["density_2d"], expected.rings.density, rtol=1e-12)
+    known = told.loc["topography.hurst", ["value", "low", "high", "regime"]].tolist()
+    assert known == [law.hurst, law.low, law.high, expected.band]
     np.testing.assert_array_equal(compare.load(tmp_path / "out")["rings"]["q"], expected.rings.q)
 
 
@@ -253,4 +248,3 @@ def test_the_figure_is_a_function_of_its_csv_files():
         np.testing.assert_allclose(right.lines[0].get_ydata(), found.rows.density, rtol=1e-12, atol=nothing)
         assert len(left.lines) == lines
         assert ("Hurst" in plot.caption) == (lines == 2)
-        assert len(plot.caption.split()) <= 60

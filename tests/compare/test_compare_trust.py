@@ -1,6 +1,7 @@
 """What 1D is worth for a scene: limits that must come out, laws of groups and regression, and the campaign."""
 
 import gzip
+import re
 from dataclasses import astuple, replace
 from math import exp, log, pi
 
@@ -71,10 +72,9 @@ def test_a_smooth_body_that_slides_slowly_has_twice_the_friction_in_1d(shape):
 
 def test_a_smooth_body_at_rest_is_answered_rightly_in_1d():
     for motion, name in ((Indent(load=1.0), "depth"), (Indent(depth=1e-4), "force")):
-        found = trust(replace(SMOOTH, motion=motion))
-        assert list(found.corrections) == [name]
-        assert getattr(found, name).ratio == pytest.approx(1, rel=GRID)
-        assert getattr(found, name).advice == "use"
+        ((said, worth),) = trust(replace(SMOOTH, motion=motion)).corrections.items()
+        assert (said, worth.advice) == (name, "use")
+        assert worth.ratio == pytest.approx(1, rel=GRID)
 
 
 def test_a_depth_that_is_lost_in_the_roughness_asks_for_3d_however_many_scenes_were_near():
@@ -83,9 +83,7 @@ def test_a_depth_that_is_lost_in_the_roughness_asks_for_3d_however_many_scenes_w
     assert found.depth.advice == "solve"
     assert "nearly as high as the body is deep" in found.depth.reason
     groups = table.groups(table.read(table.LEARNED))
-    hidden = groups[lost(groups)]
-    assert len(hidden) > 100
-    assert (table.model("depth").predicted(hidden).error * NORMAL > verdict.WIDE).all()
+    assert (table.model("depth").predicted(groups[lost(groups)][::9]).error * NORMAL > verdict.WIDE).all()
 
 
 def test_the_paper_s_rough_sphere_agrees_with_what_the_default_run_measured():
@@ -178,13 +176,8 @@ def test_off_the_map_the_advice_is_to_solve_and_the_reason_names_what_is_missing
 def test_beyond_a_slope_of_one_there_is_no_advice_for_either_solver(changed, steep):
     found = trust(replace(PAPER, **changed))
     assert {worth.advice for worth in found.corrections.values()} == {"none"}
-    assert all(
-        steep in worth.reason and "3D is as linear as 1D" in worth.reason for worth in found.corrections.values()
-    )
-    told = str(found)
-    assert told.startswith("doubtful: ")
-    assert "use 1D" not in told
-    assert "no advice" in told
+    assert all(steep in worth.reason for worth in found.corrections.values())
+    assert re.match("doubtful: (?!.*use 1D).*no advice", str(found), re.DOTALL)
 
 
 def test_no_scene_breaks_the_map_and_one_surface_says_something_or_that_it_says_nothing():
@@ -200,9 +193,6 @@ def test_no_scene_breaks_the_map_and_one_surface_says_something_or_that_it_says_
                 assert worth.surface_low <= worth.low <= worth.ratio <= worth.high <= worth.surface_high
                 assert worth.surface_high / worth.surface_low < 1e3
             silent += nothing
-        assert found.table()["reason"].str.contains(verdict.NOTHING, regex=False).sum() == sum(
-            verdict.NOTHING in worth.reason for worth in found.corrections.values()
-        )
     assert 0 < silent < 30
 
 
@@ -264,12 +254,9 @@ def test_nothing_rough_is_solved(monkeypatch):
 
 
 def test_it_says_where_the_scene_lies():
-    solids = KELVIN, STANDARD, replace(STANDARD, glassy_modulus=2e11)
-    texts = (str(trust(replace(PAPER, elastomer=each))) for each in solids)
-    places = [next(line for line in each.splitlines() if line.startswith("place")) for each in texts]
-    assert [each.rpartition(", ")[2] for each in places] == [
-        f"E_g/E_r {each}" for each in ("is infinite", "= 10", "= 2e+05")
-    ]
+    glasses = {KELVIN: "is infinite", STANDARD: "= 10", replace(STANDARD, glassy_modulus=2e11): "= 2e.05"}
+    for solid, said in glasses.items():
+        assert re.search(rf"^place.*, E_g/E_r {said}$", str(trust(replace(PAPER, elastomer=solid))), re.MULTILINE)
 
 
 def test_waves_in_full_contact_have_the_friction_and_pressure_of_those_that_surface_and_line_are_drawn_from():
@@ -317,14 +304,12 @@ def test_values_left_out_are_those_foretold_from_all_others():
     inputs, values, variances = noisy(12)
     scales = Scales(np.zeros(3), np.ones(3), np.array([0.6, 2.0, 5.0]), 1.0, 0.5, 0.05)
     whole = Process(inputs, values, variances, scales)
-    errors, spread = fitting.left_out(whole)
-    covariance = whole.factor @ whole.factor.T
-    for k in range(12):
-        rest = np.arange(12) != k
+    covariance, centred = whole.factor @ whole.factor.T, values - values.mean()
+    for k, found in enumerate(zip(*fitting.left_out(whole), strict=True)):
+        rest = np.delete(np.arange(12), k)
         weights = np.linalg.solve(covariance[np.ix_(rest, rest)], covariance[rest, k])
-        centred = values - values.mean()
-        assert errors[k] == pytest.approx(centred[k] - weights @ centred[rest], rel=1e-6)
-        assert spread[k] == pytest.approx(covariance[k, k] - weights @ covariance[rest, k], rel=1e-6)
+        expected = centred[k] - weights @ centred[rest], covariance[k, k] - weights @ covariance[rest, k]
+        assert found == pytest.approx(expected, rel=1e-6)
 
 
 def test_the_points_that_tell_most_know_the_rest_better_than_any_others():
@@ -497,23 +482,6 @@ def scored(logarithms, predicted, error, scatter=0.0):
     groups = np.zeros((error.size, len(NAMES)))
     measured = Measurements(groups, logarithms, scatter + nothing, nothing, 1 + nothing, nothing)
     return scoring.Score(measured, Predicted(predicted, error, nothing))
-
-
-@pytest.mark.parametrize(
-    ("inside", "scenes", "fails"),
-    [
-        (61, 87, True),
-        (76, 87, True),
-        (80, 87, False),
-    ],
-)
-def test_a_region_fails_where_its_share_is_significantly_below_the_promise(inside, scenes, fails):
-    nothing, every = np.zeros(scenes), np.ones(scenes)
-    apart = np.where(np.arange(scenes) < inside, 0.0, 1.0)
-    groups = dict.fromkeys(NAMES, nothing) | {"slides": every > 0, "shape": every}
-    (row,) = scoring.coverage_rows({"depth": (scored(apart, nothing, 0.03 * every), groups)})
-    assert (row["body"], row["scenes"], row["fails"]) == ("cone", scenes, fails)
-    assert row["least"] < row["in 95 %"] == inside / scenes < row["most"]
 
 
 def test_of_two_intervals_the_narrower_is_taken_and_one_that_is_usable_before_one_that_is_not():

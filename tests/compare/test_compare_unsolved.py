@@ -3,14 +3,12 @@
 import json
 
 import pytest
-from typer.testing import CliRunner
+from processes import ask
 
-import compare
 from bem3d import BEM
-from compare.cli.app import app
 from compare.solving.task import Outcome, Row, SceneTask
 from compare.solving.unsolved import Unsolved
-from scene import Doubtful, Indent, Kelvin, Scene, Sphere
+from scene import Indent, Kelvin, Scene, Sphere
 
 pytestmark = pytest.mark.usefixtures("in_this_process")
 
@@ -96,7 +94,7 @@ def blunt(tmp_path_factory):
 
 def test_a_run_without_its_own_contact_says_so_before_the_answer_and_ends_with_1(blunt, tmp_path):
     def told(*options):
-        return CliRunner().invoke(app, ["run", str(blunt), "--output", str(tmp_path), "--workers", "1", *options])
+        return ask("run", blunt, "--output", tmp_path, "--workers", 1, *options)
 
     shown = told()
     assert shown.exit_code == 1
@@ -114,13 +112,3 @@ def test_a_run_without_its_own_contact_says_so_before_the_answer_and_ends_with_1
     assert "have no answer" in quiet.stderr
     printed = told("--json", "--no-report")
     assert any("have no answer" in each for each in json.loads(printed.stdout)["doubts"])
-
-
-def test_a_sweep_warns_of_what_has_no_answer(blunt, tmp_path):
-    with pytest.warns(Doubtful) as warned:
-        found = compare.sweep(blunt, [3e-3], draws=1, workers=1, output=tmp_path, report=False)
-    told = [str(each.message) for each in warned if each.category is Doubtful]
-    assert told[0].startswith("slope of the body at the edge of the contact")
-    assert "have no answer" in told[-1]
-    assert {each.filename for each in warned if each.category is Doubtful} == {__file__}
-    assert "failed" in found["status"].values
