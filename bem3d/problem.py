@@ -13,9 +13,8 @@ from scene.terms import Table, terms_of
 from .contact import activeset, sums
 from .grid import Grid
 from .motion.steady import Flow
-from .response.cell import Cell
 from .response.engine import Engine
-from .response.halfspace import HalfSpace, Line
+from .response.halfspace import Cell, HalfSpace, Line
 from .response.medium import Foundation, HalfSpaceKernel
 from .surface import RoughSurface
 from .terms import TERMS

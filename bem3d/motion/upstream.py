@@ -75,7 +75,9 @@ class Endless:
     """A half-space, undisturbed before it all began."""
 
     def __init__(self, window: Sheet, path: float, half_space):
-        """path : between its ends [m]; nothing from beyond the widest sheet comes into the window on it.
+        """Undisturbed sheets around a window.
+
+        path : between its ends [m]; nothing from beyond the widest sheet comes into the window on it.
         half_space : grid -> callable, pressure -> relaxed displacement [m]
         """
         self.window, self._sheets, self._displaced = window, [window], []

@@ -96,8 +96,8 @@ class Engine:
 class Product:
     """Planes times a symmetric matrix of symbols in Fourier space.
 
-    symbols : (s,) for one plane, (xx, xy, yy) for two, unnormalized, (my//2+1, mx//2+1); real or complex; even in
-        q_y but for xy, which is odd
+    symbols : (s,) for one plane, (xx, xy, yy) for two, unnormalized, (my//2+1, mx//2+1); real or complex; xy is
+        odd in q_y, the others are even
     shape, padded : (ny, nx) of a plane and (my, mx) of its transform; my = 1, for one plane, transforms no columns
     """
 

@@ -1,11 +1,15 @@
-"""A surface, or a line, that ends nowhere: what a pressure does to a half-space, or to what else lies below.
+"""Response of a half-space to a pressure: a free surface, a line alike along y, and a cell that repeats.
 
-Pressures are in units of the relaxed E* and displacements in pixels. The surface arrives undisturbed.
+Pressures are in units of the relaxed E* and displacements in pixels. A free surface arrives undisturbed. In a cell
+every wave of pressure has its own displacement, the wake included. The mean displacement is not defined there:
+depths are counted from the mean of the deformed surface.
 """
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
+from scipy.fft import fftfreq, rfft2, rfftfreq
 
 from ..grid import Grid, Piece, cached_on_small_grids
 from ..motion.steady import Flow
@@ -17,12 +21,23 @@ LEAST_DIFFERENCE = 1e-3  # memory [pixel] down to which losses are taken from di
 
 
 @dataclass(frozen=True)
-class HalfSpace:
-    """The free surface of a half-space, unless the kernel is another."""
+class Medium:
+    """The surface of a half-space, unless the kernel is another. wraps : whether it repeats"""
+
+    wraps: ClassVar[bool] = False
 
     flow: Flow
     engine: Engine
     kernel: ResponseKernel = HALF_SPACE
+
+    @cached_on_small_grids
+    def foundation(self, grid: Grid) -> Foundation | None:
+        """Part of the operator that the elastic half-space does not have; None at rest."""
+        return Foundation.of(self.flow, grid, self.wraps)
+
+
+class HalfSpace(Medium):
+    """A free surface."""
 
     def operator(self, grid: Grid) -> FreeConvolution:
         """Pressure -> displacement at the points of collocation."""
@@ -38,8 +53,10 @@ class HalfSpace:
         return free_symbol(kernel, self.engine)
 
     def lost(self, grid: Grid, pressure: np.ndarray) -> tuple[float, float]:
-        """sum p dw/dx over a pressure (rows, points), the energy lost per pixel slid: by the slope of the
-        displacement along the flow, and by its difference between the pixels on both sides.
+        """Energy lost per pixel slid, sum p dw/dx over a pressure (rows, points): two estimates.
+
+        The first is by the slope of the displacement along the flow, the second by its difference between the
+        pixels on both sides.
 
         A mode's displacement obeys w + l dw/dx = w_elastic, so its slope is (w_elastic - w)/l without any
         difference quotient. Only the part of its kernel that is even in x does work on the pressure: the sum of
@@ -54,8 +71,10 @@ class HalfSpace:
 
     @cached_on_small_grids
     def _losing(self, grid):
-        """Slope of the displacement by a pixel: its even part from one pixel on (rows, points), and at the pixel
-        (rows,); odd part of the displacement (rows, points).
+        """Kernels of the loss by a pixel of pressure.
+
+        Slope of the displacement: its even part from one pixel on (rows, points), and at the pixel (rows,). Odd
+        part of the displacement (rows, points).
         """
         middle = grid.points + 1
         wider = Piece(middle, middle * grid.pixel, width=grid.width, lines=grid.rows)
@@ -85,11 +104,6 @@ class HalfSpace:
 
         return PeriodicFilter(grid.shape, elastic, self.engine)
 
-    @cached_on_small_grids
-    def foundation(self, grid: Grid) -> Foundation | None:
-        """Part of the operator that the elastic half-space does not have; None at rest."""
-        return Foundation.of(self.flow, grid)
-
     def _elastic(self, grid):
         return self.kernel.elastic(grid)
 
@@ -97,7 +111,6 @@ class HalfSpace:
         return self.kernel.flowing(grid, instantaneous, shares, lengths, shift)
 
 
-@dataclass(frozen=True)
 class Line(HalfSpace):
     """The free surface under a load that is the same all along y; the depth of a half-space needs a datum."""
 
@@ -106,3 +119,50 @@ class Line(HalfSpace):
 
     def _flowing(self, grid, instantaneous, shares, lengths, shift):
         return self.kernel.line_flowing(grid, instantaneous, shares, lengths, shift)
+
+
+class Cell(Medium):
+    """One period of a surface that repeats: on a half-space, w(q) = 2 J(q_x v) p(q) / |q|."""
+
+    wraps = True
+
+    def operator(self, grid: Grid) -> PeriodicFilter:
+        """Pressure -> displacement, free of mean, at the points of collocation."""
+
+        def symbol(q_y, q_x):
+            values = self.kernel.compliance(_lengths(q_y, q_x, 1.0), grid.pixel) * self._response(grid, q_x)
+            values[0, 0] = 0.0
+            return values
+
+        return PeriodicFilter(grid.shape, symbol, self.engine)
+
+    def preconditioner(self, grid: Grid) -> PeriodicFilter:
+        """Inverse of the operator without the foundation; a mean pressure is taken for the lowest wave."""
+
+        def elastic(q_y, q_x):
+            return self.kernel.stiffness(_lengths(q_y, q_x, 2 * np.pi / grid.points), grid.pixel)
+
+        return PeriodicFilter(grid.shape, elastic, self.engine)
+
+    def lost(self, grid: Grid, pressure: np.ndarray) -> tuple[float, float]:
+        """Energy lost per pixel slid, as by `HalfSpace.lost`."""
+        (ny, nx), spectrum = grid.shape, np.square(np.abs(rfft2(pressure)))
+        q_y, q_x = 2 * np.pi * np.abs(fftfreq(ny))[:, None], 2 * np.pi * np.abs(rfftfreq(nx))
+        yielding = self.kernel.compliance(_lengths(q_y, q_x, 1.0), grid.pixel)
+        lost = -np.sum(yielding * spectrum, axis=0) * self.flow.compliance(q_x, grid.pixel).imag / (ny * nx)
+        lost[1 : (nx + 1) // 2] *= 2  # with those of the opposite waves
+        return float(q_x @ lost), float(np.sin(q_x) @ lost)
+
+    def _response(self, grid, q_x):
+        """Compliance, seen from the points of collocation; real at rest."""
+        if self.flow.at_rest:
+            return 1.0
+        shift = self.flow.collocation(grid) / grid.pixel
+        return self.flow.compliance(q_x, grid.pixel) * np.exp(1j * q_x * shift)
+
+
+def _lengths(q_y, q_x, mean):
+    """|q| of all waves [rad/pixel], with something else where it is zero."""
+    q = np.hypot(q_y, q_x)
+    q[0, 0] = mean
+    return q

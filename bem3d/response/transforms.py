@@ -76,14 +76,14 @@ class FftwRows:
         self._forward, self._backward = _plans(self._points, self._waves)
 
     def forward(self, rows, waves):
-        """As of `DuccRows`."""
+        """Rows (n, nx) to waves (n, length // 2 + 1)."""
         count, given = rows.shape
         self._points[:count, :given], self._points[:count, given:] = rows, 0
         self._forward.execute()
         waves[:] = self._waves[:count]
 
     def backward(self, waves, rows):
-        """As of `DuccRows`."""
+        """Waves (n, length // 2 + 1) to the first points (n, nx) of their rows."""
         self._waves[: len(waves)] = waves
         self._backward.execute()
         rows[:] = self._points[: len(rows), : rows.shape[1]]
@@ -99,14 +99,14 @@ class FftwColumns:
         self._forward, self._backward = _plans(self._lines, self._lines)
 
     def forward(self, columns):
-        """As of `DuccColumns`, never in place."""
+        """Transform (length, n) of columns (ny, n), in the memory of these transforms."""
         given, count = columns.shape
         self._lines[:count, :given], self._lines[:count, given:] = columns.T, 0
         self._forward.execute()
         return self._lines[:count].T
 
     def backward(self, transformed, columns):
-        """As of `DuccColumns`; `transformed` is what `forward` returned."""
+        """Transforms, as `forward` returned them, to the first points (ny, n) of their columns."""
         self._backward.execute()
         columns[:] = transformed[: len(columns)]
 

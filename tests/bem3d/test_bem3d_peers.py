@@ -14,9 +14,8 @@ from bem3d.grid import Grid
 from bem3d.motion.marching import march
 from bem3d.motion.steady import Flow
 from bem3d.problem import Problem
-from bem3d.response.cell import Cell
 from bem3d.response.engine import Engine
-from bem3d.response.halfspace import HalfSpace
+from bem3d.response.halfspace import Cell, HalfSpace
 from scene import Elastic, Indent, Plane, Program, Prony, Scene, SelfAffine, Sphere, Stage
 
 # A warning of the peers, not of ours: without mpi4py, NuMPI warns on import that it stands in for it.

@@ -19,9 +19,8 @@ from strategies import (
 from bem3d.contact import activeset as contact
 from bem3d.grid import Grid
 from bem3d.motion.steady import Flow
-from bem3d.response.cell import Cell
 from bem3d.response.engine import Engine
-from bem3d.response.halfspace import HalfSpace
+from bem3d.response.halfspace import Cell, HalfSpace
 
 POINTS = 32
 # Conditions of contact are solved to this, over the depth of the lowest point.
