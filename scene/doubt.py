@@ -5,7 +5,7 @@ One list of limits for every command and both solvers; nothing is solved for it.
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from math import isfinite, nan
+from math import isfinite, isnan, nan
 from operator import attrgetter
 from typing import Any
 
@@ -162,6 +162,10 @@ def _size(found):
     return f"radius of the contact {found.contact.radius:.3g} m, depth {found.contact.depth:.3g} m"
 
 
+def _waves(found):
+    return "" if isnan(found.shortest) else f"waves down to {found.shortest:.3g} m"
+
+
 def _slopes(found):
     waves = found.scene.roughness.waves
     return f"{waves.rms_slope_x:.3g} along x, {waves.rms_slope_y:.3g} along y"
@@ -283,7 +287,7 @@ LIMITS = (
         (),
         _size,
     ),
-    Limit("rms_slope", "rms slope of the roughness", SMALL_SLOPE, "", LINEAR),
+    Limit("rms_slope", "rms slope of the roughness", SMALL_SLOPE, "", LINEAR, beside=_waves),
     Limit("rms_slope", "rms slope of the roughness", 1e-4, "", "smoother than polished glass: check units", False),
     Limit(
         "height_left_out",

@@ -3,10 +3,11 @@
 A measured one is a row of power laws between points; that of a surface follows from that of its line scans.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from itertools import pairwise
-from math import ceil, inf, log10, pi, sqrt
+from math import ceil, exp, inf, log, log10, pi, sqrt
 from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
@@ -142,6 +143,24 @@ class Isotropic:
 
     def _seen(self, function, q, q_max):
         return over_directions(function, q, (*self._corners(q_max), q_max))
+
+
+def wave_at_slope(slope: float, steepness: Callable[[float], float], q_low: float, q_high: float) -> float:
+    """Shortest wave [m] of a spectrum that is cut where its rms slope reaches a value.
+
+    steepness : rms slope of the spectrum up to a wave number [rad/m], between q_low and q_high
+
+    Raises ValueError where the slope is not reached there.
+    """
+    low, high = steepness(q_low), steepness(q_high)
+    if not low < slope < high:
+        raise ValueError(
+            f"shortest_at_slope = {slope:g}: between {low:.3g} and {high:.3g} is allowed, the rms slopes with "
+            f"waves down to {2 * pi / q_low:.3g} m and down to {2 * pi / q_high:.3g} m"
+        )
+    from scipy.optimize import brentq  # only a spectrum that is cut so needs it
+
+    return 2 * pi / exp(brentq(lambda u: log(steepness(exp(u)) / slope), log(q_low), log(q_high), xtol=1e-12))
 
 
 def seeded(rough: Isotropic, seed: int) -> Any:

@@ -10,8 +10,9 @@ from pydantic.dataclasses import dataclass
 
 from ..files.stated import alternatives, restated, taken
 from ..quantities import BARE, Finite, Length, LengthOrZero, NonNegative, Seed
-from .isotropic import Isotropic, power_integral
+from .isotropic import Isotropic, power_integral, wave_at_slope
 
+ATOM = 1e-10  # no wave is shorter [m]
 # Wavelength [m] down to which its wave number, and that of a grid that resolves it, is a number.
 _SHORTEST = 1e-300
 
@@ -27,13 +28,16 @@ Wavelength = Annotated[Length, AfterValidator(_has_wave_number)]
 _SLOPE = TypeAdapter(NonNegative)
 
 
-def _slope(given):
+def slope_of(given):
     if not 0 <= (found := BARE.value(given)) < inf:
         raise ValueError("Input should be the rms of the full gradient, a number from 0 on")
     return found
 
 
-@dataclass(frozen=True, config=alternatives("rms_height", rms_slope=_SLOPE.json_schema()), kw_only=True)
+_STATED = alternatives("rms_height", **dict.fromkeys(("rms_slope", "shortest_at_slope"), _SLOPE.json_schema()))
+
+
+@dataclass(frozen=True, config=_STATED, kw_only=True)
 class SelfAffine(Isotropic):
     """Randomly rough, isotropic, self-affine between two wavelengths.
 
@@ -49,7 +53,8 @@ class SelfAffine(Isotropic):
         surface scatters
 
     In place of rms_height `rms_slope` may be stated, the spectral rms of the full gradient [1], with `shortest`:
-    it becomes the rms_height that has it.
+    it becomes the rms_height that has it. In place of shortest `shortest_at_slope` may be stated: the shortest
+    wave is then the one at which the rms slope reaches that value.
     """
 
     hurst: Annotated[Finite, Field(ge=0, le=1)]
@@ -63,9 +68,11 @@ class SelfAffine(Isotropic):
 
     @restated
     def _of_the_slope(cls, stated):  # noqa: N805
+        if "shortest_at_slope" in stated:
+            return _up_to_the_slope(cls, stated)
         if "rms_slope" not in stated:
             return stated
-        slope = taken("rms_slope", stated, _slope)
+        slope = taken("rms_slope", stated, slope_of)
         del stated["rms_slope"]
         if "rms_height" in stated or stated.get("shortest") is None:
             raise ValueError(
@@ -111,3 +118,18 @@ class SelfAffine(Isotropic):
         lower, upper = lower / self.q_rolloff, upper / self.q_rolloff
         flat = power_integral(m, np.minimum(lower, 1.0), np.minimum(upper, 1.0))
         return flat + power_integral(m - 2 * self.hurst - 2, np.maximum(lower, 1.0), np.maximum(upper, 1.0))
+
+
+def _up_to_the_slope(cls, stated):
+    """Fields with the shortest wave at which the rms slope reaches what is stated."""
+    slope = taken("shortest_at_slope", stated, slope_of)
+    del stated["shortest_at_slope"]
+    if stated.get("shortest") is not None or "rms_slope" in stated:
+        raise ValueError(
+            f"shortest_at_slope = {slope:g}: state rms_height, and neither shortest nor rms_slope beside it"
+        )
+    try:
+        rough = cls(**stated)
+    except ValueError:
+        return stated  # for the mistakes of the fields that have them
+    return stated | {"shortest": wave_at_slope(slope, rough.rms_slope, 2 * rough.q_min, 2 * pi / ATOM)}

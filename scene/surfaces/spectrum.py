@@ -8,13 +8,13 @@ import numpy as np
 from pydantic import Field, model_validator
 from pydantic.dataclasses import dataclass
 
-from ..files.stated import FORM, TableFormat, alternatives, filled, restated
+from ..files.stated import FORM, TableFormat, alternatives, filled, restated, taken
 from ..files.tablefile import Column, read_columns
 from ..quantities import RADIAN_PER_METRE, ROW, Positive, Seed, Unit
 from .heightmap import LONGEST, SHORTEST
-from .isotropic import Isotropic, PowerLaws, of_surface
+from .isotropic import Isotropic, PowerLaws, of_surface, wave_at_slope
 from .scanned import QUOTIENT
-from .selfaffine import Wavelength
+from .selfaffine import Wavelength, slope_of
 
 MOST_OF_SURFACE, MOST_OF_LINE = 5_000, 1_000  # points; a line has to be inverted
 PER_METRE = Unit("1/m", "waves in a length", "0.1 1/um", 1e5)
@@ -30,7 +30,11 @@ COLUMNS = (
 )
 
 
-@dataclass(frozen=True, config=alternatives("q", table={"type": "string"}, **FORM), kw_only=True)
+@dataclass(
+    frozen=True,
+    config=alternatives("q", table={"type": "string"}, shortest_at_slope={"type": "number"}, **FORM),
+    kw_only=True,
+)
 class Spectrum(Isotropic):
     """Randomly rough and isotropic, with a measured spectral density.
 
@@ -41,7 +45,9 @@ class Spectrum(Isotropic):
         Pastewka, Surf. Topogr. 5, 013001, 2017), or "persson", <h^2> = 2 pi int q C2D dq, a density smaller by
         4 pi^2. C1D of two sides has <h^2> = 1/pi int C1D dq, or 2 int C1D dq, over q > 0
     sides : of C1D, "two", or "one" where C1D is twice as large, as all of <h^2> is ascribed to q > 0
-    longest_kept, shortest_kept : longer and shorter waves are left out [m]; absent, those of q stay
+    longest_kept, shortest_kept : longer and shorter waves are left out [m]; absent, those of q stay. In place of
+        shortest_kept `shortest_at_slope` may be stated: waves are kept up to the one at which the rms slope
+        reaches that value
     seed, amplitudes : see `SelfAffine`
 
     Between the points the density is a power law, outside it is zero. C1D is turned into C2D by Abel's inversion,
@@ -74,7 +80,7 @@ class Spectrum(Isotropic):
     amplitudes: Literal["fixed", "gaussian"] = "fixed"
     type: Literal["spectrum"] = Field(default="spectrum", repr=False)
 
-    _of_a_table = restated(lambda cls, stated: filled(stated, _read))
+    _of_a_table = restated(lambda cls, stated: _up_to_the_slope(cls, filled(stated, _read)))
 
     @model_validator(mode="after")
     def _is_one(self):
@@ -213,6 +219,26 @@ def _read(table: Any, written: TableFormat) -> dict[str, Any]:
     if "frequency" in columns:
         columns["q"] = 2 * pi * columns.pop("frequency")
     return columns
+
+
+def _up_to_the_slope(cls, stated):
+    """Fields with the shortest wave kept at which the rms slope reaches what is stated."""
+    if "shortest_at_slope" not in stated:
+        return stated
+    slope = taken("shortest_at_slope", stated, slope_of)
+    del stated["shortest_at_slope"]
+    if stated.get("shortest_kept") is not None:
+        raise ValueError(f"shortest_at_slope = {slope:g}: state no shortest_kept beside it")
+    try:
+        whole = cls(**stated)
+    except ValueError:
+        return stated  # for the mistakes of the fields that have them
+    low, high = whole.q_min, whole.q_max(0.0)
+
+    def steepness(q):
+        return sqrt(2 * pi * whole._moment(3, low, q))
+
+    return stated | {"shortest_kept": wave_at_slope(slope, steepness, 2 * low, high)}
 
 
 @lru_cache(maxsize=16)

@@ -7,7 +7,7 @@ from math import gamma
 import numpy as np
 import pytest
 
-from scene import CrossedWaves, InvalidInput, SelfAffine, Wave
+from scene import CrossedWaves, InvalidInput, SelfAffine, Spectrum, Wave
 from scene.surfaces.selfaffine import power_integral
 
 ROUNDING = 1e-12
@@ -58,6 +58,34 @@ def test_a_slope_in_place_of_the_height_is_the_slope_of_the_surface(hurst, rollo
     assert rough.rms_slope(rough.q_max(0.0)) == pytest.approx(slope, rel=ROUNDING)
     assert rough.flat == (slope == 0)
     assert replace(rough, seed=2).rms_height == rough.rms_height
+
+
+@pytest.mark.parametrize("rolloff", [None, 2e-3])
+@pytest.mark.parametrize("slope", [0.1, 0.3, 1.3])
+def test_a_spectrum_is_cut_where_its_slope_reaches_what_is_stated(rolloff, slope):
+    stated = {"hurst": 0.6, "rms_height": "20 um", "longest": "10 mm", "rolloff": rolloff}
+    rough = SelfAffine(**stated, shortest_at_slope=slope)
+    assert rough.rms_slope(rough.q_max(0.0)) == pytest.approx(slope, rel=1e-9)
+    q = np.geomspace(rough.q_min, 1e3 * rough.q_min, 400)
+    density = replace(rough, shortest=rough.longest / 1e3).density_2d(q, q[-1])
+    table = Spectrum(q=q, C2D=density, convention="persson", shortest_at_slope=0.04)
+    assert table.rms_slope(table.q_max(0.0)) == pytest.approx(0.04, rel=1e-9)
+    assert table.shortest_kept == table.shortest
+
+
+@pytest.mark.parametrize(
+    ("message", "stated"),
+    [
+        (r"at_slope = 1e-05: between .* the rms slopes with waves down to 0.005 m", {"shortest_at_slope": 1e-5}),
+        ("shortest_at_slope = 1e[+]09: between", {"shortest_at_slope": 1e9}),
+        ("shortest_at_slope = 0.1: state rms_height, and neither", {"shortest": 1e-4}),
+        ("shortest_at_slope = '1 um': .*a number without a unit", {"shortest_at_slope": "1 um"}),
+        ("hurst.*Input should be less than or equal to 1", {"hurst": 2}),
+    ],
+)
+def test_a_slope_at_which_no_wave_is_cut_is_refused_with_the_reason(message, stated):
+    with pytest.raises(InvalidInput, match=message):
+        SelfAffine(**{"hurst": 0.5, "rms_height": 1e-5, "longest": 1e-2, "shortest_at_slope": 0.1} | stated)
 
 
 @pytest.mark.parametrize(
