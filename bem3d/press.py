@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from scene import Elastic, Indent, InvalidInput, Plane, Result, Scene, Topography
+from scene import Elastic, Indent, InvalidInput, Measured, Plane, Result, Scene, Topography
 from scene.quantities import PASCAL, takes
 
 from .solver import BEM
@@ -13,49 +13,44 @@ def press(
     heights: Any,
     pixel: Any,
     modulus: float,
-    body: Any = None,
     *,
-    load: Any = None,
-    depth: Any = None,
     pressure: Any = None,
     gap: Any = None,
+    load: Any = None,
+    depth: Any = None,
     unit: str | None = None,
     **settings: Any,
 ) -> Result:
-    """Press a rigid rough surface into an elastic half-space.
+    """Press a rigid surface, given by its heights, into an elastic half-space.
 
-    heights : of the surface (M, N) [m], rows along y; the highest point touches first
+    heights : of the surface (N, N) [m], rows along y; the highest point touches first
     pixel : side of a pixel [m]
-    unit : of the heights, "um" for example; absent, metres
     modulus : contact modulus E* = E / (1 - nu^2) [Pa]
-    body : the roughness is on this Sphere, Cone or PowerLaw, with the middle of the map at its tip; beyond its sides
-        the map is mirrored. Absent, the surface is a plane that repeats, of a square map, and its grid is the map
-    load, depth : of a body [N], [m], one of them
-    pressure, gap : of a plane, means [Pa], [m], one of them
-    settings : of `BEM`
+    pressure, gap : mean pressure [Pa] or mean gap [m] of a plane, which repeats beyond the map
+    load, depth : load [N] or depth [m] of a body that ends where the map does, free of images
+    unit : of the heights, "um" for example; absent, metres
+    settings : of `BEM`; its grid is the map
 
-    Returns a Result: fields pressure [Pa], gap and height [m] on (M, N) pixels, measures contact_area [m^2], of a
-    plane contact_fraction, mean_pressure and mean_gap. Raises InvalidInput, and Refused and SolveError as `BEM`.
+    One of pressure, gap, load and depth is given. Returns a Result with the fields pressure [Pa], gap and height [m]
+    at the pixels (N, N), and the measures contact_area [m^2], and of a plane contact_fraction, mean_pressure and
+    mean_gap. Raises InvalidInput of a map that is no square, and Refused and SolveError as `BEM` does.
 
     >>> import numpy as np
     >>> from bem3d import press
-    >>> wave = 1e-6 * np.cos(2 * np.pi * np.arange(32) / 32) * np.ones((32, 1))
-    >>> answer = press(wave, pixel="1 um", modulus="1 MPa", pressure="0.15 MPa")
+    >>> wave = np.cos(2 * np.pi * np.arange(32) / 32) * np.ones((32, 1))
+    >>> answer = press(wave, unit="um", pixel="1 um", modulus="1 MPa", pressure="0.15 MPa")
     >>> print(f"{answer.measures['contact_fraction']:.0%}, {answer.fields['pressure'].max():.4g} Pa")
     100%, 2.482e+05 Pa
     """
-    read: dict[str, Any] = {} if unit is None else {"unit": unit}
-    repeat: Any = "periodic" if body is None else "mirror"
-    rough = Topography(heights=heights, pixel=pixel, repeat=repeat, level="mean", **read)
-    given: dict[str, Any] = {"load": load, "depth": depth, "pressure": pressure, "gap": gap}
+    read: dict[str, Any] = {"heights": heights, "pixel": pixel} | ({} if unit is None else {"unit": unit})
+    given: dict[str, Any] = {"pressure": pressure, "gap": gap, "load": load, "depth": depth}
     motion = Indent(**{name: value for name, value in given.items() if value is not None})
-    if body is None:
-        rows, columns = rough.heights.shape
-        if rough.size[0] != rough.size[1] or rows != columns:
-            sides = " x ".join(f"{side:g} m" for side in rough.size)
-            raise InvalidInput(
-                f"heights of {rows} x {columns} pixels, {sides}: a plane repeats as a square, state as many rows as "
-                "columns of square pixels, or a body"
-            )
-        settings = {"points": rows} | settings
-    return BEM(**settings).solve(Scene(Plane() if body is None else body, Elastic(modulus / 4), motion, rough))
+    free = motion.pressed_by in Measured.pressed_by
+    surface = Measured(**read) if free else Topography(**read, repeat="periodic", level="mean")
+    rows, columns = surface.heights.shape
+    if surface.size[0] != surface.size[1] or rows != columns:
+        sides = " x ".join(f"{side:g} m" for side in surface.size)
+        raise InvalidInput(f"heights of {rows} x {columns} pixels, {sides}: square pixels of a square are needed")
+    grid = {"points": rows} | ({"extent": surface.size[0]} if free else {})
+    placed = (surface, None) if free else (Plane(), surface)
+    return BEM(**(grid | settings)).solve(Scene(placed[0], Elastic(modulus / 4), motion, placed[1]))

@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 
 from bem3d import press
-from scene import Sphere
 from scene.files.reading import InvalidInput
 
-HEIGHT, MODULUS = 1e-6, 1e6
+HEIGHT, MODULUS, LOAD = 1e-6, 1e6, 1e-4
 COSINE = np.cos(2 * np.pi * np.arange(32) / 32)
 WAVE = HEIGHT * COSINE * np.ones((32, 1))
 FULL = np.pi * MODULUS * HEIGHT / 32e-6  # pi E* h / wavelength: under this mean pressure a wave touches everywhere
@@ -28,9 +27,15 @@ def test_the_highest_point_touches_first():
     assert np.array_equal(pressure > 0, bump > 0)
 
 
-def test_a_flat_map_on_a_sphere_is_pressed_as_hertz_says():
-    answer = press(np.zeros((32, 32)), 1e-5, MODULUS, Sphere(1e-2), load=0.01, points=128)
-    assert answer.depth == pytest.approx((9 * 0.01**2 / (16 * MODULUS**2 * 1e-2)) ** (1 / 3), rel=2e-3)
+@pytest.mark.parametrize("pressed", ["load", "depth"])
+def test_a_ball_is_pressed_as_hertz_says(pressed):
+    x = 5e-6 * (np.arange(96) - 47.5)
+    depth = (9 * LOAD**2 / (16 * MODULUS**2 * 1e-2)) ** (1 / 3)
+    given = {"load": LOAD} if pressed == "load" else {"depth": depth}
+    answer = press(-(x**2 + x[:, None] ** 2) / 2e-2, 5e-6, MODULUS, **given)
+    assert answer.depth == pytest.approx(depth, rel=2e-3)
+    assert answer.normal_force == pytest.approx(LOAD, rel=2e-3)
+    np.testing.assert_allclose(answer.fields["height"], (x**2 + x[:, None] ** 2) / 2e-2, atol=1e-9)
 
 
 @pytest.mark.parametrize("heights, pixel", [(WAVE[:16], 1e-6), (WAVE, (1e-6, 2e-6))])
