@@ -7,14 +7,15 @@ contact after the other, the cheapest first, and adds its rows
 import argparse
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from math import ceil, inf, pi
+from math import ceil, inf
 from pathlib import Path
 
 import design
 import numpy as np
-from pandas import DataFrame
+from pandas import DataFrame, read_csv
 
 from bem3d import BEM
+from compare.models.law.extended import under, without
 from compare.models.law.parts import LawParts
 from scene import Prony, Refused, Scene, SelfAffine, Slide, SolveError, Spectrum, Table, Tabulated
 from scene.scales import elastic_contact
@@ -111,7 +112,8 @@ def table_of(solid: Prony) -> Tabulated:
     """The moduli of a solid as a rheometer shows them."""
     frequency = np.geomspace(0.03 / max(solid.relaxation_times), 30 / min(solid.relaxation_times), 40)
     moduli = solid.equilibrium_modulus + sum(
-        g * (1j * frequency * t) / (1 + 1j * frequency * t) for g, t in zip(solid.moduli, solid.relaxation_times, strict=True)
+        g * (1j * frequency * t) / (1 + 1j * frequency * t)
+        for g, t in zip(solid.moduli, solid.relaxation_times, strict=True)
     )
     return Tabulated(
         table=Table(tuple(frequency), tuple(moduli.real), tuple(moduli.imag)),
@@ -121,25 +123,9 @@ def table_of(solid: Prony) -> Tabulated:
     )
 
 
-def cut(scene: Scene, shortest: float) -> Scene:
-    """The same scene without waves below a length [m]."""
-    rough = scene.roughness
-    if isinstance(rough, Spectrum):
-        return replace(scene, roughness=replace(rough, shortest_kept=shortest))
-    kept = rough.share(rough.q_min, 2 * pi / shortest, rough.q_max(0.0))
-    rolloff = None if rough.rolloff is None else max(rough.rolloff, shortest * (1 + 1e-9))
-    height = rough.rms_height * float(np.sqrt(kept))
-    return replace(scene, roughness=replace(rough, shortest=shortest, rolloff=rolloff, rms_height=height))
-
-
-def under(scene: Scene, load: float) -> Scene:
-    """The scene under a load [N]."""
-    return replace(scene, motion=Slide(speed=scene.motion.speed, load=load))
-
-
 def row(contact: Contact, factor: float, shortest: float, points: int) -> dict:
     """One solve, its law and that of all waves under the load that it found."""
-    scene = contact.scene if factor == 1 else cut(contact.scene, shortest)
+    scene = contact.scene if factor == 1 else without(contact.scene, shortest)
     told = {"set": contact.set, "number": contact.number, "stratum": contact.stratum, "factor": factor}
     told |= {"points": points, "shortest": shortest, "x": contact.x}
     try:
@@ -176,7 +162,7 @@ def row(contact: Contact, factor: float, shortest: float, points: int) -> dict:
 def solved(contact: Contact, most: int) -> list[dict] | None:
     """Rows of a contact; None where it needs more points than `most`."""
     shortest = contact.scene.roughness.shortest
-    coarse = cut(contact.scene, min(16 * shortest, contact.scene.roughness.longest / 2.01))
+    coarse = without(contact.scene, min(16 * shortest, contact.scene.roughness.longest / 2.01))
     extent = inf
     for points in (64, 128, 256):
         try:
@@ -186,7 +172,9 @@ def solved(contact: Contact, most: int) -> list[dict] | None:
             continue
     needed = contact.pixels * extent / shortest
     if not needed <= POINTS[-1]:
-        return [{"set": contact.set, "number": contact.number, "factor": 1, "reason": f"needs {needed:.0f} points"}]
+        return [
+            {"set": contact.set, "number": contact.number, "factor": 1, "reason": f"needs {needed:.0f} points"}
+        ]
     points = next(each for each in POINTS if each >= needed)
     if points > most:
         return None
@@ -205,7 +193,7 @@ def main() -> None:
     parser.add_argument("--most", type=int, default=POINTS[-1], help="points of the finest grid")
     given = parser.parse_args()
     path = TABLE.with_name(f"extended-{given.set}.csv")
-    rows = __import__("pandas").read_csv(path).to_dict("records") if path.exists() else []
+    rows = read_csv(path).to_dict("records") if path.exists() else []
     done = {each["number"] for each in rows}
     for contact in contacts(given.set):
         if contact.number in done:
@@ -215,14 +203,7 @@ def main() -> None:
             continue
         rows += found
         DataFrame(rows).to_csv(path, index=False)
-        first = found[0]
-        print(contact.number, contact.stratum, *(f"{k}={first.get(k)}" for k in ("points", "x", "friction", "error", "seconds", "reason")), flush=True)
-        for each in found[1:]:
-            if "law" in each and "law" in first:
-                got = each["friction"] * each["whole"] / each["law"]
-                print(f"    cut {each['factor']:2d}: {got / first['friction'] - 1:+.3f}  ({each['points']} points, x {each['law_x']:.3g}) law {first['law'] / first['friction'] - 1:+.3f} ratio {each['friction']/each['law']:.3f}", flush=True)
-            else:
-                print("    cut", each["factor"], each.get("reason"), flush=True)
+        print(contact.set, contact.number, contact.stratum, len(found), "solves", flush=True)
 
 
 if __name__ == "__main__":
