@@ -31,9 +31,9 @@ def press(
     unit : of the heights, "um" for example; absent, metres
     settings : of `BEM`; its grid is the map
 
-    One of pressure, gap, load and depth is given. Returns a Result with the fields pressure [Pa], gap and height [m]
-    at the pixels (N, N), and the measures contact_area [m^2], and of a plane contact_fraction, mean_pressure and
-    mean_gap. Raises InvalidInput of a map that is no square, and Refused and SolveError as `BEM` does.
+    One of pressure, gap, load and depth is given. Returns a Result with the fields pressure [Pa], gap and
+    height [m] at the pixels (N, N), and the measure contact_area [m^2]; a plane also has contact_fraction,
+    mean_pressure and mean_gap. Raises InvalidInput if the map is no square; Refused and SolveError as `BEM` does.
 
     >>> import numpy as np
     >>> from bem3d import press
@@ -52,5 +52,5 @@ def press(
         sides = " x ".join(f"{side:g} m" for side in surface.size)
         raise InvalidInput(f"heights of {rows} x {columns} pixels, {sides}: square pixels of a square are needed")
     grid = {"points": rows} | ({"extent": surface.size[0]} if free else {})
-    placed = (surface, None) if free else (Plane(), surface)
-    return BEM(**(grid | settings)).solve(Scene(placed[0], Elastic(modulus / 4), motion, placed[1]))
+    placed: dict[str, Any] = {"indenter": surface} if free else {"indenter": Plane(), "roughness": surface}
+    return BEM(**(grid | settings)).solve(Scene(elastomer=Elastic(modulus / 4), motion=motion, **placed))

@@ -1,4 +1,4 @@
-"""Friction of surfaces far finer than a grid: contacts solved with every wave, and again without their finest ones.
+"""Friction of surfaces far finer than a grid: contacts solved with every wave, and without their finest ones.
 
 python docs/measure/extended.py [--set learned|tested]   solves what docs/results/extended.csv does not have yet, a
 contact after the other, the cheapest first, and adds its rows
@@ -6,7 +6,7 @@ contact after the other, the cheapest first, and adds its rows
 
 import argparse
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import ceil, inf
 from pathlib import Path
 

@@ -38,7 +38,7 @@ def test_a_ball_is_pressed_as_hertz_says(pressed):
     np.testing.assert_allclose(answer.fields["height"], (x**2 + x[:, None] ** 2) / 2e-2, atol=1e-9)
 
 
-@pytest.mark.parametrize("heights, pixel", [(WAVE[:16], 1e-6), (WAVE, (1e-6, 2e-6))])
+@pytest.mark.parametrize(("heights", "pixel"), [(WAVE[:16], 1e-6), (WAVE, (1e-6, 2e-6))])
 def test_a_plane_of_no_square_map_is_refused(heights, pixel):
-    with pytest.raises(InvalidInput, match="heights of .* x 32 pixels"):
+    with pytest.raises(InvalidInput, match=r"heights of .* x 32 pixels"):
         press(heights, pixel, MODULUS, pressure=1.0)

@@ -10,7 +10,6 @@ from compare.models.law.extended import ExtendedBEM, without
 from compare.models.law.parts import LawParts
 from scene import (
     Indent,
-    Prony,
     Scene,
     SelfAffine,
     Slide,
@@ -18,7 +17,6 @@ from scene import (
     Spectrum,
     Sphere,
     StandardLinearSolid,
-    Topography,
 )
 
 SOLID = StandardLinearSolid(1e6, 1e8, 1e-5)
@@ -75,7 +73,7 @@ def test_surfaces_finer_than_any_grid_and_coarser_than_few_points():
     fine = replace(ROUGH, shortest=1e-8)
     coarse, finer = (ExtendedBEM(points=each).solve(replace(SCENE, roughness=fine)) for each in (160, 320))
     assert coarse.friction_coefficient == pytest.approx(finer.friction_coefficient, rel=0.05)
-    with pytest.raises(SolveError, match="points = 64 hold no wave of the roughness: .* would"):
+    with pytest.raises(SolveError, match=r"points = 64 hold no wave of the roughness: .* would"):
         ExtendedBEM(points=64).solve(replace(SCENE, roughness=replace(fine, longest=2e-4)))
 
 

@@ -1,4 +1,4 @@
-"""`ExtendedBEM`: friction of surfaces finer than a grid, by BEM on the waves that it holds and the law for the others."""
+"""`ExtendedBEM`: friction of surfaces finer than a grid, by BEM on coarse waves and the law for the finer ones."""
 
 from dataclasses import replace
 from math import pi, sqrt
@@ -34,12 +34,13 @@ class ExtendedBEM:
 
     points : a side of the grid; waves of fewer than eight pixels are left to the law
 
-    The coefficient is mu_BEM(waves kept) + mu_law(all waves) - mu_law(waves kept), with both laws under the load that
-    BEM found. Where the grid holds every wave it is that of BEM. The depth is that of the waves kept.
+    The coefficient is mu_BEM(waves kept) + mu_law(all waves) - mu_law(waves kept), with both laws under the load
+    that BEM found. Where the grid holds every wave it is the coefficient of BEM. The depth is that of the contact
+    on the waves kept.
 
-    Result.measures: those of BEM; shortest_kept [m], the shortest wave that is solved; slope_kept, the rms slope of
-    the waves kept over that of all; friction_kept and friction_added, the coefficient of the waves kept and what
-    the law adds; height_left [m], the rms height of the waves that are left to the law.
+    Result.measures: those of BEM; shortest_kept [m], the shortest wave that is solved; slope_kept, the rms slope
+    of the waves kept over that of all waves; friction_kept and friction_added, the coefficient of the waves kept
+    and what the law adds; height_left [m], the rms height of the waves that are left to the law.
     """
 
     label: ClassVar[str] = "3D extended"
@@ -62,7 +63,8 @@ class ExtendedBEM:
         """Friction of all waves. Raises Refused, and SolveError as BEM does, and where the law has no answer."""
         start = process_time()
         refuse(self, scene)
-        solver, rough, coarsest = BEM(points=self.points), scene.roughness, _coarsest(scene)
+        solver, coarsest = BEM(points=self.points), _coarsest(scene)
+        rough: Any = scene.roughness
         if coarsest is scene:
             return replace(solver.solve(scene), solver=self.name)
         first = BEM(points=COARSE).solve(coarsest)
@@ -73,6 +75,7 @@ class ExtendedBEM:
                 needed = 2 * shortest / rough.longest * self.points
                 raise SolveError(f"points = {self.points} hold no wave of the roughness: {needed:.0f} would")
             kept = scene if shortest <= finest else without(scene, shortest)
+            cut: Any = kept.roughness
             found = solver.solve(kept)
             pixels = found.measures["points_per_shortest_wave"]
             if kept is scene or pixels >= ENOUGH:
@@ -87,7 +90,7 @@ class ExtendedBEM:
         with numeric_guard():
             own, whole = (LawParts.of(under(each, found.normal_force)) for each in (kept, scene))
             solved, added = found.friction_coefficient, whole.friction_coefficient - own.friction_coefficient
-            every, left = Bands.of(rough), Bands.of(kept.roughness)
+            every, left = Bands.of(rough), Bands.of(cut)
         return replace(
             found,
             scene=scene,
