@@ -31,6 +31,7 @@ KNOWN: Mapping[str, tuple[str, Draws]] = {"MDR": ("1D", PROFILES), "BEM": ("3D",
 OWN = {"mdr": MDR, "bem": BEM}  # models that a scene has settings for, by the name of these
 THEORIES = {  # imported when they are asked for
     "persson": "compare.models.law.persson:Persson",
+    "extended": "compare.models.law.extended:ExtendedBEM",
     "law": "compare.trustmap.friction_law:FrictionLaw",
 }
 

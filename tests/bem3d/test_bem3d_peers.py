@@ -9,7 +9,7 @@ numbers where n, the points a side, is odd: it is compared at even n only.
 import numpy as np
 import pytest
 
-from bem3d import BEM
+from bem3d import BEM, press
 from bem3d.grid import Grid
 from bem3d.motion.marching import march
 from bem3d.motion.steady import Flow
@@ -154,6 +154,12 @@ def test_the_comparison_of_cells_can_fail(tamaas):
     assert not agree(nearly, peer)  # a load larger by 1e-5
     assert not agree(result, (peer[0].T, peer[1].T))  # x for y
     assert not agree(result, by_tamaas(tamaas, heights, pressure, modulus=1 + 1e-5))
+
+
+def test_a_map_of_heights_is_pressed_as_tamaas_presses_it_pixel_by_pixel(tamaas):
+    heights = SLOPE / 64 * np.random.default_rng(1).standard_normal((64, 64))
+    result = press(heights, 1 / 64, 1.0, pressure=0.05 * SLOPE, tolerance=TOLERANCE)
+    assert agree(result, by_tamaas(tamaas, -heights, 0.05 * SLOPE))
 
 
 # Pressed for a second and held for another: 64 of our steps, of second order; 128 and 256 of theirs, of first

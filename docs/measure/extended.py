@@ -1,0 +1,210 @@
+"""Friction of surfaces far finer than a grid: contacts solved with every wave, and without their finest ones.
+
+python docs/measure/extended.py [--set learned|tested]   solves what docs/results/extended.csv does not have yet, a
+contact after the other, the cheapest first, and adds its rows
+"""
+
+import argparse
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import ceil, inf
+from pathlib import Path
+
+import design
+import numpy as np
+from pandas import DataFrame, read_csv
+
+from bem3d import BEM
+from compare.models.law.extended import under, without
+from compare.models.law.parts import LawParts
+from scene import Prony, Refused, Scene, SelfAffine, Slide, SolveError, Spectrum, Table, Tabulated
+from scene.scales import elastic_contact
+
+TABLE = Path(__file__).parents[1] / "results" / "extended.csv"
+# Seed of each set, and contacts of each stratum in it.
+SETS = {"learned": (62_100, 18), "tested": (62_200, 24)}
+# Strata by p/p_rms with all waves, declared beforehand: the lightest contacts, light ones, partial and nearly full
+# ones.
+STRATA = {"lightest": (1e-4, 5e-3), "light": (5e-3, 0.05), "partial": (0.05, 0.5), "nearly full": (0.5, 20.0)}
+HURSTS, WAVES, HEIGHTS = (0.2, 0.95), (25.0, 110.0), (3e-3, 0.5)
+PERIODS = 1.0, 6.0  # longest wave over the radius
+POWERS = 3.0, 10.0
+FAST, OFTEN = 10.0, 0.4  # v tau over the shortest wave, and share of the contacts that are above
+TABLES = 0.4  # share of the Prony series that are given as a table of moduli
+MEASURED = 0.2  # share of spectra that are no power law, as a table of densities
+# Points to the shortest wave: of all waves where the contact is light, else; of a cut.
+FINE, USUAL, CUT = 16.0, 12.0, 8.0
+POINTS = (128, 160, 192, 256, 320, 384, 512, 640, 768, 1024, 1280, 1536, 2048, 2560, 3072, 4096)
+CUTS = 2, 4, 8, 16, 32
+LEAST_CUT = 96  # points of a grid, of the coarsest cut
+
+
+@dataclass(frozen=True)
+class Contact:
+    """A rough scene of a set, its stratum and the points its waves need."""
+
+    set: str
+    number: int
+    stratum: str
+    scene: Scene
+    x: float
+
+    @property
+    def pixels(self) -> float:
+        """Points to the shortest wave."""
+        return FINE if self.x < STRATA["light"][1] else USUAL
+
+
+def contacts(name: str) -> Iterator[Contact]:
+    """Contacts of a set: drawn until each stratum is full."""
+    seed, each = SETS[name]
+    draw, wanted = np.random.default_rng(seed), dict.fromkeys(STRATA, each)
+    number = 0
+    while any(wanted.values()):
+        number += 1
+        scene = drawn(draw, 1000 * number + seed)
+        try:
+            x = LawParts.of(scene).x
+        except (SolveError, Refused):
+            continue
+        stratum = next((key for key, (low, high) in STRATA.items() if low <= x < high), None)
+        if stratum and wanted[stratum] and scene.roughness.rms_height < elastic_contact(scene).depth:
+            wanted[stratum] -= 1
+            yield Contact(name, number, stratum, scene, x)
+
+
+def drawn(draw: np.random.Generator, seed: int) -> Scene:
+    """A scene of the population."""
+    u = draw.random(18)
+    wave = design.RADIUS / design.between(WAVES, u[0])
+    place = design.within(u[1], design.SPEEDS, (FAST, design.SPEEDS[1])) if u[2] < OFTEN else u[1]
+    solid = design.solid_at(*u[3:8], min(place, 1.0) * design.SLIDING, wave)
+    if isinstance(solid, Prony) and u[17] < TABLES:
+        solid = table_of(solid)
+    body = u[16]
+    shape = design.CONES / 2 if body < 0.3 else (design.CONES + design.ROUND) / 2 if body < 0.65 else 0.9
+    indenter = design._indenter(shape, design.within(u[8], design.EXPONENTS, POWERS))
+    rough = SelfAffine(
+        hurst=HURSTS[0] + u[9] * (HURSTS[1] - HURSTS[0]),
+        rms_height=design.DEPTH * design.between(HEIGHTS, u[10]),
+        longest=(longest := design.RADIUS * design.between(PERIODS, u[11])),
+        rolloff=design.between((longest / 8, longest), u[12]) if u[13] < 0.5 else None,
+        shortest=wave,
+        seed=seed,
+    )
+    if u[14] < MEASURED:
+        rough = measured(rough, draw)
+    stiffness = 2 * indenter.exponent / (indenter.exponent + 1) * solid.indentation_modulus
+    load, depth = (stiffness * design.DEPTH * design.RADIUS, None) if u[15] < 0.75 else (None, design.DEPTH)
+    return Scene(indenter, solid, Slide(speed=design.SPEED, load=load, depth=depth), rough)
+
+
+def measured(rough: SelfAffine, draw: np.random.Generator) -> Spectrum:
+    """A table of densities about those of a power law, as an instrument shows them."""
+    q = np.geomspace(rough.q_min, rough.q_max(0.0), 30)
+    density = np.asarray(rough.density_2d(q * (1 - 1e-9 * (q >= q[-1])), rough.q_max(0.0)))
+    density[0] = density[1] if density[0] == 0 else density[0]
+    bumps = np.exp(0.4 * np.convolve(draw.standard_normal(34), np.ones(5) / 5**0.5, "valid"))
+    return Spectrum(q=tuple(q), C2D=tuple(density * bumps), convention="persson", seed=rough.seed)
+
+
+def table_of(solid: Prony) -> Tabulated:
+    """The moduli of a solid as a rheometer shows them."""
+    frequency = np.geomspace(0.03 / max(solid.relaxation_times), 30 / min(solid.relaxation_times), 40)
+    moduli = solid.equilibrium_modulus + sum(
+        g * (1j * frequency * t) / (1 + 1j * frequency * t)
+        for g, t in zip(solid.moduli, solid.relaxation_times, strict=True)
+    )
+    return Tabulated(
+        table=Table(tuple(frequency), tuple(moduli.real), tuple(moduli.imag)),
+        frequency_unit="rad/s",
+        kind="shear",
+        equilibrium_modulus=solid.equilibrium_modulus,
+    )
+
+
+def row(contact: Contact, factor: float, shortest: float, points: int) -> dict:
+    """One solve, its law and that of all waves under the load that it found."""
+    scene = contact.scene if factor == 1 else without(contact.scene, shortest)
+    told = {"set": contact.set, "number": contact.number, "stratum": contact.stratum, "factor": factor}
+    told |= {"points": points, "shortest": shortest, "x": contact.x}
+    try:
+        found = BEM(points=points).solve(scene)
+    except (SolveError, Refused) as error:
+        return told | {"reason": str(error)[:120]}
+    told |= {
+        "extent": found.settings["extent"],
+        "friction": found.friction_coefficient,
+        "load": found.normal_force,
+        "depth": found.depth,
+        "error": found.measures.get("friction_error", inf),
+        "disagreement": found.measures.get("friction_disagreement", inf),
+        "pixels": found.measures.get("points_per_shortest_wave", inf),
+        "area": found.measures["contact_area"],
+        "rms_height": scene.roughness.rms_height,
+        "rms_slope": scene.roughness.rms_slope(scene.roughness.q_max(0.0)),
+        "seconds": found.seconds,
+    }
+    try:
+        own, whole = (LawParts.of(under(each, found.normal_force)) for each in (scene, contact.scene))
+    except SolveError as error:
+        return told | {"reason": f"law: {error}"[:120]}
+    return told | {
+        "law": own.friction_coefficient,
+        "law_rough": own.rough,
+        "law_x": own.x,
+        "law_radius": own.radius,
+        "whole": whole.friction_coefficient,
+        "whole_x": whole.x,
+    }
+
+
+def solved(contact: Contact, most: int) -> list[dict] | None:
+    """Rows of a contact; None where it needs more points than `most`."""
+    shortest = contact.scene.roughness.shortest
+    coarse = without(contact.scene, min(16 * shortest, contact.scene.roughness.longest / 2.01))
+    extent = inf
+    for points in (64, 128, 256):
+        try:
+            extent = BEM(points=points).solve(coarse).settings["extent"]
+            break
+        except (SolveError, Refused):
+            continue
+    needed = contact.pixels * extent / shortest
+    if not needed <= POINTS[-1]:
+        return [
+            {"set": contact.set, "number": contact.number, "factor": 1, "reason": f"needs {needed:.0f} points"}
+        ]
+    points = next(each for each in POINTS if each >= needed)
+    if points > most:
+        return None
+    rows = [row(contact, 1, shortest, points)]
+    for factor in CUTS:
+        length = factor * shortest
+        fewer = 2 * ceil(CUT * extent / length / 2)
+        if fewer >= LEAST_CUT and length <= contact.scene.roughness.longest / 2:
+            rows.append(row(contact, factor, length, fewer))
+    return rows
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--set", choices=SETS, default="learned")
+    parser.add_argument("--most", type=int, default=POINTS[-1], help="points of the finest grid")
+    given = parser.parse_args()
+    path = TABLE.with_name(f"extended-{given.set}.csv")
+    rows = read_csv(path).to_dict("records") if path.exists() else []
+    done = {each["number"] for each in rows}
+    for contact in contacts(given.set):
+        if contact.number in done:
+            continue
+        found = solved(contact, given.most)
+        if found is None:
+            continue
+        rows += found
+        DataFrame(rows).to_csv(path, index=False)
+        print(contact.set, contact.number, contact.stratum, len(found), "solves", flush=True)
+
+
+if __name__ == "__main__":
+    main()

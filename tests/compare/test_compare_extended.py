@@ -1,0 +1,83 @@
+"""Boundary elements on the waves of a grid, and the law for the others."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from bem3d import BEM
+from compare.models.law.extended import ExtendedBEM, without
+from compare.models.law.parts import LawParts
+from scene import (
+    Indent,
+    Scene,
+    SelfAffine,
+    Slide,
+    SolveError,
+    Spectrum,
+    Sphere,
+    StandardLinearSolid,
+)
+
+SOLID = StandardLinearSolid(1e6, 1e8, 1e-5)
+ROUGH = SelfAffine(hurst=0.8, rms_height=5e-6, longest=1e-3, shortest=1e-4, seed=3)
+SCENE = Scene(Sphere(10e-3), SOLID, Slide(speed=0.1, load=1.0), ROUGH)
+
+
+def table(rough, **given):
+    q = np.geomspace(rough.q_min, rough.q_max(0.0), 60) * (1 - 1e-12)
+    q[0] = rough.q_min
+    return Spectrum(q=q, C2D=rough.density_2d(q, rough.q_max(0.0)), convention="persson", seed=rough.seed, **given)
+
+
+def test_a_grid_that_holds_every_wave_gives_the_answer_of_bem():
+    found, bem = ExtendedBEM(points=512).solve(SCENE), BEM(points=512).solve(SCENE)
+    assert found.friction_coefficient == bem.friction_coefficient
+    assert found.depth == bem.depth
+    assert "friction_added" not in found.measures
+
+
+@pytest.mark.parametrize("motion", [Slide(speed=0.1, load=1.0), Slide(speed=0.1, depth=1e-4)])
+def test_friction_is_that_of_the_waves_kept_and_what_the_law_says_of_the_others(motion):
+    scene = replace(SCENE, motion=motion)
+    found = ExtendedBEM(points=160).solve(scene)
+    kept, measures = without(scene, found.measures["shortest_kept"]), found.measures
+    bem = BEM(points=160).solve(kept)
+    assert measures["friction_kept"] == bem.friction_coefficient
+    under = [replace(each, motion=Slide(speed=0.1, load=bem.normal_force)) for each in (scene, kept)]
+    whole, own = (LawParts.of(each).friction_coefficient for each in under)
+    assert measures["friction_added"] == pytest.approx(whole - own, rel=1e-12)
+    assert found.friction_coefficient == pytest.approx(bem.friction_coefficient + whole - own, rel=1e-12)
+    assert (found.normal_force, found.depth) == (bem.normal_force, bem.depth)
+    assert 0 < measures["slope_kept"] < 1
+
+
+@pytest.mark.parametrize("rough", [ROUGH, replace(ROUGH, rolloff=2e-4), table(ROUGH)])
+def test_friction_with_few_of_the_waves_is_near_that_with_all(rough):
+    scene = replace(SCENE, roughness=rough)
+    found, every = ExtendedBEM(points=160).solve(scene), BEM(points=640).solve(scene)
+    assert found.measures["friction_kept"] < 0.95 * every.friction_coefficient
+    assert found.friction_coefficient == pytest.approx(every.friction_coefficient, rel=0.04)
+
+
+def test_the_waves_that_are_kept_stand_as_they_were():
+    fewer = without(SCENE, 3e-4).roughness
+    q = np.array([ROUGH.q_min * 1.5, 2 * np.pi / 3.1e-4])
+    np.testing.assert_allclose(
+        fewer.density_2d(q, fewer.q_max(0.0)), ROUGH.density_2d(q, ROUGH.q_max(0.0)), rtol=1e-12
+    )
+    assert fewer.seed == ROUGH.seed
+
+
+def test_surfaces_finer_than_any_grid_and_coarser_than_few_points():
+    fine = replace(ROUGH, shortest=1e-8)
+    coarse, finer = (ExtendedBEM(points=each).solve(replace(SCENE, roughness=fine)) for each in (160, 320))
+    assert coarse.friction_coefficient == pytest.approx(finer.friction_coefficient, rel=0.05)
+    with pytest.raises(SolveError, match=r"points = 64 hold no wave of the roughness: .* would"):
+        ExtendedBEM(points=64).solve(replace(SCENE, roughness=replace(fine, longest=2e-4)))
+
+
+@pytest.mark.parametrize("changed", [{"roughness": None}, {"motion": Indent(load=1.0)}])
+def test_what_has_no_friction_of_waves_is_that_of_bem(changed):
+    scene = replace(SCENE, **changed)
+    assert ExtendedBEM(points=256).solve(scene).depth == BEM(points=256).solve(scene).depth
