@@ -1,4 +1,4 @@
-"""What each effect costs in each solver: the table of results/effects.md, its numbers, and the tables of plans.
+"""What each effect costs in each solver: for results/workprecision.md, and the tables of plans.
 
 python docs/measure/effects.py
 
@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas
 from campaign import solved
 from pydantic import TypeAdapter
 from tables import replaced, stored, table
@@ -21,7 +22,6 @@ import bem3d.plan
 import mdr1d.plan
 from bem3d import BEM
 from bem3d.surface import RoughSurface
-from compare.report.manifest import machine, versions
 from compare.solving.outcome import Outcome, Row
 from compare.solving.task import Task
 from compare.studies.workprecision.timed import TimedSolve
@@ -29,7 +29,8 @@ from mdr1d import MDR
 from scene import Scene, SelfAffine
 from scene.plan import COSTS, two_digits
 
-PAGE = Path(__file__).parents[1] / "results" / "effects.md"
+PAGE = Path(__file__).parents[1] / "results" / "workprecision.md"
+MEASURED = PAGE.with_suffix("") / "effects.csv"
 SOLVERS: Mapping[str, BEM | MDR] = {"3D": BEM(points=256, steps=40), "1D": MDR(points=5000, steps=40)}
 TABLES = {"3D": bem3d.plan.EFFECTS, "1D": mdr1d.plan.EFFECTS}
 COUNTED = {"3D": (), "1D": ("Program",)}  # parts that a plan counts by itself
@@ -49,6 +50,7 @@ SELF_AFFINE = {"roughness": {"type": "self-affine", **ROUGH}}
 WARM = {"temperature": {"type": "wlf", "temperature": 301.0, "reference": 300.0, "c1": 10.0, "c2": 100.0}}
 RUBBED = {"interface": {"coefficient": 0.3}}
 PRESSED, SLID = {"duration": 1e-3, "load": 1.0}, {"duration": 1e-3, "speed": 0.1}
+UNSHOWN = "plane", "reversal"  # on the page
 PIXELS = 128  # a side of the measured surface; the shortest wave has eight
 
 
@@ -174,7 +176,7 @@ def priced(name: str, billed: list[Cost]) -> list[dict]:
 
 
 def sheet(found: Mapping[str, list[Cost]]) -> list[dict]:
-    """Rows of results/effects.csv."""
+    """Rows of MEASURED."""
     measures = {"seconds": "processor", "wall": "wall", "repeats": "repeats"}
     return [
         {"dimension": name, "effect": cost.effect.title, "over": cost.effect.over or ""}
@@ -187,33 +189,32 @@ def sheet(found: Mapping[str, list[Cost]]) -> list[dict]:
 
 
 def cells(rows: list[dict]) -> Iterator[tuple[str, ...]]:
-    """Cells of the table of the page, of rows of results/effects.csv: times, or why there are none."""
+    """Cells of the table of the page, of rows of MEASURED: times, or why there are none."""
     by = {(row["dimension"], row["effect"]): row for row in rows}
     for effect in effects():
-        both = (by[name, effect.title] for name in ("1D", "3D"))
-        yield effect.title, effect.over or "", *(_cell(row) for row in both)
+        if effect.over and effect.title not in UNSHOWN:
+            both = (by[name, effect.title] for name in ("1D", "3D"))
+            yield effect.title, effect.over, *(_cell(row) for row in both)
 
 
 def _cell(row):
     return row["reason"].split(":")[0] or two_digits(float(row["times"]))
 
 
+def parts() -> Mapping[tuple[Path, str], str]:
+    """Text between two comments, by the page and the name of the comment, from what is stored."""
+    rows = pandas.read_csv(MEASURED, keep_default_na=False).to_dict("records")
+    return {(PAGE, "effects"): table("effect|added to|1D|3D", cells(rows))}
+
+
 def main() -> None:
-    """Measure, and write the tables and the page."""
-    found = costs(solved(PAGE, tasks().values(), fresh=True))
+    """Measure, and write the tables and the part of the page."""
+    found = costs(solved(MEASURED, tasks().values(), fresh=True))
     for name, billed in found.items():
         stored(TABLES[name], priced(name, billed))
-    rows = sheet(found)
-    stored(PAGE.with_suffix(".csv"), rows)
-    where = "{system}, {machine}, {processors} processors".format(**machine())
-    with_what = ", ".join(f"{name} {number}" for name, number in versions().items())
-    replaced(PAGE, "machine", f"{where}; {with_what}.")
-    replaced(PAGE, "effects", table("effect|added to|1D|3D", cells(rows)))
-    refused = (row for row in rows if row["reason"].startswith("refused: "))
-    lines = (
-        f"- {row['effect']}, {row['dimension']}: {row['reason'].removeprefix('refused: ')}." for row in refused
-    )
-    replaced(PAGE, "refused", "\n".join(lines))
+    stored(MEASURED, sheet(found))
+    for (page, name), part in parts().items():
+        replaced(page, name, part)
 
 
 if __name__ == "__main__":

@@ -25,9 +25,9 @@ from scene import Refused, Scene, SolveError
 
 from . import scenes
 
-EVERY = {"smooth": 1, "rough": 1, "plane": 2, "line": 6}  # a scene of a kind for so many seeds
-POINTS = (20, 120)  # of the grids that are judged, beside REFERENCE[0]
-REFERENCE = 128, 256, 512  # points, the last of which tell the truth
+EVERY = {"smooth": 1, "rough": 1, "plane": 2, "line": 6}  # seeds a scene of a kind
+POINTS = (20, 120)  # of the grids that are judged, as is REFERENCE[0]
+REFERENCE = 128, 256, 512  # points, the last ones tell the truth
 ORDERS = 0.7, 2.0  # between which the order is taken at which the last error falls
 WAVES = 2.2, 40.0  # nodes on the shortest wave of judged lines
 EXTENT = 8 * scenes.RADIUS  # of lines [m]
@@ -36,7 +36,7 @@ LEARNED_POINTS = 16, 20, 24, 27, 32, 40, 48, 64, 80, 96, 112, 128  # of grids th
 KNOWN = 1 / 3, 3e-5  # of the error, or at all: what the truth is known to where it judges
 SHARE, WIDENED = 0.95, 0.96  # of the answers that a bound is to hold: wanted, and of those it was not fitted to
 FOLDS = 5
-LEAST = 1e-6  # error that is told from none
+LEAST = 1e-6  # error that is distinguished from none
 KINDS = tuple(f"{body}, {speed}" for body in ("smooth", "rough") for speed in ("slow", "fast"))
 FEWEST = 40  # answers of a region
 
@@ -191,7 +191,7 @@ def learn(path: Path, every: Sequence[tuple], outcomes: Mapping[Task, Outcome]) 
 def refitted(path: Path) -> dict[str, dict[str, float]]:
     """Weights of the signs by kind of contact, from a table of signs and errors.
 
-    The quantile SHARE of what the error is beside the residual, widened by what holds WIDENED of the answers to
+    The quantile SHARE of the error without the residual, widened by what holds WIDENED of the answers to
     scenes that were left out of a fit, a fold of them at a time.
     """
     table, weights = pandas.read_csv(path), {}

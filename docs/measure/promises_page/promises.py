@@ -6,7 +6,6 @@ from dataclasses import dataclass, replace
 from math import isfinite, nan
 
 from pandas import DataFrame
-from tables import of_count
 
 from bem3d import Unconfirmed, for_accuracy
 from bem3d.costs import band
@@ -22,7 +21,6 @@ WANTED = (0.1, 0.03, 0.01, 0.003)
 FIRST = 7000  # seed
 COUNTS = {"smooth": 400, "rough": 100}
 KNOWN = 0.2  # of a wanted error: what the truth is known to where a promise is checked
-NUMBERS = ("asked", "answered", "confirmed", "checked", "broken", "worst error")
 
 
 @dataclass(frozen=True)
@@ -88,23 +86,6 @@ def kept(made: Sequence[Mapping]) -> list[dict]:
     return [{"quantity": quantity, "wanted": wanted, **_counted(own)} for (quantity, wanted), own in groups]
 
 
-def missed(made: Sequence[Mapping]) -> DataFrame:
-    """Promises that were not confirmed, or were broken."""
-    found = DataFrame(made)
-    return found[~(found["shown"] <= found["wanted"]) | (found["error"] > found["wanted"])]
-
-
-def said(made: Sequence[Mapping]) -> str:
-    """Counts of all promises in words, with intervals."""
-    counts = _counted(DataFrame(made))
-    left, broken = counts["asked"] - counts["confirmed"], counts["broken"]
-    return (
-        f"Of {counts['asked']} promises {left} ({_share(left, counts['asked'])}) were not confirmed, those "
-        f"without an answer among them. {counts['confirmed']} were confirmed; {counts['checked']} of these "
-        f"could be checked, and {broken} ({_share(broken, counts['checked'])}) were broken."
-    )
-
-
 def _counted(own):
     sure = own[own["shown"] <= own["wanted"]]
     return {
@@ -113,13 +94,8 @@ def _counted(own):
         "confirmed": len(sure),
         "checked": sure["error"].count(),
         "broken": (sure["error"] > sure["wanted"]).sum(),
-        "worst error": f"{sure['error'].max():.2%}",
+        "worst_error": sure["error"].max(),
     }
-
-
-def _share(part, whole):
-    low, high = of_count(part, whole)
-    return f"{part / whole:.1%}, {low:.1%} to {high:.1%}"
 
 
 def _entry(task, answer: Row, *finer: Row):
