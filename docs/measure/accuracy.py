@@ -13,7 +13,7 @@ import numpy as np
 import pandas
 from matplotlib.figure import Figure
 from pandas import DataFrame
-from tables import order, replaced, stored, table
+from tables import fill, order, stored, table
 
 from bem3d import BEM
 from compare.figures import style
@@ -130,8 +130,7 @@ def main() -> None:
         stored(path, measure())
     with style.applied():
         figure(pandas.read_csv(REST), pandas.read_csv(TIME)).savefig(PAGE.with_suffix(".png"), dpi=200)
-    for (page, name), part in parts().items():
-        replaced(page, name, part)
+    fill(parts())
 
 
 if __name__ == "__main__":

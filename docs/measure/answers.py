@@ -24,7 +24,7 @@ import regime
 import spectrum
 import trust
 from pandas import DataFrame
-from tables import finding, replaced, stored, table
+from tables import fill, finding, stored, table
 
 import compare
 from compare.solving.words import interval, number
@@ -159,8 +159,7 @@ def studies_again() -> None:
 def main(first: str = "") -> None:
     """Write all of them."""
     {"again": run_again, "studies": studies_again}.get(first, lambda: None)()
-    for (page, name), part in parts().items():
-        replaced(page, name, part)
+    fill(parts())
 
 
 if __name__ == "__main__":

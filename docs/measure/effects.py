@@ -18,7 +18,7 @@ import pandas
 from campaign import solved
 from pandas import DataFrame
 from pydantic import TypeAdapter
-from tables import replaced, stored, table
+from tables import fill, stored, table
 
 import bem3d.plan
 import mdr1d.plan
@@ -186,8 +186,7 @@ def main() -> None:
     for name, path in TABLES.items():
         stored(path, priced(name, found))
     stored(MEASURED, found)
-    for (page, name), part in parts().items():
-        replaced(page, name, part)
+    fill(parts())
 
 
 if __name__ == "__main__":

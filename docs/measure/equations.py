@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pandas
-from tables import replaced, stored, table
+from tables import fill, stored, table
 
 from compare.statistics.jackknife import mean_ratio
 from mdr1d import MDR
@@ -130,8 +130,7 @@ def parts() -> Mapping[tuple[Path, str], str]:
 def main() -> None:
     """Measure, and write the numbers and the part of the page."""
     stored(MEASURED, rows())
-    for (page, name), part in parts().items():
-        replaced(page, name, part)
+    fill(parts())
 
 
 if __name__ == "__main__":

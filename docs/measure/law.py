@@ -10,7 +10,7 @@ import numpy as np
 import pandas
 from pandas import DataFrame
 from scenes import PAGE, SETS, RandomScene, scenes
-from tables import of_count, replaced, stored, table
+from tables import fill, of_count, stored, table
 
 from compare import FrictionLaw, Persson
 from compare.trustmap.model import NORMAL
@@ -112,8 +112,7 @@ def parts() -> Mapping[tuple[Path, str], str]:
 def main() -> None:
     """Write the errors, and the table of the page."""
     stored(PAGE.with_name("errors.csv"), errors())
-    for (page, name), part in parts().items():
-        replaced(page, name, part)
+    fill(parts())
 
 
 if __name__ == "__main__":

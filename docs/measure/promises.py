@@ -15,7 +15,7 @@ from pathlib import Path
 import pandas
 from campaign import solved
 from promises_page import costs, errors, promises
-from tables import of_count, replaced, stored, table
+from tables import fill, of_count, stored, table
 
 from bem3d.costs import MEASURED
 
@@ -54,8 +54,7 @@ def judge() -> None:
     stored(
         KEPT, promises.kept(promises.rows(asked, solved(SOLVED, [task for each in asked for task in each.tasks])))
     )
-    for (page, name), part in parts().items():
-        replaced(page, name, part)
+    fill(parts())
 
 
 def parts() -> Mapping[tuple[Path, str], str]:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pandas
-from tables import replaced, stored, table
+from tables import fill, stored, table
 
 from compare.statistics import eq23
 from compare.statistics.collapse import Collapse, collapse
@@ -142,8 +142,7 @@ def main() -> None:
     """Draw, and write the numbers and the parts of the page."""
     stored(MEANS, (mean_of_draws(variation, count) for variation in VARIATIONS for count in SAMPLED))
     stored(VERDICTS, verdicts())
-    for (page, name), part in parts().items():
-        replaced(page, name, part)
+    fill(parts())
 
 
 if __name__ == "__main__":

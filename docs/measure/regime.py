@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 import pandas
 from pandas import DataFrame, Series
-from tables import finding, replaced, stored, table, with_interval
+from tables import fill, finding, stored, table, with_interval
 
 import compare
 from compare.solving.curve import COARSE, FINE, of_model
@@ -83,8 +83,7 @@ def main() -> None:
     stored(FAST, rows)
     shutil.copy(slow.path.parent / "sphere" / "behind.png", PAGE.with_name("law-partial.png"))
     shutil.copy(whole.path.parent / "sphere" / "law.png", PAGE.with_name("law-sphere.png"))
-    for (page, name), part in parts().items():
-        replaced(page, name, part)
+    fill(parts())
 
 
 _PLAIN = "eq23.collapse", "eq23.predicted", "eq23.vertical-alone"

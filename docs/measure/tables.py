@@ -64,9 +64,12 @@ def of_count(held: int, tried: int) -> tuple[float, float]:
     return float(low), float(high)
 
 
-def replaced(path: Path, name: str, part: str) -> None:
-    """Replace what stands between two comments of a page."""
-    page = path.read_text(encoding="utf-8")
-    pattern = re.compile(rf"(<!-- {name} -->\n).*?(<!-- end -->)", re.DOTALL)
-    assert len(pattern.findall(page)) == 1, (path, name)
-    path.write_text(pattern.sub(lambda found: f"{found[1]}{part.strip()}\n{found[2]}", page), encoding="utf-8")
+def fill(parts: Mapping[tuple[Path, str], str]) -> None:
+    """Write texts between two comments of pages, by the page and the name of the comment."""
+    for (page, name), part in parts.items():
+        text = page.read_text(encoding="utf-8")
+        pattern = re.compile(rf"(<!-- {name} -->\n).*?(<!-- end -->)", re.DOTALL)
+        assert len(pattern.findall(text)) == 1, (page, name)
+        page.write_text(
+            pattern.sub(lambda found, part=part: f"{found[1]}{part.strip()}\n{found[2]}", text), encoding="utf-8"
+        )

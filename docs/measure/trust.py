@@ -30,7 +30,7 @@ from scoring import (
     of_surfaces,
     scored,
 )
-from tables import by_column, replaced, stored
+from tables import by_column, fill, stored
 
 from compare.models.law.parts import LawParts
 from compare.solving.outcome import Outcome
@@ -152,8 +152,7 @@ def main(solve: str = "") -> None:
     if solve:
         ship()
     stored(PAGE.with_suffix("") / "coverage.csv", coverage_rows(scores()))
-    for (page, name), part in parts().items():
-        replaced(page, name, part)
+    fill(parts())
 
 
 if __name__ == "__main__":
