@@ -93,7 +93,8 @@ def _half(halves):
 
 def _cell(logs):
     off = 100 * np.abs(np.expm1(logs.dropna()))
-    return f"{off.median():.2g} / {off.quantile(0.9):.2g} % ({len(off)})" if len(off) else ""
+    shown = (f"{float(f'{each:.2g}'):g}" for each in off.quantile([0.5, 0.9]))
+    return f"{' / '.join(shown)} % ({len(off)})" if len(off) else ""
 
 
 def errors_of(model: str) -> tuple[float, float, int]:

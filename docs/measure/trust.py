@@ -111,7 +111,7 @@ def _advised(row):
     if row["solve"] > 0.5:
         return solve
     kind = "use" if row["use"] > 0.5 else f"× {row['factor']:.2f} ({row['from']:.2f} to {row['to']:.2f})"
-    return f"{kind}, ±{100 * row['interval']:.2g} %; {solve}"
+    return f"{kind}, ±{100 * row['interval']:.2g} %" + (f"; {solve}" if row["solve"] > 0.005 else "")
 
 
 def errors(found: Mapping[str, Scored]) -> Iterator[dict[str, str]]:
