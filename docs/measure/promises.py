@@ -41,7 +41,7 @@ def price() -> None:
 def learn() -> None:
     """Solve contacts to learn from."""
     every = list(errors.to_learn(LEARNED))
-    tasks = [task for _, own, finer in every for task in (own, *finer)]
+    tasks = [task for _, each in every for task in each.tasks]
     errors.learn(TABLE, every, solved(SOLVED, dict.fromkeys(tasks)))
 
 
@@ -51,9 +51,8 @@ def judge() -> None:
     outcomes = solved(SOLVED, dict.fromkeys(task for each in judged for task in each.tasks))
     stored(STATED, errors.rows(judged, outcomes))
     asked = list(promises.asked())
-    stored(
-        KEPT, promises.kept(promises.rows(asked, solved(SOLVED, [task for each in asked for task in each.tasks])))
-    )
+    outcomes = solved(SOLVED, [task for each in asked for task in promises.with_truth(each)])
+    stored(KEPT, promises.kept(promises.rows(asked, outcomes)))
     fill(parts())
 
 

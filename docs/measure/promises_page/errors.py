@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from math import nan
+from math import isfinite, nan
 from pathlib import Path
 from typing import Any
 
@@ -18,10 +18,10 @@ from bem3d.costs import band
 from bem3d.friction import bound as frictionerror
 from bem3d.grid import Grid
 from bem3d.problem import Problem
-from compare.solving.outcome import Outcome, row
-from compare.solving.task import SCENES, SceneTask, Task
+from compare.solving.outcome import Outcome
+from compare.solving.task import SceneTask, Task
 from mdr1d import MDR
-from scene import Refused, Scene, SolveError
+from scene import Result, Scene
 
 from . import scenes
 
@@ -39,6 +39,8 @@ FOLDS = 5
 LEAST = 1e-6  # error that is distinguished from none
 KINDS = tuple(f"{body}, {speed}" for body in ("smooth", "rough") for speed in ("slow", "fast"))
 FEWEST = 40  # answers of a region
+WAVE_POINTS = "points_per_shortest_wave"
+SIGN = "sign: "  # before the names of signs among measures, which are names of other numbers too
 
 
 @dataclass(frozen=True)
@@ -97,28 +99,24 @@ def rows(every: Sequence[Judged], outcomes: Mapping[Task, Outcome]) -> list[dict
     """A row for each contact that slides with friction, is answered, and whose truth is known well enough."""
     found = []
     for each in every:
-        answer, *finer = (outcomes[task].rows[0] for task in each.tasks)
-        if answer.reason is not None or not answer.friction_force:
-            continue
-        truth, unsure = settled([row.friction_coefficient for row in finer if row.reason is None])
-        error = abs(answer.friction_coefficient / truth - 1)
-        share, least = KNOWN
-        if not unsure <= max(share * error, least):
-            continue
-        waves = answer.measures.get("points_per_shortest_wave", nan)
-        found.append(
-            {
-                "model": each.task.solver.name,
-                "body": each.kind,
-                "solid": type(each.scene.elastomer).__name__,
-                "speed": band(each.finer[0].scenes[0]),
-                "waves": float(f"{waves:.4g}"),
-                "points": each.task.solver.points,
-                "error": float(f"{error:.4g}"),
-                "bound": float(f"{answer.measures['friction_error']:.4g}"),
-            }
-        )
+        answer, error = outcomes[each.task].rows[0], _error(each, outcomes)
+        if isfinite(error):
+            waves, bound = (answer.measures.get(name, nan) for name in (WAVE_POINTS, "friction_error"))
+            speed, solid = band(each.finer[0].scenes[0]), type(each.scene.elastomer).__name__
+            row = {"model": each.task.solver.name, "body": each.kind, "solid": solid, "speed": speed}
+            row |= {"waves": float(f"{waves:.4g}"), "points": each.task.solver.points}
+            found.append(row | {"error": float(f"{error:.4g}"), "bound": float(f"{bound:.4g}")})
     return found
+
+
+def _error(judged: Judged, outcomes: Mapping[Task, Outcome]) -> float:
+    """Relative error of friction; NaN without friction, and where the truth is not known well enough."""
+    answer, *finer = (outcomes[task].rows[0] for task in judged.tasks)
+    if answer.reason is not None or not answer.friction_force:
+        return nan
+    truth, unsure = settled([row.friction_coefficient for row in finer if row.reason is None])
+    error, (share, least) = abs(answer.friction_coefficient / truth - 1), KNOWN
+    return error if unsure <= max(share * error, least) else nan
 
 
 def regions(found: Sequence[Mapping[str, Any]]) -> Iterator[dict[str, Any]]:
@@ -132,59 +130,44 @@ def regions(found: Sequence[Mapping[str, Any]]) -> Iterator[dict[str, Any]]:
 
 
 @dataclass(frozen=True)
-class Signed(Task):
-    """A task: the signs of the error of an answer, as measures of its row."""
+class WithSigns:
+    """The solver on a number of points, whose measures are the signs of the error of its friction."""
 
-    solver: BEM
-    scene: Scene
-    work: float = 1e6
+    points: int
+    name = "BEM"
     packages = ("scene", "bem3d", __name__)
 
-    @property
-    def label(self) -> str:
-        """Short description for people."""
-        return f"signs on {self.solver.points} points, {type(self.scene.indenter).__name__.lower()}"
-
-    @property
-    def question(self) -> Mapping:
-        """The scene and the points."""
-        (scene,) = SCENES.dump_python((self.scene,), mode="json")
-        return {"signs": scene, "points": self.solver.points}
-
-    def solve(self) -> Outcome:
-        """Answer; NaN with its reason where there is none."""
-        try:
-            result = self.solver.solve(self.scene)
-        except (Refused, SolveError) as reason:
-            return self.failed(str(reason))
-        problem, settings = Problem(self.scene, self.solver.engine), result.settings
-        grid = Grid(self.solver.points, settings["extent"], settings["centre"], width=problem.width)
+    def solve(self, scene: Scene) -> Result:
+        """Answer and signs, where it has friction."""
+        solver = BEM(points=self.points)
+        result = solver.solve(scene)
+        problem, settings = Problem(scene, solver.engine), result.settings
+        grid = Grid(self.points, settings["extent"], settings["centre"], width=problem.width)
         _, seen = frictionerror.estimated(problem, grid, result.fields["pressure"], problem.lost)
-        return Outcome((replace(row(result), measures={} if seen is None else dict(seen.numbers)),))
+        signs = {} if seen is None else seen.numbers
+        return replace(result, measures={f"{SIGN}{name}": value for name, value in signs.items()})
 
 
-def to_learn(seeds: Sequence[int]) -> Iterator[tuple[str, Signed, tuple[SceneTask, ...]]]:
-    """Scenes by name, each on several grids, with the finer ones that tell the truth."""
+def to_learn(seeds: Sequence[int]) -> Iterator[tuple[str, Judged]]:
+    """Scenes by name, each on several grids, with the finer ones that are the truth."""
     for kind in scenes.KINDS:
         for seed in seeds[:: EVERY[kind]]:
             scene = scenes.drawn(kind, seed)
             for points in LEARNED_POINTS:
-                yield f"{kind}{seed}", Signed(BEM(points=points), scene), reference(scene)
+                yield f"{kind}{seed}", Judged(kind, _task(WithSigns(points), scene), reference(scene))
 
 
-def learn(path: Path, every: Sequence[tuple], outcomes: Mapping[Task, Outcome]) -> None:
+def learn(path: Path, every: Sequence[tuple[str, Judged]], outcomes: Mapping[Task, Outcome]) -> None:
     """Write the table of signs and errors of every answer that has friction and whose truth is known."""
     found = []
-    for name, task, finer in every:
-        answer = outcomes[task].rows[0]
-        truth, unsure = settled([outcomes[each].rows[0].friction_coefficient for each in finer])
-        error, (share, least) = abs(answer.friction_coefficient / truth - 1), KNOWN
-        if answer.measures and unsure <= max(share * error, least):
-            slow = "slow" if answer.measures["slowness"] > 1 / 2 else "fast"
-            kind = f"{'rough' if answer.measures['wave'] else 'smooth'}, {slow}"
-            numbers = {each: f"{value:.4g}" for each, value in answer.measures.items() if each != "one"}
-            error, residual = f"{error:.4g}", f"{answer.residual:.2g}"
-            found.append({"scene": name, "kind": kind, "error": error, "residual": residual, **numbers})
+    for name, each in every:
+        answer, error = outcomes[each.task].rows[0], _error(each, outcomes)
+        signs = {sign.removeprefix(SIGN): value for sign, value in answer.measures.items()}
+        if signs and isfinite(error):
+            slow = "slow" if signs["slowness"] > 1 / 2 else "fast"
+            row = {"scene": name, "kind": f"{'rough' if signs['wave'] else 'smooth'}, {slow}"}
+            row |= {"error": f"{error:.4g}", "residual": f"{answer.residual:.2g}"}
+            found.append(row | {sign: f"{value:.4g}" for sign, value in signs.items() if sign != "one"})
     DataFrame(found).to_csv(path, index=False, compression={"method": "gzip", "mtime": 0})
 
 
@@ -231,7 +214,7 @@ def _quantile(table, values, share):
 
 def _task(solver, scene: Scene) -> SceneTask:
     points = solver.points
-    return SceneTask(solver, (scene,), work=points**2.2 * 50.0 if isinstance(solver, BEM) else 100.0 * points)
+    return SceneTask(solver, (scene,), work=100.0 * points if isinstance(solver, MDR) else points**2.2 * 50.0)
 
 
 def reference(scene: Scene) -> tuple[SceneTask, ...]:
