@@ -193,7 +193,7 @@ def coverage_rows(scores: Mapping[str, Scored]) -> Iterator[dict[str, Any]]:
             used = score.taken(here & counts)
             if used.usable.size:
                 row = dict(zip(COVERED, named, strict=True)) | {"quantity": name, "scenes": used.usable.size}
-            yield row | _held(used)
+                yield row | _held(used)
 
 
 def advice_rows(scores: Mapping[str, Scored]) -> Iterator[dict[str, Any]]:
