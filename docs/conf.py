@@ -32,15 +32,12 @@ copyright = "the authors of mdr-bem-crosscheck, MIT license"
 extensions = [
     "myst_nb",
     "sphinx.ext.autodoc",
-    "sphinx.ext.autosummary",
     "sphinx.ext.mathjax",
     "sphinx-mathjax-offline",
     "sphinx_copybutton",
     "docstrings",
     "equations",
     "kinds",
-    "terms",
-    "thumbnails",
     "variables",
 ]
 exclude_patterns = ["*/solved/*", "joss/*"]  # whose citations are of pandoc
@@ -48,7 +45,7 @@ exclude_patterns = ["*/solved/*", "joss/*"]  # whose citations are of pandoc
 myst_enable_extensions = ["dollarmath", "colon_fence"]
 myst_heading_anchors = 3
 
-# Outputs of executed pages are kept beside the built ones until a cell changes; a fresh copy has none.
+# Outputs of executed pages are kept next to the built ones until a cell changes; a fresh copy has none.
 nb_execution_mode = "cache"
 nb_execution_in_temp = True
 nb_execution_timeout = 600
@@ -60,7 +57,6 @@ autodoc_default_options = {"members": True, "member-order": "bysource"}
 autodoc_typehints = "signature"
 autodoc_typehints_format = "short"
 autodoc_class_signature = "mixed"
-autosummary_generate = False
 add_module_names = False
 maximum_signature_line_length = 72  # a longer one has a line for each argument
 toc_object_entries_show_parents = "hide"

@@ -9,7 +9,7 @@ from .steady import Contact
 # Nodes that are left: each k-th. An error of second order changes by k^2 - 1 times itself; where the edges of a
 # contact lie between the nodes makes more or less of it, and the most is taken.
 STEPS = 2, 3, 4
-# Bound over that: as far as 95 % of random contacts asked for, see docs/results/promises.md.
+# Bound over that: as far as 95 % of random contacts asked for, see docs/results/accuracy.md.
 SHARE = 2.0
 # Nodes on the shortest wave below which it is more, and by which power of them.
 RESOLVED, POWER = 6.0, 0.7

@@ -27,14 +27,14 @@ class Variables(SphinxDirective):
         rows = ["| Variable | Unit | Meaning |", "|---|---|---|"]
         if fields:
             rows = ["| Variable | Dimensions | Unit | Meaning |", "|---|---|---|---|"]
-        for name, said in found.items():
-            axes = f"{', '.join(f'`{axis}`' for axis in said.axes)} | " if fields else ""
-            rows.append(f"| `{name}` | {axes}{_unit(said)} | {said.text} |")
+        for name, each in found.items():
+            axes = f"{', '.join(f'`{axis}`' for axis in each.axes)} | " if fields else ""
+            rows.append(f"| `{name}` | {axes}{_unit(each)} | {each.text} |")
         return self.parse_text_to_nodes("\n".join(rows))
 
 
-def _unit(said):
-    return f"{said.unit_in_words} (line: {said.along_line})" if said.along_line else said.unit_in_words
+def _unit(each):
+    return f"{each.unit_in_words} (line: {each.along_line})" if each.along_line else each.unit_in_words
 
 
 def setup(app):

@@ -1,8 +1,8 @@
 """The paper's experiment in three dimensions: a ball slides on a layer, and its friction curves are shifted.
 
-python docs/examples/experiment.py   prints the numbers of results/experiment.md, and draws its figure
+python docs/examples/experiment.py   prints the numbers of results/paper.md, and draws its figure
 
-The smooth ball is solved on the layer. Its roughness is too fine for any grid; its friction is that of the law of
+The smooth ball is solved on the layer. Its roughness is too fine for any grid; its friction is from the law of
 three dimensions, the integral of F_full S(p / p_rms) over the contact, p the pressure of the smooth ball.
 """
 

@@ -1,40 +1,35 @@
-"""Measures the 3D solver beside its peers, tamaas and ContactMechanics, for docs/results/benchmark.md.
+"""Time of the 3D solver and of its peers, tamaas and ContactMechanics: for docs/results/workprecision.md.
 
-python docs/measure/benchmark.py [cells] [loads] [sliding]
+python docs/measure/benchmark.py
 
 The peers come with the extra `peers`. Every run is alone in a process of one thread.
 """
 
-import importlib.metadata
 import multiprocessing
 import os
-import platform
-import sys
+import tempfile
 import time
-import timeit
+import warnings
+from collections.abc import Iterator, Mapping
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import replace
-from datetime import date
-from math import sqrt
+from contextlib import contextmanager
 from pathlib import Path
 
-from codes import CODES, MOST, by_tamaas
-from scipy.optimize import brentq
-from tables import table, write
+import numpy as np
+import pandas
+from tables import fill, stored, table
 
-from bem3d import BEM
-from scene import Elastic, Indent, Kelvin, Plane, Refused, Scene, SelfAffine, Slide, SolveError, Sphere
+from bem3d import BEM, heights
+from scene import Elastic, Indent, Plane, Scene, SelfAffine
 
-PAGE = Path(__file__).parents[1] / "results" / "benchmark.md"
-GRIDS = 256, 512, 1024, 2048  # points a side
+PAGE = Path(__file__).parents[1] / "results" / "workprecision.md"
+MEASURED = PAGE.with_suffix("") / "benchmark.csv"
+GRIDS = 1024, 2048  # points a side
 ELASTIC = Elastic(0.25)  # E* = 4G = 1
 SLOPE, PRESSURE = 0.1, 0.0035
 WANTED = 1e-6  # complementarity error that every code is to reach
-PENETRATION = 1e-3  # over the standard deviation of the heights: more is no solution, though the error be small
 TOLERANCES = (1e-5, 5e-6, 2e-6, 1e-6, 5e-7, 2e-7, 1e-7)  # tried in turn, each code by its own measure
-REPEATED, REPEATS = 512, 3  # up to this size the least of so many runs counts
-UNANSWERED = (Refused, SolveError)
-PAPER = Sphere(10e-3), SelfAffine(hurst=0.2, rms_height=5e-5, longest=1e-2, shortest=5e-4, seed=1)
+MOST = 1000  # iterations allowed to a peer
 
 
 def rough_plane(n: int) -> SelfAffine:
@@ -44,7 +39,7 @@ def rough_plane(n: int) -> SelfAffine:
     return SelfAffine(rms_height=SLOPE / unit.rms_slope(unit.q_max(1 / n)), **of)
 
 
-def cell(n: int, pressure: float) -> tuple[Scene, BEM]:
+def cell(n: int, pressure: float = PRESSURE) -> tuple[Scene, BEM]:
     """A rough cell under a mean pressure over E*."""
     return Scene(Plane(), ELASTIC, Indent(pressure=pressure), rough_plane(n)), BEM(points=n)
 
@@ -57,157 +52,122 @@ def alone(function, *arguments):
         return process.submit(function, *arguments).result()
 
 
-def pair(n: int) -> float:
-    """Least processor seconds of one rfft2 and irfft2 of n x n by pyfftw, planned with MEASURE, one thread."""
-    import pyfftw
+def heights_of(scene: Scene, solver: BEM) -> np.ndarray:
+    """What a peer is given: z on the points of our grid."""
+    return heights(scene, solver.points, solver.extent or 1.0).height
 
-    points, waves = pyfftw.zeros_aligned((n, n)), pyfftw.zeros_aligned((n, n // 2 + 1), complex)
-    axes = {"axes": (0, 1), "flags": ("FFTW_MEASURE", "FFTW_DESTROY_INPUT")}
-    forward = pyfftw.FFTW(points, waves, **axes)
-    backward = pyfftw.FFTW(waves, points, direction="FFTW_BACKWARD", **axes)
-    points[:] = 1.0
-    both = timeit.Timer(lambda: (forward.execute(), backward.execute()), timer=time.process_time)
-    return min(both.repeat(30, number=1))
+
+def outcome(heights, tolerance, pressure, gap, **more) -> dict:
+    """Row of one run; the error is sum|p gap| over sum(p) and the standard deviation of all heights."""
+    error = float(np.sum(np.abs(pressure * gap)) / (pressure.sum() * heights.std()))
+    touching = float(np.mean(pressure > 0))
+    return {"tolerance": tolerance, "error": error, "touching": touching} | more
+
+
+def by_us(scene: Scene, solver: BEM, tolerance: float) -> dict:
+    """From the scene to the result: drawing the surface and the coarser grids are included."""
+    result = BEM(points=solver.points, tolerance=tolerance).solve(scene)
+    return outcome(
+        heights_of(scene, solver),
+        tolerance,
+        result.fields["pressure"],
+        result.fields["gap"],
+        seconds=result.seconds,
+        iterations=result.operator_applications,
+    )
+
+
+def by_tamaas(scene: Scene, solver: BEM, tolerance: float) -> dict:
+    """Polonsky and Keer's conjugate gradients; the solve alone. The tolerance is the error itself."""
+    import tamaas
+
+    tamaas.initialize(1)
+    n, heights = solver.points, heights_of(scene, solver)
+    model = tamaas.ModelFactory.createModel(tamaas.model_type.basic_2d, [1.0, 1.0], [n, n])
+    model.E, model.nu = 1.0, 0.0
+    peer = tamaas.PolonskyKeerRey(model, np.ascontiguousarray(-heights), tolerance)
+    peer.max_iter, peer.dump_freq = MOST, 1
+    with printed() as lines:
+        started = time.process_time()
+        peer.solve(scene.motion.pressure)
+        seconds = time.process_time() - started
+    counts = [int(line.split()[0]) for line in lines if line.split()[:1] and line.split()[0].isdigit()]
+    return outcome(heights, tolerance, model.traction, model["gap"], seconds=seconds, iterations=max(counts))
+
+
+@contextmanager
+def printed():
+    """What a compiled library prints meanwhile, as lines, once it is over."""
+    lines: list[str] = []
+    with tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") as file:
+        kept = [(number, os.dup(number)) for number in (1, 2)]
+        for number, _ in kept:
+            os.dup2(file.fileno(), number)
+        try:
+            yield lines
+        finally:
+            for number, copy in kept:
+                os.dup2(copy, number)
+                os.close(copy)
+            file.seek(0)
+            lines += file.read().splitlines()
+
+
+def by_contact_mechanics(scene: Scene, solver: BEM, tolerance: float) -> dict:
+    """Numbers of a solve by ContactMechanics, by the same method; the time of the solve alone."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        import ContactMechanics
+        from SurfaceTopography import Topography
+    n, heights = solver.points, heights_of(scene, solver)
+    substrate = ContactMechanics.PeriodicFFTElasticHalfSpace((n, n), 1.0, (1.0, 1.0))
+    system = ContactMechanics.Systems.NonSmoothContactSystem(substrate, Topography(-heights, (1.0, 1.0)))
+    started = time.process_time()
+    found = system.minimize_proxy(
+        pentol=tolerance * heights.std(), maxiter=MOST, external_force=scene.motion.pressure
+    )
+    seconds = time.process_time() - started
+    gap = found.x[:n, :n] + heights - found.offset
+    return outcome(heights, tolerance, found.jac, gap, seconds=seconds, iterations=found.nit)
+
+
+CODES = {"this": by_us, "tamaas": by_tamaas, "ContactMechanics": by_contact_mechanics}
 
 
 def measured(code, scene: Scene, solver: BEM) -> dict:
     """The first tolerance with which a code reaches the error wanted; if it stalls, its last try."""
-    try:
-        code(*cell(64, 0.01), 1e-3)  # compiles, imports
-    except ImportError:
-        return {"reason": "not installed"}
+    code(*cell(64, 0.01), 1e-3)  # compiles, imports
     for tolerance in TOLERANCES[TOLERANCES.index(WANTED) if code is by_tamaas else 0 :]:
-        try:
-            row = code(scene, solver, tolerance)
-        except UNANSWERED as reason:
-            return {"reason": str(reason)}
+        row = code(scene, solver, tolerance)
         if row["error"] <= WANTED or row["iterations"] >= MOST:
             break
-    repeats = REPEATS - 1 if solver.points <= REPEATED and row["iterations"] < MOST else 0
-    again = [code(scene, solver, row["tolerance"])["seconds"] for _ in range(repeats)]
-    row["seconds"] = min([row["seconds"], *again])
-    row["pair"] = pair(solver.points)
     return row
 
 
-COLUMNS = "code|iterations|transform pairs|error|in contact|processor s|in pairs|of ours"
+def rows() -> Iterator[dict]:
+    """A row for each grid and code."""
+    for n in GRIDS:
+        for name, code in CODES.items():
+            yield {"points": n, "code": name} | alone(measured, code, *cell(n))
 
 
-def side_by_side(label: str, scene: Scene, solver: BEM):
-    """Rows of a table, one a code."""
-    own = None
-    for name, code in CODES.items():
-        row = alone(measured, code, scene, solver)
-        own = own or row
-        yield label, name, *shown(row, own)
-        print(label, name, row, flush=True, file=sys.stderr)
-
-
-def shown(row, own):
-    """The cells of a row; a code that stalls or refuses says so."""
-    if "reason" in row:
-        return row["reason"], *[""] * 6
-    wrong = " (stalls)" if row["error"] > WANTED else " (penetrates)" if row["penetration"] > PENETRATION else ""
-    return (
-        f"{row['iterations']:.0f}{wrong}",
-        f"{row['pairs']:.0f}" if "pairs" in row else "",
-        f"{row['error']:.1e}",
-        f"{row['touching']:.3%}",
-        f"{row['seconds']:.3g}",
-        f"{row['seconds'] / row['pair']:.0f}",
-        f"{row['seconds'] / own['seconds']:.1f}" if "seconds" in own else "",
+def parts() -> Mapping[tuple[Path, str], str]:
+    """Text between two comments, by the page and the name of the comment, from what is stored."""
+    found = pandas.read_csv(MEASURED)
+    own = found[found["code"] == "this"].set_index("points")["seconds"]
+    times = found["seconds"] / found["points"].map(own)
+    shown = (
+        (f"{row.points}²", row.code, f"{row.iterations}", f"{row.error:.1e}", f"{row.seconds:.3g}", f"{over:.1f}")
+        for row, over in zip(found.itertuples(), times, strict=True)
     )
+    return {(PAGE, "benchmark"): table("points|code|iterations|error|processor time [s]|over this", shown)}
 
 
-def rough_cells() -> str:
-    """The comparison of the peers by size."""
-    return table(f"points|{COLUMNS}", (row for n in GRIDS for row in side_by_side(f"{n}²", *cell(n, PRESSURE))))
+def main() -> None:
+    """Measure, and write the numbers and the part of the page."""
+    stored(MEASURED, rows())
+    fill(parts())
 
-
-def pressure_for(n: int, fraction: float) -> float:
-    """Mean pressure over E* at which so much of a rough cell touches."""
-
-    def excess(pressure):
-        return cell(n, pressure)[1].solve(cell(n, pressure)[0]).measures["contact_fraction"] - fraction
-
-    return float(brentq(excess, 0.05 * SLOPE, 2.5 * SLOPE, xtol=1e-3 * SLOPE, rtol=1e-4))
-
-
-def other_loads() -> str:
-    """From a few asperities to almost full contact."""
-    n = GRIDS[1]
-
-    def rows():
-        for pressure in (1e-6, 1e-4):
-            yield from side_by_side(f"{pressure:.0e}", *cell(n, pressure))
-        for fraction in (0.5, 0.99):
-            pressure = alone(pressure_for, n, fraction)
-            yield from side_by_side(f"{pressure:.3g}", *cell(n, pressure))
-
-    return table(f"mean pressure / E*|{COLUMNS}", rows())
-
-
-def slid(solver: BEM, scene: Scene) -> dict:
-    """One steady sliding solve."""
-    try:
-        BEM(points=32).solve(replace(scene, roughness=None))  # compiles
-        result = solver.solve(scene)
-    except UNANSWERED as reason:
-        return {"reason": str(reason)}
-    names = ("rounds", "transform_pairs", "friction_disagreement")
-    return {
-        "operator_applications": result.operator_applications,
-        "seconds": result.seconds,
-        "friction": result.friction_coefficient,
-    } | {name: result.measures[name] for name in names}
-
-
-def steady_sliding() -> str:
-    """Kelvin sphere, smooth and rough, by speed."""
-    n, (indenter, rough), tau, depth = GRIDS[1], PAPER, 1e-3, 1e-4
-    a, load = sqrt(indenter.radius * depth), 4 / 3 * 4e6 * sqrt(indenter.radius) * depth**1.5
-
-    def rows():
-        for name, roughness in (("smooth", None), ("rough", rough)):
-            for decade in range(-4, 5, 2):
-                motion = Slide(speed=10.0**decade * a / tau, load=load)
-                row = alone(slid, BEM(points=n), Scene(indenter, Kelvin(1e6, tau), motion, roughness))
-                print(name, decade, row, flush=True, file=sys.stderr)
-                if "reason" in row:
-                    yield name, f"1e{decade}", row["reason"], *[""] * 5
-                    continue
-                yield (
-                    name,
-                    f"1e{decade}",
-                    f"{row['rounds']:.0f}",
-                    f"{row['operator_applications']:.0f}",
-                    f"{row['transform_pairs']:.0f}",
-                    f"{row['seconds']:.3g}",
-                    f"{row['friction']:.5g}",
-                    f"{row['friction_disagreement']:.1e}",
-                )
-
-    return table(
-        "sphere|v τ/a|rounds|operator applications|products in all|processor s|μ|disagreement of μ", rows()
-    )
-
-
-def machine() -> str:
-    """Day, processor and versions, without names of places."""
-    lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
-    cpu = next(line for line in lines if line.startswith("model name"))
-    names = "numpy", "scipy", "numba", "ducc0", "pyfftw", "tamaas", "ContactMechanics"
-    versions = ", ".join(f"{name} {importlib.metadata.version(name)}" for name in names)
-    cores = f"{os.cpu_count()} cores (load at the start {os.getloadavg()[0]:.1f})"
-    return f"{date.today()}, {cpu.split(': ')[1]}, {cores}, Python {platform.python_version()}, {versions}."
-
-
-SECTIONS = {
-    "machine": machine,
-    "cells": rough_cells,
-    "loads": other_loads,
-    "sliding": steady_sliding,
-}
 
 if __name__ == "__main__":
-    write(PAGE, {name: SECTIONS[name] for name in sys.argv[1:] or SECTIONS})
+    main()

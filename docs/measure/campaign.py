@@ -1,4 +1,4 @@
-"""What the measured pages share beside their tables: solving what is not solved yet, with a bar."""
+"""What the measured pages share: solving what is not solved yet, with a bar."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
@@ -23,7 +23,7 @@ def friction(rows: Sequence[Row]) -> Estimated:
 def solved(
     page: Path, tasks: Iterable[Task], workers: int | None = None, fresh: bool = False
 ) -> Mapping[Task, Outcome]:
-    """Answers of tasks; what has been solved once lies in the folder `solved` beside the numbers of the page."""
+    """Answers of tasks; what has been solved once lies in the folder `solved` next to the numbers of the page."""
     store = Store(page.with_suffix("") / "solved")
     with lock([store.folder], print), Shown() as shown, shown.solving() as progress:
         return sweep(tasks, store, workers, progress, fresh=fresh).outcomes

@@ -83,7 +83,7 @@ class Contact(Task):
         """Solve until the means are known, or the surfaces are spent."""
         line = MDR(points=LINE_POINTS)
         first = SceneTask(BEM(points=LEAST_POINTS), (self.scene,)).solve().rows[0]
-        profiles = self._told(FINE, line, self._profiles(line))
+        profiles = self._labelled(FINE, line, self._profiles(line))
         return Outcome(tuple(chain(profiles, self._surfaces(self._fine(first)))))
 
     def fits(self, outcome: Outcome) -> bool:
@@ -130,13 +130,13 @@ class Contact(Task):
             coarse, most = coarse[:few], min(most, max(few, most // round(DEARER)))
         while not stands_in and len(fine) < most and not self._known(fine):
             fine += SceneTask(solver, scenes[len(fine) : len(fine) + few]).solve().rows
-        yield from self._told(FINE, solver, fine)
-        yield from self._told(HALF, half, coarse)
+        yield from self._labelled(FINE, solver, fine)
+        yield from self._labelled(HALF, half, coarse)
 
     @staticmethod
-    def _told(grid, solver, rows) -> Iterator[Row]:
-        told = {"solver": solver.name, "grid": grid, "points": solver.points}
-        return (replace(row, measures={}, settings=told) for row in rows)
+    def _labelled(grid, solver, rows) -> Iterator[Row]:
+        settings = {"solver": solver.name, "grid": grid, "points": solver.points}
+        return (replace(row, measures={}, settings=settings) for row in rows)
 
     def _values(self, rows):
         """Friction coefficient of each row (N,); of a scene at rest its depth, or its force at a depth."""

@@ -65,7 +65,7 @@ DRAWN = {
 }
 SOBOL = 20
 SEEDS = 1000  # surfaces that a point may have
-# Where waves are many: their number on the radius; pressure over that of full contact, p / (E* h'), which sets
+# Where waves are many: their number on the radius; pressure over pressure of full contact, p / (E* h'), which sets
 # their height, and their most over the depth; longest waves over the radius.
 MANY_WAVES, PRESSURES, MOST_HEIGHT, MANY_PERIODS = (20.0, 150.0), (0.03, 3.0), 0.3, (0.5, 4.0)
 # Share of the surfaces that are no maps, but drawn with Gaussian amplitudes.
@@ -228,7 +228,7 @@ def solid_at(kind, loss, spread, tilt, branches, speed, wave) -> Elastomer:
     if kind < 0.25:
         return Kelvin(MODULUS, wave / SPEED * between(SPEEDS, place))
     if kind < 0.6:
-        # From slow on the scale of retardation to fast on that of relaxation.
+        # From slow on the scale of retardation to fast on the scale of relaxation.
         time = wave / SPEED * between((SPEEDS[0] / stiffening**0.5, SPEEDS[1]), place)
         return StandardLinearSolid(MODULUS, MODULUS * stiffening, time)
     if kind < 0.8:

@@ -1,4 +1,4 @@
-"""What each effect costs in each solver: the table of results/effects.md, its numbers, and the tables of plans.
+"""What each effect costs in each solver: for results/workprecision.md, and the tables of plans.
 
 python docs/measure/effects.py
 
@@ -8,29 +8,34 @@ bem3d/effects.csv and mdr1d/effects.csv, which are written from the same measure
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from math import isfinite, nan
+from itertools import product
+from math import nan
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas
 from campaign import solved
+from pandas import DataFrame
 from pydantic import TypeAdapter
-from tables import replaced, stored, table
+from tables import fill, stored, table
 
 import bem3d.plan
 import mdr1d.plan
 from bem3d import BEM
 from bem3d.surface import RoughSurface
-from compare.report.manifest import machine, versions
-from compare.solving.task import Outcome, Row, Task
-from compare.studies.workprecision.ladder import TimedSolve
+from compare.solving.outcome import Outcome, Row
+from compare.solving.task import Task
+from compare.studies.workprecision.timed import TimedSolve
 from mdr1d import MDR
 from scene import Scene, SelfAffine
 from scene.plan import COSTS, two_digits
 
-PAGE = Path(__file__).parents[1] / "results" / "effects.md"
+PAGE = Path(__file__).parents[1] / "results" / "workprecision.md"
+MEASURED = PAGE.with_suffix("") / "effects.csv"
 SOLVERS: Mapping[str, BEM | MDR] = {"3D": BEM(points=256, steps=40), "1D": MDR(points=5000, steps=40)}
 TABLES = {"3D": bem3d.plan.EFFECTS, "1D": mdr1d.plan.EFFECTS}
+MEASURES = {"seconds": "processor", "wall": "wall", "repeats": "repeats", "time_steps": "time_steps"}
 COUNTED = {"3D": (), "1D": ("Program",)}  # parts that a plan counts by itself
 SCENES = TypeAdapter(Scene)
 PLAIN: Mapping[str, Any] = {
@@ -48,6 +53,7 @@ SELF_AFFINE = {"roughness": {"type": "self-affine", **ROUGH}}
 WARM = {"temperature": {"type": "wlf", "temperature": 301.0, "reference": 300.0, "c1": 10.0, "c2": 100.0}}
 RUBBED = {"interface": {"coefficient": 0.3}}
 PRESSED, SLID = {"duration": 1e-3, "load": 1.0}, {"duration": 1e-3, "speed": 0.1}
+UNSHOWN = "plane", "reversal"  # on the page
 PIXELS = 128  # a side of the measured surface; the shortest wave has eight
 
 
@@ -69,31 +75,6 @@ class Effect:
     def scene(self) -> Scene:
         """The contact that is solved."""
         return SCENES.validate_python({**PLAIN, **self.tables})
-
-
-@dataclass(frozen=True)
-class Cost:
-    """Cost of one effect in one solver.
-
-    row : NaN with a reason where it was refused or failed
-    over : row of the effect that it is added to; of a plain contact its own
-    """
-
-    effect: Effect
-    row: Row
-    over: Row
-
-    @property
-    def times(self) -> float:
-        """Processor time over that without the effect."""
-        return self.row.measures.get("processor", nan) / self.over.measures.get("processor", nan)
-
-    @property
-    def multiples(self) -> dict[str, float]:
-        """By the names of `scene.plan.COSTS`: over those without the effect; of a program, for one step."""
-        steps = self.row.measures.get("time_steps", 1.0)
-        applications = self.row.operator_applications / self.over.operator_applications
-        return dict(zip(COSTS, (applications / steps, self.times / steps), strict=True))
 
 
 def measured() -> np.ndarray:
@@ -148,71 +129,64 @@ def _work(solver, effect):
     return steps * (solver.points if solver.name == "MDR" else solver.points**2)
 
 
-def costs(outcomes: Mapping[Task, Outcome]) -> dict[str, list[Cost]]:
-    """Costs of all effects, by the keys of SOLVERS."""
-    found, asked = {}, tasks()
-    for name, solver in SOLVERS.items():
-        rows = {
-            effect.title: outcomes[asked[name, effect.title]].rows[0]
-            if (name, effect.title) in asked
-            else Row(reason=f"refused: {'; '.join(solver.refusals(effect.scene))}")
-            for effect in effects()
-        }
-        found[name] = [Cost(each, rows[each.title], rows[each.over or each.title]) for each in effects()]
-    return found
+def table_of(outcomes: Mapping[Task, Outcome]) -> DataFrame:
+    """Rows of MEASURED: times is the processor time over the time without the effect, 1 of a plain contact."""
+    rows, asked = [], tasks()
+    for name, effect in product(SOLVERS, effects()):
+        refused = Row(reason=f"refused: {'; '.join(SOLVERS[name].refusals(effect.scene))}")
+        task = asked.get((name, effect.title))
+        row = outcomes[task].rows[0] if task else refused
+        numbers = {column: row.measures.get(measure, nan) for column, measure in MEASURES.items()}
+        rows.append({"dimension": name, "effect": effect.title, "over": effect.over or "", **numbers})
+        rows[-1] |= {"operator_applications": row.operator_applications, "reason": row.reason or ""}
+    found = DataFrame(rows)
+    return found.assign(times=found["seconds"] / _of_over(found)["seconds"])
 
 
-def priced(name: str, billed: list[Cost]) -> list[dict]:
-    """Rows of a table that plans multiply costs with: the parts whose cost was measured."""
-    return [
-        {"part": part} | {cost: float(f"{value:.3g}") for cost, value in each.multiples.items()}
-        for each in billed
-        for part in each.effect.parts
-        if isfinite(each.times) and part not in COUNTED[name]
-    ]
+def _of_over(found: DataFrame) -> DataFrame:
+    """For each row the one of the contact that its effect is added to, of a plain contact itself."""
+    over = found["over"].where(found["over"] != "", found["effect"])
+    named = found.set_index(["dimension", "effect"])
+    return named.loc[list(zip(found["dimension"], over, strict=True))].reset_index()
 
 
-def sheet(found: Mapping[str, list[Cost]]) -> list[dict]:
-    """Rows of results/effects.csv."""
-    measures = {"seconds": "processor", "wall": "wall", "repeats": "repeats"}
-    return [
-        {"dimension": name, "effect": cost.effect.title, "over": cost.effect.over or ""}
-        | {column: cost.row.measures.get(measure, nan) for column, measure in measures.items()}
-        | {"times": cost.times, "operator_applications": cost.row.operator_applications}
-        | {"time_steps": cost.row.measures.get("time_steps", nan), "reason": cost.row.reason or ""}
-        for name, billed in found.items()
-        for cost in billed
-    ]
-
-
-def cells(rows: list[dict]) -> Iterator[tuple[str, ...]]:
-    """Cells of the table of the page, of rows of results/effects.csv: times, or why there are none."""
-    by = {(row["dimension"], row["effect"]): row for row in rows}
+def priced(name: str, found: DataFrame) -> Iterator[dict]:
+    """Rows of a table that plans multiply costs with: parts whose cost was measured; of a program, for a step."""
+    steps = found["time_steps"].fillna(1.0)
+    applications = found["operator_applications"] / _of_over(found)["operator_applications"]
+    each = DataFrame(dict(zip(COSTS, (applications / steps, found["times"] / steps), strict=True)))
+    own = each[found["dimension"] == name].set_index(found["effect"][found["dimension"] == name]).dropna()
     for effect in effects():
-        both = (by[name, effect.title] for name in ("1D", "3D"))
-        yield effect.title, effect.over or "", *(_cell(row) for row in both)
+        for part in effect.parts if effect.title in own.index else ():
+            if part not in COUNTED[name]:
+                yield {"part": part} | {cost: float(f"{own.loc[effect.title, cost]:.3g}") for cost in COSTS}
+
+
+def cells(found: DataFrame) -> Iterator[tuple[str, ...]]:
+    """Cells of the table of the page: times, or why there are none."""
+    for (effect, over), both in found.groupby(["effect", "over"], sort=False):
+        if over and effect not in UNSHOWN:
+            by = both.set_index("dimension")
+            yield effect, over, *(_cell(by.loc[name]) for name in ("1D", "3D"))
 
 
 def _cell(row):
     return row["reason"].split(":")[0] or two_digits(float(row["times"]))
 
 
+def parts() -> Mapping[tuple[Path, str], str]:
+    """Text between two comments, by the page and the name of the comment, from what is stored."""
+    found = pandas.read_csv(MEASURED, keep_default_na=False, na_values="nan")
+    return {(PAGE, "effects"): table("effect|added to|1D|3D", cells(found))}
+
+
 def main() -> None:
-    """Measure, and write the tables and the page."""
-    found = costs(solved(PAGE, tasks().values(), fresh=True))
-    for name, billed in found.items():
-        stored(TABLES[name], priced(name, billed))
-    rows = sheet(found)
-    stored(PAGE.with_suffix(".csv"), rows)
-    where = "{system}, {machine}, {processors} processors".format(**machine())
-    with_what = ", ".join(f"{name} {number}" for name, number in versions().items())
-    replaced(PAGE, "machine", f"{where}; {with_what}.")
-    replaced(PAGE, "effects", table("effect|added to|1D|3D", cells(rows)))
-    refused = (row for row in rows if row["reason"].startswith("refused: "))
-    lines = (
-        f"- {row['effect']}, {row['dimension']}: {row['reason'].removeprefix('refused: ')}." for row in refused
-    )
-    replaced(PAGE, "refused", "\n".join(lines))
+    """Measure, and write the tables and the part of the page."""
+    found = table_of(solved(MEASURED, tasks().values(), fresh=True))
+    for name, path in TABLES.items():
+        stored(path, priced(name, found))
+    stored(MEASURED, found)
+    fill(parts())
 
 
 if __name__ == "__main__":

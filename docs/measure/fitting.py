@@ -56,7 +56,7 @@ def fit(quantity: str, measured: Measurements) -> Model:
 def _widened(quantity, everything, taken, scatter):
     """Fitted part of a model: factors by which errors grow for as many of the values left out to lie within."""
     (error, own), inputs = _left_out(everything, taken), everything.inputs
-    # How wide each error has to be for its value to lie within, beside the noise of what was measured.
+    # How wide each error has to be for its value to lie within, without the noise of what was measured.
     needed = np.sqrt(np.maximum((error / NORMAL) ** 2 - everything.variances, 0))
     counted = np.flatnonzero(~lost(inputs)) if quantity == "depth" else np.arange(own.size)
     alike = np.array_split(counted[np.argsort(own[counted])], max(1, counted.size // ALIKE))
@@ -101,7 +101,7 @@ def fitted(inputs: np.ndarray, values: np.ndarray, variances: np.ndarray) -> Pro
 
 
 def most_informative(process: Process, most: int) -> np.ndarray:
-    """Numbers of so many points, in order, that together tell most of all of them.
+    """Numbers of the points, in order, that together are most informative.
 
     One after the other is taken where what is not known yet, and a measurement would tell, is most.
     """

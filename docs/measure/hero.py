@@ -1,14 +1,16 @@
 """The figure of the README: a rough contact in three dimensions and in one, and friction against load in both.
 
-The contact is the steep sphere of docs/results/slow.md, in the regime of the paper. It is solved each time, in
+The contact is the steep sphere of docs/results/law.md, in the regime of the paper. It is solved each time, in
 seconds; friction is read from hero.csv, and solved again, in minutes, where that is deleted. The master curve in
-three dimensions is that of steep sphere and cone, from law/steep.csv.
+three dimensions is drawn of steep sphere and cone, from law/steep.csv.
 """
 
+import shutil
 from collections.abc import Iterator
 from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Literal
 
 import numpy as np
@@ -18,17 +20,19 @@ from pandas import DataFrame
 from PIL import Image
 from tables import stored
 
+import compare
 from bem3d import BEM, WarmStart
 from compare.figures import contact, style
 from compare.figures.curves import intervals
 from compare.figures.plot import Plot
 from compare.figures.shades import SPEED, between
+from compare.figures.views import view
 from compare.report.csvfiles import read
 from compare.solving.task import draws_of
 from compare.statistics.jackknife import mean_ratio
 from compare.studies.comparison.study_file import STUDIES
 from mdr1d import MDR, equations
-from scene import Slide
+from scene import Kelvin, Scene, Slide, Sphere
 
 PAGE = Path(__file__).parents[1] / "results" / "hero.png"
 NUMBERS, STEEP_CONTACTS = PAGE.with_suffix(".csv"), PAGE.parent / "law" / "steep.csv"
@@ -39,7 +43,9 @@ LOADS, SPEEDS = np.geomspace(LEAST, MOST, 4), (1e-4, 2e-4, 4e-4, 8e-4)
 LINE, SPACE = MDR(points=5000), BEM(points=480)
 DRAWS = {LINE: 30, SPACE: 3}
 SHOWN = replace(SCENE, motion=Slide(speed=4e-4, load=0.4))
-SPAN, WIDTH = 1.6e-3, 1440  # of the springs, to either side [m]; of the file, in pixels
+# The contact of the picture of `crosscheck draw`, draw.png.
+SLIDING = Scene(Sphere(10e-3), Kelvin(1e6, 1e-3), Slide(speed=1.0, load=1.0))
+SPAN, WIDTH = 2e-3, 1440  # of the springs, to either side [m]; of the file, in pixels
 
 
 def main() -> None:
@@ -48,11 +54,14 @@ def main() -> None:
         stored(NUMBERS, solved())
     fields = {solver.name: solver.solve(SHOWN).fields for solver in (LINE, SPACE)}
     with style.applied():
-        shown = contact.plot(SHOWN, contact.view(SHOWN, SPACE, fields))
+        shown = contact.plot(SHOWN, view(SHOWN, SPACE, fields))
         drawing = figure(shown, read(NUMBERS), read(STEEP_CONTACTS))
         image = BytesIO()
         drawing.savefig(image, dpi=WIDTH / drawing.get_figwidth())
     Image.open(image).convert("RGB").save(PAGE, optimize=True)
+    with TemporaryDirectory() as folder:
+        compare.draw(SLIDING, output=folder, workers=1)
+        shutil.copy(Path(folder) / "contact.png", PAGE.with_name("draw.png"))
 
 
 def figure(plot: Plot, numbers: DataFrame, steep: DataFrame) -> Figure:
@@ -63,9 +72,9 @@ def figure(plot: Plot, numbers: DataFrame, steep: DataFrame) -> Figure:
     space, row = (plot.tables[contact.SECTIONS[solver]] for solver in ("BEM", "MDR"))
     contact.pressure_map(left, plot.tables[contact.PRESSURE], space["x"], plot.options["aside"], None)
     left.set_title("(a) 3D: pressure")
-    contact.section(right, row, "MDR", (-SPAN, SPAN), contact.heights_of([row]), 45)
+    contact.section(right, row, "MDR", (-SPAN, SPAN), contact.heights_of([row]), 125)
     right.set_title("(b) 1D: springs")
-    above, below, beside = lower.subplots(1, 3)
+    above, below, last = lower.subplots(1, 3)
     for axes, solver, title in ((above, "MDR", "(c) 1D: one curve"), (below, "BEM", "(d) 3D: no such curve")):
         against_load(axes, numbers[numbers["solver"] == solver], solver)
         axes.set(title=title, xlabel="load $F_N\\,p(v)$ [N]", ylabel="friction coefficient μ [1]")
@@ -76,7 +85,7 @@ def figure(plot: Plot, numbers: DataFrame, steep: DataFrame) -> Figure:
         text = f"{1e3 * speed:g} mm/s" if speed == SPEEDS[-1] else f"{1e3 * speed:g}"
         place = shifted(last["load"], speed), last["friction"]
         below.annotate(text, place, xytext=(5, 1), fontsize=style.small(), textcoords="offset points", va="center")
-    master_curve(beside, steep)
+    master_curve(last, steep)
     return drawing
 
 
@@ -125,9 +134,9 @@ def against_load(axes: Axes, numbers: DataFrame, solver: str) -> None:
 def tell(axes: Axes, numbers: DataFrame, name: str, side: Literal["left", "right"] = "left") -> None:
     """The widest interval of a panel in words: most bars are shorter than the markers."""
     most = ((numbers[f"{name}_high"] - numbers[f"{name}_low"]) / numbers[name]).max() / 2
-    told = f"95 %: at most ±{100 * most:.0f} %"
+    words = f"95 %: at most ±{100 * most:.0f} %"
     place = {"left": 0.04, "right": 0.97}[side]
-    axes.text(place, 0.04, told, fontsize=style.small(), transform=axes.transAxes, ha=side)
+    axes.text(place, 0.04, words, fontsize=style.small(), transform=axes.transAxes, ha=side)
 
 
 def shifted(load, speed):

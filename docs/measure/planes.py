@@ -1,16 +1,21 @@
-"""The share of its friction in full contact that a rough plane keeps in partial contact: rough planes, solved.
+"""The share S of its friction in full contact that a rough plane keeps in partial contact: measured, and fitted.
 
-python docs/measure/planes.py solves what is not solved yet, and writes results/law/planes.csv
+python docs/measure/planes.py       solves what is not solved yet, writes results/law/planes.csv, and fits S
+python docs/measure/planes.py fit   fits S to that table: compare/models/law/share.csv, misfits in results/law
 """
 
+import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from math import nan, pi
 from pathlib import Path
 
 import numpy as np
+import pandas
 from campaign import solved
 from design import RADIUS, SPEED, between, solid_at
+from pandas import DataFrame
+from scipy.optimize import least_squares
 from scipy.stats import qmc
 from tables import stored
 
@@ -18,8 +23,9 @@ from bem3d import BEM
 from bem3d.heights import heights
 from compare.models.exact import full_contact
 from compare.models.law.bands import Bands, FullContact
-from compare.models.law.parts import waves
-from compare.solving.task import Outcome, SceneTask, Task
+from compare.models.law.share import FITTED, Share, coefficients, waves
+from compare.solving.outcome import Outcome
+from compare.solving.task import SceneTask, Task
 from compare.statistics.jackknife import mean_ratio
 from scene import Plane, Scene, SelfAffine, Slide
 
@@ -27,7 +33,7 @@ PAGE = Path(__file__).parents[1] / "results" / "law" / "planes.md"
 PLANES, SEED, SURFACE_SEEDS = 250, 36_001, 1000
 HELD_OUT = 5  # every fifth plane is held out
 BREADTHS = 4.0, 32.0  # longest over shortest wave
-# Planes of many waves a side, as a contact of the paper has them: rolled off at so many times the shortest wave,
+# Planes of many waves a side, as a contact of the paper has them: rolled off at 1.5 to 20 times the shortest wave,
 # so that they are alike at each place.
 WIDE, WIDE_SEED, WIDE_BREADTH, WIDE_ROLLOFFS = 48, 36_002, 64.0, (1.5, 20.0)
 # Pressures over the rms pressure in full contact, one of each range, and numbers of surfaces, few waves a side and
@@ -36,7 +42,10 @@ RANGES = ((5e-3, 3e-2), (16, 4)), ((3e-2, 0.15), (8, 3)), ((0.15, 0.6), (6, 2)),
 # Points a wave; on every fourth plane the finer tells what the coarser is off by, which hardly differs between
 # surfaces.
 COARSE, FINE, CHECKED, CHECKS = 16, 32, 2, 4
-DRAWN, DIMENSIONS = 512, 12  # places of a sequence, of which the first are taken
+DRAWN, DIMENSIONS = 512, 12  # places of a sequence; the first are taken
+BOOTSTRAPS, FIT_SEED = 200, 36
+FLOOR = 0.02  # of the misfit of a plane, below which one counts no more than another
+PLACES = (5e-3, 0.015), (0.015, 0.03), (0.03, 0.07), (0.07, 0.15), (0.15, 0.3), (0.3, 0.6), (0.6, 1.2), (1.2, 3.0)
 
 
 @dataclass(frozen=True)
@@ -46,7 +55,7 @@ class PlaneContact:
     number : of the plane; place : of the pressure in RANGES
     scene : its first surface; count : of surfaces
     friction, pressure : of these waves in full contact, an area [Pa], and rms [Pa]
-    waves : what is told of these waves, see `share.waves`
+    waves : numbers of these waves, see `share.waves`
     """
 
     number: int
@@ -103,11 +112,11 @@ def contacts() -> Iterator[PlaneContact]:
         sides = longest, longest
         friction = full_contact.friction(drawn, sides, solid, SPEED)
         pressure = float(full_contact.pressure(drawn, sides, solid, SPEED).std())
-        told = waves(FullContact.of(Bands.of(rough), solid, SPEED))
+        numbers = waves(FullContact.of(Bands.of(rough), solid, SPEED))
         for index, (ends, counts) in enumerate(RANGES):
             x = between(ends, (at + shift * index) % 1)
             scene = Scene(Plane(), solid, Slide(speed=SPEED, pressure=x * pressure), rough)
-            yield PlaneContact(number, index, scene, counts[wide], friction, pressure, told)
+            yield PlaneContact(number, index, scene, counts[wide], friction, pressure, numbers)
 
 
 def rows(found: list[PlaneContact], outcomes: Mapping[Task, Outcome]) -> Iterator[dict]:
@@ -148,12 +157,78 @@ def _means(outcome):
     }
 
 
-def main() -> None:
-    """Solve what is not solved yet, and write what was found."""
-    found = list(contacts())
-    outcomes = solved(PAGE, [task for each in found for task in each.tasks])
-    stored(PAGE.with_suffix(".csv"), rows(found, outcomes))
+def planes() -> DataFrame:
+    """Planes with their share on ever finer grids: what those with a finer one differ by is alike for all."""
+    found = pandas.read_csv(PAGE.with_suffix(".csv"))
+    one = np.ones(len(found))
+    columns = np.stack([one, found["lossy"], np.log(found["x"])], axis=1)
+    seen = found["friction_finer"].notna().to_numpy()
+    change = columns @ np.linalg.lstsq(columns[seen], found["friction_finer"][seen], rcond=None)[0]
+    # Halving the pixel once more changes half as much again, and so on.
+    return found.assign(share=found["share"] * (1 + 2 * change), finer=change, one=one)
+
+
+def fitted(found: DataFrame, names: list[tuple[str, str]], start: np.ndarray) -> np.ndarray:
+    """Coefficients that fit most planes best: those that lie far off hardly count."""
+    weight = 1 / np.hypot(found["error"], FLOOR).to_numpy()
+
+    def misfit(values):
+        return weight * np.log(share(found, names, values) / found["share"].to_numpy())
+
+    return least_squares(misfit, start, loss="cauchy").x
+
+
+def share(found: DataFrame, names: list[tuple[str, str]], values: np.ndarray) -> np.ndarray:
+    """S of each plane."""
+    return Share.summed(dict(zip(names, values, strict=True)), found)(found["x"].to_numpy())
+
+
+def misfits(found: DataFrame, names: list[tuple[str, str]], values: np.ndarray) -> Iterator[dict]:
+    """Misfit of planes held out by their pressure: median, nine in ten, and the standard error of the planes."""
+    off = np.abs(np.log(share(found, names, values) / found["share"].to_numpy()))
+    for low, high in PLACES:
+        own = found["x"].between(low, high).to_numpy()
+        yield {
+            "from": low,
+            "to": high,
+            "planes": int(own.sum()),
+            "median": float(np.median(off[own])),
+            "nine in ten": float(np.quantile(off[own], 0.9)),
+            "error": float(np.median(found["error"][own])),
+        }
+
+
+def fit() -> None:
+    """Fit S, with intervals of 95 % by drawing planes anew, and find its misfits on the planes held out."""
+    found, names = planes(), list(coefficients())
+    held = found["plane"] % HELD_OUT == 0
+    learned = found[~held]
+    best = fitted(learned, names, np.array(list(coefficients().values())))
+    rng, own = np.random.default_rng(FIT_SEED), learned["plane"].unique()
+    groups = dict(list(learned.groupby("plane")))
+    drawn = np.array(
+        [
+            fitted(pandas.concat([groups[k] for k in rng.choice(own, own.size)]), names, best)
+            for _ in range(BOOTSTRAPS)
+        ]
+    )
+    low, high = np.quantile(drawn, [0.025, 0.975], axis=0)
+    lines = [
+        (to, times, f"{v:.4g}", f"{a:.4g}", f"{b:.4g}")
+        for (to, times), v, a, b in zip(names, best, low, high, strict=True)
+    ]
+    stored(FITTED, DataFrame(lines, columns=["to", "times", "value", "low", "high"]))
+    stored(PAGE.with_name("share.csv"), misfits(found[held], names, best))
+
+
+def main(only: str = "") -> None:
+    """Solve what is not solved yet, write what was found, and fit."""
+    if not only:
+        found = list(contacts())
+        outcomes = solved(PAGE, [task for each in found for task in each.tasks])
+        stored(PAGE.with_suffix(".csv"), rows(found, outcomes))
+    fit()
 
 
 if __name__ == "__main__":
-    main()
+    main(*sys.argv[1:])

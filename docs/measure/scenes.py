@@ -125,8 +125,8 @@ def main() -> None:
         first = solved(PAGE, [each.first for each in found])
         spaces = {each: each.space(first[each.first]) for each in found}
         outcomes = solved(PAGE, [task for each in found for task in (spaces[each], each.line)])
-        told = [row(each, outcomes[spaces[each]], outcomes[each.line]) for each in found]
-        stored(PAGE.with_name(f"scenes-{name}.csv"), told)
+        rows = [row(each, outcomes[spaces[each]], outcomes[each.line]) for each in found]
+        stored(PAGE.with_name(f"scenes-{name}.csv"), rows)
 
 
 if __name__ == "__main__":

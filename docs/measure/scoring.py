@@ -8,7 +8,7 @@ from math import log
 from typing import Any, TypeAlias
 
 import numpy as np
-from scipy.special import ndtr, ndtri
+from scipy.special import ndtr
 from tables import of_count
 
 from compare.trustmap.measured import beyond_measured, limits
@@ -30,11 +30,6 @@ from compare.trustmap.table import column, measurements
 from compare.trustmap.verdict import MULTIPLY, SOLVE, USE, advice_on
 
 # Regions of the map, where errors and advice are stated, each a condition on groups.
-BODIES: dict[str, Condition] = {
-    "cone": SHAPES["cone"],
-    "sphere": SHAPES["sphere"],
-    "other powers": lambda g: (g["shape"] != 1) & (g["shape"] != 0.5),
-}
 SPEEDS: dict[str, Condition] = {
     "at rest": lambda g: ~g["slides"],
     "slow": lambda g: g["slides"] & FLOWS["slow"](g),
@@ -56,21 +51,18 @@ SURFACES: dict[str, Condition] = {
 }
 REGIONS = {"body": SHAPES, "speed": SPEEDS, "roughness": ROUGHNESS, "solid": SOLIDS, "waves": WAVES}
 COVERED = WIDENED | {"speed": SPEEDS}  # what coverage is stated by
-# Scenes of a regime below which nothing is said of its advice.
+# Scenes of a regime below which its advice is left out.
 FEWEST = 5
 # Scenes of a region from which on it fails if its coverage is below what was promised, with 95 % of confidence.
 ENOUGH, PROMISED = 40, 0.95
 # Of the narrower of two intervals, of 1D and of the law.
 BEST = "best-advice"
-OWN = "own median", "own nine in ten"
 STATED = {**REGIONS, "prescribed": COVERED["prescribed"], "surface": SURFACES}
-# Quantiles of a normal distribution that stand for it.
-_QUANTILES = ndtri((np.arange(99) + 0.5) / 99)
 
 
 @dataclass(frozen=True, eq=False)
 class Score:
-    """Ratios predicted beside measured ones, of scenes with one quantity (N,).
+    """Ratios predicted and measured, of scenes with one quantity (N,).
 
     measured, predicted : of the same scenes; where a mean is not above zero there is no ratio, and no error
     """
@@ -121,14 +113,6 @@ class Score:
     def errors(self) -> np.ndarray:
         """Relative errors of corrected 1D (N,), the scatter of the truth in them."""
         return np.expm1(self.measured.logarithm - self.predicted.logarithm)
-
-    @cached_property
-    def own(self) -> np.ndarray:
-        """Errors of the map alone (N, 99), as quantiles: each measured error is split as variances stand."""
-        apart = self.measured.logarithm - self.predicted.logarithm
-        model = self.predicted.error**2
-        share = model / (model + self.variance)
-        return np.expm1((apart * share)[:, None] + np.sqrt(self.variance * share)[:, None] * _QUANTILES)
 
     @cached_property
     def held(self) -> np.ndarray:
@@ -186,7 +170,7 @@ def of_surfaces(scores: Mapping[str, Scored], name: str) -> dict[str, Scored]:
 def error_rows(scores: Mapping[str, Scored]) -> Iterator[dict[str, Any]]:
     """Errors as measured and share within the interval, by ratio and region, a kind of region at a time.
 
-    fails : like that of `coverage_rows`; OWN : errors without the scatter of the truth
+    fails : as in `coverage_rows`
     """
     kinds = {"all": {"all": lambda groups: groups["shape"] == groups["shape"]}, **STATED}
     for (name, (score, groups)), (kind, regions) in product(scores.items(), kinds.items()):
@@ -198,7 +182,6 @@ def error_rows(scores: Mapping[str, Scored]) -> Iterator[dict[str, Any]]:
             half, most = np.quantile(np.abs(used.errors), (0.5, 0.9))
             row = {"ratio": name, "by": kind, "region": region, "scenes": int(here.sum())}
             row |= {"usable": float(score.usable[here].mean()), "median": half, "nine in ten": most}
-            row |= dict(zip(OWN, np.quantile(np.abs(used.own), (0.5, 0.9)), strict=True))
             yield row | _held(used)
 
 
@@ -224,21 +207,18 @@ def coverage_rows(scores: Mapping[str, Scored]) -> Iterator[dict[str, Any]]:
                 yield row | _held(used)
 
 
-def advice_rows(
-    scores: Mapping[str, Scored], bodies: Mapping[str, Condition] = BODIES
-) -> Iterator[dict[str, Any]]:
-    """Factor on 1D, half its interval, and share of each advice, by quantity, speed, roughness and body.
+def advice_rows(scores: Mapping[str, Scored]) -> Iterator[dict[str, Any]]:
+    """Factor on 1D, half its interval, and share of each advice, by quantity, speed and roughness.
 
-    The factor is that of the usable scenes, from the lowest to the highest of nine in ten.
+    The factor is taken over the usable scenes, from the lowest to the highest of nine in ten.
     """
-    regimes = list(product(SPEEDS.items(), ROUGHNESS.items(), bodies.items()))
-    for (name, (score, groups)), named in product(scores.items(), regimes):
-        here = np.all([condition(groups) for _, condition in named], axis=0)
+    regimes = list(product(SPEEDS.items(), ROUGHNESS.items()))
+    for (name, (score, groups)), ((speed, moves), (roughness, touches)) in product(scores.items(), regimes):
+        here = moves(groups) & touches(groups)
         part = score.taken(here)
         if here.sum() < FEWEST:
             continue
-        row: dict[str, Any] = dict(zip(("speed", "roughness", "body"), (each for each, _ in named), strict=True))
-        row |= {"quantity": name, "scenes": part.usable.size}
+        row: dict[str, Any] = {"speed": speed, "roughness": roughness, "quantity": name}
         row |= {kind: float(np.mean(part.advice == kind)) for kind in (USE, MULTIPLY, SOLVE)}
         if part.usable.any():
             known = part.taken(part.usable).predicted

@@ -1,6 +1,7 @@
-"""Bodies of Fig. 1 with every wave of the paper's spectrum: writes docs/results/spectrum.md, .csv and the figure.
+"""Bodies of Fig. 1 with every wave of the paper's spectrum: for docs/results/answers.md.
 
-What has been solved once is in docs/results/spectrum/solved; from nothing it takes an hour and 8 GB of memory.
+What has been solved once is in docs/results/answers/spectrum/solved; from nothing it takes an hour and 8 GB of
+memory.
 """
 
 from dataclasses import dataclass, replace
@@ -8,11 +9,12 @@ from math import nan, pi
 from pathlib import Path
 
 import numpy as np
+import pandas
 from campaign import solved
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 from pandas import DataFrame
-from tables import limit, replaced, stored, table
+from tables import limit, stored
 
 from bem3d import BEM, refined
 from compare.figures import style
@@ -22,16 +24,12 @@ from mdr1d import MDR
 from scene import Result, Scene
 from scene.scales import elastic_contact
 
-PAGE = Path(__file__).parents[1] / "results" / "spectrum.md"
+PAGE = Path(__file__).parents[1] / "results" / "answers" / "spectrum.md"
 ONE, PROFILES = 11000, 20  # points of the line, and profiles
-GRID, TIMES = 4096, (2, 4)  # points a side, all of which are solved; refined so many times where they touch
+GRID, TIMES = 4096, (2, 4)  # points a side, all solved; factors by which points that touch are refined
 SHAPES = "sphere", "cone"
 ESTIMATES = "by_traction", "by_loss"
 SIDES = 3.6e-3, 0.012e-3  # of the maps of the figure [m]
-HEADER = (
-    "|points|pixels a wave|friction|by traction|by loss|depth [µm]|real over nominal contact|points in contact|"
-    "processor time [s]"
-)
 
 
 @dataclass(frozen=True)
@@ -54,16 +52,13 @@ class Refined:
 
 
 def main() -> None:
-    """Solve what is not solved yet, and write the page, its table and its figure."""
+    """Solve what is not solved yet, and write the table and the figure."""
     tasks = {shape: _tasks(shape) for shape in SHAPES}
     # The finest takes 8 GB: one at a time.
     outcomes = solved(PAGE, [task for each in tasks.values() for task in each], workers=1)
     rows = [_row(shape, task, outcomes[task].rows) for shape, each in tasks.items() for task in each]
     frame = DataFrame(rows)
     stored(PAGE.with_suffix(".csv"), frame)
-    for shape in SHAPES:
-        own = frame[frame["shape"] == shape]
-        replaced(PAGE, shape, table(HEADER, map(_line, own.itertuples())) + "\n\n" + sentence(shape, own))
     finest = tasks["sphere"][-2]
     with style.applied():
         drawing = figure(frame, finest.scenes[0], outcomes[finest])
@@ -102,24 +97,14 @@ def _row(shape, task, rows):
     }
 
 
-def _line(row):
-    three = row.dimension == "3D"
-    numbers = (
-        f"{row.points}",
-        f"{row.pixels_a_wave:.1f}" if three else "",
-        f"{row.friction:.2f}",
-        f"{row.by_traction:.2f}" if three else "",
-        f"{row.by_loss:.2f}" if three else "",
-        f"{1e6 * row.depth:.1f}",
-        f"{row.contact:.3%}",
-        f"{row.contact_points:.0f}" if three else "",
-        f"{row.seconds:.0f}",
-    )
-    return row.dimension, *numbers
+def sentences() -> str:
+    """Sentences on both bodies, from what is stored."""
+    found = pandas.read_csv(PAGE.with_suffix(".csv"))
+    return " ".join(sentence(shape, found[found["shape"] == shape]) for shape in SHAPES)
 
 
 def sentence(shape: str, own: DataFrame) -> str:
-    """Friction between what both estimates come to, and that in 1D."""
+    """Friction in 3D, between its estimates, and in 1D."""
     three, (one,) = own[own["dimension"] == "3D"], own[own["dimension"] == "1D"].itertuples()
     (low, high), slope = ends(three), three["rms_slope"].iloc[0]
     return (

@@ -61,7 +61,7 @@ def contacts() -> Iterator[SteepContact]:
 
 
 def main() -> None:
-    """Solve what is not solved yet, and write friction in 3D, on ever finer grids, beside that of the law."""
+    """Solve what is not solved yet, and write friction in 3D, on ever finer grids, and by the law."""
     found = list(contacts())
     outcomes = solved(PAGE, [task for each in found for task in each.tasks])
     rows = []

@@ -1,7 +1,7 @@
 """Tables of the pages that are measured."""
 
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 import numpy as np
@@ -35,7 +35,7 @@ def finding(found: DataFrame, claim: str, where: str, model: str = "") -> Series
     return found.iloc[place]
 
 
-def said(row: Series | Mapping, digits: int = 3, percent: bool = False) -> str:
+def with_interval(row: Series | Mapping, digits: int = 3, percent: bool = False) -> str:
     """Value of a finding with its interval."""
     scale, unit = (100, " %") if percent else (1, "")
     value, low, high = (f"{scale * row[name]:.{digits}f}".replace("-", "−") for name in ("value", "low", "high"))
@@ -64,17 +64,12 @@ def of_count(held: int, tried: int) -> tuple[float, float]:
     return float(low), float(high)
 
 
-def replaced(path: Path, name: str, part: str) -> None:
-    """Replace what stands between two comments of a page."""
-    page = path.read_text(encoding="utf-8")
-    pattern = re.compile(rf"(<!-- {name} -->\n).*?(<!-- end -->)", re.DOTALL)
-    assert len(pattern.findall(page)) == 1, (path, name)
-    path.write_text(pattern.sub(lambda found: f"{found[1]}{part.strip()}\n{found[2]}", page), encoding="utf-8")
-
-
-def write(page: Path, sections: Mapping[str, Callable[[], str]]) -> None:
-    """Measure each section; its table goes where the page has one between comments of its name."""
-    for name, measure in sections.items():
-        part = measure()
-        print(name, part, sep="\n", flush=True)
-        replaced(page, name, part)
+def fill(parts: Mapping[tuple[Path, str], str]) -> None:
+    """Write texts between two comments of pages, by the page and the name of the comment."""
+    for (page, name), part in parts.items():
+        text = page.read_text(encoding="utf-8")
+        pattern = re.compile(rf"(<!-- {name} -->\n).*?(<!-- end -->)", re.DOTALL)
+        assert len(pattern.findall(text)) == 1, (page, name)
+        page.write_text(
+            pattern.sub(lambda found, part=part: f"{found[1]}{part.strip()}\n{found[2]}", text), encoding="utf-8"
+        )

@@ -2,7 +2,7 @@
 
 Solves the scenes of the tables in 1D and 3D, what is not solved yet, in hours, and writes into the package the
 tables and the models that are fitted to the one learned from. Without an argument it writes only what follows
-from these tables: the tables of docs/results/trust.md and of the README.
+from these tables: the tables of docs/results/trust.md.
 """
 
 import gzip
@@ -13,7 +13,6 @@ from functools import cache
 from itertools import product
 from math import nan
 from pathlib import Path
-from typing import Any
 
 import design
 import numpy as np
@@ -23,8 +22,6 @@ from fitting import as_json, fit
 from pandas import DataFrame
 from scoring import (
     BEST,
-    BODIES,
-    OWN,
     SURFACES,
     Scored,
     advice_rows,
@@ -33,7 +30,7 @@ from scoring import (
     of_surfaces,
     scored,
 )
-from tables import by_column, replaced, stored
+from tables import by_column, fill, stored
 
 from compare.models.law.parts import LawParts
 from compare.solving.task import Outcome
@@ -43,7 +40,6 @@ from compare.trustmap.model import LAW, RATIOS, Ratio, asked_of
 from scene import Scene
 
 PAGE = Path(__file__).parents[1] / "results" / "trust.md"
-README = PAGE.parents[2] / "README.md"
 # Standard error that is wanted of a scene, and most surfaces, by table; and where waves are many.
 KNOWN, KNOWN_WIDE = {table.LEARNED: (0.015, 64), table.HELD_OUT: (0.01, 600)}, (0.01, 300)
 # Of what the errors are, in words.
@@ -54,7 +50,6 @@ NAMED = {
     LAW: "friction by the 3D law",
     BEST: "friction by the best advice",
 }
-FEW = 20  # scenes, below which a number says how few there are
 
 
 def contact_at(point: int, path: Path) -> Contact:
@@ -102,23 +97,21 @@ def scores() -> dict[str, Scored]:
     return scored(table.read(table.HELD_OUT), {name: table.model(name) for name in RATIOS})
 
 
-def advice(rows: list[dict[str, Any]], quantity: str) -> Iterator[dict[str, str]]:
-    """A row for each regime, a cell for each body: factor with the range over scenes, interval, share to solve."""
+def advice(found: Mapping[str, Scored]) -> Iterator[dict[str, str]]:
+    """A row for each regime, a cell for each ratio: factor with its range, interval, share to solve."""
     cells: dict[tuple[str, str], dict[str, str]] = {}
-    for row in rows:
-        if row["quantity"] == quantity:
-            few = f"; {row['scenes']} scenes" if row["scenes"] < FEW else ""
-            cells.setdefault((row["speed"], row["roughness"]), {})[row["body"]] = _advised(row) + few
-    for (speed, roughness), found in cells.items():
-        yield {"": f"{speed}, roughness {roughness}", **{body: found.get(body, "") for body in BODIES}}
+    for row in advice_rows({name: found[name] for name in RATIOS}):
+        cells.setdefault((row["speed"], row["roughness"]), {})[row["quantity"]] = _advised(row)
+    for (speed, roughness), each in cells.items():
+        yield {"": f"{speed}, {roughness}", **{NAMED[name]: each.get(name, "") for name in RATIOS}}
 
 
 def _advised(row):
+    solve = f"solve {100 * row['solve']:.0f} %"
     if row["solve"] > 0.5:
-        return f"**solve** ({100 * row['solve']:.0f} %)"
-    kind = "use" if row["use"] > 0.5 else f"multiply by {row['factor']:.2f} ({row['from']:.2f} to {row['to']:.2f})"
-    solve = round(100 * row["solve"])
-    return f"{kind}, ±{100 * row['interval']:.2g} %" + (f"; solve {solve} %" if solve else "")
+        return solve
+    kind = "use" if row["use"] > 0.5 else f"× {row['factor']:.2f} ({row['from']:.2f} to {row['to']:.2f})"
+    return f"{kind}, ±{100 * row['interval']:.2g} %" + (f"; {solve}" if row["solve"] > 0.005 else "")
 
 
 def errors(found: Mapping[str, Scored]) -> Iterator[dict[str, str]]:
@@ -130,39 +123,18 @@ def errors(found: Mapping[str, Scored]) -> Iterator[dict[str, str]]:
             "": f"{NAMED[row['ratio']]}, {row['region']}",
             "held-out scenes": f"{row['scenes']}",
             "use or multiply": f"{100 * row['usable']:.0f} %",
-            "median error, as measured": f"{100 * row['median']:.2g} %",
-            "nine in ten within, as measured": f"{100 * row['nine in ten']:.2g} %",
-            "both without the scatter of the truth": ", ".join(f"{100 * row[name]:.2g} %" for name in OWN),
+            "median error": f"{100 * row['median']:.2g} %",
+            "nine in ten within": f"{100 * row['nine in ten']:.2g} %",
             "in their interval of 95 %": f"{held:.1f} ({low:.1f} to {high:.1f}) %",
         }
 
 
 def parts() -> Mapping[tuple[Path, str], str]:
     """Text between two comments, by the page and the name of the comment."""
-    found = scores()
-    drawn = of_surfaces(found, "spectrum")
-    rows = list(advice_rows({name: each for name, each in drawn.items() if name != BEST}))
-    titles = {**NAMED, LAW: f"{NAMED[LAW]}, whose answer has the factor"}
     return {
-        (PAGE, "advice"): "\n\n".join(f"**{titles[each]}**\n\n{by_column(advice(rows, each))}" for each in RATIOS),
-        (PAGE, "errors"): by_column(errors(found)),
-        (README, "friction"): in_short({"friction": drawn["friction"]}),
+        (PAGE, "advice"): by_column(advice(of_surfaces(scores(), "spectrum"))),
+        (PAGE, "errors"): by_column(errors(scores())),
     }
-
-
-def in_short(found: Mapping[str, Scored]) -> str:
-    """Table of the README: advice on friction by 1D in each regime, of all bodies together."""
-    rows = advice_rows(found, {"": lambda columns: np.isfinite(columns["shape"])})
-    return by_column(
-        {
-            "roughness": f"{row['speed']}, {row['roughness']}",
-            "multiply 1D by (nine in ten scenes)": f"{row['factor']:.2f} ({row['from']:.2f} to {row['to']:.2f})",
-            "± for one scene, 95 %": f"{100 * row['interval']:.2g} %",
-            "solve in 3D": f"{100 * row['solve']:.0f} %",
-            "scenes": row["scenes"],
-        }
-        for row in rows
-    )
 
 
 def corrected() -> str:
@@ -170,8 +142,8 @@ def corrected() -> str:
     used = of_surfaces(scores(), "spectrum")[BEST][0].used
     measured = 100 * np.quantile(np.abs(used.errors), (0.5, 0.9))
     return (
-        f"Multiplied as `crosscheck trust` says, friction of {used.usable.size} unseen rough contacts is within "
-        f"{measured[0]:.1f} % of 3D in half, {measured[1]:.1f} % in nine of ten."
+        f"Multiplied as `crosscheck trust` says, it is within {measured[0]:.1f} % of 3D for half of "
+        f"{used.usable.size} unseen rough contacts, and within {measured[1]:.1f} % for nine in ten."
     )
 
 
@@ -180,8 +152,7 @@ def main(solve: str = "") -> None:
     if solve:
         ship()
     stored(PAGE.with_suffix("") / "coverage.csv", coverage_rows(scores()))
-    for (page, part), told in parts().items():
-        replaced(page, part, told)
+    fill(parts())
 
 
 if __name__ == "__main__":

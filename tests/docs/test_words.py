@@ -68,6 +68,6 @@ def test_a_sentence_that_takes_one_reading_is_not_found(said):
     assert found(iter([("page", said)]), BANNED | WHAT) == []
 
 
-def test_the_readme_has_at_most_900_words():
+def test_the_readme_has_at_most_600_words():
     words = re.findall(r"\S*\w\S*", (ROOT / "README.md").read_text(encoding="utf-8"))
-    assert len(words) <= 900
+    assert len(words) <= 600

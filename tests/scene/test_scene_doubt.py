@@ -3,7 +3,6 @@
 import time
 from dataclasses import replace
 from itertools import product
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -47,7 +46,6 @@ from scene.doubt import ABOVE, BELOW, LIMITS, OPEN, beyond_linear, beyond_table,
 from scene.scales import elastic_contact
 from scene.surfaces.heightmap import HeightMap
 
-LIMITS_PAGE = Path(__file__).parents[2] / "docs" / "explanation" / "limits.md"
 RUBBER = StandardLinearSolid(rubbery_modulus=1e6, glassy_modulus=1e8, relaxation_time=1e-3)
 ROUGH = SelfAffine(hurst=0.8, rms_height=2e-5, longest=1e-2, shortest=1e-3)
 LAW = Arrhenius(temperature=300, reference=290, activation_energy=6e4)
@@ -132,13 +130,6 @@ def test_each_limit_has_a_number_beyond_it_that_is_doubted_with_number_limit_and
     assert not limit.broken(limit.limit)
     for said in (f"{found.number:.3g}", f"{limit.limit:g}", limit.why, limit.unit):
         assert said in str(found)
-
-
-def test_the_page_of_limits_states_all_of_them():
-    page = LIMITS_PAGE.read_text(encoding="utf-8")
-    for limit in LIMITS:
-        side = "above" if limit.most else "below"
-        assert f"| {limit.name} | {side} {limit.limit:g} {limit.unit}".rstrip() + f" | {limit.why} |" in page
 
 
 @pytest.mark.parametrize("name", [name for name, each in ready().items() if each.kind == "scene"])

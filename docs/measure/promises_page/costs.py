@@ -16,7 +16,7 @@ from . import scenes
 
 POINTS = {"smooth": (16, 24, 32, 48, 64, 96, 128, 192, 512), "rough": (48, 64, 96, 128, 192, 256, 512)}
 TIGHT = 1e-7  # tolerance; plans bring its costs to others
-FEWEST = 3  # solves of which a median is taken
+FEWEST = 3  # solves for a median
 
 
 def asked(seeds: range) -> Iterator[SceneTask]:

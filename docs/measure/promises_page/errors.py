@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from math import nan
+from math import isfinite, nan
 from pathlib import Path
 from typing import Any
 
@@ -18,15 +18,16 @@ from bem3d.costs import band
 from bem3d.friction import bound as frictionerror
 from bem3d.grid import Grid
 from bem3d.problem import Problem
-from compare.solving.task import SCENES, Outcome, SceneTask, Task, row
+from compare.solving.outcome import Outcome
+from compare.solving.task import SceneTask, Task
 from mdr1d import MDR
-from scene import Refused, Scene, SolveError
+from scene import Result, Scene
 
 from . import scenes
 
-EVERY = {"smooth": 1, "rough": 1, "plane": 2, "line": 6}  # a scene of a kind for so many seeds
-POINTS = (20, 120)  # of the grids that are judged, beside REFERENCE[0]
-REFERENCE = 128, 256, 512  # points, the last of which tell the truth
+EVERY = {"smooth": 1, "rough": 1, "plane": 2, "line": 6}  # seeds a scene of a kind
+POINTS = (20, 120)  # of the grids that are judged, as is REFERENCE[0]
+REFERENCE = 128, 256, 512  # points, the last ones tell the truth
 ORDERS = 0.7, 2.0  # between which the order is taken at which the last error falls
 WAVES = 2.2, 40.0  # nodes on the shortest wave of judged lines
 EXTENT = 8 * scenes.RADIUS  # of lines [m]
@@ -35,9 +36,11 @@ LEARNED_POINTS = 16, 20, 24, 27, 32, 40, 48, 64, 80, 96, 112, 128  # of grids th
 KNOWN = 1 / 3, 3e-5  # of the error, or at all: what the truth is known to where it judges
 SHARE, WIDENED = 0.95, 0.96  # of the answers that a bound is to hold: wanted, and of those it was not fitted to
 FOLDS = 5
-LEAST = 1e-6  # error that is told from none
+LEAST = 1e-6  # error that is distinguished from none
 KINDS = tuple(f"{body}, {speed}" for body in ("smooth", "rough") for speed in ("slow", "fast"))
 FEWEST = 40  # answers of a region
+WAVE_POINTS = "points_per_shortest_wave"
+SIGN = "sign: "  # before the names of signs among measures, which are names of other numbers too
 
 
 @dataclass(frozen=True)
@@ -96,28 +99,24 @@ def rows(every: Sequence[Judged], outcomes: Mapping[Task, Outcome]) -> list[dict
     """A row for each contact that slides with friction, is answered, and whose truth is known well enough."""
     found = []
     for each in every:
-        answer, *finer = (outcomes[task].rows[0] for task in each.tasks)
-        if answer.reason is not None or not answer.friction_force:
-            continue
-        truth, unsure = settled([row.friction_coefficient for row in finer if row.reason is None])
-        error = abs(answer.friction_coefficient / truth - 1)
-        share, least = KNOWN
-        if not unsure <= max(share * error, least):
-            continue
-        waves = answer.measures.get("points_per_shortest_wave", nan)
-        found.append(
-            {
-                "model": each.task.solver.name,
-                "body": each.kind,
-                "solid": type(each.scene.elastomer).__name__,
-                "speed": band(each.finer[0].scenes[0]),
-                "waves": float(f"{waves:.4g}"),
-                "points": each.task.solver.points,
-                "error": float(f"{error:.4g}"),
-                "bound": float(f"{answer.measures['friction_error']:.4g}"),
-            }
-        )
+        answer, error = outcomes[each.task].rows[0], _error(each, outcomes)
+        if isfinite(error):
+            waves, bound = (answer.measures.get(name, nan) for name in (WAVE_POINTS, "friction_error"))
+            speed, solid = band(each.finer[0].scenes[0]), type(each.scene.elastomer).__name__
+            row = {"model": each.task.solver.name, "body": each.kind, "solid": solid, "speed": speed}
+            row |= {"waves": float(f"{waves:.4g}"), "points": each.task.solver.points}
+            found.append(row | {"error": float(f"{error:.4g}"), "bound": float(f"{bound:.4g}")})
     return found
+
+
+def _error(judged: Judged, outcomes: Mapping[Task, Outcome]) -> float:
+    """Relative error of friction; NaN without friction, and where the truth is not known well enough."""
+    answer, *finer = (outcomes[task].rows[0] for task in judged.tasks)
+    if answer.reason is not None or not answer.friction_force:
+        return nan
+    truth, unsure = settled([row.friction_coefficient for row in finer if row.reason is None])
+    error, (share, least) = abs(answer.friction_coefficient / truth - 1), KNOWN
+    return error if unsure <= max(share * error, least) else nan
 
 
 def regions(found: Sequence[Mapping[str, Any]]) -> Iterator[dict[str, Any]]:
@@ -131,66 +130,51 @@ def regions(found: Sequence[Mapping[str, Any]]) -> Iterator[dict[str, Any]]:
 
 
 @dataclass(frozen=True)
-class Signed(Task):
-    """A task: the signs of the error of an answer, as measures of its row."""
+class WithSigns:
+    """The solver on a number of points, whose measures are the signs of the error of its friction."""
 
-    solver: BEM
-    scene: Scene
-    work: float = 1e6
+    points: int
+    name = "BEM"
     packages = ("scene", "bem3d", __name__)
 
-    @property
-    def label(self) -> str:
-        """Short description for people."""
-        return f"signs on {self.solver.points} points, {type(self.scene.indenter).__name__.lower()}"
-
-    @property
-    def question(self) -> Mapping:
-        """The scene and the points."""
-        (scene,) = SCENES.dump_python((self.scene,), mode="json")
-        return {"signs": scene, "points": self.solver.points}
-
-    def solve(self) -> Outcome:
-        """Answer; NaN with its reason where there is none."""
-        try:
-            result = self.solver.solve(self.scene)
-        except (Refused, SolveError) as reason:
-            return self.failed(str(reason))
-        problem, settings = Problem(self.scene, self.solver.engine), result.settings
-        grid = Grid(self.solver.points, settings["extent"], settings["centre"], width=problem.width)
+    def solve(self, scene: Scene) -> Result:
+        """Answer and signs, where it has friction."""
+        solver = BEM(points=self.points)
+        result = solver.solve(scene)
+        problem, settings = Problem(scene, solver.engine), result.settings
+        grid = Grid(self.points, settings["extent"], settings["centre"], width=problem.width)
         _, seen = frictionerror.estimated(problem, grid, result.fields["pressure"], problem.lost)
-        return Outcome((replace(row(result), measures={} if seen is None else dict(seen.numbers)),))
+        signs = {} if seen is None else seen.numbers
+        return replace(result, measures={f"{SIGN}{name}": value for name, value in signs.items()})
 
 
-def to_learn(seeds: Sequence[int]) -> Iterator[tuple[str, Signed, tuple[SceneTask, ...]]]:
-    """Scenes by name, each on several grids, with the finer ones that tell the truth."""
+def to_learn(seeds: Sequence[int]) -> Iterator[tuple[str, Judged]]:
+    """Scenes by name, each on several grids, with the finer ones that are the truth."""
     for kind in scenes.KINDS:
         for seed in seeds[:: EVERY[kind]]:
             scene = scenes.drawn(kind, seed)
             for points in LEARNED_POINTS:
-                yield f"{kind}{seed}", Signed(BEM(points=points), scene), reference(scene)
+                yield f"{kind}{seed}", Judged(kind, _task(WithSigns(points), scene), reference(scene))
 
 
-def learn(path: Path, every: Sequence[tuple], outcomes: Mapping[Task, Outcome]) -> None:
+def learn(path: Path, every: Sequence[tuple[str, Judged]], outcomes: Mapping[Task, Outcome]) -> None:
     """Write the table of signs and errors of every answer that has friction and whose truth is known."""
     found = []
-    for name, task, finer in every:
-        answer = outcomes[task].rows[0]
-        truth, unsure = settled([outcomes[each].rows[0].friction_coefficient for each in finer])
-        error, (share, least) = abs(answer.friction_coefficient / truth - 1), KNOWN
-        if answer.measures and unsure <= max(share * error, least):
-            slow = "slow" if answer.measures["slowness"] > 1 / 2 else "fast"
-            kind = f"{'rough' if answer.measures['wave'] else 'smooth'}, {slow}"
-            numbers = {each: f"{value:.4g}" for each, value in answer.measures.items() if each != "one"}
-            error, residual = f"{error:.4g}", f"{answer.residual:.2g}"
-            found.append({"scene": name, "kind": kind, "error": error, "residual": residual, **numbers})
+    for name, each in every:
+        answer, error = outcomes[each.task].rows[0], _error(each, outcomes)
+        signs = {sign.removeprefix(SIGN): value for sign, value in answer.measures.items()}
+        if signs and isfinite(error):
+            slow = "slow" if signs["slowness"] > 1 / 2 else "fast"
+            row = {"scene": name, "kind": f"{'rough' if signs['wave'] else 'smooth'}, {slow}"}
+            row |= {"error": f"{error:.4g}", "residual": f"{answer.residual:.2g}"}
+            found.append(row | {sign: f"{value:.4g}" for sign, value in signs.items() if sign != "one"})
     DataFrame(found).to_csv(path, index=False, compression={"method": "gzip", "mtime": 0})
 
 
 def refitted(path: Path) -> dict[str, dict[str, float]]:
     """Weights of the signs by kind of contact, from a table of signs and errors.
 
-    The quantile SHARE of what the error is beside the residual, widened by what holds WIDENED of the answers to
+    The quantile SHARE of the error without the residual, widened by what holds WIDENED of the answers to
     scenes that were left out of a fit, a fold of them at a time.
     """
     table, weights = pandas.read_csv(path), {}
@@ -230,7 +214,7 @@ def _quantile(table, values, share):
 
 def _task(solver, scene: Scene) -> SceneTask:
     points = solver.points
-    return SceneTask(solver, (scene,), work=points**2.2 * 50.0 if isinstance(solver, BEM) else 100.0 * points)
+    return SceneTask(solver, (scene,), work=100.0 * points if isinstance(solver, MDR) else points**2.2 * 50.0)
 
 
 def reference(scene: Scene) -> tuple[SceneTask, ...]:

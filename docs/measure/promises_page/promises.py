@@ -6,12 +6,11 @@ from dataclasses import dataclass, replace
 from math import isfinite, nan
 
 from pandas import DataFrame
-from tables import of_count
 
 from bem3d import Unconfirmed, for_accuracy
-from bem3d.costs import band
-from compare.solving.task import SCENES, Outcome, Row, Task, row
-from scene import Scene, SolveError
+from compare.solving.outcome import Outcome, Row
+from compare.solving.task import SceneTask, Task
+from scene import Result, Scene, SolveError
 from scene.scales import elastic_contact
 
 from . import scenes
@@ -21,87 +20,53 @@ WANTED = (0.1, 0.03, 0.01, 0.003)
 FIRST = 7000  # seed
 COUNTS = {"smooth": 400, "rough": 100}
 KNOWN = 0.2  # of a wanted error: what the truth is known to where a promise is checked
-NUMBERS = ("asked", "answered", "confirmed", "checked", "broken", "worst error")
 
 
 @dataclass(frozen=True)
-class Promise(Task):
-    """A task: an answer within a wanted error.
+class Promised:
+    """A solver that finds its settings for a wanted error; its measure `shown` is the error of three grids."""
 
-    Its row is the answer's; measures has besides those: points, and the error as three grids show it.
-    """
-
-    scene: Scene
     quantity: str
     wanted: float
-    work: float = 1e8
+    name = "BEM"
     packages = ("scene", "bem3d", __name__)
 
-    @property
-    def label(self) -> str:
-        """Short description for people."""
-        return f"{self.quantity} within {self.wanted:g}, {type(self.scene.indenter).__name__.lower()}"
-
-    @property
-    def question(self) -> Mapping:
-        """The scene and what is wanted."""
-        (scene,) = SCENES.dump_python((self.scene,), mode="json")
-        return {"promise": scene, "quantity": self.quantity, "wanted": self.wanted}
-
-    @property
-    def tasks(self) -> tuple[Task, ...]:
-        """The promise and what it is checked against."""
-        return (self, *reference(self.scene))
-
-    def solve(self) -> Outcome:
-        """Answer with the settings found; NaN with its reason where there is none."""
-        try:
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore", Unconfirmed)
-                choice = for_accuracy(self.scene, **{self.quantity: self.wanted})
-        except (SolveError, ValueError) as reason:
-            return self.failed(str(reason))
-        found, error = row(choice.result), choice.error[self.quantity]
-        more = {"points": float(choice.solver.points), "shown": error if isfinite(error) else nan}
-        return Outcome((replace(found, measures={**found.measures, **more}),))
+    def solve(self, scene: Scene) -> Result:
+        """Answer with the settings found."""
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", Unconfirmed)
+            try:
+                choice = for_accuracy(scene, **{self.quantity: self.wanted})
+            except ValueError as reason:
+                raise SolveError(str(reason)) from reason
+        error = choice.error[self.quantity]
+        return replace(choice.result, measures={"shown": error if isfinite(error) else nan})
 
 
-def asked() -> Iterator[Promise]:
+def asked() -> Iterator[SceneTask]:
     """Every quantity of every scene within every error wanted."""
     for kind, count in COUNTS.items():
         for seed in range(FIRST, FIRST + count):
             scene = scenes.drawn(kind, seed)
             for quantity in ("friction", "depth" if scene.motion.depth is None else "load"):
                 for wanted in WANTED:
-                    yield Promise(scene, quantity, wanted)
+                    yield SceneTask(Promised(quantity, wanted), (scene,), work=1e8)
 
 
-def rows(tasks: Sequence[Promise], outcomes: Mapping[Task, Outcome]) -> list[dict]:
-    """Each promise and what became of it; its error is NaN where the truth is not known well enough."""
-    return [_entry(task, *(outcomes[each].rows[0] for each in task.tasks)) for task in tasks]
+def with_truth(task: SceneTask) -> tuple[SceneTask, ...]:
+    """A promise, and the tasks that it is checked against."""
+    return task, *reference(task.scenes[0])
+
+
+def rows(tasks: Sequence[SceneTask], outcomes: Mapping[Task, Outcome]) -> list[dict]:
+    """Each promise with its answer and error, NaN where the truth is not known well enough."""
+    return [_entry(task, *(outcomes[each].rows[0] for each in with_truth(task))) for task in tasks]
 
 
 def kept(made: Sequence[Mapping]) -> list[dict]:
     """Counts of promises by quantity and wanted error, and of all."""
     groups = DataFrame(made).groupby(["quantity", "wanted"], sort=False)
     return [{"quantity": quantity, "wanted": wanted, **_counted(own)} for (quantity, wanted), own in groups]
-
-
-def missed(made: Sequence[Mapping]) -> DataFrame:
-    """Promises that were not confirmed, or were broken."""
-    found = DataFrame(made)
-    return found[~(found["shown"] <= found["wanted"]) | (found["error"] > found["wanted"])]
-
-
-def said(made: Sequence[Mapping]) -> str:
-    """Counts of all promises in words, with intervals."""
-    counts = _counted(DataFrame(made))
-    left, broken = counts["asked"] - counts["confirmed"], counts["broken"]
-    return (
-        f"Of {counts['asked']} promises {left} ({_share(left, counts['asked'])}) were not confirmed, those "
-        f"without an answer among them. {counts['confirmed']} were confirmed; {counts['checked']} of these "
-        f"could be checked, and {broken} ({_share(broken, counts['checked'])}) were broken."
-    )
 
 
 def _counted(own):
@@ -112,38 +77,19 @@ def _counted(own):
         "confirmed": len(sure),
         "checked": sure["error"].count(),
         "broken": (sure["error"] > sure["wanted"]).sum(),
-        "worst error": f"{sure['error'].max():.2%}",
+        "worst_error": sure["error"].max(),
     }
-
-
-def _share(part, whole):
-    low, high = of_count(part, whole)
-    return f"{part / whole:.1%}, {low:.1%} to {high:.1%}"
 
 
 def _entry(task, answer: Row, *finer: Row):
-    points, shown = (answer.measures.get(name, nan) for name in ("points", "shown"))
-    unit = {"friction": None, "depth": elastic_contact(task.scene).depth, "load": None}[task.quantity]
-    truth, unsure = settled([_value(task.quantity, each) for each in finer if each.reason is None], unit)
+    (scene,), quantity, wanted = task.scenes, task.solver.quantity, task.solver.wanted
+    points, shown = answer.settings.get("points", nan), answer.measures.get("shown", nan)
+    unit = {"friction": None, "depth": elastic_contact(scene).depth, "load": None}[quantity]
+    truth, unsure = settled([_value(quantity, each) for each in finer if each.reason is None], unit)
     error = nan
-    if (
-        answer.reason is None
-        and unsure <= KNOWN * task.wanted
-        and 2 * points <= finer[-1].settings.get("points", 0)
-    ):
-        error = abs(_value(task.quantity, answer) - truth) / (abs(truth) if unit is None else unit)
-    return {
-        "shape": type(task.scene.indenter).__name__,
-        "solid": type(task.scene.elastomer).__name__,
-        "body": "smooth" if task.scene.roughness is None else "rough",
-        "band": band(task.scene),
-        "quantity": task.quantity,
-        "wanted": task.wanted,
-        "points": points,
-        "shown": float(f"{shown:.3g}"),
-        "error": float(f"{error:.3g}"),
-        "reason": answer.reason or "",
-    }
+    if answer.reason is None and unsure <= KNOWN * wanted and 2 * points <= finer[-1].settings.get("points", 0):
+        error = abs(_value(quantity, answer) - truth) / (abs(truth) if unit is None else unit)
+    return {"quantity": quantity, "wanted": wanted, "points": points, "shown": shown, "error": error}
 
 
 def _value(quantity, answer: Row):
