@@ -1,7 +1,7 @@
 """Measured roughness in boundary elements: a map by its waves, a line by a fitted surface."""
 
 from scene import Plane, Scene
-from scene.scene import said
+from scene.scene import described
 from scene.surfaces.topography import MOST_WAVES
 
 from .term import Term
@@ -31,7 +31,7 @@ class FittedRoughness(Term):
     @property
     def says(self) -> str:
         """The line, and the surface that is solved."""
-        return f"{said(self.part)} by {said(self.part.fitted)}"
+        return f"{described(self.part)} by {described(self.part.fitted)}"
 
     def refusals(self, scene: Scene) -> list[str]:
         """Reasons to refuse surfaces with more waves than fit in memory."""

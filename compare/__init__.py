@@ -13,7 +13,7 @@ mastercurve, topography : friction that you measured, a surface that you measure
 plan : what would be simulated of a scene, and what that costs
 load, export : what a command left, as xarray has it, as CSV, for ParaView, as figures for a journal
 draw : the contact in 3D and the row of springs; of a program also the forces in time
-scenes, new, schema : scenes and studies to begin with, a copy of one of them, and what may stand in it
+scenes, new, schema : scenes and studies that come with the package, a copy of any, and the fields of such files
 Persson : his theory of rough contact and friction, as published and with its later factor
 CorrectedMDR : one dimension, corrected to three by the trust map, where the map knows how
 FrictionLaw : friction in three dimensions from the spectrum, with an interval

@@ -128,7 +128,7 @@ SceneFiles = Annotated[
 ]
 Model = Annotated[
     ModelLike,
-    Argument(help="Name of a model, mdr or bem, or module:NAME of one of your own."),
+    Argument(help="Name of a model, mdr or bem, or module:NAME of your own model."),
     "From Python also the model itself.",
 ]
 Models = Annotated[
@@ -171,7 +171,7 @@ Speeds = Annotated[
     Values | None,
     Option(
         help='Speeds, as "1mm/s,10mm/s", or a range of three to a decade, as "1mm/s..1m/s", or of seven in all, as'
-        ' "1mm/s..1m/s:7"; "0 m/s" is rest. That of the scene if absent.'
+        ' "1mm/s..1m/s:7"; "0 m/s" is rest. The speed of the scene if absent.'
     ),
     "From Python also numbers [m/s].",
 ]
@@ -347,7 +347,7 @@ Width = Annotated[
     Amount | None,
     Option(
         help="Width of a column, as 84mm, from 80 mm to 200 mm; figures across the page grow or shrink with it."
-        " That of the journal if absent."
+        " The width in the journal if absent."
     ),
     "From Python also a number [m].",
 ]

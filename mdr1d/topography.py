@@ -7,7 +7,7 @@ from math import nan, pi, sqrt
 import numpy as np
 
 from scene import Profile, Scene, Topography
-from scene.scene import said
+from scene.scene import described
 
 from .surface import Band, LineFamily, Spectrum, Surface, band_of, through
 from .term import Term
@@ -27,7 +27,9 @@ class FittedRoughness(Term):
     @property
     def says(self) -> str:
         """The line, and the surface from which lines are drawn."""
-        return f'{said(self.part)} by {said(self.part.fitted)}; with spectrum = "line-scan" the line itself'
+        return (
+            f'{described(self.part)} by {described(self.part.fitted)}; with spectrum = "line-scan" the line itself'
+        )
 
 
 def amplitudes(topography: Topography) -> np.ndarray:

@@ -35,7 +35,7 @@ class Doubt:
     number, limit : in SI
     unit : of both; empty of a pure number
     why : what is wrong beyond the limit
-    beside : what explains the number; meant : what was probably meant. Either may be empty
+    remark : explains the number; meant : the quantity that was probably meant. Either may be empty
     """
 
     name: str
@@ -43,15 +43,15 @@ class Doubt:
     limit: float
     unit: str
     why: str
-    beside: str = ""
+    remark: str = ""
     meant: str = ""
 
     def __str__(self) -> str:
         unit = f" {self.unit}" if self.unit else ""
         side = "above" if self.number > self.limit else "below"
-        beside = f" ({self.beside})" if self.beside else ""
-        told = f"{self.name} = {self.number:.3g}{unit}{beside}, {side} {self.limit:g}{unit}: {self.why}"
-        return f"{told}; {self.meant}" if self.meant else told
+        remark = f" ({self.remark})" if self.remark else ""
+        text = f"{self.name} = {self.number:.3g}{unit}{remark}, {side} {self.limit:g}{unit}: {self.why}"
+        return f"{text}; {self.meant}" if self.meant else text
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,7 @@ class Limit:
     number : its name there, with dots; name : in words; limit, unit, why : of the `Doubt` beyond it
     most : whether it is the upper end
     meant : units that people forget to state, with what makes SI of them
-    beside : further numbers in words
+    remark : function of the magnitudes that gives further numbers in words
     """
 
     number: str
@@ -71,7 +71,7 @@ class Limit:
     why: str
     most: bool = True
     meant: tuple[tuple[str, Callable[[float], float]], ...] = ()
-    beside: Callable[[Magnitudes], str] | None = None
+    remark: Callable[[Magnitudes], str] | None = None
 
     def doubt(self, found: Magnitudes) -> Doubt | None:
         """Doubt about a scene; None within the limit, and where the scene has no such number."""
@@ -79,8 +79,8 @@ class Limit:
         if not self.broken(number):
             return None
         guesses = (f"is {number:g} {unit} meant?" for unit, si in self.meant if not self.broken(si(number)))
-        beside = "" if self.beside is None else _known(lambda: self.beside(found), "")
-        return Doubt(self.name, number, self.limit, self.unit, self.why, beside, next(guesses, ""))
+        remark = "" if self.remark is None else _known(lambda: self.remark(found), "")
+        return Doubt(self.name, number, self.limit, self.unit, self.why, remark, next(guesses, ""))
 
     def broken(self, number: float) -> bool:
         """Whether a number is beyond the limit; one that is not known is not."""
@@ -183,22 +183,22 @@ def _seen(found):
 def _beyond(end):
     """Sentence on frequencies beyond an end of a table: 0 is the lower end, 1 the upper."""
 
-    def said(found):
+    def sentence(found):
         low, high = found.shown
-        told = f"{found.asked[end]:.3g} rad/s, the table has {low:.3g} to {high:.3g} rad/s"
+        text = f"{found.asked[end]:.3g} rad/s, the table has {low:.3g} to {high:.3g} rad/s"
         solid = found.measured
         if solid.extrapolate:
             law = solid.continued.upper if end else solid.continued.lower
-            return f"{told}; assumed that G'' goes on as frequency^{law.exponent:.2g} for {REACH:g} decades"
+            return f"{text}; assumed that G'' goes on as frequency^{law.exponent:.2g} for {REACH:g} decades"
         bounded = isfinite(solid.glassy_modulus) if end else solid.equilibrium_modulus is None
         least = (
             ", so that friction is at least what is found"
             if bounded and isinstance(found.scene.motion, Slide)
             else ""
         )
-        return f"{told}; assumed that nothing relaxes there{least}, unless extrapolate = true"
+        return f"{text}; assumed that nothing relaxes there{least}, unless extrapolate = true"
 
-    return said
+    return sentence
 
 
 def _readings(found):
@@ -206,17 +206,17 @@ def _readings(found):
     return f"{low:.3g} Pa if the law goes on that the table ends with, to {high:.3g} Pa"
 
 
-# In the order in which they are told: fields as they stand, then what follows from several.
+# In the order of the doubts: limits of single fields, then of numbers that follow from several.
 LIMITS = (
-    Limit("decades_below", BELOW, WITHIN, "decades", EXTRAPOLATED, beside=_beyond(0)),
-    Limit("decades_above", ABOVE, WITHIN, "decades", EXTRAPOLATED, beside=_beyond(1)),
+    Limit("decades_below", BELOW, WITHIN, "decades", EXTRAPOLATED, remark=_beyond(0)),
+    Limit("decades_above", ABOVE, WITHIN, "decades", EXTRAPOLATED, remark=_beyond(1)),
     Limit(
         "rest_width",
         OPEN,
         0.1,
         "",
         "the table ends before the plateau: measure at lower frequencies, or state equilibrium_modulus",
-        beside=_readings,
+        remark=_readings,
     ),
     Limit("scene.temperature.temperature", "temperature", COLDEST, "K", COLD, False, (DEGC,)),
     Limit("scene.temperature.temperature", "temperature", 1000.0, "K", HOT),
@@ -263,20 +263,20 @@ LIMITS = (
     Limit("shortest", "shortest wave of the roughness", 1e-9, "m", ATOMS, False),
     Limit("rms_height", "rms height of the roughness", 1e-10, "m", ATOM, False),
     Limit("scene.interface.coefficient", "coefficient of friction", 10.0, "", "no dry pair of bodies has it"),
-    Limit("scene.heating.conductivity", "conductivity", 1e-2, "W/(m K)", "less than that of still air", False),
-    Limit("scene.heating.conductivity", "conductivity", 3e3, "W/(m K)", "more than that of diamond"),
+    Limit("scene.heating.conductivity", "conductivity", 1e-2, "W/(m K)", "lower than in still air", False),
+    Limit("scene.heating.conductivity", "conductivity", 3e3, "W/(m K)", "higher than in diamond"),
     Limit(
         "mach",
-        "speed over that of shear waves",
+        "speed over the speed of shear waves",
         1.0,
         "",
         "neither model has inertia",
-        beside=lambda found: f"speed {found.speed:g} m/s",
+        remark=lambda found: f"speed {found.speed:g} m/s",
     ),
     Limit("contact.radius", "radius of the contact", 1.0, "m", LARGE),
     Limit("contact.radius", "radius of the contact", 1e-9, "m", ATOMS, False),
     Limit("contact.depth", "depth of the contact", 1e-10, "m", ATOM, False),
-    Limit("edge_slope", "slope of the body at the edge of the contact", SMALL_SLOPE, "", LINEAR, beside=_size),
+    Limit("edge_slope", "slope of the body at the edge of the contact", SMALL_SLOPE, "", LINEAR, remark=_size),
     Limit(
         "edge_slope",
         "slope of the body at the edge of the contact",
@@ -287,7 +287,7 @@ LIMITS = (
         (),
         _size,
     ),
-    Limit("rms_slope", "rms slope of the roughness", SMALL_SLOPE, "", LINEAR, beside=_waves),
+    Limit("rms_slope", "rms slope of the roughness", SMALL_SLOPE, "", LINEAR, remark=_waves),
     Limit("rms_slope", "rms slope of the roughness", 1e-4, "", "smoother than polished glass: check units", False),
     Limit(
         "height_left_out",
@@ -295,7 +295,7 @@ LIMITS = (
         LEFT_OUT,
         "",
         "if it goes on as it ends: measure a larger field, unless no waves longer than the contact matter",
-        beside=_ends("height_left_out"),
+        remark=_ends("height_left_out"),
     ),
     Limit(
         "slope_left_out",
@@ -303,7 +303,7 @@ LIMITS = (
         LEFT_OUT,
         "",
         "if it goes on as it ends: slope and friction are those of the waves in the table alone",
-        beside=_ends("slope_left_out"),
+        remark=_ends("slope_left_out"),
     ),
     Limit(
         "height_over_depth",
@@ -318,7 +318,7 @@ LIMITS = (
         ANISOTROPIC,
         "",
         "1D takes the map as isotropic: it cannot tell along from across",
-        beside=_slopes,
+        remark=_slopes,
     ),
     Limit("spike", "farthest height of the map over its rms height", 10.0, "", SPIKE),
     Limit("depth_over_thickness", "depth over the thickness of the layer", SMALL_SLOPE, "", STRAINS),
@@ -337,6 +337,6 @@ LIMITS = (
         "",
         "the elastomer loses next to nothing: check times, speed and temperature",
         False,
-        beside=_seen,
+        remark=_seen,
     ),
 )

@@ -126,8 +126,8 @@ class Cylinder:
 class Plane:
     """Nominally flat plane whose roughness repeats for ever: one period of it is a cell.
 
-    Forces are those of a cell [N]. The depth is that of the mean plane below the mean deformed surface: minus the
-    mean gap.
+    Forces act on a cell [N]. The depth is the distance of the mean plane below the mean deformed surface: minus
+    the mean gap.
     """
 
     pressed_by: ClassVar[tuple[str, ...]] = ("pressure", "gap")

@@ -12,7 +12,7 @@ from numba import njit
 
 
 def compiled(**options: Any) -> Callable[[Callable], Callable]:
-    """Decorator: a function as machine code that runs beside other threads.
+    """Decorator that compiles a function to machine code, which releases the interpreter lock.
 
     options : how it is compiled, see numba.njit
 

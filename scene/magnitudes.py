@@ -152,7 +152,7 @@ class Magnitudes:
 
     @property
     def mach(self) -> float:
-        """Speed over that of shear waves in an elastomer of that modulus."""
+        """Speed over the speed of shear waves in an elastomer with the modulus at this speed."""
         return self.speed / sqrt(self.modulus_at_speed / DENSITY)
 
     @cached_property

@@ -253,7 +253,7 @@ def _stated(given):
 
 
 def in_unit(held: Any, own: str | None, unit: str | None, difference: bool = True) -> Any:
-    """Numbers of one unit in another, of SI. Raises NotPlain.
+    """Convert numbers from their own unit to a unit of SI. Raises NotPlain.
 
     own : None, numbers stay as they are; empty, they have no dimension
     unit : None where numbers have none

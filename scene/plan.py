@@ -28,7 +28,7 @@ class Expected:
     why: str
 
     def times(self, factor: float, why: str) -> "Expected":
-        """So many times as much; what is not known stays so."""
+        """The value multiplied by a factor; an unknown value stays unknown."""
         return self if self.value is None else Expected(self.value * factor, f"{self.why}, times {why}")
 
     def __str__(self) -> str:
@@ -36,7 +36,7 @@ class Expected:
 
 
 def at_tolerance(counted: Mapping[str, float], decades: float) -> dict[str, float]:
-    """Costs of a solve to a tolerance that is so many powers of ten wider than that they were counted at."""
+    """Costs of a solve at a tolerance that is `decades` powers of ten wider than the one they were counted at."""
     return {cost: value * max(1 - DECADE[cost] * decades, LEAST) for cost, value in counted.items()}
 
 
@@ -56,7 +56,7 @@ def expected(
     """Expected costs by the names of `COSTS`.
 
     plain : gives those of a contact without these parts, by `why`; asked only where all parts are known
-    parts : of a scene, each of which multiplies them by its line of the table
+    parts : parts of a scene; each multiplies the costs by its line of the table
     """
     names, known = [type(part).__name__ for part in parts], multiples(table)
     if unknown := [name for name in names if name not in known]:
@@ -125,7 +125,7 @@ class Modes:
 
 @dataclass(frozen=True)
 class Plan:
-    """Plan of what a solver would simulate of one scene, and nothing else. Printed, it is a page.
+    """Plan of what a solver would simulate for a scene, without solving it. Printed, it is a page.
 
     solver, settings : name, and the settings that matter here, in words
     terms : by the field of the scene, what is simulated for the part that stands there
@@ -162,8 +162,8 @@ class Plan:
             width = max([WIDTH, *map(len, filter(None, map(str, group)))])
             lines += [f"  {title}"]
             lines += [
-                f"    {name!s:<{width}s} {said}".rstrip() if said else f"    {name}"
-                for name, said in group.items()
+                f"    {name!s:<{width}s} {text}".rstrip() if text else f"    {name}"
+                for name, text in group.items()
             ]
         return "\n".join(lines)
 
@@ -176,7 +176,7 @@ class Plan:
 
     @property
     def _groups(self) -> dict[str, Mapping[Any, Any]]:
-        """Lines by title: what each has, and what is said of it; empty where it says all itself."""
+        """Lines by title: names and their texts; a text is empty where the name is enough."""
         expected = {"operator_applications": self.operator_applications, "seconds": self.seconds}
         groups: dict[str, Mapping[Any, Any]] = {
             "doubtful": dict.fromkeys(self.doubts, ""),

@@ -16,7 +16,7 @@ def printable(text: str) -> str:
 
 
 def brief(text: str, most: int = LONGEST) -> str:
-    """A text in one printable line of so many letters at most, its middle left out where it is longer."""
+    """A text as a printable line of at most `most` letters; the middle of a longer text is left out."""
     ends = text if len(text) <= most else text[:most] + text[-most:]
     line = printable(ends).replace("\n", "\\n")
     if len(line) <= most and ends is text:
@@ -40,7 +40,7 @@ MOST_ROWS = 60  # rows of a table that are shown
 def table(rows: Iterable[Sequence[Any]], heading: Sequence[str] = (), title: str = "") -> str:
     """Rows of cells as a table in HTML.
 
-    title : said above; heading : of the columns
+    title : caption above the table; heading : names of the columns
     """
     from pandas import DataFrame, option_context  # only notebooks need it
 

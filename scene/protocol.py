@@ -18,7 +18,7 @@ from .scene import Scene
 
 
 class Refused(ValueError):
-    """The scene asks for what this solver lacks; said before anything is solved."""
+    """The scene asks for something that this solver lacks; raised before anything is solved."""
 
 
 class SolveError(RuntimeError):
@@ -37,7 +37,7 @@ class Solver(Protocol):
     refusals(scene) : reasons why a scene cannot be solved, a sentence each; without it none is refused beforehand
     foreseen(scene) : reasons why a solve would fail, found beforehand; none
     points, steps : settings of its grid and its steps in time, halved to know their error; it has no coarser grid
-    label : what it is called beside 1D and 3D; its name
+    label : what it is called next to 1D and 3D; its name
     draws : what its means are taken over: "profiles" in one dimension, "surfaces", or "none"; surfaces
     answers : what it has a claim on, of "friction", "force" (at a depth) and "depth" (under a load); all of them.
         The judge asks it for nothing else, nor for friction at a depth without the force

@@ -58,7 +58,7 @@ class Unit:
         return self._taken(numbers, given)
 
     def row(self, given: Any) -> tuple[Any, ...]:
-        """A list of numbers, or an array of one dimension, in the same way."""
+        """A list of numbers, or a one-dimensional array, in the same way."""
         found = one_by_one(given)
         if not isinstance(found, list | tuple):
             raise ValueError("Input should be a list of numbers")

@@ -26,7 +26,7 @@ class Result:
     scene : what was asked
     solver, settings : name of the solver and every setting it solved with, the derived ones included
     normal_force, friction_force : F_N, F_x [N]; F_x > 0 opposes the motion of the indenter. Per length of a
-        Cylinder [N/m], of one cell of a Plane
+        Cylinder [N/m], on a cell of a Plane
     depth : of the macroscopic tip below the undeformed surface [m], > 0 into the elastomer; see Cylinder and Plane
         for what theirs is counted from
     residual : left in the discrete contact conditions, relative; the solver's docstring defines it
@@ -105,11 +105,11 @@ def provenance(scene: Scene, seeds: Sequence[int] | np.ndarray = ()) -> dict[str
 
     seeds : of the rough surfaces, ascending; none of a body without draws
     """
-    said = {"scene": validator(Scene).dump_json(scene, exclude_none=True).decode(), "source": source()}
+    attributes = {"scene": validator(Scene).dump_json(scene, exclude_none=True).decode(), "source": source()}
     if len(seeds) > 0:
         rows = np.split(seeds, np.flatnonzero(np.diff(seeds) > 1) + 1)
-        said["seeds"] = ", ".join(f"{row[0]} to {row[-1]}" if len(row) > 1 else str(row[0]) for row in rows)
-    return said
+        attributes["seeds"] = ", ".join(f"{row[0]} to {row[-1]}" if len(row) > 1 else str(row[0]) for row in rows)
+    return attributes
 
 
 def source() -> str:

@@ -151,7 +151,7 @@ class Scene:
         )
 
 
-FEW = 4  # of a part's values or stages, that are said one by one
+FEW = 4  # of a part's values or stages, that are listed one by one
 
 
 def rows(parts: Mapping[str, Any]) -> Iterator[tuple[str, str, str]]:
@@ -161,10 +161,10 @@ def rows(parts: Mapping[str, Any]) -> Iterator[tuple[str, str, str]]:
         for each in fields(part):
             value, unit = getattr(part, each.name), unit_of(type(part), each.name) or ""
             if each.repr and value is not None:
-                yield f"{name}.{each.name}", value if isinstance(value, str) else said(value), unit
+                yield f"{name}.{each.name}", value if isinstance(value, str) else described(value), unit
 
 
-def said(part: Any) -> str:
+def described(part: Any) -> str:
     """A part of a scene in a line: its type, and of its fields those that say something."""
     match part:
         case Program() if len(part.stages) > FEW:
@@ -172,11 +172,11 @@ def said(part: Any) -> str:
         case tuple() if len(part) > FEW and all(isinstance(value, float) for value in part):
             return f"{len(part)} from {min(part):g} to {max(part):g}"
         case tuple():
-            return f"({', '.join(map(said, part))})"
+            return f"({', '.join(map(described, part))})"
     if not is_dataclass(part):
         return f"{part:g}" if isinstance(part, float) else repr(part)
     stated = (each for each in fields(part) if each.repr and not _usual(each, getattr(part, each.name)))
-    return f"{type(part).__name__}({', '.join(f'{e.name}={said(getattr(part, e.name))}' for e in stated)})"
+    return f"{type(part).__name__}({', '.join(f'{e.name}={described(getattr(part, e.name))}' for e in stated)})"
 
 
 def _summed_up(program):

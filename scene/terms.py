@@ -10,14 +10,14 @@ from typing import Any
 
 from .plan import Plan
 from .result import Result
-from .scene import Scene, said
+from .scene import Scene, described
 
 Solve = Callable[[Scene], Result]
 
 
 @dataclass(frozen=True)
 class Term:
-    """Treatment of one part by a solver. Most parts say all of it themselves, and need no more than this.
+    """Treatment of a part of a scene by a solver; most parts need no more than this base class.
 
     field : of the scene, in which the part stands
     """
@@ -36,7 +36,7 @@ class Term:
     @property
     def says(self) -> str:
         """Simulation of the part in a line for people."""
-        return said(self.part)
+        return described(self.part)
 
     def planned(self, plan: Plan, scene: Scene) -> Plan:
         """A plan with what the part builds besides; most parts build nothing of their own."""
@@ -74,7 +74,7 @@ def _line(table, kind):
 
 
 def wrap_solve(solve: Solve, terms: list[Term]) -> Solve:
-    """A solve with what the terms do around it, that of the first term inmost."""
+    """Wrap a solve in the terms, the first term innermost."""
     for term in terms:
         solve = term.around(solve)
     return solve

@@ -32,8 +32,8 @@ class Entry:
     def attributes(self, name: str, indenter: str = "") -> dict[str, str]:
         """Attributes of a variable of this name by the CF conventions, none of them empty."""
         axis = name.upper() if self.axes == (name,) and name in ("x", "y") else ""
-        said = {"units": self.unit_under(indenter), "long_name": name.replace("_", " "), "axis": axis}
-        return {word: text for word, text in {**said, "comment": self.text}.items() if text}
+        found = {"units": self.unit_under(indenter), "long_name": name.replace("_", " "), "axis": axis}
+        return {word: text for word, text in {**found, "comment": self.text}.items() if text}
 
 
 def _force(text, axes=()):
@@ -84,7 +84,7 @@ MEASURES: Mapping[str, Entry] = {
         "1/m",
         "Mean of d2z/dx2 of indenter and roughness weighted with the pressure, above zero at a minimum of z.",
     ),
-    "flash_heating": Entry("K", "Rise in temperature, averaged over the contact of one asperity."),
+    "flash_heating": Entry("K", "Rise in temperature, averaged over the contact of an asperity."),
     "friction_by_curvature": _force("Friction to first order in the speed, of the pressure's mean curvature."),
     "friction_by_loss": _force("Friction as energy lost per length slid, by the slope of the displacement."),
     "friction_by_traction": _force(
@@ -103,7 +103,7 @@ MEASURES: Mapping[str, Entry] = {
     "friction_in_elastomer": _force("Part of the friction that the elastomer dissipates."),
     "friction_in_interface": _force("Part of the tangential force that shear of the interface carries."),
     "friction_low": Entry("1", "Lower end of the interval of 95 % of the coefficient of friction."),
-    "friction_of_roughness": _force("Part of the friction that the roughness adds to that of the smooth body."),
+    "friction_of_roughness": _force("Part of the friction that the roughness adds to the smooth body."),
     "friction_of_shape": _force("Part of the friction that the smooth body has."),
     "full_contact_friction": _force(
         "Friction that the roughness would have in full contact all over a nominal one."
@@ -113,7 +113,7 @@ MEASURES: Mapping[str, Entry] = {
     "law_ratio": Entry("1", "Friction of the law over friction in three dimensions, by the trust map."),
     "load_on_leading_flanks": Entry("1", "Share of the load where the profile falls along +x."),
     "macro_over_rough": Entry(
-        "1", "Rms slope of the smooth profile over its contact, over that of the roughness."
+        "1", "Rms slope of the smooth profile over its contact, divided by the rms slope of the roughness."
     ),
     "mean_gap": Entry("m", "Mean distance of plane and deformed surface over the cell, never below zero."),
     "mean_pressure": Entry("Pa", "Normal force over the area of the cell."),

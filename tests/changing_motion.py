@@ -61,8 +61,8 @@ def oblique(radius, kelvin, speed, approach, time):
 def stiffness(radius, elastomer, omega):
     """dF/dd = 2 a E*(omega) [N/m], complex, of a contact of the radius a [m] under a small oscillation of depth.
 
-    To first order the radius stays as it is, as nothing is carried at the edge: that of a flat punch. omega
-    [rad/s], any shape; the force leads the depth by the argument.
+    To first order the radius stays constant, as the edge carries nothing: this is the stiffness of a flat punch.
+    omega [rad/s] has any shape; the force leads the depth by the argument.
     """
     return 2 * radius * complex_stiffness(elastomer, omega)
 

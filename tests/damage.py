@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 
 SEED = int(os.environ.get("FUZZ_SEED", "21"))
 TRIES = int(os.environ.get("FUZZ_TRIES", "1000"))
-MOST = 4  # changes of one file
+MOST = 4  # changes in a file
 LINES, LETTERS = 52, 600  # of a message, and of each line besides the name of its file
 HANGS, MEMORY, AREA = 20, 8 * 2**30, resource.RLIMIT_AS  # s, bytes, of what
 
@@ -109,7 +109,7 @@ def _changed(content, random, others):
 
 @st.composite
 def trees(draw, contents):
-    """The content of one of some files, changed in some places."""
+    """The content of a file, changed in some places."""
     random = draw(st.randoms(use_true_random=False))
     content = deepcopy(random.choice(contents))
     for _ in range(random.randint(1, MOST)):
@@ -119,7 +119,7 @@ def trees(draw, contents):
 
 @st.composite
 def spoilt(draw, files):
-    """The bytes of one of some files, changed in some places."""
+    """The bytes of a file, changed in some places."""
     random = draw(st.randoms(use_true_random=False))
     content = bytearray(random.choice(files))
     for _ in range(random.randint(1, MOST)):
@@ -140,7 +140,7 @@ def spoilt(draw, files):
 
 
 def fuzz(law, *strategies, tries=TRIES):
-    """Hold a law against so many files; what breaks it is printed with the seed and made as small as it gets."""
+    """Check a law on `tries` files; a counterexample is printed with the seed and made as small as possible."""
 
     @seed(SEED)
     @settings(
@@ -183,16 +183,16 @@ def bounded():
         resource.setrlimit(AREA, limits)
 
 
-def unshowable(said, path="", letters=LETTERS):
-    """Why a terminal cannot show a message, or nobody can use it: one of a file names that."""
-    lines = said.split("\n")
+def unshowable(message, path="", letters=LETTERS):
+    """Why a terminal cannot show a message, or nobody can use it; a message about a file has to name the file."""
+    lines = message.split("\n")
     longest = max(len(line.replace(str(path), "")) for line in lines)
-    strange = {each for each in said if unicodedata.category(each) in ("Cc", "Cf", "Cs") and each != "\n"}
+    strange = {each for each in message if unicodedata.category(each) in ("Cc", "Cf", "Cs") and each != "\n"}
     wrong = {
         f"{len(lines)} lines": len(lines) > LINES,
         f"a line of {longest} letters": longest > letters,
         f"control characters {strange}": strange,
-        "it does not name its file": str(path) not in said,
-        "it is empty": not said.strip(),
+        "it does not name its file": str(path) not in message,
+        "it is empty": not message.strip(),
     }
     return ", ".join(why for why, holds in wrong.items() if holds)

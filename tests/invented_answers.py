@@ -137,7 +137,7 @@ def changed(invented, body=ROUGH, model="BEM", level=FINE, place=..., **numbers)
 
 
 def spoiled(invented, place, model="BEM", body=ROUGH, reason="no"):
-    """Answers of which some solves of the fine grid failed; place : of (speeds, values, draws) that slide."""
+    """Answers where some solves of the fine grid failed; place : of (speeds, values, draws) that slide."""
     first, *others = place if isinstance(place, tuple) else (place,)
     moved = slice(1, None) if first == slice(None) else first + 1
     numbers = [name for name, each in invented.curves[body].data_vars.items() if each.dtype.kind == "f"]

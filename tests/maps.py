@@ -21,7 +21,7 @@ def sampled(rough, points=128, piece=None, **other):
 
 
 def says(error):
-    """What is said by an error that was raised, on one line."""
+    """The message of a raised error, on one line."""
     return " ".join(str(error.value).split())
 
 

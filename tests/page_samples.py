@@ -39,7 +39,7 @@ PROSE = "Some *words* of code_x & <b>50 %</b>\nover two lines.\n\n- one\n- two, 
 
 
 def written(page, findings, folder):
-    """The file of a page, with its figures and tables beside it."""
+    """Write a page with its figures and tables, and return the file of the page."""
     return render.write(render.files(page, findings), folder)[-1]
 
 

@@ -41,7 +41,7 @@ def ask(*words):
 
 
 def stored_so_far(folder):
-    """Answers that a run under way has stored, by the file that SQLite writes beside its own meanwhile."""
+    """Answers that a run under way has stored, by the size of the write-ahead log of SQLite."""
     log = folder / f"{FILE}-wal"
     try:
         return (log.stat().st_size - 32) // (24 + 4096)  # a head, then at least a page an answer
@@ -50,9 +50,9 @@ def stored_so_far(folder):
 
 
 def finish(process):
-    """Status, what was said and what was complained of."""
-    said, complained = process.communicate(timeout=PATIENCE)
-    return process.returncode, said, complained
+    """Status, standard output and standard error of a process."""
+    output, complained = process.communicate(timeout=PATIENCE)
+    return process.returncode, output, complained
 
 
 def wait_for(condition):

@@ -1,4 +1,4 @@
-"""A solver that answers at once, gives up, breaks or dies as it is told, for tests of what runs solvers."""
+"""A solver that answers at once, gives up, breaks or dies as its settings ask, for tests of what runs solvers."""
 
 import os
 import signal
@@ -63,18 +63,18 @@ def marks(folder, load="*"):
 
 
 def forces(swept, tasks):
-    """What was found for tasks of one scene each."""
+    """Forces that were found by tasks, each of a single scene."""
     return [swept.outcomes[task].rows[0].normal_force for task in tasks]
 
 
-def told(row):
+def every_bit(row):
     """All of a row to the last bit but the payload of NaN, -0.0 apart from 0.0."""
     return repr(replace(row, measures=sorted(row.measures.items()), settings=sorted(row.settings.items())))
 
 
 def exactly(outcome):
     """All of its numbers, to the last digit, but for the seconds that were measured."""
-    return [told(replace(row, seconds=0.0)) for row in outcome.rows]
+    return [every_bit(replace(row, seconds=0.0)) for row in outcome.rows]
 
 
 class Heard(Progress):
@@ -91,7 +91,7 @@ class Heard(Progress):
     def finished(self, task, outcome):
         self.heard.append(("finished", task.work))
 
-    def said(self, line):
+    def message(self, line):
         self.said_lines.append(line)
 
     def interrupted(self):

@@ -59,7 +59,7 @@ DIMENSIONS = {
 
 
 def examples(count):
-    """Settings of a law: so many examples, more on a hunt."""
+    """Settings of a law: `count` examples, more on a hunt."""
     return settings(max_examples=count * (40 if PROFILE == "hunt" else 1))
 
 
@@ -142,7 +142,7 @@ solids = st.one_of(elastic(), viscoelastic())
 
 @st.composite
 def spectra(draw, depth, ratio=8):
-    """Self-affine roughness of 0 to 3 depths on a contact of radius 1; shortest at most so many times shorter."""
+    """Self-affine roughness of 0 to 3 depths on a contact of radius 1; shortest at most `ratio` times shorter."""
     longest = draw(decades(-0.3, 1))
     shortest = longest / draw(evenly(2, ratio))
     return SelfAffine(

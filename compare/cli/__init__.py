@@ -1,1 +1,1 @@
-"""The command line: the commands, and what people are told."""
+"""The command line: the commands, and the messages that users see."""

@@ -106,13 +106,13 @@ AsJson = Annotated[bool, Option("--json", help="Print the answer as JSON: see cr
 
 def _add(
     function: Callable[..., Any],
-    said: Callable[[Any], str] = str,
+    text: Callable[[Any], str] = str,
     details: bool = False,
     reported: Callable[..., Any] | None = None,
 ) -> None:
     """Add a function of `compare.commands` as a command of the same name, arguments, options and defaults.
 
-    said : what is printed of what it returns
+    text : function that returns the text to print for the returned value
     details : whether what it returns has details to print
     reported : what returns a report of the same arguments, where the function returns something else
     """
@@ -120,7 +120,7 @@ def _add(
     solves = "workers" in parameters
     more = {"quiet": Quiet} if solves else {}
     more |= {"verbose": Verbose} if solves or details else {}
-    more |= {"json": AsJson} if said is not _schema else {}
+    more |= {"json": AsJson} if text is not _schema else {}
     parameters |= {
         name: Parameter(name, Parameter.KEYWORD_ONLY, default=False, annotation=hint)
         for name, hint in more.items()
@@ -139,7 +139,7 @@ def _add(
                 shown = given["progress"] = Shown(lines=verbose)
             with shown:
                 found = (reported or function)(**given)
-        _tell(found, said, quiet, verbose, json)
+        _tell(found, text, quiet, verbose, json)
 
     called.__signature__ = Signature([*parameters.values()])  # type: ignore[attr-defined]
     called.__annotations__ = {name: each.annotation for name, each in parameters.items()}
@@ -157,7 +157,7 @@ def _parameters(function: Callable[..., Any]) -> Iterator[Parameter]:
             yield each.replace(annotation=hint, kind=each.KEYWORD_ONLY)
 
 
-def _tell(found: Any, said: Callable[[Any], str], quiet: bool, verbose: bool, json: bool) -> None:
+def _tell(found: Any, text: Callable[[Any], str], quiet: bool, verbose: bool, json: bool) -> None:
     """Print what a function returned, and end with its status."""
     for line in getattr(found, "faults", ()):
         say(f"crosscheck: {line}", error=True)
@@ -167,7 +167,7 @@ def _tell(found: Any, said: Callable[[Any], str], quiet: bool, verbose: bool, js
     if json:
         say(commands.as_json(found))
     elif not quiet:
-        say(found.details if verbose and hasattr(found, "details") else said(found))
+        say(found.details if verbose and hasattr(found, "details") else text(found))
     if getattr(found, "failed", False):
         raise typer.Exit(FAILED)
     if not getattr(found, "feasible", True):
@@ -205,9 +205,9 @@ _add(commands.mastercurve)
 _add(commands.topography)
 _add(commands.plan, details=True)
 _add(commands.scenes, details=True)
-_add(commands.new, said=_written_ready)
-_add(commands.schema, said=_schema)
-_add(commands.export, said=_paths)
+_add(commands.new, text=_written_ready)
+_add(commands.schema, text=_schema)
+_add(commands.export, text=_paths)
 _add(commands.draw)
 
 

@@ -78,16 +78,16 @@ def plot(rows: Sequence[ShiftedCurves], name: str = NAME, folder: str = "", spee
     }
     caption = (
         f"Friction against normal force at up to {CURVES} speeds; shifted along the force (Eq. 23), and along "
-        "friction where that is shifted too (squares), beside the one curve nearest to all (grey), and how far "
-        "off; the shifts. Bars: 95 %. Hollow shifts leave curves apart; what no shift brings together is drawn as "
-        "it is."
+        "friction where that is shifted too (squares), with the one curve nearest to all (grey) and the "
+        "deviations from it; the shifts. Bars: 95 %. Hollow shifts leave curves apart; curves that no shift "
+        "brings together are drawn unshifted."
     )
-    told = "; ".join(f"{fit.curves}: {_missed(fit)} off one curve" for fit in tables[f"{name}{FITS}"].itertuples())
-    return Plot(f"{folder}{name}", figure, tables, caption, told, {"name": name, "speed": speed})
+    text = "; ".join(f"{fit.curves}: {_missed(fit)} off one curve" for fit in tables[f"{name}{FITS}"].itertuples())
+    return Plot(f"{folder}{name}", figure, tables, caption, text, {"name": name, "speed": speed})
 
 
 def _tables(row: ShiftedCurves) -> tuple[DataFrame, DataFrame, DataFrame]:
-    """Points, shifts, and the misfit and exponents of one row of the figure."""
+    """Points, shifts, and the misfit and exponents of a row of the figure."""
     found, lead = row.collapse, row.lead or row.collapse.horizontal
     both, middle = lead is found.both, found.speeds.size // 2
     how = BOTH if both else UNSHIFTED if lead.reason else FITTED
@@ -101,7 +101,7 @@ def _tables(row: ShiftedCurves) -> tuple[DataFrame, DataFrame, DataFrame]:
     known = row.expected * np.log(found.speeds) if row.predicted is None else row.predicted
     decided = both or not (found.horizontal.reason or row.findings[eq23.COLLAPSE.id].verdict == FAILS)
     fit: dict[str, Any] = row.found("misfit", missed)
-    fit |= row.found("load_exponent", *(eq23.EXPONENT, eq23.BESIDE if both else eq23.ALONE)[: 2 * decided])
+    fit |= row.found("load_exponent", *(eq23.EXPONENT, eq23.JOINT if both else eq23.ALONE)[: 2 * decided])
     fit |= row.found("friction_exponent", *(eq23.NOT_SHIFTED,)[:both]) | {"expected": row.expected}
     fit |= {"shifted_as": how, "decided": decided}
     frames = points, found.shifts(lead).assign(expected=known - known[middle]), DataFrame([fit])

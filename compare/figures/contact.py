@@ -1,4 +1,4 @@
-"""One contact, 3D beside 1D: pressure from above, force per length, and sections of both bodies."""
+"""One contact in 3D and 1D: pressure from above, force per length, and sections of both bodies."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -32,7 +32,7 @@ ELEMENTS = 56  # of the row that are drawn
 ABOVE, BELOW = 0.45, 0.35  # heights above and below what is shown of the surfaces, of their range
 HIGHEST = 99  # percentile of the pressures in contact at which colours end
 PANEL, AROUND, LEGEND = 1.75, 1.2, 0.5  # heights of a panel, around a map, and of the legend [inch]
-BESIDE = 0.75  # what stands beside a map [inch]
+LABELS = 0.75  # width of the labels and the colour bar next to a map [inch]
 
 
 def view(scene: Scene, bem: BEM, fields: Mapping[str, Mapping[str, np.ndarray]]) -> dict[str, xarray.Dataset]:
@@ -129,7 +129,7 @@ def figure(tables: Tables, aside: float = 1.0, radius: float | None = None, flow
     heights = [PANEL] * ceil(len(tables) / 2)
     if PRESSURE in tables:
         tall = min(1.0, 2 * aside / (span[1] - span[0]))
-        heights[0] = max(PANEL, (style.across("double") / 2 - BESIDE) * tall + AROUND)
+        heights[0] = max(PANEL, (style.across("double") / 2 - LABELS) * tall + AROUND)
     drawing = style.canvas("double", sum(heights) + LEGEND)
     grid = drawing.subplots(len(heights), min(2, len(tables)), squeeze=False, height_ratios=heights).ravel()
     for axes, (name, table) in zip(grid, tables.items(), strict=False):

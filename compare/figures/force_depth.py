@@ -22,10 +22,11 @@ def plot(points: DataFrame, differences: DataFrame, caption: str = "", folder: s
     """Plot of force and depth; None without points.
 
     points : model, body ("rough", "smooth"), load [N] or depth [m] as prescribed, the other as depth_reached or
-        normal_force with _mean, _low and _high, and closed_form, that of the smooth body; without that column that
-        of the model "exact", else "BEM" or another, on the smooth body. rate [m/s], 0 at rest, where pressed in
-    differences : model, body, load or depth, rate, and difference, _low and _high: force over that of the
-        reference less one, or depth less that of the reference [m]
+        normal_force with _mean, _low and _high, and closed_form, the value of the smooth body in closed form;
+        without that column the model "exact" on the smooth body is taken, else "BEM" or another. rate [m/s] of
+        pressing in, 0 at rest
+    differences : model, body, load or depth, rate, and difference, _low and _high: force divided by the force of
+        the reference, minus one, or depth minus the depth of the reference [m]
     """
     if points.empty:
         return None
@@ -35,13 +36,13 @@ def plot(points: DataFrame, differences: DataFrame, caption: str = "", folder: s
         points = points[points["model"] != "exact"]
         model = next((each for each in ("exact", "BEM", *known) if each in known), None)
         points = points.assign(closed_form=points["depth"].map(known.get(model, {})))
-    told = caption or (
+    text = caption or (
         "Force at a depth at rest, rough and of the smooth body in closed form, or else in 3D; off that; 1D off "
         "3D. Bars: 95 %."
     )
     alternative = "Deviations fall with depth, of rough bodies from the smooth one and of 1D from 3D."
     tables = tables_of({NAME: points, DIFFERENCES: differences})
-    return Plot(f"{folder}{NAME}", figure, tables, told, alternative)
+    return Plot(f"{folder}{NAME}", figure, tables, text, alternative)
 
 
 def figure(tables: Tables) -> Figure:

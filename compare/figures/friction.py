@@ -33,7 +33,8 @@ def plot(
     ratios : model, body ("rough", "smooth"), speed, load or depth, ratio, ratio_low and ratio_high: friction over
         that of the reference
     lines : model, speed, load or depth, friction_coefficient, and kind, one of KINDS
-    name : SPEED, with a panel for each load or depth, LOAD, with one for each speed, or SMOOTH_SPEED, of a smooth body
+    name : SPEED, with a panel for each load or depth; LOAD, with one for each speed; SMOOTH_SPEED, of a smooth
+        body
     """
     if not (points["speed"] > 0).any():
         return None
@@ -78,7 +79,7 @@ def figure(tables: Tables, name: str = SPEED) -> Figure:
 
 
 def line_look(kind: str, model: str) -> dict[str, Any]:
-    """Look of a line beside the models, thin and without markers."""
+    """Look of a line drawn with the models, thin and without markers."""
     look = style.look(model, marker="", linewidth=style.width(0.7))
     if kind != THEORY:
         look["label"] += f", {kind}"

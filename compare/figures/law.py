@@ -12,7 +12,7 @@ NAME, SHARE = "law", "law-share"
 
 
 def plot(points: DataFrame, share: DataFrame, missed: str = "", folder: str = "") -> Plot:
-    """Plot of the master curve of one series.
+    """Plot of the master curve of a series.
 
     points : speed [m/s], pressure_ratio (x), share_of_full_contact (S of x), measured_share,
         measured_share_low and measured_share_high; claimed, false where the law claims nothing
@@ -24,8 +24,8 @@ def plot(points: DataFrame, share: DataFrame, missed: str = "", folder: str = ""
         "pressure of the roughness there; band, S(x) at all speeds. Below, off it, 5 % in grey. Hollow: too rough "
         "for the law to claim, without bars. Bars: 95 %."
     )
-    told = {"missed": missed}
-    return Plot(f"{folder}{NAME}", figure, {NAME: points, SHARE: share}, caption, "Points around S(x)", told)
+    options = {"missed": missed}
+    return Plot(f"{folder}{NAME}", figure, {NAME: points, SHARE: share}, caption, "Points around S(x)", options)
 
 
 def figure(tables: Tables, missed: str = "") -> Figure:

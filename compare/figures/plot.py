@@ -20,12 +20,12 @@ Tables: TypeAlias = Mapping[str, DataFrame]
 
 @dataclass(frozen=True)
 class Plot:
-    """A figure as a function of tables. The CSV files beside it are these tables.
+    """A figure as a function of tables, which are also written as CSV files next to it.
 
-    name : of its files, without ending, with the folder below that of the page: "sphere/friction-load"
+    name : of its files, without ending, with their folder below the folder of the page: "sphere/friction-load"
     draw : function of the tables and the options that returns a matplotlib Figure: a module function of
         `compare.figures`, so that it can be drawn again from the files alone
-    tables : by name; a table is written to a CSV file of that name beside the figure
+    tables : by name; a table is written to a CSV file of that name next to the figure
     caption : what it shows, in at most 60 words
     alternative : what is to be seen, for those who cannot see it
     options : further keyword arguments of `draw` that JSON can hold
@@ -49,7 +49,7 @@ class Plot:
 
 
 FORMS = ("png", "pdf", "svg")
-# What is said of a file, without the date: the same numbers give the same file.
+# Metadata of a file, without the date: the same numbers give the same file.
 METADATA: Mapping[str, Mapping[str, None]] = {"pdf": {"CreationDate": None}, "svg": {"Date": None}, "png": {}}
 NO_ROOM = "constrained_layout not applied"
 
@@ -78,7 +78,7 @@ def picture(plot: Plot, forms: Sequence[str] = FORMS[:1], look: style.Look = sty
     files = {}
     drawing = finished(plot, look)
     with style.applied(look):
-        # As wide as the journal says, whatever a style of one's own says.
+        # As wide as the journal asks, whatever the user's style sheet sets.
         whole = drawing.bbox_inches
         for form in ("png", *(form for form in forms if form != "png")):
             file = io.BytesIO()

@@ -23,7 +23,7 @@ def between(values: Sequence[float] | np.ndarray) -> LogNorm:
 
 
 def few(values: Any, most: int) -> np.ndarray:
-    """As many values as are told apart, from the least to the greatest."""
+    """At most `most` of the distinct values, evenly chosen from the least to the greatest."""
     values = np.unique(values)
     return values[np.unique(np.linspace(0, len(values) - 1, min(most, len(values))).round().astype(int))]
 

@@ -1,6 +1,6 @@
 """One look for all figures, safe for colour blindness, readable in grey and in print.
 
-Settings stand in style sheets beside this module: `print.mplstyle`, and on top of it one for a screen and one for
+Settings stand in style sheets next to this module: `print.mplstyle`, and on top of it one for a screen and one for
 each journal. Sizes of text, lines and markers are multiples of those of the sheets.
 """
 
@@ -49,7 +49,7 @@ SERIES_LINES = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)), (0, 
 
 TEXT = 8.0  # points of the text for which heights of figures are given
 WIDE = 0.65  # width of a letter over the size of its text
-BESIDE = 5.2  # what numbers and label of a vertical axis take, in multiples of the text
+AXIS_WIDTH = 5.2  # width that numbers and label of a vertical axis take, in multiples of the text
 
 INCH = 0.0254
 
@@ -69,7 +69,8 @@ COLUMNS = {
     "taylor-francis": (3.5, 7.2),
     "wiley": (3.150, 7.087),
 }
-# Of columns that may be asked for [m], from that of the narrowest journal on: narrower ones cut titles.
+# Limits of the width of a column that users may ask for [m]; narrower columns than the narrowest journal's cut
+# titles.
 NARROWEST, WIDEST = 80e-3, 200e-3
 
 Sheet = str | PathLike | Mapping[str, Any]
@@ -83,8 +84,8 @@ class Look:
     """Look of figures.
 
     journal : name in `COLUMNS`, whose columns and style sheet hold
-    sheet : a style of one's own on top: a .mplstyle file, the name of one of matplotlib's styles, or settings
-    width : of a column, in place of that of the journal, as `columns` takes it
+    sheet : the user's own style on top: a .mplstyle file, the name of a matplotlib style, or settings
+    width : of a column, in place of the width in the journal, as `columns` takes it
     """
 
     journal: str = "default"
@@ -104,8 +105,8 @@ PRINT, SCREEN = Look(), Look(sheet=SHEETS / "screen.mplstyle")
 def columns(journal: str, width: str | float | None = None) -> tuple[float, float]:
     """Widths of a column and of the page [inch].
 
-    width : of a column, as "84 mm" or in metres, with the page as much wider or narrower; that of the journal if
-        absent
+    width : of a column, as "84 mm" or in metres; the page becomes wider or narrower in proportion. If absent, the
+        width in the journal
 
     Raises ValueError of a width that is no length, or out of what is allowed.
     """
@@ -149,17 +150,17 @@ def grey(level: float) -> tuple[str, float]:
 
 
 def small() -> float:
-    """Size of the text in legends and beside curves [point]."""
+    """Size of the text in legends and along curves [point]."""
     return FontProperties(size=rcParams["legend.fontsize"]).get_size_in_points()
 
 
 def width(times: float = 1.0) -> float:
-    """Width of a line [point], in multiples of that of curves."""
+    """Width of a line [point], in multiples of the width of curves."""
     return times * rcParams["lines.linewidth"]
 
 
 def mark(times: float = 1.0) -> float:
-    """Size of a marker [point], in multiples of that of curves."""
+    """Size of a marker [point], in multiples of the size on curves."""
     return times * rcParams["lines.markersize"]
 
 
@@ -183,7 +184,7 @@ def colour(solver: str) -> str:
 
 
 def label(solver: str) -> str:
-    """Label of a model: its name, of one that did not come with the package."""
+    """Label of a model; a model that did not come with the package has its name."""
     return LABEL.get(solver, solver)
 
 
@@ -235,12 +236,12 @@ def lettered(panels: Iterable[Axes]) -> None:
     for letter, axes in zip(ascii_letters, panels, strict=False):
         place: Any = axes.get_subplotspec()
         share = len(place.colspan) / place.get_gridspec().ncols
-        inches = share * axes.figure.bbox.width / axes.figure.dpi - BESIDE * rcParams["font.size"] / 72
+        inches = share * axes.figure.bbox.width / axes.figure.dpi - AXIS_WIDTH * rcParams["font.size"] / 72
         axes.set_title(fill(f"({letter}) {axes.get_title('left')}", inches, rcParams["font.size"]))
 
 
 def legend(drawing: Figure, panels: Iterable[Axes], most: int, *more: Any) -> None:
-    """Below all panels, each label once, in as many columns as fit, at most so many.
+    """Put a legend below all panels: each label once, in as many columns as fit, up to `most`.
 
     more : artists that are named first
     """
@@ -255,7 +256,7 @@ def legend(drawing: Figure, panels: Iterable[Axes], most: int, *more: Any) -> No
 
 
 def finish(drawing: Figure, most: int, *more: Any) -> None:
-    """Readable logarithmic axes, a letter before each title, and one legend of at most so many columns.
+    """Make logarithmic axes readable, letter the titles, and add one legend of at most `most` columns.
 
     more : entries of the legend that come first
     """
@@ -289,7 +290,7 @@ def decades(*panels: Axes) -> None:
 
 
 def forms() -> Iterator[dict[str, Any]]:
-    """Marker and line of one curve after another, without end."""
+    """Marker and line style of successive curves, without end."""
     return (
         {"marker": marker, "linestyle": line} for marker, line in zip(cycle(SERIES_MARKERS), cycle(SERIES_LINES))
     )

@@ -243,12 +243,12 @@ class Case:
 
 
 def doubted(*cases: Case, curves: Iterable[Scene] = ()) -> tuple[str, ...]:
-    """Doubts about cases as sentences; of one number and limit the first alone.
+    """Doubts about cases as sentences: the first one for each number and limit.
 
-    curves : further contacts, of which that is doubted which a table of moduli does not show
+    curves : further contacts, searched only for frequencies that a table of moduli does not show
     """
-    told: dict[tuple[str, float], str] = {}
+    sentences: dict[tuple[str, float], str] = {}
     beyond = sorted((doubt for scene in curves for doubt in unseen(scene)), key=lambda each: -each.number)
     for each in (*(doubt for case in cases for doubt in case.doubts), *beyond):
-        told.setdefault((each.name, each.limit), str(each))
-    return tuple(told.values())
+        sentences.setdefault((each.name, each.limit), str(each))
+    return tuple(sentences.values())

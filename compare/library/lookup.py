@@ -61,7 +61,7 @@ def located(asked: str | Path, kind: str = "scene") -> Path:
         others = ", a Scene or a Case" if kind == "scene" else ""
         raise InvalidInput(f"{kind} = {brief(repr(asked))}: a file, the name of a ready {kind}{others} is needed")
     path, every, name = Path(asked), ready(), str(asked)
-    # A folder may be called as a ready one is: that of an earlier run.
+    # Only a file hides a ready one: a folder of this name may be left by an earlier run.
     if (found := every.get(name)) and not isfile(path):
         if found.kind != kind:
             raise InvalidInput(
@@ -72,6 +72,6 @@ def located(asked: str | Path, kind: str = "scene") -> Path:
         checked(path, MOST)
     except Unreadable as error:
         known = [each.name for each in every.values() if each.kind == kind]
-        beside = [str(each) for each in path.parent.glob("*.toml")] if isdir(path.parent) else []
-        raise InvalidInput(f"{error}, and no ready {kind}{suggestion(name, [*known, *beside])}") from error
+        neighbours = [str(each) for each in path.parent.glob("*.toml")] if isdir(path.parent) else []
+        raise InvalidInput(f"{error}, and no ready {kind}{suggestion(name, [*known, *neighbours])}") from error
     return path

@@ -1,4 +1,4 @@
-"""Scenes and studies to begin with, which come with the package: what there is, and a copy of one of them."""
+"""Scenes and studies that come with the package: a list of them, and copies of them as files."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -129,7 +129,7 @@ def find(name: str) -> Ready:
 
 
 def write(name: str, path: str | Path) -> Path:
-    """Write a copy of one of them, never over a file that is there, and return its path.
+    """Write a copy of a ready scene or study to a path where there is no file yet, and return the path.
 
     Raises InvalidInput for another name or a file that is there, OSError where it cannot be written.
     """

@@ -1,1 +1,1 @@
-"""Models that come with the judge, beside the two solvers: closed forms, and theories of rough friction."""
+"""Models that the package has in addition to the two solvers: closed forms, and theories of rough friction."""

@@ -56,10 +56,10 @@ class Model:
     @classmethod
     def of(cls, solver: Solver) -> "Model":
         """The row of a solver. Raises InvalidInput where it is none."""
-        told = f"models = {brief(repr(solver))}"
+        given = f"models = {brief(repr(solver))}"
         if not is_dataclass(solver) or isinstance(solver, type) or not callable(getattr(solver, "solve", None)):
             raise InvalidInput(
-                f"{told}: an object of a frozen dataclass with `name` and `solve(scene)` is allowed"
+                f"{given}: an object of a frozen dataclass with `name` and `solve(scene)` is allowed"
             )
         name = getattr(solver, "name", None)
         label, draws = KNOWN.get(name, (name, SURFACES)) if isinstance(name, str) else ("", SURFACES)
@@ -67,22 +67,22 @@ class Model:
         for what, text, without in (("name", name, "/\\$"), ("label", label, "$")):
             if not (isinstance(text, str) and text.strip(". ") and text.isprintable()) or set(text) & set(without):
                 allowed = f"printable letters without {' '.join(without)}"
-                raise InvalidInput(f"{told}: its `{what}` is {brief(repr(text))}, {allowed} are allowed")
+                raise InvalidInput(f"{given}: its `{what}` is {brief(repr(text))}, {allowed} are allowed")
         try:
             json.dumps(asdict(solver))
         except (TypeError, ValueError) as error:
             raise InvalidInput(
-                f"{told}: its settings are to be numbers, texts and rows of them: {error}"
+                f"{given}: its settings are to be numbers, texts and rows of them: {error}"
             ) from error
         if hasattr(solver, "points"):
-            whole(f"{told}: its `points`", solver.points, MOST_WHOLE)
+            whole(f"{given}: its `points`", solver.points, MOST_WHOLE)
         draws = cast(Draws, getattr(solver, "draws", draws))
         if draws not in DRAWS:
-            raise InvalidInput(f"{told}: its `draws` is {brief(repr(draws))}, {', '.join(DRAWS)} are allowed")
+            raise InvalidInput(f"{given}: its `draws` is {brief(repr(draws))}, {', '.join(DRAWS)} are allowed")
         answers = getattr(solver, "answers", QUANTITIES)
         if not isinstance(answers, tuple) or not answers or not set(answers) <= set(QUANTITIES):
             raise InvalidInput(
-                f"{told}: its `answers` is {brief(repr(answers))}, a tuple of {', '.join(QUANTITIES)} is allowed"
+                f"{given}: its `answers` is {brief(repr(answers))}, a tuple of {', '.join(QUANTITIES)} is allowed"
             )
         return cls(solver, label, draws, answers)
 
@@ -147,10 +147,11 @@ class Models:
     ) -> "Models":
         """Models that are asked for; MDR and BEM by default.
 
-        reference : name of one of them; BEM if it is among them, else the last
+        reference : name of the model that others are compared with; BEM by default, else the last of them
         own : solvers with the settings of a scene, by the names mdr and bem
 
-        Raises InvalidInput for another name, two models of one name, fewer than two, and another reference.
+        Raises InvalidInput for an unknown name, two models with the same name, fewer than two models, and an
+        unknown reference.
         """
         settings: Mapping[str, Solver] = own if own is not None else {name: make() for name, make in OWN.items()}
         found = [
@@ -172,8 +173,8 @@ class Models:
         found = tuple(each for each in self.models if each.tells(pressed_by, slides))
         names = [each.name for each in found]
         if not found:
-            told = ", ".join(f"{each.name} ({', '.join(each.answers)})" for each in self.models)
-            raise InvalidInput(f"models = {told}: none has a claim on contacts under a prescribed {pressed_by}")
+            given = ", ".join(f"{each.name} ({', '.join(each.answers)})" for each in self.models)
+            raise InvalidInput(f"models = {given}: none has a claim on contacts under a prescribed {pressed_by}")
         return Models(found, self.reference if self.reference in names else _reference(names))
 
     def __getitem__(self, name: str) -> Model:
@@ -201,8 +202,8 @@ class Models:
         """All that draw surfaces or profiles."""
         return [each for each in self.models if each.draws != NONE]
 
-    def beside(self, name: str) -> str:
-        """Dimension of a number of one model over the reference, as findings have it: 1D/3D."""
+    def pair_label(self, name: str) -> str:
+        """Dimension in findings of a ratio of this model over the reference: 1D/3D."""
         return f"{self[name].label}/{self[self.reference].label}"
 
 

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from ..studies.study import Study
 
 VERSIONS = (*PACKAGES, "matplotlib", "pandas", "xarray", "pydantic")
-# What a run writes beside its page, and the next one on the folder may remove.
+# Endings of files that a run writes together with its page, and that the next run in the folder may remove.
 OURS = (".html", ".csv", ".nc", ".png", ".pdf", ".svg")
 
 
@@ -46,7 +46,7 @@ class Manifest(Stated):
     """Part of the manifest of a folder that is read; the file has more.
 
     plots : figures that can be drawn again
-    files : all that the run wrote beside it; of one that has not come to its end, and of those before it
+    files : all other files that the run wrote; of an unfinished run, also those of the runs before it
     """
 
     model_config = ConfigDict(extra="ignore", frozen=True)
@@ -68,7 +68,7 @@ def begin(folder: Path, study: "Study", files: Iterable[str]) -> None:
     listed = list(dict.fromkeys([*earlier, *files]))
     _write(folder, {"finished": False, "command": study.command, "plots": [], "files": listed})
     for name in earlier:
-        with suppress(InvalidInput):  # of one that by now leads out of the folder
+        with suppress(InvalidInput):  # the name may lead out of the folder by now
             path = inside(folder, name)
             if path.suffix in OURS and path.is_file():
                 path.unlink()
@@ -125,8 +125,8 @@ def _plain(value):
 def folders(folder: str | Path) -> Iterator[tuple[Path, Manifest]]:
     """A folder and its manifest, or those just below it; each is held while it is looked at.
 
-    Raises InvalidInput of none, of a damaged one, of one that another run holds, and of a run that has not come to
-    its end.
+    Raises InvalidInput where there is no manifest or a damaged one, where another run holds it, and where the run
+    has not come to its end.
     """
     folder = Path(folder)
     if not folder.is_dir():
@@ -143,7 +143,7 @@ def folders(folder: str | Path) -> Iterator[tuple[Path, Manifest]]:
 
 
 def inside(folder: Path, name: str) -> Path:
-    """The path of a file below a folder by its name there. Raises InvalidInput of one that leads out of it."""
+    """The path of a file below a folder by its name there. Raises InvalidInput if it leads out of the folder."""
     path, odd = folder / name, set(name) & set("\\:") or {"", ".", ".."} & set(name.split("/"))
     try:
         if name.isprintable() and not odd and path.resolve().is_relative_to(folder.resolve()):

@@ -28,10 +28,10 @@ class Text:
 class Table:
     """A table that people read; its CSV file is the frame with every digit.
 
-    name : of its file, without .csv, with the folder below that of the page: "sphere/points"
+    name : of its file, without .csv, with its folder below the folder of the page: "sphere/points"
     frame : columns whose names the vocabulary knows
     caption : one sentence
-    long : whether the page shows a link to the file alone, as nobody reads so many rows
+    long : whether the page shows only a link to the file, as the table has too many rows to read
     """
 
     name: str
@@ -49,7 +49,7 @@ class Findings:
 
 
 class _Ordered:
-    """Blocks, put in the order of reading; blocks of one kind keep theirs."""
+    """Blocks, sorted into the order of reading; blocks of the same kind keep their order."""
 
     blocks: Sequence["Block"]
 
@@ -58,7 +58,7 @@ class _Ordered:
         object.__setattr__(self, "blocks", tuple(found))
 
     def every(self, kind: type) -> Iterator[Any]:
-        """Blocks of one kind, in sections too, in their order."""
+        """Blocks of the given kind, also those in sections, in their order."""
         for block in self.blocks:
             if isinstance(block, kind):
                 yield block

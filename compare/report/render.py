@@ -26,12 +26,12 @@ PAGE = "report.html"
 def files(
     page: Page,
     findings: Sequence[Finding],
-    told: Callable[[str], Any] = lambda name: None,
+    on_drawn: Callable[[str], Any] = lambda name: None,
 ) -> dict[str, bytes]:
     """A page with its figures and tables, as files by name; the page comes last.
 
     findings : that findings.csv has, of the page and beyond it
-    told : called with the name of each figure once it is drawn
+    on_drawn : called with the name of each figure once it is drawn
 
     Raises InvalidInput where the look has text too large for a figure.
     """
@@ -39,7 +39,7 @@ def files(
     for plot in page.every(Plot):
         pictures[plot.name] = picture(plot)
         found |= pictures[plot.name].named(plot.name)
-        told(plot.name)
+        on_drawn(plot.name)
     text = _rendered(page, whole=True, pictures=pictures, versions=versions(), machine=machine())
     return found | {PAGE: text.encode()}
 

@@ -18,8 +18,8 @@ def shown(frame: DataFrame) -> DataFrame:
         base, _, end = name.rpartition("_")
         if base not in frame or end not in ENDS:
             ends = [each for each in (f"{name}_{end}" for end in ENDS) if each in frame]
-            told = words.interval if ends else words.shown
-            texts[head(name)] = [*map(told, *(frame[each].tolist() for each in (name, *ends)))]
+            write = words.interval if ends else words.shown
+            texts[head(name)] = [*map(write, *(frame[each].tolist() for each in (name, *ends)))]
     return DataFrame(texts, frame.index, dtype=object)
 
 
@@ -34,11 +34,11 @@ def claims(findings: Sequence[Finding], details: bool = True) -> DataFrame:
             "Verdict": each.verdict,
             "Claim": _lines(each.claim.sentence, details and each.claim.meaning),
             "Model": each.dimension,
-            "Where": _lines(each.where, details and not told and each.regime),
+            "Where": _lines(each.where, details and not repeated and each.regime),
             "Found (95 %)": _lines(words.found(each), details and words.basis(each), each.why),
             "Tested against": words.tested(each.claim),
         }
-        for each, told in zip(findings, places.duplicated(), strict=True)
+        for each, repeated in zip(findings, places.duplicated(), strict=True)
     ]
     table = DataFrame(rows)
     table["Claim"] = table["Claim"].where(table["Claim"] != table["Claim"].shift(), "")

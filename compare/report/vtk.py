@@ -22,7 +22,7 @@ def refuse() -> None:
 
 
 def content(dataset: xarray.Dataset) -> bytes:
-    """A file of the fields of a Dataset over y and x, on a flat grid of quadrilaterals; empty of one without any.
+    """A file of the fields of a Dataset over y and x, on a flat grid of quadrilaterals; empty without fields.
 
     A displacement is the vector (0, 0, -displacement), by which ParaView's filter Warp By Vector deforms the grid.
     """

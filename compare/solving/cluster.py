@@ -26,7 +26,7 @@ class Cluster(Workers):
     """Workers of a scheduler, see `Workers`.
 
     address : of the scheduler
-    say : is told, in a line, when there is no worker
+    say : called with a line of text when there is no worker
 
     Raises Refused, ConnectionError on entry, see `sweep`. A few more tasks are submitted than the workers have
     threads. All ends with this process, except the contacts being solved just then, whose answers are dropped.
@@ -67,7 +67,10 @@ class Cluster(Workers):
             self.client.close(timeout=LETS_GO)
 
     def room(self) -> int:
-        """Threads of the workers, and a few; 0 without workers, which is said. Raises ConnectionError."""
+        """Number of tasks to submit: threads of the workers and a few more, or 0 without workers.
+
+        Raises ConnectionError.
+        """
         if self.client.status != "running":
             raise ConnectionError(self.lost)
         if time.monotonic() - self.looked >= LOOKS:

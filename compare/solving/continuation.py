@@ -1,4 +1,4 @@
-"""Paths: neighbouring contacts of one body and surface in three dimensions, solved one from the other."""
+"""Continuation: neighbouring contacts of a body and surface in three dimensions, each solved from the last."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
@@ -15,9 +15,9 @@ LONGEST = 1e9
 
 @dataclass(frozen=True)
 class Continuation(Task):
-    """Contacts of one body and surface, of which each starts from those before it; equal if these are.
+    """Contacts of the same body and surface, each started from those before it; equal if the contacts are.
 
-    contacts : of one scene each, in the order in which they are solved
+    contacts : tasks with a single scene each, in the order in which they are solved
     """
 
     contacts: tuple[SceneTask, ...]

@@ -1,9 +1,9 @@
 """Control variates: numbers of each rough surface that cost little, have a mean of zero, and follow its answers.
 
-Friction of one surface follows to a good part from averages, below the smooth contact, of products of its height
-h, its slope, its curvature, and the pressure p that flattens it. As h is as likely as -h, products of one or three
-have a mean of zero; that of h_x^2 is sum A^2 q_x^2 / 2, and that of p h_xx is -sum A^2 s q_x^2 / 2, where s is
-pressure over height. A regression on them lessens the scatter (Lavenberg and Welch, Manage. Sci. 27, 322, 1981).
+Friction of a surface follows largely from averages, below the smooth contact, of products of its height h, its
+slope, its curvature, and the pressure p that flattens it. As h is as likely as -h, odd products average to zero;
+the mean of h_x^2 is sum A^2 q_x^2 / 2, and the mean of p h_xx is -sum A^2 s q_x^2 / 2, where s is pressure over
+height. A regression on them lessens the scatter (Lavenberg and Welch, Manage. Sci. 27, 322, 1981).
 """
 
 from collections.abc import Sequence
@@ -34,7 +34,7 @@ def control_variates(solver: Solver, scenes: Sequence[Scene], seeds: Sequence[in
     They are h, p, p h_xx, h_x^2, h_xx, p^2 h_xx, p h_x^2 and h_x; on a line p is h. There are none,
     (scenes, seeds, 0), for another model, a plane, a motion in time, and measured roughness.
 
-    scenes : of one body and roughness; where the smooth body has no answer the variates are 0
+    scenes : scenes with the same body and roughness; the variates are 0 where the smooth body has no answer
     seeds : of the surfaces; those of the scenes are replaced
     """
     rough: Any = scenes[0].roughness
@@ -66,13 +66,13 @@ def _footprint(scene, line):
     down, along = pressed.any(axis=1), pressed.any(axis=0)
     weight = found["pressure"][np.ix_(down, along)]
     x, y = (each.mean() + WIDER * (each - each.mean()) for each in (found["x"][along], found["y"][down]))
-    if line:  # which carries the force of all places beside it
+    if line:  # the line carries the force of all places along y
         y, weight = np.zeros(1), weight.sum(axis=0, keepdims=True)
     return x, y, weight / weight.sum()
 
 
 def _waves(solver, rough, top, seeds):
-    """Amplitudes (seeds, 2 K + 1, K + 1) of surfaces, or (seeds, 1, K + 1) of lines, of at most so many waves."""
+    """Amplitudes (seeds, 2 K + 1, K + 1) of surfaces, or (seeds, 1, K + 1) of lines, with at most `top` waves."""
     highest = top + 0.5 if rough.shortest is None else min(top + 0.5, rough.longest / rough.shortest)
     if isinstance(solver, BEM):
         drawn = (RoughSurface.draw(replace(rough, seed=each), highest * rough.q_min) for each in seeds)

@@ -13,7 +13,7 @@ SECONDS = 6e-8  # of processor a unit of work takes, within a factor of two
 STORED = 1000.0  # bytes a contact takes on disk, its place in the file of results included
 DAY = 24 * HOUR
 MOST_DRAWS = 10_000  # rough surfaces or profiles that are averaged
-MOST_VALUES = 1000  # speeds, loads or depths of one curve
+MOST_VALUES = 1000  # speeds, loads or depths in a curve
 MANY_CONTACTS = 300_000  # from which to build the tasks takes longer than a person waits
 MOST_CONTACTS = 2_000_000  # of a study: more are too many to be held in memory
 

@@ -1,4 +1,4 @@
-"""Curve: contacts of one scene at every speed and every load or depth, by several models on the same surfaces."""
+"""Curve: contacts of a scene at every speed and every load or depth, by several models on the same surfaces."""
 
 # xarray is imported where a Dataset is made: to count contacts, as `crosscheck plan` does, takes none.
 from __future__ import annotations
@@ -62,7 +62,7 @@ OVER_TIME = "normal_force", "depth_reached", "friction_force"  # of a program, b
 
 
 class Contact(NamedTuple):
-    """Contacts of one model, level and point of a curve, on several surfaces, as one task."""
+    """Contacts of a model on a level at a point of a curve, on several surfaces, solved as one task."""
 
     model: str
     level: str
@@ -73,7 +73,7 @@ class Contact(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class Curve:
-    """Contacts of one scene at every speed and load or depth, each model on its levels, on the same surfaces.
+    """Contacts of a scene at every speed and load or depth, each model on its levels, on the same surfaces.
 
     scene : its motion says what is prescribed; a Program is pressed in from nothing at a constant rate, a Shear is
         drawn to each displacement or force, and every other scene slides steadily or, at speed 0, is at rest
@@ -118,12 +118,12 @@ class Curve:
 
     @property
     def over_time(self) -> bool:
-        """Whether the curve is that of a program as it is stated."""
+        """Whether the curve is an answer over time to a program as it is stated."""
         return isinstance(self.scene.motion, Program) and not self.speeds
 
     @property
     def axis(self) -> str:
-        """Dimension of its Dataset beside the speed."""
+        """Dimension of its Dataset in addition to the speed."""
         return "time" if self.over_time else self.prescribed
 
     @property
@@ -133,7 +133,7 @@ class Curve:
 
     @property
     def costs(self) -> Mapping[str, tuple[float, ...]]:
-        """Planned work of one surface of each stratum, on all of its levels, by the model."""
+        """Planned work for a surface of each stratum, on all of its levels, by the name of the model."""
         found = {}
         for name, levels in self.levels.items():
             each = [len(self.points) * work_of(solver, self.scene) for solver in levels.values()]
@@ -160,7 +160,7 @@ class Curve:
         return hasattr(self.scene.roughness, "seed")
 
     def strata(self, name: str) -> tuple[range, ...]:
-        """Seeds of a model's draws by stratum, less that of the scene; however many, each has its own."""
+        """Seeds of a model's draws by stratum, less the seed of the scene; no two strata share a seed."""
         counts = self.draws.get(name, 1) if self.random else 1
         counts = counts if isinstance(counts, tuple) else (counts,)
         return tuple(range(k * MOST_DRAWS, k * MOST_DRAWS + count) for k, count in enumerate(counts))
@@ -316,7 +316,7 @@ INSTANTS = 100  # of a program, alike apart, at which answers are compared
 
 
 def of_model(dataset: xarray.Dataset, model: str) -> xarray.Dataset:
-    """Answers of one model: the levels and surfaces that were asked of it, and the variables that it has."""
+    """Answers of a model: the levels and surfaces that were asked of it, and the variables that it has."""
     own = dataset.sel(model=model)
     draws = str(own["draws"].values)
     own = own.drop_vars(["model", "draws"])
@@ -369,13 +369,13 @@ def on_levels(solver: Solver, scenes: Iterable[Scene], most: int = len(LEVELS)) 
 
 
 def levels(models: Models, curves: Sequence[Curve], most: int = len(LEVELS)) -> dict[str, dict]:
-    """Levels of each model, halved as long as they can solve all of some curves, at most so many."""
+    """Levels of each model, at most `most`, halved as long as they can solve all contacts of some curves."""
     corners = sorted((corner for each in curves for corner in each.corners), key=lambda each: -width(each))
     return {each.name: on_levels(each.solver, corners, most) for each in models}
 
 
 def halved(solver: Solver) -> Any:
-    """The solver on half the points, and half the steps in time; None of one without, or that takes no fewer."""
+    """The solver with half the points and half the steps in time; None without points, or if it takes no fewer."""
     if not hasattr(solver, "points"):
         return None
     steps = {"steps": max(1, solver.steps // 2)} if hasattr(solver, "steps") else {}
@@ -388,21 +388,21 @@ def halved(solver: Solver) -> Any:
 def refuse(curves: Iterable[Curve]) -> None:
     """Raise Refused where a model cannot solve a contact of these, SolveError where numbers are too far apart.
 
-    Of each model the reasons are told against the widest contact that it cannot solve: what mends that mends all.
-    Asked at the corners of a curve, between which nothing else is lacking; of the widest contact also what is
-    foreseen of its solve, and, where one line hardly fits its grid, whether every other does.
+    The reasons of a model concern the widest contact that it cannot solve: a remedy for it is a remedy for all.
+    Only the corners of a curve are checked, between which nothing else is lacking. For the widest contact the
+    checks include failures that are foreseen and, where one line hardly fits its grid, whether every other fits.
     """
     asked = [(each, levels) for each in curves for levels in each.levels.values()]
     asked.sort(key=lambda pair: -width(pair[0].corners[0]))
-    told: dict[str, str] = {}
+    reasons: dict[str, str] = {}
     with numeric_guard():
         for one, own in asked:
             # What mends the coarsest of a solver mends its finer ones, which may lack memory all the same.
             for solver in reversed([*own.values()]):
-                if solver.name not in told and (reason := _reason(solver, one, own)):
-                    told[solver.name] = reason
-    if told:
-        raise Refused("; ".join(told.values()))
+                if solver.name not in reasons and (reason := _reason(solver, one, own)):
+                    reasons[solver.name] = reason
+    if reasons:
+        raise Refused("; ".join(reasons.values()))
 
 
 def _reason(solver, one, own):
@@ -423,7 +423,7 @@ def _against(solver, scene, why, own):
     """Reasons of a solver on one of its levels, with the points that have to be stated for all of them."""
     pressed, motion = scene.motion.pressed_by, scene.motion
     speed = f" at {motion.speed:.3g} m/s" if getattr(motion, "speed", 0.0) else ""
-    points, said = "", "; ".join(why)
+    points, text = "", "; ".join(why)
     if hasattr(solver, "points"):
         every = [each.points for each in own.values()]
         stated, coarsest = max(every), min(every)
@@ -435,9 +435,9 @@ def _against(solver, scene, why, own):
             number = int(named[0])
             return named[0] if number == solver.points else str(ceil(number * stated / coarsest))
 
-        said = POINTS.sub(for_all, said)
+        text = POINTS.sub(for_all, text)
     place = f"{pressed} = {motion.greatest:.3g} {UNITS[pressed]}{speed}{points}"
-    return f"{solver.name} cannot solve this scene with {place}: {said}"
+    return f"{solver.name} cannot solve this scene with {place}: {text}"
 
 
 def width(scene):

@@ -45,9 +45,9 @@ def shipped(folder: Path) -> dict[str, Path]:
 
 
 def code_digest(*places: Path) -> str:
-    """Digest of names and content of every file that a package ships, or of one file.
+    """Digest of the names and contents of all files that a package ships, or of a single file.
 
-    places : folders of the package, of which it may have several, or the file
+    places : one or more folders of the package, or the file
 
     A checkout has the digest of the wheel that is made of it.
     """

@@ -26,7 +26,7 @@ MOST = 1024
 ONE_THREAD = {f"{library}_NUM_THREADS": "1" for library in ("OMP", "OPENBLAS", "MKL", "NUMBA")}
 # Python would look for the first modules of a new process in the working folder.
 ENVIRONMENT = ONE_THREAD | {"PYTHONSAFEPATH": "1"}
-_STARTING = threading.RLock()  # of one process after the other, as the environment is that of all threads
+_STARTING = threading.RLock()  # held while a process starts, as all threads share the environment
 # Pools that end before a worker of theirs is ready, one after the other, until it is plain that none will be.
 MOST_FAILED_STARTS = 3
 # What a terminal sends to every process of a run: workers leave it to their parent.
@@ -62,7 +62,7 @@ class Answer:
 
 
 def answered(packed: bytes, here: Mapping[str, Mapping[str, str]]) -> bytes:
-    """Answer to a task, both pickled; runs in a worker. Raises Refused where its code is not that of `here`."""
+    """Answer to a task, both pickled; runs in a worker. Raises Refused where its code differs from `here`."""
     if differs := differences(here):
         raise Refused(f"a worker on {platform.node()} cannot be used: {differs}")
     try:
@@ -110,7 +110,7 @@ class Workers:
 
     executor : anything with `submit`, as those of concurrent.futures
     count : tasks that are handed out at once
-    died : what a future raises whose worker died of its task or beside it
+    died : exceptions of a future whose worker died, of its task or for another reason
     tries : deaths of workers until a task counts as their reason
     """
 

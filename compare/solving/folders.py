@@ -33,7 +33,7 @@ MOST_BYTES = 2**30  # of a manifest, which has the heights of measured maps in i
 
 
 class Unwritable(OSError):
-    """A folder or a file cannot be written into; said before anything is solved."""
+    """A folder or a file cannot be written; raised before anything is solved."""
 
 
 def connect(path: Path, access: str) -> sqlite3.Connection:
@@ -68,8 +68,8 @@ def locks(folder: Path) -> bool:
 def lock(folders: Iterable[Path], say: Callable[[str], Any] | None = None) -> Iterator[None]:
     """Folders for this run alone; they are made.
 
-    say : told where nothing keeps other runs out; absent, of whoever only reads, nothing is made, a folder without
-        a lock is free, and several may read it
+    say : called with a message where nothing keeps other runs out. It is absent for readers: then nothing is made,
+        a folder without a lock is free, and several may read it
 
     SQLite locks an empty file in each; the system takes the lock back, however the process ends. Raises
     InvalidInput, which names the folder, where another run holds it.
@@ -114,7 +114,7 @@ def held_by_another(folder: Path) -> InvalidInput:
 
 
 def write(path: Path, fill: Callable[[IO[bytes]], Any]) -> None:
-    """Write a file whole or not at all: `fill` gets a temporary file beside it, which then takes the name.
+    """Write a file whole or not at all: `fill` gets a temporary file in the same folder, which is then renamed.
 
     Raises OSError, which names the file.
     """
@@ -190,7 +190,7 @@ Kind = TypeVar("Kind", bound=Stated)
 
 
 def read(path: Path, kind: type[Kind], finished: bool = True) -> Kind:
-    """A manifest. Raises InvalidInput of one that is damaged, of another version, or of an unfinished run.
+    """Read a manifest. Raises InvalidInput if it is damaged, of another version, or of an unfinished run.
 
     finished : whether the run has to have come to its end
     """

@@ -50,7 +50,7 @@ def load(folder: str | Path) -> xarray.DataTree:
     """Everything that a command solved, as it left it in a folder; of several studies, each below its name.
 
     Raises InvalidInput where there are no results, or they are damaged, too large, no such file, of another
-    version or of another run than the manifest beside them, or where a run has not come to its end.
+    version or of another run than the manifest in their folder, or where a run has not come to its end.
     """
     folder, trees = Path(folder), {}
     paths = sorted(folder.rglob(NAME)) if folder.is_dir() else [folder]
@@ -61,7 +61,7 @@ def load(folder: str | Path) -> xarray.DataTree:
     for path in paths:
         file = _checked(path)
         if stated.get(path.parent, "") not in ("", digest(file)):
-            why = f"is of another run than {MANIFEST} beside it: run the command again"
+            why = f"is of another run than {MANIFEST} in its folder: run the command again"
             raise InvalidInput(f"{brief(str(path))}: {why}")
         place = (path.parent if folder.is_dir() else folder).relative_to(folder).as_posix()
         trees["/" if place == "." else place] = xarray.load_datatree(BytesIO(file), engine="h5netcdf")
@@ -69,7 +69,7 @@ def load(folder: str | Path) -> xarray.DataTree:
 
 
 def _checked(path: Path) -> bytes:
-    """Bytes of a file; InvalidInput, before HDF5 sees it, of one without its checksum or of another version."""
+    """Bytes of a file. Raises InvalidInput, before HDF5 reads it, without its checksum or for another version."""
     try:
         file = content(path, MOST_BYTES)
     except Unreadable as error:

@@ -26,11 +26,11 @@ _LOG = logging.getLogger(__name__)
 class Progress:
     """Receiver of the progress of a run; this base class ignores it."""
 
-    def said(self, line: str) -> None:
-        """Remark for people: what a study takes, that a worker died, that there is none."""
+    def message(self, line: str) -> None:
+        """Message for the user, such as the cost of a study, or that a worker died or is missing."""
 
     def solving(self) -> AbstractContextManager[Any]:
-        """Begin to solve; what is told meanwhile."""
+        """Context of solving, which yields the receiver of its progress."""
         return nullcontext(self)
 
     def planned(self, tasks: Sequence[Task], reused: int) -> None:
@@ -95,7 +95,7 @@ def sweep(
 
     What no other process can import, as the model of a script or a notebook, or what cannot be sent there is
     solved in this one. A task that raises, or that workers die of, has failed: its outcome has the reason in each
-    row, its traceback lies beside the store's file, and the next sweep solves it again. On an interrupt, which is
+    row, its traceback lies in the store's folder, and the next sweep solves it again. On an interrupt, which is
     any signal that raises KeyboardInterrupt, nothing more is started; what is being solved is finished and stored,
     and KeyboardInterrupt is raised. A second interrupt ends it at once.
 
@@ -108,7 +108,7 @@ def sweep(
     outcomes = store.stored(tasks)
     missing = sorted((task for task in tasks if task not in outcomes), key=lambda task: -task.work)
     if missing and (other := store.by_other_code(missing)):
-        progress.said(f"{other} stored tasks were solved by other code: they are solved again")
+        progress.message(f"{other} stored tasks were solved by other code: they are solved again")
     progress.planned(missing, len(outcomes))
     found, faults = dict[Task, Outcome](), dict[Task, str]()
     if missing:
@@ -129,7 +129,7 @@ def _workers(missing, count, fresh, scheduler, executor, progress) -> Workers:
         return Processes(min(counted(count), len(missing)), fresh)
     from .cluster import Cluster
 
-    return Cluster(scheduler, progress.said)
+    return Cluster(scheduler, progress.message)
 
 
 def _solve(missing, store, workers, progress, interrupts) -> tuple[dict[Task, Outcome], dict[Task, str]]:
@@ -191,7 +191,7 @@ def _solve(missing, store, workers, progress, interrupts) -> tuple[dict[Task, Ou
                 if ending:
                     continue
                 if deaths[task] < workers.tries:
-                    progress.said(f"{task.label}: its worker process died; the task is tried again alone")
+                    progress.message(f"{task.label}: its worker process died; the task is tried again alone")
                     queue.appendleft(task)
                     continue
                 times = f"{deaths[task]} times, the last time alone"

@@ -198,12 +198,12 @@ def _outcome(task: Task, connection: sqlite3.Connection) -> Outcome | None:
 
 
 def _packed(name: str, values: np.ndarray) -> bytes:
-    """An array as a file of NumPy. Raises TypeError, ValueError of one that is not stored."""
+    """An array in NumPy's file format. Raises TypeError, ValueError for an array that cannot be stored."""
     values, packed = np.asarray(values), io.BytesIO()
     if values.dtype.kind not in KINDS:
         raise TypeError(f"{name} is of type {values.dtype}, which no file of results can hold")
     if values.nbytes > MOST_FIELD - 10**6:
-        raise ValueError(f"{name} takes {values.nbytes:.3g} bytes, of which {MOST_FIELD:.3g} can be stored")
+        raise ValueError(f"{name} takes {values.nbytes:.3g} bytes, and at most {MOST_FIELD:.3g} can be stored")
     np.save(packed, values, allow_pickle=False)
     return packed.getvalue()
 

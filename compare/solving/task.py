@@ -139,7 +139,7 @@ class Batch(NamedTuple):
 class SceneTask(Task):
     """Scenes that differ only in the seed of their roughness, answered by one solver; equal if these are.
 
-    finer : finer grids of the solver, of which the first that can answers where it cannot
+    finer : the solver on finer grids; where the solver has no answer, the first of them that has one is taken
     keeps_fields : whether the fields of the first scene are kept, for pictures
     work : rough cost, see `Task`
     """
@@ -235,7 +235,7 @@ def _importable(kind) -> bool:
 
 
 def _source(kind) -> str:
-    """Source of a class or a function; the code of one whose source is lost."""
+    """Source of a class or a function, or its compiled code where the source is lost."""
     try:
         return getsource(kind)
     except (OSError, TypeError):  # of a notebook: cells are known by function
@@ -245,7 +245,7 @@ def _source(kind) -> str:
 
 
 def refuse_seed(scene: Scene, most: int) -> None:
-    """Raise Refused of a rough scene whose seed plus so many is larger than any that is stored."""
+    """Raise Refused for a rough scene whose seed plus `most` is larger than can be stored."""
     if (seed := getattr(scene.roughness, "seed", 0)) > MOST_WHOLE - most:
         raise Refused(
             f"roughness.seed = {seed}: at most {MOST_WHOLE - most} is allowed, as the surfaces that are drawn "
@@ -254,9 +254,11 @@ def refuse_seed(scene: Scene, most: int) -> None:
 
 
 def draws_of(scene: Scene, seeds: int | Iterable[int]) -> tuple[Scene, ...]:
-    """The scene with its seed plus each of some, or of so many; smooth bodies and plain waves have one draw.
+    """The scene with several seeds; smooth bodies and plain waves have a single draw.
 
-    Raises Refused of a seed that is too large for it.
+    seeds : numbers to add to the seed of the scene, or how many of them, from 0 on
+
+    Raises Refused for a seed that is too large.
     """
     rough: Any = scene.roughness
     if not hasattr(rough, "seed"):

@@ -72,10 +72,10 @@ class Shown(Progress):
         if self.clock() - self.last >= PAUSE:
             self.last = self.clock()
             for task in self.bar.tasks:
-                self.said(f"{task.description} {task.fields['waits_for']}".strip())
+                self.message(f"{task.description} {task.fields['waits_for']}".strip())
 
-    def said(self, line: str) -> None:
-        """Say a line to a person."""
+    def message(self, line: str) -> None:
+        """Print a line for the user."""
         self.console.print(printable(line), markup=False)
 
     @contextmanager
@@ -85,7 +85,7 @@ class Shown(Progress):
         def drawn(name: str) -> None:
             self.bar.update(self.row, advance=1, waits_for=f"{printable(name)} is drawn")
             if self.lines:
-                self.said(f"  figure {name}")
+                self.message(f"  figure {name}")
 
         self._begin("drawing", count)
         yield drawn
@@ -93,7 +93,7 @@ class Shown(Progress):
 
     @contextmanager
     def solving(self) -> Iterator["Shown"]:
-        """Solve what is planned; the counts are said at the end."""
+        """Context of solving; at its end the counts are printed."""
         began = self.clock()
         self.planned([], 0)
         try:
@@ -101,7 +101,7 @@ class Shown(Progress):
         finally:
             solved = f"{self.done}{'' if self.done == self.count else f' of {self.count}'} tasks solved"
             counts = [solved, f"{self.reused} reused", *self._failures(), duration(self.clock() - began)]
-            self.said(", ".join(counts))
+            self.message(", ".join(counts))
             self._begin("judging")
 
     def planned(self, tasks: Sequence[Task], reused: int) -> None:
@@ -117,7 +117,7 @@ class Shown(Progress):
         self.failed += any(row.reason is not None for row in outcome.rows)
         self.bar.update(self.row, advance=task.work, total=self.work, description="solving")
         if self.lines:
-            self.said(", ".join([*self._counts(), f"solved {task.label}"]))
+            self.message(", ".join([*self._counts(), f"solved {task.label}"]))
 
     def _failures(self) -> list[str]:
         return [f"{self.failed} failed"] if self.failed else []
@@ -133,4 +133,4 @@ class Shown(Progress):
 
     def interrupted(self) -> None:
         self.bar.update(self.row, description="finishing")
-        self.said("finishing the tasks under way")
+        self.message("finishing the tasks under way")

@@ -10,7 +10,7 @@ from .task import Outcome, Row, SceneTask, Task
 
 DIMENSIONS = {"MDR": "1D", "BEM": "3D"}
 MANY = 10  # as few contacts to one without an answer make a command fail
-SHOWN = 3  # reasons that are said
+SHOWN = 3  # reasons that are listed
 NUMBER = re.compile(r"\d[\d.]*(e[+-]?\d+)?")
 
 
@@ -44,14 +44,14 @@ class Unsolved:
 
     @property
     def serious(self) -> bool:
-        """Whether so many failed, or the scene's own contact, that the command fails."""
+        """Whether the command fails: the scene's own contact failed, or at least one contact in MANY."""
         return self.own or 0 < len(self.contacts) <= MANY * len(self.failed)
 
     @property
     def sentences(self) -> tuple[str, ...]:
         """Sentences that say how many contacts have no answer, why, and what to do; none where all have one.
 
-        Reasons that differ by their numbers alone are one, of which the first is said.
+        Reasons that differ by their numbers alone count as one, and the first of them is given.
         """
         failed, kinds = self.failed, dict[str, list[str]]()
         if not failed:

@@ -67,7 +67,7 @@ friction : Coefficient of friction: mean friction force over mean normal force. 
 friction_coefficient : Coefficient of friction: mean friction force over mean normal force. [1]
 
 Of what accuracy costs.
-scatter : Scatter of one surface about the mean, relative. [1]
+scatter : Scatter of single surfaces about the mean, relative. [1]
 least : Lower end of an interval.
 most : Upper end of an interval.
 label : Model in words.
@@ -76,7 +76,7 @@ best_known : Least relative error that is known to be reached. [1]
 scale : Number that errors are relative to, in the unit of the answer.
 quantity : Friction, depth or force, whose error is measured.
 bias : Relative error that more surfaces do not take away. [1]
-setup : Processor time before the first surface: that of the trust map. [s]
+setup : Processor time of the trust map, before the first surface. [s]
 failed : Solves that ended with an error. [1]
 failures : Solves that ended with an error and are left out of the means. [1]
 drag : Friction over real contact, over that under the least load. [1]
@@ -87,14 +87,14 @@ contact : Real contact, where pressure is not zero: a length [m] in 1D, an area 
 friction_spread : Friction by traction less friction by energy lost, over the friction force, mean over surfaces.
     [1]
 log_shift : Shift of a curve along ln F_N that brings it onto the common curve. [1]
-log_lift : Shift of a curve along ln mu, beside that along ln F_N, onto the common curve. [1]
-log_time_shift : Shift ln a_T of a temperature along ln v, by which its friction is that of the reference. [1]
+log_lift : Shift of a curve along ln mu that, with the shift along ln F_N, brings it onto the common curve. [1]
+log_time_shift : Shift ln a_T of a temperature along ln v that brings its friction onto the reference. [1]
 reduced_speed : Speed times a_T, the shift of its temperature. [m/s]
 law : Law of the shifts with the temperature: WLF or Arrhenius.
 shifted_force : Normal force times the shift of its curve. [N]
 shifted_friction : Friction coefficient times the shift of its curve along friction. [1]
 curves : Set of curves that are shifted onto one.
-power : Power of the speed: fitted to the shifts, expected, or that of a law.
+power : Power of the speed: fitted to the shifts, expected, or predicted by a law.
 exponent : Exponent of a power of the speed. [1]
 load_exponent : Exponent of the power of the speed by which curves are shifted along the load. [1]
 friction_exponent : Exponent of the power of the speed by which curves are shifted along friction. [1]
@@ -110,13 +110,13 @@ density_1d : Two-sided spectral density C_1D of the line scans along x, mean ove
 density_1d_mapped : Spectral density by the rule of the MDR. [m^3]
 waves : Waves of a map in a ring of wave numbers, a wave and its opposite counted as one. [1]
 in_band : Whether a wave number lies in the band in which the power law was fitted.
-ratio : Number in one dimension over that in three, or over that of the reference. [1]
-kind : Line beside the models: a theory, Eq. 19, the smooth body, or its limit at low speed.
+ratio : Number in one dimension over the number in three, or over the number of the reference. [1]
+kind : Line that is no model: a theory, Eq. 19, the smooth body, or its limit at low speed.
 claimed : Whether the law claims a point: where roughness is small against depth.
 friction_ratio : Coefficient of friction in one dimension over that in three, as the trust map predicts it. [1]
 depth_ratio : Depth in one dimension over that in three, as the trust map predicts it. [1]
 force_ratio : Normal force in one dimension over that in three, as the trust map predicts it. [1]
-deviation : Friction over that of the common curve, or a number over that of the reference, less one. [1]
+deviation : Friction over the common curve, or a number over the number of the reference, less one. [1]
 indenter : Height of the rigid indenter above the undeformed surface. [m]
 surface : Height of the surface of the elastomer above the undeformed one. [m]
 touching : Whether indenter and elastomer touch.
@@ -137,13 +137,13 @@ shape : Shape of the bodies.
 
 Dimensionless groups.
 xi : Variable of the law; friction over its plateau in the limit of low speed. [1]
-normalised_friction : Friction over that of the plateau, s the rms slope of the roughness. [1]
+normalised_friction : Friction over friction on the plateau, s the rms slope of the roughness. [1]
 alpha : Exponent of the law that joins low speed and plateau. [1]
 
 Of cost and accuracy.
 reference_error : Relative error of the reference; what is at or below it is only known to be as good as that. [1]
-processor : Processor time of one thread from the scene to the result: the least of several repeats, each alone in
-    a process that has loaded compiled code. [s]
+processor : Processor time of a single thread from the scene to the result: the least of several repeats, each
+    alone in a process that has loaded compiled code. [s]
 wall : Least time of repeated solves by the clock. [s]
 memory : By how much a solve raises the peak memory of its process. [byte]
 repeats : How often the solve was repeated. [1]
@@ -176,8 +176,8 @@ def documented(docstring: str | None) -> tuple[str, dict[str, str]]:
     """First paragraph of a docstring, and what it says of each field in lines of the form "name : text"."""
     text = cleandoc(docstring or "")
     about, fields = re.split(r"\n\s*\n", text)[0], dict[str, str]()
-    for names, said in re.findall(r"^([a-z_0-9]+(?:, [a-z_0-9]+)*) : (.+(?:\n    .*)*)", text, re.MULTILINE):
-        fields |= dict.fromkeys(names.split(", "), " ".join(said.split()))
+    for names, meaning in re.findall(r"^([a-z_0-9]+(?:, [a-z_0-9]+)*) : (.+(?:\n    .*)*)", text, re.MULTILINE):
+        fields |= dict.fromkeys(names.split(", "), " ".join(meaning.split()))
     return " ".join(about.split()), fields
 
 
@@ -198,7 +198,7 @@ ENDINGS = {
     "_mean": "Mean over draws. ",
     "_low": "Lower end of the interval of 95 %, scatter of surfaces and error of the grid. ",
     "_high": "Upper end of the interval of 95 %, scatter of surfaces and error of the grid. ",
-    "_surface": "Of one surface, not of the mean. ",
+    "_surface": "Of a single surface, not of the mean. ",
     "_corrected": "Corrected by the trust map. ",
     "_least": "Lower end of the interval of 95 %. ",
     "_most": "Upper end of the interval of 95 %. ",
@@ -222,8 +222,8 @@ def entry(name: str) -> Entry | None:
     found = _entry(whose)
     if found is None or whose == name:
         return found
-    said = "".join(text for ending, text in ENDINGS.items() if ending in name.removeprefix(whose))
-    return replace(found, text=said + found.text)
+    prefix = "".join(text for ending, text in ENDINGS.items() if ending in name.removeprefix(whose))
+    return replace(found, text=prefix + found.text)
 
 
 def _entry(name):

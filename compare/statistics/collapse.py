@@ -1,6 +1,6 @@
 """Collapse of friction at several speeds onto one curve by shifts along ln F and ln mu, Eq. 23 of the paper.
 
-All shifts are found at once, and the misfit that they leave is told without what scatter adds, with its interval.
+All shifts are found at once. The misfit that they leave has an interval, and what scatter adds is taken off.
 """
 
 from collections.abc import Callable
@@ -31,7 +31,7 @@ POWERS, FOLLOWED = np.linspace(-3.0, 3.0, 25), 3
 # Misfit of ln mu that rounding leaves.
 ROUNDING = 1e-9
 UNKNOWN = RmsMisfit()
-PARALLEL = "straight parallel lines fit: a horizontal shift cannot be told from a vertical one"
+PARALLEL = "straight parallel lines fit: horizontal and vertical shifts cannot be distinguished"
 PARTED = "once shifted, curves of neighbouring speeds share too small a range of loads"
 UNSCATTERED = "scatter is not known, nor whether the curves are bent"
 
@@ -45,7 +45,7 @@ class Alignment:
     rms : of ln mu about the common curve, with scatter
     misfit : of ln mu about the common curve, without what scatter adds
     gain_from_vertical_shift : of that misfit, what vertical shifts would take away to first order
-    curve : ln mu of ln F, that of the middle speed
+    curve : the common curve, ln mu of ln F at the middle speed
     reason : why the shifts are not known; empty where they are. Where the curves part, misfit and gain are those
         at the least overlap of neighbours, and all else but rms is NaN
     """
@@ -115,7 +115,7 @@ class Collapse:
 
     @property
     def inseparable(self) -> str:
-        """Reason why a horizontal shift cannot be told from a vertical one; empty where it can."""
+        """Reason why horizontal and vertical shifts cannot be distinguished; empty where they can."""
         return _inseparable(self.straight)
 
     def points(self, shifts: np.ndarray, lifts: np.ndarray | None = None) -> DataFrame:
@@ -135,7 +135,7 @@ class Collapse:
         return frame
 
     def shifts(self, lead: Alignment) -> DataFrame:
-        """Shifts of each speed with intervals of 95 %: along the force, of one alignment; along friction."""
+        """Shifts of each speed with intervals of 95 %: along the force from `lead`, along friction."""
         along, lift = lead.horizontal.columns("log_shift"), self.both.vertical.columns("log_lift")
         return DataFrame({"speed": self.speeds, **along, **lift})
 
@@ -244,7 +244,7 @@ def _moved(data, best):
 
 
 def _taken(data, along, both):
-    """Misfit that vertical shifts take from that of horizontal ones at the least overlap."""
+    """Misfit that vertical shifts remove in addition to horizontal ones, at the least overlap."""
 
     def taken(part):
         one, other = (
@@ -256,7 +256,7 @@ def _taken(data, along, both):
 
 
 def _known(misfit):
-    """A misfit that scatter does not explain; nil of any other."""
+    """Size of a misfit that scatter does not explain; 0 where scatter explains it."""
     return misfit.value if misfit.interval()[0] > 0 else 0.0
 
 
@@ -266,7 +266,7 @@ def _widened(aligned, bias):
 
 
 def _undecided(best, reason):
-    """Alignment of which no shift is known."""
+    """Alignment whose shifts are not known, for a reason."""
     return Alignment(Estimated(np.full_like(best.shifts, nan), nan, 0), _rms(best.residuals), reason=reason)
 
 

@@ -33,7 +33,7 @@ class Fit:
     degree : of the polynomial
     lifted : whether each curve is shifted along ln mu too, as fits best
     along : name of the column that is x
-    loads : number of loads that are told apart: where x is another column, the polynomial has ln F as a second
+    loads : number of different loads: where x is another column, the polynomial has ln F as a second
         variable, in powers below this
     """
 
@@ -84,7 +84,7 @@ class Fit:
     def sums(self) -> np.ndarray:
         """Weights (K + 1, K - 1) of increments in shifts against the middle curve, and in their exponent.
 
-        The exponent is that of the power of the speed that is closest to the shifts, least squares.
+        The exponent belongs to the power of the speed that fits the shifts best, least squares.
         """
         logs = self.log_speeds - self.log_speeds.mean()
         return np.vstack([self.against, logs @ self.against / (logs @ logs)])
@@ -112,13 +112,13 @@ class Fit:
         functions, rates = (each[:, powers] * across[:, others] for each in (along, slopes))
         # An increment of the level moves a curve down.
         basis = np.hstack([functions, -self.later]) if self.lifted else functions
-        # Where places coincide once shifted, fewer functions are told apart than there are.
+        # Where places coincide once shifted, fewer functions are independent than there are.
         left, sizes, right = np.linalg.svd(basis, full_matrices=False)
-        told = sizes > LEAST_SINGULAR * sizes[0]
-        coefficients = right[told].T @ (left[:, told].T @ self.y / sizes[told])
+        independent = sizes > LEAST_SINGULAR * sizes[0]
+        coefficients = right[independent].T @ (left[:, independent].T @ self.y / sizes[independent])
         found, lifts = np.split(coefficients, [powers.size])
         lifts = lifts if self.lifted else 0 * increments
-        return Common(self, increments, lifts, x, basis, left[:, told], rates @ found, found)
+        return Common(self, increments, lifts, x, basis, left[:, independent], rates @ found, found)
 
     def within(self, increments: np.ndarray) -> np.ndarray:
         """The nearest increments that keep clear of the bounds."""

@@ -34,7 +34,7 @@ COLLAPSE = _misfit(
 VERTICAL = _misfit(
     "vertical",
     "Eq. 23: no shift along friction is needed",
-    "rms of ln μ of what vertical shifts beside the horizontal ones would take from the misfit.",
+    "rms of ln μ that vertical shifts, in addition to the horizontal ones, would take from the misfit.",
     0.0,
 )
 PREDICTED = _misfit(
@@ -63,13 +63,13 @@ BOTH = _misfit(
 )
 NOT_SHIFTED = Claim(
     "eq23.vertical-exponent",
-    "Eq. 23: exponent of a shift along friction beside that along the load, as a power of the speed",
+    "Eq. 23: exponent of a shift along friction, with a shift along the load, as a power of the speed",
     expected=0.0,
     tolerance=0.0,
-    meaning="Exponent of the vertical shifts against the speed, least squares. Nil is claimed where both shifts "
-    "can be told apart and the interval leaves it out: then both are the answer.",
+    meaning="Exponent of the vertical shifts against the speed, least squares. Zero is claimed where both shifts "
+    "can be distinguished and the interval excludes it: then both are the answer.",
 )
-BESIDE = Claim(
+JOINT = Claim(
     "eq23.exponent-beside-vertical",
     "Exponent of the shift along the load where the curves are shifted along friction too",
     meaning=_POWER,
@@ -98,17 +98,17 @@ def findings(
     horizontal: bool = False,
     **place: Any,
 ) -> Iterator[Finding]:
-    """Every finding on the shifts of one set of curves, that on horizontal shifts alone first.
+    """Findings on the shifts of a set of curves; the first is on horizontal shifts alone.
 
-    Where friction itself is shifted (`needs_vertical_shift`), the exponent is that of the fit of both shifts, and
-    what vertical shifts mend is reported without a claim: little to mend does not say that there is no shift.
+    Where friction itself is shifted (`needs_vertical_shift`), the exponent comes from the fit of both shifts, and
+    the gain from vertical shifts is reported without a claim: a small gain does not show that there is no shift.
 
-    coarse : the collapse on a grid of half the points; None of data without a grid, which have no error of one
+    coarse : the collapse on a grid of half the points; None for data without a grid, which have no grid error
     shifts : ln p(v) that the theory predicts, for `fine.speeds` (S,) or by speed; None where it predicts none
     exponent : of p(v) as a power of the speed, predicted; NaN where p(v) is none
-    every : whether the exponents of both fits are told where horizontal shifts are the answer, too
+    every : whether the exponents of both fits are reported even where horizontal shifts are the answer
     horizontal : whether these are the only shifts that are asked about, as in the paper
-    place : other fields of a `Finding`, such as where; the number of draws is that of the fit unless it is stated
+    place : other fields of a `Finding`, such as where; `draws`, if absent, is taken from the fit
     """
     both = not horizontal and needs_vertical_shift(fine, coarse)
     parted, straight = fine.horizontal.reason, fine.inseparable
@@ -116,42 +116,42 @@ def findings(
         shifts = dict(zip(fine.speeds.tolist(), shifts, strict=True))
     place = {"dimension": dimension, "draws": fine.data.surfaces} | place
 
-    def told(claim, number, reason=""):
+    def judged(claim, number, reason=""):
         return finding(claim, number(fine), number(coarse) if coarse else None, reason, **place)
 
-    yield told(COLLAPSE, MISFIT, straight or _unless_beyond(MISFIT(fine), parted))
+    yield judged(COLLAPSE, MISFIT, straight or _unless_beyond(MISFIT(fine), parted))
     vertical = replace(VERTICAL, tolerance=nan) if both else VERTICAL
-    yield told(vertical, GAIN, straight or _unless_beyond(GAIN(fine), parted))
+    yield judged(vertical, GAIN, straight or _unless_beyond(GAIN(fine), parted))
     if shifts is not None:
         known = shifts
-        yield told(
+        yield judged(
             PREDICTED, lambda found: found.misfit_at(np.array([known[speed] for speed in found.speeds.tolist()]))
         )
         if isfinite(exponent):
             claim = replace(EXPONENT, expected=exponent, tolerance=TOLERANCE * abs(exponent))
             number = attrgetter("both.exponent" if both else "horizontal.exponent")
-            yield told(claim, number, straight or ("" if both else parted))
-    yield told(UNSHIFTED, attrgetter("unshifted.misfit"))
-    yield told(VERTICAL_ALONE, attrgetter("vertical.misfit"))
+            yield judged(claim, number, straight or ("" if both else parted))
+    yield judged(UNSHIFTED, attrgetter("unshifted.misfit"))
+    yield judged(VERTICAL_ALONE, attrgetter("vertical.misfit"))
     if not fine.both.reason:
-        yield told(BOTH, LEFT)
+        yield judged(BOTH, LEFT)
     if both or every:
         none, neither = parted or _apart(MISFIT, fine, coarse), _neither(fine, coarse)
         across = NOT_SHIFTED if both else replace(NOT_SHIFTED, tolerance=nan)
         for claim, name, reason in (
             (ALONE, "horizontal.exponent", none),
-            (BESIDE, "both.exponent", neither),
+            (JOINT, "both.exponent", neither),
             (across, "both.vertical_exponent", neither),
         ):
-            yield told(claim, (lambda found: Estimated(nan, nan, 0)) if reason else attrgetter(name), reason)
+            yield judged(claim, (lambda found: Estimated(nan, nan, 0)) if reason else attrgetter(name), reason)
 
 
 def needs_vertical_shift(fine: Collapse, coarse: Collapse | None = None) -> bool:
     """Whether the fit of both shifts is the answer, and horizontal ones alone are its alternative.
 
-    Where both can be told apart and bring the curves onto one, the interval of the vertical exponent has to leave
-    out nil. Nearly straight lines tell them apart so little that the interval is found from a tangent that does
-    not hold; there vertical shifts have to take something from the misfit, too.
+    Where both can be distinguished and bring the curves onto one, the interval of the vertical exponent has to
+    exclude zero. Nearly straight lines distinguish them so little that the interval is found from a tangent that
+    does not hold; there vertical shifts have to lower the misfit, too.
     """
     if _neither(fine, coarse) or not GAIN(fine).interval()[0] > ROUNDING:
         return False
@@ -179,7 +179,7 @@ def too_few(dimension: str, **place: Any) -> Finding:
 
 
 def shiftable(speeds: int, points: int) -> bool:
-    """Whether so many speeds, each with so many points, are enough to find shifts of both kinds."""
+    """Whether a number of speeds, with a number of points each, is enough to find shifts of both kinds."""
     return speeds > 1 and speeds * points > 2 * (speeds - 1) + DEGREE + 1
 
 

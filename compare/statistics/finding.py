@@ -41,8 +41,8 @@ class Claim:
         tolerance of NaN the number is reported without a claim
     meaning : how the number is measured, and what a deviation from it says
     dimension : "1D", "3D", or "1D/3D" of a comparison
-    measure : function of one sample of these grids, see `statistics.jackknife.Sample`, that returns a number,
-        or an array of which the root mean square counts
+    measure : function of a sample of these grids, see `statistics.jackknife.Sample`, that returns a number, or
+        an array whose root mean square counts
     percent : whether people read the number in percent
     """
 
@@ -78,11 +78,11 @@ class Finding:
     where : case, series or diagram in which it was measured
     draws : number of rough surfaces or profiles behind it, of the solver with the fewest; 0 of smooth bodies
     regime : range of the dimensionless groups in which it was measured, in words
-    reason : why there is no verdict; beside a stated verdict, what else has to be said; else empty
+    reason : why there is no verdict, or a remark on a stated verdict; else empty
     stated : verdict of a law or a stored value that is no interval; empty where the interval decides
-    dimension : "1D", "3D", "1D/3D"; that of the claim if none is given
+    dimension : "1D", "3D", "1D/3D"; by default, the dimension of the claim
     size : whether the number is one that is never negative, such as an rms
-    parts : share in the scatter by solver and stratum of the surfaces; empty where not told apart
+    parts : share in the scatter by solver and stratum of the surfaces; empty where these are not known
     remedy : what would decide it, in words, where it is undecided; empty where nothing is known that would
     drawn : numbers of surfaces or profiles by solver, which `draws` then follows from
     curve : place of the curve that it was measured on, whose surfaces are behind it
@@ -146,8 +146,8 @@ class Finding:
     def interval(self) -> tuple[float, float]:
         """Interval of 95 % with the scatter of surfaces and the error of the grid; NaN if either is unknown.
 
-        A grid takes from the size of what it errs in at most the size of its error, and where that is larger, the
-        size may be nil.
+        The error of a grid lowers a size by at most the size of the error; where the error is larger, the size may
+        be zero.
         """
         low, high = self.scatter
         less = low - self.grid
@@ -179,8 +179,8 @@ class Finding:
     def why(self) -> str:
         """Reason why there is no verdict and what would give one, or a remark on a stated verdict; else empty."""
         open_ = self.verdict == UNDECIDED
-        told = (self.undecidable or crossed(self), self.remedy) if open_ else (self.reason,)
-        return "; ".join(filter(None, told))
+        reasons = (self.undecidable or crossed(self), self.remedy) if open_ else (self.reason,)
+        return "; ".join(filter(None, reasons))
 
     @property
     def row(self) -> dict[str, Any]:
@@ -214,13 +214,13 @@ def table(findings: Iterable[Finding]) -> pandas.DataFrame:
     return pandas.DataFrame([each.row for each in findings], columns=list(COLUMNS))
 
 
-def said_of(claim: Claim, beside: str) -> Claim:
-    """A claim on 1D over 3D, said of two other models. beside : their labels, with a slash between"""
-    if beside == BOTH:
+def relabelled(claim: Claim, pair: str) -> Claim:
+    """A claim on 1D over 3D, stated for two other models. pair : their labels, with a slash between"""
+    if pair == BOTH:
         return claim
-    labels = dict(zip(BOTH.split("/"), beside.split("/"), strict=True))
+    labels = dict(zip(BOTH.split("/"), pair.split("/"), strict=True))
 
-    def said(text):
+    def renamed(text):
         return re.sub("1D|3D", lambda found: labels[found[0]], text)
 
-    return replace(claim, sentence=said(claim.sentence), meaning=said(claim.meaning))
+    return replace(claim, sentence=renamed(claim.sentence), meaning=renamed(claim.meaning))

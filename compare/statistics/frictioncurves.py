@@ -45,7 +45,7 @@ class SimulatedCurves:
 
     @classmethod
     def of(cls, dataset: xarray.Dataset) -> Self:
-        """Curves of a Dataset of one grid: dimensions speed, load or depth, and draw if the body has any."""
+        """Curves of a Dataset on one grid, with dimensions speed, load or depth, and draw if it has draws."""
         ordered = dataset.transpose("speed", ..., *[name for name in ("surface",) if name in dataset.dims])
         strata = strata_of(dataset) if "surface" in dataset.dims else None
         load, friction = (ordered[name].values for name in ("normal_force", "friction_force"))

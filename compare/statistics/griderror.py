@@ -11,8 +11,8 @@ if TYPE_CHECKING:
     import xarray
 
 MEASURE = "friction_error"
-LEAST = 1e-4  # below which an error is only said to be less
-MUCH = 0.1  # from which on it is said first
+LEAST = 1e-4  # an error below is stated as less than this
+MUCH = 0.1  # an error from here on is stated first
 # Nodes of answers by what people call their model.
 MODELS = {"MDR": "1D", "row": "1D", "BEM": "3D", "surface": "3D"}
 
@@ -24,7 +24,7 @@ class UncertainFriction(Doubtful):
 def stated(answers: "xarray.DataTree") -> Series:
     """Bounds of 95 % on the relative error of friction of every contact on its fine grid, by model.
 
-    Surfaces of one contact are one: of their mean.
+    All surfaces of a contact have a common bound, for their mean.
     """
     found = [Series(dtype=float)]
     for node in answers.subtree:
@@ -42,12 +42,12 @@ def stated(answers: "xarray.DataTree") -> Series:
 def sentence(bounds: Series) -> str:
     """What the grids leave uncertain of friction, the model that errs most first; empty without friction."""
     most = bounds.groupby(level=0).max().sort_values(ascending=False)
-    told = ", ".join(
+    errors = ", ".join(
         f"{_percent(each)} in {model}" for model, each in most.items() if each > MUCH or not much(most)
     )
     if much(most):
-        return f"Friction may be wrong by up to {told} by the grid: take more points (bounds of 95 %)."
-    return f"The grid leaves at most {told} of friction uncertain (bounds of 95 %)." if told else ""
+        return f"Friction may be wrong by up to {errors} by the grid: take more points (bounds of 95 %)."
+    return f"The grid leaves at most {errors} of friction uncertain (bounds of 95 %)." if errors else ""
 
 
 def much(bounds: Series) -> bool:
@@ -55,7 +55,7 @@ def much(bounds: Series) -> bool:
     return bool((bounds > MUCH).any())
 
 
-def told(answers: "xarray.DataTree", sentences: Sequence[str]) -> list[str]:
+def with_grid_error(answers: "xarray.DataTree", sentences: Sequence[str]) -> list[str]:
     """Sentences of an answer, and what the grids leave uncertain of friction: first where it is much."""
     bounds = stated(answers)
     own = [sentence(bounds)] if bounds.size else []

@@ -47,7 +47,7 @@ def sides(level: float, dof: float | np.ndarray, skewed: float | np.ndarray) -> 
 
 
 def skewness(deviations: np.ndarray) -> np.ndarray:
-    """Skewness of a sum of independent deviations, along the first axis; nil where there are none."""
+    """Skewness of a sum of independent deviations, along the first axis; 0 where all are zero."""
     squares = np.sum(np.square(deviations), axis=0)
     return np.sum(deviations**3, axis=0) / np.where(squares > 0, squares, 1.0) ** 1.5
 
@@ -60,12 +60,12 @@ class Estimated(Generic[Value]):
 
     dof : degrees of freedom of the error
     skewness : third moment of what the number is off by, over the cube of its error
-    bias : what it may be off by beside its scatter, at most, to either side
-    parts : share in the square of the error by solver and stratum of the surfaces; empty where not told apart
+    bias : largest error to either side in addition to the scatter
+    parts : share in the square of the error by solver and stratum of the surfaces; empty where these are not known
     grid : error of discretisation, absolute; NaN if unknown
-    size : whether the number is never negative. Its interval is then that of its logarithm; a sum of differences
-        may be negative by chance, and its interval is that of the sum
-    drawn : number of surfaces or profiles by solver, where these are told apart
+    size : whether the number is never negative. Its interval is then found for its logarithm; a sum of differences
+        may be negative by chance, and its interval is found for the sum
+    drawn : number of surfaces or profiles by solver, where these are known
     """
 
     value: Value
@@ -125,18 +125,18 @@ class Estimated(Generic[Value]):
 
 @dataclass(frozen=True)
 class RmsMisfit:
-    """Root mean square of numbers of which each is known with scatter, without what that scatter adds.
+    """Root mean square of numbers that are known with scatter, less what the scatter adds.
 
-    Without any of its fields it is that of numbers that are not known, or not with which scatter.
+    Without any field it stands for numbers that are not known, or whose scatter is not known.
 
     square : mean of the squares less their variances; negative by chance where there is little but scatter
     noise : mean of the variances
     along : of that, what changes the size to first order
-    modes : numbers of which the noise is independent, as many as would spread its sum as much (Box 1954)
+    modes : number of terms of independent noise whose sum would have the same spread (Box 1954)
     dof : degrees of freedom of the noise
-    pooled : whether one scatter, common to all numbers, is known with that dof, and not that of each mode
+    pooled : whether these dof belong to a scatter that all numbers share, and not to the scatter of each mode
     skewness : of what changes the size to first order
-    parts : share in the noise by solver and stratum of the surfaces; empty where not told apart
+    parts : share in the noise by solver and stratum of the surfaces; empty where these are not known
     grid : error of discretisation, absolute; NaN if unknown
     """
 
@@ -160,8 +160,8 @@ class RmsMisfit:
         """Sizes that the data do not contradict.
 
         To first order the square is off by 2 size sqrt(along) t, and where there is nothing but noise by an F
-        quantile of that; both count, added as squares, for the size asked about. Where it is nil the second
-        decides: there a jackknife of the square itself sees no derivative. Downwards, what is along stops at zero.
+        quantile of the noise; both are added as squares, at the size asked about. Where the size is zero the
+        second decides, as a jackknife of the square itself sees no derivative. Downwards, `along` stops at zero.
         """
         if not np.isfinite(self.noise + self.square):
             return nan, nan
@@ -185,6 +185,6 @@ class RmsMisfit:
         return sqrt(low), sqrt(high)
 
     def apart(self, other: Self) -> float:
-        """Distance from another misfit, by roots with the sign of the square: two of nil need not be equal."""
+        """Distance from another misfit, by roots with the sign of the square: two zero sizes need not be equal."""
         squares = np.array([self.square, other.square])
         return float(np.ptp(np.sign(squares) * np.sqrt(np.abs(squares))))

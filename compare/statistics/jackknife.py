@@ -27,7 +27,7 @@ class Group(NamedTuple):
     surfaces : their indices
     stratum : those on the same grids, whose scatter is one; of others it is independent
     solver : whose surfaces they are; those of others are independent
-    number, of : which group of the stratum they are, of so many
+    number, of : index of the group in the stratum, and number of its groups
     """
 
     surfaces: np.ndarray
@@ -41,8 +41,8 @@ class Group(NamedTuple):
 class Replicates:
     """A statistic, (...), and how it changes with the surfaces.
 
-    deviations : (groups, ...), of which the sum of products estimates the covariance of the statistic
-    pooled : degrees of freedom of one scatter that is common to all; None where it is that of the groups
+    deviations : (groups, ...), whose sum of products estimates the covariance of the statistic
+    pooled : degrees of freedom of a scatter that is common to all; None where the groups determine them
     strata : of each group, what those whose scatter is one have in common; None where all are one
     """
 
@@ -186,7 +186,7 @@ def mean_ratio(
 def off_the_ratio(
     above: np.ndarray | float, below: np.ndarray | float = 1.0
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Ratio of the means, its change with each surface, nil of one with a NaN, and the number of others.
+    """Ratio of the means, its change with each surface, 0 for a surface with a NaN, and the number of the others.
 
     The sum of squares of the changes estimates the variance; they are NaN with fewer than two surfaces.
     """
@@ -208,15 +208,15 @@ def left_out(samples: np.ndarray) -> np.ndarray:
 
 # Claims on Datasets.
 
-_ONE = "of one surface the scatter is not known"
+_ONE = "the scatter of a single surface is not known"
 _HALF = "at some point fewer than half of the surfaces have an answer, or the mean is not positive"
 
 
 class DrawSet(dict[str, xarray.Dataset]):
-    """Datasets of one level by the name of the model or of a series, from which draws can be left out.
+    """Datasets on a level by the name of the model or of a series, from which draws can be left out.
 
-    Draws of different solvers are independent, and are left out by themselves. Where the Datasets of one solver
-    differ in their number, shares of each are left out together.
+    Draws of different solvers are independent, and are left out by themselves. Where the Datasets of a solver
+    differ in their number of draws, equal shares of each are left out together.
     """
 
     @cached_property

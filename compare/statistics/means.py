@@ -88,6 +88,6 @@ def interval(dataset: xarray.Dataset, above: str, below: str | None = None, size
 
 
 def _over_draws(array, how):
-    """A number over the draws of each point (S, P); that of the point where there are none."""
+    """Statistic over the draws of each point (S, P); the value of the point where there are no draws."""
     array = array.transpose("speed", ...)
     return (getattr(array, how)("surface") if "surface" in array.dims else array).values

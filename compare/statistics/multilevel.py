@@ -1,11 +1,11 @@
 """Multilevel means: over many surfaces on coarse grids and few on finer ones, with intervals as narrow as wanted.
 
-The mean on the finest grid is that on the coarsest plus that of each difference between neighbouring grids, each
-over surfaces of its own (Giles, Oper. Res. 56, 607, 2008). The surfaces of one difference are a stratum. A surface
-that a coarse grid cannot solve has the answer of the next finer grid in both strata, so that none is left out.
-`pooled` makes draws of one grid whose mean and scatter are those of the sum, with Welch's degrees of freedom.
+The mean on the finest grid is the mean on the coarsest plus the mean of each difference between neighbouring
+grids, each over surfaces of its own (Giles, Oper. Res. 56, 607, 2008). The surfaces of a difference are a stratum.
+A surface that a coarse grid cannot solve has the answer of the next finer grid in both strata: none is left out.
+`pooled` makes draws on a single grid that have the mean and scatter of the sum, with Welch's degrees of freedom.
 
-The least cost of a variance sum s_k^2 / n_k has n_k as s_k / sqrt(c_k), with s_k the scatter of one surface of a
+A variance sum s_k^2 / n_k costs least with n_k proportional to s_k / sqrt(c_k), where s_k is the scatter in a
 stratum and c_k its planned cost: never a measured time, so that equal seeds give equal numbers on every machine.
 Sampling stops when every interval is as narrow as wanted (Chow and Robbins, Ann. Math. Stat. 36, 457, 1965). A
 pilot large enough to show the scatter, and few looks, keep the level; the tests measure it.
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     import xarray
 
 
-# Means over draws: of a variable, or of one over another.
+# Means over draws: of a variable, or of the ratio of two.
 MEANS = {
     "friction_coefficient": ("friction_force", "normal_force"),
     "normal_force": ("normal_force", None),
@@ -128,10 +128,10 @@ def unreached(means: Iterable[Finding], interval: float) -> str:
     half, grid = max((each for each in widths if isfinite(each[0])), default=(0.0, 0.0))
     if half <= interval:
         return ""
-    told = f"is known to {share(half)} only, {share(interval)} are wanted"
+    message = f"is known to {share(half)} only, {share(interval)} are wanted"
     if grid > OWN_SHARE * interval:
-        return f"{told}: half the points change it by {share(grid)}, take more points"
-    return f"{told}: more surfaces would narrow it"
+        return f"{message}: half the points change it by {share(grid)}, take more points"
+    return f"{message}: more surfaces would narrow it"
 
 
 @dataclass(frozen=True)
@@ -139,7 +139,7 @@ class DrawnSurfaces:
     """Surfaces of some parameter grids that share them.
 
     counts : of each model, by stratum
-    costs : planned work of one of them on all of its grids, in units of `Task.work`, likewise
+    costs : planned work for a surface on all of its grids, in units of `Task.work`, likewise
     """
 
     counts: Mapping[str, tuple[int, ...]]
@@ -186,7 +186,7 @@ class DrawnSurfaces:
             for name, counts in self.counts.items()
         }
 
-    def told(self, finding: Finding, words: Mapping[str, str]) -> Finding:
+    def with_remedy(self, finding: Finding, words: Mapping[str, str]) -> Finding:
         """The finding with what would decide it. words : what a draw of each model is called, in the plural"""
         if not _open(finding):
             return finding
@@ -202,16 +202,16 @@ class DrawnSurfaces:
                 lacking = max(count - self.counts[name][k], 0.0)
                 totals[words[name]] += lacking
                 seconds += SECONDS * lacking * self.costs[name][k]
-            said = " and ".join(f"{_some(max(more, 1.0))} more {word}" for word, more in totals.items() if more)
-            remedy = f"some {said}, {duration(max(seconds, 1.0))} of processor time, would decide it"
+            needed = " and ".join(f"{_some(max(more, 1.0))} more {word}" for word, more in totals.items() if more)
+            remedy = f"some {needed}, {duration(max(seconds, 1.0))} of processor time, would decide it"
         return replace(finding, remedy=remedy)
 
     def _least_cost(self, parts, times):
-        """Numbers of draws by source for a standard error that is so many times smaller, at least cost.
+        """Numbers of draws by source, of least cost, that make the standard error `times` smaller.
 
         parts : share of each source in the variance
         """
-        # Standard deviation of one draw of each source, over that of the number.
+        # Standard deviation of single draws of each source, over the standard error of the number.
         spread = {
             (name, k): sqrt(each * self.counts[name][k])
             for (name, k), each in parts.items()
@@ -230,7 +230,7 @@ def _open(finding):
 
 
 def _more(had, asked):
-    """Number of surfaces of a stratum, of which so many are asked for."""
+    """Number of surfaces of a stratum where `asked` are wanted: at most `growth` times as many as it had."""
     enough = TOGETHER * ceil(MARGIN * min(asked, MOST_DRAWS) / TOGETHER)
     return min(max(had, min(enough, int(GROWTH * had))), MOST_DRAWS)
 

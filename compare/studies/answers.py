@@ -90,7 +90,7 @@ class Written:
     files: tuple[str, ...]
 
 
-# Advice is that of `trust`.
+# The answer of `trust` is an Advice.
 Answer: TypeAlias = Reported | Advice | Planned | Listed | Written
 
 
@@ -101,8 +101,8 @@ def answer(found: Any) -> Answer:
             tables = {each.name: _rows(each.frame) for each in found.page.every(Table) if not each.long}
             page = found.page
             tables |= {each.name: _rows(each.frame) for each in page.opening}
-            told = tuple(page.answer)
-            return Reported(_said(found.path), tuple(page.first), told, _rows(found.findings), tables)
+            sentences = tuple(page.answer)
+            return Reported(_said(found.path), tuple(page.first), sentences, _rows(found.findings), tables)
         case Plans():
             cost = found.cost if isinstance(found.cost, Cost) else None
             return Planned(

@@ -102,14 +102,14 @@ class Drawing(Study):
         return xarray.DataTree.from_dict({f"/{name}": each for name, each in parts.items()})
 
     def judge(self, answers: xarray.DataTree) -> Judgement:
-        said = [Text(f"No row of springs: {self.refused}.")] if self.refused else []
+        refusals = [Text(f"No row of springs: {self.refused}.")] if self.refused else []
         seen = {name: answers[name].to_dataset() for name in (SURFACE, ROW) if name in answers}
         shown: list[Plot | Text] = [contact.plot(self.case.scene, seen)] if seen else []
         if PROGRAM in answers:
             marched = {name: each.to_dataset().to_dataframe() for name, each in answers[PROGRAM].children.items()}
             points = concat(marched, names=["model"]).reset_index().rename(columns={"depth": "depth_reached"})
             shown.append(history.plot(points, "time", self.case.scene))
-        return Judgement((), (), [*shown, *said], self.setting)
+        return Judgement((), (), [*shown, *refusals], self.setting)
 
 
 def _task(solver: BEM | MDR, case: Case) -> SceneTask:

@@ -33,11 +33,11 @@ def run(
 ) -> Report:
     """Do a study from its tasks to its page; what the folder has is not solved again.
 
-    The arguments are those of `compare.solve`; progress : told how far it is
+    The arguments are those of `compare.solve`; progress : object that receives the state of the work
 
     Raises Refused, before a task is built, for more than a day without a yes; Unwritable, before anything is
-    solved, where the folder cannot be written; InvalidInput, where another run holds it; SolveError where so many
-    tasks broke that nothing can be judged.
+    solved, where the folder cannot be written; InvalidInput, where another run holds it; SolveError where too many
+    tasks broke to judge anything.
     """
     output, progress = Path(output), progress or Progress()
     if executor is not None and (scheduler is not None or not callable(getattr(executor, "submit", None))):
@@ -49,23 +49,23 @@ def run(
     if Path(study.place).parts[:1] == (SOLVED,):
         raise InvalidInput(f"place = {study.place}: this folder holds the solved contacts, choose another place")
     _make_folders(output, [SOLVED] if cost.contacts else [], study.place)
-    with lock((output, below), progress.said):
+    with lock((output, below), progress.message):
         if cost.contacts:
-            progress.said(str(cost))
+            progress.message(str(cost))
         done = _answered(study, output, workers, scheduler, executor, yes, progress)
         path = _write(done, below, report, progress)
         return replace(done, path=path)
 
 
 def _answered(study, output, workers, scheduler, executor, yes, progress) -> Report:
-    """Report of a study, of which nothing is written yet."""
+    """Solve a study and return its report; nothing is written to its page yet."""
     swept, count = SweepResult({}, 0, 0, 0.0), counted(workers)
     more: Study | None = study
     try:
         while more is not None:
             more.cost().refuse(count, yes)
             if more is not study:
-                progress.said(f"more surfaces: {more.cost()}")
+                progress.message(f"more surfaces: {more.cost()}")
             found = _solve(more, swept, output, workers, scheduler, executor, progress)
             study, swept = more, swept.joined(found)
             answers = study.answers(swept.outcomes)
@@ -89,7 +89,7 @@ def _answered(study, output, workers, scheduler, executor, yes, progress) -> Rep
 
 
 def _write(done, folder, report, progress) -> Path | None:
-    """Write a page and all beside it in place of what earlier runs wrote there; returns the file of the page.
+    """Write a page and all its files in place of the files of earlier runs there; return the path of the page.
 
     All is drawn before the folder is touched.
     """
@@ -112,9 +112,9 @@ def _solve(study, had, output, workers, scheduler, executor, progress) -> SweepR
     swept = SweepResult({}, 0, 0, 0.0)
     for batch in study.batches():
         if tasks := [task for task in batch.tasks if task not in had.outcomes]:
-            with progress.solving() as told:
+            with progress.solving() as on_solved:
                 store = Store(output / SOLVED)
-                found = runner.sweep(tasks, store, workers, told, batch.timed, scheduler, executor)
+                found = runner.sweep(tasks, store, workers, on_solved, batch.timed, scheduler, executor)
             swept = swept.joined(found)
     return swept
 

@@ -75,7 +75,7 @@ class Plans(dict[str, Plan | str | Advice]):
         yield from (("doubtful", each) for each in self.doubts)
         yield from (("note", each) for each in notes(self.scene))
         if plans := self._plans:
-            contacts, time = "1, from Python: crosscheck run does not compare this scene, as said below", ""
+            contacts, time = "1, from Python: crosscheck run does not compare this scene, see below", ""
             if self.refused:
                 contacts = "none by crosscheck run, which refuses this scene"
             elif isinstance(self.cost, Cost):
@@ -93,16 +93,16 @@ class Plans(dict[str, Plan | str | Advice]):
             yield "advice", choice
         yield "modulus", _stiffness(self.scene)
         # What refuses all contacts refuses this one too, with values that work for all of them.
-        told = self.cost if isinstance(self.cost, str) else ""
+        refusal = self.cost if isinstance(self.cost, str) else ""
         reasons = {name: each for name, each in self.items() if isinstance(each, str)}
         for name, each in reasons.items():
-            if not (self.refused and f"{name} cannot solve" in told):
+            if not (self.refused and f"{name} cannot solve" in refusal):
                 yield "refused", each
-        if told and (self.refused or not reasons):
-            yield "refused" if self.refused else "alone", told
+        if refusal and (self.refused or not reasons):
+            yield "refused" if self.refused else "alone", refusal
 
-    def _by_dimension(self, told: Callable[[Plan], str]) -> str:
-        return ", ".join(f"{told(plan)} in {KNOWN[name][0]}" for name, plan in self._plans.items())
+    def _by_dimension(self, text: Callable[[Plan], str]) -> str:
+        return ", ".join(f"{text(plan)} in {KNOWN[name][0]}" for name, plan in self._plans.items())
 
 
 def _stiffness(scene):

@@ -23,8 +23,8 @@ from ..statistics import finding
 from ..statistics.finding import Finding
 from .study import Study
 
-SOLVED = "solved"  # folder of what has been solved, below that of the page
-SHOWN = 3  # reasons that are said of tasks that broke
+SOLVED = "solved"  # folder of solved contacts, below the folder of the page
+SHOWN = 3  # number of reasons that are listed for tasks that broke
 
 
 @readable
@@ -120,6 +120,6 @@ def faults(swept: SweepResult, output: Path) -> list[str]:
     if not swept.faults:
         return []
     lines = [f"{len(swept.faults)} of {len(swept.outcomes)} tasks broke, which is a fault of the program"]
-    told = {reason: task.label for task, reason in reversed(list(swept.faults.items()))}
-    lines += [f"{label}: {reason}" for reason, label in reversed(told.items())][:SHOWN]
+    labels = {reason: task.label for task, reason in reversed(list(swept.faults.items()))}
+    lines += [f"{label}: {reason}" for reason, label in reversed(labels.items())][:SHOWN]
     return [*lines, f"tracebacks: {(output / SOLVED).resolve()}/*{TRACE}"]

@@ -46,10 +46,10 @@ class Judgement:
 
     def page(self, title: str, answers: xarray.DataTree) -> Page:
         """Page with the answer first, what the grids leave uncertain among it, and the setting last."""
-        told = words.sentences(self.findings) if self.answer is None else self.answer
+        sentences = words.sentences(self.findings) if self.answer is None else self.answer
         blocks = [Findings(self.findings)] if self.blocks is None else self.blocks
         last = [Section(SETTING, self.setting)] if self.setting else []
-        return Page(title, griderror.told(answers, told), [*blocks, *last], opening=self.opening)
+        return Page(title, griderror.with_grid_error(answers, sentences), [*blocks, *last], opening=self.opening)
 
 
 class Study:
@@ -59,7 +59,7 @@ class Study:
 
     command : name of the command, and of the Python function
     title, about : for people
-    place : folder of the page below that of the command; empty if that folder itself
+    place : folder of the page below the folder of the command; empty if both are the same
     """
 
     command: ClassVar[str] = "study"

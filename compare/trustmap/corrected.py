@@ -39,8 +39,8 @@ class CorrectedMDR:
 
     Result.measures, of friction, depth [m] and force [N] as far as they are corrected: friction_ratio, 1D over
     3D; friction_low and friction_high, interval of 95 % of the mean over surfaces, from the map and from the
-    scatter of the profiles, NaN of one rough profile; friction_surface_low and friction_surface_high, that of one
-    surface, NaN too where one surface says nothing. Result.residual is the largest of the profiles;
+    scatter of the profiles, NaN for a single rough profile; friction_surface_low and friction_surface_high,
+    interval of single surfaces, NaN too where they say nothing. Result.residual is the largest of the profiles;
     operator_applications and seconds are of all of them, the seconds with the map. There are no fields.
     """
 
@@ -109,7 +109,7 @@ class CorrectedMDR:
 
 
 def _mean(quantity: str, rows: Sequence[Row], rough: bool) -> tuple[float, float, float]:
-    """Mean over profiles, and either side of its interval of 95 %, relative; nan of one that no ratio corrects."""
+    """Mean over profiles, and either side of its interval of 95 %, relative; nan if no ratio can correct it."""
     values = np.array([getattr(row, TAKEN[quantity]) for row in rows])
     over = np.array([row.normal_force if quantity == "friction" else 1.0 for row in rows])
     found = mean_ratio(values, over)

@@ -27,15 +27,15 @@ TERMS = {**TERMS, Plane: BODY, Indent: Term, Slide: Term}
 @readable
 @dataclass(frozen=True, config=CLOSED)
 class FrictionLaw:
-    """Friction in three dimensions: that of the law, over the ratio of law and 3D that the trust map predicts.
+    """Friction in three dimensions: the law, divided by the ratio of law and 3D that the trust map predicts.
 
-    The law is that of `LawParts`: friction of the smooth body, and a share of the friction of all waves in full
+    The law stands in `LawParts`: friction of the smooth body, and a share of the friction of all waves in full
     contact. The smooth sliding contact is solved in three dimensions on 64 points; all else follows in closed
     form. The map has learned how far the law is off from scenes that were solved in three dimensions. Where it
     does not know the ratio, the answer is the bare law and has no interval.
 
-    There is no claim on depth or force of a rough body: `depth` is NaN, and at a prescribed depth friction is that
-    under the load of the smooth body. The answer for a smooth body is that of its solve.
+    There is no claim on depth or force of a rough body: `depth` is NaN, and at a prescribed depth friction is
+    computed under the load of the smooth body. A smooth body has the answer of its solve.
 
     Result.measures: bare_friction, the coefficient of the law alone; law_ratio, law over 3D; friction_low and
     friction_high, interval of 95 % of the mean over surfaces; outside, 1 where the map does not know the ratio, so

@@ -21,8 +21,8 @@ from ..models.law.smooth import SmoothContact
 LINE, SPACE = MDR(points=2000), BEM(points=64)
 # Loss over the relaxed modulus below which a flow is as slow as at rest, and stiffening that is as good as none.
 LEAST_LOSS, MOST_STIFFENING = 1e-3, 1e5
-FLAT = 100.0  # pressure over that of full contact, beyond which nothing changes
-# What each of these numbers adds to the expected misfit of the law, of which the root of the squares is taken. The
+FLAT = 100.0  # pressure over the pressure in full contact, beyond which nothing changes
+# Contributions of these numbers to the expected misfit of the law, which is the root of their sum of squares. The
 # misfit is the unit in which the map learns ratios of friction, no interval: that follows from scenes left out.
 AT_LEAST, BY_ROUGHNESS, BY_LIGHTNESS, BY_HEIGHT, BY_RIDDEN = 0.0088, 0.104, 0.154, 1.06, 2.0
 MOST_MISFIT = 7.0  # a factor of a thousand: a larger one says no more

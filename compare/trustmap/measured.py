@@ -62,7 +62,7 @@ class Place:
 
     @classmethod
     def of(cls, scene: Scene) -> "Place":
-        """Place of a rough scene; that of a measured line is found by `as_judged`. Raises OffTheMap."""
+        """Place of a rough scene; take `as_judged` of a measured line first. Raises OffTheMap."""
         if reasons := unmeasured(scene):
             raise OffTheMap(f"Off the map: {'; '.join(reasons)}.")
         try:
@@ -91,7 +91,7 @@ class Place:
         return f"Off the map: {'; '.join(named)}." if named else ""
 
     def predicted(self, name: str) -> tuple[float, float, float]:
-        """Logarithm of the ratio of a name, its standard error, and the relative scatter of one surface."""
+        """Logarithm of the ratio of a name, its standard error, and the relative scatter of single surfaces."""
         logarithm, error, scatter = table.model(name).predicted(self.values[None])
         return float(logarithm[0]), float(error[0]), float(scatter[0])
 
@@ -156,7 +156,7 @@ def beyond_measured(place: np.ndarray) -> dict[str, str]:
 
 
 def numbers(groups: Mapping[str, float]) -> dict[str, float]:
-    """Groups as numbers, of which most are logarithms; stiffening beyond the scale is infinite."""
+    """Groups as plain numbers, where most are logarithms; stiffening beyond the scale is infinite."""
     found = {name: value if name in PLAIN else exp(value) for name, value in groups.items()}
     endless = found["stiffening"] > MOST_STIFFENING * (1 - SLACK)
     return found | ({"stiffening": inf} if endless else {})

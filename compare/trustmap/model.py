@@ -1,4 +1,4 @@
-"""Model of one quantity: the ratio of 1D over 3D from groups, learned from scenes that both have solved."""
+"""Model of a quantity: its ratio of 1D over 3D from groups, learned from scenes that both have solved."""
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, fields
@@ -82,7 +82,7 @@ def parts(
 
 
 NAMES = tuple(each.name for each in fields(DimensionlessGroups))
-# Estimate in closed form, of which the model learns the rest: exact where the body is smooth, and in full contact.
+# Estimate in closed form, to which the model adds: exact where the body is smooth, and in full contact.
 ESTIMATES = {"friction": "friction", "depth": "smooth_depth", "force": "smooth_force"}
 # Groups with whose root what is left of a ratio goes, and so towards nothing as roughness does.
 UNITS = {"friction": "doubt", LAW: "doubt", "depth": "sliding_height", "force": "sliding_height"}
@@ -90,33 +90,33 @@ UNITS = {"friction": "doubt", LAW: "doubt", "depth": "sliding_height", "force": 
 UNKNOWN_GRID = 0.02
 LEAST_SURFACES = 3  # below which a measured ratio has no scatter
 LEAST_VARIANCE = 1e-8
-SCATTERED = 600  # scenes from which the scatter of one surface is learned
+SCATTERED = 600  # scenes from which the scatter of single surfaces is learned
 # How well a depth is known at best that is lost in the roughness: of the scenes left out fewer than 95 % lie in
 # narrower intervals.
 LEAST_LOST = 0.08
 NORMAL = 1.959964
-# Scatter of one surface from which on one in forty has no value above zero, so that its interval has no end.
+# Scatter from which on one surface in forty has no value above zero, so that the interval has no end.
 MOST_SCATTER = 1 / NORMAL
 # Inputs, values and variances of a process.
 Points: TypeAlias = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
 class Predicted(NamedTuple):
-    """Logarithm of the ratio, its standard error, and the relative scatter of one surface (M,)."""
+    """Logarithm of the ratio, its standard error, and the relative scatter of single surfaces (M,)."""
 
     logarithm: np.ndarray
     error: np.ndarray
     scatter: np.ndarray
 
     @property
-    def surface_told(self) -> np.ndarray:
-        """Scenes (M,) of which one surface says something: its values are above zero."""
+    def surface_known(self) -> np.ndarray:
+        """Scenes (M,) for which a single surface says something: its values are above zero."""
         return self.scatter < MOST_SCATTER
 
 
 @dataclass(frozen=True)
 class Measurements:
-    """Ratios of one quantity as measured on scenes.
+    """Ratios of a quantity as measured on scenes.
 
     groups : of each scene (N, D), in the order of NAMES
     logarithm : of the ratio (N,); nan where it has none
@@ -136,7 +136,7 @@ class Measurements:
         return Measurements(*(getattr(self, each.name)[chosen] for each in fields(self)))
 
     def variance(self, scatter: np.ndarray) -> np.ndarray:
-        """Variance of each logarithm; scatter : of one surface as predicted, for four of them hardly know it."""
+        """Variance of each logarithm. scatter : predicted for single surfaces, as four of them hardly show it"""
         grid = np.nan_to_num(self.grid, nan=UNKNOWN_GRID)
         return np.maximum(self.line_error**2 + scatter**2 / self.surfaces + grid**2 / 2, LEAST_VARIANCE)
 
@@ -147,7 +147,7 @@ class Fitted:
 
     process : scales of what is measured beyond the estimate in closed form
     taken : numbers of the scenes that the process goes through, among all that were measured
-    scatter : scales of the logarithm of the scatter of one surface
+    scatter : scales of the logarithm of the scatter of single surfaces
     errors, widening : standard errors of the process (K,), and factors on them under which 95 % hold
     parts : further factors (P,), at least 1, one for each of `regions.WIDENED`
     """
@@ -170,7 +170,7 @@ class Fitted:
 
 @dataclass(frozen=True, eq=False)
 class Model:
-    """Model of the ratio of one quantity.
+    """Model of the ratio of a quantity.
 
     process, scatter : through what was measured, see `Fitted`
     """
@@ -197,7 +197,7 @@ class Model:
         return Predicted(estimate(self.quantity, groups) + rest * unit, error, self.scatter_at(groups))
 
     def scatter_at(self, groups: np.ndarray) -> np.ndarray:
-        """Relative scatter of one surface (M,) at groups (M, D)."""
+        """Relative scatter of single surfaces (M,) at groups (M, D)."""
         logarithm, spread = self.scatter.predicted(groups)
         return np.exp(logarithm + spread / 2)
 

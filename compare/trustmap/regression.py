@@ -11,7 +11,7 @@ from scipy.linalg import cho_solve, cholesky, solve_triangular
 class Scales:
     """Scales of a process: what is fitted, and nothing else.
 
-    middle, spread : mean and standard deviation of each input (D,); 0 of one that rounding alone moves
+    middle, spread : mean and standard deviation of each input (D,); 0 for an input that varies by rounding alone
     lengths : over which values change, of each input in its standard deviations (D,)
     amplitude : of the changes
     slope : of the straight part along each input

@@ -36,7 +36,7 @@ NARROW = "Here it held 90 of 103 scenes held out, and one half as wide again 96:
 # Models by ratio, and what they are called in sentences.
 MODELS = {"friction": "MDR", LAW: "FrictionLaw", "depth": "MDR", "force": "MDR"}
 CALLED = {"MDR": "1D", "FrictionLaw": "the 3D law"}
-TOLD = {name: f"{'friction' if name == LAW else name} by {CALLED[model]}" for name, model in MODELS.items()}
+SUBJECTS = {name: f"{'friction' if name == LAW else name} by {CALLED[model]}" for name, model in MODELS.items()}
 # Share of friction, and radius over the shortest wave at which the reason names them.
 MOST, FEW = 0.5, 2.0
 
@@ -45,7 +45,7 @@ MOST, FEW = 0.5, 2.0
 class Correction:
     """Correction of the answer of a cheap model for one quantity.
 
-    model : MDR, of which the answer is the mean over profiles, or FrictionLaw
+    model : MDR, whose answer is the mean over profiles, or FrictionLaw
     ratio : its answer over the mean over surfaces in 3D; nan if not known, 1 for FrictionLaw, in whose answer the
         ratio of the bare law is already
     low, high : its interval of 95 %
@@ -118,7 +118,7 @@ class Advice:
         return {name: worth for name in RATIOS if (worth := getattr(self, name))}
 
     def of_model(self, name: str) -> dict[str, Correction]:
-        """Corrections of one model, by quantity."""
+        """Corrections of a model, by quantity."""
         return {each: worth for each, worth in self.corrections.items() if worth.model == name}
 
     @property
@@ -144,7 +144,7 @@ class Advice:
     def __str__(self) -> str:
         lines = [*(f"doubtful: {each}" for each in self.doubts), *(f"note: {each}" for each in self.notes)]
         lines += [self.choice] if self.choice else []
-        lines += [f"{TOLD[name]}: {worth}" for name, worth in self.corrections.items()]
+        lines += [f"{SUBJECTS[name]}: {worth}" for name, worth in self.corrections.items()]
         if self.groups:
             lines.append(f"place on the map: {placed(self.groups)}")
         return "\n".join(lines)
@@ -169,8 +169,8 @@ def trust(scene: Scene) -> Advice:
     found = replace(_advised(as_judged(scene)), doubts=doubts(scene), notes=notes(scene))
     if isinstance(scene.roughness, Profile | Spectrum):
         why = FITTED if isinstance(scene.roughness, Profile) else SHAPED
-        told = {name: replace(each, reason=f"{each.reason} {why}") for name, each in found.corrections.items()}
-        return replace(found, **told)
+        noted = {name: replace(each, reason=f"{each.reason} {why}") for name, each in found.corrections.items()}
+        return replace(found, **noted)
     return found
 
 
@@ -181,8 +181,8 @@ def _advised(scene):
         )
         return _unknown(scene, f"{why} 3D is as linear as 1D.", NONE)
     if (unseen := beyond_table(scene)) is not None:
-        told = f"{unseen.name} = {unseen.number:.3g} {unseen.unit}".strip()
-        return _unknown(scene, f"The table of moduli does not show it: {told}.", NONE)
+        number = f"{unseen.name} = {unseen.number:.3g} {unseen.unit}".strip()
+        return _unknown(scene, f"The table of moduli does not show it: {number}.", NONE)
     try:
         if (scene.roughness is None or scene.roughness.flat) and not unmeasured(scene):
             return _smooth(scene)
@@ -257,12 +257,12 @@ def _worth(name, ratio, error, scatter, because):
 
 
 def _correction(name, ratio, error, scatter, advice, reason):
-    """Correction with its intervals, of the mean and of one surface."""
+    """Correction with its intervals, of the mean and of single surfaces."""
     half = NORMAL * error
     whole = NORMAL * hypot(error, scatter) if scatter < MOST_SCATTER else nan
     ends = (ratio * exp(each) for each in (-half, half, -whole, whole))
-    told = reason if isfinite(whole) else f"{reason} {NOTHING}"
-    return Correction(MODELS[name], ratio, *ends, advice, told)
+    text = reason if isfinite(whole) else f"{reason} {NOTHING}"
+    return Correction(MODELS[name], ratio, *ends, advice, text)
 
 
 def _lost(groups):

@@ -14,6 +14,7 @@ from tempfile import TemporaryDirectory
 from typing import Literal
 
 import numpy as np
+from compare.figures.views import view
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from pandas import DataFrame
@@ -26,7 +27,6 @@ from compare.figures import contact, style
 from compare.figures.curves import intervals
 from compare.figures.plot import Plot
 from compare.figures.shades import SPEED, between
-from compare.figures.views import view
 from compare.report.csvfiles import read
 from compare.solving.task import draws_of
 from compare.statistics.jackknife import mean_ratio

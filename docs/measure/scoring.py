@@ -128,8 +128,8 @@ class Score:
     @property
     def surfaces_covered(self) -> float:
         """Share of single surfaces within the interval of one surface, where it has one, as they were measured."""
-        if not self.predicted.surface_told.all():
-            return self.taken(self.predicted.surface_told).surfaces_covered
+        if not self.predicted.surface_known.all():
+            return self.taken(self.predicted.surface_known).surfaces_covered
         apart = self.measured.logarithm - self.predicted.logarithm
         width = NORMAL * np.hypot(self.predicted.error, self.predicted.scatter)
         scatter = np.maximum(np.nan_to_num(self.measured.scatter), 1e-9)

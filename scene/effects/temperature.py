@@ -188,7 +188,7 @@ class ShiftFactors(TemperatureLaw):
 
     @property
     def stiffer(self) -> float:
-        """b_T of the temperature over that of the reference."""
+        """b_T at the temperature over b_T at the reference."""
         here, there = np.interp(
             [self.temperature, self.reference], *self._ordered(self.b_T or np.ones(len(self.temperatures)))
         )

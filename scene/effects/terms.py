@@ -127,7 +127,7 @@ class Rubbed(Term):
         friction = self.part.coefficient * result.normal_force
         total = result.friction_force + friction
         parts = {"friction_in_elastomer": result.friction_force, "friction_in_interface": friction}
-        if "friction_error" in result.measures:  # that of the interface has none
+        if "friction_error" in result.measures:  # friction of the interface has no error
             parts["friction_error"] = result.measures["friction_error"] * result.friction_force / total
         return replace(result, friction_force=total, measures={**result.measures, **parts})
 
@@ -142,8 +142,8 @@ class Heated(Term):
         reasons = []
         if not isinstance(scene.indenter, Axisymmetric):
             reasons.append(
-                "it is estimated from the depth of a body of revolution, and that of a "
-                f"{type(scene.indenter).__name__} is another: leave heating out"
+                "it is estimated from the depth of a body of revolution, which a "
+                f"{type(scene.indenter).__name__} is not: leave heating out"
             )
         if scene.layer is not None:
             reasons.append("it is estimated from the depth in a half-space: leave layer or heating out")

@@ -10,7 +10,7 @@ OFF = 0.05  # of a spacing: how far a point may lie off its place
 _NOISE = 1e-7  # of the range of all places: closer ones are one
 _LEAST_FULL = 0.5  # of the places of a map; fewer points are scattered ones
 
-FEW = 6  # numbers: so many that are evenly spaced are no axis by that alone; columns that points may have
+FEW = 6  # evenly spaced numbers that are not taken for an axis; columns that points may have
 
 Place = Callable[[int], str]
 """Where a point stands, for messages."""
@@ -37,7 +37,7 @@ def mapped(x: np.ndarray, y: np.ndarray, z: np.ndarray, place: Place) -> tuple[n
 
 
 def ordered(name: str, values: np.ndarray, place: Place) -> tuple[np.ndarray, float]:
-    """Order in which evenly spaced places ascend, each of which is there once; and their spacing.
+    """Order in which evenly spaced, distinct places ascend, and their spacing.
 
     Raises ValueError.
     """

@@ -190,8 +190,8 @@ def validator(what: Any) -> TypeAdapter:
 def invalid(path: str | Path, lines: Sequence[str]) -> InvalidInput:
     """The mistakes of a file, a line each: the first LISTED, and how many more there are."""
     more = [f"and {len(lines) - LISTED:,} more mistakes"] if len(lines) > LISTED else []
-    name, said = brief(str(path)), [*lines[:LISTED], *more]
-    return InvalidInput("\n".join(f"{name}: {brief(line, LONGEST)}" for line in said))
+    name, messages = brief(str(path)), [*lines[:LISTED], *more]
+    return InvalidInput("\n".join(f"{name}: {brief(line, LONGEST)}" for line in messages))
 
 
 def whole(name: str, given: Any, most: int) -> int:

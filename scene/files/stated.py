@@ -80,7 +80,7 @@ def filled(given: Mapping[str, Any], read: Callable[[Any, TableFormat], Mapping[
     written, rest = split_format(given)
     if (table := rest.pop("table", None)) is None:
         if written != TableFormat():
-            raise ValueError("table is missing, of which columns, units or lines are stated")
+            raise ValueError("table is missing, although its columns, units or lines are stated")
         return rest
     try:
         found = read(table, written)

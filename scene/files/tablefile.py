@@ -5,7 +5,7 @@ row of units below it. A DataFrame, a Dataset of xarray or a mapping of arrays h
 quantities of pint and attributes have units. Nothing is guessed; what `TableFormat` does not state is refused:
 
 - a column without a unit, unless its unit is not needed, the heading is the first line, and all others are in SI
-- two columns of one field, unless `columns` states which one is used
+- two columns for the same field, unless `columns` states which one is used
 - a column that is not used, and may tell samples apart: of text, or of numbers that repeat, with several values
 """
 
@@ -26,7 +26,7 @@ from ..quantities import HERTZ, RADIAN_PER_SECOND, Unit
 from .stated import TableFormat
 from .tabletext import PURE, Cells, read_text
 
-# Other quantities of one measurement: they may vary, and need not be used.
+# Other quantities of a measurement, which may vary and need not be used.
 REDUNDANT = (
     *("time", "t", "index", "point", "tan delta", "phase", "|G*|", "|E*|", "complex modulus"),
     *("torque", "strain", "stress", "displacement", "normal force"),

@@ -11,14 +11,14 @@ import numpy as np
 
 from .modes import Relaxation, Retardation
 
-# Times further beyond the ends of what was measured than this cannot be told from its ends.
+# Times further than this beyond the ends of the measurement have the same effect as times at its ends.
 _MARGIN = 10**0.5
 _TIMES_A_DECADE = (1, 1.5, 2, 3, 5, 10, 30)
 # No measurement is worth modes for a smaller misfit.
 NEGLIGIBLE = 1e-3
 # Largest relative contribution of a mode that is left out.
 _INVISIBLE = 1e-7
-# Weight of what is known beside rows that are measured.
+# Weight of known values relative to measured rows.
 _KNOWN = 1e6
 
 Modes = Relaxation | Retardation
@@ -139,7 +139,7 @@ class Creep(Measured):
         return Retardation.of(float(amounts[0]), amounts[1:][kept], times[kept])
 
     def liquid(self, times):
-        # Its slowest relaxation, about recoverable compliance times viscosity, is no slower than that of a solid.
+        # Its slowest relaxation, about recoverable compliance times viscosity, is no slower than a solid's.
         flow = self.time[:, None] / times.max()
         matrix = np.hstack([self.parts(times) + flow, flow]) / self.measured[:, None]
         return rms(matrix @ _nonnegative(matrix, np.ones(len(matrix))) - 1)
@@ -166,8 +166,8 @@ def fitted(rows: Measured, rest: float | None) -> tuple[Modes, float]:
     if rest is not None:
         return found, 0.0
     # With the most times, as slow modes else leave room for a modulus at rest.
-    told = _standard_errors(len(rows.measured), len(best.times) + 1, misfit(best), rows.liquid(times(finest)))
-    return found, found.equilibrium / told if told and found.equilibrium else inf
+    error = _standard_errors(len(rows.measured), len(best.times) + 1, misfit(best), rows.liquid(times(finest)))
+    return found, found.equilibrium / error if error and found.equilibrium else inf
 
 
 def rms(values: np.ndarray) -> float:

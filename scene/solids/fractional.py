@@ -24,7 +24,9 @@ _ELLIPSE = 4.61
 
 @dataclass(frozen=True, config=alternatives("modulus", youngs_modulus=YOUNG), kw_only=True)
 class Fractional(Solid):
-    """Fractional Kelvin-Voigt solid, a spring beside a springpot: G(omega) = modulus (1 + (i omega tau)^exponent).
+    """Fractional Kelvin-Voigt solid: a spring and a springpot in parallel.
+
+    G(omega) = modulus (1 + (i omega tau)^exponent)
 
     modulus : static shear modulus [Pa]
     relaxation_time : tau [s]

@@ -101,7 +101,7 @@ class Relaxation:
 
     equilibrium : modulus at rest [Pa], > 0
     moduli, times : of the branches (K,) [Pa], [s], times ascending and distinct
-    viscosity : of a dashpot beside them [Pa s]; 0 where the solid has a glassy modulus
+    viscosity : of a dashpot parallel to them [Pa s]; 0 where the solid has a glassy modulus
     """
 
     equilibrium: float

@@ -64,7 +64,7 @@ def read_moduli(
     """A table of moduli, out of a file or of arrays.
 
     table, stated : see `tablefile.read_columns`
-    frequency_unit, kind : as stated beside it, see `Tabulated`
+    frequency_unit, kind : as stated with the table, see `Tabulated`
 
     Raises ValueError that names file, line and column, and where what is stated contradicts a heading.
     """
@@ -111,7 +111,7 @@ def _kind(columns, quantities, stated):
     if len(found | ({stated} if stated in _KINDS.values() else set())) > 1:
         raise ValueError(
             f"{columns.name}: {', '.join(map(shown, headings.values()))} are moduli of kind "
-            f"{' and '.join(map(repr, sorted(found)))}, and kind = {stated!r} is stated: state the columns of one "
+            f"{' and '.join(map(repr, sorted(found)))}, and kind = {stated!r} is stated: state columns of equal "
             "kind, or correct kind"
         )
     return next(iter(found), stated)
@@ -194,7 +194,7 @@ def _table(columns, made):
     if B_T.field in columns:
         if reduced:
             raise ValueError(
-                f"{columns.name}: b_T beside reduced frequencies leaves open whether moduli are reduced"
+                f"{columns.name}: b_T with reduced frequencies leaves open whether moduli are reduced"
             )
         lift = _positive(columns, "b_T")
         made |= {name: each * lift if name == "compliance" else each / lift for name, each in moduli}
@@ -239,7 +239,7 @@ def _reference(columns, longer, temperature):
     warm, cold = (np.median(longer[temperature == end]) for end in (temperature.max(), temperature.min()))
     if warm > cold:
         raise ValueError(
-            f"{columns.name}: a_T grows with the temperature, and it is that of times, which grow shorter: state "
+            f"{columns.name}: a_T grows with the temperature, but it multiplies times, which grow shorter: state "
             "its inverse"
         )
     order = np.argsort(longer)

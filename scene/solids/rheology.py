@@ -133,7 +133,7 @@ class KelvinChain(Solid):
 
     J(t) = instantaneous_compliance + sum_k compliances[k] (1 - exp(-t / retardation_times[k])).
 
-    instantaneous_compliance : in shear [1/Pa], >= 0; at 0 the glassy modulus is infinite, as that of Kelvin
+    instantaneous_compliance : in shear [1/Pa], >= 0; at 0 the glassy modulus is infinite, as for Kelvin
     compliances, retardation_times : of each element [1/Pa], [s]; 1 to 200, equally many
     """
 

@@ -20,8 +20,8 @@ from .moduli import read_moduli
 from .table import SCATTER, Table
 from .viscoelastic import YOUNG, PoissonRatio, Solid, in_shear
 
-# Standard errors of a fitted modulus at rest; what is less of them cannot be told from nothing.
-_TOLD = 3
+# Number of standard errors below which a fitted modulus at rest cannot be distinguished from zero.
+_SIGNIFICANT = 3
 # Standard errors in half an interval of 95 %.
 _SURE = 1.96
 
@@ -85,8 +85,8 @@ class Tabulated(Solid):
             except ValueError as error:
                 raise refused("table", table, error) from error
             found["table"] = table = read.table
-            told = {"frequency_unit": read.frequency_unit, "kind": read.kind}
-            found = {name: value for name, value in told.items() if value is not None} | found
+            headings = {"frequency_unit": read.frequency_unit, "kind": read.kind}
+            found = {name: value for name, value in headings.items() if value is not None} | found
         time = table.get("time") if isinstance(table, Mapping) else getattr(table, "time", None)
         return found if time is None else {"frequency_unit": None} | found
 
@@ -113,7 +113,7 @@ class Tabulated(Solid):
                 f"square), more than tolerance = {self.tolerance:g}: check units and columns, and {wrong}; if "
                 "this is the scatter, raise tolerance"
             )
-        if _fit(self)[0].equilibrium < _TOLD * self.equilibrium_error:
+        if _fit(self)[0].equilibrium < _SIGNIFICANT * self.equilibrium_error:
             further = "for longer times" if over_time else "at lower frequencies"
             raise ValueError(
                 f"{self.table!r} leaves the modulus at rest open: {self._seen_at_rest()}; state "
@@ -198,7 +198,7 @@ class Tabulated(Solid):
     def at_reference(self, law: TemperatureLaw | None) -> "Tabulated":
         """The solid at the reference of the law, by which rows at other temperatures are shifted.
 
-        Raises ValueError of several temperatures without a law, and of one that is not the reference of the law.
+        Raises ValueError for several temperatures without a law, and for a temperature that is not the reference.
         """
         if self.table.temperature is None:
             return self

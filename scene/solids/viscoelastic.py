@@ -60,7 +60,7 @@ class Linear:
 
     @property
     def viscosity(self) -> float:
-        """Dashpot beside the Maxwell modes [Pa s]: G(omega) -> i omega viscosity at high frequency.
+        """Dashpot parallel to the Maxwell modes [Pa s]: G(omega) -> i omega viscosity at high frequency.
 
         Zero for every solid with a finite glassy modulus.
         """

@@ -106,7 +106,7 @@ def unmasked(heights: Any) -> Any:
 
 
 def sides(pixel: Any) -> tuple[float, float]:
-    """Sides of a pixel along x and along y [m], of one number or two. Raises ValueError."""
+    """Sides of a pixel along x and along y [m], from one number or two. Raises ValueError."""
     try:
         found = METRE.values(pixel)
     except ValueError as error:

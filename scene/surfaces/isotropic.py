@@ -49,13 +49,13 @@ def _rule(nodes):
 class Isotropic:
     """Randomly rough and isotropic, from a longest wave, after which it repeats, to a shortest one.
 
-    A class states rms_height [m], longest and shortest [m] (None where the cut-off is that of a grid), seed,
+    A class states rms_height [m], longest and shortest [m] (None where a grid sets the cut-off), seed,
     amplitudes ("fixed" or "gaussian"), its density, its moments int q^m C_2D dq, both in units of its own, and the
     wave numbers where the density has corners.
 
     Spectra are two-sided: <h^2> = 2 int_0^inf C_1D dq = 2 pi int_0^inf q C_2D dq. A line has the spectrum of the
     method of dimensionality reduction, C_1D = pi q C_2D, which keeps the rms height and the rms of the full
-    gradient, or that of a line scan.
+    gradient, or the spectrum of a line scan.
     """
 
     if TYPE_CHECKING:
@@ -76,7 +76,7 @@ class Isotropic:
 
     @property
     def normalized(self) -> Self:
-        """A spectrum of this shape, at a height of which the square does not vanish."""
+        """A spectrum of this shape, at a height whose square does not vanish."""
         return self
 
     @property
@@ -95,7 +95,7 @@ class Isotropic:
         return 2 * pi / self.longest
 
     def q_max(self, pixel: float) -> float:
-        """Highest wave number [rad/m]: that of the shortest wavelength, else pi / pixel."""
+        """Highest wave number [rad/m]: 2 pi / shortest, or pi / pixel where `shortest` is None."""
         return 2 * pi / self.shortest if self.shortest is not None else pi / pixel
 
     def density_1d(self, q, q_max):

@@ -2,7 +2,7 @@
 
 A line scan has the spectrum C_1D(q) = 2 int_0^inf C_2D(sqrt(q^2 + s^2)) ds of its surface. C_2D is sought among
 laws that are flat up to a roll-off and fall from there as q^(-2H - 2) to a cut-off; beyond it the line may have
-any spectrum, like that of noise. The periodogram is that of three sine tapers, Riedel and Sidorenko, IEEE Trans.
+any spectrum, such as noise. The periodogram takes three sine tapers, Riedel and Sidorenko, IEEE Trans.
 Signal Process. 43, 188 (1995). Every law is compared after what happens to a line of it: cut to its length,
 levelled, tapered, and folded where it goes on beyond the spacing. Ordinates of a Gaussian line are chi square; all
 laws of a lattice are weighed by that, and intervals are quantiles of these weights. A line that scatters more
@@ -131,7 +131,7 @@ HURSTS = np.arange(-8, 49) / 40
 FALLING = 4  # bins over which a law falls, at least
 UNLIKELY = 0.01  # chance of the scatter about a law, below which it is none
 UNKNOWNS = 4
-# From where on a law is none of a line: mean square of the line over that of its law, or the other way; and rms of
+# Limits beyond which a law does not fit a line: ratio of the mean squares of both, either way round; and rms of
 # the logarithm of the ratio of their spectra, which scatters by 1 in the lowest bins.
 FOREIGN, SCATTERED = 10.0, 2.0
 NOTHING = 1e-24  # of the greatest density: rounding
@@ -298,7 +298,7 @@ def _weighed(bins, seen, unit, length):
     strange = float(np.sqrt(np.mean(np.log(seen[:end] / law) ** 2))) > SCATTERED
     if strange or not 1 / FOREIGN < float(bins.number[:end] @ law) / square < FOREIGN:
         raise ValueError(
-            "its spectrum is nothing like that of a self-affine surface, and no surface stands for it: of regular "
+            "its spectrum is not self-affine at all, and no surface stands for it: for regular "
             'waves take type = "wave", or measure a map'
         )
     dof = max(1, end - UNKNOWNS)

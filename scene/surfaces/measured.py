@@ -85,7 +85,7 @@ class Measured(Scanned):
 
 def _without_waves(heights, sides, shortest):
     """Heights less their mirrored waves shorter than this [m], except those of the paraboloid that fits best."""
-    # Only bodies of which waves are left out need it.
+    # Only maps whose short waves are left out need it.
     from scipy.fft import dctn, idctn
 
     left = levelled(heights, "curvature")

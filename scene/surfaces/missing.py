@@ -69,7 +69,7 @@ def sentinels(heights: np.ndarray) -> list[float]:
 
     A number that programs write for none, as -9999, 32767 or 1e38 in m, mm, um or nm, has to lie farther from all
     others than those lie from one another; another one a thousand times as far, and be ten times as large as any.
-    Beside heights that are all alike none is far off.
+    Where all other heights are equal, no height is far off.
     """
     known = heights[np.isfinite(heights)]
     ends, found = [float(each(known)) for each in (np.min, np.max) if known.size], set()

@@ -1,4 +1,4 @@
-"""Roughness that was measured along a line: an isotropic surface whose spectrum is fitted to that of the line."""
+"""Roughness that was measured along a line: an isotropic surface whose spectrum is fitted to the line."""
 
 from dataclasses import replace
 from functools import lru_cache
@@ -125,7 +125,7 @@ class Profile:
     def waves(self) -> np.ndarray:
         """Amplitudes of the waves k = 1, 2, ... of the measured line on what repeats (top,), complex [m].
 
-        They pass through all points, and begin at the point under the axis: the middle one, or that of the seed.
+        They pass through all points, and begin at the point under the axis: the middle one or a random one.
         """
         relief = self.relief
         count = len(relief)

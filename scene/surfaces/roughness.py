@@ -52,7 +52,7 @@ class Wave:
 class CrossedWaves(Wave):
     """Two crossed waves, h = amplitude cos(2 pi x / wavelength) cos(2 pi y / wavelength)."""
 
-    # A name in files is of one type alone, that of a subtype another one.
+    # Each type has its own name in files, and so has a subtype.
     type: Literal["crossed-waves"] = Field(default="crossed-waves", repr=False)  # type: ignore[assignment]
 
     @property

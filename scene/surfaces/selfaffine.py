@@ -13,7 +13,7 @@ from ..quantities import BARE, Finite, Length, LengthOrZero, NonNegative, Seed
 from .isotropic import Isotropic, power_integral, wave_at_slope
 
 ATOM = 1e-10  # no wave is shorter [m]
-# Wavelength [m] down to which its wave number, and that of a grid that resolves it, is a number.
+# Wavelength [m] down to which its wave number, and the wave numbers of a grid that resolves it, are finite.
 _SHORTEST = 1e-300
 
 

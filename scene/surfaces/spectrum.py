@@ -150,7 +150,7 @@ class Spectrum(Isotropic):
     def height_left_out(self) -> tuple[float, float]:
         """Shares of the mean square height in waves longer, and shorter, than are kept.
 
-        Each share is that of these waves in their sum with those that are kept, if the laws of the first and of
+        Each is the share of these waves in the sum of them and the waves kept, if the laws of the first and of
         the last octave of q go on without an end; 1 where they then have no bound.
         """
         return self._left_out(1)
@@ -176,7 +176,7 @@ class Spectrum(Isotropic):
             f"the spectrum has waves from {self.shortest:.3g} m to {self.longest:.3g} m, an rms height of "
             f"{self.rms_height:.3g} m and an rms slope of the full gradient of {self.rms_slope(inf):.3g}",
             f"if it went on as it ends, longer waves would have {long:.3g} % of the mean square height and "
-            f"{flat:.3g} % of that of the slope, shorter waves {short:.3g} % and {steep:.3g} %",
+            f"{flat:.3g} % of the mean square slope, shorter waves {short:.3g} % and {steep:.3g} %",
         )
 
     def _moment(self, m, lower, upper):

@@ -116,7 +116,7 @@ class Topography(Scanned):
     heights, pixel, peaks, shortest_kept : what was measured, and how much of it is kept, see `Scanned`
     level : what is taken off the heights first, their "mean", the plane ("tilt"), or the form of second degree
         ("curvature") or third ("cubic") that fits them best; absent, the plane of a map that is mirrored and the
-        mean of one that repeats, which has no other: a plane taken off a period would leave a step at its sides
+        mean of a map that repeats, as a plane taken off a period would leave a step at its sides
     repeat : how the map goes on beyond its sides: "mirror", mirrored at each, which leaves no step and has a
         period of twice the map, or "periodic", as it stands, for what was made to repeat
     seed : 0, the middle of the map lies under the indenter's axis; another, a pixel drawn at random. The row
@@ -240,7 +240,7 @@ def _waves(topography: Topography) -> Waves:
 
 
 def _periodic(heights, top_x, top_y):
-    """Amplitudes of the half plane of waves of a map that repeats, from its middle, up to so many along x and y.
+    """Amplitudes of the half plane of waves of a map that repeats, from its middle, up to `top_x` and `top_y`.
 
     A wave of two pixels has no phase at them: half of it goes either way, so that nothing prefers one.
     """
@@ -254,7 +254,7 @@ def _periodic(heights, top_x, top_y):
 
 
 def _from_the_middle(waves, count):
-    """Factors of the waves of so many pixels a side: to their middle, and half for a wave of two pixels."""
+    """Factors of the waves of `count` pixels a side: to their middle, and half for a wave of two pixels."""
     return np.where(2 * np.abs(waves) == count, 0.5, 1.0) * np.exp(1j * pi * (count - 1) / count * waves)
 
 

@@ -201,7 +201,7 @@ def test_two_answers_without_friction_are_alike_and_one_is_not():
 
 
 @pytest.mark.parametrize(
-    ("scene", "wanted", "said"),
+    ("scene", "wanted", "message"),
     [
         (SMOOTH, {}, "an error has to be wanted, of depth or friction"),
         (SMOOTH, {"load": 0.01}, "load = 0.01: of this scene errors are promised of depth or friction"),
@@ -230,6 +230,6 @@ def test_two_answers_without_friction_are_alike_and_one_is_not():
         (HEATED, {"friction": 0.1}, r"heating\.feedback = 'average'"),
     ],
 )
-def test_what_cannot_be_promised_is_said(scene, wanted, said):
-    with pytest.raises(ValueError, match=said):
+def test_what_cannot_be_promised_is_said(scene, wanted, message):
+    with pytest.raises(ValueError, match=message):
         for_accuracy(scene, **wanted)

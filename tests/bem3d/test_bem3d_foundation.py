@@ -88,7 +88,7 @@ def test_modes_that_last_about_as_long_are_one_and_nothing_is_lost():
     assert Foundation.of(Flow.of(SOLIDS["kelvin"], 0.0), GRID) is None
 
 
-# Those of 300 scenes drawn at random, at 256² and at 512², that took most, and quick ones beside.
+# The slowest of 300 scenes drawn at random, at 256² and at 512², and some quick ones.
 HARD = {
     "slow": (Kelvin(1e6, 1e-3), 0.004, None),
     "smooth, fast": (Kelvin(1e6, 1e-3), 380.0, None),

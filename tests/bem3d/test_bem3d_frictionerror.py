@@ -26,8 +26,8 @@ def slid(indenter, speed, solid=KELVIN, rough=None, load=1.0):
     return Scene(indenter, solid, Slide(speed=speed, load=load), rough)
 
 
-def told(scene, points):
-    """Answer on so many points; None where they do not tell its friction."""
+def answered(scene, points):
+    """Answer on a grid of `points` a side; None where the grid does not determine friction."""
     try:
         return BEM(points=points).solve(scene)
     except SolveError as reason:
@@ -50,7 +50,7 @@ def test_friction_of_slow_bodies_is_within_its_error_or_refused(points):
     beyond = []
     for exponent in (1, 1.5, 2, 3, 4, 6, 10, 30, 50, 100):
         scene = slid(blunt(exponent), 1e-6)
-        answer = told(scene, points)
+        answer = answered(scene, points)
         if answer is None:
             assert exponent > 30
             assert points <= 64

@@ -108,7 +108,7 @@ def test_on_a_coarse_grid_slow_friction_is_known_by_curvature_and_not_by_the_ene
 
 
 def test_a_faint_mode_of_long_memory_keeps_curvature_from_counting():
-    # To first order in the speed its friction would be a hundred times that of the other, and it has next to none.
+    # To first order in the speed its friction would be a hundred times the other mode's; it has almost none.
     faint = KelvinChain(
         instantaneous_compliance=0.1 / G, compliances=(1 / G, 1e-6 / G), retardation_times=(TAU, 1e8 * TAU)
     )
@@ -141,7 +141,7 @@ def test_without_an_edge_slow_friction_is_the_energy_lost():
     ],
 )
 def test_estimates_join_and_disagree_as_far_as_they_count(lag, slowness, most, force):
-    # The loss, 1, beside traction of 3, work of 1.5 and curvature of 1.125.
+    # The loss is 1, the traction 3, the work 1.5 and the curvature 1.125.
     estimates = {"by_traction": 3.0, "by_loss": 1.0, "by_work": 1.5, "by_curvature": 1.125, "mean_curvature": 0.0}
     found = Friction(**estimates, lag=lag, slowness=slowness)
     assert (found.disagreement, found.force) == (most, force)

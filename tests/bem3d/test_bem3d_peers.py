@@ -1,7 +1,7 @@
 """Agreement with contact codes that no one here wrote: tamaas and ContactMechanics, the extra `peers`.
 
 They put constant pressure on the same pixels, or the same waves of it on the same cell, so the discrete answers
-are the same numbers: two answers differ by no more than their solvers were told to leave. Tolerances are about
+are the same numbers: two answers differ by no more than the tolerances of their solvers. Tolerances here are about
 ten times what was found. Without a peer its tests are skipped. tamaas 2.9 is wrong by 1/n in its highest wave
 numbers where n, the points a side, is odd: it is compared at even n only.
 """
@@ -163,7 +163,7 @@ def test_a_map_of_heights_is_pressed_as_tamaas_presses_it_pixel_by_pixel(tamaas)
 
 
 # Pressed for a second and held for another: 64 of our steps, of second order; 128 and 256 of theirs, of first
-# order, extrapolated: the difference falls with the square of our step until it is that of theirs, 1e-4.
+# order, extrapolated: the difference falls with the square of our step until it reaches the error of theirs, 1e-4.
 PROGRAM = Program(stages=(Stage(duration=1.0, pressure=0.1), Stage(duration=1.0)))
 IN_TIME = 3e-4
 

@@ -267,7 +267,7 @@ def test_what_an_estimated_window_could_not_carry_is_said():
 
 
 @pytest.mark.parametrize(
-    ("scene", "error", "said"),
+    ("scene", "error", "text"),
     [
         (replace(SCENES["plane"], roughness=replace(CELL, shortest=2e-6)), Refused, "less than two pixels"),
         (
@@ -277,8 +277,8 @@ def test_what_an_estimated_window_could_not_carry_is_said():
         ),
     ],
 )
-def test_what_cannot_be_solved_has_no_plan(scene, error, said):
-    with pytest.raises(error, match=said):
+def test_what_cannot_be_solved_has_no_plan(scene, error, text):
+    with pytest.raises(error, match=text):
         BEM(points=64).plan(scene)
 
 
@@ -286,10 +286,10 @@ def test_a_printed_plan_says_all_of_it():
     plan = solver(SCENES["rough"]).plan(SCENES["rough"])
     page = str(plan)
     assert len({line.index("symbol,") for line in page.splitlines() if "symbol, " in line}) == 1  # in columns
-    for said in (
+    for text in (
         *plan.terms.values(),
         *plan.left_out.values(),
         *(kernel.name for kernel in plan.kernels),
         size(plan.memory),
     ):
-        assert said in page
+        assert text in page

@@ -1,4 +1,4 @@
-"""Contacts refined at the points of their spots: the answer is that of a grid of as many points."""
+"""Contacts refined at the points of their spots: the answer equals the answer on a grid of as many points."""
 
 from dataclasses import replace
 
@@ -39,7 +39,7 @@ from scene import (
 ROUGH = SelfAffine(hurst=0.5, rms_height=3e-6, longest=10e-3, shortest=40e-6, seed=1)
 SCENE = Scene(Sphere(10e-3), Kelvin(1e6, 1e-3), Slide(speed=0.1, load=0.002), ROUGH)
 COARSE, FINE = (BEM(points=points, extent=0.6e-3, tolerance=1e-9) for points in (32, 64))
-# Both are solved to the tolerance of the gap, of which forces and depths keep two digits less at most.
+# Both are solved to the tolerance of the gap; forces and depths have at most two digits less.
 ALIKE = 1e-6
 GLASSY = StandardLinearSolid(rubbery_modulus=1e6, glassy_modulus=1e8, relaxation_time=1e-4)
 
@@ -99,7 +99,7 @@ ANSWERED = {
 COUNTS = ("applications", "rounds", "transform_pairs", "seconds", "residual")  # the price, not the answer
 
 
-# Effects of which another one of the kind is quick.
+# Slow cases of an effect that a quick case covers too.
 LONG = {"heating that acts back", "arrhenius", "shear, uncoupled", "measured line"}
 
 
@@ -114,7 +114,7 @@ def test_whatever_a_scene_is_made_of_refined_answers_as_a_grid_of_as_many_points
     assert found.settings == whole.settings
     for one in ("normal_force", "depth", "friction_force"):
         assert getattr(found, one) == pytest.approx(getattr(whole, one), rel=ALIKE, abs=1e-15), one
-    other = "depth" if scene.motion.load else "normal_force"  # that of the coarse grid would not do
+    other = "depth" if scene.motion.load else "normal_force"  # its value on the coarse grid would not do
     assert getattr(given, other) != pytest.approx(getattr(whole, other), rel=10 * ALIKE)
     assert found.measures.keys() == whole.measures.keys()
     for one in {each for each in whole.measures if not each.endswith(COUNTS)}:
@@ -142,12 +142,12 @@ REFUSED = {
 
 
 @pytest.mark.parametrize(
-    ("name", "said"), [("plane", "indenter"), ("cylinder", "indenter"), ("program", "motion")]
+    ("name", "field"), [("plane", "indenter"), ("cylinder", "indenter"), ("program", "motion")]
 )
-def test_what_has_no_spots_of_its_own_is_refused_by_name(name, said):
-    part = type(getattr(REFUSED[name], said)).__name__
+def test_what_has_no_spots_of_its_own_is_refused_by_name(name, field):
+    part = type(getattr(REFUSED[name], field)).__name__
     solver = BEM(points=64, steps=5)
-    with pytest.raises(Refused, match=f"{said} = {part}: .* take more points"):
+    with pytest.raises(Refused, match=f"{field} = {part}: .* take more points"):
         refined(solver, solver.solve(REFUSED[name]))
 
 
@@ -168,6 +168,6 @@ def test_what_cannot_be_refined_is_an_error():
         refined(COARSE, replace(answer, scene=replace(SCENE, motion=Slide(speed=0.3, load=0.002))))
     with pytest.raises(Refused, match=r"result\.fields: no pressure and gap on a grid"):
         refined(COARSE, refined(COARSE, answer))
-    for times, said in ((0, "a power of two"), (3, "a power of two"), (2.0, "a whole number")):
-        with pytest.raises(ValueError, match=said):
+    for times, message in ((0, "a power of two"), (3, "a power of two"), (2.0, "a whole number")):
+        with pytest.raises(ValueError, match=message):
             refined(COARSE, answer, times)

@@ -85,7 +85,7 @@ def test_gaussian_waves_keep_the_phases_and_scatter_about_the_fixed_ones():
 
 @pytest.mark.parametrize("amplitudes", ["fixed", "gaussian"])
 def test_a_higher_cut_off_adds_detail_to_the_same_surface(amplitudes):
-    # Gaussian waves over fixed ones, as the rms height is that of the whole spectrum.
+    # Ratio of Gaussian waves to fixed ones, as the rms height belongs to the whole spectrum.
     coarse, fine = (draw(rough(shortest=L / n, amplitudes=amplitudes)).amplitudes for n in (20, 40))
     bare = [np.abs(draw(rough(shortest=L / n)).amplitudes) for n in (20, 40)]
     top = coarse.shape[1] - 1

@@ -85,7 +85,7 @@ def test_uncoupled_tractions_are_two_pressures_of_the_rough_body_itself(asked, s
     answer = solver.solve(asked)
     less = solver.solve(at_rest(asked, **{asked.motion.pressed_by: (1 - share) * asked.motion.greatest}))
     expected = MU * (answer.fields["pressure"] - less.fields["pressure"])
-    # what both tolerances leave on pixels, of which the shortest waves amplify the gap by points
+    # tolerances of both solves on pixels; the shortest waves amplify the gap by the number of points
     assert np.abs(answer.fields["traction_x"] - expected).max() < 1e-5 * expected.max()
     assert answer.measures["tangential_displacement"] == pytest.approx(MU * (answer.depth - less.depth), rel=1e-6)
     assert answer.measures["stick_area"] == pytest.approx(less.measures["contact_area"], rel=0.01)
@@ -202,7 +202,7 @@ def test_tractions_that_do_not_converge_are_an_error(monkeypatch):
 
 
 def test_tractions_that_fit_one_another_but_not_the_force_are_no_answer():
-    # separate springs, all alike: any even traction meets every condition but that of the force
+    # separate springs, all alike: any even traction meets every condition except the one on the force
     def springs(planes):
         return 2.0 * planes
 

@@ -99,7 +99,7 @@ def test_the_surface_at_the_end_of_a_program_is_where_the_gap_leaves_it():
     ids=lambda motion: motion.type,
 )
 def test_the_surface_is_known_however_high_the_indenter_is_at_the_corners(motion):
-    # r^100 is 1e27 depths high there: beside it depth and displacement are less than rounding
+    # r^100 is 1e27 depths high there: compared with it, depth and displacement are less than rounding
     scene = Scene(PowerLaw(coefficient=1e-4 / (1e-3) ** 100, exponent=100), KELVIN, motion)
     solver, result = solved(scene, points=64 if isinstance(motion, Program | Indent) else 160, steps=20)
     around, pressed = surroundings(solver, scene, result.fields), result.fields["pressure"]

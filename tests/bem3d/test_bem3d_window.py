@@ -105,7 +105,7 @@ BEYOND = r"too far apart|no window holds the contact"
 
 
 @pytest.mark.parametrize(
-    ("solver", "scene", "error", "said"),
+    ("solver", "scene", "error", "message"),
     [
         (BEM(32, 1e-4), HOLLOW, EmptyContact, r"0.000307705 m short .* take a larger depth"),
         (BEM(32, 1e-2), LIGHT, Refused, r"shortest = 0.0005 m.*points = 40"),
@@ -121,8 +121,8 @@ BEYOND = r"too far apart|no window holds the contact"
         (BEM(32), Scene(Sphere(1e-2), Kelvin(1e6, 1e-3), Slide(speed=0.1, load=1e-307)), SolveError, BEYOND),
     ],
 )
-def test_what_no_window_shows_is_an_error_that_says_how_to_mend_it(solver, scene, error, said):
-    with pytest.raises(error, match=said):
+def test_what_no_window_shows_is_an_error_that_says_how_to_mend_it(solver, scene, error, message):
+    with pytest.raises(error, match=message):
         solver.solve(scene)
 
 
@@ -167,15 +167,15 @@ def test_what_is_foreseen_is_what_a_solve_would_fail_by():
 
 
 @pytest.mark.parametrize(
-    ("solver", "said"),
+    ("solver", "message"),
     [(BEM(points=64), "edge of extent"), (MDR(points=500), "the contact leaves the grid")],
     ids=["BEM", "MDR"],
 )
-def test_an_extent_that_a_contact_leaves_is_foreseen_with_one_that_holds_it(solver, said):
+def test_an_extent_that_a_contact_leaves_is_foreseen_with_one_that_holds_it(solver, message):
     near = replace(solver, extent=2e-3)
     for scene in (SMOOTH, replace(SMOOTH, roughness=replace(ROUGH, rms_height=2e-5))):
         (reason,) = near.foreseen(scene)
-        with pytest.raises(SolveError, match=said):
+        with pytest.raises(SolveError, match=message):
             near.solve(scene)
         extent, points = re.search(r"extent = ([\d.e-]+) holds it, with points = (\d+)", reason).groups()
         wider = replace(solver, points=int(points), extent=float(extent))

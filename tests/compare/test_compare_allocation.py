@@ -35,9 +35,9 @@ def needed(found, interval):
     return drawn.more(means(found), interval)["BEM"]
 
 
-def grown(rng, had, counts, variation, told=None):
-    """Answers of so many surfaces, those that are known among them."""
-    new = answers(rng, counts, variation, told=told)
+def grown(rng, had, counts, variation, correlation=None):
+    """Answers of `counts` surfaces on each level, the known ones among them."""
+    new = answers(rng, counts, variation, correlation=correlation)
     if had is None:
         return new
     parts = []
@@ -47,7 +47,7 @@ def grown(rng, had, counts, variation, told=None):
     return xarray.concat(parts, "surface")
 
 
-def sampled(rng, variation, asked, told=None):
+def sampled(rng, variation, asked, correlation=None):
     """Answers once no more surfaces are asked for, and the number of looks.
 
     asked : function of answers that gives numbers of surfaces
@@ -55,24 +55,25 @@ def sampled(rng, variation, asked, told=None):
     had, counts, found, looks = None, pilot(3), None, 0
     while counts != had:
         had, looks = counts, looks + 1
-        found = grown(rng, found, counts, variation, told)
+        found = grown(rng, found, counts, variation, correlation)
         counts = asked(found)
     return found, looks
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("variation", "interval", "told", "least"),
+    ("variation", "interval", "correlation", "least"),
     [(0.15, 0.02, None, 0.94), (0.5, 0.05, None, 0.94), (1.0, 0.1, None, 0.93), (0.15, 0.02, 0.85, 0.93)],
 )
-def test_intervals_hold_as_often_although_sampling_stops_by_them(variation, interval, told, least):
+def test_intervals_hold_as_often_although_sampling_stops_by_them(variation, interval, correlation, least):
     """Five hundred synthetic studies of two points that share their surfaces.
 
-    told : how a moment of the surfaces, among seven, correlates; None without any
+    correlation : how a moment of the surfaces, among seven, correlates; None without any
     """
     rng, studies, held = np.random.default_rng(7), 500, []
     for _ in range(studies):
-        found = pooled(sampled(rng, variation, partial(needed, interval=interval), told)[0]).sel(level="fine")
+        surfaces = sampled(rng, variation, partial(needed, interval=interval), correlation)[0]
+        found = pooled(surfaces).sel(level="fine")
         low, high = mean_ratio(found["friction_force"].values, 1.0, found["stratum"].values).interval()
         held.append(np.mean((low <= 1) & (high >= 1)))
     close = 2 * np.std(held) / studies**0.5
@@ -84,10 +85,10 @@ def test_sampling_stops_with_intervals_as_narrow_as_wanted():
     for interval in (0.1, 0.05):
         found, looks = sampled(rng, 0.3, partial(needed, interval=interval))
         fine, coarse = (pooled(found).sel(level=grid) for grid in ("fine", "coarse"))
-        told = mean_ratio(fine["friction_force"].values, 1.0, fine["stratum"].values)
-        grid = abs(told.value - coarse["friction_force"].mean("surface").values)
-        low, high = told.interval()
-        assert np.all((high - low) / 2 + grid <= interval * told.value)
+        ratio = mean_ratio(fine["friction_force"].values, 1.0, fine["stratum"].values)
+        grid = abs(ratio.value - coarse["friction_force"].mean("surface").values)
+        low, high = ratio.interval()
+        assert np.all((high - low) / 2 + grid <= interval * ratio.value)
         assert looks <= 5
 
 

@@ -40,15 +40,15 @@ def shown(thing):
 
 @pytest.fixture(scope="module")
 def valid():
-    """What a text says in JSON, of which the schema of answers allows everything and nothing beside it."""
+    """Content of a JSON text, which the schema of answers has to allow completely, and nothing more."""
     jsonschema = pytest.importorskip("jsonschema")
     allowed = jsonschema.Draft202012Validator(compare.schema("answers"))
 
     def valid(text):
-        told = json.loads(text, parse_constant=pytest.fail)
-        allowed.validate(told)
-        assert not allowed.is_valid(told | {"more": 0})
-        return told
+        answer = json.loads(text, parse_constant=pytest.fail)
+        allowed.validate(answer)
+        assert not allowed.is_valid(answer | {"more": 0})
+        return answer
 
     return valid
 
@@ -126,8 +126,8 @@ def test_a_sweep_is_a_dataset_of_every_draw_with_means_and_intervals(tmp_path, v
     again = compare.sweep(scene, speed="0 m/s, 10cm/s", load="0.5N..1N:2", draws=2, output=output, report=False)
     xarray.testing.assert_identical(again, answers)
     words = "sweep", scene, "--speed", "0 m/s,10cm/s", "--load", "0.5 N", "--load", "1N"
-    told = valid(ask(*words, "--draws", 2, "--output", output, "--no-report", "--json").stdout)
-    row = next(each for each in told["tables"]["means-friction"] if each["load"] == 0.5)
+    answer = valid(ask(*words, "--draws", 2, "--output", output, "--no-report", "--json").stdout)
+    row = next(each for each in answer["tables"]["means-friction"] if each["load"] == 0.5)
     mean = answers.friction_coefficient_mean.sel(model="BEM", speed=0.1, load=0.5).item()
     assert row["friction_coefficient (3D)"] == mean
     assert row["1D/3D"] == pytest.approx(row["friction_coefficient (1D)"] / mean)
@@ -263,6 +263,6 @@ def test_an_argument_of_a_wrong_type_is_named_before_anything_is_solved(name, mo
         for wrong in (object(), b"1", 1j):
             with pytest.raises((ValueError, Refused)) as caught:
                 function(**ASKED[name] | {argument: wrong})
-            said = str(caught.value)
-            assert argument in said or CALLED.get(argument, argument) in said
+            message = str(caught.value)
+            assert argument in message or CALLED.get(argument, argument) in message
     assert not any(tmp_path.iterdir())

@@ -22,19 +22,19 @@ PHONE, DESK = {"width": 360, "height": 740}, {"width": 1280, "height": 900}
 PAPER = {"width": int((210 - 2 * 12) / 25.4 * 96), "height": 1000}
 # Least contrast of text against what lies behind it, WCAG 2, level AA.
 CONTRAST = 4.5
-# A picture said in fewer letters says nothing of what is seen.
-SAID = 20
+# Letters of a text that describes a picture: fewer say nothing of what it shows.
+LETTERS = 20
 
 AUDIT = """
-([contrast, said]) => {
+([contrast, letters]) => {
   const faults = [], all = selector => [...document.querySelectorAll(selector)];
   const fault = (what, element) => faults.push(`${what}: ${element.outerHTML?.slice(0, 90) ?? element}`);
   for (const image of all("img")) {
     if (!image.complete || image.naturalWidth === 0) fault("image not loaded", image);
-    if ((image.alt ?? "").length < said) fault("image not said", image);
+    if ((image.alt ?? "").length < letters) fault("image unnamed", image);
   }
   for (const link of all("a")) {
-    if (!(link.textContent.trim() || link.getAttribute("aria-label"))) fault("link not said", link);
+    if (!(link.textContent.trim() || link.getAttribute("aria-label"))) fault("link unnamed", link);
   }
   const levels = all("h1, h2, h3, h4, h5, h6").map(heading => Number(heading.tagName[1]));
   if (levels.filter(level => level === 1).length !== 1) fault("h1", levels.join(" "));
@@ -100,7 +100,7 @@ def opened(browser):
         context = browser.new_context(**{"viewport": DESK, "offline": True} | asked)
         contexts.append(context)
         page, complaints = context.new_page(), []
-        page.on("console", lambda said: complaints.append(f"{said.type}: {said.text}"))
+        page.on("console", lambda message: complaints.append(f"{message.type}: {message.text}"))
         page.on("pageerror", lambda error: complaints.append(f"error: {error}"))
         context.on("request", lambda request: complaints.extend(fetched(request.url)))
         page.goto(path.as_uri())
@@ -117,7 +117,7 @@ def fetched(url):
 
 def faults(page, complaints):
     """Everything that is wrong with a page as it stands; anchors and files are in test_compare_pages.py."""
-    return complaints + page.evaluate(AUDIT, [CONTRAST, SAID])
+    return complaints + page.evaluate(AUDIT, [CONTRAST, LETTERS])
 
 
 def test_a_page_opens_offline_without_a_fault_by_day_and_by_night(written, opened):
@@ -157,13 +157,13 @@ def changed(written, folder, part, policy=""):
     ("broken", "complaint"),
     [
         ("<img src='data:image/png;base64,AAAA' alt='A picture that is not one at all.'>", "image not loaded"),
-        ("<figure><img src='data:image/gif;base64,R0lGODlhAQABAAAAACw=' alt='curve'></figure>", "image not said"),
-        ("<a href='#made'></a>", "link not said"),
+        ("<figure><img src='data:image/gif;base64,R0lGODlhAQABAAAAACw=' alt='curve'></figure>", "image unnamed"),
+        ("<a href='#made'></a>", "link unnamed"),
         ("<table><tr><td>1</td></tr><tr><td>1</td><td>2</td></tr></table>", "row of another width"),
         ("<h2>one</h2><h4>three</h4>", "heading skipped"),
         ("<p style='color: #999; background: #fff'>pale</p>", "contrast 2.8"),
         ("<script>throw new Error('broken')</script>", "error: broken"),
-        ("<script>console.error('said')</script>", "error: said"),
+        ("<script>console.error('wrong')</script>", "error: wrong"),
         (
             "<img src='https://example.org/a.png' alt='A picture from somewhere else.'>",
             "fetched: https://example.org",

@@ -86,14 +86,14 @@ def test_laws_have_names_of_their_own_groups_and_sources():
     assert table().keys() >= SAMPLE
     assert KNOWN.keys() == {law.id for law in laws if law.group == STORED}
     assert all(law.bound.source and law.sentence and law.sentence[-1] != "." for law in laws)
-    said = [law.sentence for law in laws if not law.id.startswith("hard.")]
-    assert len(set(said)) == len(said)
+    sentences = [law.sentence for law in laws if not law.id.startswith("hard.")]
+    assert len(set(sentences)) == len(sentences)
 
 
 def test_the_stored_scorecard_has_each_law_in_the_words_of_today():
     found = pandas.read_csv(Path(__file__).parents[2] / "docs" / "results" / "verify.csv")
-    said = {(f"verify.{law.id}", law.sentence, law.group) for law in table().values()}
-    assert {*zip(found["claim"], found["sentence"], found["where"], strict=True)} <= said
+    known = {(f"verify.{law.id}", law.sentence, law.group) for law in table().values()}
+    assert {*zip(found["claim"], found["sentence"], found["where"], strict=True)} <= known
 
 
 DRAW = np.random.default_rng(1)
@@ -108,7 +108,7 @@ def lost(result):
 RESULTS = {
     "friction of the wrong sign": lambda it: replace(it, friction_force=-it.friction_force),
     "a force that is two percent too high": lambda it: replace(it, normal_force=1.02 * it.normal_force),
-    "friction of one dimension": lambda it: replace(it, friction_force=2 * it.friction_force),
+    "friction in 1D": lambda it: replace(it, friction_force=2 * it.friction_force),
     "another answer at every call": lambda it: replace(
         it, normal_force=it.normal_force * (1 + 1e-12 * DRAW.random())
     ),
@@ -180,7 +180,7 @@ def failed(findings):
     [
         ("friction of the wrong sign", {"friction.opposes", "slow.sphere.kelvin", "slow.sphere.standard-linear"}),
         ("a force that is two percent too high", {"sphere.force", "load.sliding"}),
-        ("friction of one dimension", {"slow.sphere.kelvin", "slow.sphere.standard-linear"}),
+        ("friction in 1D", {"slow.sphere.kelvin", "slow.sphere.standard-linear"}),
         ("another answer at every call", {"same.rest", "same.sliding"}),
         ("a pascal too much over a square centimetre", {"scale.modulus.sliding", "load.sliding"}),
         ("roughness is not looked at", {"seed"}),
@@ -361,7 +361,7 @@ def test_the_stored_values_are_what_theory_says_where_it_says_something(part, li
 
 
 @pytest.mark.parametrize(
-    ("asked", "said"),
+    ("asked", "message"),
     [
         ("mdr2", "no model of that name"),
         ("no_such_module:Model", "No module named 'no_such_module'"),
@@ -371,10 +371,10 @@ def test_the_stored_values_are_what_theory_says_where_it_says_something(part, li
         ("bem3d:WarmStart", "frozen dataclass"),
     ],
 )
-def test_what_is_no_model_is_told_in_a_line(asked, said):
-    with pytest.raises(InvalidInput, match=said) as told:
+def test_what_is_no_model_is_told_in_a_line(asked, message):
+    with pytest.raises(InvalidInput, match=message) as caught:
         model_of(asked)
-    assert "\n" not in str(told.value)
+    assert "\n" not in str(caught.value)
 
 
 def test_models_are_found_by_name_as_class_and_as_object():

@@ -163,8 +163,8 @@ def test_without_workers_it_says_so_and_waits(scheduler, tmp_path):
     joined = []
 
     class Inviting(Heard):
-        def said(self, line):
-            super().said(line)
+        def message(self, line):
+            super().message(line)
             joined.append(join(scheduler.address, tmp_path))
 
     tasks, heard = loads(1.0), Inviting()

@@ -67,7 +67,7 @@ def smooth(exact):
 
 
 def measured(rng, exact, error=0.01, dof=np.inf, known=True):
-    """Curves of which every point scatters by itself."""
+    """Curves whose points scatter independently."""
     noisy = exact + error * rng.normal(size=exact.shape)
     errors = np.full(len(LOADS), error if known else np.nan)
     return MeasuredCurves(
@@ -76,7 +76,7 @@ def measured(rng, exact, error=0.01, dof=np.inf, known=True):
 
 
 def verdicts(found, power=POWER):
-    """Verdicts on horizontal shifts, on vertical ones beside them, and on the shifts predicted."""
+    """Verdicts on horizontal shifts, on vertical ones in addition, and on the shifts predicted."""
     findings = eq23.findings(found, None, "1D", shifts=power * np.log(found.speeds), exponent=power)
     named = {each.claim.id.removeprefix("eq23."): each.verdict for each in findings}
     return [named[name] for name in ("collapse", "vertical", "predicted")]
@@ -129,12 +129,12 @@ def test_few_points_tell_the_shifts(speeds, step):
 
 
 @pytest.mark.parametrize(
-    ("speeds", "points", "share", "said"),
+    ("speeds", "points", "share", "message"),
     [(2, 3, 1, "too few points"), (1, 8, 1, "1 speeds"), (5, 8, np.nan, "no surface")],
 )
-def test_too_few_points_are_refused(speeds, points, share, said):
+def test_too_few_points_are_refused(speeds, points, share, message):
     load = np.broadcast_to(LOADS[:points], (speeds, points))
-    with pytest.raises(ValueError, match=said):
+    with pytest.raises(ValueError, match=message):
         collapse(SimulatedCurves(SPEEDS[:speeds], load, share * load**0.7))
     assert np.isnan(share) or not eq23.shiftable(speeds, points)
     assert eq23.too_few("3D").verdict == UNDECIDED

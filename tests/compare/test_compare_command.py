@@ -57,15 +57,15 @@ def test_an_interrupted_run_resumes_and_ends_in_a_report(folder):
     assert "Traceback" not in complained
     kept = len(Store(solved))
 
-    status, said, told = finish(start(folder, "run", "tiny.toml", "--workers", "2"))
-    assert (status, "tasks solved" in said) == (0, False)
+    status, shown, page = finish(start(folder, "run", "tiny.toml", "--workers", "2"))
+    assert (status, "tasks solved" in shown) == (0, False)
     assert kept >= 3
-    assert f", {kept} reused" in told
-    assert str(folder / "crosscheck-report" / "report.html") in said
+    assert f", {kept} reused" in page
+    assert str(folder / "crosscheck-report" / "report.html") in shown
     assert {path.suffix for path in (folder / "crosscheck-report" / "tiny").iterdir()} == {".png", ".csv"}
 
-    status, said, complained = finish(start(folder, "run", "tiny.toml", "--no-report", "-q"))
-    assert (status, said, complained) == (0, "", "")
+    status, output, complained = finish(start(folder, "run", "tiny.toml", "--no-report", "-q"))
+    assert (status, output, complained) == (0, "", "")
 
 
 @pytest.mark.slow
@@ -78,9 +78,9 @@ def test_a_run_killed_again_and_again_loses_nothing_stored_and_finds_what_an_und
         process.communicate()
         before, kept = kept, len(Store(solved))
         assert kept > before
-    status, _, told = finish(start(folder, "run", "tiny.toml", "--workers", "2", "--no-report"))
+    status, _, page = finish(start(folder, "run", "tiny.toml", "--workers", "2", "--no-report"))
     assert status == 0
-    assert f", {kept} reused" in told
+    assert f", {kept} reused" in page
     asked = {"scene": folder / "tiny.toml", "workers": 1, "report": False}
     found, alone = (compare.run(**asked, output=folder / name) for name in ("crosscheck-report", "alone"))
     assert found.swept.solved == 0
@@ -121,9 +121,9 @@ def test_a_command_has_the_arguments_and_defaults_of_its_function_and_says_what_
     own = COMMANDS[name].keys() - {"quiet", "verbose", "json"}
     assert all(COMMANDS[name][each].default == python[each].default for each in own)
     assert python.keys() - own <= {"progress", "quantities", "options", "study", "output", "executor"}
-    told = " ".join(ask(name, "--help").output.split())
+    page = " ".join(ask(name, "--help").output.split())
     helps = [each.annotation.__metadata__[0].help for each in COMMANDS[name].values()]
-    assert all(" ".join(each.split()) in told for each in helps)  # brackets included
+    assert all(" ".join(each.split()) in page for each in helps)  # brackets included
 
 
 @pytest.mark.parametrize(
@@ -184,14 +184,14 @@ TEXTS = {
 }
 
 
-@pytest.mark.parametrize("said", MISTAKES)
-def test_a_mistake_is_one_clear_line_and_status_2_before_anything_is_solved(tmp_path, monkeypatch, said):
+@pytest.mark.parametrize("words", MISTAKES)
+def test_a_mistake_is_one_clear_line_and_status_2_before_anything_is_solved(tmp_path, monkeypatch, words):
     monkeypatch.chdir(tmp_path)
     for name, text in TEXTS.items():
         (tmp_path / name).write_text(text)
-    answer = ask(*said.split())
+    answer = ask(*words.split())
     assert answer.exit_code == 2, answer.exception
-    assert MISTAKES[said] in answer.stderr
+    assert MISTAKES[words] in answer.stderr
     assert "Traceback" not in answer.output
     assert not answer.stdout
     assert {path.name: path.read_text() for path in tmp_path.iterdir()} == TEXTS
@@ -207,15 +207,15 @@ def printed(text, encoding, monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("encoding", "said"),
+    ("encoding", "shown"),
     [
         ("utf-8", "−2 ± 1 Pa, 5 µm, 10¹⁰ 摩"),
         ("cp1252", r"\u22122 ± 1 Pa, 5 µm, 10¹\u2070 \u6469"),
         ("ascii", r"\u22122 \xb1 1 Pa, 5 \xb5m, 10\xb9\u2070 \u6469"),
     ],
 )
-def test_letters_that_an_encoding_lacks_are_printed_as_escapes(encoding, said, monkeypatch):
-    assert printed("−2 ± 1 Pa, 5 µm, 10¹⁰ 摩", encoding, monkeypatch) == f"{said}\n"
+def test_letters_that_an_encoding_lacks_are_printed_as_escapes(encoding, shown, monkeypatch):
+    assert printed("−2 ± 1 Pa, 5 µm, 10¹⁰ 摩", encoding, monkeypatch) == f"{shown}\n"
     every = "".join(map(chr, range(0x3000))) + "\ud800\U0001f600"
     assert len(printed(every, encoding, monkeypatch)) > 0x3000
 
@@ -284,7 +284,7 @@ DRAWING = {"matplotlib", "jinja2"}
 SOLVING = {"numba", "scipy", "ducc0", "pyfftw", "bem3d", "mdr1d"}
 HEAVY = {"numpy", "pydantic", "pandas", "pint", "distributed", "dask", "scene", *ON_DISK, *DRAWING, *SOLVING}
 LISTED = HEAVY - {"pydantic"}
-# The contacts of a run stand beside what judges them, which takes pandas, xarray and scipy.
+# The contacts of a run are in the same module as their judges, which need pandas, xarray and scipy.
 PLANNED = {"pint", "distributed", "h5netcdf", "h5py", "matplotlib", "scipy.integrate", "scipy.interpolate"}
 # Each step, what is there after it, and packages and modules that are not, in one process: from light to heavy.
 STEPS = [

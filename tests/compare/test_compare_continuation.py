@@ -1,4 +1,4 @@
-"""Contacts of one surface are one task: each starts from the last, and the answers are those of solves alone."""
+"""Contacts of a surface are one task: each starts from the last, and the answers are those of solves alone."""
 
 from dataclasses import replace
 from itertools import chain, product

@@ -32,7 +32,7 @@ ROUGH = SelfAffine(hurst=0.2, rms_height=5e-5, longest=1e-2, shortest=1e-3, seed
 SCENE = Scene(Sphere(radius=1e-2), KELVIN, Slide(speed=0.1, load=1.0), ROUGH)
 SURFACES, LINES = BEM(points=32), MDR(points=512)
 SEEDS = range(3000)
-MOST = 4.0  # standard errors of a mean over so many seeds
+MOST = 4.0  # standard errors of a mean over these seeds
 
 
 def off_zero(variates):

@@ -109,7 +109,7 @@ def test_an_interval_holds_its_value_and_is_wider_for_fewer_profiles_and_for_one
         assert surface_low < low < value < high < surface_high
         widths.append(log(high / low))
     assert widths == sorted(widths, reverse=True)
-    # Never narrower than that of the map.
+    # Never narrower than the interval of the map.
     assert widths[-1] > log(WORTH.high / WORTH.low)
     assert isnan(replace(FEW, profiles=1).solve(ROUGH).measures["friction_low"])
 
@@ -124,7 +124,7 @@ def test_where_one_surface_says_nothing_its_interval_has_no_ends_and_the_mean_s_
 
 @pytest.mark.parametrize("scene", [ROUGH, AT_DEPTH], ids=["load", "depth"])
 def test_the_part_of_the_profiles_in_an_interval_is_what_means_of_them_scatter_by(scene, monkeypatch):
-    """Of 60 means of eight, the ratio exact; allowed: three deviations of an rms of so many, 3/sqrt(2 * 59)."""
+    """60 means of eight, the ratio exact; allowed: three deviations of an rms of 60 numbers, 3/sqrt(2 * 59)."""
     exact = replace(WORTH, low=WORTH.ratio, high=WORTH.ratio)
     monkeypatch.setattr(corrected, "trust", lambda _: Advice(exact, *_free(scene, exact), None, {}, ()))
     seeds = (replace(scene.roughness, seed=FEW.profiles * k) for k in range(60))

@@ -50,15 +50,15 @@ def test_of_a_whole_study_it_is_an_upper_bound_as_curves_share_contacts(asked):
 
 
 @pytest.mark.parametrize(
-    ("contacts", "days", "said"),
+    ("contacts", "days", "message"),
     [
         (10, 2.1, "more than a day on 2 processors"),
         (MANY_CONTACTS + 1, 0.1, "more than 300,000 contacts"),
     ],
 )
-def test_what_takes_long_is_begun_on_a_yes_alone(tmp_path, contacts, days, said):
+def test_what_takes_long_is_begun_on_a_yes_alone(tmp_path, contacts, days, message):
     asked = Costly(contacts, days * DAY / SECONDS)
-    with pytest.raises(Refused, match=f"{contacts:,} contacts .* h .* of processor time.*{said}.*--yes"):
+    with pytest.raises(Refused, match=f"{contacts:,} contacts .* h .* of processor time.*{message}.*--yes"):
         run(asked, tmp_path / "out", workers=2)
     assert not (tmp_path / "out").exists()
     with pytest.raises(AssertionError, match="tasks were built"):
@@ -78,15 +78,15 @@ def test_draws_of_a_scene_have_a_bound_that_is_said(tmp_path, count):
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "said"),
+    ("old", "new", "message"),
     [
         ("surfaces = 2", "surfaces = 10001", "surfaces = 10001: Input should be .* 10000"),
         ("count = 4", f"count = {10**30}", rf"loads\.count = {10**30}: .* 1000"),
         ('["50 mm/s", 0.1, 0.2]', str([*range(1, 1002)]), "speeds.*at most 1000"),
     ],
 )
-def test_draws_ranges_and_lists_of_a_study_have_a_bound_that_is_said(old, new, said):
-    with pytest.raises(InvalidInput, match=said):
+def test_draws_ranges_and_lists_of_a_study_have_a_bound_that_is_said(old, new, message):
+    with pytest.raises(InvalidInput, match=message):
         study_of(HEAD + SHARED.replace(old, new) + TABLES + SERIES, "study.toml")
 
 

@@ -32,7 +32,7 @@ def found(value=0.9, half=0.1, grid=0.002, parts=PARTS, **changed):
 
 
 def variance(counts):
-    """Variance of the finding with so many draws, over that now."""
+    """Variance of the finding with `counts` draws, divided by its present variance."""
     return sum(share * DRAWN.counts[name][k] / counts[name, k] for (name, k), share in PARTS.items())
 
 
@@ -59,7 +59,7 @@ def test_what_is_decided_unknown_or_without_surfaces_asks_for_none():
         replace(found(), claim=replace(RATIO, tolerance=float("nan"))),
     ):
         assert DRAWN.deciding(each, 0.01) == {}
-        assert DRAWN.told(each, WORDS).remedy == ""
+        assert DRAWN.with_remedy(each, WORDS).remedy == ""
 
 
 def test_an_interval_that_is_narrow_enough_needs_no_verdict():
@@ -78,16 +78,16 @@ def test_more_draws_are_bounded_and_never_fewer():
 
 
 def test_a_finding_says_what_would_decide_it():
-    told = DRAWN.told(found(), WORDS)
+    finding = DRAWN.with_remedy(found(), WORDS)
     asked = DRAWN.deciding(found())
     surfaces = sum(asked["BEM", k] - had for k, had in enumerate(DRAWN.counts["BEM"]) if asked["BEM", k] > had)
-    number = float(told.remedy.split()[1].replace(",", ""))
+    number = float(finding.remedy.split()[1].replace(",", ""))
     assert number == pytest.approx(surfaces, rel=0.1)
-    assert told.remedy.endswith("s of processor time, would decide it")
-    assert told.why == f"its interval reaches across 0.95; {told.remedy}"
-    hopeless = DRAWN.told(found(0.951, 0.3, 0.0), WORDS)
+    assert finding.remedy.endswith("s of processor time, would decide it")
+    assert finding.why == f"its interval reaches across 0.95; {finding.remedy}"
+    hopeless = DRAWN.with_remedy(found(0.951, 0.3, 0.0), WORDS)
     assert hopeless.remedy == "only more than 10,000 surfaces or profiles would decide it"
-    assert "finer one" in DRAWN.told(found(0.951, 0.3, 0.01), WORDS).remedy
+    assert "finer one" in DRAWN.with_remedy(found(0.951, 0.3, 0.01), WORDS).remedy
 
 
 def verdict_of(rng, claim, variation, interval):

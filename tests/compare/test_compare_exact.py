@@ -85,12 +85,12 @@ def test_the_loss_exponent_of_a_power_law_is_its_power_and_that_of_a_kelvin_body
         exact.loss_exponent(RUBBER, wave_number, (0.00333, 0.03)) for wave_number in np.geomspace(1e3, 1e7, 60)
     ]
     assert powers == pytest.approx(np.ones(60), rel=1e-12)
-    assert max(powers) == 1.0  # of which Eq. 23 takes none that rounding has made more
+    assert max(powers) == 1.0  # Eq. 23 takes no power above one, not even by rounding
     assert exact.loss_exponent(power, 1e4, speeds) == pytest.approx(0.3, abs=1e-3)
 
 
 def test_the_first_pull_meets_the_stiffness_of_what_sticks():
-    # dF/du at 0 of the superposition is that of Mindlin's disc: mu F_N (3/2) / u_max = 8 G a / (2 - nu)
+    # dF/du at 0 of the superposition is the stiffness of Mindlin's disc: mu F_N (3/2) / u_max = 8 G a / (2 - nu)
     modulus, nu, radius, body, friction = 1e6, 0.3, 1e-3, 1e-2, 0.4
     load = 4 / 3 * (2 * modulus / (1 - nu)) * radius**3 / body
     u_max = tangential.full_slip_displacement(friction, radius**2 / body, nu)

@@ -24,10 +24,10 @@ def found(value=1.0, scatter=0.01, grid=0.01, **other):
 @given(number, width, number, width)
 def test_a_claim_holds_only_if_its_whole_interval_lies_inside_the_tolerance(expected, tolerance, value, half):
     low, high = value - half, value + half
-    said = verdict(expected, tolerance, low, high)
+    outcome = verdict(expected, tolerance, low, high)
     inside = low >= expected - tolerance and high <= expected + tolerance
     outside = high < expected - tolerance or low > expected + tolerance
-    assert said == (HOLDS if inside else FAILS if outside else UNDECIDED)
+    assert outcome == (HOLDS if inside else FAILS if outside else UNDECIDED)
 
 
 @pytest.mark.parametrize(
@@ -45,7 +45,7 @@ def test_the_grid_widens_the_interval_of_the_scatter():
     assert found().verdict == HOLDS
     assert found(grid=0.05).verdict == UNDECIDED
     assert found(value=1.2).verdict == FAILS
-    # of what is never negative, to nil at most
+    # the interval of a number that is never negative is cut at zero
     assert found(grid=2.0, size=True).interval == (0.0, pytest.approx(3.01))
 
 

@@ -1,4 +1,4 @@
-"""What grids leave uncertain of friction, said on every page: first where it is much."""
+"""The uncertainty of friction due to grids, which every page states: first where it is large."""
 
 from dataclasses import replace
 
@@ -25,15 +25,15 @@ def answers(three, one=(1e-5, 2e-5)):
 
 
 def test_an_error_above_a_tenth_is_said_first():
-    told = griderror.told(answers([0.01, 0.11, 0.23]), ["the answer"])
-    assert told[1:] == ["the answer"]
-    assert told[0] == ("Friction may be wrong by up to 23 % in 3D by the grid: take more points (bounds of 95 %).")
+    lines = griderror.with_grid_error(answers([0.01, 0.11, 0.23]), ["the answer"])
+    assert lines[1:] == ["the answer"]
+    assert lines[0] == "Friction may be wrong by up to 23 % in 3D by the grid: take more points (bounds of 95 %)."
 
 
 def test_without_friction_nothing_is_said():
     still = xarray.DataTree.from_dict({"/contacts/BEM": xarray.Dataset({"depth": ((), 1.0)})})
-    assert griderror.told(still, ["the answer"]) == ["the answer"]
-    assert griderror.told(answers([np.nan], [np.nan]), ["the answer"]) == ["the answer"]
+    assert griderror.with_grid_error(still, ["the answer"]) == ["the answer"]
+    assert griderror.with_grid_error(answers([np.nan], [np.nan]), ["the answer"]) == ["the answer"]
 
 
 BODY = PowerLaw(coefficient=1e-4 / 1e-3**50, exponent=50)
@@ -49,9 +49,9 @@ def test_a_sweep_states_the_error_of_every_contact_and_warns_of_a_great_one(tmp_
     (uncertain,) = (each for each in warned if each.category is compare.UncertainFriction)
     assert "Friction may be wrong by up to" in str(uncertain.message)
     assert uncertain.filename == __file__
-    told = [str(each.message) for each in warned if each.category is Doubtful]
-    assert told[0].startswith("slope of the body at the edge of the contact")
-    assert told[-1].startswith("1 of 4 contacts have no answer")  # on half the points
+    messages = [str(each.message) for each in warned if each.category is Doubtful]
+    assert messages[0].startswith("slope of the body at the edge of the contact")
+    assert messages[-1].startswith("1 of 4 contacts have no answer")  # on half the points
 
 
 @pytest.mark.usefixtures("in_this_process")

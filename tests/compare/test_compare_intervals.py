@@ -83,7 +83,7 @@ def test_draws_that_lie_alike_to_both_sides_have_students_interval():
 
 @pytest.mark.parametrize("count", [20, 100])
 def test_what_leaving_surfaces_out_gives_holds_as_often(count):
-    """Ratio of two means of skewed draws, that of its logarithm, and a power of it; a hundred in groups."""
+    """Ratio of two means of skewed draws, its logarithm, and a power of it; a hundred in groups."""
 
     def numbers(part):
         ratio = np.divide(*part.values.mean(axis=-1))
@@ -129,11 +129,11 @@ def test_every_place_gives_the_same_interval_of_the_same_draws():
     }
     grids = xarray.Dataset(forces, {"speed": [1.0], "load": [1.0]}).expand_dims(level=[FINE])
     sample = DrawSet({"a": grids.sel(level=FINE)})
-    told = compared(lambda sample: sample["a"]["normal_force"].mean("surface").values, sample, None)
+    force = compared(lambda sample: sample["a"]["normal_force"].mean("surface").values, sample, None)
     curves = SimulatedCurves(np.ones(1), np.ones((1, 1, 12)), values[None, None])
     friction = curves.replicates(1.0, values.mean() * curves.deviations()[:, 0]).estimated.interval()
     one_out = Replicates.without_one(values.mean(), left_out(values)).estimated
-    for low, high in (told.at((0, 0)).interval(), np.array(friction) + values.mean() - 1, one_out.interval()):
+    for low, high in (force.at((0, 0)).interval(), np.array(friction) + values.mean() - 1, one_out.interval()):
         assert (low, high) == pytest.approx(expected, rel=1e-9)
     # A Dataset on one grid has no error of the grid, and so no end.
     assert np.isnan(interval(grids, "normal_force").ends[1]).all()
@@ -218,7 +218,7 @@ def test_a_size_is_in_its_interval_as_often_as_stated(modes, size, surfaces):
         truth = length / sqrt(samples.shape[1])
         kept += low <= truth <= high
         squares.append(found.square - truth**2)
-        # Where there is less than scatter explains it is nil for all that is known.
+        # A square that is less than scatter explains is zero as far as is known.
         assert found.square > 0 or (found.value, low) == (0.0, 0.0) < (0.0, high)
     assert kept >= LEAST * REPEATS
     # What scatter adds is taken out: three standard errors of the mean.

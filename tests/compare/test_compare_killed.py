@@ -58,7 +58,7 @@ def of(word, *others):
 
 
 def killed(word, folder, step):
-    """Whether a run was killed before it did so many things to its folder."""
+    """Whether a run was killed before it had taken `step` steps in its folder."""
 
     def to_its_death():
         steps = count(1)
@@ -82,7 +82,7 @@ def killed(word, folder, step):
 
 
 def titled(folder):
-    """The word of the results, which is that of the page."""
+    """The word of the results, which has to be the word of the page."""
     word = str(compare.load(folder)["a"]["word"].values)
     assert json.loads((folder / "manifest.json").read_text())["title"] == word
     assert f"<title>{word}</title>" in (folder / "report.html").read_text()
@@ -136,7 +136,7 @@ def test_results_of_one_run_and_the_manifest_of_another_are_noticed(tmp_path):
     for word in ("one", "two"):
         written(word, tmp_path / word, report=False)
     (tmp_path / "one/results.nc").replace(tmp_path / "two/results.nc")
-    with pytest.raises(InvalidInput, match=r"results\.nc: is of another run than manifest\.json beside it"):
+    with pytest.raises(InvalidInput, match=r"results\.nc: is of another run than manifest\.json in its folder"):
         compare.load(tmp_path / "two")
     assert compare.load(tmp_path / "two/results.nc")["a"]["word"] == "one"
 

@@ -95,7 +95,7 @@ def test_a_layer_keeps_the_load_and_widens_the_more_the_higher_it_is(n, pressure
 
 @pytest.mark.parametrize("n", [*EXPONENTS, 100.0])
 def test_a_layer_of_any_height_and_pressure_has_an_answer_under_the_load(n):
-    """Half a decade apart in height over depth, and closer in pressure over that of full contact."""
+    """Half a decade apart in height over depth, and closer in pressure over the pressure of full contact."""
     smooth = NominalContact.smooth(n, RADIUS, LOAD)
     for height in np.geomspace(1e-8, 1.0, 17):
         for pressure in np.geomspace(1e-4, 1e4, 33):
@@ -149,7 +149,7 @@ def test_no_unit_of_length_load_or_time_matters(factor):
 
 
 @pytest.mark.parametrize(
-    ("scene", "told"),
+    ("scene", "message"),
     [
         (replace(SCENE, indenter=Plane(), motion=Slide(speed=0.1, pressure=1e4)), "body of revolution"),
         (replace(SCENE, indenter=Cylinder(1e-2), motion=Slide(speed=0.1, line_load=10.0)), "body of revolution"),
@@ -157,8 +157,8 @@ def test_no_unit_of_length_load_or_time_matters(factor):
         (replace(SCENE, roughness=replace(ROUGH, shortest=None)), "state shortest"),
     ],
 )
-def test_what_the_law_has_no_answer_to_is_refused_with_a_reason(scene, told):
-    with pytest.raises(Refused, match=told):
+def test_what_the_law_has_no_answer_to_is_refused_with_a_reason(scene, message):
+    with pytest.raises(Refused, match=message):
         FrictionLaw().solve(scene)
 
 

@@ -1,4 +1,4 @@
-"""The master curve in three dimensions: answers made of the law fall on it, others are told how far off."""
+"""The master curve in three dimensions: answers made by the law fall on it, others are found to be off."""
 
 from dataclasses import replace
 
@@ -113,7 +113,7 @@ SEEDS = 60
 
 @pytest.mark.parametrize("off", [0.0, 0.2])
 def test_intervals_hold_what_points_are_off_without_scatter(off):
-    """A tenth of the draws may miss at either end: sizes of six points, of which eight surfaces are known."""
+    """A tenth of the draws may miss at either end: sizes of six points, known from eight surfaces."""
     ends = [
         found(answers(times=np.exp(off), scatter=0.2, seed=seed))["collapse"].interval for seed in range(SEEDS)
     ]
@@ -159,8 +159,8 @@ def test_a_figure_shows_every_point_and_what_is_not_claimed_hollow():
         above, below = plot.figure().axes
         paper = style.paper()
     own = {each.claim.id: words.number(100 * each.value, 2) for each in judged.findings}
-    told = " ".join(below.get_title(loc="left").split())
-    assert f"off by {own['law3d.collapse']} % (median), {own['law3d.collapse-most']} % (nine in ten)" in told
+    title = " ".join(below.get_title(loc="left").split())
+    assert f"off by {own['law3d.collapse']} % (median), {own['law3d.collapse-most']} % (nine in ten)" in title
     drawn = [line for line in above.lines if line.get_marker() not in ("", "None", "_", "|")]
     hollow = sum(line.get_xdata().size for line in drawn if line.get_markerfacecolor() == paper)
     assert hollow == (plot.tables["law"]["height_over_depth"] > SHALLOW).sum() > 0

@@ -164,7 +164,7 @@ def test_every_file_of_the_page_about_scenes_is_read(text, tmp_path, monkeypatch
     if "[[series]]" in text:
         assert study_of(text, "mine").series("quick")
         return
-    # What a part of a file leaves out is that of a ready scene.
+    # A file takes the parts that it leaves out from a ready scene.
     stated, whole = tomllib.loads(text), tomllib.loads(find("cold-rubber").text)
     content = {name: stated.get(name, whole.get(name)) for name in {**whole, **stated}}
     if "indenter" not in stated and "gap" in stated.get("motion", {}):

@@ -1,4 +1,4 @@
-"""Looks of figures: widths and texts of journals, styles of one's own, colours that every reader tells apart.
+"""Looks of figures: widths and texts of journals, users' own styles, colours that every reader can distinguish.
 
 Every figure that a command can leave is drawn from the tables in plots, as `crosscheck export` draws it.
 """
@@ -88,7 +88,7 @@ def drawn(name, look=style.PRINT):
 
 @cache
 def plain(name):
-    """As it is without a journal or a style of one's own; only to be looked at."""
+    """As it is without a journal or a user's own style; only to be looked at."""
     return drawn(name)
 
 
@@ -131,13 +131,13 @@ def laws_of_layout(name, asked):
     if drawing.get_figwidth() not in COLUMNS[asked]:
         yield "it is neither as wide as a column nor as the page"
     width, height = drawing.bbox.width, drawing.bbox.height
-    for said, box in boxes:
+    for text, box in boxes:
         if min(box.x0, box.y0) < -TOUCHING or box.x1 > width + TOUCHING or box.y1 > height + TOUCHING:
-            yield f"{said!r} is cut"
-    for (said, box), (other, beside) in combinations(boxes, 2):
-        over = Bbox.intersection(box, beside)
+            yield f"{text!r} is cut"
+    for (text, box), (other, other_box) in combinations(boxes, 2):
+        over = Bbox.intersection(box, other_box)
         if over is not None and min(over.width, over.height) > TOUCHING:
-            yield f"{said!r} lies over {other!r}"
+            yield f"{text!r} lies over {other!r}"
     for axes in drawing.axes:
         legend = axes.get_legend()
         points = [line.get_transform().transform(line.get_xydata()) for line in axes.lines]
@@ -182,10 +182,10 @@ def test_texts_too_small_cut_or_over_one_another_are_found(monkeypatch):
 @every_figure
 def test_every_axis_says_its_unit(name):
     drawing, texts, _ = laid_out(name, NARROW)
-    said = {id(text) for text in texts}
+    shown = {id(text) for text in texts}
     for axes, direction in product((axes for axes in drawing.axes if axes.axison), "xy"):
         ticks = [
-            label.get_text() for label in getattr(axes, f"get_{direction}majorticklabels")() if id(label) in said
+            label.get_text() for label in getattr(axes, f"get_{direction}majorticklabels")() if id(label) in shown
         ]
         words = [text for text in ticks if re.search(r"[a-z]{3}", text) and "math" not in text]
         if words or not re.search(r"\d", " ".join(ticks)):

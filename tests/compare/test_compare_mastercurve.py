@@ -19,7 +19,7 @@ from scene.files.reading import InvalidInput
 
 
 def columns(law, speeds, loads, repeats=1, noise=0.0, seed=4):
-    """Friction by a law of load and speed at every one of both, each so many times with scatter; by columns."""
+    """Friction by a law of load and speed at each pair of both, `repeats` times with scatter; by columns."""
     v, load, _ = (each.ravel() for each in np.meshgrid(speeds, loads, range(repeats), indexing="ij"))
     scatter = 1 + noise * np.random.default_rng(seed).normal(size=v.size)
     return {"mu": law(load, v) * scatter, "F_N": load, "v": v}
@@ -59,21 +59,21 @@ def found(study):
 @pytest.mark.parametrize("vertical", [0.0, 0.05, 0.1, -0.1])
 def test_the_answer_holds_the_pair_of_shifts_that_was_planted(tmp_path, vertical, noise):
     made = study(tmp_path, table(vertical=vertical, noise=noise))
-    told = found(made)
+    named = found(made)
     pair = {"vertical-exponent": vertical, "exponent-beside-vertical": -1.5} if vertical else {"exponent": -1.5}
     for name, planted in pair.items():
-        low, high = told[name].interval
+        low, high = named[name].interval
         assert low - ROUNDING <= planted <= high + ROUNDING, name
-    said = " ".join(made.judge(made.answers({})).answer)
+    message = " ".join(made.judge(made.answers({})).answer)
     for name in pair:
-        assert f"{told[name].claim.sentence}: {worded(told[name], 3)}" in said
+        assert f"{named[name].claim.sentence}: {worded(named[name], 3)}" in message
     if vertical:
-        assert (told["vertical-exponent"].verdict, told["vertical"].verdict) == (FAILS, REPORTED)
-        assert "No shift along friction" not in said
-        assert not told["exponent"].interval[0] <= -1.5 <= told["exponent"].interval[1]
+        assert (named["vertical-exponent"].verdict, named["vertical"].verdict) == (FAILS, REPORTED)
+        assert "No shift along friction" not in message
+        assert not named["exponent"].interval[0] <= -1.5 <= named["exponent"].interval[1]
     else:
-        assert told["vertical"].verdict == HOLDS
-        assert "shift along friction, beside" not in said
+        assert named["vertical"].verdict == HOLDS
+        assert "shift along friction, beside" not in message
 
 
 # Curves of friction, which are one of the load times a power of the speed.
@@ -88,7 +88,7 @@ FOLLOWED = 2e-3  # misfit that the freest polynomial leaves of such curves
 
 
 def planted(shape, noise, seed, speeds):
-    """Three to six loads, five speeds to so many, over one to four decades, three times each; and their shifts."""
+    """Three to six loads, five to `speeds` speeds over one to four decades, three times each; and their shifts."""
     rng = np.random.default_rng(seed)
     count = rng.integers(3, 7)
     loads = rng.uniform(2, 6) ** np.arange(count)
@@ -112,9 +112,9 @@ def holds(number, truth, rounding=ROUNDING):
     ("sets", "speeds"), [(4, 7), pytest.param(20, 20, marks=pytest.mark.slow)], ids=["few", "many"]
 )
 def test_exponent_and_shifts_are_in_their_intervals_whatever_the_shape_of_the_curve(noise, sets, speeds):
-    """Of so many sets of a shape; allowed: three deviations of as many beside 93 %, as first-order theory has it.
+    """Sets of a shape; allowed: three deviations of their number from 93 %, as first-order theory has it.
 
-    The curve that is fitted is a polynomial, and that of the data is none.
+    The fitted curve is a polynomial, and the curve of the data is not.
     """
     exponents, shifts, misfits = [], [], []
     for shape in SHAPES:
@@ -138,11 +138,11 @@ def test_one_scatter_stands_behind_all_points():
 
 
 def test_single_measurements_leave_the_verdict_open(tmp_path):
-    told = found(study(tmp_path, table(repeats=1)))
-    assert (told["horizontal"].verdict, told["horizontal"].reason) == (UNDECIDED, NOT_REPEATED)
-    assert 0 < told["horizontal"].value < 0.03
-    assert told["exponent"].value == pytest.approx(-1.5, abs=0.1)
-    assert np.isnan(told["exponent"].interval).all()
+    named = found(study(tmp_path, table(repeats=1)))
+    assert (named["horizontal"].verdict, named["horizontal"].reason) == (UNDECIDED, NOT_REPEATED)
+    assert 0 < named["horizontal"].value < 0.03
+    assert named["exponent"].value == pytest.approx(-1.5, abs=0.1)
+    assert np.isnan(named["exponent"].interval).all()
 
 
 def bent():
@@ -157,10 +157,10 @@ def bent():
 
 def test_friction_that_does_not_collapse_has_no_exponent(tmp_path):
     made = study(tmp_path, bent())
-    told = found(made)
-    assert told["horizontal"].verdict == FAILS
-    assert (told["exponent"].verdict, told["exponent"].reason) == (REPORTED, NO_SHIFT)
-    assert np.isnan(told["exponent"].value)
+    named = found(made)
+    assert named["horizontal"].verdict == FAILS
+    assert (named["exponent"].verdict, named["exponent"].reason) == (REPORTED, NO_SHIFT)
+    assert np.isnan(named["exponent"].value)
     # which the fit has, and which means nothing
     assert np.isfinite(made.collapse.horizontal.exponent.value)
 
@@ -179,11 +179,11 @@ def test_names_order_units_and_the_friction_force_change_no_digit(heading):
     read = MeasuredFriction.of(dict(zip(heading.split(","), numbers, strict=True)))
     for name, wanted in zip(NAMES, COLUMNS, strict=True):
         np.testing.assert_allclose(read.data[name], wanted, rtol=1e-14)
-    for said, count in (
+    for message, count in (
         ("not used", heading.lower().count("time")),
         ("negative throughout", sum(bool(np.all(each < 0)) for each in numbers)),
     ):
-        assert sum(said in each for each in read.notes) == count
+        assert sum(message in each for each in read.notes) == count
 
 
 def test_a_table_of_another_form_is_stated_on_the_command_line(tmp_path):
@@ -239,10 +239,10 @@ def test_constants_that_are_found_or_stated_are_used_and_wrong_ones_leave_no_exp
         Mastercurve.of(WARMED, **stated) for stated in ({}, *(STATED | {"c1": c1} for c1 in (8.9, 20.0)))
     )
     assert right.inputs["reference"] == "20 degC"
-    known, told, missed = map(found, (sought, right, wrong))
-    verdicts = [each["temperatures"].verdict for each in (known, told, missed)]
+    known, named, missed = map(found, (sought, right, wrong))
+    verdicts = [each["temperatures"].verdict for each in (known, named, missed)]
     assert verdicts == [HOLDS, HOLDS, FAILS]
-    for each in (known, told):
+    for each in (known, named):
         low, high = each["exponent"].interval
         assert low <= -0.6 <= high < low + 0.05
     shifts = sought.judge(None).plots[1].tables["temperature-shifts"]
@@ -252,11 +252,11 @@ def test_constants_that_are_found_or_stated_are_used_and_wrong_ones_leave_no_exp
     assert np.isnan(missed["exponent"].value)
     assert "temperatures together" in missed["exponent"].reason
     # Whether the curves are one does not depend on the speed that they have.
-    assert missed["horizontal"].value == pytest.approx(told["horizontal"].value, abs=1e-3)
+    assert missed["horizontal"].value == pytest.approx(named["horizontal"].value, abs=1e-3)
 
 
 @pytest.mark.parametrize(
-    ("stated", "said"),
+    ("stated", "message"),
     [
         (STATED | {"reference": "500 degC"}, "the law ends at reference - c2"),
         (STATED | {"reference": 20}, "is degC meant"),
@@ -264,8 +264,8 @@ def test_constants_that_are_found_or_stated_are_used_and_wrong_ones_leave_no_exp
         ({"tolerance": 0.6}, "tolerance = "),
     ],
 )
-def test_constants_and_tolerances_that_are_none_are_refused(stated, said):
-    with pytest.raises(InvalidInput, match=said):
+def test_constants_and_tolerances_that_are_none_are_refused(stated, message):
+    with pytest.raises(InvalidInput, match=message):
         Mastercurve.of(WARMED, **stated)
 
 

@@ -110,8 +110,8 @@ def test_a_model_is_judged_against_the_reference_by_the_claims_of_the_others(jud
     assert values == pytest.approx([0.1] * len(values), abs=0.01)
     assert set(verdicts) == {FAILS}
     assert set(found(judged, "force.ratio.smooth", "1D/3D")[1]) == {HOLDS}
-    told = {each.claim.sentence for each in judged.judged}
-    assert "The force on the smooth body at the same depth is the same in Stiff and 3D" in told
+    sentences = {each.claim.sentence for each in judged.judged}
+    assert "The force on the smooth body at the same depth is the same in Stiff and 3D" in sentences
 
 
 def test_the_numbers_of_the_default_pair_do_not_move(judged, tmp_path):
@@ -140,13 +140,13 @@ def test_a_model_that_answers_nothing_is_told_and_takes_no_other_with_it(error, 
     models = ["bem", Failing(error=error)]
     with pytest.warns(Doubtful, match="too steep"):
         report = compare.sweep(SMOOTH, [0.1], draws=1, output=tmp_path, models=models, report=False)
-    told = "refused: too steep" if error == "refused" else "too steep"
-    assert told in report["reason"].sel(model="Failing").values
+    reason = "refused: too steep" if error == "refused" else "too steep"
+    assert reason in report["reason"].sel(model="Failing").values
     assert report["friction_force"].sel(model="BEM", level="fine").notnull().all()
 
 
 @pytest.mark.parametrize(
-    ("models", "reference", "said"),
+    ("models", "reference", "message"),
     [
         (["bem", "nothing"], None, "no model of that name"),
         (["bem", "no.such:Thing"], None, "cannot be imported"),
@@ -160,8 +160,8 @@ def test_a_model_that_answers_nothing_is_told_and_takes_no_other_with_it(error, 
         (["bem", called("a", r"$\frac$")], None, "its `label` is"),
     ],
 )
-def test_a_mistake_is_named_before_anything_is_solved(models, reference, said, tmp_path):
-    with pytest.raises(InvalidInput, match=re.escape(said)):
+def test_a_mistake_is_named_before_anything_is_solved(models, reference, message, tmp_path):
+    with pytest.raises(InvalidInput, match=re.escape(message)):
         compare.run(SMOOTH, tmp_path / "none", models=models, reference=reference)
     assert not (tmp_path / "none").exists()
 
@@ -203,8 +203,8 @@ def test_the_class_of_a_script_is_solved_in_its_process(tmp_path):
     model, asked = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
     script = tmp_path / "script.py"
     script.write_text(f"{model}\n{asked}    print(report)\n    print(friction)\n")
-    told = subprocess.run([sys.executable, script], cwd=tmp_path, capture_output=True, text=True, check=True)
-    assert "is the same in smooth limit and 3D" in told.stdout
+    finished = subprocess.run([sys.executable, script], cwd=tmp_path, capture_output=True, text=True, check=True)
+    assert "is the same in smooth limit and 3D" in finished.stdout
 
 
 OWN = """

@@ -15,10 +15,10 @@ STUDIES = 2000
 COUNTS = 4, 8, 60
 
 
-def answers(rng, counts=COUNTS, variation=0.2, told=None):
+def answers(rng, counts=COUNTS, variation=0.2, correlation=None):
     """Friction and load of surfaces that share their scatter between points, of mean 1 on the fine grid.
 
-    told : correlation of one of seven moments with the logarithm of friction; None without moments
+    correlation : correlation of a moment, among seven, with the logarithm of friction; None without moments
     """
     stratum = np.repeat(range(len(counts)), counts)
     spread = sqrt(np.log1p(variation**2))
@@ -41,9 +41,9 @@ def answers(rng, counts=COUNTS, variation=0.2, told=None):
         "friction_force": (dims, np.where(asked, grids, np.nan)),
         "normal_force": (dims, np.where(asked, force, np.nan)),
     }
-    if told is not None:
+    if correlation is not None:
         moments = rng.normal(size=(*normal.shape, 7))
-        moments[..., 2] = told * normal + sqrt(1 - told**2) * moments[..., 2]
+        moments[..., 2] = correlation * normal + sqrt(1 - correlation**2) * moments[..., 2]
         moments[..., stratum < len(counts) - 1, :] = np.nan
         found["control_variates"] = ("load", "surface", "variate"), moments
     return xarray.Dataset(found, coordinates, {"solver": "BEM"})
@@ -85,9 +85,9 @@ def test_values_are_less_what_a_regression_through_all_others_tells_of_them():
 def test_moments_that_tell_nothing_change_nothing():
     rng = np.random.default_rng(3)
     values, moments = rng.normal(size=40), rng.normal(size=(40, 3))
-    told = controlled(values, moments[:, :1])
+    alone = controlled(values, moments[:, :1])
     nothing = np.stack([moments[:, 0], np.zeros(40), np.full(40, 2.5), moments[:, 0]], axis=-1)
-    np.testing.assert_allclose(controlled(values, nothing), told, rtol=0, atol=ALIKE)
+    np.testing.assert_allclose(controlled(values, nothing), alone, rtol=0, atol=ALIKE)
     np.testing.assert_array_equal(controlled(values, moments[:, :0]), values)
     np.testing.assert_array_equal(controlled(values[:3], moments[:3]), values[:3])
     assert np.isnan(controlled(np.full(9, np.nan), moments[:9])).all()
@@ -95,7 +95,7 @@ def test_moments_that_tell_nothing_change_nothing():
 
 def test_moments_leave_less_scatter_of_coarse_surfaces_alone():
     rng = np.random.default_rng(5)
-    given = answers(rng, (8, 8, 200), told=0.85)
+    given = answers(rng, (8, 8, 200), correlation=0.85)
     plain, found = pooled(given.drop_vars("control_variates")), pooled(given)
     assert set(found.variables) == set(plain.variables)
     strata = given["stratum"].values
@@ -129,9 +129,9 @@ def test_leaving_surfaces_out_of_all_grids_has_the_error_of_the_mean():
     for _ in range(100):
         given = pooled(answers(rng)).sel(level="fine")
         found = resample(lambda sample: {"": friction(sample["BEM"])}, DrawSet({"BEM": given}))[""].estimated
-        told = mean_ratio(given["friction_force"].values, given["normal_force"].values, strata_of(given))
-        np.testing.assert_allclose(found.value, told.value, rtol=1e-12)
-        squares.append(np.square(found.error / told.error))
+        ratio = mean_ratio(given["friction_force"].values, given["normal_force"].values, strata_of(given))
+        np.testing.assert_allclose(found.value, ratio.value, rtol=1e-12)
+        squares.append(np.square(found.error / ratio.error))
     assert np.mean(squares) == pytest.approx(1.0, abs=0.05)
 
 

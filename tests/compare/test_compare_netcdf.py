@@ -24,7 +24,7 @@ OF_ALL_KINDS = xarray.Dataset(
         "words": ("nameless_three", WORDS),
         "none": ("nothing", np.zeros(0)),
     },
-    {"x": [1.0, 2.0], "kind": ("x", ["a", "b"]), "beside": ("nameless", [1, 2, 3]), "y": ["ä", "bb"]},
+    {"x": [1.0, 2.0], "kind": ("x", ["a", "b"]), "another": ("nameless", [1, 2, 3]), "y": ["ä", "bb"]},
     {"solver": "BEM", "comment": "", "größe": "é", "count": 3, "low": 0.1},
 )
 

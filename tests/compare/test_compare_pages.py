@@ -39,7 +39,7 @@ def folder(tmp_path_factory):
     """What a command leaves: page, figures, tables, results and manifest."""
     path = tmp_path_factory.mktemp("left")
     drawn = []
-    render.write(files := render.files(page(), FINDINGS, told=drawn.append), path)
+    render.write(files := render.files(page(), FINDINGS, on_drawn=drawn.append), path)
     assert drawn == ["sphere/friction"]
     values = {"friction_force": ("seed", [0.1, 1 / 3]), "status": ("seed", ["solved", "not asked"])}
     dataset = xarray.Dataset(values, {"seed": [0, 1]})
@@ -121,7 +121,7 @@ def test_the_page_needs_nothing_else_and_every_link_leads_somewhere(folder):
     found = Links((folder / "report.html").read_text())
     assert len(found.ids) == len(set(found.ids))
     for link in found.links:
-        assert link[0] == "#"  # no link to a file beside, so that the page may be moved alone
+        assert link[0] == "#"  # no link to another file, so that the page may be moved alone
         assert link[1:] in found.ids
     for name in re.findall(r"<code>([^<]+\.(?:csv|png))</code>", (folder / "report.html").read_text()):
         assert (folder / name).is_file()
@@ -139,8 +139,8 @@ def test_the_page_opens_with_its_answer_then_the_figure_then_tables(folder):
 def test_a_page_has_answer_findings_tables_and_figures_escaped(tmp_path):
     text = written(page(), FINDINGS, tmp_path).read_text()
     shown = "".join(Links(text).words)
-    for said in ("Depths at rest agree", "1.010 (0.986 to 1.034)", "fails", "undecided", "12.3 (10.9 to 13.8) s"):
-        assert said in shown
+    for each in ("Depths at rest agree", "1.010 (0.986 to 1.034)", "fails", "undecided", "12.3 (10.9 to 13.8) s"):
+        assert each in shown
     assert "the error of the grid is not known" in shown
     assert "sphere/friction.png" in text
     assert "<speed>" not in text
@@ -159,9 +159,9 @@ def test_the_terminal_shows_a_claim_once_with_all_that_was_found():
 
 
 def test_in_a_notebook_a_page_is_the_same_text(monkeypatch):
-    told = terminal.text(page())
+    plain = terminal.text(page())
     monkeypatch.setattr("rich.console._is_jupyter", lambda: True)
-    assert terminal.text(page()) == told
+    assert terminal.text(page()) == plain
 
 
 def test_a_notebook_gets_answer_findings_and_tables_without_links_that_lead_nowhere():
@@ -228,14 +228,14 @@ FORGED = [
 ]
 
 
-@pytest.mark.parametrize(("change", "said"), FORGED, ids=range(len(FORGED)))
-def test_a_forged_figure_is_refused_by_name(folder, tmp_path, change, said):
+@pytest.mark.parametrize(("change", "message"), FORGED, ids=range(len(FORGED)))
+def test_a_forged_figure_is_refused_by_name(folder, tmp_path, change, message):
     content = json.loads((folder / "manifest.json").read_text())
     content["plots"][0] |= change
     (tmp_path / "manifest.json").write_text(json.dumps(content))
     (tmp_path / "sphere").mkdir()
     (tmp_path / "sphere/friction-speed.csv").write_bytes((folder / "sphere/friction-speed.csv").read_bytes())
-    with pytest.raises(InvalidInput, match=re.escape(said)):
+    with pytest.raises(InvalidInput, match=re.escape(message)):
         draw_again(tmp_path, output=tmp_path / "out")
     assert not (tmp_path / "out").exists()
 
@@ -271,7 +271,7 @@ def test_a_damaged_manifest_is_named_whatever_is_in_it(tmp_path_factory, content
 
 
 @pytest.mark.parametrize(
-    ("damage", "said"),
+    ("damage", "message"),
     [
         (b"", "cannot be drawn"),
         (b"\xff", "not a table"),
@@ -279,11 +279,11 @@ def test_a_damaged_manifest_is_named_whatever_is_in_it(tmp_path_factory, content
         (b"a\n1\n", "cannot be drawn"),
     ],
 )
-def test_a_damaged_table_is_named(folder, tmp_path, damage, said):
+def test_a_damaged_table_is_named(folder, tmp_path, damage, message):
     (tmp_path / "manifest.json").write_bytes((folder / "manifest.json").read_bytes())
     (tmp_path / "sphere").mkdir()
     (tmp_path / "sphere/friction-speed.csv").write_bytes(damage)
-    with pytest.raises(InvalidInput, match=said):
+    with pytest.raises(InvalidInput, match=message):
         draw_again(tmp_path)
 
 
@@ -342,7 +342,7 @@ def test_nothing_is_written_out_of_the_folder(copied, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("given", "said"),
+    ("given", "message"),
     [
         ({"journal": "natur"}, "mean nature"),
         ({"width": "5 m"}, "width = '5 m': 80 mm to 200 mm"),
@@ -352,8 +352,8 @@ def test_nothing_is_written_out_of_the_folder(copied, tmp_path):
         ({"format": "png,word"}, "format = word: allowed are vtk, png, pdf, svg"),
     ],
 )
-def test_a_look_that_does_not_exist_is_refused(folder, tmp_path, given, said):
-    with pytest.raises(InvalidInput, match=said):
+def test_a_look_that_does_not_exist_is_refused(folder, tmp_path, given, message):
+    with pytest.raises(InvalidInput, match=message):
         export(folder, output=tmp_path, **given)
     assert not list(tmp_path.iterdir())
 

@@ -5,7 +5,6 @@ from math import isnan, pi, sqrt
 
 import numpy as np
 import pytest
-from compare.studies.comparison.answers import with_theory
 from invented_answers import SERIES
 from scipy.integrate import cumulative_trapezoid
 from scipy.special import erf
@@ -17,6 +16,7 @@ from compare.library.lookup import case_of
 from compare.models.exact.full_contact import complex_stiffness
 from compare.models.law.bands import Bands, FullContact
 from compare.models.table import QUANTITIES
+from compare.studies.comparison.answers import with_theory
 from compare.studies.comparison.rough import ROUGH
 from mdr1d import MDR
 from scene import (
@@ -134,7 +134,7 @@ def test_in_full_contact_all_of_the_smooth_contact_rubs():
 
 
 @pytest.mark.parametrize(
-    ("changed", "said"),
+    ("changed", "message"),
     [
         ({"motion": Slide(speed=0.1, depth=1e-4)}, "motion.depth = 0.0001: the theory makes no claim"),
         ({"roughness": replace(SURFACE, shortest=None)}, "roughness.shortest is absent"),
@@ -144,8 +144,8 @@ def test_in_full_contact_all_of_the_smooth_contact_rubs():
         ({"layer": Layer(thickness=0.01)}, "layer = Layer"),
     ],
 )
-def test_what_the_theory_is_not_of_is_refused_by_name(changed, said):
-    with pytest.raises(Refused, match=said):
+def test_what_the_theory_is_not_of_is_refused_by_name(changed, message):
+    with pytest.raises(Refused, match=message):
         Persson().solve(replace(BODY, **changed))
 
 

@@ -78,7 +78,7 @@ PROGRAM = (
 
 
 @pytest.mark.parametrize(
-    ("text", "status", "said"),
+    ("text", "status", "lines"),
     [
         (PLANE.format(shortest=1e-4), 0, ["MDR cannot solve this scene: indenter = Plane", "left out"]),
         (
@@ -95,10 +95,10 @@ PROGRAM = (
     ],
     ids=["refused by one", "refused by both", "too many steps", "shortest time of all"],
 )
-def test_what_is_refused_stands_in_the_plan_and_in_its_status(written, text, status, said):
+def test_what_is_refused_stands_in_the_plan_and_in_its_status(written, text, status, lines):
     answer = ask("plan", written(text))
     assert answer.exit_code == status
-    for each in said:
+    for each in lines:
         assert each in answer.output
 
 

@@ -98,12 +98,12 @@ def test_a_check_passes_only_if_the_whole_interval_lies_inside(project):
         of.format("1.06", 0.05), of.format("1.04, grid=0.01", 0.07), of.format("1.04, grid=0.03", 0.06)
     )
     result.assert_outcomes(passed=1, failed=2)
-    told = text(result)
-    assert "seal: friction one/two: fails, expected 1 ± 0.05, found 1.06" in told
+    output = text(result)
+    assert "seal: friction one/two: fails, expected 1 ± 0.05, found 1.06" in output
     assert re.search(
-        r"seal: friction one/two: undecided, expected 1 ± 0.06, found 1.071 \(1.04\d* to 1.1\d*\)", told
+        r"seal: friction one/two: undecided, expected 1 ± 0.06, found 1.071 \(1.04\d* to 1.1\d*\)", output
     )
-    assert "a finer grid would decide it" in told
+    assert "a finer grid would decide it" in output
 
 
 def test_an_undecided_check_says_how_many_surfaces_would_decide_it(project):
@@ -156,8 +156,8 @@ def test_mistakes_are_named(project):
         'check("seal.toml", models=["mdr", "bemm"], friction=0.1)',
     )
     result.assert_outcomes(failed=4)
-    for said in ("say how far from 1", "has depth and friction to compare", "no such file", "did you mean bem?"):
-        assert said in text(result)
+    for each in ("say how far from 1", "has depth and friction to compare", "no such file", "did you mean bem?"):
+        assert each in text(result)
 
 
 def test_models_are_named_and_their_settings_are_those_of_the_scene():

@@ -22,7 +22,7 @@ class Seen(Shown):
         self.bar.live.auto_refresh = False
 
     def solve(self, *tasks, seconds):
-        """Solve tasks one by one, each in so many seconds; yields after each start and each end."""
+        """Solve tasks one by one, each in `seconds` seconds; yields after each start and each end."""
         with self.solving():
             self.planned(tasks, 1)
             for task in tasks:
@@ -52,9 +52,9 @@ def test_each_phase_has_its_bar_which_says_what_it_waits_for_and_grows_with_the_
         *(("preparing", None), ("compiling", None), ("solving", 80.0), ("solving", 80.0), ("solving", 100.0)),
         *(("judging", None), ("drawing", 50.0), ("writing", None)),
     ]
-    said = shown.file.getvalue()
-    assert "1/2, stand sph" in said  # cut off where there is no room
-    assert "2 tasks solved, 1 reused, 3 min 20 s" in said
+    estimate = shown.file.getvalue()
+    assert "1/2, stand sph" in estimate  # cut off where there is no room
+    assert "2 tasks solved, 1 reused, 3 min 20 s" in estimate
 
 
 def test_a_log_has_one_line_every_ten_seconds_and_nothing_that_moves_a_cursor():

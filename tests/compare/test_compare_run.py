@@ -146,7 +146,7 @@ def judged(case=CASE, **how):
 
 @pytest.mark.parametrize("interval", [None, 0.05], ids=["fixed draws", "draws in strata"])
 def test_every_number_lies_in_its_interval(interval):
-    """Over draws in strata a mean is a sum of differences, and that of a size may be negative by chance."""
+    """Over draws in strata a mean is a sum of differences, and the mean of a size may be negative by chance."""
     run = asked.run({"a case": TINY}, interval=interval)
     findings = run.judge(run.answers(invented_of(run, random=np.random.default_rng(0)))).findings
     assert not outside(findings)
@@ -248,13 +248,13 @@ def opening_of(case, **how):
 
 
 def test_a_run_opens_with_a_table_of_answers_ratios_and_advice_then_a_line_a_claim():
-    table, claims, told = opening_of(CASE)
+    table, claims, answers = opening_of(CASE)
     assert table.caption == "a case, 1 N, 0.1 m/s, 4 profiles, 2 surfaces"
-    assert told.loc["friction", ["1D (MDR)", "3D (BEM)", "1D/3D"]].tolist() == ["0.252", "0.126", "2"]
+    assert answers.loc["friction", ["1D (MDR)", "3D (BEM)", "1D/3D"]].tolist() == ["0.252", "0.126", "2"]
     advice = compare.trust(CASE.scene)
-    assert told.loc["friction", "advice"].startswith(f"multiply 1D by {advice.friction.times}")
-    assert told.loc["depth [µm]", "advice"] == "use 1D as it is"
-    assert claims.frame["claim"].is_unique  # of one scene
+    assert answers.loc["friction", "advice"].startswith(f"multiply 1D by {advice.friction.times}")
+    assert answers.loc["depth [µm]", "advice"] == "use 1D as it is"
+    assert claims.frame["claim"].is_unique  # a single scene
     assert set(claims.frame.query("claim.str.startswith('rough force')")["verdict"]) == {"fails"}
     # twice what the map foretells, whatever the scatter
     *_, other = opening_of(replace(CASE, roughness=replace(CASE.roughness, rms_height=2e-5)))

@@ -79,7 +79,7 @@ def test_a_fault_is_a_row_with_its_reason_the_rest_go_on_and_a_later_run_solves_
 
 @dataclass(frozen=True)
 class Odd(solving.Task):
-    """A task of one load that goes wrong in its own way."""
+    """A task with a single load that goes wrong in its own way."""
 
     way: str
     work: float = 1.0
@@ -178,7 +178,7 @@ def test_a_worker_that_dies_takes_no_other_with_it_and_its_task_is_tried_again_a
     swept = sweep(tasks, Store(tmp_path / "solved"), workers=2, progress=heard)
     assert forces(swept, tasks[1:]) == [4.0, 3.0, 2.0, 1.0]
     assert all(marks(tmp_path, load) == 1 for load in (3, 2, 1))
-    assert 1 <= marks(tmp_path, 4) <= 2  # it ran beside the death
+    assert 1 <= marks(tmp_path, 4) <= 2  # it was running as the other died
     assert marks(tmp_path, 20000) == min(deaths + 1, Processes.tries)
     assert sum(step == "started" for step, *_ in heard.heard) == len(tasks)
     again = [line for line in heard.said_lines if line.startswith(tasks[0].label)]

@@ -18,7 +18,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
-from stand_in_solver import told
+from stand_in_solver import every_bit
 from strategies import examples
 
 from compare.models.exact import Exact
@@ -45,7 +45,7 @@ ROW = Row(1.0, 1e-4, 0.1, 1e-9, 12.0, 0.5, {"pixel": 1e-6, "odd": np.nan}, {"poi
 
 
 def drawn(count):
-    """A task of so many scenes."""
+    """A task of `count` scenes."""
     return replace(TASK, scenes=(SCENE,) * count)
 
 
@@ -53,7 +53,7 @@ def bits(outcome):
     """All of an outcome, bit for bit."""
     fields = {name: np.asarray(each) for name, each in outcome.fields.items()}
     arrays = {name: (each.dtype, each.shape, each.tobytes()) for name, each in fields.items()}
-    return list(map(told, outcome.rows)), arrays
+    return list(map(every_bit, outcome.rows)), arrays
 
 
 FLOATS = st.floats(width=64)  # NaN with any payload that NumPy keeps, infinities, subnormals, both zeros
@@ -101,7 +101,7 @@ def test_what_no_file_can_hold_is_refused_and_leaves_nothing(tmp_path):
     store = Store(tmp_path)
     with pytest.raises(TypeError, match="x is of type complex128"):
         store.put(PICTURE, Outcome((ROW,), {"x": np.ones(3, complex)}))
-    with pytest.raises(ValueError, match=r"x takes 8e\+09 bytes, of which 1e\+09 can be stored"):
+    with pytest.raises(ValueError, match=r"x takes 8e\+09 bytes, and at most 1e\+09 can be stored"):
         store.put(PICTURE, Outcome((ROW,), {"x": np.broadcast_to(1.0, 10**9)}))
     assert list(tmp_path.iterdir()) == []
 
@@ -258,7 +258,7 @@ def test_a_folder_that_nobody_may_write_can_be_read(unprivileged, ended):
 
 
 def test_a_folder_that_cannot_be_locked_is_said_and_used(tmp_path, monkeypatch):
-    """A drive without locks refuses them of every file, unless SQLite is told to take none."""
+    """A drive without locks refuses them for every file, unless SQLite is asked to take none."""
 
     class Lockless(sqlite3.Connection):
         def execute(self, asked, *given):
@@ -274,12 +274,12 @@ def test_a_folder_that_cannot_be_locked_is_said_and_used(tmp_path, monkeypatch):
         return connection
 
     monkeypatch.setattr(folders.sqlite3, "connect", connect)
-    said = []
-    with lock([tmp_path], said.append):
+    lines = []
+    with lock([tmp_path], lines.append):
         assert os.listdir(tmp_path) == [LOCK]
         tasks, *_ = three(tmp_path)
         assert found(tmp_path, tasks) == [0, 1, 2]
-    assert said == ["this folder cannot be locked, as on some network drives: run one at a time"]
+    assert lines == ["this folder cannot be locked, as on some network drives: run one at a time"]
 
 
 def test_a_write_that_breaks_off_leaves_the_old_file_and_no_other(tmp_path):

@@ -82,7 +82,7 @@ LEVELS = {
             lambda: obeying(lambda load, speed: eq_19(load, speed**0.5 * 0.3)),
             {"eq23.collapse": "holds", "eq23.exponent": "fails", "eq23.predicted": "fails"},
         ),
-        # of straight lines shifts cannot be told apart; the one that is predicted is not sought, and fits
+        # shifts of straight lines cannot be distinguished; the predicted shift is not sought, and fits
         (
             lambda: obeying(lambda load, speed: 1e-2 * load ** (-2 / 3) * speed),
             STRAIGHT | {"eq23.predicted": "holds"},

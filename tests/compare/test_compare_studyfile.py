@@ -1,4 +1,4 @@
-"""A study of one's own: a file says what Python says, each mistake in it is named, it is judged as any other."""
+"""A user's own study: a file says what Python says, each mistake in it is named, it is judged as any other."""
 
 from dataclasses import replace
 
@@ -117,7 +117,7 @@ def test_what_a_series_states_of_its_motion_replaces_what_is_shared():
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "said"),
+    ("old", "new", "message"),
     [
         ('name = "b"', 'name = "A"', ["series: series 'A': has the folder of 'a'"]),
         (", 0.1, 0.2]", "]", ["series.0: speeds: at least two", "series.1: speeds: at least two"]),
@@ -137,10 +137,10 @@ def test_what_a_series_states_of_its_motion_replaces_what_is_shared():
         (SERIES, "", ["series: missing, a list"]),
     ],
 )
-def test_a_mistake_is_named_with_its_place(old, new, said):
+def test_a_mistake_is_named_with_its_place(old, new, message):
     assert old in TEXT
     lines = mistakes_in(TEXT.replace(old, new, 1))
-    for line in said:
+    for line in message:
         assert any(each.startswith(f"mine: {line}") for each in lines), lines
 
 

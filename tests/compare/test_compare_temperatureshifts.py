@@ -83,20 +83,20 @@ def test_a_sweep_without_gaps_is_never_chained():
 
 
 def test_shifts_within_reach_of_the_polynomial_are_exact_without_scatter():
-    told = shifts(*measured(bent, noise=0.0, jitter=0.0))
-    np.testing.assert_allclose(told.shifts.value, wlf(KELVINS), atol=1e-8)
+    law_shifts = shifts(*measured(bent, noise=0.0, jitter=0.0))
+    np.testing.assert_allclose(law_shifts.shifts.value, wlf(KELVINS), atol=1e-8)
 
 
 @pytest.mark.parametrize("noise", [0.0, 0.001, 0.01])
 def test_shifts_and_constants_of_their_law_are_in_their_intervals_whatever_the_scatter(noise):
-    """Of both shapes of the curve and some seeds; allowed: three deviations of as many beside 93 %."""
+    """Both shapes of the curve and some seeds; allowed: three deviations of their number from 93 %."""
     held = []
     for law in (knee, bent):
         for seed in range(1 if noise == 0 else 8):
-            told = shifts(*measured(law, noise=noise, jitter=0.0, seed=seed))
-            low, high = told.shifts.interval()
-            true = wlf(told.temperatures) - wlf(told.reference)
-            constants = shiftlaws.law_of(told)
+            law_shifts = shifts(*measured(law, noise=noise, jitter=0.0, seed=seed))
+            low, high = law_shifts.shifts.interval()
+            true = wlf(law_shifts.temperatures) - wlf(law_shifts.reference)
+            constants = shiftlaws.law_of(law_shifts)
             held.append(
                 [
                     np.mean((low - 1e-8 <= true) & (true <= high + 1e-8)),
@@ -133,7 +133,7 @@ def test_the_law_of_the_shifts_is_told_where_it_can_be():
 def test_two_temperatures_tell_an_energy_and_no_law():
     law = shiftlaws.law_of(shifts(*measured(kelvins=KELVINS[1:3])))
     assert law.reason == shiftlaws.TWO
-    assert law.activation_energy.told
+    assert law.activation_energy.known
     alone = shiftlaws.law_of(shifts(*measured(repeats=1, kelvins=KELVINS[1:4])))
     assert alone.reason == alone.against == shiftlaws.UNSCATTERED
     backwards = shiftlaws.law_of(shifts(*measured(shift=lambda kelvins: -wlf(kelvins), kelvins=KELVINS[1:4])))
@@ -147,6 +147,6 @@ def test_temperatures_whose_loads_are_too_far_apart_are_refused():
 
 
 def test_of_powers_of_speed_and_load_no_shift_is_told():
-    told = shifts(*measured(lambda x: -0.3 * x))
-    assert told.inseparable == POWERS
+    law_shifts = shifts(*measured(lambda x: -0.3 * x))
+    assert law_shifts.inseparable == POWERS
     assert not shifts(*measured()).inseparable

@@ -1,4 +1,4 @@
-"""Spectra of measured maps: of surfaces whose spectrum is known, and beside another program."""
+"""Spectra of measured maps: of surfaces with known spectra, and compared with another program."""
 
 import re
 from dataclasses import replace
@@ -209,9 +209,9 @@ def test_the_command_describes_a_map(tmp_path):
     stated = {"skip": 1, "unit": "um", "pixel": [map_.pixel[0]], "repeat": "periodic", "peaks": "down"}
     report = compare.topography(path, output=tmp_path / "out", **stated)
     expected = describe(replace(map_, heights=1e-6 * (1e6 * map_.heights.heights)))
-    told, law = report.findings.set_index("claim"), expected.law
-    assert told.loc["topography.rms-height", "value"] == expected.rms_height
-    known = told.loc["topography.hurst", ["value", "low", "high", "regime"]].tolist()
+    findings, law = report.findings.set_index("claim"), expected.law
+    assert findings.loc["topography.rms-height", "value"] == expected.rms_height
+    known = findings.loc["topography.hurst", ["value", "low", "high", "regime"]].tolist()
     assert known == [law.hurst, law.low, law.high, expected.band]
     np.testing.assert_array_equal(compare.load(tmp_path / "out")["rings"]["q"], expected.rings.q)
 
@@ -221,18 +221,18 @@ REPEATS = {"pixel": 1.0, "repeat": "periodic"}
 
 
 @pytest.mark.parametrize(
-    ("heights", "stated", "said"),
+    ("heights", "stated", "message"),
     [
         (NOISE, {"pixel": ["1", "2 um"]}, "there is no unit"),
         (np.ones((9, 9)), REPEATS, "heights are none once level"),
         (CHECKERS, REPEATS, NO_WAVE),
     ],
 )
-def test_a_mistake_is_named_in_a_line_and_leaves_no_folder(tmp_path, heights, stated, said):
+def test_a_mistake_is_named_in_a_line_and_leaves_no_folder(tmp_path, heights, stated, message):
     path = saved(tmp_path, heights)
     with pytest.raises(InvalidInput) as refused:
         compare.topography(path, output=tmp_path / "out", **({"unit": "m"} | stated))
-    assert said in str(refused.value)
+    assert message in str(refused.value)
     assert heights is NOISE or str(path) in str(refused.value)
     assert "\n" not in str(refused.value)
     assert not (tmp_path / "out").exists()

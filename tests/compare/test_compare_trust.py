@@ -72,8 +72,8 @@ def test_a_smooth_body_that_slides_slowly_has_twice_the_friction_in_1d(shape):
 
 def test_a_smooth_body_at_rest_is_answered_rightly_in_1d():
     for motion, name in ((Indent(load=1.0), "depth"), (Indent(depth=1e-4), "force")):
-        ((said, worth),) = trust(replace(SMOOTH, motion=motion)).corrections.items()
-        assert (said, worth.advice) == (name, "use")
+        ((message, worth),) = trust(replace(SMOOTH, motion=motion)).corrections.items()
+        assert (message, worth.advice) == (name, "use")
         assert worth.ratio == pytest.approx(1, rel=GRID)
 
 
@@ -146,7 +146,7 @@ def test_what_is_elastic_has_no_friction():
 
 
 @pytest.mark.parametrize(
-    ("changed", "said"),
+    ("changed", "message"),
     [
         ({"interface": Coulomb(coefficient=0.3)}, "interface = Coulomb"),
         ({"motion": Program(stages=(Stage(duration=1.0, load=1.0),))}, "motion = Program"),
@@ -155,14 +155,14 @@ def test_what_is_elastic_has_no_friction():
         ({"motion": Slide(speed=0.1, depth=1e250)}, ""),
     ],
 )
-def test_off_the_map_the_advice_is_to_solve_and_the_reason_names_what_is_missing(changed, said):
+def test_off_the_map_the_advice_is_to_solve_and_the_reason_names_what_is_missing(changed, message):
     found = trust(replace(PAPER, **changed))
     assert found.corrections
     assert {worth.advice for worth in found.corrections.values()} == {"solve"}
     for worth in found.corrections.values():
         assert np.isnan(worth.ratio)
         assert "Off the map" in worth.reason
-        assert said in worth.reason
+        assert message in worth.reason
 
 
 @pytest.mark.parametrize(
@@ -181,7 +181,7 @@ def test_beyond_a_slope_of_one_there_is_no_advice_for_either_solver(changed, ste
 
 
 def test_no_scene_breaks_the_map_and_one_surface_says_something_or_that_it_says_nothing():
-    """The scatter of one surface had no bound: intervals over 40 decades, and an OverflowError beyond."""
+    """The scatter of a single surface had no bound: intervals over 40 decades, and an OverflowError beyond."""
     silent = 0
     for point in (*range(40), *range(design.WIDE, design.WIDE + 20)):
         found = trust(design.scene(point))
@@ -211,17 +211,17 @@ def test_a_map_of_a_spectrum_has_the_groups_and_the_advice_of_the_spectrum():
 
 
 @pytest.mark.parametrize(
-    ("rough", "said"),
+    ("rough", "message"),
     [
         (MANY, ""),
         (sampled(MANY, pixel=STRETCHED), "rms slope along/across the direction of the map = 2,"),
         (replace(sampled(MANY), heights=1e2 * sampled(MANY).heights.heights ** 3), "kurtosis"),
     ],
 )
-def test_a_map_with_a_direction_or_with_long_tails_is_off_the_map_and_told_its_measure(rough, said):
+def test_a_map_with_a_direction_or_with_long_tails_is_off_the_map_and_told_its_measure(rough, message):
     found = trust(replace(PAPER, roughness=rough)).friction
-    assert (found.advice == "solve") == bool(said)
-    assert said in found.reason
+    assert (found.advice == "solve") == bool(message)
+    assert message in found.reason
 
 
 def test_the_law_refuses_a_map_with_a_direction_and_says_how_much():
@@ -255,8 +255,8 @@ def test_nothing_rough_is_solved(monkeypatch):
 
 def test_it_says_where_the_scene_lies():
     glasses = {KELVIN: "is infinite", STANDARD: "= 10", replace(STANDARD, glassy_modulus=2e11): "= 2e.05"}
-    for solid, said in glasses.items():
-        assert re.search(rf"^place.*, E_g/E_r {said}$", str(trust(replace(PAPER, elastomer=solid))), re.MULTILINE)
+    for solid, ratio in glasses.items():
+        assert re.search(rf"^place.*, E_g/E_r {ratio}$", str(trust(replace(PAPER, elastomer=solid))), re.MULTILINE)
 
 
 def test_waves_in_full_contact_have_the_friction_and_pressure_of_those_that_surface_and_line_are_drawn_from():
@@ -284,7 +284,7 @@ def test_waves_in_full_contact_have_the_friction_and_pressure_of_those_that_surf
 
 
 def noisy(count, seed=0):
-    """Points of a smooth function of two inputs, beside a third one that says nothing, with noise of 0.01."""
+    """Points of a smooth function of two inputs, with a third input that says nothing and noise of 0.01."""
     rng = np.random.default_rng(seed)
     inputs = rng.uniform(-1, 1, (count, 3))
     values = np.sin(3 * inputs[:, 0]) + 0.5 * inputs[:, 1]
@@ -331,9 +331,9 @@ def test_the_points_that_tell_most_know_the_rest_better_than_any_others():
 
 def drawn(forces, frictions, depths, solver="BEM", grid="fine"):
     """Rows of draws."""
-    told = {"solver": solver, "grid": grid, "points": 128}
+    settings = {"solver": solver, "grid": grid, "points": 128}
     return [
-        Row(force, depth, friction, settings=told)
+        Row(force, depth, friction, settings=settings)
         for force, friction, depth in zip(forces, frictions, depths, strict=True)
     ]
 
@@ -456,7 +456,7 @@ def test_held_out_scenes_are_foretold_as_well_as_the_map_claims(scores, surfaces
 
 
 def test_no_region_holds_fewer_ratios_than_promised(scores):
-    """But one, which is said: forces under roughness as high as the body is deep."""
+    """Except one that is stated: forces under roughness as high as the body is deep."""
     combined, rows = list(scoring.coverage_rows(scores)), list(scoring.error_rows(scores))
     assert not any(row["fails"] for row in combined)
     assert [(row["ratio"], row["region"]) for row in rows if row["fails"]] == [("force", HIGH)]

@@ -1,4 +1,4 @@
-"""Contacts without an answer: told before everything else, and when they make a command fail."""
+"""Contacts without an answer: named before everything else, and when they make a command fail."""
 
 import json
 
@@ -59,7 +59,7 @@ def test_reasons_that_differ_by_numbers_alone_are_one_and_what_broke_is_not_coun
     )
 
 
-# Its friction is not told by so few points, which only the solve shows.
+# These few points do not determine its friction, which only the solve shows.
 BLUNT = """
 [indenter]
 type = "power-law"
@@ -93,10 +93,10 @@ def blunt(tmp_path_factory):
 
 
 def test_a_run_without_its_own_contact_says_so_before_the_answer_and_ends_with_1(blunt, tmp_path):
-    def told(*options):
+    def run(*options):
         return ask("run", blunt, "--output", tmp_path, "--workers", 1, *options)
 
-    shown = told()
+    shown = run()
     assert shown.exit_code == 1
     text = " ".join(shown.stdout.split())
     places = [
@@ -106,9 +106,9 @@ def test_a_run_without_its_own_contact_says_so_before_the_answer_and_ends_with_1
     assert "take about 158 points" in text  # what to do
     page = (tmp_path / "report.html").read_text()
     assert page.index("have no answer") < page.index('class="answer"')
-    quiet = told("-q", "--no-report")
+    quiet = run("-q", "--no-report")
     assert (quiet.exit_code, quiet.stdout) == (1, "")
     assert "crosscheck: " in quiet.stderr
     assert "have no answer" in quiet.stderr
-    printed = told("--json", "--no-report")
+    printed = run("--json", "--no-report")
     assert any("have no answer" in each for each in json.loads(printed.stdout)["doubts"])

@@ -57,7 +57,7 @@ def shown(monkeypatch):
 
 def test_a_sphere_at_rest_is_that_of_hertz(shown):
     missed = shown("hertz")["missed"]
-    assert missed["MDR"] < 1e-6  # second order in the pixel, of which there are some 800 across the contact
+    assert missed["MDR"] < 1e-6  # second order in the pixel; there are some 800 across the contact
     assert missed["BEM"] < 1e-3  # some 50 pixels across
 
 
@@ -140,10 +140,10 @@ def test_the_examples_in_python_print_what_they_say(capsys, tmp_path, monkeypatc
     assert names["answer"].friction_coefficient == pytest.approx(0.00806, rel=0.01)
     monkeypatch.chdir(tmp_path)
     exec(whole, {"__name__": "__main__"})
-    told = capsys.readouterr().out
-    assert "holds" in told
-    assert "{'model': 3, 'level': 2, 'speed': 3, 'load': 1, 'surface': 10}" in told
-    assert re.search(r"BEM +0\.01", told)
+    printed = capsys.readouterr().out
+    assert "holds" in printed
+    assert "{'model': 3, 'level': 2, 'speed': 3, 'load': 1, 'surface': 10}" in printed
+    assert re.search(r"BEM +0\.01", printed)
     assert Path("friction.pdf").stat().st_size > 1000
 
 
@@ -227,8 +227,8 @@ def test_numbers_of_equations_in_the_text_are_equations():
     prose = re.sub(r"\$\$.*?\$\$|\$[^$]*\$|Popov 2014[^.;]*", "", theory, flags=re.DOTALL)
     assert set(re.findall(r"\((\d{1,2}[a-z]?)\)", prose)) <= set(tags)
     for page in DOCS.rglob("*.md"):
-        said = re.findall(r"theory, Eqs?\. (\w+)", page.read_text(encoding="utf-8"))
-        assert set(said) <= set(tags), page.name
+        labels = re.findall(r"theory, Eqs?\. (\w+)", page.read_text(encoding="utf-8"))
+        assert set(labels) <= set(tags), page.name
 
 
 @pytest.fixture(scope="module")

@@ -86,8 +86,8 @@ def test_a_solver_refuses_exactly_the_scenes_that_the_page_of_limits_says(row):
     page = (ROOT / "docs" / "explanation" / "limits.md").read_text(encoding="utf-8")
     one, three = re.search(rf"^\| {re.escape(row)} \| (\w+)[^|]*\| (\w+)", page, re.MULTILINE).groups()
     for scene in OF_ROW[row]:
-        for solver, said in ((MDR(points=2000), one), (BEM(points=64), three)):
-            assert {"yes": False, "refused": True}[said] == bool(solver.refusals(scene)), (solver.name, scene)
+        for solver, cell in ((MDR(points=2000), one), (BEM(points=64), three)):
+            assert {"yes": False, "refused": True}[cell] == bool(solver.refusals(scene)), (solver.name, scene)
 
 
 def test_pages_without_a_command_have_the_numbers_of_stored_findings():

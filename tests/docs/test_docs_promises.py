@@ -57,8 +57,8 @@ def test_an_answer_counts_where_it_has_friction_and_its_truth_is_known():
 
     assert rows(row(1.02, 0.05))[0]["error"] == pytest.approx(0.02, rel=1e-3)
     assert not rows(row(0.0, 0.05))
-    assert not rows(Row(reason="friction is not told"))
-    # Nothing is said of a truth that is not known to a third of the error.
+    assert not rows(Row(reason="friction is not determined"))
+    # A truth that is not known to a third of the error gives no row.
     assert not rows(row(1.02, 0.05), [row(1 + each, 1.0) for each in (0.4, 0.3, 0.2)])
 
 

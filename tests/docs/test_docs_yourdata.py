@@ -1,4 +1,4 @@
-"""The pages on data of one's own: their commands print what they show."""
+"""The pages on the user's own data: their commands print what they show."""
 
 import re
 import shutil
@@ -44,7 +44,7 @@ PSD = "plan", "psd.toml"
 MAP = ("topography", "map.txt", "--skip", "4", "--unit", "m", "--pixel", "1.04167 um")
 FRICTION = ("mastercurve", "tribometer.csv")
 WRONG = [
-    # page, command, file, what stands there and what in its place, what is said
+    # page, command, file, the text there, its replacement, the message
     ("rubber", RUBBER, "rubber.toml", r"kind = .*", "", "elastomer.kind: missing"),
     ("rubber", RUBBER, "rheometer.txt", r"^Hz", "", "elastomer.frequency_unit: missing"),
     ("rubber", RUBBER, "rubber.toml", r"\[temperature\](.*\n){6}", "", "has several temperatures"),
@@ -83,10 +83,10 @@ WRONG = [
 
 
 @pytest.mark.parametrize(
-    ("page", "command", "name", "stands", "instead", "said"), WRONG, ids=[each[-1] for each in WRONG]
+    ("page", "command", "name", "stands", "instead", "message"), WRONG, ids=[each[-1] for each in WRONG]
 )
 def test_what_the_page_says_of_a_wrong_file_is_said(
-    page, command, name, stands, instead, said, tmp_path, monkeypatch
+    page, command, name, stands, instead, message, tmp_path, monkeypatch
 ):
     text = (yourdata.FOLDER / f"{page}.md").read_text(encoding="utf-8")
     monkeypatch.chdir(tmp_path)
@@ -99,5 +99,5 @@ def test_what_the_page_says_of_a_wrong_file_is_said(
     instead = held if instead == "MAP" else instead
     Path(name).write_text(re.sub(stands, instead, held, flags=re.MULTILINE), encoding="utf-8")
     output = " ".join(CliRunner().invoke(app, command).output.split())
-    assert said in output
-    assert said in " ".join(text.split())
+    assert message in output
+    assert message in " ".join(text.split())

@@ -58,14 +58,14 @@ def test_docstrings_take_one_reading():
     assert found(docstrings(), BANNED) == []
 
 
-@pytest.mark.parametrize("said", ["Pressure as of `solve`.", "- What has faded is dropped.", "The same."])
-def test_a_banned_phrase_is_found(said):
-    assert len(found(iter([("page", said)]), BANNED | WHAT)) == 1
+@pytest.mark.parametrize("text", ["Pressure as of `solve`.", "- What has faded is dropped.", "The same."])
+def test_a_banned_phrase_is_found(text):
+    assert len(found(iter([("page", text)]), BANNED | WHAT)) == 1
 
 
-@pytest.mark.parametrize("said", ["What does it cost?", "It says what it costs."])
-def test_a_sentence_that_takes_one_reading_is_not_found(said):
-    assert found(iter([("page", said)]), BANNED | WHAT) == []
+@pytest.mark.parametrize("text", ["What does it cost?", "It says what it costs."])
+def test_a_sentence_that_takes_one_reading_is_not_found(text):
+    assert found(iter([("page", text)]), BANNED | WHAT) == []
 
 
 def test_the_readme_has_at_most_600_words():

@@ -32,7 +32,7 @@ CLOSE = 1e-9  # least change that counts, over the size of a number; another pro
 STUDIES = "collapse", "solids", "hurst", "parameters", "regime", "depth"
 # Surfaces and profiles of the scenes of a run, in place of an interval.
 FIXED = {'interval = "5%"': "surfaces = 3\nprofiles = 12"}
-# Share of the normal force of which a friction is rounding, and a ratio less one.
+# Friction below this share of the normal force is rounding, and so is a ratio minus one.
 NOTHING = 1e-6
 # Measures that count work or tell the residual of an iteration.
 EFFORT = {"rounds", "transform_pairs", "time_steps", "heating_solves"}
@@ -64,7 +64,7 @@ def run(**options) -> pandas.DataFrame:
 
 
 def trust(**_) -> pandas.DataFrame:
-    """Advice of the trust map: the ratio with its interval of the mean, then with that of one surface."""
+    """Advice of the trust map: the ratio, first with the interval of the mean, then of a single surface."""
     rows = []
     for name, scene, _ in scenes("cheap"):
         for quantity, found in compare.trust(scene).corrections.items():
@@ -77,7 +77,7 @@ def trust(**_) -> pandas.DataFrame:
 
 
 def solved(group: str, *models, **_) -> pandas.DataFrame:
-    """Numbers and fields of scenes by models, each of which is made from the settings that stand with a scene."""
+    """Numbers and fields of scenes by models; the settings of a scene make each model."""
     rows = []
     for name, scene, settings in scenes(group):
         for model in models:
@@ -97,9 +97,9 @@ def solved(group: str, *models, **_) -> pandas.DataFrame:
 def numbers_of(result) -> Iterator[tuple[str, tuple[float, float]]]:
     """Numbers of a result by name, each with its scale: forces, depth, measures, and one number of each field.
 
-    That of a field is its mean under a weight that grows from 1 to 2 along it; its scale, the root mean square.
-    A pressure far above that of the roughness says only that there is hardly any. An error that is far below LEAST
-    is only said to be less. Whether the last pixel still touches without a force is left to rounding.
+    The number of a field is its mean under a weight that grows from 1 to 2 along it; its scale, the root mean
+    square. A pressure far above the pressure of the roughness says only that there is hardly any. An error far
+    below LEAST is only known to be less. Whether the last pixel still touches without a force is left to rounding.
     """
     forces = np.append(result.fields.get("normal_force", ()), result.normal_force)
     rounding = NOTHING * float(np.nanmax(np.abs(forces)))
@@ -141,7 +141,7 @@ def made(name: str, workers: int | None = None) -> pandas.DataFrame:
         warnings.simplefilter("ignore", compare.Doubtful)
         table = PARTS[name](workers=workers)
     table = table.assign(scale=[float(f"{each:.3g}") for each in table["scale"]]).set_index(KEY)
-    assert table.index.is_unique, f"{name} has two numbers of one key: {table.index[table.index.duplicated()][0]}"
+    assert table.index.is_unique, f"{name} has two numbers at the key {table.index[table.index.duplicated()][0]}"
     return table
 
 
@@ -170,8 +170,8 @@ def differences(old: pandas.DataFrame, new: pandas.DataFrame, *columns: str) -> 
     lines += [f"new: {key}" for key in new.index.difference(old.index)]
     changes = moved(old, new, *columns)
     for key, change in changes[changes > CLOSE].sort_values(ascending=False).items():
-        told = (f"{name} {old.loc[key, name]:.12g}, now {new.loc[key, name]:.12g}" for name in columns)
-        lines.append(f"moved by {change:.2g} of its size: {key}: {'; '.join(told)}")
+        numbers = (f"{name} {old.loc[key, name]:.12g}, now {new.loc[key, name]:.12g}" for name in columns)
+        lines.append(f"moved by {change:.2g} of its size: {key}: {'; '.join(numbers)}")
     return lines
 
 

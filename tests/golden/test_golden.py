@@ -45,9 +45,9 @@ def test_ends_of_intervals_are_kept(name):
 def test_a_number_a_verdict_and_a_row_that_changed_are_each_told():
     stored = make.stored("trust").query("value > 0")
     first, others = stored.index[:1], stored[1:]
-    for factor, told in ((1 + make.CLOSE / 2, 0), (1 + 3 * make.CLOSE, 1), (nan, 1)):
+    for factor, expected in ((1 + make.CLOSE / 2, 0), (1 + 3 * make.CLOSE, 1), (nan, 1)):
         changed = stored.assign(value=stored["value"].where(~stored.index.isin(first), factor * stored["value"]))
-        assert len(make.differences(stored, changed, "value")) == told
+        assert len(make.differences(stored, changed, "value")) == expected
         assert not make.differences(stored, changed, *make.ENDS)
     assert len(make.verdicts(stored, stored.assign(verdict=["another", *others["verdict"]]))) == 1
     assert not make.verdicts(stored, stored)

@@ -124,9 +124,9 @@ def test_code_that_cannot_be_kept_serves_its_process_and_that_is_said_once(monke
 
     monkeypatch.setattr("numba.core.caching.IndexDataCacheFile.save", full)
     loops._say.cache_clear()
-    with pytest.warns(UserWarning, match="compiled code cannot be kept") as told:
+    with pytest.warns(UserWarning, match="compiled code cannot be kept") as caught:
         answers = [loops.compiled()(function)(1.5) for _ in range(2)]
-    assert (answers, len(told)) == ([3.0, 3.0], 1)
+    assert (answers, len(caught)) == ([3.0, 3.0], 1)
 
 
 if __name__ == "__main__":

@@ -151,10 +151,10 @@ print(*sorted(set(sys.modules) & {libraries}), "| after a layer")
 def test_of_effects_that_are_absent_no_library_is_loaded():
     program = ALONE.format(of_scenes=OF_SCENES, libraries=LIBRARIES)
     here = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
-    told = subprocess.run(
+    finished = subprocess.run(
         [sys.executable, "-c", program], cwd=ROOT / "tests", env=here, capture_output=True, text=True, check=True
     )
-    assert told.stdout.splitlines() == [
+    assert finished.stdout.splitlines() == [
         "| after scene",
         "| after plain contacts",
         "scipy.interpolate | after a layer",

@@ -1,4 +1,4 @@
-"""What every effect costs: plans and the page have the measured costs, and failures are told."""
+"""What every effect costs: plans and the page have the measured costs, and failures are reported."""
 
 import csv
 from dataclasses import fields

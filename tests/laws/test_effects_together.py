@@ -31,7 +31,7 @@ PLAIN = Scene(
     Slide(speed=0.3, load=LOAD),
 )
 TOGETHER = replace(PLAIN, roughness=ROUGH, temperature=WARM, interface=Coulomb(STICKS))
-# A layer has no line in the table of one dimension, and heating is estimated of a half-space.
+# The table of 1D has no row for a layer, and heating is estimated for a half-space.
 SOLVED = {
     "BEM, layer": (BEM(points=48), replace(TOGETHER, layer=Layer(thickness=2e-3))),
     "BEM, heated": (BEM(points=48), replace(TOGETHER, heating=Heating(conductivity=0.5, feedback="average"))),
@@ -94,7 +94,7 @@ def test_a_scene_twice_as_large_in_every_length_has_four_times_the_forces(name):
 
 @pytest.mark.parametrize("name", SOLVED)
 def test_each_effect_changes_an_answer_that_has_all_others(name):
-    # the laws above can fail: no effect is lost beside another
+    # the laws above can fail: no effect is lost when it is combined with another
     solver, scene = SOLVED[name]
     whole = numbers(solver.solve(scene))
     for effect in ("roughness", "layer", "temperature", "heating", "interface"):

@@ -19,8 +19,8 @@ SOLVERS = {"bem3d": bem3d.BEM(points=32), "mdr1d": mdr1d.MDR(points=100)}
 def test_a_solver_tells_what_it_chose_and_prints_nothing(name, caplog, capfd):
     with caplog.at_level(logging.INFO, name):
         result = SOLVERS[name].solve(PRESSED)
-    (said,) = (each for each in caplog.records if each.name == f"{name}.solver")
-    assert str(result.settings["extent"]) in said.getMessage()
+    (record,) = (each for each in caplog.records if each.name == f"{name}.solver")
+    assert str(result.settings["extent"]) in record.getMessage()
     caplog.clear()
     SOLVERS[name].solve(PRESSED)
     assert not caplog.records
@@ -30,9 +30,9 @@ def test_a_solver_tells_what_it_chose_and_prints_nothing(name, caplog, capfd):
 def test_a_solver_that_chooses_its_grid_tells_every_grid(caplog):
     with caplog.at_level(logging.INFO, "bem3d"), pytest.warns(bem3d.Unconfirmed):
         bem3d.for_accuracy(PRESSED, depth=1e-7)
-    told = [each.getMessage() for each in caplog.records if each.name == "bem3d.accuracy"]
-    assert told[0].startswith("32 points a side")
-    assert len(told) > 1
+    messages = [each.getMessage() for each in caplog.records if each.name == "bem3d.accuracy"]
+    assert messages[0].startswith("32 points a side")
+    assert len(messages) > 1
 
 
 def test_nothing_is_said_on_import():

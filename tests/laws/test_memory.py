@@ -1,4 +1,4 @@
-"""Memory that a solve would not get is told before it begins, by plan and solve alike, and never as an answer."""
+"""A solve that needs more memory than it would get is refused before it begins, by plan and solve alike."""
 
 import subprocess
 import sys
@@ -18,7 +18,7 @@ from scene.protocol import memory, numeric_guard, refuse
 from scene.surfaces.topography import MOST_WAVES
 
 SCENE = Scene(Sphere(radius=1e-2), Kelvin(modulus=1e6, relaxation_time=1e-3), Slide(speed=0.1, load=1.0))
-# Waves of which no machine holds the amplitudes, but which each grid alone would not mind.
+# Waves whose amplitudes no machine can hold, although each grid alone would fit.
 BROAD = SelfAffine(hurst=0.8, rms_height=1e-6, longest=100.0, shortest=1e-4)
 
 
@@ -31,9 +31,9 @@ def test_plan_and_solve_refuse_with_both_figures_what_the_machine_has_not(monkey
     for ask in (solver.plan, solver.solve, lambda scene: refuse(solver, scene)):
         with pytest.raises(
             Refused, match=r"it needs .*MB of memory, and only .*MB are available: use fewer points"
-        ) as told:
+        ) as caught:
             ask(SCENE)
-        reasons.add(str(told.value))
+        reasons.add(str(caught.value))
     assert len(reasons) == 1
     monkeypatch.setattr(protocol, "memory", lambda: needed)
     assert solver.plan(SCENE).memory == needed

@@ -1,4 +1,4 @@
-"""Motions in one dimension beside three."""
+"""Motions in one dimension, compared with three."""
 
 import numpy as np
 import pytest
@@ -71,7 +71,7 @@ def test_in_a_mirror_friction_and_path_change_their_sign_and_nothing_else(name, 
 
 
 def response(solver, amplitude, omega, solid):
-    """First harmonic of the force over that of the depth, about one held until all has relaxed [N/m], complex."""
+    """Ratio of the first harmonics of force and depth, about a depth held until all has relaxed [N/m], complex."""
     frequency, held = omega / (2 * np.pi), 20 * TAU
     periods = 2 + int(omega * TAU * (2 if solver.name == "MDR" else 1))  # the start is forgotten in some times
     swing = {"duration": periods / frequency, "amplitude": amplitude, "frequency": frequency}

@@ -140,7 +140,7 @@ OBJECTS = [
     compare.Claim("a", "A", expected=1.0, tolerance=0.1),
     compare.Finding(compare.Claim("a", "A"), value=1.0, scatter=(0.5, 1.5), grid=0.1),
 ]
-# Fields whose unit is that of others, of none, or no part of a type.
+# Fields whose unit follows from other fields, that have no unit, or whose unit is no part of a type.
 UNITS = {
     (PowerLaw, "coefficient"): None,
     (Table, "frequency"): None,
@@ -164,7 +164,7 @@ MADE = {
     "SceneTask",
 }
 WITHOUT = {"Scene", "Case", "Program", "Plane"}
-# Tested below, with what they need beside them.
+# Tested below, with the fields that they need in addition.
 APART = {
     "Shear.force",
     "Stage.amplitude",
@@ -464,8 +464,8 @@ def test_a_quantity_in_another_unit_is_the_plain_number(places, quantity):
 @everywhere
 def test_what_has_another_dimension_is_refused_by_name(places, quantity):
     for place in places:
-        said = refused(place, quantity(place.value, "kg"))
-        assert "kg" in said or "whole number" in said or "integer" in said, place.name
+        message = refused(place, quantity(place.value, "kg"))
+        assert "kg" in message or "whole number" in message or "integer" in message, place.name
 
 
 @everywhere

@@ -122,7 +122,7 @@ def test_a_pressure_never_gains_energy_from_the_flow(pressed):
 @examples(12)
 @given(presses(elastomers=viscoelastic()))
 def test_of_a_flow_and_its_reverse_each_is_the_adjoint_of_the_other(pressed):
-    """Reciprocity: what p does to the work of q in a flow, q does to that of p in the reverse one; to rounding."""
+    """Reciprocity, to rounding: <q, A p> in a flow equals <p, A q> in the reverse flow."""
     operator = pressed.medium.operator(pressed.grid)
     rng = np.random.default_rng(1)
     p, q = rng.standard_normal((2, *pressed.heights.shape))

@@ -84,7 +84,7 @@ EXTREME = (0.0, 5e-324, 1e-310, 1e-300, 1e-150, 1e150, 1e300, 1.7e308)
 
 
 def placed(part, name, value):
-    """The part with a value in a field, in the first place of one with several."""
+    """The part with a value in a field, or in the first place of a field with several values."""
     given = getattr(part, name)
     return replace(part, **{name: (value, *given[1:]) if isinstance(given, tuple) else value})
 
@@ -134,7 +134,7 @@ def test_ordinary_numbers_have_an_answer(solver):
 
 @pytest.mark.parametrize(("scene", "part", "name"), FIELDS)
 def test_what_can_be_no_value_is_named_with_its_field(scene, part, name):
-    """-1 is a value of none but poisson_ratio, of which it is just out of range, and True of a switch alone."""
+    """-1 is no value of any field, and just out of range for poisson_ratio; True is a value of switches only."""
     switch = isinstance(getattr(getattr(scene, part), name), bool)
     for value in (each for each in NEVER if not (switch and each is True)):
         with pytest.raises(InvalidInput) as caught:

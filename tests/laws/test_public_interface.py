@@ -14,7 +14,7 @@ import mdr1d
 import scene
 from scene.signatures import readable
 
-# Letters of the longest signature: that of `compare.topography`, which has an argument for each option.
+# Letters of the longest signature, of `compare.topography`, which has an argument for each option.
 LONGEST = 580
 RAISED = re.compile(r"\b(?:[Rr]aises|[Ww]arns)((?:,? (?:or |and |its )?[A-Z]\w+)+)")
 

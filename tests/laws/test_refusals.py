@@ -149,8 +149,8 @@ CASES = {
         "violation | wanted",
     ),
     **{
-        f"an extent of {extent:g} m": (resting(), [replace(each, extent=extent) for each in BOTH], said)
-        for extent, said in ((1e-5, "extent"), (1e4, "take"), (5e-324, "units"), (1e300, "units"))
+        f"an extent of {extent:g} m": (resting(), [replace(each, extent=extent) for each in BOTH], words)
+        for extent, words in ((1e-5, "extent"), (1e4, "take"), (5e-324, "units"), (1e300, "units"))
     },
     "a program beyond the window": (
         program(stage(TIME, depth=DEPTH)),
@@ -231,10 +231,10 @@ def test_a_contact_without_an_answer_is_refused_by_an_error_that_names_what_to_c
         EmptyContact if "above" in name or name == "never touching in 3D" else (Refused, SolveError, ValueError)
     )
     for solver in solvers:
-        with pytest.raises(expected) as told:
+        with pytest.raises(expected) as raised:
             solver.solve(scene)
-        said = " ".join(str(told.value).split())
-        assert all(word in said for word in words.split(" | ")), said
+        message = " ".join(str(raised.value).split())
+        assert all(word in message for word in words.split(" | ")), message
 
 
 @pytest.mark.parametrize(
@@ -253,6 +253,6 @@ def test_a_contact_without_an_answer_is_refused_by_an_error_that_names_what_to_c
     ],
 )
 def test_a_value_out_of_its_range_is_named_with_the_range(make, words):
-    with pytest.raises(ValueError, match=re.escape(words.split(" | ")[0])) as told:
+    with pytest.raises(ValueError, match=re.escape(words.split(" | ")[0])) as raised:
         make()
-    assert all(word in str(told.value) for word in words.split(" | ")), told.value
+    assert all(word in str(raised.value) for word in words.split(" | ")), raised.value

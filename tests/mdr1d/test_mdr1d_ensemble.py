@@ -1,4 +1,4 @@
-"""Many contacts at once have the answers of one at a time."""
+"""Many contacts solved at once have the same answers as contacts solved alone."""
 
 from dataclasses import replace
 from math import radians

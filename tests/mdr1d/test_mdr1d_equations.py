@@ -26,7 +26,7 @@ from scene import (
 ROUNDING = 1e-13
 # (pixel / radius)^2 at 5000 points, times a constant below one.
 SECOND_ORDER_AT_5000 = 2e-7
-# The energy of one period is the difference of two sums, one of n and one of n + 1 periods with their ends.
+# The energy in a period is the difference of two sums, over n and over n + 1 periods with their ends.
 ROUNDING_OF_A_PERIOD = 1e-10
 # Lengths of the longest memory after which an end is forgotten: exp(-40).
 FORGOTTEN = 40
@@ -63,7 +63,7 @@ RESULTS = {
 
 
 def at(function, point, **more):
-    """The function at a point, of which it takes what it has arguments for."""
+    """The function at a point, called with those numbers of the point that it has arguments for."""
     loss = partial(eq.power_law_loss, **{k: point[k] for k in ("loss", "reference_frequency", "beta")})
     known = point | {"loss_modulus": loss} | more
     names = signature(function).parameters
@@ -177,7 +177,7 @@ def test_eq_25_is_eq_22_of_a_sphere_with_a_power_law_loss():
     speeds = np.geomspace(1e-6, 1e3, 10)
     right = at(eq.power_law_friction, sphere, speed=speeds)
     np.testing.assert_allclose(right, at(eq.general_friction, sphere, speed=speeds), rtol=1e-12)
-    # As printed at a reference frequency of one, the only one at which it has a unit.
+    # As printed, at a reference frequency of 1, the only one at which it has a unit.
     per_second = sphere | {"reference_frequency": 1.0}
     printed = at(eq.power_law_friction, per_second, speed=speeds, form="as_printed")
     np.testing.assert_allclose(
@@ -234,7 +234,7 @@ def test_the_spectral_force_is_the_integral_and_its_waves_add_up_to_it():
 
 
 def per_period(elastomer, surface, speed, depth):
-    """Friction [N] and length of contact [m] of one period of a rough line far from its ends, simulated."""
+    """Friction [N] and length of contact [m] per period of a rough line far from its ends, simulated."""
     modulus, moduli, times = elastomer.relaxation()
     periods = 2 + ceil(FORGOTTEN * speed * max(times, default=0.0) / surface.period)
     sums = []
@@ -257,7 +257,7 @@ def test_full_contact_is_the_sum_of_all_waves_of_the_polygon():
     surface = draw(ROUGH, 32)
     force, length = per_period(solid, surface, SPEED, DEPTH)
     assert length == pytest.approx(surface.period, rel=ROUNDING_OF_A_PERIOD)
-    # What lies beyond so many aliases falls as the cube of their number.
+    # The part beyond these aliases falls as the cube of their number.
     shifts = 2 * pi / surface.pixel * np.arange(-4000, 4001)[:, None]
     numbers = np.abs(2 * pi / surface.period * np.arange(1, surface.amplitudes.size + 1) + shifts)
     heights = surface.amplitudes * np.sinc(numbers * surface.pixel / (2 * pi)) ** 2

@@ -44,7 +44,7 @@ def test_contact_that_begins_and_ends_within_one_interval_is_found(lift, lands):
 @pytest.mark.parametrize("nodes", [2, 3, 64, 65, 66, 129, 200])
 @pytest.mark.parametrize("memory", [0.0, 1e-5, 1e-3])
 def test_a_line_that_touches_throughout_has_the_sums_over_its_nodes_however_many(nodes, memory):
-    """Tolerance: rounding of as many terms. It pulls on every flank: slopes are small beside depth over memory."""
+    """Rounding of as many terms. It pulls on every flank: slopes are small compared with depth over memory."""
     pixel, depth = 1e-5, 1e-4
     heights = 1e-6 * np.random.default_rng(nodes).random(nodes) * min(1.0, pixel / max(memory, pixel))
     found = sweep(heights, pixel, memory, depth)

@@ -1,4 +1,4 @@
-"""What a plan of one dimension says: sweeps and steps along a foundation, and nothing that a scene lacks."""
+"""Plans in one dimension: sweeps and steps along a foundation, and nothing that a scene lacks."""
 
 from dataclasses import replace
 

@@ -62,7 +62,7 @@ def test_the_periodogram_follows_the_density(hurst):
 
 def test_the_same_seed_and_cut_off_give_the_same_surface_on_every_grid():
     coarse, fine, other = draw(ROUGH, 500), draw(ROUGH, 4000), draw(replace(ROUGH, seed=1), 500)
-    # Two independent draws: correlation of the order of one over the root of the few strong waves.
+    # Two independent draws: correlation of the order of 1 over the root of the number of strong waves, a few.
     assert abs(np.corrcoef(coarse.heights, other.heights)[0, 1]) < 0.9
     np.testing.assert_allclose(fine.heights[::8], coarse.heights, atol=ROUNDING * 1e-2)
 

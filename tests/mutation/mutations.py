@@ -1,4 +1,4 @@
-"""Mutations: small wrong changes of the solvers and statistics, each of which a test has to notice.
+"""Mutations: small wrong changes of the solvers and statistics that the tests have to notice.
 
 `python tests/mutation/mutations.py [--seed SEED] [--slow] [NUMBER ...]` draws sixty from the code as it stands.
 The same seed and code give the same sixty. Each is applied in turn to a copy of the tree, whose tests run: those
@@ -62,7 +62,7 @@ EQUIVALENT = {
         "slope > STEEP",
         "(slope >= STEEP)",
     ): "the number is a round one of order",
-    ("compare/statistics/eq23.py", "high < 0", "(high <= 0)"): "no interval ends at nil",
+    ("compare/statistics/eq23.py", "high < 0", "(high <= 0)"): "no interval ends at zero",
     ("mdr1d/element.py", "slope < 0.0", "(slope <= 0.0)"): "above a level profile the surface was left before",
     (
         "compare/studies/topography/powerlaw.py",
@@ -149,7 +149,7 @@ def mutations(path):
 
 
 def draw(seed, each=EACH):
-    """So many changes of each kind, the places in turn, no two of them on one line."""
+    """Changes of each kind, `each` in number, the places in turn, no two of them on one line."""
     chance = random.Random(seed)
     every = [each for place in PLACES for path in sorted((ROOT / place).rglob("*.py")) for each in mutations(path)]
     chosen = []

@@ -128,8 +128,8 @@ def test_each_limit_has_a_number_beyond_it_that_is_doubted_with_number_limit_and
     assert isinstance(found, Doubt)
     assert limit.broken(found.number)
     assert not limit.broken(limit.limit)
-    for said in (f"{found.number:.3g}", f"{limit.limit:g}", limit.why, limit.unit):
-        assert said in str(found)
+    for text in (f"{found.number:.3g}", f"{limit.limit:g}", limit.why, limit.unit):
+        assert text in str(found)
 
 
 @pytest.mark.parametrize("name", [name for name, each in ready().items() if each.kind == "scene"])

@@ -146,7 +146,7 @@ def test_what_has_come_to_rest_stays_there():
 
 
 def slid(solid, decades, **pressed):
-    """Friction and depth of a sphere in 1D where v/a is so many decades above 10 rad/s, or below."""
+    """Friction and depth of a sphere in 1D where v/a lies `decades` decades above 10 rad/s, or below."""
     ball, pressed = Sphere(radius=1e-2), pressed or {"load": 1.0}
     radius = elastic_contact(Scene(ball, table(gel(0.2)), Slide(speed=1.0, **pressed))).radius
     answer = MDR().solve(Scene(ball, solid, Slide(speed=10.0 * radius * 10.0**decades, **pressed)))

@@ -169,7 +169,7 @@ def test_an_indenter_that_hardly_conducts_is_as_hot_as_leaves_it_nearly_without_
 
 
 def rubber(peak, steepness):
-    """Rise [K] over that of the maximum, of a friction that is a hump over ln a_T = -k x: unit maximum."""
+    """Rise, relative to its maximum, by a friction that is a hump over ln a_T = -k x."""
 
     def rise(x):
         shift = np.exp(np.minimum(steepness * np.asarray(x), 600.0))

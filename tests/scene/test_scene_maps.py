@@ -1,4 +1,4 @@
-"""A map is read in its one form as it is, or refused; what is missing is refused, or filled in and told."""
+"""A map is read in its one form as it is, or refused; missing heights are refused, or filled in with a note."""
 
 import contextlib
 import pickle
@@ -249,7 +249,7 @@ def in_metres(places):
 
 
 WRONG = {
-    # content of a file, what is stated, what is said
+    # content of a file, its statements, the message
     "no unit and no pixel": (
         text(SQUARE),
         {},
@@ -431,7 +431,7 @@ def test_missing_heights_are_refused_with_count_and_share_or_filled_in_and_told(
     assert np.array_equal(kept[~at], given)
     assert given.min() <= kept[at].min() <= kept[at].max() <= given.max()
     assert "3 of 400 heights (0.75 %) were missing and are filled in" in found.notes
-    # notes are told wherever the map goes, and make no other map of it
+    # notes stay with the map wherever it goes, and make no other map of it
     for twin in (pickle.loads(pickle.dumps(found)), replace(found, peaks="down")):
         assert twin.notes == found.notes
     assert found == part(**stated | {"heights": kept})
@@ -556,10 +556,10 @@ def test_a_scene_file_states_what_is_done_to_a_map(tmp_path):
 
 def test_a_file_that_is_not_there_is_named_with_the_folder_in_which_it_was_sought(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    for written_, said in (
+    for written_, message in (
         ("maps/a.csv", f"maps/a.csv: no such file in {tmp_path}, the working directory"),
         (f"{tmp_path}/a.csv", f"{tmp_path}/a.csv: no such file"),
     ):
         (tmp_path / "scene.toml").write_text(FILE + f'file = "{written_}"\n')
-        with pytest.raises(InvalidInput, match=said):
+        with pytest.raises(InvalidInput, match=message):
             read("scene.toml", Scene)

@@ -65,7 +65,7 @@ def some(table, *beginnings):
 
 @st.composite
 def series(draw):
-    """Prony series of one to four branches of 1e-4 to 1 s, glassy modulus 2 to 1e4 times the one at rest."""
+    """Prony series with up to four branches of 1e-4 to 1 s, glassy modulus 2 to 1e4 times the modulus at rest."""
     count = draw(st.integers(1, 4))
     rest = draw(decades(3, 8))
     moduli = tuple(rest * draw(decades(0, 3.5)) for _ in range(count))
@@ -163,8 +163,8 @@ def tables(*temperatures, law=LAW, solid=SOLID, **more):
     factors = [replace(law, temperature=each).shift for each in temperatures]
     moduli = np.concatenate([solid.complex_modulus(each * a) for each, a in zip(rows, factors, strict=True)])
     warm = np.repeat(temperatures, 30)
-    told = {"omega": np.concatenate(rows), "T [K]": warm, "G'": moduli.real, "G''": moduli.imag}
-    return told | {name: np.repeat(values, 30) for name, values in more.items()}, np.repeat(factors, 30)
+    columns = {"omega": np.concatenate(rows), "T [K]": warm, "G'": moduli.real, "G''": moduli.imag}
+    return columns | {name: np.repeat(values, 30) for name, values in more.items()}, np.repeat(factors, 30)
 
 
 @pytest.mark.parametrize("heading", ["aT", "a_T", "Shift factor", "log10 a_T"])
@@ -196,13 +196,13 @@ def test_a_table_of_shift_factors_is_the_law_of_the_scene_and_vertical_ones_chan
     np.testing.assert_allclose(scene.solid.complex_modulus(OMEGA[12:36]), expected, rtol=FITTED)
     adapter = TypeAdapter(Scene)
     assert adapter.validate_json(adapter.dump_json(scene)) == scene
-    for name, value, said in (
+    for name, value, message in (
         ("temperature", 330.0, "temperature = 330 K: shift factors are known from 280 to 320 K"),
         ("a_T", factors["a_T"][::-1], "a_T has to fall"),
         ("b_T", (1.0, 2.0), "at each of the 4 temperatures"),
         ("skip", 3, "table is missing"),
     ):
-        with pytest.raises(InvalidInput, match=said):
+        with pytest.raises(InvalidInput, match=message):
             replace(law, **{name: value})
 
 
@@ -215,11 +215,11 @@ def test_a_table_of_modes_is_a_prony_series(tmp_path):
     assert Prony(equilibrium_modulus=1e6, table={"tau [s]": times, "E [MPa]": [3.0, 9.0, 30.0]}) == SOLID
     normalised = Prony(instantaneous_modulus="10 MPa", g=[0.2, 0.3, 0.4], tau=times)
     assert Prony(instantaneous_modulus="10 MPa", table={"tau": times, "g": [0.2, 0.3, 0.4]}) == normalised
-    for more, said in (
+    for more, message in (
         ({}, "line 2: '3' is no heading"),
         ({"moduli": (1e6,), "skip": 4, **stated}, "line 8: '' has not the 3 cells"),
     ):
-        with pytest.raises(InvalidInput, match=said):
+        with pytest.raises(InvalidInput, match=message):
             Prony(equilibrium_modulus=1e6, table=path, **more)
     with pytest.raises(InvalidInput, match="moduli is stated, and a column"):
         Prony(equilibrium_modulus=1e6, moduli=(1e6,), table={"tau": (1.0,), "G": (1e6,)})
@@ -231,7 +231,7 @@ def test_reduced_frequencies_need_no_shift():
     del reduced["omega"]
     units = {"storage": "Pa", "loss": "Pa"}
     assert deviation(Tabulated(table=reduced, units=units), omega=OMEGA[8:42]) < FITTED
-    with pytest.raises(InvalidInput, match="b_T beside reduced frequencies"):
+    with pytest.raises(InvalidInput, match="b_T with reduced frequencies"):
         Tabulated(table=reduced | {"b_T": np.ones(90)}, units=units)
 
 
@@ -277,7 +277,7 @@ def test_a_scene_of_several_temperatures_is_stored_and_read_back():
 
 
 @pytest.mark.parametrize(
-    ("heading", "stated", "said"),
+    ("heading", "stated", "message"),
     [
         ("f [Hz],G' [Pa],G'' [Pa]", {"frequency_unit": "rad/s"}, "'f' is in Hz, and frequency_unit = 'rad/s'"),
         ("omega [Hz],G' [Pa],G'' [Pa]", {}, "'omega' is in 'Hz', and is an angular frequency"),
@@ -295,11 +295,11 @@ def test_a_scene_of_several_temperatures_is_stored_and_read_back():
         ("t [s],G(t) [Pa],y", {"frequency_unit": "Hz"}, "table over time: leave frequency_unit = 'Hz' out"),
     ],
 )
-def test_a_table_that_says_too_little_or_contradicts_is_refused(tmp_path, heading, stated, said):
+def test_a_table_that_says_too_little_or_contradicts_is_refused(tmp_path, heading, stated, message):
     numbers = (np.geomspace(1, 10, 5), np.geomspace(100, 200, 5), np.full(5, 300.0))
     path = tmp_path / "rubber.csv"
     path.write_text("\n".join([heading, *(",".join(map(str, row)) for row in zip(*numbers, strict=True))]))
-    with pytest.raises(InvalidInput, match=said):
+    with pytest.raises(InvalidInput, match=message):
         Tabulated(table=path, **stated)
 
 
@@ -363,7 +363,7 @@ def test_a_solid_stays_one_under_noise(name):
 
 
 @pytest.mark.parametrize(
-    ("change", "said"),
+    ("change", "message"),
     [
         ({"modulus": (1.0,) * 5}, "have \\[4, 5\\] values"),
         ({"temperature": (300.0,) * 3}, r"time, modulus, temperature have \[4, 4, 3\] values"),
@@ -374,8 +374,8 @@ def test_a_solid_stays_one_under_noise(name):
         ),
     ],
 )
-def test_a_wrong_table_over_time_is_refused_with_its_place(change, said):
-    with pytest.raises(InvalidInput, match=said):
+def test_a_wrong_table_over_time_is_refused_with_its_place(change, message):
+    with pytest.raises(InvalidInput, match=message):
         Table(**({"time": (1.0, 2.0, 3.0, 4.0), "modulus": (4.0, 3.0, 2.0, 1.0)} | change))
 
 

@@ -28,7 +28,7 @@ ROUNDING = 1e-12
 
 @cache
 def amplitudes(rough, count, spacing):
-    """Root mean squares of the waves of a periodic line scan of a surface on so many points."""
+    """Root mean squares of the waves of a periodic line scan of a surface on `count` points."""
     q = 2 * pi / (count * spacing) * np.arange(1, count // 2 + 1)
     power = np.zeros(len(q))
     for seen in (q, 2 * pi / spacing - q):  # waves that the spacing folds
@@ -107,7 +107,7 @@ def test_laws_on_the_lattice_are_line_scans_of_self_affine_surfaces():
     laws = linescan._Laws(bins_of(512, 1))
     at = 30, int(np.argmin(np.abs(laws.rolloffs - 5))), int(np.argmin(np.abs(laws.cutoffs - 100)))
     hurst, rolloff, cutoff = (float(each) for each in laws.numbers(at))
-    # a longest wave far beyond the line; a plateau of one
+    # a longest wave far beyond the line; a plateau of 1
     rough = SelfAffine(
         hurst=hurst, rms_height=1.0, longest=2 * pi * 1e4, rolloff=2 * pi / rolloff, shortest=2 * pi / cutoff
     )
@@ -176,19 +176,19 @@ def test_a_form_is_taken_off(level, degree):
     flat = Profile(heights=form, spacing=SPACING, level=level)
     assert flat.flat
     assert flat.fitted.flat
-    beside = Profile(heights=HEIGHTS[:100] + form, spacing=SPACING, level=level)
+    with_form = Profile(heights=HEIGHTS[:100] + form, spacing=SPACING, level=level)
     alone = Profile(heights=HEIGHTS[:100], spacing=SPACING, level=level)
-    assert beside.relief == pytest.approx(alone.relief, abs=1e-12 * np.ptp(HEIGHTS))
+    assert with_form.relief == pytest.approx(alone.relief, abs=1e-12 * np.ptp(HEIGHTS))
 
 
 def test_what_is_told_has_the_intervals_and_the_correlation_lengths():
-    told = " ".join(PROFILE.notes)
+    notes = " ".join(PROFILE.notes)
     law = PROFILE.law
     for number in (law.hurst.low, law.rms_height.high, law.rms_slope.value, law.shortest.value):
-        assert f"{number:.3g}" in told
-    assert f"{law.length / law.rolloff.value:.3g} (" in told
-    assert "correlation lengths" in told
-    assert "line-scan" in told
+        assert f"{number:.3g}" in notes
+    assert f"{law.length / law.rolloff.value:.3g} (" in notes
+    assert "correlation lengths" in notes
+    assert "line-scan" in notes
     short = Profile(heights=line(replace(ROUGH, rolloff=None), seed=2), spacing=SPACING)
     assert "no roll-off" in " ".join(short.notes)
 

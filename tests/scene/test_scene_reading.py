@@ -67,7 +67,7 @@ def test_a_file_says_what_python_says(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "said"),
+    ("old", "new", "message"),
     [
         ("radius = 1e-2", "radius = -1.0", r"indenter.radius = -1.0: .*greater than 0"),
         ("radius = 1e-2", 'radius = "-5 mm"', r"indenter.radius = '-5 mm': .*greater than 0, in SI units"),
@@ -100,11 +100,11 @@ def test_a_file_says_what_python_says(tmp_path):
         (PROGRAM[26:], "stages = [{duration = 1.0, gap = 1e-6}]", r"motion.stages.0.gap = 1e-06: unknown here"),
     ],
 )
-def test_a_mistake_is_named_with_its_place_value_and_what_is_allowed(tmp_path, old, new, said):
+def test_a_mistake_is_named_with_its_place_value_and_what_is_allowed(tmp_path, old, new, message):
     """Of a part, and of a stage of a program."""
     text = WHOLE if old in WHOLE else INDENTER + ELASTOMER + PROGRAM
     assert old in text
-    with pytest.raises(InvalidInput, match=said):
+    with pytest.raises(InvalidInput, match=message):
         scene_from(tmp_path, text.replace(old, new))
 
 
@@ -342,7 +342,7 @@ ROUGH = SelfAffine(hurst=0.7, rms_height=3e-5, longest=1e-2, shortest=1e-4, seed
 
 
 @pytest.mark.parametrize(
-    ("make", "said"),
+    ("make", "message"),
     [
         (lambda: StandardLinearSolid(G, G, 1.0), r"glassy_modulus = 1e\+06 must exceed rubbery_modulus = 1e\+06"),
         (lambda: Prony(G, (G, G), (1.0,)), "relaxation_times has 1 values, moduli has 2: each modulus"),
@@ -353,12 +353,12 @@ ROUGH = SelfAffine(hurst=0.7, rms_height=3e-5, longest=1e-2, shortest=1e-4, seed
         (lambda: replace(ROUGH, rolloff=2e-2), "rolloff = 0.02 must be more than shortest .* at most longest"),
     ],
 )
-def test_a_wrong_value_is_refused_with_its_field_and_what_is_allowed(make, said):
-    with pytest.raises(InvalidInput, match=said):
+def test_a_wrong_value_is_refused_with_its_field_and_what_is_allowed(make, message):
+    with pytest.raises(InvalidInput, match=message):
         make()
 
 
-# What is said of whatever was read
+# Messages about any content
 
 # Escape, bell, return, the C1 form of an escape, direction of reading, no width, half a letter.
 CONTROLS = ["\x1b[31m", "\a", "\r", "\b", "\x9b31m", "\u202e", "\u2066", "\u200b", "\ufeff", "\ud800", "\0"]

@@ -10,7 +10,7 @@ from solids import OF_EACH_TYPE
 from scene import Elastic, Fractional, InvalidInput, Kelvin, KelvinChain, Prony, StandardLinearSolid
 from scene.solids.modes import Relaxation, Retardation
 
-ROUNDING = 1e-13  # some tens of roundings; sums of terms of one sign
+ROUNDING = 1e-13  # some tens of roundings; sums of terms with the same sign
 EXACT = 1e-14  # of a single mode against 80 digits, a few roundings
 G = 1e6
 FREQUENCIES = np.geomspace(1e-10, 1e10, 2001)
@@ -20,7 +20,7 @@ every_solid = pytest.mark.parametrize("solid", OF_EACH_TYPE.values(), ids=OF_EAC
 
 
 def spread(count=30, decades=15, ratio=1e6, seed=0, rest=G, viscosity=0.0):
-    """Random branches over so many decades, moduli scattered by that ratio."""
+    """Random branches over `decades` decades, moduli scattered by `ratio`."""
     rng = np.random.default_rng(seed)
     times = 10 ** np.append(rng.uniform(-decades, 0, count - 2), (-decades, 0)) * 1e3
     form = Relaxation.of(rest, rest * ratio ** rng.uniform(-1, 1, count), times)
@@ -224,7 +224,7 @@ def test_retardation_to_relaxation_and_back_is_where_it_began(instantaneous):
     form = Retardation.of(instantaneous, np.geomspace(1e-8, 1e-5, 20), np.geomspace(1e-9, 1e6, 20))
     between = form.relaxation()
     again = between.retardation()
-    # Without a spring a dashpot takes the place of one branch.
+    # Without a spring a dashpot takes the place of a branch.
     assert (len(between.times), between.viscosity > 0) == ((20, False) if instantaneous else (19, True))
     assert again.instantaneous == pytest.approx(instantaneous, rel=1e-12)
     assert worst(again.times, form.times) <= 1e-12
@@ -295,9 +295,9 @@ def test_a_solid_stated_by_young_s_modulus_is_that_of_its_shear_modulus(solid, r
 
 
 @pytest.mark.parametrize(
-    ("stated", "said"),
+    ("stated", "message"),
     [
-        ({"youngs_modulus": "3 MPa", "modulus": "1 MPa"}, "youngs_modulus beside modulus: give one"),
+        ({"youngs_modulus": "3 MPa", "modulus": "1 MPa"}, "youngs_modulus and modulus: give one"),
         ({"youngs_modulus": "3 mm"}, "youngs_modulus.*a Young's modulus E, such as"),
         ({"youngs_modulus": 0.0}, "modulus = 0.0: .*greater than 0"),
         ({"youngs_modulus": 3e6, "poisson_ratio": 0.6}, "poisson_ratio.*0.5"),
@@ -305,8 +305,8 @@ def test_a_solid_stated_by_young_s_modulus_is_that_of_its_shear_modulus(solid, r
         ({}, "modulus.*missing"),
     ],
 )
-def test_a_wrong_young_s_modulus_is_refused_by_its_name(stated, said):
-    with pytest.raises(InvalidInput, match=said):
+def test_a_wrong_young_s_modulus_is_refused_by_its_name(stated, message):
+    with pytest.raises(InvalidInput, match=message):
         Elastic(**stated)
 
 
@@ -331,7 +331,7 @@ def test_normalised_terms_are_the_plain_series(modulus, time):
 
 
 @pytest.mark.parametrize(
-    ("stated", "said"),
+    ("stated", "message"),
     [
         ({"g": SHARES, "tau": TAU}, "give one of instantaneous_modulus and equilibrium_modulus"),
         (
@@ -340,11 +340,11 @@ def test_normalised_terms_are_the_plain_series(modulus, time):
         ),
         ({"g": (0.5, 0.7), "tau": TAU[:2], "equilibrium_modulus": 1e6}, "the sum 1.2 leaves no modulus at rest"),
         ({"g": (0.5, -0.1), "tau": TAU[:2], "instantaneous_modulus": 1e6}, "g: the sum 0.4 .*each above 0"),
-        ({"g": SHARES, "moduli": SHARES, "tau": TAU, "instantaneous_modulus": 1e6}, "g beside moduli"),
+        ({"g": SHARES, "moduli": SHARES, "tau": TAU, "instantaneous_modulus": 1e6}, "g and moduli"),
         ({"moduli": SHARES, "tau": TAU, "instantaneous_modulus": 1e6}, "instantaneous_modulus goes with g"),
         ({"g": (), "tau": (), "instantaneous_modulus": 1e6}, "moduli.*at least 1"),
     ],
 )
-def test_normalised_terms_that_are_no_solid_are_refused(stated, said):
-    with pytest.raises(InvalidInput, match=said):
+def test_normalised_terms_that_are_no_solid_are_refused(stated, message):
+    with pytest.raises(InvalidInput, match=message):
         Prony(**stated)

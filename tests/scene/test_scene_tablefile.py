@@ -15,7 +15,7 @@ FREQUENCY = Column("frequency", ("f",), (HERTZ, RADIAN_PER_SECOND))
 STORAGE, LOSS = Column("storage", ("G'",), (PASCAL,), needed=True), Column("loss", ("G''",), (PASCAL,))
 TEMPERATURE = Column("T", ("temperature",), (KELVIN,), unit_needed=True)
 KNOWN = FREQUENCY, STORAGE, LOSS, TEMPERATURE, Column("tan_delta", ())
-ROUNDING = 4e-16  # of one product
+ROUNDING = 4e-16  # of a single product
 HEADED = "f [Hz];G' [MPa];G'' [kPa]"
 ROWS = "1;2;3", "2;3;4", "3;4;5"
 READ = {"frequency": [1, 2, 3], "storage": [2e6, 3e6, 4e6], "loss": [3e3, 4e3, 5e3]}
@@ -210,7 +210,7 @@ def test_tables_of_python_are_read_by_the_same_names_with_their_units():
     agree(read({"f": hertz, "G'": units.Quantity(np.array([2, 3, 4]), "MPa"), "G''": kilo}))
     agree(read(xarray.Dataset(labelled | {"G''": ("row", plain["loss"], {"units": "Pa"})})))
     agree(read(pandas.concat([frame, frame.assign(remark="b")]), where={"remark": "b"}))
-    for wrong, said in (
+    for wrong, message in (
         (3.0, "3.0: a path, a DataFrame"),
         ({}, "there is no row"),
         (pandas.Series([1.0, 2.0]), "a path, a DataFrame"),
@@ -219,7 +219,7 @@ def test_tables_of_python_are_read_by_the_same_names_with_their_units():
         ({"G'": [1.0, np.nan]}, 'row 2, column "G\'": nan is no number'),
         (pandas.concat([frame, frame.assign(remark="b")]), "column 'remark' has several values"),
     ):
-        with pytest.raises(ValueError, match=said):
+        with pytest.raises(ValueError, match=message):
             read(wrong)
 
 

@@ -124,14 +124,14 @@ DRAWS, ALLOWED = 40, 2  # of tables with noise, and how many of them may be judg
 
 def open_at_rest(law, band, count, noise):
     """Tables out of DRAWS whose modulus at rest is refused as open."""
-    said = []
+    messages = []
     for seed in range(DRAWS):
         try:
             fitted(scattered(law, np.geomspace(*band, count), noise, [seed, count]), tolerance=0.3)
         except InvalidInput as error:
-            said.append(str(error))
-    assert all("modulus at rest open" in each for each in said)
-    return len(said)
+            messages.append(str(error))
+    assert all("modulus at rest open" in each for each in messages)
+    return len(messages)
 
 
 @pytest.mark.parametrize(("count", "noise"), [(40, 0.03), (10, 0.03), (50, 0.05), (10, 0.01)])
@@ -180,7 +180,7 @@ WIDE = "f,G',G''\n" + "\n".join(f"{k},2,3" for k in range(1, MOST_ROWS + 2))
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("f,G',G''\n0,5,6", "line 2: frequency = 0 must be greater than 0"),
         ("f,G',G''\n1,2,3\n2,2,3", "2 frequencies: at least 4"),
@@ -188,12 +188,12 @@ WIDE = "f,G',G''\n" + "\n".join(f"{k},2,3" for k in range(1, MOST_ROWS + 2))
         (WIDE, "5,001 rows: at most 5,000"),
     ],
 )
-def test_a_mistake_in_a_file_is_named_with_its_line(tmp_path, text, said):
+def test_a_mistake_in_a_file_is_named_with_its_line(tmp_path, text, message):
     path = tmp_path / "rubber.csv"
     path.write_text(text)
-    with pytest.raises(ValueError, match=said):
+    with pytest.raises(ValueError, match=message):
         read_table(path)
-    with pytest.raises(InvalidInput, match=rf"table.*{said}|table.*frequencies"):
+    with pytest.raises(InvalidInput, match=rf"table.*{message}|table.*frequencies"):
         fitted(path)
 
 

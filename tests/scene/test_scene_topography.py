@@ -234,7 +234,7 @@ PARABOLOID = 3.0 * FORM["x"] ** 2 + (2.0 * FORM["x"] - 1e-5 + 4.0 * FORM["y"][:,
 
 
 def wave(k, j, shape=(30, 40)):
-    """Of a mirrored map, with so many half waves along x and along y."""
+    """A wave of a mirrored map, with k half waves along x and j along y."""
     along_y, along_x = (np.cos(pi * m * (np.arange(n) + 0.5) / n) for m, n in ((j, shape[0]), (k, shape[1])))
     return along_y[:, None] * along_x
 

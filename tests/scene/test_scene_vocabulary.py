@@ -1,4 +1,4 @@
-"""Every number and field that a solver gives has an entry, and a unit by which it follows that of the scene."""
+"""Every number and field that a solver gives has an entry, and a unit by which it scales with the scene."""
 
 from dataclasses import replace
 from functools import cache
@@ -84,8 +84,8 @@ def results(scene):
 
 
 def test_every_measure_and_field_has_an_entry_and_every_entry_is_used():
-    told = [each.solve(SCENES["sliding"]) for each in THEORIES]
-    assert {name for result in [*answered(), *told] for name in result.measures} == set(MEASURES)
+    by_theory = [each.solve(SCENES["sliding"]) for each in THEORIES]
+    assert {name for result in [*answered(), *by_theory] for name in result.measures} == set(MEASURES)
     assert {name for result in answered() for name in result.fields} == set(FIELDS)
     assert all(hasattr(result, name) for result in answered() for name in NUMBERS)
 
@@ -129,8 +129,8 @@ def elsewhere(scene):
 
 def misfits(scene, entries, first, second):
     """Names of what does not follow the units as its own says."""
-    told = [name for name in first if name not in OF_THE_MACHINE]
-    return [name for name in told if not _follows(scene, entries[name], first[name], second[name])]
+    names = [name for name in first if name not in OF_THE_MACHINE]
+    return [name for name in names if not _follows(scene, entries[name], first[name], second[name])]
 
 
 def _follows(scene, entry, first, second):

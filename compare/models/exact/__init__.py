@@ -7,7 +7,7 @@ indentation : a body of revolution pressed into a viscoelastic solid and withdra
 line_contact : steady sliding of a cylinder on a standard linear solid
 layer : a body of revolution pressed into an elastic layer on a rigid base
 tangential : a contact pressed, then drawn along the surface against friction
-waves : elastic contact of one wave and of two crossed ones
+waves : elastic contact of a single wave and of two crossed waves
 full_contact : pressure and friction of a rough plane that touches everywhere
 
 Units are SI. Moduli are E* = E/(1 - nu^2) unless a solid is passed. The elastomer flows along +x, pressure is

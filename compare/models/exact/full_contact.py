@@ -34,7 +34,7 @@ def wave_closure(amplitude, wavelength, elastomer, speed):
 
 
 def crossed_closure(amplitude, wavelength, elastomer, speed):
-    """Least mean pressure [Pa] that keeps crossed waves in full contact: sqrt(2) that of one wave."""
+    """Least mean pressure [Pa] that keeps crossed waves in full contact: sqrt(2) times wave_closure."""
     return sqrt(2) * wave_closure(amplitude, wavelength, elastomer, speed)
 
 

@@ -1,6 +1,6 @@
 """A body of revolution pressed into an elastic layer on a rigid base, without sliding and without any grid.
 
-The pressure of a round contact of radius a is that of a row of springs, one behind the other,
+A round contact of radius a has the same pressure as a row of springs, one behind the other,
 
     p(r) = -(E*/2) int_r^a f'(x) / sqrt(x^2 - r^2) dx,    F = pi E* int_0^a f dx,    f(a) = 0,
 

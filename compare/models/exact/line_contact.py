@@ -148,7 +148,7 @@ def sliding(radius, relaxed_modulus, glassy_modulus, retardation_time, speed, li
         return LineContact(radius, relaxed_modulus, softening, memory, half_width)
 
     slow, _ = hertz(radius, relaxed_modulus, line_load)
-    # Between the relaxed and the glassy contact, and no smaller than that of a Kelvin body at the least.
+    # Between the relaxed and the glassy half width, and at least the half width on a Kelvin body.
     fast = max(slow * sqrt(softening), slow**2 / (sqrt(memory**2 + slow**2) + memory))
     low, high = fast * (1 - 1e-9), slow * (1 + 1e-9)
 

@@ -17,7 +17,7 @@ At 0.1 the edges of the pixels hold some 0.0006 of it, at 0.95 some 0.0002.
 
 
 def wave_closure(modulus, amplitude, wavelength):
-    """p* = pi E* h0 / lambda [Pa] of one wave. modulus: E* [Pa]; amplitude, wavelength [m]."""
+    """Pressure p* = pi E* h0 / lambda [Pa] that closes a wave. modulus: E* [Pa]; amplitude, wavelength [m]."""
     return pi * modulus * amplitude / wavelength
 
 

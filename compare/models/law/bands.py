@@ -63,7 +63,7 @@ class Bands:
         if isinstance(rough, Profile):
             rough = rough.fitted
         q_s = rough.q_max(0.0)
-        if isinstance(rough, Spectrum):  # of many laws, of which nodes would see some
+        if isinstance(rough, Spectrum):  # nodes would see only some of its many power laws
             edges = np.geomspace(rough.q_min, q_s, _WAVES + 1)
             share = rough.share(edges[:-1], edges[1:], q_s)
             return cls(np.sqrt(edges[:-1] * edges[1:]), share, rough.rms_height)
@@ -113,14 +113,14 @@ class FullContact:
     Each wave for itself: sum_q (|q| |q_x| / 2) |h_q|^2 Im E*(|q_x| v) is friction an area, and
     sum_q (q / 2)^2 |E*(q_x v)|^2 |h_q|^2 the mean square pressure; Persson, J. Chem. Phys. 115, 3840 (2001).
 
-    friction : of each band, an area [Pa]; their sum is that of all
+    friction : friction of each band per area [Pa]; the bands add up to the total
     pressure : rms of that about its mean [Pa], of all bands up to each
     lossy : rms of the part of the pressure that is a quarter of a period off, over the rms pressure of all
     along : mean |cosine| of the waves with the flow, weighted by friction
     across : mean of the fourth power of their sine, weighted by mean square pressure
     shorter : mean ln q weighted by friction, less that weighted by mean square pressure
     harder : the latter, less that weighted by mean square slope
-    rising : tanh of half the logarithm of the stiffness of the shortest waves over that of the longest
+    rising : tanh of half the logarithm of the ratio of the stiffness of the shortest and the longest waves
     faster : ln of the friction over the rms pressure at FASTER times the speed, less that at the speed
     """
 

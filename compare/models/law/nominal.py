@@ -17,8 +17,8 @@ from .bands import around
 GAPS = {0.005: 2.23, 0.02: 1.69, 0.05: 1.29, 0.1: 0.955, 0.2: 0.625, 0.5: 0.24, 1.0: 0.065, 2.0: 0.004}
 THINNER = -0.38  # change of that gap per logarithm of a pressure below these
 CLOSED = 500.0  # of the pressure, over the greatest there is, per gap that is missing above these: nearly rigid
-# Rings out to a radius over that of the smooth contact: even ones, then wider and wider ones; nodes of a
-# quadrature over either half of one.
+# Rings: EVEN ones out to INNER radii of the smooth contact, then WIDER ones that grow, out to OUTER radii; NODES
+# of the quadrature over either half of a ring.
 EVEN, INNER, WIDER, OUTER, NODES = 48, 1.5, 24, 8.0, 24
 WAVES = np.geomspace(0.05, 60.0, 120)  # wave numbers of a pressure, times the radius of the smooth contact
 ROUNDS, CLOSE, SHORTEST_STEP = 60, 1e-12, 1e-6
@@ -150,7 +150,7 @@ class NominalContact:
 
 
 def _pressed(push, own, stiff):
-    """Pressure over that of full contact, and its slope, where rings and the layer on them share a push.
+    """Pressure over the pressure in full contact, and its slope, where rings and the layer on them share a push.
 
     push : displacement of each ring by its own pressure, less its gap, over the rms height (N,)
     own : displacement of each ring by unit pressure on it, likewise (N,)

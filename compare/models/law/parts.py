@@ -75,7 +75,7 @@ PASSES = 2  # of the window, which is as wide as the contact, which depends on w
 
 @dataclass(frozen=True)
 class LawParts:
-    """Law of friction in three dimensions: that of the smooth body, and a share of that of all waves.
+    """Law of friction in three dimensions: friction of the smooth body plus a share of the friction of all waves.
 
     mu = mu_smooth + (1/F_N) int F_full S(p / p_rms) dA: F_full is the friction an area of all waves in full
     contact, p_rms the rms of their pressure, both from the spectrum; S the share that partial contact leaves, as
@@ -84,7 +84,8 @@ class LawParts:
 
     contact : of the smooth body
     smooth, rough : parts of the friction coefficient
-    radius : of a disc with the spread of the nominal pressure, of which the smooth contact's is the radius [m]
+    radius : radius [m] of a disc with the spread of the nominal pressure; for the pressure of the smooth contact
+        it is the radius of this contact
     full : friction of all waves in full contact, an area [Pa]
     pressure : rms of theirs in full contact [Pa]
     share : S(x) of these waves

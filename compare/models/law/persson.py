@@ -89,25 +89,25 @@ TERMS = {
 class Persson:
     """Persson's theory: waves touch by the share of the area that is in contact when no shorter ones are seen.
 
-    gamma : None for the theory as published in 2001; 0 to 1 for its later factor, of which 1/2 is his number
+    gamma : None for the theory as published in 2001; 0 to 1 for its later factor; Persson takes 1/2
 
     Of the waves up to q the share P(q) = erf(p / (sqrt(2) p_rms(q))) touches, p_rms(q) the rms pressure of these
     waves in full contact, and friction an area is the sum over waves of that in full contact times P; Persson,
     J. Chem. Phys. 115, 3840 (2001). With gamma each is also multiplied by gamma + (1 - gamma) P^2; Lorenz, Oh,
     Nam, Jeon and Persson, J. Chem. Phys. 142, 194701 (2015).
 
-    That is the answer for a Plane. The roughness of a body of revolution under a load adds that of the pressure
-    at each place of the smooth sliding contact, which is solved in three dimensions on 64 points. A smooth body
-    has the answer of that solve; at rest nothing rubs.
+    That is the answer for a Plane. On a body of revolution under a load the roughness adds the friction that goes
+    with the pressure at each place of the smooth sliding contact, which is solved in three dimensions on 64
+    points. A smooth body has the answer of this solve; at rest there is no friction.
 
     There is no claim on the depth of a rough body, nor on the gap of a plane: `depth` is NaN, and a prescribed
     depth or gap is refused. Where little touches of a plane (pressure_ratio 0.02) the area is 30 % below that in
     three dimensions at low speed and 45 % above it at high speed, friction 43 % below and 62 % above; with
     gamma = 1/2 friction is 71 % and 15 % below. From a ratio of 2 on both are within 3 % (theory, Eq. 11c).
 
-    Result.measures: contact_area [m^2], that of the shortest wave; contact_fraction, over that of the cell or of
-    the smooth contact; friction_of_shape, friction_of_roughness [N]; pressure_ratio, mean pressure over p_rms of
-    all waves. There are no fields.
+    Result.measures: contact_area [m^2], with all waves down to the shortest; contact_fraction, this area over the
+    area of the cell or of the smooth contact; friction_of_shape, friction_of_roughness [N]; pressure_ratio, mean
+    pressure over p_rms of all waves. There are no fields.
     """
 
     draws: ClassVar[str] = "none"  # it answers with the mean
@@ -155,7 +155,7 @@ class Persson:
 
     def _of_body(self, scene, start):
         smooth = SmoothContact.of(scene)
-        own, told = (
+        own, convergence = (
             smooth.friction_coefficient * smooth.load,
             {
                 "residual": smooth.residual,
@@ -164,13 +164,13 @@ class Persson:
         )
         if scene.roughness is None or scene.roughness.flat:
             measures = _measures(smooth.area, own, 0.0, smooth.area)
-            return self._result(scene, start, smooth.load, smooth.depth, measures, **told)
+            return self._result(scene, start, smooth.load, smooth.depth, measures, **convergence)
         friction, share, ratio = self._roughness(scene, smooth.pressure, smooth.mean_pressure)
         found = float(friction.sum()) * smooth.pixel_area, float(share.sum()) * smooth.pixel_area
         measures = _measures(smooth.area, own, *found, ratio)
-        return self._result(scene, start, smooth.load, nan, measures, **told)
+        return self._result(scene, start, smooth.load, nan, measures, **convergence)
 
-    def _result(self, scene, start, load, depth, measures, **told):
+    def _result(self, scene, start, load, depth, measures, **convergence):
         points = {} if isinstance(scene.indenter, Plane) else {"points": SPACE.points}
         return Result(
             scene=scene,
@@ -181,7 +181,7 @@ class Persson:
             friction_force=measures["friction_of_shape"] + measures["friction_of_roughness"],
             seconds=process_time() - start,
             measures=measures,
-            **told,
+            **convergence,
         )
 
     def _roughness(self, scene, pressure, mean):

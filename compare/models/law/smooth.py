@@ -37,7 +37,7 @@ class SmoothContact:
 
     @classmethod
     def of(cls, scene: Scene) -> "SmoothContact":
-        """Smooth contact of a scene, of which roughness is left out. Raises Refused, SolveError."""
+        """Smooth contact of a scene without its roughness. Raises Refused, SolveError."""
         found = SPACE.solve(replace(scene, roughness=None))
         return cls.of_answer(found, found.fields["pressure"])
 

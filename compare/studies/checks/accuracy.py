@@ -1,4 +1,4 @@
-"""Accuracy of one dimension on a scene of one's own, in a test: what the fixture `mdr_accuracy` does."""
+"""Accuracy of 1D on a user's own scene in a test: the work of the fixture `mdr_accuracy`."""
 
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -68,23 +68,23 @@ class Accuracy(Comparison):
         for mean, allowed in self.within.items():
             judged = known.judged(CONTACTS, WORDS[mean])
             for model in judged:
-                both, beside = (model.name, series.models.reference), series.models.beside(model.name)
+                both, pair = (model.name, series.models.reference), series.models.pair_label(model.name)
                 id = WORDS[mean] if len(judged) == 1 else f"{WORDS[mean]}.{model.name}"
-                over: dict[str, Any] = {"dimension": beside, "measure": ratio_of(mean, *both)}
-                claim = Claim(id, f"{WORDS[mean]} {beside}", 1.0, allowed, **over)
+                over: dict[str, Any] = {"dimension": pair, "measure": ratio_of(mean, *both)}
+                claim = Claim(id, f"{WORDS[mean]} {pair}", 1.0, allowed, **over)
                 for each in series.compared(known, claim, CONTACTS, both, {(0, 0): ""}):
-                    told = series.told(each)
+                    finding = series.with_remedy(each)
                     found.append(
-                        told
-                        if told.remedy or told.undecidable
-                        else replace(told, remedy="a finer grid would decide it")
+                        finding
+                        if finding.remedy or finding.undecidable
+                        else replace(finding, remedy="a finer grid would decide it")
                     )
         return Judgement(found)
 
 
 @dataclass(frozen=True)
 class OwnScene(Stored, Accuracy):
-    """Ratios of a scene of one's own held against the values of a file.
+    """Ratios of a user's own scene, compared with the values in a file.
 
     name : of the scene, by which its numbers are stored; tolerance : relative, of each ratio
     """
@@ -136,19 +136,19 @@ def findings(study: Accuracy, folder: Path) -> list[Finding]:
 class MDRAccuracy:
     """The fixture `mdr_accuracy`.
 
-    folder : of what is solved; file : of stored numbers; beside : folder in which scenes are looked for first
+    folder : of solved contacts; file : of stored numbers; test_folder : where scene files are looked for first
     rewrite : whether numbers that moved are stored
     """
 
     folder: Path
     file: Path
-    beside: Path
+    test_folder: Path
     rewrite: bool = False
 
     def check(self, scene: SceneLike, **asked: Any) -> None:
         """Fail unless each ratio of 1D over 3D is 1 within what is allowed, with its whole interval of 95 %.
 
-        scene : file beside the test, name of a ready scene, or an object
+        scene : file in the folder of the test, name of a ready scene, or an object
         friction, depth, force : how far from 1 the ratio may be, as friction=0.05; depth
             under a load, force at a depth
         models, reference : names or objects, "mdr" and "bem" if absent, and the one that others are held against
@@ -163,7 +163,7 @@ class MDRAccuracy:
         self._fail(scene, findings(study, self.folder))
 
     def regression(self, scene: SceneLike, tolerance: float = 1e-3, **asked: Any) -> None:
-        """Fail if a ratio moved by more than a tolerance, relative, from the file that stands beside the test.
+        """Fail if a ratio moved by more than a relative tolerance from its value in the file next to the test.
 
         The first run writes the file and fails. With --mdr-regen numbers that moved are stored, and it fails.
         The other arguments are those of `check`.
@@ -178,8 +178,8 @@ class MDRAccuracy:
         self._fail(scene, found, f"; --mdr-regen stores them in {self.file}")
 
     def _located(self, scene):
-        beside = isinstance(scene, str | PathLike) and (self.beside / scene).is_file()
-        return self.beside / scene if beside else scene
+        is_file = isinstance(scene, str | PathLike) and (self.test_folder / scene).is_file()
+        return self.test_folder / scene if is_file else scene
 
     def _fail(self, scene, found: Sequence[Finding], hint: str = "") -> None:
         lines = [

@@ -1,8 +1,9 @@
 """The conditions of contact computed anew from an answer, by plain sums; of rough surfaces, on those it drew.
 
 In three dimensions gap = A p + z - d with the influence of a pixel under constant pressure; Love, Phil. Trans. R.
-Soc. A 228, 377 (1929). Retarded displacement is that of a pixel left behind, integrated over the way since with
-exp(-s/l)/l. Under a flow the gap is seen -arg(J(q))/q behind the pixels' centres, q = pi/pixel (docs, theory).
+Soc. A 228, 377 (1929). Retarded displacement is the displacement of a pixel left behind, integrated over the way
+since with exp(-s/l)/l. Under a flow the gap is seen -arg(J(q))/q behind the pixels' centres, q = pi/pixel (docs,
+theory).
 """
 
 from itertools import product
@@ -19,7 +20,7 @@ FAR = 1e4  # pixels from which 1/r has more digits than the exact form
 T, W = ((each + shift) / 2 for each, shift in zip(leggauss(20), (1, 0), strict=True))
 # Places and weights on a panel from 0 to 1, dense at both ends, where the kernel has its kinks.
 PLACES, WEIGHTS = T**3 * (10 - 15 * T + 6 * T**2), W * 30 * T**2 * (1 - T) ** 2
-PANELS = 60  # beside those of pixels, in each of which exp(-s/l) and 1/s hardly change
+PANELS = 60  # in addition to one panel a pixel; in each panel exp(-s/l) and 1/s hardly change
 
 
 def violation(answer: Result) -> float:

@@ -156,7 +156,7 @@ def memories_without_end():
 
 @hard("Forces and friction as without them, to 1e-6: contact is solved to 1e-7.", line, dense, any_model=GRID)
 def all_but_absent_modes():
-    """Modes of 1e-30 and 1e-150 Pa beside one of 1e7 Pa; an element of a chain that is all but rigid, no glass."""
+    """Modes of 1e-30 and 1e-150 Pa with one of 1e7 Pa; an almost rigid element of a chain; no glassy modulus."""
     chain = KelvinChain(0.0, (1 / MODULUS, 1e-300), (TIME, TIME / 3)), KELVIN
     series = [(Prony(MODULUS, (9e6, faint, faint), (TIME, 1e-9, 1e9)), SOLID) for faint in (1e-30, 1e-150)]
     for solids, pace in product((chain, *series), (0.1, 10.0)):
@@ -165,7 +165,8 @@ def all_but_absent_modes():
 
 @hard(
     "Forces of the last eighth are those before to 1e-4 in 1D, of the ripple of pixels, and 0.02 in 3D; friction "
-    "is that of steady sliding within 0.02 of 400 points and 0.05 of 24. The solver refuses what does not balance "
+    "agrees with steady sliding within 0.02 of 400 points and 0.05 of 24. The solver refuses what does not "
+    "balance "
     "work, energy lost and stored.",
     lambda size: coarse_line(size, extent=2.4 * RADIUS, steps=size.steps),
     lambda size: coarse_space(size, steps=size.march),

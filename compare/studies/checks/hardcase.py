@@ -70,7 +70,7 @@ class Part(NamedTuple):
     allowed: Allowed
 
     def share(self, answers: Answers) -> float:
-        """The number over what is allowed; 0 of one below zero."""
+        """The number divided by what is allowed; a negative number counts as 0."""
         return max(float(self.misfit(answers)), 0.0) / (_value(self.allowed, answers) or NOTHING)
 
 
@@ -87,11 +87,11 @@ def hard(source: str, *solvers: Callable, any_model: Bound | None = None) -> Cal
     def decorated(case):
         def make():
             parts, name = list(case()), case.__name__.replace("_", "-")
-            told = HARD, sentence(case), tuple(chain(*(part.scenes for part in parts)))
-            yield Law(name, *told, shares(parts), stated(1.0, source), solvers=solvers or (line, space))
+            common = HARD, sentence(case), tuple(chain(*(part.scenes for part in parts)))
+            yield Law(name, *common, shares(parts), stated(1.0, source), solvers=solvers or (line, space))
             if any_model is not None:
                 own = [part._replace(allowed=any_model.of) for part in parts]
-                yield Law(f"hard.{name}", *told, shares(own), stated(1.0, any_model.source))
+                yield Law(f"hard.{name}", *common, shares(own), stated(1.0, any_model.source))
 
         return Laws(make)
 
@@ -126,7 +126,7 @@ def touching(*scenes: Scene) -> Part:
 
 
 def each_of(number: Callable[[Any], float], allowed: Allowed, *scenes: Scene) -> Part:
-    """A number of each answer, of which the largest counts."""
+    """A number of each answer; the largest counts."""
     return Part(scenes, lambda answers: worst(map(number, answers)), allowed)
 
 

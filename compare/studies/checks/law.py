@@ -27,7 +27,7 @@ class Missing(LookupError):
 
 @dataclass(frozen=True)
 class Answer:
-    """The result of one scene, by a model of a dimension. Its numbers and measures are found by their names."""
+    """The result of a scene by a model of a dimension. Numbers and measures of the result are found by name."""
 
     result: Result
     dimension: str
@@ -63,7 +63,7 @@ class Bound:
     of: Misfit
 
     def wider(self, why: str, more: float = 0.0, times: float = 1.0) -> "Bound":
-        """This bound so many times, MOST at most, and a number more, for a reason."""
+        """This bound multiplied by `times`, at most MOST, plus `more`, for the stated reason."""
         return Bound(f"{self.source}; {why}", lambda answers: min(times * self.of(answers), MOST) + more)
 
 
@@ -120,7 +120,7 @@ class Law:
     bound : that the misfit, or its distance from `expected`, must not exceed; its source says why
     kinds : dimensions of the models that must hold it
     solvers : of a hard case, functions of a size that make the solvers that are asked; empty: any model is asked
-    models : function of the model that gives that of each scene
+    models : function of the model that returns the models of the scenes
     expected : 0, or the number that is stored
     """
 

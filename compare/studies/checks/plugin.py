@@ -14,7 +14,7 @@ def pytest_addoption(parser):
 
 @pytest.fixture
 def mdr_accuracy(request, tmp_path_factory):
-    """Accuracy of 1D on a scene: `check` against 3D, and `regression` against a file beside the test."""
+    """Accuracy of 1D on a scene: `check` against 3D, and `regression` against a file next to the test."""
     from .accuracy import MDRAccuracy
 
     cache = getattr(request.config, "cache", None)  # absent with -p no:cacheprovider
@@ -23,6 +23,6 @@ def mdr_accuracy(request, tmp_path_factory):
     return MDRAccuracy(
         folder=folder / os.environ.get("PYTEST_XDIST_WORKER", "main"),
         file=request.path.with_suffix("") / f"{test}.toml",
-        beside=request.path.parent,
+        test_folder=request.path.parent,
         rewrite=request.config.getoption("--mdr-regen"),
     )

@@ -56,7 +56,7 @@ class Ratio(NamedTuple):
 
 
 def laws() -> Iterator[Law]:
-    """Each ratio, which must be the stored value of its id; NaN of one that is not stored."""
+    """Laws that each ratio equals the stored value of its id; NaN for a ratio that is not stored."""
     values = read_values(SHIPPED)
     for part in (_at_rest, _smooth, _rough, _paper, _withdrawal, _foundation):
         for each in part():

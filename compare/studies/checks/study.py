@@ -197,8 +197,8 @@ class Checks(Study):
     def answer(self, findings: Sequence[Finding]) -> Sequence[str]:
         """Numbers of laws that hold, fail and are left out, and a sentence for each that fails."""
         count = Counter(each.verdict for each in findings)
-        told = f"{self.title}: {count[HOLDS]} of {len(findings)} laws hold, {count[FAILS]} fail"
-        return [f"{told}, {count[REPORTED]} are left out."] + [
+        counts = f"{self.title}: {count[HOLDS]} of {len(findings)} laws hold, {count[FAILS]} fail"
+        return [f"{counts}, {count[REPORTED]} are left out."] + [
             f"{each.claim.id} fails ({each.where}): misfit {each.value:.2g}, allowed {each.claim.tolerance:.2g}. "
             f"{each.claim.sentence}. {each.reason}"
             for each in findings
@@ -212,7 +212,7 @@ class Regress(Stored, Checks):
 
     @classmethod
     def of(cls, baseline: str | Path | None = None, update: bool = False) -> Self:
-        """Study of a file, that of the package if absent; one to be updated need not be there yet."""
+        """Study of the numbers in a file, by default the package's; with `update` the file need not exist yet."""
         path = stored.SHIPPED if baseline is None else Path(baseline)
         values = stored.read_values(path, begin=update)
         ids = sorted(law.id for law in table().values() if law.group == STORED)

@@ -24,11 +24,11 @@ THEORY, LAW = THEORIES = Persson(), FrictionLaw()
 
 
 def with_theory(curve: Curve, theories: Sequence[Solver] = (THEORY,)) -> Curve:
-    """A curve with theories beside the models, those that are none of them and answer all of it."""
-    beside = {
+    """The curve with the models and all theories that answer all of it and are not among the models."""
+    added = {
         each.name: {FINE: each} for each in theories if each.name not in curve.levels and _answers(each, curve)
     }
-    return replace(curve, levels={**curve.levels, **beside})
+    return replace(curve, levels={**curve.levels, **added})
 
 
 def _answers(theory, curve):
@@ -60,7 +60,7 @@ MEASURED = (
 
 @dataclass(frozen=True)
 class Answers:
-    """Answers of one scene.
+    """Answers of a scene.
 
     curves : Datasets of its curves by name
     models : that are compared; others, as theories, have answers too
@@ -93,7 +93,7 @@ class Answers:
         return found.sel(level=level if level in found["level"] else FINE)
 
     def sample(self, level: str, curve: str, *models: str) -> DrawSet:
-        """Answers by model, of which surfaces can be left out; the same object each time, which keeps them."""
+        """Answers by model, with surfaces that can be left out; the same object each time, as it caches them."""
 
         def made():
             found = {each: self(curve, each, level) for each in models}

@@ -32,7 +32,7 @@ from .series import Counts, Judged, Series, ratio_of
 
 OWN, SPEED, LOAD = "own", "friction-speed", "friction-load"
 ROUGH_DEPTH, SMOOTH_DEPTH, SMOOTH_SPEED = "force-depth-rough", "force-depth-smooth", "smooth-speed"
-# Rough curves whose contacts share their surfaces: those of one are as many as those of the others.
+# Rough curves whose contacts share their surfaces, so that each of them has the same number of surfaces.
 SHARED = {"rest": (ROUGH_DEPTH,), "sliding": (OWN, SPEED, LOAD)}
 # Claims on the scene as it stands by the name of its mean.
 OWN_RATIOS = {
@@ -47,7 +47,7 @@ STEPS = 10  # displacements, or tangential forces, to which a shear is drawn
 
 
 def over(name: str, less: float = 0.0) -> Callable[..., np.ndarray]:
-    """Measure of a mean over that of the reference, less a number, at every place."""
+    """Measure of a mean divided by the mean of the reference, minus a number, at every place."""
     return lambda here, one, three: mean(one, *MEANS[name]) / mean(three, *MEANS[name]) - less
 
 
@@ -61,7 +61,7 @@ def slowest(here: Here) -> Iterator[Place]:
 
 
 def slow_factor(here: Here) -> float:
-    """Friction of the smooth, slow body that a model has over that of the reference."""
+    """Friction of the smooth, slow body by a model, divided by the friction by the reference."""
     return here.model.slow_factor / here.series.models[here.series.models.reference].slow_factor
 
 
@@ -162,7 +162,7 @@ class Around(Series):
     """One case with the curves around it.
 
     asked, reference : models and the reference among them, in place of those that the case names, see `Models.of`
-    wanted_interval : in place of that of the case
+    wanted_interval : in place of the interval of the case
     """
 
     name: str
@@ -194,7 +194,7 @@ class Around(Series):
 
     @cached_property
     def curves(self) -> Mapping[str, Curve]:
-        """Curves by name, all of which every model can solve, as far as that is known beforehand.
+        """Curves by name that every model can solve completely, as far as is known beforehand.
 
         Raises Refused, also where what follows from the numbers of the case is beyond the range of numbers.
         """
@@ -253,8 +253,8 @@ class Around(Series):
             if model.has_grid:
                 found = answers.compared(OWN, (model.name,), ratio_of(first, model.name)).at((0, 0))
                 change = float(np.divide(found.grid, abs(found.value)))
-                told: dict[str, Any] = {"drawn": found.drawn, "dimension": model.label}
-                yield Finding(CLAIMS["grid.change"], change, where=self.name, **told)
+                details: dict[str, Any] = {"drawn": found.drawn, "dimension": model.label}
+                yield Finding(CLAIMS["grid.change"], change, where=self.name, **details)
 
 
 def _curves(case, models):

@@ -66,7 +66,7 @@ def run(
 
 
 def sweep(scene: SceneLike, **given) -> Comparison:
-    """Contacts of one scene at speeds and loads or depths of one's own; given : see `SweepSeries.of`."""
+    """Contacts of a scene at the stated speeds and loads or depths; given : see `SweepSeries.of`."""
     series = SweepSeries.of(scene, **given)
     wanted = {"draws": series.draws} if series.interval is None else {"interval": series.interval}
     inputs = {"speed": series.speeds, series.prescribed: series.values, **wanted}
@@ -80,7 +80,7 @@ def study(
     reference: str | None = None,
     interval: float | str | None = None,
 ) -> Comparison:
-    """The study of a name that comes with the package, all of them, or that of a file.
+    """The study of this name that comes with the package, all of them, or the study of a file.
 
     Raises InvalidInput, Refused.
     """
@@ -113,7 +113,7 @@ def study(
 
 
 def _located(name: str | Path) -> Path:
-    """File of a study of one's own. Raises InvalidInput that says what there is."""
+    """File of a user's own study. Raises InvalidInput with the names that there are."""
     try:
         return located(name, "study")
     except InvalidInput as error:

@@ -17,21 +17,21 @@ IN_PERCENT = {"force", "grid", "history", "law3d", "pressed-in", "rest", "smooth
 _OWN = "Ratio of the means over surfaces."
 _HISTORY = "rms over the history of the difference of 1D from 3D, over the rms of 3D, without what scatter adds."
 _RATIO = "Ratio of the coefficients, 1D over 3D."
-_PRESSED = "ln of the ratio of forces, each over that of the smooth body at the depth reached."
+_PRESSED = "ln of the ratio of forces, each divided by the force on the smooth body at the depth reached."
 _REST_DEPTH = (
     "the depth under a load is the same in 1D and 3D",
-    "rms over loads of the difference of depths, over that of the smooth body.",
+    "rms over loads of the difference of depths, divided by the depth of the smooth body.",
 )
 _REST_FORCE = "the force at a depth is the same in 1D and 3D", "rms over depths of ln of the ratio of forces."
 _ON_THE_LAW = (
     "|ln(measured / S)| over the points at which the roughness has more than 0.3 of the friction, h₀ at most "
-    "0.1 d. Measured: friction less that of the smooth body on the contact that roughness widens, over that of "
-    "the waves in full contact. The upper end of the interval has in it what scatter of surfaces adds, the lower "
-    "has not."
+    "0.1 d. Measured: the friction minus the friction of the smooth body on the contact that roughness widens, "
+    "divided by the friction of the waves in full contact. The upper end of the interval includes the scatter of "
+    "surfaces, the lower end does not."
 )
 _AVERAGED = (
-    "|ln(measured / mean of S)| at the same points: that of the law itself. S is bent, so that the mean lies "
-    "below S at the mean pressure, by up to a tenth for a cone."
+    "|ln(measured / mean of S)| at the same points: the misfit of the law itself. S is bent, so that the mean "
+    "lies below S at the mean pressure, by up to a tenth for a cone."
 )
 _RAW = "|ln(measured / S)| at the same points, on the contact of the bare smooth body, with all waves."
 _DEEP, _SHALLOW = "At rest, rough, h0 at most 0.1 d", "At rest, rough, h0 above 0.1 d"
@@ -60,8 +60,8 @@ _TEXTS: dict[tuple[float, float], dict[str, tuple[str, str]]] = {
         "eq17.friction-per-contact": (
             "Behind Eq. 17: friction over the real contact is the same at every load",
             "d ln of the friction force over the length (1D) or area (3D) of real contact, over d ln F_N, at the "
-            "slowest speed, least squares over the loads or depths. With the exponent of the contact it makes up "
-            "that of friction.",
+            "slowest speed, least squares over the loads or depths. This and the exponent of the contact make up "
+            "the exponent of friction.",
         ),
         "eq17.slope-in-contact": (
             "Behind Eq. 17: what touches is as steep at every load",
@@ -70,7 +70,7 @@ _TEXTS: dict[tuple[float, float], dict[str, tuple[str, str]]] = {
         ),
         "eq19.law": (
             "Eq. 19: friction follows the law at all speeds and loads",
-            "rms over all points of ln μ less that of the law with α = 1.5, without what scatter adds.",
+            "rms over all points of ln μ minus ln μ of the law with α = 1.5, without the part of the scatter.",
         ),
         "eq18.one-curve": (
             "Eq. 18: friction over its plateau is one function of ξ, whatever roughness and solid",
@@ -84,7 +84,7 @@ _TEXTS: dict[tuple[float, float], dict[str, tuple[str, str]]] = {
             "Friction in 1D over 3D, ratio of the means over surfaces.",
         ),
         "limit.slow": (
-            "Friction at the slowest speed is that of the exact limit of low speed",
+            "Friction at the slowest speed follows the exact limit of low speed",
             "Not of the paper: μ at the slowest speed over vτ times the mean of d2z/dx2 weighted with the "
             "pressure at rest (3D), or over Eq. 10 with the contact at rest (1D); geometric mean over the loads "
             "or depths, on the same surfaces. It tells a fault of a solver from the failure of a law. In 3D "
@@ -99,9 +99,9 @@ _TEXTS: dict[tuple[float, float], dict[str, tuple[str, str]]] = {
     },
     (2.0, 2 * TOLERANCE): {
         "friction.ratio.smooth-slow": (
-            "Slow friction of the smooth body, 1D over 3D, is that of the closed forms",
-            "Friction in 1D over 3D at the lowest speed: as the speed tends to zero it tends to 2, or to 1 of two "
-            "models of one dimensionality.",
+            "Slow friction of the smooth body, 1D over 3D, agrees with the closed forms",
+            "Friction in 1D over 3D at the lowest speed: as the speed tends to zero it tends to 2, or to 1 for "
+            "two models of the same dimensionality.",
         ),
         "eq17.slope-exponent": (
             "Eq. 17: friction at the slowest speed goes as the rms slope to the power 2",
@@ -123,13 +123,13 @@ _TEXTS: dict[tuple[float, float], dict[str, tuple[str, str]]] = {
         "history.friction": ("The tangential force is the same in 1D and 3D all along", _HISTORY),
         "eq14.load-exponent": (
             "Eq. 14: at high speed friction does not depend on the load",
-            "d ln μ / d ln F_N at the fastest speed, less that of Eq. 19 there, least squares over the loads or "
-            "depths at which ξ is large.",
+            "d ln μ / d ln F_N at the fastest speed, minus the exponent of Eq. 19 there, least squares over the "
+            "loads or depths at which ξ is large.",
         ),
         "eq19.load-exponent": (
             "Eq. 19: at the knee friction falls with the load as the law does",
-            "d ln μ / d ln F_N at the speed at which ξ is closest to 1, less that of the law there, least "
-            "squares over the loads or depths.",
+            "d ln μ / d ln F_N at the speed at which ξ is closest to 1, minus the exponent of the law there, "
+            "least squares over the loads or depths.",
         ),
         "law3d.collapse": (
             "Law in 3D: what roughness adds to friction, over that in full contact, is S(x)",

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 SHALLOW = 0.1
 # Part of friction that the roughness has at least, by the law: below, its part is a small difference.
 LEAST_ROUGH = 0.3
-# Coordinates of each finding: at the mean pressure, averaged over that of the body, and raw.
+# Coordinates of each finding: law at the mean pressure, law averaged over the pressure of the body, and raw.
 FINDINGS = {"collapse": "law", "averaged": "averaged", "raw": "bare"}
 QUANTILES = {"": 0.5, "-most": 0.9}
 EVERY = "every series"
@@ -126,7 +126,7 @@ class LawPoints:
 
 
 def law_findings(series: "RoughSeries", answers: Answers, laws: Mapping[str, Laws]) -> list[Finding]:
-    """Findings on the master curve of one series; none where the law claims nothing."""
+    """Findings on the master curve of a series; none where the law claims nothing."""
     found = LawPoints.of(series, answers)
     if found is None:
         return []
@@ -137,7 +137,7 @@ def law_findings(series: "RoughSeries", answers: Answers, laws: Mapping[str, Law
 def law_findings_of(
     points: Sequence[LawPoints], where: str = EVERY, groups: str = "", curve: str = ""
 ) -> Iterator[Finding]:
-    """Findings at all points of some series, of which the same surfaces are left out."""
+    """Findings at all points of several series, with the same surfaces left out of each."""
     claimed = np.concatenate([each.law.x[each.claimed] for each in points])
     if not claimed.size:
         return

@@ -56,7 +56,7 @@ class Comparison(Study):
         """Doubts about every scene and the corners of its curves, with its name where there are several."""
         found = {each.name: each.doubts for each in self.series}
         named = len(self.series) > 1
-        return tuple(f"{name}: {each}" if named else each for name, told in found.items() for each in told)
+        return tuple(f"{name}: {each}" if named else each for name, doubts in found.items() for each in doubts)
 
     @cached_property
     def notes(self) -> tuple[str, ...]:
@@ -93,10 +93,10 @@ class Comparison(Study):
         every = []
         for series in self.series:
             judged = series.judge(series.answers(answers))
-            every.append(replace(judged, findings=[*map(series.told, judged.findings)]))
+            every.append(replace(judged, findings=[*map(series.with_remedy, judged.findings)]))
         members = [each for each in every if each.laws and isinstance(each.series, RoughSeries)]
         by_family = {each.series.family: each.series for each in members}
-        several = [by_family[each.curve].told(each) if each.curve else each for each in together(members)]
+        several = [by_family[each.curve].with_remedy(each) if each.curve else each for each in together(members)]
         findings = [*(found for each in every for found in each.findings), *several]
         opening = [table for each in every for table in opening_of(each)]
         claims = claims_table(findings, [each.name for each in self.series if isinstance(each, Around)])

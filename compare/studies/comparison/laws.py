@@ -68,8 +68,8 @@ class Laws:
 def laws(curve: Curve, answers: xarray.Dataset) -> Laws | None:
     """Laws for a rough body of revolution that slides; None of others, and where no solve has an answer.
 
-    answers : of one model on the curve. The load in Eqs. 18 to 23 is theirs, that prescribed where every solve
-        failed, and the slope the solver's own measure
+    answers : of a single model on the curve. The load in Eqs. 18 to 23 is theirs, or the prescribed load where
+        every solve failed; the slope is the solver's own measure
     """
     moving, scene = answers.sel(speed=answers["speed"] > 0), curve.scene
     speeds, shape = moving["speed"].values, scene.indenter
@@ -81,7 +81,7 @@ def laws(curve: Curve, answers: xarray.Dataset) -> Laws | None:
     solid, body = scene.solid, (shape.mdr_coefficient, shape.exponent)
     slope, pixel = (float(np.nanmean(moving[name].values)) for name in ("rms_slope", "pixel"))
     highest = scene.roughness.q_max(pixel)
-    # Written for a Poisson ratio of 1/2: E*/4 stands for G, and its loss for that of G.
+    # Written for a Poisson ratio of 1/2: E*/4 stands for G, and the loss of E*/4 for the loss of G.
     modulus = solid.indentation_modulus / 4
 
     def loss(omega):

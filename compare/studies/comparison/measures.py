@@ -118,7 +118,7 @@ class Here:
         return self.rule.xi_under(self.force(it))
 
     def over_law(self, it: xarray.Dataset) -> np.ndarray:
-        """Friction over that of Eq. 19."""
+        """Friction divided by the friction of Eq. 19."""
         return friction(it)[1:] / self.rule.law_of(self.xi(it))
 
 
@@ -131,13 +131,13 @@ class Row:
 
     id : of the claim, with {quantity} in place of depth or force, and without the ending of its place
     where : places at which it can be stated
-    measure : of a place and the answers of one model, or of a model and the reference; a number, or an array of
-        which the root mean square counts
+    measure : of a place and the answers of a model, or of a model and the reference; a number, or an array whose
+        root mean square counts
     pair : whether it compares a model with the reference
     quantity : that models must have a claim on; depth or force, what is not prescribed, where it is empty
     curve : that it is measured on
-    expected : number that the law has there; None of that of the claim
-    each : whether the measure is of all speeds and values at once, of which each place is a finding
+    expected : number that the law has there; if None, the number of the claim
+    each : whether the measure covers all speeds and values at once, with a finding for each place
     size : whether the number is never negative
     """
 
@@ -181,7 +181,7 @@ def along(limit: str) -> Where:
 
 everywhere = at(..., lambda here: here.laws is not None)
 
-# Friction of one dimensionality: Eqs. 14 to 19.
+# Friction in each dimensionality: Eqs. 14 to 19.
 
 
 def speed_exponent(here: Here, it: xarray.Dataset) -> float:
@@ -239,7 +239,7 @@ def law_with_load(here: Here, it: xarray.Dataset) -> float:
     return power(here.force(it)[here.place], here.over_law(it)[here.place])
 
 
-# Friction of one dimensionality over that of the other.
+# Ratio of friction in 1D to friction in 3D.
 
 
 def ratio(here: Here, one: xarray.Dataset, three: xarray.Dataset) -> float:
@@ -277,7 +277,7 @@ def over_closed_form(here: Here, it: xarray.Dataset) -> np.ndarray:
 
 
 def over_smooth(here: Here, it: xarray.Dataset) -> np.ndarray:
-    """Force over that of the smooth body in closed form, (rates, depths)."""
+    """Force divided by the force on the smooth body in closed form, (rates, depths)."""
     return here.force(it) / loading(here.series.scene, here.rates, mean(it, "depth_reached")[1:])
 
 
@@ -315,7 +315,7 @@ def pressed_apart(here: Here, one: xarray.Dataset, three: xarray.Dataset) -> flo
 
 
 def at_rates(least: int) -> Callable[[Here], bool]:
-    """Whether bodies are pressed in at so many rates at least."""
+    """Whether bodies are pressed in at this number of rates or more."""
     return lambda here: len(here.rates) >= least
 
 

@@ -10,7 +10,7 @@ import xarray
 from pandas import DataFrame
 
 from scene import Scene
-from scene.scene import said
+from scene.scene import described
 
 from ...figures.style import prefixed
 from ...report.page import Block, Findings, Section, Table, Text
@@ -75,10 +75,12 @@ def claims_table(findings: Iterable[Finding], scenes: Iterable[str], name: str =
 
     scenes : by the beginning of the place of a finding
     """
-    told = [each for each in findings if each.verdict != REPORTED and each.claim.id not in OWN_RATIOS.values()]
-    places = [[one for one in scenes if f"{each.where}, ".startswith(f"{one}, ")] for each in told]
-    frame = DataFrame({"claim": map(_short, told), "scene": [(*own, "")[0] for own in places], "finding": told})
-    frame["model"] = [each.dimension.partition("/")[0] for each in told]
+    caption = [each for each in findings if each.verdict != REPORTED and each.claim.id not in OWN_RATIOS.values()]
+    places = [[one for one in scenes if f"{each.where}, ".startswith(f"{one}, ")] for each in caption]
+    frame = DataFrame(
+        {"claim": map(_short, caption), "scene": [(*own, "")[0] for own in places], "finding": caption}
+    )
+    frame["model"] = [each.dimension.partition("/")[0] for each in caption]
     order = {short: place for place, short in reversed([*enumerate(SHORT.values())])}
     frame = frame.sort_values("claim", kind="stable", key=lambda own: own.map(order).fillna(len(order)))
     lines = [_line(short, scene, own) for (short, scene), own in frame.groupby(["claim", "scene"], sort=False)]
@@ -113,9 +115,9 @@ def notes(findings: Iterable[Finding]) -> list[str]:
     for each in findings:
         if each.verdict == UNDECIDED:
             reasons.setdefault(_short(each), []).append(each)
-    told = [f"Undecided: {short} ({_places(own)}): {own[0].why}." for short, own in reasons.items()]
-    others = len(told) - MOST_NOTES
-    return told[:MOST_NOTES] + [f"Others undecided: {others}, see findings.csv."] * (others > 0)
+    notes = [f"Undecided: {short} ({_places(own)}): {own[0].why}." for short, own in reasons.items()]
+    others = len(notes) - MOST_NOTES
+    return notes[:MOST_NOTES] + [f"Others undecided: {others}, see findings.csv."] * (others > 0)
 
 
 def _short(finding):
@@ -152,11 +154,11 @@ def blocks(every: Sequence[Judged], several: Sequence[Finding], tree: xarray.Dat
             yield Section(series.title, shown)
         data.append(Table(series.path("points"), answers.points, "Every point of every curve.", long=True))
         if len(failed := answers.failures):
-            told = f"{len(failed)} solves without an answer."
-            data.append(Table(series.path("failures"), failed, told, long=True))
+            caption = f"{len(failed)} solves without an answer."
+            data.append(Table(series.path("failures"), failed, caption, long=True))
         if isinstance(series, Around):
-            told = "Advice of the trust map on cheap models, predicted."
-            data.append(Table(series.path("trust"), series.advice.table(), told, long=True))
+            caption = "Advice of the trust map on cheap models, predicted."
+            data.append(Table(series.path("trust"), series.advice.table(), caption, long=True))
     yield Section("Data", data)
 
 
@@ -173,11 +175,11 @@ def setting(about: str, every: Sequence[Judged]) -> list[Block]:
 def _contacts(series: Series, judged: Judged) -> Iterator[str]:
     """Scene in words, draws and grids of each model, regime, and notes."""
     parts = (getattr(series.scene, each.name) for each in fields(Scene) if each.name != "motion")
-    yield from (said(part) for part in parts if part is not None)
+    yield from (described(part) for part in parts if part is not None)
     for name, drawn in series.drawn.items() if series.scene.roughness else ():
         for model, counts in drawn.counts.items():
-            told = " and ".join(f"{count:,}" for count in counts)
-            yield f"{name}, {series.models.labels[model]}: {told} {series.models[model].draws}"
+            drawn_counts = " and ".join(f"{count:,}" for count in counts)
+            yield f"{name}, {series.models.labels[model]}: {drawn_counts} {series.models[model].draws}"
     for each in series.models:
         if each.has_grid:
             yield f"{each.label}: {getattr(each.solver, 'points', 0)} points, and coarser grids"

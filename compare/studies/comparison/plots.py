@@ -1,4 +1,4 @@
-"""Figures of a comparison: every point, what stands beside the reference, and lines of theories, as tables."""
+"""Figures of a comparison, as tables: every point, ratios to the reference, and lines of theories."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from math import nan
@@ -34,7 +34,7 @@ LINES = "Lines: Eq. 19 and theories, not judged. Bars: 95 %."
 
 
 def of_series(judged: Judged, tree: xarray.DataTree) -> Iterator[Plot]:
-    """Figures of one series."""
+    """Figures of a series."""
     series, answers = judged.series, judged.answers
     points = answers.points
     folder = f"{series.folder}/" if series.folder else ""
@@ -84,14 +84,14 @@ def _beside(
 
 
 def _ratios(series: Series, answers: Answers, bodies: Mapping[str, str]) -> DataFrame:
-    """Friction of every model over that of the reference where it slides, by the curve of each body."""
+    """Ratio of friction of every model to friction of the reference where it slides, by the curve of each body."""
     measure = lambda one, three: mean(one, *MEANS[MU]) / mean(three, *MEANS[MU])  # noqa: E731
     found = _beside(series, answers, bodies, FRICTION, measure)
     return found[found["speed"] > 0]
 
 
 def _along(series: Series, answers: Answers, curve: str) -> tuple[DataFrame, DataFrame, DataFrame]:
-    """Points of the models of a curve that slides, their ratios to the reference, and lines beside them."""
+    """Points of the models of a curve that slides, their ratios to the reference, and the lines of theories."""
     moving = answers.points[answers.points["speed"] > 0]
     judged = moving["model"].isin([*series.models.labels])
     own, smooth = _known(moving[moving["curve"] == curve]), moving[judged & (moving["curve"] == SMOOTH)]
@@ -128,8 +128,8 @@ def _friction(judged: Judged, folder: str) -> Iterator[Plot | None]:
     yield shifted
     if isinstance(series, Around) and SMOOTH_SPEED in series.curves:
         caption = (
-            "Friction of the smooth body from slow to fast; below, over the reference: 2 for a slow sphere in 1D over "
-            "3D. Bars: change on halving the grid."
+            "Friction of the smooth body from slow to fast; below, over the reference: 2 for a slow sphere in 1D "
+            "over 3D. Bars: change on halving the grid."
         )
         yield friction.plot(*_along(series, answers, SMOOTH_SPEED), caption, folder, friction.SMOOTH_SPEED)
 
@@ -186,7 +186,7 @@ def _forces(series: Series, answers: Answers, points: DataFrame, folder: str) ->
     how = "at rest and pressed in at constant rates" if pressed_in else "at rest"
     caption = (
         f"{what}, {how}: rough, and of the smooth body in closed form, or else in 3D; off that; 1D off 3D. Bars: "
-        "95 %. Depth is that of the macroscopic tip, below zero where only the highest asperities touch."
+        "95 %. Depth is the depth of the macroscopic tip, below zero where only the highest asperities touch."
     )
     differences = differences.drop(columns=[] if pressed_in else "rate")
     if "difference" in differences:

@@ -25,12 +25,12 @@ from .series import Counts, Judged, Series
 class RoughSeries(Series):
     """One rough scene at every speed and every load or depth, and the same body without its roughness.
 
-    scene : its motion says whether load or depth is prescribed; that of a Program is pressed in from nothing at a
-        constant rate, and all other scenes slide. Every scene is also solved at rest
+    scene : its motion says whether load or depth is prescribed; the body of a Program is pressed in from first
+        touch at a constant rate, and all other scenes slide. Every scene is also solved at rest
     speeds : of sliding, or the rates of pressing in [m/s]; none where only rest is asked for
     values : loads [N] or depths [m]
-    surfaces, profiles : drawn in three and in one dimension, with the seeds from that of the scene on; where an
-        interval is wanted, of a pilot at least so many on its coarsest level
+    surfaces, profiles : numbers of draws in 3D and in 1D, with the seeds from the seed of the scene on; where an
+        interval is wanted, the least number of a pilot on its coarsest level
     bem, mdr : the finer settings; the coarser have half the points, and half the steps in time
     asked, reference : models and the reference among them, see `Models.of`; MDR and BEM if none is asked for
     """

@@ -18,7 +18,7 @@ from ...solving.folders import slug
 from ...solving.task import SceneTask
 from ...statistics import eq23
 from ...statistics.collapse import Collapse, collapse
-from ...statistics.finding import Claim, Finding, said_of
+from ...statistics.finding import Claim, Finding, relabelled
 from ...statistics.frictioncurves import SimulatedCurves
 from ...statistics.jackknife import mean, measured
 from ...statistics.multilevel import MEANS, WORDS, DrawnSurfaces, means_of, unreached
@@ -29,8 +29,8 @@ from .measures import Here, Row
 
 Counts = Mapping[str, tuple[int, ...]]  # numbers of surfaces on each level, by model
 Places = Mapping[tuple[int, int], str]  # places of speed and value on a curve, in words
-# Surfaces of a pilot on the coarsest level, of each difference, and of that of the finest of several, which
-# scatters least and costs most.
+# Surfaces of a pilot on the coarsest level, of each difference of levels, and of the difference between the finest
+# levels where there are several, which scatters least and costs most.
 PILOT, DIFFERENCES, FINEST = 32, 8, 4
 
 
@@ -121,7 +121,7 @@ class Series(ABC):
 
     @property
     def folder(self) -> str:
-        """Folder of its figures and tables below that of the page."""
+        """Folder of its figures and tables below the folder of the page."""
         return slug(self.name)
 
     def path(self, curve: str) -> str:
@@ -190,11 +190,11 @@ class Series(ABC):
         places = {name: (*map(self.place, curves), self.family) for name, curves in self.shared.items()}
         return next((name for name in self.drawn if found.curve in places[name]), None)
 
-    def told(self, found: Finding) -> Finding:
-        """A finding with what would decide it."""
+    def with_remedy(self, found: Finding) -> Finding:
+        """The finding, with advice on what would decide it."""
         name = self.behind(found)
         words = {each.name: each.draws for each in self.models}
-        return found if name is None else self.drawn[name].told(found, words)
+        return found if name is None else self.drawn[name].with_remedy(found, words)
 
     def more(self, answers: Answers, findings: Sequence[Finding]) -> dict[str, Counts]:
         """Numbers of surfaces that undecided claims and wide intervals ask for, of the curves that share them."""
@@ -240,12 +240,12 @@ class Series(ABC):
         quantity, reference = row.quantity or self.pressed, self.models.reference
         for model in (answers.judged if row.pair else answers.claiming)(row.curve, quantity):
             models = (model.name, reference) if row.pair else (model.name,)
-            dimension = self.models.beside(model.name) if row.pair else model.label
+            dimension = self.models.pair_label(model.name) if row.pair else model.label
             here = Here(self, model, answers, ruled.get(models[-1]))
 
             def asked(ending="", here=here, models=models, dimension=dimension):
                 found = claim(row.id.format(quantity=quantity) + ending, row.expected(here))
-                found = said_of(found, dimension) if row.pair else found
+                found = relabelled(found, dimension) if row.pair else found
                 measure = lambda sample: row.measure(here, *(sample[each] for each in models))  # noqa: E731
                 return replace(found, dimension=dimension, measure=measure)
 
@@ -260,11 +260,11 @@ class Series(ABC):
     def compared(
         self, answers: Answers, claim: Claim, curve: str, models: Sequence[str], places: Places, size: bool = False
     ) -> Iterator[Finding]:
-        """Findings of a claim at places of a curve, on what it measures of one or more models at all of them."""
+        """Findings of a claim at places of a curve; the claim measures one or more models at all of them."""
         found = answers.compared(curve, tuple(models), claim.measure, size)
-        told: dict[str, Any] = {"drawn": found.drawn, "curve": self.place(curve)}
+        common: dict[str, Any] = {"drawn": found.drawn, "curve": self.place(curve)}
         for at, words in places.items():
-            yield Finding.of(claim, found.at(at), where=", ".join(filter(None, (self.label, words))), **told)
+            yield Finding.of(claim, found.at(at), where=", ".join(filter(None, (self.label, words))), **common)
 
     def _shifted(self, answers: Answers, model: Model, own: Laws | None) -> tuple[Collapse | None, list[Finding]]:
         """Findings on curves of friction that are shifted onto one, and the collapse, where points are enough."""
@@ -281,14 +281,14 @@ class Series(ABC):
             return None, [eq23.too_few(model.label, **place)] if enough else []
         shifts = dict(zip(speeds, own.shifts.tolist(), strict=True)) if own else None
         exponent, half = own.exponent if own else nan, coarse[0] if known else None
-        told = eq23.findings(fine, half, model.label, shifts, exponent, horizontal=not known, **place)
+        findings = eq23.findings(fine, half, model.label, shifts, exponent, horizontal=not known, **place)
         # Data without a grid are exact, a surface that has no other grid is not.
         unknown: dict[str, Any] = {} if known else {"grid": nan}
-        return fine, [replace(each, curve=self.place(name), **unknown) for each in told]
+        return fine, [replace(each, curve=self.place(name), **unknown) for each in findings]
 
 
 def ratio_of(mean_name: str, *models: str):
-    """Measure of the mean of a model, or of that of one over that of another, at every place."""
+    """Measure at every place: the mean of a model, or the ratio of the means of two models."""
 
     def measure(sample):
         values = [mean(sample[model], *MEANS[mean_name]) for model in models]

@@ -159,7 +159,7 @@ def _in_own_folders(series):
 
 @dataclass(frozen=True, config=CLOSED, kw_only=True)
 class StudyFile(Stated):
-    """A study of one's own: what all series share, and the series.
+    """A study of the user's own: what all series share, and the series.
 
     title, about : for people
     models, reference : names of the models that are compared, and of the one against which the others are judged;
@@ -283,7 +283,7 @@ def _put_together(content: dict, own: dict, size: str) -> dict:
     whole: dict[str, Any] = {"surfaces": surfaces, "profiles": profiles, "bem": {"points": points}}
     for part in (content, own):
         whole = _over(_over(whole, part), part.get("sizes", {}).get(size, {}))
-    # A range of which nothing but the number is stated is none.
+    # A range that states nothing but its number of points counts as absent.
     none = [name for name in INSTEAD if [*whole.get(name, ())] == ["count"]]
     return {name: whole[name] for name in FIELDS if name in whole and name not in none}
 

@@ -1,4 +1,4 @@
-"""Contacts of one scene at speeds and loads or depths of one's own: `compare.sweep`."""
+"""Contacts of a scene at given speeds and loads or depths: `compare.sweep`."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -62,7 +62,7 @@ def values_of(name: str, given: Any, least: float | None = None) -> tuple[float,
 
 
 def _numbers(unit: Unit, given: Any) -> Iterator[float]:
-    """Numbers of one item, of which a text may state several."""
+    """Numbers of an item; a text may state several."""
     for part in given.split(",") if isinstance(given, str) else [given]:
         ends, colon, count = part.partition(":") if isinstance(part, str) else (part, "", "")
         if not (isinstance(ends, str) and ".." in ends):
@@ -98,12 +98,12 @@ CLAIMED = {**OWN_RATIOS, MU: "friction.ratio.speed"}  # by the name of the mean;
 
 @dataclass(frozen=True)
 class SweepSeries(Series):
-    """Contacts of one scene at every speed and every load or depth.
+    """Contacts of a scene at every speed and every load or depth.
 
     case : the scene with the settings of both solvers; its motion says whether a load or a depth is prescribed
     speeds, values : [m/s]; [N] or [m]
     draws, profiles : rough surfaces, and profiles; as many if absent
-    models : of which each but the reference is compared with that
+    models : models, each compared with the reference among them
     """
 
     case: Case
@@ -199,13 +199,13 @@ class SweepSeries(Series):
                 found = judged.answers.interval(CONTACTS, model.name, *MEANS[name])
                 numbers |= {each: np.ravel(of) for each, of in found.columns(f"{name} ({model.label})").items()}
             own = [each for each in judged.findings if each.claim.id == CLAIMED[name]]
-            for beside in dict.fromkeys(each.dimension for each in own):
-                rows = [(each.value, *each.interval) for each in own if each.dimension == beside]
-                names = (f"{beside}{end}" for end in intervals.ENDS)
+            for pair in dict.fromkeys(each.dimension for each in own):
+                rows = [(each.value, *each.interval) for each in own if each.dimension == pair]
+                names = (f"{pair}{end}" for end in intervals.ENDS)
                 numbers |= dict(zip(names, np.transpose(rows), strict=True))
             frame = places.assign(**numbers)
-            told = f"Mean {WORDS[name]} at every contact, with intervals of 95 %."
-            yield Table(f"means-{WORDS[name]}", frame[frame["speed"].isin(speeds)], told)
+            caption = f"Mean {WORDS[name]} at every contact, with intervals of 95 %."
+            yield Table(f"means-{WORDS[name]}", frame[frame["speed"].isin(speeds)], caption)
 
     def dataset(self, tree: xarray.DataTree) -> xarray.Dataset:
         """Everything solved as one Dataset, with means over surfaces and their intervals of 95 %."""

@@ -22,7 +22,8 @@ from .series import Judged, Series
 def families(members: Sequence[Judged]) -> dict[str, list[Judged]]:
     """Members by their family, where roughness or solid differ.
 
-    All of a family have as many surfaces; of several such families of one shape it is the largest.
+    All members of a family have the same number of surfaces; of several such families of a shape the largest
+    counts.
     """
     found: dict[tuple[str, str], list[Judged]] = {}
     for each in members:
@@ -112,7 +113,7 @@ def _slope_exponents(members, model):
 
 
 def _but_for_height(member):
-    """What a series has beside its rms height."""
+    """What a series has apart from its rms height."""
     each = member.series
     rough = replace(each.scene.roughness, rms_height=1.0)
     return each.speeds, each.values, replace(each.scene, roughness=rough)

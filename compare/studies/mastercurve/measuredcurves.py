@@ -25,7 +25,7 @@ class Pooled:
 
     points : a row for each: `temperature` [K], NaN where none was measured, and `speed` [m/s] as means over its
         curve; `load` [N] and `friction` at this load and speed as means over its `repeats`; standard `error` of
-        ln mu; `press`, the number of its load of those that are told apart, ascending
+        ln mu; `press`, the number of its load among the distinct loads, ascending
     scatter : standard deviation of a measurement relative to the mean of its point; NaN without repeats
     dof : degrees of freedom of the scatter; 0 where no point was measured twice
     """
@@ -36,7 +36,7 @@ class Pooled:
 
     @property
     def loads(self) -> int:
-        """Number of loads that are told apart."""
+        """Number of distinct loads."""
         return int(self.points["press"].max()) + 1
 
 
@@ -46,7 +46,7 @@ def pooled(
     """Measurements (N,) as points.
 
     temperature : (N,) [K], or None
-    tolerance : relative; loads within it of one another are one, and so are speeds. At 0 only equal ones are
+    tolerance : relative; loads that differ by less count as equal, and so do speeds. At 0 only equal ones do
     """
 
     def alike(low):
@@ -120,12 +120,13 @@ MOST_SPEEDS, MOST_POINTS = 100, 5_000
 
 @dataclass(frozen=True)
 class MeasuredCurves:
-    """Curves of which every point was measured by itself.
+    """Curves whose points were all measured independently.
 
     curves : with the standard error of each ln mu, NaN where unknown
     dof : degrees of freedom of the one relative scatter behind these errors; infinite if it is known exactly
     levers : change of ln v of each curve with ln mu of each point (S, N), where friction itself says by how much
-        speeds are shifted, in the order of the curves, which is that of their speeds; None of speeds as measured
+        speeds are shifted, in the order of the curves, which is the order of their speeds; None for speeds as
+        measured
     """
 
     curves: tuple[Curve, ...]

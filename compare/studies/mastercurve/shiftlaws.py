@@ -1,7 +1,7 @@
 """Laws of shifts with the temperature: the constants of WLF, and whether Arrhenius would do.
 
-With T_r as reference the law of Arrhenius is that of WLF with c2 = T_r, as 1/T - 1/T_r = -(T - T_r)/(T T_r): one
-interval of c2 tells both.
+With T_r as reference the law of Arrhenius is the law of WLF with c2 = T_r, as 1/T - 1/T_r = -(T - T_r)/(T T_r). So
+the interval of c2 decides whether Arrhenius would do.
 """
 
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ LEVEL, UNLIKELY = 0.95, 0.01  # of intervals; chance of the scatter about a law,
 # Values of c2 over the distance of the pole from the lowest temperature, in which its interval is sought.
 REACH = np.concatenate([[0.0], np.geomspace(1e-3, 1e4, 1001)])
 FINER = 6  # times at most that they are tried closer together, until a tenth of them lies in the interval
-TWO = "two temperatures: c1 and c2 are told from three at least"
+TWO = "two temperatures: c1 and c2 need three at least"
 OPEN = "the shifts leave it open: temperatures farther apart, or a smaller scatter, would tell"
 WRONG = "no law of WLF goes through the shifts"
 RISING = "the shifts grow with the temperature, as those of no elastomer do"
@@ -36,7 +36,7 @@ class Number:
     high: float
 
     @property
-    def told(self) -> bool:
+    def known(self) -> bool:
         """Whether both ends are known."""
         return bool(np.isfinite([self.value, self.low, self.high]).all())
 
@@ -51,7 +51,7 @@ class ShiftLaw:
     reference : T_r of the constants [K]
     c1, c2 : of WLF [1], [K]
     activation_energy : of the law of Arrhenius closest to the shifts [J/mol]
-    reason : why c1 and c2 are not told; empty where they are
+    reason : why c1 and c2 are not known; empty where they are
     against : why the law of Arrhenius is none of these shifts; empty where it is
     """
 
@@ -64,11 +64,11 @@ class ShiftLaw:
 
     @property
     def allowed(self) -> tuple[str, ...]:
-        """Names of the laws whose constants are told."""
+        """Names of the laws whose constants are known."""
         return (WLF,) * (not self.reason) + (ARRHENIUS,) * (not self.against)
 
     def log_shift(self, temperature: np.ndarray, law: str) -> np.ndarray:
-        """ln a_T of one of both laws at temperatures [K]."""
+        """ln a_T by either law at temperatures [K]."""
         above = temperature - self.reference
         if law == ARRHENIUS:
             return -self.activation_energy.value / GAS_CONSTANT / self.reference * above / temperature
@@ -79,7 +79,7 @@ def law_of(found: TemperatureShifts) -> ShiftLaw:
     """Constants of WLF and of Arrhenius of shifts that were found."""
     reference, others = found.reference, found.temperatures != found.reference
     above, shifts = (found.temperatures - reference)[others], found.shifts.value[others]
-    # What the polynomial misses counts beside scatter.
+    # The misfit of the polynomial counts in addition to scatter.
     spread = found.covariance[np.ix_(others, others)] + np.diag(
         np.square(np.broadcast_to(found.shifts.bias, others.shape)[others])
     )
@@ -126,10 +126,10 @@ def law_of(found: TemperatureShifts) -> ShiftLaw:
     out = wrong or not c2.low <= reference <= c2.high
     against = f"it is the case c2 = {reference:.4g} K of WLF, which the shifts leave out" if out else ""
     wrong = _unlikely(squares[best], len(above) - 2, dof)
-    reason = WRONG if wrong else "" if c2.told else OPEN
+    reason = WRONG if wrong else "" if c2.known else OPEN
     return ShiftLaw(reference, c1s, c2, energy, reason, against)
 
 
 def _unlikely(square, left, dof):
-    """Whether scatter would hardly make such a chi square, of so many degrees of freedom."""
+    """Whether scatter would hardly make such a chi square with `left` degrees of freedom."""
     return left > 0 and square / left > special.fdtri(left, min(dof, KNOWN), 1 - UNLIKELY)

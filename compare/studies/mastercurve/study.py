@@ -38,19 +38,19 @@ MEASURED = "measured"
 # Claims of Eq. 23 in the words of a measurement, by their own names.
 CLAIMS = {
     eq23.COLLAPSE.id: ("mastercurve.horizontal", "Shifts along the load bring the curves onto one"),
-    eq23.VERTICAL.id: ("mastercurve.vertical", "No shift along friction is needed beside them"),
+    eq23.VERTICAL.id: ("mastercurve.vertical", "No shift along friction is needed in addition"),
     eq23.UNSHIFTED.id: ("mastercurve.unshifted", "Misfit to one curve before shifting"),
     eq23.VERTICAL_ALONE.id: ("mastercurve.vertical-alone", "Misfit to one curve with shifts along friction alone"),
     eq23.BOTH.id: ("mastercurve.both", "Misfit to one curve with both shifts"),
     eq23.ALONE.id: ("mastercurve.exponent", "Exponent of the shift along the load as a power of the speed"),
-    eq23.BESIDE.id: ("mastercurve.exponent-beside-vertical", eq23.BESIDE.sentence),
+    eq23.JOINT.id: ("mastercurve.exponent-beside-vertical", eq23.JOINT.sentence),
     eq23.NOT_SHIFTED.id: (
         "mastercurve.vertical-exponent",
-        "Exponent of the shift along friction, beside that along the load, as a power of the speed",
+        "Exponent of the shift along friction as a power of the speed, with a shift along the load too",
     ),
 }
 NOT_REPEATED = "no point was measured more than once: the scatter is not known, and part of a misfit"
-EXPONENTS = (eq23.ALONE.id, eq23.BESIDE.id, eq23.NOT_SHIFTED.id)
+EXPONENTS = (eq23.ALONE.id, eq23.JOINT.id, eq23.NOT_SHIFTED.id)
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,7 +58,7 @@ class Mastercurve(Study):
     """Shifts of measured friction.
 
     friction : measurements
-    tolerance : relative; loads that lie within it of one another are one, and so are speeds
+    tolerance : relative; loads that differ by less count as equal, and so do speeds
     constants : of WLF, as stated
     """
 
@@ -100,8 +100,8 @@ class Mastercurve(Study):
         except InvalidInput:
             raise
         except ValueError as error:
-            said, name = str(error), brief(friction.source)
-            raise InvalidInput(said if said.startswith(name) else f"{name}: {said}") from error
+            message, name = str(error), brief(friction.source)
+            raise InvalidInput(message if message.startswith(name) else f"{name}: {message}") from error
         return study
 
     @property
@@ -129,7 +129,7 @@ class Mastercurve(Study):
 
     @cached_property
     def shifts(self) -> TemperatureShifts | None:
-        """Shifts of temperatures along the speed; None of one temperature or none."""
+        """Shifts of temperatures along the speed; None where there are fewer than two temperatures."""
         return temperatures.shifts_of(self.pooled, self.constants)
 
     @cached_property
@@ -156,12 +156,12 @@ class Mastercurve(Study):
     def judge(self, answers: xarray.DataTree) -> Judgement:
         findings = self._findings()
         tables: list[Block] = [Findings(findings)]
-        told = "Natural logarithms of the shifts, with intervals of 95 %."
+        caption = "Natural logarithms of the shifts, with intervals of 95 %."
         shifts = self.collapse.shifts(self.lead)
         if self.shifts is not None and (warm := self._curves()) is not None:
             shifts = warm.join(shifts.rename(columns={"speed": "reduced_speed"}))
-            tables.append(Table("time-shifts", shifts_table(self.shifts), told))
-        tables.append(Table("shifts", shifts, told))
+            tables.append(Table("time-shifts", shifts_table(self.shifts), caption))
+        tables.append(Table("shifts", shifts, caption))
         return Judgement(findings, self._answer(findings), [*self._plots(findings), *tables], self.setting)
 
     def _findings(self):
@@ -187,9 +187,9 @@ class Mastercurve(Study):
     def _answer(self, findings):
         """Sentences on claims, on the exponents of the fit that is the answer, and on the laws of its shifts."""
         both = self.lead is self.collapse.both
-        powers = {CLAIMS[claim.id][0] for claim in (eq23.ALONE, *(eq23.BESIDE, eq23.NOT_SHIFTED)[: 2 * both])}
-        said = powers | {claim.id for claim in (temperatures.C1, temperatures.C2, temperatures.ENERGY)}
-        return sentences([each for each in findings if each.verdict != REPORTED or each.claim.id in said])
+        powers = {CLAIMS[claim.id][0] for claim in (eq23.ALONE, *(eq23.JOINT, eq23.NOT_SHIFTED)[: 2 * both])}
+        listed = powers | {claim.id for claim in (temperatures.C1, temperatures.C2, temperatures.ENERGY)}
+        return sentences([each for each in findings if each.verdict != REPORTED or each.claim.id in listed])
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -214,7 +214,7 @@ class Mastercurve(Study):
         return [each for each in plots if each]
 
     def _curves(self):
-        """Temperature and measured speed of each curve, in the order of the collapse; None of one temperature."""
+        """Temperature and measured speed of each curve, in the order of the collapse; None at one temperature."""
         if self.shifts is None:
             return None
         first = [own.iloc[0] for own in in_order(self.pooled, self.shifts)]
@@ -235,7 +235,8 @@ class Mastercurve(Study):
         warm = f", temperatures within {WARMTH:g} K" if "temperature" in self.data else ""
         return [
             Text(
-                f"{counts} Loads within {100 * self.tolerance:.3g} % of one another are one, and so are speeds"
+                f"{counts} Loads that differ by less than {100 * self.tolerance:.3g} % count as equal, and so do "
+                "speeds"
                 f"{warm}: the mean of each point and its friction there count."
             )
         ]

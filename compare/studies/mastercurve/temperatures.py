@@ -75,7 +75,7 @@ def _bare(value):
 
 
 def shifts_of(pooled: Pooled, constants: Constants) -> TemperatureShifts | None:
-    """Shifts of points at several temperatures, stated or found; None of one. Raises ValueError, InvalidInput."""
+    """Shifts of points at several temperatures, stated or found; None at one. Raises ValueError, InvalidInput."""
     each = isotherms(pooled)
     if len(each) < 2:
         return None
@@ -115,7 +115,7 @@ def findings(shifts: TemperatureShifts, law: ShiftLaw | None, where: str) -> Ite
 
 
 def unshifted(shifts: TemperatureShifts | None, findings: Sequence[Finding]) -> str:
-    """Reason why no speed is one that its temperature shifts, and no exponent is told; empty where it is."""
+    """Reason why temperature shifts no speed and there is no exponent; empty where there is none."""
     if any(each.claim.id == TOGETHER.id and each.verdict == FAILS for each in findings):
         return NOT_TOGETHER
     return shifts.inseparable if shifts else ""

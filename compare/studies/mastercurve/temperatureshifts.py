@@ -17,11 +17,12 @@ from ...statistics.commoncurve import LEAST_OVERLAP, LEAST_SINGULAR, Common, Fit
 from ...statistics.intervals import Estimated, RmsMisfit
 from ...statistics.jackknife import Replicates
 
-# Degrees of the polynomial, of which the least information criterion has one; a third of the points stays free.
+# Candidate degrees of the polynomial; the least information criterion chooses, and a third of the points stays
+# free.
 DEGREES = range(1, 11)
 POWERS = (
-    "friction is one power of speed and load at all temperatures: a shift along the speed cannot be told from one "
-    "along friction"
+    "friction is one power of speed and load at all temperatures: a shift along the speed cannot be "
+    "distinguished from a shift along friction"
 )
 STARTS = np.linspace(-1.0, 1.0, 41)  # shares of the largest shift to either side from which shifts are sought
 
@@ -39,7 +40,7 @@ class Isotherm:
 
 @dataclass(frozen=True)
 class TemperatureShifts:
-    """Shifts ln a_T along ln v, by which friction at each temperature is that of one reference.
+    """Shifts ln a_T along ln v that bring friction at each temperature onto friction at a reference temperature.
 
     isotherms : what was shifted, (K,) by their temperatures
     shifts : ln a_T of each (K,), exact where they were stated
@@ -71,7 +72,7 @@ class TemperatureShifts:
 
     @property
     def inseparable(self) -> str:
-        """Reason why found shifts cannot be told from shifts along friction; empty where they can."""
+        """Reason why found shifts cannot be distinguished from shifts along friction; empty where they can."""
         return POWERS if self.found and self.straight.interval()[0] <= STRAIGHT else ""
 
     @property
@@ -89,9 +90,9 @@ def stated(isotherms: Sequence[Isotherm], shifts: np.ndarray, loads: int, dof: f
 
 
 def found(isotherms: Sequence[Isotherm], loads: int, dof: float) -> TemperatureShifts:
-    """Shifts that bring isotherms closest to one function; that of the middle temperature is nil.
+    """Shifts that bring isotherms closest to one function; the shift of the middle temperature is zero.
 
-    loads : number of loads that are told apart
+    loads : number of distinct loads
     dof : degrees of freedom of the one relative scatter behind the errors
 
     Raises ValueError where neighbours share too little of their loads or speeds to be brought together.

@@ -18,7 +18,7 @@ from ...figures.plot import Plot, Tables
 
 CONTACTS, STUDIES, LAW = "paper-contacts", "paper-studies", "paper-law"
 ALPHA = f"{LAW}-alpha"
-# Length of the whole picture over that of the contact, and width of the close-up [m].
+# Length of the whole picture over the length of the contact, and width of the close-up [m].
 SHOWN, CLOSE = 1.5, 2e-4
 BETWEEN = Normalize(0, 1)  # of the Hurst exponent
 MARKERS = ("o", "s", "^", "D", "v", "P")
@@ -82,9 +82,9 @@ def plot_studies(points: DataFrame) -> Plot:
         STUDIES,
         draw_studies,
         {STUDIES: points.drop(columns="slow")},
-        "Slow friction on a rough cone in six studies of one parameter each. (a) μ̃ against ξ with Eqs. 17 and "
-        "19; hollow where a condition of Eq. 17 breaks. (b) μ̃/ξ against the rms slope of the macroscopic "
-        "profile over that of the roughness, r; Eq. 10 gives 1 + r².",
+        "Slow friction on a rough cone in six studies, each of a single parameter. (a) μ̃ against ξ with Eqs. 17 "
+        "and 19; hollow where a condition of Eq. 17 breaks. (b) μ̃/ξ against r, the ratio of the rms slopes of "
+        "macroscopic profile and roughness; Eq. 10 gives 1 + r².",
         "Friction lies on a line of slope one where the conditions hold, and above it where the macroscopic slope "
         "counts.",
     )

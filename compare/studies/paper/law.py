@@ -24,7 +24,7 @@ LEAST, MOST = 0.5, 5.0
 
 
 def curve(shape: str, profiles: int) -> Curve:
-    """Contacts of one shape at the speeds at which xi is each of VARIABLES."""
+    """Contacts of a shape at the speeds at which xi is each of VARIABLES."""
     speeds = VARIABLES / _variable(shape)
     return parameters.grid(parameters.base(shape), speeds.tolist(), [parameters.LOAD], profiles)
 
@@ -42,7 +42,7 @@ class Law:
     points : xi, normalised_friction with its interval of 95 % over profiles, whether the conditions hold
     alpha : least squares of ln mu-tilde over all points, with its error over profiles
     alphas : each without one profile (profiles,)
-    plateau : mu-tilde at the greatest xi over that of Eq. 19 there
+    plateau : mu-tilde at the greatest xi, divided by the value of Eq. 19 there
     """
 
     shape: str
@@ -99,7 +99,8 @@ EXPONENT = Claim(
     expected=1.0,
     tolerance=0.02,
     meaning="Exponent of a power law through points with ξ at most 0.05, h₀ at most d/10, 2a below L, and a "
-    "macroscopic slope of at most a fifth of that of the roughness. Small slopes are not among the conditions: "
+    "macroscopic slope of at most a fifth of the slope of the roughness. Small slopes are not among the "
+    "conditions: "
     "with heights, the slope of the cone and the load times any number, friction is times that number exactly.",
     dimension="1D",
 )
@@ -165,5 +166,5 @@ def of_law(one: Law, other: Law) -> Iterator[Finding]:
 
 
 def exact(claim: Claim, measured: Estimated, draws: int, where: str = "", regime: str = "") -> Finding:
-    """Finding of a number whose only error is that of the average over profiles."""
+    """Finding of a number whose only error is the error of the average over profiles."""
     return Finding.of(claim, measured, where=where, draws=draws, regime=regime)

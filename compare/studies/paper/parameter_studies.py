@@ -20,8 +20,8 @@ from ...statistics.intervals import Estimated
 from ...statistics.jackknife import Replicates, left_out, mean_ratio
 from . import parameters
 
-# Profiles of one task: some seconds of work are lost at most in an interruption, and to prepare the scenes takes
-# little of them.
+# Profiles in a task: few enough that an interruption loses some seconds of work at most, and enough that preparing
+# the scenes takes little of them.
 TOGETHER = 25
 # Eq. 17 is the limit of Eq. 19: at this xi that lies 0.7 % lower.
 SLOW = 0.05
@@ -72,7 +72,7 @@ class Profiles(Task):
 
     @property
     def work(self) -> float:
-        """Rough cost: beside a contact that is solved alone one of these is cheap."""
+        """Rough cost: compared with a contact that is solved alone, each of these is cheap."""
         return 1.5 * len(self.seeds) * sum(each.points for each in contacts(self.values))
 
     @property

@@ -2,7 +2,7 @@
 
 Given: the reference length, the set of Fig. 4, both contacts of Fig. 1, and the ranges of the studies of Fig. 3.
 Not given: what is held while one parameter varies (here the set of Fig. 4), the speed of the studies, whether the
-angle is that of the body or of its line (here of the body, mapped), and how values lie in a range (here
+angle belongs to the body or to its line (here to the body, mapped), and how values lie in a range (here
 geometrically, angles evenly).
 """
 
@@ -134,7 +134,7 @@ def regime(scene: Scene, rms_slope: float) -> Regime:
 
 
 def holds(regime: Regime) -> bool:
-    """Whether all conditions hold but that of small slopes, without which the model itself still is one.
+    """Whether all conditions except small slopes hold; without small slopes the model itself still holds.
 
     With heights, slopes and loads times any number, friction of the model is times that number exactly.
     """
@@ -142,7 +142,7 @@ def holds(regime: Regime) -> bool:
 
 
 def grid(scene: Scene, speeds: Sequence[float], loads: Sequence[float], profiles: int = 1) -> Curve:
-    """Contacts of a scene at some speeds and loads on so many profiles."""
+    """Contacts of a scene at the given speeds and loads on the given number of profiles."""
     return Curve(
         scene=scene,
         speeds=tuple(speeds),

@@ -56,7 +56,7 @@ class Rubber:
         return {f"loss-{self.name}": rough, f"loss-{self.name}-smooth": smooth}
 
     def collapses(self, rough: xarray.Dataset, smooth: xarray.Dataset) -> dict[str, Collapse]:
-        """What shifts along the load make of the whole friction, and of what exceeds that of the smooth body."""
+        """Collapse, by shifts along the load, of the whole friction and of its excess over the smooth body."""
         whole, body = (SimulatedCurves.of(each.sel(level=FINE)) for each in (rough, smooth))
         of_body = (body.friction_force / body.load)[..., None] * whole.load
         excess = replace(whole, friction_force=whole.friction_force - of_body)

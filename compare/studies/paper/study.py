@@ -33,13 +33,15 @@ ABOUT = (
     "straight line between its nodes, the flow past it is solved without discretisation, and the pixel is by "
     "definition the cut-off of the roughness, one of the parameters of Fig. 3."
     "\n\nEq. 23 shifts curves along the load by v^(−3β/2) for a sphere where the loss goes as ω^β. It takes the "
-    "macroscopic modulus |G(v/a)| for constant. The friction of the smooth body grows with the load while that of "
-    "the roughness falls, so no shift brings their sum onto one curve. For straight parallel lines a horizontal "
+    "macroscopic modulus |G(v/a)| for constant. The friction of the smooth body grows with the load while "
+    "friction by the roughness falls, so no shift brings their sum onto one curve. For straight parallel lines a "
+    "horizontal "
     "shift does what a vertical one does, so collapse and exponent are undecided there."
     "\n\nDepartures from the paper:"
     f"\n- What Fig. 3 does not state is as in Fig. 4, the speed is {parameters.LOW_SPEED * 1e3:g} mm/s, and θ is "
     "the angle of the body. Values are spaced geometrically, angles evenly; spacings are moved by at most 2 %."
-    "\n- The rms slope is that of finite differences. With the spectral one, which is larger, the plateau is 0.86."
+    "\n- The rms slope is taken from finite differences. With the spectral one, which is larger, the plateau is "
+    "0.86."
     "\n- The friction of Figs. 5 to 7 was not published. It is simulated, on the sphere of Fig. 4 with "
     f"H = {parameters.LOSS_ROUGH.hurst:g}, h₀ = 20 µm and G(ω) = G₀ (1 + (iωτ)^β)."
     "\n\nWith these parameters the rms slope is about 2, where no linear theory of contact applies. The figures "
@@ -62,7 +64,7 @@ class Paper(Study):
 
     @classmethod
     def of(cls, size: str = "full", profiles: int | None = None) -> "Paper":
-        """The study at a size, or on so many profiles. Raises InvalidInput."""
+        """The study at a size, or with the given number of profiles. Raises InvalidInput."""
         if size not in SIZES:
             raise InvalidInput(f"size = {size!r}: one of {', '.join(SIZES)}")
         if profiles is not None and not (isinstance(profiles, int) and 3 <= profiles <= MOST_DRAWS):
@@ -138,7 +140,7 @@ class Paper(Study):
 
 
 def contact_grid(shape: str) -> Curve:
-    """The one contact of Fig. 1 of one shape, with its fields."""
+    """The one contact of Fig. 1 for a shape, with its fields."""
     scene, motion = parameters.contact(shape), parameters.CONTACT
     return replace(parameters.grid(scene, [motion.speed], [motion.greatest]), keeps_fields=True)
 

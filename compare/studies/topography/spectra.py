@@ -17,7 +17,7 @@ from .powerlaw import LEAST, SelfAffineLaw, fit
 PER_DECADE = 10  # rings
 DECADE = 1.0  # decades of wavelengths below which an exponent says little
 STEEP = 10.0  # rms slope above which one of the units is probably another
-WHOLE = 1.05  # highest wave number of a map over that of its last wave with power, where there is no cut-off
+WHOLE = 1.05  # highest wave number of a map, divided by its last wave number with power, where there is no cut-off
 NOTHING = 1e-24  # of the greatest mean square of a wave: rounding
 
 
@@ -51,7 +51,7 @@ class Profile:
 
 @dataclass(frozen=True)
 class Description:
-    """Heights, slopes and spectra of one map, levelled as it states.
+    """Heights, slopes and spectra of a map, levelled as it states.
 
     rms_height : of the pixels [m]
     slopes : rms of the differences between neighbours over a pixel, along x and along y [1]

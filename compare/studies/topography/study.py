@@ -66,7 +66,7 @@ NUMBERS: tuple[tuple[str, str, str, str, Callable[[Description], float]], ...] =
 )
 
 
-SAID = ("topography.rms-height", "topography.rms-slope", "topography.hurst")  # claims of the answer
+ANSWERED = ("topography.rms-height", "topography.rms-slope", "topography.hurst")  # claims of the answer
 
 
 @dataclass(frozen=True)
@@ -157,7 +157,7 @@ class Map(Study):
                 if law is not None:
                     values |= {"scatter": (law.low, law.high), "grid": 0.0}
             findings.append(Finding(claim, **values))
-        shown = [each for each in findings if each.claim.id in SAID]
+        shown = [each for each in findings if each.claim.id in ANSWERED]
         answer = [*(f"Warning: {each}." for each in self.description.warnings), *sentences(shown)]
         return Judgement(findings, answer, [plots.plot(self.description), Findings(findings)], self.setting)
 

@@ -36,7 +36,7 @@ class Way:
     model : name; label : for people; settings : points of the grid, or INTERVAL
     bias : error that no number of surfaces takes away, signed
     most : its largest size by the interval of 95 %, with the error of the grid of the reference
-    processor : time of one surface, or of the pilot of an interval [s]
+    processor : time for each surface, or for the pilot of an interval [s]
     surfaces : number that was solved
     reference_error : error of the reference, scatter and grid
     """
@@ -56,11 +56,11 @@ class Way:
     reason: str = ""
 
     def error(self, count: np.ndarray | float) -> np.ndarray | float:
-        """Error expected of so many surfaces."""
+        """Expected error with `count` surfaces."""
         return np.sqrt(self.bias**2 + self.scatter**2 / count)
 
     def seconds(self, count: np.ndarray | float) -> np.ndarray | float:
-        """Processor time of so many surfaces [s]."""
+        """Processor time of `count` surfaces [s]."""
         return self.setup + count * self.processor
 
     def count(self, level: float) -> float:
@@ -76,7 +76,7 @@ class Way:
         return float(self.seconds(self.count(level))) if isfinite(self.count(level)) else inf
 
     def half_width(self, count: float) -> float:
-        """Half-width of the interval of 95 % of so many surfaces."""
+        """Half-width of the interval of 95 % with `count` surfaces."""
         return float(student(0.95, inf)) * self.scatter / sqrt(count) + abs(self.bias)
 
 
@@ -104,7 +104,7 @@ class Reference:
 
 
 def values(dataset: xarray.Dataset, quantity: str) -> np.ndarray:
-    """Answers (level, surface) whose mean is that of the quantity; of friction at a depth to first order."""
+    """Answers (level, surface) whose mean is the quantity; for friction at a depth to first order."""
     above, below = MEANS[QUANTITIES[quantity]]
     over = dataset[above].transpose("level", "surface").values
     if below is None:
@@ -171,7 +171,7 @@ def ways(
 
 
 def sampled(finest: Way, quantity: str, ladder: Ladder, dataset: xarray.Dataset, of: Reference) -> Way:
-    """The way over several grids from that of a finest one on, with surfaces on each as intervals take them.
+    """The way over several grids from `finest` on, with the numbers of surfaces on each that intervals take.
 
     Time T leaves a variance W^2 / T, W the sum over strata of scatter times root of time; in units of the pilot.
     """
@@ -186,7 +186,7 @@ def sampled(finest: Way, quantity: str, ladder: Ladder, dataset: xarray.Dataset,
 
 
 def corrected(dataset: xarray.Dataset, line: xarray.Dataset, quantity: str) -> xarray.Dataset:
-    """Answers of 1D on its finest grid over the ratio that a corrected model has found, with the time of one."""
+    """Answers of 1D on its finest grid, divided by the ratio of a corrected model, with the time of each."""
     name, _ = MEANS[QUANTITIES[quantity]]
     own = line.isel(level=[0])
     return own.assign({name: own[name] / float(dataset[f"{quantity}_ratio"][0, 0])})

@@ -15,7 +15,7 @@ from ...figures import style
 from ...figures.plot import Tables
 from .errors import INTERVAL, Way
 
-COLUMNS, HEIGHT, AROUND = 2, 2.5, 0.7  # of panels; of one, and around all [inch]
+COLUMNS, HEIGHT, AROUND = 2, 2.5, 0.7  # columns of panels; height of each panel and around all [inch]
 LEAST, WHOLE = 1e-6, 1.0  # errors beyond which they are drawn there
 MARKED = 10.0 ** np.arange(4)  # numbers of surfaces
 BAND = 0.88  # between ink and paper

@@ -19,7 +19,8 @@ from ...solving.task import Outcome, Row, SceneTask, Task, reason_of, row
 from ...statistics.means import pressed
 from ..comparison.series import pilot
 
-# A solve is repeated until so many seconds have gone, at least and at most as often as said; twice, if it is long.
+# A solve is repeated until SECONDS have gone, at least LEAST and at most MOST times; twice if it takes LONG
+# seconds.
 REPEATED, FEWEST, MOST, LONG = 0.5, 3, 50, 6.0
 
 
@@ -72,14 +73,14 @@ def _timed(solver, scene) -> Row:
 
 STEPS = 4  # grids that are timed, each with half the points of the one before
 FINER = 4, 2  # times the points of the finest of them that the reference has
-LONGEST = 300.0  # planned processor time of one solve of the reference [s], beyond which its grid is left out
+LONGEST = 300.0  # planned processor time of a solve of the reference [s]; a grid that needs more is left out
 PROFILES, SURFACES = 1000, 8  # of models other than the reference
 COARSEST = 128  # surfaces of the reference on its coarsest grid
 NAMES = (*LEVELS, "fifth", "sixth")  # of grids, from fine to coarse
 
 
 class AsItStands(Curve):
-    """The scene itself, also of a motion of which no speed or load is varied."""
+    """The scene itself, also where its motion has no speed or load that can vary."""
 
     def at(self, value: float, speed: float = 0.0) -> Scene:
         """The scene."""
@@ -88,7 +89,7 @@ class AsItStands(Curve):
 
 @dataclass(frozen=True)
 class Ladder:
-    """Settings of one model on one scene, from fine to coarse.
+    """Settings of a model on a scene, from fine to coarse.
 
     solvers : that can solve the scene, those of the reference first
     reference : number of those, which are not timed
@@ -131,7 +132,7 @@ class Ladder:
 
 
 def grid_of(ladders: Sequence[Ladder]) -> Curve:
-    """Contacts of all models of a scene, of which the first is the reference, its surfaces in strata."""
+    """Contacts of all models of a scene; the first model is the reference, its surfaces in strata."""
     (first, *_), scene = ladders, ladders[0].scene
     draws: dict[str, Any] = {each.model.name: each.model.count(PROFILES, SURFACES) for each in ladders}
     if len(first.solvers) > 1:

@@ -39,7 +39,8 @@ LEVELS = (0.1, 0.05, 0.02, 0.01)  # wanted errors
 ABOUT = """Errors are relative, of rough scenes those expected (rms) of a mean over surfaces. The reference is a
 closed form where there is one, else 3D on four times the points of the finest grid that is timed, or on the finest
 that solves; its error is half of its interval of 95 %. 3D is compared with it on the same surfaces, so that the
-error of a grid is known far better than the reference. Times are processor seconds of one thread from the scene to
+error of a grid is known far better than the reference. Times are processor seconds of a single thread from scene
+to
 the result, the least of several repeats. A setting counts with the largest error of its interval, and as no better
 than all finer ones of its model. The rms error is half of the half-width that --interval states."""
 CLAIMS = {
@@ -53,7 +54,7 @@ class WorkPrecision(Study):
     """Error against processor time of models on scenes.
 
     cases : scenes by name, with the settings of the solvers
-    asked : models beside 3D, in place of 1D, 1D corrected, the law and Persson's theory
+    asked : models compared with 3D, in place of 1D, 1D corrected, the law and Persson's theory
     """
 
     cases: Mapping[str, Case]
@@ -162,11 +163,11 @@ class WorkPrecision(Study):
 
     def judge(self, answers: xarray.DataTree) -> Judgement:
         """Times to wanted errors: a figure, a table, and what each quantity of each scene is measured against."""
-        told, findings = [], []
+        lines, findings = [], []
         rows: list[dict[str, Any]] = []
         every: list[Way] = []
         for where, sentence, ways in self.ways(answers):
-            told.append(f"{where}: {sentence}.")
+            lines.append(f"{where}: {sentence}.")
             for level, claim in CLAIMS.items():
                 best = _cheapest(ways, level)
                 known = (best.effort(level), best.label, "") if best else (nan, "", _missed(ways))
@@ -182,7 +183,7 @@ class WorkPrecision(Study):
         if len(failed):
             failed = failed.rename(columns={"label": "model"})
             blocks.append(Table("workprecision-failures", failed, "Settings without an answer."))
-        return Judgement(findings, told, blocks, self.setting)
+        return Judgement(findings, lines, blocks, self.setting)
 
 
 def _quantities(case: Case) -> tuple[str, ...]:
@@ -192,7 +193,7 @@ def _quantities(case: Case) -> tuple[str, ...]:
 
 
 def _scale(case: Case, quantity: str) -> float:
-    """Depth of the smooth relaxed contact, as that of a rough one may be nil; NaN for the size of the answer."""
+    """Depth of the smooth relaxed contact, as a rough one may be zero; NaN for the size of the answer."""
     known = isinstance(case.indenter, Axisymmetric) and isinstance(case.motion, Indent | Slide)
     return elastic_contact(case.scene).depth if quantity == "depth" and known else nan
 
