@@ -1,6 +1,6 @@
 """Many scenes on many rough profiles of a Kelvin foundation: the sweeps of MDR without a Result for each.
 
-Profiles of one spectrum differ in the seed. Each profile is drawn once, all scenes are solved on it,
+Profiles of a spectrum differ in the seed. Each profile is drawn once, all scenes are solved on it,
 and every depth starts the search for the next. Every answer equals the answer of MDR on as many points a period.
 """
 
