@@ -14,7 +14,6 @@ from tempfile import TemporaryDirectory
 from typing import Literal
 
 import numpy as np
-from compare.figures.views import view
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from pandas import DataFrame
@@ -24,6 +23,7 @@ from tables import stored
 import compare
 from bem3d import BEM, WarmStart
 from compare.figures import contact, style
+from compare.figures.contact import view
 from compare.figures.curves import intervals
 from compare.figures.plot import Plot
 from compare.figures.shades import SPEED, between
