@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from scene import Elastic, Indent, InvalidInput, Measured, Plane, Result, Scene, Topography
+from scene import Elastic, Indent, Measured, Plane, Result, Scene, Topography
 from scene.quantities import PASCAL, takes
 
 from .solver import BEM
@@ -23,17 +23,17 @@ def press(
 ) -> Result:
     """Press a rigid surface, given by its heights, into an elastic half-space.
 
-    heights : of the surface (N, N) [m], rows along y; the highest point touches first
+    heights : of the surface (M, N) [m], rows along y; the highest point touches first
     pixel : side of a pixel [m]
     modulus : contact modulus E* = E / (1 - nu^2) [Pa]
     pressure, gap : mean pressure [Pa] or mean gap [m] of a plane, which repeats beyond the map
     load, depth : load [N] or depth [m] of a body that ends where the map does, free of images
     unit : of the heights, "um" for example; absent, metres
-    settings : of `BEM`; its grid is the map
+    settings : of `BEM`; absent, the pixels of a square map are those of the grid
 
     One of pressure, gap, load and depth is given. Returns a Result with the fields pressure [Pa], gap and
-    height [m] at the pixels (N, N), and the measure contact_area [m^2]; a plane also has contact_fraction,
-    mean_pressure and mean_gap. Raises InvalidInput if the map is no square; Refused and SolveError as `BEM` does.
+    height [m] on the grid, and the measure contact_area [m^2]; a plane also has contact_fraction,
+    mean_pressure and mean_gap. Raises InvalidInput; Refused, also of a plane that is no square; and SolveError.
 
     >>> import numpy as np
     >>> from bem3d import press
@@ -42,15 +42,9 @@ def press(
     >>> print(f"{answer.measures['contact_fraction']:.0%}, {answer.fields['pressure'].max():.4g} Pa")
     100%, 2.482e+05 Pa
     """
-    read: dict[str, Any] = {"heights": heights, "pixel": pixel} | ({} if unit is None else {"unit": unit})
-    given: dict[str, Any] = {"pressure": pressure, "gap": gap, "load": load, "depth": depth}
-    motion = Indent(**{name: value for name, value in given.items() if value is not None})
-    free = motion.pressed_by in Measured.pressed_by
+    motion, free = Indent(pressure=pressure, gap=gap, load=load, depth=depth), pressure is gap is None
+    read: dict[str, Any] = {"heights": heights, "pixel": pixel, "unit": unit}
     surface = Measured(**read) if free else Topography(**read, repeat="periodic", level="mean")
-    rows, columns = surface.heights.shape
-    if surface.size[0] != surface.size[1] or rows != columns:
-        sides = " x ".join(f"{side:g} m" for side in surface.size)
-        raise InvalidInput(f"heights of {rows} x {columns} pixels, {sides}: square pixels of a square are needed")
-    grid = {"points": rows} | ({"extent": surface.size[0]} if free else {})
-    placed: dict[str, Any] = {"indenter": surface} if free else {"indenter": Plane(), "roughness": surface}
-    return BEM(**(grid | settings)).solve(Scene(elastomer=Elastic(modulus / 4), motion=motion, **placed))
+    grid = {"points": max(surface.heights.shape), "extent": max(surface.size) if free else None}
+    placed: Any = (surface, None) if free else (Plane(), surface)
+    return BEM(**(grid | settings)).solve(Scene(placed[0], Elastic(modulus / 4), motion, placed[1]))
