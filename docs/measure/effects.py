@@ -16,8 +16,6 @@ from typing import Any
 import numpy as np
 import pandas
 from campaign import solved
-from compare.solving.outcome import Outcome, Row
-from compare.studies.workprecision.timed import TimedSolve
 from pandas import DataFrame
 from pydantic import TypeAdapter
 from tables import fill, stored, table
@@ -26,7 +24,8 @@ import bem3d.plan
 import mdr1d.plan
 from bem3d import BEM
 from bem3d.surface import RoughSurface
-from compare.solving.task import Task
+from compare.solving.task import Outcome, Row, Task
+from compare.studies.workprecision.ladder import TimedSolve
 from mdr1d import MDR
 from scene import Scene, SelfAffine
 from scene.plan import COSTS, two_digits

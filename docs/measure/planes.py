@@ -13,8 +13,6 @@ from pathlib import Path
 import numpy as np
 import pandas
 from campaign import solved
-from compare.models.law.share import FITTED, Share, coefficients, waves
-from compare.solving.outcome import Outcome
 from design import RADIUS, SPEED, between, solid_at
 from pandas import DataFrame
 from scipy.optimize import least_squares
@@ -25,7 +23,8 @@ from bem3d import BEM
 from bem3d.heights import heights
 from compare.models.exact import full_contact
 from compare.models.law.bands import Bands, FullContact
-from compare.solving.task import SceneTask, Task
+from compare.models.law.parts import FITTED, Share, coefficients, waves
+from compare.solving.task import Outcome, SceneTask, Task
 from compare.statistics.jackknife import mean_ratio
 from scene import Plane, Scene, SelfAffine, Slide
 

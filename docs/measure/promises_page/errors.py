@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 import pandas
-from compare.solving.outcome import Outcome
 from pandas import DataFrame
 from scipy.optimize import linprog
 from scipy.sparse import csr_matrix, hstack, identity
@@ -19,7 +18,7 @@ from bem3d.costs import band
 from bem3d.friction import bound as frictionerror
 from bem3d.grid import Grid
 from bem3d.problem import Problem
-from compare.solving.task import SceneTask, Task
+from compare.solving.task import Outcome, SceneTask, Task
 from mdr1d import MDR
 from scene import Result, Scene
 

@@ -5,11 +5,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import isfinite, nan
 
-from compare.solving.outcome import Outcome, Row
 from pandas import DataFrame
 
 from bem3d import Unconfirmed, for_accuracy
-from compare.solving.task import SceneTask, Task
+from compare.solving.task import Outcome, Row, SceneTask, Task
 from scene import Result, Scene, SolveError
 from scene.scales import elastic_contact
 
