@@ -45,7 +45,7 @@ DRAWS = {LINE: 30, SPACE: 3}
 SHOWN = replace(SCENE, motion=Slide(speed=4e-4, load=0.4))
 # The contact of the picture of `crosscheck draw`, draw.png.
 SLIDING = Scene(Sphere(10e-3), Kelvin(1e6, 1e-3), Slide(speed=1.0, load=1.0))
-SPAN, WIDTH = 2e-3, 1440  # of the springs, to either side [m]; of the file, in pixels
+SPAN, WIDTH = 1.6e-3, 1440  # of the springs, to either side [m]; of the file, in pixels
 
 
 def main() -> None:
@@ -54,7 +54,7 @@ def main() -> None:
         stored(NUMBERS, solved())
     fields = {solver.name: solver.solve(SHOWN).fields for solver in (LINE, SPACE)}
     with style.applied():
-        shown = contact.plot(SHOWN, view(SHOWN, SPACE, fields))
+        shown = contact.plot(SHOWN, contact.view(SHOWN, SPACE, fields))
         drawing = figure(shown, read(NUMBERS), read(STEEP_CONTACTS))
         image = BytesIO()
         drawing.savefig(image, dpi=WIDTH / drawing.get_figwidth())
@@ -72,7 +72,7 @@ def figure(plot: Plot, numbers: DataFrame, steep: DataFrame) -> Figure:
     space, row = (plot.tables[contact.SECTIONS[solver]] for solver in ("BEM", "MDR"))
     contact.pressure_map(left, plot.tables[contact.PRESSURE], space["x"], plot.options["aside"], None)
     left.set_title("(a) 3D: pressure")
-    contact.section(right, row, "MDR", (-SPAN, SPAN), contact.heights_of([row]), 125)
+    contact.section(right, row, "MDR", (-SPAN, SPAN), contact.heights_of([row]), 45)
     right.set_title("(b) 1D: springs")
     above, below, last = lower.subplots(1, 3)
     for axes, solver, title in ((above, "MDR", "(c) 1D: one curve"), (below, "BEM", "(d) 3D: no such curve")):

@@ -6,7 +6,6 @@ They are those of the studies STUDIES at size standard, in whose folders they ar
 and a half hours on two cores.
 """
 
-import re
 import shutil
 from collections.abc import Iterator, Mapping
 from math import hypot
@@ -24,7 +23,7 @@ from compare.statistics.collapse import collapse
 from compare.statistics.finding import verdict
 from compare.statistics.frictioncurves import SimulatedCurves
 from compare.statistics.jackknife import mean_ratio
-from compare.studies.comparison import study_file
+from compare.studies.comparison import asked, study_file
 from compare.studies.comparison.claims import ENDS
 
 PAGE = Path(__file__).parents[1] / "results" / "law.md"
@@ -55,8 +54,9 @@ MASTER = {
 }
 SLOW_ANSWER = (
     "Inside the regime of the paper, slow friction in 3D goes with the load to the power {} for the sphere and {} "
-    "for the cone, where Eq. 17 has −0.667 and −0.5. It is {} times as high as Eq. 17 at p/(E* h') = {} and {} "
-    "times at {} (sphere), {} times under {} N and {} times under {} N (cone, {} under any load)."
+    "for the cone, where Eq. 17 has −0.667 and −0.5. It is {} times as high as Eq. 17 under {} N and {} times "
+    "under {} N (sphere, where p/(E* h') is 0.051 and 0.087), {} times under {} N and {} times under {} N (cone, "
+    "0.062 under any load)."
 )
 FAST_ANSWER = (
     "From low speed to the plateau (v τ q_s = 0.3 to 200, loads over a factor of five) curves shifted as Eq. 23 "
@@ -123,17 +123,11 @@ def _judged(found: DataFrame, claim: str, body: str) -> str:
 
 def slow_answer(found: DataFrame) -> str:
     """What slow friction does, in two sentences."""
-    powers = (_shown(finding(found, "eq17.load-exponent", body, "3D")) for body in BODIES)
-    (least, greatest), cone = ([_shown(finding(found, each, body, "3D")) for each in LEVELS] for body in BODIES)
-    light, heavy = (_regime(found, claim, "sphere", "p/(E* h')") for claim in LEVELS)
-    first, last = (_regime(found, claim, "cone", "F_N") for claim in LEVELS)
-    alike = _regime(found, LEVELS[0], "cone", "p/(E* h')")
-    return SLOW_ANSWER.format(*powers, least, light, greatest, heavy, cone[0], first, cone[1], last, alike)
-
-
-def _regime(found: DataFrame, claim: str, body: str, symbol: str) -> str:
-    """A number of the regime of a level, by its symbol."""
-    return re.search(rf"{re.escape(symbol)} ([\d.e-]+)", finding(found, claim, body, "3D")["regime"])[1]
+    numbers = [_shown(finding(found, "eq17.load-exponent", body, "3D")) for body in BODIES]
+    for series in asked.study(STUDIES[0], "standard").series:
+        for claim, load in zip(LEVELS, (series.values[0], series.values[-1]), strict=True):
+            numbers += [_shown(finding(found, claim, series.name, "3D")), f"{load:.3g}"]
+    return SLOW_ANSWER.format(*numbers)
 
 
 def fast_answer(found: DataFrame) -> str:

@@ -11,6 +11,7 @@ import numpy as np
 import pandas
 import pytest
 
+import bem3d
 import compare
 import scene
 from compare import commands
@@ -160,6 +161,31 @@ def test_the_first_page_has_friction_of_1d_twice_that_of_3d():
     names = run(text_of("index.md"), PYTHON)
     assert names["one"].depth == pytest.approx(names["three"].depth, rel=0.01)
     assert names["one"].friction_coefficient == pytest.approx(2 * names["three"].friction_coefficient, rel=0.02)
+
+
+def test_the_example_of_the_page_on_heights_presses_a_plane_and_a_body():
+    names = run(text_of("howto", "heights.md"), PYTHON)
+    plane, body = names["plane"], names["body"]
+    assert plane.fields["pressure"].mean() == pytest.approx(20e3, rel=1e-9)
+    assert body.fields["pressure"].sum() * 5e-6**2 == pytest.approx(0.5e-3, rel=1e-9)
+    assert not body.fields["pressure"][[0, -1]].any()
+
+
+@pytest.mark.filterwarnings("ignore:Could not import mpi4py:ImportWarning")
+@pytest.mark.filterwarnings("ignore:Function/property:DeprecationWarning")
+@pytest.mark.parametrize("code", ["tamaas", "ContactMechanics"])
+def test_the_codes_of_the_page_on_heights_give_the_pressure_and_the_gap_of_press(code):
+    names = {"n": 64, "L": 1.0, "E": 1.0, "p": 0.05, "press": bem3d.press}
+    names["heights"] = np.random.default_rng(1).normal(size=(64, 64)) / 64
+    for module in {"tamaas": ["tamaas"], "ContactMechanics": ["SurfaceTopography", code, f"{code}.Systems"]}[code]:
+        names |= vars(pytest.importorskip(module, exc_type=ImportError))
+    answers = {}
+    for row in ("here", code):
+        page = re.search(rf"^\| {row} \| (.*) \| (`.*`, `.*`) \|$", text_of("howto", "heights.md"), re.MULTILINE)
+        exec("; ".join(re.findall("`(.*?)`", page[1])), names)
+        answers[row] = [eval(field, names) for field in re.findall("`(.*?)`", page[2])]
+    for ours, theirs in zip(*answers.values(), strict=True):
+        np.testing.assert_allclose(theirs, ours, rtol=0, atol=1e-4 * ours.max())  # at the tolerances they have
 
 
 @pytest.fixture
