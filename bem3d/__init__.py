@@ -5,8 +5,7 @@ import logging
 from scene.signatures import make_readable
 
 from .accuracy import Unconfirmed, for_accuracy
-from .heights import Heights, heights
-from .press import press
+from .heights import Heights, heights, press
 from .refinement import refined
 from .solver import BEM
 from .warmstart import WarmStart

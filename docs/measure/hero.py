@@ -23,7 +23,6 @@ from tables import stored
 import compare
 from bem3d import BEM, WarmStart
 from compare.figures import contact, style
-from compare.figures.contact import view
 from compare.figures.curves import intervals
 from compare.figures.plot import Plot
 from compare.figures.shades import SPEED, between

@@ -142,7 +142,7 @@ def in_shear(cls: type, stated: dict[str, Any], *others: str) -> dict[str, Any]:
         if (tensile := in_tension(name)) == name or tensile not in stated:
             continue
         if name in stated:
-            raise ValueError(f"{tensile} beside {name}: give one of them")
+            raise ValueError(f"{tensile} and {name}: give one of them")
         take = YOUNGS.row if name.endswith("moduli") else YOUNGS.value
         moduli = np.array(taken(tensile, stated, take))
         found[name] = (moduli / (2 * (1 + ratio))).tolist()
@@ -160,7 +160,7 @@ def absolute(cls: type, stated: dict[str, Any]) -> dict[str, Any]:
     found = in_shear(cls, filled(stated, lambda table, form: read_columns(table, TERMS, form)), INSTANT)
     for name, field in (("tau", "relaxation_times"), ("g", "moduli")):
         if name in found and field in found:
-            raise ValueError(f"{name} beside {field}: give one of them")
+            raise ValueError(f"{name} and {field}: give one of them")
     if "tau" in found:
         found["relaxation_times"] = found.pop("tau")
     if "g" not in found:

@@ -75,9 +75,7 @@ class SelfAffine(Isotropic):
         slope = taken("rms_slope", stated, slope_of)
         del stated["rms_slope"]
         if "rms_height" in stated or stated.get("shortest") is None:
-            raise ValueError(
-                f"rms_slope = {slope:g}: state shortest, up to which it is found, and no rms_height beside it"
-            )
+            raise ValueError(f"rms_slope = {slope:g}: state shortest, up to which it is found, and no rms_height")
         try:
             unit = cls(**stated, rms_height=1.0)
         except ValueError:
@@ -125,9 +123,7 @@ def _up_to_the_slope(cls, stated):
     slope = taken("shortest_at_slope", stated, slope_of)
     del stated["shortest_at_slope"]
     if stated.get("shortest") is not None or "rms_slope" in stated:
-        raise ValueError(
-            f"shortest_at_slope = {slope:g}: state rms_height, and neither shortest nor rms_slope beside it"
-        )
+        raise ValueError(f"shortest_at_slope = {slope:g}: state rms_height, and neither shortest nor rms_slope")
     try:
         rough = cls(**stated)
     except ValueError:

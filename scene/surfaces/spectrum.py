@@ -228,7 +228,7 @@ def _up_to_the_slope(cls, stated):
     slope = taken("shortest_at_slope", stated, slope_of)
     del stated["shortest_at_slope"]
     if stated.get("shortest_kept") is not None:
-        raise ValueError(f"shortest_at_slope = {slope:g}: state no shortest_kept beside it")
+        raise ValueError(f"shortest_at_slope = {slope:g}: state no shortest_kept")
     try:
         whole = cls(**stated)
     except ValueError:

@@ -1,12 +1,12 @@
-"""Heights that another code is given are those on which this one has solved."""
+"""Heights that another code is given are those on which this one has solved; heights in, fields out."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from bem3d import BEM, heights
-from scene import Cylinder, Elastic, Indent, Plane, Program, Scene, SelfAffine, SolveError, Sphere, Stage
+from bem3d import BEM, heights, press
+from scene import Cylinder, Elastic, Indent, Plane, Program, Refused, Scene, SelfAffine, SolveError, Sphere, Stage
 
 ROUGH = SelfAffine(hurst=0.8, rms_height=1e-6, longest=1e-3, shortest=1.25e-4, seed=3)
 ELASTIC = Elastic(1e6)
@@ -35,3 +35,42 @@ def test_heights_are_those_of_a_result(name):
 def test_a_grid_that_cannot_carry_the_waves_is_refused():
     with pytest.raises(SolveError, match="less than two pixels"):
         heights(BODY, 64, extent=1.0)
+
+
+# Heights in, fields out.
+
+HEIGHT, MODULUS, LOAD = 1e-6, 1e6, 1e-4
+COSINE = np.cos(2 * np.pi * np.arange(32) / 32)
+WAVE = HEIGHT * COSINE * np.ones((32, 1))
+FULL = np.pi * MODULUS * HEIGHT / 32e-6  # pi E* h / wavelength: under this mean pressure a wave touches everywhere
+
+
+def test_a_wave_under_more_than_its_pressure_of_full_contact_is_pressed_as_westergaard_says():
+    answer = press(1e6 * WAVE, "1 um", "1 MPa", pressure=1.5 * FULL, unit="um", tolerance=1e-10)
+    assert answer.measures["contact_fraction"] == 1
+    pressure = answer.fields["pressure"]
+    crest = np.argmax(pressure[0])
+    np.testing.assert_allclose(pressure, FULL * (1.5 + np.roll(COSINE, crest)) * np.ones((32, 1)), rtol=1e-8)
+
+
+def test_the_highest_point_touches_first():
+    bump = np.zeros((32, 32))
+    bump[20:24, 7:11] = HEIGHT
+    pressure = press(bump, 1e-6, MODULUS, pressure=10.0).fields["pressure"]
+    assert np.array_equal(pressure > 0, bump > 0)
+
+
+@pytest.mark.parametrize("pressed", ["load", "depth"])
+def test_a_ball_is_pressed_as_hertz_says(pressed):
+    x = 5e-6 * (np.arange(96) - 47.5)
+    depth = (9 * LOAD**2 / (16 * MODULUS**2 * 1e-2)) ** (1 / 3)
+    given = {"load": LOAD} if pressed == "load" else {"depth": depth}
+    answer = press(-(x**2 + x[:, None] ** 2) / 2e-2, 5e-6, MODULUS, **given)
+    assert answer.depth == pytest.approx(depth, rel=2e-3)
+    assert answer.normal_force == pytest.approx(LOAD, rel=2e-3)
+    np.testing.assert_allclose(answer.fields["height"], (x**2 + x[:, None] ** 2) / 2e-2, atol=1e-9)
+
+
+def test_a_plane_that_is_no_square_is_refused():
+    with pytest.raises(Refused, match="the cell of a Plane is a square"):
+        press(WAVE[:16], 1e-6, MODULUS, pressure=1.0)

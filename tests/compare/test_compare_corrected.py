@@ -202,7 +202,7 @@ def test_every_measure_has_a_unit_and_a_meaning():
         for name in FEW.solve(scene).measures:
             entry = vocabulary.entry(name)
             assert entry.unit == ("1" if name.endswith("_ratio") else units[name.partition("_")[0]])
-            assert ("Of one surface" in entry.text) == ("surface" in name)
+            assert ("Of a single surface" in entry.text) == ("surface" in name)
 
 
 def test_a_stored_answer_depends_on_the_code_of_both_solvers_and_of_the_map():

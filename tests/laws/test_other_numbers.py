@@ -345,6 +345,13 @@ def refined(given):
 
 
 # Functions that are called as they are: each with its numbers.
+def pressed(**given):
+    """Greatest pressure on a wave that is pressed flat."""
+    wave = 1e-6 * np.cos(np.pi * np.arange(16) / 8) * np.ones((16, 1))
+    stated = {"pixel": 1e-6, "modulus": 1e6, "pressure": 1e5} | given
+    return bem3d.press(wave, **stated).fields["pressure"].max()
+
+
 CALLED = [
     *(
         Place(f"mdr1d.sweep({name})", lambda given, name=name: swept(**{name: given}), value, "m")
@@ -367,6 +374,10 @@ CALLED = [
     *(
         Place(f"bem3d.for_accuracy({name})", lambda given, name=name: by_accuracy(**{name: given}), 0.1)
         for name in ("friction", "depth")
+    ),
+    *(
+        Place(f"bem3d.press({name})", lambda given, name=name: pressed(**{name: given}), value, unit)
+        for name, value, unit in (("pixel", 1e-6, "m"), ("modulus", 1e6, "Pa"), ("pressure", 1e5, "Pa"))
     ),
     Place("compare.sweep(speed)", lambda given: asked(speed=given), (0.1, 0.3), "m/s"),
     Place("compare.sweep(load)", lambda given: asked(load=given), (0.1, 0.3), "N"),

@@ -255,9 +255,13 @@ def test_scenes_without_an_estimate_are_refused_by_name():
         (
             {"indenter": Cylinder(radius=1.0), "motion": Slide(speed=1.0, line_load=1.0)},
             None,
-            "that of a Cylinder",
+            "of a body of revolution, which a Cylinder is not",
         ),
-        ({"indenter": Plane(), "motion": Slide(speed=1.0, pressure=1.0), "roughness": ROUGH}, None, "of a Plane"),
+        (
+            {"indenter": Plane(), "motion": Slide(speed=1.0, pressure=1.0), "roughness": ROUGH},
+            None,
+            "which a Plane is not",
+        ),
         ({"layer": Layer(thickness=1e-2)}, None, "leave layer or heating out"),
         ({"motion": program}, None, "not of a Program"),
         ({"elastomer": Kelvin(1e6, 1e-3), "roughness": ROUGH}, "flash", "a Kelvin has no glassy modulus"),

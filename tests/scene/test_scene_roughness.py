@@ -92,7 +92,7 @@ def test_a_slope_at_which_no_wave_is_cut_is_refused_with_the_reason(message, sta
     ("message", "stated"),
     [
         ("rms_slope = 0.1: state shortest", {"shortest": None}),
-        ("rms_slope = 0.1: .* no rms_height beside it", {"rms_height": 1e-6}),
+        ("rms_slope = 0.1: .* no rms_height", {"rms_height": 1e-6}),
         ("rms_slope = -1: .* a number from 0 on", {"rms_slope": -1}),
         ("rms_slope = '3 deg': .*a number without a unit", {"rms_slope": "3 deg"}),
         ("rms_slope = True", {"rms_slope": True}),
