@@ -134,8 +134,8 @@ Model = Annotated[
 Models = Annotated[
     SeveralModels | None,
     Option(
-        help="Names of the models, separated by commas: mdr, bem, persson, law, those of installed packages,"
-        " MODULE:NAME; mdr,bem if absent."
+        help="Names of the models, separated by commas: mdr, bem, persson, law, extended, those of installed"
+        " packages, MODULE:NAME; mdr,bem if absent."
     ),
     "From Python also objects, see `scene.Solver`.",
 ]

@@ -152,8 +152,8 @@ class Case:
     departures : of a case of the paper: sentences that say how the case departs from it
     indenter, elastomer, motion, roughness, layer, temperature, heating, interface : of the scene
     study : what is varied around it
-    models : names of the models that are compared: mdr, bem, persson, law, those of installed packages; mdr and
-        bem if none is named
+    models : names of the models that are compared: mdr, bem, persson, law, extended, those of installed
+        packages; mdr and bem if none is named
     reference : name of the one against which the others are judged; bem, or the last, if absent
     bem, mdr : settings of the solvers in three dimensions and in one
     """

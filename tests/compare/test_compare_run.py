@@ -243,7 +243,8 @@ def test_several_files_are_named_by_themselves_and_two_of_one_name_refused(tmp_p
 def opening_of(case, **how):
     """The table of a case as texts, and the advice on its rows."""
     run = asked.run({"a case": case})
-    table, claims = run.judge(run.answers(invented_of(run, **how))).opening
+    answers = run.answers(invented_of(run, **how))
+    table, claims = run.judge(answers).page("", answers).opening
     return table, claims, table.frame.set_index("")
 
 
@@ -281,7 +282,7 @@ def test_a_program_is_compared_over_time():
     (found,) = judged.findings
     assert (found.claim.id, found.verdict) == ("history.force", "fails")
     assert found.value == pytest.approx(0.1, rel=1e-9)
-    table = judged.opening[0].frame.set_index("")
+    table = judged.page("", answers).opening[0].frame.set_index("")
     greatest = table.loc["force [N]", ["1D (MDR)", "3D (BEM)"]]
     assert greatest.tolist() == ["4.4", "4"]  # at the end
 

@@ -10,7 +10,7 @@ import xarray
 from scene import notes
 from scene.result import labelled, provenance
 
-from ...report.page import Table
+from ...report.page import Page, Table
 from ...solving.continuation import by_contact
 from ...solving.curve import Curve
 from ...solving.task import Outcome, SceneTask, Task
@@ -98,14 +98,33 @@ class Comparison(Study):
         by_family = {each.series.family: each.series for each in members}
         several = [by_family[each.curve].with_remedy(each) if each.curve else each for each in together(members)]
         findings = [*(found for each in every for found in each.findings), *several]
-        opening = [table for each in every for table in opening_of(each)]
-        claims = claims_table(findings, [each.name for each in self.series if isinstance(each, Around)])
-        opening += [claims] if len(claims.frame) else []
         wide = (why for each in every if each.series.sampled for why in each.series.unreached(each.answers))
-        blocks = list(pages.blocks(every, several, answers))
-        return Judgement(
-            findings, [*open_claims(findings), *wide], blocks, pages.setting(self.about, every), opening
+        return Compared(
+            findings, [*open_claims(findings), *wide], None, (), (), every, several, self.about, answers
         )
+
+
+@dataclass(frozen=True)
+class Compared(Judgement):
+    """What a comparison comes to; its tables and figures are made with the page, and not for each round.
+
+    every : each series as judged; several : findings on several of them
+    about : of the comparison; tree : its answers
+    """
+
+    every: Sequence[Judged] = ()
+    several: Sequence[Finding] = ()
+    about: str = ""
+    tree: xarray.DataTree = field(default_factory=xarray.DataTree)
+
+    def page(self, title: str, answers: xarray.DataTree) -> Page:
+        opening = [table for each in self.every for table in opening_of(each)]
+        scenes = [each.series.name for each in self.every if isinstance(each.series, Around)]
+        claims = claims_table(self.findings, scenes)
+        opening += [claims] if len(claims.frame) else []
+        blocks = list(pages.blocks(self.every, self.several, self.tree))
+        setting = pages.setting(self.about, self.every)
+        return Judgement(self.findings, self.answer, blocks, setting, opening).page(title, answers)
 
 
 def opening_of(judged: Judged) -> Sequence[Table]:
