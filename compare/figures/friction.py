@@ -68,9 +68,10 @@ def figure(tables: Tables, name: str = SPEED) -> Figure:
             if name == SMOOTH_SPEED:
                 axes.axhline(SLOW, **style.line(0.75, 4.0, zorder=0, label="2, derived for low speed"))
             about(axes, 1, over_reference, across, "ratio")
-            axes.set_ylim(0, max(1.1, axes.get_ylim()[1]))
         (above, *below)[-1].set_xlabel(label)
     for row, axes in enumerate(grid[:, 0]):
+        if row % len(heights):  # once all panels of the row are drawn, which have one axis
+            axes.set_ylim(0, max(1.1, axes.get_ylim()[1]))
         axes.set_ylabel(f"{over(points)} [1]" if row % len(heights) else "friction coefficient [1]")
     for spare in np.ravel(stacks[len(places) :]):
         spare.remove()

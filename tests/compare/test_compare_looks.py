@@ -25,7 +25,7 @@ from matplotlib.patches import Patch
 from matplotlib.text import Text
 from matplotlib.transforms import Bbox
 from page_samples import MEANS
-from pandas import DataFrame
+from pandas import DataFrame, concat
 
 from compare.figures import curves, force_depth, friction, shades, style
 from compare.figures.plot import FORMS, Plot, picture
@@ -361,6 +361,16 @@ def test_a_line_decades_below_does_not_press_the_curves_together():
     ends = MEANS["friction_coefficient_low"].min() / 1.2, MEANS["friction_coefficient_high"].max() * 1.2
     assert axes.get_ylim() == pytest.approx(ends)
     assert style.LABEL["MDR"] + ", Eq. 19" in axes.get_legend_handles_labels()[1]
+
+
+def test_ratios_of_every_panel_are_within_the_axes_that_panels_share():
+    points = concat([MEANS, MEANS.assign(load=2.0)])
+    ratios = points[points["model"] == "MDR"].assign(body="rough")
+    for end in ("", "_low", "_high"):
+        ratios[f"ratio{end}"] = 3.0 * (ratios["load"] - 0.9)
+    lower = [axes for axes in from_files(friction.plot(points, ratios)).axes if axes.get_ylim()[0] == 0]
+    assert len(lower) == 2
+    assert all(axes.get_ylim()[1] > 3.3 for axes in lower)
 
 
 def test_both_models_stand_at_the_depth_that_was_prescribed():
