@@ -25,7 +25,7 @@ LONGEST = 100  # letters of a quantity
 
 _NUMBER = re.compile(r"\s*([+\-−]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+\-−]?[0-9]+)?)(.*)", re.DOTALL)
 _NAME = re.compile(r"[^\W\d_]++(?:_[^\W\d_]++)*+")
-# Names, each with a power of one digit, as mm2, mm^2 and s-1, between marks. What else pint computes is no unit.
+# Names, each with a one-digit power, as mm2, mm^2 and s-1, between marks. What else pint computes is no unit.
 _UNIT = re.compile(
     rf"(?:\s*+(?:{_NAME.pattern}(?:(?:\s*+(?:\^|\*\*)\s*+)?-?[1-9](?![\w.]))?|[*·⋅/()]|\.(?=[^\W\d_])|1(?=\s*/)))++"
 )

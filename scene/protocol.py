@@ -121,7 +121,7 @@ def memory() -> int:
 
 
 def shortage(needed: int) -> list[str]:
-    """Reason why so many bytes do not fit, or nothing."""
+    """Reason why a number of bytes does not fit in memory; empty if it does."""
     there = memory()
     if needed <= there:
         return []

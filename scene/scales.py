@@ -65,7 +65,7 @@ MUCH_LESS_HEIGHT, MUCH_LESS_SLOPE = 0.1, 0.2
 
 @dataclass(frozen=True)
 class Regime:
-    """Ratios of a rough contact, numbers or arrays of one shape.
+    """Ratios of a rough contact, numbers or arrays of the same shape.
 
     height_over_depth : rms height over the depth of the smooth relaxed contact, h_0 / d
     contact_over_period : its width over the longest wavelength, 2a / L

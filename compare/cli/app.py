@@ -71,8 +71,8 @@ def said_to_people(output: str, solves: bool) -> Iterator[None]:
     except MemoryError as error:
         from scene import OutOfMemory
 
-        told = str(error) if isinstance(error, OutOfMemory) else f"memory ran out {error}".strip()
-        say(f"crosscheck: {told}", error=True)
+        complaint = str(error) if isinstance(error, OutOfMemory) else f"memory ran out {error}".strip()
+        say(f"crosscheck: {complaint}", error=True)
         raise typer.Exit(FAILED) from error
     except OSError as error:
         from scene.printable import brief
@@ -81,10 +81,10 @@ def said_to_people(output: str, solves: bool) -> Iterator[None]:
 
         early = isinstance(error, Unwritable) or not solves
         where = f"{output}: " if isinstance(error, Unwritable) else ""
-        told = (
+        complaint = (
             f"{brief(str(error.filename))}: {error.strerror}" if error.filename else error.strerror or str(error)
         )
-        say(f"crosscheck: {where}{told}{'' if early else '. Solved contacts are kept.'}", error=True)
+        say(f"crosscheck: {where}{complaint}{'' if early else '. Solved contacts are kept.'}", error=True)
         raise typer.Exit(MISTAKE if early and error.errno != errno.ENOSPC else FAILED) from error
 
 

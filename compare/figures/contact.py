@@ -84,7 +84,7 @@ def smooth_radius(scene: Scene) -> float | None:
 
 
 def plot(scene: Scene, seen: Mapping[str, xarray.Dataset], folder: str = "") -> Plot:
-    """Plot of a contact, of which something is known: "surface" (y, x) or "row" (x), as `view` has them."""
+    """Plot of the parts of a contact that are known: "surface" (y, x) or "row" (x), as `view` has them."""
     motion, radius = scene.motion, smooth_radius(scene)
     speed = motion.stages[-1].speed if isinstance(motion, Program) else motion.speed
     flow = "at rest" if speed == 0 else "← indenter slides" if speed > 0 else "indenter slides →"

@@ -31,7 +31,7 @@ def plot(
     points : model, speed [m/s], friction_coefficient_mean, _low and _high; load [N] or depth [m] where there
         are several
     ratios : model, body ("rough", "smooth"), speed, load or depth, ratio, ratio_low and ratio_high: friction over
-        that of the reference
+        the friction of the reference
     lines : model, speed, load or depth, friction_coefficient, and kind, one of KINDS
     name : SPEED, with a panel for each load or depth; LOAD, with one for each speed; SMOOTH_SPEED, of a smooth
         body
@@ -39,18 +39,18 @@ def plot(
     if not (points["speed"] > 0).any():
         return None
     across = "load or depth" if name == LOAD else "speed"
-    told = caption or f"Coefficient of friction against {across}; below, over that of the reference."
+    text = caption or f"Coefficient of friction against {across}; below, its ratio to the reference."
     alternative = f"Friction of all models against {across} on logarithmic axes; below, their ratio."
     tables = tables_of({name: points, f"{name}{RATIOS}": ratios, f"{name}{LINES}": lines})
-    return Plot(f"{folder}{name}", figure, tables, told, alternative, {"name": name})
+    return Plot(f"{folder}{name}", figure, tables, text, alternative, {"name": name})
 
 
 def figure(tables: Tables, name: str = SPEED) -> Figure:
     """Three panels side by side at most; below, over the reference where it is known."""
     points, ratios, lines = tables[name], tables.get(f"{name}{RATIOS}"), tables.get(f"{name}{LINES}")
     pressed = "load" if "load" in points else "depth"
-    across, beside = (pressed, "speed") if name == LOAD else ("speed", pressed)
-    places, (scale, label) = panels_of(points, (ratios, lines), beside), AXES[across]
+    across, panel = (pressed, "speed") if name == LOAD else ("speed", pressed)
+    places, (scale, label) = panels_of(points, (ratios, lines), panel), AXES[across]
     heights = (1.0,) if ratios is None else (2.2, 1.0)
     wide, deep = min(len(places), PANELS), ceil(len(places) / PANELS)
     drawing = style.canvas("single" if wide == 1 else "double", 0.9 + deep * sum(heights))

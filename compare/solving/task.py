@@ -1,4 +1,4 @@
-"""Task: what one worker solves in one go, its outcome, and the scenes of one solver as such a task."""
+"""Task: what a worker solves in one go, its outcome, and scenes of a solver as such a task."""
 
 import sys
 from collections.abc import Iterable, Mapping, Sequence
@@ -18,7 +18,7 @@ from scene.printable import brief
 from scene.quantities import MOST_WHOLE
 
 NUMBERS = ("normal_force", "depth", "friction_force", "residual", "operator_applications", "seconds")
-# Names of what stands beside the measures of a model, which may have no other.
+# Names that a row has besides the measures of a model, which may not use them.
 TAKEN = {*NUMBERS, "level", "speed", "load", "surface", "points", "stratum", "variate", "control_variates"} | {
     "friction_coefficient", "depth_reached", "status", "reason"
 }  # fmt: skip
@@ -26,7 +26,7 @@ TAKEN = {*NUMBERS, "level", "speed", "load", "surface", "points", "stratum", "va
 
 @dataclass(frozen=True)
 class Row:
-    """The numbers of one solved scene, as in Result; NaN with a reason where the solve failed.
+    """The numbers of a solved scene, as in Result; NaN with a reason where the solve failed.
 
     finer : which of the finer grids of its task answered; 0 where the solver itself did
     """

@@ -12,7 +12,7 @@ from .intervals import Estimated
 from .jackknife import estimated
 from .multilevel import MEANS, pooled
 
-# Told with an interval; told as a mean alone, of what is never negative.
+# Means with an interval; and means alone, of numbers that are never negative.
 ESTIMATED = ("normal_force", "depth_reached", "friction_force", "friction_coefficient", "rms_slope", "contact")
 AVERAGED = ("friction_spread", "pixel", "points_across_contact")
 # Never negative: their intervals are those of their logarithms.

@@ -96,8 +96,8 @@ def _write(done, folder, report, progress) -> Path | None:
     study, page, results = done.study, done.page, netcdf.packed(done.answers)
     files = {netcdf.NAME: results}
     if report:
-        with progress.writing(len(list(page.every(Plot)))) as told:
-            files |= render.files(page, done.judged, told)
+        with progress.writing(len(list(page.every(Plot)))) as drawn:
+            files |= render.files(page, done.judged, drawn)
     else:
         files |= render.tables(page, done.judged)
     manifest.begin(folder, study, files)

@@ -26,7 +26,7 @@ class Ratio:
 
     logarithm : of the ratio; nan where one of the means is not above zero
     line_error : relative standard error of the mean in 1D
-    scatter : relative standard deviation of one surface in 3D; nan of fewer than two
+    scatter : relative standard deviation of a single surface in 3D; nan with fewer than two
     surfaces : in 3D that would know their mean as well, if all of them were on all points
     grid : relative change of the mean in 3D from half the points to all
     """

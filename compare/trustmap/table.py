@@ -54,10 +54,10 @@ FITTED = Path(__file__).with_name("fitted.json")
 @cache
 def model(quantity: str) -> Model:
     """Model of friction, depth or force; the same object each time."""
-    told = json.loads(FITTED.read_text(encoding="utf-8"))[quantity]
-    process, scatter = (_scales(**told[each]) for each in ("process", "scatter"))
-    errors, widening, parts = (np.array(told[each]) for each in ("errors", "widening", "parts"))
-    fitted = Fitted(process, np.array(told["taken"]), scatter, errors, widening, parts)
+    stored = json.loads(FITTED.read_text(encoding="utf-8"))[quantity]
+    process, scatter = (_scales(**stored[each]) for each in ("process", "scatter"))
+    errors, widening, parts = (np.array(stored[each]) for each in ("errors", "widening", "parts"))
+    fitted = Fitted(process, np.array(stored["taken"]), scatter, errors, widening, parts)
     return Model.of(quantity, measurements(read(LEARNED), quantity)[1], fitted)
 
 

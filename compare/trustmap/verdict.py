@@ -241,7 +241,7 @@ def advice_on(ratio: float, error: float) -> Treatment:
 
 
 def _worth(name, ratio, error, scatter, because):
-    """Correction by a ratio; the answer of `FrictionLaw` has that of the bare law in it: it is used, or not."""
+    """Correction by a ratio; the answer of `FrictionLaw` has the bare ratio in it: it is used, or not."""
     left, advice, bare = ratio, advice_on(ratio, error), ""
     if name == LAW:
         left, advice = 1.0, USE if NORMAL * error <= WIDE else SOLVE

@@ -211,8 +211,8 @@ class End:
     modulus : complex modulus there [Pa]
     exponent : -1 to 1
 
-    The law is a spring beside a springpot, G = G_0 + S (i omega)^exponent, through the modulus of the end:
-    G' = G'_end + G''_end (r^exponent - 1) / tan(pi exponent / 2), where r = omega / omega_end.
+    The law is a spring in parallel with a springpot, G = G_0 + S (i omega)^exponent, through the modulus of the
+    end: G' = G'_end + G''_end (r^exponent - 1) / tan(pi exponent / 2), where r = omega / omega_end.
     """
 
     omega: float

@@ -1,6 +1,6 @@
 """The two forms of a linear viscoelastic solid as a list of modes, each converted exactly into the other.
 
-Both directions ask for the zeros x of one function, c - sum_j w_j / (x - p_j), with weights w_j > 0, poles
+Both directions need the zeros x of the function c - sum_j w_j / (x - p_j), with weights w_j > 0, poles
 p_j >= 0 and c >= 0. It rises from -inf to +inf between two poles: one zero lies in each gap, and one above the
 last pole if c > 0. Each is found by its distance from the nearer pole, in the logarithm of it: no difference of
 close numbers is taken, so that every mode keeps its digits whatever the spread of times and moduli.
@@ -18,9 +18,9 @@ _MARGIN = 1e-9  # beyond the ends of a bracket, for ends that are roots but for 
 def zeros(poles, weights, constant):
     """Zeros (R,) of F(x) = c - sum_j w_j / (x - p_j), ascending, and the steepness x F'(x) > 0 at each.
 
-    Arguments as in `distances`. The steepness, in units of the constant, is that of the rational function with
-    these poles and zeros, a product of distances: where single zeros are known badly because poles lie close or
-    terms cancel, together they still are this very function.
+    Arguments as in `distances`. The steepness, in units of the constant, is the steepness of the rational
+    function with these poles and zeros, a product of distances: where single zeros are known badly because poles
+    lie close or terms cancel, together they still are this very function.
     """
     apart = distances(poles, weights, constant)
     if not len(apart):
@@ -39,7 +39,7 @@ def distances(poles, weights, constant):
     weights : (K,) > 0
     constant : c >= 0, in units of weight / pole; R = K if c > 0, else K - 1
 
-    Raises ArithmeticError where the constant vanishes beside the weights, and where a distance does.
+    Raises ArithmeticError where the constant vanishes against the weights, and where a distance does.
     """
     count = len(poles) - (constant == 0)
     if count <= 0:

@@ -32,7 +32,7 @@ class Table:
 
     At least 4 frequencies or times, 2 at several temperatures, and at most 5,000 rows over 40 decades of them, in
     any order; one may stand there more than once, and then each of its rows counts. `notes` say what was read
-    beside the columns and is not used; they are no part of what is compared or stored.
+    besides the columns and is not used; they are no part of what is compared or stored.
     """
 
     frequency: Frequencies | None = None
@@ -66,7 +66,7 @@ class Table:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Lines on what was read beside the columns."""
+        """Lines on what was read besides the columns."""
         return self.__dict__.get("_notes", ())
 
     def noted(self, notes: Sequence[str]) -> "Table":

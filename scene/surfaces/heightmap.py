@@ -184,5 +184,5 @@ def taken_off(heights: np.ndarray, degree: int) -> np.ndarray:
 
 @lru_cache(maxsize=8)
 def polynomials(count: int, degree: int) -> np.ndarray:
-    """Orthonormal polynomials of increasing degree on so many even places (count, up to degree + 1)."""
+    """Orthonormal polynomials of increasing degree on evenly spaced places (count, up to degree + 1)."""
     return np.linalg.qr(np.polynomial.legendre.legvander(np.linspace(-1, 1, count), min(degree, count - 1)))[0]

@@ -1,6 +1,6 @@
 """Isotropic roughness that has a spectral density: what it is drawn by, whatever the density.
 
-A measured one is a row of power laws between points; that of a surface follows from that of its line scans.
+A measured one is a row of power laws between points. The density of a surface follows from its line scans.
 """
 
 from collections.abc import Callable
@@ -169,7 +169,7 @@ def seeded(rough: Isotropic, seed: int) -> Any:
     return replace(drawn, seed=seed)
 
 
-# Places at which the density of a surface is found from that of a line, between two points a decade apart; as the
+# Places at which the density of a surface is found from its line scans, between two points a decade apart; as the
 # root of the distance between others.
 _PLACES = 16
 
@@ -196,7 +196,7 @@ class PowerLaws:
         return float(np.log2(self(2 * low) / self(low))), float(np.log2(self(high) / self(high / 2)))
 
     def __call__(self, q):
-        """The density; beyond the ends that of the ends."""
+        """The density; beyond the ends it is the density at the ends."""
         return np.exp(np.interp(np.log(q), np.log(self.q), np.log(self.density)))
 
     def exponent(self, q):

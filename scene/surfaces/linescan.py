@@ -21,9 +21,9 @@ from .heightmap import polynomials, taken_off
 from .isotropic import power_integral
 
 PER_DECADE = 20  # bins
-COARSE = 0.05  # relative, of the density of a bin beside its scatter: its width, and what lattices of laws leave
+COARSE = 0.05  # relative, of the density of a bin, against its scatter: its width, and what lattices of laws leave
 TAPERS = 3
-# Waves in the line that are a bin each, of which levelling takes something; and those that leak into others.
+# Waves in the line that are a bin each, as levelling takes part of them; and those that leak into others.
 LOW, REACH, STEP = 12, 24, 0.25
 SMEARED = 2  # of a wave alone and its neighbours: measured, for intervals of the rms height to hold
 FINE = 1024  # points on which the leakage of the lowest waves is found
@@ -69,7 +69,7 @@ class Bins:
 
 @lru_cache(maxsize=8)
 def bins_of(count: int, degree: int) -> Bins:
-    """Bins of a line of so many points, less a polynomial of a degree.
+    """Bins of a line with a number of points, less a polynomial of a degree.
 
     count : more than three times the waves that are a bin each
     """

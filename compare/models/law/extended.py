@@ -35,12 +35,12 @@ class ExtendedBEM:
     points : a side of the grid; waves of fewer than eight pixels are left to the law
 
     The coefficient is mu_BEM(waves kept) + mu_law(all waves) - mu_law(waves kept), with both laws under the load
-    that BEM found. Where the grid holds every wave it is the coefficient of BEM. The depth is that of the contact
-    on the waves kept.
+    that BEM found. Where the grid holds every wave it is the coefficient of BEM. The depth belongs to the
+    contact on the waves kept.
 
     Result.measures: those of BEM; shortest_kept [m], the shortest wave that is solved; slope_kept, the rms slope
-    of the waves kept over that of all waves; friction_kept and friction_added, the coefficient of the waves kept
-    and what the law adds; height_left [m], the rms height of the waves that are left to the law.
+    of the waves kept over the rms slope of all; friction_kept and friction_added, the coefficient of the waves
+    kept and what the law adds; height_left [m], the rms height of the waves that are left to the law.
     """
 
     label: ClassVar[str] = "3D extended"

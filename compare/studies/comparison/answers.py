@@ -1,4 +1,4 @@
-"""Answers of one scene on its curves, by model, samples of them, and theories that stand beside the models."""
+"""Answers of a scene on its curves, by model, samples of them, and theories that accompany the models."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace

@@ -112,7 +112,7 @@ def laws(curve: Curve, answers: xarray.Dataset) -> Laws | None:
 
 
 def _range(values, digits):
-    """Least and greatest of the numbers that are known, to so many digits."""
+    """Least and greatest of the numbers that are known, to a number of digits."""
     known = values[np.isfinite(values)]
     low, high = (f"{float(f'{end:.{digits}g}'):g}" for end in (known.min(), known.max()))
     return low if low == high else f"{low} to {high}"

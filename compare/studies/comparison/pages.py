@@ -53,7 +53,7 @@ def scene_table(judged: Judged) -> Table:
             column = model if names[model] == model else f"{names[model]} ({model})"
             value, low, high = (factor * found).tolist()
             row[column] = words.interval(value, low, high, 3)
-        row |= {beside: words.found(each, 3) for beside, each in ratios.items()}
+        row |= {pair: words.found(each, 3) for pair, each in ratios.items()}
         if {"MDR", "BEM"} <= {*names} and (cheap := getattr(series.advice, WORDS[name])):
             row["advice"] = _advised(cheap, ratios.get(BOTH))
         rows.append(row)

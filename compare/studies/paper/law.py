@@ -116,7 +116,7 @@ SLOPE_KEPT = replace(
     id="paper.eq17.exponent.slope-kept",
     sentence="Eq. 17: friction at low speed grows as ξ¹ with the macroscopic slope kept as in Eq. 10",
     meaning="Exponent without the condition on the macroscopic slope, with the mean square of both slopes in "
-    "place of that of the roughness.",
+    "place of the mean square slope of the roughness.",
 )
 ALPHA = Claim(
     id="paper.eq19.alpha",

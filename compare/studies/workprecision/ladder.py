@@ -1,4 +1,4 @@
-"""Ladder: the settings of one model on one scene, from fine to coarse, its contacts, and timed solves."""
+"""Ladder: settings of a model on a scene, from fine to coarse, its contacts, and timed solves."""
 
 import platform
 import time
