@@ -369,8 +369,7 @@ def test_ratios_of_every_panel_are_within_the_axes_that_panels_share():
     for end in ("", "_low", "_high"):
         ratios[f"ratio{end}"] = 3.0 * (ratios["load"] - 0.9)
     lower = [axes for axes in from_files(friction.plot(points, ratios)).axes if axes.get_ylim()[0] == 0]
-    assert len(lower) == 2
-    assert all(axes.get_ylim()[1] > 3.3 for axes in lower)
+    assert min(axes.get_ylim()[1] for axes in lower) > 3.3
 
 
 def test_both_models_stand_at_the_depth_that_was_prescribed():

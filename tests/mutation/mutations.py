@@ -28,6 +28,11 @@ BOUNDS = {ast.Lt: ast.LtE, ast.LtE: ast.Lt, ast.Gt: ast.GtE, ast.GtE: ast.Gt}
 # Changes that no test can see, by their file, what stood there and what stands there then; and why.
 EQUIVALENT = {
     ("bem3d/motion/marching.py", "1e-12", "(2e-12)"): "an overlap below rounding of the heights is none",
+    (
+        "bem3d/response/memory.py",
+        "bound + 1",
+        "(bound - 1)",
+    ): "two columns beyond the kinks by many pixels have the nodes of the next band, which are exact to rounding too",
     ("mdr1d/steady.py", "u > 0.0", "(u >= 0.0)"): "at u = 0 both branches carry no displacement",
     (
         "mdr1d/kelvin.py",
