@@ -32,7 +32,7 @@ EQUIVALENT = {
         "bem3d/response/memory.py",
         "bound + 1",
         "(bound - 1)",
-    ): "two columns beyond the kinks by many pixels have the nodes of the next band, which are exact to rounding too",
+    ): "the nodes of the next band are exact to rounding at these columns too",
     ("mdr1d/steady.py", "u > 0.0", "(u >= 0.0)"): "at u = 0 both branches carry no displacement",
     (
         "mdr1d/kelvin.py",
