@@ -98,7 +98,7 @@ def finished(plot: Plot, look: style.Look = style.PRINT) -> Figure:
             drawing = plot.figure()
             drawing.set_dpi(rcParams["savefig.dpi"])
             drawing.draw_without_rendering()
-            drawing.set_layout_engine("none")
+            drawing.set_layout_engine(None)  # a placeholder would be drawn once more before a file is
         except UserWarning as warning:
             if NO_ROOM not in str(warning):
                 raise

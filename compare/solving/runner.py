@@ -85,6 +85,7 @@ def sweep(
     fresh: bool = False,
     scheduler: str | None = None,
     executor: Executor | None = None,
+    processes: Processes | None = None,
 ) -> SweepResult:
     """Solve tasks, longest first, storing each as it ends.
 
@@ -92,6 +93,7 @@ def sweep(
     fresh : whether each task has a process of its own, one after the other
     scheduler : address of a dask scheduler, whose workers then solve the tasks in place of processes
     executor : that solves the tasks in place of processes, as many at once as `workers` says
+    processes : of this machine, begun and ended by the caller, so that several sweeps share them
 
     What no other process can import, as the model of a script or a notebook, or what cannot be sent there is
     solved in this one. A task that raises, or that workers die of, has failed: its outcome has the reason in each
@@ -115,16 +117,18 @@ def sweep(
         _LOG.info("%d tasks to solve, %d reused from %s", len(missing), len(outcomes), store.folder)
         with (
             store.writing(),
-            _workers(missing, workers, fresh, scheduler, executor, progress) as pool,
+            _workers(missing, workers, fresh, scheduler, executor, processes, progress) as pool,
             caught() as interrupts,
         ):
             found, faults = _solve(missing, store, pool, progress, interrupts)
     return SweepResult(outcomes | found, len(missing), len(outcomes), time.perf_counter() - start, faults)
 
 
-def _workers(missing, count, fresh, scheduler, executor, progress) -> Workers:
+def _workers(missing, count, fresh, scheduler, executor, processes, progress) -> AbstractContextManager[Workers]:
     if executor is not None and not fresh:
         return Workers(executor, counted(count))
+    if scheduler is None and not fresh and processes is not None:
+        return nullcontext(processes)
     if scheduler is None or fresh:
         return Processes(min(counted(count), len(missing)), fresh)
     from .cluster import Cluster

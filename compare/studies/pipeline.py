@@ -13,7 +13,7 @@ from scene.printable import brief
 from ..figures.plot import Plot
 from ..report import manifest, render
 from ..solving import netcdf, runner
-from ..solving.executors import counted
+from ..solving.executors import Processes, counted
 from ..solving.folders import Unwritable, lock, make
 from ..solving.runner import Progress, SweepResult
 from ..solving.store import Store
@@ -62,16 +62,17 @@ def _answered(study, output, workers, scheduler, executor, yes, progress) -> Rep
     swept, count = SweepResult({}, 0, 0, 0.0), counted(workers)
     more: Study | None = study
     try:
-        while more is not None:
-            more.cost().refuse(count, yes)
-            if more is not study:
-                progress.message(f"more surfaces: {more.cost()}")
-            found = _solve(more, swept, output, workers, scheduler, executor, progress)
-            study, swept = more, swept.joined(found)
-            answers = study.answers(swept.outcomes)
-            judged = study.judge(answers)
-            # What breaks with few surfaces breaks with more.
-            more = None if swept.faults else study.more(answers, judged.findings)
+        with Processes(count) as processes:
+            while more is not None:
+                more.cost().refuse(count, yes)
+                if more is not study:
+                    progress.message(f"more surfaces: {more.cost()}")
+                found = _solve(more, swept, output, workers, scheduler, executor, processes, progress)
+                study, swept = more, swept.joined(found)
+                answers = study.answers(swept.outcomes)
+                judged = study.judge(answers)
+                # What breaks with few surfaces breaks with more.
+                more = None if swept.faults else study.more(answers, judged.findings)
         findings, page = judged.findings, judged.page(study.title, answers)
         whole = {task: each for task, each in swept.outcomes.items() if task not in swept.faults}
         unsolved = study.unsolved(whole)
@@ -107,14 +108,15 @@ def _write(done, folder, report, progress) -> Path | None:
     return written[-1] if report else None
 
 
-def _solve(study, had, output, workers, scheduler, executor, progress) -> SweepResult:
+def _solve(study, had, output, workers, scheduler, executor, processes, progress) -> SweepResult:
     """Solve what neither a sweep had nor the folder has. Timed tasks are solved here, whatever the executor."""
     swept = SweepResult({}, 0, 0, 0.0)
     for batch in study.batches():
         if tasks := [task for task in batch.tasks if task not in had.outcomes]:
             with progress.solving() as on_solved:
                 store = Store(output / SOLVED)
-                found = runner.sweep(tasks, store, workers, on_solved, batch.timed, scheduler, executor)
+                others = scheduler, executor, processes
+                found = runner.sweep(tasks, store, workers, on_solved, batch.timed, *others)
             swept = swept.joined(found)
     return swept
 
