@@ -1,4 +1,4 @@
-"""How the pages are built, by `sphinx-build -W --keep-going -b html docs build/docs`: offline, executed once."""
+"""Settings of Sphinx, for `sphinx-build -W --keep-going -b html docs build/docs`: offline, executed once."""
 
 import os
 import sys

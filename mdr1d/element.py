@@ -52,7 +52,7 @@ class Solid(NamedTuple):
 
     @classmethod
     def of(cls, modes: Modes, speed: float = 1.0, shortest: float = 0.0) -> "Solid":
-        """Of modes that flow at a speed [m/s]; shorter times, or lengths, than the shortest count as that."""
+        """Solid of modes that flow at a speed [m/s]; shorter times, or lengths, count as the shortest."""
         return cls(
             modes.moduli,
             np.maximum(speed * modes.relaxation_times, shortest),

@@ -22,7 +22,7 @@ SHARED = 128  # lines at a time of each of several threads: they wait less for o
 
 @dataclass(frozen=True)
 class Engine:
-    """How planes are transformed.
+    """Library, threads and precision with which planes are transformed.
 
     library : ducc0 or fftw
     threads : that share the blocks of a product

@@ -8,20 +8,17 @@ from typing import ClassVar
 import numpy as np
 from pydantic.dataclasses import dataclass
 
-from scene import Indent, Plane, Result, Scene, Slide
+from scene import Result, Scene
 from scene.protocol import numeric_guard, refuse
 from scene.quantities import CLOSED
 from scene.signatures import readable
-from scene.terms import Term, terms_of
+from scene.terms import terms_of
 
 from ..models.law.parts import LawParts
-from ..models.law.persson import BODY, TERMS
+from ..models.law.persson import OF_BODIES
 from ..models.law.smooth import SPACE, SmoothContact
 from .measured import OffTheMap, Place, as_judged
 from .model import LAW, NORMAL
-
-# At a depth it answers for the load of the smooth body.
-TERMS = {**TERMS, Plane: BODY, Indent: Term, Slide: Term}
 
 
 @readable
@@ -56,7 +53,7 @@ class FrictionLaw:
 
     def refusals(self, scene: Scene) -> list[str]:
         """Reasons why the law does not answer the scene, one sentence each."""
-        reasons = [reason for term in terms_of(TERMS, scene) for reason in term.refusals(scene)]
+        reasons = [reason for term in terms_of(OF_BODIES, scene) for reason in term.refusals(scene)]
         return reasons or SPACE.refusals(replace(scene, roughness=None))
 
     def foreseen(self, scene: Scene) -> list[str]:

@@ -190,7 +190,7 @@ def scene_at(point: np.ndarray, seed: int = 0, periods: tuple[float, float] = PE
 def scene_on(rough: Roughness | None, point: np.ndarray, wave: float) -> Scene:
     """Scene of a roughness, or none, with all else of a point of the cube; wave : its shortest [m]."""
     shape, exponent, kind, loss, spread, tilt, branches, pressed, *_, speed = map(float, point)
-    indenter = _indenter(shape, exponent)
+    indenter = body(shape, exponent)
     solid = solid_at(kind, loss, spread, tilt, branches, speed, wave)
     rests = speed >= SLIDING
     stiffness = 2 * indenter.exponent / (indenter.exponent + 1) * solid.indentation_modulus * DEPTH * RADIUS
@@ -199,7 +199,7 @@ def scene_on(rough: Roughness | None, point: np.ndarray, wave: float) -> Scene:
     return Scene(indenter, solid, motion, rough)
 
 
-def _indenter(shape, exponent) -> Sphere | Cone | PowerLaw:
+def body(shape: float, exponent: float) -> Sphere | Cone | PowerLaw:
     if shape < CONES:
         return Cone(np.arctan(DEPTH / RADIUS / Cone(angle=np.pi / 4).mdr_coefficient))
     if shape < ROUND:

@@ -1,7 +1,7 @@
 """Friction of surfaces far finer than a grid: contacts solved with every wave, and without their finest ones.
 
-python docs/measure/extended.py [--set learned|tested]   solves what docs/results/extended.csv does not have yet, a
-contact after the other, the cheapest first, and adds its rows
+python docs/measure/extended.py [--set learned|tested] [--most POINTS]   solves the contacts that
+docs/results/extended-SET.csv does not have yet, one by one, and adds the rows of each
 """
 
 import argparse
@@ -20,7 +20,7 @@ from compare.models.law.parts import LawParts
 from scene import Prony, Refused, Scene, SelfAffine, Slide, SolveError, Spectrum, Table, Tabulated
 from scene.scales import elastic_contact
 
-TABLE = Path(__file__).parents[1] / "results" / "extended.csv"
+RESULTS = Path(__file__).parents[1] / "results"
 # Seed of each set, and contacts of each stratum in it.
 SETS = {"learned": (62_100, 18), "tested": (62_200, 24)}
 # Strata by p/p_rms with all waves, declared beforehand: the lightest contacts, light ones, partial and nearly full
@@ -32,16 +32,16 @@ POWERS = 3.0, 10.0
 FAST, OFTEN = 10.0, 0.4  # v tau over the shortest wave, and share of the contacts that are above
 TABLES = 0.4  # share of the Prony series that are given as a table of moduli
 MEASURED = 0.2  # share of spectra that are no power law, as a table of densities
-# Points to the shortest wave: of all waves where the contact is light, else; of a cut.
+# Points to the shortest wave: of all waves in a light contact, and in others; of the waves that are kept.
 FINE, USUAL, CUT = 16.0, 12.0, 8.0
 POINTS = (128, 160, 192, 256, 320, 384, 512, 640, 768, 1024, 1280, 1536, 2048, 2560, 3072, 4096)
-CUTS = 2, 4, 8, 16, 32
-LEAST_CUT = 96  # points of a grid, of the coarsest cut
+CUTS = 2, 4, 8, 16, 32  # shortest wave that is kept, over the shortest of all
+LEAST_CUT = 96  # points a side of the coarsest grid
 
 
 @dataclass(frozen=True)
 class Contact:
-    """A rough scene of a set, its stratum and the points its waves need."""
+    """A rough scene of a set, its stratum, and x = p/p_rms with all waves."""
 
     set: str
     number: int
@@ -83,7 +83,7 @@ def drawn(draw: np.random.Generator, seed: int) -> Scene:
         solid = table_of(solid)
     body = u[16]
     shape = design.CONES / 2 if body < 0.3 else (design.CONES + design.ROUND) / 2 if body < 0.65 else 0.9
-    indenter = design._indenter(shape, design.within(u[8], design.EXPONENTS, POWERS))
+    indenter = design.body(shape, design.within(u[8], design.EXPONENTS, POWERS))
     rough = SelfAffine(
         hurst=HURSTS[0] + u[9] * (HURSTS[1] - HURSTS[0]),
         rms_height=design.DEPTH * design.between(HEIGHTS, u[10]),
@@ -124,15 +124,15 @@ def table_of(solid: Prony) -> Tabulated:
 
 
 def row(contact: Contact, factor: float, shortest: float, points: int) -> dict:
-    """One solve, its law and that of all waves under the load that it found."""
+    """Numbers of one solve, its law, and the law of all waves under the load that it found."""
     scene = contact.scene if factor == 1 else without(contact.scene, shortest)
-    told = {"set": contact.set, "number": contact.number, "stratum": contact.stratum, "factor": factor}
-    told |= {"points": points, "shortest": shortest, "x": contact.x}
+    numbers = {"set": contact.set, "number": contact.number, "stratum": contact.stratum, "factor": factor}
+    numbers |= {"points": points, "shortest": shortest, "x": contact.x}
     try:
         found = BEM(points=points).solve(scene)
     except (SolveError, Refused) as error:
-        return told | {"reason": str(error)[:120]}
-    told |= {
+        return numbers | {"reason": str(error)[:120]}
+    numbers |= {
         "extent": found.settings["extent"],
         "friction": found.friction_coefficient,
         "load": found.normal_force,
@@ -148,8 +148,8 @@ def row(contact: Contact, factor: float, shortest: float, points: int) -> dict:
     try:
         own, whole = (LawParts.of(under(each, found.normal_force)) for each in (scene, contact.scene))
     except SolveError as error:
-        return told | {"reason": f"law: {error}"[:120]}
-    return told | {
+        return numbers | {"reason": f"law: {error}"[:120]}
+    return numbers | {
         "law": own.friction_coefficient,
         "law_rough": own.rough,
         "law_x": own.x,
@@ -192,7 +192,7 @@ def main() -> None:
     parser.add_argument("--set", choices=SETS, default="learned")
     parser.add_argument("--most", type=int, default=POINTS[-1], help="points of the finest grid")
     given = parser.parse_args()
-    path = TABLE.with_name(f"extended-{given.set}.csv")
+    path = RESULTS / f"extended-{given.set}.csv"
     rows = read_csv(path).to_dict("records") if path.exists() else []
     done = {each["number"] for each in rows}
     for contact in contacts(given.set):

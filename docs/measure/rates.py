@@ -1,4 +1,4 @@
-"""How often intervals of the judge hold the truth and verdicts are right: numbers of docs/results/accuracy.md.
+"""Rates at which intervals hold the truth and verdicts are right: numbers of docs/results/accuracy.md.
 
 python docs/measure/rates.py
 

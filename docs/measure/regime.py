@@ -131,7 +131,7 @@ def slow_answer(found: DataFrame) -> str:
 
 
 def fast_answer(found: DataFrame) -> str:
-    """How far Eq. 23 and the plateau are off, in two sentences."""
+    """Two sentences on the errors of Eq. 23 and of the plateau."""
     missed = [
         _shown(finding(found, f"eq23.predicted{which}", body, model)).replace(" %", "")
         for model, which in (("1D", ""), ("3D", ""), ("3D", BEYOND))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from bem3d import BEM, heights, press
-from scene import Cylinder, Elastic, Indent, Plane, Program, Refused, Scene, SelfAffine, SolveError, Sphere, Stage
+from scene import Cylinder, Elastic, Indent, Plane, Program, Scene, SelfAffine, SolveError, Sphere, Stage
 
 ROUGH = SelfAffine(hurst=0.8, rms_height=1e-6, longest=1e-3, shortest=1.25e-4, seed=3)
 ELASTIC = Elastic(1e6)
@@ -69,8 +69,3 @@ def test_a_ball_is_pressed_as_hertz_says(pressed):
     assert answer.depth == pytest.approx(depth, rel=2e-3)
     assert answer.normal_force == pytest.approx(LOAD, rel=2e-3)
     np.testing.assert_allclose(answer.fields["height"], (x**2 + x[:, None] ** 2) / 2e-2, atol=1e-9)
-
-
-def test_a_plane_that_is_no_square_is_refused():
-    with pytest.raises(Refused, match="the cell of a Plane is a square"):
-        press(WAVE[:16], 1e-6, MODULUS, pressure=1.0)

@@ -10,20 +10,18 @@ from pydantic import Field
 from pydantic.dataclasses import dataclass
 
 from bem3d import BEM
-from scene import Indent, Plane, Profile, Result, Scene, SelfAffine, Slide, SolveError
+from scene import Profile, Result, Scene, SelfAffine, Slide, SolveError, Topography
 from scene.protocol import numeric_guard, refuse
 from scene.quantities import CLOSED, Whole
 from scene.signatures import readable
-from scene.terms import Term, terms_of
+from scene.terms import terms_of
 
 from .bands import Bands
 from .parts import LawParts
-from .persson import BODY
-from .persson import TERMS as OF_SPECTRUM
+from .persson import OF_BODIES
 
 FINE, ENOUGH = 8.0, 6.5  # points to the shortest wave that is kept: as planned, and at least
 COARSE = 64  # points of the contact that shows how wide the window is
-TERMS = {**OF_SPECTRUM, Plane: BODY, Indent: Term, Slide: Term}
 ROUNDS = 4  # of the cut, which follows from the window, which follows from the contact
 
 
@@ -56,7 +54,7 @@ class ExtendedBEM:
 
     def refusals(self, scene: Scene) -> list[str]:
         """Reasons why the scene cannot be solved, one sentence each."""
-        reasons = [reason for term in terms_of(TERMS, scene) for reason in term.refusals(scene)]
+        reasons = [reason for term in terms_of(OF_BODIES, scene) for reason in term.refusals(scene)]
         return reasons or BEM(points=self.points).refusals(_coarsest(scene))
 
     def solve(self, scene: Scene) -> Result:
@@ -71,8 +69,8 @@ class ExtendedBEM:
         finest = rough.shortest
         shortest = max(finest, FINE * first.settings["extent"] / self.points)
         for _ in range(ROUNDS):
-            if shortest > rough.longest / 2:
-                needed = 2 * shortest / rough.longest * self.points
+            if shortest > coarsest_wave(rough):
+                needed = shortest / coarsest_wave(rough) * self.points
                 raise SolveError(f"points = {self.points} hold no wave of the roughness: {needed:.0f} would")
             kept = scene if shortest <= finest else without(scene, shortest)
             cut: Any = kept.roughness
@@ -96,7 +94,6 @@ class ExtendedBEM:
             scene=scene,
             solver=self.name,
             friction_force=(solved + added) * found.normal_force,
-            operator_applications=found.operator_applications,
             seconds=process_time() - start,
             measures={
                 **found.measures,
@@ -112,9 +109,15 @@ class ExtendedBEM:
 def _coarsest(scene):
     """The scene with the longest waves alone; as it stands where it has no finer ones that rub."""
     rough = scene.roughness
-    if rough is None or rough.flat or not isinstance(scene.motion, Slide) or rough.shortest >= rough.longest / 2:
+    if rough is None or rough.flat or not isinstance(scene.motion, Slide):
         return scene
-    return without(scene, rough.longest / 2)
+    longest = coarsest_wave(rough)
+    return scene if rough.shortest >= longest else without(scene, longest)
+
+
+def coarsest_wave(rough: Any) -> float:
+    """Longest wave [m] that can be the shortest of a roughness: half of its period, along its shorter side."""
+    return (min(rough.sides) if isinstance(rough, Topography) else rough.longest) / 2
 
 
 def slope(bands: Bands) -> float:

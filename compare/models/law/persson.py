@@ -82,6 +82,8 @@ TERMS = {
     Isotropic: Spectrum,
     **dict.fromkeys((Topography, Profile), Measured),
 }
+# Terms of the friction law: it takes bodies, not planes, and takes them at a depth too.
+OF_BODIES = {**TERMS, Plane: BODY, Indent: Term, Slide: Term}
 
 
 @readable

@@ -66,7 +66,7 @@ class TemperatureShifts:
 
     @property
     def covariance(self) -> np.ndarray:
-        """Of ln a_T, where the shifts are found (K, K)."""
+        """Covariance of ln a_T at all temperatures (K, K), where the shifts are found."""
         errors = np.concatenate([each.error for each in self.isotherms])
         return self.levers * errors**2 @ self.levers.T
 
