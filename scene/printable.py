@@ -10,9 +10,8 @@ LONGEST = 200  # letters of a name or a value in a message
 
 def printable(text: str) -> str:
     r"""A text whose unprintable characters, line ends aside, are written as escapes, as \x1b; blanks are alike."""
-    if text.isprintable():
-        return text
-    return "".join(each if each.isprintable() or each == "\n" else _escape(each) for each in text)
+    lines = (line if line.isprintable() else "".join(map(_escape, line)) for line in text.split("\n"))
+    return "\n".join(lines)
 
 
 def brief(text: str, most: int = LONGEST) -> str:
@@ -31,6 +30,8 @@ def shown(text: object) -> str:
 
 
 def _escape(letter):
+    if letter.isprintable():
+        return letter
     return " " if category(letter) == "Zs" else letter.encode("unicode_escape").decode("ascii")
 
 

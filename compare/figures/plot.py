@@ -97,7 +97,7 @@ def finished(plot: Plot, look: style.Look = style.PRINT) -> Figure:
         try:
             drawing = plot.figure()
             drawing.set_dpi(rcParams["savefig.dpi"])
-            drawing.draw_without_rendering()
+            drawing.get_layout_engine().execute(drawing)
             drawing.set_layout_engine(None)  # a placeholder would be drawn once more before a file is
         except UserWarning as warning:
             if NO_ROOM not in str(warning):

@@ -65,8 +65,10 @@ def joined(contacts: Iterable[SceneTask]) -> list[SceneTask | Continuation]:
     return [Continuation(tuple(path)) if len(path) > 1 else path[0] for path in cut]
 
 
-def by_contact(outcomes: Mapping[Task, Outcome]) -> dict[Task, Outcome]:
+def by_contact(outcomes: Mapping[Task, Outcome]) -> Mapping[Task, Outcome]:
     """Outcomes by contact, also of those that were solved on a path."""
+    if not any(isinstance(task, Continuation) for task in outcomes):
+        return outcomes
     found: dict[Task, Outcome] = {}
     for task, outcome in outcomes.items():
         if isinstance(task, Continuation):

@@ -128,7 +128,7 @@ class Collapse:
         load = np.exp(np.concatenate([curve.log_load for curve in self.curves]))
         frame = DataFrame({"speed": np.repeat(self.speeds, counts), "normal_force": load})
         frame["shifted_force"] = load * np.exp(np.repeat(shifts, counts))
-        for name, by in (("friction_coefficient", 0.0 * self.speeds), ("shifted_friction", lifts)):
+        for name, by in (("friction_coefficient", np.zeros_like(self.speeds)), ("shifted_friction", lifts)):
             if by is not None:
                 moved = replace(self.log_friction, value=self.log_friction.value + np.repeat(by, counts))
                 frame = frame.join(np.exp(DataFrame(moved.columns(name))))

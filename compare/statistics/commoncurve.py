@@ -95,6 +95,17 @@ class Fit:
         most = min(self.loads - 1, self.degree)
         return np.array([(i, k) for k in range(most + 1) for i in range(self.degree - k + 1)]).T
 
+    @cached_property
+    def derivatives(self) -> np.ndarray:
+        """Columns are the derivatives of the polynomials (degree, degree + 1)."""
+        return chebyshev.chebder(np.eye(self.degree + 1))
+
+    @cached_property
+    def across(self) -> np.ndarray:
+        """Polynomials of the second variable in each function, at every point (points, M)."""
+        _, others = self.terms
+        return chebyshev.chebvander(scaled_to_one(self.column("log_load"))[0], others.max())[:, others]
+
     @property
     def unknowns(self) -> int:
         """Number of functions, levels and shifts."""
@@ -105,11 +116,9 @@ class Fit:
         x = self.column(self.along) + np.concatenate([[0], np.cumsum(increments)])[self.owner]
         scaled, half = scaled_to_one(x)
         along = chebyshev.chebvander(scaled, self.degree)
-        # Columns are the derivatives of the polynomials.
-        slopes = along[:, :-1] @ chebyshev.chebder(np.eye(self.degree + 1)) / half
-        powers, others = self.terms
-        across = chebyshev.chebvander(scaled_to_one(self.column("log_load"))[0], others.max())
-        functions, rates = (each[:, powers] * across[:, others] for each in (along, slopes))
+        slopes = along[:, :-1] @ self.derivatives / half
+        powers, _ = self.terms
+        functions, rates = (each[:, powers] * self.across for each in (along, slopes))
         # An increment of the level moves a curve down.
         basis = np.hstack([functions, -self.later]) if self.lifted else functions
         # Where places coincide once shifted, fewer functions are independent than there are.

@@ -1,12 +1,16 @@
 """Friction of surfaces far finer than a grid: contacts solved with every wave, and without their finest ones.
 
-python docs/measure/extended.py [--set learned|tested] [--most POINTS]   solves the contacts that
+python docs/measure/extended.py [--set learned|tested]   solves the contacts that
 docs/results/extended-SET.csv does not have yet, one by one, and adds the rows of each
+
+Contacts are drawn until each stratum has its number of those that a grid can show: with all waves on a grid of at
+most 4096^2 points, with a grid error of at most 1 %, and with at least one cut on a grid of 96^2 points or more.
 """
 
 import argparse
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import count
 from math import ceil, inf
 from pathlib import Path
 
@@ -37,6 +41,8 @@ FINE, USUAL, CUT = 16.0, 12.0, 8.0
 POINTS = (128, 160, 192, 256, 320, 384, 512, 640, 768, 1024, 1280, 1536, 2048, 2560, 3072, 4096)
 CUTS = 2, 4, 8, 16, 32  # shortest wave that is kept, over the shortest of all
 LEAST_CUT = 96  # points a side of the coarsest grid
+NEARLY = 0.8  # share of the points to the shortest wave that suffices
+TRUE = 0.01  # greatest grid error of what counts as true
 
 
 @dataclass(frozen=True)
@@ -55,21 +61,18 @@ class Contact:
         return FINE if self.x < STRATA["light"][1] else USUAL
 
 
-def contacts(name: str) -> Iterator[Contact]:
-    """Contacts of a set: drawn until each stratum is full."""
-    seed, each = SETS[name]
-    draw, wanted = np.random.default_rng(seed), dict.fromkeys(STRATA, each)
-    number = 0
-    while any(wanted.values()):
-        number += 1
+def candidates(name: str) -> Iterator[Contact]:
+    """Contacts of the strata, without end."""
+    seed, _ = SETS[name]
+    draw = np.random.default_rng(seed)
+    for number in count(1):
         scene = drawn(draw, 1000 * number + seed)
         try:
             x = LawParts.of(scene).x
         except (SolveError, Refused):
             continue
         stratum = next((key for key, (low, high) in STRATA.items() if low <= x < high), None)
-        if stratum and wanted[stratum] and scene.roughness.rms_height < elastic_contact(scene).depth:
-            wanted[stratum] -= 1
+        if stratum and scene.roughness.rms_height < elastic_contact(scene).depth:
             yield Contact(name, number, stratum, scene, x)
 
 
@@ -159,30 +162,32 @@ def row(contact: Contact, factor: float, shortest: float, points: int) -> dict:
     }
 
 
-def solved(contact: Contact, most: int) -> list[dict] | None:
-    """Rows of a contact; None where it needs more points than `most`."""
-    shortest = contact.scene.roughness.shortest
-    coarse = without(contact.scene, min(16 * shortest, contact.scene.roughness.longest / 2.01))
-    extent = inf
+def solved(contact: Contact) -> list[dict]:
+    """Rows of a contact: with every wave, on a grid fine enough for them, and at each cut."""
+    rough = contact.scene.roughness
+    numbers = {"set": contact.set, "number": contact.number, "stratum": contact.stratum, "factor": 1}
+    coarse, extent = without(contact.scene, min(16 * rough.shortest, rough.longest / 2.01)), inf
     for points in (64, 128, 256):
         try:
             extent = BEM(points=points).solve(coarse).settings["extent"]
             break
         except (SolveError, Refused):
             continue
-    needed = contact.pixels * extent / shortest
-    if not needed <= POINTS[-1]:
-        return [
-            {"set": contact.set, "number": contact.number, "factor": 1, "reason": f"needs {needed:.0f} points"}
-        ]
-    points = next(each for each in POINTS if each >= needed)
-    if points > most:
-        return None
-    rows = [row(contact, 1, shortest, points)]
+    while True:
+        needed = contact.pixels * extent / rough.shortest
+        if not LEAST_CUT * CUTS[0] <= needed <= POINTS[-1]:
+            return [numbers | {"reason": f"needs {needed:.0f} points"}]
+        whole = row(contact, 1, rough.shortest, next(each for each in POINTS if each >= needed))
+        if whole.get("pixels", inf) >= NEARLY * contact.pixels or whole["extent"] <= extent:
+            break
+        extent = whole["extent"]  # of the contact with all waves, which is wider
+    if not (whole.get("whole", 0.0) > 0 and whole["error"] <= TRUE):
+        return [whole | {"reason": whole.get("reason", f"grid error {whole['error']:.2g}")}]
+    rows = [whole]
     for factor in CUTS:
-        length = factor * shortest
-        fewer = 2 * ceil(CUT * extent / length / 2)
-        if fewer >= LEAST_CUT and length <= contact.scene.roughness.longest / 2:
+        length = factor * rough.shortest
+        fewer = 2 * ceil(CUT * whole["extent"] / length / 2)
+        if fewer >= LEAST_CUT and length <= rough.longest / 2:
             rows.append(row(contact, factor, length, fewer))
     return rows
 
@@ -190,20 +195,24 @@ def solved(contact: Contact, most: int) -> list[dict] | None:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--set", choices=SETS, default="learned")
-    parser.add_argument("--most", type=int, default=POINTS[-1], help="points of the finest grid")
-    given = parser.parse_args()
-    path = RESULTS / f"extended-{given.set}.csv"
+    name = parser.parse_args().set
+    path = RESULTS / f"extended-{name}.csv"
     rows = read_csv(path).to_dict("records") if path.exists() else []
-    done = {each["number"] for each in rows}
-    for contact in contacts(given.set):
-        if contact.number in done:
+    done = {each["number"]: each for each in rows if each["factor"] == 1}
+    wanted = dict.fromkeys(STRATA, SETS[name][1])
+    for contact in candidates(name):
+        if not any(wanted.values()):
+            break
+        if not wanted[contact.stratum]:
             continue
-        found = solved(contact, given.most)
-        if found is None:
-            continue
-        rows += found
-        DataFrame(rows).to_csv(path, index=False)
-        print(contact.set, contact.number, contact.stratum, len(found), "solves", flush=True)
+        if contact.number not in done:
+            found = solved(contact)
+            rows += found
+            DataFrame(rows).to_csv(path, index=False)
+            done[contact.number] = found[0]
+            print(contact.set, contact.number, contact.stratum, len(found), "solves", flush=True)
+        reason = done[contact.number].get("reason")
+        wanted[contact.stratum] -= not (isinstance(reason, str) and reason)
 
 
 if __name__ == "__main__":

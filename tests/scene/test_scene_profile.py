@@ -122,6 +122,12 @@ def test_laws_on_the_lattice_are_line_scans_of_self_affine_surfaces():
     assert known.rms_height / known.rms_slope(cutoff) == pytest.approx(height, rel=ROUNDING)
 
 
+def test_a_line_with_regular_grooves_does_not_follow_the_law():
+    grooves = HEIGHTS.std() * np.sin(2 * np.pi * np.arange(len(HEIGHTS)) / 20)
+    follow = [linescan.fit(HEIGHTS + share * grooves, SPACING).follows for share in (0, 0.1, 0.5)]
+    assert follow == [True, True, False]
+
+
 @pytest.mark.parametrize("factor", [1e-40, 1e40])
 def test_the_fit_scales_with_heights_and_lengths(factor):
     law, other = PROFILE.law, Profile(heights=factor * HEIGHTS, spacing=SPACING / 3).law
