@@ -1,21 +1,24 @@
 """`FrictionLaw`: friction of a rough body in three dimensions, from its spectrum and the trust map."""
 
+import csv
 from dataclasses import replace
-from math import exp, nan, pi
+from functools import cache
+from math import exp, log, nan, pi
+from pathlib import Path
 from time import process_time
 from typing import ClassVar
 
 import numpy as np
 from pydantic.dataclasses import dataclass
 
-from scene import Result, Scene
+from scene import Plane, Result, Scene
 from scene.protocol import numeric_guard, refuse
 from scene.quantities import CLOSED
 from scene.signatures import readable
 from scene.terms import terms_of
 
 from ..models.law.parts import LawParts
-from ..models.law.persson import OF_BODIES
+from ..models.law.persson import OF_LAW
 from ..models.law.smooth import SPACE, SmoothContact
 from .measured import OffTheMap, Place, as_judged
 from .model import LAW, NORMAL
@@ -35,9 +38,9 @@ class FrictionLaw:
     computed under the load of the smooth body. A smooth body has the answer of its solve.
 
     Result.measures: bare_friction, the coefficient of the law alone; law_ratio, law over 3D; friction_low and
-    friction_high, interval of 95 % of the mean over surfaces; outside, 1 where the map does not know the ratio, so
-    that ratio and interval are NaN. friction_of_shape, friction_of_roughness [N], parts of the bare law;
-    nominal_radius [m]; pressure_ratio x, nominal pressure over p_rms; share_of_full_contact S(x);
+    friction_high, interval of 95 % of the mean over surfaces; outside, 1 where the map does not know the ratio,
+    which is NaN, so that the interval is that of one surface. friction_of_shape, friction_of_roughness [N], parts
+    of the bare law; nominal_radius [m]; pressure_ratio x, nominal pressure over p_rms; share_of_full_contact S(x);
     full_contact_friction [N], F_full times the nominal area. There are no fields.
     """
 
@@ -53,12 +56,12 @@ class FrictionLaw:
 
     def refusals(self, scene: Scene) -> list[str]:
         """Reasons why the law does not answer the scene, one sentence each."""
-        reasons = [reason for term in terms_of(OF_BODIES, scene) for reason in term.refusals(scene)]
-        return reasons or SPACE.refusals(replace(scene, roughness=None))
+        reasons = [reason for term in terms_of(OF_LAW, scene) for reason in term.refusals(scene)]
+        return reasons or _smooth(scene, SPACE.refusals)
 
     def foreseen(self, scene: Scene) -> list[str]:
         """Reasons why the smooth contact would have no answer, as far as a coarse one shows."""
-        return SPACE.foreseen(replace(scene, roughness=None))
+        return _smooth(scene, SPACE.foreseen)
 
     def solve(self, scene: Scene) -> Result:
         """Friction and its parts. Raises Refused, and SolveError where the smooth contact has no answer."""
@@ -100,18 +103,68 @@ class FrictionLaw:
         )
 
 
+def _smooth(scene, asked):
+    """What a solver says of the smooth body in place of the rough one; nothing of a rough plane."""
+    rough = scene.roughness is not None and not scene.roughness.flat
+    return [] if isinstance(scene.indenter, Plane) and rough else asked(replace(scene, roughness=None))
+
+
 def _law_over_3d(scene: Scene) -> tuple[LawParts, float, float]:
     """Parts of the law, its ratio to three dimensions, and the standard error of the logarithm of the ratio.
 
-    Ratio and error are NaN where the map does not know them, 1 and 0 where nothing rubs.
+    The ratio is NaN where the map does not know it, and the error that of tested contacts; 1 and 0 where nothing
+    rubs.
     """
     try:
         place = Place.of(as_judged(scene))
     except OffTheMap:
-        return LawParts.of(scene), nan, nan
+        parts = LawParts.of(scene)
+        return parts, nan, known_errors(scene, parts.x).half / NORMAL
     if not place.law.friction_coefficient:
         return place.law, 1.0, 0.0
     if place.beyond:
-        return place.law, nan, nan
+        return place.law, nan, known_errors(scene, place.law.x).half / NORMAL
     logarithm, error, _ = place.predicted(LAW)
     return place.law, exp(logarithm), error
+
+
+TESTED = Path(__file__).with_name("outside.csv")
+DEPTH = "depth"
+UNTESTED = log(3.0)  # half the interval of friction where no contact was tested: a guess
+
+
+@dataclass(frozen=True, config=CLOSED)
+class Tested:
+    """Errors of one surface by the bare law, on contacts whose waves are too many for the trust map.
+
+    least, most : p/p_rms of the contacts; contacts : their number, 0 where none was tested
+    half : half an interval of 95 %: of the logarithm of friction, or of the depth over the rms height
+    """
+
+    quantity: str
+    body: str
+    least: float
+    most: float
+    contacts: int
+    half: float
+
+    @property
+    def words(self) -> str:
+        """What the interval rests on."""
+        if not self.contacts:
+            return "no contact like it was tested, and its interval is a guess"
+        return f"{self.contacts} contacts with p/p_rms of {self.least:g} to {self.most:g} were that far off"
+
+
+@cache
+def _tested():
+    with TESTED.open(encoding="utf-8", newline="") as file:
+        return tuple(Tested(**row) for row in csv.DictReader(file))
+
+
+def known_errors(scene: Scene, x: float, quantity: str = "friction") -> Tested:
+    """Errors of tested contacts of this kind of body; x : p/p_rms."""
+    body = "plane" if isinstance(scene.indenter, Plane) else "body"
+    none = Tested(quantity, body, x, x, 0, UNTESTED)
+    found = (each for each in _tested() if (each.quantity, each.body) == (quantity, body))
+    return next((each for each in found if each.least <= x < each.most), none)

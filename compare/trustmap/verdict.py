@@ -13,6 +13,7 @@ from scene import Doubt, Indent, Profile, Scene, Slide, SolveError, Spectrum, do
 from scene.doubt import beyond_linear, beyond_table
 
 from ..solving.words import capital, interval, off, share
+from .estimate import NONE_KNOWN, Estimates, estimates
 from .groups import LINE, SPACE, SmoothReference
 from .measured import OffTheMap, Place, as_judged, placed, unmeasured
 from .model import LAW, MOST_SCATTER, NORMAL, RATIOS, asked_of, lost
@@ -102,6 +103,7 @@ class Advice:
     groups : dimensionless groups by name, as numbers; empty of a smooth body and of what was never measured
     doubts : about the scene
     notes : on what was read for it
+    estimates : friction, depth or force themselves
     """
 
     friction: Correction | None
@@ -111,6 +113,7 @@ class Advice:
     groups: Mapping[str, float]
     doubts: tuple[Doubt, ...] = ()
     notes: tuple[str, ...] = ()
+    estimates: Estimates = NONE_KNOWN
 
     @property
     def corrections(self) -> dict[str, Correction]:
@@ -143,6 +146,11 @@ class Advice:
 
     def __str__(self) -> str:
         lines = [*(f"doubtful: {each}" for each in self.doubts), *(f"note: {each}" for each in self.notes)]
+        lines += map(str, self.estimates.answers)
+        if isfinite(finer := self.estimates.finer):
+            lines.append(
+                f"waves half as short as the shortest would add {share(finer)} of friction, by the law alone"
+            )
         lines += [self.choice] if self.choice else []
         lines += [f"{SUBJECTS[name]}: {worth}" for name, worth in self.corrections.items()]
         if self.groups:
@@ -166,7 +174,9 @@ def trust(scene: Scene) -> Advice:
     A measured line is judged as the surface that is fitted to it. Beyond every linear theory of contact there is
     no advice: 3D is as linear as 1D.
     """
-    found = replace(_advised(as_judged(scene)), doubts=doubts(scene), notes=notes(scene))
+    found = replace(
+        _advised(as_judged(scene)), doubts=doubts(scene), notes=notes(scene), estimates=estimates(scene)
+    )
     if isinstance(scene.roughness, Profile | Spectrum):
         why = FITTED if isinstance(scene.roughness, Profile) else SHAPED
         noted = {name: replace(each, reason=f"{each.reason} {why}") for name, each in found.corrections.items()}

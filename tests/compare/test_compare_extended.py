@@ -1,6 +1,7 @@
 """Boundary elements on the waves of a grid, and the law for the others."""
 
 from dataclasses import replace
+from math import inf
 
 import numpy as np
 import pytest
@@ -11,10 +12,10 @@ from compare.models.law.extended import ExtendedBEM, without
 from compare.models.law.parts import LawParts
 from scene import (
     Indent,
+    Plane,
     Scene,
     SelfAffine,
     Slide,
-    SolveError,
     Spectrum,
     Sphere,
     StandardLinearSolid,
@@ -74,8 +75,17 @@ def test_surfaces_finer_than_any_grid_and_coarser_than_few_points():
     fine = replace(ROUGH, shortest=1e-8)
     coarse, finer = (ExtendedBEM(points=each).solve(replace(SCENE, roughness=fine)) for each in (160, 320))
     assert coarse.friction_coefficient == pytest.approx(finer.friction_coefficient, rel=0.05)
-    with pytest.raises(SolveError, match=r"points = 64 hold no wave of the roughness: .* would"):
-        ExtendedBEM(points=64).solve(replace(SCENE, roughness=replace(fine, longest=2e-4)))
+    none = ExtendedBEM(points=64).solve(replace(SCENE, roughness=replace(fine, longest=2e-4)))
+    smooth = BEM(points=64).solve(replace(SCENE, roughness=None))
+    assert (none.measures["shortest_kept"], none.measures["friction_kept"]) == (inf, smooth.friction_coefficient)
+
+
+def test_planes_are_solved_on_their_longest_waves():
+    fine = replace(ROUGH, longest=4e-4, shortest=2e-5)
+    scene = Scene(Plane(), SOLID, Slide(speed=0.1, pressure=1e5), fine)
+    found, every = ExtendedBEM(points=64).solve(scene), BEM(points=256).solve(scene)
+    assert found.measures["shortest_kept"] == pytest.approx(8 * fine.longest / 64)
+    assert found.measures["friction_low"] < every.friction_coefficient < found.measures["friction_high"]
 
 
 @pytest.mark.parametrize("changed", [{}, {"roughness": None}, {"motion": Indent(load=1.0)}])

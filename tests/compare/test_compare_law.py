@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 from itertools import pairwise
-from math import hypot, isnan, log, pi
+from math import exp, hypot, isnan, log, pi
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +17,8 @@ from compare import FrictionLaw
 from compare.models.law.bands import FASTER, Bands, FullContact
 from compare.models.law.nominal import GAPS, NominalContact
 from compare.models.law.parts import LEAST, MOST, Share, coefficients
+from compare.models.law.persson import Persson
+from compare.trustmap.friction_law import known_errors
 from scene import (
     CrossedWaves,
     Cylinder,
@@ -119,11 +121,24 @@ def test_roughness_that_vanishes_leaves_the_smooth_body():
 @pytest.mark.parametrize(
     "scene", [replace(SCENE, motion=Slide(speed=0.1, load=1e-12)), replace(SCENE, roughness=HIGH)]
 )
-def test_off_the_map_the_answer_is_the_bare_law_and_has_no_interval(scene):
+def test_off_the_map_the_answer_is_the_bare_law_with_the_interval_of_tested_contacts(scene):
     answer = FrictionLaw().solve(scene)
     assert answer.measures["outside"] == 1.0
-    assert answer.friction_coefficient == pytest.approx(answer.measures["bare_friction"], rel=1e-15)
-    assert all(isnan(answer.measures[name]) for name in ("law_ratio", "friction_low", "friction_high"))
+    assert isnan(answer.measures["law_ratio"])
+    friction = answer.friction_coefficient
+    assert friction == pytest.approx(answer.measures["bare_friction"], rel=1e-15)
+    half = known_errors(scene, answer.measures["pressure_ratio"]).half
+    ends = [answer.measures[name] / friction for name in ("friction_low", "friction_high")]
+    assert ends == pytest.approx([exp(-half), exp(half)])
+
+
+def test_friction_of_a_plane_is_the_share_of_full_contact_that_its_pressure_leaves():
+    scene = replace(SCENE, indenter=Plane(), motion=Slide(speed=0.1, pressure=1e9))
+    found, persson = FrictionLaw().solve(scene), Persson().solve(scene)
+    assert found.friction_coefficient == pytest.approx(persson.friction_coefficient, rel=1e-9)  # in full contact
+    assert found.measures["full_contact_friction"] == pytest.approx(found.friction_force, rel=1e-9)
+    light = FrictionLaw().solve(replace(scene, motion=Slide(speed=0.1, pressure=1e3)))
+    assert light.measures["pressure_ratio"] == pytest.approx(1e-6 * found.measures["pressure_ratio"])
 
 
 def test_the_formula_and_the_layer_are_those_of_the_planes_that_were_solved():
@@ -151,7 +166,7 @@ def test_no_unit_of_length_load_or_time_matters(factor):
 @pytest.mark.parametrize(
     ("scene", "message"),
     [
-        (replace(SCENE, indenter=Plane(), motion=Slide(speed=0.1, pressure=1e4)), "body of revolution"),
+        (replace(SCENE, indenter=Plane(), motion=Slide(speed=0.1, gap=1e-6)), "no claim on the gap"),
         (replace(SCENE, indenter=Cylinder(1e-2), motion=Slide(speed=0.1, line_load=10.0)), "body of revolution"),
         (replace(SCENE, roughness=CrossedWaves(amplitude=1e-6, wavelength=1e-3)), "SelfAffine"),
         (replace(SCENE, roughness=replace(ROUGH, shortest=None)), "state shortest"),

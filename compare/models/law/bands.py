@@ -1,7 +1,8 @@
 """Isotropic roughness as bands of waves, and what they do in full contact with a solid that flows past them."""
 
 from dataclasses import dataclass, replace
-from math import hypot, log, pi, sqrt, tanh
+from math import hypot, log, pi, prod, sqrt, tanh
+from typing import Any
 
 import numpy as np
 from scipy.special import j1, jv
@@ -31,6 +32,11 @@ def directed(rough: Isotropic | Topography | Profile) -> float:
     x, y, both = (float(np.sum(waves.power * each)) for each in (q_x**2 + 0 * q_y, q_y**2 + 0 * q_x, q_x * q_y))
     half, apart = (x + y) / 2, hypot((x - y) / 2, both)
     return sqrt((half + apart) / max(half - apart, ROUNDING * half))
+
+
+def cell_area(rough: Any) -> float:
+    """Area of one period of a rough plane [m^2]."""
+    return prod(rough.sides) if isinstance(rough, Topography) else rough.period**2
 
 
 def around(elastomer: Linear, speed: float, q: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

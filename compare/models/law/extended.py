@@ -1,7 +1,10 @@
 """`ExtendedBEM`: friction of surfaces finer than a grid, by BEM on coarse waves and the law for the finer ones."""
 
+import csv
 from dataclasses import replace
-from math import pi, sqrt
+from functools import cache
+from math import exp, inf, pi, sqrt
+from pathlib import Path
 from time import process_time
 from typing import Annotated, Any, ClassVar
 
@@ -10,7 +13,7 @@ from pydantic import Field
 from pydantic.dataclasses import dataclass
 
 from bem3d import BEM
-from scene import Profile, Result, Scene, SelfAffine, Slide, SolveError, Topography
+from scene import Plane, Profile, Result, Scene, SelfAffine, Slide, SolveError, Topography
 from scene.protocol import numeric_guard, refuse
 from scene.quantities import CLOSED, Whole
 from scene.signatures import readable
@@ -18,10 +21,12 @@ from scene.terms import terms_of
 
 from .bands import Bands
 from .parts import LawParts
-from .persson import OF_BODIES
+from .persson import OF_LAW
 
 FINE, ENOUGH = 8.0, 6.5  # points to the shortest wave that is kept: as planned, and at least
 COARSE = 64  # points of the contact that shows how wide the window is
+# Beyond which what enters the interval changes no more: share of friction added, waves in the contact, x.
+LEAST_ADDED, FEW_WAVES, LEAST_WAVES, LIGHTEST = 0.02, 20.0, 0.1, 1e-4
 ROUNDS = 4  # of the cut, which follows from the window, which follows from the contact
 
 
@@ -33,12 +38,14 @@ class ExtendedBEM:
     points : a side of the grid; waves of fewer than eight pixels are left to the law
 
     The coefficient is mu_BEM(waves kept) + mu_law(all waves) - mu_law(waves kept), with both laws under the load
-    that BEM found. Where the grid holds every wave it is the coefficient of BEM. The depth belongs to the
-    contact on the waves kept.
+    that BEM found. Where the grid holds every wave it is the coefficient of BEM; where it holds none, BEM solves
+    the smooth body. The depth, or the force at a depth, is that of the contact on the waves kept.
 
-    Result.measures: those of BEM; shortest_kept [m], the shortest wave that is solved; slope_kept, the rms slope
-    of the waves kept over the rms slope of all; friction_kept and friction_added, the coefficient of the waves
-    kept and what the law adds; height_left [m], the rms height of the waves that are left to the law.
+    Result.measures: those of BEM; shortest_kept [m], the shortest wave that is solved, infinite where none is;
+    slope_kept, the rms slope of the waves kept over the rms slope of all; friction_kept and friction_added, the
+    coefficient of the waves kept and what the law adds; friction_low and friction_high, interval of 95 % of one
+    surface, from contacts that were solved with every wave too; height_left [m], the rms height of the waves that
+    are left to the law.
     """
 
     label: ClassVar[str] = "3D extended"
@@ -54,63 +61,104 @@ class ExtendedBEM:
 
     def refusals(self, scene: Scene) -> list[str]:
         """Reasons why the scene cannot be solved, one sentence each."""
-        reasons = [reason for term in terms_of(OF_BODIES, scene) for reason in term.refusals(scene)]
-        return reasons or BEM(points=self.points).refusals(_coarsest(scene))
+        reasons = [reason for term in terms_of(OF_LAW, scene) for reason in term.refusals(scene)]
+        return reasons or BEM(points=self.points).refusals(_base(scene))
 
     def solve(self, scene: Scene) -> Result:
         """Friction of all waves. Raises Refused, and SolveError as BEM does, and where the law has no answer."""
         start = process_time()
         refuse(self, scene)
-        solver, coarsest = BEM(points=self.points), _coarsest(scene)
-        rough: Any = scene.roughness
-        if coarsest is scene:
-            return replace(solver.solve(scene), solver=self.name)
-        first = BEM(points=COARSE).solve(coarsest)
-        finest = rough.shortest
-        shortest = max(finest, FINE * first.settings["extent"] / self.points)
-        for _ in range(ROUNDS):
-            if shortest > coarsest_wave(rough):
-                needed = shortest / coarsest_wave(rough) * self.points
-                raise SolveError(f"points = {self.points} hold no wave of the roughness: {needed:.0f} would")
-            kept = scene if shortest <= finest else without(scene, shortest)
-            cut: Any = kept.roughness
-            found = solver.solve(kept)
-            pixels = found.measures["points_per_shortest_wave"]
-            if kept is scene or pixels >= ENOUGH:
-                break
-            shortest *= FINE / pixels
-        else:
-            raise SolveError(
-                f"no cut of the spectrum leaves waves of {ENOUGH:g} pixels on {self.points} points a side"
-            )
+        kept, found = self._kept(scene)
         if kept is scene:
             return replace(found, solver=self.name)
         with numeric_guard():
-            own, whole = (LawParts.of(under(each, found.normal_force)) for each in (kept, scene))
-            solved, added = found.friction_coefficient, whole.friction_coefficient - own.friction_coefficient
-            every, left = Bands.of(rough), Bands.of(cut)
+            measures = _with_law(scene, kept, found)
         return replace(
             found,
             scene=scene,
             solver=self.name,
-            friction_force=(solved + added) * found.normal_force,
+            friction_force=(measures["friction_kept"] + measures["friction_added"]) * found.normal_force,
             seconds=process_time() - start,
-            measures={
-                **found.measures,
-                "shortest_kept": shortest,
-                "slope_kept": slope(left) / slope(every),
-                "friction_kept": solved,
-                "friction_added": added,
-                "height_left": sqrt(max(every.rms_height**2 - left.rms_height**2, 0.0)),
-            },
+            measures={**found.measures, **measures},
+        )
+
+    def _kept(self, scene: Scene) -> tuple[Scene, Result]:
+        """The scene with the waves that the grid holds, and the answer of BEM to it."""
+        solver, base = BEM(points=self.points), _base(scene)
+        if base is scene:
+            return scene, solver.solve(scene)
+        rough: Any = scene.roughness
+        shortest = max(rough.shortest, FINE * BEM(points=COARSE).solve(base).settings["extent"] / self.points)
+        for _ in range(ROUNDS):
+            kept = scene if shortest <= rough.shortest else without(scene, shortest)
+            found = solver.solve(kept)
+            pixels = found.measures.get("points_per_shortest_wave", FINE)
+            if kept is scene or pixels >= ENOUGH:
+                return kept, found
+            shortest *= FINE / pixels
+        raise SolveError(
+            f"no cut of the spectrum leaves waves of {ENOUGH:g} pixels on {self.points} points a side"
         )
 
 
-def _coarsest(scene):
-    """The scene with the longest waves alone; as it stands where it has no finer ones that rub."""
+def _with_law(scene, kept, found) -> dict[str, float]:
+    """What the law adds to the friction of the waves kept, and what the cut leaves."""
+    cut, every = kept.roughness, Bands.of(scene.roughness)
+    left = Bands.of(cut) if cut else replace(every, power=0 * every.power)
+    solved, added, half = found.friction_coefficient, 0.0, 0.0
+    if isinstance(scene.motion, Slide):
+        whole = LawParts.of(under(scene, found.normal_force))
+        own = LawParts.of(under(kept, found.normal_force)).friction_coefficient if cut else whole.smooth
+        added = whole.friction_coefficient - own
+    shortest = cut.shortest if cut else inf
+    if total := solved + added:
+        half = uncertainty(added / total, found.measures["contact_area"] / shortest**2, whole.x)
+    return {
+        "shortest_kept": shortest,
+        "slope_kept": slope(left) / slope(every),
+        "friction_kept": solved,
+        "friction_added": added,
+        "friction_low": total * exp(-half),
+        "friction_high": total * exp(half),
+        "height_left": sqrt(max(every.rms_height**2 - left.rms_height**2, 0.0)),
+    }
+
+
+UNCERTAINTY = Path(__file__).with_name("extended.csv")
+
+
+@cache
+def _uncertainty():
+    with UNCERTAINTY.open(encoding="utf-8", newline="") as file:
+        return {row["times"]: float(row["value"]) for row in csv.DictReader(file)}
+
+
+def uncertainty(added: float, waves: float, x: float) -> float:
+    """Half an interval of 95 % of the logarithm of friction, fitted to contacts that were solved with every wave.
+
+    added : share of friction that the law adds; waves : area of contact over the square of the shortest wave kept;
+    x : p/p_rms with all waves
+    """
+    numbers = {"one": 1.0, **scales(added, waves, x)}
+    return exp(sum(value * numbers[times] for times, value in _uncertainty().items()))
+
+
+def scales(added: Any, waves: Any, x: Any) -> dict[str, Any]:
+    """What the logarithm of the interval is linear in: little added, few waves in the contact, a light contact."""
+    return {
+        "added": np.log(np.abs(added) + LEAST_ADDED),
+        "few": np.log1p(FEW_WAVES / np.maximum(waves, LEAST_WAVES)),
+        "light": np.log1p(1 / np.maximum(x, LIGHTEST)),
+    }
+
+
+def _base(scene):
+    """What every grid holds: the smooth body, or the longest waves of a plane; the scene if it has no others."""
     rough = scene.roughness
-    if rough is None or rough.flat or not isinstance(scene.motion, Slide):
+    if rough is None or rough.flat:
         return scene
+    if not isinstance(scene.indenter, Plane):
+        return replace(scene, roughness=None)
     longest = coarsest_wave(rough)
     return scene if rough.shortest >= longest else without(scene, longest)
 
@@ -126,8 +174,10 @@ def slope(bands: Bands) -> float:
 
 
 def without(scene: Scene, shortest: float) -> Scene:
-    """The scene without the waves of its roughness that are shorter than a length [m]."""
+    """The scene without the waves of its roughness that are shorter than a length [m]; smooth where all are."""
     rough: Any = scene.roughness
+    if shortest > coarsest_wave(rough):
+        return replace(scene, roughness=None)
     if isinstance(rough, Profile):
         rough = rough.fitted
     if not isinstance(rough, SelfAffine):
@@ -139,5 +189,7 @@ def without(scene: Scene, shortest: float) -> Scene:
 
 
 def under(scene: Scene, load: float) -> Scene:
-    """The scene under a load [N]."""
+    """The scene under a load [N]; a plane is under its pressure already."""
+    if isinstance(scene.indenter, Plane):
+        return scene
     return replace(scene, motion=Slide(speed=scene.motion.speed, load=load))

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from functools import cache
-from math import pi, sqrt
+from math import log, pi, sqrt
 
 import numpy as np
 from scipy.special import ellipkm1, j0, wrightomega
@@ -26,6 +26,11 @@ THINNEST = 1e-9  # of a layer over the depth, below which there is none
 _LOGS, _GAPS = np.log(list(GAPS)), np.array(list(GAPS.values()))
 # Fall of the logarithm of a pressure per gap: below the first of these, and between each two.
 _RATES = -np.append(1 / THINNER, np.diff(_LOGS) / np.diff(_GAPS))
+
+
+def mean_gap(x: float) -> float:
+    """Mean gap of a rough plane over its rms height; x : pressure over the rms pressure of full contact."""
+    return float(np.interp(log(x), _LOGS, _GAPS)) + THINNER * min(log(x) - _LOGS[0], 0.0)
 
 
 @dataclass(frozen=True)

@@ -4,16 +4,16 @@ import csv
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
-from math import inf, pi, prod, sqrt
+from math import inf, nan, pi, prod, sqrt
 from pathlib import Path
 from typing import Any, cast
 
 import numpy as np
 
-from scene import Scene
+from scene import Plane, Scene
 from scene.scales import elastic_contact
 
-from .bands import Bands, FullContact
+from .bands import Bands, FullContact, cell_area
 from .nominal import NominalContact
 from .smooth import SmoothContact
 
@@ -116,8 +116,12 @@ class LawParts:
     def of(cls, scene: Scene, smooth: SmoothContact | None = None) -> "LawParts":
         """Parts of a rough scene. Raises SolveError where the smooth or the nominal contact has no answer.
 
+        All friction of a plane is that of its roughness, and it rides on none of its waves.
+
         smooth : its smooth contact, solved here if absent
         """
+        if isinstance(scene.indenter, Plane):
+            return cls.of_plane(scene)
         smooth = SmoothContact.of(scene) if smooth is None else smooth
         n, speed, solid = scene.indenter.exponent, scene.motion.speed, scene.solid
         rest, rough = elastic_contact(scene).depth, cast(Any, scene.roughness)
@@ -145,3 +149,13 @@ class LawParts:
             height=waves.rms_height / rest,
             ridden=sqrt(max(waves.rms_height**2 - bands.rms_height**2, 0.0)) / rest,
         )
+
+    @classmethod
+    def of_plane(cls, scene: Scene) -> "LawParts":
+        """Parts of a rough plane under a pressure, of which `height` is NaN."""
+        rough, pressed = cast(Any, scene.roughness), cast(float, scene.motion.pressure)
+        full = FullContact.of(Bands.of(rough), scene.solid, scene.motion.speed)
+        contact, share = SmoothContact.of_plane(pressed, cell_area(rough)), Share.of(full)
+        friction, greatest = float(full.friction.sum()), float(full.pressure[-1])
+        rubbed = friction * float(share(np.array(pressed / greatest))) / pressed
+        return cls(contact, 0.0, rubbed, contact.radius, friction, greatest, share, nan, 0.0)

@@ -1,7 +1,7 @@
 """`Persson`: his theory of contact and friction of a rough plane, carried over to bodies of revolution."""
 
 from dataclasses import replace
-from math import nan, prod, sqrt
+from math import nan, sqrt
 from time import process_time
 from typing import Annotated, ClassVar
 
@@ -22,7 +22,7 @@ from scene.surfaces.isotropic import Isotropic
 from scene.terms import Term, terms_of, unsupported
 
 from . import bands
-from .bands import Bands, FullContact
+from .bands import Bands, FullContact, cell_area
 from .smooth import SPACE, SmoothContact
 
 # Rms slope of a map in one direction over that across, up to which it counts as isotropic: scenes with such maps
@@ -82,8 +82,19 @@ TERMS = {
     Isotropic: Spectrum,
     **dict.fromkeys((Topography, Profile), Measured),
 }
-# Terms of the friction law: it takes bodies, not planes, and takes them at a depth too.
-OF_BODIES = {**TERMS, Plane: BODY, Indent: Term, Slide: Term}
+
+
+class Closed(Term):
+    """Motion to a gap, which no law of friction knows."""
+
+    def refusals(self, scene: Scene) -> list[str]:
+        if self.part.pressed_by == "gap":
+            return [f"motion.gap = {self.part.greatest:g}: the law makes no claim on the gap; pressure is allowed"]
+        return []
+
+
+# Terms of the friction law, which takes bodies at a depth too.
+OF_LAW = {**TERMS, Indent: Closed, Slide: Closed}
 
 
 @readable
@@ -149,7 +160,7 @@ class Persson:
 
     def _of_plane(self, scene, start):
         rough, pressure = scene.roughness, scene.motion.pressure
-        area = prod(rough.sides) if isinstance(rough, Topography) else rough.period**2
+        area = cell_area(rough)
         friction, share, ratio = self._roughness(scene, np.array([pressure]), pressure)
         found = float(friction[0]) * area, float(share[0]) * area
         measures = _measures(area, 0.0, *found, ratio) | {"mean_pressure": pressure}

@@ -1,7 +1,7 @@
 """The smooth contact that a rough body of revolution slides on: what all of its roughness is added to."""
 
 from dataclasses import dataclass, replace
-from math import pi, sqrt
+from math import nan, pi, sqrt
 from typing import Any
 
 import numpy as np
@@ -54,6 +54,11 @@ class SmoothContact:
             residual=found.residual,
             operator_applications=found.operator_applications,
         )
+
+    @classmethod
+    def of_plane(cls, pressure: float, area: float) -> "SmoothContact":
+        """A plane without its roughness, which touches everywhere."""
+        return cls(pressure * area, nan, 0.0, sqrt(area / pi), np.array([pressure]), area, nan, nan)
 
     @property
     def area(self) -> float:

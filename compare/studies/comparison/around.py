@@ -13,10 +13,12 @@ import numpy as np
 import xarray
 
 from scene import Indent, InvalidInput, Program, Refused, Scene, Shear, SolveError, Solver
+from scene.protocol import numeric_guard, why_not
 from scene.scales import elastic_contact
 
 from ...library.case import Case, doubted
 from ...models import exact
+from ...models.law.extended import ExtendedBEM
 from ...models.table import DEPTH, FORCE, FRICTION, ModelLike, Models
 from ...solving.curve import FINE, LEVELS, Curve, levels, refuse
 from ...solving.task import SceneTask
@@ -152,9 +154,26 @@ ROWS = (
 
 
 def models_of(case: Case, asked: Sequence[ModelLike] | None = None, reference: str | None = None) -> Models:
-    """Models that are asked for, else those that a case names, with the case's settings. Raises InvalidInput."""
+    """Models that are asked for, else those that a case names, with the case's settings. Raises InvalidInput.
+
+    By default they are 1D and 3D, and those of FINER where the grid in 3D cannot hold the waves.
+    """
     own: dict[str, Solver] = {"mdr": case.mdr, "bem": case.bem}
-    return Models.of(asked or case.models or None, reference or case.reference or None, own)
+    given = asked or case.models or (FINER if finer_than_its_grid(case) else None)
+    return Models.of(given, reference or case.reference or None, own)
+
+
+FINER = "law", "extended"
+EXTENDED = (
+    "Waves of fewer than eight pixels are left to the law of friction in 3D by the model 3D extended; "
+    "shortest_kept tells which wave it solved, and slope_kept their share of the rms slope."
+)
+
+
+def finer_than_its_grid(case: Case) -> bool:
+    """Whether a scene has waves that its grid in 3D cannot hold, and can be solved without them."""
+    with numeric_guard():
+        return bool(case.roughness and why_not(case.bem, case.scene)) and not why_not(ExtendedBEM(), case.scene)
 
 
 @dataclass(frozen=True)
@@ -202,7 +221,7 @@ class Around(Series):
             found = self.with_strata(_curves(self.case, self.models), _most_levels(self.scene))
             if self.case.roughness:
                 found |= {name: with_theory(found[name]) for name in (SPEED, LOAD) if name in found}
-            refuse(found.values())
+            refuse([found[OWN]])
         except (ArithmeticError, SolveError, InvalidInput) as error:
             # The case is valid; what follows from it is not.
             raise Refused("its numbers are so far apart that the contact leaves their range") from error
@@ -210,7 +229,8 @@ class Around(Series):
 
     @property
     def remarks(self) -> Sequence[str]:
-        return (*self.case.departures, *self.case.notes)
+        fine = {"ExtendedBEM"} & {each.name for each in self.models}
+        return (*self.case.departures, *self.case.notes, *([EXTENDED] if fine else []))
 
     @property
     def own(self) -> Sequence[SceneTask]:

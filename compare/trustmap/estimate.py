@@ -1,0 +1,125 @@
+"""Friction, depth and force of a scene by the cheapest model that knows them, each with an interval."""
+
+from dataclasses import dataclass, replace
+from math import nan
+
+from scene import Indent, Plane, Scene, SelfAffine, Slide, SolveError
+from scene.protocol import numeric_guard
+
+from ..models.law.bands import Bands
+from ..models.law.nominal import mean_gap
+from ..models.law.parts import LawParts
+from ..models.law.smooth import SPACE, SmoothContact
+from ..solving.words import interval
+from .friction_law import DEPTH, FrictionLaw, known_errors
+
+SCALES = {"m": (1e6, "µm"), "N": (1.0, "N"), "": (1.0, "")}
+SMOOTH = "the smooth contact on 64 and 128 points"
+GAP = "the smooth contact and the mean gap of the roughness"
+ON_THE_MAP = "the 3D law with the ratio of the trust map"
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """An answer to a scene in three dimensions, which no solve of the rough contact has checked.
+
+    quantity : friction, depth or force; unit : "", "m" or "N"
+    value, low, high : with the ends of an interval of 95 %
+    way : how it was found, in words
+    """
+
+    quantity: str
+    unit: str
+    value: float
+    low: float
+    high: float
+    way: str
+
+    def __str__(self) -> str:
+        scale, unit = SCALES[self.unit]
+        number = interval(scale * self.value, scale * self.low, scale * self.high)
+        return f"{self.quantity} {number} {unit}".rstrip() + f", by {self.way}"
+
+
+@dataclass(frozen=True)
+class Estimates:
+    """Answers to a scene, and how much its cut-off decides.
+
+    answers : friction first
+    finer : relative change of friction, by the law alone, where the shortest wave is half as long; NaN where there
+        is no spectrum to continue
+    """
+
+    answers: tuple[Estimate, ...] = ()
+    finer: float = nan
+
+
+NONE_KNOWN = Estimates()
+
+
+def estimates(scene: Scene) -> Estimates:
+    """Answers to a scene that slides steadily or rests; none where no cheap model simulates it."""
+    if not isinstance(scene.motion, Indent | Slide) or FrictionLaw().refusals(scene):
+        return NONE_KNOWN
+    try:
+        with numeric_guard():
+            return _of_rough(scene) if scene.roughness and not scene.roughness.flat else _of_smooth(scene)
+    except (SolveError, ArithmeticError):
+        return NONE_KNOWN
+
+
+def _of_smooth(scene):
+    fine, coarse = (SmoothContact.of_answer(each.solve(scene)) for each in (replace(SPACE, points=128), SPACE))
+    found = {_pressed(scene): ("load" if _pressed(scene) == "force" else "depth")}
+    found |= {"friction": "friction_coefficient"} if fine.friction_coefficient else {}
+    ends = {name: (getattr(fine, of), abs(getattr(fine, of) - getattr(coarse, of))) for name, of in found.items()}
+    return Estimates(tuple(_estimate(name, *ends[name], SMOOTH) for name in sorted(ends, reverse=True)))
+
+
+def _of_rough(scene):
+    found, answers = FrictionLaw().solve(scene), []
+    value, x = found.friction_coefficient, found.measures["pressure_ratio"]
+    if value:
+        way = ON_THE_MAP
+        if found.measures["outside"]:
+            way = f"the 3D law alone, off the trust map; {known_errors(scene, x).words}"
+        ends = (found.measures[f"friction_{end}"] for end in ("low", "high"))
+        answers.append(Estimate("friction", "", value, *ends, way))
+    if not isinstance(scene.indenter, Plane):
+        answers.append(_depth_or_force(scene, x))
+    return Estimates(tuple(answers), _of_finer(scene) if value else nan)
+
+
+def _depth_or_force(scene, x):
+    """The rough body stands further out than the smooth one under the same load, by the mean gap."""
+    name, height = _pressed(scene), Bands.of(scene.roughness).rms_height
+    gap, half = mean_gap(x) * height, known_errors(scene, x, DEPTH).half * height
+    if name == "depth":
+        return _estimate(name, SmoothContact.of(scene).depth - gap, half, GAP)
+    depth = scene.motion.depth
+    low, value, high = (
+        SmoothContact.of(replace(scene, motion=replace(scene.motion, depth=max(each, depth / 1e6)))).load
+        for each in (depth + gap - half, depth + gap, depth + gap + half)
+    )
+    return Estimate(name, "N", value, low, high, GAP)
+
+
+def _of_finer(scene):
+    """Relative change of friction by waves down to half the shortest, in the same spectrum."""
+    rough = scene.roughness
+    if not isinstance(rough, SelfAffine):
+        return nan
+    finer = replace(rough, shortest=rough.shortest / 2)
+    share = finer.share(finer.q_min, rough.q_max(0.0), finer.q_max(0.0))
+    more = replace(finer, rms_height=rough.rms_height / share**0.5)
+    own, other = (LawParts.of(replace(scene, roughness=each)).friction_coefficient for each in (rough, more))
+    return other / own - 1
+
+
+def _pressed(scene):
+    return "depth" if scene.motion.pressed_by == "load" else "force"
+
+
+def _estimate(name, value, half, way):
+    unit = {"depth": "m", "force": "N", "friction": ""}[name]
+    return Estimate(name, unit, value, value - half, value + half, way)

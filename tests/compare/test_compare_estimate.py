@@ -1,0 +1,81 @@
+"""Answers of `trust` themselves: their intervals hold what BEM finds, and the way they were found is said."""
+
+from dataclasses import replace
+from math import isnan
+
+import pytest
+
+from bem3d import BEM
+from compare import FrictionLaw
+from compare.library.case import Case
+from compare.models.law.extended import without
+from compare.models.law.parts import LawParts
+from compare.studies.comparison.around import Around
+from compare.trustmap.verdict import trust
+from scene import Indent, Kelvin, Layer, Scene, SelfAffine, Slide, Sphere
+
+SOLID = Kelvin(1e6, 1e-3)
+ROUGH = SelfAffine(hurst=0.7, rms_height=5e-6, longest=1e-3, shortest=1e-4, seed=2)
+SCENE = Scene(Sphere(10e-3), SOLID, Slide(speed=0.1, load=1.0), ROUGH)
+FINE = replace(ROUGH, shortest=1e-7)
+
+
+def answers(scene):
+    return {each.quantity: each for each in trust(scene).estimates.answers}
+
+
+@pytest.mark.parametrize(
+    "motion",
+    [Slide(speed=0.1, load=1.0), Slide(speed=0.01, load=0.1), Slide(speed=0.1, depth=5e-5), Indent(load=1.0)],
+)
+@pytest.mark.parametrize("rough", [ROUGH, None])
+def test_intervals_hold_what_a_fine_grid_finds(motion, rough):
+    scene = replace(SCENE, motion=motion, roughness=rough)
+    solved, found = BEM(points=192).solve(scene), answers(scene)
+    expected = {"force" if motion.pressed_by == "depth" else "depth"}
+    expected |= {"friction"} if solved.friction_coefficient else set()
+    truth = {"friction": solved.friction_coefficient, "depth": solved.depth, "force": solved.normal_force}
+    assert set(found) == expected
+    for name, each in found.items():
+        room = 0.03 * each.value if rough and name == "friction" else 0.0  # a mean over surfaces, and one of them
+        assert each.low - room <= truth[name] <= each.high + room, (name, each)
+
+
+def test_friction_is_that_of_the_law_and_says_whether_the_map_knows_it():
+    for scene, words in (
+        (SCENE, "with the ratio of the trust map"),
+        (replace(SCENE, roughness=FINE), "off the trust map"),
+    ):
+        found, law = answers(scene)["friction"], FrictionLaw().solve(scene)
+        assert found.value == law.friction_coefficient
+        assert (found.low, found.high) == (law.measures["friction_low"], law.measures["friction_high"])
+        assert words in str(trust(scene))
+
+
+def test_of_what_no_contact_was_tested_the_interval_is_wide_and_says_why():
+    light = replace(SCENE, motion=Slide(speed=0.1, load=1e-9), roughness=FINE)
+    found = answers(light)["friction"]
+    assert found.high > 8 * found.low
+    assert "no contact like it was tested" in found.way
+    assert answers(replace(SCENE, layer=Layer(thickness=1e-3))) == {}
+
+
+def test_waves_half_as_short_continue_the_spectrum():
+    finer = trust(SCENE).estimates.finer
+    halved = replace(ROUGH, shortest=ROUGH.shortest / 2)
+    more = replace(halved, rms_height=ROUGH.rms_height * (1 + finer))  # any height: the cut brings back the law
+    cut = without(replace(SCENE, roughness=more), ROUGH.shortest).roughness
+    scaled = replace(more, rms_height=more.rms_height * ROUGH.rms_height / cut.rms_height)
+    own, other = (LawParts.of(replace(SCENE, roughness=each)).friction_coefficient for each in (ROUGH, scaled))
+    assert finer == pytest.approx(other / own - 1, rel=1e-9)
+    assert isnan(trust(replace(SCENE, roughness=None)).estimates.finer)
+
+
+def test_waves_that_the_grid_cannot_hold_are_left_to_the_law():
+    case = Case(indenter=SCENE.indenter, elastomer=SOLID, motion=SCENE.motion, roughness=ROUGH)
+    assert {each.name for each in Around("own", case).models} == {"MDR", "BEM"}
+    fine = Around("fine", replace(case, roughness=FINE))
+    assert {each.name for each in fine.models} == {"FrictionLaw", "ExtendedBEM"}
+    assert fine.models.reference == "ExtendedBEM"
+    assert any("left to the law" in each for each in fine.remarks)
+    assert {each.name for each in Around("asked", case, ("mdr", "law")).models} == {"MDR", "FrictionLaw"}
