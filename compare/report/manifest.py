@@ -84,11 +84,10 @@ def stamp(
     swept: "SweepResult",
     solved: str,
     files: Iterable[str],
-    results: str = "",
 ) -> None:
     """Write the manifest of a folder, last of all: what it lists is there. Raises OSError.
 
-    solved : folder of what has been solved, from here; files : see `begin`; results : digest of results.nc
+    solved : folder of what has been solved, from here; files : see `begin`
     """
     left = {
         "command": study.command,
@@ -104,7 +103,6 @@ def stamp(
             for plot in page.every(Plot)
         ],
         "files": list(files),
-        "results": results,
     }
     _write(folder, left)
 

@@ -1,6 +1,5 @@
 """Folders: their names and format, the run that holds them, and files that are written whole or not at all."""
 
-import errno
 import multiprocessing
 import os
 import re
@@ -22,13 +21,8 @@ from scene.printable import brief
 LOCK = ".crosscheck-lock"  # an empty file, which stays: one that is removed could be locked twice
 PART = ".crosscheck-*.part"  # names of files that are being written
 FORMAT = 4  # of folders: it changes with the names of figures, columns and studies
-UNSTATED = 1  # files of the first format do not state it
 MANIFEST = "manifest.json"
-# Folders that commands write into themselves, and devices of Windows; letters of a folder.
-TAKEN = {"solved", "figures", "tables", "con", "prn", "aux", "nul"} | {
-    f"{device}{number}" for device in ("com", "lpt") for number in range(10)
-}
-MOST_LETTERS = 200
+TAKEN = {"solved", "figures", "tables"}  # folders that commands write into themselves
 MOST_BYTES = 2**30  # of a manifest, which has the heights of measured maps in it
 
 
@@ -118,21 +112,15 @@ def write(path: Path, fill: Callable[[IO[bytes]], Any]) -> None:
 
     Raises OSError, which names the file.
     """
-    with _named(path):
-        if path.exists() and not (path.is_file() or path.is_dir()):  # as a device, which a file would replace
-            raise OSError(errno.EINVAL, "is no regular file, and is not written over")
-        with _part(path.parent) as part:
-            with part.open("wb") as file:
-                fill(file)
-            os.replace(part, path)
+    with _named(path), _part(path.parent) as part:
+        with part.open("wb") as file:
+            fill(file)
+        os.replace(part, path)
 
 
 def make(folder: Path) -> None:
     """Make a folder, and see whether files can be written into it. Raises OSError, which names it."""
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except ValueError as error:  # of zero bytes, and of letters that no file system has
-        raise OSError(errno.EINVAL, "is a name that no file can have", str(folder)) from error
+    folder.mkdir(parents=True, exist_ok=True)
     with _named(folder), _part(folder):
         pass
 
@@ -174,16 +162,14 @@ def _named(path):
 
 
 class Stated(BaseModel):
-    """Part of a manifest that all versions have, or leave out.
+    """Part of a manifest that all versions have.
 
     format : of the folder
     finished : whether the run that writes the folder has come to its end
-    results : digest of results.nc; empty where none is stated
     """
 
-    format: int = UNSTATED
+    format: int
     finished: bool = True
-    results: str = ""
 
 
 Kind = TypeVar("Kind", bound=Stated)
@@ -220,9 +206,8 @@ def first_mistake(error: ValidationError) -> str:
 def refuse_other(path: Path, found: int) -> None:
     """Raise InvalidInput of a file in another format than this version writes."""
     if found != FORMAT:
-        age = "an earlier" if found < FORMAT else "a later"
         raise InvalidInput(
-            f"{brief(str(path))}: was written by {age} version of this program, which has other names: run the "
+            f"{brief(str(path))}: was written by another version of this program, which has other names: run the "
             "command again, which solves its contacts again"
         )
 
@@ -242,13 +227,9 @@ def folders(names: Iterable[str], what: str) -> dict[str, str]:
     """
     found: dict[str, str] = {}  # names by folder
     for name in names:
-        if not (isinstance(name, str) and name.isprintable()):
-            raise InvalidInput(f"{what} {brief(repr(name))}: a name is a text in printable letters")
         folder, why = slug(name), ""
         if folder in TAKEN:
             why = f"its folder, {folder}, has another use"
-        elif len(folder) > MOST_LETTERS:
-            why = f"its folder has more than {MOST_LETTERS} letters"
         elif folder in found:
             why = f"has the folder of {brief(found[folder])!r}, {folder}"
         if why:

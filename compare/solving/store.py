@@ -26,8 +26,7 @@ TRACE = ".fault.txt"  # of how a task broke, behind its key
 MOST_BYTES, MOST_FIELDS = 2**36, 10**9 - 10**6  # of the file, of the fields of an answer
 KINDS = "iufb"  # of the numbers of fields
 ROWS = TypeAdapter(tuple[Row, ...])
-# The rows of an answer are compressed JSON; its fields, where they are kept, are a file of NumPy. Both formats have
-# checksums.
+# Rows are compressed JSON, and fields, where they are kept, a file of NumPy: both formats have checksums.
 TABLE = b"CREATE TABLE answers (key TEXT PRIMARY KEY, rows BLOB, fields BLOB)"
 DAMAGED = (0, sqlite3.SQLITE_ERROR, sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB)
 ERRORS = {sqlite3.SQLITE_FULL: errno.ENOSPC, sqlite3.SQLITE_READONLY: errno.EACCES}

@@ -132,15 +132,6 @@ def test_killed_at_a_step_a_run_leaves_the_old_scene_or_says_that_it_did_not_end
     assert states["unfinished"] >= 20 / stride
 
 
-def test_results_of_one_run_and_the_manifest_of_another_are_noticed(tmp_path):
-    for word in ("one", "two"):
-        written(word, tmp_path / word, report=False)
-    (tmp_path / "one/results.nc").replace(tmp_path / "two/results.nc")
-    with pytest.raises(InvalidInput, match=r"results\.nc: is of another run than manifest\.json in its folder"):
-        compare.load(tmp_path / "two")
-    assert compare.load(tmp_path / "two/results.nc")["a"]["word"] == "one"
-
-
 def test_while_a_run_holds_a_folder_others_are_refused_before_they_change_anything(tmp_path):
     below = tmp_path / "page"
     written("one", below, report=False)
