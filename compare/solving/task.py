@@ -14,7 +14,6 @@ from pydantic import TypeAdapter
 
 from scene import EmptyContact, Program, Refused, Result, Scene, SolveError, Solver
 from scene.motion import UNITS
-from scene.printable import brief
 from scene.quantities import MOST_WHOLE
 
 NUMBERS = ("normal_force", "depth", "friction_force", "residual", "operator_applications", "seconds")
@@ -58,9 +57,6 @@ class Outcome:
 
 def row(result: Result) -> Row:
     """The numbers of a result, as plain Python numbers. Raises SolveError of measures that no table can hold."""
-    for name in (*result.measures, *result.fields):
-        if not (isinstance(name, str) and name.isprintable() and name.strip(". ")) or "/" in name:
-            raise SolveError(f"measure or field {brief(repr(name))}: printable letters without / are allowed")
     if taken := sorted(TAKEN & result.measures.keys()):
         raise SolveError(f"measure {taken[0]!r}: the name has another use, choose another")
     numbers: dict[str, Any] = {name: float(getattr(result, name)) for name in NUMBERS}

@@ -160,7 +160,6 @@ NO_EXECUTOR = r"executor = .*: an object with submit is needed, without a schedu
         ({"speed": "1mm/s..5mm"}, "speed = '1mm/s..5mm': a speed, such as"),
         ({"load": ["1 N", "0N..2N"]}, "load = .*'0N..2N'.: a range has finite ends above zero"),
         ({"depth": "1um..2um:1e3"}, "depth = '1um..2um:1e3': .*'1e3'"),
-        ({"speeds": [1.0]}, "argument of sweep = speeds: allowed are scene, speed, .*; did you mean speed"),
         ({"speed": {"a": 1.0}}, "speed = .*a set has no order, nor has a mapping"),
         ({"speed": object()}, "speed = <object.*a speed, such as"),
         *(({"interval": each}, r"interval = .*: a share above 0 and below 1, as 2% or 0\.02") for each in SHARES),
