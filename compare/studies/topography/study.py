@@ -27,7 +27,6 @@ from .spectra import Description, describe
 Side: TypeAlias = str | float
 Surface: TypeAlias = Any  # a path, or heights as an array of any library
 WAVES = "Rms of the derivatives of its waves."
-DIFFERENCES = "Rms of the differences between neighbours over a pixel."
 EXPONENT = "Exponent H of C_2D ~ q^(-2H - 2) between roll-off and cut-off, which are found with it."
 
 
@@ -48,18 +47,9 @@ def _law(name: str) -> Callable[[Description], float]:
 # Name, sentence, meaning, unit, and number out of a Description.
 NUMBERS: tuple[tuple[str, str, str, str, Callable[[Description], float]], ...] = (
     ("rms-height", "Rms height", "Rms of the pixels, levelled.", "m", lambda it: it.rms_height),
-    ("rms-slope", "Rms slope of the full gradient, spectral", WAVES, "1", lambda it: it.rms_slope_spectral),
-    ("rms-slope-x", "Rms slope along x, spectral", WAVES, "1", lambda it: it.spectral_slopes[0]),
-    ("rms-slope-y", "Rms slope along y, spectral", WAVES, "1", lambda it: it.spectral_slopes[1]),
-    (
-        "rms-difference",
-        "Rms slope of the full gradient, by differences",
-        DIFFERENCES,
-        "1",
-        lambda it: it.rms_slope,
-    ),
-    ("rms-difference-x", "Rms slope along x, by differences", DIFFERENCES, "1", lambda it: it.slopes[0]),
-    ("rms-difference-y", "Rms slope along y, by differences", DIFFERENCES, "1", lambda it: it.slopes[1]),
+    ("rms-slope", "Rms slope of the full gradient, spectral", WAVES, "1", lambda it: it.rms_slope),
+    ("rms-slope-x", "Rms slope along x, spectral", WAVES, "1", lambda it: it.slopes[0]),
+    ("rms-slope-y", "Rms slope along y, spectral", WAVES, "1", lambda it: it.slopes[1]),
     ("hurst", "Hurst exponent", EXPONENT, "1", _law("hurst")),
     ("longest", "Longest wavelength of the self-affine band", "", "m", _law("longest")),
     ("shortest", "Shortest wavelength of the self-affine band", "", "m", _law("shortest")),
