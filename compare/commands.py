@@ -119,14 +119,8 @@ def solve(
     executor : object with `submit`, as those of concurrent.futures; it gets as many contacts at once as `workers`
     progress : whether the terminal shows how far it is
     """
-    from scene.files.reading import InvalidInput
-    from scene.printable import brief
-
     from .studies import pipeline
-    from .studies.study import Study
 
-    if not isinstance(study, Study):
-        raise InvalidInput(f"study = {brief(repr(study))}: an object of a class derived from Study is needed")
     _warn(study.doubts)
     with _shown(progress) as shown:
         found = pipeline.run(study, output, workers, scheduler, executor, report, yes, shown)

@@ -238,16 +238,6 @@ def test_output_onto_a_full_disk_is_one_line_and_status_1(folder, command):
     assert (status, complained) == (1, "crosscheck: standard output: No space left on device\n")
 
 
-@pytest.mark.skipif(os.name == "nt", reason="Windows deletes no folder that is in use")
-def test_a_folder_that_is_gone_is_one_line_and_status_2(tmp_path, monkeypatch):
-    (tmp_path / "gone").mkdir()
-    monkeypatch.chdir(tmp_path / "gone")
-    (tmp_path / "gone").rmdir()
-    answer = ask("run", "hertz", "--output", tmp_path / "elsewhere")
-    assert (answer.exit_code, answer.output) == (2, "crosscheck: the folder in which it is called is gone\n")
-    assert not [*tmp_path.iterdir()]
-
-
 def test_a_fault_keeps_its_traceback(monkeypatch):
     def broken():
         raise ValueError("a fault")

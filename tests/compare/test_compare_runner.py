@@ -5,7 +5,6 @@ import os
 import re
 import signal
 import sys
-import warnings
 from concurrent.futures import BrokenExecutor, Future, ThreadPoolExecutor
 from dataclasses import replace
 
@@ -99,8 +98,6 @@ class Odd(solving.Task):
     def solve(self):
         if self.way == "memory":
             raise MemoryError
-        if self.way == "warns":
-            warnings.warn("odd numbers", stacklevel=1)
         if self.way == "leaves":
             sys.exit(3)
         if self.way == "cannot come back":
@@ -129,12 +126,6 @@ def test_what_cannot_be_sent_to_another_process_is_solved_in_this_one(tmp_path):
     swept = sweep([Odd("cannot be sent")], Store(tmp_path), workers=1)
     assert swept.faults == {}
     assert Store(tmp_path).get(Odd("cannot be sent")).rows[0].normal_force == 1.0
-
-
-def test_a_warning_of_a_worker_is_one_of_this_process_and_its_answer_is_kept(tmp_path):
-    with pytest.warns(UserWarning, match="odd numbers"):
-        sweep([Odd("warns")], Store(tmp_path), workers=1)
-    assert Store(tmp_path).get(Odd("warns")) is not None
 
 
 ONE = {"executor": Here(), "workers": 1}

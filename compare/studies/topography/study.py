@@ -7,13 +7,11 @@ from math import nan
 from pathlib import Path
 from typing import Any, TypeAlias
 
-import numpy as np
 import xarray
 
 from scene import Topography
 from scene.files.reading import InvalidInput
 from scene.printable import printable
-from scene.quantities import METRE, argument
 
 from ...report.page import Block, Findings, Text
 from ...solving.task import Batch, Outcome, Task
@@ -28,15 +26,6 @@ Side: TypeAlias = str | float
 Surface: TypeAlias = Any  # a path, or heights as an array of any library
 WAVES = "Rms of the derivatives of its waves."
 EXPONENT = "Exponent H of C_2D ~ q^(-2H - 2) between roll-off and cut-off, which are found with it."
-
-
-def _in_metres(pixel):
-    """Side of a pixel as one number [m] or two. Raises InvalidInput."""
-    try:
-        found = argument("pixel", pixel, METRE.values)
-    except ValueError as error:
-        raise InvalidInput(str(error)) from None
-    return tuple(found.tolist()) if np.ndim(found) else float(found)
 
 
 def _law(name: str) -> Callable[[Description], float]:
@@ -79,13 +68,8 @@ class Map(Study):
         pixel : side of a pixel, "1 um" or [m], or sides along x and y; what is None, is left to the file or the
             default
         """
-        sides = tuple(pixel) if isinstance(pixel, list | tuple) else pixel
-        if not isinstance(sides, str | tuple | None):
-            sides = _in_metres(sides)
-        if isinstance(sides, tuple) and len(sides) < 2:
-            sides = sides[0] if sides else None
-        stated |= {"pixel": sides, "crop": stated.get("crop") or None}
-        study = cls(file, {name: value for name, value in stated.items() if value is not None})
+        given = stated | {"pixel": pixel}
+        study = cls(file, {name: each for name, each in given.items() if not (each is None or each == [])})
         study.description  # noqa: B018
         return study
 
