@@ -30,11 +30,9 @@ class Unwritable(OSError):
     """A folder or a file cannot be written; raised before anything is solved."""
 
 
-def connect(path: Path, access: str) -> sqlite3.Connection:
-    """Connect to a file of SQLite that is there. access : "rw", or "ro", and what else its address may state."""
-    if "rw" in access and not locks(path.parent):
-        access += "&vfs=unix-none"
-    address = f"{path.absolute().as_uri()}?mode={access}"
+def connect(path: Path) -> sqlite3.Connection:
+    """Connect to a file of SQLite that is there."""
+    address = f"{path.absolute().as_uri()}?mode=rw{'' if locks(path.parent) else '&vfs=unix-none'}"
     connection = sqlite3.connect(address, timeout=0.0, isolation_level=None, uri=True)
     connection.text_factory = bytes
     return connection
@@ -59,11 +57,10 @@ def locks(folder: Path) -> bool:
 
 
 @contextmanager
-def lock(folders: Iterable[Path], say: Callable[[str], Any] | None = None) -> Iterator[None]:
+def lock(folders: Iterable[Path], say: Callable[[str], Any]) -> Iterator[None]:
     """Folders for this run alone; they are made.
 
-    say : called with a message where nothing keeps other runs out. It is absent for readers: then nothing is made,
-        a folder without a lock is free, and several may read it
+    say : called with a message where nothing keeps other runs out
 
     SQLite locks an empty file in each; the system takes the lock back, however the process ends. Raises
     InvalidInput, which names the folder, where another run holds it.
@@ -74,23 +71,16 @@ def lock(folders: Iterable[Path], say: Callable[[str], Any] | None = None) -> It
     with ExitStack() as held:
         for folder in dict.fromkeys(folders):
             try:
-                if say:
-                    folder.mkdir(parents=True, exist_ok=True)
-                    touch(folder / LOCK)
-                    if not locks(folder):
-                        say("this folder cannot be locked, as on some network drives: run one at a time")
-                        continue
-                database = held.enter_context(closing(connect(folder / LOCK, "rw" if say else "ro")))
-                if say:
-                    _lock(database)
+                folder.mkdir(parents=True, exist_ok=True)
+                touch(folder / LOCK)
+                if locks(folder):
+                    _lock(held.enter_context(closing(connect(folder / LOCK))))
                 else:
-                    database.execute("BEGIN")
-                    database.execute("SELECT * FROM sqlite_master")
+                    say("this folder cannot be locked, as on some network drives: run one at a time")
             except (OSError, sqlite3.Error) as error:
-                if isinstance(error, sqlite3.Error) and code_of(error) == sqlite3.SQLITE_BUSY and locks(folder):
+                if code_of(error) == sqlite3.SQLITE_BUSY:
                     raise held_by_another(folder) from None
-                if say:
-                    say(f"this folder cannot be locked ({error}): run one at a time")
+                say(f"this folder cannot be locked ({error}): run one at a time")
         yield
 
 

@@ -95,7 +95,7 @@ class Store:
         with self._named(), ExitStack() as opened:
             self._there()
             touch(self.path)
-            connection = opened.enter_context(closing(connect(self.path, "rw")))
+            connection = opened.enter_context(closing(connect(self.path)))
             connection.execute("PRAGMA locking_mode = EXCLUSIVE")  # else WAL needs memory that drives do not share
             if not _has_table(connection):
                 connection.execute(TABLE.decode())
@@ -120,7 +120,7 @@ class Store:
             yield self._open
             return
         with self._named(), ExitStack() as opened:
-            connection = opened.enter_context(closing(connect(self.path, "rw")))
+            connection = opened.enter_context(closing(connect(self.path)))
             connection.execute("PRAGMA locking_mode = EXCLUSIVE")
             yield connection if _has_table(connection) else None
 

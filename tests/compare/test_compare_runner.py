@@ -246,11 +246,11 @@ def test_a_folder_is_held_until_the_run_that_has_it_ends_or_is_killed(tmp_path):
     wait_for(lambda: marks(tmp_path) > 2)
     with pytest.raises(InvalidInput, match=re.escape(f"{store.folder}: another run holds")):
         len(store)
-    with pytest.raises(InvalidInput, match=re.escape(f"{tmp_path}: another run holds")), lock([tmp_path]):
+    with pytest.raises(InvalidInput, match=re.escape(f"{tmp_path}: another run holds")), lock([tmp_path], str):
         pass
     os.killpg(other.pid, signal.SIGKILL)
     other.communicate()
-    with lock([tmp_path], pytest.fail), pytest.raises(InvalidInput), lock([tmp_path]):  # and no thread twice
+    with lock([tmp_path], pytest.fail), pytest.raises(InvalidInput), lock([tmp_path], str):  # and no thread twice
         pass
     tasks = loads(*map(float, range(1, 13)), solver=Stand(marks=str(tmp_path), seconds=0.05))
     swept = sweep(tasks, store, workers=1)

@@ -225,8 +225,6 @@ def test_a_folder_that_nobody_may_write_can_be_read(unprivileged):
     with pytest.raises(PermissionError) as caught:
         Store(unprivileged).put(TASK, Outcome((ROW,)))
     assert caught.value.filename == str(unprivileged)
-    with lock([unprivileged]):
-        pass
 
 
 def test_a_folder_that_cannot_be_locked_is_said_and_used(tmp_path, monkeypatch):

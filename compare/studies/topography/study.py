@@ -69,7 +69,14 @@ class Map(Study):
             default
         """
         given = stated | {"pixel": pixel}
-        study = cls(file, {name: each for name, each in given.items() if not (each is None or each == [])})
+        study = cls(
+            file,
+            {
+                name: each
+                for name, each in given.items()
+                if not (each is None or (isinstance(each, list) and not each))
+            },
+        )
         study.description  # noqa: B018
         return study
 
