@@ -9,6 +9,7 @@ import zlib
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import ExitStack, closing, contextmanager, suppress
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from pydantic import TypeAdapter
@@ -176,7 +177,8 @@ def _outcome(task: Task, connection: sqlite3.Connection) -> Outcome | None:
 
 def _packed(fields: Mapping[str, np.ndarray]) -> bytes:
     """Arrays as a file of NumPy. Raises TypeError, ValueError for arrays that cannot be stored."""
-    arrays, packed = {name: np.asarray(values) for name, values in fields.items()}, io.BytesIO()
+    arrays: dict[str, Any] = {name: np.asarray(values) for name, values in fields.items()}
+    packed = io.BytesIO()
     for name, values in arrays.items():
         if values.dtype.kind not in KINDS:
             raise TypeError(f"{name} is of type {values.dtype}, which no file of results can hold")

@@ -46,7 +46,7 @@ def documented(function: _T) -> _T:
     hints = {name: get_args(function.__globals__.get(each)) for name, each in names.items()}
     shown = [each.replace(annotation=names[name]) for name, each in found.parameters.items()]
     returned = _Name(found.return_annotation)
-    function.__signature__ = found.replace(parameters=shown, return_annotation=returned)  # type: ignore
+    function.__signature__ = found.replace(parameters=shown, return_annotation=returned)  # type: ignore[attr-defined]
     about = cleandoc(function.__doc__ or "")
     function.__doc__ = "\n".join([about, *_texts(about, hints)])
     return function

@@ -1,6 +1,6 @@
 """Claims of Eqs. 22 and 23: what shifts of friction at several speeds, fitted or predicted, come to."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from math import isfinite, nan
 from operator import attrgetter
@@ -92,7 +92,7 @@ def findings(
     fine: Collapse,
     coarse: Collapse | None,
     dimension: str,
-    shifts: np.ndarray | None = None,
+    shifts: Mapping[float, float] | np.ndarray | None = None,
     exponent: float = nan,
     every: bool = False,
     horizontal: bool = False,
@@ -104,7 +104,7 @@ def findings(
     the gain from vertical shifts is reported without a claim: a small gain does not show that there is no shift.
 
     coarse : the collapse on a grid of half the points; None for data without a grid, which have no grid error
-    shifts : ln p(v) that the theory predicts, for `fine.speeds` (S,); None where it predicts none
+    shifts : ln p(v) that the theory predicts, for `fine.speeds` (S,) or by speed; None where it predicts none
     exponent : of p(v) as a power of the speed, predicted; NaN where p(v) is none
     every : whether the exponents of both fits are reported even where horizontal shifts are the answer
     horizontal : whether these are the only shifts that are asked about, as in the paper
@@ -112,6 +112,8 @@ def findings(
     """
     both = not horizontal and needs_vertical_shift(fine, coarse)
     parted, straight = fine.horizontal.reason, fine.inseparable
+    if shifts is not None and not isinstance(shifts, Mapping):
+        shifts = dict(zip(fine.speeds.tolist(), shifts, strict=True))
     place = {"dimension": dimension, "draws": fine.data.surfaces} | place
 
     def judged(claim, number, reason=""):
@@ -121,7 +123,7 @@ def findings(
     vertical = replace(VERTICAL, tolerance=nan) if both else VERTICAL
     yield judged(vertical, GAIN, straight or _unless_beyond(GAIN(fine), parted))
     if shifts is not None:
-        known = dict(zip(fine.speeds.tolist(), shifts, strict=True))
+        known = shifts
         yield judged(
             PREDICTED, lambda found: found.misfit_at(np.array([known[speed] for speed in found.speeds.tolist()]))
         )
