@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import fields
 from importlib import resources
+from os import PathLike
 from os.path import isdir, isfile
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -56,6 +57,9 @@ def case_of(asked: SceneLike) -> Case:
 
 def located(asked: str | Path, kind: str = "scene") -> Path:
     """A file as it stands, or the ready scene or study of that name. Raises InvalidInput with a suggestion."""
+    if not isinstance(asked, str | PathLike):
+        others = ", a Scene or a Case" if kind == "scene" else ""
+        raise InvalidInput(f"{kind} = {brief(repr(asked))}: a file, the name of a ready {kind}{others} is needed")
     path, every, name = Path(asked), ready(), str(asked)
     # Only a file hides a ready one: a folder of this name may be left by an earlier run.
     if (found := every.get(name)) and not isfile(path):

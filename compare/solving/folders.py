@@ -177,7 +177,9 @@ def read(path: Path, kind: type[Kind], finished: bool = True) -> Kind:
     except Unreadable as error:
         raise InvalidInput(str(error)) from error
     except ValidationError as error:
-        why = f"{brief(str(path))}: was not written by this version of the command: {first_mistake(error)}"
+        first = error.errors()[0]
+        mistake = ": ".join(filter(None, [brief(".".join(map(str, first["loc"]))), first["msg"]]))
+        why = f"{brief(str(path))}: was not written by this version of the command: {mistake}"
         raise InvalidInput(why) from None
     if finished and not found.finished:
         raise InvalidInput(
@@ -185,12 +187,6 @@ def read(path: Path, kind: type[Kind], finished: bool = True) -> Kind:
             "run the command again, which solves nothing twice"
         )
     return found
-
-
-def first_mistake(error: ValidationError) -> str:
-    """The first mistake that pydantic found, with its place."""
-    first = error.errors()[0]
-    return ": ".join(filter(None, [brief(".".join(map(str, first["loc"]))), first["msg"]]))
 
 
 def refuse_other(path: Path, found: int) -> None:

@@ -152,7 +152,9 @@ class Mastercurve(Study):
         tables: list[Block] = [Findings(findings)]
         caption = "Natural logarithms of the shifts, with intervals of 95 %."
         shifts = self.collapse.shifts(self.lead)
-        if self.shifts is not None and (warm := self._curves()) is not None:
+        if self.shifts is not None:
+            first = [own.iloc[0] for own in in_order(self.pooled, self.shifts)]
+            warm = DataFrame(first, columns=[*CURVE]).reset_index(drop=True)  # in the order of the collapse
             shifts = warm.join(shifts.rename(columns={"speed": "reduced_speed"}))
             tables.append(Table("time-shifts", shifts_table(self.shifts), caption))
         tables.append(Table("shifts", shifts, caption))
@@ -201,13 +203,6 @@ class Mastercurve(Study):
             tables = points_table(self.pooled, self.shifts), shifts_table(self.shifts)
             plots.append(temperature_shifts.plot(*tables, "found" if self.shifts.found else "stated"))
         return [each for each in plots if each]
-
-    def _curves(self):
-        """Temperature and measured speed of each curve, in the order of the collapse; None at one temperature."""
-        if self.shifts is None:
-            return None
-        first = [own.iloc[0] for own in in_order(self.pooled, self.shifts)]
-        return DataFrame(first, columns=[*CURVE]).reset_index(drop=True)
 
     @property
     def setting(self) -> Sequence[Block]:

@@ -68,9 +68,9 @@ class Map(Study):
         pixel : side of a pixel, "1 um" or [m], or sides along x and y; what is None, is left to the file or the
             default
         """
+        stated |= {"pixel": pixel}
         # An option that a command line repeats is an empty list where it is absent.
-        given = {name: each or None if isinstance(each, list) else each for name, each in stated.items()}
-        given["pixel"] = pixel or None if isinstance(pixel, list) else pixel
+        given = {name: None if isinstance(each, list) and not each else each for name, each in stated.items()}
         study = cls(file, {name: each for name, each in given.items() if each is not None})
         study.description  # noqa: B018
         return study
