@@ -32,16 +32,17 @@ from ..solving.cost import MOST_DRAWS, MOST_VALUES
 
 def _share(given: Any) -> float:
     """Share above 0 and below 1, of a number or a text as 2%. Raises ValueError."""
+    found, why = nan, ""
     try:
         if isinstance(given, str):
             text = given.strip()
             found = float(text.removesuffix("%")) / (100 if text.endswith("%") else 1)
         else:
             found = BARE.value(given)
-    except ValueError:
-        found = nan
+    except ValueError as error:
+        why = f"; {error}"
     if not 0 < found < 1:
-        raise ValueError("a share above 0 and below 1, as 2% or 0.02")
+        raise ValueError(f"a share above 0 and below 1, as 2% or 0.02{why}")
     return found
 
 

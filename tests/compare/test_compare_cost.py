@@ -42,7 +42,7 @@ def test_what_is_counted_is_what_is_built():
     assert smooth.cost.contacts == 3 * 2 * 2 * 2 == Cost.of(smooth.tasks()).contacts
 
 
-@pytest.mark.parametrize("asked", [questions.run("quick-start"), Paper.of(profiles=3)])
+@pytest.mark.parametrize("asked", [questions.run("quick-start"), Paper(3)])
 def test_of_a_whole_study_it_is_an_upper_bound_as_curves_share_contacts(asked):
     built = Cost.of(task for batch in asked.batches() for task in batch.tasks)
     assert built.contacts <= asked.cost().contacts <= 1.3 * built.contacts
