@@ -49,10 +49,8 @@ def load(folder: str | Path) -> xarray.DataTree:
     """
     folder, trees = Path(folder), {}
     paths = sorted(folder.rglob(NAME)) if folder.is_dir() else [folder]
-    places = {folder, *(path.parent for path in paths)} if folder.is_dir() else set()
-    for each in places:
-        if (each / MANIFEST).exists():
-            read(each / MANIFEST, Stated)
+    for path in folder.rglob(MANIFEST):
+        read(path, Stated)
     if not paths:
         raise InvalidInput(f"{brief(str(folder))}: no command has left results here")
     for path in paths:

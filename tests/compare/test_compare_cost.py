@@ -90,9 +90,7 @@ def test_draws_ranges_and_lists_of_a_study_have_a_bound_that_is_said(old, new, m
         study_of(HEAD + SHARED.replace(old, new) + TABLES + SERIES, "study.toml")
 
 
-def test_so_have_profiles_of_the_paper_and_threads():
-    with pytest.raises(InvalidInput, match="profiles = 1000000000: a whole number from 3 to 10000"):
-        Paper.of(profiles=10**9)
+def test_so_have_threads():
     with pytest.raises(ValueError, match="less than or equal to 1024"):
         BEM(threads=10**9)
 
