@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 
-import pint
 import pytest
 import xarray
 from scene_files import HEAD, SCENE, SHARED, TABLES
@@ -95,15 +94,6 @@ def test_so_have_threads():
         BEM(threads=10**9)
 
 
-@pytest.mark.parametrize(
-    "given",
-    [
-        "2%",
-        " 2 % ",
-        "0.02",
-        pint.UnitRegistry().Quantity(2, "percent"),
-        xarray.DataArray(2.0, attrs={"units": "%"}),
-    ],
-)
-def test_shares_are_taken_from_text_and_other_libraries(given):
+@pytest.mark.parametrize("given", ["2%", " 2 % ", "0.02", xarray.DataArray(0.02)])
+def test_shares_are_numbers_and_texts(given):
     assert share_of("interval", given) == pytest.approx(0.02, rel=1e-15)
