@@ -82,7 +82,7 @@ from .options import (
     Yes,
     table_form,
 )
-from .solving.suggest import checked
+from .solving.suggest import documented
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -101,7 +101,7 @@ if TYPE_CHECKING:
     from .trustmap.verdict import Advice
 
 
-@checked
+@documented
 def solve(
     study: Study,
     output: Output,
@@ -119,14 +119,8 @@ def solve(
     executor : object with `submit`, as those of concurrent.futures; it gets as many contacts at once as `workers`
     progress : whether the terminal shows how far it is
     """
-    from scene.files.reading import InvalidInput
-    from scene.printable import brief
-
     from .studies import pipeline
-    from .studies.study import Study
 
-    if not isinstance(study, Study):
-        raise InvalidInput(f"study = {brief(repr(study))}: an object of a class derived from Study is needed")
     _warn(study.doubts)
     with _shown(progress) as shown:
         found = pipeline.run(study, output, workers, scheduler, executor, report, yes, shown)
@@ -144,21 +138,18 @@ def _shown(progress: bool | str | Shown | None) -> AbstractContextManager[Shown 
 
 
 def _warn(messages: Sequence[str | Warning]) -> None:
-    """Warn of each message, Doubtful if it is a text, as from the line that called a function of this module.
-
-    Each function is called by `checked`, whose frames are passed over too.
-    """
+    """Warn of each message, Doubtful if it is a text, as from the line that called a function of this module."""
     from scene import Doubtful
 
     frame: FrameType | None = sys._getframe()
     level = 1
-    while frame is not None and frame.f_globals.get("__name__") in (__name__, checked.__module__):
+    while frame is not None and frame.f_globals.get("__name__") == __name__:
         level, frame = level + 1, frame.f_back
     for each in messages:
         warnings.warn(each, Doubtful, stacklevel=level)
 
 
-@checked
+@documented
 def run(
     scene: SceneFiles = None,
     output: Output = "crosscheck-report",
@@ -178,7 +169,7 @@ def run(
     return solve(asked.run(scene, models, reference, interval), output, **options)
 
 
-@checked
+@documented
 def study(
     name: StudyName = None,
     size: StudySize = "quick",
@@ -198,7 +189,7 @@ def study(
     return solve(asked.study(str(name), size, models, reference, interval), output, **options)
 
 
-@checked
+@documented
 def paper(size: PaperSize = "full", output: Output = "crosscheck-paper", **options: Unpack[Options]) -> Report:
     """Repeat the paper in 1D: figures, parameter studies, claims."""
     from .studies.paper.study import Paper
@@ -206,7 +197,7 @@ def paper(size: PaperSize = "full", output: Output = "crosscheck-paper", **optio
     return solve(Paper.of(size), output, **options)
 
 
-@checked
+@documented
 def workprecision(
     scene: SceneFiles = None,
     output: Output = "crosscheck-workprecision",
@@ -224,7 +215,7 @@ def workprecision(
     return solve(WorkPrecision.of(scene, models), output, **options)
 
 
-@checked
+@documented
 def stability(
     size: CaseSize = "quick", output: Output = "crosscheck-stability", **options: Unpack[Options]
 ) -> Report:
@@ -234,7 +225,7 @@ def stability(
     return solve(Checks.stability(size), output, **options)
 
 
-@checked
+@documented
 def verify(model: Model, output: Output = "crosscheck-verify", **options: Unpack[Options]) -> Report:
     """Check a code of contact against what it must hold. The status is 1 if any law fails."""
     from .studies.checks.study import Checks
@@ -242,7 +233,7 @@ def verify(model: Model, output: Output = "crosscheck-verify", **options: Unpack
     return solve(Checks.verify(model), output, **options)
 
 
-@checked
+@documented
 def regress(
     baseline: Baseline = None,
     update: Update = False,
@@ -261,7 +252,7 @@ def regress(
     return report
 
 
-@checked
+@documented
 def mastercurve(
     table: Table,
     output: Output = "mastercurve",
@@ -288,7 +279,7 @@ def mastercurve(
     return solve(study, output, **options)
 
 
-@checked
+@documented
 def topography(
     file: HeightMap,
     pixel: Pixel = None,
@@ -321,7 +312,7 @@ def topography(
     return solve(Map.of(file, pixel=pixel, **asked, **done, **form), output, **options)
 
 
-@checked
+@documented
 def sweep(
     scene: SceneFile,
     speed: Speeds = None,
@@ -356,7 +347,7 @@ def sweep(
     return cast("SweepSeries", cast("Comparison", report.study).series[0]).dataset(report.answers)
 
 
-@checked
+@documented
 def swept(output: Output = "crosscheck-sweep", **given: Any) -> Report:
     """Report of a sweep, of the arguments of `sweep`: the command prints it."""
     from .studies.comparison import asked
@@ -365,7 +356,7 @@ def swept(output: Output = "crosscheck-sweep", **given: Any) -> Report:
     return solve(asked.sweep(**given), output, **options)
 
 
-@checked
+@documented
 def friction_plot(dataset: xarray.Dataset) -> Figure:
     """Friction of a sweep against speed, or against load, both models with error bars: a matplotlib Figure."""
     from .studies.comparison.plots import figure_of
@@ -373,7 +364,7 @@ def friction_plot(dataset: xarray.Dataset) -> Figure:
     return figure_of(dataset)
 
 
-@checked
+@documented
 def trust(scene: SceneFile) -> Advice:
     """Say which cheap answer to use, or to solve in 3D. It takes about a second, as nothing rough is solved."""
     from .library.lookup import case_of
@@ -384,7 +375,7 @@ def trust(scene: SceneFile) -> Advice:
     return found
 
 
-@checked
+@documented
 def plan(scene: SceneFile) -> Plans:
     """Say what a scene costs and what is simulated of it. The status is 2 if no solver can solve it."""
     from .studies.plan import plans
@@ -394,7 +385,7 @@ def plan(scene: SceneFile) -> Plans:
     return found
 
 
-@checked
+@documented
 def load(folder: Folder) -> xarray.DataTree:
     """Everything that a command solved, with each single draw: a Dataset for each parameter grid and solver."""
     from .solving import netcdf
@@ -409,7 +400,7 @@ def scenes() -> Listing:
     return offered()
 
 
-@checked
+@documented
 def new(name: ReadyName, file: NewFile = None) -> Path:
     """Copy a ready scene or study into a file of your own."""
     from .library.ready import write
@@ -417,7 +408,7 @@ def new(name: ReadyName, file: NewFile = None) -> Path:
     return write(name, file or f"{name}.toml")
 
 
-@checked
+@documented
 def schema(kind: Kind = "scene", output: SchemaFile = None) -> dict[str, Any]:
     """Print the JSON schema of scenes, studies or answers."""
     from .studies.schema import schema
@@ -432,7 +423,7 @@ def as_json(found: Any) -> str:
     return written(found)
 
 
-@checked
+@documented
 def export(
     folder: Folder,
     format: ExportFormat = None,
@@ -447,7 +438,7 @@ def export(
     return export(folder, format, journal, style, width, output)
 
 
-@checked
+@documented
 def draw(scene: SceneFile, output: Output = "crosscheck-draw", **options: Unpack[Options]) -> Report:
     """Draw the contact in 3D and the row of elements in 1D.
 

@@ -1,7 +1,7 @@
 """Arguments and options of the commands, each with its type, its help and what Python takes besides.
 
 At run time a type is what a command line gives; a type checker sees all that Python takes. The docstrings of the
-functions get these texts by `solving.suggest.checked`.
+functions get these texts by `solving.suggest.documented`.
 """
 
 from collections.abc import Mapping
@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, TypedDict
 from typer import Argument, BadParameter, Option
 
 from .library import ready as library
-from .solving.suggest import TEXT
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -89,7 +88,6 @@ Scheduler = Annotated[
     Option(
         help="Address of a dask.distributed scheduler, as tcp://host:8786; its workers then solve the contacts."
     ),
-    TEXT,
 ]
 WithReport = Annotated[
     bool,
@@ -142,7 +140,6 @@ Models = Annotated[
 Reference = Annotated[
     str | None,
     Option(help="Name of the model against which the others are judged; bem, or the last, if absent."),
-    TEXT,
 ]
 
 # How much is solved.
@@ -248,10 +245,10 @@ TableRows = Annotated[
     "From Python a mapping.",
 ]
 TableSeparator = Annotated[
-    str | None, Option(help="What separates the cells of a table: tab, semicolon, comma or blanks."), TEXT
+    str | None, Option(help="What separates the cells of a table: tab, semicolon, comma or blanks.")
 ]
-TableDecimal = Annotated[str | None, Option(help='Decimal mark of a table, "." or ",".'), TEXT]
-TableEncoding = Annotated[str | None, Option(help="Encoding of a table, as cp1252."), TEXT]
+TableDecimal = Annotated[str | None, Option(help='Decimal mark of a table, "." or ",".')]
+TableEncoding = Annotated[str | None, Option(help="Encoding of a table, as cp1252.")]
 LinesAbove = Annotated[int | None, Option(help="Lines above the heading or the numbers.", parser=number)]
 LinesBelow = Annotated[int | None, Option(help="Rows that are read below them.", parser=number)]
 HeightMap = Annotated[
@@ -269,10 +266,8 @@ Pixel = Annotated[
     ),
     "From Python also a number [m].",
 ]
-LengthUnit = Annotated[
-    str | None, Option(help="Unit of the heights, as um. Needed if the file states none."), TEXT
-]
-Channel = Annotated[str | None, Option(help="Name of the map to take, of a file that holds several."), TEXT]
+LengthUnit = Annotated[str | None, Option(help="Unit of the heights, as um. Needed if the file states none.")]
+Channel = Annotated[str | None, Option(help="Name of the map to take, of a file that holds several.")]
 Crop = Annotated[
     Amounts | None,
     Option(
@@ -306,7 +301,6 @@ Folder = Annotated[File, Argument(help="Folder that a command has written, or it
 ReadyName = Annotated[
     str,
     Argument(help="Ready scene or study, see crosscheck scenes.", autocompletion=copies),
-    TEXT,
 ]
 NewFile = Annotated[
     File | None,
@@ -357,6 +351,5 @@ ExportFormat = Annotated[
         help="File formats, separated by commas: png, pdf, svg (figures), vtk (surfaces for ParaView; it takes the"
         " extra vtk). If absent, png,pdf,svg."
     ),
-    TEXT,
 ]
 FilesFolder = Annotated[File | None, Option(help="Folder for the files; if absent, `figures` in the folder.")]

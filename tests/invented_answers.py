@@ -16,10 +16,18 @@ from compare.studies.paper import parameters
 from mdr1d import MDR, equations
 
 SURFACES = 8
+
+
+def resolved(shape):
+    """A contact of Fig. 1 of the paper with a shortest wave that both dimensionalities resolve."""
+    scene = parameters.contact(shape)
+    return replace(scene, roughness=replace(scene.roughness, shortest=5e-4))
+
+
 SERIES = RoughSeries(
     name="sphere",
     title="Rough sphere",
-    scene=parameters.resolved("sphere"),
+    scene=resolved("sphere"),
     speeds=tuple(float(v) for v in np.geomspace(2e-3, 4.0, 10)),
     values=tuple(float(f) for f in np.geomspace(0.05, 50, 8)),
     surfaces=SURFACES,

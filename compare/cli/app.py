@@ -51,11 +51,6 @@ def said_to_people(output: str, solves: bool) -> Iterator[None]:
         if signal.getsignal(number) is signal.SIG_DFL:  # and not ignored, as by nohup
             signal.signal(number, signal.default_int_handler)
     try:
-        os.getcwd()
-    except OSError as error:
-        say("crosscheck: the folder in which it is called is gone", error=True)
-        raise typer.Exit(MISTAKE) from error
-    try:
         yield
     except KeyboardInterrupt as interrupt:
         say("Interrupted. Solved contacts are kept: the same command resumes from there.", error=True)

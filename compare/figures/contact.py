@@ -1,7 +1,6 @@
 """One contact in 3D and 1D: pressure from above, force per length, and sections of both bodies."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from math import ceil
 from typing import Any
 
@@ -13,9 +12,7 @@ from pandas import DataFrame
 
 from bem3d import BEM
 from bem3d.motion.wake import surroundings
-from scene import Measured, Plane, Program, Scene
-from scene.motion import pressed as pressed_in
-from scene.scales import elastic_contact
+from scene import Program, Scene
 
 from ..solving.vocabulary import attributes
 from . import style
@@ -73,22 +70,12 @@ def _dataset(fields, **places):
     return found
 
 
-def smooth_radius(scene: Scene) -> float | None:
-    """Radius of the smooth relaxed contact on a half-space [m], half the width of a line; None without one."""
-    motion = scene.motion
-    value = float(motion.prescribed(motion.duration)) if isinstance(motion, Program) else motion.greatest
-    if isinstance(scene.indenter, Plane | Measured) or scene.layer is not None or not value > 0:
-        return None
-    held = pressed_in(motion.pressed_by, value)
-    return elastic_contact(replace(scene, motion=held, roughness=None, interface=None)).radius
-
-
 def plot(scene: Scene, seen: Mapping[str, xarray.Dataset], folder: str = "") -> Plot:
     """Plot of the parts of a contact that are known: "surface" (y, x) or "row" (x), as `view` has them."""
-    motion, radius = scene.motion, smooth_radius(scene)
+    motion = scene.motion
     speed = motion.stages[-1].speed if isinstance(motion, Program) else motion.speed
     flow = "at rest" if speed == 0 else "← indenter slides" if speed > 0 else "indenter slides →"
-    options: dict[str, Any] = {"radius": radius, "flow": flow}
+    options: dict[str, Any] = {"flow": flow}
     tables: dict[str, DataFrame] = {}
     sections = {}
     if SURFACE in seen:
@@ -97,7 +84,7 @@ def plot(scene: Scene, seen: Mapping[str, xarray.Dataset], folder: str = "") -> 
         pressed = pressed[pressed["pressure"] > 0]
         if len(pressed) and not alike:
             tables[PRESSURE] = pressed
-            options["aside"] = 1.1 * max(radius or 0.0, *pressed["y"].abs())
+            options["aside"] = 1.1 * max(pressed["y"].abs())
         if alike or "line_force_1d" in lines:
             tables[LINES] = lines
         middle = surface.sel(y=0.0, method="nearest")
@@ -117,11 +104,10 @@ def plot(scene: Scene, seen: Mapping[str, xarray.Dataset], folder: str = "") -> 
     return Plot(f"{folder}{NAME}", figure, tables, caption, alternative, options)
 
 
-def figure(tables: Tables, aside: float = 1.0, radius: float | None = None, flow: str = "") -> Figure:
+def figure(tables: Tables, aside: float = 1.0, flow: str = "") -> Figure:
     """A panel for each table, two a row.
 
-    aside : farthest y of the map [m]; radius : of the smooth relaxed contact [m]
-    flow : which way the indenter slides, in words
+    aside : farthest y of the map [m]; flow : which way the indenter slides, in words
     """
     sections = [tables[name] for name in SECTIONS.values() if name in tables]
     limits, x = heights_of(sections), sections[0]["x"]
@@ -134,7 +120,7 @@ def figure(tables: Tables, aside: float = 1.0, radius: float | None = None, flow
     grid = drawing.subplots(len(heights), min(2, len(tables)), squeeze=False, height_ratios=heights).ravel()
     for axes, (name, table) in zip(grid, tables.items(), strict=False):
         if name == PRESSURE:
-            pressure_map(axes, table, x, aside, radius)
+            pressure_map(axes, table, x, aside)
         elif name == LINES:
             _line_forces(axes, table, span)
         else:
@@ -177,7 +163,7 @@ def section(
     axes.set(xlabel=f"x [{metres}]", ylabel=f"height [{unit}]")
 
 
-def pressure_map(axes: Axes, table: DataFrame, places, aside: float, radius: float | None) -> None:
+def pressure_map(axes: Axes, table: DataFrame, places, aside: float) -> None:
     """Map of the pressure on what touches, with its bar below. places : x of its columns [m]"""
     highest, pixel = float(np.percentile(table["pressure"], HIGHEST)), places.iloc[1] - places.iloc[0]
     (along, unit), (up, pascal) = style.prefixed([*places, aside], "m"), style.prefixed(highest, "Pa")
@@ -186,10 +172,6 @@ def pressure_map(axes: Axes, table: DataFrame, places, aside: float, radius: flo
     look |= {"weights": up * table["pressure"], "cmin": np.finfo(float).tiny}
     *_, image = axes.hist2d(along * table["x"], along * table["y"], edges, **look)
     axes.set_facecolor(ELASTOMER)
-    if radius is not None:
-        angle, circle = np.linspace(0, 2 * np.pi, 181), along * radius
-        look = style.line(0.0, 0.65, linestyle="--", label="smooth, relaxed contact")
-        axes.plot(circle * np.cos(angle), circle * np.sin(angle), **look)
     axes.set(ylim=(-along * aside, along * aside), aspect="equal", anchor="NW")
     axes.set(xlabel=f"x [{unit}]", ylabel=f"y [{unit}]", title="3D: real contact")
     bar: dict[str, Any] = {"location": "bottom", "extend": "max", "aspect": 32}

@@ -1,7 +1,6 @@
 """Plot: a figure as a function of tables, from which it can be drawn again, and its files: PNG, PDF and SVG."""
 
 import io
-import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import PurePosixPath
@@ -10,8 +9,6 @@ from typing import Any, TypeAlias
 from matplotlib import rcParams
 from matplotlib.figure import Figure
 from pandas import DataFrame
-
-from scene.files.reading import InvalidInput
 
 from . import style
 
@@ -51,7 +48,6 @@ class Plot:
 FORMS = ("png", "pdf", "svg")
 # Metadata of a file, without the date: the same numbers give the same file.
 METADATA: Mapping[str, Mapping[str, None]] = {"pdf": {"CreationDate": None}, "svg": {"Date": None}, "png": {}}
-NO_ROOM = "constrained_layout not applied"
 
 
 @dataclass(frozen=True)
@@ -71,10 +67,7 @@ class Picture:
 
 
 def picture(plot: Plot, forms: Sequence[str] = FORMS[:1], look: style.Look = style.PRINT) -> Picture:
-    """Draw a plot in a look, with a PNG whatever the forms; vector files hold images at the resolution of the PNG.
-
-    Raises InvalidInput where the look has text too large for the figure.
-    """
+    """Draw a plot in a look, always as PNG too; vector files hold images at the resolution of the PNG."""
     files = {}
     drawing = finished(plot, look)
     with style.applied(look):
@@ -88,22 +81,11 @@ def picture(plot: Plot, forms: Sequence[str] = FORMS[:1], look: style.Look = sty
 
 
 def finished(plot: Plot, look: style.Look = style.PRINT) -> Figure:
-    """The figure of a plot, laid out for its PNG: whatever saves it later cuts nothing off.
-
-    Raises InvalidInput where the look has text too large for the figure.
-    """
-    with style.applied(look), warnings.catch_warnings():
-        warnings.filterwarnings("error", NO_ROOM, UserWarning)
-        try:
-            drawing = plot.figure()
-            drawing.set_dpi(rcParams["savefig.dpi"])
-            drawing.get_layout_engine().execute(drawing)
+    """The figure of a plot, laid out for its PNG: whatever saves it later cuts nothing off."""
+    with style.applied(look):
+        drawing = plot.figure()
+        drawing.set_dpi(rcParams["savefig.dpi"])
+        if (layout := drawing.get_layout_engine()) is not None:
+            layout.execute(drawing)
             drawing.set_layout_engine(None)  # a placeholder would be drawn once more before a file is
-        except UserWarning as warning:
-            if NO_ROOM not in str(warning):
-                raise
-            text = (
-                f"text of {rcParams['font.size']:g} points leaves its panels no room: a lower font.size is needed"
-            )
-            raise InvalidInput(f"{plot.name}: {text}") from None
     return drawing

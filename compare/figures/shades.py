@@ -28,10 +28,10 @@ def few(values: Any, most: int) -> np.ndarray:
     return values[np.unique(np.linspace(0, len(values) - 1, min(most, len(values))).round().astype(int))]
 
 
-def looks(values: np.ndarray, unit: str, shades: Colormap = SPEED) -> Callable[[float], dict[str, Any]]:
+def looks(values: np.ndarray, unit: str) -> Callable[[float], dict[str, Any]]:
     """Look of the curve of each of some positive values, as a function: colour, marker, line and label."""
     scale, forms = between(values), dict(zip(values.tolist(), style.forms(), strict=False))
-    return lambda value: forms[value] | {"color": shades(scale(value)), "label": f"{value:.3g} {unit}"}
+    return lambda value: forms[value] | {"color": SPEED(scale(value)), "label": f"{value:.3g} {unit}"}
 
 
 def key(shades: Colormap, values: Any, unit: str) -> list[Line2D]:

@@ -10,34 +10,31 @@ from .plot import Plot, Tables
 from .shades import few
 
 NAME = "temperature-shifts"
-SHIFTS, LAWS = f"{NAME}-shifts", f"{NAME}-laws"
+SHIFTS = f"{NAME}-shifts"
 LOG10 = np.log(10)
 # Most that are drawn, from the lowest to the highest.
 TEMPERATURES, LOADS = len(style.SERIES_MARKERS), 3
-LINES = {"WLF": "-", "Arrhenius": "--"}
 
 
-def plot(points: DataFrame, shifts: DataFrame, laws: DataFrame, how: str) -> Plot:
+def plot(points: DataFrame, shifts: DataFrame, how: str) -> Plot:
     """Plot of points at several temperatures, and of their shifts.
 
     points : temperature [K], speed [m/s], reduced_speed (times a_T), load [N] that tells the curves apart,
         friction_coefficient, friction_coefficient_low and friction_coefficient_high
     shifts : temperature, log_time_shift (ln a_T), log_time_shift_low and log_time_shift_high
-    laws : law ("WLF", "Arrhenius"), temperature, log_time_shift, on lines
     how : where a_T is from: "found" or "stated"
     """
     caption = (
         f"Friction against speed at one load, a marker for each of at most {TEMPERATURES} temperatures; at up to "
-        f"{LOADS} loads against the speed times a_T, which is {how}; the decades of a_T, and the laws that they "
-        "allow. Bars: 95 %."
+        f"{LOADS} loads against the speed times a_T, which is {how}; the decades of a_T. Bars: 95 %."
     )
     alternative = "Friction at several temperatures, shifted onto a curve for each load."
-    return Plot(NAME, figure, {NAME: points, SHIFTS: shifts, LAWS: laws}, caption, alternative)
+    return Plot(NAME, figure, {NAME: points, SHIFTS: shifts}, caption, alternative)
 
 
 def figure(tables: Tables) -> Figure:
     """Left: as measured, at one load. Middle: shifted along the speed. Right: the shifts."""
-    points, shifts, laws = (tables[name] for name in (NAME, SHIFTS, LAWS))
+    points, shifts = (tables[name] for name in (NAME, SHIFTS))
     drawing = style.canvas("double", 2.9)
     left, middle, right = drawing.subplots(1, 3)
     middle.sharey(left)
@@ -61,9 +58,6 @@ def figure(tables: Tables) -> Figure:
         end = own.loc[own["reduced_speed"].idxmax(), ["reduced_speed", "friction_coefficient"]]
         place = {"textcoords": "offset points", "va": "center", "fontsize": style.small()}
         middle.annotate(f"{load:.3g} N", end, (4, 0), **place)
-    for name, own in laws.groupby("law", sort=False):
-        line = style.line(0.45, 0.8, linestyle=LINES[name], label=name)
-        right.plot(own["temperature"], own["log_time_shift"] / LOG10, **line)
     shifts = shifts[shifts["temperature"].isin(warmth)]
     curves(right, shifts, "temperature", "log_time_shift", 1 / LOG10, ("temperature",), look)
     left.set(xlabel="speed [m/s]", ylabel="friction coefficient [1]", title=f"as measured, {middling:.3g} N")

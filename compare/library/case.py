@@ -11,7 +11,7 @@ from pydantic.dataclasses import dataclass
 
 from bem3d import BEM
 from mdr1d import MDR
-from scene import Coulomb, Doubt, Heating, Layer, Refused, Scene, Slide, numeric_input
+from scene import Coulomb, Doubt, Heating, Layer, Refused, Scene, Slide
 from scene.doubt import unseen
 from scene.effects.temperature import Temperature
 from scene.files.reading import InvalidInput
@@ -19,7 +19,7 @@ from scene.indenter import Indenter
 from scene.motion import Motion
 from scene.printable import brief
 from scene.protocol import numeric_guard
-from scene.quantities import CLOSED, ROW, Positive, Speed, Whole
+from scene.quantities import BARE, CLOSED, ROW, Positive, Speed, Whole
 from scene.scales import elastic_contact
 from scene.scene import fit_together
 from scene.signatures import readable
@@ -31,20 +31,16 @@ from ..solving.cost import MOST_DRAWS, MOST_VALUES
 
 
 def _share(given: Any) -> float:
-    """Share above 0 and below 1, of a number, one of another library too, or a text as 2%. Raises ValueError."""
+    """Share above 0 and below 1, of a number or a text as 2%. Raises ValueError."""
     found, why = nan, ""
     try:
         if isinstance(given, str):
             text = given.strip()
             found = float(text.removesuffix("%")) / (100 if text.endswith("%") else 1)
         else:
-            held, unit = numeric_input.bare(given)
-            percent = unit == "%"
-            found = float(numeric_input.number(held if percent else given, None)) / (100 if percent else 1)
-    except numeric_input.NotPlain as reason:
-        why = f"; {reason}" if str(reason) else ""
-    except (ValueError, OverflowError):  # of a text that is no number, and of a number beyond floating point
-        pass
+            found = BARE.value(given)
+    except ValueError as error:
+        why = f"; {error}"
     if not 0 < found < 1:
         raise ValueError(f"a share above 0 and below 1, as 2% or 0.02{why}")
     return found
@@ -68,12 +64,6 @@ def _no_module(name: str) -> str:
     return name
 
 
-def _whole_letters(text: str) -> str:
-    text.encode()  # raises ValueError of halves of letters, which no file holds
-    return text
-
-
-Words = Annotated[str, AfterValidator(_whole_letters)]
 Draws = Annotated[Whole, Field(ge=1, le=MOST_DRAWS)]
 _WRITTEN = {"type": "string", "pattern": r"^\s*[0-9.]+\s*%\s*$", "examples": ["5%"]}
 _NUMBER = {"type": "number", "exclusiveMinimum": 0, "exclusiveMaximum": 1}
@@ -158,9 +148,9 @@ class Case:
     bem, mdr : settings of the solvers in three dimensions and in one
     """
 
-    title: Words = ""
-    notes: tuple[Words, ...] = ()
-    departures: tuple[Words, ...] = ()
+    title: str = ""
+    notes: tuple[str, ...] = ()
+    departures: tuple[str, ...] = ()
     indenter: Indenter
     elastomer: Elastomer
     motion: Motion

@@ -51,15 +51,12 @@ class Ready:
 class Listing(dict[str, Any]):
     """All that can be named, each with its title and subject; printed, a table of names and titles.
 
-    offered : by name; groups : headings with the names below each, all names under none if absent
-    end : last line
+    offered : by name; groups : headings with the names below each; end : last line
     """
 
-    def __init__(
-        self, offered: Mapping[str, Any], groups: Mapping[str, Sequence[str]] | None = None, end: str = ""
-    ) -> None:
+    def __init__(self, offered: Mapping[str, Any], groups: Mapping[str, Sequence[str]], end: str) -> None:
         super().__init__(offered)
-        self.groups, self.end = groups or {"": list(offered)}, end
+        self.groups, self.end = groups, end
 
     def __str__(self) -> str:
         return self._table()
@@ -73,7 +70,7 @@ class Listing(dict[str, Any]):
         width = max(map(len, self), default=0) + 2
         lines = []
         for heading, names in self.groups.items():
-            lines += [heading] if heading else []
+            lines.append(heading)
             lines += [f"{'Name':{width}s}Title", "-" * (width + max(len(self[name].title) for name in names))]
             for name in names:
                 lines.append(f"{name:{width}s}{self[name].title}")

@@ -35,8 +35,8 @@ def export(
 ) -> list[Path]:
     """Write results of a folder into files; returns them. The arguments are those of `compare.export`.
 
-    Raises InvalidInput where there is nothing of the kind, a file is damaged, a run holds the folder, or a format,
-    journal, style or width is not known; Refused of vtk without its extra; OSError for what cannot be written.
+    Raises InvalidInput where there is nothing of the kind, a file is damaged, or a format, journal, style or width
+    is not known; Refused of vtk without its extra; OSError for what cannot be written.
     """
     formats = [each.strip() for each in (format or ",".join(FORMS)).split(",")]
     for each in formats:

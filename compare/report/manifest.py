@@ -18,7 +18,7 @@ from scene.printable import brief
 
 from ..figures.plot import Plot
 from ..solving.digest import PACKAGES
-from ..solving.folders import FORMAT, Stated, clear, lock, read, write
+from ..solving.folders import FORMAT, Stated, clear, read, write
 from ..solving.folders import MANIFEST as NAME
 from .page import Page
 
@@ -84,11 +84,10 @@ def stamp(
     swept: "SweepResult",
     solved: str,
     files: Iterable[str],
-    results: str = "",
 ) -> None:
     """Write the manifest of a folder, last of all: what it lists is there. Raises OSError.
 
-    solved : folder of what has been solved, from here; files : see `begin`; results : digest of results.nc
+    solved : folder of what has been solved, from here; files : see `begin`
     """
     left = {
         "command": study.command,
@@ -104,7 +103,6 @@ def stamp(
             for plot in page.every(Plot)
         ],
         "files": list(files),
-        "results": results,
     }
     _write(folder, left)
 
@@ -123,10 +121,9 @@ def _plain(value):
 
 
 def folders(folder: str | Path) -> Iterator[tuple[Path, Manifest]]:
-    """A folder and its manifest, or those just below it; each is held while it is looked at.
+    """A folder and its manifest, or those just below it.
 
-    Raises InvalidInput where there is no manifest or a damaged one, where another run holds it, and where the run
-    has not come to its end.
+    Raises InvalidInput where there is no manifest or a damaged one, and where the run has not come to its end.
     """
     folder = Path(folder)
     if not folder.is_dir():
@@ -138,8 +135,7 @@ def folders(folder: str | Path) -> Iterator[tuple[Path, Manifest]]:
             f"{brief(str(folder))}: no {NAME} here or one level below: no command has written this folder"
         )
     for path in paths:
-        with lock([path.parent]):
-            yield path.parent, read(path, Manifest)
+        yield path.parent, read(path, Manifest)
 
 
 def inside(folder: Path, name: str) -> Path:

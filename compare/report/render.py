@@ -32,8 +32,6 @@ def files(
 
     findings : that findings.csv has, of the page and beyond it
     on_drawn : called with the name of each figure once it is drawn
-
-    Raises InvalidInput where the look has text too large for a figure.
     """
     found, pictures = tables(page, findings), {}
     for plot in page.every(Plot):

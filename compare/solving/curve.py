@@ -17,7 +17,6 @@ from bem3d import BEM
 from mdr1d import MDR
 from scene import Indent, Program, Refused, Scene, Shear, Slide, Solver, Stage
 from scene.motion import PRESSES, UNITS
-from scene.printable import brief
 from scene.protocol import lacking, numeric_guard, why_not
 from scene.quantities import SPEED, WHOLE, argument
 from scene.result import provenance
@@ -26,7 +25,7 @@ from scene.scales import elastic_contact
 from .continuation import Continuation, by_contact, joined
 from .control_variates import VARIATES, control_variates
 from .cost import MOST_DRAWS, Cost
-from .task import Outcome, Row, SceneTask, Task, draws_of, refuse_seed
+from .task import Outcome, Row, SceneTask, Task, draws_of
 from .vocabulary import attributes
 
 if TYPE_CHECKING:
@@ -98,15 +97,9 @@ class Curve:
         alike = {"displacement": "depth", "force": "load"}.get(self.prescribed, self.prescribed)
         for name, unit in (("speeds", SPEED), ("values", PRESSES[alike])):
             object.__setattr__(self, name, argument(name, getattr(self, name), unit.row))
-        draws = {}
-        for name, given in self.draws.items():
-            strata, levels = isinstance(given, tuple), len(self.levels.get(name, ()))
-            draws[name] = counts = argument("draws", given, WHOLE.row if strata else WHOLE.value)
-            if strata and not (len(counts) == levels and 0 < min(counts) <= max(counts) <= MOST_DRAWS):
-                allowed = f"{levels} whole numbers, one for each level, from 1 to {MOST_DRAWS:,}"
-                raise ValueError(f"draws = {brief(repr(counts))} of {name}: {allowed}")
+        take = {name: WHOLE.row if isinstance(given, tuple) else WHOLE.value for name, given in self.draws.items()}
+        draws = {name: argument("draws", given, take[name]) for name, given in self.draws.items()}
         object.__setattr__(self, "draws", draws)
-        refuse_seed(self.scene, len(LEVELS) * MOST_DRAWS)  # of all strata, however many surfaces they will have
 
     @property
     def prescribed(self) -> str:

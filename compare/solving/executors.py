@@ -7,11 +7,10 @@ import platform
 import signal
 import threading
 import traceback
-import warnings
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor
-from contextlib import contextmanager, nullcontext, suppress
-from dataclasses import dataclass, field, replace
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
 from multiprocessing.connection import wait
 from typing import Any, Self
 
@@ -46,13 +45,11 @@ class Answer:
 
     reason : type and message of what was raised, in a line
     trace : where, for whoever mends it; empty where nothing was raised
-    warned : category and text of each warning
     """
 
     outcome: Outcome | None = None
     reason: str = ""
     trace: str = ""
-    warned: Sequence[tuple[type[Warning], str]] = field(default=())
 
     @classmethod
     def of(cls, error: BaseException) -> Self:
@@ -66,12 +63,7 @@ def answered(packed: bytes, here: Mapping[str, Mapping[str, str]]) -> bytes:
     if differs := differences(here):
         raise Refused(f"a worker on {platform.node()} cannot be used: {differs}")
     try:
-        # Of this process itself, as of threads, warnings are the caller's.
-        worker = multiprocessing.parent_process() is not None
-        with warnings.catch_warnings(record=True) if worker else nullcontext(()) as heard:
-            answer = solved(pickle.loads(packed))
-        warned = tuple((each.category, str(each.message)) for each in heard)
-        return pickle.dumps(replace(answer, warned=warned))
+        return pickle.dumps(solved(pickle.loads(packed)))
     except Exception as error:
         return pickle.dumps(Answer.of(error))
 

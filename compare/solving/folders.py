@@ -1,6 +1,5 @@
 """Folders: their names and format, the run that holds them, and files that are written whole or not at all."""
 
-import errno
 import multiprocessing
 import os
 import re
@@ -22,13 +21,8 @@ from scene.printable import brief
 LOCK = ".crosscheck-lock"  # an empty file, which stays: one that is removed could be locked twice
 PART = ".crosscheck-*.part"  # names of files that are being written
 FORMAT = 4  # of folders: it changes with the names of figures, columns and studies
-UNSTATED = 1  # files of the first format do not state it
 MANIFEST = "manifest.json"
-# Folders that commands write into themselves, and devices of Windows; letters of a folder.
-TAKEN = {"solved", "figures", "tables", "con", "prn", "aux", "nul"} | {
-    f"{device}{number}" for device in ("com", "lpt") for number in range(10)
-}
-MOST_LETTERS = 200
+TAKEN = {"solved", "figures", "tables"}  # folders that commands write into themselves
 MOST_BYTES = 2**30  # of a manifest, which has the heights of measured maps in it
 
 
@@ -36,11 +30,9 @@ class Unwritable(OSError):
     """A folder or a file cannot be written; raised before anything is solved."""
 
 
-def connect(path: Path, access: str) -> sqlite3.Connection:
-    """Connect to a file of SQLite that is there. access : "rw", or "ro", and what else its address may state."""
-    if "rw" in access and not locks(path.parent):
-        access += "&vfs=unix-none"
-    address = f"{path.absolute().as_uri()}?mode={access}"
+def connect(path: Path) -> sqlite3.Connection:
+    """Connect to a file of SQLite that is there."""
+    address = f"{path.absolute().as_uri()}?mode=rw{'' if locks(path.parent) else '&vfs=unix-none'}"
     connection = sqlite3.connect(address, timeout=0.0, isolation_level=None, uri=True)
     connection.text_factory = bytes
     return connection
@@ -65,11 +57,10 @@ def locks(folder: Path) -> bool:
 
 
 @contextmanager
-def lock(folders: Iterable[Path], say: Callable[[str], Any] | None = None) -> Iterator[None]:
+def lock(folders: Iterable[Path], say: Callable[[str], Any]) -> Iterator[None]:
     """Folders for this run alone; they are made.
 
-    say : called with a message where nothing keeps other runs out. It is absent for readers: then nothing is made,
-        a folder without a lock is free, and several may read it
+    say : called with a message where nothing keeps other runs out
 
     SQLite locks an empty file in each; the system takes the lock back, however the process ends. Raises
     InvalidInput, which names the folder, where another run holds it.
@@ -80,23 +71,16 @@ def lock(folders: Iterable[Path], say: Callable[[str], Any] | None = None) -> It
     with ExitStack() as held:
         for folder in dict.fromkeys(folders):
             try:
-                if say:
-                    folder.mkdir(parents=True, exist_ok=True)
-                    touch(folder / LOCK)
-                    if not locks(folder):
-                        say("this folder cannot be locked, as on some network drives: run one at a time")
-                        continue
-                database = held.enter_context(closing(connect(folder / LOCK, "rw" if say else "ro")))
-                if say:
-                    _lock(database)
+                folder.mkdir(parents=True, exist_ok=True)
+                touch(folder / LOCK)
+                if locks(folder):
+                    _lock(held.enter_context(closing(connect(folder / LOCK))))
                 else:
-                    database.execute("BEGIN")
-                    database.execute("SELECT * FROM sqlite_master")
+                    say("this folder cannot be locked, as on some network drives: run one at a time")
             except (OSError, sqlite3.Error) as error:
-                if isinstance(error, sqlite3.Error) and code_of(error) == sqlite3.SQLITE_BUSY and locks(folder):
+                if code_of(error) == sqlite3.SQLITE_BUSY:
                     raise held_by_another(folder) from None
-                if say:
-                    say(f"this folder cannot be locked ({error}): run one at a time")
+                say(f"this folder cannot be locked ({error}): run one at a time")
         yield
 
 
@@ -118,21 +102,15 @@ def write(path: Path, fill: Callable[[IO[bytes]], Any]) -> None:
 
     Raises OSError, which names the file.
     """
-    with _named(path):
-        if path.exists() and not (path.is_file() or path.is_dir()):  # as a device, which a file would replace
-            raise OSError(errno.EINVAL, "is no regular file, and is not written over")
-        with _part(path.parent) as part:
-            with part.open("wb") as file:
-                fill(file)
-            os.replace(part, path)
+    with _named(path), _part(path.parent) as part:
+        with part.open("wb") as file:
+            fill(file)
+        os.replace(part, path)
 
 
 def make(folder: Path) -> None:
     """Make a folder, and see whether files can be written into it. Raises OSError, which names it."""
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except ValueError as error:  # of zero bytes, and of letters that no file system has
-        raise OSError(errno.EINVAL, "is a name that no file can have", str(folder)) from error
+    folder.mkdir(parents=True, exist_ok=True)
     with _named(folder), _part(folder):
         pass
 
@@ -174,16 +152,14 @@ def _named(path):
 
 
 class Stated(BaseModel):
-    """Part of a manifest that all versions have, or leave out.
+    """Part of a manifest that all versions have.
 
     format : of the folder
     finished : whether the run that writes the folder has come to its end
-    results : digest of results.nc; empty where none is stated
     """
 
-    format: int = UNSTATED
+    format: int
     finished: bool = True
-    results: str = ""
 
 
 Kind = TypeVar("Kind", bound=Stated)
@@ -201,7 +177,9 @@ def read(path: Path, kind: type[Kind], finished: bool = True) -> Kind:
     except Unreadable as error:
         raise InvalidInput(str(error)) from error
     except ValidationError as error:
-        why = f"{brief(str(path))}: was not written by this version of the command: {first_mistake(error)}"
+        first = error.errors()[0]
+        mistake = ": ".join(filter(None, [brief(".".join(map(str, first["loc"]))), first["msg"]]))
+        why = f"{brief(str(path))}: was not written by this version of the command: {mistake}"
         raise InvalidInput(why) from None
     if finished and not found.finished:
         raise InvalidInput(
@@ -211,18 +189,11 @@ def read(path: Path, kind: type[Kind], finished: bool = True) -> Kind:
     return found
 
 
-def first_mistake(error: ValidationError) -> str:
-    """The first mistake that pydantic found, with its place."""
-    first = error.errors()[0]
-    return ": ".join(filter(None, [brief(".".join(map(str, first["loc"]))), first["msg"]]))
-
-
 def refuse_other(path: Path, found: int) -> None:
     """Raise InvalidInput of a file in another format than this version writes."""
     if found != FORMAT:
-        age = "an earlier" if found < FORMAT else "a later"
         raise InvalidInput(
-            f"{brief(str(path))}: was written by {age} version of this program, which has other names: run the "
+            f"{brief(str(path))}: was written by another version of this program, which has other names: run the "
             "command again, which solves its contacts again"
         )
 
@@ -242,13 +213,9 @@ def folders(names: Iterable[str], what: str) -> dict[str, str]:
     """
     found: dict[str, str] = {}  # names by folder
     for name in names:
-        if not (isinstance(name, str) and name.isprintable()):
-            raise InvalidInput(f"{what} {brief(repr(name))}: a name is a text in printable letters")
         folder, why = slug(name), ""
         if folder in TAKEN:
             why = f"its folder, {folder}, has another use"
-        elif len(folder) > MOST_LETTERS:
-            why = f"its folder has more than {MOST_LETTERS} letters"
         elif folder in found:
             why = f"has the folder of {brief(found[folder])!r}, {folder}"
         if why:

@@ -41,30 +41,21 @@ def checksum(image: bytes) -> bytes:
     return b"sha256:" + hashlib.sha256(image).hexdigest().encode()
 
 
-def digest(file: bytes) -> str:
-    """Digest of a file of results, which stands at its end."""
-    return file[-64:].decode()
-
-
 def load(folder: str | Path) -> xarray.DataTree:
     """Everything that a command solved, as it left it in a folder; of several studies, each below its name.
 
-    Raises InvalidInput where there are no results, or they are damaged, too large, no such file, of another
-    version or of another run than the manifest in their folder, or where a run has not come to its end.
+    Raises InvalidInput where there are no results, or they are damaged, too large, no such file or of another
+    version, or where a run has not come to its end.
     """
     folder, trees = Path(folder), {}
     paths = sorted(folder.rglob(NAME)) if folder.is_dir() else [folder]
-    places = {folder, *(path.parent for path in paths)} if folder.is_dir() else set()
-    stated = {place: read(place / MANIFEST, Stated).results for place in places if (place / MANIFEST).exists()}
+    for path in folder.rglob(MANIFEST):
+        read(path, Stated)
     if not paths:
         raise InvalidInput(f"{brief(str(folder))}: no command has left results here")
     for path in paths:
-        file = _checked(path)
-        if stated.get(path.parent, "") not in ("", digest(file)):
-            why = f"is of another run than {MANIFEST} in its folder: run the command again"
-            raise InvalidInput(f"{brief(str(path))}: {why}")
         place = (path.parent if folder.is_dir() else folder).relative_to(folder).as_posix()
-        trees["/" if place == "." else place] = xarray.load_datatree(BytesIO(file), engine="h5netcdf")
+        trees["/" if place == "." else place] = xarray.load_datatree(BytesIO(_checked(path)), engine="h5netcdf")
     return xarray.DataTree.from_dict(trees)
 
 

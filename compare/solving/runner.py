@@ -3,7 +3,6 @@
 import logging
 import pickle
 import time
-import warnings
 from collections import Counter, deque
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, CancelledError, Executor, Future, wait
@@ -160,8 +159,6 @@ def _solve(missing, store, workers, progress, interrupts) -> tuple[dict[Task, Ou
             outcome = task.failed(answer.reason)
         outcomes[task] = outcome
         progress.finished(task, outcome)
-        for category, message in answer.warned:
-            warnings.warn(message, category, stacklevel=3)
 
     while queue or out:
         if interrupts:

@@ -5,9 +5,11 @@ import io
 import json
 import os
 import sqlite3
-from collections.abc import Iterable, Iterator
+import zlib
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import ExitStack, closing, contextmanager, suppress
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from pydantic import TypeAdapter
@@ -16,20 +18,17 @@ from scene.files import files
 from scene.files.reading import InvalidInput
 from scene.printable import brief
 
-from .digest import DIGEST, digest, key
+from .digest import DIGEST, key
 from .folders import clear, code_of, connect, held_by_another, make, touch
 from .task import Outcome, Row, Task
 
 FILE = "answers.sqlite"
 TRACE = ".fault.txt"  # of how a task broke, behind its key
-MOST_BYTES, MOST_FIELD = 2**36, 10**9  # of the file, of a field
+MOST_BYTES, MOST_FIELDS = 2**36, 10**9 - 10**6  # of the file, of the fields of an answer
 KINDS = "iufb"  # of the numbers of fields
 ROWS = TypeAdapter(tuple[Row, ...])
-# The content of an answer is JSON, with the digests of its fields; these are files of NumPy.
-TABLES = (
-    b"CREATE TABLE answers (key TEXT PRIMARY KEY, content TEXT, digest TEXT) WITHOUT ROWID",
-    b"CREATE TABLE fields (key TEXT, name TEXT, content BLOB, PRIMARY KEY (key, name)) WITHOUT ROWID",
-)
+# Rows are compressed JSON, and fields, where they are kept, a file of NumPy: both formats have checksums.
+TABLE = b"CREATE TABLE answers (key TEXT PRIMARY KEY, rows BLOB, fields BLOB)"
 DAMAGED = (0, sqlite3.SQLITE_ERROR, sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB)
 ERRORS = {sqlite3.SQLITE_FULL: errno.ENOSPC, sqlite3.SQLITE_READONLY: errno.EACCES}
 
@@ -64,14 +63,10 @@ class Store:
 
         Raises OSError, which names the file; TypeError, ValueError for what no file can hold.
         """
-        fields = {each: _packed(each, values) for each, values in outcome.fields.items() if task.keeps_fields}
         rows = [vars(row) | {"measures": {**row.measures}, "settings": {**row.settings}} for row in outcome.rows]
-        digests = {each: digest(content) for each, content in fields.items()} if task.keeps_fields else None
-        name, text = key(task), json.dumps({"label": task.label, "rows": rows, "fields": digests})
-        answer, arrays = (name, text, _covering(name, text.encode())), [(name, *each) for each in fields.items()]
-        with self.writing(), self._named(), self._open:
-            self._open.execute("BEGIN")
-            self._open.executemany("REPLACE INTO fields VALUES (?, ?, ?)", arrays)
+        fields = _packed(outcome.fields) if task.keeps_fields else None
+        answer = key(task), zlib.compress(json.dumps(rows).encode()), fields
+        with self.writing(), self._named():
             self._open.execute("REPLACE INTO answers VALUES (?, ?, ?)", answer)
 
     def __len__(self) -> int:
@@ -101,11 +96,10 @@ class Store:
         with self._named(), ExitStack() as opened:
             self._there()
             touch(self.path)
-            connection = opened.enter_context(closing(connect(self.path, "rw")))
+            connection = opened.enter_context(closing(connect(self.path)))
             connection.execute("PRAGMA locking_mode = EXCLUSIVE")  # else WAL needs memory that drives do not share
-            if not _has_tables(connection):
-                for each in TABLES:
-                    connection.execute(each.decode())
+            if not _has_table(connection):
+                connection.execute(TABLE.decode())
             connection.execute("PRAGMA journal_mode = DELETE")
             if connection.execute("PRAGMA quick_check(1)").fetchone() != (b"ok",):
                 raise sqlite3.DatabaseError("damaged")
@@ -127,17 +121,9 @@ class Store:
             yield self._open
             return
         with self._named(), ExitStack() as opened:
-            try:
-                connection = opened.enter_context(closing(connect(self.path, "rw")))
-                connection.execute("PRAGMA locking_mode = EXCLUSIVE")
-                there = _has_tables(connection)
-            except sqlite3.OperationalError as error:
-                if code_of(error) == sqlite3.SQLITE_BUSY:
-                    raise
-                # Nobody may write the folder, in which a killed run has left the second file.
-                connection = opened.enter_context(closing(connect(self.path, "ro&immutable=1")))
-                there = _has_tables(connection)
-            yield connection if there else None
+            connection = opened.enter_context(closing(connect(self.path)))
+            connection.execute("PRAGMA locking_mode = EXCLUSIVE")
+            yield connection if _has_table(connection) else None
 
     def _keys(self) -> set[bytes]:
         with self._reading() as connection:
@@ -167,54 +153,36 @@ class Store:
             raise OSError(number, reason, str(self.path)) from error
 
 
-def _has_tables(connection: sqlite3.Connection) -> bool:
-    """Whether a file has the tables; else it is empty. Raises sqlite3.DatabaseError of another."""
-    found = connection.execute("SELECT sql FROM sqlite_master WHERE sql NOT NULL ORDER BY name").fetchall()
-    if found not in ([], [(each,) for each in TABLES]):
+def _has_table(connection: sqlite3.Connection) -> bool:
+    """Whether a file has the table; else it is empty. Raises sqlite3.DatabaseError of another."""
+    found = connection.execute("SELECT sql FROM sqlite_master WHERE sql NOT NULL").fetchall()
+    if found not in ([], [(TABLE,)]):
         raise sqlite3.DatabaseError("its tables are others")
     return bool(found)
 
 
-def _covering(name: str, text: bytes) -> str:
-    """Digest of an answer."""
-    return digest(b"%b %b" % (name.encode(), text))
-
-
 def _outcome(task: Task, connection: sqlite3.Connection) -> Outcome | None:
-    """The stored outcome of a task; None where it is absent, damaged or forged, or lacks fields that are kept."""
-    name = key(task)
+    """The stored outcome of a task; None where it is absent or damaged, or lacks fields that are kept."""
+    columns = "rows, fields" if task.keeps_fields else "rows"
     try:
-        text, stated = connection.execute("SELECT content, digest FROM answers WHERE key = ?", (name,)).fetchone()
-        if stated.decode() != _covering(name, text):
-            return None
-        content = json.loads(text)
-        stated = content["fields"] if task.keeps_fields else {}
-        fields = {each: _field(connection, name, each, digest) for each, digest in stated.items()}
-        outcome = Outcome(ROWS.validate_python(content["rows"]), fields)
+        asked = connection.execute(f"SELECT {columns} FROM answers WHERE key = ?", (key(task),))
+        rows, *kept = asked.fetchone()
+        fields = {name: values for packed in kept for name, values in np.load(io.BytesIO(packed)).items()}
+        outcome = Outcome(ROWS.validate_python(json.loads(zlib.decompress(rows))), fields)
         return outcome if task.fits(outcome) else None
-    # What something else has written here raises nearly anything, and so does what is not there.
+    # What is damaged raises nearly anything, and so does what is not there.
     except Exception:
         return None
 
 
-def _packed(name: str, values: np.ndarray) -> bytes:
-    """An array in NumPy's file format. Raises TypeError, ValueError for an array that cannot be stored."""
-    values, packed = np.asarray(values), io.BytesIO()
-    if values.dtype.kind not in KINDS:
-        raise TypeError(f"{name} is of type {values.dtype}, which no file of results can hold")
-    if values.nbytes > MOST_FIELD - 10**6:
-        raise ValueError(f"{name} takes {values.nbytes:.3g} bytes, and at most {MOST_FIELD:.3g} can be stored")
-    np.save(packed, values, allow_pickle=False)
+def _packed(fields: Mapping[str, np.ndarray]) -> bytes:
+    """Arrays as a file of NumPy. Raises TypeError, ValueError for arrays that cannot be stored."""
+    arrays: dict[str, Any] = {name: np.asarray(values) for name, values in fields.items()}
+    packed = io.BytesIO()
+    for name, values in arrays.items():
+        if values.dtype.kind not in KINDS:
+            raise TypeError(f"{name} is of type {values.dtype}, which no file of results can hold")
+    if (size := sum(values.nbytes for values in arrays.values())) > MOST_FIELDS:
+        raise ValueError(f"the fields take {size:.3g} bytes, and at most {MOST_FIELDS:.3g} can be stored")
+    np.savez(packed, **arrays)
     return packed.getvalue()
-
-
-def _field(connection: sqlite3.Connection, key: str, name: str, stated: str) -> np.ndarray:
-    """An array of an answer, whose digest is stated. Raises nearly anything where it is absent or another."""
-    asked = connection.execute("SELECT content FROM fields WHERE key = ? AND name = ?", (key, name))
-    (packed,) = asked.fetchone()
-    if digest(packed) != stated:
-        raise ValueError(f"{name} is damaged")
-    values = np.load(io.BytesIO(packed), allow_pickle=False)
-    if values.dtype.kind not in KINDS:
-        raise ValueError(f"{name} is no number")
-    return values

@@ -14,8 +14,6 @@ from pydantic import TypeAdapter
 
 from scene import EmptyContact, Program, Refused, Result, Scene, SolveError, Solver
 from scene.motion import UNITS
-from scene.printable import brief
-from scene.quantities import MOST_WHOLE
 
 NUMBERS = ("normal_force", "depth", "friction_force", "residual", "operator_applications", "seconds")
 # Names that a row has besides the measures of a model, which may not use them.
@@ -58,9 +56,6 @@ class Outcome:
 
 def row(result: Result) -> Row:
     """The numbers of a result, as plain Python numbers. Raises SolveError of measures that no table can hold."""
-    for name in (*result.measures, *result.fields):
-        if not (isinstance(name, str) and name.isprintable() and name.strip(". ")) or "/" in name:
-            raise SolveError(f"measure or field {brief(repr(name))}: printable letters without / are allowed")
     if taken := sorted(TAKEN & result.measures.keys()):
         raise SolveError(f"measure {taken[0]!r}: the name has another use, choose another")
     numbers: dict[str, Any] = {name: float(getattr(result, name)) for name in NUMBERS}
@@ -244,27 +239,15 @@ def _source(kind) -> str:
     return "\n".join(_source(each) for each in vars(kind).values() if hasattr(each, "__code__"))
 
 
-def refuse_seed(scene: Scene, most: int) -> None:
-    """Raise Refused for a rough scene whose seed plus `most` is larger than can be stored."""
-    if (seed := getattr(scene.roughness, "seed", 0)) > MOST_WHOLE - most:
-        raise Refused(
-            f"roughness.seed = {seed}: at most {MOST_WHOLE - most} is allowed, as the surfaces that are drawn "
-            "have the seeds from this one on"
-        )
-
-
 def draws_of(scene: Scene, seeds: int | Iterable[int]) -> tuple[Scene, ...]:
     """The scene with several seeds; smooth bodies and plain waves have a single draw.
 
     seeds : numbers to add to the seed of the scene, or how many of them, from 0 on
-
-    Raises Refused for a seed that is too large.
     """
     rough: Any = scene.roughness
     if not hasattr(rough, "seed"):
         return (scene,)
     added = tuple(range(seeds) if isinstance(seeds, int) else seeds)
-    refuse_seed(scene, max(added, default=0))
     return tuple(replace(scene, roughness=replace(rough, seed=rough.seed + each)) for each in added)
 
 

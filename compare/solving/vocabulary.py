@@ -90,7 +90,6 @@ log_shift : Shift of a curve along ln F_N that brings it onto the common curve. 
 log_lift : Shift of a curve along ln mu that, with the shift along ln F_N, brings it onto the common curve. [1]
 log_time_shift : Shift ln a_T of a temperature along ln v that brings its friction onto the reference. [1]
 reduced_speed : Speed times a_T, the shift of its temperature. [m/s]
-law : Law of the shifts with the temperature: WLF or Arrhenius.
 shifted_force : Normal force times the shift of its curve. [N]
 shifted_friction : Friction coefficient times the shift of its curve along friction. [1]
 curves : Set of curves that are shifted onto one.

@@ -94,8 +94,8 @@ def _write(done, folder, report, progress) -> Path | None:
 
     All is drawn before the folder is touched.
     """
-    study, page, results = done.study, done.page, netcdf.packed(done.answers)
-    files = {netcdf.NAME: results}
+    study, page = done.study, done.page
+    files = {netcdf.NAME: netcdf.packed(done.answers)}
     if report:
         with progress.writing(len(list(page.every(Plot)))) as drawn:
             files |= render.files(page, done.judged, drawn)
@@ -104,7 +104,7 @@ def _write(done, folder, report, progress) -> Path | None:
     manifest.begin(folder, study, files)
     written = render.write(files, folder)
     solved = os.path.relpath(done.output / SOLVED, folder)
-    manifest.stamp(folder, study, page, done.swept, solved, files, netcdf.digest(results))
+    manifest.stamp(folder, study, page, done.swept, solved, files)
     return written[-1] if report else None
 
 

@@ -69,7 +69,7 @@ def figure(plot: Plot, numbers: DataFrame, steep: DataFrame) -> Figure:
     upper, lower = drawing.subfigures(2, 1, height_ratios=(1.25, 1))
     left, right = upper.subplots(1, 2, width_ratios=(1, 1.6))
     space, row = (plot.tables[contact.SECTIONS[solver]] for solver in ("BEM", "MDR"))
-    contact.pressure_map(left, plot.tables[contact.PRESSURE], space["x"], plot.options["aside"], None)
+    contact.pressure_map(left, plot.tables[contact.PRESSURE], space["x"], plot.options["aside"])
     left.set_title("(a) 3D: pressure")
     contact.section(right, row, "MDR", (-SPAN, SPAN), contact.heights_of([row]), 45)
     right.set_title("(b) 1D: springs")

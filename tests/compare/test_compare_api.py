@@ -1,6 +1,5 @@
 """`crosscheck X` is `compare.X`: the same names, arguments and numbers; nothing is printed."""
 
-import inspect
 import itertools
 import json
 import re
@@ -21,11 +20,9 @@ from bem3d import BEM
 from compare import commands
 from compare.statistics.finding import COLUMNS
 from compare.statistics.jackknife import friction
-from compare.studies import pipeline
-from compare.studies.comparison import asked
 from compare.studies.comparison.sweep import SweepSeries
 from mdr1d import MDR
-from scene import Refused, Scene
+from scene import Scene
 from scene.files.reading import InvalidInput, made
 from scene.result import provenance
 from scene.vocabulary import FIELDS
@@ -163,7 +160,6 @@ NO_EXECUTOR = r"executor = .*: an object with submit is needed, without a schedu
         ({"speed": "1mm/s..5mm"}, "speed = '1mm/s..5mm': a speed, such as"),
         ({"load": ["1 N", "0N..2N"]}, "load = .*'0N..2N'.: a range has finite ends above zero"),
         ({"depth": "1um..2um:1e3"}, "depth = '1um..2um:1e3': .*'1e3'"),
-        ({"speeds": [1.0]}, "argument of sweep = speeds: allowed are scene, speed, .*; did you mean speed"),
         ({"speed": {"a": 1.0}}, "speed = .*a set has no order, nor has a mapping"),
         ({"speed": object()}, "speed = <object.*a speed, such as"),
         *(({"interval": each}, r"interval = .*: a share above 0 and below 1, as 2% or 0\.02") for each in SHARES),
@@ -215,54 +211,3 @@ def test_a_result_shows_every_number_with_its_unit_and_escapes_what_it_holds():
     for shown_as in (hostile._repr_html_(), str(hostile).replace("\n", "")):
         assert shown_as.isprintable()
     assert not re.search("<script>|<b>", hostile._repr_html_())
-
-
-HEIGHTS = 1e-6 * np.random.default_rng(0).normal(size=(8, 8))
-LOADS, SPEEDS = (each.ravel() for each in np.meshgrid(np.geomspace(0.1, 10, 4), np.geomspace(1e-3, 1, 9)))
-MEASURED = {"mu": LOADS**-0.3 * SPEEDS**0.2, "F_N": LOADS, "v": SPEEDS}
-ASKED = {
-    "run": {"scene": SLIDING},
-    "study": {"name": "collapse"},
-    "paper": {},
-    "workprecision": {"scene": SLIDING},
-    "stability": {},
-    "verify": {"model": "mdr"},
-    "regress": {},
-    "mastercurve": {"table": MEASURED},
-    "topography": {"file": HEIGHTS, "pixel": 1e-6},
-    "sweep": {"scene": SLIDING},
-    "trust": {"scene": SLIDING},
-    "plan": {"scene": SLIDING},
-    "load": {"folder": "none"},
-    "new": {"name": "hertz"},
-    "schema": {},
-    "export": {"folder": "none"},
-    "draw": {"scene": SLIDING},
-    "friction_plot": {"dataset": None},
-    "solve": {"study": asked.sweep(SLIDING), "output": "out"},
-}
-
-
-OPTIONS = {"workers", "report", "yes"}
-CALLED = {"table": "a DataFrame", "file": "heights"}  # arguments that messages name otherwise
-
-
-@pytest.mark.parametrize("name", ASKED)
-def test_an_argument_that_is_unknown_is_named_with_those_that_are_known(name):
-    with pytest.raises(InvalidInput, match=rf"argument of {name} = speeeds: allowed are "):
-        getattr(compare, name)(**ASKED[name], speeeds=1)
-
-
-@pytest.mark.parametrize("name", ASKED)
-def test_an_argument_of_a_wrong_type_is_named_before_anything_is_solved(name, monkeypatch, tmp_path):
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(pipeline, "_answered", pytest.fail)
-    function = getattr(compare, name)
-    arguments = set(inspect.signature(function).parameters)
-    for argument in arguments - {"options", "progress"} | (OPTIONS if "options" in arguments else set()):
-        for wrong in (object(), b"1", 1j):
-            with pytest.raises((ValueError, Refused)) as caught:
-                function(**ASKED[name] | {argument: wrong})
-            message = str(caught.value)
-            assert argument in message or CALLED.get(argument, argument) in message
-    assert not any(tmp_path.iterdir())

@@ -12,14 +12,13 @@ from io import BytesIO, TextIOWrapper
 import pytest
 from pandas.testing import assert_frame_equal
 from processes import ask, finish, start, stored_so_far, wait_for
-from scene_files import HEAD, SCENE, SHARED, SMALL, TABLES
+from scene_files import SCENE, SMALL
 from typer.testing import CliRunner
 
 import compare
 from compare.cli.app import app, print_in_any_encoding, say
 from compare.library.ready import ready
 from compare.solving.store import Store
-from scene.quantities import MOST_WHOLE
 
 # Solvers with a fault.
 FAULTY = """
@@ -165,12 +164,8 @@ MISTAKES = {
     "run twice.toml": "twice",
     "run cylinder.toml": "indenter = Cylinder",
     "run apart.toml": "far apart",
-    "run seed.toml": f"roughness.seed = {MOST_WHOLE}: ",
-    "sweep seed.toml": f"roughness.seed = {MOST_WHOLE}: ",
     "run large.toml": "of processor time",
-    "study seeds.toml": f"roughness.seed = {MOST_WHOLE}: ",
 }
-LAST_SEED = f"seed = {MOST_WHOLE}"  # which leaves none for further surfaces
 TEXTS = {
     "mine.toml": 'titel = "a mistake"\n',
     "scene.toml": ready()["quick-start"].text,
@@ -179,8 +174,6 @@ TEXTS = {
     "cylinder.toml": SCENE.replace('"sphere"', '"cylinder"').replace("load = 1.0", "line_load = 1.0"),
     "apart.toml": SCENE.replace("load = 1.0", "depth = 1e300"),
     "large.toml": SCENE + "[bem]\npoints = 4096\n[study]\nsurfaces = 1000\n",
-    "seed.toml": SCENE.replace("seed = 5", LAST_SEED),
-    "seeds.toml": HEAD + SHARED + TABLES.replace("seed = 1", LAST_SEED) + "[[series]]\nname = 'a'\n",
 }
 
 
@@ -236,16 +229,6 @@ def test_output_onto_a_full_disk_is_one_line_and_status_1(folder, command):
     with open("/dev/full", "w", encoding="ascii") as full:
         status, _, complained = finish(start(folder, command, output=full))
     assert (status, complained) == (1, "crosscheck: standard output: No space left on device\n")
-
-
-@pytest.mark.skipif(os.name == "nt", reason="Windows deletes no folder that is in use")
-def test_a_folder_that_is_gone_is_one_line_and_status_2(tmp_path, monkeypatch):
-    (tmp_path / "gone").mkdir()
-    monkeypatch.chdir(tmp_path / "gone")
-    (tmp_path / "gone").rmdir()
-    answer = ask("run", "hertz", "--output", tmp_path / "elsewhere")
-    assert (answer.exit_code, answer.output) == (2, "crosscheck: the folder in which it is called is gone\n")
-    assert not [*tmp_path.iterdir()]
 
 
 def test_a_fault_keeps_its_traceback(monkeypatch):

@@ -90,12 +90,6 @@ def test_draws_of_a_stratum_are_solved_on_their_grid_and_on_the_next_coarser_one
     assert refuse([few]) is None
 
 
-@pytest.mark.parametrize("counts", [(8, 8), (8, 8, 0), (8, 8, 10_001)])
-def test_strata_are_one_number_for_each_grid(counts):
-    with pytest.raises(ValueError, match=r"draws = .* of MDR: 3 whole numbers, one for each level, .* 10,000"):
-        replace(ROUGH, levels={"MDR": COARSER}, draws={"MDR": counts})
-
-
 def test_coarser_grids_end_where_they_pay_no_more_but_half_the_points_are_kept():
     assert [each.points for each in on_levels(BEM(points=128), [SLIDING]).values()] == [128, 64, 32]
     assert [each.points for each in on_levels(BEM(points=32), [SLIDING]).values()] == [32, 16]

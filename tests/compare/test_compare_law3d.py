@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import xarray
-from invented_answers import SERIES, SURFACES, changed, eq_19, joined, obeying
+from invented_answers import SERIES, SURFACES, changed, eq_19, joined, obeying, resolved
 
 from compare.figures import style
 from compare.solving import words
@@ -17,11 +17,10 @@ from compare.studies.comparison.comparison import Comparison
 from compare.studies.comparison.laws import laws
 from compare.studies.comparison.rough import ROUGH
 from compare.studies.comparison.together import together as several
-from compare.studies.paper import parameters
 
 # Under the first load the roughness is more than a tenth of the depth.
 FEW = replace(SERIES, speeds=(0.03, 0.1, 0.5), values=(0.9, 20.0, 50.0))
-CONE = replace(FEW, name="cone", title="Rough cone", scene=parameters.resolved("cone"))
+CONE = replace(FEW, name="cone", title="Rough cone", scene=resolved("cone"))
 ROUNDING = 1e-9
 
 

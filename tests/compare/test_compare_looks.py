@@ -33,7 +33,6 @@ from compare.figures.style import COLUMNS
 from compare.report import csvfiles, manifest
 from compare.report.export import function
 from compare.statistics.means import ENDS
-from scene.files.reading import InvalidInput
 
 SAMPLES = Path(__file__).parent / "plots"
 ENTRIES = {entry.name.partition("/")[0]: entry for entry in next(manifest.folders(SAMPLES))[1].plots}
@@ -310,11 +309,6 @@ def test_what_the_machine_has_set_does_not_show():
         figure = drawn("friction-figure")
     assert figure.axes[0].get_facecolor() == (1.0, 1.0, 1.0, 1.0)
     assert max(_widths(figure)) < 2
-
-
-def test_text_too_large_for_the_panels_is_refused_with_the_size():
-    with pytest.raises(InvalidInput, match="text of 80 points"):
-        picture(sample("friction-figure"), look=style.Look(sheet={"font.size": 80}))
 
 
 def test_a_logarithmic_axis_has_few_round_numbers_however_short_it_is():

@@ -87,11 +87,9 @@ def test_a_file_of_another_program_or_version_is_refused_with_the_reason(tmp_pat
     path = tmp_path / netcdf.NAME
     OF_ALL_KINDS.to_netcdf(path, engine="h5netcdf")
     refused(path, "is not a file of results, or is damaged: it has no checksum at its end")
-    for version, age in ((1, "an earlier"), (1234, "a later")):
-        image = path.read_bytes() + f"crosscheck format {version} ".encode()
-        (tmp_path / "other").mkdir(exist_ok=True)
-        (tmp_path / "other" / netcdf.NAME).write_bytes(image + netcdf.checksum(image))
-        refused(tmp_path / "other" / netcdf.NAME, f"was written by {age} version of this program")
+    image = path.read_bytes() + b"crosscheck format 1 "
+    path.write_bytes(image + netcdf.checksum(image))
+    refused(path, "was written by another version of this program")
 
 
 def test_a_folder_without_results_is_named(tmp_path):

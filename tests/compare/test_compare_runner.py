@@ -5,7 +5,6 @@ import os
 import re
 import signal
 import sys
-import warnings
 from concurrent.futures import BrokenExecutor, Future, ThreadPoolExecutor
 from dataclasses import replace
 
@@ -99,8 +98,6 @@ class Odd(solving.Task):
     def solve(self):
         if self.way == "memory":
             raise MemoryError
-        if self.way == "warns":
-            warnings.warn("odd numbers", stacklevel=1)
         if self.way == "leaves":
             sys.exit(3)
         if self.way == "cannot come back":
@@ -129,12 +126,6 @@ def test_what_cannot_be_sent_to_another_process_is_solved_in_this_one(tmp_path):
     swept = sweep([Odd("cannot be sent")], Store(tmp_path), workers=1)
     assert swept.faults == {}
     assert Store(tmp_path).get(Odd("cannot be sent")).rows[0].normal_force == 1.0
-
-
-def test_a_warning_of_a_worker_is_one_of_this_process_and_its_answer_is_kept(tmp_path):
-    with pytest.warns(UserWarning, match="odd numbers"):
-        sweep([Odd("warns")], Store(tmp_path), workers=1)
-    assert Store(tmp_path).get(Odd("warns")) is not None
 
 
 ONE = {"executor": Here(), "workers": 1}
@@ -255,11 +246,11 @@ def test_a_folder_is_held_until_the_run_that_has_it_ends_or_is_killed(tmp_path):
     wait_for(lambda: marks(tmp_path) > 2)
     with pytest.raises(InvalidInput, match=re.escape(f"{store.folder}: another run holds")):
         len(store)
-    with pytest.raises(InvalidInput, match=re.escape(f"{tmp_path}: another run holds")), lock([tmp_path]):
+    with pytest.raises(InvalidInput, match=re.escape(f"{tmp_path}: another run holds")), lock([tmp_path], str):
         pass
     os.killpg(other.pid, signal.SIGKILL)
     other.communicate()
-    with lock([tmp_path], pytest.fail), pytest.raises(InvalidInput), lock([tmp_path]):  # and no thread twice
+    with lock([tmp_path], pytest.fail), pytest.raises(InvalidInput), lock([tmp_path], str):  # and no thread twice
         pass
     tasks = loads(*map(float, range(1, 13)), solver=Stand(marks=str(tmp_path), seconds=0.05))
     swept = sweep(tasks, store, workers=1)

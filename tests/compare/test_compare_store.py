@@ -9,6 +9,7 @@ import signal
 import sqlite3
 import tempfile
 import time
+import zlib
 from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
@@ -23,9 +24,9 @@ from strategies import examples
 
 from compare.models.exact import Exact
 from compare.solving import folders
-from compare.solving.digest import canonical, digest, key
+from compare.solving.digest import canonical, key
 from compare.solving.folders import LOCK, lock, make, write
-from compare.solving.store import FILE, Store, _covering
+from compare.solving.store import FILE, Store
 from compare.solving.task import NUMBERS, Outcome, Row
 from compare.solving.task import SceneTask as Task
 from mdr1d import MDR
@@ -101,7 +102,7 @@ def test_what_no_file_can_hold_is_refused_and_leaves_nothing(tmp_path):
     store = Store(tmp_path)
     with pytest.raises(TypeError, match="x is of type complex128"):
         store.put(PICTURE, Outcome((ROW,), {"x": np.ones(3, complex)}))
-    with pytest.raises(ValueError, match=r"x takes 8e\+09 bytes, and at most 1e\+09 can be stored"):
+    with pytest.raises(ValueError, match=r"the fields take 8e\+09 bytes, and at most"):
         store.put(PICTURE, Outcome((ROW,), {"x": np.broadcast_to(1.0, 10**9)}))
     assert list(tmp_path.iterdir()) == []
 
@@ -147,45 +148,22 @@ def test_damage_costs_the_outcome_that_it_hits_and_a_file_that_cannot_be_read_is
     assert np.bincount(costs, minlength=4)[:2].sum() > 75  # the others are in the tables of so small a file
 
 
-def rewrite(store, **values):
-    """Forge columns of the one row of tables, as answers_digest."""
-    with closing(sqlite3.connect(store.path)) as connection, connection:
-        for place, value in values.items():
-            connection.execute(f"UPDATE {place.replace('_', ' SET ')} = ?", (value,))
+OBJECTS = io.BytesIO()
+np.savez(OBJECTS, x=np.array([print], object))
+FORGED = {
+    "rows": [b"", b"[]", *(zlib.compress(each) for each in (b"[]", b"{}", b'[{"depth": "deep"}]', b"[" * 10**5))],
+    "fields": [None, b"", b"x", OBJECTS.getvalue()],
+}
 
 
-def forge(store, change):
-    """Forge the content of an answer, under a digest that fits. change : text, or some of the names in it"""
-    with closing(sqlite3.connect(store.path)) as connection:
-        ((content,),) = connection.execute("SELECT content FROM answers")
-    text = change if isinstance(change, str) else json.dumps(json.loads(content) | change)
-    rewrite(store, answers_content=text, answers_digest=_covering(key(PICTURE), text.encode()))
-
-
-@pytest.mark.parametrize("values", [np.array([print], object), np.zeros(3, "V8"), b"", None], ids=repr)
-def test_fields_that_are_forged_under_a_digest_that_fits_or_gone_count_as_absent(tmp_path, values):
-    store, packed = Store(tmp_path), io.BytesIO()
-    store.put(PICTURE, Outcome((ROW,), {"x": np.arange(3.0)}))
-    if isinstance(values, np.ndarray):
-        np.save(packed, values)
-    rewrite(store, fields_content=None if values is None else packed.getvalue())
-    forge(store, {"fields": {"x": digest(packed.getvalue())}})
-    assert store.get(TASK) is not None
-    assert store.get(PICTURE) is None
-
-
-FORGED = [
-    {"rows": []}, {"rows": None}, {"rows": [{"depth": "deep"}]}, {"rows": [{"settings": []}]},
-    {"rows": [{"measures": {"a": []}}]}, {"rows": [{"reason": 1}]}, "[" * 10**5, "[]", "1" * 10**4, "{}",
-]  # fmt: skip
-
-
-@pytest.mark.parametrize("change", FORGED, ids=lambda each: str(each)[:40])
-def test_an_answer_that_is_forged_under_a_digest_that_fits_counts_as_absent(tmp_path, change):
+@pytest.mark.parametrize(("column", "value"), [(name, each) for name, every in FORGED.items() for each in every])
+def test_an_answer_that_holds_something_else_counts_as_absent(tmp_path, column, value):
     store = Store(tmp_path)
-    store.put(TASK, Outcome((ROW,)))
-    forge(store, change)
-    assert store.get(TASK) is None
+    store.put(PICTURE, Outcome((ROW,), {"x": np.arange(3.0)}))
+    with closing(sqlite3.connect(store.path)) as connection, connection:
+        connection.execute(f"UPDATE answers SET {column} = ?", (value,))
+    assert store.get(PICTURE) is None
+    assert (store.get(TASK) is None) == (column == "rows")
 
 
 def text(path):
@@ -240,21 +218,13 @@ def unprivileged():
 
 
 @pytest.mark.skipif(os.name != "posix" or os.getuid() != 0, reason="another user")
-@pytest.mark.parametrize("ended", [True, False], ids=["ended", "killed"])
-def test_a_folder_that_nobody_may_write_can_be_read(unprivileged, ended):
-    tasks, path, _ = three(unprivileged)
-    while not (ended or path.with_name(f"{FILE}-wal").exists()):
-        process = writer(unprivileged, 10**6)
-        time.sleep(0.1)
-        process.kill()
-        process.join()
+def test_a_folder_that_nobody_may_write_can_be_read(unprivileged):
+    tasks, _, _ = three(unprivileged)
     os.seteuid(65534)
     assert bits(Store(unprivileged).get(tasks[2])) == bits(numbered(2))
     with pytest.raises(PermissionError) as caught:
         Store(unprivileged).put(TASK, Outcome((ROW,)))
     assert caught.value.filename == str(unprivileged)
-    with lock([unprivileged]):
-        pass
 
 
 def test_a_folder_that_cannot_be_locked_is_said_and_used(tmp_path, monkeypatch):

@@ -7,23 +7,17 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from compare.studies.mastercurve import shiftlaws
 from compare.studies.mastercurve.measuredcurves import MeasuredCurves, curves_of, isotherms, pooled
 from compare.studies.mastercurve.temperatureshifts import POWERS, found
 
 C1, C2, REFERENCE = 8.86, 101.6, 293.15
 KELVINS = np.array([273.15, 283.15, 293.15, 303.15, 313.15])
-ENERGY = 1.2e5
 TOLERANCE = 0.05
 
 
 def wlf(kelvins):
     above = np.asarray(kelvins) - REFERENCE
     return -np.log(10) * C1 * above / (C2 + above)
-
-
-def arrhenius(kelvins):
-    return ENERGY / shiftlaws.GAS_CONSTANT * (1 / np.asarray(kelvins) - 1 / REFERENCE)
 
 
 def knee(x):
@@ -88,23 +82,16 @@ def test_shifts_within_reach_of_the_polynomial_are_exact_without_scatter():
 
 
 @pytest.mark.parametrize("noise", [0.0, 0.001, 0.01])
-def test_shifts_and_constants_of_their_law_are_in_their_intervals_whatever_the_scatter(noise):
+def test_shifts_are_in_their_intervals_whatever_the_scatter(noise):
     """Both shapes of the curve and some seeds; allowed: three deviations of their number from 93 %."""
     held = []
     for law in (knee, bent):
         for seed in range(1 if noise == 0 else 8):
             law_shifts = shifts(*measured(law, noise=noise, jitter=0.0, seed=seed))
             low, high = law_shifts.shifts.interval()
-            true = wlf(law_shifts.temperatures) - wlf(law_shifts.reference)
-            constants = shiftlaws.law_of(law_shifts)
-            held.append(
-                [
-                    np.mean((low - 1e-8 <= true) & (true <= high + 1e-8)),
-                    constants.c1.low - 1e-6 <= C1 <= constants.c1.high + 1e-6,
-                    constants.c2.low - 1e-5 <= C2 <= constants.c2.high + 1e-5,
-                ]
-            )
-    assert np.mean(held, axis=0).min() >= 0.93 - 3 * np.sqrt(0.93 * 0.07 / len(held)), held
+            true = wlf(KELVINS) - wlf(KELVINS[2])
+            held.append(np.mean((low - 1e-8 <= true) & (true <= high + 1e-8)))
+    assert np.mean(held) >= 0.93 - 3 * np.sqrt(0.93 * 0.07 / len(held)), held
 
 
 def test_the_error_of_shifts_is_in_the_exponent_of_the_speed():
@@ -119,25 +106,6 @@ def test_the_error_of_shifts_is_in_the_exponent_of_the_speed():
 
     assert data.resampled(slope)[""].estimated.error > 0.01
     assert replace(data, levers=None).resampled(slope)[""].estimated.error == 0
-
-
-def test_the_law_of_the_shifts_is_told_where_it_can_be():
-    assert shiftlaws.law_of(shifts(*measured(noise=0.005))).allowed == (shiftlaws.WLF,)
-    law = shiftlaws.law_of(shifts(*measured(shift=arrhenius, noise=0.005)))
-    assert shiftlaws.ARRHENIUS in law.allowed
-    assert law.activation_energy.low < ENERGY < law.activation_energy.high
-    kelvins = np.array([280.0, 300.0])
-    np.testing.assert_allclose(law.log_shift(kelvins, shiftlaws.ARRHENIUS), arrhenius(kelvins), rtol=0.02)
-
-
-def test_two_temperatures_tell_an_energy_and_no_law():
-    law = shiftlaws.law_of(shifts(*measured(kelvins=KELVINS[1:3])))
-    assert law.reason == shiftlaws.TWO
-    assert law.activation_energy.known
-    alone = shiftlaws.law_of(shifts(*measured(repeats=1, kelvins=KELVINS[1:4])))
-    assert alone.reason == alone.against == shiftlaws.UNSCATTERED
-    backwards = shiftlaws.law_of(shifts(*measured(shift=lambda kelvins: -wlf(kelvins), kelvins=KELVINS[1:4])))
-    assert backwards.reason == shiftlaws.RISING
 
 
 def test_temperatures_whose_loads_are_too_far_apart_are_refused():

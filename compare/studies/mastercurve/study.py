@@ -25,8 +25,7 @@ from ..study import Judgement, Study
 from . import temperatures
 from .measuredcurves import CURVE, WARMTH, Pooled, check, curves_of, in_order, pooled
 from .measurements import MeasuredFriction, Measurements
-from .shiftlaws import ShiftLaw, law_of
-from .temperatures import Constants, laws_table, points_table, shifts_table
+from .temperatures import Constants, points_table, shifts_table
 from .temperatureshifts import TemperatureShifts
 
 TOLERANCE = (
@@ -133,11 +132,6 @@ class Mastercurve(Study):
         return temperatures.shifts_of(self.pooled, self.constants)
 
     @cached_property
-    def law(self) -> ShiftLaw | None:
-        """Law of the shifts that were found; None where none were."""
-        return law_of(self.shifts) if self.shifts is not None and self.shifts.found else None
-
-    @cached_property
     def collapse(self) -> Collapse:
         """Shifts of the curves."""
         return collapse(curves_of(self.pooled, self.shifts))
@@ -158,7 +152,9 @@ class Mastercurve(Study):
         tables: list[Block] = [Findings(findings)]
         caption = "Natural logarithms of the shifts, with intervals of 95 %."
         shifts = self.collapse.shifts(self.lead)
-        if self.shifts is not None and (warm := self._curves()) is not None:
+        if self.shifts is not None:
+            first = [own.iloc[0] for own in in_order(self.pooled, self.shifts)]
+            warm = DataFrame(first, columns=[*CURVE]).reset_index(drop=True)  # in the order of the collapse
             shifts = warm.join(shifts.rename(columns={"speed": "reduced_speed"}))
             tables.append(Table("time-shifts", shifts_table(self.shifts), caption))
         tables.append(Table("shifts", shifts, caption))
@@ -167,7 +163,7 @@ class Mastercurve(Study):
     def _findings(self):
         """Whether horizontal shifts suffice, or vertical ones are needed, the exponents of both; temperatures."""
         found = self.collapse
-        warm = list(temperatures.findings(self.shifts, self.law, self.friction.name)) if self.shifts else []
+        warm = list(temperatures.findings(self.shifts, self.friction.name)) if self.shifts else []
         raw = {
             eq23.COLLAPSE.id: found.horizontal.rms,
             eq23.UNSHIFTED.id: found.unshifted.rms,
@@ -185,11 +181,10 @@ class Mastercurve(Study):
         return [*findings, *warm]
 
     def _answer(self, findings):
-        """Sentences on claims, on the exponents of the fit that is the answer, and on the laws of its shifts."""
+        """Sentences on claims, and on the exponents of the fit that is the answer."""
         both = self.lead is self.collapse.both
         powers = {CLAIMS[claim.id][0] for claim in (eq23.ALONE, *(eq23.JOINT, eq23.NOT_SHIFTED)[: 2 * both])}
-        listed = powers | {claim.id for claim in (temperatures.C1, temperatures.C2, temperatures.ENERGY)}
-        return sentences([each for each in findings if each.verdict != REPORTED or each.claim.id in listed])
+        return sentences([each for each in findings if each.verdict != REPORTED or each.claim.id in powers])
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -205,20 +200,9 @@ class Mastercurve(Study):
         speed = "speed" if self.shifts is None else "speed times $a_T$"
         plots = [collapsed.plot([shown], speed=speed)]
         if self.shifts is not None:
-            tables = (
-                points_table(self.pooled, self.shifts),
-                shifts_table(self.shifts),
-                laws_table(self.shifts, self.law),
-            )
+            tables = points_table(self.pooled, self.shifts), shifts_table(self.shifts)
             plots.append(temperature_shifts.plot(*tables, "found" if self.shifts.found else "stated"))
         return [each for each in plots if each]
-
-    def _curves(self):
-        """Temperature and measured speed of each curve, in the order of the collapse; None at one temperature."""
-        if self.shifts is None:
-            return None
-        first = [own.iloc[0] for own in in_order(self.pooled, self.shifts)]
-        return DataFrame(first, columns=[*CURVE]).reset_index(drop=True)
 
     @property
     def setting(self) -> Sequence[Block]:

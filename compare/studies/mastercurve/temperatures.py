@@ -5,7 +5,7 @@ from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
-from pandas import DataFrame, Series, concat
+from pandas import DataFrame, Series
 
 from scene.effects.temperature import WLF
 from scene.files.reading import InvalidInput
@@ -15,7 +15,6 @@ from ...statistics.finding import FAILS, Claim, Finding
 from ...statistics.intervals import student
 from .measuredcurves import Pooled, isotherms
 from .measurements import COLDEST
-from .shiftlaws import NONE, ShiftLaw
 from .temperatureshifts import TemperatureShifts, found, stated
 
 TOGETHER = Claim(
@@ -32,9 +31,6 @@ APART = Claim(
     "Misfit of the temperatures before shifting along the speed",
     percent=True,
 )
-C1 = Claim("mastercurve.c1", "Constant c1 of WLF that the shifts ask for")
-C2 = Claim("mastercurve.c2", "Constant c2 of WLF that the shifts ask for", unit="K")
-ENERGY = Claim("mastercurve.activation-energy", "Activation energy of the shifts", unit="J/mol")
 NOT_TOGETHER = "none, as no shifts along the speed bring the temperatures together"
 ONE = "one temperature, {:.4g} K: nothing is shifted along the speed"
 
@@ -85,33 +81,13 @@ def shifts_of(pooled: Pooled, constants: Constants) -> TemperatureShifts | None:
     return found(each, pooled.loads, pooled.dof)
 
 
-def findings(shifts: TemperatureShifts, law: ShiftLaw | None, where: str) -> Iterator[Finding]:
-    """Whether the temperatures come together, and the constants of the laws of shifts that were found."""
+def findings(shifts: TemperatureShifts, where: str) -> Iterator[Finding]:
+    """Whether the temperatures come together, and how far apart they are before."""
     sentence = TOGETHER.sentence if shifts.found else "The stated shifts of WLF bring the temperatures together"
     place: dict[str, Any] = {"where": where, "dimension": "measured"}
     together = replace(TOGETHER, sentence=sentence)
     yield eq23.finding(together, shifts.misfit, reason=shifts.inseparable, **place)
     yield eq23.finding(APART, shifts.unshifted, **place)
-    if law is None:
-        return
-    reference = f"reference {law.reference:.5g} K"
-    for claim, number, why in (
-        (C1, law.c1, law.reason),
-        (C2, law.c2, law.reason),
-        (ENERGY, law.activation_energy, law.against),
-    ):
-        why = shifts.inseparable or why
-        if why and (claim is not ENERGY or shifts.inseparable):
-            number = NONE
-        yield Finding(
-            claim,
-            number.value,
-            scatter=(number.low, number.high),
-            grid=0.0,
-            reason=why,
-            regime=reference,
-            **place,
-        )
 
 
 def unshifted(shifts: TemperatureShifts | None, findings: Sequence[Finding]) -> str:
@@ -138,14 +114,3 @@ def points_table(pooled: Pooled, shifts: TemperatureShifts) -> DataFrame:
 def shifts_table(shifts: TemperatureShifts) -> DataFrame:
     """Shift ln a_T of each temperature with its interval of 95 %."""
     return DataFrame({"temperature": shifts.temperatures, **shifts.shifts.columns("log_time_shift")})
-
-
-def laws_table(shifts: TemperatureShifts, law: ShiftLaw | None) -> DataFrame:
-    """The laws that found shifts allow, on lines."""
-    kelvins = np.linspace(shifts.temperatures[0], shifts.temperatures[-1], 101)
-    names = () if law is None else law.allowed
-    found = [
-        DataFrame({"law": each, "temperature": kelvins, "log_time_shift": law.log_shift(kelvins, each)})
-        for each in names
-    ]
-    return concat(found) if found else DataFrame(columns=["law", "temperature", "log_time_shift"])

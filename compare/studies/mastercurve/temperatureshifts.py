@@ -65,20 +65,9 @@ class TemperatureShifts:
         return np.array([each.temperature for each in self.isotherms])
 
     @property
-    def covariance(self) -> np.ndarray:
-        """Covariance of ln a_T at all temperatures (K, K), where the shifts are found."""
-        errors = np.concatenate([each.error for each in self.isotherms])
-        return self.levers * errors**2 @ self.levers.T
-
-    @property
     def inseparable(self) -> str:
         """Reason why found shifts cannot be distinguished from shifts along friction; empty where they can."""
         return POWERS if self.found and self.straight.interval()[0] <= STRAIGHT else ""
-
-    @property
-    def reference(self) -> float:
-        """Temperature that is not shifted, where the shifts are found [K]."""
-        return float(self.temperatures[len(self.isotherms) // 2])
 
 
 def stated(isotherms: Sequence[Isotherm], shifts: np.ndarray, loads: int, dof: float) -> TemperatureShifts:

@@ -31,8 +31,6 @@ HURST = tuple(k / 10 for k in range(11))
 CONTACT = Slide(speed=0.1, load=1.0)
 CONTACT_HURST = {"cone": 0.1, "sphere": 0.2}
 CONTACT_SEED = {"cone": 1, "sphere": 2}
-# The waves that three dimensions resolve: the paper's own reach down to 4 micrometres.
-SHORTEST = 5e-4
 # Fig. 3 and Fig. 4: the load; slow enough that a viscous layer of a few pixels is remembered.
 LOAD, LOW_SPEED = 10.0, 1e-3
 
@@ -81,17 +79,8 @@ def varied(study: str, value: float, hurst: float) -> tuple[Scene, int]:
 
 def contact(shape: str) -> Scene:
     """A contact of Fig. 1."""
-    return Scene(SHAPES[shape], SOLID, CONTACT, contact_rough(shape))
-
-
-def resolved(shape: str) -> Scene:
-    """A contact of Fig. 1 with a shortest wave that both dimensionalities resolve."""
-    return replace(contact(shape), roughness=replace(contact_rough(shape), shortest=SHORTEST))
-
-
-def contact_rough(shape: str) -> SelfAffine:
-    """The roughness of that contact."""
-    return replace(ROUGH, hurst=CONTACT_HURST[shape], seed=CONTACT_SEED[shape])
+    rough = replace(ROUGH, hurst=CONTACT_HURST[shape], seed=CONTACT_SEED[shape])
+    return Scene(SHAPES[shape], SOLID, CONTACT, rough)
 
 
 def lossy(exponent: float, relaxation_time: float) -> Scene:

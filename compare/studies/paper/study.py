@@ -9,12 +9,11 @@ import numpy as np
 import xarray
 from pandas import DataFrame
 
-from scene.files.reading import InvalidInput
-
 from ...report.page import Block, Findings, Text
 from ...solving import curve
-from ...solving.cost import MOST_DRAWS, Cost
+from ...solving.cost import Cost
 from ...solving.curve import FAILED, Curve
+from ...solving.suggest import known
 from ...solving.task import Batch, Outcome, Task
 from ...solving.vocabulary import attributes
 from ..study import Judgement, Study
@@ -63,13 +62,10 @@ class Paper(Study):
     command, title, about = "paper", "The paper in one dimension", ABOUT
 
     @classmethod
-    def of(cls, size: str = "full", profiles: int | None = None) -> "Paper":
-        """The study at a size, or with the given number of profiles. Raises InvalidInput."""
-        if size not in SIZES:
-            raise InvalidInput(f"size = {size!r}: one of {', '.join(SIZES)}")
-        if profiles is not None and not (isinstance(profiles, int) and 3 <= profiles <= MOST_DRAWS):
-            raise InvalidInput(f"profiles = {profiles!r}: a whole number from 3 to {MOST_DRAWS}")
-        return cls(SIZES[size] if profiles is None else profiles)
+    def of(cls, size: str = "full") -> "Paper":
+        """The study at a size. Raises InvalidInput."""
+        known("size", size, SIZES)
+        return cls(SIZES[size])
 
     @property
     def inputs(self) -> Mapping[str, Any]:

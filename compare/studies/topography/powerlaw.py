@@ -58,14 +58,11 @@ class SelfAffineLaw:
         return self.plateau * falling ** (-2 - 2 * self.hurst)
 
 
-def fit(
-    q: np.ndarray, density: np.ndarray, freedoms: np.ndarray, edges: np.ndarray, seed: int = 0
-) -> SelfAffineLaw:
+def fit(q: np.ndarray, density: np.ndarray, freedoms: np.ndarray, edges: np.ndarray) -> SelfAffineLaw:
     """Law of a spectrum on rings.
 
     q, density, freedoms : of each ring (N,) [rad/m], [m^4], and of its mean density
     edges : between the rings (N + 1,) [rad/m]
-    seed : of the spectra drawn for the interval
 
     Raises ValueError for less than four rings.
     """
@@ -81,7 +78,7 @@ def fit(
     spread = max(1.0, float(np.min(squares[:, 0] / dof)))
     best = _best(bands, squares / spread, slopes)[0]
     band = bands[best]
-    random = np.random.default_rng(seed)
+    random = np.random.default_rng(0)
     scatter = np.log(random.chisquare(2 * half, (DRAWN, len(x))) / (2 * half)) - offset
     scatter += COARSE * random.standard_normal(scatter.shape)
     squares_drawn, slopes_drawn = _tried(bands, (band.fitted(y) + sqrt(spread) * scatter).T)

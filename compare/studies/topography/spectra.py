@@ -54,28 +54,21 @@ class Description:
     """Heights, slopes and spectra of a map, levelled as it states.
 
     rms_height : of the pixels [m]
-    slopes : rms of the differences between neighbours over a pixel, along x and along y [1]
-    spectral_slopes : rms of the derivatives of its waves, along x and along y [1]
+    slopes : rms of the derivatives of its waves, along x and along y [1]
     law : None where there are too few rings
     """
 
     topography: Topography
     rms_height: float
     slopes: tuple[float, float]
-    spectral_slopes: tuple[float, float]
     rings: Rings
     rows: Profile
     law: SelfAffineLaw | None
 
     @property
     def rms_slope(self) -> float:
-        """Rms slope of the full gradient, by differences [1]."""
-        return hypot(*self.slopes)
-
-    @property
-    def rms_slope_spectral(self) -> float:
         """Rms slope of the full gradient, by its waves [1]."""
-        return hypot(*self.spectral_slopes)
+        return hypot(*self.slopes)
 
     @property
     def band(self) -> str:
@@ -90,7 +83,7 @@ class Description:
     @property
     def warnings(self) -> list[str]:
         """Reasons not to take the numbers at their word."""
-        return [*_of_law(self.law), *_of_directions(self.spectral_slopes), *_of_slope(self.rms_slope_spectral)]
+        return [*_of_law(self.law), *_of_directions(self.slopes), *_of_slope(self.rms_slope)]
 
 
 def describe(topography: Topography) -> Description:
@@ -102,9 +95,8 @@ def describe(topography: Topography) -> Description:
     enough = len(rings.q) >= LEAST
     return Description(
         topography=topography,
-        rms_height=_rms(relief),
-        slopes=tuple(_rms(np.diff(relief, axis=1 - k)) / topography.pixel[k] for k in (0, 1)),
-        spectral_slopes=(waves.rms_slope_x, waves.rms_slope_y),
+        rms_height=float(np.sqrt(np.mean(np.square(relief)))),
+        slopes=(waves.rms_slope_x, waves.rms_slope_y),
         rings=rings,
         rows=rows_of(topography),
         law=fit(rings.q, rings.density, rings.freedoms, rings.edges) if enough else None,
@@ -155,10 +147,6 @@ def rows_of(topography: Topography) -> Profile:
     """C_1D of the line scans along x, the mean over all rows of what repeats."""
     waves = topography.waves
     return Profile(waves.along_x[1:], waves.unit**2 * waves.power.sum(axis=0)[1:] / (2 * waves.step_x))
-
-
-def _rms(values):
-    return float(np.sqrt(np.mean(np.square(values))))
 
 
 def _of_law(law) -> Iterator[str]:

@@ -7,13 +7,11 @@ from math import nan
 from pathlib import Path
 from typing import Any, TypeAlias
 
-import numpy as np
 import xarray
 
 from scene import Topography
 from scene.files.reading import InvalidInput
 from scene.printable import printable
-from scene.quantities import METRE, argument
 
 from ...report.page import Block, Findings, Text
 from ...solving.task import Batch, Outcome, Task
@@ -27,17 +25,7 @@ from .spectra import Description, describe
 Side: TypeAlias = str | float
 Surface: TypeAlias = Any  # a path, or heights as an array of any library
 WAVES = "Rms of the derivatives of its waves."
-DIFFERENCES = "Rms of the differences between neighbours over a pixel."
 EXPONENT = "Exponent H of C_2D ~ q^(-2H - 2) between roll-off and cut-off, which are found with it."
-
-
-def _in_metres(pixel):
-    """Side of a pixel as one number [m] or two. Raises InvalidInput."""
-    try:
-        found = argument("pixel", pixel, METRE.values)
-    except ValueError as error:
-        raise InvalidInput(str(error)) from None
-    return tuple(found.tolist()) if np.ndim(found) else float(found)
 
 
 def _law(name: str) -> Callable[[Description], float]:
@@ -48,18 +36,9 @@ def _law(name: str) -> Callable[[Description], float]:
 # Name, sentence, meaning, unit, and number out of a Description.
 NUMBERS: tuple[tuple[str, str, str, str, Callable[[Description], float]], ...] = (
     ("rms-height", "Rms height", "Rms of the pixels, levelled.", "m", lambda it: it.rms_height),
-    ("rms-slope", "Rms slope of the full gradient, spectral", WAVES, "1", lambda it: it.rms_slope_spectral),
-    ("rms-slope-x", "Rms slope along x, spectral", WAVES, "1", lambda it: it.spectral_slopes[0]),
-    ("rms-slope-y", "Rms slope along y, spectral", WAVES, "1", lambda it: it.spectral_slopes[1]),
-    (
-        "rms-difference",
-        "Rms slope of the full gradient, by differences",
-        DIFFERENCES,
-        "1",
-        lambda it: it.rms_slope,
-    ),
-    ("rms-difference-x", "Rms slope along x, by differences", DIFFERENCES, "1", lambda it: it.slopes[0]),
-    ("rms-difference-y", "Rms slope along y, by differences", DIFFERENCES, "1", lambda it: it.slopes[1]),
+    ("rms-slope", "Rms slope of the full gradient, spectral", WAVES, "1", lambda it: it.rms_slope),
+    ("rms-slope-x", "Rms slope along x, spectral", WAVES, "1", lambda it: it.slopes[0]),
+    ("rms-slope-y", "Rms slope along y, spectral", WAVES, "1", lambda it: it.slopes[1]),
     ("hurst", "Hurst exponent", EXPONENT, "1", _law("hurst")),
     ("longest", "Longest wavelength of the self-affine band", "", "m", _law("longest")),
     ("shortest", "Shortest wavelength of the self-affine band", "", "m", _law("shortest")),
@@ -89,13 +68,10 @@ class Map(Study):
         pixel : side of a pixel, "1 um" or [m], or sides along x and y; what is None, is left to the file or the
             default
         """
-        sides = tuple(pixel) if isinstance(pixel, list | tuple) else pixel
-        if not isinstance(sides, str | tuple | None):
-            sides = _in_metres(sides)
-        if isinstance(sides, tuple) and len(sides) < 2:
-            sides = sides[0] if sides else None
-        stated |= {"pixel": sides, "crop": stated.get("crop") or None}
-        study = cls(file, {name: value for name, value in stated.items() if value is not None})
+        stated |= {"pixel": pixel}
+        # An option that a command line repeats is an empty list where it is absent.
+        given = {name: None if isinstance(each, list) and not each else each for name, each in stated.items()}
+        study = cls(file, {name: each for name, each in given.items() if each is not None})
         study.description  # noqa: B018
         return study
 
