@@ -10,7 +10,7 @@ from invented_answers import FEW, eq_19, obeying
 from bem3d import BEM
 from compare.studies.comparison.laws import laws
 from mdr1d import MDR
-from scene import Program, Scene, SelfAffine, Sphere, Stage, StandardLinearSolid
+from scene import Program, Scene, Sphere, Stage, StandardLinearSolid
 
 SOLVERS = (MDR(points=400, steps=24), BEM(points=32, steps=24))
 solvers = pytest.mark.parametrize("solver", SOLVERS, ids=lambda solver: solver.name)
@@ -20,7 +20,6 @@ SCALED = {"MDR": 1e-11, "BEM": 1e-8}
 
 G, TIME, RADIUS = 1e6, 1e-3, 1e-2
 SPHERE = Sphere(radius=RADIUS)
-ROUGH = SelfAffine(hurst=0.8, rms_height=2e-6, longest=2e-3, shortest=5e-4, seed=4)
 SOLID = StandardLinearSolid(G, 20 * G, TIME)
 
 

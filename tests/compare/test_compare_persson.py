@@ -42,7 +42,6 @@ SURFACE = SelfAffine(hurst=0.8, rms_height=2e-6, longest=8e-3, shortest=1e-3, se
 SPEEDS = {"slow": 1e-2, "fast": 3.0}  # v tau q_s = 0.06 and 19
 BODY = Scene(Sphere(radius=1e-2), SOLID, Slide(speed=0.1, load=1.0), SURFACE)
 ROUGH_CASE = replace(case_of(BODY), bem=BEM(points=48), mdr=MDR(points=400))
-MODELS = ["mdr", "bem", "persson"]
 FULL = 20.0  # pressure over the rms pressure at which less than 1e-80 of the area is out of contact
 # Bands are nodes of a quadrature, and a band touches as its middle does: against the same integral on 4000 waves.
 QUADRATURE = 1e-3

@@ -1,6 +1,5 @@
 """Page of a study: the answer from all findings, figures of their tables alone, every point, and what failed."""
 
-import re
 from collections import Counter
 from dataclasses import replace
 
@@ -18,8 +17,6 @@ from compare.statistics.finding import REPORTED, UNDECIDED
 from compare.studies.comparison.claims import SHORT
 from compare.studies.comparison.comparison import Comparison
 from scene import Indent, Program, Stage
-
-NUMBER = re.compile(r"−?\d+(?:\.\d+)?")
 
 
 def by_depth(name, title, motion, speeds, values):
