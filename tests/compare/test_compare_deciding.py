@@ -104,24 +104,20 @@ def test_what_does_not_touch_adds_nothing_to_either_force():
 CASE = replace(
     case_of(SLIDING),
     roughness=replace(SLIDING.roughness, rms_height=1e-5),
-    study=Variations(speeds=(0.1, 1.0), pressing=(0.5, 1.0, 2.0), load_speeds=(0.1, 0.2), depths=(1.0, 2.0)),
+    study=Variations(speeds=(0.1, 1.0), pressing=(0.5, 2.0), load_speeds=(0.1,), depths=(1.0,)),
     bem=BEM(points=64),
     mdr=MDR(points=1024),
 )
-
-
-def assert_decided_or_narrow(report, interval):
-    for each in report.judged:
-        if each.verdict == UNDECIDED and not each.undecidable:
-            low, high = each.interval
-            assert (high - low) / 2 <= interval * max(1.0, abs(each.claim.expected))
 
 
 @pytest.mark.usefixtures("in_this_process")
 def test_a_run_stops_with_every_claim_decided_or_narrow_and_resumes(tmp_path):
     asked = {"scene": CASE, "interval": "15%", "report": False, "output": tmp_path}
     report = compare.run(**asked)
-    assert_decided_or_narrow(report, 0.15)
+    for each in report.judged:
+        if each.verdict == UNDECIDED and not each.undecidable:
+            low, high = each.interval
+            assert (high - low) / 2 <= 0.15 * max(1.0, abs(each.claim.expected))
     again = compare.run(**asked)
     assert (again.swept.solved, again.swept.reused) == (0, report.swept.solved)
     assert again.findings.equals(report.findings)
