@@ -85,20 +85,12 @@ def test_one_point_in_six_that_is_off_is_seen_by_nine_in_ten_and_not_by_the_medi
     assert (findings["collapse"].verdict, findings["collapse-most"].verdict) == (HOLDS, FAILS)
 
 
-def test_points_of_high_roughness_are_left_out():
-    made = answers()
+def test_points_of_high_roughness_and_where_the_body_has_most_of_the_friction_are_left_out():
+    made, law = answers(), solved(FEW).copy(deep=True)
     heights = LawPoints.of(made.series, made.answers).height
     np.testing.assert_array_equal(heights > SHALLOW, [[True, False, False]] * 3)
-    times = np.where(heights > SHALLOW, 3.0, 1.0)
-    findings = found(answers(times=times))
-    assert findings["collapse-most"].value < ROUNDING
-    assert findings["collapse"].regime.startswith("6 points")
-
-
-def test_points_where_the_body_has_most_of_the_friction_are_left_out():
-    law = solved(FEW).copy(deep=True)
     law["friction_of_roughness"][:, :, 1, 1] *= 0.01
-    times = np.ones((3, 3))
+    times = np.where(heights > SHALLOW, 3.0, 1.0)
     times[0, 1] = 3.0
     findings = found(answers(times=times, law=law))
     assert findings["collapse-most"].value < ROUNDING

@@ -38,9 +38,7 @@ pytestmark = pytest.mark.usefixtures("in_this_process")
 
 SOLID = Kelvin(modulus=1e6, relaxation_time=1e-3)
 SURFACE = SelfAffine(hurst=0.8, rms_height=2e-6, longest=8e-3, shortest=1e-3, seed=3)
-SPEEDS = {"slow": 1e-2, "fast": 3.0}  # v tau q_s = 0.06 and 19
 BODY = Scene(Sphere(radius=1e-2), SOLID, Slide(speed=0.1, load=1.0), SURFACE)
-FULL = 20.0  # pressure over the rms pressure at which less than 1e-80 of the area is out of contact
 # Bands are nodes of a quadrature, and a band touches as its middle does: against the same integral on 4000 waves.
 QUADRATURE = 1e-3
 
@@ -55,21 +53,13 @@ def plane(ratio, speed=0.1, surface=SURFACE):
     return Scene(Plane(), SOLID, Slide(speed=speed, pressure=pressure), surface)
 
 
-@pytest.mark.parametrize("gamma", [None, 0.0, 0.5])
-@pytest.mark.parametrize("speed", SPEEDS.values(), ids=SPEEDS)
-def test_in_full_contact_every_wave_has_all_of_its_friction(gamma, speed):
-    found = Persson(gamma).solve(plane(FULL, speed))
-    assert found.measures["contact_fraction"] == pytest.approx(1, rel=1e-12)
-    area = SURFACE.longest**2
-    assert found.friction_force == pytest.approx(full_contact(speed).friction.sum() * area, rel=1e-12)
-
-
-@pytest.mark.parametrize("ratio", [0.05, 0.5, 2.0])
+# Speed times the time of the solid and the lowest wave number: 0.06, 0.6 and 19.
+@pytest.mark.parametrize(("ratio", "speed"), [(0.05, 1e-2), (0.5, 0.1), (2.0, 3.0), (20.0, 0.1)])
 @pytest.mark.parametrize("gamma", [None, 0.5])
-def test_the_integral_is_that_of_the_papers(ratio, gamma):
+def test_the_integral_is_that_of_the_papers(ratio, speed, gamma):
     """mu = 1/2 int q^3 C P [S] int cos Im E*/p, P = erf(1/(2 sqrt G)), G = 1/8 int q^3 C int |E*/p|^2."""
-    scene = plane(ratio)
-    speed, pressure = scene.motion.speed, scene.motion.pressure
+    scene = plane(ratio, speed)
+    pressure = scene.motion.pressure
     q = np.geomspace(SURFACE.q_min, SURFACE.q_max(0.0) * (1 - 1e-12), 4001)
     angle = np.linspace(0, pi / 2, 401)
     around = complex_stiffness(SOLID, speed * q[:, None] * np.cos(angle)) / pressure
@@ -85,7 +75,6 @@ def test_the_integral_is_that_of_the_papers(ratio, gamma):
     assert found.friction_coefficient == pytest.approx(expected, rel=QUADRATURE)
     assert found.measures["contact_fraction"] == pytest.approx(touching[-1], rel=QUADRATURE)
     assert found.measures["pressure_ratio"] == pytest.approx(ratio, rel=1e-12)
-    assert expected != pytest.approx(np.trapezoid(weight * lost, q) / 2, rel=10 * QUADRATURE)
 
 
 def test_a_smooth_body_has_the_answer_of_three_dimensions():
