@@ -1,6 +1,11 @@
 """What many tests share."""
 
+import os
+
 import pytest
+
+# Matrices are small: on a busy machine the threads of BLAS, which reads this as it loads, wait for one another.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 
 @pytest.fixture(scope="module")

@@ -230,6 +230,7 @@ def main() -> None:
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     # What is imported stays: a third of the time of a short command went into looking for garbage among it.
     gc.disable()
+    gc.set_threshold(100_000, 20, 100)  # where it is looked for later on, answers stay too
     try:
         app()
     except OSError as error:  # commands say their own: this one is of standard output

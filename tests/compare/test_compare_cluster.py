@@ -15,6 +15,7 @@ from types import SimpleNamespace
 
 import pytest
 from processes import finish, start, stored_so_far, wait_for
+from small_cases import SLIDING
 from stand_in_solver import Heard, Stand, exactly, forces, loads, marks
 
 from compare.solving import cluster as cluster_module
@@ -24,7 +25,7 @@ from compare.solving.runner import sweep
 from compare.solving.store import Store
 from compare.solving.task import SceneTask as Task
 from mdr1d import MDR
-from scene import Kelvin, Refused, Scene, SelfAffine, Slide, Sphere
+from scene import Refused
 
 dask = pytest.importorskip("dask", reason="the extra `cluster` is not installed")
 distributed = pytest.importorskip("distributed", reason="the extra `cluster` is not installed")
@@ -33,8 +34,6 @@ DASK = [sys.executable, "-m", "dask"]
 
 ROOT = Path(__file__).parents[2]
 HERE = {"PYTHONPATH": os.pathsep.join([str(ROOT / "tests"), str(ROOT)])}
-ROUGH = SelfAffine(hurst=0.5, rms_height=1e-5, longest=1e-2, shortest=1e-3, seed=3)
-SLIDES = Scene(Sphere(radius=1e-2), Kelvin(modulus=1e6, relaxation_time=1e-3), Slide(speed=0.1, load=1.0), ROUGH)
 
 
 @pytest.fixture(scope="module")
@@ -49,7 +48,7 @@ def cluster():
 
 
 def test_answers_are_those_of_this_machine_bit_for_bit_and_this_process_stores_them(cluster, tmp_path):
-    tasks = [Task(MDR(points=n), (SLIDES,), work=n) for n in (400, 500, 600, 700, 800, 900)]
+    tasks = [Task(MDR(points=n), (SLIDING,), work=n) for n in (400, 500, 600, 700, 800, 900)]
     heard = Heard()
     there = sweep(tasks, Store(tmp_path / "there"), scheduler=cluster.scheduler_address, progress=heard)
     here = sweep(tasks, Store(tmp_path / "here"), workers=1)

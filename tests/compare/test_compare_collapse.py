@@ -19,7 +19,6 @@ from mdr1d.equations import interpolation
 
 SPEEDS = 0.1 * 2.0 ** np.arange(5)
 LOADS = np.geomspace(0.1, 10.0, 8)
-LOGS = np.log(SPEEDS) - np.log(SPEEDS).mean()
 POWER = -1.5
 # Misfit that the freest polynomial leaves of Eq. 19 over these loads, and error of the shifts with it.
 FOLLOWED = 2e-3

@@ -10,7 +10,6 @@ import sys
 from io import BytesIO, TextIOWrapper
 
 import pytest
-from pandas.testing import assert_frame_equal
 from processes import ask, finish, start, stored_so_far, wait_for
 from scene_files import SCENE, SMALL
 from typer.testing import CliRunner
@@ -65,25 +64,6 @@ def test_an_interrupted_run_resumes_and_ends_in_a_report(folder):
 
     status, output, complained = finish(start(folder, "run", "tiny.toml", "--no-report", "-q"))
     assert (status, output, complained) == (0, "", "")
-
-
-@pytest.mark.slow
-def test_a_run_killed_again_and_again_loses_nothing_stored_and_finds_what_an_undisturbed_one_does(folder):
-    solved, kept = folder / "crosscheck-report" / "solved", 0
-    for pages in (1, 12, 4):
-        process = start(folder, "run", "tiny.toml", "--workers", "2")
-        wait_for(lambda least=pages: stored_so_far(solved) >= least)
-        os.killpg(process.pid, signal.SIGKILL)
-        process.communicate()
-        before, kept = kept, len(Store(solved))
-        assert kept > before
-    status, _, page = finish(start(folder, "run", "tiny.toml", "--workers", "2", "--no-report"))
-    assert status == 0
-    assert f", {kept} reused" in page
-    asked = {"scene": folder / "tiny.toml", "workers": 1, "report": False}
-    found, alone = (compare.run(**asked, output=folder / name) for name in ("crosscheck-report", "alone"))
-    assert found.swept.solved == 0
-    assert_frame_equal(found.findings, alone.findings)
 
 
 @pytest.mark.slow

@@ -31,7 +31,7 @@ KELVIN = Kelvin(1e6, 1e-3)
 ROUGH = SelfAffine(hurst=0.2, rms_height=5e-5, longest=1e-2, shortest=1e-3, seed=1)
 SCENE = Scene(Sphere(radius=1e-2), KELVIN, Slide(speed=0.1, load=1.0), ROUGH)
 SURFACES, LINES = BEM(points=32), MDR(points=512)
-SEEDS = range(3000)
+SEEDS = range(2000)
 MOST = 4.0  # standard errors of a mean over these seeds
 
 

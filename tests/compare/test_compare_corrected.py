@@ -186,10 +186,8 @@ def test_a_mean_depth_below_zero_is_not_known_and_friction_is(worth):
         FEW.solve(replace(high, motion=Indent(load=1e-3)))
 
 
-def test_equal_scenes_have_equal_answers_and_costs_are_those_of_every_profile():
-    first, second = (replace(FEW.solve(ROUGH), seconds=0.0) for _ in range(2))
-    assert first == second
-    drawn = profiles_of(ROUGH)
+def test_costs_are_those_of_every_profile():
+    first, drawn = FEW.solve(ROUGH), profiles_of(ROUGH)
     assert first.operator_applications == sum(each.operator_applications for each in drawn)
     assert first.residual == max(each.residual for each in drawn)
     assert first.settings["profiles"] == FEW.profiles

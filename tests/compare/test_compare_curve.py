@@ -9,7 +9,6 @@ import pytest
 from small_cases import SLIDING
 
 from bem3d import BEM
-from compare.solving import netcdf
 from compare.solving.cost import MOST_DRAWS
 from compare.solving.curve import (
     LEVELS,
@@ -183,12 +182,9 @@ def test_a_claim_is_measured_with_scatter_and_with_the_change_on_halving(answers
     assert measured(claim, fine, coarse).grid == pytest.approx(0.2)
 
 
-def test_the_largest_seeds_are_told_apart_in_a_file_of_results(tmp_path):
+def test_the_largest_seeds_are_told_apart():
     last = MOST_WHOLE - len(LEVELS) * MOST_DRAWS
     each = replace(ROUGH, scene=replace(SLIDING, roughness=replace(SLIDING.roughness, seed=last)))
-    found = tree({"rough": each}, {task: outcome_of(task) for task in each.tasks()})
-    (tmp_path / netcdf.NAME).write_bytes(netcdf.packed(found))
-    for made in (found, netcdf.load(tmp_path / netcdf.NAME)):
-        seeds = of(made, "rough", "MDR").surface
-        assert seeds.dtype == np.int64
-        assert seeds.values.tolist() == [last + k for k in range(4)]
+    seeds = of_model(each.dataset({task: outcome_of(task) for task in each.tasks()}), "MDR").surface
+    assert seeds.dtype == np.int64
+    assert seeds.values.tolist() == [last + k for k in range(4)]

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 import xarray
 from small_cases import SLIDING
-from test_compare_allocation import COSTS, sampled
 from test_compare_multilevel import answers
 
 import compare
@@ -14,8 +13,8 @@ from bem3d import BEM
 from compare.library.case import Variations
 from compare.library.lookup import case_of
 from compare.solving.curve import EMPTY, FINER, NOT_ASKED, SOLVED, of_model
-from compare.statistics.finding import FAILS, HOLDS, UNDECIDED, Claim, Finding
-from compare.statistics.jackknife import DrawSet, friction, measured
+from compare.statistics.finding import UNDECIDED, Claim, Finding
+from compare.statistics.jackknife import friction
 from compare.statistics.multilevel import GROWTH, DrawnSurfaces, pooled
 from mdr1d import MDR
 from scene import SolveError
@@ -90,34 +89,6 @@ def test_a_finding_says_what_would_decide_it():
     assert "finer one" in DRAWN.with_remedy(found(0.951, 0.3, 0.01), WORDS).remedy
 
 
-def verdict_of(rng, claim, variation, interval):
-    """Verdict on a claim once sampling stops."""
-
-    def finding(known):
-        return measured(claim, *(DrawSet({"BEM": pooled(known).sel(level=grid)}) for grid in ("fine", "coarse")))
-
-    def asked(known):
-        counts = tuple(np.bincount(known["stratum"]).tolist())
-        return DrawnSurfaces({"BEM": counts}, {"BEM": COSTS}).more([finding(known)], interval)["BEM"]
-
-    return finding(sampled(rng, variation, asked)[0]).verdict
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("variation", [0.5, 1.0])
-def test_verdicts_contradict_the_truth_in_one_study_of_twenty_at_most(variation):
-    """Truth a quarter of the tolerance inside the edge, and outside of it: 80 synthetic studies of each."""
-    rng, tolerance, wrong, studies = np.random.default_rng(11), 0.4 * variation, 0, 80
-    truth = 1.0  # of friction; the load is 1 too
-    for shift, right in ((0.75, HOLDS), (1.25, FAILS)):
-        claim = replace(RATIO, expected=truth + shift * tolerance, tolerance=tolerance)
-        verdicts = [verdict_of(rng, claim, variation, tolerance / 8) for _ in range(studies)]
-        wrong += sum(each not in (right, UNDECIDED) for each in verdicts)
-        assert sum(each == right for each in verdicts) > 0.8 * studies
-    share = wrong / (2 * studies)
-    assert share <= 0.05 + 2 * (0.05 * 0.95 / (2 * studies)) ** 0.5
-
-
 def test_what_does_not_touch_adds_nothing_to_either_force():
     given = answers(np.random.default_rng(0), (8, 8, 40))
     away = (given["surface"] == 55) & given["normal_force"].notnull()
@@ -133,24 +104,20 @@ def test_what_does_not_touch_adds_nothing_to_either_force():
 CASE = replace(
     case_of(SLIDING),
     roughness=replace(SLIDING.roughness, rms_height=1e-5),
-    study=Variations(speeds=(0.1, 1.0), pressing=(0.5, 1.0, 2.0), load_speeds=(0.1, 0.2), depths=(1.0, 2.0)),
+    study=Variations(speeds=(0.1,), pressing=(1.0,), load_speeds=(0.1,), depths=(1.0,)),
     bem=BEM(points=64),
     mdr=MDR(points=1024),
 )
-
-
-def assert_decided_or_narrow(report, interval):
-    for each in report.judged:
-        if each.verdict == UNDECIDED and not each.undecidable:
-            low, high = each.interval
-            assert (high - low) / 2 <= interval * max(1.0, abs(each.claim.expected))
 
 
 @pytest.mark.usefixtures("in_this_process")
 def test_a_run_stops_with_every_claim_decided_or_narrow_and_resumes(tmp_path):
     asked = {"scene": CASE, "interval": "15%", "report": False, "output": tmp_path}
     report = compare.run(**asked)
-    assert_decided_or_narrow(report, 0.15)
+    for each in report.judged:
+        if each.verdict == UNDECIDED and not each.undecidable:
+            low, high = each.interval
+            assert (high - low) / 2 <= 0.15 * max(1.0, abs(each.claim.expected))
     again = compare.run(**asked)
     assert (again.swept.solved, again.swept.reused) == (0, report.swept.solved)
     assert again.findings.equals(report.findings)

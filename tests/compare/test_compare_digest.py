@@ -3,27 +3,23 @@
 import json
 import subprocess
 import sys
+from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
 from shutil import copytree
 
 import pytest
 from imports import ROOT, module, used
+from small_cases import SLIDING
 
 from compare.models.table import THEORIES, Models, model_of
 from compare.solving import digest
 from compare.solving.digest import code_digest, key, shipped
 from compare.solving.task import SceneTask
-from scene import Indent, Kelvin, Scene, SelfAffine, Slide, Sphere
+from scene import Indent
 
 MODELS = ("mdr", "bem", *THEORIES, "corrected", "exact")
-SCENE = Scene(Sphere(radius=1e-2), Kelvin(modulus=1e6, relaxation_time=1e-3), Indent(load=1.0))
-ROUGH = Scene(
-    SCENE.indenter,
-    SCENE.elastomer,
-    Slide(speed=0.1, load=1.0),
-    SelfAffine(hurst=0.8, rms_height=5e-7, longest=4e-3, shortest=1e-3, seed=1),
-)
+SCENE = replace(SLIDING, motion=Indent(load=1.0), roughness=None)
 PACKAGES = sorted({name for model in MODELS for name in SceneTask(model_of(model).solver, (SCENE,)).packages})
 # Code that carries questions and answers and computes none: how tasks are run, and types of settings.
 CARRYING = ("compare.solving", "compare.library")
@@ -34,12 +30,12 @@ from pathlib import Path
 opened = []
 sys.addaudithook(lambda event, given: opened.append(str(given[0])) if event == "open" else None)
 from imports import PACKAGES, ROOT
-from test_compare_digest import MODELS, ROUGH, SCENE
+from test_compare_digest import MODELS, SCENE, SLIDING
 from compare.models.table import model_of
 CODE = (".py", ".pyc", ".pyi", ".nbi", ".nbc")
 for model in MODELS:
     solver = model_of(model).solver
-    solver.solve(SCENE if model == "exact" else ROUGH)
+    solver.solve(SCENE if model == "exact" else SLIDING)
     paths = {Path(each) for each in opened if Path(each).suffix not in CODE and Path(each).is_file()}
     opened.clear()
     ours = {each for each in paths if any(ROOT / own in each.parents for own in PACKAGES)}

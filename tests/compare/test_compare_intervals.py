@@ -226,13 +226,6 @@ def test_a_size_is_in_its_interval_as_often_as_stated(modes, size, surfaces):
     assert size or np.mean(np.array(squares) < 0) > 0.3
 
 
-def test_a_size_scales_and_forgets_the_sign():
-    samples, _ = vectors(np.random.default_rng(9), MODES["three"], 5, 2.0)
-    one, other = size_of(samples), size_of(-3 * samples)
-    assert other.interval() == pytest.approx(3 * np.array(one.interval()), rel=1e-9)
-    assert other.value == pytest.approx(3 * one.value, rel=1e-9)
-
-
 @pytest.mark.parametrize("dof", [4, 40])
 def test_a_misfit_of_points_with_one_pooled_scatter_is_in_its_interval_as_often_as_stated(dof):
     rng, truth, kept = np.random.default_rng(13), np.array([0.5, 0.0, 0.0, -0.5] * 5), 0

@@ -25,7 +25,7 @@ from scene.files.reading import InvalidInput
 
 
 def blank(tables):
-    return Figure(figsize=(0.1, 0.1), layout="none")
+    return Figure(figsize=(0.1, 0.1), layout="tight")
 
 
 @dataclass(frozen=True)

@@ -1,11 +1,13 @@
 """The master curve in three dimensions: answers made by the law fall on it, others are found to be off."""
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
 import xarray
 from invented_answers import SERIES, SURFACES, changed, eq_19, joined, obeying, resolved
+from scipy.stats import binom
 
 from compare.figures import style
 from compare.solving import words
@@ -24,6 +26,7 @@ CONE = replace(FEW, name="cone", title="Rough cone", scene=resolved("cone"))
 ROUNDING = 1e-9
 
 
+@cache
 def solved(series):
     """What the law says of all points of a series."""
     rough = series.curves[ROUGH]
@@ -81,20 +84,12 @@ def test_one_point_in_six_that_is_off_is_seen_by_nine_in_ten_and_not_by_the_medi
     assert (findings["collapse"].verdict, findings["collapse-most"].verdict) == (HOLDS, FAILS)
 
 
-def test_points_of_high_roughness_are_left_out():
-    made = answers()
+def test_points_of_high_roughness_and_where_the_body_has_most_of_the_friction_are_left_out():
+    made, law = answers(), solved(FEW).copy(deep=True)
     heights = LawPoints.of(made.series, made.answers).height
     np.testing.assert_array_equal(heights > SHALLOW, [[True, False, False]] * 3)
-    times = np.where(heights > SHALLOW, 3.0, 1.0)
-    findings = found(answers(times=times))
-    assert findings["collapse-most"].value < ROUNDING
-    assert findings["collapse"].regime.startswith("6 points")
-
-
-def test_points_where_the_body_has_most_of_the_friction_are_left_out():
-    law = solved(FEW).copy(deep=True)
     law["friction_of_roughness"][:, :, 1, 1] *= 0.01
-    times = np.ones((3, 3))
+    times = np.where(heights > SHALLOW, 3.0, 1.0)
     times[0, 1] = 3.0
     findings = found(answers(times=times, law=law))
     assert findings["collapse-most"].value < ROUNDING
@@ -107,17 +102,13 @@ def test_the_error_of_the_grid_is_in_the_interval():
     assert 0.2 < high < 0.4
 
 
-SEEDS = 60
-
-
 @pytest.mark.parametrize("off", [0.0, 0.2])
 def test_intervals_hold_what_points_are_off_without_scatter(off):
     """A tenth of the draws may miss at either end: sizes of six points, known from eight surfaces."""
-    ends = [
-        found(answers(times=np.exp(off), scatter=0.2, seed=seed))["collapse"].interval for seed in range(SEEDS)
-    ]
+    ends = [found(answers(times=np.exp(off), scatter=0.2, seed=seed))["collapse"].interval for seed in range(12)]
     low, high = np.transpose(ends)
-    assert np.mean((low <= off + ROUNDING) & (off <= high)) > 0.9
+    held = np.sum((low <= off + ROUNDING) & (off <= high))
+    assert held >= binom.ppf(1e-3, len(ends), 0.9)
 
 
 def together(*contacts):

@@ -338,7 +338,7 @@ def test_threads_that_draw_at_once_draw_as_one_alone():
     def drawn_in(chosen):
         return picture(sample("friction-figure"), look=style.Look(chosen)).files
 
-    asked, outside = ("default", "nature", "default"), dict(matplotlib.rcParams)
+    asked, outside = ("default", "nature"), dict(matplotlib.rcParams)
     with ThreadPoolExecutor(len(asked)) as threads:
         together = list(threads.map(drawn_in, asked))
     assert together == [drawn_in(each) for each in asked]

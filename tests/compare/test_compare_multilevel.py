@@ -11,7 +11,7 @@ from compare.statistics.intervals import student
 from compare.statistics.jackknife import DrawSet, friction, mean, mean_ratio, resample, strata_of, welch
 from compare.statistics.multilevel import pooled
 
-STUDIES = 2000
+STUDIES = 500
 COUNTS = 4, 8, 60
 
 
@@ -146,7 +146,7 @@ def test_degrees_of_freedom_are_those_of_welch():
 
 
 def test_a_ratio_of_two_models_of_unequal_numbers_of_draws_holds_as_often():
-    rng, studies, held = np.random.default_rng(5), 400, 0
+    rng, studies, held = np.random.default_rng(5), 150, 0
 
     def drawn(solver, count, spread):
         values = np.exp(spread * rng.normal(size=(1, count)) - spread**2 / 2)

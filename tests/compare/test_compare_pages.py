@@ -19,6 +19,7 @@ from page_samples import FINDINGS, MEANS, ROWS, hostile_page, page, written
 from pandas import DataFrame
 from pandas.testing import assert_frame_equal
 from PIL import Image
+from strategies import examples
 
 from compare.report import csvfiles, manifest, render, terminal
 from compare.report.export import export
@@ -74,6 +75,7 @@ FLOATS = st.floats(allow_nan=True, allow_infinity=True)
 TEXTS = st.text(st.characters(codec="utf-8", exclude_characters="\r\0"), min_size=1).map(lambda text: f"a{text}")
 
 
+@examples(30)
 @given(st.lists(st.tuples(FLOATS, st.integers(-(2**62), 2**62), TEXTS), min_size=1))
 def test_what_is_read_back_is_the_same_table(tmp_path_factory, rows):
     frame = DataFrame(rows, columns=["value", "count", "name"])
@@ -257,6 +259,7 @@ JSON = st.recursive(
 )  # fmt: skip
 
 
+@examples(30)
 @given(JSON | st.binary(max_size=20))
 def test_a_damaged_manifest_is_named_whatever_is_in_it(tmp_path_factory, content):
     path = tmp_path_factory.mktemp("forged")

@@ -19,6 +19,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
+from small_cases import SLIDING
 from stand_in_solver import every_bit
 from strategies import examples
 
@@ -30,24 +31,18 @@ from compare.solving.store import FILE, Store
 from compare.solving.task import NUMBERS, Outcome, Row
 from compare.solving.task import SceneTask as Task
 from mdr1d import MDR
-from scene import Kelvin, Scene, SelfAffine, Slide, Sphere
+from scene import Slide, Sphere
 from scene.files.reading import InvalidInput
 from scene.vocabulary import MEASURES
 
-SCENE = Scene(
-    Sphere(radius=1e-2),
-    Kelvin(modulus=1e6, relaxation_time=1e-3),
-    Slide(speed=0.1, load=1.0),
-    SelfAffine(hurst=0.5, rms_height=1e-6, longest=1e-2, seed=3),
-)
-TASK = Task(MDR(points=100), (SCENE,))
+TASK = Task(MDR(points=100), (SLIDING,))
 PICTURE = replace(TASK, keeps_fields=True)
 ROW = Row(1.0, 1e-4, 0.1, 1e-9, 12.0, 0.5, {"pixel": 1e-6, "odd": np.nan}, {"points": 100, "cutoff": None})
 
 
 def drawn(count):
     """A task of `count` scenes."""
-    return replace(TASK, scenes=(SCENE,) * count)
+    return replace(TASK, scenes=(SLIDING,) * count)
 
 
 def bits(outcome):
@@ -357,14 +352,14 @@ def test_files_and_folders_have_the_permissions_of_the_user_s_others(tmp_path, m
 
 def test_the_name_changes_with_everything_that_the_answer_depends_on():
     others = [
-        replace(TASK, scenes=(replace(SCENE, indenter=Sphere(radius=1.0000000000000002e-2)),)),
-        replace(TASK, scenes=(replace(SCENE, motion=Slide(speed=0.1, depth=1.0)),)),
+        replace(TASK, scenes=(replace(SLIDING, indenter=Sphere(radius=1.0000000000000002e-2)),)),
+        replace(TASK, scenes=(replace(SLIDING, motion=Slide(speed=0.1, depth=1.0)),)),
         drawn(2),
         replace(TASK, solver=MDR(points=101)),
         replace(TASK, solver=Exact()),
     ]
     assert len({key(task) for task in [TASK, *others]}) == 1 + len(others)
-    assert key(replace(TASK, work=7.0)) == key(Task(MDR(points=100), (replace(SCENE),)))
+    assert key(replace(TASK, work=7.0)) == key(Task(MDR(points=100), (replace(SLIDING),)))
 
 
 @given(value=st.recursive(FLOATS | st.integers() | st.text() | st.booleans() | st.none(), st.lists))

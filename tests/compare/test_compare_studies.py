@@ -13,7 +13,6 @@ from compare.statistics.jackknife import friction, mean
 from compare.studies.comparison import asked, together
 from compare.studies.comparison.answers import THEORIES
 from compare.studies.comparison.comparison import Comparison
-from compare.studies.comparison.laws import laws
 from compare.studies.comparison.measures import SLOW, loading
 from compare.studies.comparison.rough import ROUGH, SMOOTH, RoughSeries
 from scene import Indent, Program, Slide, Stage
@@ -196,13 +195,6 @@ def test_friction_that_obeys_the_law_has_its_powers_of_the_slope_near_the_limits
         for each in members
     ]
     assert {each.claim.expected for each in powers(late)} == {1.0}
-
-
-def test_theory_predicts_its_own_shifts(whole):
-    found = laws(whole.series.curves[ROUGH], whole("BEM"))
-    assert found.exponent == pytest.approx(-1.5, rel=1e-12)
-    assert np.ptp(np.diff(found.shifts) / np.diff(np.log(found.speeds))) < 1e-12
-    assert np.allclose(found.law, eq_19(*np.meshgrid(SERIES.values, SERIES.speeds)), rtol=1e-12)
 
 
 def test_a_series_pressed_by_depth_stays_so_and_is_solved_at_rest_too():

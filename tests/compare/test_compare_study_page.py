@@ -1,6 +1,5 @@
 """Page of a study: the answer from all findings, figures of their tables alone, every point, and what failed."""
 
-import re
 from collections import Counter
 from dataclasses import replace
 
@@ -19,8 +18,6 @@ from compare.studies.comparison.claims import SHORT
 from compare.studies.comparison.comparison import Comparison
 from scene import Indent, Program, Stage
 
-NUMBER = re.compile(r"−?\d+(?:\.\d+)?")
-
 
 def by_depth(name, title, motion, speeds, values):
     """The sphere under prescribed depths."""
@@ -38,10 +35,10 @@ def of(whole, title="A <question> & more?"):
 
 @pytest.fixture(scope="module")
 def study():
-    """Four series, one with a failed solve, and a study of them with its answers."""
+    """Four series, one with a failed solve: what was found of them, and their page."""
     sliding = cut(obeying(eq_19), speeds=6, values=5)
     depths, program = (5e-5, 2e-4, 1e-3), Program(stages=(Stage(duration=1.0, depth=1e-4),))
-    return of(
+    asked, answers = of(
         [
             spoiled(sliding, np.s_[0, 2, 1], reason="it would not <converge>"),
             other(sliding, "smoother", rms_height=2.5e-5),
@@ -49,38 +46,35 @@ def study():
             by_depth("pressed", "Pressed in", program, (0.1, 1.0), depths),
         ]
     )
+    judged = asked.judge(answers)
+    return judged.findings, judged.page(asked.title, answers)
 
 
-@pytest.fixture(scope="module")
-def page(study):
-    asked, answers = study
-    return asked.judge(answers).page(asked.title, answers)
-
-
-def test_the_answer_is_a_line_a_claim_with_every_verdict_and_number_of_places(study, page):
-    asked, answers = study
+def test_the_answer_is_a_line_a_claim_with_every_verdict_and_number_of_places(study):
+    findings, page = study
     (table,) = page.opening
     frame = table.frame.set_index("claim")
     assert frame.index.is_unique
     for short in frame.index:
-        own = [each for each in asked.judge(answers).findings if SHORT.get(each.claim.id) == short]
+        own = [each for each in findings if SHORT.get(each.claim.id) == short]
         for verdict in {each.verdict for each in own if each.verdict != REPORTED}:
             assert verdict in frame.loc[short, "verdict"]
-    undecided = [each for each in asked.judge(answers).findings if each.verdict == UNDECIDED]
+    undecided = [each for each in findings if each.verdict == UNDECIDED]
     assert any("Undecided: " in each for each in page.answer) == bool(undecided)
 
 
-def test_every_finding_stands_on_the_page_once(study, page):
-    asked, answers = study
+def test_every_finding_stands_on_the_page_once(study):
+    findings, page = study
     shown = [found for block in page.every(Findings) for found in block.findings]
-    assert sorted(map(_place, shown)) == sorted(map(_place, asked.judge(answers).findings))
+    assert sorted(map(_place, shown)) == sorted(map(_place, findings))
 
 
 def _place(found):
     return found.claim.id, found.dimension, found.where
 
 
-def test_a_page_has_the_figures_and_tables_of_what_was_asked(page):
+def test_a_page_has_the_figures_and_tables_of_what_was_asked(study):
+    _, page = study
     plots = {plot.name: plot for plot in page.every(Plot)}
     assert {"sphere/collapse", "sphere/friction-speed", "rest/force-depth"} <= set(plots)
     assert "rest/friction-speed" not in plots

@@ -34,10 +34,10 @@ def test_a_surface_is_described_as_it_was_drawn():
     assert found.warnings == []
 
 
-@pytest.mark.parametrize("repeat", ["periodic", "mirror"])
-def test_the_spectrum_is_two_sided(repeat):
+@pytest.mark.parametrize(("repeat", "points"), [("periodic", 127), ("mirror", 128)])
+def test_the_spectrum_is_two_sided(repeat, points):
     # the integral over all rings is the mean square, but for the rest of rings with few waves
-    map_ = sampled(ROUGH, repeat=repeat)
+    map_ = sampled(ROUGH, points, repeat=repeat)
     rings = rings_of(map_)
     waves = map_.waves
     counted = np.sum(rings.density * rings.waves) * 2 * waves.step_x * waves.step_y
@@ -177,20 +177,6 @@ def test_the_band_of_a_law_has_a_third_of_the_rings():
 
 CHECKERS = np.indices((8, 8)).sum(axis=0) % 2
 NO_WAVE = "no wave of the map is shorter than"
-
-
-@pytest.mark.filterwarnings("ignore:Function/property:DeprecationWarning")
-def test_another_program_finds_the_same_spectrum():
-    """SurfaceTopography has 4 pi^2 of our density."""
-    peer = pytest.importorskip("SurfaceTopography")
-    map_ = sampled(ROUGH, 65)
-    other = peer.Topography(map_.relief.T, map_.size, periodic=True)
-    *_, theirs = other.power_spectrum_from_area(return_map=True)
-    waves = map_.waves
-    j, k = np.indices(waves.amplitudes.shape) - np.array([32, 0])[:, None, None]
-    there = (k > 0) | (j > 0)
-    ours = np.abs(waves.amplitudes) ** 2 / 2 / (2 * waves.step_x * waves.step_y)
-    np.testing.assert_allclose(ours[there], theirs[k, j][there] / (4 * pi**2), atol=1e-9 * ours.max())
 
 
 def saved(tmp_path, heights):

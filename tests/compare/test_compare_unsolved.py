@@ -85,14 +85,10 @@ points = 500
 """
 
 
-@pytest.fixture(scope="module")
-def blunt(tmp_path_factory):
-    path = tmp_path_factory.mktemp("blunt") / "blunt.toml"
-    path.write_text(BLUNT)
-    return path
+def test_a_run_without_its_own_contact_says_so_before_the_answer_and_ends_with_1(tmp_path):
+    blunt = tmp_path / "blunt.toml"
+    blunt.write_text(BLUNT)
 
-
-def test_a_run_without_its_own_contact_says_so_before_the_answer_and_ends_with_1(blunt, tmp_path):
     def run(*options):
         return ask("run", blunt, "--output", tmp_path, "--workers", 1, *options)
 

@@ -230,14 +230,9 @@ def judged(case, **models):
     return study, found, {table.name: table.frame for table in found.page("", xarray.DataTree()).every(Table)}
 
 
-@pytest.fixture(scope="module")
-def layered():
+def test_a_page_has_errors_and_times_of_what_solves_and_the_reasons_of_what_does_not():
     """A thin layer, which 1D refuses, with a model that is off the map."""
-    return judged(replace(SMOOTH, layer=Layer(thickness=1e-3), bem=BEM(points=32)))
-
-
-def test_a_page_has_errors_and_times_of_what_solves_and_the_reasons_of_what_does_not(layered):
-    study, found, tables = layered
+    study, found, tables = judged(replace(SMOOTH, layer=Layer(thickness=1e-3), bem=BEM(points=32)))
     ways = found.plots[0].tables["workprecision-ways"]
     solved = ways[ways["bias"].notna()]
     assert set(solved["model"]) == {"BEM"}

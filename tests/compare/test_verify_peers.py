@@ -6,10 +6,9 @@ import sys
 from pathlib import Path
 
 import pytest
+from test_compare_checks import failed, judged
 
-import compare
-from compare.solving.words import VERDICTS
-from compare.studies.checks.study import Checks
+from compare.statistics.finding import HOLDS, REPORTED
 
 PAGE = Path(__file__).parents[2] / "docs" / "howto" / "verify.md"
 # Of the peers, not of ours: without mpi4py, NuMPI warns on import that it stands in for it.
@@ -26,28 +25,23 @@ def peers(tmp_path, monkeypatch):
     del sys.modules["peers"]
 
 
-def by_verdict(findings):
-    names = {verdict: set() for verdict in VERDICTS}
-    for each in findings:
-        names[each.verdict].add(each.claim.id)
-    return names
+# Points of each code by its package, laws that it holds, and laws of what it does not solve or measure; a quarter
+# of 32 points shows no order.
+CODES = {
+    "tamaas": ("Tamaas", 64, {"wave.gap.0.5", "crossed.fraction.0.3", "symmetry.turn"}, {"sphere.force"}),
+    "ContactMechanics": (
+        *("ContactMechanics", 32, {"sphere.force", "cone.depth", "same.rest", "seed"}),
+        {"order.sphere", "slow.sphere.kelvin", "wave.gap.0.5"},
+    ),
+}
 
 
-def test_tamaas_holds_the_laws_of_planes_at_rest(peers, tmp_path):
-    pytest.importorskip("tamaas", exc_type=ImportError)
-    report = compare.verify(peers.Tamaas(points=64), tmp_path / "verify", workers=1, report=False)
-    found = by_verdict(report.judged)
-    assert not found["fails"]
-    assert {"verify.wave.gap.0.5", "verify.crossed.fraction.0.3", "verify.symmetry.turn"} <= found["holds"]
-    assert "verify.sphere.force" in found["reported"]
-
-
-def test_contact_mechanics_holds_the_laws_of_bodies_at_rest(peers):
-    pytest.importorskip("ContactMechanics", exc_type=ImportError)
-    study = Checks.verify(peers.ContactMechanics(points=32))
-    outcomes = {task: task.solve() for batch in study.batches() for task in batch.tasks}
-    found = by_verdict(study.judge(study.answers(outcomes)).findings)
-    assert not found["fails"]
-    assert {"verify.sphere.force", "verify.cone.depth", "verify.same.rest", "verify.seed"} <= found["holds"]
-    # A quarter of 32 points shows no order.
-    assert {"verify.order.sphere", "verify.slow.sphere.kelvin", "verify.wave.gap.0.5"} <= found["reported"]
+@pytest.mark.parametrize("every", [False, pytest.param(True, marks=pytest.mark.slow)], ids=["few", "all"])
+@pytest.mark.parametrize("package", CODES)
+def test_a_code_of_others_holds_the_laws_of_what_it_solves(peers, package, every):
+    pytest.importorskip(package, exc_type=ImportError)
+    name, points, held, left_out = CODES[package]
+    _, found = judged(getattr(peers, name)(points=points), None if every else held | left_out)
+    assert not failed(found)
+    assert {found[each].verdict for each in held} == {HOLDS}
+    assert {found[each].verdict for each in left_out} == {REPORTED}
