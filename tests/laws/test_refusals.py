@@ -214,6 +214,7 @@ CASES = {
         [LINE],
         "Cylinder | no body of revolution",
     ),
+    "a layer in 1D": (resting(layer=Layer(thickness=1e-3)), [LINE], "layer = Layer | three-dimensional solver"),
     "one wave in 1D": (resting(roughness=Wave(amplitude=1e-6, wavelength=1e-3)), [LINE], "Wave | not isotropic"),
     "a rough cylinder": (
         Scene(cylinder, SOLID, Indent(line_load=1e3), ROUGH),

@@ -66,13 +66,6 @@ def test_every_answer_is_that_of_the_solver():
             assert answers.rms_slope[i, column] == pytest.approx(alone.measures["rms_slope"], rel=1e-12)
 
 
-def test_the_order_of_scenes_and_seeds_does_not_matter():
-    scenes, points = list(SCENES.values()), [POINTS] * len(SCENES)
-    there = solve_profiles(scenes, points, seeds=(3, 8))
-    back = solve_profiles(scenes[::-1], points, seeds=(8, 3))
-    np.testing.assert_allclose(back.friction[::-1, ::-1], there.friction, rtol=MET, atol=MET)
-
-
 def test_neighbours_along_a_parameter_save_sweeps():
     scenes = [moved(CONE, load=float(load)) for load in np.geomspace(1.0, 10.0, 20)]
     answers = solve_profiles(scenes, [5000] * 20, seeds=range(3))

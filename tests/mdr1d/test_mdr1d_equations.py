@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from mdr1d import MDR, draw, modes_of, sweep, sweep_modes
+from mdr1d import MDR, draw, modes_of, sweep_modes
 from mdr1d import equations as eq
 from scene import (
     Elastic,
@@ -235,15 +235,12 @@ def test_the_spectral_force_is_the_integral_and_its_waves_add_up_to_it():
 
 def per_period(elastomer, surface, speed, depth):
     """Friction [N] and length of contact [m] per period of a rough line far from its ends, simulated."""
-    modulus, moduli, times = elastomer.relaxation()
-    periods = 2 + ceil(FORGOTTEN * speed * max(times, default=0.0) / surface.period)
+    modulus, _, times = elastomer.relaxation()
+    periods = 2 + ceil(FORGOTTEN * speed * max(times) / surface.period)
     sums = []
     for count in (periods, periods + 1):
         heights = np.tile(surface.heights, count)
-        if moduli.size:
-            contact = sweep_modes(heights, surface.pixel, modes_of(elastomer), speed, depth)
-        else:
-            contact = sweep(heights, surface.pixel, speed * elastomer.viscosity / modulus, depth)
+        contact = sweep_modes(heights, surface.pixel, modes_of(elastomer), speed, depth)
         sums.append((4 * modulus * contact.dissipation, contact.length))
     return np.diff(sums, axis=0)[0]
 

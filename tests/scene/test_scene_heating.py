@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from scipy.optimize import bisect
 
-from mdr1d import estimates
 from scene import (
     Arrhenius,
     Cylinder,
@@ -84,22 +83,6 @@ def counted(rise):
         return Trial(warmer, rise(warmer))
 
     return attempt, asked
-
-
-def test_the_estimates_are_those_of_the_paper():
-    speed, conductivity = SCENE.motion.speed, 20.0
-    plain = Fake(rms_height=1e-6)(SCENE)
-    result = heated(replace(SCENE, temperature=None), Fake(rms_height=1e-6), conductivity=conductivity)
-    assert result.measures.keys() == plain.measures.keys() | {"average_heating", "flash_heating"}
-    result = heated(SCENE, Fake(rms_height=1e-6), conductivity=conductivity)
-    friction = result.friction_coefficient
-    for found, modulus, length, estimate in (
-        ("average_heating", 1e6, DEPTH, estimates.average_heating),
-        ("flash_heating", 1e9, 1e-6, estimates.flash_heating),
-    ):
-        by_hand = 2 * friction * modulus * length * speed / conductivity
-        assert result.measures[found] == pytest.approx(by_hand, rel=ROUNDING)
-        assert estimate(friction, modulus, length, speed, conductivity) == pytest.approx(by_hand, rel=ROUNDING)
 
 
 @pytest.mark.parametrize("poisson_ratio", [-0.9, 0.3])
@@ -199,21 +182,6 @@ def test_the_coldest_of_several_temperatures_is_found():
     assert several >= 15
     assert np.median(trials) <= 5
     assert max(trials) <= 25
-
-
-def test_a_contact_ignites_where_the_heat_outgrows_what_is_conducted():
-    """Semenov: x = C exp(k x) has a solution up to C k = 1/e, where x = 1/k; with more, only a far hotter one."""
-    steepness, hump = 0.1, 1e6
-
-    def hottest(strength):
-        return settled(counted(lambda x: strength * hump * rubber(hump, steepness)(x) / 2)[0]).warmer
-
-    critical = 1 / (steepness * exp(1))
-    assert hottest(critical * 0.99) < 1 / steepness < hottest(critical * 1.01)
-    assert hottest(critical * 1.01) > 10 / steepness
-    # below, the lower branch of x = C exp(k x), in the limit of a hump far away
-    low = bisect(lambda x: 0.9 * critical * exp(steepness * x) - x, 0, 1 / steepness, xtol=1e-12)
-    assert hottest(0.9 * critical) == pytest.approx(low, rel=1e-5)
 
 
 def test_without_an_agreement_there_is_no_answer():

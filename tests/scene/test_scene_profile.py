@@ -18,7 +18,6 @@ from mdr1d import MDR
 from scene import Kelvin, Profile, Refused, Scene, SelfAffine, Slide, Sphere
 from scene.surfaces import linescan
 from scene.surfaces.heightmap import taken_off
-from scene.surfaces.linescan import bins_of
 from scene.surfaces.topography import MOST_WAVES
 
 SPACING = 2e-6
@@ -101,25 +100,6 @@ def test_waves_beyond_the_cut_off_have_the_slope_of_a_tapered_periodogram():
     slopes = np.abs(waves * np.fft.rfft(level * np.hanning(len(level)))) ** 2
     beyond = slopes[waves > law.length / law.shortest.value]
     assert law.beyond == pytest.approx(beyond.sum() / slopes.sum(), rel=0.15)
-
-
-def test_laws_on_the_lattice_are_line_scans_of_self_affine_surfaces():
-    laws = linescan._Laws(bins_of(512, 1))
-    at = 30, int(np.argmin(np.abs(laws.rolloffs - 5))), int(np.argmin(np.abs(laws.cutoffs - 100)))
-    hurst, rolloff, cutoff = (float(each) for each in laws.numbers(at))
-    # a longest wave far beyond the line; a plateau of 1
-    rough = SelfAffine(
-        hurst=hurst, rms_height=1.0, longest=2 * pi * 1e4, rolloff=2 * pi / rolloff, shortest=2 * pi / cutoff
-    )
-    q = np.array([10.0, 20.0, 50.0, 80.0])
-    expected = rough.density_line_scan(q, cutoff) / rough.density_2d(np.array(0.1), cutoff)
-    fall = rolloff ** (2 * hurst + 2)
-    found = 2 * fall * (linescan._tail(hurst, q, q) - linescan._tail(hurst, q, cutoff))
-    assert found == pytest.approx(expected, rel=1e-9)
-    moments = [linescan._moment(power, hurst, rolloff, cutoff) for power in (1, 3)]
-    height = float(np.sqrt(moments[0] / moments[1]))
-    known = replace(rough, longest=2 * pi)
-    assert known.rms_height / known.rms_slope(cutoff) == pytest.approx(height, rel=ROUNDING)
 
 
 def test_a_line_with_regular_grooves_does_not_follow_the_law():

@@ -231,17 +231,6 @@ def test_retardation_to_relaxation_and_back_is_where_it_began(instantaneous):
     assert worst(again.compliances, form.compliances) <= 1e-12
 
 
-@every_form
-def test_units_do_not_matter(form):
-    # Powers of two scale without rounding, and then so must every digit.
-    unit = 2.0**70
-    scaled = Relaxation(form.equilibrium / unit, form.moduli / unit, form.times * unit, form.viscosity)
-    creep, other = form.retardation(), scaled.retardation()
-    np.testing.assert_array_equal(other.times, creep.times * unit)
-    np.testing.assert_allclose(other.compliances, creep.compliances * unit, rtol=1e-15)
-    assert other.instantaneous == creep.instantaneous * unit
-
-
 def test_numbers_beyond_the_range_of_numbers_are_an_error_and_no_answer():
     with pytest.raises((ArithmeticError, RuntimeWarning)):
         Relaxation.of(1.0, (1e300, 1.0), (1e300, 1.0)).retardation()
