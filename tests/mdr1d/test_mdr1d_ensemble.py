@@ -48,7 +48,7 @@ SCENES = {
     "wider than the period": moved(CONE, load=60.0),
     "sphere": SPHERE,
     "power law": replace(CONE, indenter=PowerLaw(coefficient=1e4, exponent=3.5)),
-    "resolved": replace(CONE, roughness=replace(ROUGH, shortest=1e-4)),
+    "resolved": replace(CONE, roughness=replace(ROUGH, shortest=1e-4, amplitudes="gaussian")),
     "smoothest": replace(CONE, roughness=replace(ROUGH, hurst=1.0)),
     "roughest": replace(CONE, roughness=replace(ROUGH, hurst=0.0)),
 }

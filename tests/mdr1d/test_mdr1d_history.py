@@ -134,13 +134,10 @@ def test_steps_lengthen_from_the_start_of_each_stage():
 
 def test_a_dashpot_that_slides_on_its_last_pixels_is_an_error_and_no_friction():
     """Under a load the contact of a fast Kelvin solid shrinks below a pixel; its friction would be anything."""
-    for speed, fits in ((1.0, True), (1e6, False)):
-        motion = program((1.0, {"load": 0.1}), (0.3 / speed, {"speed": speed}))
-        if fits:
-            assert 0 < solved(motion, KELVIN, points=400).friction_coefficient < 1
-            continue
-        with pytest.raises(SolveError, match="the contact spans 1 pixels"):
-            solved(motion, KELVIN, points=400)
+    slow, fast = (program((1.0, {"load": 0.1}), (0.3 / speed, {"speed": speed})) for speed in (1.0, 1e6))
+    assert 0 < solved(slow, KELVIN, points=400).friction_coefficient < 1
+    with pytest.raises(SolveError, match="the contact spans 1 pixels"):
+        solved(fast, KELVIN, points=400)
 
 
 def test_a_load_lost_in_the_rounding_of_the_heights_is_no_answer():

@@ -121,10 +121,5 @@ def test_feedback_is_said_to_take_several_solves():
     once, often = MDR().plan(SCENES["temperature"]), MDR().plan(fed)
     assert often.operator_applications.value > 2 * once.operator_applications.value
     assert "until it is as warm as its friction makes it" in often.method
-    taken = MDR().solve(fed)
-    assert (
-        taken.measures["heating_solves"] / 3 < often.operator_applications.value / once.operator_applications.value
-    )
-    assert (
-        often.operator_applications.value / once.operator_applications.value < 3 * taken.measures["heating_solves"]
-    )
+    solves = often.operator_applications.value / once.operator_applications.value
+    assert 1 / 3 < MDR().solve(fed).measures["heating_solves"] / solves < 3

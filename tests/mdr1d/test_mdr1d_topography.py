@@ -54,12 +54,6 @@ def test_a_mapped_line_has_each_wave_of_the_map_at_its_own_wave_number():
     assert np.abs(np.delete(found, [1, 4])).max() < 1e-12
 
 
-def test_the_sign_of_heights_is_lost_on_mapped_lines_alone():
-    for spectrum, sign in (("mapped", 1.0), ("line-scan", -1.0)):
-        up, down = (draw(noise((9, 9), peaks=peaks), 64, spectrum).heights for peaks in ("up", "down"))
-        np.testing.assert_allclose(down, sign * up, atol=ROUNDING)
-
-
 @pytest.mark.parametrize("repeat", ["mirror", "periodic"])
 @pytest.mark.parametrize("shape", [(8, 15), (9, 8)])
 @pytest.mark.parametrize("seed", [0, 1, 7])
@@ -114,13 +108,6 @@ def test_measures_are_those_of_the_line():
     row = MDR(points=2000, spectrum="line-scan").solve(replace(SLIDING, roughness=map_))
     relief = map_.relief[32] - map_.relief[32].mean()
     assert row.measures["rms_height"] == pytest.approx(relief.std(), rel=1e-6)
-
-
-def test_a_rectangle_is_as_long_as_its_longer_side_or_its_rows():
-    map_ = noise((30, 6), repeat="periodic")
-    assert band_of(map_, "mapped").period == pytest.approx(30e-3)
-    assert band_of(map_, "line-scan").period == pytest.approx(6e-3)
-    assert band_of(map_, "line-scan").shortest == pytest.approx(2e-3)
 
 
 def test_a_grid_too_coarse_for_a_map_is_refused():

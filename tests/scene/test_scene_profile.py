@@ -102,6 +102,16 @@ def test_waves_beyond_the_cut_off_have_the_slope_of_a_tapered_periodogram():
     assert law.beyond == pytest.approx(beyond.sum() / slopes.sum(), rel=0.15)
 
 
+def test_what_a_line_sees_of_a_falling_spectrum_is_the_line_scan_of_that_surface():
+    rough, q = (
+        SelfAffine(hurst=0.6, rms_height=1.0, longest=2 * pi, shortest=2 * pi / 100),
+        np.array([5.0, 20, 80]),
+    )
+    expected = rough.density_line_scan(q, 100.0) / rough.density_2d(1.0, 100.0)
+    found = 2 * (linescan._tail(0.6, q, q) - linescan._tail(0.6, q, 100.0))
+    assert found == pytest.approx(expected, rel=1e-9)
+
+
 def test_a_line_with_regular_grooves_does_not_follow_the_law():
     grooves = HEIGHTS.std() * np.sin(2 * np.pi * np.arange(len(HEIGHTS)) / 20)
     follow = [linescan.fit(HEIGHTS + share * grooves, SPACING).follows for share in (0, 0.1, 0.5)]
