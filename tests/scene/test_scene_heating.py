@@ -106,17 +106,11 @@ def test_what_has_no_estimate_is_not_a_number_or_infinite_and_what_has_no_length
     assert heated(kelvin, Fake(), conductivity=20.0).measures["flash_heating"] == 0.0
 
 
-@pytest.mark.parametrize(
-    ("motion", "feedback"), [(Indent(load=10.0), None), (Slide(speed=0.0, load=10.0), "flash")]
-)
-def test_what_does_not_move_is_not_heated(motion, feedback):
-    solid = SOLID if feedback else Kelvin(1e6, 1e-3)
-    scene = replace(SCENE, motion=motion, elastomer=solid)
-    found = heated(scene, Fake(rms_height=1e-6), conductivity=1e-3, feedback=feedback).measures
+@pytest.mark.parametrize("motion", [Indent(load=10.0), Slide(speed=0.0, load=10.0)])
+def test_what_does_not_move_is_not_heated_whatever_its_glassy_modulus(motion):
+    scene = replace(SCENE, motion=motion, elastomer=Kelvin(1e6, 1e-3))
+    found = heated(scene, Fake(rms_height=1e-6), conductivity=1e-3).measures
     assert found["average_heating"] == found["flash_heating"] == 0.0
-    if feedback:
-        assert found["heating_solves"] == 1
-        assert found["temperature"] == 300.0
 
 
 @pytest.mark.parametrize(("feedback", "peak"), [("average", 1e-3), ("average", 1e3), ("flash", 1.0)])

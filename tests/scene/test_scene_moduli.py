@@ -140,14 +140,12 @@ def test_rows_at_several_temperatures_are_one_curve_by_the_law_of_the_scene(soli
     assert scene.elastomer is stated
 
 
-def tables(*temperatures, law=LAW, solid=SOLID, **more):
-    """Rows of a few decades at temperatures, with a column of these."""
-    rows = [OMEGA[10:40] for _ in temperatures]
-    factors = [replace(law, temperature=each).shift for each in temperatures]
-    moduli = np.concatenate([solid.complex_modulus(each * a) for each, a in zip(rows, factors, strict=True)])
-    warm = np.repeat(temperatures, 30)
-    columns = {"omega": np.concatenate(rows), "T [K]": warm, "G'": moduli.real, "G''": moduli.imag}
-    return columns | {name: np.repeat(values, 30) for name, values in more.items()}, np.repeat(factors, 30)
+def tables(*temperatures, omega=OMEGA[10:40]):
+    """Rows at temperatures by the law, with a column of these, and their shift factors."""
+    warm, each = np.repeat(temperatures, len(omega)), np.tile(omega, len(temperatures))
+    factors = np.array([replace(LAW, temperature=kelvin).shift for kelvin in warm])
+    moduli = SOLID.complex_modulus(each * factors)
+    return {"omega": each, "T [K]": warm, "G'": moduli.real, "G''": moduli.imag}, factors
 
 
 @pytest.mark.parametrize("heading", ["aT", "a_T", "Shift factor", "log10 a_T"])
@@ -219,7 +217,7 @@ def test_reduced_frequencies_need_no_shift():
 
 
 def test_one_temperature_is_that_of_the_table_and_the_law_has_to_begin_there():
-    stated, _ = tables(300.0, law=LAW)
+    stated, _ = tables(300.0)
     table = Tabulated(table=stated, equilibrium_modulus=1e6)
     assert set(table.table.temperature) == {300.0}
     scene = Scene(Sphere(1e-2), table, Indent(load=1.0))
@@ -246,17 +244,16 @@ def test_a_law_that_does_not_bring_the_rows_onto_one_curve_is_refused():
         Scene(Sphere(1e-2), table, Indent(load=1.0), temperature=replace(LAW, c2=5.0))
 
 
-def test_a_scene_of_several_temperatures_is_stored_and_read_back():
-    scene = Scene(Sphere(1e-2), Tabulated(table=tables(290.0, 300.0, 320.0)[0]), Indent(load=1.0), temperature=LAW)
-    adapter = TypeAdapter(Scene)
-    again = adapter.validate_json(adapter.dump_json(scene))
-    assert again == scene
-    assert hash(again) == hash(scene)
-    relaxed, crept = SOLID.relaxation_modulus(TIME), SOLID.creep_compliance(TIME)
-    for table in (Table(time=TIME, modulus=relaxed), Table(time=TIME, compliance=crept)):
-        whole = TypeAdapter(Tabulated)
-        solid = Tabulated(table=table, kind="shear")
-        assert whole.validate_json(whole.dump_json(solid)) == solid
+def test_tables_of_every_kind_are_stored_and_read_back():
+    several = Scene(
+        Sphere(1e-2), Tabulated(table=tables(290.0, 300.0, 320.0)[0]), Indent(load=1.0), temperature=LAW
+    )
+    relaxed = Table(time=TIME, modulus=SOLID.relaxation_modulus(TIME))
+    crept = Table(time=TIME, compliance=SOLID.creep_compliance(TIME))
+    for stored in (several, Tabulated(table=relaxed, kind="shear"), Tabulated(table=crept, kind="shear")):
+        adapter = TypeAdapter(type(stored))
+        again = adapter.validate_json(adapter.dump_json(stored))
+        assert (again, hash(again)) == (stored, hash(stored))
 
 
 @pytest.mark.parametrize(
@@ -377,12 +374,8 @@ def test_the_step_itself_is_left_out_of_relaxation_and_that_is_said():
 
 
 def test_few_frequencies_at_many_temperatures_are_enough():
-    temperatures = np.repeat(np.linspace(285.0, 330.0, 16), 3)
-    factors = np.array([replace(LAW, temperature=each).shift for each in temperatures])
-    omega = np.tile([1e1, 1e2, 1e3], 16)
-    law = SOLID.complex_modulus(omega * factors)
-    table = Tabulated(table={"omega": omega, "T [K]": temperatures, "G'": law.real, "G''": law.imag})
-    scene = Scene(Sphere(1e-2), table, Indent(load=1.0), temperature=LAW)
+    stated, _ = tables(*np.linspace(285.0, 330.0, 16), omega=np.array([1e1, 1e2, 1e3]))
+    scene = Scene(Sphere(1e-2), Tabulated(table=stated), Indent(load=1.0), temperature=LAW)
     assert deviation(scene.solid, omega=np.geomspace(1e0, 1e5, 30)) < DRAWN
 
 
