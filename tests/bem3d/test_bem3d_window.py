@@ -75,15 +75,13 @@ def test_nine_pixels_in_contact_are_enough_and_eight_are_not():
 PIXELS = 3e-3
 
 
-@pytest.mark.parametrize(
-    ("indenter", "exponent"), [(Sphere(1e-2), 2), (Cone(0.2), 1), (PowerLaw(1e8, 4.0), 4)], ids=lambda x: str(x)
-)
+@pytest.mark.parametrize(("indenter", "exponent"), [(Sphere(1e-2), 2), (Cone(0.2), 1)], ids=str)
 def test_a_kelvin_solid_slid_ever_faster_keeps_the_law_of_a_fluid(indenter, exponent):
     """Where v tau >> a there is no length but a: F_N ~ v tau E* c a^n, so that mu ~ c a^(n-1) ~ v^(1/n - 1).
 
     A depth under a load has a logarithm besides: far upstream the surface creeps as 1/r, from v tau to a.
     """
-    fast, fastest = 1e4, np.array([1e20, 1e28, 1e30, 1e35])
+    fast, fastest = 1e4, np.array([1e20, 1e35])
 
     def solved(speed):
         return BEM(points=48).solve(Scene(indenter, Kelvin(1e6, 1e-3), Slide(speed=speed, load=1.0)))

@@ -125,13 +125,11 @@ def test_a_key_changes_with_any_height_and_never_holds_them():
     heights = noise((40, 40))
     other = heights.copy()
     other[17, 3] = np.nextafter(other[17, 3], 1.0)
-    scenes = [
-        Scene(Sphere(1e-2), Elastic(1e6), Indent(load=1.0), rough(h)) for h in (heights, heights.copy(), other)
-    ]
-    keys = [json.dumps(SCENES.dump_python((scene,), mode="json"), sort_keys=True) for scene in scenes]
+    scenes = [Scene(Sphere(1e-2), Elastic(1e6), Indent(load=1.0), rough(h)) for h in (heights, +heights, other)]
+    keys = [json.dumps(SCENES.dump_python((each,), mode="json"), sort_keys=True) for each in scenes]
     assert keys[0] == keys[1] != keys[2]
-    assert len(keys[0]) < 1000
     assert scenes[0] == scenes[1] != scenes[2]
+    assert len(keys[0]) < 1000
     assert hash(scenes[0]) == hash(scenes[1])
     # the same numbers in another shape are another map
     assert rough(heights.reshape(20, 80)) != rough(heights)
