@@ -105,7 +105,7 @@ def started(solid, ratio, points, memories=5.0):
     ("solid", "ratio", "points", "force", "friction"),
     [
         (GLASSY, 1.0, 48, 5e-4, 2e-3),
-        (KELVIN, 10.0, 32, 1.5e-3, 4e-3),
+        pytest.param(KELVIN, 10.0, 32, 1.5e-3, 4e-3, marks=pytest.mark.slow),
         pytest.param(KELVIN, 0.1, 48, 5e-4, 5e-3, marks=pytest.mark.slow),
     ],
     ids=str,
@@ -154,7 +154,7 @@ def test_lowest_points_that_are_alike_are_no_trouble_to_start_from(points):
     assert BEM(points=points).solve(line).normal_force == pytest.approx(300.0, rel=0.05)
 
 
-@pytest.mark.parametrize("exponent", [40.0, 44.0, 100.0])
+@pytest.mark.parametrize("exponent", [40.0, 100.0])
 def test_pressed_to_a_depth_a_blunt_body_has_the_force_of_one_dimension_at_every_step(exponent):
     # the corners of the window are 1e10 to 1e27 times as high as the indenter is pressed in
     program = Program(stages=(Stage(duration=2 * TAU, depth=5e-5), Stage(duration=2 * TAU, depth=1e-5)))

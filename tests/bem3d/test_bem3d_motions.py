@@ -78,7 +78,7 @@ def test_the_window_of_an_indenter_that_goes_backwards_is_the_mirror_image():
     ("indenter", "roughness", "value", "length"),
     [
         pytest.param(Sphere(R), None, {"depth": DEPTH}, A, marks=pytest.mark.slow),
-        (Cylinder(R), None, {"line_load": 100.0}, A),
+        pytest.param(Cylinder(R), None, {"line_load": 100.0}, A, marks=pytest.mark.slow),
         (Plane(), CrossedWaves(amplitude=1e-6, wavelength=1e-4), {"pressure": 1e5}, 1e-4),
     ],
     ids=["sphere", "cylinder", "plane"],

@@ -174,6 +174,7 @@ def transients(tamaas):
     return history, rough.rms_height, 2 * fine - coarse, 2 * late - early
 
 
+@pytest.mark.slow
 def test_a_viscoelastic_cell_goes_the_way_of_tamaas(transients):
     history, height, theirs, pressure = transients
     resolved = history.time > 0.25  # at first a few pixels touch

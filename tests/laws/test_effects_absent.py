@@ -48,9 +48,9 @@ MODULES = {
     "measured file": {"scene/files/heightfile.py"},
     "oscillation": {"scene/motion.py Oscillation.at"},
 }
-# What only effects need, and costs more to load than all of ours.
-LIBRARIES = {"scipy.interpolate", "SurfaceTopography"}
-OF_SCENES = {*LIBRARIES, "scipy.special", "scipy.optimize", "scipy.fft"}
+# What only effects need, or numbers with units, and costs more to load than all of ours.
+LIBRARIES = {"scipy.interpolate", "SurfaceTopography", "pint"}
+OF_SCENES = {*LIBRARIES, "xarray", "scipy.special", "scipy.optimize", "scipy.fft"}
 # As an effect is asked for on the page, which is the positive of every negative below.
 ASKED = {
     "layer": "layer",

@@ -84,7 +84,7 @@ def broken(line: Line, contact: Contact) -> list[str]:
 SPEEDS = decades(-6, 6)
 
 
-@examples(200)
+@examples(100)
 @given(lines(), solids, SPEEDS)
 def test_contact_neither_penetrates_nor_pulls_and_pushes_only_where_it_touches(line, solid, speed):
     """w >= 0, gap >= 0, p >= 0 and p * gap = 0, to rounding of the sums along the line."""
@@ -105,7 +105,7 @@ def test_the_conditions_of_contact_can_be_broken():
     )
 
 
-@examples(150)
+@examples(75)
 @given(lines(), solids, SPEEDS, decades(-9, 0.2))
 def test_a_deeper_contact_carries_more(line, solid, speed, more):
     """The force is convex in the depth and lies between its tangents at both, to rounding of the sums."""
@@ -119,7 +119,7 @@ def test_a_deeper_contact_carries_more(line, solid, speed, more):
     assert np.all(deep.displacement >= shallow.displacement - ROUNDING * deeper.depth)
 
 
-@examples(200)
+@examples(100)
 @given(lines(), solids, SPEEDS)
 def test_friction_by_traction_is_the_energy_lost_and_never_negative(line, solid, speed):
     """-int g' f dx = what is lost per length slid >= 0. Traction cancels to rounding of the steepest slope times
@@ -131,7 +131,7 @@ def test_friction_by_traction_is_the_energy_lost_and_never_negative(line, solid,
     )
 
 
-@examples(100)
+@examples(60)
 @given(lines(), solids, SPEEDS, st.integers(1, 50), st.integers(0, 50))
 def test_a_profile_moved_by_whole_pixels_has_the_same_contact(line, solid, speed, before, behind):
     """The elastomer comes undisturbed from wherever: what is not touched ahead or behind changes no bit."""
@@ -161,7 +161,7 @@ def against_the_flow(line: Line, memory):
     return u
 
 
-@examples(150)
+@examples(75)
 @given(lines(), SPEEDS)
 def test_the_mirrored_profile_slid_the_other_way_has_the_mirrored_answer(line, memory):
     """Against a solve of the other direction from the principle of the least displacement, to rounding."""
@@ -179,7 +179,7 @@ def solved(scene):
         reject()
 
 
-@examples(150)
+@examples(75)
 @given(bodies(), units())
 def test_every_answer_has_forces_of_the_right_sign_and_the_load_asked_for(scene, unit):
     """F_N > 0, F_x >= 0, zero for an elastic solid or at rest, by a line force >= 0; the load met to 1e-10."""

@@ -77,7 +77,7 @@ def test_a_plan_is_of_the_grid_the_steps_and_nearly_the_sweeps_of_the_solve(name
         ("shear", 10**5),
         ("topography", 10**5),
         ("many", 2000),
-        ("far-and-back", 300),
+        ("far-and-back", 150),
     ],
 )
 def test_the_memory_of_a_plan_is_what_a_solve_holds_at_most(name, points):

@@ -111,7 +111,7 @@ READ = {"nothing", "nan", "an end of each row"}  # with nothing stated but the u
         },
     ),
 )
-@examples(500)
+@examples(200)
 def test_a_rectangle_is_read_as_it_stands_or_refused(tmp_path_factory, seed, shape, damage, marks, digits, stated):
     (separator, decimal), heights = marks, np.round(1000 * noise(shape, seed), digits)
     assume(marks != (",", ",") or stated.get("decimal") != ".")  # which is not so, and read as it is stated

@@ -283,7 +283,7 @@ def drawn(seed):
 
 
 @pytest.mark.parametrize(
-    ("first", "count"), [(0, 300), pytest.param(300, 5000, marks=pytest.mark.slow)], ids=["some", "many"]
+    ("first", "count"), [(0, 150), pytest.param(150, 5000, marks=pytest.mark.slow)], ids=["some", "many"]
 )
 def test_no_table_is_read_as_other_numbers_than_were_meant(tmp_path, first, count):
     """A table is read as it is meant, or refused by its name; and read once what differs is stated."""

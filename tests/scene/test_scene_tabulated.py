@@ -114,7 +114,7 @@ RUBBERS = {
     "fractional": (SPRINGPOT.complex_modulus, (1.0, 1e6)),
     "filled": (FILLED.complex_modulus, (1e-2, 1e5)),
 }
-DRAWS, ALLOWED = 40, 2  # of tables with noise, and how many of them may be judged wrongly
+DRAWS, ALLOWED = 20, 1  # of tables with noise, and how many of them may be judged wrongly
 
 
 def open_at_rest(law, band, count, noise):
