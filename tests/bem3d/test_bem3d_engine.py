@@ -89,9 +89,7 @@ def test_product_equals_the_direct_sum_without_wrapping_around(shape, even):
 
 
 def test_periodic_filter_multiplies_each_wave_by_its_symbol():
-    ny, nx = 12, 10
-    y, x = np.mgrid[:ny, :nx]
-    wave = np.cos(2 * np.pi * (3 * x / nx - 2 * y / ny))
-    filtered = PeriodicFilter((ny, nx), lambda q_y, q_x: q_x**2 + q_y**2 + 0j)(wave)
-    q2 = (2 * np.pi * 3 / nx) ** 2 + (2 * np.pi * 2 / ny) ** 2
-    np.testing.assert_allclose(filtered, q2 * wave, atol=ROUNDING)
+    (y, x), q_y, q_x = np.mgrid[:12, :10], -4 * np.pi / 12, 6 * np.pi / 10
+    wave = np.cos(q_x * x + q_y * y)
+    filtered = PeriodicFilter((12, 10), lambda q_y, q_x: q_x**2 + q_y**2 + 0j)(wave)
+    np.testing.assert_allclose(filtered, (q_y**2 + q_x**2) * wave, atol=ROUNDING)

@@ -22,8 +22,8 @@ MEASURED = re.compile(r"^(?:time|memory) .*$", re.MULTILINE)
 @pytest.mark.parametrize(
     "page",
     [
-        pytest.param(page, marks=pytest.mark.slow if page.stem == "friction" else (), id=page.stem)
-        for page in PAGES
+        pytest.param(each, marks=pytest.mark.slow if each.stem == "friction" else (), id=each.stem)
+        for each in PAGES
     ],
 )
 def test_commands_print_what_the_page_shows(page):

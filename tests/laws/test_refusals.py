@@ -242,14 +242,10 @@ def test_a_contact_without_an_answer_is_refused_by_an_error_that_names_what_to_c
     ("make", "words"),
     [
         (partial(BEM, points=15), "points | 15 | 16"),
-        (partial(BEM, points=16385), "points | 16385 | 16384"),
         (partial(MDR, points=7), "points | 7 | 8"),
-        (partial(MDR, points=2**25 + 1), "points | 33554432"),
         (partial(MDR, pixels=100), "pixels"),
         (partial(MDR, shape="given"), "shape | 'mapped' or 'as-given'"),
-        (partial(MDR, spectrum="scan"), "spectrum | 'mapped' or 'line-scan'"),
         (partial(BEM, tolerance=1e-13), "tolerance | 1e-13 | 0.000000000001"),
-        (partial(BEM, steps=10**7), "steps | 1000000"),
         (partial(BEM, precision="single", tolerance=1e-6), "tolerance | single"),
     ],
 )

@@ -54,10 +54,12 @@ SCENES |= {
 
 
 @pytest.mark.parametrize("name", SCENES)
-def test_a_plan_is_of_the_grid_the_steps_and_nearly_the_sweeps_of_the_solve(name):
+def test_a_plan_is_of_all_of_a_scene_the_grid_the_steps_and_nearly_the_sweeps_of_the_solve(name):
     scene = SCENES[name]
     asked = MDR(points=300 if name == "far-and-back" else 2000, steps=50)
     plan, answer = asked.plan(scene), asked.solve(scene)
+    assert all_of_a_scene(plan, scene)
+    assert ("measured surface" in plan.left_out) == (name != "topography")
     assert plan.shape == (answer.settings["points"] + 1,)
     assert plan.steps == answer.measures.get("time_steps", 0)
     assert plan.kernels == ()
@@ -88,14 +90,6 @@ def test_the_memory_of_a_plan_is_what_a_solve_holds_at_most(name, points):
         scene = replace(scene, roughness=replace(scene.roughness, seed=2))  # a line is kept once drawn
     _, most = held_by(asked.solve, scene)
     assert most / FACTOR < asked.plan(scene).memory < most * FACTOR
-
-
-@pytest.mark.parametrize("name", SCENES)
-def test_what_is_simulated_and_what_is_left_out_are_all_of_a_scene(name):
-    scene = SCENES[name]
-    plan = MDR().plan(scene)
-    assert all_of_a_scene(plan, scene)
-    assert ("measured surface" in plan.left_out) == (name != "topography")
 
 
 def test_more_branches_and_more_points_are_expected_to_take_longer():

@@ -228,7 +228,6 @@ def saved(write, name):
 
 
 GIVEN = {
-    "pandas": lambda _: {"heights": labelled().to_series().rename("z [nm]").rename_axis("x [mm]").reset_index()},
     "xarray": lambda _: {"heights": labelled()},
     "a Dataset": lambda _: {"heights": labelled().to_dataset()},
     "arrays, falling": lambda _: {
