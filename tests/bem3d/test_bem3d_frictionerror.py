@@ -1,13 +1,11 @@
 """Error of friction that an answer states: it holds, and friction that a grid does not tell is refused."""
 
-import numpy as np
 import pytest
 
 from bem3d import BEM
 from bem3d.friction import bound as frictionerror
-from bem3d.friction.bound import UNCERTAIN, Signs, at_tip, bound
+from bem3d.friction.bound import UNCERTAIN, Signs, bound
 from bem3d.friction.estimates import Friction
-from bem3d.grid import Grid
 from scene import Cone, Kelvin, PowerLaw, Scene, SelfAffine, Slide, SolveError, Sphere, StandardLinearSolid
 from scene.scales import elastic_contact
 
@@ -77,17 +75,6 @@ def test_friction_of_a_cone_whose_contact_ends_at_the_tip_is_within_its_error(la
         assert error < answers[points].measures["friction_error"] < 5 * error
 
 
-@pytest.mark.parametrize(("indenter", "order"), [(Cone(angle=0.1), 1), (blunt(1.0), 1), (blunt(1.5), 2)])
-@pytest.mark.parametrize("points", [63, 64])
-def test_the_share_of_a_sharp_tip_falls_with_its_order_and_is_none_where_the_tip_is_free(indenter, order, points):
-    coarse, fine = (Grid(points * times, 1.0) for times in (1, 4))
-    discs = [np.hypot(*np.meshgrid(each.x, each.y)) < 0.4 for each in (coarse, fine)]
-    shares = [at_tip(indenter, *each, 0.5) for each in zip((coarse, fine), discs, strict=True)]
-    assert shares[0] / shares[1] == pytest.approx(4**order, rel=0.02)
-    ring = discs[0] & (np.hypot(*np.meshgrid(coarse.x, coarse.y)) > 0.05)
-    assert at_tip(indenter, coarse, ring, 0.5) == at_tip(Sphere(radius=1.0), coarse, discs[0], 0.5) == 0
-
-
 @pytest.mark.parametrize("solid", [KELVIN, GLASSY])
 @pytest.mark.parametrize("speed", [1e-3, 0.1, 10.0])
 @pytest.mark.parametrize("rough", [None, ROUGH])
@@ -141,24 +128,3 @@ def test_estimates_that_contradict_one_another_as_far_as_they_count_are_refused(
 def test_a_residual_is_part_of_the_error():
     seen = nothing_seen()
     assert bound(seen, estimates(), 64, 1e-2) - bound(seen, estimates(), 64, 0.0) == pytest.approx(0.03)
-
-
-@pytest.mark.parametrize("shift", [(0, 0), (1, 0), (0, -3), (5, 2)])
-@pytest.mark.parametrize("points", [16, 17, 22])
-def test_wider_pixels_keep_the_force_and_a_corner_on_the_axis(points, shift):
-    pixel = 0.5
-    grid = Grid(points, points * pixel, (shift[0] * pixel, shift[1] * pixel))
-    wider = grid.wider()
-    assert wider.pixel == pytest.approx(2 * pixel)
-    for axis in (wider.x, wider.y) if points % 2 == 0 else ():
-        assert (axis / wider.pixel) % 1 == pytest.approx(0.5)
-    values = np.random.default_rng(1).random(grid.shape)
-    pressed = np.where(values > 0.6, values, 0.0)
-    found = wider.averaged(pressed, grid)
-    assert found.sum() * wider.patch == pytest.approx(pressed.sum() * grid.patch)
-
-
-@pytest.mark.parametrize("points", [16, 17])
-def test_a_cell_is_averaged_over_half_as_many_pixels(points):
-    cell = Grid(points, 1.0)
-    np.testing.assert_allclose(cell.coarser().averaged(np.ones(cell.shape), cell), 1.0, rtol=1e-12)

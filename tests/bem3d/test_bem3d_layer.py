@@ -165,16 +165,6 @@ def test_a_grid_that_is_not_refused_has_the_force_and_those_twice_as_fine_are_no
     assert taken > 5
 
 
-@pytest.mark.parametrize("shape", [(1, 400), (400, 400)])
-def test_the_radius_of_spots_is_that_of_one_of_them(shape):
-    grid = Grid(400, 2.0, width=1.0 if shape[0] == 1 else None)
-    x, y = (grid.x[None, :], np.zeros((1, 1))) if shape[0] == 1 else (grid.x[None, :], grid.y[:, None])
-    across = np.abs(np.abs(x) - 0.5)
-    one, two = np.hypot(x, y) < 0.3, np.hypot(across, y) < 0.3
-    for touched in (one, two):
-        assert grid.spot_radius(touched) == pytest.approx(0.3, rel=0.02)  # of pixels: 1/60
-
-
 def test_a_layer_that_no_grid_shows_is_refused_with_what_would_do_instead():
     scene = Scene(SPHERE, Elastic(1e6, poisson_ratio=0.49999999), Indent(load=1.0), layer=Layer(thickness=1e-7))
     coarse = BEM(points=64, extent=2e-3)

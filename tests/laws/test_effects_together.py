@@ -20,6 +20,7 @@ from scene import (
     Slide,
     Sphere,
     StandardLinearSolid,
+    Topography,
 )
 
 WARM = WLF(temperature=306.0, reference=300.0, c1=10.0, c2=100.0)
@@ -50,6 +51,15 @@ def test_friction_of_the_interface_has_no_error_of_the_grid(solver):
     bare, rubbed = (solver.solve(replace(PLAIN, interface=each)) for each in (None, Coulomb(STICKS)))
     absolute = [each.measures["friction_error"] * each.friction_force for each in (bare, rubbed)]
     assert absolute[0] == pytest.approx(absolute[1], rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    "solver", [BEM(points=48), MDR(points=1000), MDR(points=1000, spectrum="line-scan")], ids=str
+)
+def test_a_map_without_heights_is_no_roughness(solver):
+    flat = Topography(heights=np.full((20, 20), 0.1), pixel=1e-4)
+    with_it, without = (solver.solve(replace(PLAIN, roughness=each)) for each in (flat, None))
+    assert numbers(with_it) == pytest.approx(numbers(without), rel=ROUNDING)
 
 
 @solvers

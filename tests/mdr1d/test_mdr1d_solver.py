@@ -7,7 +7,7 @@ import pytest
 from sliding import PAPER, ROUGH, SMOOTH
 
 from mdr1d import MDR
-from scene import Indent, Program, Scene, Slide, SolveError, Sphere, Stage
+from scene import Indent, Program, Scene, SolveError, Sphere, Stage
 
 
 def test_smooth_and_resolved_scenes_say_so():
@@ -38,18 +38,6 @@ def test_a_grid_beyond_memory_is_refused():
     # of a number of three hundred digits the first are enough
     assert len(MDR(extent=1e-290).refusals(PAPER)[0]) < 250
     assert len(MDR(extent=1e290).refusals(PAPER)[0]) < 250
-
-
-@pytest.mark.parametrize("scene", [SMOOTH, PAPER])
-@pytest.mark.parametrize("motion", [Slide(speed=0.3, load=1.0), Slide(speed=0.0, depth=2e-4)])
-def test_contact_that_leaves_the_grid_is_an_error_whose_advice_works(scene, motion):
-    scene = replace(scene, motion=motion)
-    solver = MDR(points=400, extent=2e-4)
-    with pytest.raises(SolveError, match=r"extent is 0\.0002") as error:
-        solver.solve(scene)
-    advice = re.search(r"extent = (\S+) holds it, with points = (\d+)", str(error.value))
-    result = MDR(points=int(advice[2]), extent=float(advice[1])).solve(scene)
-    assert result.measures["pixel"] == pytest.approx(5e-7, rel=0.01)
 
 
 @pytest.mark.parametrize("seed", [4, 5])
