@@ -1,11 +1,13 @@
 """Error of friction that an answer states: it holds, and friction that a grid does not tell is refused."""
 
+import numpy as np
 import pytest
 
 from bem3d import BEM
 from bem3d.friction import bound as frictionerror
-from bem3d.friction.bound import UNCERTAIN, Signs, bound
+from bem3d.friction.bound import UNCERTAIN, Signs, at_tip, bound
 from bem3d.friction.estimates import Friction
+from bem3d.grid import Grid
 from scene import Cone, Kelvin, PowerLaw, Scene, SelfAffine, Slide, SolveError, Sphere, StandardLinearSolid
 from scene.scales import elastic_contact
 
@@ -73,6 +75,14 @@ def test_friction_of_a_cone_whose_contact_ends_at_the_tip_is_within_its_error(la
     for points in (80, 128):
         error = abs(friction[points] / truth - 1)
         assert error < answers[points].measures["friction_error"] < 5 * error
+
+
+@pytest.mark.parametrize("points", [63, 64])
+def test_a_blunt_tip_leaves_no_error_and_a_sharp_one_that_is_free_neither(points):
+    grid = Grid(points, 1.0)
+    distance = np.hypot(*grid.places)
+    assert at_tip(Sphere(radius=1.0), grid, distance < 0.4, 0.5) == 0
+    assert at_tip(Cone(angle=0.1), grid, (distance > 0.05) & (distance < 0.4), 0.5) == 0
 
 
 @pytest.mark.parametrize("solid", [KELVIN, GLASSY])

@@ -191,6 +191,14 @@ CASES = {
         [LINE],
         "forces beyond the range of numbers",
     ),
+    **{
+        f"a {motion.pressed_by} beyond numbers": (
+            resting(elastomer=KELVIN, motion=motion),
+            [BEM(points=32)],
+            "too far apart to be computed with",
+        )
+        for motion in (Indent(load=1e300), Indent(depth=1e300), Slide(speed=PACE, load=1e-307))
+    },
     # The square of a slope of 1e290; a period of 1e310 pixels.
     "a slope whose square is no number": (
         Scene(PowerLaw(0.018, 100.0), Elastic(1e-300), Slide(speed=1.0, load=2e-5)),
