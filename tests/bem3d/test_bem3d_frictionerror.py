@@ -82,7 +82,7 @@ def test_a_blunt_tip_leaves_no_error_and_a_sharp_one_that_is_free_neither(points
     grid = Grid(points, 1.0)
     distance = np.hypot(*grid.places)
     assert at_tip(Sphere(radius=1.0), grid, distance < 0.4, 0.5) == 0
-    assert at_tip(Cone(angle=0.1), grid, (distance > 0.05) & (distance < 0.4), 0.5) == 0
+    assert at_tip(Cone(angle=0.1), grid, (distance > 0.03) & (distance < 0.4), 0.5) == 0
 
 
 @pytest.mark.parametrize("solid", [KELVIN, GLASSY])
