@@ -78,11 +78,14 @@ def test_friction_of_a_cone_whose_contact_ends_at_the_tip_is_within_its_error(la
 
 
 @pytest.mark.parametrize("points", [63, 64])
-def test_a_blunt_tip_leaves_no_error_and_a_sharp_one_that_is_free_neither(points):
+def test_the_error_by_a_sharp_tip_has_its_order_and_there_is_none_where_the_tip_is_blunt_or_free(points):
     grid = Grid(points, 1.0)
     distance = np.hypot(*grid.places)
-    assert at_tip(Sphere(radius=1.0), grid, distance < 0.4, 0.5) == 0
-    assert at_tip(Cone(angle=0.1), grid, (distance > 0.03) & (distance < 0.4), 0.5) == 0
+    disc = distance < 0.4
+    # the second order in the pixel over the radius
+    assert at_tip(blunt(1.5), grid, disc, 0.5) == pytest.approx(0.5 * np.pi / np.count_nonzero(disc))
+    assert at_tip(Sphere(radius=1.0), grid, disc, 0.5) == 0
+    assert at_tip(Cone(angle=0.1), grid, disc & (distance > 0.03), 0.5) == 0
 
 
 @pytest.mark.parametrize("solid", [KELVIN, GLASSY])

@@ -54,7 +54,7 @@ def test_friction_of_the_interface_has_no_error_of_the_grid(solver):
 
 
 @pytest.mark.parametrize(
-    "solver", [BEM(points=48), MDR(points=500), MDR(points=500, spectrum="line-scan")], ids=str
+    "solver", [BEM(points=48), *(MDR(points=500, extent=4e-3, spectrum=each) for each in ("mapped", "line-scan"))]
 )
 def test_a_map_without_heights_is_no_roughness(solver):
     flat = Topography(heights=np.full((20, 20), 0.1), pixel=1e-4)
