@@ -22,8 +22,8 @@ def blunt(exponent):
     return PowerLaw(coefficient=1e-4 / 1e-3**exponent, exponent=exponent)
 
 
-def slid(indenter, speed, solid=KELVIN, rough=None, load=1.0):
-    return Scene(indenter, solid, Slide(speed=speed, load=load), rough)
+def slid(indenter, speed, solid=KELVIN, rough=None):
+    return Scene(indenter, solid, Slide(speed=speed, load=1.0), rough)
 
 
 def answered(scene, points):
@@ -141,3 +141,18 @@ def test_estimates_that_contradict_one_another_as_far_as_they_count_are_refused(
 def test_a_residual_is_part_of_the_error():
     seen = nothing_seen()
     assert bound(seen, estimates(), 64, 1e-2) - bound(seen, estimates(), 64, 0.0) == pytest.approx(0.03)
+
+
+@pytest.mark.parametrize("shift", [(0, 0), (5, 2), (0, -3)])
+@pytest.mark.parametrize("points", [16, 17, 22])
+def test_wider_pixels_keep_the_force_and_a_corner_on_the_axis(points, shift):
+    pixel = 0.5
+    grid = Grid(points, points * pixel, (shift[0] * pixel, shift[1] * pixel))
+    wider = grid.wider()
+    assert wider.pixel == pytest.approx(2 * pixel)
+    for axis in (wider.x, wider.y) if points % 2 == 0 else ():
+        assert (axis / wider.pixel) % 1 == pytest.approx(0.5)
+    values = np.random.default_rng(1).random(grid.shape)
+    pressed = np.where(values > 0.6, values, 0.0)
+    found = wider.averaged(pressed, grid)
+    assert found.sum() * wider.patch == pytest.approx(pressed.sum() * grid.patch)

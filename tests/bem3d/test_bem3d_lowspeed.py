@@ -43,7 +43,7 @@ GRID = 0.01
 
 
 @cache
-def curvature(scene, points=128):
+def curvature(scene, points):
     return BEM(points=points).solve(scene).measures["curvature_by_pressure"]
 
 

@@ -55,10 +55,10 @@ def rough_plane(points, **changed):
     return SelfAffine(rms_height=SLOPE / unit.rms_slope(unit.q_max(1 / points)), **of)
 
 
-def ours(indenter, motion, roughness, elastomer=ELASTIC, points=128, **settings):
+def ours(indenter, motion, roughness, points=128, **settings):
     """Our result, and the heights that a peer is to be given."""
     solver = BEM(points=points, **{"tolerance": TOLERANCE} | settings)
-    result = solver.solve(Scene(indenter, elastomer, motion, roughness))
+    result = solver.solve(Scene(indenter, ELASTIC, motion, roughness))
     return result, result.fields["height"]
 
 
@@ -68,9 +68,9 @@ def model_of(tamaas, heights, modulus, ratio):
     return model
 
 
-def by_tamaas(tamaas, heights, pressure, modulus=1.0):
+def by_tamaas(tamaas, heights, pressure):
     """Pressure and gap on a cell."""
-    model = model_of(tamaas, heights, modulus, 0.0)
+    model = model_of(tamaas, heights, 1.0, 0.0)
     solver = tamaas.PolonskyKeerRey(model, np.ascontiguousarray(-heights), LEFT)
     assert solver.solve(pressure) <= LEFT
     return model.traction, model["gap"]

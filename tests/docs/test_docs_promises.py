@@ -41,8 +41,8 @@ def test_values_on_ever_finer_grids_are_brought_to_their_limit(order):
     assert errors.settled(values[:1])[1] == np.inf
 
 
-def row(friction, bound, waves=nan):
-    return Row(1.0, 0.01, friction, measures={"friction_error": bound, "points_per_shortest_wave": waves})
+def row(friction, bound):
+    return Row(1.0, 0.01, friction, measures={"friction_error": bound, "points_per_shortest_wave": nan})
 
 
 def test_an_answer_counts_where_it_has_friction_and_its_truth_is_known():

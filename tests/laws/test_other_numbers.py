@@ -293,7 +293,7 @@ def formulas():
                 yield from arguments_of(function, f"{module.__name__}.{name}", FORMULAS, **words)
 
 
-def drawn(given, seed=1):
+def drawn(given):
     return mdr1d.draw(ROUGH, nodes=given).heights
 
 

@@ -12,10 +12,6 @@ SOLID = Fractional(modulus=1e6, relaxation_time=1e-3, exponent=0.3, lowest_frequ
 BETWEEN = 1.02  # the error is sampled at 32 frequencies a mode; other frequencies may find a little more
 
 
-def in_range(solid, count=2003):
-    return np.geomspace(solid.lowest_frequency, solid.highest_frequency, count)
-
-
 def power_law(solid, omega):
     return solid.modulus * (1 + (1j * omega * solid.relaxation_time) ** solid.exponent)
 
@@ -25,7 +21,7 @@ def power_law(solid, omega):
 def test_storage_and_loss_follow_the_law_within_the_stated_error(exponent, decades, tolerance):
     highest = SOLID.lowest_frequency * 10**decades
     solid = replace(SOLID, exponent=exponent, highest_frequency=highest, tolerance=tolerance)
-    omega = in_range(solid)
+    omega = np.geomspace(solid.lowest_frequency, solid.highest_frequency, 2003)
     found, law = solid.complex_modulus(omega), power_law(solid, omega)
     worst = max(np.abs(found.real / law.real - 1).max(), np.abs(found.imag / law.imag - 1).max())
     assert solid.error <= tolerance

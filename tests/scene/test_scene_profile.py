@@ -47,15 +47,15 @@ PROFILE = Profile(heights=HEIGHTS, spacing=SPACING)
 SLIDING = Scene(Sphere(1e-2), Kelvin(1e6, 1e-3), Slide(speed=0.01, load=0.2), PROFILE)
 
 
-def held(rough, points, lines, spacing=SPACING):
+def held(rough, points, lines):
     """Share of lines whose intervals hold hurst, rms height and rms slope of the waves that a line can have."""
-    longest, highest = points * spacing, min(rough.q_max(0.0), pi / spacing)
+    longest, highest = points * SPACING, min(rough.q_max(0.0), pi / SPACING)
     known = replace(rough, longest=min(longest, rough.longest), rolloff=rough.rolloff)
     known = replace(
         known, rms_height=rough.rms_height * rough.share(known.q_min, highest, rough.q_max(0.0)) ** 0.5
     )
     truth = {"hurst": rough.hurst, "rms_height": known.rms_height, "rms_slope": known.rms_slope(highest)}
-    laws = [linescan.fit(line(rough, points, spacing, seed), spacing) for seed in range(lines)]
+    laws = [linescan.fit(line(rough, points, seed=seed), SPACING) for seed in range(lines)]
     return {
         name: np.mean([getattr(law, name).low <= true <= getattr(law, name).high for law in laws])
         for name, true in truth.items()

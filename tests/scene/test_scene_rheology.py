@@ -19,11 +19,11 @@ TIMES = np.geomspace(1e-12, 1e12, 481)
 every_solid = pytest.mark.parametrize("solid", OF_EACH_TYPE.values(), ids=OF_EACH_TYPE)
 
 
-def spread(count=30, decades=15, ratio=1e6, seed=0, rest=G, viscosity=0.0):
-    """Random branches over `decades` decades, moduli scattered by `ratio`."""
+def spread(ratio=1e6, seed=0, viscosity=0.0):
+    """Thirty random branches over 15 decades, moduli scattered by `ratio`."""
     rng = np.random.default_rng(seed)
-    times = 10 ** np.append(rng.uniform(-decades, 0, count - 2), (-decades, 0)) * 1e3
-    form = Relaxation.of(rest, rest * ratio ** rng.uniform(-1, 1, count), times)
+    times = 10 ** np.append(rng.uniform(-15, 0, 28), (-15, 0)) * 1e3
+    form = Relaxation.of(G, G * ratio ** rng.uniform(-1, 1, 30), times)
     return replace(form, viscosity=viscosity)
 
 

@@ -29,8 +29,8 @@ def fitted(measured=None, **settings):
     return Tabulated(table=table() if measured is None else measured, **settings)
 
 
-def deviation(solid, expected=SOLID, omega=OMEGA):
-    found, law = solid.complex_modulus(omega), expected.complex_modulus(omega)
+def deviation(solid, omega=OMEGA):
+    found, law = solid.complex_modulus(omega), SOLID.complex_modulus(omega)
     return np.sqrt(np.mean(np.append(found.real / law.real - 1, found.imag / law.imag - 1) ** 2))
 
 

@@ -209,9 +209,9 @@ FORM = dict(zip("xy", ((np.arange(n) - (n - 1) / 2) * side for n, side in ((40, 
 PARABOLOID = 3.0 * FORM["x"] ** 2 + (2.0 * FORM["x"] - 1e-5 + 4.0 * FORM["y"][:, None]) * FORM["y"][:, None]
 
 
-def wave(k, j, shape=(30, 40)):
+def wave(k, j):
     """A wave of a mirrored map, with k half waves along x and j along y."""
-    along_y, along_x = (np.cos(pi * m * (np.arange(n) + 0.5) / n) for m, n in ((j, shape[0]), (k, shape[1])))
+    along_y, along_x = (np.cos(pi * m * (np.arange(n) + 0.5) / n) for m, n in ((j, 30), (k, 40)))
     return along_y[:, None] * along_x
 
 
