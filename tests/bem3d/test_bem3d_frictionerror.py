@@ -100,13 +100,6 @@ def test_the_error_that_is_stated_falls_with_the_pixel(solid, speed, rough):
     assert 0 < stated[0] < 0.3
 
 
-def test_units_and_loads_of_another_size_change_nothing():
-    scene = slid(Cone(angle=0.1), 0.05)
-    large = Scene(Cone(angle=0.1), KELVIN, Slide(speed=50.0, load=1e6))
-    stated = [BEM(points=48).solve(each).measures["friction_error"] for each in (scene, large)]
-    assert stated[0] == pytest.approx(stated[1], rel=1e-6)
-
-
 def estimates(**changed):
     whole = {"by_traction": 1.0, "by_loss": 1.0, "by_work": 1.0, "by_curvature": 1.0, "mean_curvature": 1.0}
     return Friction(**{**whole, "lag": 0.0, "slowness": 0.0, **changed})

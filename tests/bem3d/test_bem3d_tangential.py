@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from pulled import LOAD, MU, ROUGH, G, body
-from strategies import rescaled
 
 from bem3d import BEM
 from bem3d.contact import stickslip
@@ -156,13 +155,6 @@ def test_next_to_nothing_displaces_in_proportion(nu, drawn):
     back = BEM(points=48).solve(body(nu=nu, force=answer.friction_force))
     # to tolerance
     assert back.measures["tangential_displacement"] == pytest.approx(drawn, rel=1e-4)
-
-
-@pytest.mark.parametrize(("length", "modulus"), [(1e-6, 1e3), (1e3, 1e-3)])
-def test_units_do_not_matter(length, modulus):
-    scene = body(displacement=2e-5, roughness=ROUGH)
-    one, other = (BEM(points=32).solve(each) for each in (scene, rescaled(scene, length, modulus)))
-    assert other.friction_coefficient == pytest.approx(one.friction_coefficient, rel=1e-7)
 
 
 def test_the_mean_slip_of_a_cell_is_how_far_it_was_drawn():

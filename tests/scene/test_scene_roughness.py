@@ -29,12 +29,6 @@ def _between(low, high, function):
     return (high - low) / 2 * WEIGHTS @ (q * function(q))
 
 
-def test_the_density_of_the_line_is_pi_q_that_of_the_surface():
-    top = ROUGH.q_max(0.0)
-    q = np.linspace(0, 2 * top, 50)
-    np.testing.assert_allclose(ROUGH.density_1d(q, top), np.pi * q * ROUGH.density_2d(q, top), rtol=ROUNDING)
-
-
 @pytest.mark.parametrize("rolloff", [None, 2e-3, 1e-2])
 @pytest.mark.parametrize("hurst", HURSTS)
 def test_both_densities_integrate_to_the_rms_height_and_to_the_rms_slope(hurst, rolloff):
@@ -117,12 +111,6 @@ def test_the_density_falls_with_the_power_of_its_hurst_exponent_and_ends_at_the_
     outside = rough.density_2d(np.array([0.0, 0.99 * rough.q_min, 1.01 * top]), top)
     np.testing.assert_array_equal(outside, 0.0)
     assert np.all(rough.density_2d(np.array([rough.q_min, top]), top) > 0)
-
-
-def test_the_cut_off_is_the_shortest_wave_or_else_the_nyquist_wave_number():
-    assert ROUGH.q_max(1e-6) == 2 * np.pi / 1e-4
-    assert replace(ROUGH, shortest=None).q_max(1e-6) == np.pi / 1e-6
-    assert ROUGH.q_min == 2 * np.pi / 1e-2
 
 
 def test_above_the_rolloff_the_spectrum_is_flat_and_below_it_falls():
