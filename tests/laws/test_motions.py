@@ -2,8 +2,7 @@
 
 import numpy as np
 import pytest
-from changing_motion import harmonic, stiffness
-from programs import mirrored, program, slid
+from changing_motion import harmonic, mirrored, program, slid, stiffness
 
 from bem3d import BEM
 from mdr1d import MDR

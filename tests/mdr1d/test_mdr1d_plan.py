@@ -79,7 +79,7 @@ def test_a_plan_is_of_all_of_a_scene_the_grid_the_steps_and_nearly_the_sweeps_of
         ("shear", 10**5),
         ("topography", 10**5),
         ("many", 2000),
-        ("far-and-back", 150),
+        pytest.param("far-and-back", 150, marks=pytest.mark.slow),
     ],
 )
 def test_the_memory_of_a_plan_is_what_a_solve_holds_at_most(name, points):

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
+from changing_motion import program
 from hypothesis import given
 from hypothesis import strategies as st
-from programs import program
 
 from scene import InvalidInput, Stage
 from scene.motion import Oscillation
