@@ -1,11 +1,26 @@
-"""Contacts whose motion changes, in closed form: at any speed either way, at an angle, under an oscillation."""
+"""Programs of motion from their stages, and contacts under some in closed form: either way, at an angle, swung."""
 
+from dataclasses import replace
 from itertools import pairwise
 from math import pi, sqrt
 
 import numpy as np
 
 from compare.models.exact.full_contact import complex_stiffness
+from scene import Program, Stage
+
+
+def program(*stages):
+    return Program(stages=tuple(Stage(**stage) for stage in stages))
+
+
+def slid(path, speed, **given):
+    """A stage that slides so far, backwards where the path is negative."""
+    return {"duration": abs(path / speed), "speed": np.copysign(speed, path), **given}
+
+
+def mirrored(motion):
+    return replace(motion, stages=tuple(replace(stage, speed=-stage.speed) for stage in motion.stages))
 
 
 def wave_friction(amplitude, wavelength, elastomer, program, times, begin):

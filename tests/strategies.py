@@ -141,10 +141,10 @@ solids = st.one_of(elastic(), viscoelastic())
 
 
 @st.composite
-def spectra(draw, depth, ratio=8):
-    """Self-affine roughness of 0 to 3 depths on a contact of radius 1; shortest at most `ratio` times shorter."""
+def spectra(draw, depth):
+    """Self-affine roughness of 0 to 3 depths on a contact of radius 1; shortest at most eight times shorter."""
     longest = draw(decades(-0.3, 1))
-    shortest = longest / draw(evenly(2, ratio))
+    shortest = longest / draw(evenly(2, 8))
     return SelfAffine(
         hurst=draw(evenly(0, 1)),
         rms_height=depth * draw(evenly(0, 3)),
@@ -169,16 +169,16 @@ def motions(draw, depth, load):
 
 
 @st.composite
-def bodies(draw, elastomers=solids, ratio=8):
+def bodies(draw):
     """Scenes of bodies of revolution, smooth or rough, with radius and E* of 1 for the smooth relaxed contact."""
     shape, depth = draw(indenters())
     load = 2 * shape.exponent / (shape.exponent + 1) * depth
-    roughness = None if draw(st.booleans()) else draw(spectra(depth, ratio))
-    return Scene(shape, draw(elastomers), draw(motions(depth, load)), roughness)
+    roughness = None if draw(st.booleans()) else draw(spectra(depth))
+    return Scene(shape, draw(solids), draw(motions(depth, load)), roughness)
 
 
 @st.composite
-def planes(draw, elastomers=solids):
+def planes(draw):
     """Planes under a pressure, rough or with crossed waves of wavelength 1, of E* = 1."""
     height = draw(decades(-4, -1))
     waves = CrossedWaves(amplitude=height, wavelength=1.0)
@@ -187,7 +187,7 @@ def planes(draw, elastomers=solids):
     )
     pressure = height * draw(decades(-1, 1))
     motion = Slide(speed=draw(speeds), pressure=pressure)
-    return Scene(Plane(), draw(elastomers), motion, draw(st.sampled_from((waves, rough))))
+    return Scene(Plane(), draw(solids), motion, draw(st.sampled_from((waves, rough))))
 
 
 @st.composite

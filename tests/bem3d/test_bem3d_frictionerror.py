@@ -22,8 +22,8 @@ def blunt(exponent):
     return PowerLaw(coefficient=1e-4 / 1e-3**exponent, exponent=exponent)
 
 
-def slid(indenter, speed, solid=KELVIN, rough=None, load=1.0):
-    return Scene(indenter, solid, Slide(speed=speed, load=load), rough)
+def slid(indenter, speed, solid=KELVIN, rough=None):
+    return Scene(indenter, solid, Slide(speed=speed, load=1.0), rough)
 
 
 def answered(scene, points):
@@ -77,15 +77,15 @@ def test_friction_of_a_cone_whose_contact_ends_at_the_tip_is_within_its_error(la
         assert error < answers[points].measures["friction_error"] < 5 * error
 
 
-@pytest.mark.parametrize(("indenter", "order"), [(Cone(angle=0.1), 1), (blunt(1.0), 1), (blunt(1.5), 2)])
 @pytest.mark.parametrize("points", [63, 64])
-def test_the_share_of_a_sharp_tip_falls_with_its_order_and_is_none_where_the_tip_is_free(indenter, order, points):
-    coarse, fine = (Grid(points * times, 1.0) for times in (1, 4))
-    discs = [np.hypot(*np.meshgrid(each.x, each.y)) < 0.4 for each in (coarse, fine)]
-    shares = [at_tip(indenter, *each, 0.5) for each in zip((coarse, fine), discs, strict=True)]
-    assert shares[0] / shares[1] == pytest.approx(4**order, rel=0.02)
-    ring = discs[0] & (np.hypot(*np.meshgrid(coarse.x, coarse.y)) > 0.05)
-    assert at_tip(indenter, coarse, ring, 0.5) == at_tip(Sphere(radius=1.0), coarse, discs[0], 0.5) == 0
+def test_the_error_by_a_sharp_tip_has_its_order_and_there_is_none_where_the_tip_is_blunt_or_free(points):
+    grid = Grid(points, 1.0)
+    distance = np.hypot(*grid.places)
+    disc = distance < 0.4
+    # the second order in the pixel over the radius
+    assert at_tip(blunt(1.5), grid, disc, 0.5) == pytest.approx(0.5 * np.pi / np.count_nonzero(disc))
+    assert at_tip(Sphere(radius=1.0), grid, disc, 0.5) == 0
+    assert at_tip(Cone(angle=0.1), grid, disc & (distance > 0.03), 0.5) == 0
 
 
 @pytest.mark.parametrize("solid", [KELVIN, GLASSY])
@@ -98,13 +98,6 @@ def test_the_error_that_is_stated_falls_with_the_pixel(solid, speed, rough):
     ]
     assert stated[1] < 0.5 * stated[0]
     assert 0 < stated[0] < 0.3
-
-
-def test_units_and_loads_of_another_size_change_nothing():
-    scene = slid(Cone(angle=0.1), 0.05)
-    large = Scene(Cone(angle=0.1), KELVIN, Slide(speed=50.0, load=1e6))
-    stated = [BEM(points=48).solve(each).measures["friction_error"] for each in (scene, large)]
-    assert stated[0] == pytest.approx(stated[1], rel=1e-6)
 
 
 def estimates(**changed):
@@ -143,7 +136,7 @@ def test_a_residual_is_part_of_the_error():
     assert bound(seen, estimates(), 64, 1e-2) - bound(seen, estimates(), 64, 0.0) == pytest.approx(0.03)
 
 
-@pytest.mark.parametrize("shift", [(0, 0), (1, 0), (0, -3), (5, 2)])
+@pytest.mark.parametrize("shift", [(0, 0), (5, 2), (0, -3)])
 @pytest.mark.parametrize("points", [16, 17, 22])
 def test_wider_pixels_keep_the_force_and_a_corner_on_the_axis(points, shift):
     pixel = 0.5
@@ -156,9 +149,3 @@ def test_wider_pixels_keep_the_force_and_a_corner_on_the_axis(points, shift):
     pressed = np.where(values > 0.6, values, 0.0)
     found = wider.averaged(pressed, grid)
     assert found.sum() * wider.patch == pytest.approx(pressed.sum() * grid.patch)
-
-
-@pytest.mark.parametrize("points", [16, 17])
-def test_a_cell_is_averaged_over_half_as_many_pixels(points):
-    cell = Grid(points, 1.0)
-    np.testing.assert_allclose(cell.coarser().averaged(np.ones(cell.shape), cell), 1.0, rtol=1e-12)

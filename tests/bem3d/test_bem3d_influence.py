@@ -22,11 +22,9 @@ def love(x, y):
     return sum(quad(lambda v: along_x(abs(v)), *piece, epsabs=1e-13)[0] for piece in pairwise(edges)) / np.pi
 
 
-def test_elastic_kernel_is_the_integral_of_one_over_r():
-    kernel = influence.elastic(6, 6)
-    assert kernel[0, 6] == pytest.approx(4 * np.log(1 + np.sqrt(2)) / np.pi, rel=ROUNDING)
-    for i, j in ((1, 1), (-3, 2), (5, 0)):
-        assert kernel[j, 6 + i] == pytest.approx(love(i, j), rel=1e-9)
+def test_the_elastic_kernel_of_a_pixel_on_itself_is_loves():
+    """Those on others are the sum of Cerruti's, see test_bem3d_tangential_kernels.py."""
+    assert influence.elastic(6, 6)[0, 6] == pytest.approx(4 * np.log(1 + np.sqrt(2)) / np.pi, rel=ROUNDING)
 
 
 @pytest.mark.parametrize("length", [0.01, 1.0, 1e3])
@@ -52,9 +50,9 @@ LENGTHS = np.geomspace(1e-4, 1e7, 12)
 SHARES = np.linspace(1.0, 2.0, 12) / 18
 
 
-def graded(start, end, kinks, smallest=-70):
+def graded(start, end, kinks):
     """Gauss panels that halve towards every kink."""
-    steps = 2.0 ** np.arange(smallest, 50)
+    steps = 2.0 ** np.arange(-70, 50)
     cuts = np.concatenate([[start, end], *(k + sign * steps for k in kinks for sign in (1, -1)), list(kinks)])
     cuts = np.unique(cuts[(cuts >= start) & (cuts <= end)])
     x, w = np.polynomial.legendre.leggauss(16)

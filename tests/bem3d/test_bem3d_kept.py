@@ -29,7 +29,7 @@ OTHERS = [
 ]
 
 
-def of_seed(seed, scene=SLIDING):
+def of_seed(seed, scene):
     return replace(scene, roughness=replace(scene.roughness, seed=seed))
 
 
@@ -44,7 +44,7 @@ class Counted:
         return self.function(*args, **kwargs)
 
 
-def digits(scene, points=32):
+def digits(scene, points):
     answer = BEM(points=points).solve(scene)
     forces = [answer.normal_force, answer.friction_force, answer.depth, answer.residual]
     found = *forces, *answer.measures.values(), *answer.fields.values()

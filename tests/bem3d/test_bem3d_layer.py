@@ -36,16 +36,12 @@ from scene import (
 
 BASES = [Bonded(0.5), Bonded(0.4999), Bonded(0.3), Bonded(0.0), Bonded(-0.9), Frictionless()]
 SPHERE = Sphere(10e-3)
-SOFT = Elastic(1e6)
+SOFT, STANDARD = Elastic(1e6), StandardLinearSolid(1e6, 5e6, 1e-3)
 ROUNDING = 1e-14  # relative: some tens of the last place
 
 
 def named(each):
     return str(each).replace("poisson_ratio=", "")
-
-
-def standard(poisson_ratio=0.5):
-    return StandardLinearSolid(1e6, 5e6, 1e-3, poisson_ratio=poisson_ratio)
 
 
 @pytest.mark.parametrize("base", BASES, ids=named)
@@ -165,13 +161,12 @@ def test_a_grid_that_is_not_refused_has_the_force_and_those_twice_as_fine_are_no
     assert taken > 5
 
 
-@pytest.mark.parametrize("shape", [(1, 400), (400, 400)])
-def test_the_radius_of_spots_is_that_of_one_of_them(shape):
-    grid = Grid(400, 2.0, width=1.0 if shape[0] == 1 else None)
-    x, y = (grid.x[None, :], np.zeros((1, 1))) if shape[0] == 1 else (grid.x[None, :], grid.y[:, None])
-    across = np.abs(np.abs(x) - 0.5)
-    one, two = np.hypot(x, y) < 0.3, np.hypot(across, y) < 0.3
-    for touched in (one, two):
+@pytest.mark.parametrize("width", [None, 1.0])
+def test_the_radius_of_spots_is_that_of_one_of_them(width):
+    grid = Grid(400, 2.0, width=width)
+    x, y = grid.places
+    for middle in (0.0, 0.5):  # of one, and of two on either side
+        touched = np.hypot(abs(x) - middle, y) < 0.3
         assert grid.spot_radius(touched) == pytest.approx(0.3, rel=0.02)  # of pixels: 1/60
 
 
@@ -219,11 +214,9 @@ WAVE = Wave(amplitude=1e-6, wavelength=1e-3)
 @pytest.mark.parametrize(
     "scene",
     [
-        Scene(SPHERE, standard(), Slide(speed=0.1, load=1.0)),
-        Scene(Plane(), standard(), Slide(speed=0.1, pressure=2e4), WAVE),
-        Scene(
-            SPHERE, standard(), Program(stages=(Stage(duration=1e-3, load=1.0), Stage(duration=1e-2, speed=0.1)))
-        ),
+        Scene(SPHERE, STANDARD, Slide(speed=0.1, load=1.0)),
+        Scene(Plane(), STANDARD, Slide(speed=0.1, pressure=2e4), WAVE),
+        Scene(SPHERE, STANDARD, Program(stages=(Stage(duration=1e-3, load=1.0), Stage(duration=1e-2, speed=0.1)))),
     ],
     ids=["sphere", "plane", "program"],
 )
@@ -240,13 +233,13 @@ def test_a_layer_without_end_is_a_half_space(scene):
 def test_the_datum_of_a_line_is_what_a_thick_layer_gives_it():
     """A line load sinks -(2/pi) [ln(x/h) + c(0)] on it, so that the datum of the same depth is h exp(-c(0))."""
     thickness, motion = 10.0, Slide(speed=1.0, line_load=100.0)
-    scene = Scene(Cylinder(10e-3), standard(), motion)
+    scene = Scene(Cylinder(10e-3), STANDARD, motion)
     plain = BEM(points=128).solve(scene)
     layered = BEM(points=128).solve(replace(scene, layer=Layer(thickness=thickness)))
     base = Bonded(0.5)
     rest = quad(lambda t: (base.yields(t) + np.expm1(-2 * t)) / t, 0, 30, epsabs=1e-13)[0]
     sunk = np.log(thickness / 10e-3) + np.log(2) + rest
-    modulus = standard().indentation_modulus
+    modulus = STANDARD.indentation_modulus
     expected = plain.depth + 2 * motion.line_load / np.pi / modulus * sunk
     assert layered.depth == pytest.approx(expected, rel=1e-6)
     assert layered.friction_force == pytest.approx(plain.friction_force, rel=1e-5)
@@ -258,13 +251,13 @@ def test_the_datum_of_a_line_is_what_a_thick_layer_gives_it():
 )
 def test_full_contact_of_a_wave_on_a_layer_is_exact(base, thickness):
     """Pressure, closure and friction are those of a half-space over M, from layers of 1e-6 waves to 1."""
-    asked, t = (1e-9, 1e-3, standard(), 0.1), 2 * np.pi * thickness / 1e-3  # amplitude, wavelength, solid, speed
+    asked, t = (1e-9, 1e-3, STANDARD, 0.1), 2 * np.pi * thickness / 1e-3  # amplitude, wavelength, solid, speed
     hard = 1 - float(reference.remainder(t, base, 0.5))
     if thickness < 1e-4:
         hard = 2 * t**3 / 3 if base == "bonded" else t / 2
     closure, friction = full_contact.wave_closure(*asked) / hard, full_contact.wave_friction(*asked) / hard * 1e-6
     motion, wave = Slide(speed=0.1, pressure=1.1 * closure), replace(WAVE, amplitude=1e-9)
-    scene = Scene(Plane(), standard(), motion, wave, Layer(thickness=thickness, base=base))
+    scene = Scene(Plane(), STANDARD, motion, wave, Layer(thickness=thickness, base=base))
     found = BEM(points=32, tolerance=1e-10).solve(scene)
     assert found.measures["contact_fraction"] == 1
     # by the limit of thin layers to (q h)^2

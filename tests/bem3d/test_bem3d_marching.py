@@ -42,8 +42,8 @@ EXTENT = 3.2 * A  # a body that yields late is touched up to sqrt(2) A ahead
 KELVIN, GLASSY = Kelvin(G, TAU), StandardLinearSolid(G, 10 * G, TAU / 10)
 
 
-def marched(indenter, solid, program, steps, points=64, extent=1.5, roughness=None):
-    problem = Problem(Scene(indenter, solid, program.held, roughness), Engine())
+def marched(indenter, solid, program, steps, points=64, extent=1.5):
+    problem = Problem(Scene(indenter, solid, program.held), Engine())
     return march(problem, program, Grid(points, extent, width=problem.width), TOLERANCE, steps)
 
 
@@ -92,11 +92,11 @@ def test_a_depth_that_is_seen_late_in_its_step_is_told_of_the_middle():
     np.testing.assert_allclose(marching._back(seen, np.array([np.nan, 1.0, 2.1]), middle)[1], 1.0)
 
 
-def started(solid, ratio, points, memories=5.0):
+def started(solid, ratio, points):
     """From rest to a speed of ratio A / TAU, at the depth of A; and the steady solver's answer."""
     speed, depth = ratio * A / TAU, A**2 / R
     steady = BEM(points, EXTENT).solve(Scene(Sphere(R), solid, Slide(speed=speed, depth=depth)))
-    run = Stage(duration=1.5 * EXTENT / speed + memories * TAU, speed=speed)
+    run = Stage(duration=1.5 * EXTENT / speed + 5 * TAU, speed=speed)
     program = Program(stages=(Stage(duration=TAU / 100, depth=depth), run))
     return marched(Sphere(R), solid, program, 2, points, EXTENT), steady
 
@@ -105,7 +105,7 @@ def started(solid, ratio, points, memories=5.0):
     ("solid", "ratio", "points", "force", "friction"),
     [
         (GLASSY, 1.0, 48, 5e-4, 2e-3),
-        (KELVIN, 10.0, 32, 1.5e-3, 4e-3),
+        pytest.param(KELVIN, 10.0, 32, 1.5e-3, 4e-3, marks=pytest.mark.slow),
         pytest.param(KELVIN, 0.1, 48, 5e-4, 5e-3, marks=pytest.mark.slow),
     ],
     ids=str,
@@ -154,7 +154,7 @@ def test_lowest_points_that_are_alike_are_no_trouble_to_start_from(points):
     assert BEM(points=points).solve(line).normal_force == pytest.approx(300.0, rel=0.05)
 
 
-@pytest.mark.parametrize("exponent", [40.0, 44.0, 100.0])
+@pytest.mark.parametrize("exponent", [40.0, 100.0])
 def test_pressed_to_a_depth_a_blunt_body_has_the_force_of_one_dimension_at_every_step(exponent):
     # the corners of the window are 1e10 to 1e27 times as high as the indenter is pressed in
     program = Program(stages=(Stage(duration=2 * TAU, depth=5e-5), Stage(duration=2 * TAU, depth=1e-5)))

@@ -2,9 +2,8 @@
 
 import changing_motion as motions
 import numpy as np
-import programs
 import pytest
-from programs import mirrored, program
+from changing_motion import mirrored, program
 
 from bem3d import BEM
 from bem3d.grid import Grid
@@ -37,7 +36,7 @@ FULL = 5 * full_contact.wave_closure(1e-6, 1e-3, Elastic(5 * G), 0.0)  # far abo
 
 
 def slid(path, speed=SPEED, **given):
-    return programs.slid(path, speed, **given)
+    return motions.slid(path, speed, **given)
 
 
 def pressed(by="depth", value=DEPTH):
@@ -78,7 +77,7 @@ def test_the_window_of_an_indenter_that_goes_backwards_is_the_mirror_image():
     ("indenter", "roughness", "value", "length"),
     [
         pytest.param(Sphere(R), None, {"depth": DEPTH}, A, marks=pytest.mark.slow),
-        (Cylinder(R), None, {"line_load": 100.0}, A),
+        pytest.param(Cylinder(R), None, {"line_load": 100.0}, A, marks=pytest.mark.slow),
         (Plane(), CrossedWaves(amplitude=1e-6, wavelength=1e-4), {"pressure": 1e5}, 1e-4),
     ],
     ids=["sphere", "cylinder", "plane"],

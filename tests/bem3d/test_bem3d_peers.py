@@ -9,7 +9,7 @@ numbers where n, the points a side, is odd: it is compared at even n only.
 import numpy as np
 import pytest
 
-from bem3d import BEM, press
+from bem3d import BEM
 from bem3d.grid import Grid
 from bem3d.motion.marching import march
 from bem3d.motion.steady import Flow
@@ -55,10 +55,10 @@ def rough_plane(points, **changed):
     return SelfAffine(rms_height=SLOPE / unit.rms_slope(unit.q_max(1 / points)), **of)
 
 
-def ours(indenter, motion, roughness, elastomer=ELASTIC, points=128, **settings):
+def ours(indenter, motion, roughness, points=128, **settings):
     """Our result, and the heights that a peer is to be given."""
     solver = BEM(points=points, **{"tolerance": TOLERANCE} | settings)
-    result = solver.solve(Scene(indenter, elastomer, motion, roughness))
+    result = solver.solve(Scene(indenter, ELASTIC, motion, roughness))
     return result, result.fields["height"]
 
 
@@ -68,9 +68,9 @@ def model_of(tamaas, heights, modulus, ratio):
     return model
 
 
-def by_tamaas(tamaas, heights, pressure, modulus=1.0):
+def by_tamaas(tamaas, heights, pressure):
     """Pressure and gap on a cell."""
-    model = model_of(tamaas, heights, modulus, 0.0)
+    model = model_of(tamaas, heights, 1.0, 0.0)
     solver = tamaas.PolonskyKeerRey(model, np.ascontiguousarray(-heights), LEFT)
     assert solver.solve(pressure) <= LEFT
     return model.traction, model["gap"]
@@ -124,42 +124,17 @@ LOADS = {0.035: 0.08, 0.8: 0.92, 1.7: 0.9997, 2.5: 1.0}
 
 
 @pytest.mark.parametrize("load", LOADS)
-def test_a_rough_cell_agrees_with_tamaas_up_to_full_contact(tamaas, load):
+def test_a_rough_cell_agrees_with_both_peers_up_to_full_contact(tamaas, contact_mechanics, load):
     pressure = load * SLOPE
     result, heights = ours(Plane(), Indent(pressure=pressure), rough_plane(128))
-    peer = by_tamaas(tamaas, heights, pressure)
-    assert agree(result, peer), apart(result, peer)
-    assert result.measures["contact_fraction"] == pytest.approx(LOADS[load], rel=0.05)
-    assert result.measures["mean_pressure"] == pytest.approx(peer[0].mean(), rel=1e-12)
-
-
-@pytest.mark.parametrize("load", [0.035, 1.4])
-def test_a_finer_rough_cell_agrees_with_both_peers(tamaas, contact_mechanics, load):
-    pressure = load * SLOPE
-    result, heights = ours(Plane(), Indent(pressure=pressure), rough_plane(256, seed=2), points=256)
     substrate = contact_mechanics.PeriodicFFTElasticHalfSpace(heights.shape, 1.0, (1.0, 1.0))
     for peer in (
         by_tamaas(tamaas, heights, pressure),
         by_contact_mechanics(substrate, heights, 1.0, external_force=pressure),
     ):
         assert agree(result, peer), apart(result, peer)
-
-
-def test_the_comparison_of_cells_can_fail(tamaas):
-    pressure = 0.2 * SLOPE
-    result, heights = ours(Plane(), Indent(pressure=pressure), rough_plane(128))
-    nearly, _ = ours(Plane(), Indent(pressure=pressure * (1 + 1e-5)), rough_plane(128))
-    peer = by_tamaas(tamaas, heights, pressure)
-    assert agree(result, peer)
-    assert not agree(nearly, peer)  # a load larger by 1e-5
-    assert not agree(result, (peer[0].T, peer[1].T))  # x for y
-    assert not agree(result, by_tamaas(tamaas, heights, pressure, modulus=1 + 1e-5))
-
-
-def test_a_map_of_heights_is_pressed_as_tamaas_presses_it_pixel_by_pixel(tamaas):
-    heights = SLOPE / 64 * np.random.default_rng(1).standard_normal((64, 64))
-    result = press(heights, 1 / 64, 1.0, pressure=0.05 * SLOPE, tolerance=TOLERANCE)
-    assert agree(result, by_tamaas(tamaas, -heights, 0.05 * SLOPE))
+    assert result.measures["contact_fraction"] == pytest.approx(LOADS[load], rel=0.05)
+    assert result.measures["mean_pressure"] == pytest.approx(pressure, rel=1e-12)
 
 
 # Pressed for a second and held for another: 64 of our steps, of second order; 128 and 256 of theirs, of first
@@ -188,6 +163,7 @@ def transients(tamaas):
     return history, rough.rms_height, 2 * fine - coarse, 2 * late - early
 
 
+@pytest.mark.slow
 def test_a_viscoelastic_cell_goes_the_way_of_tamaas(transients):
     history, height, theirs, pressure = transients
     resolved = history.time > 0.25  # at first a few pixels touch

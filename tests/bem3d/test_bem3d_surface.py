@@ -58,18 +58,6 @@ def test_the_longest_waves_have_the_power_of_their_cells():
         assert share(*k) == pytest.approx(share(5, 6), rel=accuracy)
 
 
-def test_slopes_are_the_derivative_of_heights():
-    surface, x = draw(rough()), np.linspace(-3e-3, 4e-3, 9)
-    step = 1e-8
-    difference = (surface.heights(x + step, x) - surface.heights(x - step, x)) / (2 * step)
-    np.testing.assert_allclose(surface.slopes(x, x), difference, atol=1e-6)
-
-
-def test_surface_repeats_after_the_longest_wave():
-    surface, x = draw(rough()), np.linspace(0, 3e-3, 5)
-    np.testing.assert_allclose(surface.heights(x + L, x - 2 * L), surface.heights(x, x), atol=5e-5 * ROUNDING)
-
-
 def test_gaussian_waves_keep_the_phases_and_scatter_about_the_fixed_ones():
     fixed, gaussian = draw(rough(shortest=L / 40)), draw(rough(shortest=L / 40, amplitudes="gaussian"))
     there = np.abs(fixed.amplitudes) > 0

@@ -92,13 +92,6 @@ def test_the_surface_of_a_map_is_the_map_and_a_seed_moves_it_by_whole_pixels():
         np.testing.assert_allclose(surface.slopes(x, y), differences, atol=1e-8)
 
 
-def test_a_map_without_heights_is_no_roughness():
-    flat = Topography(heights=np.full((20, 20), 0.1), pixel=1e-4)
-    smooth, bare = (BEM(points=32).solve(replace(SLIDING, roughness=each)) for each in (flat, None))
-    same(smooth, bare, 0.0)
-    assert smooth.operator_applications == bare.operator_applications
-
-
 def test_rectangles_are_roughness_but_no_cell():
     heights = 1e-6 * np.random.default_rng(0).normal(size=(12, 18))
     map_ = Topography(heights=heights, pixel=1e-4, repeat="periodic", shortest_kept=4e-4)

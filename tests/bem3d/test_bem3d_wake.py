@@ -1,7 +1,5 @@
 """The surface around a contact, as its pressure alone displaces it."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from drawn_scenes import KELVIN, LOAD, ROUGH, STANDARD, TAU, A, R
@@ -64,13 +62,6 @@ def test_at_rest_the_surface_around_a_sphere_is_that_of_hertz():
     expected = A**2 / (np.pi * R) * ((2 - s**-2) * np.arcsin(s) + np.sqrt(s**-2 - 1))
     # of the area, known to a pixel along the rim of 55 pixels of radius
     np.testing.assert_allclose(around.displacement[outside], expected, rtol=2e-3)
-
-
-def test_a_pressure_that_is_not_of_the_scene_has_no_surface():
-    solver, result = solved(SCENES["rough"])
-    other = replace(SCENES["rough"], motion=Slide(speed=5 * A / TAU, load=LOAD))
-    with pytest.raises(SolveError, match="the answer to another one"):
-        surroundings(solver, other, result.fields)
 
 
 def test_single_precision_has_its_surface_too():

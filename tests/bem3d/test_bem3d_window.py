@@ -17,9 +17,7 @@ from scene import (
     EmptyContact,
     Indent,
     Kelvin,
-    Plane,
     PowerLaw,
-    Refused,
     Scene,
     SelfAffine,
     Slide,
@@ -75,15 +73,13 @@ def test_nine_pixels_in_contact_are_enough_and_eight_are_not():
 PIXELS = 3e-3
 
 
-@pytest.mark.parametrize(
-    ("indenter", "exponent"), [(Sphere(1e-2), 2), (Cone(0.2), 1), (PowerLaw(1e8, 4.0), 4)], ids=lambda x: str(x)
-)
+@pytest.mark.parametrize(("indenter", "exponent"), [(Sphere(1e-2), 2), (Cone(0.2), 1)], ids=str)
 def test_a_kelvin_solid_slid_ever_faster_keeps_the_law_of_a_fluid(indenter, exponent):
     """Where v tau >> a there is no length but a: F_N ~ v tau E* c a^n, so that mu ~ c a^(n-1) ~ v^(1/n - 1).
 
     A depth under a load has a logarithm besides: far upstream the surface creeps as 1/r, from v tau to a.
     """
-    fast, fastest = 1e4, np.array([1e20, 1e28, 1e30, 1e35])
+    fast, fastest = 1e4, np.array([1e20, 1e35])
 
     def solved(speed):
         return BEM(points=48).solve(Scene(indenter, Kelvin(1e6, 1e-3), Slide(speed=speed, load=1.0)))
@@ -98,32 +94,6 @@ def test_a_kelvin_solid_slid_ever_faster_keeps_the_law_of_a_fluid(indenter, expo
 
 
 SMOOTH = Scene(Sphere(1e-2), Elastic(1e6), Indent(load=1.0))
-PLANE = Scene(Plane(), Elastic(1e6), Indent(pressure=1e4), ROUGH)
-HOLLOW = replace(LIGHT, motion=Indent(depth=1e-9), roughness=replace(ROUGH, seed=5))
-FINE = replace(SMOOTH, roughness=replace(ROUGH, shortest=2e-5))
-BEYOND = r"too far apart|no window holds the contact"
-
-
-@pytest.mark.parametrize(
-    ("solver", "scene", "error", "message"),
-    [
-        (BEM(32, 1e-4), HOLLOW, EmptyContact, r"0.000307705 m short .* take a larger depth"),
-        (BEM(32, 1e-2), LIGHT, Refused, r"shortest = 0.0005 m.*points = 40"),
-        (
-            BEM(32),
-            FINE,
-            SolveError,
-            r"shortest = 2e-05 m.*points = ",
-        ),
-        (BEM(32), PLANE, Refused, r"points = 40 would do, points = 160 would resolve it"),
-        (BEM(32), replace(SMOOTH, motion=Indent(load=1e300)), SolveError, BEYOND),
-        (BEM(32), replace(SMOOTH, motion=Indent(depth=1e300)), SolveError, BEYOND),
-        (BEM(32), Scene(Sphere(1e-2), Kelvin(1e6, 1e-3), Slide(speed=0.1, load=1e-307)), SolveError, BEYOND),
-    ],
-)
-def test_what_no_window_shows_is_an_error_that_says_how_to_mend_it(solver, scene, error, message):
-    with pytest.raises(error, match=message):
-        solver.solve(scene)
 
 
 def test_without_a_shortest_wave_the_grid_cuts_the_spectrum_off_and_the_result_says_so():

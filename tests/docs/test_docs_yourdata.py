@@ -19,7 +19,13 @@ PAGES = sorted(yourdata.FOLDER.glob("*.md"))
 MEASURED = re.compile(r"^(?:time|memory) .*$", re.MULTILINE)
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+@pytest.mark.parametrize(
+    "page",
+    [
+        pytest.param(each, marks=pytest.mark.slow if each.stem == "friction" else (), id=each.stem)
+        for each in PAGES
+    ],
+)
 def test_commands_print_what_the_page_shows(page):
     for output, block in yourdata.printed(page):
         assert MEASURED.sub("", block[2]).strip() == MEASURED.sub("", output).strip()

@@ -20,6 +20,7 @@ from scene import (
     Slide,
     Sphere,
     StandardLinearSolid,
+    Topography,
 )
 
 WARM = WLF(temperature=306.0, reference=300.0, c1=10.0, c2=100.0)
@@ -52,6 +53,15 @@ def test_friction_of_the_interface_has_no_error_of_the_grid(solver):
     assert absolute[0] == pytest.approx(absolute[1], rel=1e-12)
 
 
+@pytest.mark.parametrize(
+    "solver", [BEM(points=48), *(MDR(points=500, extent=4e-3, spectrum=each) for each in ("mapped", "line-scan"))]
+)
+def test_a_map_without_heights_is_no_roughness(solver):
+    flat = Topography(heights=np.full((20, 20), 0.1), pixel=1e-4)
+    with_it, without = (solver.solve(replace(PLAIN, roughness=each)) for each in (flat, None))
+    assert numbers(with_it) == pytest.approx(numbers(without), rel=ROUNDING)
+
+
 @solvers
 def test_where_nothing_is_lost_no_error_is_stated(solver):
     scenes = [replace(PLAIN, motion=Indent(load=LOAD)), replace(PLAIN, elastomer=Elastic(1e6))]
@@ -72,24 +82,6 @@ def test_an_interface_at_speed_zero_is_that_of_ever_slower_sliding(solver):
     assert slow.measures["average_heating"] > 0
     at_rest = replace(heated, motion=Indent(load=LOAD))
     assert solver.solve(at_rest).friction_force == solver.solve(replace(at_rest, interface=None)).friction_force
-
-
-@pytest.mark.parametrize("name", SOLVED)
-def test_a_scene_twice_as_large_in_every_length_has_four_times_the_forces(name):
-    solver, scene = SOLVED[name]
-    larger = replace(
-        scene,
-        indenter=Sphere(radius=2 * 10e-3),
-        motion=Slide(speed=2 * 0.3, load=4 * LOAD),
-        roughness=replace(ROUGH, rms_height=4e-6, longest=4e-3, shortest=0.8e-3),
-    )
-    if scene.layer is not None:
-        larger = replace(larger, layer=Layer(thickness=4e-3))
-    if scene.heating is not None:  # heat goes as force times speed, and leaves as conductivity times length
-        larger = replace(larger, heating=replace(scene.heating, conductivity=4 * 0.5))
-    small, large = solver.solve(scene), solver.solve(larger)
-    assert numbers(large) == pytest.approx(numbers(small) * [4, 2, 4], rel=ROUNDING)
-    assert large.operator_applications == small.operator_applications
 
 
 @pytest.mark.parametrize("name", SOLVED)

@@ -92,7 +92,7 @@ class Hungry:
             np.empty(2**60 // 8)
 
 
-def test_it_is_never_stored_as_an_answer(tmp_path):
+def test_it_is_never_stored_as_an_answer(tmp_path, in_this_process):
     task, store = SceneTask(Hungry(), (SCENE,)), Store(tmp_path)
     swept = sweep([task], store, workers=1)
     assert swept.faults[task].startswith("OutOfMemory: memory ran out")

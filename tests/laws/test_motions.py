@@ -2,11 +2,8 @@
 
 import numpy as np
 import pytest
-from changing_motion import harmonic, stiffness
-from programs import mirrored, program, slid
+from changing_motion import harmonic, mirrored, program, slid, stiffness
 
-import bem3d.motion.timeline
-import mdr1d.timeline
 from bem3d import BEM
 from mdr1d import MDR
 from scene import Elastic, Kelvin, Prony, Scene, Sphere, StandardLinearSolid
@@ -110,11 +107,3 @@ def test_a_small_oscillation_meets_the_complex_stiffness_of_a_contact_that_keeps
     assert abs(found) == pytest.approx(abs(exact), rel=5e-3)
     assert np.angle(found / exact) == pytest.approx(0.0, abs=LATE[name])
     assert np.angle(exact) > 0.1
-
-
-@pytest.mark.parametrize("timeline", [mdr1d.timeline.timeline, bem3d.motion.timeline.timeline], ids=["MDR", "BEM"])
-def test_an_amplitude_of_zero_costs_no_step(timeline):
-    pressed = {"duration": TAU, "depth": DEPTH}
-    plain, still = program(pressed, FORTH), program(pressed, FORTH | {"amplitude": 0.0, "frequency": 1e6})
-    times = [getattr(found, "times", found) for found in (timeline(each, 1e-4, 20) for each in (plain, still))]
-    assert np.array_equal(*times)

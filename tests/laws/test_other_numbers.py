@@ -293,7 +293,7 @@ def formulas():
                 yield from arguments_of(function, f"{module.__name__}.{name}", FORMULAS, **words)
 
 
-def drawn(given, seed=1):
+def drawn(given):
     return mdr1d.draw(ROUGH, nodes=given).heights
 
 
@@ -462,14 +462,29 @@ def test_every_argument_is_known():
                 assert taken <= NOT_NUMBERS | {"workers", "interval"}, name
 
 
+def alike(place, quantity):
+    """The value of a place in another unit, and as other libraries hold it."""
+    other = scaled(place.value, place, quantity)
+    if not isinstance(place.value, tuple):
+        cast = np.int32 if place.whole else np.float64
+        return other, cast(place.value), np.array(place.value), xarray.DataArray(place.value)
+    unit = {} if place.unit is None else {"units": OTHERS[place.unit]}
+    listed = pandas.Series(other.magnitude, index=range(5, 5 + len(place.value)))
+    listed.attrs.update(unit)
+    return (
+        *(other, [scaled(each, place, quantity) for each in place.value]),
+        *(list(place.value), np.array(place.value), list(map(np.float64, place.value))),
+        *(xarray.DataArray(other.magnitude, dims="k", attrs=unit), listed),
+        np.ma.masked_invalid(np.array(place.value)),
+    )
+
+
 @everywhere
-def test_a_quantity_in_another_unit_is_the_plain_number(places, quantity):
+def test_a_number_in_another_unit_or_of_another_library_is_the_plain_number(places, quantity):
     for place in places:
         plain = place.take(place.value)
-        assert same(place.take(scaled(place.value, place, quantity)), plain), place.name
-        if isinstance(place.value, tuple):
-            one_each = [scaled(each, place, quantity) for each in place.value]
-            assert same(place.take(one_each), plain), place.name
+        for each in alike(place, quantity):
+            assert same(place.take(each), plain), f"{place.name}: {each!r}"
 
 
 @everywhere
@@ -477,6 +492,8 @@ def test_what_has_another_dimension_is_refused_by_name(places, quantity):
     for place in places:
         message = refused(place, quantity(place.value, "kg"))
         assert "kg" in message or "whole number" in message or "integer" in message, place.name
+        if isinstance(place.value, tuple):
+            refused(place, xarray.DataArray(list(place.value), dims="k", attrs={"units": "kg"}))
 
 
 @everywhere
@@ -488,35 +505,6 @@ def test_a_truth_a_duration_of_numpy_and_an_imaginary_number_are_no_numbers(plac
             if others:
                 refused(place, [wrong, *others])
                 refused(place, np.ma.masked_equal(place.value, place.value[0]))
-
-
-@everywhere
-def test_numbers_of_numpy_are_numbers(places):
-    for place in places:
-        plain = place.take(place.value)
-        if isinstance(place.value, tuple):
-            alike = [list(place.value), np.array(place.value), list(map(np.float64, place.value))]
-        else:
-            cast = np.int32 if place.whole else np.float64
-            alike = [cast(place.value), np.array(place.value), xarray.DataArray(place.value)]
-        for each in alike:
-            assert same(place.take(each), plain), f"{place.name}: {each!r}"
-
-
-ROWS = [place for place in PLACES if isinstance(place.value, tuple) and place.name != "Finding.scatter"]
-
-
-@pytest.mark.parametrize("place", ROWS, ids=lambda place: place.name)
-def test_a_row_of_any_library_is_the_row(place, quantity):
-    plain, values = place.take(place.value), scaled(place.value, place, quantity).magnitude
-    unit = {} if place.unit is None else {"units": OTHERS[place.unit]}
-    labelled = xarray.DataArray(values, dims="k", attrs=unit)
-    listed = pandas.Series(values, index=range(5, 5 + len(values)))
-    listed.attrs.update(unit)
-    for each in (labelled, listed, np.ma.masked_invalid(np.array(place.value))):
-        assert same(place.take(each), plain), f"{place.name}: {each!r}"
-    if place.name != "equations.spectral_force(band)":
-        refused(place, xarray.DataArray(values, dims="k", attrs={"units": "kg"}))
 
 
 def test_what_depends_on_others_takes_their_unit(quantity):

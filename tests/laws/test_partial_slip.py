@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from pulled import LOAD, MU, ROUGH, SPHERE, G, body
 
 from bem3d import BEM
 from bem3d.contact import stickslip
@@ -11,28 +12,18 @@ from bem3d.response import cerruti
 from mdr1d import MDR, tangential
 from scene import (
     Coulomb,
-    Elastic,
     Indent,
     Kelvin,
     Scene,
-    SelfAffine,
-    Shear,
     Slide,
-    Sphere,
 )
 
-G, MU, LOAD = 1e6, 0.4, 1.0
-SPHERE, STICKS = Sphere(radius=10e-3), Coulomb(MU)
-ROUGH = SelfAffine(hurst=0.8, rms_height=1e-5, longest=10e-3, shortest=0.5e-3, seed=1)
+STICKS = Coulomb(MU)
 # What a solver calls the size of a contact, where it touches, and what a pull adds.
 SIZE = {"MDR": "length", "BEM": "area"}
 TOUCHES = {"MDR": "contact", "BEM": "pressure"}
 ADDED = {"MDR": ("tangential_line_force", "slip"), "BEM": ("traction_x", "slip_x")}
 solvers = pytest.mark.parametrize("solver", [MDR(), BEM(points=48)], ids=lambda solver: solver.name)
-
-
-def sphere(nu=0.5, roughness=None, coefficient=MU, **drawn):
-    return Scene(SPHERE, Elastic(G, nu), Shear(load=LOAD, **drawn), roughness, interface=Coulomb(coefficient))
 
 
 @pytest.fixture
@@ -63,7 +54,7 @@ def test_friction_without_a_pull_builds_nothing_and_changes_no_field(solver, mot
 @solvers
 @pytest.mark.parametrize("drawn", [{"force": 0.0}, {"displacement": 0.0}])
 def test_a_pull_of_nothing_is_the_contact_at_rest(solver, drawn, untouched):
-    asked = sphere(roughness=ROUGH, **drawn)
+    asked = body(roughness=ROUGH, **drawn)
     one, other = (solver.solve(each) for each in (replace(asked, motion=Indent(load=LOAD), interface=None), asked))
     for name, field in one.fields.items():
         np.testing.assert_array_equal(field, other.fields[name])
@@ -76,7 +67,7 @@ def test_a_pull_of_nothing_is_the_contact_at_rest(solver, drawn, untouched):
 
 @solvers
 def test_without_friction_all_slips_at_once(solver, untouched):
-    answer = solver.solve(sphere(coefficient=0.0, displacement=1e-6))
+    answer = solver.solve(body(coefficient=0.0, displacement=1e-6))
     assert answer.friction_force == answer.measures[f"stick_{SIZE[solver.name]}"] == 0
     _, slip = ADDED[solver.name]
     assert (answer.fields[slip][answer.fields[TOUCHES[solver.name]] > 0] == 1e-6).all()

@@ -53,11 +53,11 @@ class Pressed(NamedTuple):
         )
 
 
-def waves(seed, count=POINTS):
-    """A random surface (count, count) that repeats, of rms slope about 1 and waves of 4 pixels and more."""
-    k = np.hypot(*np.meshgrid(*2 * [np.fft.fftfreq(count, 1 / count)], indexing="ij"))
-    amplitude = np.where((k > 0) & (k <= count / 4), 1 / np.maximum(k, 1) ** 1.8, 0.0)
-    noise = np.fft.fft2(np.random.default_rng(seed).standard_normal((count, count)))
+def waves(seed):
+    """A random surface (POINTS, POINTS) that repeats, of rms slope about 1 and waves of 4 pixels and more."""
+    k = np.hypot(*np.meshgrid(*2 * [np.fft.fftfreq(POINTS, 1 / POINTS)], indexing="ij"))
+    amplitude = np.where((k > 0) & (k <= POINTS / 4), 1 / np.maximum(k, 1) ** 1.8, 0.0)
+    noise = np.fft.fft2(np.random.default_rng(seed).standard_normal((POINTS, POINTS)))
     heights = np.fft.ifft2(amplitude * noise).real
     return heights / np.std(np.diff(heights, axis=1))
 

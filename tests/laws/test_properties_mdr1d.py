@@ -53,59 +53,33 @@ def flowed(line: Line, solid, speed) -> Contact:
     return sweep_modes(line.heights, line.pixel, modes, speed, line.depth)
 
 
-def broken(line: Line, contact: Contact) -> list[str]:
-    """Which conditions of contact do not hold, of: no penetration, no pull, no force at a distance."""
-    clearance = contact.displacement - (line.depth - line.heights)
-    length, push = contact.pushed.T
-    most, held = push.max(), np.flatnonzero(length)
-    # Intervals between two nodes that touch are touched throughout.
-    whole = contact.touching[:-1] & contact.touching[1:]
-    ends = np.array([contact.first, contact.last]) / line.pixel - held[[0, -1]]
-    return [
-        name
-        for name, holds in {
-            "displacement >= 0": np.all(contact.displacement >= 0),
-            "gap >= 0": np.all(clearance >= -ROUNDING * line.depth),
-            "gap = 0 in contact": np.all(np.abs(clearance[contact.touching]) <= ROUNDING * line.depth),
-            "p >= 0": np.all(push >= -ROUNDING * most),
-            "p = 0 off contact": np.all(push[length == 0] == 0),
-            "the sum of p is the force": abs(push.sum() - contact.force) <= ROUNDING * push.sum(),
-            "lengths add up": abs(length.sum() - contact.length) <= ROUNDING * contact.length,
-            "contact is within its intervals": np.all(length <= line.pixel * (1 + ROUNDING)),
-            "contact between nodes that touch": np.allclose(length[whole], line.pixel, rtol=ROUNDING),
-            "contact starts and ends where it is held": np.all(np.abs(ends - 0.5) <= 0.5 + 1e-9),
-            "contact is no longer than its span": contact.length
-            <= (contact.last - contact.first) * (1 + ROUNDING) + ROUNDING * line.pixel,
-        }.items()
-        if not holds
-    ]
-
-
 SPEEDS = decades(-6, 6)
 
 
-@examples(200)
+@examples(100)
 @given(lines(), solids, SPEEDS)
 def test_contact_neither_penetrates_nor_pulls_and_pushes_only_where_it_touches(line, solid, speed):
     """w >= 0, gap >= 0, p >= 0 and p * gap = 0, to rounding of the sums along the line."""
-    assert broken(line, flowed(line, solid, speed)) == []
+    contact = flowed(line, solid, speed)
+    clearance = contact.displacement - (line.depth - line.heights)
+    assert np.all(contact.displacement >= 0)
+    assert np.all(clearance >= -ROUNDING * line.depth)
+    assert np.all(np.abs(clearance[contact.touching]) <= ROUNDING * line.depth)
+    length, push = contact.pushed.T
+    assert np.all(push >= -ROUNDING * push.max())
+    assert np.all(push[length == 0] == 0)
+    assert abs(push.sum() - contact.force) <= ROUNDING * push.sum()
+    assert abs(length.sum() - contact.length) <= ROUNDING * contact.length
+    assert np.all(length <= line.pixel * (1 + ROUNDING))
+    # Intervals between two nodes that touch are touched throughout.
+    whole = contact.touching[:-1] & contact.touching[1:]
+    assert np.allclose(length[whole], line.pixel, rtol=ROUNDING)
+    ends = np.array([contact.first, contact.last])
+    assert np.all(np.abs(ends / line.pixel - np.flatnonzero(length)[[0, -1]] - 0.5) <= 0.5 + 1e-9)
+    assert contact.length <= np.diff(ends)[0] * (1 + ROUNDING) + ROUNDING * line.pixel
 
 
-def test_the_conditions_of_contact_can_be_broken():
-    """Of an answer that was spoilt, each by its name."""
-    line = Line(np.array([9.0, 1.0, 0.0, 1.0, 9.0]), 1.0, 2.0)
-    contact = sweep(line.heights, line.pixel, 0.5, line.depth)
-    assert broken(line, contact) == []
-    assert "gap >= 0" in broken(line, contact._replace(displacement=contact.displacement - 1e-6))
-    assert "p >= 0" in broken(line, contact._replace(pushed=-contact.pushed))
-    assert "the sum of p is the force" in broken(line, contact._replace(force=1.001 * contact.force))
-    elsewhere = np.roll(contact.pushed[:, 1], 2)
-    assert "p = 0 off contact" in broken(
-        line, contact._replace(pushed=np.stack([contact.pushed[:, 0], elsewhere], axis=1))
-    )
-
-
-@examples(150)
+@examples(75)
 @given(lines(), solids, SPEEDS, decades(-9, 0.2))
 def test_a_deeper_contact_carries_more(line, solid, speed, more):
     """The force is convex in the depth and lies between its tangents at both, to rounding of the sums."""
@@ -119,7 +93,7 @@ def test_a_deeper_contact_carries_more(line, solid, speed, more):
     assert np.all(deep.displacement >= shallow.displacement - ROUNDING * deeper.depth)
 
 
-@examples(200)
+@examples(100)
 @given(lines(), solids, SPEEDS)
 def test_friction_by_traction_is_the_energy_lost_and_never_negative(line, solid, speed):
     """-int g' f dx = what is lost per length slid >= 0. Traction cancels to rounding of the steepest slope times
@@ -131,7 +105,7 @@ def test_friction_by_traction_is_the_energy_lost_and_never_negative(line, solid,
     )
 
 
-@examples(100)
+@examples(60)
 @given(lines(), solids, SPEEDS, st.integers(1, 50), st.integers(0, 50))
 def test_a_profile_moved_by_whole_pixels_has_the_same_contact(line, solid, speed, before, behind):
     """The elastomer comes undisturbed from wherever: what is not touched ahead or behind changes no bit."""
@@ -161,7 +135,7 @@ def against_the_flow(line: Line, memory):
     return u
 
 
-@examples(150)
+@examples(75)
 @given(lines(), SPEEDS)
 def test_the_mirrored_profile_slid_the_other_way_has_the_mirrored_answer(line, memory):
     """Against a solve of the other direction from the principle of the least displacement, to rounding."""
@@ -179,7 +153,7 @@ def solved(scene):
         reject()
 
 
-@examples(150)
+@examples(75)
 @given(bodies(), units())
 def test_every_answer_has_forces_of_the_right_sign_and_the_load_asked_for(scene, unit):
     """F_N > 0, F_x >= 0, zero for an elastic solid or at rest, by a line force >= 0; the load met to 1e-10."""

@@ -69,12 +69,6 @@ def test_a_path_may_be_text():
     assert {name: found for name, each in functions.items() if (found := takes_paths_alone(each))} == {}
 
 
-def test_a_function_that_takes_paths_alone_is_seen():
-    def reads(path: Path, other: str | Path): ...
-
-    assert takes_paths_alone(reads) == ["path"]
-
-
 def raised(docstring):
     """Names of the errors and warnings that a docstring says."""
     found = RAISED.findall(" ".join((docstring or "").split()))

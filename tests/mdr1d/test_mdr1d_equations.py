@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from mdr1d import MDR, draw, modes_of, sweep, sweep_modes
+from mdr1d import draw, modes_of, sweep_modes
 from mdr1d import equations as eq
 from scene import (
     Elastic,
@@ -21,11 +21,10 @@ from scene import (
     Sphere,
     StandardLinearSolid,
 )
+from scene.scales import elastic_contact
 
 # A few powers and products.
 ROUNDING = 1e-13
-# (pixel / radius)^2 at 5000 points, times a constant below one.
-SECOND_ORDER_AT_5000 = 2e-7
 # The energy in a period is the difference of two sums, over n and over n + 1 periods with their ends.
 ROUNDING_OF_A_PERIOD = 1e-10
 # Lengths of the longest memory after which an end is forgotten: exp(-40).
@@ -86,14 +85,14 @@ def test_every_equation_keeps_its_meaning_in_other_units(function, n):
 
 
 @pytest.mark.parametrize("shape", [Sphere(radius=0.02), PowerLaw(coefficient=3e3, exponent=3.5)])
-def test_radius_and_depth_are_those_of_the_simulated_contact_at_rest(shape):
-    c, n = shape.mdr_coefficient, shape.exponent
-    result = MDR().solve(Scene(shape, Elastic(modulus=1e6), Indent(load=2.0)))
-    assert result.depth == pytest.approx(eq.indentation_depth(2.0, 1e6, c, n), rel=2 * SECOND_ORDER_AT_5000)
-    # An edge of the polygon is off by the square of the pixel.
-    assert result.measures["contact_length"] / 2 == pytest.approx(eq.contact_radius(2.0, 1e6, c, n), rel=1e-6)
-    slope = eq.macroscopic_slope(2.0, 1e6, c, n)
-    assert result.measures["rms_slope_contact"] == pytest.approx(slope, rel=1e-6)
+def test_radius_depth_and_slope_are_those_of_the_contact_at_rest(shape):
+    contact = elastic_contact(Scene(shape, Elastic(modulus=1e6), Indent(load=2.0)))
+    asked = 2.0, 1e6, shape.mdr_coefficient, shape.exponent
+    assert eq.indentation_depth(*asked) == pytest.approx(contact.depth, rel=ROUNDING)
+    assert eq.contact_radius(*asked) == pytest.approx(contact.radius, rel=ROUNDING)
+    heights = shape.mdr_coefficient * (np.arange(20001) / 20000 * contact.radius) ** shape.exponent
+    slopes = np.diff(heights) / (contact.radius / 20000)
+    assert eq.macroscopic_slope(*asked) == pytest.approx(sqrt(np.mean(slopes**2)), rel=1e-6)
 
 
 def test_eq_17_is_eq_12_in_other_variables():
@@ -235,15 +234,12 @@ def test_the_spectral_force_is_the_integral_and_its_waves_add_up_to_it():
 
 def per_period(elastomer, surface, speed, depth):
     """Friction [N] and length of contact [m] per period of a rough line far from its ends, simulated."""
-    modulus, moduli, times = elastomer.relaxation()
-    periods = 2 + ceil(FORGOTTEN * speed * max(times, default=0.0) / surface.period)
+    modulus, _, times = elastomer.relaxation()
+    periods = 2 + ceil(FORGOTTEN * speed * max(times) / surface.period)
     sums = []
     for count in (periods, periods + 1):
         heights = np.tile(surface.heights, count)
-        if moduli.size:
-            contact = sweep_modes(heights, surface.pixel, modes_of(elastomer), speed, depth)
-        else:
-            contact = sweep(heights, surface.pixel, speed * elastomer.viscosity / modulus, depth)
+        contact = sweep_modes(heights, surface.pixel, modes_of(elastomer), speed, depth)
         sums.append((4 * modulus * contact.dissipation, contact.length))
     return np.diff(sums, axis=0)[0]
 

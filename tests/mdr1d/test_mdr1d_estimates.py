@@ -96,20 +96,6 @@ def test_the_exponents_of_stiffness_are_those_of_the_force(base, n):
     assert estimates.stiffness_exponent(n, base) == pytest.approx(1 - 1 / growth, rel=1e-10)
 
 
-def test_estimates_keep_their_meaning_in_other_units():
-    # Lengths and times in units 1e-10 and 1e10, forces in 1e7.
-    length, time, force = 1e-10, 1e10, 1e7
-    pressure = force / length**2
-    for n in (1.0, 3.5):
-        scaled = estimates.layer_force(STATIC * pressure, 1e-2 * length, 20.0 * length ** (1 - n), n)
-        assert scaled == pytest.approx(estimates.layer_force(STATIC, 1e-2, 20.0, n) * force, rel=1e-12)
-    conductivity = CONDUCTIVITY * force / time
-    scaled = estimates.average_heating(
-        FRICTION, STATIC * pressure, 1e-4 * length, SPEED * length / time, conductivity
-    )
-    assert scaled == pytest.approx(heated(1e-4), rel=1e-12)
-
-
 @pytest.mark.parametrize(
     ("call", "message"),
     [

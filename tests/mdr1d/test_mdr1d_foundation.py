@@ -1,7 +1,5 @@
 """The sweep along a profile: its sums on any nodes, contact within one interval, and the depth under a load."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from scipy.optimize import brentq
@@ -15,12 +13,6 @@ SCENE = Scene(
     Sphere(radius=1e-2), Kelvin(modulus=MODULUS, relaxation_time=1e-3), Slide(speed=0.1, load=1.0), ROUGH
 )
 ROUNDING = 1e-11
-
-
-def rough_profile(points=160, seed=4):
-    scene = replace(SCENE, roughness=replace(ROUGH, seed=seed))
-    body = map_profile(scene, lay_out(scene, points, 1.6e-3))
-    return body.heights, body.pixel
 
 
 @pytest.mark.parametrize(("lift", "lands"), [(-1e-9, True), (1e-9, False)])
@@ -61,7 +53,8 @@ def test_a_line_that_touches_throughout_has_the_sums_over_its_nodes_however_many
 
 def test_nodes_between_those_of_a_line_change_nothing():
     """The flow past a line of straight pieces is exact on any nodes: tolerance rounding."""
-    heights, pixel = rough_profile()
+    body = map_profile(SCENE, lay_out(SCENE, 160, 1.6e-3))
+    heights, pixel = body.heights, body.pixel
     finer = np.interp(np.arange(3 * heights.size - 2) / 3, np.arange(heights.size), heights)
     for memory in (0.0, 1e-7, 1e-5, 1e-3):
         depth = heights.min() + 3e-5

@@ -1,17 +1,14 @@
 """Programs in one dimension: forces of Lee and Radok, jumps that meet the glass, steps in time, and errors."""
 
-from math import atan
-
 import numpy as np
 import pytest
-from solids import BALL, CYCLES, KELVIN, ROUGH, ROUNDING, SERIES, SOLID, SOLIDS
+from solids import BALL, CHAIN, CYCLES, KELVIN, ROUGH, ROUNDING, SERIES, SOLID, SOLIDS
 
 from compare.models.exact import indentation
 from mdr1d import MDR
 from mdr1d.timeline import timeline
-from scene import Cone, Elastic, Indent, PowerLaw, Program, Scene, SolveError, Stage
+from scene import Elastic, Indent, Program, Scene, SolveError, Stage
 
-CONE = Cone(atan(1.0))
 # Between two times at which it just touches, the chord of a convex recovery presses in. Measured: 1.3e-4.
 CHORD = 1e-3
 # Orders fitted over two octaves, of errors that jump with the place of the contact's edge in its pixel.
@@ -34,15 +31,6 @@ def order(sizes, errors):
 CYCLE = program(*((duration, {"depth": depth}) for duration, depth in CYCLES["depth"]))
 
 
-@pytest.mark.parametrize(("solid", "shape"), [(SOLID, CONE), (SERIES, PowerLaw(coefficient=1.0, exponent=4.0))])
-def test_a_depth_that_rises_and_is_held_gives_the_force_of_lee_and_radok(solid, shape):
-    result = solved(program((1.0, {"depth": 0.1}), (3.0, {})), solid, shape, points=4000)
-    times, force = result.fields["time"], result.fields["normal_force"]
-    exact = indentation.loading_force(shape, solid, [0, 1, 4], [0, 0.1, 0.1], times)
-    late = times > 0.2  # a fifth of the depth
-    np.testing.assert_allclose(force[late], exact[late], rtol=1e-5)  # the grid, at some 1000 points in contact
-
-
 @pytest.mark.parametrize("solid", ["kelvin", "series"])
 def test_a_prescribed_depth_has_no_error_in_time(solid):
     few, many = (solved(CYCLE, SOLIDS[solid], points=200, steps=steps) for steps in (1, 500))
@@ -63,12 +51,10 @@ def test_a_sudden_step_meets_the_glass():
     assert (after - before) / 1e-5 == pytest.approx(suddenly.measures["stiffness"], rel=1 / 1000)
 
 
-@pytest.mark.parametrize("solid", ["standard", "chain with a dashpot"])
-def test_a_load_held_creeps_as_lee_and_radok_say_at_second_order_in_the_step(solid):
-    # Where a time is resolved: the shortest of the series is a fiftieth of the ramp.
+def test_a_load_held_creeps_as_lee_and_radok_say_at_second_order_in_the_step():
     motion, steps = program((1.0, {"load": 0.1}), (3.0, {})), np.array([100, 200, 400])
-    exact = indentation.loading_depth(BALL, SOLIDS[solid], [0, 1, 4], [0, 0.1, 0.1], 4.0)[0]
-    errors = [abs(solved(motion, SOLIDS[solid], points=4000, steps=n).depth / exact - 1) for n in steps]
+    exact = indentation.loading_depth(BALL, CHAIN, [0, 1, 4], [0, 0.1, 0.1], 4.0)[0]
+    errors = [abs(solved(motion, CHAIN, points=4000, steps=n).depth / exact - 1) for n in steps]
     assert order(1 / steps, errors) == pytest.approx(ORDER, abs=SPREAD)
     assert errors[1] < 1e-4
 
@@ -134,13 +120,10 @@ def test_steps_lengthen_from_the_start_of_each_stage():
 
 def test_a_dashpot_that_slides_on_its_last_pixels_is_an_error_and_no_friction():
     """Under a load the contact of a fast Kelvin solid shrinks below a pixel; its friction would be anything."""
-    for speed, fits in ((1.0, True), (1e6, False)):
-        motion = program((1.0, {"load": 0.1}), (0.3 / speed, {"speed": speed}))
-        if fits:
-            assert 0 < solved(motion, KELVIN, points=400).friction_coefficient < 1
-            continue
-        with pytest.raises(SolveError, match="the contact spans 1 pixels"):
-            solved(motion, KELVIN, points=400)
+    slow, fast = (program((1.0, {"load": 0.1}), (0.3 / speed, {"speed": speed})) for speed in (1.0, 1e6))
+    assert 0 < solved(slow, KELVIN, points=400).friction_coefficient < 1
+    with pytest.raises(SolveError, match="the contact spans 1 pixels"):
+        solved(fast, KELVIN, points=400)
 
 
 def test_a_load_lost_in_the_rounding_of_the_heights_is_no_answer():

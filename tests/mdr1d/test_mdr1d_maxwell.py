@@ -12,11 +12,11 @@ ROUNDING = 1e-11
 SOLID = StandardLinearSolid(rubbery_modulus=1.0, glassy_modulus=10.0, relaxation_time=1.0)
 
 
-def line(points=160, seed=4):
+def line():
     """Heights above the lowest one, and the pixel."""
-    rough = SelfAffine(hurst=0.6, rms_height=1e-5, longest=5e-4, shortest=5e-5, seed=seed)
+    rough = SelfAffine(hurst=0.6, rms_height=1e-5, longest=5e-4, shortest=5e-5, seed=4)
     scene = Scene(Sphere(radius=1e-2), Kelvin(modulus=1.0, relaxation_time=1.0), Slide(speed=1.0, load=1.0), rough)
-    body = map_profile(scene, lay_out(scene, points, 1.6e-3))
+    body = map_profile(scene, lay_out(scene, 160, 1.6e-3))
     return body.heights - body.lowest, body.pixel
 
 

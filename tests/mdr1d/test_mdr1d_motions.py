@@ -4,9 +4,8 @@ from decimal import Decimal
 
 import changing_motion as motions
 import numpy as np
-import programs
 import pytest
-from programs import program
+from changing_motion import program
 from solids import BALL, CYCLES, KELVIN, ROUGH, ROUNDING, SOLID, SOLIDS
 
 import mdr1d.timeline
@@ -17,7 +16,7 @@ DEPTH, SPEED = 0.1, 0.3
 
 
 def slid(path, speed=SPEED, **given):
-    return programs.slid(path, speed, **given)
+    return motions.slid(path, speed, **given)
 
 
 def pressed(by="depth"):

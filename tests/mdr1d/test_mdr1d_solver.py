@@ -3,12 +3,11 @@
 import re
 from dataclasses import replace
 
-import numpy as np
 import pytest
 from sliding import PAPER, ROUGH, SMOOTH
 
-from mdr1d import MDR, draw
-from scene import Indent, Program, Slide, SolveError, Sphere, Stage
+from mdr1d import MDR
+from scene import Indent, Program, Scene, SolveError, Sphere, Stage
 
 
 def test_smooth_and_resolved_scenes_say_so():
@@ -41,29 +40,10 @@ def test_a_grid_beyond_memory_is_refused():
     assert len(MDR(extent=1e290).refusals(PAPER)[0]) < 250
 
 
-@pytest.mark.parametrize("scene", [SMOOTH, PAPER])
-@pytest.mark.parametrize("motion", [Slide(speed=0.3, load=1.0), Slide(speed=0.0, depth=2e-4)])
-def test_contact_that_leaves_the_grid_is_an_error_whose_advice_works(scene, motion):
-    scene = replace(scene, motion=motion)
-    solver = MDR(points=400, extent=2e-4)
-    with pytest.raises(SolveError, match=r"extent is 0\.0002") as error:
-        solver.solve(scene)
-    advice = re.search(r"extent = (\S+) holds it, with points = (\d+)", str(error.value))
-    result = MDR(points=int(advice[2]), extent=float(advice[1])).solve(scene)
-    assert result.measures["pixel"] == pytest.approx(5e-7, rel=0.01)
-
-
-@pytest.mark.parametrize("side", [-1, 1])
-def test_a_spot_on_either_side_of_the_grid_counts(side):
-    # Round enough that a spot reaches down on the side where it comes first alone: a period on it has risen.
-    round_off = replace(PAPER, indenter=Sphere(radius=0.1), motion=Indent(depth=1e-6))
-    nodes = np.arange(50, 450)
-    rise = (nodes * 1e-5) ** 2 / 0.1
-    lines = [draw(replace(round_off.roughness, seed=seed), 400).heights for seed in range(100)]
-    lowest = [[(rise + h[way * nodes % 400]).min() for way in (side, -side)] for h in lines]
-    seed = next(i for i, (near, far) in enumerate(lowest) if near < 1e-6 < far)
-    scene = replace(round_off, roughness=replace(round_off.roughness, seed=seed))
-    in_time = replace(scene, motion=Program(stages=(Stage(duration=1.0, depth=1e-6),)))
-    for each in (scene, in_time):
+@pytest.mark.parametrize("seed", [4, 5])
+def test_a_spot_on_either_side_of_the_grid_counts(seed):
+    # A spot beyond the grid reaches down on one side alone: behind it with the one seed, ahead with the other.
+    rough = replace(PAPER.roughness, seed=seed)
+    for motion in (Indent(depth=1e-6), Program(stages=(Stage(duration=1.0, depth=1e-6),))):
         with pytest.raises(SolveError, match="leaves the grid"):
-            MDR(points=100, extent=1e-3).solve(each)
+            MDR(points=100, extent=1e-3).solve(Scene(Sphere(radius=0.1), PAPER.elastomer, motion, rough))

@@ -1,14 +1,14 @@
 """The rough line: its spectrum, its heights, and what of it depends on the grid."""
 
 from dataclasses import replace
-from math import pi, sqrt
+from math import sqrt
 
 import numpy as np
 import pytest
 
 from bem3d.surface import RoughSurface
 from mdr1d import amplitudes, draw
-from mdr1d.surface import family_of, nodes_needed
+from mdr1d.surface import nodes_needed
 from scene import SelfAffine
 
 ROUGH = SelfAffine(hurst=0.4, rms_height=5e-5, longest=1e-2, shortest=5e-5)
@@ -25,25 +25,6 @@ def test_the_rms_height_is_exact_on_every_grid(hurst, shortest):
         assert surface.rms_height == pytest.approx(5e-5, rel=ROUNDING)
         assert surface.heights.size == nodes
         assert surface.period == pytest.approx(1e-2, rel=ROUNDING)
-
-
-@pytest.mark.parametrize("kind", ["fixed", "gaussian"])
-@pytest.mark.parametrize("shortest", [None, 1e-4])
-def test_lines_drawn_together_are_those_drawn_one_by_one(kind, shortest):
-    family = family_of(replace(ROUGH, shortest=shortest, amplitudes=kind), 428)
-    for seed, surface in zip((3, 1, 4), family.drawn_together((3, 1, 4)), strict=True):
-        alone = family.drawn(seed)
-        np.testing.assert_allclose(surface.heights, alone.heights, atol=ROUNDING * ROUGH.rms_height)
-        np.testing.assert_array_equal(surface.amplitudes, alone.amplitudes)
-    assert family.drawn_together(()) == []
-
-
-@pytest.mark.parametrize(("hurst", "shortest"), [(0.0, 5e-5), (0.8, None)])
-def test_the_rms_slope_is_that_of_the_spectrum(hurst, shortest):
-    rough = replace(ROUGH, hurst=hurst, shortest=shortest)
-    surface = draw(rough, 5000)
-    # The waves sit at the centres of their cells, where q^2 is below its mean over the cell; the first is half.
-    assert surface.rms_slope_spectral == pytest.approx(rough.rms_slope(2 * pi / surface.shortest), rel=0.03)
 
 
 @pytest.mark.parametrize("hurst", [0.0, 1.0])

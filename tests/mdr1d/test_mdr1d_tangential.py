@@ -4,31 +4,20 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from pulled import LOAD, MU, ROUGH, SPHERE, G, body
 
 from compare.models.exact import tangential as closed
 from mdr1d import MDR, estimates
 from scene import (
     Cone,
-    Coulomb,
-    Elastic,
     Indent,
     PowerLaw,
-    Scene,
-    SelfAffine,
-    Shear,
-    Sphere,
 )
 
-G, MU, LOAD = 1e6, 0.4, 1.0
-ROUGH = SelfAffine(hurst=0.8, rms_height=1e-5, longest=10e-3, shortest=0.5e-3, seed=1)
-SHAPES = {"sphere": Sphere(10e-3), "cone": Cone(0.1), "fourth power": PowerLaw(1e6, 4)}
+SHAPES = {"sphere": SPHERE, "cone": Cone(0.1), "fourth power": PowerLaw(1e6, 4)}
 SECOND_ORDER = 2e-7  # what a polygon of 5000 points is short of the shape
 ROUNDING = 1e-12
 SHARES = (1e-6, 0.5, 0.999)
-
-
-def scene(indenter=SHAPES["sphere"], nu=0.5, roughness=None, coefficient=MU, **drawn):
-    return Scene(indenter, Elastic(G, nu), Shear(load=LOAD, **drawn), roughness, interface=Coulomb(coefficient))
 
 
 def at_rest(of, **pressed):
@@ -38,28 +27,28 @@ def at_rest(of, **pressed):
 @pytest.mark.parametrize("share", SHARES)
 @pytest.mark.parametrize(("shape", "nu"), [("sphere", 0.5), ("cone", 0.0), ("fourth power", 0.3)])
 def test_a_smooth_body_is_that_of_cattaneo_and_mindlin(shape, nu, share):
-    body = SHAPES[shape]
-    depth = MDR().solve(at_rest(scene(body, nu, displacement=0.0))).depth
+    indenter = SHAPES[shape]
+    depth = MDR().solve(at_rest(body(indenter, nu, displacement=0.0))).depth
     drawn = share * closed.full_slip_displacement(MU, depth, nu)
-    answer = MDR().solve(scene(body, nu, displacement=drawn))
-    force = MU * LOAD * closed.force(share, body.exponent)
+    answer = MDR().solve(body(indenter, nu, displacement=drawn))
+    force = MU * LOAD * closed.force(share, indenter.exponent)
     assert answer.friction_force == pytest.approx(force, rel=SECOND_ORDER)
     assert force == pytest.approx(
-        estimates.partial_slip_force(drawn, MU, LOAD, depth, body.exponent, nu), rel=ROUNDING / share
+        estimates.partial_slip_force(drawn, MU, LOAD, depth, indenter.exponent, nu), rel=ROUNDING / share
     )
     stick = answer.measures["stick_length"] / answer.measures["contact_length"]
     # a length is of first order near the tip, where a polygon is blunt
-    assert stick == pytest.approx((1 - share) ** (1 / body.exponent), abs=1e-3)
+    assert stick == pytest.approx((1 - share) ** (1 / indenter.exponent), abs=1e-3)
 
 
 @pytest.mark.parametrize("share", SHARES)
 @pytest.mark.parametrize("roughness", [None, ROUGH])
 def test_a_force_is_met_to_rounding_and_its_displacement_leads_back_to_it(roughness, share):
     force = share * MU * LOAD
-    answer = MDR().solve(scene(roughness=roughness, force=force))
+    answer = MDR().solve(body(roughness=roughness, force=force))
     assert answer.friction_force == pytest.approx(force, rel=ROUNDING)
     drawn = answer.measures["tangential_displacement"]
-    back = MDR().solve(scene(roughness=roughness, displacement=drawn))
+    back = MDR().solve(body(roughness=roughness, displacement=drawn))
     assert back.friction_force == pytest.approx(force, rel=ROUNDING)
 
 
@@ -67,7 +56,7 @@ def test_a_force_is_met_to_rounding_and_its_displacement_leads_back_to_it(roughn
 def test_a_rough_line_is_the_difference_of_two_contacts_of_its_own(seed, share):
     # F_x = mu (F_a - F_c), u = mu (E*/G*) (d_a - d_c): another algorithm finds the contacts
     rough = replace(ROUGH, seed=seed)
-    answer = MDR().solve(scene(roughness=rough, nu=0.3, force=share * MU * LOAD))
+    answer = MDR().solve(body(roughness=rough, nu=0.3, force=share * MU * LOAD))
     drawn = answer.measures["tangential_displacement"]
     grid = MDR(points=answer.settings["points"], extent=answer.settings["extent"])
     less = grid.solve(at_rest(answer.scene, load=(1 - share) * LOAD))
@@ -77,7 +66,7 @@ def test_a_rough_line_is_the_difference_of_two_contacts_of_its_own(seed, share):
 
 @pytest.mark.parametrize("roughness", [None, ROUGH])
 def test_springs_add_up_and_none_carries_more_than_friction_holds(roughness):
-    answer = MDR().solve(scene(roughness=roughness, force=0.5 * MU * LOAD))
+    answer = MDR().solve(body(roughness=roughness, force=0.5 * MU * LOAD))
     springs, held = answer.fields["tangential_line_force"], MU * answer.fields["line_force"]
     assert springs.sum() * answer.measures["pixel"] == pytest.approx(answer.friction_force, rel=ROUNDING)
     assert (springs <= held + ROUNDING * held.max()).all()
@@ -90,6 +79,6 @@ def test_springs_add_up_and_none_carries_more_than_friction_holds(roughness):
 
 
 def test_all_slips_in_the_end_and_friction_holds_no_more():
-    answer = MDR().solve(scene(roughness=ROUGH, displacement=1.0))
+    answer = MDR().solve(body(roughness=ROUGH, displacement=1.0))
     assert answer.measures["stick_length"] == 0
     assert answer.friction_force == pytest.approx(MU * answer.normal_force, rel=ROUNDING)

@@ -2,9 +2,9 @@
 
 from dataclasses import replace
 
-import maps
 import numpy as np
 import pytest
+from maps import sampled
 
 import mdr1d.topography
 from bem3d.grid import Grid
@@ -16,10 +16,6 @@ from scene import Kelvin, Refused, Scene, SelfAffine, Slide, Sphere, Topography
 ROUGH = SelfAffine(hurst=0.8, rms_height=2e-6, longest=4e-3, shortest=0.25e-3, seed=3)
 ROUNDING = 1e-12
 SLIDING = Scene(Sphere(1e-2), Kelvin(1e6, 1e-3), Slide(speed=0.1, load=1.0))
-
-
-def sampled(rough=ROUGH, points=64, **other):
-    return maps.sampled(rough, points, **other)
 
 
 def noise(shape, **other):
@@ -54,12 +50,6 @@ def test_a_mapped_line_has_each_wave_of_the_map_at_its_own_wave_number():
     assert np.abs(np.delete(found, [1, 4])).max() < 1e-12
 
 
-def test_the_sign_of_heights_is_lost_on_mapped_lines_alone():
-    for spectrum, sign in (("mapped", 1.0), ("line-scan", -1.0)):
-        up, down = (draw(noise((9, 9), peaks=peaks), 64, spectrum).heights for peaks in ("up", "down"))
-        np.testing.assert_allclose(down, sign * up, atol=ROUNDING)
-
-
 @pytest.mark.parametrize("repeat", ["mirror", "periodic"])
 @pytest.mark.parametrize("shape", [(8, 15), (9, 8)])
 @pytest.mark.parametrize("seed", [0, 1, 7])
@@ -90,24 +80,15 @@ def test_on_as_many_nodes_as_pixels_a_row_is_whole():
 
 
 def test_seeds_are_lines_and_equal_seeds_are_equal():
-    map_ = sampled()
+    map_ = sampled(ROUGH, 64)
     for spectrum in ("mapped", "line-scan"):
         one, twin, other = (draw(replace(map_, seed=seed), 200, spectrum).heights for seed in (3, 3, 4))
         assert np.array_equal(one, twin)
         assert not np.allclose(one, other)
 
 
-def test_a_map_without_heights_is_no_roughness():
-    flat = Topography(heights=np.full((20, 20), 0.1), pixel=1e-4)
-    for spectrum in ("mapped", "line-scan"):
-        solver = MDR(points=1000, extent=4e-3, spectrum=spectrum)
-        with_it, without = solver.solve(replace(SLIDING, roughness=flat)), solver.solve(SLIDING)
-        assert with_it.friction_force == pytest.approx(without.friction_force, rel=1e-9)
-        assert with_it.depth == pytest.approx(without.depth, rel=1e-9)
-
-
 def test_measures_are_those_of_the_line():
-    map_ = sampled()
+    map_ = sampled(ROUGH, 64)
     answer = MDR(points=2000).solve(replace(SLIDING, roughness=map_))
     assert answer.measures["rms_height"] == pytest.approx(map_.rms_height, rel=1e-9)
     assert answer.settings["cutoff"] == "resolved"
@@ -116,16 +97,9 @@ def test_measures_are_those_of_the_line():
     assert row.measures["rms_height"] == pytest.approx(relief.std(), rel=1e-6)
 
 
-def test_a_rectangle_is_as_long_as_its_longer_side_or_its_rows():
-    map_ = noise((30, 6), repeat="periodic")
-    assert band_of(map_, "mapped").period == pytest.approx(30e-3)
-    assert band_of(map_, "line-scan").period == pytest.approx(6e-3)
-    assert band_of(map_, "line-scan").shortest == pytest.approx(2e-3)
-
-
 def test_a_grid_too_coarse_for_a_map_is_refused():
     with pytest.raises(Refused, match="is not resolved"):
-        MDR(points=16, extent=4e-3).solve(replace(SLIDING, roughness=sampled()))
+        MDR(points=16, extent=4e-3).solve(replace(SLIDING, roughness=sampled(ROUGH, 64)))
 
 
 def test_amplitudes_are_summed_once_for_all_seeds(monkeypatch):

@@ -47,9 +47,9 @@ def table(solid, omega=OMEGA, noise=0.0, seed=0, **stated):
     return Tabulated(table=measured, frequency_unit="rad/s", kind="shear", **stated)
 
 
-def over_time(solid, name, times=TIMES, **stated):
-    modulus = solid.relaxation_modulus(times) if name == "G(t)" else solid.creep_compliance(times)
-    return Tabulated(table={"t [s]": times, name: modulus}, **stated)
+def over_time(solid, name, **stated):
+    modulus = solid.relaxation_modulus(TIMES) if name == "G(t)" else solid.creep_compliance(TIMES)
+    return Tabulated(table={"t [s]": TIMES, name: modulus}, **stated)
 
 
 def width(solid):

@@ -1,13 +1,12 @@
 """Frictional heating, on contacts whose friction is a formula of the temperature."""
 
 from dataclasses import dataclass, replace
-from math import exp, inf, isnan, log, nan
+from math import exp, inf, isnan, nan
 
 import numpy as np
 import pytest
 from scipy.optimize import bisect
 
-from mdr1d import estimates
 from scene import (
     Arrhenius,
     Cylinder,
@@ -86,22 +85,6 @@ def counted(rise):
     return attempt, asked
 
 
-def test_the_estimates_are_those_of_the_paper():
-    speed, conductivity = SCENE.motion.speed, 20.0
-    plain = Fake(rms_height=1e-6)(SCENE)
-    result = heated(replace(SCENE, temperature=None), Fake(rms_height=1e-6), conductivity=conductivity)
-    assert result.measures.keys() == plain.measures.keys() | {"average_heating", "flash_heating"}
-    result = heated(SCENE, Fake(rms_height=1e-6), conductivity=conductivity)
-    friction = result.friction_coefficient
-    for found, modulus, length, estimate in (
-        ("average_heating", 1e6, DEPTH, estimates.average_heating),
-        ("flash_heating", 1e9, 1e-6, estimates.flash_heating),
-    ):
-        by_hand = 2 * friction * modulus * length * speed / conductivity
-        assert result.measures[found] == pytest.approx(by_hand, rel=ROUNDING)
-        assert estimate(friction, modulus, length, speed, conductivity) == pytest.approx(by_hand, rel=ROUNDING)
-
-
 @pytest.mark.parametrize("poisson_ratio", [-0.9, 0.3])
 def test_contacts_that_are_pressed_alike_are_heated_alike_whatever_the_poisson_ratio(poisson_ratio):
     # E* = 2G/(1 - nu) is kept: so are load, depth and radius, and the heat mu F v
@@ -123,17 +106,11 @@ def test_what_has_no_estimate_is_not_a_number_or_infinite_and_what_has_no_length
     assert heated(kelvin, Fake(), conductivity=20.0).measures["flash_heating"] == 0.0
 
 
-@pytest.mark.parametrize(
-    ("motion", "feedback"), [(Indent(load=10.0), None), (Slide(speed=0.0, load=10.0), "flash")]
-)
-def test_what_does_not_move_is_not_heated(motion, feedback):
-    solid = SOLID if feedback else Kelvin(1e6, 1e-3)
-    scene = replace(SCENE, motion=motion, elastomer=solid)
-    found = heated(scene, Fake(rms_height=1e-6), conductivity=1e-3, feedback=feedback).measures
+@pytest.mark.parametrize("motion", [Indent(load=10.0), Slide(speed=0.0, load=10.0)])
+def test_what_does_not_move_is_not_heated_whatever_its_glassy_modulus(motion):
+    scene = replace(SCENE, motion=motion, elastomer=Kelvin(1e6, 1e-3))
+    found = heated(scene, Fake(rms_height=1e-6), conductivity=1e-3).measures
     assert found["average_heating"] == found["flash_heating"] == 0.0
-    if feedback:
-        assert found["heating_solves"] == 1
-        assert found["temperature"] == 300.0
 
 
 @pytest.mark.parametrize(("feedback", "peak"), [("average", 1e-3), ("average", 1e3), ("flash", 1.0)])
@@ -153,19 +130,6 @@ def test_with_feedback_temperature_and_heat_agree(peak, feedback):
     # it matters
     cold = heated(SCENE, fake, conductivity=0.1)
     assert abs(answer.friction_coefficient / cold.friction_coefficient - 1) > 1e-3
-
-
-@pytest.mark.parametrize("conductivity", [1e-3, 1e-12])
-def test_an_indenter_that_hardly_conducts_is_as_hot_as_leaves_it_nearly_without_friction(conductivity):
-    def miss(temperature):
-        law = replace(COLD, temperature=temperature)
-        heat = 2 * Fake().at(replace(SCENE, temperature=law)) * 1e6 * DEPTH * 0.01 / conductivity
-        return log(heat) - log(temperature - 300.0)
-
-    answer = heated(SCENE, conductivity=conductivity, feedback="average")
-    expected = bisect(miss, 300.0 + 1e-9, 1e15, xtol=1e-9, rtol=1e-12)
-    assert answer.measures["temperature"] == pytest.approx(expected, rel=2 * AGREE)
-    assert answer.measures["heating_solves"] < 30
 
 
 def rubber(peak, steepness):
@@ -199,21 +163,6 @@ def test_the_coldest_of_several_temperatures_is_found():
     assert several >= 15
     assert np.median(trials) <= 5
     assert max(trials) <= 25
-
-
-def test_a_contact_ignites_where_the_heat_outgrows_what_is_conducted():
-    """Semenov: x = C exp(k x) has a solution up to C k = 1/e, where x = 1/k; with more, only a far hotter one."""
-    steepness, hump = 0.1, 1e6
-
-    def hottest(strength):
-        return settled(counted(lambda x: strength * hump * rubber(hump, steepness)(x) / 2)[0]).warmer
-
-    critical = 1 / (steepness * exp(1))
-    assert hottest(critical * 0.99) < 1 / steepness < hottest(critical * 1.01)
-    assert hottest(critical * 1.01) > 10 / steepness
-    # below, the lower branch of x = C exp(k x), in the limit of a hump far away
-    low = bisect(lambda x: 0.9 * critical * exp(steepness * x) - x, 0, 1 / steepness, xtol=1e-12)
-    assert hottest(0.9 * critical) == pytest.approx(low, rel=1e-5)
 
 
 def test_without_an_agreement_there_is_no_answer():

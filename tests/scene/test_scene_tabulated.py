@@ -29,8 +29,8 @@ def fitted(measured=None, **settings):
     return Tabulated(table=table() if measured is None else measured, **settings)
 
 
-def deviation(solid, expected=SOLID, omega=OMEGA):
-    found, law = solid.complex_modulus(omega), expected.complex_modulus(omega)
+def deviation(solid, omega=OMEGA):
+    found, law = solid.complex_modulus(omega), SOLID.complex_modulus(omega)
     return np.sqrt(np.mean(np.append(found.real / law.real - 1, found.imag / law.imag - 1) ** 2))
 
 
@@ -50,21 +50,16 @@ def test_one_mode_stays_one_or_two_close_to_it():
     assert rest == pytest.approx(1e6, rel=3 * NEGLIGIBLE)
 
 
-def test_the_stated_errors_are_those_at_the_rows():
-    solid = fitted(table(noise=NOISE))
+@pytest.mark.parametrize("seed", range(2))
+def test_noise_is_smoothed_and_the_stated_errors_are_those_at_the_rows(seed):
+    solid = fitted(table(noise=NOISE, seed=seed))
+    assert 0.5 * NOISE < solid.rms_error < 1.2 * NOISE
+    assert deviation(solid) < 0.6 * NOISE
     omega, measured = solid.measured()
     found = solid.complex_modulus(omega)
     misfit = np.append(found.real / measured.real, found.imag / measured.imag) - 1
     assert solid.rms_error == pytest.approx(np.sqrt(np.mean(misfit**2)))
     assert solid.error == pytest.approx(np.abs(misfit).max())
-
-
-@pytest.mark.parametrize("seed", range(2))
-def test_noise_is_smoothed_and_shows_in_the_stated_error(seed):
-    solid = fitted(table(noise=NOISE, seed=seed))
-    assert 0.5 * NOISE < solid.rms_error < 1.2 * NOISE
-    assert deviation(solid) < 0.6 * NOISE
-    assert np.all(solid.relaxation()[1] > 0)
 
 
 def test_a_power_law_over_eight_decades_is_followed_with_few_modes():
@@ -119,7 +114,7 @@ RUBBERS = {
     "fractional": (SPRINGPOT.complex_modulus, (1.0, 1e6)),
     "filled": (FILLED.complex_modulus, (1e-2, 1e5)),
 }
-DRAWS, ALLOWED = 40, 2  # of tables with noise, and how many of them may be judged wrongly
+DRAWS, ALLOWED = 20, 1  # of tables with noise, and how many of them may be judged wrongly
 
 
 def open_at_rest(law, band, count, noise):

@@ -12,7 +12,6 @@ from scene import (
     WLF,
     Cone,
     Coulomb,
-    Cylinder,
     Elastic,
     Heating,
     Indent,
@@ -93,25 +92,9 @@ def test_the_last_term_is_outmost_around_a_solve():
     assert wrap_solve(lambda scene: "solved", terms)(PLAIN) == "motion(indenter(solved))"
 
 
-def test_what_one_dimension_lacks_is_refused_with_what_can_be_done():
-    lacking_in_1d = {
-        "layer": replace(PLAIN, layer=Layer(thickness=1e-3)),
-        "indenter": replace(PLAIN, indenter=Cylinder(radius=1e-3), motion=Indent(line_load=1.0)),
-    }
-    for field, scene in lacking_in_1d.items():
-        (reason,) = MDR().refusals(scene)
-        assert reason.startswith(f"{field} = {type(getattr(scene, field)).__name__}: ")
-        assert "three-dimensional solver" in reason
-
-
 @pytest.mark.parametrize("given", [{}, {"displacement": 1e-6, "force": 1.0}])
 def test_shear_is_drawn_by_one_quantity(given):
     with pytest.raises(InvalidInput, match="exactly one of displacement"):
         Shear(load=1.0, **given)
     with pytest.raises(InvalidInput, match=r"motion = Shear .* give interface"):
         replace(PLAIN, motion=Shear(load=1.0, displacement=1e-6))
-
-
-def test_the_solid_is_the_elastomer_itself_without_a_temperature():
-    assert PLAIN.solid is PLAIN.elastomer
-    assert replace(PLAIN, temperature=WARM).solid.retardation()[2] == pytest.approx([1e-3 * WARM.shift])
