@@ -10,8 +10,7 @@ LONGEST = 200  # letters of a name or a value in a message
 
 def printable(text: str) -> str:
     r"""A text whose unprintable characters, line ends aside, are written as escapes, as \x1b; blanks are alike."""
-    lines = (line if line.isprintable() else "".join(map(_escape, line)) for line in text.split("\n"))
-    return "\n".join(lines)
+    return "\n".join(line if line.isprintable() else "".join(map(_escape, line)) for line in text.split("\n"))
 
 
 def brief(text: str, most: int = LONGEST) -> str:

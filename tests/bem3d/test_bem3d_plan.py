@@ -75,6 +75,9 @@ SCENES |= {
     "shear": replace(SCENES["rest"], motion=DRAWN, interface=STICKS),
     "shear-uncoupled": Scene(SPHERE, Elastic(1e6, poisson_ratio=0.0), DRAWN, interface=STICKS),
     "shear-plane": replace(SCENES["plane"], motion=Shear(pressure=1e5, displacement=1e-7), interface=STICKS),
+    "shear-line": replace(
+        SCENES["line"], motion=Shear(line_load=500.0, displacement=1e-6), elastomer=Elastic(1e6), interface=STICKS
+    ),
     "shear-not": replace(SCENES["rest"], motion=replace(DRAWN, displacement=0.0), interface=STICKS),
     "far-and-back": Scene(SPHERE, MANY, FAR),
     "measured": replace(SCENES["slide"], indenter=Measured(heights=BOWL, pixel=1e-4, peaks="down")),

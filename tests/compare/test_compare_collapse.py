@@ -8,7 +8,7 @@ import pytest
 import xarray
 
 from compare.statistics import eq23
-from compare.statistics.collapse import PARALLEL, PARTED, UNSCATTERED, collapse
+from compare.statistics.collapse import DEGREE, PARALLEL, PARTED, UNSCATTERED, collapse
 from compare.statistics.finding import FAILS, HOLDS, UNDECIDED
 from compare.statistics.finding import verdict as decided
 from compare.statistics.frictioncurves import Curve, SimulatedCurves
@@ -261,6 +261,12 @@ def test_the_right_law_is_kept_as_often_as_stated():
     found = rates(10, 0.1, 16, cubic, seed=1)
     assert min(found[name] for name in ("misfit", "exponent", "predicted")) >= least(16), found
     assert found[FAILS] <= 1 - least(16)
+
+
+def test_a_curve_has_no_more_coefficients_than_the_scatter_asks_for():
+    rng = np.random.default_rng(4)
+    assert collapse(measured(rng, friction(cubic), error=0.02)).degree == DEGREE
+    assert collapse(measured(rng, friction(knee), error=1e-5)).degree > DEGREE
 
 
 def test_wrong_laws_are_rejected():

@@ -33,6 +33,23 @@ EQUIVALENT = {
         "bound + 1",
         "(bound - 1)",
     ): "the nodes of the next band are exact to rounding at these columns too",
+    ("bem3d/response/layer.py", "x + u", "(x - u)"): "the nodes lie evenly on both sides of the middle",
+    (
+        "bem3d/motion/marching.py",
+        "wanted * grid.points * grid.rows <= KEPT",
+        "(wanted * grid.points * grid.rows < KEPT)",
+    ): "what is kept or evaluated again is the same number",
+    ("mdr1d/element.py", "c > 0.0", "(c >= 0.0)"): "a profile that only meets the surface carries no force",
+    (
+        "compare/statistics/multilevel.py",
+        "(high - low) / 2 + finding.grid <= wanted",
+        "((high - low) / 2 + finding.grid < wanted)",
+    ): "no interval is exactly as wide as wanted",
+    (
+        "scene/surfaces/measured.py",
+        "np.hypot(along_y[:, None], along_x) * shortest > 1 + QUOTIENT",
+        "(np.hypot(along_y[:, None], along_x) * shortest >= 1 + QUOTIENT)",
+    ): "the number is one of rounding",
     ("mdr1d/steady.py", "u > 0.0", "(u >= 0.0)"): "at u = 0 both branches carry no displacement",
     (
         "mdr1d/kelvin.py",
