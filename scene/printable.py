@@ -10,7 +10,9 @@ LONGEST = 200  # letters of a name or a value in a message
 
 def printable(text: str) -> str:
     r"""A text whose unprintable characters, line ends aside, are written as escapes, as \x1b; blanks are alike."""
-    return "\n".join(line if line.isprintable() else "".join(map(_escape, line)) for line in text.split("\n"))
+    if text.isprintable():
+        return text
+    return "".join(each if each.isprintable() or each == "\n" else _escape(each) for each in text)
 
 
 def brief(text: str, most: int = LONGEST) -> str:
@@ -29,8 +31,6 @@ def shown(text: object) -> str:
 
 
 def _escape(letter):
-    if letter.isprintable():
-        return letter
     return " " if category(letter) == "Zs" else letter.encode("unicode_escape").decode("ascii")
 
 
