@@ -215,7 +215,7 @@ def _rows(outcome, solver, grid):
 
 
 def _mean(rows: Sequence[Row], quantity: str) -> tuple[Mean, np.ndarray]:
-    """Mean of the draws that were solved, and its relative changes with each, whose squares sum to its variance."""
+    """Mean of the draws that were solved, and its relative change with each: the squares sum to its variance."""
     name = {"friction": "friction_force", "depth": "depth", "force": "normal_force"}[quantity]
     over = [row.normal_force for row in rows] if quantity == "friction" else 1.0
     value, changes, count = off_the_ratio([getattr(row, name) for row in rows], over)

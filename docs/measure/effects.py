@@ -15,10 +15,9 @@ from typing import Any
 
 import numpy as np
 import pandas
-from campaign import solved
 from pandas import DataFrame
 from pydantic import TypeAdapter
-from tables import fill, stored, table
+from tables import fill, solved, stored, table
 
 import bem3d.plan
 import mdr1d.plan

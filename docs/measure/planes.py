@@ -12,12 +12,11 @@ from pathlib import Path
 
 import numpy as np
 import pandas
-from campaign import solved
 from design import RADIUS, SPEED, between, solid_at
 from pandas import DataFrame
 from scipy.optimize import least_squares
 from scipy.stats import qmc
-from tables import stored
+from tables import solved, stored
 
 from bem3d import BEM
 from bem3d.heights import heights

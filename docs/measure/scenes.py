@@ -10,9 +10,8 @@ from pathlib import Path
 
 import design
 import numpy as np
-from campaign import friction, solved
 from design import drawn_points, scene_at, within
-from tables import stored
+from tables import friction, solved, stored
 
 from bem3d import BEM
 from compare.models.law.parts import LawParts

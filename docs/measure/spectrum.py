@@ -10,11 +10,10 @@ from pathlib import Path
 
 import numpy as np
 import pandas
-from campaign import solved
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 from pandas import DataFrame
-from tables import limit, stored
+from tables import limit, solved, stored
 
 from bem3d import BEM, refined
 from compare.figures import style

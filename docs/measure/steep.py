@@ -8,9 +8,8 @@ from dataclasses import dataclass, replace
 from math import pi
 
 import numpy as np
-from campaign import friction, solved
 from planes import PAGE as PLANES
-from tables import stored
+from tables import friction, solved, stored
 
 from bem3d import BEM
 from compare.solving.task import SceneTask, draws_of

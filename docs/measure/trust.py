@@ -16,7 +16,6 @@ from pathlib import Path
 
 import design
 import numpy as np
-from campaign import solved
 from contact import GREAT, USUAL, Contact, ratio_of
 from fitting import as_json, fit
 from pandas import DataFrame
@@ -30,7 +29,7 @@ from scoring import (
     of_surfaces,
     scored,
 )
-from tables import by_column, fill, stored
+from tables import by_column, fill, solved, stored
 
 from compare.models.law.parts import LawParts
 from compare.solving.task import Outcome
