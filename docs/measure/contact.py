@@ -220,5 +220,5 @@ def _mean(rows: Sequence[Row], quantity: str) -> tuple[Mean, np.ndarray]:
     over = [row.normal_force for row in rows] if quantity == "friction" else 1.0
     value, changes, count = off_the_ratio([getattr(row, name) for row in rows], over)
     with np.errstate(divide="ignore", invalid="ignore"):
-        changes = changes / value
-    return Mean(float(value), float(np.linalg.norm(changes)) * sqrt(count), int(count)), changes
+        scatter = np.linalg.norm(changes) * sqrt(count) / abs(value)
+        return Mean(float(value), float(scatter), int(count)), changes / value

@@ -3,13 +3,13 @@
 python docs/measure/law.py   compares them with results/law/scenes-*.csv
 """
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import numpy as np
 import pandas
 from pandas import DataFrame
-from scenes import PAGE, SETS, RandomScene, scenes
+from scenes import BLUNT, FAST, PAGE, SETS, RandomScene, scenes
 from tables import fill, of_count, stored, table
 
 from compare import FrictionLaw, Persson
@@ -17,17 +17,15 @@ from compare.trustmap.model import NORMAL
 from scene.scales import elastic_contact
 
 LAW = PAGE.parents[1] / "law.md"
-SMALL = 0.1  # rms height over depth, up to which roughness is small
-FAR = {
-    "spheres on a fast Kelvin solid": "spheres on a fast Kelvin solid, v τ/λ_s 15 to 300",
-    "blunt bodies": "blunt bodies, n > 6, p/p_rms 0.9 to 4",
-}
-ROWS: dict[str, Callable[[DataFrame], pandas.Series]] = {
-    "h₀ ≤ 0.1 d": lambda d: d["height"] <= SMALL,
-    "h₀ > 0.1 d": lambda d: d["height"] > SMALL,
-    "x < 0.1": lambda d: d["x"] < 0.1,
-    **{words: lambda d, region=region: d["region"] == region for region, words in FAR.items()},
-    "all": lambda d: d["height"] > 0,
+# Rows of the table, by the scenes that each is about.
+ROWS = {
+    "h₀ ≤ 0.1 d": "outside == 0 and height <= 0.1",
+    "h₀ > 0.1 d": "outside == 0 and height > 0.1",
+    "x < 0.1": "outside == 0 and x < 0.1",
+    f"{FAST}, v τ/λ_s 15 to 300": f"outside == 0 and region == {FAST!r}",
+    f"{BLUNT}, n > 6, p/p_rms 0.9 to 4": f"outside == 0 and region == {BLUNT!r}",
+    "all": "outside == 0",
+    "off the map": "outside == 1",
 }
 MODELS = {"bare": "bare law", "law": "3D law", "persson": "Persson", "line": "MDR"}
 
@@ -43,52 +41,42 @@ def errors() -> DataFrame:
 
 
 def _errors(each: RandomScene, known) -> dict:
-    scene, rest = each.scene, elastic_contact(each.scene)
-    found = FrictionLaw().solve(scene)
+    scene, found = each.scene, FrictionLaw().solve(each.scene)
     low, high = (np.log(found.measures[f"friction_{end}"]) for end in ("low", "high"))
     middle, true = np.log(found.friction_coefficient), np.log(known["friction"])
     # The truth has an error of its own, by which the interval is widened.
-    spread = NORMAL * known["error"]
-    loaded = scene if scene.motion.load is not None else None
+    spread, end = NORMAL * known["error"], low if true < middle else high
     answers = {
         "bare": found.measures["bare_friction"],
         "law": found.friction_coefficient,
-        "persson": Persson().solve(loaded).friction_coefficient if loaded else np.nan,
+        "persson": Persson().solve(scene).friction_coefficient if scene.motion.load is not None else np.nan,
         "line": known["line"],
     }
     return {
-        "set": each.set,
         "scene": each.number,
         "region": each.region,
-        "height": scene.roughness.rms_height / rest.depth,
-        "waves": rest.radius / scene.roughness.shortest,
-        "body": type(scene.indenter).__name__,
-        "solid": type(scene.elastomer).__name__,
-        "pressed by": scene.motion.pressed_by,
+        "height": scene.roughness.rms_height / elastic_contact(scene).depth,
         "x": found.measures["pressure_ratio"],
         "outside": found.measures["outside"],
         "half": (high - low) / 2,
-        "held": float(middle - np.hypot(middle - low, spread) <= true <= middle + np.hypot(high - middle, spread)),
-        "error": known["error"],
+        "held": float(abs(true - middle) <= np.hypot(end - middle, spread)),
         **{name: float(np.log(value) - true) if value > 0 else np.nan for name, value in answers.items()},
     }
 
 
 def rows(found: DataFrame) -> Iterator[tuple[str, ...]]:
     """Number of scenes, error of each model in the median and at nine in ten, and coverage, by region."""
-    inside = found[found["outside"] == 0]
-    for region, chosen in ROWS.items():
-        own = inside[chosen(inside)]
-        held = int(own["held"].sum())
-        low, high = of_count(held, len(own))
-        share = f"{100 * held / len(own):.0f} % ({100 * low:.0f} to {100 * high:.0f})"
-        yield region, str(len(own)), *(_cell(own[name]) for name in MODELS), _half(own["half"]), share
-    outside = found[found["outside"] == 1]
-    yield "off the map", str(len(outside)), *(_cell(outside[name]) for name in MODELS), "", ""
+    for region, where in ROWS.items():
+        own = found.query(where)
+        yield region, str(len(own)), *(_cell(own[name]) for name in MODELS), *_covered(own)
 
 
-def _half(halves):
-    return f"{100 * np.expm1(halves.median()):.2g} %"
+def _covered(own):
+    """Half of the interval, and how many it holds; nothing where there are no intervals."""
+    half, held, count = 100 * np.expm1(own["half"].median()), int(own["held"].sum()), len(own)
+    low, high = of_count(held, count)
+    share = f"{100 * held / count:.0f} % ({100 * low:.0f} to {100 * high:.0f})"
+    return ("", "") if np.isnan(half) else (f"{half:.2g} %", share)
 
 
 def _cell(logs):
@@ -100,7 +88,7 @@ def _cell(logs):
 def errors_of(model: str) -> tuple[float, float, int]:
     """Errors of a model that half and nine in ten of the unseen scenes stay below [%], and number of scenes."""
     found = pandas.read_csv(PAGE.with_name("errors.csv"))
-    off = 100 * np.abs(np.expm1(found[found["outside"] == 0][model]))
+    off = 100 * np.abs(np.expm1(found.query(ROWS["all"])[model]))
     return off.median(), off.quantile(0.9), len(off)
 
 

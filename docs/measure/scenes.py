@@ -9,7 +9,6 @@ from math import inf
 from pathlib import Path
 
 import design
-import numpy as np
 from design import drawn_points, scene_at, within
 from tables import friction, solved, stored
 
@@ -35,7 +34,6 @@ POINTS, PIXELS = (128, 192, 256, 384, 512, 640), 12  # a side; to the shortest w
 class RandomScene:
     """A scene that slides on roughness, its region, and its tasks."""
 
-    set: str
     number: int
     region: str
     scene: Scene
@@ -62,33 +60,31 @@ def scenes(name: str) -> Iterator[RandomScene]:
     """Scenes of a set, one after the other."""
     count, seed = SETS[name]
     found = 0
-    for number, point in enumerate(drawn_points(seed)):
+    for number, drawn in enumerate(drawn_points(seed).tolist()):
+        point = design.Point(*drawn)
         region, periods = EVENLY, design.PERIODS
         if name == "regions":
             region, periods = REGIONS[number % len(REGIONS)], design.ALL_PERIODS
         scene = scene_at(place(region, point), SURFACE_SEEDS * number, periods)
         if region == BLUNT:
-            scene = pressed(scene, design.between(PRESSURES, point[9]))
+            scene = pressed(scene, design.between(PRESSURES, point.height))
         if scene.roughness is not None and isinstance(scene.motion, Slide) and found < count:
             found += 1
-            yield RandomScene(name, number, region, scene)
+            yield RandomScene(number, region, scene)
 
 
-def place(region: str, point: np.ndarray) -> np.ndarray:
+def place(region: str, point: design.Point) -> design.Point:
     """Point of the cube moved to a region."""
-    found = point.copy()
-    if region != EVENLY:
-        # Rough, sliding, under a load.
-        found[8] = design.SMOOTH + (1 - design.SMOOTH) * point[8]
-        found[7], found[15] = design.UNDER_LOAD * point[7], design.SLIDING * point[15]
-    if region == FAST:
-        found[0], found[2] = (design.CONES + design.ROUND) / 2, 0.1
-        found[9] = within(point[9], design.HEIGHTS, HEIGHT)
-        found[15] = design.SLIDING * within(point[15], design.SPEEDS, PASSED)
+    if region == EVENLY:
+        return point
+    moved = design.rough_and_sliding(point)
     if region == BLUNT:
-        found[0] = design.ROUND + (1 - design.ROUND) * point[0]
-        found[1] = within(point[1], design.EXPONENTS, POWERS)
-    return found
+        shape = design.ROUND + (1 - design.ROUND) * point.shape
+        return moved._replace(shape=shape, exponent=within(point.exponent, design.EXPONENTS, POWERS))
+    height, speed = within(point.height, design.HEIGHTS, HEIGHT), within(point.speed, design.SPEEDS, PASSED)
+    return moved._replace(
+        shape=(design.CONES + design.ROUND) / 2, kind=0.1, height=height, speed=design.SLIDING * speed
+    )
 
 
 def pressed(scene: Scene, ratio: float) -> Scene:
@@ -103,18 +99,9 @@ def pressed(scene: Scene, ratio: float) -> Scene:
 def row(scene: RandomScene, space: Outcome, line: Outcome) -> dict:
     """Friction in 3D with its standard error, relative, and in 1D."""
     surfaces, profiles = friction(space.rows), friction(line.rows)
-    return {
-        "scene": scene.number,
-        "region": scene.region,
-        "friction": float(surfaces.value),
-        "error": float(surfaces.error / abs(surfaces.value)),
-        "load": float(np.nanmean([each.normal_force for each in space.rows])),
-        "depth": float(np.nanmean([each.depth for each in space.rows])),
-        "area": float(np.nanmean([each.measures.get("contact_area", 0.0) for each in space.rows])),
-        "surfaces": sum(each.reason is None for each in space.rows),
-        "points": space.rows[0].settings.get("points", 0),
-        "line": float(profiles.value),
-    }
+    error = surfaces.error / abs(surfaces.value)
+    found = {"friction": surfaces.value, "error": error, "line": profiles.value}
+    return {"scene": scene.number} | {name: float(value) for name, value in found.items()}
 
 
 def main() -> None:
