@@ -5,7 +5,7 @@ from dataclasses import dataclass, fields
 from functools import cached_property
 from itertools import product
 from math import log
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
 from scipy.special import ndtr
@@ -27,7 +27,7 @@ from compare.trustmap.model import (
     parts,
 )
 from compare.trustmap.table import column, measurements
-from compare.trustmap.verdict import MULTIPLY, SOLVE, USE, advice_on
+from compare.trustmap.verdict import SOLVE, USE, advice_on
 
 # Regions of the map, where errors and advice are stated, each a condition on groups.
 SPEEDS: dict[str, Condition] = {
@@ -57,7 +57,12 @@ FEWEST = 5
 ENOUGH, PROMISED = 40, 0.95
 # Of the narrower of two intervals, of 1D and of the law.
 BEST = "best-advice"
-STATED = {**REGIONS, "prescribed": COVERED["prescribed"], "surface": SURFACES}
+STATED: dict[str, dict[str, Condition]] = {
+    "all": {"all": lambda g: np.isfinite(g["shape"])},
+    **REGIONS,
+    "prescribed": COVERED["prescribed"],
+    "surface": SURFACES,
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,14 +70,22 @@ class Score:
     """Ratios predicted and measured, of scenes with one quantity (N,).
 
     measured, predicted : of the same scenes; where a mean is not above zero there is no ratio, and no error
+    slides : which of the scenes slide
     """
 
     measured: Measurements
     predicted: Predicted
+    slides: np.ndarray
+
+    @property
+    def groups(self) -> Mapping[str, np.ndarray]:
+        """What regions are conditions on: groups (N,) by name."""
+        return dict(zip(NAMES, self.measured.groups.T, strict=True)) | {"slides": self.slides}
 
     def taken(self, chosen: np.ndarray) -> "Score":
         """Score of some scenes: a mask or numbers of scenes."""
-        return Score(self.measured.taken(chosen), Predicted(*(each[chosen] for each in self.predicted)))
+        predicted = Predicted(*(each[chosen] for each in self.predicted))
+        return Score(self.measured.taken(chosen), predicted, self.slides[chosen])
 
     def best(self, other: "Score") -> "Score":
         """Score that takes for each scene the narrower of two intervals, and is usable where either is."""
@@ -86,7 +99,7 @@ class Score:
             for each in fields(Measurements)
         )
         predicted = (picked(*each) for each in zip(self.predicted, other.predicted, strict=True))
-        return Score(Measurements(*measured), Predicted(*predicted))
+        return Score(Measurements(*measured), Predicted(*predicted), self.slides)
 
     @cached_property
     def variance(self) -> np.ndarray:
@@ -136,53 +149,42 @@ class Score:
         return float(np.mean(ndtr((width - apart) / scatter) - ndtr((-width - apart) / scatter)))
 
 
-# A score, and the groups of its scenes by name.
-Scored: TypeAlias = tuple[Score, Mapping[str, np.ndarray]]
-
-
-def scored(held_out: Mapping[str, np.ndarray], models: Mapping[str, Model]) -> dict[str, Scored]:
+def scored(held_out: Mapping[str, np.ndarray], models: Mapping[str, Model]) -> dict[str, Score]:
     """Score of each model on the scenes of a table, and of the best advice on friction.
 
     Off the map nothing is known: the advice is to solve.
     """
-    found: dict[str, Scored] = {}
+    found: dict[str, Score] = {}
     for name, model in models.items():
         rows, measured = measurements(held_out, name)
-        groups = {each: held_out[each][rows] for each in NAMES}
-        groups["slides"] = held_out[column("friction", "surfaces")][rows] > 0
         off = np.array([bool(beyond_measured(place)) for place in measured.groups], bool)
         predicted = model.predicted(np.clip(measured.groups, *limits()))
         predicted = predicted._replace(error=np.where(off, np.inf, predicted.error))
-        found[name] = Score(measured, predicted), groups
-    line, law = found["friction"], found[LAW]
-    return {**found, BEST: (line[0].best(law[0]), line[1])}
+        found[name] = Score(measured, predicted, held_out[column("friction", "surfaces")][rows] > 0)
+    return {**found, BEST: found["friction"].best(found[LAW])}
 
 
-def of_surfaces(scores: Mapping[str, Scored], name: str) -> dict[str, Scored]:
+def of_surfaces(scores: Mapping[str, Score], name: str) -> dict[str, Score]:
     """Scores on the scenes with surfaces of one kind, see SURFACES."""
-    found: dict[str, Scored] = {}
-    for each, (score, groups) in scores.items():
-        here = SURFACES[name](groups)
-        found[each] = score.taken(here), {key: values[here] for key, values in groups.items()}
-    return found
+    return {each: score.taken(SURFACES[name](score.groups)) for each, score in scores.items()}
 
 
-def error_rows(scores: Mapping[str, Scored]) -> Iterator[dict[str, Any]]:
-    """Errors as measured and share within the interval, by ratio and region, a kind of region at a time.
+def error_rows(
+    scores: Mapping[str, Score], kinds: Mapping[str, Mapping[str, Condition]] = STATED
+) -> Iterator[dict[str, Any]]:
+    """Errors as measured and share within the interval, by region, a kind of region at a time, and ratio.
 
     fails : as in `coverage_rows`
     """
-    kinds = {"all": {"all": lambda groups: groups["shape"] == groups["shape"]}, **STATED}
-    for (name, (score, groups)), (kind, regions) in product(scores.items(), kinds.items()):
-        for region, condition in regions.items():
-            here = condition(groups) & np.isfinite(score.measured.logarithm)
+    for kind, regions in kinds.items():
+        for (region, condition), (name, score) in product(regions.items(), scores.items()):
+            here = condition(score.groups) & np.isfinite(score.measured.logarithm)
             used = score.taken(here & score.usable)
-            if not used.usable.size:
-                continue
-            half, most = np.quantile(np.abs(used.errors), (0.5, 0.9))
-            row = {"ratio": name, "by": kind, "region": region, "scenes": int(here.sum())}
-            row |= {"usable": float(score.usable[here].mean()), "median": half, "nine in ten": most}
-            yield row | _held(used)
+            if used.usable.size:
+                half, most = np.quantile(np.abs(used.errors), (0.5, 0.9))
+                row = {"ratio": name, "by": kind, "region": region, "scenes": int(here.sum())}
+                row |= {"usable": float(score.usable[here].mean()), "median": half, "nine in ten": most}
+                yield row | _held(used)
 
 
 def _held(used):
@@ -193,36 +195,38 @@ def _held(used):
     return {"in 95 %": used.covered, "least": low, "most": high, "fails": fails}
 
 
-def coverage_rows(scores: Mapping[str, Scored]) -> Iterator[dict[str, Any]]:
+def coverage_rows(scores: Mapping[str, Score]) -> Iterator[dict[str, Any]]:
     """Share of the usable ratios within their interval, by quantity and region, with the interval of the count.
 
     fails : whether a region of enough scenes has significantly fewer than what was promised
     """
-    for name, (score, groups) in scores.items():
-        counts = score.usable & np.isfinite(score.measured.logarithm)
-        for named, here in parts(COVERED, groups):
-            used = score.taken(here & counts)
+    for name, score in scores.items():
+        for named, here in parts(COVERED, score.groups):
+            used = score.taken(here).used
             if used.usable.size:
                 row = dict(zip(COVERED, named, strict=True)) | {"quantity": name, "scenes": used.usable.size}
                 yield row | _held(used)
 
 
-def advice_rows(scores: Mapping[str, Scored]) -> Iterator[dict[str, Any]]:
-    """Factor on 1D, half its interval, and share of each advice, by quantity, speed and roughness.
+def advice_rows(scores: Mapping[str, Score]) -> Iterator[dict[str, str]]:
+    """A row for each regime, a cell for each ratio: factor on it, half its interval, and share to solve."""
+    for speed, roughness in product(("slow", "fast", "at rest"), ROUGHNESS):
+        cells = {}
+        for name, score in scores.items():
+            cells[name] = _advice(score.taken(SPEEDS[speed](score.groups) & ROUGHNESS[roughness](score.groups)))
+        yield {"": f"{speed}, {roughness}", **cells}
 
-    The factor is taken over the usable scenes, from the lowest to the highest of nine in ten.
-    """
-    regimes = list(product(SPEEDS.items(), ROUGHNESS.items()))
-    for (name, (score, groups)), ((speed, moves), (roughness, touches)) in product(scores.items(), regimes):
-        here = moves(groups) & touches(groups)
-        part = score.taken(here)
-        if here.sum() < FEWEST:
-            continue
-        row: dict[str, Any] = {"speed": speed, "roughness": roughness, "quantity": name}
-        row |= {kind: float(np.mean(part.advice == kind)) for kind in (USE, MULTIPLY, SOLVE)}
-        if part.usable.any():
-            known = part.taken(part.usable).predicted
-            low, middle, high = np.quantile(np.exp(-known.logarithm), (0.05, 0.5, 0.95))
-            half = np.median(np.expm1(NORMAL * known.error))
-            row |= {"factor": middle, "from": low, "to": high, "interval": half}
-        yield row
+
+def _advice(part: Score) -> str:
+    """Advice of most scenes; a factor with its range, from the lowest to the highest of nine in ten."""
+    if part.advice.size < FEWEST:
+        return ""
+    used, left = (float(np.mean(part.advice == kind)) for kind in (USE, SOLVE))
+    solve = f"solve {100 * left:.0f} %"
+    if left > 0.5:
+        return solve
+    known = part.taken(part.usable).predicted
+    low, middle, high = np.quantile(np.exp(-known.logarithm), (0.05, 0.5, 0.95))
+    kind = "use" if used > 0.5 else f"× {middle:.2f} ({low:.2f} to {high:.2f})"
+    half = 100 * np.median(np.expm1(NORMAL * known.error))
+    return f"{kind}, ±{half:.2g} %" + (f"; {solve}" if left > 0.005 else "")

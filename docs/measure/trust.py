@@ -22,7 +22,7 @@ from pandas import DataFrame
 from scoring import (
     BEST,
     SURFACES,
-    Scored,
+    Score,
     advice_rows,
     coverage_rows,
     error_rows,
@@ -91,32 +91,14 @@ def ship() -> None:
 
 
 @cache
-def scores() -> dict[str, Scored]:
+def scores() -> dict[str, Score]:
     """Scores of the models that come with the package."""
     return scored(table.read(table.HELD_OUT), {name: table.model(name) for name in RATIOS})
 
 
-def advice(found: Mapping[str, Scored]) -> Iterator[dict[str, str]]:
-    """A row for each regime, a cell for each ratio: factor with its range, interval, share to solve."""
-    cells: dict[tuple[str, str], dict[str, str]] = {}
-    for row in advice_rows({name: found[name] for name in RATIOS}):
-        cells.setdefault((row["speed"], row["roughness"]), {})[row["quantity"]] = _advised(row)
-    for (speed, roughness), each in cells.items():
-        yield {"": f"{speed}, {roughness}", **{NAMED[name]: each.get(name, "") for name in RATIOS}}
-
-
-def _advised(row):
-    solve = f"solve {100 * row['solve']:.0f} %"
-    if row["solve"] > 0.5:
-        return solve
-    kind = "use" if row["use"] > 0.5 else f"× {row['factor']:.2f} ({row['from']:.2f} to {row['to']:.2f})"
-    return f"{kind}, ±{100 * row['interval']:.2g} %" + (f"; {solve}" if row["solve"] > 0.005 else "")
-
-
-def errors(found: Mapping[str, Scored]) -> Iterator[dict[str, str]]:
+def errors(found: Mapping[str, Score]) -> Iterator[dict[str, str]]:
     """A row for each ratio and kind of surface: errors on all held-out scenes that are usable."""
-    rows = [row for row in error_rows({name: found[name] for name in NAMED}) if row["by"] == "surface"]
-    for row in sorted(rows, key=lambda row: list(SURFACES).index(row["region"])):
+    for row in error_rows(found, {"surface": SURFACES}):
         held, low, high = (100 * row[name] for name in ("in 95 %", "least", "most"))
         yield {
             "": f"{NAMED[row['ratio']]}, {row['region']}",
@@ -130,15 +112,16 @@ def errors(found: Mapping[str, Scored]) -> Iterator[dict[str, str]]:
 
 def parts() -> Mapping[tuple[Path, str], str]:
     """Text between two comments, by the page and the name of the comment."""
+    spectrum = of_surfaces(scores(), "spectrum")
     return {
-        (PAGE, "advice"): by_column(advice(of_surfaces(scores(), "spectrum"))),
+        (PAGE, "advice"): by_column(advice_rows({NAMED[name]: spectrum[name] for name in RATIOS})),
         (PAGE, "errors"): by_column(errors(scores())),
     }
 
 
 def corrected() -> str:
     """Sentences of the README on the errors of friction by the best advice."""
-    used = of_surfaces(scores(), "spectrum")[BEST][0].used
+    used = of_surfaces(scores(), "spectrum")[BEST].used
     measured = 100 * np.quantile(np.abs(used.errors), (0.5, 0.9))
     return (
         f"Multiplied as `crosscheck trust` says, it is within {measured[0]:.1f} % of 3D for half of "

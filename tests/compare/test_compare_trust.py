@@ -427,7 +427,7 @@ WANTED_MEASURED = 0.04, 0.12
 
 @pytest.fixture(scope="module")
 def scores():
-    """Scores on the scenes held out, and their groups."""
+    """Scores on the scenes held out."""
     return campaign.scores()
 
 
@@ -440,7 +440,7 @@ def scores():
 )
 def test_held_out_scenes_are_foretold_as_well_as_the_map_claims(scores, surfaces, name):
     """The claims of docs/results/trust.md, on scenes that were neither fitted nor chosen by."""
-    score, _ = scoring.of_surfaces(scores, surfaces)[name]
+    score = scoring.of_surfaces(scores, surfaces)[name]
     used = score.used
     half, most = WANTED_MEASURED if surfaces == "as measured" else WANTED[name]
     # The depth of a third of the scenes is lost in the roughness, and a sixth has none above zero.
@@ -464,9 +464,10 @@ def test_no_region_holds_fewer_ratios_than_promised(scores):
 
 
 def test_an_interval_that_held_too_few_says_how_many_it_held(scores):
-    score, groups = scores["force"]
+    score = scores["force"]
+    groups = score.groups
     used = score.taken(ROUGHNESS[HIGH](groups) & score.usable & np.isfinite(score.measured.logarithm))
-    wider = scoring.Score(used.measured, used.predicted._replace(error=1.5 * used.predicted.error))
+    wider = scoring.Score(used.measured, used.predicted._replace(error=1.5 * used.predicted.error), used.slides)
     assert f"held {used.held.sum()} of {used.held.size} scenes" in verdict.NARROW
     assert f"again {wider.held.sum()}:" in verdict.NARROW
     rows, _ = table.measurements(table.read(table.HELD_OUT), "force")
@@ -481,7 +482,7 @@ def scored(logarithms, predicted, error, scatter=0.0):
     nothing = np.zeros(error.size)
     groups = np.zeros((error.size, len(NAMES)))
     measured = Measurements(groups, logarithms, scatter + nothing, nothing, 1 + nothing, nothing)
-    return scoring.Score(measured, Predicted(predicted, error, nothing))
+    return scoring.Score(measured, Predicted(predicted, error, nothing), nothing > 0)
 
 
 def test_of_two_intervals_the_narrower_is_taken_and_one_that_is_usable_before_one_that_is_not():
