@@ -16,15 +16,14 @@ from design import RADIUS, SPEED, between, solid_at
 from pandas import DataFrame
 from scipy.optimize import least_squares
 from scipy.stats import qmc
-from tables import solved, stored
+from tables import friction, solved, stored
 
 from bem3d import BEM
 from bem3d.heights import heights
 from compare.models.exact import full_contact
 from compare.models.law.bands import Bands, FullContact
 from compare.models.law.parts import FITTED, Share, coefficients, waves
-from compare.solving.task import Outcome, SceneTask, Task
-from compare.statistics.jackknife import mean_ratio
+from compare.solving.task import Outcome, SceneTask, Task, draws_of
 from scene import Plane, Scene, SelfAffine, Slide
 
 PAGE = Path(__file__).parents[1] / "results" / "law" / "planes.md"
@@ -50,14 +49,13 @@ PLACES = (5e-3, 0.015), (0.015, 0.03), (0.03, 0.07), (0.07, 0.15), (0.15, 0.3), 
 class PlaneContact:
     """One plane under one pressure.
 
-    number : of the plane; place : of the pressure in RANGES
+    number : of the plane
     scene : its first surface; count : of surfaces
     friction, pressure : of these waves in full contact, an area [Pa], and rms [Pa]
     waves : numbers of these waves, see `share.waves`
     """
 
     number: int
-    place: int
     scene: Scene
     count: int
     friction: float
@@ -68,11 +66,7 @@ class PlaneContact:
         """Some of its surfaces, with a number of points a wave."""
         rough = self.scene.roughness
         side = 2 * round(points * rough.longest / rough.shortest / 2)
-        scenes = tuple(
-            replace(self.scene, roughness=replace(rough, seed=seed))
-            for seed in range(rough.seed, rough.seed + count)
-        )
-        return SceneTask(BEM(points=side), scenes, work=float(count * side**2))
+        return SceneTask(BEM(points=side), draws_of(self.scene, count), work=float(count * side**2))
 
     @property
     def tasks(self) -> tuple[SceneTask, ...]:
@@ -85,74 +79,52 @@ class PlaneContact:
 def contacts() -> Iterator[PlaneContact]:
     """All planes under all pressures, of a Sobol sequence."""
     few, many = (
-        qmc.Sobol(DIMENSIONS, seed=seed).random(DRAWN)[:count]
+        qmc.Sobol(DIMENSIONS, seed=seed).random(DRAWN)[:count].tolist()
         for seed, count in ((SEED, PLANES), (WIDE_SEED, WIDE))
     )
-    for number, place in enumerate(np.concatenate([few, many])):
+    for number, place in enumerate([*few, *many]):
         wide = number >= PLANES
-        hurst, breadth, rolled, rolloff, kind, loss, spread, tilt, branches, speed, at, shift = map(float, place)
-        kind, speed = 0.8 * kind + 0.2 * (kind > 0.9), 0.88 * speed
-        longest, ratio = RADIUS, WIDE_BREADTH if wide else between(BREADTHS, breadth)
-        shortest = longest / ratio
+        hurst, breadth, rolled, rolloff, kind, *others, speed, at, shift = place
+        ratio = WIDE_BREADTH if wide else between(BREADTHS, breadth)
+        shortest = RADIUS / ratio
         rolloffs = WIDE_ROLLOFFS if wide else (1.05, ratio)
         rough = SelfAffine(
             hurst=hurst,
             rms_height=1e-7,
-            longest=longest,
+            longest=RADIUS,
             shortest=shortest,
             rolloff=shortest * between(rolloffs, rolloff) if wide or rolled < 0.5 else None,
             seed=SURFACE_SEEDS * number,
         )
-        solid = solid_at(kind, loss, spread, tilt, branches, speed, shortest / (2 * pi))
-        drawn = heights(
-            Scene(Plane(), solid, Slide(speed=SPEED, pressure=1.0), rough), 2 * round(4 * ratio)
-        ).height
-        sides = longest, longest
-        friction = full_contact.friction(drawn, sides, solid, SPEED)
+        kind = 0.8 * kind + 0.2 * (kind > 0.9)
+        solid = solid_at(kind, *others, 0.88 * speed, shortest / (2 * pi))
+        scene = Scene(Plane(), solid, Slide(speed=SPEED, pressure=1.0), rough)
+        drawn, sides = heights(scene, 2 * round(4 * ratio)).height, (RADIUS, RADIUS)
+        lost = full_contact.friction(drawn, sides, solid, SPEED)
         pressure = float(full_contact.pressure(drawn, sides, solid, SPEED).std())
         numbers = waves(FullContact.of(Bands.of(rough), solid, SPEED))
         for index, (ends, counts) in enumerate(RANGES):
             x = between(ends, (at + shift * index) % 1)
-            scene = Scene(Plane(), solid, Slide(speed=SPEED, pressure=x * pressure), rough)
-            yield PlaneContact(number, index, scene, counts[wide], friction, pressure, numbers)
+            pressed = replace(scene, motion=Slide(speed=SPEED, pressure=x * pressure))
+            yield PlaneContact(number, pressed, counts[wide], lost, pressure, numbers)
 
 
 def rows(found: list[PlaneContact], outcomes: Mapping[Task, Outcome]) -> Iterator[dict]:
     """Each plane under each pressure: where it lies, and the share with its standard error, relative."""
     for each in found:
-        area = each.scene.roughness.longest**2
-        coarse, *checked = (_means(outcomes[task]) for task in each.tasks)
-        mean = mean_ratio(coarse["friction"], np.full(coarse["friction"].size, each.friction * area))
-        finer = dict.fromkeys(coarse, nan)
-        if checked:
-            few, fine = checked
-            finer = {name: float(np.mean(fine[name]) / np.mean(few[name])) - 1 for name in fine}
-        rough = each.scene.roughness
+        coarse, *checked = (outcomes[task].rows for task in each.tasks)
+        rough, motion = each.scene.roughness, each.scene.motion
+        mean = friction(coarse)  # friction over the load
+        few, fine = (friction(rows).value for rows in checked) if checked else (1.0, nan)
         yield {
             "plane": each.number,
-            "x": each.scene.motion.pressure / each.pressure,
-            "share": float(mean.value),
-            "error": float(
-                np.std(coarse["friction"], ddof=1) / np.mean(coarse["friction"]) / coarse["friction"].size ** 0.5
-            ),
-            "area": float(np.mean(coarse["area"])),
-            "gap": float(np.mean(coarse["gap"])) / rough.rms_height,
-            **{f"{name}_finer": change for name, change in finer.items()},
+            "x": motion.pressure / each.pressure,
+            "share": float(mean.value) * motion.pressure / each.friction,
+            "error": float(mean.error / mean.value),
+            "gap": float(np.nanmean([row.measures.get("mean_gap", nan) for row in coarse])) / rough.rms_height,
+            "friction_finer": float(fine / few - 1),
             **{name: value for name, value in each.waves.items() if name != "one"},
-            "hurst": rough.hurst,
-            "breadth": rough.longest / rough.shortest,
-            "rolloff": rough.q_max(0.0) / rough.q_rolloff,
-            "solid": type(each.scene.elastomer).__name__,
         }
-
-
-def _means(outcome):
-    rows = [each for each in outcome.rows if each.reason is None]
-    return {
-        "friction": np.array([row.friction_force for row in rows]),
-        "area": np.array([row.measures["contact_fraction"] for row in rows]),
-        "gap": np.array([row.measures["mean_gap"] for row in rows]),
-    }
 
 
 def planes() -> DataFrame:

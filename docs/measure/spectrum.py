@@ -5,7 +5,7 @@ memory.
 """
 
 from dataclasses import dataclass, replace
-from math import nan, pi
+from math import nan
 from pathlib import Path
 
 import numpy as np
@@ -77,23 +77,12 @@ def _tasks(shape):
 
 def _row(shape, task, rows):
     """Means over surfaces or profiles."""
-    nominal, mean = elastic_contact(task.scenes[0]).radius, DataFrame([row.measures for row in rows]).mean()
-    three, count = not isinstance(task.solver, MDR), len(rows)
-    force = rows[0].normal_force
-    return {
-        "shape": shape,
-        "dimension": "3D" if three else "1D",
-        "points": task.solver.points,
-        "pixels_a_wave": mean.get("points_per_shortest_wave", nan),
-        "friction": sum(row.friction_coefficient for row in rows) / count,
-        "depth": sum(row.depth for row in rows) / count,
-        "contact": mean["contact_area"] / (pi * nominal**2) if three else mean["contact_length"] / (2 * nominal),
-        "contact_points": mean.get("contact_points", nan),
-        "rms_slope": mean.get("rms_slope", nan),
-        "by_traction": mean["friction_by_traction"] / force if three else nan,
-        "by_loss": mean["friction_by_loss"] / force if three else nan,
-        "seconds": sum(row.seconds for row in rows),
-    }
+    mean = DataFrame([row.measures | {"friction": row.friction_coefficient} for row in rows]).mean()
+    three = not isinstance(task.solver, MDR)
+    found = {"shape": shape, "dimension": "3D" if three else "1D", "points": task.solver.points}
+    found |= {"pixels_a_wave": mean.get("points_per_shortest_wave", nan), "friction": mean["friction"]}
+    found |= {"rms_slope": mean.get("rms_slope", nan)}
+    return found | {name: mean[f"friction_{name}"] / rows[0].normal_force if three else nan for name in ESTIMATES}
 
 
 def sentences() -> str:
