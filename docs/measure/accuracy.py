@@ -5,7 +5,7 @@ python docs/measure/accuracy.py
 The tests hold more closed forms: sliding in one dimension, waves pressed flat, full contact.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from math import pi, radians, sqrt, tan
 from pathlib import Path
 
@@ -74,16 +74,16 @@ def in_time() -> Iterator[dict]:
             yield row
 
 
-def parts() -> Mapping[tuple[Path, str], str]:
-    """Text between two comments, by the page and the name of the comment, from what is stored."""
+def parts() -> dict[str, str]:
+    """Text between two comments of the page, by the name of the comment."""
     rest, slid, timed = (pandas.read_csv(each) for each in (REST, SLIDING, TIME))
     memory, moments = "v τ_c, mm|depth, mm|μR, mm|against other codes: depth|μR", "shape|t = 1 s|1.9 s|2.2 s|2.5 s"
     finest = timed[timed["points"] == timed["points"].max()].drop(columns="points")
     rows = ((shape, *(f"{each:+.2%}" for each in errors)) for shape, *errors in finest.itertuples(index=False))
     return {
-        (PAGE, "rest"): table("shape|solver|16 points|64 points|256 points|observed order", _at_rest(rest)),
-        (PAGE, "sliding"): table(memory, _sliding(slid)),
-        (PAGE, "time"): table(moments, rows),
+        "rest": table("shape|solver|16 points|64 points|256 points|observed order", _at_rest(rest)),
+        "sliding": table(memory, _sliding(slid)),
+        "time": table(moments, rows),
     }
 
 
@@ -130,7 +130,7 @@ def main() -> None:
         stored(path, measure())
     with style.applied():
         figure(pandas.read_csv(REST), pandas.read_csv(TIME)).savefig(PAGE.with_suffix(".png"), dpi=200)
-    fill(parts())
+    fill(PAGE, parts())
 
 
 if __name__ == "__main__":

@@ -84,9 +84,7 @@ def parts() -> Mapping[tuple[Path, str], str]:
         (PAPER, "answer"): answer.replace("(docs/", "(../"),
         (PAPER, "slow"): regime.slow_answer(slow),
     }
-    for script in FILLED:
-        found |= script.parts()
-    return found
+    return found | {(script.PAGE, name): text for script in FILLED for name, text in script.parts().items()}
 
 
 def _of_run(found: DataFrame) -> Iterator[tuple[str, ...]]:
@@ -159,7 +157,8 @@ def studies_again() -> None:
 def main(first: str = "") -> None:
     """Write all of them."""
     {"again": run_again, "studies": studies_again}.get(first, lambda: None)()
-    fill(parts())
+    for (page, name), text in parts().items():
+        fill(page, {name: text})
 
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ import os
 import tempfile
 import time
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
@@ -151,8 +151,8 @@ def rows() -> Iterator[dict]:
             yield {"points": n, "code": name} | alone(measured, code, *cell(n))
 
 
-def parts() -> Mapping[tuple[Path, str], str]:
-    """Text between two comments, by the page and the name of the comment, from what is stored."""
+def parts() -> dict[str, str]:
+    """Text between two comments of the page, by the name of the comment."""
     found = pandas.read_csv(MEASURED)
     own = found[found["code"] == "this"].set_index("points")["seconds"]
     times = found["seconds"] / found["points"].map(own)
@@ -160,13 +160,13 @@ def parts() -> Mapping[tuple[Path, str], str]:
         (f"{row.points}²", row.code, f"{row.iterations}", f"{row.error:.1e}", f"{row.seconds:.3g}", f"{over:.1f}")
         for row, over in zip(found.itertuples(), times, strict=True)
     )
-    return {(PAGE, "benchmark"): table("points|code|iterations|error|processor time [s]|over this", shown)}
+    return {"benchmark": table("points|code|iterations|error|processor time [s]|over this", shown)}
 
 
 def main() -> None:
     """Measure, and write the numbers and the part of the page."""
     stored(MEASURED, rows())
-    fill(parts())
+    fill(PAGE, parts())
 
 
 if __name__ == "__main__":

@@ -170,10 +170,10 @@ def _cell(row):
     return row["reason"].split(":")[0] or two_digits(float(row["times"]))
 
 
-def parts() -> Mapping[tuple[Path, str], str]:
-    """Text between two comments, by the page and the name of the comment, from what is stored."""
+def parts() -> dict[str, str]:
+    """Text between two comments of the page, by the name of the comment."""
     found = pandas.read_csv(MEASURED, keep_default_na=False, na_values="nan")
-    return {(PAGE, "effects"): table("effect|added to|1D|3D", cells(found))}
+    return {"effects": table("effect|added to|1D|3D", cells(found))}
 
 
 def main() -> None:
@@ -182,7 +182,7 @@ def main() -> None:
     for name, path in TABLES.items():
         stored(path, priced(name, found))
     stored(MEASURED, found)
-    fill(parts())
+    fill(PAGE, parts())
 
 
 if __name__ == "__main__":

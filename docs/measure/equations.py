@@ -3,7 +3,7 @@
 python docs/measure/equations.py   takes some minutes
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import replace
 from math import ceil, pi, radians, sin
 from pathlib import Path
@@ -120,17 +120,17 @@ def rows() -> Iterator[dict]:
             yield {"equation": equation, "contact": contact, "over": float(over.value), "error": float(over.error)}
 
 
-def parts() -> Mapping[tuple[Path, str], str]:
-    """Text between two comments, by the page and the name of the comment, from what is stored."""
+def parts() -> dict[str, str]:
+    """Text between two comments of the page, by the name of the comment."""
     found = pandas.read_csv(MEASURED)
     shown = ((row.equation, row.contact, f"{row.over:.3g} ± {row.error:.1g}") for row in found.itertuples())
-    return {(PAGE, "equations"): table("Eq.|contact|formula over simulation", shown)}
+    return {"equations": table("Eq.|contact|formula over simulation", shown)}
 
 
 def main() -> None:
     """Measure, and write the numbers and the part of the page."""
     stored(MEASURED, rows())
-    fill(parts())
+    fill(PAGE, parts())
 
 
 if __name__ == "__main__":

@@ -3,20 +3,21 @@
 python docs/measure/law.py   compares them with results/law/scenes-*.csv
 """
 
-from collections.abc import Iterator, Mapping
-from pathlib import Path
+from collections.abc import Iterator
 
 import numpy as np
 import pandas
 from pandas import DataFrame
-from scenes import BLUNT, FAST, PAGE, SETS, RandomScene, scenes
+from scenes import BLUNT, FAST, SETS, RandomScene, scenes
+from scenes import PAGE as SCENES
 from tables import fill, of_count, stored, table
 
 from compare import FrictionLaw, Persson
 from compare.trustmap.model import NORMAL
 from scene.scales import elastic_contact
 
-LAW = PAGE.parents[1] / "law.md"
+PAGE = SCENES.parents[1] / "law.md"
+ERRORS = SCENES.with_name("errors.csv")
 # Rows of the table, by the scenes that each is about.
 ROWS = {
     "h₀ ≤ 0.1 d": "outside == 0 and height <= 0.1",
@@ -34,7 +35,7 @@ def errors() -> DataFrame:
     """ln(model / 3D) of each scene, where it lies, and whether the interval of the law holds it."""
     rows = []
     for name in SETS:
-        known = pandas.read_csv(PAGE.with_name(f"scenes-{name}.csv")).set_index("scene")
+        known = pandas.read_csv(SCENES.with_name(f"scenes-{name}.csv")).set_index("scene")
         known = known[np.isfinite(known["friction"]) & (known["friction"] > 0)]
         rows += [_errors(each, known.loc[each.number]) for each in scenes(name) if each.number in known.index]
     return DataFrame(rows)
@@ -87,21 +88,21 @@ def _cell(logs):
 
 def errors_of(model: str) -> tuple[float, float, int]:
     """Errors of a model that half and nine in ten of the unseen scenes stay below [%], and number of scenes."""
-    found = pandas.read_csv(PAGE.with_name("errors.csv"))
+    found = pandas.read_csv(ERRORS)
     off = 100 * np.abs(np.expm1(found.query(ROWS["all"])[model]))
     return off.median(), off.quantile(0.9), len(off)
 
 
-def parts() -> Mapping[tuple[Path, str], str]:
-    """Text between two comments, by the page and the name of the comment, from what is stored."""
-    found = pandas.read_csv(PAGE.with_name("errors.csv"))
-    return {(LAW, "errors"): table("|scenes|" + "|".join(MODELS.values()) + "|± (95 %)|held", rows(found))}
+def parts() -> dict[str, str]:
+    """Text between two comments of the page, by the name of the comment."""
+    found = pandas.read_csv(ERRORS)
+    return {"errors": table("|scenes|" + "|".join(MODELS.values()) + "|± (95 %)|held", rows(found))}
 
 
 def main() -> None:
     """Write the errors, and the table of the page."""
-    stored(PAGE.with_name("errors.csv"), errors())
-    fill(parts())
+    stored(ERRORS, errors())
+    fill(PAGE, parts())
 
 
 if __name__ == "__main__":

@@ -66,7 +66,7 @@ def judge() -> None:
     stored(STATED, errors.rows(judged, _solved(judged)))
     asked = list(promised.asked())
     stored(KEPT, promised.kept(DataFrame(promised.rows(asked, _solved(asked)))))
-    fill(parts())
+    fill(PAGE, parts())
 
 
 def _solved(judged):
@@ -101,16 +101,16 @@ def costs(tasks: Sequence[SceneTask], outcomes: Mapping[Task, Outcome]) -> DataF
     return found[found["answers"] >= FEWEST]
 
 
-def parts() -> Mapping[tuple[Path, str], str]:
-    """Text between two comments, by the page and the name of the comment, from what is stored."""
+def parts() -> dict[str, str]:
+    """Text between two comments of the page, by the name of the comment."""
     regions = list(errors.regions(pandas.read_csv(STATED)))
     low = [f"{each['model']}, {each['region']}" for each in regions if each["upper"] < errors.SHARE]
     worst = f"Significantly below 95 %: {'; '.join(low)}." if low else "No region is significantly below 95 %."
     rows = (_of_region(each) for each in regions if each["region"] == "all")
     header = "solver|answers|within the bound|interval of 95 %|median error|median bound"
     return {
-        (PAGE, "stated"): f"{table(header, rows)}\n\n{worst}",
-        (PAGE, "kept"): _kept(pandas.read_csv(KEPT)[["asked", "confirmed", "checked", "broken"]].sum()),
+        "stated": f"{table(header, rows)}\n\n{worst}",
+        "kept": _kept(pandas.read_csv(KEPT)[["asked", "confirmed", "checked", "broken"]].sum()),
     }
 
 

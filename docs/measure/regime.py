@@ -7,7 +7,7 @@ and a half hours on two cores.
 """
 
 import shutil
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from math import hypot
 from pathlib import Path
 
@@ -83,22 +83,22 @@ def main() -> None:
     stored(FAST, rows)
     shutil.copy(slow.path.parent / "sphere" / "behind.png", PAGE.with_name("law-partial.png"))
     shutil.copy(whole.path.parent / "sphere" / "law.png", PAGE.with_name("law-sphere.png"))
-    fill(parts())
+    fill(PAGE, parts())
 
 
 _PLAIN = "eq23.collapse", "eq23.predicted", "eq23.vertical-alone"
 
 
-def parts() -> Mapping[tuple[Path, str], str]:
-    """Text between two comments, by the page and the name of the comment, from what is stored."""
+def parts() -> dict[str, str]:
+    """Text between two comments of the page, by the name of the comment."""
     slow, fast = pandas.read_csv(SLOW), pandas.read_csv(FAST)
     master = ((words, *(_judged(fast, claim, body) for body in BODIES)) for claim, words in MASTER.items())
     header = "|".join(["", *(f"{body}, {model}" for body in BODIES for model in SOLVERS)])
     return {
-        (PAGE, "slow"): slow_answer(slow),
-        (PAGE, "fast"): fast_answer(fast),
-        (PAGE, "regime"): table(header, _cells(slow, fast)),
-        (PAGE, "master"): table("|sphere|cone", master),
+        "slow": slow_answer(slow),
+        "fast": fast_answer(fast),
+        "regime": table(header, _cells(slow, fast)),
+        "master": table("|sphere|cone", master),
     }
 
 

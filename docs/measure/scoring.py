@@ -1,6 +1,6 @@
 """Scores of the trust map on scenes held out: errors, coverage and advice, by region."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields
 from functools import cached_property
 from itertools import product
@@ -208,13 +208,12 @@ def coverage_rows(scores: Mapping[str, Score]) -> Iterator[dict[str, Any]]:
                 yield row | _held(used)
 
 
-def advice_rows(scores: Mapping[str, Score]) -> Iterator[dict[str, str]]:
-    """A row for each regime, a cell for each ratio: factor on it, half its interval, and share to solve."""
+def advice_rows(scores: Sequence[Score]) -> Iterator[tuple[str, ...]]:
+    """A row for each regime, a cell for each score: factor on it, half its interval, and share to solve."""
     for speed, roughness in product(("slow", "fast", "at rest"), ROUGHNESS):
-        cells = {}
-        for name, score in scores.items():
-            cells[name] = _advice(score.taken(SPEEDS[speed](score.groups) & ROUGHNESS[roughness](score.groups)))
-        yield {"": f"{speed}, {roughness}", **cells}
+        regimes = (SPEEDS[speed](score.groups) & ROUGHNESS[roughness](score.groups) for score in scores)
+        cells = (_advice(score.taken(here)) for score, here in zip(scores, regimes, strict=True))
+        yield f"{speed}, {roughness}", *cells
 
 
 def _advice(part: Score) -> str:
