@@ -21,12 +21,12 @@ from pandas import DataFrame
 from scoring import (
     BEST,
     SURFACES,
-    Score,
     advice_rows,
     coverage_rows,
     error_rows,
     of_surfaces,
     scored,
+    used,
 )
 from tables import fill, solved, stored, table
 
@@ -90,7 +90,7 @@ def ship() -> None:
 
 
 @cache
-def scores() -> dict[str, Score]:
+def scores() -> dict[str, DataFrame]:
     """Scores of the models that come with the package."""
     return scored(ratios.read(ratios.HELD_OUT), {name: ratios.model(name) for name in RATIOS})
 
@@ -117,11 +117,11 @@ def _errors(row):
 
 def corrected() -> str:
     """Sentences of the README on the errors of friction by the best advice."""
-    used = of_surfaces(scores(), "spectrum")[BEST].used
-    measured = 100 * np.quantile(np.abs(used.errors), (0.5, 0.9))
+    off = np.abs(used(of_surfaces(scores(), "spectrum")[BEST])["off"])
+    measured = 100 * np.quantile(off, (0.5, 0.9))
     return (
         f"Multiplied as `crosscheck trust` says, it is within {measured[0]:.1f} % of 3D for half of "
-        f"{used.usable.size} unseen rough contacts, and within {measured[1]:.1f} % for nine in ten."
+        f"{len(off)} unseen rough contacts, and within {measured[1]:.1f} % for nine in ten."
     )
 
 
