@@ -127,15 +127,14 @@ def _known(judged: Judged, outcomes: Mapping[Task, Outcome]) -> tuple[Row, float
 
 def regions(found: DataFrame) -> Iterator[dict[str, Any]]:
     """Coverage by model and region: of all, by solid, speed and body."""
-    for model, own in found.groupby("model", sort=False):
-        groups = [("all", own), *(group for name in ("solid", "speed", "body") for group in own.groupby(name))]
-        for region, group in groups:
-            held, count = int((group["error"] <= group["bound"]).sum()), len(group)
-            if region == "all" or count >= FEWEST:
-                lower, upper = of_count(held, count)
-                row = {"model": model, "region": region, "answers": count, "held": held}
-                row |= {"lower": lower, "upper": upper}
-                yield row | {f"median_{name}": group[name].median() for name in ("error", "bound")}
+    kinds = ["all", "solid", "speed", "body"]
+    regions = found.assign(all="all").melt(["model", "error", "bound"], kinds, value_name="region")
+    for (model, region), own in regions.groupby(["model", "region"], sort=False):
+        if region == "all" or len(own) >= FEWEST:
+            held = int((own["error"] <= own["bound"]).sum())
+            lower, upper = of_count(held, len(own))
+            row = {"model": model, "region": region, "answers": len(own), "held": held}
+            yield row | {"lower": lower, "upper": upper, "medians": own[["error", "bound"]].median().tolist()}
 
 
 @dataclass(frozen=True)

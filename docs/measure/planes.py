@@ -5,8 +5,9 @@ python docs/measure/planes.py fit   fits S to that table: compare/models/law/sha
 """
 
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from math import nan, pi
 from pathlib import Path
 
@@ -42,7 +43,7 @@ COARSE, FINE, CHECKED, CHECKS = 16, 32, 2, 4
 DRAWN, DIMENSIONS = 512, 12  # places of a sequence; the first are taken
 BOOTSTRAPS, FIT_SEED = 200, 36
 FLOOR = 0.02  # of the misfit of a plane, below which one counts no more than another
-PLACES = (5e-3, 0.015), (0.015, 0.03), (0.03, 0.07), (0.07, 0.15), (0.15, 0.3), (0.3, 0.6), (0.6, 1.2), (1.2, 3.0)
+PLACES = 5e-3, 0.015, 0.03, 0.07, 0.15, 0.3, 0.6, 1.2, 3.0
 
 
 @dataclass(frozen=True)
@@ -129,66 +130,50 @@ def rows(found: list[PlaneContact], outcomes: Mapping[Task, Outcome]) -> Iterato
 
 def planes() -> DataFrame:
     """Planes with their share on ever finer grids: what those with a finer one differ by is alike for all."""
-    found = pandas.read_csv(PAGE.with_suffix(".csv"))
-    one = np.ones(len(found))
-    columns = np.stack([one, found["lossy"], np.log(found["x"])], axis=1)
+    found = pandas.read_csv(PAGE.with_suffix(".csv")).assign(one=1.0)
+    columns = np.stack([found["one"], found["lossy"], np.log(found["x"])], axis=1)
     seen = found["friction_finer"].notna().to_numpy()
     change = columns @ np.linalg.lstsq(columns[seen], found["friction_finer"][seen], rcond=None)[0]
     # Halving the pixel once more changes half as much again, and so on.
-    return found.assign(share=found["share"] * (1 + 2 * change), finer=change, one=one)
+    return found.assign(share=found["share"] * (1 + 2 * change))
 
 
-def fitted(found: DataFrame, names: list[tuple[str, str]], start: np.ndarray) -> np.ndarray:
+def fitted(found: DataFrame, start: Sequence[float]) -> np.ndarray:
     """Coefficients that fit most planes best: those that lie far off hardly count."""
     weight = 1 / np.hypot(found["error"], FLOOR).to_numpy()
-
-    def misfit(values):
-        return weight * np.log(share(found, names, values) / found["share"].to_numpy())
-
-    return least_squares(misfit, start, loss="cauchy").x
+    return least_squares(lambda values: weight * off(found, values), start, loss="cauchy").x
 
 
-def share(found: DataFrame, names: list[tuple[str, str]], values: np.ndarray) -> np.ndarray:
-    """S of each plane."""
-    return Share.summed(dict(zip(names, values, strict=True)), found)(found["x"].to_numpy())
+def off(found: DataFrame, values: Sequence[float]) -> np.ndarray:
+    """Logarithm of S of each plane, by values of the coefficients, over the measured share."""
+    share = Share.summed(dict(zip(coefficients(), values, strict=True)), found)
+    return np.log(share(found["x"].to_numpy()) / found["share"].to_numpy())
 
 
-def misfits(found: DataFrame, names: list[tuple[str, str]], values: np.ndarray) -> Iterator[dict]:
+def misfits(found: DataFrame, values: Sequence[float]) -> Iterator[dict]:
     """Misfit of planes held out by their pressure: median, nine in ten, and the standard error of the planes."""
-    off = np.abs(np.log(share(found, names, values) / found["share"].to_numpy()))
-    for low, high in PLACES:
+    misfit = np.abs(off(found, values))
+    for low, high in pairwise(PLACES):
         own = found["x"].between(low, high).to_numpy()
-        yield {
-            "from": low,
-            "to": high,
-            "planes": int(own.sum()),
-            "median": float(np.median(off[own])),
-            "nine in ten": float(np.quantile(off[own], 0.9)),
-            "error": float(np.median(found["error"][own])),
-        }
+        median, most = np.quantile(misfit[own], (0.5, 0.9))
+        row = {"from": low, "to": high, "planes": own.sum(), "median": median, "nine in ten": most}
+        yield row | {"error": found["error"][own].median()}
 
 
 def fit() -> None:
     """Fit S, with intervals of 95 % by drawing planes anew, and find its misfits on the planes held out."""
-    found, names = planes(), list(coefficients())
+    found = planes()
     held = found["plane"] % HELD_OUT == 0
-    learned = found[~held]
-    best = fitted(learned, names, np.array(list(coefficients().values())))
-    rng, own = np.random.default_rng(FIT_SEED), learned["plane"].unique()
-    groups = dict(list(learned.groupby("plane")))
-    drawn = np.array(
-        [
-            fitted(pandas.concat([groups[k] for k in rng.choice(own, own.size)]), names, best)
-            for _ in range(BOOTSTRAPS)
-        ]
-    )
-    low, high = np.quantile(drawn, [0.025, 0.975], axis=0)
-    lines = [
-        (to, times, f"{v:.4g}", f"{a:.4g}", f"{b:.4g}")
-        for (to, times), v, a, b in zip(names, best, low, high, strict=True)
+    best = fitted(found[~held], [*coefficients().values()])
+    rng, groups = np.random.default_rng(FIT_SEED), dict(list(found[~held].groupby("plane")))
+    drawn = [
+        fitted(pandas.concat([groups[k] for k in rng.choice([*groups], len(groups))]), best)
+        for _ in range(BOOTSTRAPS)
     ]
-    stored(FITTED, DataFrame(lines, columns=["to", "times", "value", "low", "high"]))
-    stored(PAGE.with_name("share.csv"), misfits(found[held], names, best))
+    low, high = np.quantile(drawn, [0.025, 0.975], axis=0)
+    numbers = DataFrame({"value": best, "low": low, "high": high}).map("{:.4g}".format)
+    stored(FITTED, DataFrame(coefficients(), columns=["to", "times"]).join(numbers))
+    stored(PAGE.with_name("share.csv"), misfits(found[held], best))
 
 
 def main(only: str = "") -> None:

@@ -116,7 +116,7 @@ def parts() -> dict[str, str]:
 
 def _of_region(each) -> tuple[str, ...]:
     share, interval = f"{each['held'] / each['answers']:.1%}", f"{each['lower']:.1%} to {each['upper']:.1%}"
-    medians = (f"{each[name]:.2g}" for name in ("median_error", "median_bound"))
+    medians = (f"{median:.2g}" for median in each["medians"])
     return each["model"], str(each["answers"]), share, interval, *medians
 
 
