@@ -172,7 +172,7 @@ def fit() -> None:
     ]
     low, high = np.quantile(drawn, [0.025, 0.975], axis=0)
     numbers = DataFrame({"value": best, "low": low, "high": high}).map("{:.4g}".format)
-    stored(FITTED, DataFrame(coefficients(), columns=["to", "times"]).join(numbers))
+    stored(FITTED, DataFrame([*coefficients()], columns=["to", "times"]).join(numbers))
     stored(PAGE.with_name("share.csv"), misfits(found[held], best))
 
 
