@@ -25,6 +25,7 @@ PAGE = Path(__file__).parents[1] / "results" / "accuracy.md"
 G, R, THETA, TAU, DEPTH = 1e6, 10e-3, radians(10), 1e-3, 1e-4
 RADIUS = sqrt(R * DEPTH)
 HERTZ = 4 / 3 * 4 * G * sqrt(R) * DEPTH**1.5
+MOMENTS = 1.0, 1.9, 2.2, 2.5  # in time [s]
 POINTS = (16, 23, 32, 45, 64, 91, 128, 181, 256)
 REST, SLIDING, TIME = (PAGE.with_suffix("") / f"{name}.csv" for name in ("rest", "sliding", "time"))
 # Sphere on a standard linear solid under a load: v tau_c [m], depth [m] and mu R [m] of two other codes.
@@ -66,12 +67,10 @@ def in_time() -> Iterator[dict]:
     for shape, extent in ((Sphere(1.0), 1.5), (Cone(np.pi / 4), 0.4)):
         for points, steps in ((64, 40), (128, 80), (256, 160)):
             fields = BEM(points=points, extent=extent, steps=steps).solve(Scene(shape, elastomer, program)).fields
-            row = {"shape": shape.type, "points": points}
-            for t in (1.0, 1.9, 2.2, 2.5):
-                found = np.interp(t, fields["time"], fields["normal_force"])
-                exact, _ = indentation.force_of_depth(shape, elastomer, times, depths, np.array([t]))
-                row[f"{t:g}"] = float(found / exact[0] - 1)
-            yield row
+            found = np.interp(MOMENTS, fields["time"], fields["normal_force"])
+            exact, _ = indentation.force_of_depth(shape, elastomer, times, depths, np.array(MOMENTS))
+            errors = dict(zip(map("{:g}".format, MOMENTS), found / exact - 1, strict=True))
+            yield {"shape": shape.type, "points": points} | errors
 
 
 def parts() -> dict[str, str]:

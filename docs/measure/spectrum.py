@@ -86,19 +86,16 @@ def _row(shape, task, rows):
 
 
 def sentences() -> str:
-    """Sentences on both bodies, from what is stored."""
-    found = pandas.read_csv(PAGE.with_suffix(".csv"))
-    return " ".join(sentence(shape, found[found["shape"] == shape]) for shape in SHAPES)
-
-
-def sentence(shape: str, own: DataFrame) -> str:
-    """Friction in 3D, between its estimates, and in 1D."""
-    three, (one,) = own[own["dimension"] == "3D"], own[own["dimension"] == "1D"].itertuples()
-    (low, high), slope = ends(three), three["rms_slope"].iloc[0]
-    return (
-        f"Friction of the {shape} is {(low + high) / 2:.2f} ({low:.2f} to {high:.2f}) in 3D on this surface, and "
-        f"{one.friction:.2f} in 1D. The rms slope of {slope:.1f} is far beyond any linear theory."
-    )
+    """Friction of both bodies in 3D, between its estimates, and in 1D, from what is stored."""
+    found, said = pandas.read_csv(PAGE.with_suffix(".csv")), []
+    for shape, own in found.groupby("shape", sort=False):
+        three, (one,) = own[own["dimension"] == "3D"], own[own["dimension"] == "1D"]["friction"]
+        (low, high), slope = ends(three), three["rms_slope"].iloc[0]
+        said.append(
+            f"Friction of the {shape} is {(low + high) / 2:.2f} ({low:.2f} to {high:.2f}) in 3D on this surface, "
+            f"and {one:.2f} in 1D. The rms slope of {slope:.1f} is far beyond any linear theory."
+        )
+    return " ".join(said)
 
 
 def ends(three: DataFrame) -> tuple[float, float]:
