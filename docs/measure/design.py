@@ -279,17 +279,16 @@ def _parent(numbers, count, pixel, wave, draw):
 def _density(numbers, q, shortest, longest):
     """Density in wave numbers of any size: two straight pieces, a peak, a band, or a roll-off."""
     inside = q <= shortest * 1.0001
-    middle = between((longest * 1.5, shortest), numbers.place)
+    middle, power = between((longest * 1.5, shortest), numbers.place), -2 * numbers.first - 2
     if numbers.spectrum < 0.3:
-        powers = -2 * numbers.first - 2, -2 * numbers.second - 2
-        return np.where(inside, np.where(q < middle, (q / middle) ** powers[0], (q / middle) ** powers[1]), 0.0)
+        return inside * (q / middle) ** np.where(q < middle, power, -2 * numbers.second - 2)
     if numbers.spectrum < 0.5:
         middle = between((max(longest * 4, shortest / 16), shortest / 1.3), numbers.place)
         return np.exp(-np.square(np.log(q / middle) / between(PEAKS, numbers.first)) / 2)
     if numbers.spectrum < 0.7:
         low = max(shortest / between(BANDS, numbers.second), 2 * longest)
-        return np.where(inside & (q >= min(low, 0.8 * shortest)), q ** (-2 * numbers.first - 2), 0.0)
-    return np.where(inside, np.maximum(q / middle, 1.0) ** (-2 * numbers.first - 2), 0.0)
+        return (inside & (q >= min(low, 0.8 * shortest))) * q**power
+    return inside * np.maximum(q / middle, 1.0) ** power
 
 
 def _heights(z, numbers, draw):

@@ -3,15 +3,15 @@
 python docs/measure/steep.py   solves what is not solved yet, and writes results/law/steep.csv
 """
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from math import pi
 
 from planes import PAGE as PLANES
 from tables import friction, solved, stored
 
 from bem3d import BEM
-from compare.solving.task import Outcome, SceneTask, Task, draws_of
+from compare.solving.task import Row, SceneTask, draws_of
 from compare.statistics.intervals import student
 from compare.studies.comparison.study_file import STUDIES
 from compare.trustmap.friction_law import FrictionLaw
@@ -26,54 +26,45 @@ POINTS, SURFACES, FINER = 960, 4, 1
 LEFT = 1 / 3
 
 
-@dataclass(frozen=True)
-class SteepContact:
-    """One contact: body, load [N], v tau q_s, and its scene."""
-
-    body: str
-    load: float
-    speed: float
-    scene: Scene
-
-    @property
-    def tasks(self) -> tuple[SceneTask, ...]:
-        """All surfaces; few of them; these on twice the points."""
-        kinds = (POINTS, SURFACES, 2.0), (POINTS, FINER, 1.0), (2 * POINTS, FINER, 4.0)
-        return tuple(SceneTask(BEM(points=n), draws_of(self.scene, count), work=work) for n, count, work in kinds)
-
-
-def contacts() -> Iterator[SteepContact]:
-    """Sphere and cone under the least and the greatest load, at each speed."""
+def contacts() -> Iterator[tuple[str, float, float, Scene]]:
+    """Body, load [N], v tau q_s, scene: sphere and cone under the least and the greatest load, at each speed."""
     for series in STUDIES["regime"].series("full")[::3]:
-        body, scene, (low, *_, high) = series.name, series.scene, series.values
+        scene, (low, *_, high) = series.scene, series.values
         unit = scene.roughness.shortest / (2 * pi * scene.elastomer.relaxation_time)
         for speed in SPEEDS:
             for load in (low, high):
-                slides = Slide(speed=speed * unit, load=load)
-                yield SteepContact(body, load, speed, replace(scene, motion=slides))
+                yield series.name, load, speed, replace(scene, motion=Slide(speed=speed * unit, load=load))
+
+
+def tasks(scene: Scene) -> list[SceneTask]:
+    """All surfaces; few of them; these on twice the points."""
+    kinds = (POINTS, SURFACES, 2.0), (POINTS, FINER, 1.0), (2 * POINTS, FINER, 4.0)
+    return [SceneTask(BEM(points=n), draws_of(scene, count), work=work) for n, count, work in kinds]
 
 
 def main() -> None:
     """Solve what is not solved yet, and write friction in 3D, on ever finer grids, and by the law."""
     found = list(contacts())
-    outcomes = solved(PAGE, [task for each in found for task in each.tasks])
-    stored(PAGE.with_suffix(".csv"), (row(each, outcomes) for each in found))
+    outcomes = solved(PAGE, [task for *_, scene in found for task in tasks(scene)])
+    rows = (
+        {"body": body, "load": load, "speed": speed}
+        | shares(scene, *(outcomes[task].rows for task in tasks(scene)))
+        for body, load, speed, scene in found
+    )
+    stored(PAGE.with_suffix(".csv"), rows)
 
 
-def row(contact: SteepContact, outcomes: Mapping[Task, Outcome]) -> dict:
+def shares(scene: Scene, *rows: Sequence[Row]) -> dict[str, float]:
     """What the roughness adds, over that in full contact, with the ends of 95 %: the master curve."""
-    mean, few, fine = (friction(outcomes[task].rows) for task in contact.tasks)
+    mean, few, fine = map(friction, rows)
     change = float(fine.value / few.value - 1)
     mu = float(mean.value) * (1 + (1 + LEFT) * change)
-    law = FrictionLaw().solve(contact.scene)
+    law = FrictionLaw().solve(scene)
     full, force = law.measures["full_contact_friction"], mu * law.normal_force
     added = force - law.measures["friction_of_shape"]
     # The scatter of surfaces, and as much as the grid was taken to leave.
     half = force * (student(0.95, SURFACES - 1) * float(mean.error / mean.value) + LEFT * abs(change))
     return {
-        "body": contact.body,
-        "load": contact.load,
-        "speed": contact.speed,
         "friction": mu,
         "x": law.measures["pressure_ratio"],
         "measured_share": added / full,
