@@ -51,30 +51,25 @@ class PlaneContact:
     """One plane under one pressure.
 
     number : of the plane
-    scene : its first surface; count : of surfaces
+    scene : its first surface; tasks : see `tasks`
     friction, pressure : of these waves in full contact, an area [Pa], and rms [Pa]
     waves : numbers of these waves, see `share.waves`
     """
 
     number: int
     scene: Scene
-    count: int
+    tasks: tuple[SceneTask, ...]
     friction: float
     pressure: float
     waves: Mapping[str, float]
 
-    def task(self, points: int, count: int) -> SceneTask:
-        """Some of its surfaces, with a number of points a wave."""
-        rough = self.scene.roughness
-        side = 2 * round(points * rough.longest / rough.shortest / 2)
-        return SceneTask(BEM(points=side), draws_of(self.scene, count), work=float(count * side**2))
 
-    @property
-    def tasks(self) -> tuple[SceneTask, ...]:
-        """All surfaces coarse; of every fourth plane also a few of them coarse and fine."""
-        few = self.task(COARSE, CHECKED), self.task(FINE, CHECKED)
-        checked = self.number % CHECKS == 0 and self.number < PLANES
-        return self.task(COARSE, self.count), *(few if checked else ())
+def tasks(scene: Scene, count: int, checked: bool) -> Iterator[SceneTask]:
+    """All surfaces coarse; to be checked also a few of them coarse and fine."""
+    rough = scene.roughness
+    for points, draws in ((COARSE, count), *[(COARSE, CHECKED), (FINE, CHECKED)] * checked):
+        side = 2 * round(points * rough.longest / rough.shortest / 2)
+        yield SceneTask(BEM(points=side), draws_of(scene, draws), work=float(draws * side**2))
 
 
 def contacts() -> Iterator[PlaneContact]:
@@ -107,7 +102,8 @@ def contacts() -> Iterator[PlaneContact]:
         for index, (ends, counts) in enumerate(RANGES):
             x = between(ends, (at + shift * index) % 1)
             pressed = replace(scene, motion=Slide(speed=SPEED, pressure=x * pressure))
-            yield PlaneContact(number, pressed, counts[wide], lost, pressure, numbers)
+            asked = tuple(tasks(pressed, counts[wide], number % CHECKS == 0 and not wide))
+            yield PlaneContact(number, pressed, asked, lost, pressure, numbers)
 
 
 def rows(found: list[PlaneContact], outcomes: Mapping[Task, Outcome]) -> Iterator[dict]:

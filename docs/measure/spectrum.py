@@ -143,9 +143,9 @@ def _friction(axes, frame):
     for (shape, own), form in zip(frame.groupby("shape", sort=False), style.forms(), strict=False):
         three, (one,) = own[own["dimension"] == "3D"], own[own["dimension"] == "1D"].itertuples()
         look = {"color": style.colour("BEM"), "marker": form["marker"]}
-        axes.plot(three["pixels_a_wave"], three["by_traction"], "-", label="3D, by traction", **look)
-        hollow = {"markerfacecolor": style.paper(), "label": "3D, by loss"}
-        axes.plot(three["pixels_a_wave"], three["by_loss"], "--", **look, **hollow)
+        for name, line, inside in zip(ESTIMATES, ("-", "--"), (look["color"], style.paper()), strict=True):
+            look |= {"label": f"3D, {name.replace('_', ' ')}", "markerfacecolor": inside}
+            axes.plot(three["pixels_a_wave"], three[name], line, **look)
         low, high = ends(three)
         answer = {"color": style.ink(), "marker": form["marker"], "linestyle": "none", "label": "3D, answer"}
         axes.errorbar(30, (low + high) / 2, (high - low) / 2, **answer)

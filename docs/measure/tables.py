@@ -46,14 +46,11 @@ def order(points, errors) -> float:
     return -np.polyfit(np.log(points), np.log(errors), 1)[0]
 
 
-def limit(values, least: float = 0.0) -> float:
-    """Limit of numbers on grids of half the pixel each, at the order of the last three.
-
-    NaN where they show none, or one below the least.
-    """
+def limit(values) -> float:
+    """Limit of numbers on grids of half the pixel each, at the order of the last three, NaN if they have none."""
     first, second = np.diff(values[-3:])
     ratio = first / second if second else np.nan
-    return values[-1] + second / (ratio - 1) if ratio > 2**least else np.nan
+    return values[-1] + second / (ratio - 1) if ratio > 1 else np.nan
 
 
 def of_count(held: int, tried: int) -> tuple[float, float]:
