@@ -159,7 +159,7 @@ def _corrected(many, few, trees):
     coarse, finest = (_friction(tree, many["where"]) for tree in trees)
     load = -1 if many["claim"].endswith(ENDS[-1]) else 0
     fine = finest.isel(speed=-1, load=load)
-    before = coarse.sel(speed=fine["speed"], method="nearest").isel(load=load, surface=slice(fine.size))
+    before = coarse.sel(speed=float(fine["speed"]), method="nearest").isel(load=load, surface=slice(fine.size))
     moved = mean_ratio(np.log(fine.values / before.values))
     value, *ends = many["value"] * np.exp([moved.value, *moved.interval()])
     # Ends without the share of the grid, from the value.
