@@ -37,8 +37,7 @@ extensions = [
     "sphinx_copybutton",
     "docstrings",
     "equations",
-    "kinds",
-    "variables",
+    "vocabularies",
 ]
 exclude_patterns = ["*/solved/*", "joss/*"]  # whose citations are of pandoc
 

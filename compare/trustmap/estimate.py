@@ -59,10 +59,12 @@ NONE_KNOWN = Estimates()
 
 def estimates(scene: Scene) -> Estimates:
     """Answers to a scene that slides steadily or rests; none where no cheap model simulates it."""
-    if not isinstance(scene.motion, Indent | Slide) or FrictionLaw().refusals(scene):
+    if not isinstance(scene.motion, Indent | Slide):
         return NONE_KNOWN
     try:
         with numeric_guard():
+            if FrictionLaw().refusals(scene):
+                return NONE_KNOWN
             return _of_rough(scene) if scene.roughness and not scene.roughness.flat else _of_smooth(scene)
     except (SolveError, ArithmeticError):
         return NONE_KNOWN

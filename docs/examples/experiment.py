@@ -58,12 +58,13 @@ def friction(scene: Scene, roughness: list[SelfAffine], points: int = 64) -> lis
 
 def two_lines(x: np.ndarray, y: np.ndarray) -> tuple[float, float, float, float]:
     """Best continuous pair of straight lines: where they meet, slopes before and behind it, and the rms left."""
-    found = []
-    for place in np.linspace(x[1], x[-2], 401):
+
+    def fit(place):
         basis = np.stack([np.ones_like(x), np.minimum(x - place, 0.0), np.maximum(x - place, 0.0)], axis=1)
         numbers = np.linalg.lstsq(basis, y, rcond=None)[0]
-        found.append((float(place), *numbers[1:].tolist(), float(np.sqrt(np.mean((y - basis @ numbers) ** 2)))))
-    return min(found, key=lambda each: each[-1])
+        return place, *numbers[1:], np.sqrt(np.mean((y - basis @ numbers) ** 2))
+
+    return min(map(fit, np.linspace(x[1], x[-2], 401)), key=lambda each: each[-1])
 
 
 def numbers(mu: np.ndarray) -> dict[str, float]:

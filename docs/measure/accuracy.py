@@ -5,7 +5,7 @@ python docs/measure/accuracy.py
 The tests hold more closed forms: sliding in one dimension, waves pressed flat, full contact.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from math import pi, radians, sqrt, tan
 from pathlib import Path
 
@@ -25,6 +25,7 @@ PAGE = Path(__file__).parents[1] / "results" / "accuracy.md"
 G, R, THETA, TAU, DEPTH = 1e6, 10e-3, radians(10), 1e-3, 1e-4
 RADIUS = sqrt(R * DEPTH)
 HERTZ = 4 / 3 * 4 * G * sqrt(R) * DEPTH**1.5
+MOMENTS = 1.0, 1.9, 2.2, 2.5  # in time [s]
 POINTS = (16, 23, 32, 45, 64, 91, 128, 181, 256)
 REST, SLIDING, TIME = (PAGE.with_suffix("") / f"{name}.csv" for name in ("rest", "sliding", "time"))
 # Sphere on a standard linear solid under a load: v tau_c [m], depth [m] and mu R [m] of two other codes.
@@ -66,24 +67,22 @@ def in_time() -> Iterator[dict]:
     for shape, extent in ((Sphere(1.0), 1.5), (Cone(np.pi / 4), 0.4)):
         for points, steps in ((64, 40), (128, 80), (256, 160)):
             fields = BEM(points=points, extent=extent, steps=steps).solve(Scene(shape, elastomer, program)).fields
-            row = {"shape": shape.type, "points": points}
-            for t in (1.0, 1.9, 2.2, 2.5):
-                found = np.interp(t, fields["time"], fields["normal_force"])
-                exact, _ = indentation.force_of_depth(shape, elastomer, times, depths, np.array([t]))
-                row[f"{t:g}"] = float(found / exact[0] - 1)
-            yield row
+            found = np.interp(MOMENTS, fields["time"], fields["normal_force"])
+            exact, _ = indentation.force_of_depth(shape, elastomer, times, depths, np.array(MOMENTS))
+            errors = dict(zip(map("{:g}".format, MOMENTS), found / exact - 1, strict=True))
+            yield {"shape": shape.type, "points": points} | errors
 
 
-def parts() -> Mapping[tuple[Path, str], str]:
-    """Text between two comments, by the page and the name of the comment, from what is stored."""
+def parts() -> dict[str, str]:
+    """Text between two comments of the page, by the name of the comment."""
     rest, slid, timed = (pandas.read_csv(each) for each in (REST, SLIDING, TIME))
     memory, moments = "v τ_c, mm|depth, mm|μR, mm|against other codes: depth|μR", "shape|t = 1 s|1.9 s|2.2 s|2.5 s"
     finest = timed[timed["points"] == timed["points"].max()].drop(columns="points")
     rows = ((shape, *(f"{each:+.2%}" for each in errors)) for shape, *errors in finest.itertuples(index=False))
     return {
-        (PAGE, "rest"): table("shape|solver|16 points|64 points|256 points|observed order", _at_rest(rest)),
-        (PAGE, "sliding"): table(memory, _sliding(slid)),
-        (PAGE, "time"): table(moments, rows),
+        "rest": table("shape|solver|16 points|64 points|256 points|observed order", _at_rest(rest)),
+        "sliding": table(memory, _sliding(slid)),
+        "time": table(moments, rows),
     }
 
 
@@ -130,7 +129,7 @@ def main() -> None:
         stored(path, measure())
     with style.applied():
         figure(pandas.read_csv(REST), pandas.read_csv(TIME)).savefig(PAGE.with_suffix(".png"), dpi=200)
-    fill(parts())
+    fill(PAGE, parts())
 
 
 if __name__ == "__main__":

@@ -23,7 +23,7 @@ import rates
 import regime
 import spectrum
 import trust
-from pandas import DataFrame
+from pandas import DataFrame, Series
 from tables import fill, finding, stored, table
 
 import compare
@@ -57,7 +57,7 @@ IN_REGIME = {
     "eq23.collapse": "regime of the paper: misfit, shifted at best",
     "eq23.predicted": "regime of the paper: misfit, shifted as Eq. 22 predicts",
 }
-MISFITS = ("eq23",)
+MISFITS, FORCES = "eq23", "force.ratio.rough"
 FILLED = (
     accuracy,
     benchmark,
@@ -84,26 +84,22 @@ def parts() -> Mapping[tuple[Path, str], str]:
         (PAPER, "answer"): answer.replace("(docs/", "(../"),
         (PAPER, "slow"): regime.slow_answer(slow),
     }
-    for script in FILLED:
-        found |= script.parts()
-    return found
+    return found | {(script.PAGE, name): text for script in FILLED for name, text in script.parts().items()}
 
 
 def _of_run(found: DataFrame) -> Iterator[tuple[str, ...]]:
     for (claim, model), words in OF_RUN.items():
         yield words, *(_cell(finding(found, claim, scene, model)) for scene in SCENES)
+    forces = found[found["claim"] == FORCES]
     for depth, place in (("shallow", 0), ("deep", -1)):
-        forces = [found[found["claim"].eq("force.ratio.rough") & found["where"].str.startswith(s)] for s in SCENES]
-        cells = (_cell(each.iloc[place], percent=True) for each in forces)
-        yield f"error of the 1D force at the same depth, rough body, {depth}", *cells
+        own = (forces[forces["where"].str.startswith(scene)].iloc[place] for scene in SCENES)
+        yield f"error of the 1D force at the same depth, rough body, {depth}", *map(_cell, own)
 
 
 def _of_study(in_regime: DataFrame) -> Iterator[tuple[str, ...]]:
-    found = pandas.read_csv(STANDARD / "collapse.csv")
-    places = [(body, model) for model in ALONE for body in BODIES]
-    for claims, judged in ((OF_STUDY, found), (IN_REGIME, in_regime)):
+    for claims, judged in ((OF_STUDY, pandas.read_csv(STANDARD / "collapse.csv")), (IN_REGIME, in_regime)):
         for claim, words in claims.items():
-            yield words, *(_cell(finding(judged, claim, body, model)) for body, model in places)
+            yield words, *(_cell(finding(judged, claim, body, model)) for model in ALONE for body in BODIES)
 
 
 def _answer(run: DataFrame, fast: DataFrame) -> str:
@@ -128,15 +124,12 @@ def _answer(run: DataFrame, fast: DataFrame) -> str:
     )
 
 
-def _number(row, percent: bool = False) -> str:
-    scale, unit = (100, " %") if percent else (1, "")
-    return interval(*(scale * row[name] for name in ("value", "low", "high"))) + unit
-
-
-def _cell(row, percent: bool = False) -> str:
+def _cell(row: Series) -> str:
     """Verdict and number; a misfit in percent, and never below zero."""
     misfit = row["claim"].startswith(MISFITS)
-    return f"{row['verdict']}: {_number({**row, 'low': max(row['low'], 0)} if misfit else row, percent or misfit)}"
+    scale, unit = (100, " %") if misfit or row["claim"] == FORCES else (1, "")
+    ends = row["value"], max(row["low"], 0) if misfit else row["low"], row["high"]
+    return f"{row['verdict']}: {interval(*(scale * each for each in ends))}{unit}"
 
 
 def run_again() -> None:
@@ -159,7 +152,8 @@ def studies_again() -> None:
 def main(first: str = "") -> None:
     """Write all of them."""
     {"again": run_again, "studies": studies_again}.get(first, lambda: None)()
-    fill(parts())
+    for (page, name), text in parts().items():
+        fill(page, {name: text})
 
 
 if __name__ == "__main__":

@@ -2,8 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
-from itertools import chain
-from math import hypot, inf, isfinite, log, nan, sqrt
+from math import ceil, hypot, inf, log, nan, sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,6 +10,7 @@ import numpy as np
 from bem3d import BEM
 from compare.models.law.bands import Bands
 from compare.solving.task import SCENES, Outcome, Row, SceneTask, Task, draws_of
+from compare.statistics.jackknife import off_the_ratio
 from compare.trustmap.model import LAW, Ratio
 from mdr1d import MDR
 from scene import Scene, SelfAffine
@@ -81,10 +81,10 @@ class Contact(Task):
 
     def solve(self) -> Outcome:
         """Solve until the means are known, or the surfaces are spent."""
-        line = MDR(points=LINE_POINTS)
+        line, scenes = MDR(points=LINE_POINTS), draws_of(self.scene, MOST_PROFILES)
         first = SceneTask(BEM(points=LEAST_POINTS), (self.scene,)).solve().rows[0]
-        profiles = self._labelled(FINE, line, self._profiles(line))
-        return Outcome(tuple(chain(profiles, self._surfaces(self._fine(first)))))
+        profiles = _labelled(FINE, line, self._until_known(line, scenes, PROFILES))
+        return Outcome((*profiles, *self._surfaces(self._fine(first))))
 
     def fits(self, outcome: Outcome) -> bool:
         """Whether the stored outcome has any rows."""
@@ -97,67 +97,53 @@ class Contact(Task):
         needed = 0 if rough is None else self.grids.pixels * extent / finest_wave(rough)
         return next((each for each in points if each >= needed), points[-1])
 
-    def _profiles(self, solver) -> list[Row]:
-        """Rows of profiles, a block after the other."""
-        rows: list[Row] = []
-        scenes = draws_of(self.scene, MOST_PROFILES)
+    def _until_known(self, solver, scenes, block, rows=()) -> list[Row]:
+        """Rows of scenes, a block after the other, until their mean has the standard error that is wanted."""
+        rows = list(rows)
         while len(rows) < len(scenes) and not self._known(rows):
-            rows += SceneTask(solver, scenes[len(rows) : len(rows) + PROFILES]).solve().rows
+            rows += _solved(solver, scenes[len(rows) : len(rows) + block])
         return rows
 
     def _surfaces(self, points) -> Iterator[Row]:
         """Rows of surfaces on the fine grid, then on half its points."""
         few, many = self.grids.few, self.grids.many
         solver, half = BEM(points=points), BEM(points=points // 2)
-        most = max(many, round(self.surfaces * (LEAST_POINTS / points) ** 1.5))
-        scenes = draws_of(self.scene, most)
+        scenes = draws_of(self.scene, max(many, round(self.surfaces * (LEAST_POINTS / points) ** 1.5)))
         most = len(scenes)  # one of a smooth body
-        fine, coarse = (
-            [*SceneTask(each, scenes[:count]).solve().rows] for each, count in ((solver, few), (half, many))
-        )
-        stands_in = most >= many and self._alike(fine, coarse)
-        while stands_in and not self._both_known(fine, coarse):
+        fine, coarse = _solved(solver, scenes[:few]), _solved(half, scenes[:many])
+        every, some = self._values(fine), self._values(coarse)[: len(fine)]
+        # Whether half the points answer to all of the first surfaces, much as all points do.
+        stands_in = most >= many and np.all(np.abs(some - every) <= ALIKE * np.abs(every))
+        while stands_in:
             spread, apart = self._spreads(fine, coarse)
+            if sqrt(spread**2 / len(coarse) + apart**2 / len(fine)) < self.wanted:
+                break
             # The greatest gain in variance for what it costs.
             finer = apart / len(fine) > sqrt(DEARER) * spread / len(coarse)
             if finer and len(fine) + few <= len(coarse):
-                fine += SceneTask(solver, scenes[len(fine) : len(fine) + few]).solve().rows
+                fine += _solved(solver, scenes[len(fine) : len(fine) + few])
             elif len(coarse) < most:
-                coarse += SceneTask(half, scenes[len(coarse) : len(coarse) + many]).solve().rows
+                coarse += _solved(half, scenes[len(coarse) : len(coarse) + many])
             else:
                 break
         if not stands_in:
-            coarse, most = coarse[:few], min(most, max(few, most // round(DEARER)))
-        while not stands_in and len(fine) < most and not self._known(fine):
-            fine += SceneTask(solver, scenes[len(fine) : len(fine) + few]).solve().rows
-        yield from self._labelled(FINE, solver, fine)
-        yield from self._labelled(HALF, half, coarse)
-
-    @staticmethod
-    def _labelled(grid, solver, rows) -> Iterator[Row]:
-        settings = {"solver": solver.name, "grid": grid, "points": solver.points}
-        return (replace(row, measures={}, settings=settings) for row in rows)
+            blocks = ceil(min(most, max(few, most // round(DEARER))) / few)
+            coarse, fine = coarse[:few], self._until_known(solver, scenes[: blocks * few], few, fine)
+        yield from _labelled(FINE, solver, fine)
+        yield from _labelled(HALF, half, coarse)
 
     def _values(self, rows):
         """Friction coefficient of each row (N,); of a scene at rest its depth, or its force at a depth."""
         at_rest = "depth" if self.scene.motion.pressed_by == "load" else "normal_force"
         name = "friction_coefficient" if getattr(self.scene.motion, "speed", 0.0) > 0 else at_rest
-        return np.array([getattr(row, name) if row.reason is None else np.nan for row in rows])
+        return np.array([getattr(row, name) for row in rows])
 
     def _known(self, rows):
-        """Whether the mean of rows has the standard error that is wanted."""
         values = self._values(rows)
         values = values[np.isfinite(values)]
         if values.size < self.grids.few:
             return False
-        return bool(np.std(values, ddof=1) / sqrt(values.size) < self.wanted * abs(values.mean()))
-
-    def _alike(self, fine, coarse):
-        """Whether half the points answer to all of the first surfaces, much as all points do."""
-        every, some = self._values(fine), self._values(coarse)[: len(fine)]
-        if not (np.isfinite(every) & np.isfinite(some)).all():
-            return False
-        return bool(np.all(np.abs(some - every) <= ALIKE * np.abs(every)))
+        return np.std(values, ddof=1) / sqrt(values.size) < self.wanted * abs(values.mean())
 
     def _spreads(self, fine, coarse):
         """Standard deviation of a surface on half the points, and of what all points change, relative."""
@@ -168,9 +154,14 @@ class Contact(Task):
         apart = every - some[: every.size]
         return float(np.nanstd(some, ddof=1) / middle), float(np.nanstd(apart, ddof=1) / middle)
 
-    def _both_known(self, fine, coarse):
-        spread, apart = self._spreads(fine, coarse)
-        return sqrt(spread**2 / len(coarse) + apart**2 / len(fine)) < self.wanted
+
+def _solved(solver, scenes) -> list[Row]:
+    return [*SceneTask(solver, scenes).solve().rows]
+
+
+def _labelled(grid, solver, rows) -> Iterator[Row]:
+    settings = {"solver": solver.name, "grid": grid, "points": solver.points}
+    return (replace(row, measures={}, settings=settings) for row in rows)
 
 
 def finest_wave(rough: Any) -> float:
@@ -183,7 +174,7 @@ def finest_wave(rough: Any) -> float:
 def ratio_of(outcome: Outcome, quantity: str, law: float = nan) -> Ratio:
     """Ratio of a quantity, of all draws that were solved; law : friction coefficient that the law makes of it."""
     space = _space(outcome, "friction" if quantity == LAW else quantity)
-    line = Mean(law, 0.0, inf) if quantity == LAW else _line(outcome, quantity)
+    line = Mean(law, 0.0, inf) if quantity == LAW else _mean(_rows(outcome, "MDR", FINE), quantity)[0]
     above = line.value > 0 and space.value > 0
     return Ratio(
         logarithm=log(line.value / space.value) if above else nan,
@@ -203,22 +194,16 @@ class Mean(NamedTuple):
     grid: float = nan
 
 
-def _line(outcome, quantity):
-    return _mean(_rows(outcome, "MDR", FINE), quantity)
-
-
 def _space(outcome, quantity):
     """Mean over surfaces: where most are on half the points, theirs, times what all points change on the first."""
     fine, half = (_rows(outcome, "BEM", grid) for grid in (FINE, HALF))
     pairs = [pair for pair in zip(fine, half, strict=False) if all(row.reason is None for row in pair)]
-    first, again = ([pair[k] for pair in pairs] for k in (0, 1))
-    every, some = _mean(first, quantity), _mean(again, quantity)
-    grid = every.value / some.value - 1 if some.value and isfinite(some.value) else nan
+    (every, changes), (some, on_half) = (_mean([pair[k] for pair in pairs], quantity) for k in (0, 1))
+    grid = every.value / some.value - 1 if some.value else nan
     if len(half) <= len(fine) or len(pairs) < 2:
-        return _mean(fine, quantity)._replace(grid=grid)
-    many = _mean(half, quantity)
-    apart = _apart(first, again, quantity) / sqrt(len(pairs))
-    error = hypot(many.scatter / sqrt(many.draws), apart)
+        return _mean(fine, quantity)[0]._replace(grid=grid)
+    many, _ = _mean(half, quantity)
+    error = hypot(many.scatter / sqrt(many.draws), np.linalg.norm(changes - on_half))
     known = many.scatter**2 / error**2 if error else many.draws
     return Mean(many.value * (1 + grid), many.scatter, min(known, many.draws), grid)
 
@@ -229,28 +214,11 @@ def _rows(outcome, solver, grid):
     ]
 
 
-def _values(rows: Sequence[Row], quantity: str) -> tuple[np.ndarray, np.ndarray]:
-    """Values of rows, and those over whose sum theirs is taken."""
+def _mean(rows: Sequence[Row], quantity: str) -> tuple[Mean, np.ndarray]:
+    """Mean of the draws that were solved, and its relative change with each: the squares sum to its variance."""
     name = {"friction": "friction_force", "depth": "depth", "force": "normal_force"}[quantity]
-    over = [row.normal_force if quantity == "friction" else 1.0 for row in rows]
-    return np.array([getattr(row, name) for row in rows]), np.array(over)
-
-
-def _mean(rows: Sequence[Row], quantity: str) -> Mean:
-    """Mean of the draws that were solved."""
-    values, over = _values([row for row in rows if row.reason is None], quantity)
-    if not values.size or not over.sum():
-        return Mean(nan, nan, 0)
-    mean = float(values.sum() / over.sum())
-    if values.size < 2 or not mean:
-        return Mean(mean, nan, values.size)
-    return Mean(mean, float(np.std((values - mean * over) / over.mean(), ddof=1) / abs(mean)), values.size)
-
-
-def _apart(fine: Sequence[Row], half: Sequence[Row], quantity: str) -> float:
-    """Standard deviation of what all points change on a surface, over the mean."""
-    moved = []
-    for rows in (fine, half):
-        values, over = _values(rows, quantity)
-        moved.append((values - values.sum() / over.sum() * over) / abs(values.mean()))
-    return float(np.std(moved[0] - moved[1], ddof=1))
+    over = [row.normal_force for row in rows] if quantity == "friction" else 1.0
+    value, changes, count = off_the_ratio([getattr(row, name) for row in rows], over)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        scatter = np.linalg.norm(changes) * sqrt(count) / abs(value)
+        return Mean(float(value), float(scatter), int(count)), changes / value

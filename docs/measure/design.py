@@ -48,7 +48,12 @@ LONG_PERIODS = 8.0, 25.0
 # Exponents and heights of blunt bodies, and the longest waves of all.
 WIDELY, NARROWLY = ((2.5, 12.0), (0.05, 0.4)), ((3.0, 12.0), (0.08, 0.3))
 ALL_PERIODS = PERIODS[0], LONG_PERIODS[1]
-DIMENSIONS = 16
+# Place of a point along each axis of the cube, each from 0 to 1.
+Point = namedtuple(
+    "Point",
+    "shape exponent kind loss spread tilt branches pressed smooth height waves hurst period rolled rolloff speed",
+)
+DIMENSIONS = len(Point._fields)
 # Shares of the bodies that are cones, and cones or spheres.
 CONES, ROUND = 0.3, 0.6
 # Shares of the scenes that are smooth, slide, and are pressed by a load.
@@ -108,65 +113,62 @@ def drawn_points(seed: int, numbers: int = DIMENSIONS) -> np.ndarray:
     return np.random.default_rng(seed).random((2000, numbers))
 
 
-def scene(point: int) -> Scene:
+def scene(number: int) -> Scene:
     """Scene of the number of a point."""
-    seed = SEEDS * point
-    if point < EVENLY:
-        place = even_points()[point]
-        if point >= BLUNT:
-            return scene_at(_blunt(place, *WIDELY), seed, ALL_PERIODS)
-        return scene_at(place, seed, PERIODS if point < LONG else LONG_PERIODS)
-    start = max(first for first in DRAWN if first <= point)
-    if start in (MEASURED, MEASURED_AGAIN):
-        return _measured(drawn_points(DRAWN[start], DIMENSIONS + len(Numbers._fields))[point - start], seed)
-    place = drawn_points(DRAWN[start])[point - start]
+    seed = SEEDS * number
+    if number < EVENLY:
+        point = Point(*even_points()[number].tolist())
+        if number >= BLUNT:
+            return scene_at(_blunt(point, *WIDELY), seed, ALL_PERIODS)
+        return scene_at(point, seed, PERIODS if number < LONG else LONG_PERIODS)
+    start = max(first for first in DRAWN if first <= number)
+    more = len(Numbers._fields) if start in (MEASURED, MEASURED_AGAIN) else 0
+    place = drawn_points(DRAWN[start], DIMENSIONS + more)[number - start].tolist()
+    point = Point(*place[:DIMENSIONS])
+    if more:
+        return _measured(point, Numbers(*place[DIMENSIONS:]), seed)
     if start == WIDE:
-        return _wide(place, seed)
+        return _wide(point, seed)
     if start in (BLUNT_AGAIN, BLUNT_AT_LAST):
-        return scene_at(_blunt(place, *NARROWLY), seed, ALL_PERIODS)
-    return scene_at(place, seed, PERIODS if start == EVENLY else ALL_PERIODS)
+        return scene_at(_blunt(point, *NARROWLY), seed, ALL_PERIODS)
+    return scene_at(point, seed, PERIODS if start == EVENLY else ALL_PERIODS)
 
 
-def _measured(point: np.ndarray, seed: int) -> Scene:
+def _measured(point: Point, numbers: Numbers, seed: int) -> Scene:
     """Scene of a surface as it is measured: a map, or Gaussian amplitudes."""
-    wave, height = RADIUS / between(WAVES, point[10]), between(HEIGHTS, point[9])
-    numbers = Numbers(*point[DIMENSIONS:].tolist())
-    first, second, period, rolled = numbers.first, numbers.second, numbers.side, numbers.place
+    wave, height = RADIUS / between(WAVES, point.waves), between(HEIGHTS, point.height)
     if numbers.kind >= GAUSSIAN:
-        return scene_on(_map(numbers, DEPTH * height, wave, seed), point[:DIMENSIONS], wave)
-    rough = _rough(height, wave, first, ALL_PERIODS, period, rolled, second, seed)
-    return scene_on(replace(rough, amplitudes="gaussian"), point[:DIMENSIONS], wave)
+        return scene_on(_map(numbers, DEPTH * height, wave, seed), point, wave)
+    spectrum = numbers.first, numbers.side, numbers.place, numbers.second
+    return scene_on(
+        replace(_rough(height, wave, ALL_PERIODS, seed, *spectrum), amplitudes="gaussian"), point, wave
+    )
 
 
-def _wide(point: np.ndarray, seed: int) -> Scene:
+def _wide(point: Point, seed: int) -> Scene:
     """Cone or sphere that slides under a load on many waves; the place of the height sets how they are pressed."""
-    place = np.array([ROUND * point[0], *point[1:-1], SLIDING * point[-1]])
-    place[7:9] = UNDER_LOAD * point[7], 1.0
-    wave = RADIUS / between(MANY_WAVES, point[10])
-    periods = max(MANY_PERIODS[0], 4 * wave / RADIUS), MANY_PERIODS[1]
-    period, rolled, rolloff = point[12:15].tolist()
-    rough = _rough(HEIGHTS[0], wave, float(point[11]), periods, period, rolled, rolloff, seed)
-    smooth = scene_on(None, place, wave)
+    wave = RADIUS / between(MANY_WAVES, point.waves)
+    smooth = scene_on(None, rough_and_sliding(point)._replace(shape=ROUND * point.shape), wave)
+    least, most = MANY_PERIODS
+    rough = _rough(HEIGHTS[0], wave, (max(least, 4 * wave / RADIUS), most), seed, *point[11:15])
     rest = elastic_contact(smooth)
-    slope = rest.load / (pi * rest.radius**2) / smooth.solid.indentation_modulus / between(PRESSURES, point[9])
+    slope = rest.load / (pi * rest.radius**2) / smooth.solid.indentation_modulus / between(PRESSURES, point.height)
     height = rough.rms_height * slope / rough.rms_slope(rough.q_max(0.0))
     return replace(smooth, roughness=replace(rough, rms_height=min(height, MOST_HEIGHT * DEPTH)))
 
 
+def rough_and_sliding(point: Point) -> Point:
+    """Point moved to bodies that slide rough under a load."""
+    smooth, pressed = SMOOTH + (1 - SMOOTH) * point.smooth, UNDER_LOAD * point.pressed
+    return point._replace(pressed=pressed, smooth=smooth, speed=SLIDING * point.speed)
+
+
 def _blunt(point, exponents, heights):
-    """Point of the cube (DIMENSIONS,) moved to bodies of some exponents, which slide rough under a load."""
-    shape, exponent, *middle, pressed, smooth, height = point[:10]
-    return np.array(
-        [
-            ROUND + (1 - ROUND) * shape,
-            within(exponent, EXPONENTS, exponents),
-            *middle,
-            UNDER_LOAD * pressed,
-            SMOOTH + (1 - SMOOTH) * smooth,
-            within(height, HEIGHTS, heights),
-            *point[10:-1],
-            SLIDING * point[-1],
-        ]
+    """Point moved to bodies of some exponents, which slide rough under a load."""
+    return rough_and_sliding(point)._replace(
+        shape=ROUND + (1 - ROUND) * point.shape,
+        exponent=within(point.exponent, EXPONENTS, exponents),
+        height=within(point.height, HEIGHTS, heights),
     )
 
 
@@ -176,26 +178,24 @@ def within(place: float, ends: tuple[float, float], part: tuple[float, float]) -
     return low + place * (high - low)
 
 
-def scene_at(point: np.ndarray, seed: int = 0, periods: tuple[float, float] = PERIODS) -> Scene:
-    """Scene of a point of the cube (DIMENSIONS,).
+def scene_at(point: Point, seed: int = 0, periods: tuple[float, float] = PERIODS) -> Scene:
+    """Scene of a point of the cube.
 
     seed : of its first surface; periods : range of the longest wave over the radius
     """
-    _, _, _, _, _, _, _, _, smooth, height, waves, hurst, period, rolled, rolloff, _ = map(float, point)
-    wave = RADIUS / between(WAVES, waves)
-    drawn = between(HEIGHTS, height), wave, hurst, periods, period, rolled, rolloff
-    return scene_on(None if smooth < SMOOTH else _rough(*drawn, seed), point, wave)
+    wave, height = RADIUS / between(WAVES, point.waves), between(HEIGHTS, point.height)
+    return scene_on(
+        None if point.smooth < SMOOTH else _rough(height, wave, periods, seed, *point[11:15]), point, wave
+    )
 
 
-def scene_on(rough: Roughness | None, point: np.ndarray, wave: float) -> Scene:
+def scene_on(rough: Roughness | None, point: Point, wave: float) -> Scene:
     """Scene of a roughness, or none, with all else of a point of the cube; wave : its shortest [m]."""
-    shape, exponent, kind, loss, spread, tilt, branches, pressed, *_, speed = map(float, point)
-    indenter = body(shape, exponent)
-    solid = solid_at(kind, loss, spread, tilt, branches, speed, wave)
-    rests = speed >= SLIDING
+    indenter = body(point.shape, point.exponent)
+    solid = solid_at(*point[2:7], point.speed, wave)
     stiffness = 2 * indenter.exponent / (indenter.exponent + 1) * solid.indentation_modulus * DEPTH * RADIUS
-    load, depth = (stiffness, None) if pressed < UNDER_LOAD else (None, DEPTH)
-    motion = Indent(load=load, depth=depth) if rests else Slide(speed=SPEED, load=load, depth=depth)
+    pressed = {"load": stiffness} if point.pressed < UNDER_LOAD else {"depth": DEPTH}
+    motion = Indent(**pressed) if point.speed >= SLIDING else Slide(speed=SPEED, **pressed)
     return Scene(indenter, solid, motion, rough)
 
 
@@ -208,7 +208,7 @@ def body(shape: float, exponent: float) -> Sphere | Cone | PowerLaw:
     return PowerLaw(DEPTH / PowerLaw(RADIUS**-n, n).mdr_coefficient * RADIUS**-n * RADIUS**-n, n)
 
 
-def _rough(height, shortest, hurst, periods, period, rolled, rolloff, seed) -> SelfAffine:
+def _rough(height, shortest, periods, seed, hurst, period, rolled, rolloff) -> SelfAffine:
     """Roughness of a height over the depth and a shortest wave [m]."""
     longest = between((max(periods[0] * RADIUS, 2 * shortest), periods[1] * RADIUS), period)
     return SelfAffine(
@@ -223,35 +223,27 @@ def _rough(height, shortest, hurst, periods, period, rolled, rolloff, seed) -> S
 
 def solid_at(kind, loss, spread, tilt, branches, speed, wave) -> Elastomer:
     """Solid whose times lie so that the speed runs from where friction grows with it to beyond its peak."""
-    place = min(speed / SLIDING, 1.0)
-    stiffening = between(STIFFENING, loss)
+    place, stiffening = min(speed / SLIDING, 1.0), between(STIFFENING, loss)
     if kind < 0.25:
         return Kelvin(MODULUS, wave / SPEED * between(SPEEDS, place))
+    # From slow on the scale of retardation to fast on the scale of relaxation.
+    time = wave / SPEED * between((SPEEDS[0] / stiffening**0.5, SPEEDS[1]), place)
     if kind < 0.6:
-        # From slow on the scale of retardation to fast on the scale of relaxation.
-        time = wave / SPEED * between((SPEEDS[0] / stiffening**0.5, SPEEDS[1]), place)
         return StandardLinearSolid(MODULUS, MODULUS * stiffening, time)
     if kind < 0.8:
         exponent = 0.1 + 0.8 * loss
         decades = 2.5 * max(exponent, 0.4) / exponent * (2 * place - 1)
-        slow, fast = SPEED / RADIUS, SPEED / wave
         return Fractional(
             modulus=MODULUS,
             relaxation_time=wave / SPEED * 10**decades,
             exponent=exponent,
-            lowest_frequency=1e-3 * slow,
-            highest_frequency=1e3 * fast,
+            lowest_frequency=1e-3 * (SPEED / RADIUS),
+            highest_frequency=1e3 * (SPEED / wave),
         )
     width = 0.5 + 5.5 * spread
-    count = 2 + int(5 * branches)
-    steps = np.linspace(-0.5, 0.5, count)
+    steps = np.linspace(-0.5, 0.5, 2 + int(5 * branches))
     moduli = 10 ** ((2 * tilt - 1) * width / 2 * steps)
-    middle = log10(wave / SPEED * between((SPEEDS[0] / stiffening**0.5, SPEEDS[1]), place))
-    return Prony(
-        MODULUS,
-        tuple((MODULUS * (stiffening - 1) * moduli / moduli.sum()).tolist()),
-        tuple((10 ** (middle + width * steps)).tolist()),
-    )
+    return Prony(MODULUS, MODULUS * (stiffening - 1) * moduli / moduli.sum(), 10 ** (log10(time) + width * steps))
 
 
 def _map(numbers: Numbers, height: float, wave: float, seed: int) -> Topography:
@@ -287,17 +279,16 @@ def _parent(numbers, count, pixel, wave, draw):
 def _density(numbers, q, shortest, longest):
     """Density in wave numbers of any size: two straight pieces, a peak, a band, or a roll-off."""
     inside = q <= shortest * 1.0001
-    middle = between((longest * 1.5, shortest), numbers.place)
+    middle, power = between((longest * 1.5, shortest), numbers.place), -2 * numbers.first - 2
     if numbers.spectrum < 0.3:
-        powers = -2 * numbers.first - 2, -2 * numbers.second - 2
-        return np.where(inside, np.where(q < middle, (q / middle) ** powers[0], (q / middle) ** powers[1]), 0.0)
+        return inside * (q / middle) ** np.where(q < middle, power, -2 * numbers.second - 2)
     if numbers.spectrum < 0.5:
         middle = between((max(longest * 4, shortest / 16), shortest / 1.3), numbers.place)
         return np.exp(-np.square(np.log(q / middle) / between(PEAKS, numbers.first)) / 2)
     if numbers.spectrum < 0.7:
         low = max(shortest / between(BANDS, numbers.second), 2 * longest)
-        return np.where(inside & (q >= min(low, 0.8 * shortest)), q ** (-2 * numbers.first - 2), 0.0)
-    return np.where(inside, np.maximum(q / middle, 1.0) ** (-2 * numbers.first - 2), 0.0)
+        return (inside & (q >= min(low, 0.8 * shortest))) * q**power
+    return inside * np.maximum(q / middle, 1.0) ** power
 
 
 def _heights(z, numbers, draw):

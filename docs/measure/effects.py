@@ -15,10 +15,9 @@ from typing import Any
 
 import numpy as np
 import pandas
-from campaign import solved
-from pandas import DataFrame
+from pandas import DataFrame, Series
 from pydantic import TypeAdapter
-from tables import fill, stored, table
+from tables import fill, solved, stored, table
 
 import bem3d.plan
 import mdr1d.plan
@@ -34,7 +33,6 @@ PAGE = Path(__file__).parents[1] / "results" / "workprecision.md"
 MEASURED = PAGE.with_suffix("") / "effects.csv"
 SOLVERS: Mapping[str, BEM | MDR] = {"3D": BEM(points=256, steps=40), "1D": MDR(points=5000, steps=40)}
 TABLES = {"3D": bem3d.plan.EFFECTS, "1D": mdr1d.plan.EFFECTS}
-MEASURES = {"seconds": "processor", "wall": "wall", "repeats": "repeats", "time_steps": "time_steps"}
 COUNTED = {"3D": (), "1D": ("Program",)}  # parts that a plan counts by itself
 SCENES = TypeAdapter(Scene)
 PLAIN: Mapping[str, Any] = {
@@ -132,32 +130,31 @@ def table_of(outcomes: Mapping[Task, Outcome]) -> DataFrame:
     """Rows of MEASURED: times is the processor time over the time without the effect, 1 of a plain contact."""
     rows, asked = [], tasks()
     for name, effect in product(SOLVERS, effects()):
-        refused = Row(reason=f"refused: {'; '.join(SOLVERS[name].refusals(effect.scene))}")
-        task = asked.get((name, effect.title))
-        row = outcomes[task].rows[0] if task else refused
-        numbers = {column: row.measures.get(measure, nan) for column, measure in MEASURES.items()}
-        rows.append({"dimension": name, "effect": effect.title, "over": effect.over or "", **numbers})
-        rows[-1] |= {"operator_applications": row.operator_applications, "reason": row.reason or ""}
+        task, refused = asked.get((name, effect.title)), "; ".join(SOLVERS[name].refusals(effect.scene))
+        row = outcomes[task].rows[0] if task else Row(reason=f"refused: {refused}")
+        found = {"dimension": name, "effect": effect.title, "over": effect.over or ""}
+        found |= {"seconds": row.measures.get("processor", nan), "times": nan}
+        found |= {"operator_applications": row.operator_applications}
+        rows.append(found | {"time_steps": row.measures.get("time_steps", nan), "reason": row.reason or ""})
     found = DataFrame(rows)
-    return found.assign(times=found["seconds"] / _of_over(found)["seconds"])
+    return found.assign(times=_times(found, "seconds"))
 
 
-def _of_over(found: DataFrame) -> DataFrame:
-    """For each row the one of the contact that its effect is added to, of a plain contact itself."""
+def _times(found: DataFrame, cost: str) -> Series:
+    """A cost over the one of the contact that an effect is added to, of a plain contact itself."""
     over = found["over"].where(found["over"] != "", found["effect"])
-    named = found.set_index(["dimension", "effect"])
-    return named.loc[list(zip(found["dimension"], over, strict=True))].reset_index()
+    by_effect = found.set_index(["dimension", "effect"])[cost]
+    return found[cost] / by_effect[zip(found["dimension"], over, strict=True)].to_numpy()
 
 
 def priced(name: str, found: DataFrame) -> Iterator[dict]:
     """Rows of a table that plans multiply costs with: parts whose cost was measured; of a program, for a step."""
-    steps = found["time_steps"].fillna(1.0)
-    applications = found["operator_applications"] / _of_over(found)["operator_applications"]
-    each = DataFrame(dict(zip(COSTS, (applications / steps, found["times"] / steps), strict=True)))
-    own = each[found["dimension"] == name].set_index(found["effect"][found["dimension"] == name]).dropna()
+    costs = dict(zip(COSTS, (_times(found, "operator_applications"), found["times"]), strict=True))
+    own = DataFrame(costs).div(found["time_steps"].fillna(1.0), axis=0).set_index(found["effect"])
+    own = own[(found["dimension"] == name).to_numpy()].dropna()
     for effect in effects():
-        for part in effect.parts if effect.title in own.index else ():
-            if part not in COUNTED[name]:
+        for part in effect.parts:
+            if effect.title in own.index and part not in COUNTED[name]:
                 yield {"part": part} | {cost: float(f"{own.loc[effect.title, cost]:.3g}") for cost in COSTS}
 
 
@@ -173,10 +170,10 @@ def _cell(row):
     return row["reason"].split(":")[0] or two_digits(float(row["times"]))
 
 
-def parts() -> Mapping[tuple[Path, str], str]:
-    """Text between two comments, by the page and the name of the comment, from what is stored."""
+def parts() -> dict[str, str]:
+    """Text between two comments of the page, by the name of the comment."""
     found = pandas.read_csv(MEASURED, keep_default_na=False, na_values="nan")
-    return {(PAGE, "effects"): table("effect|added to|1D|3D", cells(found))}
+    return {"effects": table("effect|added to|1D|3D", cells(found))}
 
 
 def main() -> None:
@@ -185,7 +182,7 @@ def main() -> None:
     for name, path in TABLES.items():
         stored(path, priced(name, found))
     stored(MEASURED, found)
-    fill(parts())
+    fill(PAGE, parts())
 
 
 if __name__ == "__main__":

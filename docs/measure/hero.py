@@ -11,24 +11,22 @@ from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Literal
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from pandas import DataFrame
 from PIL import Image
-from tables import stored
+from tables import friction, solved, stored
 
 import compare
-from bem3d import BEM, WarmStart
+from bem3d import BEM
 from compare.figures import contact, style
 from compare.figures.curves import intervals
 from compare.figures.plot import Plot
 from compare.figures.shades import SPEED, between
 from compare.report.csvfiles import read
-from compare.solving.task import draws_of
-from compare.statistics.jackknife import mean_ratio
+from compare.solving.task import SceneTask, draws_of
 from compare.studies.comparison.study_file import STUDIES
 from mdr1d import MDR, equations
 from scene import Kelvin, Scene, Slide, Sphere
@@ -50,7 +48,7 @@ SPAN, WIDTH = 1.6e-3, 1440  # of the springs, to either side [m]; of the file, i
 def main() -> None:
     """Solve what is missing, draw, and write the figure."""
     if not NUMBERS.exists():
-        stored(NUMBERS, solved())
+        stored(NUMBERS, measured())
     fields = {solver.name: solver.solve(SHOWN).fields for solver in (LINE, SPACE)}
     with style.applied():
         shown = contact.plot(SHOWN, contact.view(SHOWN, SPACE, fields))
@@ -80,10 +78,9 @@ def figure(plot: Plot, numbers: DataFrame, steep: DataFrame) -> Figure:
     below.text(0.012, 9e-4, "Eq. 17", fontsize=style.small(), ha="center", va="top")
     above.text(1.5, 2e-2, "dashed: Eq. 17", fontsize=style.small(), ha="right")
     for speed, chosen in numbers[numbers["solver"] == "BEM"].groupby("speed"):
-        last = chosen.iloc[-1]
+        end = chosen.iloc[-1]
         text = f"{1e3 * speed:g} mm/s" if speed == SPEEDS[-1] else f"{1e3 * speed:g}"
-        place = shifted(last["load"], speed), last["friction"]
-        below.annotate(text, place, xytext=(5, 1), fontsize=style.small(), textcoords="offset points", va="center")
+        note(below, text, (shifted(end["load"], speed), end["friction"]), (5, 1))
     master_curve(last, steep)
     return drawing
 
@@ -102,16 +99,9 @@ def master_curve(axes: Axes, steep: DataFrame) -> None:
     axes.legend(fontsize=style.small(), loc="upper left")
     for row, speed, place in ((0, "slow", (0, -14)), (-1, "fast", (20, 0))):
         end = steep.sort_values("speed").iloc[row]
-        axes.annotate(
-            speed,
-            (end["x"], end["measured_share"]),
-            place,
-            fontsize=style.small(),
-            textcoords="offset points",
-            va="center",
-        )
+        note(axes, speed, (end["x"], end["measured_share"]), place)
     axes.set(xlabel="pressure / full contact [1]", ylabel="friction / full contact [1]", title="(e) 3D: the law")
-    tell(axes, steep, "measured_share", "right")
+    tell(axes, steep, "measured_share", 0.97, "right")
 
 
 def against_load(axes: Axes, numbers: DataFrame, solver: str) -> None:
@@ -130,11 +120,15 @@ def against_load(axes: Axes, numbers: DataFrame, solver: str) -> None:
     tell(axes, numbers, "friction")
 
 
-def tell(axes: Axes, numbers: DataFrame, name: str, side: Literal["left", "right"] = "left") -> None:
+def note(axes: Axes, text: str, place: tuple[float, float], offset: tuple[float, float]) -> None:
+    """Text next to a place of a panel."""
+    axes.annotate(text, place, offset, fontsize=style.small(), textcoords="offset points", va="center")
+
+
+def tell(axes: Axes, numbers: DataFrame, name: str, place: float = 0.04, side: str = "left") -> None:
     """The widest interval of a panel in words: most bars are shorter than the markers."""
     most = ((numbers[f"{name}_high"] - numbers[f"{name}_low"]) / numbers[name]).max() / 2
     words = f"95 %: at most ±{100 * most:.0f} %"
-    place = {"left": 0.04, "right": 0.97}[side]
     axes.text(place, 0.04, words, fontsize=style.small(), transform=axes.transAxes, ha=side)
 
 
@@ -143,26 +137,22 @@ def shifted(load, speed):
     return load * (speed / SPEEDS[0]) ** equations.force_shift_exponent(1.0, SCENE.indenter.exponent)
 
 
-def solved() -> Iterator[dict[str, float | str]]:
+def measured() -> Iterator[dict[str, float | str]]:
     """Mean friction over mean load of some rough surfaces, with its interval, at each speed and load by model."""
-    for solver, draws in DRAWS.items():
-        warm_starts = [WarmStart() for _ in range(draws)]
-        for load in LOADS:
-            for speed in SPEEDS:
-                scenes = draws_of(replace(SCENE, motion=Slide(speed=speed, load=float(load))), draws)
-                results = [
-                    solver.solve(scene, *([warm_start] if solver is SPACE else []))
-                    for scene, warm_start in zip(scenes, warm_starts, strict=True)
-                ]
-                forces = (
-                    np.array([getattr(each, name) for each in results])
-                    for name in ("friction_force", "normal_force")
-                )
-                friction = mean_ratio(*forces)
-                low, high = friction.interval()
-                found = {"friction": friction.value, "friction_low": low, "friction_high": high}
-                print(solver.name, load, speed, found, flush=True)
-                yield {"solver": solver.name, "speed": speed, "load": load} | found
+    tasks = {
+        (solver, speed, load): SceneTask(
+            solver, draws_of(replace(SCENE, motion=Slide(speed=speed, load=load)), draws)
+        )
+        for solver, draws in DRAWS.items()
+        for load in LOADS.tolist()
+        for speed in SPEEDS
+    }
+    outcomes = solved(PAGE, tasks.values())
+    for (solver, speed, load), task in tasks.items():
+        found = friction(outcomes[task].rows)
+        low, high = found.interval()
+        row = {"solver": solver.name, "speed": speed, "load": load, "friction": found.value}
+        yield row | {"friction_low": low, "friction_high": high}
 
 
 if __name__ == "__main__":

@@ -1,94 +1,178 @@
-"""Errors of the law of friction and of its rivals on random scenes: the table of results/law.md.
+"""The law of friction and its rivals against random scenes in three dimensions: the table of results/law.md.
 
-python docs/measure/law.py   compares them with results/law/scenes-*.csv
+python docs/measure/law.py         compares them with results/law/scenes-*.csv
+python docs/measure/law.py solve   solves these scenes first, as far as they are not solved yet
 """
 
-from collections.abc import Callable, Iterator, Mapping
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from math import inf
 from pathlib import Path
 
+import design
 import numpy as np
 import pandas
+from design import drawn_points, scene_at, within
 from pandas import DataFrame
-from scenes import PAGE, SETS, RandomScene, scenes
-from tables import fill, of_count, stored, table
+from tables import fill, friction, of_count, solved, stored, table
 
+from bem3d import BEM
 from compare import FrictionLaw, Persson
+from compare.models.law.parts import LawParts
+from compare.solving.task import Outcome, SceneTask, draws_of
 from compare.trustmap.model import NORMAL
+from mdr1d import MDR
+from scene import Scene, Slide
 from scene.scales import elastic_contact
 
-LAW = PAGE.parents[1] / "law.md"
-SMALL = 0.1  # rms height over depth, up to which roughness is small
-FAR = {
-    "spheres on a fast Kelvin solid": "spheres on a fast Kelvin solid, v τ/λ_s 15 to 300",
-    "blunt bodies": "blunt bodies, n > 6, p/p_rms 0.9 to 4",
-}
-ROWS: dict[str, Callable[[DataFrame], pandas.Series]] = {
-    "h₀ ≤ 0.1 d": lambda d: d["height"] <= SMALL,
-    "h₀ > 0.1 d": lambda d: d["height"] > SMALL,
-    "x < 0.1": lambda d: d["x"] < 0.1,
-    **{words: lambda d, region=region: d["region"] == region for region, words in FAR.items()},
-    "all": lambda d: d["height"] > 0,
+PAGE = Path(__file__).parents[1] / "results" / "law.md"
+ERRORS, SCENES = (PAGE.with_suffix("") / name for name in ("errors.csv", "scenes"))
+# Number of scenes and seed of each set: drawn evenly, and two in three of them where the bare law is far off.
+SETS = {"fresh": (640, 36_200), "regions": (240, 53_100)}
+FAST, BLUNT, EVENLY = REGIONS = "spheres on a fast Kelvin solid", "blunt bodies", "drawn evenly"
+# The first of these: v tau over the shortest wave, and h0/d; the second: n, and p/p_rms.
+PASSED, HEIGHT, POWERS, PRESSURES = (15.0, 300.0), (0.04, 0.3), (6.0, 12.0), (0.9, 4.0)
+PASSES = 4  # of the height that a pressure asks for: the contact depends on it little
+# The least number of surfaces: four times as many on the coarsest grid.
+SURFACES, PROFILES, SURFACE_SEEDS = 16, 40, 1000
+POINTS, PIXELS = (128, 192, 256, 384, 512, 640), 12  # a side; to the shortest wave
+
+
+# Rows of the table, by the scenes that each is about.
+ROWS = {
+    "h₀ ≤ 0.1 d": "outside == 0 and height <= 0.1",
+    "h₀ > 0.1 d": "outside == 0 and height > 0.1",
+    "x < 0.1": "outside == 0 and x < 0.1",
+    f"{FAST}, v τ/λ_s 15 to 300": f"outside == 0 and region == {FAST!r}",
+    f"{BLUNT}, n > 6, p/p_rms 0.9 to 4": f"outside == 0 and region == {BLUNT!r}",
+    "all": "outside == 0",
+    "off the map": "outside == 1",
 }
 MODELS = {"bare": "bare law", "law": "3D law", "persson": "Persson", "line": "MDR"}
+
+
+@dataclass(frozen=True)
+class RandomScene:
+    """A scene that slides on roughness, its region, and its tasks."""
+
+    number: int
+    region: str
+    scene: Scene
+
+    @property
+    def first(self) -> SceneTask:
+        """Its first surface, for the side of its window."""
+        return SceneTask(BEM(points=POINTS[0]), (self.scene,))
+
+    @property
+    def line(self) -> SceneTask:
+        """Its profiles."""
+        return SceneTask(MDR(points=4000), draws_of(self.scene, PROFILES), work=1e-2)
+
+    def space(self, first: Outcome) -> SceneTask:
+        """Its surfaces, on points that resolve the shortest wave in the window of the first."""
+        needed = PIXELS * first.rows[0].settings.get("extent", inf) / self.scene.roughness.shortest
+        points = next((points for points in POINTS if points >= needed), POINTS[-1])
+        surfaces = max(SURFACES, round(4 * SURFACES * (POINTS[0] / points) ** 2))
+        return SceneTask(BEM(points=points), draws_of(self.scene, surfaces), work=float(surfaces * points**2))
+
+
+def scenes(name: str) -> Iterator[RandomScene]:
+    """Scenes of a set, one after the other."""
+    count, seed = SETS[name]
+    found = 0
+    for number, drawn in enumerate(drawn_points(seed).tolist()):
+        point = design.Point(*drawn)
+        region, periods = EVENLY, design.PERIODS
+        if name == "regions":
+            region, periods = REGIONS[number % len(REGIONS)], design.ALL_PERIODS
+        scene = scene_at(place(region, point), SURFACE_SEEDS * number, periods)
+        if region == BLUNT:
+            scene = pressed(scene, design.between(PRESSURES, point.height))
+        if scene.roughness is not None and isinstance(scene.motion, Slide) and found < count:
+            found += 1
+            yield RandomScene(number, region, scene)
+
+
+def place(region: str, point: design.Point) -> design.Point:
+    """Point of the cube moved to a region."""
+    if region == EVENLY:
+        return point
+    moved = design.rough_and_sliding(point)
+    if region == BLUNT:
+        shape = design.ROUND + (1 - design.ROUND) * point.shape
+        return moved._replace(shape=shape, exponent=within(point.exponent, design.EXPONENTS, POWERS))
+    height, speed = within(point.height, design.HEIGHTS, HEIGHT), within(point.speed, design.SPEEDS, PASSED)
+    return moved._replace(
+        shape=(design.CONES + design.ROUND) / 2, kind=0.1, height=height, speed=design.SLIDING * speed
+    )
+
+
+def pressed(scene: Scene, ratio: float) -> Scene:
+    """The scene with roughness so high that p/p_rms is a ratio, or as high as the body is deep."""
+    for _ in range(PASSES):
+        rough = scene.roughness
+        height = min(rough.rms_height * LawParts.of(scene).x / ratio, design.DEPTH * design.HEIGHTS[1])
+        scene = replace(scene, roughness=replace(rough, rms_height=height))
+    return scene
+
+
+def row(scene: RandomScene, space: Outcome, line: Outcome) -> dict:
+    """Friction in 3D with its standard error, relative, and in 1D."""
+    surfaces, profiles = friction(space.rows), friction(line.rows)
+    error = surfaces.error / abs(surfaces.value)
+    found = {"friction": surfaces.value, "error": error, "line": profiles.value}
+    return {"scene": scene.number} | {name: float(value) for name, value in found.items()}
 
 
 def errors() -> DataFrame:
     """ln(model / 3D) of each scene, where it lies, and whether the interval of the law holds it."""
     rows = []
     for name in SETS:
-        known = pandas.read_csv(PAGE.with_name(f"scenes-{name}.csv")).set_index("scene")
+        known = pandas.read_csv(SCENES.with_name(f"scenes-{name}.csv")).set_index("scene")
         known = known[np.isfinite(known["friction"]) & (known["friction"] > 0)]
         rows += [_errors(each, known.loc[each.number]) for each in scenes(name) if each.number in known.index]
     return DataFrame(rows)
 
 
 def _errors(each: RandomScene, known) -> dict:
-    scene, rest = each.scene, elastic_contact(each.scene)
-    found = FrictionLaw().solve(scene)
+    scene, found = each.scene, FrictionLaw().solve(each.scene)
     low, high = (np.log(found.measures[f"friction_{end}"]) for end in ("low", "high"))
     middle, true = np.log(found.friction_coefficient), np.log(known["friction"])
     # The truth has an error of its own, by which the interval is widened.
-    spread = NORMAL * known["error"]
-    loaded = scene if scene.motion.load is not None else None
+    spread, end = NORMAL * known["error"], low if true < middle else high
     answers = {
         "bare": found.measures["bare_friction"],
         "law": found.friction_coefficient,
-        "persson": Persson().solve(loaded).friction_coefficient if loaded else np.nan,
+        "persson": Persson().solve(scene).friction_coefficient if scene.motion.load is not None else np.nan,
         "line": known["line"],
     }
     return {
-        "set": each.set,
         "scene": each.number,
         "region": each.region,
-        "height": scene.roughness.rms_height / rest.depth,
-        "waves": rest.radius / scene.roughness.shortest,
-        "body": type(scene.indenter).__name__,
-        "solid": type(scene.elastomer).__name__,
-        "pressed by": scene.motion.pressed_by,
+        "height": scene.roughness.rms_height / elastic_contact(scene).depth,
         "x": found.measures["pressure_ratio"],
         "outside": found.measures["outside"],
         "half": (high - low) / 2,
-        "held": float(middle - np.hypot(middle - low, spread) <= true <= middle + np.hypot(high - middle, spread)),
-        "error": known["error"],
+        "held": float(abs(true - middle) <= np.hypot(end - middle, spread)),
         **{name: float(np.log(value) - true) if value > 0 else np.nan for name, value in answers.items()},
     }
 
 
 def rows(found: DataFrame) -> Iterator[tuple[str, ...]]:
     """Number of scenes, error of each model in the median and at nine in ten, and coverage, by region."""
-    inside = found[found["outside"] == 0]
-    for region, chosen in ROWS.items():
-        own = inside[chosen(inside)]
-        held = int(own["held"].sum())
-        low, high = of_count(held, len(own))
-        share = f"{100 * held / len(own):.0f} % ({100 * low:.0f} to {100 * high:.0f})"
-        yield region, str(len(own)), *(_cell(own[name]) for name in MODELS), _half(own["half"]), share
-    outside = found[found["outside"] == 1]
-    yield "off the map", str(len(outside)), *(_cell(outside[name]) for name in MODELS), "", ""
+    for region, where in ROWS.items():
+        own = found.query(where)
+        yield region, str(len(own)), *(_cell(own[name]) for name in MODELS), *_covered(own)
 
 
-def _half(halves):
-    return f"{100 * np.expm1(halves.median()):.2g} %"
+def _covered(own):
+    """Half of the interval, and how many it holds; nothing where there are no intervals."""
+    half, held, count = 100 * np.expm1(own["half"].median()), int(own["held"].sum()), len(own)
+    low, high = of_count(held, count)
+    share = f"{100 * held / count:.0f} % ({100 * low:.0f} to {100 * high:.0f})"
+    return ("", "") if np.isnan(half) else (f"{half:.2g} %", share)
 
 
 def _cell(logs):
@@ -99,22 +183,35 @@ def _cell(logs):
 
 def errors_of(model: str) -> tuple[float, float, int]:
     """Errors of a model that half and nine in ten of the unseen scenes stay below [%], and number of scenes."""
-    found = pandas.read_csv(PAGE.with_name("errors.csv"))
-    off = 100 * np.abs(np.expm1(found[found["outside"] == 0][model]))
+    found = pandas.read_csv(ERRORS)
+    off = 100 * np.abs(np.expm1(found.query(ROWS["all"])[model]))
     return off.median(), off.quantile(0.9), len(off)
 
 
-def parts() -> Mapping[tuple[Path, str], str]:
-    """Text between two comments, by the page and the name of the comment, from what is stored."""
-    found = pandas.read_csv(PAGE.with_name("errors.csv"))
-    return {(LAW, "errors"): table("|scenes|" + "|".join(MODELS.values()) + "|± (95 %)|held", rows(found))}
+def parts() -> dict[str, str]:
+    """Text between two comments of the page, by the name of the comment."""
+    found = pandas.read_csv(ERRORS)
+    return {"errors": table("|scenes|" + "|".join(MODELS.values()) + "|± (95 %)|held", rows(found))}
 
 
-def main() -> None:
+def solve() -> None:
+    """Solve the scenes that are not solved yet, and write what was found."""
+    for name in SETS:
+        found = list(scenes(name))
+        first = solved(SCENES, [each.first for each in found])
+        spaces = {each: each.space(first[each.first]) for each in found}
+        outcomes = solved(SCENES, [task for each in found for task in (spaces[each], each.line)])
+        rows = (row(each, outcomes[spaces[each]], outcomes[each.line]) for each in found)
+        stored(SCENES.with_name(f"scenes-{name}.csv"), rows)
+
+
+def main(first: str = "") -> None:
     """Write the errors, and the table of the page."""
-    stored(PAGE.with_name("errors.csv"), errors())
-    fill(parts())
+    if first:
+        solve()
+    stored(ERRORS, errors())
+    fill(PAGE, parts())
 
 
 if __name__ == "__main__":
-    main()
+    main(*sys.argv[1:])

@@ -5,27 +5,26 @@ python docs/measure/planes.py fit   fits S to that table: compare/models/law/sha
 """
 
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from math import nan, pi
 from pathlib import Path
 
 import numpy as np
 import pandas
-from campaign import solved
 from design import RADIUS, SPEED, between, solid_at
 from pandas import DataFrame
 from scipy.optimize import least_squares
 from scipy.stats import qmc
-from tables import stored
+from tables import friction, solved, stored
 
 from bem3d import BEM
 from bem3d.heights import heights
 from compare.models.exact import full_contact
 from compare.models.law.bands import Bands, FullContact
 from compare.models.law.parts import FITTED, Share, coefficients, waves
-from compare.solving.task import Outcome, SceneTask, Task
-from compare.statistics.jackknife import mean_ratio
+from compare.solving.task import Outcome, SceneTask, Task, draws_of
 from scene import Plane, Scene, SelfAffine, Slide
 
 PAGE = Path(__file__).parents[1] / "results" / "law" / "planes.md"
@@ -44,180 +43,133 @@ COARSE, FINE, CHECKED, CHECKS = 16, 32, 2, 4
 DRAWN, DIMENSIONS = 512, 12  # places of a sequence; the first are taken
 BOOTSTRAPS, FIT_SEED = 200, 36
 FLOOR = 0.02  # of the misfit of a plane, below which one counts no more than another
-PLACES = (5e-3, 0.015), (0.015, 0.03), (0.03, 0.07), (0.07, 0.15), (0.15, 0.3), (0.3, 0.6), (0.6, 1.2), (1.2, 3.0)
+PLACES = 5e-3, 0.015, 0.03, 0.07, 0.15, 0.3, 0.6, 1.2, 3.0
 
 
 @dataclass(frozen=True)
 class PlaneContact:
     """One plane under one pressure.
 
-    number : of the plane; place : of the pressure in RANGES
-    scene : its first surface; count : of surfaces
+    number : of the plane
+    scene : its first surface; tasks : see `tasks`
     friction, pressure : of these waves in full contact, an area [Pa], and rms [Pa]
     waves : numbers of these waves, see `share.waves`
     """
 
     number: int
-    place: int
     scene: Scene
-    count: int
+    tasks: tuple[SceneTask, ...]
     friction: float
     pressure: float
     waves: Mapping[str, float]
 
-    def task(self, points: int, count: int) -> SceneTask:
-        """Some of its surfaces, with a number of points a wave."""
-        rough = self.scene.roughness
-        side = 2 * round(points * rough.longest / rough.shortest / 2)
-        scenes = tuple(
-            replace(self.scene, roughness=replace(rough, seed=seed))
-            for seed in range(rough.seed, rough.seed + count)
-        )
-        return SceneTask(BEM(points=side), scenes, work=float(count * side**2))
 
-    @property
-    def tasks(self) -> tuple[SceneTask, ...]:
-        """All surfaces coarse; of every fourth plane also a few of them coarse and fine."""
-        few = self.task(COARSE, CHECKED), self.task(FINE, CHECKED)
-        checked = self.number % CHECKS == 0 and self.number < PLANES
-        return self.task(COARSE, self.count), *(few if checked else ())
+def tasks(scene: Scene, count: int, checked: bool) -> Iterator[SceneTask]:
+    """All surfaces coarse; to be checked also a few of them coarse and fine."""
+    rough = scene.roughness
+    for points, draws in ((COARSE, count), *[(COARSE, CHECKED), (FINE, CHECKED)] * checked):
+        side = 2 * round(points * rough.longest / rough.shortest / 2)
+        yield SceneTask(BEM(points=side), draws_of(scene, draws), work=float(draws * side**2))
 
 
 def contacts() -> Iterator[PlaneContact]:
     """All planes under all pressures, of a Sobol sequence."""
     few, many = (
-        qmc.Sobol(DIMENSIONS, seed=seed).random(DRAWN)[:count]
+        qmc.Sobol(DIMENSIONS, seed=seed).random(DRAWN)[:count].tolist()
         for seed, count in ((SEED, PLANES), (WIDE_SEED, WIDE))
     )
-    for number, place in enumerate(np.concatenate([few, many])):
+    for number, place in enumerate([*few, *many]):
         wide = number >= PLANES
-        hurst, breadth, rolled, rolloff, kind, loss, spread, tilt, branches, speed, at, shift = map(float, place)
-        kind, speed = 0.8 * kind + 0.2 * (kind > 0.9), 0.88 * speed
-        longest, ratio = RADIUS, WIDE_BREADTH if wide else between(BREADTHS, breadth)
-        shortest = longest / ratio
+        hurst, breadth, rolled, rolloff, kind, *others, speed, at, shift = place
+        ratio = WIDE_BREADTH if wide else between(BREADTHS, breadth)
+        shortest = RADIUS / ratio
         rolloffs = WIDE_ROLLOFFS if wide else (1.05, ratio)
         rough = SelfAffine(
             hurst=hurst,
             rms_height=1e-7,
-            longest=longest,
+            longest=RADIUS,
             shortest=shortest,
             rolloff=shortest * between(rolloffs, rolloff) if wide or rolled < 0.5 else None,
             seed=SURFACE_SEEDS * number,
         )
-        solid = solid_at(kind, loss, spread, tilt, branches, speed, shortest / (2 * pi))
-        drawn = heights(
-            Scene(Plane(), solid, Slide(speed=SPEED, pressure=1.0), rough), 2 * round(4 * ratio)
-        ).height
-        sides = longest, longest
-        friction = full_contact.friction(drawn, sides, solid, SPEED)
+        kind = 0.8 * kind + 0.2 * (kind > 0.9)
+        solid = solid_at(kind, *others, 0.88 * speed, shortest / (2 * pi))
+        scene = Scene(Plane(), solid, Slide(speed=SPEED, pressure=1.0), rough)
+        drawn, sides = heights(scene, 2 * round(4 * ratio)).height, (RADIUS, RADIUS)
+        lost = full_contact.friction(drawn, sides, solid, SPEED)
         pressure = float(full_contact.pressure(drawn, sides, solid, SPEED).std())
         numbers = waves(FullContact.of(Bands.of(rough), solid, SPEED))
         for index, (ends, counts) in enumerate(RANGES):
             x = between(ends, (at + shift * index) % 1)
-            scene = Scene(Plane(), solid, Slide(speed=SPEED, pressure=x * pressure), rough)
-            yield PlaneContact(number, index, scene, counts[wide], friction, pressure, numbers)
+            pressed = replace(scene, motion=Slide(speed=SPEED, pressure=x * pressure))
+            asked = tuple(tasks(pressed, counts[wide], number % CHECKS == 0 and not wide))
+            yield PlaneContact(number, pressed, asked, lost, pressure, numbers)
 
 
 def rows(found: list[PlaneContact], outcomes: Mapping[Task, Outcome]) -> Iterator[dict]:
     """Each plane under each pressure: where it lies, and the share with its standard error, relative."""
     for each in found:
-        area = each.scene.roughness.longest**2
-        coarse, *checked = (_means(outcomes[task]) for task in each.tasks)
-        mean = mean_ratio(coarse["friction"], np.full(coarse["friction"].size, each.friction * area))
-        finer = dict.fromkeys(coarse, nan)
-        if checked:
-            few, fine = checked
-            finer = {name: float(np.mean(fine[name]) / np.mean(few[name])) - 1 for name in fine}
-        rough = each.scene.roughness
+        coarse, *checked = (outcomes[task].rows for task in each.tasks)
+        rough, motion = each.scene.roughness, each.scene.motion
+        mean = friction(coarse)  # friction over the load
+        few, fine = (friction(rows).value for rows in checked) if checked else (1.0, nan)
         yield {
             "plane": each.number,
-            "x": each.scene.motion.pressure / each.pressure,
-            "share": float(mean.value),
-            "error": float(
-                np.std(coarse["friction"], ddof=1) / np.mean(coarse["friction"]) / coarse["friction"].size ** 0.5
-            ),
-            "area": float(np.mean(coarse["area"])),
-            "gap": float(np.mean(coarse["gap"])) / rough.rms_height,
-            **{f"{name}_finer": change for name, change in finer.items()},
+            "x": motion.pressure / each.pressure,
+            "share": float(mean.value) * motion.pressure / each.friction,
+            "error": float(mean.error / mean.value),
+            "gap": float(np.nanmean([row.measures.get("mean_gap", nan) for row in coarse])) / rough.rms_height,
+            "friction_finer": float(fine / few - 1),
             **{name: value for name, value in each.waves.items() if name != "one"},
-            "hurst": rough.hurst,
-            "breadth": rough.longest / rough.shortest,
-            "rolloff": rough.q_max(0.0) / rough.q_rolloff,
-            "solid": type(each.scene.elastomer).__name__,
         }
-
-
-def _means(outcome):
-    rows = [each for each in outcome.rows if each.reason is None]
-    return {
-        "friction": np.array([row.friction_force for row in rows]),
-        "area": np.array([row.measures["contact_fraction"] for row in rows]),
-        "gap": np.array([row.measures["mean_gap"] for row in rows]),
-    }
 
 
 def planes() -> DataFrame:
     """Planes with their share on ever finer grids: what those with a finer one differ by is alike for all."""
-    found = pandas.read_csv(PAGE.with_suffix(".csv"))
-    one = np.ones(len(found))
-    columns = np.stack([one, found["lossy"], np.log(found["x"])], axis=1)
+    found = pandas.read_csv(PAGE.with_suffix(".csv")).assign(one=1.0)
+    columns = np.stack([found["one"], found["lossy"], np.log(found["x"])], axis=1)
     seen = found["friction_finer"].notna().to_numpy()
     change = columns @ np.linalg.lstsq(columns[seen], found["friction_finer"][seen], rcond=None)[0]
     # Halving the pixel once more changes half as much again, and so on.
-    return found.assign(share=found["share"] * (1 + 2 * change), finer=change, one=one)
+    return found.assign(share=found["share"] * (1 + 2 * change))
 
 
-def fitted(found: DataFrame, names: list[tuple[str, str]], start: np.ndarray) -> np.ndarray:
+def fitted(found: DataFrame, start: Sequence[float]) -> np.ndarray:
     """Coefficients that fit most planes best: those that lie far off hardly count."""
     weight = 1 / np.hypot(found["error"], FLOOR).to_numpy()
-
-    def misfit(values):
-        return weight * np.log(share(found, names, values) / found["share"].to_numpy())
-
-    return least_squares(misfit, start, loss="cauchy").x
+    return least_squares(lambda values: weight * off(found, values), start, loss="cauchy").x
 
 
-def share(found: DataFrame, names: list[tuple[str, str]], values: np.ndarray) -> np.ndarray:
-    """S of each plane."""
-    return Share.summed(dict(zip(names, values, strict=True)), found)(found["x"].to_numpy())
+def off(found: DataFrame, values: Sequence[float]) -> np.ndarray:
+    """Logarithm of S of each plane, by values of the coefficients, over the measured share."""
+    share = Share.summed(dict(zip(coefficients(), values, strict=True)), found)
+    return np.log(share(found["x"].to_numpy()) / found["share"].to_numpy())
 
 
-def misfits(found: DataFrame, names: list[tuple[str, str]], values: np.ndarray) -> Iterator[dict]:
+def misfits(found: DataFrame, values: Sequence[float]) -> Iterator[dict]:
     """Misfit of planes held out by their pressure: median, nine in ten, and the standard error of the planes."""
-    off = np.abs(np.log(share(found, names, values) / found["share"].to_numpy()))
-    for low, high in PLACES:
+    misfit = np.abs(off(found, values))
+    for low, high in pairwise(PLACES):
         own = found["x"].between(low, high).to_numpy()
-        yield {
-            "from": low,
-            "to": high,
-            "planes": int(own.sum()),
-            "median": float(np.median(off[own])),
-            "nine in ten": float(np.quantile(off[own], 0.9)),
-            "error": float(np.median(found["error"][own])),
-        }
+        median, most = np.quantile(misfit[own], (0.5, 0.9))
+        row = {"from": low, "to": high, "planes": own.sum(), "median": median, "nine in ten": most}
+        yield row | {"error": found["error"][own].median()}
 
 
 def fit() -> None:
     """Fit S, with intervals of 95 % by drawing planes anew, and find its misfits on the planes held out."""
-    found, names = planes(), list(coefficients())
+    found = planes()
     held = found["plane"] % HELD_OUT == 0
-    learned = found[~held]
-    best = fitted(learned, names, np.array(list(coefficients().values())))
-    rng, own = np.random.default_rng(FIT_SEED), learned["plane"].unique()
-    groups = dict(list(learned.groupby("plane")))
-    drawn = np.array(
-        [
-            fitted(pandas.concat([groups[k] for k in rng.choice(own, own.size)]), names, best)
-            for _ in range(BOOTSTRAPS)
-        ]
-    )
-    low, high = np.quantile(drawn, [0.025, 0.975], axis=0)
-    lines = [
-        (to, times, f"{v:.4g}", f"{a:.4g}", f"{b:.4g}")
-        for (to, times), v, a, b in zip(names, best, low, high, strict=True)
+    best = fitted(found[~held], [*coefficients().values()])
+    rng, groups = np.random.default_rng(FIT_SEED), dict(list(found[~held].groupby("plane")))
+    drawn = [
+        fitted(pandas.concat([groups[k] for k in rng.choice([*groups], len(groups))]), best)
+        for _ in range(BOOTSTRAPS)
     ]
-    stored(FITTED, DataFrame(lines, columns=["to", "times", "value", "low", "high"]))
-    stored(PAGE.with_name("share.csv"), misfits(found[held], names, best))
+    low, high = np.quantile(drawn, [0.025, 0.975], axis=0)
+    numbers = DataFrame({"value": best, "low": low, "high": high}).map("{:.4g}".format)
+    stored(FITTED, DataFrame([*coefficients()], columns=["to", "times"]).join(numbers))
+    stored(PAGE.with_name("share.csv"), misfits(found[held], best))
 
 
 def main(only: str = "") -> None:

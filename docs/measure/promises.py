@@ -9,69 +9,114 @@ python docs/measure/promises.py [learn|fit|costs]
 """
 
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
+import friction_errors as errors
 import pandas
-from campaign import solved
-from promises_page import costs, errors, promises
-from tables import fill, of_count, stored, table
+import promised
+from pandas import DataFrame
+from random_contacts import drawn
+from tables import fill, of_count, solved, stored, table
 
-from bem3d.costs import MEASURED
+from bem3d import BEM
+from bem3d.costs import COSTS, MEASURED, band, body
+from bem3d.friction.bound import FITTED
+from compare.solving.task import Outcome, SceneTask, Task
+from scene import Indent
 
 PAGE = Path(__file__).parents[1] / "results" / "accuracy.md"
 FOLDER = PAGE.with_suffix("")
 SOLVED, STATED, KEPT, TABLE = (FOLDER / name for name in ("promises", "errors.csv", "kept.csv", "learned.csv.gz"))
 LEARNED = *range(300), *range(9000, 9180), *range(11000, 11180)  # seeds of contacts that bounds are fitted to
 HELD_OUT = range(13000, 13180)  # and of those that they are tested on
-PRICED = range(40)  # of those whose costs are measured
+# Contacts whose costs are measured: their seeds, grids and tolerance, and the fewest solves for a median.
+PRICED, TIGHT, FEWEST = range(40), 1e-7, 3
+POINTS = {"smooth": (16, 24, 32, 48, 64, 96, 128, 192, 512), "rough": (48, 64, 96, 128, 192, 256, 512)}
 
 
 def main(asked: str = "") -> None:
     """Do what is asked; without a word, solve what is judged, and write the numbers and the parts of the page."""
-    {"": judge, "learn": learn, "fit": lambda: errors.write(errors.refitted(TABLE)), "costs": price}[asked]()
+    {"": judge, "learn": learn, "fit": fit, "costs": price}[asked]()
 
 
 def price() -> None:
     """Measure costs."""
-    priced = list(costs.asked(PRICED))
-    stored(MEASURED, costs.rows(priced, solved(SOLVED, priced)))
+    tasks = list(priced())
+    stored(MEASURED, costs(tasks, solved(SOLVED, tasks)))
 
 
 def learn() -> None:
     """Solve contacts to learn from."""
     every = list(errors.to_learn(LEARNED))
-    tasks = [task for _, each in every for task in each.tasks]
-    errors.learn(TABLE, every, solved(SOLVED, dict.fromkeys(tasks)))
+    found = DataFrame(errors.learn(every, _solved(every)))
+    found.to_csv(TABLE, index=False, compression={"method": "gzip", "mtime": 0})
+
+
+def fit() -> None:
+    """Write the weights where three dimensions read them."""
+    weights = errors.refitted(pandas.read_csv(TABLE)).map("{:.4g}".format)
+    weights.to_csv(FITTED, index_label="sign", lineterminator="\n")
 
 
 def judge() -> None:
     """Solve what is judged, and write."""
     judged = [*errors.judged(HELD_OUT), *errors.judged_lines(HELD_OUT)]
-    outcomes = solved(SOLVED, dict.fromkeys(task for each in judged for task in each.tasks))
-    stored(STATED, errors.rows(judged, outcomes))
-    asked = list(promises.asked())
-    outcomes = solved(SOLVED, [task for each in asked for task in promises.with_truth(each)])
-    stored(KEPT, promises.kept(promises.rows(asked, outcomes)))
-    fill(parts())
+    stored(STATED, errors.rows(judged, _solved(judged)))
+    asked = list(promised.asked())
+    stored(KEPT, promised.kept(DataFrame(promised.rows(asked, _solved(asked)))))
+    fill(PAGE, parts())
 
 
-def parts() -> Mapping[tuple[Path, str], str]:
-    """Text between two comments, by the page and the name of the comment, from what is stored."""
-    regions = list(errors.regions(pandas.read_csv(STATED).to_dict("records")))
+def _solved(judged):
+    return solved(SOLVED, (task for each in judged for task in each.tasks))
+
+
+def priced() -> Iterator[SceneTask]:
+    """Contacts on every grid, sliding and at rest."""
+    for kind, grids in POINTS.items():
+        for seed in PRICED:
+            scene = drawn(kind, seed)
+            held = Indent(**{scene.motion.pressed_by: scene.motion.greatest})
+            for each in (scene, replace(scene, motion=held)):
+                for points in grids:
+                    solver = BEM(points=points, tolerance=TIGHT)  # plans bring its costs to other tolerances
+                    if not solver.refusals(each):
+                        yield SceneTask(solver, (each,), work=points**2.2 * 50.0)
+
+
+def costs(tasks: Sequence[SceneTask], outcomes: Mapping[Task, Outcome]) -> DataFrame:
+    """Medians of each cost by body, band and points, of FEWEST solves at least."""
+    names = ["body", "band", "cost", "points"]
+    spent = [
+        (body(scene), band(scene), cost, task.solver.points, getattr(outcomes[task].rows[0], cost))
+        for task in tasks
+        for scene in task.scenes
+        for cost in COSTS
+    ]
+    groups = DataFrame(spent, columns=[*names, "value"]).dropna().groupby(names, sort=False)["value"]
+    found = groups.agg(value="median", answers="size").reset_index()
+    found["value"] = [float(f"{value:.3g}") for value in found["value"]]
+    return found[found["answers"] >= FEWEST]
+
+
+def parts() -> dict[str, str]:
+    """Text between two comments of the page, by the name of the comment."""
+    regions = list(errors.regions(pandas.read_csv(STATED)))
     low = [f"{each['model']}, {each['region']}" for each in regions if each["upper"] < errors.SHARE]
     worst = f"Significantly below 95 %: {'; '.join(low)}." if low else "No region is significantly below 95 %."
     rows = (_of_region(each) for each in regions if each["region"] == "all")
     header = "solver|answers|within the bound|interval of 95 %|median error|median bound"
     return {
-        (PAGE, "stated"): f"{table(header, rows)}\n\n{worst}",
-        (PAGE, "kept"): _kept(pandas.read_csv(KEPT)[["asked", "confirmed", "checked", "broken"]].sum()),
+        "stated": f"{table(header, rows)}\n\n{worst}",
+        "kept": _kept(pandas.read_csv(KEPT)[["asked", "confirmed", "checked", "broken"]].sum()),
     }
 
 
 def _of_region(each) -> tuple[str, ...]:
     share, interval = f"{each['held'] / each['answers']:.1%}", f"{each['lower']:.1%} to {each['upper']:.1%}"
-    medians = (f"{each[name]:.2g}" for name in ("median_error", "median_bound"))
+    medians = (f"{median:.2g}" for median in each["medians"])
     return each["model"], str(each["answers"]), share, interval, *medians
 
 

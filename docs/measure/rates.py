@@ -5,7 +5,7 @@ python docs/measure/rates.py
 Friction is drawn with an answer that is known. It takes minutes on one core; every draw follows from SEED.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from math import sqrt
 from pathlib import Path
 
@@ -119,8 +119,8 @@ def verdicts() -> Iterator[dict]:
             }
 
 
-def parts() -> Mapping[tuple[Path, str], str]:
-    """Text between two comments, by the page and the name of the comment, from what is stored."""
+def parts() -> dict[str, str]:
+    """Text between two comments of the page, by the name of the comment."""
     means, judged = pandas.read_csv(MEANS), pandas.read_csv(VERDICTS)
     shares = (
         (f"{scatter:.0%}", *(f"{100 * row.ours:.1f} ({100 * row.student:.1f})" for row in own.itertuples()))
@@ -128,8 +128,8 @@ def parts() -> Mapping[tuple[Path, str], str]:
     )
     rows = ((law, *map(_shown, own.itertuples())) for law, own in judged.groupby("law", sort=False))
     return {
-        (PAGE, "means"): table("scatter of a draw|" + "|".join(f"{count} draws" for count in SAMPLED), shares),
-        (PAGE, "verdicts"): table("law|" + "|".join(CLAIMS), rows),
+        "means": table("scatter of a draw|" + "|".join(f"{count} draws" for count in SAMPLED), shares),
+        "verdicts": table("law|" + "|".join(CLAIMS), rows),
     }
 
 
@@ -142,7 +142,7 @@ def main() -> None:
     """Draw, and write the numbers and the parts of the page."""
     stored(MEANS, (mean_of_draws(variation, count) for variation in VARIATIONS for count in SAMPLED))
     stored(VERDICTS, verdicts())
-    fill(parts())
+    fill(PAGE, parts())
 
 
 if __name__ == "__main__":

@@ -7,13 +7,12 @@ and a half hours on two cores.
 """
 
 import shutil
-from collections.abc import Iterator, Mapping
 from math import hypot
 from pathlib import Path
 
 import numpy as np
 import pandas
-from pandas import DataFrame, Series
+from pandas import DataFrame
 from tables import fill, finding, stored, table, with_interval
 
 import compare
@@ -30,6 +29,7 @@ PAGE = Path(__file__).parents[1] / "results" / "law.md"
 SLOW, FAST = (PAGE.with_suffix("") / f"{name}.csv" for name in ("slow", "fast"))
 STUDIES = "steep-and-slow", "steep-all-speeds", "steep-on-fine-grids"
 SOLVERS = {"1D": "MDR", "3D": "BEM"}
+PLAIN = "eq23.collapse", "eq23.predicted", "eq23.vertical-alone"
 EXPONENT = {"sphere": 1.5, "cone": 2.0}  # (n + 1)/n: p(v) of a Kelvin solid is v to the power of minus that
 BODIES = tuple(EXPONENT)
 COLUMNS = ["claim", "where", "model", "value", "low", "high", "surfaces", "verdict"]
@@ -71,109 +71,102 @@ def main() -> None:
     slow, whole, fine = reports = [compare.study(name, "standard", progress="lines") for name in STUDIES]
     trees = [compare.load(report.path.parent) for report in reports]
     stored(SLOW, slow.findings[slow.findings["claim"].isin(OF_SLOW)].drop(columns=["meaning"]))
-    rows = []
-    for body in BODIES:
-        for model in SOLVERS:
-            rows += [finding(whole.findings, claim, body, model)[COLUMNS].to_dict() for claim in _PLAIN]
-            rows += _from_the_knee(trees[1], model, body)
-            plateau = (finding(whole.findings, claim, body, model)[COLUMNS].to_dict() for claim in PLATEAUS)
-            corrected = (_corrected(whole.findings, fine.findings, trees[1:], each, body) for each in PLATEAUS)
-            rows += plateau if model == "1D" else corrected
-        rows += [finding(whole.findings, claim, body, "3D")[COLUMNS].to_dict() for claim in MASTER]
-    stored(FAST, rows)
+    rows = _fast(whole.findings, fine.findings, trees[1:])
+    stored(FAST, DataFrame(map(dict, rows), columns=COLUMNS))
     shutil.copy(slow.path.parent / "sphere" / "behind.png", PAGE.with_name("law-partial.png"))
     shutil.copy(whole.path.parent / "sphere" / "law.png", PAGE.with_name("law-sphere.png"))
-    fill(parts())
+    fill(PAGE, parts())
 
 
-_PLAIN = "eq23.collapse", "eq23.predicted", "eq23.vertical-alone"
+def _fast(whole, fine, trees):
+    """Rows of FAST, of all findings of two studies and their answers."""
+    for body in BODIES:
+        for model in SOLVERS:
+            yield from (finding(whole, claim, body, model) for claim in PLAIN)
+            yield from _from_the_knee(trees[0], model, body)
+            for claim in PLATEAUS:
+                many = finding(whole, claim, body, model)
+                yield many if model == "1D" else _corrected(many, finding(fine, claim, body, model), trees)
+        yield from (finding(whole, claim, body, "3D") for claim in MASTER)
 
 
-def parts() -> Mapping[tuple[Path, str], str]:
-    """Text between two comments, by the page and the name of the comment, from what is stored."""
+def parts() -> dict[str, str]:
+    """Text between two comments of the page, by the name of the comment."""
     slow, fast = pandas.read_csv(SLOW), pandas.read_csv(FAST)
-    master = ((words, *(_judged(fast, claim, body) for body in BODIES)) for claim, words in MASTER.items())
-    header = "|".join(["", *(f"{body}, {model}" for body in BODIES for model in SOLVERS)])
+    places = [(body, model) for body in BODIES for model in SOLVERS]
+    every = ((slow, OF_SLOW), (fast, SHIFTED), (fast, OF_PLATEAU))
+    regime = (
+        (words, *(_shown(found, claim, *place) for place in places))
+        for found, claims in every
+        for claim, words in claims.items()
+    )
+    master = (
+        (
+            words,
+            *(f"{finding(fast, claim, body, '3D')['verdict']}: {_shown(fast, claim, body)}" for body in BODIES),
+        )
+        for claim, words in MASTER.items()
+    )
     return {
-        (PAGE, "slow"): slow_answer(slow),
-        (PAGE, "fast"): fast_answer(fast),
-        (PAGE, "regime"): table(header, _cells(slow, fast)),
-        (PAGE, "master"): table("|sphere|cone", master),
+        "slow": slow_answer(slow),
+        "fast": fast_answer(fast),
+        "regime": table("|".join(["", *map(", ".join, places)]), regime),
+        "master": table("|sphere|cone", master),
     }
 
 
-def _cells(slow: DataFrame, fast: DataFrame) -> Iterator[tuple[str, ...]]:
-    for found, claims in ((slow, OF_SLOW), (fast, SHIFTED), (fast, OF_PLATEAU)):
-        for claim, words in claims.items():
-            places = (finding(found, claim, body, model) for body in BODIES for model in SOLVERS)
-            yield words, *(_shown(row) for row in places)
-
-
-def _shown(row: Series) -> str:
-    """Value with its interval: a misfit in percent."""
-    if row["claim"].startswith("eq23"):
+def _shown(found: DataFrame, claim: str, body: str, model: str = "3D") -> str:
+    """Value of a finding with its interval: a misfit in percent."""
+    row = finding(found, claim, body, model)
+    if claim.startswith(("eq23", "law3d")):
         return with_interval(row, 1, percent=True)
     return with_interval(row, 1 if row["value"] > 2 else 3)
 
 
-def _judged(found: DataFrame, claim: str, body: str) -> str:
-    row = finding(found, claim, body, "3D")
-    return f"{row['verdict']}: {with_interval(row, 1, percent=True)}"
-
-
 def slow_answer(found: DataFrame) -> str:
     """What slow friction does, in two sentences."""
-    numbers = [_shown(finding(found, "eq17.load-exponent", body, "3D")) for body in BODIES]
+    numbers = [_shown(found, "eq17.load-exponent", body) for body in BODIES]
     for series in asked.study(STUDIES[0], "standard").series:
         for claim, load in zip(LEVELS, (series.values[0], series.values[-1]), strict=True):
-            numbers += [_shown(finding(found, claim, series.name, "3D")), f"{load:.3g}"]
+            numbers += [_shown(found, claim, series.name), f"{load:.3g}"]
     return SLOW_ANSWER.format(*numbers)
 
 
 def fast_answer(found: DataFrame) -> str:
     """Two sentences on the errors of Eq. 23 and of the plateau."""
-    missed = [
-        _shown(finding(found, f"eq23.predicted{which}", body, model)).replace(" %", "")
-        for model, which in (("1D", ""), ("3D", ""), ("3D", BEYOND))
-        for body in BODIES
-    ]
-    in_1d = [each.split(" ")[0] for each in missed[:2]]
-    levels = (_shown(finding(found, claim, body, "3D")) for claim in PLATEAUS for body in BODIES)
-    return FAST_ANSWER.format(*in_1d, *missed[2:], *levels)
+    in_1d = [_shown(found, "eq23.predicted", body, "1D").split(" ")[0] for body in BODIES]
+    missed = [_shown(found, f"eq23.predicted{which}", body) for which in ("", BEYOND) for body in BODIES]
+    levels = (_shown(found, claim, body) for claim in PLATEAUS for body in BODIES)
+    return FAST_ANSWER.format(*in_1d, *(each.replace(" %", "") for each in missed), *levels)
 
 
 def _from_the_knee(tree, model, body):
     """Misfits of shifted curves at the speeds from the knee on."""
-    answers = _sliding(tree, body, SOLVERS[model])
     scene = next(each.scene for each in study_file.STUDIES["regime"].series("full") if each.name == body)
     slowest = KNEE * scene.roughness.shortest / (2 * np.pi * scene.elastomer.relaxation_time)
-    answers = answers.isel(speed=np.flatnonzero(answers["speed"] >= 0.999 * slowest))
+    answers = _sliding(tree, body, SOLVERS[model]).sel(speed=slice(0.999 * slowest, None))
     fine, coarse = (collapse(SimulatedCurves.of(answers.sel(level=grid))) for grid in (FINE, COARSE))
-    shifts = -EXPONENT[body] * np.log(fine.speeds)
-    for each in eq23.findings(fine, coarse, model, shifts, where=body):
-        if each.claim.id in _PLAIN:
-            row = each.row
-            yield {name: row[name] for name in COLUMNS} | {"claim": f"{each.claim.id}{BEYOND}"}
+    for each in eq23.findings(fine, coarse, model, -EXPONENT[body] * np.log(fine.speeds), where=body):
+        if each.claim.id in PLAIN:
+            yield each.row | {"claim": f"{each.claim.id}{BEYOND}"}
 
 
-def _corrected(found, fine, trees, claim, body):
+def _corrected(many, few, trees):
     """A plateau of many surfaces on the coarse grid, brought to the finest by the few that were solved on both.
 
     The interval holds the scatter of the many, the scatter of the change, and the last change of the grid.
     """
-    many, few = (finding(each, claim, body, "3D") for each in (found, fine))
-    coarse, finest = (_friction(tree, body) for tree in trees)
-    load = -1 if claim.endswith(ENDS[-1]) else 0
-    place = int(np.argmin(abs(np.log(coarse[0] / finest[0][-1]))))
-    surfaces = finest[1].shape[-1]
-    moved = mean_ratio(np.log(finest[1][-1, load] / coarse[1][place, load, :surfaces]))
+    coarse, finest = (_friction(tree, many["where"]) for tree in trees)
+    load = -1 if many["claim"].endswith(ENDS[-1]) else 0
+    fine = finest.isel(speed=-1, load=load)
+    before = coarse.sel(speed=float(fine["speed"]), method="nearest").isel(load=load, surface=slice(fine.size))
+    moved = mean_ratio(np.log(fine.values / before.values))
     value, *ends = many["value"] * np.exp([moved.value, *moved.interval()])
     # Ends without the share of the grid, from the value.
     scatter = many["low"] + many["grid"] - many["value"], many["high"] - many["grid"] - many["value"]
     below, above = (hypot(one, end - value) + few["grid"] for one, end in zip(scatter, ends, strict=True))
     judged = verdict(many["expected"], many["tolerance"], value - below, value + above)
-    corrected = {"value": value, "low": value - below, "high": value + above, "verdict": judged}
-    return many[COLUMNS].to_dict() | corrected
+    return dict(many) | {"value": value, "low": value - below, "high": value + above, "verdict": judged}
 
 
 def _sliding(tree, body, solver):
@@ -182,10 +175,9 @@ def _sliding(tree, body, solver):
 
 
 def _friction(tree, body):
-    """Speeds, and friction of each surface (speeds, loads, surfaces) on the finer grid of a study."""
+    """Friction of each surface at each speed and load on the finer grid of a study."""
     sliding = _sliding(tree, body, "BEM").sel(level=FINE)
-    coefficient = (sliding["friction_force"] / sliding["normal_force"]).transpose("speed", "load", "surface")
-    return sliding["speed"].values, coefficient.values
+    return sliding["friction_force"] / sliding["normal_force"]
 
 
 if __name__ == "__main__":

@@ -1,13 +1,12 @@
 """Scores of the trust map on scenes held out: errors, coverage and advice, by region."""
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, fields
-from functools import cached_property
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import product
 from math import log
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
+from pandas import DataFrame, concat
 from scipy.special import ndtr
 from tables import of_count
 
@@ -27,7 +26,7 @@ from compare.trustmap.model import (
     parts,
 )
 from compare.trustmap.table import column, measurements
-from compare.trustmap.verdict import MULTIPLY, SOLVE, USE, advice_on
+from compare.trustmap.verdict import SOLVE, USE, advice_on
 
 # Regions of the map, where errors and advice are stated, each a condition on groups.
 SPEEDS: dict[str, Condition] = {
@@ -57,172 +56,125 @@ FEWEST = 5
 ENOUGH, PROMISED = 40, 0.95
 # Of the narrower of two intervals, of 1D and of the law.
 BEST = "best-advice"
-STATED = {**REGIONS, "prescribed": COVERED["prescribed"], "surface": SURFACES}
+STATED: dict[str, dict[str, Condition]] = {
+    "all": {"all": lambda g: np.isfinite(g["shape"])},
+    **REGIONS,
+    "prescribed": COVERED["prescribed"],
+    "surface": SURFACES,
+}
 
 
-@dataclass(frozen=True, eq=False)
-class Score:
-    """Ratios predicted and measured, of scenes with one quantity (N,).
+def score(measured: Measurements, predicted: Predicted, slides: np.ndarray) -> DataFrame:
+    """Ratios predicted and measured, a row for each scene: its groups by name, and
 
-    measured, predicted : of the same scenes; where a mean is not above zero there is no ratio, and no error
+    slides : whether it slides
+    ratio, error : predicted, with the standard error of its logarithm
+    advice : on it; usable : whether that is "use" or "multiply"
+    off : relative error of corrected 1D, the scatter of the truth in it; NaN where a mean is not above zero
+    held : whether the ratio is within the interval of 95 %, widened by the noise of the truth
+    surface_held : share of single surfaces, as they were measured, within the interval of one, where it has one
     """
-
-    measured: Measurements
-    predicted: Predicted
-
-    def taken(self, chosen: np.ndarray) -> "Score":
-        """Score of some scenes: a mask or numbers of scenes."""
-        return Score(self.measured.taken(chosen), Predicted(*(each[chosen] for each in self.predicted)))
-
-    def best(self, other: "Score") -> "Score":
-        """Score that takes for each scene the narrower of two intervals, and is usable where either is."""
-        first = np.where(self.usable == other.usable, self.predicted.error <= other.predicted.error, self.usable)
-
-        def picked(ours, theirs):
-            return np.where(first.reshape(-1, *[1] * (ours.ndim - 1)), ours, theirs)
-
-        measured = (
-            picked(getattr(self.measured, each.name), getattr(other.measured, each.name))
-            for each in fields(Measurements)
-        )
-        predicted = (picked(*each) for each in zip(self.predicted, other.predicted, strict=True))
-        return Score(Measurements(*measured), Predicted(*predicted))
-
-    @cached_property
-    def variance(self) -> np.ndarray:
-        """Variance of the measured logarithms (N,)."""
-        return self.measured.variance(self.predicted.scatter)
-
-    @cached_property
-    def advice(self) -> np.ndarray:
-        """Advice on each scene (N,)."""
-        ratio, error = np.exp(self.predicted.logarithm), self.predicted.error
-        return np.array([advice_on(*each) for each in zip(ratio, error, strict=True)])
-
-    @property
-    def usable(self) -> np.ndarray:
-        """Mask of the scenes that get "use" or "multiply" (N,)."""
-        return self.advice != SOLVE
-
-    @property
-    def used(self) -> "Score":
-        """Score of the scenes that are usable and have a ratio: whose errors count."""
-        return self.taken(self.usable & np.isfinite(self.measured.logarithm))
-
-    @cached_property
-    def errors(self) -> np.ndarray:
-        """Relative errors of corrected 1D (N,), the scatter of the truth in them."""
-        return np.expm1(self.measured.logarithm - self.predicted.logarithm)
-
-    @cached_property
-    def held(self) -> np.ndarray:
-        """Mask of the measured ratios within the interval of 95 % (N,), widened by the noise of the truth."""
-        apart = self.measured.logarithm - self.predicted.logarithm
-        return np.abs(apart) < NORMAL * np.sqrt(self.predicted.error**2 + self.variance)
-
-    @property
-    def covered(self) -> float:
-        """Share of the measured ratios within the interval of 95 %."""
-        return float(np.mean(self.held))
-
-    @property
-    def surfaces_covered(self) -> float:
-        """Share of single surfaces within the interval of one surface, where it has one, as they were measured."""
-        if not self.predicted.surface_known.all():
-            return self.taken(self.predicted.surface_known).surfaces_covered
-        apart = self.measured.logarithm - self.predicted.logarithm
-        width = NORMAL * np.hypot(self.predicted.error, self.predicted.scatter)
-        scatter = np.maximum(np.nan_to_num(self.measured.scatter), 1e-9)
-        return float(np.mean(ndtr((width - apart) / scatter) - ndtr((-width - apart) / scatter)))
+    apart, ratio, error = measured.logarithm - predicted.logarithm, np.exp(predicted.logarithm), predicted.error
+    advice = np.array([advice_on(*each) for each in zip(ratio, error, strict=True)])
+    width, scatter = NORMAL * np.hypot(error, predicted.scatter), np.maximum(np.nan_to_num(measured.scatter), 1e-9)
+    inside = ndtr((width - apart) / scatter) - ndtr((-width - apart) / scatter)
+    return DataFrame(measured.groups, columns=NAMES).assign(
+        slides=slides,
+        ratio=ratio,
+        error=error,
+        advice=advice,
+        usable=advice != SOLVE,
+        off=np.expm1(apart),
+        held=np.abs(apart) < NORMAL * np.sqrt(error**2 + measured.variance(predicted.scatter)),
+        surface_held=np.where(predicted.surface_known, inside, np.nan),
+    )
 
 
-# A score, and the groups of its scenes by name.
-Scored: TypeAlias = tuple[Score, Mapping[str, np.ndarray]]
+def used(score: DataFrame) -> DataFrame:
+    """Scenes that are usable and have a ratio: whose errors count."""
+    return score[score["usable"] & score["off"].notna()]
 
 
-def scored(held_out: Mapping[str, np.ndarray], models: Mapping[str, Model]) -> dict[str, Scored]:
+def best(first: DataFrame, second: DataFrame) -> DataFrame:
+    """Score that takes for each scene the narrower of two intervals, and is usable where either is."""
+    alike = first["usable"] == second["usable"]
+    ours = (alike & (first["error"] <= second["error"])) | (~alike & first["usable"])
+    return concat([first[ours], second[~ours]]).sort_index()
+
+
+def scored(held_out: Mapping[str, np.ndarray], models: Mapping[str, Model]) -> dict[str, DataFrame]:
     """Score of each model on the scenes of a table, and of the best advice on friction.
 
     Off the map nothing is known: the advice is to solve.
     """
-    found: dict[str, Scored] = {}
+    found = {}
     for name, model in models.items():
         rows, measured = measurements(held_out, name)
-        groups = {each: held_out[each][rows] for each in NAMES}
-        groups["slides"] = held_out[column("friction", "surfaces")][rows] > 0
         off = np.array([bool(beyond_measured(place)) for place in measured.groups], bool)
         predicted = model.predicted(np.clip(measured.groups, *limits()))
         predicted = predicted._replace(error=np.where(off, np.inf, predicted.error))
-        found[name] = Score(measured, predicted), groups
-    line, law = found["friction"], found[LAW]
-    return {**found, BEST: (line[0].best(law[0]), line[1])}
+        found[name] = score(measured, predicted, held_out[column("friction", "surfaces")][rows] > 0)
+    return {**found, BEST: best(found["friction"], found[LAW])}
 
 
-def of_surfaces(scores: Mapping[str, Scored], name: str) -> dict[str, Scored]:
+def of_surfaces(scores: Mapping[str, DataFrame], name: str) -> dict[str, DataFrame]:
     """Scores on the scenes with surfaces of one kind, see SURFACES."""
-    found: dict[str, Scored] = {}
-    for each, (score, groups) in scores.items():
-        here = SURFACES[name](groups)
-        found[each] = score.taken(here), {key: values[here] for key, values in groups.items()}
-    return found
+    return {each: score[SURFACES[name](score)] for each, score in scores.items()}
 
 
-def error_rows(scores: Mapping[str, Scored]) -> Iterator[dict[str, Any]]:
-    """Errors as measured and share within the interval, by ratio and region, a kind of region at a time.
+def error_rows(
+    scores: Mapping[str, DataFrame], kinds: Mapping[str, Mapping[str, Condition]] = STATED
+) -> Iterator[dict[str, Any]]:
+    """Errors as measured and share within the interval, by region, a kind of region at a time, and ratio.
 
     fails : as in `coverage_rows`
     """
-    kinds = {"all": {"all": lambda groups: groups["shape"] == groups["shape"]}, **STATED}
-    for (name, (score, groups)), (kind, regions) in product(scores.items(), kinds.items()):
-        for region, condition in regions.items():
-            here = condition(groups) & np.isfinite(score.measured.logarithm)
-            used = score.taken(here & score.usable)
-            if not used.usable.size:
-                continue
-            half, most = np.quantile(np.abs(used.errors), (0.5, 0.9))
-            row = {"ratio": name, "by": kind, "region": region, "scenes": int(here.sum())}
-            row |= {"usable": float(score.usable[here].mean()), "median": half, "nine in ten": most}
-            yield row | _held(used)
+    for kind, regions in kinds.items():
+        for (region, condition), (name, score) in product(regions.items(), scores.items()):
+            here = score[condition(score) & score["off"].notna()]
+            if len(counted := used(here)):
+                half, most = np.quantile(np.abs(counted["off"]), (0.5, 0.9))
+                row = {"ratio": name, "by": kind, "region": region, "scenes": len(here)}
+                row |= {"usable": here["usable"].mean(), "median": half, "nine in ten": most}
+                yield row | _held(counted)
 
 
 def _held(used):
     """Share within the interval with its own, and whether it fails what was promised."""
-    tried = used.usable.size
-    low, high = of_count(int(used.held.sum()), tried)
-    fails = tried >= ENOUGH and high < PROMISED
-    return {"in 95 %": used.covered, "least": low, "most": high, "fails": fails}
+    low, high = of_count(int(used["held"].sum()), len(used))
+    fails = len(used) >= ENOUGH and high < PROMISED
+    return {"in 95 %": used["held"].mean(), "least": low, "most": high, "fails": fails}
 
 
-def coverage_rows(scores: Mapping[str, Scored]) -> Iterator[dict[str, Any]]:
+def coverage_rows(scores: Mapping[str, DataFrame]) -> Iterator[dict[str, Any]]:
     """Share of the usable ratios within their interval, by quantity and region, with the interval of the count.
 
     fails : whether a region of enough scenes has significantly fewer than what was promised
     """
-    for name, (score, groups) in scores.items():
-        counts = score.usable & np.isfinite(score.measured.logarithm)
-        for named, here in parts(COVERED, groups):
-            used = score.taken(here & counts)
-            if used.usable.size:
-                row = dict(zip(COVERED, named, strict=True)) | {"quantity": name, "scenes": used.usable.size}
-                yield row | _held(used)
+    for name, score in scores.items():
+        for named, here in parts(COVERED, score):
+            if len(counted := used(score[here])):
+                row = dict(zip(COVERED, named, strict=True)) | {"quantity": name, "scenes": len(counted)}
+                yield row | _held(counted)
 
 
-def advice_rows(scores: Mapping[str, Scored]) -> Iterator[dict[str, Any]]:
-    """Factor on 1D, half its interval, and share of each advice, by quantity, speed and roughness.
+def advice_rows(scores: Sequence[DataFrame]) -> Iterator[tuple[str, ...]]:
+    """A row for each regime, a cell for each score: factor on it, half its interval, and share to solve."""
+    for speed, roughness in product(("slow", "fast", "at rest"), ROUGHNESS):
+        cells = (_advice(score[SPEEDS[speed](score) & ROUGHNESS[roughness](score)]) for score in scores)
+        yield f"{speed}, {roughness}", *cells
 
-    The factor is taken over the usable scenes, from the lowest to the highest of nine in ten.
-    """
-    regimes = list(product(SPEEDS.items(), ROUGHNESS.items()))
-    for (name, (score, groups)), ((speed, moves), (roughness, touches)) in product(scores.items(), regimes):
-        here = moves(groups) & touches(groups)
-        part = score.taken(here)
-        if here.sum() < FEWEST:
-            continue
-        row: dict[str, Any] = {"speed": speed, "roughness": roughness, "quantity": name}
-        row |= {kind: float(np.mean(part.advice == kind)) for kind in (USE, MULTIPLY, SOLVE)}
-        if part.usable.any():
-            known = part.taken(part.usable).predicted
-            low, middle, high = np.quantile(np.exp(-known.logarithm), (0.05, 0.5, 0.95))
-            half = np.median(np.expm1(NORMAL * known.error))
-            row |= {"factor": middle, "from": low, "to": high, "interval": half}
-        yield row
+
+def _advice(part: DataFrame) -> str:
+    """Advice of most scenes; a factor with its range, from the lowest to the highest of nine in ten."""
+    if len(part) < FEWEST:
+        return ""
+    used, left = ((part["advice"] == kind).mean() for kind in (USE, SOLVE))
+    solve = f"solve {100 * left:.0f} %"
+    if left > 0.5:
+        return solve
+    known = part[part["usable"]]
+    low, middle, high = np.quantile(1 / known["ratio"], (0.05, 0.5, 0.95))
+    kind = "use" if used > 0.5 else f"× {middle:.2f} ({low:.2f} to {high:.2f})"
+    half = 100 * np.median(np.expm1(NORMAL * known["error"]))
+    return f"{kind}, ±{half:.2g} %" + (f"; {solve}" if left > 0.005 else "")

@@ -5,16 +5,15 @@ memory.
 """
 
 from dataclasses import dataclass, replace
-from math import nan, pi
+from math import nan
 from pathlib import Path
 
 import numpy as np
 import pandas
-from campaign import solved
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 from pandas import DataFrame
-from tables import limit, stored
+from tables import limit, solved, stored
 
 from bem3d import BEM, refined
 from compare.figures import style
@@ -78,39 +77,25 @@ def _tasks(shape):
 
 def _row(shape, task, rows):
     """Means over surfaces or profiles."""
-    nominal, mean = elastic_contact(task.scenes[0]).radius, DataFrame([row.measures for row in rows]).mean()
-    three, count = not isinstance(task.solver, MDR), len(rows)
-    force = rows[0].normal_force
-    return {
-        "shape": shape,
-        "dimension": "3D" if three else "1D",
-        "points": task.solver.points,
-        "pixels_a_wave": mean.get("points_per_shortest_wave", nan),
-        "friction": sum(row.friction_coefficient for row in rows) / count,
-        "depth": sum(row.depth for row in rows) / count,
-        "contact": mean["contact_area"] / (pi * nominal**2) if three else mean["contact_length"] / (2 * nominal),
-        "contact_points": mean.get("contact_points", nan),
-        "rms_slope": mean.get("rms_slope", nan),
-        "by_traction": mean["friction_by_traction"] / force if three else nan,
-        "by_loss": mean["friction_by_loss"] / force if three else nan,
-        "seconds": sum(row.seconds for row in rows),
-    }
+    mean = DataFrame([row.measures | {"friction": row.friction_coefficient} for row in rows]).mean()
+    three = not isinstance(task.solver, MDR)
+    found = {"shape": shape, "dimension": "3D" if three else "1D", "points": task.solver.points}
+    found |= {"pixels_a_wave": mean.get("points_per_shortest_wave", nan), "friction": mean["friction"]}
+    found |= {"rms_slope": mean.get("rms_slope", nan)}
+    return found | {name: mean[f"friction_{name}"] / rows[0].normal_force if three else nan for name in ESTIMATES}
 
 
 def sentences() -> str:
-    """Sentences on both bodies, from what is stored."""
-    found = pandas.read_csv(PAGE.with_suffix(".csv"))
-    return " ".join(sentence(shape, found[found["shape"] == shape]) for shape in SHAPES)
-
-
-def sentence(shape: str, own: DataFrame) -> str:
-    """Friction in 3D, between its estimates, and in 1D."""
-    three, (one,) = own[own["dimension"] == "3D"], own[own["dimension"] == "1D"].itertuples()
-    (low, high), slope = ends(three), three["rms_slope"].iloc[0]
-    return (
-        f"Friction of the {shape} is {(low + high) / 2:.2f} ({low:.2f} to {high:.2f}) in 3D on this surface, and "
-        f"{one.friction:.2f} in 1D. The rms slope of {slope:.1f} is far beyond any linear theory."
-    )
+    """Friction of both bodies in 3D, between its estimates, and in 1D, from what is stored."""
+    found, said = pandas.read_csv(PAGE.with_suffix(".csv")), []
+    for shape, own in found.groupby("shape", sort=False):
+        three, (one,) = own[own["dimension"] == "3D"], own[own["dimension"] == "1D"]["friction"]
+        (low, high), slope = ends(three), three["rms_slope"].iloc[0]
+        said.append(
+            f"Friction of the {shape} is {(low + high) / 2:.2f} ({low:.2f} to {high:.2f}) in 3D on this surface, "
+            f"and {one:.2f} in 1D. The rms slope of {slope:.1f} is far beyond any linear theory."
+        )
+    return " ".join(said)
 
 
 def ends(three: DataFrame) -> tuple[float, float]:
@@ -158,9 +143,9 @@ def _friction(axes, frame):
     for (shape, own), form in zip(frame.groupby("shape", sort=False), style.forms(), strict=False):
         three, (one,) = own[own["dimension"] == "3D"], own[own["dimension"] == "1D"].itertuples()
         look = {"color": style.colour("BEM"), "marker": form["marker"]}
-        axes.plot(three["pixels_a_wave"], three["by_traction"], "-", label="3D, by traction", **look)
-        hollow = {"markerfacecolor": style.paper(), "label": "3D, by loss"}
-        axes.plot(three["pixels_a_wave"], three["by_loss"], "--", **look, **hollow)
+        for name, line, inside in zip(ESTIMATES, ("-", "--"), (look["color"], style.paper()), strict=True):
+            look |= {"label": f"3D, {name.replace('_', ' ')}", "markerfacecolor": inside}
+            axes.plot(three["pixels_a_wave"], three[name], line, **look)
         low, high = ends(three)
         answer = {"color": style.ink(), "marker": form["marker"], "linestyle": "none", "label": "3D, answer"}
         axes.errorbar(30, (low + high) / 2, (high - low) / 2, **answer)

@@ -1,26 +1,26 @@
-"""Tables of the pages that are measured."""
+"""What the measured pages share: solving what is not solved yet, with a bar, and the tables of a page."""
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 from pandas import DataFrame, Series
 from scipy.special import betaincinv
 
+from compare.solving.folders import lock
+from compare.solving.runner import sweep
+from compare.solving.store import Store
+from compare.solving.task import Outcome, Row, Task
+from compare.solving.terminal import Shown
+from compare.statistics.intervals import Estimated
+from compare.statistics.jackknife import mean_ratio
 
-def table(header: str, rows: Iterable[tuple]) -> str:
+
+def table(header: str, rows: Iterable[Iterable[str]]) -> str:
     """A Markdown table; columns are named in the header, separated by |."""
     names = header.split("|")
-    lines = [" | ".join(names), " | ".join("---" for _ in names)]
-    lines += [" | ".join(row) for row in rows]
-    return "\n".join(f"| {line} |" for line in lines)
-
-
-def by_column(rows: Iterable[dict]) -> str:
-    """Rows by the names of their columns as a Markdown table."""
-    rows = list(rows)
-    return table("|".join(rows[0]), (tuple(map(str, row.values())) for row in rows))
+    return "\n".join(f"| {' | '.join(row)} |" for row in (names, ["---"] * len(names), *rows))
 
 
 def stored(path: Path, rows: DataFrame | Iterable[dict]) -> None:
@@ -28,11 +28,10 @@ def stored(path: Path, rows: DataFrame | Iterable[dict]) -> None:
     DataFrame(rows).to_csv(path, index=False, na_rep="nan")
 
 
-def finding(found: DataFrame, claim: str, where: str, model: str = "") -> Series:
-    """The row on a claim in a place, of one model where there are several."""
-    chosen = found["claim"].eq(claim) & found["where"].eq(where)
-    (place,) = np.flatnonzero(chosen & (found["model"].eq(model) | (not model)))
-    return found.iloc[place]
+def finding(found: DataFrame, claim: str, where: str, model: str) -> Series:
+    """The row on a claim in a place, of one model."""
+    ((_, row),) = found[(found[["claim", "where", "model"]] == [claim, where, model]).all(axis=1)].iterrows()
+    return row
 
 
 def with_interval(row: Series | Mapping, digits: int = 3, percent: bool = False) -> str:
@@ -47,14 +46,11 @@ def order(points, errors) -> float:
     return -np.polyfit(np.log(points), np.log(errors), 1)[0]
 
 
-def limit(values, least: float = 0.0) -> float:
-    """Limit of numbers on grids of half the pixel each, at the order of the last three.
-
-    NaN where they show none, or one below the least.
-    """
+def limit(values) -> float:
+    """Limit of numbers on grids of half the pixel each, at the order of the last three, NaN if they have none."""
     first, second = np.diff(values[-3:])
     ratio = first / second if second else np.nan
-    return values[-1] + second / (ratio - 1) if ratio > 2**least else np.nan
+    return values[-1] + second / (ratio - 1) if ratio > 1 else np.nan
 
 
 def of_count(held: int, tried: int) -> tuple[float, float]:
@@ -64,12 +60,25 @@ def of_count(held: int, tried: int) -> tuple[float, float]:
     return float(low), float(high)
 
 
-def fill(parts: Mapping[tuple[Path, str], str]) -> None:
-    """Write texts between two comments of pages, by the page and the name of the comment."""
-    for (page, name), part in parts.items():
-        text = page.read_text(encoding="utf-8")
-        pattern = re.compile(rf"(<!-- {name} -->\n).*?(<!-- end -->)", re.DOTALL)
-        assert len(pattern.findall(text)) == 1, (page, name)
-        page.write_text(
-            pattern.sub(lambda found, part=part: f"{found[1]}{part.strip()}\n{found[2]}", text), encoding="utf-8"
-        )
+def fill(page: Path, parts: Mapping[str, str]) -> None:
+    """Write texts between two comments of a page, by the name of the first comment."""
+    text = page.read_text(encoding="utf-8")
+    for name, part in parts.items():
+        before, after = re.split(rf"(?<=<!-- {name} -->\n).*?(?=<!-- end -->)", text, flags=re.DOTALL)
+        text = f"{before}{part.strip()}\n{after}"
+    page.write_text(text, encoding="utf-8")
+
+
+def friction(rows: Sequence[Row]) -> Estimated:
+    """Mean friction force over mean normal force of those with an answer."""
+    forces = [(each.friction_force, each.normal_force) for each in rows if each.reason is None]
+    return mean_ratio(*np.reshape(forces, (-1, 2)).T)
+
+
+def solved(
+    page: Path, tasks: Iterable[Task], workers: int | None = None, fresh: bool = False
+) -> Mapping[Task, Outcome]:
+    """Answers of tasks; what has been solved once lies in the folder `solved` next to the numbers of the page."""
+    store = Store(page.with_suffix("") / "solved")
+    with lock([store.folder], print), Shown() as shown, shown.solving() as progress:
+        return sweep(tasks, store, workers, progress, fresh=fresh).outcomes

@@ -7,7 +7,6 @@ from these tables: the tables of docs/results/trust.md.
 
 import gzip
 import sys
-from collections.abc import Iterator, Mapping
 from dataclasses import asdict
 from functools import cache
 from itertools import product
@@ -16,32 +15,31 @@ from pathlib import Path
 
 import design
 import numpy as np
-from campaign import solved
 from contact import GREAT, USUAL, Contact, ratio_of
 from fitting import as_json, fit
 from pandas import DataFrame
 from scoring import (
     BEST,
     SURFACES,
-    Scored,
     advice_rows,
     coverage_rows,
     error_rows,
     of_surfaces,
     scored,
+    used,
 )
-from tables import by_column, fill, stored
+from tables import fill, solved, stored, table
 
 from compare.models.law.parts import LawParts
 from compare.solving.task import Outcome
-from compare.trustmap import table
+from compare.trustmap import table as ratios
 from compare.trustmap.groups import DimensionlessGroups, SmoothReference
 from compare.trustmap.model import LAW, RATIOS, Ratio, asked_of
 from scene import Scene
 
 PAGE = Path(__file__).parents[1] / "results" / "trust.md"
 # Standard error that is wanted of a scene, and most surfaces, by table; and where waves are many.
-KNOWN, KNOWN_WIDE = {table.LEARNED: (0.015, 64), table.HELD_OUT: (0.01, 600)}, (0.01, 300)
+KNOWN, KNOWN_WIDE = {ratios.LEARNED: (0.015, 64), ratios.HELD_OUT: (0.01, 600)}, (0.01, 300)
 # Of what the errors are, in words.
 NAMED = {
     "friction": "friction by corrected 1D",
@@ -65,85 +63,65 @@ def row(point: int, scene: Scene, outcome: Outcome) -> dict[str, float]:
     found = {name: ratio_of(outcome, name, parts.friction_coefficient) for name in asked_of(scene)}
     none = Ratio(nan, nan, nan, 0, nan)
     numbers = {
-        table.column(name, number): getattr(found.get(name, none), number)
-        for name, number in product(RATIOS, table.NUMBERS)
+        ratios.column(name, number): getattr(found.get(name, none), number)
+        for name, number in product(RATIOS, ratios.NUMBERS)
     }
     return {"point": point, **asdict(DimensionlessGroups.of(scene, smooth, parts)), **numbers}
 
 
 def written(rows: DataFrame) -> bytes:
     """Table as compressed CSV, to five digits, far below the noise of a ratio."""
-    text = rows.to_csv(columns=table.COLUMNS, index=False, float_format="%.5g", lineterminator="\n")
+    text = rows.to_csv(columns=ratios.COLUMNS, index=False, float_format="%.5g", lineterminator="\n")
     return gzip.compress(text.encode(), mtime=0)
 
 
 def ship() -> None:
     """Solve, and write the tables, and models fitted to what these hold, as they are read again."""
     for path in KNOWN:
-        contacts = {int(point): contact_at(int(point), path) for point in table.read(path)["point"]}
+        contacts = {int(point): contact_at(int(point), path) for point in ratios.read(path)["point"]}
         outcomes = solved(PAGE, contacts.values())
         rows = DataFrame(row(point, each.scene, outcomes[each]) for point, each in contacts.items())
         path.write_bytes(written(rows))
-    table.read.cache_clear()
-    learned = table.read(table.LEARNED)
-    models = {name: fit(name, table.measurements(learned, name)[1]) for name in RATIOS}
-    table.FITTED.write_text(as_json(models) + "\n", encoding="utf-8")
-    table.model.cache_clear()
+    ratios.read.cache_clear()
+    learned = ratios.read(ratios.LEARNED)
+    models = {name: fit(name, ratios.measurements(learned, name)[1]) for name in RATIOS}
+    ratios.FITTED.write_text(as_json(models) + "\n", encoding="utf-8")
+    ratios.model.cache_clear()
 
 
 @cache
-def scores() -> dict[str, Scored]:
+def scores() -> dict[str, DataFrame]:
     """Scores of the models that come with the package."""
-    return scored(table.read(table.HELD_OUT), {name: table.model(name) for name in RATIOS})
+    return scored(ratios.read(ratios.HELD_OUT), {name: ratios.model(name) for name in RATIOS})
 
 
-def advice(found: Mapping[str, Scored]) -> Iterator[dict[str, str]]:
-    """A row for each regime, a cell for each ratio: factor with its range, interval, share to solve."""
-    cells: dict[tuple[str, str], dict[str, str]] = {}
-    for row in advice_rows({name: found[name] for name in RATIOS}):
-        cells.setdefault((row["speed"], row["roughness"]), {})[row["quantity"]] = _advised(row)
-    for (speed, roughness), each in cells.items():
-        yield {"": f"{speed}, {roughness}", **{NAMED[name]: each.get(name, "") for name in RATIOS}}
-
-
-def _advised(row):
-    solve = f"solve {100 * row['solve']:.0f} %"
-    if row["solve"] > 0.5:
-        return solve
-    kind = "use" if row["use"] > 0.5 else f"× {row['factor']:.2f} ({row['from']:.2f} to {row['to']:.2f})"
-    return f"{kind}, ±{100 * row['interval']:.2g} %" + (f"; {solve}" if row["solve"] > 0.005 else "")
-
-
-def errors(found: Mapping[str, Scored]) -> Iterator[dict[str, str]]:
-    """A row for each ratio and kind of surface: errors on all held-out scenes that are usable."""
-    rows = [row for row in error_rows({name: found[name] for name in NAMED}) if row["by"] == "surface"]
-    for row in sorted(rows, key=lambda row: list(SURFACES).index(row["region"])):
-        held, low, high = (100 * row[name] for name in ("in 95 %", "least", "most"))
-        yield {
-            "": f"{NAMED[row['ratio']]}, {row['region']}",
-            "held-out scenes": f"{row['scenes']}",
-            "use or multiply": f"{100 * row['usable']:.0f} %",
-            "median error": f"{100 * row['median']:.2g} %",
-            "nine in ten within": f"{100 * row['nine in ten']:.2g} %",
-            "in their interval of 95 %": f"{held:.1f} ({low:.1f} to {high:.1f}) %",
-        }
-
-
-def parts() -> Mapping[tuple[Path, str], str]:
-    """Text between two comments, by the page and the name of the comment."""
+def parts() -> dict[str, str]:
+    """Text between two comments of the page, by the name of the comment."""
+    on_spectra, found = of_surfaces(scores(), "spectrum"), error_rows(scores(), {"surface": SURFACES})
+    columns = "use or multiply|median error|nine in ten within|in their interval of 95 %"
     return {
-        (PAGE, "advice"): by_column(advice(of_surfaces(scores(), "spectrum"))),
-        (PAGE, "errors"): by_column(errors(scores())),
+        "advice": table(
+            "|".join(["", *(NAMED[name] for name in RATIOS)]), advice_rows([on_spectra[name] for name in RATIOS])
+        ),
+        "errors": table(f"|held-out scenes|{columns}", map(_errors, found)),
     }
+
+
+def _errors(row):
+    """Cells of a ratio and kind of surface: errors on all held-out scenes that are usable."""
+    held, low, high = (100 * row[name] for name in ("in 95 %", "least", "most"))
+    yield from (f"{NAMED[row['ratio']]}, {row['region']}", f"{row['scenes']}", f"{100 * row['usable']:.0f} %")
+    yield from (f"{100 * row[name]:.2g} %" for name in ("median", "nine in ten"))
+    yield f"{held:.1f} ({low:.1f} to {high:.1f}) %"
 
 
 def corrected() -> str:
     """Sentences of the README on the errors of friction by the best advice."""
-    used = of_surfaces(scores(), "spectrum")[BEST][0].used
-    measured = 100 * np.quantile(np.abs(used.errors), (0.5, 0.9))
+    off = np.abs(used(of_surfaces(scores(), "spectrum")[BEST])["off"])
+    measured = 100 * np.quantile(off, (0.5, 0.9))
     return (
         f"Multiplied as `crosscheck trust` says, it is within {measured[0]:.1f} % of 3D for half of "
-        f"{used.usable.size} unseen rough contacts, and within {measured[1]:.1f} % for nine in ten."
+        f"{len(off)} unseen rough contacts, and within {measured[1]:.1f} % for nine in ten."
     )
 
 
@@ -152,7 +130,7 @@ def main(solve: str = "") -> None:
     if solve:
         ship()
     stored(PAGE.with_suffix("") / "coverage.csv", coverage_rows(scores()))
-    fill(parts())
+    fill(PAGE, parts())
 
 
 if __name__ == "__main__":

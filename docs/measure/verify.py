@@ -7,10 +7,12 @@ import importlib
 import re
 import sys
 from collections.abc import Iterator
+from itertools import product
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import pandas
+from pandas import DataFrame
 from tables import stored, table
 
 import compare
@@ -64,26 +66,27 @@ def hard() -> str:
     return HARD.format(kept=cases["verdict"].eq("holds").sum(), count=len(cases))
 
 
+def counted(found: DataFrame) -> Iterator[tuple[str, ...]]:
+    """How many laws of each group a code keeps, breaks and refuses."""
+    for model, group in product(found["model"].unique(), GROUPS[: GROUPS.index(STORED)]):
+        own = found.query("model == @model and where == @group")["verdict"]
+        yield model, group, *(str((own == each).sum()) for each in VERDICTS)
+
+
 def main() -> None:
     """Write the page."""
-    counts, failures, laws = [], [], []
     with TemporaryDirectory() as folder:
-        for model in models(Path(folder)):
-            report = compare.verify(model, Path(folder) / model.name, report=False)
-            found = report.findings
-            laws.append(found.assign(model=model.name))
-            for group in GROUPS[: GROUPS.index(STORED)]:
-                own = found[found["where"] == group]["verdict"]
-                counts.append((model.name, group, *(str((own == each).sum()) for each in VERDICTS)))
-            failed = found.query("verdict == 'fails'")[["claim", "sentence"]]
-            failures += [(model.name, *row) for row in failed.itertuples(index=False)]
-    text = HEAD + table("code|group|hold|fail|left out", counts) + "\n"
-    text += "\nNo law fails.\n" if not failures else f"\n{table('code|law that fails|law', failures)}\n"
-    text += NOTES + hard()
-    PAGE.write_text(text, encoding="utf-8")
+        reports = {
+            model.name: compare.verify(model, Path(folder) / model.name, report=False)
+            for model in models(Path(folder))
+        }
+        found = pandas.concat([report.findings.assign(model=name) for name, report in reports.items()])
+    failed = found[found["verdict"] == "fails"][["model", "claim", "sentence"]].to_numpy()
+    text = HEAD + table("code|group|hold|fail|left out", counted(found)) + "\n"
+    text += f"\n{table('code|law that fails|law', failed)}\n" if len(failed) else "\nNo law fails.\n"
+    PAGE.write_text(text + NOTES + hard(), encoding="utf-8")
     columns = ["model", "claim", "where", "verdict", "value", "tolerance", "sentence", "meaning"]
-    asked = pandas.concat(laws)
-    stored(PAGE.with_suffix(".csv"), asked[asked["verdict"] != "reported"][columns])
+    stored(PAGE.with_suffix(".csv"), found[found["verdict"] != "reported"][columns])
 
 
 if __name__ == "__main__":

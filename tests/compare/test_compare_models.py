@@ -60,7 +60,7 @@ class Measuring(Stiff):
         return replace(super().solve(scene), measures={self.measure: 1.0})
 
 
-@pytest.mark.parametrize("measure", ["speed", "status", "depth_reached", "seconds", "a/b", "..", "\ud800", ""])
+@pytest.mark.parametrize("measure", ["speed", "status", "depth_reached", "seconds"])
 def test_a_measure_that_has_the_name_of_something_else_is_no_answer(measure):
     (row,) = SceneTask(Measuring(measure=measure), (SCENE,)).solve().rows
     assert repr(measure) in row.reason

@@ -76,9 +76,9 @@ def test_every_number_of_the_readme_and_of_the_answers_is_the_stored_one(parts):
 
 
 def test_errors_are_told_as_measured():
-    used = trust.of_surfaces(trust.scores(), "spectrum")[trust.BEST][0].used
+    used = trust.used(trust.of_surfaces(trust.scores(), "spectrum")[trust.BEST])
     found = [float(each) for each in re.findall(r"([\d.]+) %", trust.corrected())]
-    assert found == pytest.approx(100 * np.quantile(np.abs(used.errors), (0.5, 0.9)), abs=0.05)
+    assert found == pytest.approx(100 * np.quantile(np.abs(used["off"]), (0.5, 0.9)), abs=0.05)
 
 
 @pytest.mark.parametrize("row", OF_ROW)

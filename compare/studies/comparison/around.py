@@ -172,8 +172,13 @@ EXTENDED = (
 
 def finer_than_its_grid(case: Case) -> bool:
     """Whether a scene has waves that its grid in 3D cannot hold, and can be solved without them."""
-    with numeric_guard():
-        return bool(case.roughness and why_not(case.bem, case.scene)) and not why_not(ExtendedBEM(), case.scene)
+    try:
+        with numeric_guard():
+            return bool(case.roughness and why_not(case.bem, case.scene)) and not why_not(
+                ExtendedBEM(), case.scene
+            )
+    except ArithmeticError:  # its numbers are too far apart for any model
+        return False
 
 
 @dataclass(frozen=True)

@@ -1,1 +1,0 @@
-"""The errors behind `bem3d.for_accuracy`, and whether its promises are kept."""
