@@ -170,14 +170,16 @@ def test_the_radius_of_spots_is_that_of_one_of_them(width):
         assert grid.spot_radius(touched) == pytest.approx(0.3, rel=0.02)  # of pixels: 1/60
 
 
-def test_a_layer_that_no_grid_shows_is_refused_with_what_would_do_instead():
-    scene = Scene(SPHERE, Elastic(1e6, poisson_ratio=0.49999999), Indent(load=1.0), layer=Layer(thickness=1e-7))
+@pytest.mark.parametrize(("thickness", "digit"), [(1e-7, 4), (1.55e-7, 9)])
+def test_a_layer_that_no_grid_shows_is_refused_with_what_would_do_instead(thickness, digit):
+    layer, nearly = Layer(thickness=thickness), 0.5 - 1e-10
+    scene = Scene(SPHERE, Elastic(1e6, poisson_ratio=nearly), Indent(load=1.0), layer=layer)
     coarse = BEM(points=64, extent=2e-3)
     (reason,) = coarse.refusals(scene)
-    assert "of nu = 0.49999999 is too thin" in reason
+    assert f"of nu = {nearly:.15g} is too thin" in reason
     assert "no allowed number of points would do" in reason
     most = float(reason.split("Poisson ratio of at most ")[1])
-    assert 0.45 < most < 0.49999999
+    assert 0.5 - most == pytest.approx(digit * 1e-8, rel=1e-6)  # the greatest with one digit
     assert coarse.refusals(replace(scene, elastomer=Elastic(1e6, poisson_ratio=most))) == []
     assert BEM(points=16384, extent=2e-3).refusals(scene) != []
 

@@ -129,7 +129,12 @@ def test_few_points_tell_the_shifts(speeds, step):
 
 @pytest.mark.parametrize(
     ("speeds", "points", "share", "message"),
-    [(2, 3, 1, "too few points"), (1, 8, 1, "1 speeds"), (5, 8, np.nan, "no surface")],
+    [
+        (2, 3, 1, "too few points"),
+        (3, 3, 1, "too few points"),
+        (1, 8, 1, "1 speeds"),
+        (5, 8, np.nan, "no surface"),
+    ],
 )
 def test_too_few_points_are_refused(speeds, points, share, message):
     load = np.broadcast_to(LOADS[:points], (speeds, points))

@@ -177,7 +177,7 @@ def finer_than_its_grid(case: Case) -> bool:
             return bool(case.roughness and why_not(case.bem, case.scene)) and not why_not(
                 ExtendedBEM(), case.scene
             )
-    except ArithmeticError:  # its numbers are too far apart for any model
+    except SolveError:  # its numbers are too far apart for any model
         return False
 
 
