@@ -22,6 +22,7 @@ from scene.quantities import SPEED, WHOLE, argument
 from scene.result import provenance
 from scene.scales import elastic_contact
 
+from ..models.law.extended import ExtendedBEM
 from .continuation import Continuation, by_contact, joined
 from .control_variates import VARIATES, control_variates
 from .cost import MOST_DRAWS, Cost
@@ -468,7 +469,7 @@ def work_of(solver: Solver, scene: Scene) -> float:
     if isinstance(solver, MDR):
         # As measured: a mode costs a tenth of all else.
         each = solver.points * 5.0 * (1 + scene.solid.relaxation()[2].size / 10)
-    elif isinstance(solver, BEM):
+    elif isinstance(solver, BEM | ExtendedBEM):
         each = solver.points**2.2 * 50.0
     else:
         return 1.0

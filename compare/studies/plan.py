@@ -19,7 +19,7 @@ from ..models.table import KNOWN
 from ..solving.cost import Cost
 from ..solving.words import duration, pascals, seconds, share
 from ..trustmap.verdict import Advice, trust
-from .comparison.around import Around
+from .comparison.around import FINER, Around
 
 WIDTH = 100
 WHOLE = {"break_long_words": False, "break_on_hyphens": False}
@@ -53,8 +53,8 @@ class Plans(dict[str, Plan | str | Advice]):
 
     @property
     def feasible(self) -> bool:
-        """Whether any solver would solve it, and `crosscheck run` would not refuse it for its numbers."""
-        return bool(self._plans) and not self.refused
+        """Whether a model would solve it, and `crosscheck run` would not refuse it for its numbers."""
+        return bool(self._plans or isinstance(self.cost, Cost)) and not self.refused
 
     @property
     def details(self) -> str:
@@ -89,6 +89,12 @@ class Plans(dict[str, Plan | str | Advice]):
             yield "simulated", ", ".join(type(part).__name__ for part in self.scene.parts.values())
             left = dict.fromkeys(name for plan in plans.values() for name in plan.left_out)
             yield "left out", ", ".join(left) or "nothing"
+        elif isinstance(self.cost, Cost):
+            yield (
+                "contacts",
+                f"at most {self.cost.contacts:,}, solved by crosscheck run with {' and '.join(FINER)}",
+            )
+            yield "time", f"about {duration(self.cost.seconds)} on one processor"
         if choice := cast(Advice, self["trust"]).choice:
             yield "advice", choice
         yield "modulus", _stiffness(self.scene)

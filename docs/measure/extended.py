@@ -1,13 +1,15 @@
 """Friction of surfaces far finer than a grid: contacts solved with every wave, and without their finest ones.
 
-python docs/measure/extended.py [--set learned|tested]   solves the contacts that
-docs/results/extended-SET.csv does not have yet, one by one, and adds the rows of each
+python docs/measure/extended.py solve learned|tested   solves the contacts that docs/results/extended-SET.csv
+does not have yet, one by one, and adds the rows of each
+python docs/measure/extended.py   fits the intervals to those learned, compare/models/law/extended.csv and
+compare/trustmap/outside.csv, and writes how often they hold of those tested into docs/results/law.md
 
 Contacts are drawn until each stratum has its number of those that a grid can show: with all waves on a grid of at
 most 4096^2 points, with a grid error of at most 1 %, and with at least one cut on a grid of 96^2 points or more.
 """
 
-import argparse
+import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import count
@@ -17,10 +19,17 @@ from pathlib import Path
 import design
 import numpy as np
 from pandas import DataFrame, read_csv
+from planes import HELD_OUT, RANGES, off, planes
+from scipy.optimize import minimize
+from scipy.stats import t as student
+from tables import fill, of_count, table
 
 from bem3d import BEM
-from compare.models.law.extended import under, without
-from compare.models.law.parts import LawParts
+from compare.models.law.extended import UNCERTAINTY, scales, under, without
+from compare.models.law.nominal import mean_gap
+from compare.models.law.parts import LawParts, coefficients
+from compare.models.law.smooth import SmoothContact
+from compare.trustmap.friction_law import TESTED
 from scene import Prony, Refused, Scene, SelfAffine, Slide, SolveError, Spectrum, Table, Tabulated
 from scene.scales import elastic_contact
 
@@ -40,6 +49,7 @@ MEASURED = 0.2  # share of spectra that are no power law, as a table of densitie
 FINE, USUAL, CUT = 16.0, 12.0, 8.0
 POINTS = (128, 160, 192, 256, 320, 384, 512, 640, 768, 1024, 1280, 1536, 2048, 2560, 3072, 4096)
 CUTS = 2, 4, 8, 16, 32  # shortest wave that is kept, over the shortest of all
+FREEDOMS = 4  # of Student's distribution of errors
 LEAST_CUT = 96  # points a side of the coarsest grid
 NEARLY = 0.8  # share of the points to the shortest wave that suffices
 TRUE = 0.01  # greatest grid error of what counts as true
@@ -192,10 +202,8 @@ def solved(contact: Contact) -> list[dict]:
     return rows
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--set", choices=SETS, default="learned")
-    name = parser.parse_args().set
+def solve(name: str) -> None:
+    """Solve the contacts of a set that are not solved yet."""
     path = RESULTS / f"extended-{name}.csv"
     rows = read_csv(path).to_dict("records") if path.exists() else []
     done = {each["number"]: each for each in rows if each["factor"] == 1}
@@ -213,6 +221,108 @@ def main() -> None:
             print(contact.set, contact.number, contact.stratum, len(found), "solves", flush=True)
         reason = done[contact.number].get("reason")
         wanted[contact.stratum] -= not (isinstance(reason, str) and reason)
+
+
+def errors(name: str) -> DataFrame:
+    """Logarithms of answer over truth, of each cut and of the law alone, and the gap of the depth."""
+    rows = read_csv(RESULTS / f"extended-{name}.csv")
+    rows = rows[rows["reason"].isna()]
+    true = rows[rows["factor"] == 1].set_index("number")
+    cut = rows[rows["factor"] > 1].join(true[["friction", "whole"]].add_prefix("true_"), on="number")
+    added, total = cut["whole"] - cut["law"], cut["friction"] + cut["whole"] - cut["law"]
+    cut["extended"], cut["bare"] = (
+        np.log(total / cut["true_friction"]),
+        np.log(cut["true_whole"] / cut["true_friction"]),
+    )
+    numbers = scales(added / total, cut["area"] / cut["shortest"] ** 2, cut["x"])
+    return cut.assign(one=1.0, **numbers).merge(gaps(name, true), on="number", how="left")
+
+
+def gaps(name: str, true: DataFrame) -> DataFrame:
+    """Gap between the rough body and the smooth one, less the mean gap of a plane, over the rms height."""
+    found = []
+    for contact in candidates(name):
+        if contact.number > true.index.max():
+            break
+        if contact.number in true.index and contact.scene.motion.pressed_by == "load":
+            own, smooth = true.loc[contact.number], SmoothContact.of(contact.scene).depth
+            gap = (smooth - own["depth"]) / own["rms_height"] - mean_gap(contact.x)
+            found.append({"number": contact.number, "gap": gap})
+    return DataFrame(found)
+
+
+def half_of(logs: np.ndarray) -> float:
+    """Half an interval of 95 % of one more number with a mean of zero, like these."""
+    logs = np.asarray(logs[np.isfinite(logs)])
+    return float(student.ppf(0.975, logs.size) * np.sqrt(np.mean(np.square(logs)) * (1 + 1 / logs.size)))
+
+
+def fitted(learned: DataFrame) -> dict[str, float]:
+    """Coefficients of the logarithm of half an interval of `extended`, of most likelihood."""
+    names = ["one", "added", "few", "light"]
+
+    def unlikely(values):
+        half = np.exp(learned[names].to_numpy() @ values)
+        return -student.logpdf(learned["extended"], FREEDOMS, scale=half / student.ppf(0.975, FREEDOMS)).sum()
+
+    found = minimize(unlikely, [-2.0, 0.3, 0.3, 0.1], method="Nelder-Mead", options={"maxiter": 5000})
+    return dict(zip(names, found.x.tolist(), strict=True))
+
+
+def outside(learned: DataFrame) -> Iterator[dict]:
+    """Rows of compare/trustmap/outside.csv."""
+    alone = learned.drop_duplicates("number")
+    for stratum, (least, most) in STRATA.items():
+        logs = alone.loc[alone["stratum"] == stratum, "bare"]
+        yield dict(
+            quantity="friction", body="body", least=least, most=most, contacts=len(logs), half=half_of(logs)
+        )
+    depth = alone["gap"].dropna()
+    least, most = next(iter(STRATA.values()))[0], [*STRATA.values()][-1][1]
+    yield dict(quantity="depth", body="body", least=least, most=most, contacts=len(depth), half=half_of(depth))
+    found = planes()
+    found["off"] = off(found, [*coefficients().values()])
+    for (least, most), _ in RANGES:
+        logs = found.loc[found["x"].between(least, most) & (found["plane"] % HELD_OUT == 0), "off"]
+        yield dict(
+            quantity="friction", body="plane", least=least, most=most, contacts=len(logs), half=half_of(logs)
+        )
+
+
+def rows_of(tested: DataFrame, values: dict[str, float], alone: DataFrame) -> Iterator[tuple[str, ...]]:
+    """Errors and coverage by stratum, of contacts that nothing was fitted to."""
+    half = np.exp(sum(value * tested[name] for name, value in values.items()))
+    tested = tested.assign(held=np.abs(tested["extended"]) <= half, half=half)
+    bare = alone[alone["quantity"] + alone["body"] == "frictionbody"].set_index("least")["half"]
+    for stratum in [*STRATA, "all"]:
+        own = tested if stratum == "all" else tested[tested["stratum"] == stratum]
+        first = own.drop_duplicates("number")
+        widest = first["stratum"].map({key: bare[least] for key, (least, _) in STRATA.items()})
+        cells = [_cell(first["bare"]), _held(np.abs(first["bare"]) <= widest)]
+        for factor in CUTS[:3]:
+            cells.append(_cell(own.loc[own["factor"] == factor, "extended"]))
+        yield stratum, str(len(first)), *cells, f"{100 * np.expm1(own['half'].median()):.2g} %", _held(own["held"])
+
+
+def _cell(logs):
+    off = 100 * np.abs(np.expm1(logs))
+    return f"{off.median():.2g} / {off.quantile(0.9):.2g} % ({len(off)})" if len(off) else ""
+
+
+def _held(held):
+    low, high = of_count(int(held.sum()), len(held))
+    return f"{100 * held.mean():.0f} % ({100 * low:.0f} to {100 * high:.0f})"
+
+
+def main() -> None:
+    if sys.argv[1:]:
+        return solve(sys.argv[2])
+    learned, tested = errors("learned"), errors("tested")
+    values, alone = fitted(learned), DataFrame(outside(learned))
+    DataFrame(values.items(), columns=["times", "value"]).to_csv(UNCERTAINTY, index=False, float_format="%.4g")
+    alone.to_csv(TESTED, index=False, float_format="%.4g")
+    heading = "p/p_rms|contacts|law alone|held|cut at 2|at 4|at 8 times|± (95 %)|held"
+    fill(RESULTS / "law.md", {"extended": table(heading, rows_of(tested, values, alone))})
 
 
 if __name__ == "__main__":

@@ -11,8 +11,7 @@ import pytest
 import xarray
 from matplotlib.figure import Figure
 from processes import ask
-from scene_files import SCENE, SMALL
-from small_cases import SLIDING, TINY
+from small_cases import SCENE, SLIDING, SMALL, TINY
 from stand_in_solver import Here
 
 import compare

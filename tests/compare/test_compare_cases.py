@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 from processes import ask
-from scene_files import SCENE
+from small_cases import SCENE
 
 from compare.library.lookup import named_cases
 from compare.studies.comparison.around import OWN, SMOOTH_DEPTH, Around

@@ -11,7 +11,7 @@ from io import BytesIO, TextIOWrapper
 
 import pytest
 from processes import ask, finish, start, stored_so_far, wait_for
-from scene_files import SCENE, SMALL
+from small_cases import SCENE, SMALL
 from typer.testing import CliRunner
 
 import compare

@@ -4,8 +4,7 @@ from dataclasses import replace
 
 import pytest
 import xarray
-from scene_files import HEAD, SCENE, SHARED, TABLES
-from small_cases import CURVE
+from small_cases import CURVE, HEAD, SCENE, SHARED, TABLES
 
 from bem3d import BEM
 from compare.library.case import Case, share_of

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scene_files import HEAD, SHARED, TABLES
+from small_cases import HEAD, SHARED, TABLES
 
 from compare.studies.comparison import asked
 from compare.studies.comparison.study_file import STUDIES, study_of

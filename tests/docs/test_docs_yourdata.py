@@ -61,7 +61,6 @@ WRONG = [
     ("surface", MAP, "map.txt", "nan", "-9999", "as programs write missing ones"),
     ("surface", (*MAP, "--unit", "V"), "map.txt", r"\Z", "", "a unit of length is needed"),
     ("surface", LINE, "profile.csv", "^0,195", "0,197", "places of heights are evenly spaced"),
-    ("surface", ROUGH, "rough.toml", "shortest_kept.*", "", "is less than two pixels of"),
     ("surface", PSD, "psd.toml", "convention.*", "", "state the convention of the density"),
     ("surface", PSD, "psd.csv", ";90.05", ";900", "below zero, and no isotropic surface has such line scans"),
     ("surface", PSD, "psd.csv", r"^q", "k", "one column q or frequency is needed"),

@@ -45,6 +45,7 @@ def test_a_sudden_step_meets_the_glass():
     glass = solved(Indent(depth=0.1), Elastic(1.25))
     assert result.normal_force == pytest.approx(glass.normal_force, rel=1e-6)
     assert result.measures["stiffness"] == pytest.approx(glass.measures["stiffness"], rel=1 / 1000)
+    assert result.measures["contact_fraction"] == 1.0
     suddenly = solved(program((1.0, {"depth": 0.1}), (1e-9, {"depth": 0.1 + 1e-5})), points=4000)
     before, after = suddenly.fields["normal_force"][[-21, -1]]
     assert suddenly.fields["time"][-21] == 1.0

@@ -39,6 +39,8 @@ EQUIVALENT = {
         "wanted * grid.points * grid.rows <= KEPT",
         "(wanted * grid.points * grid.rows < KEPT)",
     ): "what is kept or evaluated again is the same number",
+    ("scene/surfaces/profile.py", "1 - QUOTIENT", "(1)"): "the number is one of rounding",
+    ("bem3d/response/convolution.py", "1 - 1e-9", "(1)"): "the number is one of rounding",
     ("mdr1d/element.py", "c > 0.0", "(c >= 0.0)"): "a profile that only meets the surface carries no force",
     (
         "compare/statistics/multilevel.py",
