@@ -143,7 +143,7 @@ def _warn(messages: Sequence[str | Warning]) -> None:
 
     frame: FrameType | None = sys._getframe()
     level = 1
-    while frame is not None and frame.f_globals.get("__name__") == __name__:
+    while frame is not None and frame.f_globals.get("__name__") in (__name__, documented.__module__):
         level, frame = level + 1, frame.f_back
     for each in messages:
         warnings.warn(each, Doubtful, stacklevel=level)

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Callable, Collection, Iterator, Mapping
+from functools import wraps
 from inspect import cleandoc, signature
 from textwrap import fill
 from types import UnionType
@@ -39,17 +40,26 @@ class _Name(str):
 def documented(function: _T) -> _T:
     """Decorator: the docstring says what each argument is whose annotation is a name of `compare.options`.
 
-    Arguments that the docstring has a line on are left out. The signature names the types as the source does.
+    Arguments that the docstring has a line on are left out. The signature names the types as the source does. An
+    unknown argument raises InvalidInput with the one that was meant.
     """
     found = signature(function)
     names = {name: _Name(each.annotation) for name, each in found.parameters.items()}
     hints = {name: get_args(function.__globals__.get(each)) for name, each in names.items()}
     shown = [each.replace(annotation=names[name]) for name, each in found.parameters.items()]
     returned = _Name(found.return_annotation)
-    function.__signature__ = found.replace(parameters=shown, return_annotation=returned)  # type: ignore[attr-defined]
+    options = function.__globals__["Options"].__annotations__ if "options" in names else {}
+
+    @wraps(function)
+    def called(*args, **given):
+        for name in given if "given" not in names else ():
+            known(f"argument of {function.__name__}", name, [*filter("options".__ne__, names), *options])
+        return function(*args, **given)
+
+    called.__signature__ = found.replace(parameters=shown, return_annotation=returned)  # type: ignore[attr-defined]
     about = cleandoc(function.__doc__ or "")
-    function.__doc__ = "\n".join([about, *_texts(about, hints)])
-    return function
+    called.__doc__ = "\n".join([about, *_texts(about, hints)])
+    return called  # type: ignore[return-value]
 
 
 def _texts(about: str, hints: Mapping[str, tuple[Any, ...]]) -> Iterator[str]:

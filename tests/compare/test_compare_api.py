@@ -150,6 +150,7 @@ NO_EXECUTOR = r"executor = .*: an object with submit is needed, without a schedu
 @pytest.mark.parametrize(
     ("asked", "message"),
     [
+        ({"speeds": [1.0]}, "argument of sweep = speeds: allowed are scene, speed, .*; did you mean speed"),
         ({"speed": []}, "speed = .*at least one"),
         ({"speed": [-0.1]}, "speed = .-0.1.*finite numbers of zero or more"),
         ({"speed": [0.1], "load": [1.0], "depth": [1e-5]}, "load, depth: both"),
