@@ -9,7 +9,9 @@ import pytest
 
 from bem3d import BEM
 from bem3d.grid import Box, Grid
-from bem3d.window import check_resolved
+from bem3d.problem import Problem
+from bem3d.response.engine import Engine
+from bem3d.window import ATTEMPTS, check_resolved, fitted
 from mdr1d import MDR
 from scene import (
     Cone,
@@ -29,16 +31,23 @@ ROUGH = SelfAffine(hurst=0.2, rms_height=2e-4, longest=1e-2, shortest=5e-4, seed
 LIGHT = Scene(Sphere(1e-2), Elastic(1e6), Indent(load=1e-2), ROUGH)
 
 
+def test_a_contact_that_reaches_the_rim_of_every_window_is_given_up(monkeypatch):
+    asked = []
+    monkeypatch.setattr(Grid, "on_rim", lambda *_: asked.append(1) or len(asked) < 2 * ATTEMPTS)
+    fitted(Problem(replace(LIGHT, roughness=None), Engine()), 32)
+    assert len(asked) == ATTEMPTS
+
+
 # For the last two the window that is found first leaves asperities out.
 @pytest.mark.parametrize(("seed", "load"), [(1, 1e-2), (2, 0.1), (3, 1.0), (9, 0.03), (35, 0.03)])
 def test_fitted_window_leaves_no_asperity_out(seed, load):
     # the same pixels on a window far larger than any contact
     scene = replace(LIGHT, motion=Indent(load=load), roughness=replace(ROUGH, seed=seed))
-    fitted = BEM(points=128).solve(scene)
+    found = BEM(points=128).solve(scene)
     wide = 12e-3
-    points = 2 * round(wide / (2 * max(fitted.measures["pixel"], wide / 512)))
+    points = 2 * round(wide / (2 * max(found.measures["pixel"], wide / 512)))
     everything = BEM(points=points, extent=wide).solve(scene)
-    assert fitted.depth == pytest.approx(everything.depth, abs=2e-3 * ROUGH.rms_height)
+    assert found.depth == pytest.approx(everything.depth, abs=2e-3 * ROUGH.rms_height)
 
 
 def test_a_grid_knows_its_points_their_boxes_and_values_in_between():

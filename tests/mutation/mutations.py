@@ -41,6 +41,11 @@ EQUIVALENT = {
     ): "what is kept or evaluated again is the same number",
     ("scene/surfaces/profile.py", "1 - QUOTIENT", "(1)"): "the number is one of rounding",
     ("bem3d/response/convolution.py", "1 - 1e-9", "(1)"): "the number is one of rounding",
+    (
+        "mdr1d/ensemble.py",
+        "farthest > MOST_NODES",
+        "(farthest >= MOST_NODES)",
+    ): "the number is a round one of order",
     ("mdr1d/element.py", "c > 0.0", "(c >= 0.0)"): "a profile that only meets the surface carries no force",
     (
         "compare/statistics/multilevel.py",
