@@ -22,7 +22,6 @@ from scene.quantities import SPEED, WHOLE, argument
 from scene.result import provenance
 from scene.scales import elastic_contact
 
-from ..models.law.extended import ExtendedBEM
 from .continuation import Continuation, by_contact, joined
 from .control_variates import VARIATES, control_variates
 from .cost import MOST_DRAWS, Cost
@@ -465,12 +464,12 @@ def tree(curves: Mapping[str, Curve], outcomes: Mapping[Task, Outcome]) -> xarra
 
 
 def work_of(solver: Solver, scene: Scene) -> float:
-    """Cost of a contact in passes over a point of a grid, roughly."""
+    """Cost of a contact in passes over a point of a grid, roughly; a model may state its own as `work`."""
     if isinstance(solver, MDR):
         # As measured: a mode costs a tenth of all else.
         each = solver.points * 5.0 * (1 + scene.solid.relaxation()[2].size / 10)
-    elif isinstance(solver, BEM | ExtendedBEM):
+    elif isinstance(solver, BEM):
         each = solver.points**2.2 * 50.0
     else:
-        return 1.0
+        return getattr(solver, "work", 1.0)
     return each * (solver.steps if isinstance(scene.motion, Program) else 1)

@@ -59,6 +59,11 @@ class ExtendedBEM:
     def name(self) -> str:
         return "ExtendedBEM"
 
+    @property
+    def work(self) -> float:
+        """Cost of a contact in passes over a point of a grid: that of BEM, as the law costs little."""
+        return self.points**2.2 * 50.0
+
     def refusals(self, scene: Scene) -> list[str]:
         """Reasons why the scene cannot be solved, one sentence each."""
         reasons = [reason for term in terms_of(OF_LAW, scene) for reason in term.refusals(scene)]
