@@ -123,5 +123,5 @@ def _pressed(scene):
 
 
 def _estimate(name, value, half, way):
-    unit = {"depth": "m", "force": "N", "friction": ""}[name]
+    unit, value, half = {"depth": "m", "force": "N", "friction": ""}[name], float(value), float(half)
     return Estimate(name, unit, value, value - half, value + half, way)

@@ -17,7 +17,7 @@ from scene.quantities import CLOSED
 from scene.signatures import readable
 from scene.terms import terms_of
 
-from ..models.law.parts import LawParts
+from ..models.law.parts import MOST, LawParts
 from ..models.law.persson import OF_LAW
 from ..models.law.smooth import SPACE, SmoothContact
 from .measured import OffTheMap, Place, as_judged
@@ -130,7 +130,7 @@ def _law_over_3d(scene: Scene) -> tuple[LawParts, float, float]:
 
 TESTED = Path(__file__).with_name("outside.csv")
 DEPTH = "depth"
-UNTESTED = log(3.0)  # half the interval of friction where no contact was tested: a guess
+UNTESTED = {"friction": log(3.0), DEPTH: 3.0}  # half an interval where no contact was tested: a guess
 
 
 @dataclass(frozen=True, config=CLOSED)
@@ -163,8 +163,8 @@ def _tested():
 
 
 def known_errors(scene: Scene, x: float, quantity: str = "friction") -> Tested:
-    """Errors of tested contacts of this kind of body; x : p/p_rms."""
-    body = "plane" if isinstance(scene.indenter, Plane) else "body"
-    none = Tested(quantity, body, x, x, 0, UNTESTED)
+    """Errors of tested contacts of this kind of body; x : p/p_rms, above MOST of which all waves touch."""
+    body, x = "plane" if isinstance(scene.indenter, Plane) else "body", min(x, MOST)
+    none = Tested(quantity, body, x, x, 0, UNTESTED[quantity])
     found = (each for each in _tested() if (each.quantity, each.body) == (quantity, body))
     return next((each for each in found if each.least <= x < each.most), none)

@@ -67,7 +67,7 @@ def hard() -> str:
 
 
 def counted(found: DataFrame) -> Iterator[tuple[str, ...]]:
-    """How many laws of each group a code keeps, breaks and refuses."""
+    """Rows with the numbers of laws of each group that a code keeps, breaks and refuses."""
     for model, group in product(found["model"].unique(), GROUPS[: GROUPS.index(STORED)]):
         own = found.query("model == @model and where == @group")["verdict"]
         yield model, group, *(str((own == each).sum()) for each in VERDICTS)

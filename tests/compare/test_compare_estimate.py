@@ -57,7 +57,16 @@ def test_of_what_no_contact_was_tested_the_interval_is_wide_and_says_why():
     found = answers(light)["friction"]
     assert found.high > 8 * found.low
     assert "no contact like it was tested" in found.way
+    height = FINE.rms_height
+    assert answers(light)["depth"].high - answers(light)["depth"].low == pytest.approx(6 * height)
     assert answers(replace(SCENE, layer=Layer(thickness=1e-3))) == {}
+
+
+def test_beyond_full_contact_nothing_changes_and_the_interval_is_that_of_nearly_full_ones():
+    full = replace(SCENE, roughness=replace(FINE, rms_height=1e-12))
+    assert FrictionLaw().solve(full).measures["pressure_ratio"] > 20
+    found = answers(full)["friction"]
+    assert found.high < 1.1 * found.low
 
 
 def test_waves_half_as_short_continue_the_spectrum():
@@ -78,4 +87,9 @@ def test_waves_that_the_grid_cannot_hold_are_left_to_the_law():
     assert {each.name for each in fine.models} == {"FrictionLaw", "ExtendedBEM"}
     assert fine.models.reference == "ExtendedBEM"
     assert any("left to the law" in each for each in fine.remarks)
+    assert fine.models["ExtendedBEM"].solver.points == 256
+    more = Around("more", replace(case, roughness=FINE, bem=BEM(points=512))).models
+    assert more["ExtendedBEM"].solver.points == 512
+    narrow = Around("narrow", replace(case, roughness=FINE, bem=BEM(extent=1e-5)))
+    assert {each.name for each in narrow.models} == {"MDR", "BEM"}  # which says that the grid is too narrow
     assert {each.name for each in Around("asked", case, ("mdr", "law")).models} == {"MDR", "FrictionLaw"}

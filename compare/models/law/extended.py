@@ -67,7 +67,7 @@ class ExtendedBEM:
     def refusals(self, scene: Scene) -> list[str]:
         """Reasons why the scene cannot be solved, one sentence each."""
         reasons = [reason for term in terms_of(OF_LAW, scene) for reason in term.refusals(scene)]
-        return reasons or BEM(points=self.points).refusals(_base(scene))
+        return reasons or BEM(points=self.points).refusals(without_fine_waves(scene))
 
     def solve(self, scene: Scene) -> Result:
         """Friction of all waves. Raises Refused, and SolveError as BEM does, and where the law has no answer."""
@@ -89,7 +89,7 @@ class ExtendedBEM:
 
     def _kept(self, scene: Scene) -> tuple[Scene, Result]:
         """The scene with the waves that the grid holds, and the answer of BEM to it."""
-        solver, base = BEM(points=self.points), _base(scene)
+        solver, base = BEM(points=self.points), without_fine_waves(scene)
         if base is scene:
             return scene, solver.solve(scene)
         rough: Any = scene.roughness
@@ -157,9 +157,9 @@ def scales(added: Any, waves: Any, x: Any) -> dict[str, Any]:
     }
 
 
-def _base(scene):
-    """What every grid holds: the smooth body, or the longest waves of a plane; the scene if it has no others."""
-    rough = scene.roughness
+def without_fine_waves(scene: Scene) -> Scene:
+    """The smooth body, or the longest waves of a plane, which any grid holds; the scene if it has no others."""
+    rough: Any = scene.roughness
     if rough is None or rough.flat:
         return scene
     if not isinstance(scene.indenter, Plane):

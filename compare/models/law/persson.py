@@ -84,7 +84,7 @@ TERMS = {
 }
 
 
-class Closed(Term):
+class WithoutGap(Term):
     """Motion to a gap, which no law of friction knows."""
 
     def refusals(self, scene: Scene) -> list[str]:
@@ -94,7 +94,7 @@ class Closed(Term):
 
 
 # Terms of the friction law, which takes bodies at a depth too.
-OF_LAW = {**TERMS, Indent: Closed, Slide: Closed}
+OF_LAW = {**TERMS, Indent: WithoutGap, Slide: WithoutGap}
 
 
 @readable

@@ -18,7 +18,7 @@ from scene.scales import elastic_contact
 
 from ...library.case import Case, doubted
 from ...models import exact
-from ...models.law.extended import ExtendedBEM
+from ...models.law.extended import ExtendedBEM, without_fine_waves
 from ...models.table import DEPTH, FORCE, FRICTION, ModelLike, Models
 from ...solving.curve import FINE, LEVELS, Curve, levels, refuse
 from ...solving.task import SceneTask
@@ -159,7 +159,9 @@ def models_of(case: Case, asked: Sequence[ModelLike] | None = None, reference: s
     By default they are 1D and 3D, and those of FINER where the grid in 3D cannot hold the waves.
     """
     own: dict[str, Solver] = {"mdr": case.mdr, "bem": case.bem}
-    given = asked or case.models or (FINER if finer_than_its_grid(case) else None)
+    given = asked or case.models or None
+    if given is None and finer_than_its_grid(case):
+        given, own["extended"] = FINER, ExtendedBEM(points=max(ExtendedBEM().points, case.bem.points))
     return Models.of(given, reference or case.reference or None, own)
 
 
@@ -171,12 +173,13 @@ EXTENDED = (
 
 
 def finer_than_its_grid(case: Case) -> bool:
-    """Whether a scene has waves that its grid in 3D cannot hold, and can be solved without them."""
+    """Whether a scene has waves that its grid in 3D cannot hold, and nothing else is against it."""
+    if not case.roughness:
+        return False
     try:
         with numeric_guard():
-            return bool(case.roughness and why_not(case.bem, case.scene)) and not why_not(
-                ExtendedBEM(), case.scene
-            )
+            coarse, law = why_not(case.bem, without_fine_waves(case.scene)), why_not(ExtendedBEM(), case.scene)
+            return not coarse and not law and bool(why_not(case.bem, case.scene))
     except SolveError:  # its numbers are too far apart for any model
         return False
 
@@ -234,8 +237,8 @@ class Around(Series):
 
     @property
     def remarks(self) -> Sequence[str]:
-        fine = {"ExtendedBEM"} & {each.name for each in self.models}
-        return (*self.case.departures, *self.case.notes, *([EXTENDED] if fine else []))
+        extended = any(each.name == "ExtendedBEM" for each in self.models)
+        return (*self.case.departures, *self.case.notes, *([EXTENDED] if extended else []))
 
     @property
     def own(self) -> Sequence[SceneTask]:
