@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 from math import nan
 
 from scene import Indent, Plane, Scene, SelfAffine, Slide, SolveError
+from scene.doubt import least_friction
 from scene.protocol import numeric_guard
 
 from ..models.law.bands import Bands
@@ -26,6 +27,7 @@ class Estimate:
     quantity : friction, depth or force; unit : "", "m" or "N"
     value, low, high : with the ends of an interval of 95 %
     way : how it was found, in words
+    least : whether a table of moduli ends before the finest waves, so that the answer is a lower bound
     """
 
     quantity: str
@@ -34,11 +36,13 @@ class Estimate:
     low: float
     high: float
     way: str
+    least: bool = False
 
     def __str__(self) -> str:
         scale, unit = SCALES[self.unit]
         number = interval(scale * self.value, scale * self.low, scale * self.high)
-        return f"{self.quantity} {number} {unit}".rstrip() + f", by {self.way}"
+        least = " at least" if self.least else ""
+        return f"{self.quantity}{least} {number} {unit}".rstrip() + f", by {self.way}"
 
 
 @dataclass(frozen=True)
@@ -86,7 +90,7 @@ def _of_rough(scene):
         if found.measures["outside"]:
             way = f"the 3D law alone, off the trust map; {known_errors(scene, x).words}"
         ends = (found.measures[f"friction_{end}"] for end in ("low", "high"))
-        answers.append(Estimate("friction", "", value, *ends, way))
+        answers.append(Estimate("friction", "", value, *ends, way, least_friction(scene)))
     if not isinstance(scene.indenter, Plane):
         answers.append(_depth_or_force(scene, x))
     return Estimates(tuple(answers), _of_finer(scene) if value else nan)

@@ -3,6 +3,7 @@
 from dataclasses import replace
 from math import isnan
 
+import numpy as np
 import pytest
 
 from bem3d import BEM
@@ -12,7 +13,7 @@ from compare.models.law.extended import without
 from compare.models.law.parts import LawParts
 from compare.studies.comparison.around import Around
 from compare.trustmap.verdict import trust
-from scene import Indent, Kelvin, Layer, Scene, SelfAffine, Slide, Sphere
+from scene import Indent, Kelvin, Layer, Prony, Scene, SelfAffine, Slide, Sphere, Table, Tabulated
 
 SOLID = Kelvin(1e6, 1e-3)
 ROUGH = SelfAffine(hurst=0.7, rms_height=5e-6, longest=1e-3, shortest=1e-4, seed=2)
@@ -93,3 +94,20 @@ def test_waves_that_the_grid_cannot_hold_are_left_to_the_law():
     narrow = Around("narrow", replace(case, roughness=FINE, bem=BEM(extent=1e-5)))
     assert {each.name for each in narrow.models} == {"MDR", "BEM"}  # which says that the grid is too narrow
     assert {each.name for each in Around("asked", case, ("mdr", "law")).models} == {"MDR", "FrictionLaw"}
+
+
+def test_beyond_a_table_of_moduli_friction_is_at_least_that_of_the_waves_it_covers():
+    solid = Prony(equilibrium_modulus=4e5, moduli=(4e5, 2e6, 8e6), relaxation_times=(1e-2, 1e-4, 1e-6))
+    truth = answers(replace(SCENE, elastomer=solid))["friction"]
+    assert not truth.least
+    frequency = np.geomspace(1.0, 1e3, 30)
+    moduli = solid.complex_modulus(frequency)
+    table = Table(tuple(frequency), tuple(moduli.real), tuple(moduli.imag))
+    cut = Tabulated(
+        table=table, frequency_unit="rad/s", kind="shear", equilibrium_modulus=solid.equilibrium_modulus
+    )
+    found = answers(replace(SCENE, elastomer=cut))["friction"]
+    assert found.least
+    assert str(found).startswith("friction at least ")
+    assert found.value < truth.value
+    assert not answers(replace(SCENE, elastomer=replace(cut, extrapolate=True)))["friction"].least
