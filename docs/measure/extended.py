@@ -1,8 +1,8 @@
 """Friction of surfaces far finer than a grid: contacts solved with every wave, and without their finest ones.
 
-python docs/measure/extended.py solve learned|tested   solves the contacts that docs/results/extended-SET.csv
-does not have yet, one by one, and adds the rows of each
-python docs/measure/extended.py   fits the intervals to those learned, compare/models/law/extended.csv and
+python docs/measure/extended.py solve learned|more|tested   solves the contacts that
+docs/results/extended-SET.csv does not have yet, one by one, and adds the rows of each
+python docs/measure/extended.py   fits the intervals to the first two sets, compare/models/law/extended.csv and
 compare/trustmap/outside.csv, and writes how often they hold of those tested into docs/results/law.md
 
 Contacts are drawn until each stratum has its number of those that a grid can show: with all waves on a grid of at
@@ -36,7 +36,7 @@ from scene.scales import elastic_contact
 
 RESULTS = Path(__file__).parents[1] / "results"
 # Seed of each set, and contacts of each stratum in it.
-SETS = {"learned": (62_100, 18), "tested": (62_200, 24)}
+SETS = {"learned": (62_100, 18), "more": (62_200, 24), "tested": (62_300, 24)}
 # Strata by p/p_rms with all waves, declared beforehand: the lightest contacts, light ones, partial and nearly full
 # ones.
 STRATA = {"lightest": (1e-4, 5e-3), "light": (5e-3, 0.05), "partial": (0.05, 0.5), "nearly full": (0.5, 20.0)}
@@ -50,6 +50,7 @@ MEASURED = 0.2  # share of spectra that are no power law, as a table of densitie
 FINE, USUAL, CUT = 16.0, 12.0, 8.0
 POINTS = (128, 160, 192, 256, 320, 384, 512, 640, 768, 1024, 1280, 1536, 2048, 2560, 3072, 4096)
 CUTS = 2, 4, 8, 16, 32  # shortest wave that is kept, over the shortest of all
+CONTACT = ["set", "number"]
 NAMES = ["one", "added", "few", "light"]  # of the coefficients of an interval
 FREEDOMS = 4  # of Student's distribution of errors
 LEAST_CUT = 96  # points a side of the coarsest grid
@@ -231,11 +232,10 @@ def errors(name: str) -> DataFrame:
     rows = rows[rows["reason"].isna()]
     true = rows[rows["factor"] == 1].set_index("number")
     cut = rows[rows["factor"] > 1].join(true[["friction", "whole"]].add_prefix("true_"), on="number")
-    added, total = cut["whole"] - cut["law"], cut["friction"] + cut["whole"] - cut["law"]
-    cut["extended"], cut["bare"] = (
-        np.log(total / cut["true_friction"]),
-        np.log(cut["true_whole"] / cut["true_friction"]),
-    )
+    added = (cut["whole"] - cut["law"]).clip(lower=0)
+    total = cut["friction"] + added
+    cut["extended"] = np.log(total / cut["true_friction"])
+    cut["bare"] = np.log(cut["true_whole"] / cut["true_friction"])
     numbers = scales(added / total, cut["area"] / cut["shortest"] ** 2, cut["x"])
     return cut.assign(one=1.0, **numbers).merge(gaps(name, true), on="number", how="left")
 
@@ -273,8 +273,8 @@ def likeliest(learned: DataFrame) -> Series:
 def fitted(learned: DataFrame) -> Series:
     """The likeliest coefficients, widened until 95 % of the contacts hold that are left out in turn."""
     missed = []
-    for number, own in learned.groupby("number"):
-        half = np.exp(own[NAMES] @ likeliest(learned[learned["number"] != number]))
+    for _, own in learned.groupby(CONTACT):
+        half = np.exp(own[NAMES] @ likeliest(learned.drop(own.index)))
         missed.append(own["extended"].abs() / half)
     found = likeliest(learned)
     found["one"] += np.log(pandas.concat(missed).quantile(0.95))
@@ -283,7 +283,7 @@ def fitted(learned: DataFrame) -> Series:
 
 def outside(learned: DataFrame) -> Iterator[dict]:
     """Rows of compare/trustmap/outside.csv."""
-    alone = learned.drop_duplicates("number")
+    alone = learned.drop_duplicates(CONTACT)
     for stratum, (least, most) in STRATA.items():
         logs = alone.loc[alone["stratum"] == stratum, "bare"]
         yield dict(
@@ -329,7 +329,7 @@ def _held(held):
 def main() -> None:
     if sys.argv[1:]:
         return solve(sys.argv[2])
-    learned, tested = errors("learned"), errors("tested")
+    learned, tested = pandas.concat([errors("learned"), errors("more")], ignore_index=True), errors("tested")
     values, alone = fitted(learned), DataFrame(outside(learned))
     DataFrame(values.items(), columns=["times", "value"]).to_csv(UNCERTAINTY, index=False, float_format="%.4g")
     alone.to_csv(TESTED, index=False, float_format="%.4g")

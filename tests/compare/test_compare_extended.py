@@ -12,6 +12,7 @@ from compare.models.law.extended import ExtendedBEM, without
 from compare.models.law.parts import LawParts
 from scene import (
     Indent,
+    InvalidInput,
     Plane,
     Scene,
     SelfAffine,
@@ -46,6 +47,28 @@ def test_friction_is_that_of_the_waves_kept_and_what_the_law_says_of_the_others(
     assert found.friction_coefficient == pytest.approx(bem.friction_coefficient + whole - own, rel=1e-12)
     assert (found.normal_force, found.depth) == (bem.normal_force, bem.depth)
     assert 0 < measures["slope_kept"] < 1
+
+
+def test_points_are_doubled_until_the_interval_is_as_narrow_as_wanted():
+    scene = replace(SCENE, roughness=replace(ROUGH, shortest=5e-5))
+    few, more = (ExtendedBEM(points=each).solve(scene) for each in (64, 128))
+    wide, narrow = (each.measures["friction_high"] / each.friction_coefficient - 1 for each in (few, more))
+    assert narrow < 0.95 * wide
+    for accuracy, expected in (((narrow + wide) / 2, more), (1.01 * wide, few)):
+        found = ExtendedBEM(points=64, accuracy=accuracy).solve(scene)
+        assert (found.friction_force, found.measures) == (expected.friction_force, expected.measures)
+    with pytest.raises(InvalidInput, match="accuracy = 2"):
+        ExtendedBEM(accuracy=2.0)
+
+
+def test_waves_that_are_left_to_the_law_take_no_friction_away():
+    fast = replace(SCENE, motion=Slide(speed=100.0, load=1.0), roughness=replace(ROUGH, shortest=5e-5))
+    found = ExtendedBEM(points=64).solve(fast)
+    kept = without(fast, found.measures["shortest_kept"])
+    whole, own = (LawParts.of(each).friction_coefficient for each in (fast, kept))
+    assert whole < own
+    assert found.measures["friction_added"] == 0.0
+    assert found.friction_coefficient == found.measures["friction_kept"]
 
 
 def rectangle(rough):

@@ -14,8 +14,8 @@ from pydantic.dataclasses import dataclass
 
 from bem3d import BEM
 from scene import Plane, Profile, Result, Scene, SelfAffine, Slide, SolveError, Topography
-from scene.protocol import numeric_guard, refuse
-from scene.quantities import CLOSED, Whole
+from scene.protocol import numeric_guard, refuse, why_not
+from scene.quantities import CLOSED, Positive, Whole
 from scene.signatures import readable
 from scene.terms import terms_of
 
@@ -27,6 +27,7 @@ FINE, ENOUGH = 8.0, 6.5  # points to the shortest wave that is kept: as planned,
 COARSE = 64  # points of the contact that shows how wide the window is
 # Beyond which what enters the interval changes no more: share of friction added, waves in the contact, x.
 LEAST_ADDED, FEW_WAVES, LEAST_WAVES, LIGHTEST = 0.02, 20.0, 0.1, 1e-4
+MOST_POINTS = 4096  # a side of the finest grid that a wanted accuracy leads to
 ROUNDS = 4  # of the cut, which follows from the window, which follows from the contact
 
 
@@ -36,10 +37,13 @@ class ExtendedBEM:
     """Boundary elements on the waves that a grid holds, and the law of friction in 3D for the finer ones.
 
     points : a side of the grid; waves of fewer than eight pixels are left to the law
+    accuracy : half of the interval of 95 % of friction that is wanted, relative: points are doubled until it is
+        reached, up to MOST_POINTS; None leaves them as they are
 
     The coefficient is mu_BEM(waves kept) + mu_law(all waves) - mu_law(waves kept), with both laws under the load
-    that BEM found. Where the grid holds every wave it is the coefficient of BEM; where it holds none, BEM solves
-    the smooth body. The depth, or the force at a depth, is that of the contact on the waves kept.
+    that BEM found; the waves left add no less than nothing. Where the grid holds every wave it is the coefficient
+    of BEM; where it holds none, BEM solves the smooth body. The depth, or the force at a depth, is that of the
+    contact on the waves kept.
 
     Result.measures: those of BEM; shortest_kept [m], the shortest wave that is solved, infinite where none is;
     slope_kept, the rms slope of the waves kept over the rms slope of all; friction_kept and friction_added, the
@@ -54,6 +58,7 @@ class ExtendedBEM:
     packages: ClassVar[tuple[str, ...]] = ("bem3d", "compare.models")
 
     points: Annotated[Whole, Field(ge=COARSE, le=16384)] = 256
+    accuracy: Annotated[Positive, Field(lt=1)] | None = None
 
     @property
     def name(self) -> str:
@@ -73,7 +78,16 @@ class ExtendedBEM:
         """Friction of all waves. Raises Refused, and SolveError as BEM does, and where the law has no answer."""
         start = process_time()
         refuse(self, scene)
-        kept, found = self._kept(scene)
+        points, found = self.points, self._solved(scene, self.points)
+        while self.accuracy and _half(found) > self.accuracy and 2 * points <= MOST_POINTS:
+            points *= 2
+            if why_not(BEM(points=points), without_fine_waves(scene)):  # no memory for it
+                break
+            found = self._solved(scene, points)
+        return replace(found, seconds=process_time() - start)
+
+    def _solved(self, scene: Scene, points: int) -> Result:
+        kept, found = _kept(scene, points)
         if kept is scene:
             return replace(found, solver=self.name)
         with numeric_guard():
@@ -83,27 +97,31 @@ class ExtendedBEM:
             scene=scene,
             solver=self.name,
             friction_force=(measures["friction_kept"] + measures["friction_added"]) * found.normal_force,
-            seconds=process_time() - start,
             measures={**found.measures, **measures},
         )
 
-    def _kept(self, scene: Scene) -> tuple[Scene, Result]:
-        """The scene with the waves that the grid holds, and the answer of BEM to it."""
-        solver, base = BEM(points=self.points), without_fine_waves(scene)
-        if base is scene:
-            return scene, solver.solve(scene)
-        rough: Any = scene.roughness
-        shortest = max(rough.shortest, FINE * BEM(points=COARSE).solve(base).settings["extent"] / self.points)
-        for _ in range(ROUNDS):
-            kept = scene if shortest <= rough.shortest else without(scene, shortest)
-            found = solver.solve(kept)
-            pixels = found.measures.get("points_per_shortest_wave", FINE)
-            if kept is scene or pixels >= ENOUGH:
-                return kept, found
-            shortest *= FINE / pixels
-        raise SolveError(
-            f"no cut of the spectrum leaves waves of {ENOUGH:g} pixels on {self.points} points a side"
-        )
+
+def _half(found: Result) -> float:
+    """Half of the interval of friction, relative; 0 where BEM solved every wave, or nothing slides."""
+    coefficient = found.friction_coefficient
+    return found.measures.get("friction_high", coefficient) / coefficient - 1 if coefficient else 0.0
+
+
+def _kept(scene: Scene, points: int) -> tuple[Scene, Result]:
+    """The scene with the waves that a grid holds, and the answer of BEM to it."""
+    solver, base = BEM(points=points), without_fine_waves(scene)
+    if base is scene:
+        return scene, solver.solve(scene)
+    rough: Any = scene.roughness
+    shortest = max(rough.shortest, FINE * BEM(points=COARSE).solve(base).settings["extent"] / points)
+    for _ in range(ROUNDS):
+        kept = scene if shortest <= rough.shortest else without(scene, shortest)
+        found = solver.solve(kept)
+        pixels = found.measures.get("points_per_shortest_wave", FINE)
+        if kept is scene or pixels >= ENOUGH:
+            return kept, found
+        shortest *= FINE / pixels
+    raise SolveError(f"no cut of the spectrum leaves waves of {ENOUGH:g} pixels on {points} points a side")
 
 
 def _with_law(scene, kept, found) -> dict[str, float]:
@@ -114,7 +132,8 @@ def _with_law(scene, kept, found) -> dict[str, float]:
     if isinstance(scene.motion, Slide):
         whole = LawParts.of(under(scene, found.normal_force))
         own = LawParts.of(under(kept, found.normal_force)).friction_coefficient if cut else whole.smooth
-        added = whole.friction_coefficient - own
+        # In 75 solved contacts the law falls with more waves: BEM rose in 61 of them, and fell by 7 % at most.
+        added = max(whole.friction_coefficient - own, 0.0)
     shortest = cut.shortest if cut else inf
     if total := solved + added:
         half = uncertainty(added / total, found.measures["contact_area"] / shortest**2, whole.x)
