@@ -161,8 +161,13 @@ def models_of(case: Case, asked: Sequence[ModelLike] | None = None, reference: s
     own: dict[str, Solver] = {"mdr": case.mdr, "bem": case.bem}
     given = asked or case.models or None
     if given is None and finer_than_its_grid(case):
-        given, own["extended"] = FINER, ExtendedBEM(points=max(ExtendedBEM().points, case.bem.points))
+        given, own["extended"] = FINER, extended_of(case)
     return Models.of(given, reference or case.reference or None, own)
+
+
+def extended_of(case: Case) -> ExtendedBEM:
+    """The model of waves that a grid cannot hold, on no fewer points than a case states."""
+    return ExtendedBEM(points=max(ExtendedBEM().points, case.bem.points))
 
 
 FINER = "law", "extended"

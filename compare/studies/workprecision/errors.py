@@ -84,7 +84,8 @@ class Way:
 class Reference:
     """What errors are measured against.
 
-    value : with the scatter of surfaces; left : error of its grid, the change on halving, NaN without another grid
+    value : with the scatter of surfaces
+    left : error of its grid, the change on halving, NaN without another grid; and of waves that it leaves to a law
     scale : that errors are relative to
     source : where it is from, for people
     biases : errors of all grids of the model that it is from
@@ -133,9 +134,13 @@ def reference(ladder: Ladder, dataset: xarray.Dataset, quantity: str, scale: flo
     value = _mean(_alone(dataset, found, last)).less(biases[last])
     points, label = dataset["points"].values, ladder.model.label
     changes = [abs(float(each.value)) for each in biases[top + 1 :]]
+    left = changes[0] if changes else 0.0 if not points.any() else nan
+    if quantity == "friction" and "friction_high" in dataset:  # of waves that no grid solves
+        ends = dataset["friction_high"] - dataset["friction_low"]
+        left += float(ends.isel(level=top).mean()) / 2
     return Reference(
         value,
-        left=changes[0] if changes else 0.0 if not points.any() else nan,
+        left=left,
         scale=abs(float(value.value)) or nan if np.isnan(scale) else scale,
         source=(f"{label} on {points[top]} points" if points.any() else label)
         + (", as finer grids have no answer" if top else ""),

@@ -30,6 +30,7 @@ from ...solving.words import seconds, share
 from ...statistics.finding import Claim, Finding
 from ...trustmap.corrected import CorrectedMDR
 from ...trustmap.friction_law import FrictionLaw
+from ..comparison.around import extended_of, finer_than_its_grid
 from ..study import Judgement, Study
 from . import errors, figure
 from .errors import INTERVAL, Way
@@ -37,12 +38,12 @@ from .ladder import Ladder, grid_of
 
 LEVELS = (0.1, 0.05, 0.02, 0.01)  # wanted errors
 ABOUT = """Errors are relative, of rough scenes those expected (rms) of a mean over surfaces. The reference is a
-closed form where there is one, else 3D on four times the points of the finest grid that is timed, or on the finest
-that solves; its error is half of its interval of 95 %. 3D is compared with it on the same surfaces, so that the
-error of a grid is known far better than the reference. Times are processor seconds of a single thread from scene
-to
-the result, the least of several repeats. A setting counts with the largest error of its interval, and as no better
-than all finer ones of its model. The rms error is half of the half-width that --interval states."""
+closed form where there is one, else 3D, or 3D extended where its grid cannot hold the waves, on four times the
+points of the finest grid that is timed, or on the finest that solves; its error is half of its interval of 95 %.
+It is compared with its coarser grids on the same surfaces, so that their errors are known far better than its own.
+Times are processor seconds of a single thread from scene to the result, the least of several repeats. A setting
+counts with the largest error of its interval, and as no better than all finer ones of its model. The rms error is
+half of the half-width that --interval states."""
 CLAIMS = {
     level: Claim(f"workprecision.time-{100 * level:g}-percent", f"Processor time to {share(level)}", unit="s")
     for level in LEVELS
@@ -106,10 +107,12 @@ class WorkPrecision(Study):
         return {name: list(self._ladders(case)) for name, case in self.cases.items()}
 
     def _ladders(self, case) -> Iterator[Ladder]:
-        exact, own = Exact(), {"mdr": case.mdr, "bem": case.bem}
-        usual = (case.mdr, CorrectedMDR(case.mdr), FrictionLaw(), Persson(), case.bem)
+        exact, own, finest = Exact(), {"mdr": case.mdr, "bem": case.bem}, case.bem
+        if finer_than_its_grid(case):
+            own["extended"] = finest = extended_of(case)
+        usual = (case.mdr, CorrectedMDR(case.mdr), FrictionLaw(), Persson(), finest)
         asked = [Model.of(named(each, own) if isinstance(each, str) else each) for each in self.asked or usual]
-        first = Model.of(case.bem if exact.refusals(case.scene) else exact)
+        first = Model.of(finest if exact.refusals(case.scene) else exact)
         yield Ladder.of(first, case.scene, refers=True)
         yield from (Ladder.of(each, case.scene) for each in asked if each.name != first.name)
 
