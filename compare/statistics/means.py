@@ -18,6 +18,8 @@ AVERAGED = ("friction_spread", "pixel", "points_across_contact")
 # Never negative: their intervals are those of their logarithms.
 SIZES = ("rms_slope",)
 ENDS = "_mean", "_low", "_high"
+# Ends of the interval that a model states of its own coefficient of friction.
+STATED = "friction_low", "friction_high"
 
 
 def pressed(dataset: xarray.Dataset) -> str:
@@ -76,6 +78,8 @@ def touches(dataset: xarray.Dataset) -> np.ndarray:
 def interval(dataset: xarray.Dataset, above: str, below: str | None = None, size: bool = False) -> Estimated:
     """Mean over draws of a variable, or ratio of two means, on the fine grid at every speed, and load or depth.
 
+    Its grid counts the interval of friction that a model states of its own.
+
     size : whether the variable is never negative
     """
     ordered = dataset.transpose("speed", pressed(dataset), ...)
@@ -84,7 +88,18 @@ def interval(dataset: xarray.Dataset, above: str, below: str | None = None, size
     grid = 0.0 if "points" in dataset.coords and not dataset["points"].values.any() else nan
     for coarse in others:
         grid = np.abs(fine.value - coarse.value)
+    if (upper := at_upper_end(ordered.sel(level=FINE))) is not None:
+        grid = grid + np.abs(estimated(upper, above, below).value - fine.value)
     return replace(fine, grid=grid, size=size)
+
+
+def at_upper_end(dataset: xarray.Dataset) -> xarray.Dataset | None:
+    """Answers with friction at the upper end of the interval that their model states of it; None without one."""
+    if not {*STATED, "friction_force"} <= set(dataset.variables):
+        return None
+    half = (dataset["friction_high"] - dataset["friction_low"]).fillna(0.0) / 2
+    half = half.mean("surface") if "surface" in half.dims else half
+    return dataset.assign(friction_force=dataset["friction_force"] + half * dataset["normal_force"])
 
 
 def _over_draws(array, how):

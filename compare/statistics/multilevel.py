@@ -124,13 +124,14 @@ def unreached(means: Iterable[Finding], interval: float) -> str:
 
     interval : half-width that is wanted, relative
     """
-    widths = (((high - low) / 2, each.grid) for each in means for low, high in [each.interval])
+    # What has no draws is as narrow as it can be.
+    widths = (((high - low) / 2, each.grid) for each in means if each.parts for low, high in [each.interval])
     half, grid = max((each for each in widths if isfinite(each[0])), default=(0.0, 0.0))
     if half <= interval:
         return ""
     message = f"is known to {share(half)} only, {share(interval)} are wanted"
     if grid > OWN_SHARE * interval:
-        return f"{message}: half the points change it by {share(grid)}, take more points"
+        return f"{message}: its grid leaves {share(grid)} open, take more points"
     return f"{message}: more surfaces would narrow it"
 
 

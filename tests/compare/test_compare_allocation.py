@@ -102,9 +102,21 @@ def test_an_interval_that_is_not_reached_says_why():
     force = found["friction_force"]
     coarse = found.assign(friction_force=force.where(found["level"] == "fine", 1.2 * force))
     assert re.fullmatch(
-        r"is known to [\d.]+ % only, 10 % are wanted: half the points change it by [12]\d %, take more points",
+        r"is known to [\d.]+ % only, 10 % are wanted: its grid leaves [12]\d % open, take more points",
         unreached(means(coarse), 0.1),
     )
+
+
+def test_the_grid_of_a_model_counts_the_interval_that_it_states_of_its_friction():
+    found = answers(np.random.default_rng(2), pilot(3), 0.1).expand_dims(speed=[0.1])
+    low, high = (found["friction_force"] / found["normal_force"] + each for each in (-0.2, 0.1))
+    doubtful = found.assign(friction_low=low, friction_high=high.where(high["surface"] != 1))
+    plain, wider = (interval_of(pooled(each), "friction_force", "normal_force") for each in (found, doubtful))
+    np.testing.assert_allclose(wider.grid - plain.grid, 0.15, rtol=1e-9)
+    assert np.array_equal(wider.value, plain.value)
+    assert np.array_equal(wider.interval(), plain.interval())
+    force = (interval_of(pooled(each), "normal_force") for each in (found, doubtful))
+    assert len({each.grid.tobytes() for each in force}) == 1
 
 
 def test_one_contact_without_an_answer_does_not_stop_the_others():

@@ -55,6 +55,7 @@ MEASURED = (
     "rms_slope_contact",
     "contact_length",
     "contact_area",
+    *means.STATED,
 )
 
 
@@ -109,10 +110,16 @@ class Answers:
     def compared(self, curve: str, models: tuple[str, ...], measure: Any, size: bool = False) -> Estimated:
         """Numbers of a curve, a measure of samples, with scatter and error of the grid.
 
-        The latter is not known where the surface of a model with a grid is another one on half its points.
+        The latter is not known where the surface of a model with a grid is another one on half its points. It
+        counts the interval that the reference states of its own friction; that of another model is judged.
         """
+        fine, reference = self.sample(FINE, curve, *models), self.models.reference
         coarse = self.sample(COARSE, curve, *models) if self.halved(curve, *models) else None
-        return compared(measure, self.sample(FINE, curve, *models), coarse, size)
+        found = compared(measure, fine, coarse, size)
+        upper = means.at_upper_end(fine[reference]) if reference in models else None
+        if upper is None:
+            return found
+        return replace(found, grid=found.grid + abs(measure({**fine, reference: upper}) - found.value))
 
     def interval(self, curve: str, model: str, above: str, below: str | None = None) -> Estimated:
         """Means of a variable, or over those of another, at every place of a curve, with intervals of 95 %."""
