@@ -8,7 +8,7 @@ from small_cases import CURVE, HEAD, SCENE, SHARED, TABLES
 
 from bem3d import BEM
 from compare.library.case import Case, share_of
-from compare.solving.cost import DAY, MANY_CONTACTS, MOST_CONTACTS, SECONDS, Cost
+from compare.solving.cost import DAY, MANY_CONTACTS, MOST_CONTACTS, Cost, seconds_per_work
 from compare.studies.comparison import asked as questions
 from compare.studies.comparison.study_file import study_of
 from compare.studies.paper.study import Paper
@@ -55,7 +55,7 @@ def test_of_a_whole_study_it_is_an_upper_bound_as_curves_share_contacts(asked):
     ],
 )
 def test_what_takes_long_is_begun_on_a_yes_alone(tmp_path, contacts, days, message):
-    asked = Costly(contacts, days * DAY / SECONDS)
+    asked = Costly(contacts, days * DAY / seconds_per_work())
     with pytest.raises(Refused, match=f"{contacts:,} contacts .* h .* of processor time.*{message}.*--yes"):
         run(asked, tmp_path / "out", workers=2)
     assert not (tmp_path / "out").exists()
