@@ -50,7 +50,7 @@ def work_of(solver: Solver, scene: Scene) -> float:
         # Under a load every step takes twice as long.
         steps = _steps(solver, scene) * (1 if motion.pressed_by == "depth" else 2)
     if isinstance(solver, MDR):
-        drawn = 3e4 + 16 * solver.points if rough is not None else 0.0
+        drawn = 3e4 + 12 * solver.points if rough is not None else 0.0
         return again * (2.5e4 + drawn + solver.points * (5 * steps or 2 + modes))
     row = row_width(scene) is not None
     area = solver.points if row else solver.points**2
@@ -61,7 +61,7 @@ def work_of(solver: Solver, scene: Scene) -> float:
     if not modes:
         return again * (3.2e5 + 41.0 * area) * (5 if isinstance(motion, Shear) else 1)
     # A layer needs tables of its own.
-    each = 4e5 if row else 7.6e5 + 5e4 * modes + 95.0 * area
+    each = 3.2e5 + 3.0 * area**2 if row else 7.6e5 + 5e4 * modes + 95.0 * area
     return again * each * (5 if scene.layer is not None else 2) / 2
 
 

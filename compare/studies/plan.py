@@ -33,6 +33,7 @@ INTERVALS = 0.1, 0.05, 0.02, 0.01
 FEWEST = 2  # surfaces, below which no scatter is seen
 # Error of friction on the plateau times the square of the pixels on the shortest wave: docs/results/accuracy.md.
 GRID_ERROR = 1.7
+MOST_POINTS = 16384  # a side
 
 
 @dataclass(frozen=True)
@@ -54,10 +55,10 @@ class Accuracy:
     def of(cls, interval: float, solver: BEM | ExtendedBEM, scene: Scene, scatter: float) -> Accuracy:
         """By the scatter of single surfaces."""
         error, shortest = 0.0, getattr(scene.roughness, "shortest", None)
-        if isinstance(solver, BEM) and shortest:
+        if isinstance(solver, BEM) and shortest and getattr(scene.motion, "speed", 0.0):
             error = GRID_ERROR * (likely_grid(solver, scene).pixel / shortest) ** 2
             if (over := error / (OWN_SHARE * interval)) > 1:
-                solver = replace(solver, points=2 * ceil(solver.points * sqrt(over) / 2))
+                solver = replace(solver, points=min(2 * ceil(solver.points * sqrt(over) / 2), MOST_POINTS))
                 error = OWN_SHARE * interval
         surfaces = max(FEWEST, ceil((NORMAL * scatter / (interval - error)) ** 2))
         return cls(interval, surfaces, solver.points, seconds_per_work() * surfaces * work_of(solver, scene))

@@ -62,7 +62,7 @@ class ExtendedBEM:
     @property
     def work(self) -> float:
         """Cost of a contact in passes over a point of a grid: of BEM, which often solves it once more."""
-        return 2e6 + 140.0 * self.points**2
+        return 4e6 + 115.0 * self.points**2
 
     def refusals(self, scene: Scene) -> list[str]:
         """Reasons why the scene cannot be solved, one sentence each."""
