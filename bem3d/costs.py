@@ -1,4 +1,4 @@
-"""Measured costs of steady contacts by points a side, for plans and for settings of a wanted accuracy."""
+"""Measured operator applications of steady contacts by points a side, for plans."""
 
 import csv
 from collections.abc import Mapping
@@ -16,7 +16,6 @@ from .motion.steady import Flow
 MEASURED = Path(__file__).with_name("costs.csv")
 BANDS = ("rest", "slow", "middle", "fast")
 SLOW, FAST = 0.1, 10.0  # memory over the shortest length of the contact, between which it slides at middle speed
-COSTS = "seconds", "operator_applications"  # of a solve, medians by points a side
 
 
 def band(scene: Scene) -> str:
@@ -31,28 +30,27 @@ def band(scene: Scene) -> str:
 
 
 def body(scene: Scene) -> str:
-    """Kind of body, smooth or rough, for which costs were measured."""
+    """Kind of body, smooth or rough, for which applications were measured."""
     return "smooth" if scene.roughness is None or scene.roughness.flat else "rough"
 
 
-def typical(scene: Scene, points: int) -> dict[str, float]:
-    """Costs of such a body at such a speed on a square of `points` a side, by the names of `COSTS`."""
-    return {name: _between(measured()[body(scene), band(scene), name], points) for name in COSTS}
+def typical(scene: Scene, points: int) -> float:
+    """Applications of such a body at such a speed on a square of `points` a side."""
+    return _between(measured()[body(scene), band(scene)], points)
 
 
 @cache
-def measured() -> Mapping[tuple[str, str, str], np.ndarray]:
-    """Points a side and medians of a cost (2, grids), by body, band and name of the cost."""
-    grids: dict[tuple[str, str, str], list[tuple[float, float]]] = {}
+def measured() -> Mapping[tuple[str, str], np.ndarray]:
+    """Points a side and median applications (2, grids), by body and band."""
+    grids: dict[tuple[str, str], list[tuple[float, float]]] = {}
     with MEASURED.open(encoding="utf-8", newline="") as file:
         for row in csv.DictReader(file):
-            kind = row["body"], row["band"], row["cost"]
-            grids.setdefault(kind, []).append((float(row["points"]), float(row["value"])))
+            grids.setdefault((row["body"], row["band"]), []).append((float(row["points"]), float(row["value"])))
     return {kind: np.array(sorted(pairs)).T for kind, pairs in grids.items()}
 
 
 def _between(grids, points):
-    """Cost between two grids, by a power of the points."""
+    """Applications between two grids, by a power of the points."""
     x, y = np.log(grids)
     k = int(np.clip(np.searchsorted(x, np.log(points)), 1, len(x) - 1))
     slope = (y[k] - y[k - 1]) / (x[k] - x[k - 1])

@@ -1,4 +1,4 @@
-"""Plan of the 3D solver for a scene: its grids and kernels, and measured costs."""
+"""Plan of the 3D solver for a scene: its grids and kernels, and measured applications."""
 
 from dataclasses import replace
 from itertools import pairwise
@@ -7,7 +7,7 @@ from pathlib import Path
 
 from scene import Indent, Measured, Plane, Profile, Program, Scene, Slide
 from scene.indenter import Axisymmetric
-from scene.plan import PIECE, Kernel, Modes, Plan, at_tolerance, by, expected, left_out, not_known
+from scene.plan import PIECE, Expected, Kernel, Modes, Plan, at_tolerance, by, expected, left_out
 from scene.scales import elastic_contact
 from scene.solids.viscoelastic import Linear
 from scene.surfaces.isotropic import Isotropic
@@ -25,9 +25,9 @@ from .response.convolution import free_size
 from .response.memory import SMALL
 
 EFFECTS = Path(__file__).with_name("effects.csv")
-# What was measured. `effects.csv` has what other parts multiply its costs with: a Program, for a step.
+# What was measured. `effects.csv` has what other parts multiply its applications with: a Program, for a step.
 PRICED = (Axisymmetric, Linear, Indent, Slide, Isotropic, Profile)
-HOW = "medians of solves to 1e-7 on the machine where they were measured"
+HOW = "medians of solves to 1e-7"
 TIGHT = 1e-7
 TOUCHING, ON_A_ROW = 0.4, 0.6  # of the points, in contact
 SYMMETRIC, GENERAL = 8, 16  # vectors on the points in contact, of conjugate gradients and of GMRES
@@ -65,7 +65,7 @@ def plan_of(solver, scene: Scene, priced: bool = True) -> Plan:
         modes=Modes.of(times if moving else ()),
         memory=_memory(solver, scene, flow, shape, march),
         steps=march.steps if march else 0,
-        **(_expected(solver, scene, shape, march) if priced else not_known("not asked")),
+        operator_applications=_expected(solver, scene, shape, march) if priced else Expected(None, "not asked"),
         left_out=left_out(scene, LEFT_OUT),
     )
     for term in terms:
@@ -213,20 +213,19 @@ def _waves(scene, pixel):
 
 
 def _expected(solver, scene, shape, march):
-    """Costs of a steady contact as measured, times the measured factors of parts that were not in it."""
+    """Applications of a steady contact as measured, times the measured factors of parts that were not in it."""
     if shape[0] == 1:
-        return not_known("squares were measured, no rows")
+        return Expected(None, "squares were measured, no rows")
     if isinstance(scene.indenter, Plane):
-        return not_known("few planes were measured among spheres, which take several times as long")
+        return Expected(None, "few planes were measured among spheres, which take several times as long")
     rough = scene.roughness
     if rough is not None and not rough.flat and getattr(rough, "shortest", None) is None:
-        return not_known("no roughness without a shortest wave was measured")
+        return Expected(None, "no roughness without a shortest wave was measured")
     others = [part for part in scene.parts.values() if not isinstance(part, PRICED)]
     steady, times = (replace(scene, motion=scene.motion.held), march.steps) if march else (scene, 1)
 
     def as_measured():
-        counted = at_tolerance(typical(steady, shape[1]), log10(solver.tolerance / TIGHT))
-        return {name: times * value for name, value in counted.items()}
+        return times * at_tolerance(typical(steady, shape[1]), log10(solver.tolerance / TIGHT))
 
     why = HOW if solver.tolerance == TIGHT else f"{HOW}, brought to {solver.tolerance:g} by what a few took"
     return expected(as_measured, why, others, EFFECTS)

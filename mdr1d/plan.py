@@ -1,4 +1,4 @@
-"""Plan of the 1D solver for a scene: no kernels, and costs by node and sweep."""
+"""Plan of the 1D solver for a scene: no kernels, and the sweeps that it takes."""
 
 from math import ceil
 from pathlib import Path
@@ -15,14 +15,10 @@ from .surface import nodes_needed
 from .timeline import timeline
 
 EFFECTS = Path(__file__).with_name("effects.csv")
-# Parts whose costs are counted below; of all others `effects.csv` has what they multiply costs with.
+# Parts whose sweeps are counted below; of all others `effects.csv` has what they multiply them with.
 COUNTED = (Axisymmetric, Linear, Indent, Slide, Program, Isotropic, Profile)
-# Processor seconds of a single thread, on the machine where the 3D solver was measured: of a solve, and for
-# each node of a sweep of an elastic or Kelvin foundation, of Maxwell branches and each of them, of a step in time
-# and each of its modes, and of drawing a rough line.
-START, KELVIN, MAXWELL, BRANCH, STEP, MODE, DRAWN = 1e-4, 4e-9, 14e-9, 2.5e-9, 110e-9, 7e-9, 100e-9
 SWEEPS = 5  # under a load; 2 to 7 are usual
-MEASURED = "by node and sweep, as measured on spheres"
+MEASURED = "sweeps, as counted on spheres"
 LEFT_OUT = {
     "roughness": "the profile is smooth: no line is drawn",
     "layer": "a half-space: the foundation has no thickness",
@@ -56,7 +52,7 @@ def plan_of(solver, scene: Scene, layout) -> Plan:
         modes=Modes.of(elastomer.retardation()[2] if moves else ()),
         memory=_memory(solver, scene, layout, steps),
         steps=steps,
-        **_expected(scene, nodes, steps),
+        operator_applications=_expected(scene, steps),
         left_out=left_out(scene, LEFT_OUT),
     )
     for term in terms:
@@ -92,15 +88,8 @@ def _memory(solver, scene, layout, steps):
     return 8 * values
 
 
-def _expected(scene, nodes, steps):
-    """Expected costs: by nodes and sweeps, times measured factors of the other parts of the scene."""
-    moduli = scene.solid.relaxation()[1]
-    if steps:
-        sweeps, each = steps, STEP + MODE * len(modes_of(scene.solid).compliances)
-    else:
-        sweeps = 1 if scene.motion.load is None else SWEEPS
-        each = MAXWELL + BRANCH * len(moduli) if scene.motion.speed and len(moduli) else KELVIN
-    drawn = DRAWN if scene.roughness is not None else 0.0
+def _expected(scene, steps):
+    """Sweeps along the profile, times measured factors of the other parts of the scene."""
+    sweeps = steps or (1 if scene.motion.load is None else SWEEPS)
     others = [part for part in scene.parts.values() if not isinstance(part, COUNTED)]
-    plain = {"operator_applications": float(sweeps), "seconds": START + nodes * (sweeps * each + drawn)}
-    return expected(lambda: plain, MEASURED, others, EFFECTS)
+    return expected(lambda: float(sweeps), MEASURED, others, EFFECTS)

@@ -14,10 +14,9 @@ from .printable import table
 from .scene import Scene
 from .surfaces.scanned import Scanned
 
-COSTS = "operator_applications", "seconds"
-# Share of a solve to 1e-7 that each power of ten in the tolerance saves. Contacts at rest and sliding, smooth
-# and rough, took 0.81 of the applications to 1e-5 and 0.57 to 1e-3, of the seconds 0.89 and 0.71: medians of 22.
-DECADE, LEAST = {"operator_applications": 0.1, "seconds": 0.07}, 0.5
+# Share of the applications of a solve to 1e-7 that each power of ten in the tolerance saves. Contacts at rest and
+# sliding, smooth and rough, took 0.81 of them to 1e-5 and 0.57 to 1e-3: medians of 22.
+DECADE, LEAST = 0.1, 0.5
 
 
 @dataclass(frozen=True)
@@ -35,9 +34,9 @@ class Expected:
         return f"not known: {self.why}" if self.value is None else f"{two_digits(self.value)}, {self.why}"
 
 
-def at_tolerance(counted: Mapping[str, float], decades: float) -> dict[str, float]:
-    """Costs of a solve at a tolerance that is `decades` powers of ten wider than the one they were counted at."""
-    return {cost: value * max(1 - DECADE[cost] * decades, LEAST) for cost, value in counted.items()}
+def at_tolerance(counted: float, decades: float) -> float:
+    """Applications at a tolerance that is `decades` powers of ten wider than the one they were counted at."""
+    return counted * max(1 - DECADE * decades, LEAST)
 
 
 def two_digits(value: float) -> str:
@@ -45,33 +44,25 @@ def two_digits(value: float) -> str:
     return f"{float(f'{value:.2g}'):g}"
 
 
-def not_known(why: str) -> dict[str, Expected]:
-    """None of `COSTS` is."""
-    return dict.fromkeys(COSTS, Expected(None, why))
-
-
-def expected(
-    plain: Callable[[], Mapping[str, float]], why: str, parts: Iterable[object], table: Path
-) -> dict[str, Expected]:
-    """Expected costs by the names of `COSTS`.
+def expected(plain: Callable[[], float], why: str, parts: Iterable[object], table: Path) -> Expected:
+    """Expected applications.
 
     plain : gives those of a contact without these parts, by `why`; asked only where all parts are known
-    parts : parts of a scene; each multiplies the costs by its line of the table
+    parts : parts of a scene; each multiplies them by its line of the table
     """
     names, known = [type(part).__name__ for part in parts], multiples(table)
     if unknown := [name for name in names if name not in known]:
-        return not_known(f"what {' and '.join(unknown)} takes was not measured")
+        return Expected(None, f"what {' and '.join(unknown)} takes was not measured")
     if names:
         why += f", times what {' and '.join(names)} took of a sphere"
-    counted = plain()
-    return {cost: Expected(counted[cost] * prod(known[name][cost] for name in names), why) for cost in COSTS}
+    return Expected(plain() * prod(known[name] for name in names), why)
 
 
 @cache
-def multiples(table: Path) -> Mapping[str, Mapping[str, float]]:
-    """Factors on each of `COSTS` by the name of a part's type, from a CSV of part and costs."""
+def multiples(table: Path) -> Mapping[str, float]:
+    """Factors on the applications by the name of a part's type, from a CSV of part and operator_applications."""
     with table.open(encoding="utf-8", newline="") as file:
-        return {row["part"]: {cost: float(row[cost]) for cost in COSTS} for row in csv.DictReader(file)}
+        return {row["part"]: float(row["operator_applications"]) for row in csv.DictReader(file)}
 
 
 WIDTH = 36  # of the first column of a plan, at least
@@ -136,7 +127,7 @@ class Plan:
     modes : that are followed
     memory : most that is held at once [bytes], what the process holds without it excluded
     steps : in time; 0 of what is steady
-    operator_applications, seconds : in equivalents of the finest grid, and of processor time
+    operator_applications : in equivalents of the finest grid
     left_out : what the scene does not ask for, and what therefore is not done
     doubts : about the scene, and about how well the grid shows it
     """
@@ -152,7 +143,6 @@ class Plan:
     memory: int
     steps: int
     operator_applications: Expected
-    seconds: Expected
     left_out: Mapping[str, str] = field(default_factory=dict)
     doubts: tuple[Doubt, ...] = ()
 
@@ -177,7 +167,6 @@ class Plan:
     @property
     def _groups(self) -> dict[str, Mapping[Any, Any]]:
         """Lines by title: names and their texts; a text is empty where the name is enough."""
-        expected = {"operator_applications": self.operator_applications, "seconds": self.seconds}
         groups: dict[str, Mapping[Any, Any]] = {
             "doubtful": dict.fromkeys(self.doubts, ""),
             "simulated": self.terms,
@@ -187,7 +176,7 @@ class Plan:
             "modes": {self.modes: ""},
             "steps in time": {self.steps or "none": ""},
             "memory": {size(self.memory): ""},
-            "expected": expected,
+            "expected": {"operator_applications": self.operator_applications},
             "left out": self.left_out or {"none": ""},
         }
         return {title: group for title, group in groups.items() if group}

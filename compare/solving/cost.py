@@ -1,21 +1,95 @@
-"""Cost of a study in contacts, time and bytes, by counting: known before a task of it is built."""
+"""Cost of contacts and of studies: work, by counting, which allocates surfaces; and time, for forecasts alone.
 
+Work is a number of scene and settings, the same on every machine. Seconds are work times what a unit of it takes
+on this machine, as half a second of solving shows once; the user's cache keeps it.
+"""
+
+import os
 from collections.abc import Iterable
+from contextlib import suppress
 from dataclasses import dataclass, fields
+from functools import cache
+from pathlib import Path
+from statistics import median
 
-from scene import Refused
+from bem3d import BEM
+from bem3d.problem import row_width
+from mdr1d import MDR
+from scene import Kelvin, Program, Refused, Scene, Shear, Slide, SolveError, Solver, Sphere
 from scene.plan import size
 
 from .task import Task
 from .words import HOUR, duration
 
-SECONDS = 6e-8  # of processor a unit of work takes, within a factor of two
+CALIBRATION = 0.5  # of processor time [s]
+CALIBRATING = BEM(points=64), Scene(Sphere(0.01), Kelvin(1e6, 1e-3), Slide(speed=0.1, load=1.0))
+CALIBRATED = 6.3e5  # work of this contact, solved again and again: less than once, as its kernels are kept
+COMMAND = 4e8  # work of a command besides its solves: to load, to judge, to draw and to write
+SLOWEST = 1e-4  # seconds a unit of work takes at most: a kept number above is none
+FEEDBACK = {"MDR": 25, "BEM": 8}  # solves until temperature and heat agree, with all that each of them checks
 STORED = 1000.0  # bytes a contact takes on disk, its place in the file of results included
 DAY = 24 * HOUR
 MOST_DRAWS = 10_000  # rough surfaces or profiles that are averaged
 MOST_VALUES = 1000  # speeds, loads or depths in a curve
 MANY_CONTACTS = 300_000  # from which to build the tasks takes longer than a person waits
 MOST_CONTACTS = 2_000_000  # of a study: more are too many to be held in memory
+
+
+def work_of(solver: Solver, scene: Scene) -> float:
+    """Work of a contact, in passes over a point of a grid, fitted to times; a model may state its own as `work`.
+
+    Of a contact on a surface of its own, in a process that has solved others.
+    """
+    if not isinstance(solver, BEM | MDR):
+        return getattr(solver, "work", 1.0)
+    motion, rough = scene.motion, scene.roughness
+    fed_back = scene.heating is not None and scene.heating.feedback is not None
+    again, steps = FEEDBACK[solver.name] if fed_back else 1, 0
+    modes = scene.solid.retardation()[2].size if getattr(motion, "speed", 0.0) else 0
+    if isinstance(motion, Program):
+        # Under a load every step takes twice as long.
+        steps = _steps(solver, scene) * (1 if motion.pressed_by == "depth" else 2)
+    if isinstance(solver, MDR):
+        drawn = 3e4 + 12 * solver.points if rough is not None else 0.0
+        return again * (2.5e4 + drawn + solver.points * (5 * steps or 2 + modes))
+    row = row_width(scene) is not None
+    area = solver.points if row else solver.points**2
+    if steps:
+        return steps * (5e4 + 15.0 * area)
+    # Without a shortest wave the finest are as short as the grid holds.
+    again *= 2 if rough is not None and getattr(rough, "shortest", 0.0) is None else 1
+    if not modes:
+        return again * (3.2e5 + 41.0 * area) * (5 if isinstance(motion, Shear) else 1)
+    # A layer needs tables of its own.
+    each = 3.2e5 + 3.0 * area**2 if row else 7.6e5 + 5e4 * modes + 95.0 * area
+    return again * each * (5 if scene.layer is not None else 2) / 2
+
+
+def _steps(solver, scene):
+    """Steps in time of a Program; as stated where it is refused."""
+    try:
+        return solver.plan(scene).steps
+    except (Refused, SolveError, ArithmeticError):
+        return solver.steps
+
+
+@cache
+def seconds_per_work() -> float:
+    """Processor time [s] of a unit of work on this machine, for forecasts alone; kept in the user's cache."""
+    folder = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
+    kept = Path(folder, "crosscheck", "seconds-per-work.txt")
+    with suppress(OSError, ValueError):
+        if 0 < (found := float(kept.read_text(encoding="utf-8"))) < SLOWEST:
+            return found
+    (solver, scene), spent = CALIBRATING, list[float]()
+    solver.solve(scene)  # which loads compiled code
+    while sum(spent) < CALIBRATION:
+        spent.append(solver.solve(scene).seconds)
+    found = median(spent) / CALIBRATED
+    with suppress(OSError):
+        kept.parent.mkdir(parents=True, exist_ok=True)
+        kept.write_text(str(found), encoding="utf-8")
+    return found
 
 
 @dataclass(frozen=True)
@@ -42,8 +116,8 @@ class Cost:
 
     @property
     def seconds(self) -> float:
-        """Processor time [s]."""
-        return SECONDS * self.work
+        """Processor time of the command [s], a forecast."""
+        return (COMMAND + self.work) * seconds_per_work()
 
     @property
     def disk(self) -> float:

@@ -24,7 +24,7 @@ from scene.scales import elastic_contact
 
 from .continuation import Continuation, by_contact, joined
 from .control_variates import VARIATES, control_variates
-from .cost import MOST_DRAWS, Cost
+from .cost import MOST_DRAWS, Cost, work_of
 from .task import Outcome, Row, SceneTask, Task, draws_of
 from .vocabulary import attributes
 
@@ -129,7 +129,7 @@ class Curve:
         """Planned work for a surface of each stratum, on all of its levels, by the name of the model."""
         found = {}
         for name, levels in self.levels.items():
-            each = [len(self.points) * work_of(solver, self.scene) for solver in levels.values()]
+            each = [self._work(solver) for solver in levels.values()]
             pairs = [each[k : k + 2] for k in range(len(each))]
             found[name] = tuple(map(sum, pairs if self.stratified(name) else [each]))
         return found
@@ -138,14 +138,20 @@ class Curve:
     def cost(self) -> Cost:
         """Cost of all contacts, by counting."""
         counts = [
-            (len(self.points) * sum(map(len, seeds)), work_of(solver, self.scene))
+            (sum(map(len, seeds)), self._work(solver))
             for name, levels in self.levels.items()
             for solver, seeds in zip(levels.values(), self._seeds(name), strict=True)
         ]
         fine = (levels[FINE] for levels in self.levels.values()) if self.keeps_fields else ()
         # Heights, pressure and gap, in the store and in the file of results.
         kept = sum(48 * each.points**2 for each in fine if isinstance(each, BEM))
-        return sum((Cost(count, count * work) for count, work in counts), Cost(kept=kept))
+        every = (Cost(count * len(self.points), count * work) for count, work in counts)
+        return sum(every, Cost(kept=kept))
+
+    def _work(self, solver):
+        """Work of a surface at all speeds and values."""
+        each = (work_of(solver, self.at(self.values[0], speed)) for speed in self.speeds or (0.0,))
+        return len(self.values) * sum(each)
 
     @property
     def random(self) -> bool:
@@ -461,15 +467,3 @@ def tree(curves: Mapping[str, Curve], outcomes: Mapping[Task, Outcome]) -> xarra
 
     answers = by_contact(outcomes)
     return xarray.DataTree.from_dict({f"/{name}": each.dataset(answers) for name, each in curves.items()})
-
-
-def work_of(solver: Solver, scene: Scene) -> float:
-    """Cost of a contact in passes over a point of a grid, roughly; a model may state its own as `work`."""
-    if isinstance(solver, MDR):
-        # As measured: a mode costs a tenth of all else.
-        each = solver.points * 5.0 * (1 + scene.solid.relaxation()[2].size / 10)
-    elif isinstance(solver, BEM):
-        each = solver.points**2.2 * 50.0
-    else:
-        return getattr(solver, "work", 1.0)
-    return each * (solver.steps if isinstance(scene.motion, Program) else 1)

@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 
 from ..solving.control_variates import VARIATES, controlled
-from ..solving.cost import MOST_DRAWS, SECONDS
+from ..solving.cost import MOST_DRAWS, seconds_per_work
 from ..solving.curve import EMPTY, TOGETHER, Curve
 from ..solving.words import duration, share
 from .collapse import PARTED
@@ -198,13 +198,14 @@ class DrawnSurfaces:
             drawn = " or ".join(dict.fromkeys(words[name] for name, _ in asked))
             remedy = f"only more than {MOST_DRAWS:,} {drawn} would decide it"
         else:
-            totals, seconds = defaultdict[str, float](float), 0.0
+            totals, work = defaultdict[str, float](float), 0.0
             for (name, k), count in asked.items():
                 lacking = max(count - self.counts[name][k], 0.0)
                 totals[words[name]] += lacking
-                seconds += SECONDS * lacking * self.costs[name][k]
+                work += lacking * self.costs[name][k]
             needed = " and ".join(f"{_some(max(more, 1.0))} more {word}" for word, more in totals.items() if more)
-            remedy = f"some {needed}, {duration(max(seconds, 1.0))} of processor time, would decide it"
+            time = duration(max(seconds_per_work() * work, 1.0))
+            remedy = f"some {needed}, {time} of processor time, would decide it"
         return replace(finding, remedy=remedy)
 
     def _least_cost(self, parts, times):

@@ -17,7 +17,7 @@ from ..solving.cost import Cost
 from ..solving.vocabulary import entry
 from ..statistics.finding import Claim, Finding
 from ..trustmap.verdict import Advice
-from .plan import Plans
+from .plan import Accuracy, Plans
 from .report import Report
 
 Cell: TypeAlias = str | bool | int | float | None
@@ -53,6 +53,8 @@ class Planned:
     solvers : plan of each solver by its name, or in words why there is none
     trust : worth of cheap answers, the same that `trust` prints
     contacts, seconds : of `crosscheck run`, at most, and its processor time [s]; null where it solves nothing
+    times : processor time of this contact by solver [s]
+    accuracies : what intervals of this contact take in 3D; empty where its scatter is not known, or none
     reason : why it solves nothing; empty where it does
     doubts, notes : about the scene, and on what was read for it
     interval : of the scene, which takes more contacts than these; null where it states none
@@ -62,6 +64,8 @@ class Planned:
     trust: Advice
     contacts: int | None
     seconds: float | None
+    times: dict[str, float]
+    accuracies: tuple[Accuracy, ...]
     reason: str
     doubts: tuple[str, ...]
     notes: tuple[str, ...]
@@ -110,6 +114,8 @@ def answer(found: Any) -> Answer:
                 trust=cast(Advice, found["trust"]),
                 contacts=cost.contacts if cost else None,
                 seconds=cost.seconds if cost else None,
+                times=found.times,
+                accuracies=found.accuracies,
                 reason="" if cost else str(found.cost),
                 doubts=tuple(found.doubts),
                 notes=tuple(notes(found.scene)),

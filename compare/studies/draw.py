@@ -18,7 +18,7 @@ from ..figures.plot import Plot
 from ..library.case import Case, doubted
 from ..library.lookup import SceneLike, case_of
 from ..report.page import Text
-from ..solving.curve import work_of
+from ..solving.cost import work_of
 from ..solving.task import Batch, Outcome, SceneTask, Task
 from ..solving.vocabulary import attributes
 from ..statistics import griderror

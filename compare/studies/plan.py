@@ -2,28 +2,70 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from math import isinf
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from math import ceil, isfinite, isinf, nan, sqrt
 from textwrap import fill
 from typing import cast
 
 from bem3d import BEM
+from bem3d.plan import likely_grid
 from mdr1d import MDR
 from scene import Refused, Scene, SolveError, notes
-from scene.plan import Plan, size, two_digits
+from scene.plan import Plan, size
 from scene.protocol import foresee, numeric_guard
 
 from ..library.case import Case, NotCompared, doubted
 from ..library.lookup import SceneLike, case_of
+from ..models.law.extended import ExtendedBEM
 from ..models.table import KNOWN
-from ..solving.cost import Cost
+from ..solving.cost import Cost, seconds_per_work, work_of
 from ..solving.words import duration, pascals, seconds, share
+from ..statistics.multilevel import OWN_SHARE
+from ..trustmap.model import NORMAL
 from ..trustmap.verdict import Advice, trust
 from .comparison.around import FINER, Around
 
 WIDTH = 100
 WHOLE = {"break_long_words": False, "break_on_hyphens": False}
 INDENT = 11  # of the lines, after their names
+INTERVALS = 0.1, 0.05, 0.02, 0.01
+FEWEST = 2  # surfaces, below which no scatter is seen
+# Error of friction on the plateau times the square of the pixels on the shortest wave: docs/results/accuracy.md.
+GRID_ERROR = 1.7
+MOST_POINTS = 16384  # a side
+
+
+@dataclass(frozen=True)
+class Accuracy:
+    """What an interval of 95 % of the mean over rough surfaces takes in 3D, of the scene as it stands.
+
+    interval : half-width, relative
+    surfaces : by the scatter that the trust map expects
+    points : a side of a grid whose error leaves room for it, no fewer than stated
+    seconds : processor time, a forecast; coarser grids in place of most surfaces spare a part of it
+    """
+
+    interval: float
+    surfaces: int
+    points: int
+    seconds: float
+
+    @classmethod
+    def of(cls, interval: float, solver: BEM | ExtendedBEM, scene: Scene, scatter: float) -> Accuracy:
+        """By the scatter of single surfaces."""
+        error, shortest = 0.0, getattr(scene.roughness, "shortest", None)
+        if isinstance(solver, BEM) and shortest and getattr(scene.motion, "speed", 0.0):
+            error = GRID_ERROR * (likely_grid(solver, scene).pixel / shortest) ** 2
+            if (over := error / (OWN_SHARE * interval)) > 1:
+                solver = replace(solver, points=min(2 * ceil(solver.points * sqrt(over) / 2), MOST_POINTS))
+                error = OWN_SHARE * interval
+        surfaces = max(FEWEST, ceil((NORMAL * scatter / (interval - error)) ** 2))
+        return cls(interval, surfaces, solver.points, seconds_per_work() * surfaces * work_of(solver, scene))
+
+    def __str__(self) -> str:
+        counted = f"{self.surfaces:,} surfaces of {self.points} points a side"
+        return f"{share(self.interval)}: {counted}, {seconds(self.seconds)} in 3D"
 
 
 class Plans(dict[str, Plan | str | Advice]):
@@ -31,7 +73,7 @@ class Plans(dict[str, Plan | str | Advice]):
 
     Printed, seven lines.
 
-    scene : the scene that is planned
+    case, scene : what is planned
     cost : what all contacts of `crosscheck run` take; the reason where it solves none
     refused : whether that refuses the numbers of a scene of a kind that it compares
     doubts : about the scene, and notes on what was read for it, as sentences
@@ -41,20 +83,37 @@ class Plans(dict[str, Plan | str | Advice]):
     def __init__(
         self,
         plans: Mapping[str, Plan | str | Advice],
-        scene: Scene,
+        case: Case,
         cost: Cost | str,
         refused: bool = False,
         doubts: Sequence[str] = (),
-        interval: float | None = None,
     ) -> None:
         super().__init__(plans)
-        self.interval = interval
-        self.scene, self.cost, self.refused, self.doubts = scene, cost, refused, tuple(doubts)
+        self.case, self.scene, self.interval = case, case.scene, case.study.interval
+        self.cost, self.refused, self.doubts = cost, refused, tuple(doubts)
 
     @property
     def feasible(self) -> bool:
         """Whether a model would solve it, and `crosscheck run` would not refuse it for its numbers."""
         return bool(self._plans or isinstance(self.cost, Cost)) and not self.refused
+
+    @property
+    def times(self) -> dict[str, float]:
+        """Processor time of this contact [s], a forecast, by the names of the solvers that have a plan."""
+        solvers = {each.name: each for each in (self.case.mdr, self.case.bem)}
+        return {name: seconds_per_work() * work_of(solvers[name], self.scene) for name in self._plans}
+
+    @property
+    def accuracies(self) -> tuple[Accuracy, ...]:
+        """What intervals of this contact take in 3D; none of a smooth body and where its scatter is not known."""
+        corrections = cast(Advice, self["trust"]).corrections.values()
+        scatter = max((each.scatter for each in corrections), default=nan)
+        if not (isinstance(self.cost, Cost) and hasattr(self.scene.roughness, "seed") and isfinite(scatter)):
+            return ()
+        solver: BEM | ExtendedBEM = self.case.bem
+        if "BEM" not in self._plans:
+            solver = ExtendedBEM(points=max(ExtendedBEM().points, solver.points))
+        return tuple(Accuracy.of(each, solver, self.scene, scatter) for each in INTERVALS)
 
     @property
     def details(self) -> str:
@@ -84,8 +143,12 @@ class Plans(dict[str, Plan | str | Advice]):
                     contacts += f", and as many more as intervals of {share(self.interval)} take (run --interval)"
                 time = f"about {duration(self.cost.seconds)} on one processor; "
             yield "contacts", contacts
-            yield "time", f"{time}this contact {self._by_dimension(_seconds)}"
-            yield "memory", f"{self._by_dimension(lambda plan: size(plan.memory))}, at most, in each process"
+            yield (
+                "time",
+                f"{time}this contact {_by_dimension(seconds, self.times)}",
+            )
+            memory = _by_dimension(size, {name: each.memory for name, each in plans.items()})
+            yield "memory", f"{memory}, at most, in each process"
             yield "simulated", ", ".join(type(part).__name__ for part in self.scene.parts.values())
             left = dict.fromkeys(name for plan in plans.values() for name in plan.left_out)
             yield "left out", ", ".join(left) or "nothing"
@@ -95,6 +158,7 @@ class Plans(dict[str, Plan | str | Advice]):
                 f"at most {self.cost.contacts:,}, solved by crosscheck run with {' and '.join(FINER)}",
             )
             yield "time", f"about {duration(self.cost.seconds)} on one processor"
+        yield from (("interval", str(each)) for each in self.accuracies)
         if choice := cast(Advice, self["trust"]).choice:
             yield "advice", choice
         yield "modulus", _stiffness(self.scene)
@@ -107,8 +171,9 @@ class Plans(dict[str, Plan | str | Advice]):
         if refusal and (self.refused or not reasons):
             yield "refused" if self.refused else "alone", refusal
 
-    def _by_dimension(self, text: Callable[[Plan], str]) -> str:
-        return ", ".join(f"{text(plan)} in {KNOWN[name][0]}" for name, plan in self._plans.items())
+
+def _by_dimension(text, numbers):
+    return ", ".join(f"{text(number)} in {KNOWN[name][0]}" for name, number in numbers.items())
 
 
 def _stiffness(scene):
@@ -138,7 +203,7 @@ def plans(asked: SceneLike) -> Plans:
     }
     cost, refused, doubts = _cost(case)
     made["trust"] = trust(case.scene)
-    return Plans(made, case.scene, cost, refused, doubts, case.study.interval)
+    return Plans(made, case, cost, refused, doubts)
 
 
 def planned(solver: MDR | BEM, scene: Scene) -> Plan | str:
@@ -164,11 +229,6 @@ def _cost(case: Case) -> tuple[Cost | str, bool, tuple[str, ...]]:
         return str(reason), False, doubted(case)
     except Refused as reason:
         return str(reason), True, doubted(case)
-
-
-def _seconds(plan: Plan) -> str:
-    expected = plan.seconds.value
-    return "an unknown time" if expected is None else seconds(float(two_digits(expected)))
 
 
 def _lines(summary):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import astuple, dataclass, fields, replace
-from math import exp, hypot, isfinite, log, nan
+from math import exp, hypot, isfinite, log, nan, sqrt
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -80,6 +80,11 @@ class Correction:
     def half(self) -> float:
         """Half the interval of 95 % of the logarithm of the ratio."""
         return log(self.high / self.low) / 2
+
+    @property
+    def scatter(self) -> float:
+        """Standard deviation of the logarithm of single surfaces in 3D; nan where it is not known."""
+        return sqrt(max((log(self.surface_high / self.surface_low) / 2) ** 2 - self.half**2, 0.0)) / NORMAL
 
     def __str__(self) -> str:
         if self.advice == NONE:

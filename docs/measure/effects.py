@@ -2,8 +2,8 @@
 
 python docs/measure/effects.py
 
-Each solve is measured alone in a process of its own, on a quiet machine. Plans multiply costs with
-bem3d/effects.csv and mdr1d/effects.csv, which are written from the same measurements.
+Each solve is measured alone in a process of its own, on a quiet machine. Plans multiply operator
+applications with bem3d/effects.csv and mdr1d/effects.csv, which are written from the same measurements.
 """
 
 from collections.abc import Iterator, Mapping
@@ -27,7 +27,7 @@ from compare.solving.task import Outcome, Row, Task
 from compare.studies.workprecision.ladder import TimedSolve
 from mdr1d import MDR
 from scene import Scene, SelfAffine
-from scene.plan import COSTS, two_digits
+from scene.plan import two_digits
 
 PAGE = Path(__file__).parents[1] / "results" / "workprecision.md"
 MEASURED = PAGE.with_suffix("") / "effects.csv"
@@ -50,6 +50,7 @@ SELF_AFFINE = {"roughness": {"type": "self-affine", **ROUGH}}
 WARM = {"temperature": {"type": "wlf", "temperature": 301.0, "reference": 300.0, "c1": 10.0, "c2": 100.0}}
 RUBBED = {"interface": {"coefficient": 0.3}}
 PRESSED, SLID = {"duration": 1e-3, "load": 1.0}, {"duration": 1e-3, "speed": 0.1}
+APPLICATIONS = "operator_applications"
 UNSHOWN = "plane", "reversal"  # on the page
 PIXELS = 128  # a side of the measured surface; the shortest wave has eight
 
@@ -60,7 +61,7 @@ class Effect:
 
     tables : its tables of a scene file, in place of those of PLAIN
     over : title of the effect that it is added to
-    parts : names of the types whose costs in a plan are multiplied by the cost of this effect
+    parts : names of the types whose applications in a plan are multiplied by those of this effect
     """
 
     title: str
@@ -148,14 +149,13 @@ def _times(found: DataFrame, cost: str) -> Series:
 
 
 def priced(name: str, found: DataFrame) -> Iterator[dict]:
-    """Rows of a table that plans multiply costs with: parts whose cost was measured; of a program, for a step."""
-    costs = dict(zip(COSTS, (_times(found, "operator_applications"), found["times"]), strict=True))
-    own = DataFrame(costs).div(found["time_steps"].fillna(1.0), axis=0).set_index(found["effect"])
-    own = own[(found["dimension"] == name).to_numpy()].dropna()
+    """Rows of a table that plans multiply with: parts that were measured; of a program, for a step."""
+    own = _times(found, APPLICATIONS) / found["time_steps"].fillna(1.0).to_numpy()
+    own = own.set_axis(found["effect"])[(found["dimension"] == name).to_numpy()].dropna()
     for effect in effects():
         for part in effect.parts:
             if effect.title in own.index and part not in COUNTED[name]:
-                yield {"part": part} | {cost: float(f"{own.loc[effect.title, cost]:.3g}") for cost in COSTS}
+                yield {"part": part, APPLICATIONS: float(f"{own.loc[effect.title]:.3g}")}
 
 
 def cells(found: DataFrame) -> Iterator[tuple[str, ...]]:

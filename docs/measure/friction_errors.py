@@ -18,6 +18,7 @@ from bem3d.costs import band
 from bem3d.friction import bound as frictionerror
 from bem3d.grid import Grid
 from bem3d.problem import Problem
+from compare.solving.cost import work_of
 from compare.solving.task import Outcome, Row, SceneTask, Task
 from mdr1d import MDR
 from scene import Result, Scene
@@ -209,8 +210,7 @@ def _quantile(table, values):
 
 
 def _task(solver, scene: Scene) -> SceneTask:
-    points = solver.points
-    return SceneTask(solver, (scene,), work=100.0 * points if isinstance(solver, MDR) else points**2.2 * 50.0)
+    return SceneTask(solver, (scene,), work=work_of(solver, scene))
 
 
 def reference(scene: Scene) -> tuple[SceneTask, ...]:

@@ -5,7 +5,7 @@ What has been solved once is in docs/results/accuracy/promises/solved.
 python docs/measure/promises.py [learn|fit|costs]
     learn   solves contacts to learn from (two hours): docs/results/accuracy/learned.csv.gz
     fit     writes the weights of the signs of an error of friction from it: bem3d/friction/friction_error.csv
-    costs   measures the cost of solves, on a quiet machine: bem3d/costs.csv
+    costs   counts the operator applications of solves: bem3d/costs.csv
 """
 
 import sys
@@ -21,8 +21,9 @@ from random_contacts import drawn
 from tables import fill, of_count, solved, stored, table
 
 from bem3d import BEM
-from bem3d.costs import COSTS, MEASURED, band, body
+from bem3d.costs import MEASURED, band, body
 from bem3d.friction.bound import FITTED
+from compare.solving.cost import work_of
 from compare.solving.task import Outcome, SceneTask, Task
 from scene import Indent
 
@@ -83,17 +84,16 @@ def priced() -> Iterator[SceneTask]:
                 for points in grids:
                     solver = BEM(points=points, tolerance=TIGHT)  # plans bring its costs to other tolerances
                     if not solver.refusals(each):
-                        yield SceneTask(solver, (each,), work=points**2.2 * 50.0)
+                        yield SceneTask(solver, (each,), work=work_of(solver, each))
 
 
 def costs(tasks: Sequence[SceneTask], outcomes: Mapping[Task, Outcome]) -> DataFrame:
-    """Medians of each cost by body, band and points, of FEWEST solves at least."""
-    names = ["body", "band", "cost", "points"]
+    """Median applications by body, band and points, of FEWEST solves at least."""
+    names = ["body", "band", "points"]
     spent = [
-        (body(scene), band(scene), cost, task.solver.points, getattr(outcomes[task].rows[0], cost))
+        (body(scene), band(scene), task.solver.points, outcomes[task].rows[0].operator_applications)
         for task in tasks
         for scene in task.scenes
-        for cost in COSTS
     ]
     groups = DataFrame(spent, columns=[*names, "value"]).dropna().groupby(names, sort=False)["value"]
     found = groups.agg(value="median", answers="size").reset_index()

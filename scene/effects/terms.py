@@ -169,7 +169,6 @@ class Heated(Term):
             plan,
             method=f"{plan.method}; again, until it is as warm as its friction makes it",
             operator_applications=plan.operator_applications.times(SOLVES, again),
-            seconds=plan.seconds.times(SOLVES, again),
         )
 
     def _estimated(self, solve):

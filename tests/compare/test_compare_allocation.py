@@ -17,6 +17,7 @@ from compare.solving.cost import MOST_DRAWS
 from compare.statistics.jackknife import mean_ratio
 from compare.statistics.means import interval as interval_of
 from compare.statistics.multilevel import DrawnSurfaces, means_of, pooled, unreached
+from compare.studies.comparison import asked
 from compare.studies.comparison.series import PILOT, pilot
 from mdr1d import MDR
 from scene import Refused
@@ -163,7 +164,9 @@ def test_a_sweep_reaches_the_interval_resumes_and_agrees_with_fixed_draws(tmp_pa
 
 @pytest.mark.usefixtures("in_this_process")
 def test_more_than_a_day_is_refused_where_a_look_asks_for_it(tmp_path, monkeypatch):
-    monkeypatch.setattr("compare.solving.cost.DAY", 0.6)  # the pilot takes 0.5 s as it is planned
+    monkeypatch.setattr("compare.solving.cost.COMMAND", 0.0)
+    planned = asked.sweep(CASE, speed=[0.1], interval="0.1%").cost()
+    monkeypatch.setattr("compare.solving.cost.DAY", 1.2 * planned.seconds)
     with pytest.raises(Refused, match="--yes"):
         compare.sweep(CASE, [0.1], interval="0.1%", output=tmp_path, workers=1, report=False)
     assert (tmp_path / "solved" / "answers.sqlite").exists()

@@ -1,6 +1,7 @@
 """A study is counted before a task of it is built, every count has a bound, much is done on a yes alone."""
 
 from dataclasses import replace
+from math import inf
 
 import pytest
 import xarray
@@ -8,13 +9,16 @@ from small_cases import CURVE, HEAD, SCENE, SHARED, TABLES
 
 from bem3d import BEM
 from compare.library.case import Case, share_of
-from compare.solving.cost import DAY, MANY_CONTACTS, MOST_CONTACTS, SECONDS, Cost
+from compare.library.lookup import case_of
+from compare.solving import cost as costs
+from compare.solving.cost import DAY, MANY_CONTACTS, MOST_CONTACTS, Cost, seconds_per_work, work_of
 from compare.studies.comparison import asked as questions
 from compare.studies.comparison.study_file import study_of
 from compare.studies.paper.study import Paper
 from compare.studies.pipeline import run
 from compare.studies.study import Study
-from scene import Refused
+from mdr1d import MDR
+from scene import Indent, Program, Prony, Refused, Stage
 from scene.files.reading import InvalidInput, read
 
 SERIES = '[[series]]\nname = "one"\n'
@@ -55,12 +59,62 @@ def test_of_a_whole_study_it_is_an_upper_bound_as_curves_share_contacts(asked):
     ],
 )
 def test_what_takes_long_is_begun_on_a_yes_alone(tmp_path, contacts, days, message):
-    asked = Costly(contacts, days * DAY / SECONDS)
+    asked = Costly(contacts, days * DAY / seconds_per_work())
     with pytest.raises(Refused, match=f"{contacts:,} contacts .* h .* of processor time.*{message}.*--yes"):
         run(asked, tmp_path / "out", workers=2)
     assert not (tmp_path / "out").exists()
     with pytest.raises(AssertionError, match="tasks were built"):
         run(asked, tmp_path / "out", workers=2, yes=True)
+
+
+def test_work_is_a_number_of_scene_and_settings_that_grows_with_what_is_solved():
+    smooth, rough = (case_of(name) for name in ("standard-solid", "quick-start"))
+    program = case_of("there-and-back").scene
+    many = replace(smooth.scene, elastomer=Prony(1e6, (1e6,) * 16, tuple(1e-5 * 2.0**k for k in range(16))))
+    rest = replace(smooth.scene, motion=Indent(load=1.0))
+    for solver in (MDR(points=5000), BEM(points=128)):
+        finer = replace(solver, points=8 * solver.points)
+        assert 1 < work_of(finer, rough.scene) / work_of(solver, rough.scene) <= 64
+        counts = [work_of(solver, scene) for scene in (rest, smooth.scene, many, program)]
+        assert counts == sorted(set(counts))
+    assert work_of(MDR(), rough.scene) > 2 * work_of(MDR(), replace(rough.scene, roughness=None))
+    # in time by its steps, where there are any to be counted
+    steps = MDR().plan(program).steps
+    assert work_of(MDR(), program) == pytest.approx(2 * 5 * steps * MDR().points, rel=1e-2)
+    hopeless = replace(program, motion=Program(stages=(Stage(duration=1e9, speed=1.0, load=1.0),)))
+    assert 0 < work_of(MDR(), hopeless) < inf
+
+
+class Solved:
+    """A solver that takes 0.63 s."""
+
+    seconds = 0.63
+
+    def solve(self, scene):
+        return self
+
+
+@pytest.mark.parametrize(
+    "kept", [None, "1e-6", "1e-6\n", "nan", "-1e-6", "1e9", "import os", b"\xff", "9" * 10**5]
+)
+def test_seconds_are_measured_once_and_kept_and_no_file_of_a_stranger_breaks_them(tmp_path, monkeypatch, kept):
+    file = tmp_path / "crosscheck" / "seconds-per-work.txt"
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    monkeypatch.setattr(costs, "CALIBRATING", (Solved(), None))
+    if kept is not None:
+        file.parent.mkdir()
+        file.write_bytes(kept if isinstance(kept, bytes) else kept.encode())
+    assert seconds_per_work.__wrapped__() == pytest.approx(1e-6)
+    monkeypatch.setattr(costs, "CALIBRATING", (None, None))
+    assert seconds_per_work.__wrapped__() == pytest.approx(1e-6)  # from the file
+
+
+def test_where_nothing_can_be_kept_seconds_are_measured_again(tmp_path, monkeypatch):
+    (tmp_path / "file").touch()
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
+    monkeypatch.setattr(costs, "CALIBRATING", (Solved(), None))
+    assert seconds_per_work.__wrapped__() == pytest.approx(1e-6)
+    assert Cost(work=1e9).seconds > 0
 
 
 def test_more_than_memory_holds_is_begun_on_no_yes(tmp_path):

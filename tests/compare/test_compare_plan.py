@@ -1,6 +1,7 @@
 """`crosscheck plan`: both solvers' plans of a file, and what it says of a file that cannot be solved."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ from processes import ask
 from small_cases import SCENE, SMALL
 
 import compare
+from compare.studies.answers import answer
 from compare.studies.comparison import asked
 from compare.studies.plan import plans
 from scene import Doubtful
@@ -53,6 +55,24 @@ def test_a_plan_names_the_interval_of_a_scene_and_the_option_that_asks_for_anoth
     assert found.interval == 0.05
     assert "and as many more as intervals of 5 % take (run --interval)" in " ".join(str(found).split())
     assert "--interval" not in str(plans("quick-start"))
+
+
+def test_a_plan_says_what_intervals_take_before_anything_is_solved(written):
+    found = plans("quick-start")
+    ten, *_, one = found.accuracies
+    assert [each.interval for each in found.accuracies] == [0.1, 0.05, 0.02, 0.01]
+    assert one.surfaces >= 90 * ten.surfaces / 1.5  # the square of ten, but for whole numbers and the grid
+    assert one.seconds > 50 * ten.seconds
+    assert f"10 %: {ten.surfaces} surfaces of 64 points a side, " in str(found)
+    assert answer(found).accuracies == found.accuracies
+    # where waves are short the grid leaves no room for narrow intervals: more points are needed
+    coarse = plans(replace(found.case, roughness=replace(found.scene.roughness, shortest=2e-4))).accuracies
+    points = [each.points for each in coarse]
+    assert points == sorted(points)
+    assert 64 <= points[0] < points[-1]
+    for none in ("hertz", "there-and-back", "rough-plane"):
+        assert all(each.surfaces for each in plans(none).accuracies)
+    assert plans("hertz").accuracies == ()
 
 
 # A solid with the shortest time that a number holds.

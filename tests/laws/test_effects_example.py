@@ -72,6 +72,6 @@ def test_a_plan_has_the_part_where_it_is(page):
     plan = page["CoatedBEM"]().plan(coated)
     assert plan.terms["coating"] == "Coating(compliance=1e-09)"
     assert "coating" not in plan.left_out
-    assert plan.seconds.value is None
-    assert "what Coating takes was not measured" in plan.seconds.why
+    assert plan.operator_applications.value is None
+    assert "what Coating takes was not measured" in plan.operator_applications.why
     assert "springs on a half-space are no foundation" in planned(page["CoatedMDR"](), coated)

@@ -13,14 +13,14 @@ from scene import Refused, Scene, SolveError, Solver
 from scene.protocol import why_not
 
 from ...models.table import Model
-from ...solving.cost import SECONDS
-from ...solving.curve import LEAST, LEVELS, Curve, halved, work_of
+from ...solving.cost import work_of
+from ...solving.curve import LEAST, LEVELS, Curve, halved
 from ...solving.task import Outcome, Row, SceneTask, Task, reason_of, row
 from ...statistics.means import pressed
 from ..comparison.series import pilot
 
-# A solve is repeated until SECONDS have gone, at least LEAST and at most MOST times; twice if it takes LONG
-# seconds.
+# A solve is repeated until REPEATED seconds have gone, at least FEWEST and at most MOST times; twice if it takes
+# LONG seconds.
 REPEATED, FEWEST, MOST, LONG = 0.5, 3, 50, 6.0
 
 
@@ -73,7 +73,7 @@ def _timed(solver, scene) -> Row:
 
 STEPS = 4  # grids that are timed, each with half the points of the one before
 FINER = 4, 2  # times the points of the finest of them that the reference has
-LONGEST = 300.0  # planned processor time of a solve of the reference [s]; a grid that needs more is left out
+LONGEST = 5e9  # work of a solve of the reference, some minutes; a grid that needs more is left out
 PROFILES, SURFACES = 1000, 8  # of models other than the reference
 COARSEST = 128  # surfaces of the reference on its coarsest grid
 NAMES = (*LEVELS, "fifth", "sixth")  # of grids, from fine to coarse
@@ -109,7 +109,7 @@ class Ladder:
         while len(grids) < STEPS and (half := halved(grids[-1])) is not None and half.points >= least:
             grids.append(half)
         finer = [_refined(model.solver, times) for times in FINER] if refers and model.has_grid else []
-        finer = [each for each in finer if SECONDS * work_of(each, scene) < LONGEST]
+        finer = [each for each in finer if work_of(each, scene) < LONGEST]
         reasons = [(each, "; ".join(why_not(each, scene))) for each in (*finer, *grids)]
         able = tuple(each for each, reason in reasons if not reason)
         refused = tuple(pair for pair in reasons[len(finer) :] if pair[1])
