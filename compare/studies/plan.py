@@ -138,7 +138,7 @@ def plans(asked: SceneLike) -> Plans:
     }
     cost, refused, doubts = _cost(case)
     made["trust"] = trust(case.scene)
-    return Plans(made, case.scene, cost, refused, doubts, case.study.interval)
+    return Plans(made, case.scene, cost, refused, doubts, case.interval)
 
 
 def planned(solver: MDR | BEM, scene: Scene) -> Plan | str:
