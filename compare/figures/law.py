@@ -85,6 +85,5 @@ def waves(tables: Tables) -> Figure:
         axes.axvline(steep, **style.line(0.3, 0.8, label="rms slope 1"))
     curves(axes, points, "shortest", "friction_coefficient")
     axes.set(xscale="log", yscale="log", xlabel=label, ylabel="friction coefficient [1]")
-    axes.margins(x=0)
     style.finish(drawing, 2)
     return drawing

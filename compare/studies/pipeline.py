@@ -60,13 +60,12 @@ def run(
 def _answered(study, output, workers, scheduler, executor, yes, progress) -> Report:
     """Solve a study and return its report; nothing is written to its page yet."""
     swept, count = SweepResult({}, 0, 0, 0.0), counted(workers)
-    begun: Study = study.first
-    more: Study | None = begun
+    more: Study | None = study.first
     try:
         with Processes(count) as processes:
             while more is not None:
                 more.cost().refuse(count, yes)
-                if more is not begun:
+                if swept.outcomes:
                     progress.message(f"{more.reason}: {more.cost()}")
                 found = _solve(more, swept, output, workers, scheduler, executor, processes, progress)
                 study, swept = more, swept.joined(found)

@@ -7,8 +7,7 @@ against friction in its interface, has one curve: over time, or over the displac
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
-from math import inf
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar
 
 import numpy as np
 import xarray
@@ -26,7 +25,7 @@ from ...solving.task import SceneTask
 from ...statistics.finding import Finding
 from ...statistics.jackknife import mean
 from ...statistics.means import touches
-from ...statistics.multilevel import MEANS, OWN_SHARE, WORDS
+from ...statistics.multilevel import MEANS, WORDS
 from ...trustmap.verdict import Advice, trust
 from .answers import Answers, with_theory
 from .claims import CLAIMS
@@ -46,7 +45,6 @@ OWN_RATIOS = {
 SPREAD, EXACT = "friction_spread", "exact"
 MU = "friction_coefficient"
 HISTORIES = {FORCE: "normal_force", DEPTH: "depth_reached", FRICTION: "friction_force"}
-MOST_DOUBLED = 2  # times that points are doubled for an interval
 STEPS = 10  # displacements, or tangential forces, to which a shear is drawn
 
 
@@ -192,7 +190,6 @@ class Around(Series):
 
     asked, reference : models and the reference among them, in place of those that the case names, see `Models.of`
     wanted_interval : in place of the interval of the case
-    doubled : how often the points in 3D were doubled, which the case does not state
     """
 
     name: str
@@ -201,7 +198,6 @@ class Around(Series):
     reference: str | None = None
     wanted_interval: float | None = None
     strata: Mapping[str, Counts] = field(default_factory=dict, hash=False)
-    doubled: int = 0
     shared = SHARED
     rows = ROWS
     by_speed, by_load = SPEED, LOAD
@@ -238,19 +234,6 @@ class Around(Series):
             # The case is valid; what follows from it is not.
             raise Refused("its numbers are so far apart that the contact leaves their range") from error
         return found
-
-    def refined(self, answers: Answers) -> Self:
-        """The same on twice the points in 3D, where half of them change its own answer by more than is wanted.
-
-        Points that the case states stay.
-        """
-        bem, most = self.case.bem, OWN_SHARE * (self.interval or inf)
-        own = (found for model, _, found in self._means("sliding", answers) if model == bem.name)
-        stated = bem is not Case.bem and not self.doubled
-        if stated or self.doubled == MOST_DOUBLED or all(each.grid <= most for found in own for each in found):
-            return self
-        finer = replace(self.case, bem=replace(bem, points=2 * bem.points))
-        return replace(self, case=finer, doubled=self.doubled + 1, strata={})
 
     @property
     def remarks(self) -> Sequence[str]:

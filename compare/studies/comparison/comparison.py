@@ -82,7 +82,7 @@ class Comparison(Study):
 
     @property
     def rest(self) -> "Comparison | None":
-        return replace(self, alone=False, reason="the curves around") if self.alone else None
+        return replace(self, alone=False) if self.alone else None
 
     def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
         """A Dataset for each curve, and the fields of each scene's own contact."""
@@ -97,20 +97,17 @@ class Comparison(Study):
         return tree
 
     def more(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> "Comparison | None":
-        """The comparison with the points and surfaces that open claims and wide intervals ask for, or with curves.
+        """The comparison with the surfaces that open claims and wide intervals ask for; None where none does.
 
-        None where nothing is asked for. Of contacts that were alone, the reason for the next says their answers.
+        Where no curve was solved yet it is the one with curves, and its reason has the answers of the scenes.
         """
-        finer = [each.refined(each.answers(answers)) if self.alone else each for each in self.series]
-        if finer != [*self.series]:
-            return replace(self, series=tuple(finer), reason="more points")
         sampled = [each for each in self.series if each.sampled]
         asked = {each.name: each.more(each.answers(answers), findings) for each in sampled}
         for names in alike([each for each in self.series if each.name in asked]):
             asked |= dict.fromkeys(names, _most([asked[name] for name in names]))
         if all(asked.get(each.name, each.counts) == each.counts for each in self.series):
             own = [scene_line(Judged(each, each.answers(answers), findings)) for each in self.series if self.alone]
-            return self.rest and replace(self.rest, reason="\n".join([*own, self.rest.reason]))
+            return self.rest and replace(self.rest, reason="\n".join([*own, "the curves around"]))
         series = tuple(replace(s, strata=asked.get(s.name, s.strata)) for s in self.series)  # type: ignore[type-var]
         return replace(self, series=series, reason=Study.reason)
 

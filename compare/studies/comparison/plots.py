@@ -33,7 +33,7 @@ from .rough import RoughSeries
 from .series import Judged, Series
 from .sweep import means
 
-CUTS = 16  # shortest waves that the law is asked for
+CUTS = 12  # shortest waves that the law is asked for, each in some 0.1 s
 BEYOND = 10  # times as fine as the scene's own, in a spectrum that goes on
 LINES = "Lines: Eq. 19 and theories, not judged. Bars: 95 %."
 
@@ -240,11 +240,16 @@ def _waves(series: Around, points: DataFrame, folder: str) -> Plot | None:
         found = [LAW.solve(each) for each in kept]
     except (SolveError, ArithmeticError):
         return None
-    curve = DataFrame([each.measures for each in found]).filter(like="friction_")
-    curve = curve.assign(friction=[each.friction_coefficient for each in found], shortest=waves)
-    curve["rms_slope"] = [slope(Bands.of(each.roughness)) for each in kept]
-    own = points[(points["curve"] == OWN) & points["model"].isin({*series.models.labels} - {LAW.name})]
-    return law.waves_plot(curve, own.assign(shortest=rough.shortest), folder)
+    curve = (
+        DataFrame([each.measures for each in found])
+        .filter(like="friction_")
+        .assign(
+            friction=[each.friction_coefficient for each in found],
+            rms_slope=[slope(Bands.of(each.roughness)) for each in kept],
+            shortest=waves,
+        )
+    )
+    return law.waves_plot(curve, points[points["curve"] == OWN].assign(shortest=rough.shortest), folder)
 
 
 def figure_of(dataset: xarray.Dataset) -> Figure:

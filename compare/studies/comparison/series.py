@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import ceil, inf, nan
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar
 
 import numpy as np
 import xarray
@@ -113,10 +113,6 @@ class Series(ABC):
     def pressed(self) -> str:
         """Quantity that answers the pressing: the depth under loads, the force at depths."""
         return FORCE if self.prescribed in ("depth", "gap") else DEPTH
-
-    def refined(self, answers: Answers) -> Self:
-        """The same with more points, where its answers ask for them."""
-        return self
 
     @property
     def counts(self) -> dict[str, Counts]:
