@@ -13,6 +13,7 @@ from .shades import few
 
 # Factor and label of an axis.
 AXES = {"load": (1.0, "normal force [N]"), "depth": (1e6, "depth [µm]"), "speed": (1.0, "speed [m/s]")}
+AXES |= {"shortest": (1e6, "shortest wave [µm]")}
 UNITS = {"load": "N", "depth": "m", "rate": "m/s", "speed": "m/s"}
 PANELS = 3  # most of them side by side
 # Below a number, a bar reaches at most to this part of it on a logarithmic axis: more of it is cut off.

@@ -1,14 +1,15 @@
-"""The master curve in three dimensions: what roughness adds to friction, over that in full contact, is S(x)."""
+"""The law in three dimensions: what roughness adds over that in full contact, friction by the shortest wave."""
 
 import numpy as np
 from matplotlib.figure import Figure
 from pandas import DataFrame
 
 from . import shades, style
-from .curves import curves, limit
+from .curves import AXES, curves, limit
 from .plot import Plot, Tables
 
 NAME, SHARE = "law", "law-share"
+WAVES, SCENE = "friction-waves", "friction-waves-scene"
 
 
 def plot(points: DataFrame, share: DataFrame, missed: str = "", folder: str = "") -> Plot:
@@ -54,4 +55,35 @@ def figure(tables: Tables, missed: str = "") -> Figure:
     below.set(title=missed, xlabel=r"$x = p\,/\,p_\mathrm{rms}$ [1]", ylabel="off S(x) [%]")
     hollow = [] if points["claimed"].all() else [style.entry("not claimed", markerfacecolor=style.paper())]
     style.finish(drawing, 3, *hollow, *shades.key(shades.SPEED, points["speed"], "m/s"))
+    return drawing
+
+
+def waves_plot(law: DataFrame, points: DataFrame, folder: str = "") -> Plot:
+    """Plot of friction against the shortest wave that the roughness keeps.
+
+    law : shortest [m], rms_slope, friction, friction_low and friction_high by the law in 3D
+    points : of the scene as it stands: model, shortest [m], friction_coefficient_mean, _low and _high
+    """
+    caption = (
+        "Friction against the shortest wave of the roughness by the law in 3D, with its interval of 95 %, and of "
+        "the scene as it is solved; grey, waves finer than its own, in the same spectrum."
+    )
+    return Plot(f"{folder}{WAVES}", waves, {WAVES: law, SCENE: points}, caption, "Friction by the shortest wave")
+
+
+def waves(tables: Tables) -> Figure:
+    """Friction by the law as a band, the scene as points."""
+    law, points = tables[WAVES].sort_values("rms_slope"), tables[SCENE]
+    drawing = style.canvas("single", 3.0)
+    axes, (scale, label) = drawing.subplots(), AXES["shortest"]
+    x, look = scale * law["shortest"], style.look("FrictionLaw", marker="")
+    axes.fill_between(x, law["friction_low"], law["friction_high"], color=style.grey(0.75), linewidth=0)
+    axes.plot(x, law["friction"], **look)
+    axes.axvspan(x.min(), scale * points["shortest"].min(), color=style.grey(0.9), linewidth=0)
+    if law["rms_slope"].max() > 1:
+        steep = np.exp(np.interp(1, law["rms_slope"], np.log(x)))
+        axes.axvline(steep, **style.line(0.3, 0.8, label="rms slope 1"))
+    curves(axes, points, "shortest", "friction_coefficient")
+    axes.set(xscale="log", yscale="log", xlabel=label, ylabel="friction coefficient [1]")
+    style.finish(drawing, 2)
     return drawing

@@ -32,13 +32,20 @@ from scene.printable import printable
 from scene.quantities import METRE, argument
 
 # Okabe and Ito: blue and vermillion differ for every reader; marker and line tell them apart in grey.
-COLOURS = {"MDR": "#0072B2", "CorrectedMDR": "#56B4E9", "BEM": "#D55E00", "Persson": "#44AA99"}
-MARKER = {"MDR": "o", "CorrectedMDR": "^", "BEM": "s", "Persson": "D", "exact": ""}
+COLOURS = {
+    "MDR": "#0072B2",
+    "CorrectedMDR": "#56B4E9",
+    "BEM": "#D55E00",
+    "ExtendedBEM": "#8A2B06",
+    "Persson": "#44AA99",
+}
+MARKER = {"MDR": "o", "CorrectedMDR": "^", "BEM": "s", "ExtendedBEM": "P", "Persson": "D", "exact": ""}
 LINE = {"MDR": "-", "CorrectedMDR": "-.", "BEM": "--", "Persson": (0, (5, 1, 1, 1)), "exact": "-"}
 LABEL = {
     "MDR": "1D (MDR)",
     "CorrectedMDR": "1D, corrected",
     "BEM": "3D (BEM)",
+    "ExtendedBEM": "3D extended",
     "Persson": "Persson's theory",
     "FrictionLaw": "3D law",
     "exact": "closed form",

@@ -11,7 +11,7 @@ from pydantic.dataclasses import dataclass
 
 from bem3d import BEM
 from mdr1d import MDR
-from scene import Coulomb, Doubt, Heating, Layer, Refused, Scene, Slide
+from scene import Coulomb, Doubt, Heating, Layer, Program, Refused, Scene, Slide
 from scene.doubt import unseen
 from scene.effects.temperature import Temperature
 from scene.files.reading import InvalidInput
@@ -70,6 +70,7 @@ _NUMBER = {"type": "number", "exclusiveMinimum": 0, "exclusiveMaximum": 1}
 Share = Annotated[float, BeforeValidator(_share), WithJsonSchema({"anyOf": [_NUMBER, _WRITTEN]})]
 Factors = Annotated[tuple[Positive, ...], ROW, Field(min_length=1, max_length=MOST_VALUES)]
 MOST_MODELS = 8  # compared at once
+INTERVAL = 0.05  # half-width that is wanted where a case states neither it nor numbers of surfaces
 ModelNames = Annotated[tuple[Annotated[str, AfterValidator(_no_module)], ...], Field(max_length=MOST_MODELS)]
 Speeds = Annotated[tuple[Speed, ...], ROW, Field(min_length=1, max_length=MOST_VALUES)]
 
@@ -93,8 +94,8 @@ class Variations:
     depths : of the force-depth curve, factors on the smooth elastic depth of the scene
     surfaces : rough surfaces averaged in three dimensions, 1 to 10,000; 3 if absent
     profiles : rough profiles averaged in one dimension, 1 to 10,000; 50 if absent
-    interval : in place of both, the half-width of intervals of 95 % that is wanted, relative, as "3%"; see
-        `compare.run`
+    interval : in place of both, the half-width of intervals of 95 % that is wanted, relative, as "3%"; 5 % if
+        all three are absent; see `compare.run`
     """
 
     speeds: Speeds | None = None
@@ -189,6 +190,16 @@ class Case:
     def slides(self) -> bool:
         """Whether there is friction to speak of: sliding, on a solid that relaxes."""
         return isinstance(self.motion, Slide) and len(self.scene.solid.retardation()[2]) > 0
+
+    @property
+    def interval(self) -> float | None:
+        """Half-width that is wanted of intervals of 95 %, relative; None where numbers of surfaces are stated.
+
+        It is None of a body without draws, and of contacts in time, whose numbers are fixed.
+        """
+        given = self.study
+        drawn = hasattr(self.roughness, "seed") and not isinstance(self.motion, Program)
+        return given.interval or (INTERVAL if drawn and not (given.surfaces or given.profiles) else None)
 
     def refuse(self) -> None:
         """Raise NotCompared, with the reasons, if a solver lacks a part of the scene."""

@@ -1,6 +1,6 @@
 """Continuation: neighbouring contacts of a body and surface in three dimensions, each solved from the last."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 from math import inf
 
@@ -53,14 +53,16 @@ class Continuation(Task):
         return Outcome(tuple(row for each in self.contacts for row in each.solve(warm_start).rows))
 
 
-def joined(contacts: Iterable[SceneTask]) -> list[SceneTask | Continuation]:
+def joined(contacts: Iterable[SceneTask], first: Collection[SceneTask] = ()) -> list[SceneTask | Continuation]:
     """Contacts as tasks: what differs in speed and grid alone as one path, from rest on, from coarse to fine.
 
     Contacts of other solvers, in time, and those that keep fields stay alone.
+
+    first : contacts that are on no path with others
     """
     paths: dict[object, list[SceneTask]] = {}
     for each in contacts:
-        paths.setdefault(_shared(each), []).append(each)
+        paths.setdefault((each in first, _shared(each)), []).append(each)
     cut = [path for found in paths.values() for path in _cut(sorted(found, key=_place))]
     return [Continuation(tuple(path)) if len(path) > 1 else path[0] for path in cut]
 

@@ -450,8 +450,12 @@ def width(scene):
 
 
 def tasks_of(curves: Mapping[str, Curve]) -> list[SceneTask | Continuation]:
-    """Tasks of several curves: those that cross share the contacts where they do."""
-    return joined(contacts_of(curves))
+    """Tasks of several curves: those that cross share the contacts where they do.
+
+    Contacts of curves whose fields are kept are on no path with others, so that they can be solved before these.
+    """
+    first = {*contacts_of({name: each for name, each in curves.items() if each.keeps_fields})}
+    return joined(contacts_of(curves), first)
 
 
 def contacts_of(curves: Mapping[str, Curve]) -> list[SceneTask]:

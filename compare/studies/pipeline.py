@@ -60,19 +60,19 @@ def run(
 def _answered(study, output, workers, scheduler, executor, yes, progress) -> Report:
     """Solve a study and return its report; nothing is written to its page yet."""
     swept, count = SweepResult({}, 0, 0, 0.0), counted(workers)
-    more: Study | None = study
+    more: Study | None = study.first
     try:
         with Processes(count) as processes:
             while more is not None:
                 more.cost().refuse(count, yes)
-                if more is not study:
-                    progress.message(f"more surfaces: {more.cost()}")
+                if swept.outcomes:
+                    progress.message(f"{more.reason}: {more.cost()}")
                 found = _solve(more, swept, output, workers, scheduler, executor, processes, progress)
                 study, swept = more, swept.joined(found)
                 answers = study.answers(swept.outcomes)
                 judged = study.judge(answers)
                 # What breaks with few surfaces breaks with more.
-                more = None if swept.faults else study.more(answers, judged.findings)
+                more = study.rest if swept.faults else study.more(answers, judged.findings)
         findings, page = judged.findings, judged.page(study.title, answers)
         whole = {task: each for task, each in swept.outcomes.items() if task not in swept.faults}
         unsolved = study.unsolved(whole)

@@ -24,7 +24,7 @@ from ..solving.words import duration, pascals, seconds, share
 from ..statistics.multilevel import OWN_SHARE
 from ..trustmap.model import NORMAL
 from ..trustmap.verdict import Advice, trust
-from .comparison.around import FINER, Around
+from .comparison.around import FINER, Around, extended_of
 
 WIDTH = 100
 WHOLE = {"break_long_words": False, "break_on_hyphens": False}
@@ -89,7 +89,7 @@ class Plans(dict[str, Plan | str | Advice]):
         doubts: Sequence[str] = (),
     ) -> None:
         super().__init__(plans)
-        self.case, self.scene, self.interval = case, case.scene, case.study.interval
+        self.case, self.scene, self.interval = case, case.scene, case.interval
         self.cost, self.refused, self.doubts = cost, refused, tuple(doubts)
 
     @property
@@ -112,7 +112,7 @@ class Plans(dict[str, Plan | str | Advice]):
             return ()
         solver: BEM | ExtendedBEM = self.case.bem
         if "BEM" not in self._plans:
-            solver = ExtendedBEM(points=max(ExtendedBEM().points, solver.points))
+            solver = extended_of(self.case)
         return tuple(Accuracy.of(each, solver, self.scene, scatter) for each in INTERVALS)
 
     @property

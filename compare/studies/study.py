@@ -60,12 +60,14 @@ class Study:
     command : name of the command, and of the Python function
     title, about : for people
     place : folder of the page below the folder of the command; empty if both are the same
+    reason : why it is solved after another, see `more`
     """
 
     command: ClassVar[str] = "study"
     title: str = ""
     about: str = ""
     place: str = ""
+    reason: str = "more surfaces"
 
     @property
     def doubts(self) -> tuple[str, ...]:
@@ -100,6 +102,16 @@ class Study:
         if grids := self.grids():
             return sum((each.cost for each in grids.values()), Cost())
         return Cost.of(task for batch in self.batches() for task in batch.tasks)
+
+    @property
+    def first(self) -> "Study":
+        """The part that is solved and judged before all else."""
+        return self
+
+    @property
+    def rest(self) -> "Study | None":
+        """All of it, behind its first part; None of a study that is whole."""
+        return None
 
     def batches(self) -> Sequence[Batch]:
         """Everything that is solved."""

@@ -8,6 +8,7 @@ from scene.doubt import least_friction
 from scene.protocol import numeric_guard
 
 from ..models.law.bands import Bands
+from ..models.law.extended import without
 from ..models.law.nominal import mean_gap
 from ..models.law.parts import LawParts
 from ..models.law.smooth import SPACE, SmoothContact
@@ -115,10 +116,7 @@ def _of_finer(scene):
     rough = scene.roughness
     if not isinstance(rough, SelfAffine):
         return nan
-    finer = replace(rough, shortest=rough.shortest / 2)
-    share = finer.share(finer.q_min, rough.q_max(0.0), finer.q_max(0.0))
-    more = replace(finer, rms_height=rough.rms_height / share**0.5)
-    own, other = (LawParts.of(replace(scene, roughness=each)).friction_coefficient for each in (rough, more))
+    own, other = (LawParts.of(each).friction_coefficient for each in (scene, without(scene, rough.shortest / 2)))
     return other / own - 1
 
 

@@ -302,6 +302,52 @@ def test_a_shear_is_compared_over_the_displacement():
     assert found["history.depth"].verdict == "holds"
 
 
+@pytest.mark.parametrize(
+    ("case", "interval"),
+    [
+        (replace(CASE, study=Variations()), 0.05),
+        (replace(CASE, study=Variations(surfaces=2)), None),
+        (replace(CASE, study=Variations(profiles=2)), None),
+        (replace(CASE, study=Variations(interval="2%")), 0.02),
+        (replace(CASE, study=Variations(), roughness=None), None),
+    ],
+    ids=["nothing stated", "surfaces", "profiles", "interval", "smooth"],
+)
+def test_an_interval_is_wanted_where_numbers_of_surfaces_are_not_stated(case, interval):
+    assert Around("a case", case).interval == interval
+
+
+def test_the_scene_as_it_stands_is_solved_and_answered_before_the_curves_around_it():
+    run = asked.run({"a case": CASE})
+    first = run.first
+    assert set(first.grids()) == {"a-case/own"}
+    assert {*first.batches()[0].tasks} < {*run.batches()[0].tasks}
+    answers = first.answers(invented_of(first))
+    whole = first.more(answers, first.judge(answers).findings)
+    assert set(whole.grids()) == set(run.grids())
+    assert whole.reason.startswith("a case: friction, 1D (MDR) 0.252, 3D (BEM) 0.126, 1D/3D 2, advice multiply 1D")
+    assert first.rest.first.rest.grids() == whole.grids()
+    smooth = asked.run({"a case": replace(CASE, motion=Program(stages=(Stage(duration=1.0, depth=1e-5),)))})
+    assert smooth.first.rest is None  # it has no curves
+
+
+def test_friction_by_the_law_is_drawn_against_the_shortest_wave_where_it_slides():
+    run = asked.run({"a case": CASE})
+    answers = run.answers(invented_of(run))
+    drawn = {each.name: each for each in run.judge(answers).plots}["a-case/friction-waves"]
+    law, points = drawn.tables.values()
+    assert (np.diff(law["rms_slope"]) < 0).all()  # from fine waves to coarse ones
+    assert (law["friction_low"] <= law["friction"]).all()
+    assert (law["friction"] <= law["friction_high"]).all()
+    assert law["shortest"].iloc[0] < CASE.roughness.shortest == points["shortest"].unique().item()
+    own = compare.FrictionLaw().solve(CASE.scene).friction_coefficient
+    between = np.interp(CASE.roughness.shortest, law["shortest"], law["friction"])
+    assert between == pytest.approx(own, rel=0.1)
+    rest = asked.run({"a case": replace(CASE, motion=Indent(load=1.0))})
+    judged = rest.judge(rest.answers(invented_of(rest)))
+    assert not [each.name for each in judged.plots if "waves" in each.name]
+
+
 def test_what_cannot_be_compared_is_refused_before_anything_is_solved(tmp_path):
     with pytest.raises(Refused, match=r"MDR cannot solve this scene.*indenter"):
         asked.run("rough-plane")

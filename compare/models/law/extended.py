@@ -198,7 +198,10 @@ def slope(bands: Bands) -> float:
 
 
 def without(scene: Scene, shortest: float) -> Scene:
-    """The scene without the waves of its roughness that are shorter than a length [m]; smooth where all are."""
+    """The scene without the waves of its roughness that are shorter than a length [m]; smooth where all are.
+
+    A self-affine spectrum goes on to a length that is shorter than its own.
+    """
     rough: Any = scene.roughness
     if shortest > coarsest_wave(rough):
         return replace(scene, roughness=None)

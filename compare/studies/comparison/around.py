@@ -218,7 +218,7 @@ class Around(Series):
 
     @property
     def interval(self) -> float | None:  # type: ignore[override]
-        return self.case.study.interval if self.wanted_interval is None else self.wanted_interval
+        return self.case.interval if self.wanted_interval is None else self.wanted_interval
 
     @cached_property
     def models(self) -> Models:  # type: ignore[override]

@@ -18,7 +18,7 @@ from ...statistics.finding import Finding
 from ..study import Judgement, Study
 from . import pages
 from .around import OWN, Around
-from .pages import claims_table, scene_table
+from .pages import claims_table, scene_line, scene_table
 from .pages import notes as open_claims
 from .rough import RoughSeries
 from .series import Counts, Judged, Series
@@ -33,7 +33,8 @@ class Comparison(Study):
     """Series of scenes, each on its curves, by the models that are compared.
 
     series : scenes with their curves
-    command, title, about, place : of the command that asks, see `Study`; stated : its inputs
+    command, title, about, place, reason : of the command that asks, see `Study`; stated : its inputs
+    alone : whether scenes are solved as they stand, and no curves around them yet
     """
 
     series: tuple[Series, ...]
@@ -41,6 +42,8 @@ class Comparison(Study):
     title: str = "One dimension against three"
     about: str = ""
     place: str = ""
+    reason: str = Study.reason
+    alone: bool = False
     stated: Mapping[str, Any] = field(default_factory=dict)
 
     @property
@@ -48,8 +51,13 @@ class Comparison(Study):
         return self.stated
 
     def grids(self) -> Mapping[str, Curve]:
-        """Every curve of every series, by "series/curve"."""
-        return {each.path(name): curve for each in self.series for name, curve in each.curves.items()}
+        """Curves of every series, by "series/curve"."""
+        return {
+            each.path(name): curve
+            for each in self.series
+            for name, curve in each.curves.items()
+            if name == OWN or not self.alone
+        }
 
     @cached_property
     def doubts(self) -> tuple[str, ...]:
@@ -67,6 +75,15 @@ class Comparison(Study):
     def own(self) -> Sequence[SceneTask]:
         return [contact for each in self.series for contact in each.own]
 
+    @property
+    def first(self) -> "Comparison":
+        """The comparison of scenes as they stand, which are solved before the curves around them."""
+        return replace(self, alone=bool(self.own) and len(self.grids()) > len(self.series))
+
+    @property
+    def rest(self) -> "Comparison | None":
+        return replace(self, alone=False) if self.alone else None
+
     def answers(self, outcomes: Mapping[Task, Outcome]) -> xarray.DataTree:
         """A Dataset for each curve, and the fields of each scene's own contact."""
         tree, outcomes = super().answers(outcomes), by_contact(outcomes)
@@ -80,14 +97,19 @@ class Comparison(Study):
         return tree
 
     def more(self, answers: xarray.DataTree, findings: Sequence[Finding]) -> "Comparison | None":
-        """The comparison with the surfaces that open claims and wide intervals ask for; None where none does."""
+        """The comparison with the surfaces that open claims and wide intervals ask for; None where none does.
+
+        Where no curve was solved yet it is the one with curves, and its reason has the answers of the scenes.
+        """
         sampled = [each for each in self.series if each.sampled]
         asked = {each.name: each.more(each.answers(answers), findings) for each in sampled}
         for names in alike([each for each in self.series if each.name in asked]):
             asked |= dict.fromkeys(names, _most([asked[name] for name in names]))
         if all(asked.get(each.name, each.counts) == each.counts for each in self.series):
-            return None
-        return replace(self, series=tuple(replace(s, strata=asked.get(s.name, s.strata)) for s in self.series))  # type: ignore[type-var]
+            own = [scene_line(Judged(each, each.answers(answers), findings)) for each in self.series if self.alone]
+            return self.rest and replace(self.rest, reason="\n".join([*own, "the curves around"]))
+        series = tuple(replace(s, strata=asked.get(s.name, s.strata)) for s in self.series)  # type: ignore[type-var]
+        return replace(self, series=series, reason=Study.reason)
 
     def judge(self, answers: xarray.DataTree) -> Judgement:
         every = []

@@ -63,6 +63,12 @@ def scene_table(judged: Judged) -> Table:
     return Table(series.path("answer"), DataFrame(rows).fillna(""), title)
 
 
+def scene_line(judged: Judged) -> str:
+    """First row of the table of the answer in a line."""
+    row = scene_table(judged).frame.iloc[0]
+    return f"{judged.series.name}: " + ", ".join(f"{name} {text}".strip() for name, text in row.items())
+
+
 def _advised(cheap: Correction, solved: Finding | None) -> str:
     """Advice of the trust map on the answer of 1D, and whether means over surfaces contradict it."""
     low, high = solved.interval if solved is not None and solved.draws else (nan, nan)

@@ -9,11 +9,14 @@ import xarray
 from matplotlib.figure import Figure
 from pandas import DataFrame, concat
 
+from scene import SelfAffine, SolveError
 from scene.files.reading import InvalidInput
 from scene.printable import brief
 
 from ...figures import collapse, contact, force_depth, friction, history, law
 from ...figures.plot import Plot, finished
+from ...models.law.bands import Bands
+from ...models.law.extended import coarsest_wave, slope, without
 from ...models.table import DEPTH, FORCE, FRICTION
 from ...solving.curve import Curve
 from ...solving.words import number
@@ -21,7 +24,7 @@ from ...statistics import eq23
 from ...statistics.finding import Finding
 from ...statistics.jackknife import mean
 from ...statistics.multilevel import MEANS
-from .answers import Answers
+from .answers import LAW, Answers
 from .around import EXACT, MU, OWN, SMOOTH_SPEED, Around
 from .claims_law import SHALLOW, LawPoints
 from .laws import laws
@@ -30,6 +33,8 @@ from .rough import RoughSeries
 from .series import Judged, Series
 from .sweep import means
 
+CUTS = 12  # shortest waves that the law is asked for, each in some 0.1 s
+BEYOND = 10  # times as fine as the scene's own, in a spectrum that goes on
 LINES = "Lines: Eq. 19 and theories, not judged. Bars: 95 %."
 
 
@@ -45,6 +50,7 @@ def of_series(judged: Judged, tree: xarray.DataTree) -> Iterator[Plot]:
             own = points[(points["curve"] == OWN) & points["model"].isin([*series.models.labels])]
             own = own.rename(columns=lambda name: name.removesuffix("_mean"))
             drawn.append(history.plot(own, series.curves[OWN].axis, series.scene, folder))
+        drawn.append(_waves(series, points, folder))
     drawn += _friction(judged, folder)
     if isinstance(series, RoughSeries) and (found := LawPoints.of(series, answers)):
         drawn.append(_law(found, judged.findings, folder))
@@ -220,6 +226,30 @@ def _law(found: LawPoints, findings: Sequence[Finding], folder: str) -> Plot:
     own = {each.claim.id: 100 * each.value for each in findings if np.isfinite(each.value)}
     missed = ", ".join(f"{number(own[name], 2)} % ({word})" for name, word in words.items() if name in own)
     return law.plot(points, DataFrame({"pressure_ratio": x} | ends), missed and f"off by {missed}", folder)
+
+
+def _waves(series: Around, points: DataFrame, folder: str) -> Plot | None:
+    """Friction against the shortest wave that is kept, by the law; None where it has no answer."""
+    rough: Any = series.scene.roughness
+    try:
+        if not rough or MU not in series.own_means or LAW.refusals(series.scene):
+            return None
+        finest = rough.shortest / (BEYOND if isinstance(rough, SelfAffine) else 1)
+        waves = np.geomspace(finest, coarsest_wave(rough), CUTS)
+        kept = [without(series.scene, each) for each in waves]
+        found = [LAW.solve(each) for each in kept]
+    except (SolveError, ArithmeticError):
+        return None
+    curve = (
+        DataFrame([each.measures for each in found])
+        .filter(like="friction_")
+        .assign(
+            friction=[each.friction_coefficient for each in found],
+            rms_slope=[slope(Bands.of(each.roughness)) for each in kept],
+            shortest=waves,
+        )
+    )
+    return law.waves_plot(curve, points[points["curve"] == OWN].assign(shortest=rough.shortest), folder)
 
 
 def figure_of(dataset: xarray.Dataset) -> Figure:

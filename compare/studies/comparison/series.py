@@ -31,7 +31,7 @@ Counts = Mapping[str, tuple[int, ...]]  # numbers of surfaces on each level, by 
 Places = Mapping[tuple[int, int], str]  # places of speed and value on a curve, in words
 # Surfaces of a pilot on the coarsest level, of each difference of levels, and of the difference between the finest
 # levels where there are several, which scatters least and costs most.
-PILOT, DIFFERENCES, FINEST = 32, 8, 4
+PILOT, DIFFERENCES, FINEST = 32, 4, 3
 
 
 @dataclass(frozen=True)
@@ -131,7 +131,8 @@ class Series(ABC):
     def answers(self, tree: xarray.DataTree) -> Answers:
         """Its part of all answers."""
         below = (tree[self.folder] if self.folder else tree).children
-        return Answers({name: below[name].to_dataset(inherit=False) for name in self.curves}, self.models)
+        known = {name: below[name].to_dataset(inherit=False) for name in self.curves if name in below}
+        return Answers(known, self.models)
 
     @property
     def sampled(self) -> bool:
