@@ -5,14 +5,11 @@ python docs/measure/accuracy.py
 The tests hold more closed forms: sliding in one dimension, waves pressed flat, full contact.
 """
 
-from collections.abc import Iterator
 from math import pi, radians, sqrt, tan
 from pathlib import Path
 
 import numpy as np
 import pandas
-from matplotlib.figure import Figure
-from pandas import DataFrame
 from tables import fill, order, stored, table
 
 from bem3d import BEM
@@ -32,13 +29,13 @@ REST, SLIDING, TIME = (PAGE.with_suffix("") / f"{name}.csv" for name in ("rest",
 PUBLISHED = {1e-4: (99.824e-6, 45.249e-6), 1e-3: (91.508e-6, 157.664e-6), 1e-2: (70.553e-6, 41.906e-6)}
 
 
-def around(solver: type, a: float, points: int) -> BEM | MDR:
+def around(solver, a, points):
     """The solver with points across a contact of radius a [m]; BEM gets half as many more around it."""
     count = int(1.5 * points) if solver is BEM else points
     return solver(points=count, extent=2 * a * count / points * (1.01 if solver is MDR else 1))
 
 
-def at_rest() -> Iterator[dict]:
+def at_rest():
     """Relative error of the force at a depth, against Hertz and Sneddon."""
     forms = {
         "sphere (Hertz)": (Sphere(R), HERTZ, RADIUS),
@@ -52,7 +49,7 @@ def at_rest() -> Iterator[dict]:
                 yield {"shape": name, "solver": solver.__name__, "points": n, "error": error}
 
 
-def sliding() -> Iterator[dict]:
+def sliding():
     """Depth and friction times radius [m] of a sphere in steady sliding under a load, in 3D."""
     for memory in PUBLISHED:
         motion = Slide(speed=memory / (2 * TAU), load=0.533333)
@@ -60,7 +57,7 @@ def sliding() -> Iterator[dict]:
         yield {"memory": memory, "depth": result.depth, "moment": result.friction_coefficient * R}
 
 
-def in_time() -> Iterator[dict]:
+def in_time():
     """Relative error of the force of a body pressed in and drawn back at a constant rate, in 3D."""
     elastomer, times, depths = StandardLinearSolid(0.25, 1.25, 1.0), [0.0, 2.0, 4.0], [0.0, 0.2, 0.0]
     program = Program(stages=(Stage(duration=2.0, depth=0.2), Stage(duration=2.0, depth=0.0)))
@@ -73,7 +70,7 @@ def in_time() -> Iterator[dict]:
             yield {"shape": shape.type, "points": points} | errors
 
 
-def parts() -> dict[str, str]:
+def parts():
     """Text between two comments of the page, by the name of the comment."""
     rest, slid, timed = (pandas.read_csv(each) for each in (REST, SLIDING, TIME))
     memory, moments = "v τ_c, mm|depth, mm|μR, mm|against other codes: depth|μR", "shape|t = 1 s|1.9 s|2.2 s|2.5 s"
@@ -86,21 +83,21 @@ def parts() -> dict[str, str]:
     }
 
 
-def _at_rest(found: DataFrame) -> Iterator[tuple[str, ...]]:
+def _at_rest(found):
     for (shape, solver), own in found.groupby(["shape", "solver"], sort=False):
         shown = own.set_index("points")["error"][[16, 64, 256]].map("{:.1e}".format)
         errors = own["error"]
         yield shape, solver, *shown, f"{order(own['points'], errors):.1f}" if errors.min() > 1e-13 else "exact"
 
 
-def _sliding(found: DataFrame) -> Iterator[tuple[str, ...]]:
+def _sliding(found):
     for row, published in zip(found.itertuples(), PUBLISHED.values(), strict=True):
         pairs = zip((row.depth, row.moment), published, strict=True)
         own = f"{1e3 * row.memory:g}", f"{1e3 * row.depth:.6f}", f"{1e3 * row.moment:.6f}"
         yield *own, *(f"{value / other - 1:+.3%}" for value, other in pairs)
 
 
-def figure(rest: DataFrame, timed: DataFrame) -> Figure:
+def figure(rest, timed):
     """Error of the force at rest and in time, over the points."""
     drawing = style.canvas("double", 2.5)
     left, right = panels = drawing.subplots(1, 2)
@@ -123,7 +120,7 @@ def figure(rest: DataFrame, timed: DataFrame) -> Figure:
     return drawing
 
 
-def main() -> None:
+def main():
     """Measure, and write the numbers, the figure and the parts of the page."""
     for path, measure in ((REST, at_rest), (SLIDING, sliding), (TIME, in_time)):
         stored(path, measure())

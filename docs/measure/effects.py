@@ -6,7 +6,7 @@ Each solve is measured alone in a process of its own, on a quiet machine. Plans 
 bem3d/effects.csv and mdr1d/effects.csv, which are written from the same measurements.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from itertools import product
 from math import nan
@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 import pandas
-from pandas import DataFrame, Series
+from pandas import DataFrame
 from pydantic import TypeAdapter
 from tables import fill, solved, stored, table
 
@@ -23,7 +23,7 @@ import bem3d.plan
 import mdr1d.plan
 from bem3d import BEM
 from bem3d.surface import RoughSurface
-from compare.solving.task import Outcome, Row, Task
+from compare.solving.task import Row
 from compare.studies.workprecision.ladder import TimedSolve
 from mdr1d import MDR
 from scene import Scene, SelfAffine
@@ -31,11 +31,11 @@ from scene.plan import COSTS, two_digits
 
 PAGE = Path(__file__).parents[1] / "results" / "workprecision.md"
 MEASURED = PAGE.with_suffix("") / "effects.csv"
-SOLVERS: Mapping[str, BEM | MDR] = {"3D": BEM(points=256, steps=40), "1D": MDR(points=5000, steps=40)}
+SOLVERS = {"3D": BEM(points=256, steps=40), "1D": MDR(points=5000, steps=40)}
 TABLES = {"3D": bem3d.plan.EFFECTS, "1D": mdr1d.plan.EFFECTS}
 COUNTED = {"3D": (), "1D": ("Program",)}  # parts that a plan counts by itself
 SCENES = TypeAdapter(Scene)
-PLAIN: Mapping[str, Any] = {
+PLAIN = {
     "indenter": {"type": "sphere", "radius": 10e-3},
     "elastomer": {
         "type": "standard-linear-solid",
@@ -69,19 +69,19 @@ class Effect:
     parts: tuple[str, ...] = ()
 
     @property
-    def scene(self) -> Scene:
+    def scene(self):
         """The contact that is solved."""
         return SCENES.validate_python({**PLAIN, **self.tables})
 
 
-def measured() -> np.ndarray:
+def measured():
     """Heights (PIXELS, PIXELS) [m] of one period of the self-affine surface, in place of a measured map."""
     rough = SelfAffine(**ROUGH)
     places = np.arange(PIXELS) / PIXELS * rough.longest
     return RoughSurface.of(rough, rough.q_max(rough.longest / PIXELS)).heights(places, places)
 
 
-def effects() -> tuple[Effect, ...]:
+def effects():
     """All effects, plain contacts first."""
     map_ = {"heights": measured(), "pixel": ROUGH["longest"] / PIXELS, "repeat": "periodic", "level": "mean"}
     topography = {"type": "topography", **map_, "shortest_kept": ROUGH["shortest"]}
@@ -111,7 +111,7 @@ def _program(*stages):
     return {"motion": {"type": "program", "stages": [PRESSED, *stages]}}
 
 
-def tasks() -> dict[tuple[str, str], Task]:
+def tasks():
     """A solve for each dimensionality and title, except for effects that the solver refuses."""
     return {
         (name, effect.title): TimedSolve(solver, (effect.scene,), work=_work(solver, effect))
@@ -126,7 +126,7 @@ def _work(solver, effect):
     return steps * (solver.points if solver.name == "MDR" else solver.points**2)
 
 
-def table_of(outcomes: Mapping[Task, Outcome]) -> DataFrame:
+def table_of(outcomes):
     """Rows of MEASURED: times is the processor time over the time without the effect, 1 of a plain contact."""
     rows, asked = [], tasks()
     for name, effect in product(SOLVERS, effects()):
@@ -140,14 +140,14 @@ def table_of(outcomes: Mapping[Task, Outcome]) -> DataFrame:
     return found.assign(times=_times(found, "seconds"))
 
 
-def _times(found: DataFrame, cost: str) -> Series:
+def _times(found, cost):
     """A cost over the one of the contact that an effect is added to, of a plain contact itself."""
     over = found["over"].where(found["over"] != "", found["effect"])
     by_effect = found.set_index(["dimension", "effect"])[cost]
     return found[cost] / by_effect[zip(found["dimension"], over, strict=True)].to_numpy()
 
 
-def priced(name: str, found: DataFrame) -> Iterator[dict]:
+def priced(name, found):
     """Rows of a table that plans multiply costs with: parts whose cost was measured; of a program, for a step."""
     costs = dict(zip(COSTS, (_times(found, "operator_applications"), found["times"]), strict=True))
     own = DataFrame(costs).div(found["time_steps"].fillna(1.0), axis=0).set_index(found["effect"])
@@ -158,7 +158,7 @@ def priced(name: str, found: DataFrame) -> Iterator[dict]:
                 yield {"part": part} | {cost: float(f"{own.loc[effect.title, cost]:.3g}") for cost in COSTS}
 
 
-def cells(found: DataFrame) -> Iterator[tuple[str, ...]]:
+def cells(found):
     """Cells of the table of the page: times, or why there are none."""
     for (effect, over), both in found.groupby(["effect", "over"], sort=False):
         if over and effect not in UNSHOWN:
@@ -170,13 +170,13 @@ def _cell(row):
     return row["reason"].split(":")[0] or two_digits(float(row["times"]))
 
 
-def parts() -> dict[str, str]:
+def parts():
     """Text between two comments of the page, by the name of the comment."""
     found = pandas.read_csv(MEASURED, keep_default_na=False, na_values="nan")
     return {"effects": table("effect|added to|1D|3D", cells(found))}
 
 
-def main() -> None:
+def main():
     """Measure, and write the tables and the part of the page."""
     found = table_of(solved(MEASURED, tasks().values(), fresh=True))
     for name, path in TABLES.items():

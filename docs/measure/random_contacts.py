@@ -24,7 +24,6 @@ from scene import (
     Wave,
 )
 from scene.scales import elastic_contact
-from scene.solids.rheology import Elastomer
 
 KINDS = "smooth", "rough", "plane", "line"
 RADIUS, DEPTH, MODULUS = 0.1, 0.02, 0.25
@@ -32,7 +31,7 @@ SPOTS = 6  # spots of contact on a wave, about: whose size tells slow from fast
 MEMORIES = -4.0, 2.5  # powers of ten of the memory of one mode over the length that tells slow from fast
 
 
-def drawn(kind: str, seed: int) -> Scene:
+def drawn(kind, seed):
     """Scene of a kind and a seed; the seeds of a kind are independent of one another."""
     draw = np.random.default_rng([seed, KINDS.index(kind)])
     solid = _solid(draw)
@@ -106,7 +105,7 @@ def _plane(draw, solid):
     return Scene(Plane(), solid, Slide(speed=_speed(draw, solid, 1 / waves / SPOTS), pressure=pressure), rough)
 
 
-def _solid(draw) -> Elastomer:
+def _solid(draw):
     """One of every type; modes lie up to seven decades apart."""
 
     def powers(low, high, count):

@@ -66,7 +66,7 @@ FAST_ANSWER = (
 )
 
 
-def main() -> None:
+def main():
     """Solve what is not solved yet, and write the numbers, the figures and the parts of the page."""
     slow, whole, fine = reports = [compare.study(name, "standard", progress="lines") for name in STUDIES]
     trees = [compare.load(report.path.parent) for report in reports]
@@ -90,7 +90,7 @@ def _fast(whole, fine, trees):
         yield from (finding(whole, claim, body, "3D") for claim in MASTER)
 
 
-def parts() -> dict[str, str]:
+def parts():
     """Text between two comments of the page, by the name of the comment."""
     slow, fast = pandas.read_csv(SLOW), pandas.read_csv(FAST)
     places = [(body, model) for body in BODIES for model in SOLVERS]
@@ -115,7 +115,7 @@ def parts() -> dict[str, str]:
     }
 
 
-def _shown(found: DataFrame, claim: str, body: str, model: str = "3D") -> str:
+def _shown(found, claim, body, model="3D"):
     """Value of a finding with its interval: a misfit in percent."""
     row = finding(found, claim, body, model)
     if claim.startswith(("eq23", "law3d")):
@@ -123,7 +123,7 @@ def _shown(found: DataFrame, claim: str, body: str, model: str = "3D") -> str:
     return with_interval(row, 1 if row["value"] > 2 else 3)
 
 
-def slow_answer(found: DataFrame) -> str:
+def slow_answer(found):
     """What slow friction does, in two sentences."""
     numbers = [_shown(found, "eq17.load-exponent", body) for body in BODIES]
     for series in asked.study(STUDIES[0], "standard").series:
@@ -132,7 +132,7 @@ def slow_answer(found: DataFrame) -> str:
     return SLOW_ANSWER.format(*numbers)
 
 
-def fast_answer(found: DataFrame) -> str:
+def fast_answer(found):
     """Two sentences on the errors of Eq. 23 and of the plateau."""
     in_1d = [_shown(found, "eq23.predicted", body, "1D").split(" ")[0] for body in BODIES]
     missed = [_shown(found, f"eq23.predicted{which}", body) for which in ("", BEYOND) for body in BODIES]
