@@ -110,7 +110,7 @@ def figure(rest, timed):
             filled = {} if body == "sphere" else {"markerfacecolor": style.paper()}
             axes.loglog(own["points"], own["error"], **style.look(solver, label=f"{body}, {solver}", **filled))
         second = found["error"].iloc[0] * (found["points"].iloc[0] / np.array(ticks, float)) ** 2
-        axes.loglog(ticks, second, label="second order", **style.line(0.4, 0.8))
+        axes.loglog(ticks, second, label="second order", **style.line(0.4, 0.8, zorder=1))
         axes.set_xticks(ticks, map(str, ticks))
         axes.minorticks_off()
         axes.legend()
