@@ -117,7 +117,7 @@ def scene(number):
     if number < EVENLY:
         point = Point(*even_points()[number].tolist())
         if number >= BLUNT:
-            return scene_at(_blunt(point, *WIDELY), seed, ALL_PERIODS)
+            return scene_at(blunt(point, *WIDELY), seed, ALL_PERIODS)
         return scene_at(point, seed, PERIODS if number < LONG else LONG_PERIODS)
     start = max(first for first in DRAWN if first <= number)
     more = len(Numbers._fields) if start in (MEASURED, MEASURED_AGAIN) else 0
@@ -128,7 +128,7 @@ def scene(number):
     if start == WIDE:
         return _wide(point, seed)
     if start in (BLUNT_AGAIN, BLUNT_AT_LAST):
-        return scene_at(_blunt(point, *NARROWLY), seed, ALL_PERIODS)
+        return scene_at(blunt(point, *NARROWLY), seed, ALL_PERIODS)
     return scene_at(point, seed, PERIODS if start == EVENLY else ALL_PERIODS)
 
 
@@ -161,7 +161,7 @@ def rough_and_sliding(point):
     return point._replace(pressed=pressed, smooth=smooth, speed=SLIDING * point.speed)
 
 
-def _blunt(point, exponents, heights):
+def blunt(point, exponents, heights):
     """Point moved to bodies of some exponents, which slide rough under a load."""
     return rough_and_sliding(point)._replace(
         shape=ROUND + (1 - ROUND) * point.shape,

@@ -98,12 +98,10 @@ def place(region, point):
     """Point of the cube moved to a region."""
     if region == EVENLY:
         return point
-    moved = design.rough_and_sliding(point)
     if region == BLUNT:
-        shape = design.ROUND + (1 - design.ROUND) * point.shape
-        return moved._replace(shape=shape, exponent=within(point.exponent, design.EXPONENTS, POWERS))
+        return design.blunt(point, POWERS, design.HEIGHTS)
     height, speed = within(point.height, design.HEIGHTS, HEIGHT), within(point.speed, design.SPEEDS, PASSED)
-    return moved._replace(
+    return design.rough_and_sliding(point)._replace(
         shape=(design.CONES + design.ROUND) / 2, kind=0.1, height=height, speed=design.SLIDING * speed
     )
 

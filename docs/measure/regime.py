@@ -58,12 +58,6 @@ SLOW_ANSWER = (
     "under {} N (sphere, where p/(E* h') is 0.051 and 0.087), {} times under {} N and {} times under {} N (cone, "
     "0.062 under any load)."
 )
-FAST_ANSWER = (
-    "From low speed to the plateau (v τ q_s = 0.3 to 200, loads over a factor of five) curves shifted as Eq. 23 "
-    "predicts miss one another by {} % (sphere) and {} % (cone) in 1D, by {} % and {} % in 3D; from the knee on "
-    "alone by {} % and {} % in 3D. The plateau in 3D is {} (sphere) and {} (cone) times the one of Eq. 14 under "
-    "the least load, {} and {} times under the greatest."
-)
 
 
 def main():
@@ -108,8 +102,6 @@ def parts():
         for claim, words in MASTER.items()
     )
     return {
-        "slow": slow_answer(slow),
-        "fast": fast_answer(fast),
         "regime": table("|".join(["", *map(", ".join, places)]), regime),
         "master": table("|sphere|cone", master),
     }
@@ -130,14 +122,6 @@ def slow_answer(found):
         for claim, load in zip(LEVELS, (series.values[0], series.values[-1]), strict=True):
             numbers += [_shown(found, claim, series.name), f"{load:.3g}"]
     return SLOW_ANSWER.format(*numbers)
-
-
-def fast_answer(found):
-    """Two sentences on the errors of Eq. 23 and of the plateau."""
-    in_1d = [_shown(found, "eq23.predicted", body, "1D").split(" ")[0] for body in BODIES]
-    missed = [_shown(found, f"eq23.predicted{which}", body) for which in ("", BEYOND) for body in BODIES]
-    levels = (_shown(found, claim, body) for claim in PLATEAUS for body in BODIES)
-    return FAST_ANSWER.format(*in_1d, *(each.replace(" %", "") for each in missed), *levels)
 
 
 def _from_the_knee(tree, model, body):

@@ -1,7 +1,6 @@
 """Scores of the trust map on scenes held out: errors, coverage and advice, by region."""
 
 from itertools import product
-from math import log
 
 import numpy as np
 from pandas import DataFrame, concat
@@ -22,6 +21,14 @@ from compare.trustmap.model import (
 from compare.trustmap.table import column, measurements
 from compare.trustmap.verdict import SOLVE, USE, advice_on
 
+LEAST = 1e-300  # below every group
+
+
+def between(logarithms, low, high):
+    """Where numbers are above the one and at most the other."""
+    return (logarithms > np.log(low)) & (logarithms <= np.log(high))
+
+
 # Regions of the map, where errors and advice are stated, each a condition on groups.
 SPEEDS = {
     "at rest": lambda g: ~g["slides"],
@@ -29,14 +36,14 @@ SPEEDS = {
     "fast": lambda g: g["slides"] & FLOWS["fast"](g),
 }
 SOLIDS = {
-    "Kelvin-like, E_g > 10^4 E_r": lambda g: g["stiffening"] > log(1e4),
-    "E_g 10^2 to 10^4 E_r": lambda g: (g["stiffening"] <= log(1e4)) & (g["stiffening"] > log(1e2)),
-    "E_g up to 10^2 E_r": lambda g: g["stiffening"] <= log(1e2),
+    "Kelvin-like, E_g > 10^4 E_r": lambda g: between(g["stiffening"], 1e4, np.inf),
+    "E_g 10^2 to 10^4 E_r": lambda g: between(g["stiffening"], 1e2, 1e4),
+    "E_g up to 10^2 E_r": lambda g: between(g["stiffening"], LEAST, 1e2),
 }
 WAVES = {
-    "less than 2 waves on the radius": lambda g: g["sliding_waves"] < log(2),
-    "2 to 6 waves": lambda g: (g["sliding_waves"] >= log(2)) & (g["sliding_waves"] < log(6)),
-    "more than 6 waves": lambda g: g["sliding_waves"] >= log(6),
+    "less than 2 waves on the radius": lambda g: between(g["sliding_waves"], LEAST, 2),
+    "2 to 6 waves": lambda g: between(g["sliding_waves"], 2, 6),
+    "more than 6 waves": lambda g: between(g["sliding_waves"], 6, np.inf),
 }
 SURFACES = {
     "spectrum": lambda g: (g["side"] == 0) & (g["gaussian"] == 0),
