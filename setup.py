@@ -9,12 +9,13 @@ from pathlib import Path
 
 from setuptools import setup
 
-LINK = re.compile(r"(!?)\[([^]]*)\]\((?!\w+:|#)([^)]+)\)")
+LINK = re.compile(r"\[([^]]*)\]\((?!\w+:|#)([^)]+)\)")
+PICTURE = re.compile(r"!\[[^]]*\]\([^)]+\)\s+(?:\*[^*]+\*\s+)?")  # with its caption
 
 
 def readme(text: str, address: str) -> str:
-    """Text whose relative links start at an address; pictures without one are left out, other links are words."""
-    return LINK.sub(rf"\1[\2]({address}/\3)" if address else lambda link: "" if link[1] else link[2], text)
+    """Text whose relative links start at an address; without one links are words, and pictures are left out."""
+    return LINK.sub(rf"[\1]({address}/\2)", text) if address else LINK.sub(r"\1", PICTURE.sub("", text))
 
 
 if __name__ == "__main__":
