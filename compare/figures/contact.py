@@ -163,7 +163,7 @@ def section(
         "color": colour, "linewidth": style.width(2.2), "solid_capstyle": "butt", "marker": ".",
         "markersize": style.width(2.2), "markeredgewidth": 0,
     }  # fmt: skip
-    axes.plot(x, surface.where(touching), label=f"contact, {style.label(solver)}", **bold)
+    axes.plot(x, surface.where(touching), label="real contact, in the colour of the model", **bold)
     axes.set(xlim=[along * end for end in span], ylim=(bottom, top))
     axes.set(xlabel=f"x [{metres}]", ylabel=f"height [{unit}]")
 
