@@ -111,6 +111,9 @@ def figure(tables: Tables, aside: float = 1.0, flow: str = "") -> Figure:
     """
     sections = [tables[name] for name in SECTIONS.values() if name in tables]
     limits, x = heights_of(sections), sections[0]["x"]
+    # All that touches, and what every panel has: the row may end nearer to the contact than the surface.
+    shown = np.concatenate([sections[-1]["x"], tables.get(PRESSURE, sections[0])["x"]])
+    x = x[x.between(shown.min(), shown.max())]
     span: list[float] = x.iloc[[0, -1]].tolist()
     heights = [PANEL] * ceil(len(tables) / 2)
     if PRESSURE in tables:
@@ -124,7 +127,7 @@ def figure(tables: Tables, aside: float = 1.0, flow: str = "") -> Figure:
         elif name == LINES:
             _line_forces(axes, table, span)
         else:
-            solver = next(solver for solver, each in SECTIONS.items() if each == name)
+            solver = "BEM" if name == SECTIONS["BEM"] else "MDR"
             section(axes, table, solver, span, limits, ELEMENTS * (solver == "MDR"))
             axes.set_title(SECTION_TITLES[solver])
     for axes in grid[len(tables) :]:
@@ -156,26 +159,31 @@ def section(
     axes.axhline(0.0, **style.line(0.35, 0.5, linestyle=(0, (5, 3)), label="undeformed surface"))
     axes.plot(x, surface, color=SKIN, linewidth=style.width(0.65), label="surface")
     # A marker, too, since contact may be at one point.
-    bold: dict[str, Any] = {"color": colour, "linewidth": style.width(2.2), "solid_capstyle": "butt"}
-    bold |= {"marker": ".", "markersize": style.width(2.2), "markeredgewidth": 0}
-    axes.plot(x, surface.where(touching), label="real contact", **bold)
+    bold: dict[str, Any] = {
+        "color": colour, "linewidth": style.width(2.2), "solid_capstyle": "butt", "marker": ".",
+        "markersize": style.width(2.2), "markeredgewidth": 0,
+    }  # fmt: skip
+    axes.plot(x, surface.where(touching), label="real contact, in the colour of the model", **bold)
     axes.set(xlim=[along * end for end in span], ylim=(bottom, top))
     axes.set(xlabel=f"x [{metres}]", ylabel=f"height [{unit}]")
 
 
 def pressure_map(axes: Axes, table: DataFrame, places, aside: float) -> None:
     """Map of the pressure on what touches, with its bar below. places : x of its columns [m]"""
-    highest, pixel = float(np.percentile(table["pressure"], HIGHEST)), places.iloc[1] - places.iloc[0]
+    highest, pixel = np.percentile(table["pressure"], HIGHEST), places.iloc[1] - places.iloc[0]
     (along, unit), (up, pascal) = style.prefixed([*places, aside], "m"), style.prefixed(highest, "Pa")
     edges = [along * np.arange(each.min() - pixel / 2, each.max() + pixel, pixel) for each in (places, table["y"])]
     look: dict[str, Any] = {"cmap": "viridis_r", "vmin": 0.0, "vmax": up * highest, "rasterized": True}
-    look |= {"weights": up * table["pressure"], "cmin": np.finfo(float).tiny}
-    *_, image = axes.hist2d(along * table["x"], along * table["y"], edges, **look)
+    *_, image = axes.hist2d(
+        along * table["x"], along * table["y"], edges, weights=up * table["pressure"],
+        cmin=np.finfo(float).tiny, **look,
+    )  # fmt: skip
     axes.set_facecolor(ELASTOMER)
     axes.set(ylim=(-along * aside, along * aside), aspect="equal", anchor="NW")
     axes.set(xlabel=f"x [{unit}]", ylabel=f"y [{unit}]", title="3D: real contact")
-    bar: dict[str, Any] = {"location": "bottom", "extend": "max", "aspect": 32}
-    axes.figure.colorbar(image, ax=axes, label=f"pressure [{pascal}]", **bar)
+    axes.figure.colorbar(
+        image, ax=axes, label=f"pressure [{pascal}]", location="bottom", panchor=False, extend="max", aspect=32
+    )
 
 
 def _line_forces(axes: Axes, lines: DataFrame, span) -> None:
@@ -185,13 +193,14 @@ def _line_forces(axes: Axes, lines: DataFrame, span) -> None:
     (along, metres), (up, name) = style.prefixed(span, "m"), style.prefixed(lines.drop(columns="x"), unit)
     x = along * lines["x"]
     if both:
-        one: dict[str, Any] = {"color": style.colour("MDR"), "alpha": 0.45, "label": style.label("MDR")}
-        axes.fill_between(x, up * lines["line_force_1d"], step="mid", linewidth=0, **one)
+        axes.fill_between(
+            x, up * lines["line_force_1d"], step="mid", linewidth=0, color=style.colour("MDR"), alpha=0.45,
+            label=style.label("MDR"),
+        )  # fmt: skip
     three = style.look("BEM", marker="", linestyle="-", drawstyle="steps-mid")
     axes.plot(x, up * lines["line_force_3d"], **three)
     axes.set(xlim=[along * end for end in span], xlabel=f"x [{metres}]", ylabel=f"{quantity} [{name}]")
-    axes.set_ylim(bottom=0)
-    axes.set_title(quantity)
+    axes.set(ylim=(0, None), title=quantity)
 
 
 def heights_of(sections: Sequence[DataFrame]) -> tuple[float, float]:
@@ -199,7 +208,7 @@ def heights_of(sections: Sequence[DataFrame]) -> tuple[float, float]:
     seen = np.concatenate([[0.0], *(each["surface"] for each in sections)])
     low, high = np.nanmin(seen), np.nanmax(seen)
     room = (high - low) or 1e-9
-    return float(low - BELOW * room), float(high + ABOVE * room)
+    return low - BELOW * room, high + ABOVE * room
 
 
 def line_forces(surface: xarray.Dataset, row: xarray.Dataset | None) -> DataFrame:

@@ -95,14 +95,16 @@ def curves(thickness: float | None) -> dict[str, np.ndarray]:
 
 
 def figure(found: dict[str, np.ndarray]) -> Figure:
-    """Friction against force at each speed, a panel for each ball; dotted: F*."""
+    """Friction in thousandths against force at each speed, a panel for each ball; dotted: F*."""
     drawing = Figure(figsize=(7.0, 4.8), layout="constrained")
     for axes, (title, mu) in zip(drawing.subplots(2, 2).flat, found.items(), strict=True):
         for speed, curve in zip(SPEEDS, mu, strict=True):
-            axes.loglog(LOADS, curve, label=f"{1e3 * speed:.3g} mm/s")
+            axes.loglog(LOADS, 1e3 * curve, label=f"{1e3 * speed:.3g} mm/s")
         axes.axvline(CROSSOVER, linestyle=":", color="grey")
-        axes.set(title=title, xlabel="force [N]", ylabel="friction [1]")
-    drawing.axes[1].legend(fontsize="small")
+        axes.set(title=title, xlabel="force [N]", ylabel="friction [10⁻³]")
+        for set_numbers in (axes.yaxis.set_major_formatter, axes.yaxis.set_minor_formatter):
+            set_numbers("{x:.3g}")
+    drawing.axes[1].legend(fontsize="small", loc="upper left", frameon=False)
     return drawing
 
 

@@ -2,43 +2,38 @@
 
 python docs/measure/accuracy.py
 
-The tests hold more closed forms: sliding in one dimension, waves pressed flat, full contact.
+`crosscheck verify` holds more closed forms: histories, sliding in one dimension, waves pressed flat, full contact.
 """
 
-from collections.abc import Iterator
 from math import pi, radians, sqrt, tan
 from pathlib import Path
 
 import numpy as np
 import pandas
-from matplotlib.figure import Figure
-from pandas import DataFrame
 from tables import fill, order, stored, table
 
 from bem3d import BEM
 from compare.figures import style
-from compare.models.exact import indentation
 from mdr1d import MDR
-from scene import Cone, Elastic, Indent, Program, Scene, Slide, Sphere, Stage, StandardLinearSolid
+from scene import Cone, Elastic, Indent, Scene, Slide, Sphere, StandardLinearSolid
 
 PAGE = Path(__file__).parents[1] / "results" / "accuracy.md"
 G, R, THETA, TAU, DEPTH = 1e6, 10e-3, radians(10), 1e-3, 1e-4
 RADIUS = sqrt(R * DEPTH)
 HERTZ = 4 / 3 * 4 * G * sqrt(R) * DEPTH**1.5
-MOMENTS = 1.0, 1.9, 2.2, 2.5  # in time [s]
 POINTS = (16, 23, 32, 45, 64, 91, 128, 181, 256)
-REST, SLIDING, TIME = (PAGE.with_suffix("") / f"{name}.csv" for name in ("rest", "sliding", "time"))
+REST, SLIDING = (PAGE.with_suffix("") / f"{name}.csv" for name in ("rest", "sliding"))
 # Sphere on a standard linear solid under a load: v tau_c [m], depth [m] and mu R [m] of two other codes.
 PUBLISHED = {1e-4: (99.824e-6, 45.249e-6), 1e-3: (91.508e-6, 157.664e-6), 1e-2: (70.553e-6, 41.906e-6)}
 
 
-def around(solver: type, a: float, points: int) -> BEM | MDR:
+def around(solver, a, points):
     """The solver with points across a contact of radius a [m]; BEM gets half as many more around it."""
     count = int(1.5 * points) if solver is BEM else points
     return solver(points=count, extent=2 * a * count / points * (1.01 if solver is MDR else 1))
 
 
-def at_rest() -> Iterator[dict]:
+def at_rest():
     """Relative error of the force at a depth, against Hertz and Sneddon."""
     forms = {
         "sphere (Hertz)": (Sphere(R), HERTZ, RADIUS),
@@ -52,7 +47,7 @@ def at_rest() -> Iterator[dict]:
                 yield {"shape": name, "solver": solver.__name__, "points": n, "error": error}
 
 
-def sliding() -> Iterator[dict]:
+def sliding():
     """Depth and friction times radius [m] of a sphere in steady sliding under a load, in 3D."""
     for memory in PUBLISHED:
         motion = Slide(speed=memory / (2 * TAU), load=0.533333)
@@ -60,75 +55,52 @@ def sliding() -> Iterator[dict]:
         yield {"memory": memory, "depth": result.depth, "moment": result.friction_coefficient * R}
 
 
-def in_time() -> Iterator[dict]:
-    """Relative error of the force of a body pressed in and drawn back at a constant rate, in 3D."""
-    elastomer, times, depths = StandardLinearSolid(0.25, 1.25, 1.0), [0.0, 2.0, 4.0], [0.0, 0.2, 0.0]
-    program = Program(stages=(Stage(duration=2.0, depth=0.2), Stage(duration=2.0, depth=0.0)))
-    for shape, extent in ((Sphere(1.0), 1.5), (Cone(np.pi / 4), 0.4)):
-        for points, steps in ((64, 40), (128, 80), (256, 160)):
-            fields = BEM(points=points, extent=extent, steps=steps).solve(Scene(shape, elastomer, program)).fields
-            found = np.interp(MOMENTS, fields["time"], fields["normal_force"])
-            exact, _ = indentation.force_of_depth(shape, elastomer, times, depths, np.array(MOMENTS))
-            errors = dict(zip(map("{:g}".format, MOMENTS), found / exact - 1, strict=True))
-            yield {"shape": shape.type, "points": points} | errors
-
-
-def parts() -> dict[str, str]:
+def parts():
     """Text between two comments of the page, by the name of the comment."""
-    rest, slid, timed = (pandas.read_csv(each) for each in (REST, SLIDING, TIME))
-    memory, moments = "v τ_c, mm|depth, mm|μR, mm|against other codes: depth|μR", "shape|t = 1 s|1.9 s|2.2 s|2.5 s"
-    finest = timed[timed["points"] == timed["points"].max()].drop(columns="points")
-    rows = ((shape, *(f"{each:+.2%}" for each in errors)) for shape, *errors in finest.itertuples(index=False))
+    memory = "v τ_c, mm|depth, mm|μR, mm|against other codes: depth|μR"
+    rest, slid = map(pandas.read_csv, (REST, SLIDING))
     return {
         "rest": table("shape|solver|16 points|64 points|256 points|observed order", _at_rest(rest)),
         "sliding": table(memory, _sliding(slid)),
-        "time": table(moments, rows),
     }
 
 
-def _at_rest(found: DataFrame) -> Iterator[tuple[str, ...]]:
+def _at_rest(found):
     for (shape, solver), own in found.groupby(["shape", "solver"], sort=False):
         shown = own.set_index("points")["error"][[16, 64, 256]].map("{:.1e}".format)
         errors = own["error"]
         yield shape, solver, *shown, f"{order(own['points'], errors):.1f}" if errors.min() > 1e-13 else "exact"
 
 
-def _sliding(found: DataFrame) -> Iterator[tuple[str, ...]]:
+def _sliding(found):
     for row, published in zip(found.itertuples(), PUBLISHED.values(), strict=True):
         pairs = zip((row.depth, row.moment), published, strict=True)
         own = f"{1e3 * row.memory:g}", f"{1e3 * row.depth:.6f}", f"{1e3 * row.moment:.6f}"
         yield *own, *(f"{value / other - 1:+.3%}" for value, other in pairs)
 
 
-def figure(rest: DataFrame, timed: DataFrame) -> Figure:
-    """Error of the force at rest and in time, over the points."""
-    drawing = style.canvas("double", 2.5)
-    left, right = panels = drawing.subplots(1, 2)
-    rest = rest[rest["error"] > 1e-13].assign(body=rest["shape"].str.split().str[0])
-    timed = timed.assign(
-        body=timed["shape"], solver="BEM", error=timed.filter(regex=r"^[\d.]+$").abs().max(axis=1)
-    )
-    for axes, found, ticks in ((left, rest, (16, 32, 64, 128, 256)), (right, timed, (64, 128, 256))):
-        for (body, solver), own in found.groupby(["body", "solver"], sort=False):
-            filled = {} if body == "sphere" else {"markerfacecolor": style.paper()}
-            axes.loglog(own["points"], own["error"], **style.look(solver, label=f"{body}, {solver}", **filled))
-        second = found["error"].iloc[0] * (found["points"].iloc[0] / np.array(ticks, float)) ** 2
-        axes.loglog(ticks, second, label="second order", **style.line(0.4, 0.8))
-        axes.set_xticks(ticks, map(str, ticks))
-        axes.minorticks_off()
-        axes.legend()
-    left.set(xlabel="points across the contact [1]", ylabel="relative error of the force [1]", title="at rest")
-    right.set(xlabel="points a side of the window [1]", ylabel="worst error of the force [1]", title="in time")
-    style.lettered(panels)
+def figure(rest):
+    """Error of the force at rest over the points."""
+    drawing = style.canvas("single", 2.5)
+    axes, found = drawing.subplots(), rest[rest["error"] > 1e-13]
+    for (shape, solver), own in found.groupby(["shape", "solver"], sort=False):
+        filled = {} if shape.startswith("sphere") else {"markerfacecolor": style.paper()}
+        axes.loglog(own["points"], own["error"], **style.look(solver, label=f"{shape}, {solver}", **filled))
+    second = found["error"].iloc[0] * (POINTS[0] / np.array(POINTS)) ** 2
+    axes.loglog(POINTS, second, label="second order", **style.line(0.4, 0.8, zorder=1))
+    axes.set_xticks(POINTS[::2], map(str, POINTS[::2]))
+    axes.minorticks_off()
+    axes.legend()
+    axes.set(xlabel="points across the contact [1]", ylabel="relative error of the force [1]")
     return drawing
 
 
-def main() -> None:
+def main():
     """Measure, and write the numbers, the figure and the parts of the page."""
-    for path, measure in ((REST, at_rest), (SLIDING, sliding), (TIME, in_time)):
+    for path, measure in ((REST, at_rest), (SLIDING, sliding)):
         stored(path, measure())
     with style.applied():
-        figure(pandas.read_csv(REST), pandas.read_csv(TIME)).savefig(PAGE.with_suffix(".png"), dpi=200)
+        figure(pandas.read_csv(REST)).savefig(PAGE.with_suffix(".png"), dpi=200)
     fill(PAGE, parts())
 
 

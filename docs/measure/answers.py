@@ -7,7 +7,6 @@ python docs/measure/answers.py studies   does the six studies at size standard f
 
 import re
 import sys
-from collections.abc import Iterator, Mapping
 from contextlib import redirect_stdout
 from io import StringIO
 from pathlib import Path
@@ -23,7 +22,6 @@ import rates
 import regime
 import spectrum
 import trust
-from pandas import DataFrame, Series
 from tables import fill, finding, stored, table
 
 import compare
@@ -71,7 +69,7 @@ FILLED = (
 )  # scripts with parts of pages
 
 
-def parts() -> Mapping[tuple[Path, str], str]:
+def parts():
     """Text between two comments, by the page and the name of the comment."""
     run, slow, fast = (pandas.read_csv(each) for each in (RUN, regime.SLOW, regime.FAST))
     answer, example = _answer(run, fast), RUN.with_name("example.txt").read_text(encoding="utf-8")
@@ -87,7 +85,7 @@ def parts() -> Mapping[tuple[Path, str], str]:
     return found | {(script.PAGE, name): text for script in FILLED for name, text in script.parts().items()}
 
 
-def _of_run(found: DataFrame) -> Iterator[tuple[str, ...]]:
+def _of_run(found):
     for (claim, model), words in OF_RUN.items():
         yield words, *(_cell(finding(found, claim, scene, model)) for scene in SCENES)
     forces = found[found["claim"] == FORCES]
@@ -96,13 +94,13 @@ def _of_run(found: DataFrame) -> Iterator[tuple[str, ...]]:
         yield f"error of the 1D force at the same depth, rough body, {depth}", *map(_cell, own)
 
 
-def _of_study(in_regime: DataFrame) -> Iterator[tuple[str, ...]]:
+def _of_study(in_regime):
     for claims, judged in ((OF_STUDY, pandas.read_csv(STANDARD / "collapse.csv")), (IN_REGIME, in_regime)):
         for claim, words in claims.items():
             yield words, *(_cell(finding(judged, claim, body, model)) for model in ALONE for body in BODIES)
 
 
-def _answer(run: DataFrame, fast: DataFrame) -> str:
+def _answer(run, fast):
     """Three points: on the smooth body at rest, on friction by 1D and its correction, and on the law in 3D."""
     smooth = run[run["claim"] == "force.ratio.smooth"]["value"].abs().max()
     slow, rough = (
@@ -124,7 +122,7 @@ def _answer(run: DataFrame, fast: DataFrame) -> str:
     )
 
 
-def _cell(row: Series) -> str:
+def _cell(row):
     """Verdict and number; a misfit in percent, and never below zero."""
     misfit = row["claim"].startswith(MISFITS)
     scale, unit = (100, " %") if misfit or row["claim"] == FORCES else (1, "")
@@ -132,7 +130,7 @@ def _cell(row: Series) -> str:
     return f"{row['verdict']}: {interval(*(scale * each for each in ends))}{unit}"
 
 
-def run_again() -> None:
+def run_again():
     """Store the findings of the main job, and the first table that the example of README.md prints."""
     stored(RUN, compare.run(progress="lines").findings)
     (example,) = re.findall(r"^```python\n(.*?)^```", README.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
@@ -142,14 +140,14 @@ def run_again() -> None:
     RUN.with_name("example.txt").write_text(f"{shown}\n", encoding="utf-8")
 
 
-def studies_again() -> None:
+def studies_again():
     """Do the six studies at size standard, as far as they are not solved, and store their findings."""
     for name in STUDIES:
         found = compare.study(name, "standard", progress="lines").findings
         stored(STANDARD / f"{name}.csv", found.drop(columns=["regime", "meaning", "sentence"]))
 
 
-def main(first: str = "") -> None:
+def main(first=""):
     """Write all of them."""
     {"again": run_again, "studies": studies_again}.get(first, lambda: None)()
     for (page, name), text in parts().items():

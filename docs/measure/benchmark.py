@@ -30,36 +30,36 @@ TOLERANCES = (1e-5, 5e-6, 2e-6, 1e-6, 5e-7, 2e-7, 1e-7)  # tried in turn, each c
 MOST = 1000  # iterations allowed to a peer
 
 
-def rough_plane(n: int) -> SelfAffine:
+def rough_plane(n):
     """The surface of the comparison: shortest wave of 8 pixels, roll-off at a quarter of the cell."""
     of = {"hurst": 0.8, "longest": 1.0, "rolloff": 0.25, "shortest": 8 / n, "seed": 1}
     unit = SelfAffine(rms_height=1.0, **of)
     return SelfAffine(rms_height=SLOPE / unit.rms_slope(unit.q_max(1 / n)), **of)
 
 
-def cell(n: int, pressure: float = PRESSURE) -> tuple[Scene, BEM]:
+def cell(n, pressure=PRESSURE):
     """A rough cell under a mean pressure over E*."""
     return Scene(Plane(), ELASTIC, Indent(pressure=pressure), rough_plane(n)), BEM(points=n)
 
 
-def heights_of(scene: Scene, solver: BEM) -> np.ndarray:
+def heights_of(scene, solver):
     """What a peer is given: z on the points of our grid."""
     return heights(scene, solver.points, solver.extent or 1.0).height
 
 
-def outcome(heights, pressure, gap, **more) -> dict:
+def outcome(heights, pressure, gap, **more):
     """Row of one run; the error is sum|p gap| over sum(p) and the standard deviation of all heights."""
     return {"error": float(np.sum(np.abs(pressure * gap)) / (pressure.sum() * heights.std()))} | more
 
 
-def by_us(scene: Scene, solver: BEM, tolerance: float) -> dict:
+def by_us(scene, solver, tolerance):
     """From the scene to the result: drawing the surface and the coarser grids are included."""
     result = BEM(points=solver.points, tolerance=tolerance).solve(scene)
     costs = {"seconds": result.seconds, "iterations": result.operator_applications}
     return outcome(heights_of(scene, solver), result.fields["pressure"], result.fields["gap"], **costs)
 
 
-def by_tamaas(scene: Scene, solver: BEM, tolerance: float) -> dict:
+def by_tamaas(scene, solver, tolerance):
     """Polonsky and Keer's conjugate gradients; the solve alone. The tolerance is the error itself."""
     import tamaas
 
@@ -74,7 +74,7 @@ def by_tamaas(scene: Scene, solver: BEM, tolerance: float) -> dict:
     return outcome(heights, model.traction, model["gap"], seconds=time.process_time() - started)
 
 
-def by_contact_mechanics(scene: Scene, solver: BEM, tolerance: float) -> dict:
+def by_contact_mechanics(scene, solver, tolerance):
     """Numbers of a solve by ContactMechanics, by the same method; the time of the solve alone."""
     import ContactMechanics
     from SurfaceTopography import Topography
@@ -92,7 +92,7 @@ def by_contact_mechanics(scene: Scene, solver: BEM, tolerance: float) -> dict:
 CODES = {"this": by_us, "tamaas": by_tamaas, "ContactMechanics": by_contact_mechanics}
 
 
-def measured(name: str, n: int) -> dict:
+def measured(name, n):
     """The first tolerance with which a code reaches the error wanted; if it stalls, its last try."""
     code = CODES[name]
     code(*cell(64, 0.01), 1e-3)  # compiles, imports
@@ -103,7 +103,7 @@ def measured(name: str, n: int) -> dict:
     return row
 
 
-def alone(name: str, n: int) -> dict:
+def alone(name, n):
     """Row of a code on a grid, in a process of its own, on one thread."""
     threads = {f"{each}_NUM_THREADS": "1" for each in ("OMP", "OPENBLAS", "MKL", "NUMBA")}
     command = [sys.executable, __file__, name, str(n)]
@@ -112,7 +112,7 @@ def alone(name: str, n: int) -> dict:
     return {"points": n, "code": name, "iterations": int(count)} | json.loads(found.stdout.splitlines()[-1])
 
 
-def parts() -> dict[str, str]:
+def parts():
     """Text between two comments of the page, by the name of the comment."""
     found = pandas.read_csv(MEASURED)
     own = found[found["code"] == "this"].set_index("points")["seconds"]
@@ -124,7 +124,7 @@ def parts() -> dict[str, str]:
     return {"benchmark": table("points|code|iterations|error|processor time [s]|over this", shown)}
 
 
-def main(name: str = "", points: str = "") -> None:
+def main(name="", points=""):
     """Measure, and write the numbers and the part of the page; of one code, print its row."""
     if name:
         print(json.dumps(measured(name, int(points))))

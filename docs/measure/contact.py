@@ -1,15 +1,14 @@
 """One scene solved in 1D and 3D on as many surfaces as its scatter asks for, as a task, and the ratio of both."""
 
-from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from math import ceil, hypot, inf, log, nan, sqrt
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from bem3d import BEM
 from compare.models.law.bands import Bands
-from compare.solving.task import SCENES, Outcome, Row, SceneTask, Task, draws_of
+from compare.solving.task import SCENES, Outcome, SceneTask, Task, draws_of
 from compare.statistics.jackknife import off_the_ratio
 from compare.trustmap.model import LAW, Ratio
 from mdr1d import MDR
@@ -63,30 +62,30 @@ class Contact(Task):
     packages = ("scene", "mdr1d", "bem3d", "compare.models.law.bands", "contact")
 
     @property
-    def label(self) -> str:
+    def label(self):
         """Short description for people."""
         return SceneTask(BEM(), (self.scene,)).label.replace("BEM", "MDR and BEM")
 
     @property
-    def work(self) -> float:
+    def work(self):
         """Rough cost, in passes over a point of a grid."""
         rough = self.scene.roughness
         return 1e6 if rough is None else 2.5e7 * max(1.0, rough.longest / finest_wave(rough) / 5) ** 2
 
     @property
-    def question(self) -> Mapping[str, Any]:
+    def question(self):
         """Scene, and how well it is to be known."""
         (scene,) = SCENES.dump_python((self.scene,), mode="json")
         return {"trust": scene, "wanted": self.wanted, "surfaces": self.surfaces, "grids": asdict(self.grids)}
 
-    def solve(self) -> Outcome:
+    def solve(self):
         """Solve until the means are known, or the surfaces are spent."""
         line, scenes = MDR(points=LINE_POINTS), draws_of(self.scene, MOST_PROFILES)
         first = SceneTask(BEM(points=LEAST_POINTS), (self.scene,)).solve().rows[0]
         profiles = _labelled(FINE, line, self._until_known(line, scenes, PROFILES))
         return Outcome((*profiles, *self._surfaces(self._fine(first))))
 
-    def fits(self, outcome: Outcome) -> bool:
+    def fits(self, outcome):
         """Whether the stored outcome has any rows."""
         return bool(outcome.rows)
 
@@ -97,14 +96,14 @@ class Contact(Task):
         needed = 0 if rough is None else self.grids.pixels * extent / finest_wave(rough)
         return next((each for each in points if each >= needed), points[-1])
 
-    def _until_known(self, solver, scenes, block, rows=()) -> list[Row]:
+    def _until_known(self, solver, scenes, block, rows=()):
         """Rows of scenes, a block after the other, until their mean has the standard error that is wanted."""
         rows = list(rows)
         while len(rows) < len(scenes) and not self._known(rows):
             rows += _solved(solver, scenes[len(rows) : len(rows) + block])
         return rows
 
-    def _surfaces(self, points) -> Iterator[Row]:
+    def _surfaces(self, points):
         """Rows of surfaces on the fine grid, then on half its points."""
         few, many = self.grids.few, self.grids.many
         solver, half = BEM(points=points), BEM(points=points // 2)
@@ -155,23 +154,23 @@ class Contact(Task):
         return float(np.nanstd(some, ddof=1) / middle), float(np.nanstd(apart, ddof=1) / middle)
 
 
-def _solved(solver, scenes) -> list[Row]:
+def _solved(solver, scenes):
     return [*SceneTask(solver, scenes).solve().rows]
 
 
-def _labelled(grid, solver, rows) -> Iterator[Row]:
+def _labelled(grid, solver, rows):
     settings = {"solver": solver.name, "grid": grid, "points": solver.points}
     return (replace(row, measures={}, settings=settings) for row in rows)
 
 
-def finest_wave(rough: Any) -> float:
+def finest_wave(rough):
     """Shortest wave that a grid has to resolve [m]: of a map the one up to which nearly all of its slope is."""
     if isinstance(rough, SelfAffine) and rough.shortest is not None:
         return rough.shortest
     return Bands.of(rough).finest
 
 
-def ratio_of(outcome: Outcome, quantity: str, law: float = nan) -> Ratio:
+def ratio_of(outcome, quantity, law=nan):
     """Ratio of a quantity, of all draws that were solved; law : friction coefficient that the law makes of it."""
     space = _space(outcome, "friction" if quantity == LAW else quantity)
     line = Mean(law, 0.0, inf) if quantity == LAW else _mean(_rows(outcome, "MDR", FINE), quantity)[0]
@@ -214,7 +213,7 @@ def _rows(outcome, solver, grid):
     ]
 
 
-def _mean(rows: Sequence[Row], quantity: str) -> tuple[Mean, np.ndarray]:
+def _mean(rows, quantity):
     """Mean of the draws that were solved, and its relative change with each: the squares sum to its variance."""
     name = {"friction": "friction_force", "depth": "depth", "force": "normal_force"}[quantity]
     over = [row.normal_force for row in rows] if quantity == "friction" else 1.0

@@ -27,8 +27,6 @@ from scene import (
     Topography,
 )
 from scene.scales import elastic_contact
-from scene.solids.rheology import Elastomer
-from scene.surfaces.roughness import Roughness
 
 RADIUS, DEPTH, MODULUS, SPEED = 1e-3, 1e-4, 1e6, 1.0
 # Ranges of the groups, from least to greatest.
@@ -93,14 +91,14 @@ Numbers = namedtuple(
 )
 
 
-def between(ends: tuple[float, float], place: float) -> float:
+def between(ends, place):
     """Number at a place, 0 to 1, between two ends, in equal ratios."""
     low, high = ends
     return exp(log(low) + place * log(high / low))
 
 
 @cache
-def even_points() -> np.ndarray:
+def even_points():
     """Points to choose from (8192, DIMENSIONS): a Sobol sequence, which fills the cube evenly."""
     from scipy.stats import qmc  # takes half a second, which the verdict on a scene does not have
 
@@ -108,18 +106,18 @@ def even_points() -> np.ndarray:
 
 
 @cache
-def drawn_points(seed: int, numbers: int = DIMENSIONS) -> np.ndarray:
+def drawn_points(seed, numbers=DIMENSIONS):
     """Points of a seed (2000, numbers), drawn evenly."""
     return np.random.default_rng(seed).random((2000, numbers))
 
 
-def scene(number: int) -> Scene:
+def scene(number):
     """Scene of the number of a point."""
     seed = SEEDS * number
     if number < EVENLY:
         point = Point(*even_points()[number].tolist())
         if number >= BLUNT:
-            return scene_at(_blunt(point, *WIDELY), seed, ALL_PERIODS)
+            return scene_at(blunt(point, *WIDELY), seed, ALL_PERIODS)
         return scene_at(point, seed, PERIODS if number < LONG else LONG_PERIODS)
     start = max(first for first in DRAWN if first <= number)
     more = len(Numbers._fields) if start in (MEASURED, MEASURED_AGAIN) else 0
@@ -130,11 +128,11 @@ def scene(number: int) -> Scene:
     if start == WIDE:
         return _wide(point, seed)
     if start in (BLUNT_AGAIN, BLUNT_AT_LAST):
-        return scene_at(_blunt(point, *NARROWLY), seed, ALL_PERIODS)
+        return scene_at(blunt(point, *NARROWLY), seed, ALL_PERIODS)
     return scene_at(point, seed, PERIODS if start == EVENLY else ALL_PERIODS)
 
 
-def _measured(point: Point, numbers: Numbers, seed: int) -> Scene:
+def _measured(point, numbers, seed):
     """Scene of a surface as it is measured: a map, or Gaussian amplitudes."""
     wave, height = RADIUS / between(WAVES, point.waves), between(HEIGHTS, point.height)
     if numbers.kind >= GAUSSIAN:
@@ -145,7 +143,7 @@ def _measured(point: Point, numbers: Numbers, seed: int) -> Scene:
     )
 
 
-def _wide(point: Point, seed: int) -> Scene:
+def _wide(point, seed):
     """Cone or sphere that slides under a load on many waves; the place of the height sets how they are pressed."""
     wave = RADIUS / between(MANY_WAVES, point.waves)
     smooth = scene_on(None, rough_and_sliding(point)._replace(shape=ROUND * point.shape), wave)
@@ -157,13 +155,13 @@ def _wide(point: Point, seed: int) -> Scene:
     return replace(smooth, roughness=replace(rough, rms_height=min(height, MOST_HEIGHT * DEPTH)))
 
 
-def rough_and_sliding(point: Point) -> Point:
+def rough_and_sliding(point):
     """Point moved to bodies that slide rough under a load."""
     smooth, pressed = SMOOTH + (1 - SMOOTH) * point.smooth, UNDER_LOAD * point.pressed
     return point._replace(pressed=pressed, smooth=smooth, speed=SLIDING * point.speed)
 
 
-def _blunt(point, exponents, heights):
+def blunt(point, exponents, heights):
     """Point moved to bodies of some exponents, which slide rough under a load."""
     return rough_and_sliding(point)._replace(
         shape=ROUND + (1 - ROUND) * point.shape,
@@ -172,13 +170,13 @@ def _blunt(point, exponents, heights):
     )
 
 
-def within(place: float, ends: tuple[float, float], part: tuple[float, float]) -> float:
+def within(place, ends, part):
     """Place between the ends of a range of what is there between those of a part of it, in logarithms."""
     low, high = (log(end / ends[0]) / log(ends[1] / ends[0]) for end in part)
     return low + place * (high - low)
 
 
-def scene_at(point: Point, seed: int = 0, periods: tuple[float, float] = PERIODS) -> Scene:
+def scene_at(point, seed=0, periods=PERIODS):
     """Scene of a point of the cube.
 
     seed : of its first surface; periods : range of the longest wave over the radius
@@ -189,7 +187,7 @@ def scene_at(point: Point, seed: int = 0, periods: tuple[float, float] = PERIODS
     )
 
 
-def scene_on(rough: Roughness | None, point: Point, wave: float) -> Scene:
+def scene_on(rough, point, wave):
     """Scene of a roughness, or none, with all else of a point of the cube; wave : its shortest [m]."""
     indenter = body(point.shape, point.exponent)
     solid = solid_at(*point[2:7], point.speed, wave)
@@ -199,7 +197,7 @@ def scene_on(rough: Roughness | None, point: Point, wave: float) -> Scene:
     return Scene(indenter, solid, motion, rough)
 
 
-def body(shape: float, exponent: float) -> Sphere | Cone | PowerLaw:
+def body(shape, exponent):
     if shape < CONES:
         return Cone(np.arctan(DEPTH / RADIUS / Cone(angle=np.pi / 4).mdr_coefficient))
     if shape < ROUND:
@@ -208,7 +206,7 @@ def body(shape: float, exponent: float) -> Sphere | Cone | PowerLaw:
     return PowerLaw(DEPTH / PowerLaw(RADIUS**-n, n).mdr_coefficient * RADIUS**-n * RADIUS**-n, n)
 
 
-def _rough(height, shortest, periods, seed, hurst, period, rolled, rolloff) -> SelfAffine:
+def _rough(height, shortest, periods, seed, hurst, period, rolled, rolloff):
     """Roughness of a height over the depth and a shortest wave [m]."""
     longest = between((max(periods[0] * RADIUS, 2 * shortest), periods[1] * RADIUS), period)
     return SelfAffine(
@@ -221,7 +219,7 @@ def _rough(height, shortest, periods, seed, hurst, period, rolled, rolloff) -> S
     )
 
 
-def solid_at(kind, loss, spread, tilt, branches, speed, wave) -> Elastomer:
+def solid_at(kind, loss, spread, tilt, branches, speed, wave):
     """Solid whose times lie so that the speed runs from where friction grows with it to beyond its peak."""
     place, stiffening = min(speed / SLIDING, 1.0), between(STIFFENING, loss)
     if kind < 0.25:
@@ -246,7 +244,7 @@ def solid_at(kind, loss, spread, tilt, branches, speed, wave) -> Elastomer:
     return Prony(MODULUS, MODULUS * (stiffening - 1) * moduli / moduli.sum(), 10 ** (log10(time) + width * steps))
 
 
-def _map(numbers: Numbers, height: float, wave: float, seed: int) -> Topography:
+def _map(numbers, height, wave, seed):
     """Map with waves down to about the shortest one, which the pixels show."""
     least, most = PIXELS_A_SIDE
     pixel = wave / between(PIXELS, numbers.pixels)

@@ -1,21 +1,21 @@
 """What each effect costs in each solver: for results/workprecision.md, and the tables of plans.
 
-python docs/measure/effects.py
+python docs/measure/effects.py   measures the effects of effects.toml
 
 Each solve is measured alone in a process of its own, on a quiet machine. Plans multiply operator
 applications with bem3d/effects.csv and mdr1d/effects.csv, which are written from the same measurements.
 """
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+import tomllib
+from functools import cache
 from itertools import product
 from math import nan
 from pathlib import Path
-from typing import Any
+from typing import NamedTuple
 
 import numpy as np
 import pandas
-from pandas import DataFrame, Series
+from pandas import DataFrame
 from pydantic import TypeAdapter
 from tables import fill, solved, stored, table
 
@@ -23,96 +23,58 @@ import bem3d.plan
 import mdr1d.plan
 from bem3d import BEM
 from bem3d.surface import RoughSurface
-from compare.solving.task import Outcome, Row, Task
+from compare.solving.task import Row
 from compare.studies.workprecision.ladder import TimedSolve
 from mdr1d import MDR
-from scene import Scene, SelfAffine
+from scene import Scene
 from scene.plan import two_digits
 
 PAGE = Path(__file__).parents[1] / "results" / "workprecision.md"
 MEASURED = PAGE.with_suffix("") / "effects.csv"
-SOLVERS: Mapping[str, BEM | MDR] = {"3D": BEM(points=256, steps=40), "1D": MDR(points=5000, steps=40)}
+SOLVERS = {"3D": BEM(points=256, steps=40), "1D": MDR(points=5000, steps=40)}
+WRITTEN = Path(__file__).with_suffix(".toml")
 TABLES = {"3D": bem3d.plan.EFFECTS, "1D": mdr1d.plan.EFFECTS}
 COUNTED = {"3D": (), "1D": ("Program",)}  # parts that a plan counts by itself
 SCENES = TypeAdapter(Scene)
-PLAIN: Mapping[str, Any] = {
-    "indenter": {"type": "sphere", "radius": 10e-3},
-    "elastomer": {
-        "type": "standard-linear-solid",
-        "rubbery_modulus": 1e6,
-        "glassy_modulus": 10e6,
-        "relaxation_time": 1e-3,
-    },
-    "motion": {"type": "slide", "speed": 0.1, "load": 1.0},
-}
-ROUGH = {"hurst": 0.8, "rms_height": 5e-6, "longest": 4e-3, "shortest": 0.25e-3, "seed": 1}
-SELF_AFFINE = {"roughness": {"type": "self-affine", **ROUGH}}
-WARM = {"temperature": {"type": "wlf", "temperature": 301.0, "reference": 300.0, "c1": 10.0, "c2": 100.0}}
-RUBBED = {"interface": {"coefficient": 0.3}}
-PRESSED, SLID = {"duration": 1e-3, "load": 1.0}, {"duration": 1e-3, "speed": 0.1}
 APPLICATIONS = "operator_applications"
 UNSHOWN = "plane", "reversal"  # on the page
 PIXELS = 128  # a side of the measured surface; the shortest wave has eight
 
 
-@dataclass(frozen=True)
-class Effect:
+class Effect(NamedTuple):
     """One effect, on a plain contact.
 
-    tables : its tables of a scene file, in place of those of PLAIN
+    scene : the contact that is solved
     over : title of the effect that it is added to
     parts : names of the types whose applications in a plan are multiplied by those of this effect
     """
 
     title: str
-    tables: Mapping[str, Any] = field(default_factory=dict)
+    scene: Scene
     over: str | None = None
     parts: tuple[str, ...] = ()
 
-    @property
-    def scene(self) -> Scene:
-        """The contact that is solved."""
-        return SCENES.validate_python({**PLAIN, **self.tables})
 
-
-def measured() -> np.ndarray:
-    """Heights (PIXELS, PIXELS) [m] of one period of the self-affine surface, in place of a measured map."""
-    rough = SelfAffine(**ROUGH)
+def measured(rough):
+    """Heights (PIXELS, PIXELS) [m] of one period of a surface, in place of a measured map, and their distance."""
     places = np.arange(PIXELS) / PIXELS * rough.longest
-    return RoughSurface.of(rough, rough.q_max(rough.longest / PIXELS)).heights(places, places)
+    heights = RoughSurface.of(rough, rough.q_max(rough.longest / PIXELS)).heights(places, places)
+    return {"heights": heights, "pixel": rough.longest / PIXELS}
 
 
-def effects() -> tuple[Effect, ...]:
-    """All effects, plain contacts first."""
-    map_ = {"heights": measured(), "pixel": ROUGH["longest"] / PIXELS, "repeat": "periodic", "level": "mean"}
-    topography = {"type": "topography", **map_, "shortest_kept": ROUGH["shortest"]}
-    plane = {"indenter": {"type": "plane"}, "motion": {"type": "slide", "speed": 0.1, "pressure": 2e4}}
-    shear = {"motion": {"type": "shear", "load": 1.0, "displacement": 2e-5}}
-    return (
-        Effect("steady sliding"),
-        Effect("contact at rest", {"motion": {"type": "indent", "load": 1.0}}),
-        Effect("roughness", SELF_AFFINE, "steady sliding"),
-        Effect("measured topography", {"roughness": topography}, "roughness", ("Topography",)),
-        Effect("plane", plane | SELF_AFFINE, "roughness"),
-        Effect("layer", {"layer": {"thickness": 2e-3}}, "steady sliding", ("Layer",)),
-        Effect("temperature", WARM, "steady sliding", ("WLF", "Arrhenius", "ShiftFactors")),
-        Effect("heating, estimated", {"heating": {"conductivity": 50.0}}, "steady sliding", ("Heating",)),
-        Effect(
-            "heating, fed back", WARM | {"heating": {"conductivity": 0.2, "feedback": "average"}}, "temperature"
-        ),
-        Effect("friction in the interface", RUBBED, "steady sliding", ("Coulomb",)),
-        Effect("partial slip", shear | RUBBED, "contact at rest", ("Shear",)),
-        Effect("program", _program(SLID), "contact at rest", ("Program",)),
-        Effect("reversal", _program(SLID, {**SLID, "speed": -0.1}), "program"),
-        Effect("oscillation", _program({**SLID, "amplitude": 0.2, "frequency": 2000.0}), "program"),
-    )
+@cache
+def effects():
+    """All effects of effects.toml, plain contacts first."""
+    written, found = tomllib.loads(WRITTEN.read_text(encoding="utf-8")), []
+    for each in written["effect"]:
+        named = {name: each.pop(name) for name in ("title", "over", "parts") if name in each}
+        if named["title"] == "measured topography":
+            each["roughness"] |= measured(found[-1].scene.roughness)
+        found.append(Effect(scene=SCENES.validate_python(written["plain"] | each), **named))
+    return found
 
 
-def _program(*stages):
-    return {"motion": {"type": "program", "stages": [PRESSED, *stages]}}
-
-
-def tasks() -> dict[tuple[str, str], Task]:
+def tasks():
     """A solve for each dimensionality and title, except for effects that the solver refuses."""
     return {
         (name, effect.title): TimedSolve(solver, (effect.scene,), work=_work(solver, effect))
@@ -127,7 +89,7 @@ def _work(solver, effect):
     return steps * (solver.points if solver.name == "MDR" else solver.points**2)
 
 
-def table_of(outcomes: Mapping[Task, Outcome]) -> DataFrame:
+def table_of(outcomes):
     """Rows of MEASURED: times is the processor time over the time without the effect, 1 of a plain contact."""
     rows, asked = [], tasks()
     for name, effect in product(SOLVERS, effects()):
@@ -141,14 +103,14 @@ def table_of(outcomes: Mapping[Task, Outcome]) -> DataFrame:
     return found.assign(times=_times(found, "seconds"))
 
 
-def _times(found: DataFrame, cost: str) -> Series:
+def _times(found, cost):
     """A cost over the one of the contact that an effect is added to, of a plain contact itself."""
     over = found["over"].where(found["over"] != "", found["effect"])
     by_effect = found.set_index(["dimension", "effect"])[cost]
     return found[cost] / by_effect[zip(found["dimension"], over, strict=True)].to_numpy()
 
 
-def priced(name: str, found: DataFrame) -> Iterator[dict]:
+def priced(name, found):
     """Rows of a table that plans multiply with: parts that were measured; of a program, for a step."""
     own = _times(found, APPLICATIONS) / found["time_steps"].fillna(1.0).to_numpy()
     own = own.set_axis(found["effect"])[(found["dimension"] == name).to_numpy()].dropna()
@@ -158,7 +120,7 @@ def priced(name: str, found: DataFrame) -> Iterator[dict]:
                 yield {"part": part, APPLICATIONS: float(f"{own.loc[effect.title]:.3g}")}
 
 
-def cells(found: DataFrame) -> Iterator[tuple[str, ...]]:
+def cells(found):
     """Cells of the table of the page: times, or why there are none."""
     for (effect, over), both in found.groupby(["effect", "over"], sort=False):
         if over and effect not in UNSHOWN:
@@ -170,13 +132,13 @@ def _cell(row):
     return row["reason"].split(":")[0] or two_digits(float(row["times"]))
 
 
-def parts() -> dict[str, str]:
+def parts():
     """Text between two comments of the page, by the name of the comment."""
     found = pandas.read_csv(MEASURED, keep_default_na=False, na_values="nan")
     return {"effects": table("effect|added to|1D|3D", cells(found))}
 
 
-def main() -> None:
+def main():
     """Measure, and write the tables and the part of the page."""
     found = table_of(solved(MEASURED, tasks().values(), fresh=True))
     for name, path in TABLES.items():

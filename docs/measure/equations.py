@@ -3,7 +3,6 @@
 python docs/measure/equations.py   takes some minutes
 """
 
-from collections.abc import Iterator
 from dataclasses import replace
 from math import ceil, pi, radians, sin
 from pathlib import Path
@@ -30,7 +29,7 @@ FINE = SelfAffine(hurst=0.4, rms_height=1e-6, longest=5e-4, shortest=1e-5)
 FAST, SPEED = 100.0, 1e-2  # xi on the plateau; speed on power laws [m/s]
 
 
-def solved(contact, solid, rough: SelfAffine, speed: float = 0.0, profiles: int = PROFILES) -> DataFrame:
+def solved(contact, solid, rough, speed=0.0, profiles=PROFILES):
     """Depth, friction and rms slope on the profiles of seeds 0, 1, ..., on a grid that holds the contact."""
     body, load = contact
     scene = Scene(body, solid, Slide(speed=speed, load=load) if speed else Indent(load=load), rough)
@@ -46,17 +45,17 @@ def solved(contact, solid, rough: SelfAffine, speed: float = 0.0, profiles: int 
     return DataFrame(found, columns=["depth", "friction", "slope"])
 
 
-def steep(rough: SelfAffine, slope: float) -> SelfAffine:
+def steep(rough, slope):
     """The roughness with another spectral rms slope."""
     return replace(rough, rms_height=rough.rms_height * slope / rough.rms_slope(rough.q_max(0.0)))
 
 
-def shape(body: Cone | Sphere) -> tuple[float, float]:
+def shape(body):
     """What equations take of a body."""
     return body.mdr_coefficient, body.exponent
 
 
-def sliding(contact, rough: SelfAffine, xi: float) -> tuple[float, float, DataFrame]:
+def sliding(contact, rough, xi):
     """Rms slope at rest, and answers at the speed [m/s] that makes xi, on a Kelvin solid."""
     body, load = contact
     slope = solved(contact, KELVIN, rough, profiles=1)["slope"][0]
@@ -64,7 +63,7 @@ def sliding(contact, rough: SelfAffine, xi: float) -> tuple[float, float, DataFr
     return slope, speed, solved(contact, KELVIN, rough, speed)
 
 
-def at_rest() -> Iterator[tuple]:
+def at_rest():
     """Eq. 16: depth, on roughness as high as the body is deep."""
     body, load = SHALLOW
     depth = eq.indentation_depth(load, G, *shape(body))
@@ -72,7 +71,7 @@ def at_rest() -> Iterator[tuple]:
     yield "16", "depth, h₀ = d", depth, found["depth"]
 
 
-def low_speed() -> Iterator[tuple]:
+def low_speed():
     """Eqs. 10 and 12 at xi = 0.01, on steep and on shallow roughness."""
     body, load = CONE
     for height in (5e-5, 1e-6):
@@ -83,7 +82,7 @@ def low_speed() -> Iterator[tuple]:
             yield name, f"slow cone, rms slope {slope:.2g}", formula, found["friction"]
 
 
-def plateau() -> Iterator[tuple]:
+def plateau():
     """Eq. 14 at xi = 100, on the roughness of Fig. 4 and on one whose shortest wave the grid resolves."""
     for contact, rough in ((CONE, FIG_4), (SHALLOW, steep(replace(FINE, longest=2e-2, shortest=1e-4), 0.1))):
         slope, _, found = sliding(contact, rough, FAST)
@@ -91,7 +90,7 @@ def plateau() -> Iterator[tuple]:
         yield "14", name, eq.plateau(found["slope"]), found["friction"]
 
 
-def power_laws() -> Iterator[tuple]:
+def power_laws():
     """Eq. 22 at xi = 1, on solids whose loss is a power of the frequency."""
     (body, load), rough = SHALLOW, steep(FINE, 0.1)
     q_max = rough.q_max(0.0)
@@ -112,7 +111,7 @@ def power_laws() -> Iterator[tuple]:
         yield "22", f"loss ω^{beta:g}, ξ = 1", expected, found["friction"]
 
 
-def rows() -> Iterator[dict]:
+def rows():
     """Equation, contact, and formula over simulation with its standard error over the profiles."""
     for measure in (at_rest, low_speed, plateau, power_laws):
         for equation, contact, formula, simulated in measure():
@@ -120,14 +119,14 @@ def rows() -> Iterator[dict]:
             yield {"equation": equation, "contact": contact, "over": float(over.value), "error": float(over.error)}
 
 
-def parts() -> dict[str, str]:
+def parts():
     """Text between two comments of the page, by the name of the comment."""
     found = pandas.read_csv(MEASURED)
     shown = ((row.equation, row.contact, f"{row.over:.3g} ± {row.error:.1g}") for row in found.itertuples())
     return {"equations": table("Eq.|contact|formula over simulation", shown)}
 
 
-def main() -> None:
+def main():
     """Measure, and write the numbers and the part of the page."""
     stored(MEASURED, rows())
     fill(PAGE, parts())

@@ -11,7 +11,6 @@ from compare.trustmap.model import (
     LEAST_VARIANCE,
     NORMAL,
     Fitted,
-    Measurements,
     Model,
     learned,
     lost,
@@ -40,7 +39,7 @@ HELD, HELD_IN_PART, FEWEST = 0.96, 0.97, 40
 LEAST_FACTOR = 0.5
 
 
-def fit(quantity: str, measured: Measurements) -> Model:
+def fit(quantity, measured):
     """Model fitted to measurements; takes minutes for thousands of scenes."""
     enough = usable(measured)
     scatter = fitted(*scattered(measured.taken(enough)))
@@ -83,7 +82,7 @@ def _left_out(everything, taken):
     return error, np.sqrt(np.maximum(variance, LEAST_VARIANCE))
 
 
-def fitted(inputs: np.ndarray, values: np.ndarray, variances: np.ndarray) -> Process:
+def fitted(inputs, values, variances):
     """Process of the scales under which the values are likeliest: where there are many, some of them drawn."""
     everything, count = (inputs, values, variances), inputs.shape[1]
     if values.size > _MOST_FITTED:
@@ -100,7 +99,7 @@ def fitted(inputs: np.ndarray, values: np.ndarray, variances: np.ndarray) -> Pro
     return Process(*everything, scales)
 
 
-def most_informative(process: Process, most: int) -> np.ndarray:
+def most_informative(process, most):
     """Numbers of the points, in order, that together are most informative.
 
     One after the other is taken where what is not known yet, and a measurement would tell, is most.
@@ -120,7 +119,7 @@ def most_informative(process: Process, most: int) -> np.ndarray:
     return np.sort(chosen)
 
 
-def left_out(process: Process) -> tuple[np.ndarray, np.ndarray]:
+def left_out(process):
     """Errors (N,) of each value predicted from all others, and their variances (N,), its noise included."""
     inverse = np.diag(cho_solve((process.factor, True), np.eye(process.values.size)))
     return process.weights / inverse, 1 / inverse
@@ -149,7 +148,7 @@ def _unlikeliness(logarithms, inputs, values, variances):
     return value, np.concatenate([moved + apart / _SPREAD, others])
 
 
-def as_json(models: dict[str, Model]) -> str:
+def as_json(models):
     """Fitted parts of models by quantity, as the JSON that the package holds."""
     return json.dumps({name: asdict(each.fitted) for name, each in models.items()}, default=_rounded)
 

@@ -1,9 +1,7 @@
 """Error of friction that an answer states, against finer grids: fitted to many, and tested on many others."""
 
-from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import isfinite, nan
-from typing import Any
 
 import numpy as np
 import pandas
@@ -19,9 +17,8 @@ from bem3d.friction import bound as frictionerror
 from bem3d.grid import Grid
 from bem3d.problem import Problem
 from compare.solving.cost import work_of
-from compare.solving.task import Outcome, Row, SceneTask, Task
+from compare.solving.task import SceneTask
 from mdr1d import MDR
-from scene import Result, Scene
 
 EVERY = {"smooth": 1, "rough": 1, "plane": 2, "line": 6}  # seeds a scene of a kind
 POINTS = (20, 120)  # of the grids that are judged, as is REFERENCE[0]
@@ -52,27 +49,25 @@ class Judged:
     finer: tuple[SceneTask, ...]
 
     @property
-    def tasks(self) -> tuple[Task, ...]:
+    def tasks(self):
         """The judged answer and those on finer grids."""
         return (self.task, *self.finer)
 
-    def error(
-        self, outcomes: Mapping[Task, Outcome], number: str = "friction_coefficient", unit: float | None = None
-    ) -> tuple[float, float]:
+    def error(self, outcomes, number="friction_coefficient", unit=None):
         """Relative error of a number, and how well its truth is known; unit : see `settled`."""
         answer, *finer = (outcomes[task].rows[0] for task in self.tasks)
         truth, unsure = settled([getattr(row, number) for row in finer if row.reason is None], unit)
         return abs(getattr(answer, number) - truth) / (abs(truth) if unit is None else unit), unsure
 
 
-def contacts(seeds: Sequence[int]) -> Iterator[tuple[str, int, Scene]]:
+def contacts(seeds):
     """Contacts in three dimensions of some seeds, each with its kind and seed."""
     for kind in KINDS:
         for seed in seeds[:: EVERY[kind]]:
             yield kind, seed, drawn(kind, seed)
 
 
-def judged(seeds: range) -> Iterator[Judged]:
+def judged(seeds):
     """Contacts of some seeds: on a random grid, and on the coarsest of the reference."""
     for kind, seed, scene in contacts(seeds):
         finer = reference(scene)
@@ -82,7 +77,7 @@ def judged(seeds: range) -> Iterator[Judged]:
                 yield Judged(kind, task, finer)
 
 
-def judged_lines(seeds: range) -> Iterator[Judged]:
+def judged_lines(seeds):
     """Contacts in one dimension: a third smooth, and a fifth of the rough ones cut off by their grid."""
     for seed in seeds:
         kind, draw = ("smooth", "rough", "rough")[seed % 3], np.random.default_rng([seed, 8])
@@ -104,7 +99,7 @@ def judged_lines(seeds: range) -> Iterator[Judged]:
         yield Judged(kind, task, tuple(finer))
 
 
-def rows(every: Sequence[Judged], outcomes: Mapping[Task, Outcome]) -> list[dict[str, Any]]:
+def rows(every, outcomes):
     """A row for each contact that slides with friction, is answered, and whose truth is known well enough."""
     found = []
     for each in every:
@@ -117,7 +112,7 @@ def rows(every: Sequence[Judged], outcomes: Mapping[Task, Outcome]) -> list[dict
     return found
 
 
-def _known(judged: Judged, outcomes: Mapping[Task, Outcome]) -> tuple[Row, float]:
+def _known(judged, outcomes):
     """Answer and relative error of its friction, NaN without friction or where the truth is not known enough."""
     answer = outcomes[judged.task].rows[0]
     if not answer.friction_force:
@@ -126,7 +121,7 @@ def _known(judged: Judged, outcomes: Mapping[Task, Outcome]) -> tuple[Row, float
     return answer, error if unsure <= max(share * error, least) else nan
 
 
-def regions(found: DataFrame) -> Iterator[dict[str, Any]]:
+def regions(found):
     """Coverage by model and region: of all, by solid, speed and body."""
     kinds = ["all", "solid", "speed", "body"]
     regions = found.assign(all="all").melt(["model", "error", "bound"], kinds, value_name="region")
@@ -146,7 +141,7 @@ class WithSigns:
     name = "BEM"
     packages = ("scene", "bem3d", __name__)
 
-    def solve(self, scene: Scene) -> Result:
+    def solve(self, scene):
         """Answer and signs, where it has friction."""
         solver = BEM(points=self.points)
         result = solver.solve(scene)
@@ -157,14 +152,14 @@ class WithSigns:
         return replace(result, measures={f"{SIGN}{name}": value for name, value in signs.items()})
 
 
-def to_learn(seeds: Sequence[int]) -> Iterator[Judged]:
+def to_learn(seeds):
     """Scenes by name, each on several grids, with the finer ones that are the truth."""
     for kind, seed, scene in contacts(seeds):
         for points in LEARNED_POINTS:
             yield Judged(f"{kind}{seed}", _task(WithSigns(points), scene), reference(scene))
 
 
-def learn(every: Sequence[Judged], outcomes: Mapping[Task, Outcome]) -> Iterator[dict[str, Any]]:
+def learn(every, outcomes):
     """A row of signs and errors of every answer that has friction and whose truth is known."""
     for each in every:
         answer, error = _known(each, outcomes)
@@ -176,7 +171,7 @@ def learn(every: Sequence[Judged], outcomes: Mapping[Task, Outcome]) -> Iterator
             yield row | {sign: f"{value:.4g}" for sign, value in signs.items() if sign != "one"}
 
 
-def refitted(table: DataFrame) -> DataFrame:
+def refitted(table):
     """Weights of the signs by kind of contact, from a table of signs and errors.
 
     The quantile SHARE of the error without the residual, widened by what holds WIDENED of the answers to
@@ -209,16 +204,16 @@ def _quantile(table, values):
     return solution[:names] - solution[names : 2 * names]
 
 
-def _task(solver, scene: Scene) -> SceneTask:
+def _task(solver, scene):
     return SceneTask(solver, (scene,), work=work_of(solver, scene))
 
 
-def reference(scene: Scene) -> tuple[SceneTask, ...]:
+def reference(scene):
     """Tasks from which the truth of a scene in three dimensions is taken."""
     return tuple(_task(BEM(points=points), scene) for points in REFERENCE)
 
 
-def settled(values: Sequence[float], unit: float | None = None) -> tuple[float, float]:
+def settled(values, unit=None):
     """What values on ever finer grids tend to, by the order at which they change, and how well that is known.
 
     unit : over which it is known, if not itself

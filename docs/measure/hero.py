@@ -6,16 +6,12 @@ three dimensions is drawn of steep sphere and cone, from law/steep.csv.
 """
 
 import shutil
-from collections.abc import Iterator
 from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from pandas import DataFrame
 from PIL import Image
 from tables import friction, solved, stored
 
@@ -23,7 +19,6 @@ import compare
 from bem3d import BEM
 from compare.figures import contact, style
 from compare.figures.curves import intervals
-from compare.figures.plot import Plot
 from compare.figures.shades import SPEED, between
 from compare.report.csvfiles import read
 from compare.solving.task import SceneTask, draws_of
@@ -45,7 +40,7 @@ SLIDING = Scene(Sphere(10e-3), Kelvin(1e6, 1e-3), Slide(speed=1.0, load=1.0))
 SPAN, WIDTH = 1.6e-3, 1440  # of the springs, to either side [m]; of the file, in pixels
 
 
-def main() -> None:
+def main():
     """Solve what is missing, draw, and write the figure."""
     if not NUMBERS.exists():
         stored(NUMBERS, measured())
@@ -61,7 +56,7 @@ def main() -> None:
         shutil.copy(Path(folder) / "contact.png", PAGE.with_name("draw.png"))
 
 
-def figure(plot: Plot, numbers: DataFrame, steep: DataFrame) -> Figure:
+def figure(plot, numbers, steep):
     """(a) Contact in 3D, (b) row of springs, (c), (d) friction of both over the shifted load, (e) master curve."""
     drawing = style.canvas("double", 4.6)
     upper, lower = drawing.subfigures(2, 1, height_ratios=(1.25, 1))
@@ -85,7 +80,7 @@ def figure(plot: Plot, numbers: DataFrame, steep: DataFrame) -> Figure:
     return drawing
 
 
-def master_curve(axes: Axes, steep: DataFrame) -> None:
+def master_curve(axes, steep):
     """What roughness adds in 3D, over that in full contact, against the pressure; line, the law."""
     scale = between(steep["speed"])
     grey = style.line(0.6, 2.5, linestyle="-")
@@ -104,7 +99,7 @@ def master_curve(axes: Axes, steep: DataFrame) -> None:
     tell(axes, steep, "measured_share", 0.97, "right")
 
 
-def against_load(axes: Axes, numbers: DataFrame, solver: str) -> None:
+def against_load(axes, numbers, solver):
     """Friction at each speed against the load that Eq. 23 shifts to the lowest one; dashed, Eq. 17."""
     axes.set(xscale="log", yscale="log", xlim=(6e-3, 2.2), ylim=(5e-5, 6e-2))
     for speed, colour, form in zip(SPEEDS, style.shades(solver, len(SPEEDS)), style.forms(), strict=False):
@@ -120,12 +115,12 @@ def against_load(axes: Axes, numbers: DataFrame, solver: str) -> None:
     tell(axes, numbers, "friction")
 
 
-def note(axes: Axes, text: str, place: tuple[float, float], offset: tuple[float, float]) -> None:
+def note(axes, text, place, offset):
     """Text next to a place of a panel."""
     axes.annotate(text, place, offset, fontsize=style.small(), textcoords="offset points", va="center")
 
 
-def tell(axes: Axes, numbers: DataFrame, name: str, place: float = 0.04, side: str = "left") -> None:
+def tell(axes, numbers, name, place=0.04, side="left"):
     """The widest interval of a panel in words: most bars are shorter than the markers."""
     most = ((numbers[f"{name}_high"] - numbers[f"{name}_low"]) / numbers[name]).max() / 2
     words = f"95 %: at most ±{100 * most:.0f} %"
@@ -137,7 +132,7 @@ def shifted(load, speed):
     return load * (speed / SPEEDS[0]) ** equations.force_shift_exponent(1.0, SCENE.indenter.exponent)
 
 
-def measured() -> Iterator[dict[str, float | str]]:
+def measured():
     """Mean friction over mean load of some rough surfaces, with its interval, at each speed and load by model."""
     tasks = {
         (solver, speed, load): SceneTask(

@@ -5,7 +5,6 @@ python docs/measure/law.py solve   solves these scenes first, as far as they are
 """
 
 import sys
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from math import inf
 from pathlib import Path
@@ -20,7 +19,7 @@ from tables import fill, friction, of_count, solved, stored, table
 from bem3d import BEM
 from compare import FrictionLaw, Persson
 from compare.models.law.parts import LawParts
-from compare.solving.task import Outcome, SceneTask, draws_of
+from compare.solving.task import SceneTask, draws_of
 from compare.trustmap.model import NORMAL
 from mdr1d import MDR
 from scene import Scene, Slide
@@ -61,16 +60,16 @@ class RandomScene:
     scene: Scene
 
     @property
-    def first(self) -> SceneTask:
+    def first(self):
         """Its first surface, for the side of its window."""
         return SceneTask(BEM(points=POINTS[0]), (self.scene,))
 
     @property
-    def line(self) -> SceneTask:
+    def line(self):
         """Its profiles."""
         return SceneTask(MDR(points=4000), draws_of(self.scene, PROFILES), work=1e-2)
 
-    def space(self, first: Outcome) -> SceneTask:
+    def space(self, first):
         """Its surfaces, on points that resolve the shortest wave in the window of the first."""
         needed = PIXELS * first.rows[0].settings.get("extent", inf) / self.scene.roughness.shortest
         points = next((points for points in POINTS if points >= needed), POINTS[-1])
@@ -78,7 +77,7 @@ class RandomScene:
         return SceneTask(BEM(points=points), draws_of(self.scene, surfaces), work=float(surfaces * points**2))
 
 
-def scenes(name: str) -> Iterator[RandomScene]:
+def scenes(name):
     """Scenes of a set, one after the other."""
     count, seed = SETS[name]
     found = 0
@@ -95,21 +94,19 @@ def scenes(name: str) -> Iterator[RandomScene]:
             yield RandomScene(number, region, scene)
 
 
-def place(region: str, point: design.Point) -> design.Point:
+def place(region, point):
     """Point of the cube moved to a region."""
     if region == EVENLY:
         return point
-    moved = design.rough_and_sliding(point)
     if region == BLUNT:
-        shape = design.ROUND + (1 - design.ROUND) * point.shape
-        return moved._replace(shape=shape, exponent=within(point.exponent, design.EXPONENTS, POWERS))
+        return design.blunt(point, POWERS, design.HEIGHTS)
     height, speed = within(point.height, design.HEIGHTS, HEIGHT), within(point.speed, design.SPEEDS, PASSED)
-    return moved._replace(
+    return design.rough_and_sliding(point)._replace(
         shape=(design.CONES + design.ROUND) / 2, kind=0.1, height=height, speed=design.SLIDING * speed
     )
 
 
-def pressed(scene: Scene, ratio: float) -> Scene:
+def pressed(scene, ratio):
     """The scene with roughness so high that p/p_rms is a ratio, or as high as the body is deep."""
     for _ in range(PASSES):
         rough = scene.roughness
@@ -118,7 +115,7 @@ def pressed(scene: Scene, ratio: float) -> Scene:
     return scene
 
 
-def row(scene: RandomScene, space: Outcome, line: Outcome) -> dict:
+def row(scene, space, line):
     """Friction in 3D with its standard error, relative, and in 1D."""
     surfaces, profiles = friction(space.rows), friction(line.rows)
     error = surfaces.error / abs(surfaces.value)
@@ -126,7 +123,7 @@ def row(scene: RandomScene, space: Outcome, line: Outcome) -> dict:
     return {"scene": scene.number} | {name: float(value) for name, value in found.items()}
 
 
-def errors() -> DataFrame:
+def errors():
     """ln(model / 3D) of each scene, where it lies, and whether the interval of the law holds it."""
     rows = []
     for name in SETS:
@@ -136,7 +133,7 @@ def errors() -> DataFrame:
     return DataFrame(rows)
 
 
-def _errors(each: RandomScene, known) -> dict:
+def _errors(each, known):
     scene, found = each.scene, FrictionLaw().solve(each.scene)
     low, high = (np.log(found.measures[f"friction_{end}"]) for end in ("low", "high"))
     middle, true = np.log(found.friction_coefficient), np.log(known["friction"])
@@ -160,7 +157,7 @@ def _errors(each: RandomScene, known) -> dict:
     }
 
 
-def rows(found: DataFrame) -> Iterator[tuple[str, ...]]:
+def rows(found):
     """Number of scenes, error of each model in the median and at nine in ten, and coverage, by region."""
     for region, where in ROWS.items():
         own = found.query(where)
@@ -181,20 +178,20 @@ def _cell(logs):
     return f"{' / '.join(shown)} % ({len(off)})" if len(off) else ""
 
 
-def errors_of(model: str) -> tuple[float, float, int]:
+def errors_of(model):
     """Errors of a model that half and nine in ten of the unseen scenes stay below [%], and number of scenes."""
     found = pandas.read_csv(ERRORS)
     off = 100 * np.abs(np.expm1(found.query(ROWS["all"])[model]))
     return off.median(), off.quantile(0.9), len(off)
 
 
-def parts() -> dict[str, str]:
+def parts():
     """Text between two comments of the page, by the name of the comment."""
     found = pandas.read_csv(ERRORS)
     return {"errors": table("|scenes|" + "|".join(MODELS.values()) + "|± (95 %)|held", rows(found))}
 
 
-def solve() -> None:
+def solve():
     """Solve the scenes that are not solved yet, and write what was found."""
     for name in SETS:
         found = list(scenes(name))
@@ -205,7 +202,7 @@ def solve() -> None:
         stored(SCENES.with_name(f"scenes-{name}.csv"), rows)
 
 
-def main(first: str = "") -> None:
+def main(first=""):
     """Write the errors, and the table of the page."""
     if first:
         solve()

@@ -5,7 +5,7 @@ python docs/measure/planes.py fit   fits S to that table: compare/models/law/sha
 """
 
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import nan, pi
@@ -24,7 +24,7 @@ from bem3d.heights import heights
 from compare.models.exact import full_contact
 from compare.models.law.bands import Bands, FullContact
 from compare.models.law.parts import FITTED, Share, coefficients, waves
-from compare.solving.task import Outcome, SceneTask, Task, draws_of
+from compare.solving.task import SceneTask, draws_of
 from scene import Plane, Scene, SelfAffine, Slide
 
 PAGE = Path(__file__).parents[1] / "results" / "law" / "planes.md"
@@ -64,7 +64,7 @@ class PlaneContact:
     waves: Mapping[str, float]
 
 
-def tasks(scene: Scene, count: int, checked: bool) -> Iterator[SceneTask]:
+def tasks(scene, count, checked):
     """All surfaces coarse; to be checked also a few of them coarse and fine."""
     rough = scene.roughness
     for points, draws in ((COARSE, count), *[(COARSE, CHECKED), (FINE, CHECKED)] * checked):
@@ -72,7 +72,7 @@ def tasks(scene: Scene, count: int, checked: bool) -> Iterator[SceneTask]:
         yield SceneTask(BEM(points=side), draws_of(scene, draws), work=float(draws * side**2))
 
 
-def contacts() -> Iterator[PlaneContact]:
+def contacts():
     """All planes under all pressures, of a Sobol sequence."""
     few, many = (
         qmc.Sobol(DIMENSIONS, seed=seed).random(DRAWN)[:count].tolist()
@@ -106,7 +106,7 @@ def contacts() -> Iterator[PlaneContact]:
             yield PlaneContact(number, pressed, asked, lost, pressure, numbers)
 
 
-def rows(found: list[PlaneContact], outcomes: Mapping[Task, Outcome]) -> Iterator[dict]:
+def rows(found, outcomes):
     """Each plane under each pressure: where it lies, and the share with its standard error, relative."""
     for each in found:
         coarse, *checked = (outcomes[task].rows for task in each.tasks)
@@ -124,7 +124,7 @@ def rows(found: list[PlaneContact], outcomes: Mapping[Task, Outcome]) -> Iterato
         }
 
 
-def planes() -> DataFrame:
+def planes():
     """Planes with their share on ever finer grids: what those with a finer one differ by is alike for all."""
     found = pandas.read_csv(PAGE.with_suffix(".csv")).assign(one=1.0)
     columns = np.stack([found["one"], found["lossy"], np.log(found["x"])], axis=1)
@@ -134,19 +134,19 @@ def planes() -> DataFrame:
     return found.assign(share=found["share"] * (1 + 2 * change))
 
 
-def fitted(found: DataFrame, start: Sequence[float]) -> np.ndarray:
+def fitted(found, start):
     """Coefficients that fit most planes best: those that lie far off hardly count."""
     weight = 1 / np.hypot(found["error"], FLOOR).to_numpy()
     return least_squares(lambda values: weight * off(found, values), start, loss="cauchy").x
 
 
-def off(found: DataFrame, values: Sequence[float]) -> np.ndarray:
+def off(found, values):
     """Logarithm of S of each plane, by values of the coefficients, over the measured share."""
     share = Share.summed(dict(zip(coefficients(), values, strict=True)), found)
     return np.log(share(found["x"].to_numpy()) / found["share"].to_numpy())
 
 
-def misfits(found: DataFrame, values: Sequence[float]) -> Iterator[dict]:
+def misfits(found, values):
     """Misfit of planes held out by their pressure: median, nine in ten, and the standard error of the planes."""
     misfit = np.abs(off(found, values))
     for low, high in pairwise(PLACES):
@@ -156,7 +156,7 @@ def misfits(found: DataFrame, values: Sequence[float]) -> Iterator[dict]:
         yield row | {"error": found["error"][own].median()}
 
 
-def fit() -> None:
+def fit():
     """Fit S, with intervals of 95 % by drawing planes anew, and find its misfits on the planes held out."""
     found = planes()
     held = found["plane"] % HELD_OUT == 0
@@ -172,7 +172,7 @@ def fit() -> None:
     stored(PAGE.with_name("share.csv"), misfits(found[held], best))
 
 
-def main(only: str = "") -> None:
+def main(only=""):
     """Solve what is not solved yet, write what was found, and fit."""
     if not only:
         found = list(contacts())

@@ -1,17 +1,15 @@
 """Whether settings found by `bem3d.for_accuracy` keep what was wanted, on random scenes."""
 
 import warnings
-from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import isfinite, nan
 
 from friction_errors import Judged, reference
-from pandas import DataFrame
 from random_contacts import drawn
 
 from bem3d import Unconfirmed, for_accuracy
-from compare.solving.task import Outcome, SceneTask, Task
-from scene import Result, Scene, SolveError
+from compare.solving.task import SceneTask
+from scene import SolveError
 from scene.scales import elastic_contact
 
 WANTED = (0.1, 0.03, 0.01, 0.003)
@@ -30,7 +28,7 @@ class Promised:
     name = "BEM"
     packages = ("scene", "bem3d", __name__)
 
-    def solve(self, scene: Scene) -> Result:
+    def solve(self, scene):
         """Answer with the settings found."""
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", Unconfirmed)
@@ -42,7 +40,7 @@ class Promised:
         return replace(choice.result, measures={"shown": error if isfinite(error) else nan})
 
 
-def asked() -> Iterator[Judged]:
+def asked():
     """Every quantity of every scene within every error wanted, with what the promise is checked against."""
     for kind, count in COUNTS.items():
         for seed in range(FIRST, FIRST + count):
@@ -52,7 +50,7 @@ def asked() -> Iterator[Judged]:
                     yield Judged(kind, SceneTask(Promised(quantity, wanted), (scene,), work=1e8), reference(scene))
 
 
-def rows(every: Sequence[Judged], outcomes: Mapping[Task, Outcome]) -> Iterator[dict]:
+def rows(every, outcomes):
     """Each promise with its error as it was shown, and as it is, NaN where the truth is not known well enough."""
     for each in every:
         (scene,), promised = each.task.scenes, each.task.solver
@@ -66,7 +64,7 @@ def rows(every: Sequence[Judged], outcomes: Mapping[Task, Outcome]) -> Iterator[
         yield row | {"shown": answer.measures.get("shown", nan), "error": error if checked else nan}
 
 
-def kept(made: DataFrame) -> DataFrame:
+def kept(made):
     """Counts of promises by quantity and wanted error."""
     sure, wanted = made["shown"] <= made["wanted"], ["quantity", "wanted"]
     counts = {"asked": 1, "confirmed": sure, "checked": sure & made["error"].notna()}

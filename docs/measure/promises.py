@@ -9,7 +9,6 @@ python docs/measure/promises.py [learn|fit|costs]
 """
 
 import sys
-from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -24,7 +23,7 @@ from bem3d import BEM
 from bem3d.costs import MEASURED, band, body
 from bem3d.friction.bound import FITTED
 from compare.solving.cost import work_of
-from compare.solving.task import Outcome, SceneTask, Task
+from compare.solving.task import SceneTask
 from scene import Indent
 
 PAGE = Path(__file__).parents[1] / "results" / "accuracy.md"
@@ -37,31 +36,31 @@ PRICED, TIGHT, FEWEST = range(40), 1e-7, 3
 POINTS = {"smooth": (16, 24, 32, 48, 64, 96, 128, 192, 512), "rough": (48, 64, 96, 128, 192, 256, 512)}
 
 
-def main(asked: str = "") -> None:
+def main(asked=""):
     """Do what is asked; without a word, solve what is judged, and write the numbers and the parts of the page."""
     {"": judge, "learn": learn, "fit": fit, "costs": price}[asked]()
 
 
-def price() -> None:
+def price():
     """Measure costs."""
     tasks = list(priced())
     stored(MEASURED, costs(tasks, solved(SOLVED, tasks)))
 
 
-def learn() -> None:
+def learn():
     """Solve contacts to learn from."""
     every = list(errors.to_learn(LEARNED))
     found = DataFrame(errors.learn(every, _solved(every)))
     found.to_csv(TABLE, index=False, compression={"method": "gzip", "mtime": 0})
 
 
-def fit() -> None:
+def fit():
     """Write the weights where three dimensions read them."""
     weights = errors.refitted(pandas.read_csv(TABLE)).map("{:.4g}".format)
     weights.to_csv(FITTED, index_label="sign", lineterminator="\n")
 
 
-def judge() -> None:
+def judge():
     """Solve what is judged, and write."""
     judged = [*errors.judged(HELD_OUT), *errors.judged_lines(HELD_OUT)]
     stored(STATED, errors.rows(judged, _solved(judged)))
@@ -74,7 +73,7 @@ def _solved(judged):
     return solved(SOLVED, (task for each in judged for task in each.tasks))
 
 
-def priced() -> Iterator[SceneTask]:
+def priced():
     """Contacts on every grid, sliding and at rest."""
     for kind, grids in POINTS.items():
         for seed in PRICED:
@@ -87,7 +86,7 @@ def priced() -> Iterator[SceneTask]:
                         yield SceneTask(solver, (each,), work=work_of(solver, each))
 
 
-def costs(tasks: Sequence[SceneTask], outcomes: Mapping[Task, Outcome]) -> DataFrame:
+def costs(tasks, outcomes):
     """Median applications by body, band and points, of FEWEST solves at least."""
     names = ["body", "band", "points"]
     spent = [
@@ -101,7 +100,7 @@ def costs(tasks: Sequence[SceneTask], outcomes: Mapping[Task, Outcome]) -> DataF
     return found[found["answers"] >= FEWEST]
 
 
-def parts() -> dict[str, str]:
+def parts():
     """Text between two comments of the page, by the name of the comment."""
     regions = list(errors.regions(pandas.read_csv(STATED)))
     low = [f"{each['model']}, {each['region']}" for each in regions if each["upper"] < errors.SHARE]
@@ -114,13 +113,13 @@ def parts() -> dict[str, str]:
     }
 
 
-def _of_region(each) -> tuple[str, ...]:
+def _of_region(each):
     share, interval = f"{each['held'] / each['answers']:.1%}", f"{each['lower']:.1%} to {each['upper']:.1%}"
     medians = (f"{median:.2g}" for median in each["medians"])
     return each["model"], str(each["answers"]), share, interval, *medians
 
 
-def _kept(counts) -> str:
+def _kept(counts):
     """Counts of all promises in words, with intervals."""
     left, broken = int(counts["asked"] - counts["confirmed"]), int(counts["broken"])
     return (

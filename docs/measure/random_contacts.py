@@ -24,7 +24,6 @@ from scene import (
     Wave,
 )
 from scene.scales import elastic_contact
-from scene.solids.rheology import Elastomer
 
 KINDS = "smooth", "rough", "plane", "line"
 RADIUS, DEPTH, MODULUS = 0.1, 0.02, 0.25
@@ -32,7 +31,7 @@ SPOTS = 6  # spots of contact on a wave, about: whose size tells slow from fast
 MEMORIES = -4.0, 2.5  # powers of ten of the memory of one mode over the length that tells slow from fast
 
 
-def drawn(kind: str, seed: int) -> Scene:
+def drawn(kind, seed):
     """Scene of a kind and a seed; the seeds of a kind are independent of one another."""
     draw = np.random.default_rng([seed, KINDS.index(kind)])
     solid = _solid(draw)
@@ -42,7 +41,7 @@ def drawn(kind: str, seed: int) -> Scene:
         case "line":
             motion = Slide(
                 speed=_speed(draw, solid, RADIUS),
-                line_load=float(np.pi * RADIUS**2 / 4 * solid.indentation_modulus),
+                line_load=np.pi * RADIUS**2 / 4 * solid.indentation_modulus,
             )
             return Scene(Cylinder(radius=1.0), solid, motion)
     body = _smooth(draw) if kind == "smooth" else _BODIES[draw.choice(len(_BODIES), p=_SHARES)]
@@ -70,47 +69,47 @@ def _smooth(draw):
     if which < 0.2:
         return Sphere(radius=1.0)
     if which < 0.4:
-        return Cone(angle=float(draw.uniform(0.02, 0.2)))
-    exponent = float(10 ** draw.uniform(0, 2))
+        return Cone(angle=draw.uniform(0.02, 0.2))
+    exponent = 10 ** draw.uniform(0, 2)
     return PowerLaw(coefficient=DEPTH / RADIUS**exponent, exponent=exponent)
 
 
 def _rough(draw, depth):
     waves = 10 ** draw.uniform(np.log10(1.5), 1)  # the shortest, on the radius of contact
-    hurst, height = float(draw.uniform(0, 1)), float(depth * 10 ** draw.uniform(-2.3, 0))
-    longest = float(RADIUS * draw.uniform(1, 4))
+    hurst, height = draw.uniform(0, 1), depth * 10 ** draw.uniform(-2.3, 0)
+    longest = RADIUS * draw.uniform(1, 4)
     return SelfAffine(
         hurst=hurst,
         rms_height=height,
         longest=longest,
-        shortest=float(min(RADIUS / waves, longest / 2)),
-        seed=int(draw.integers(1000)),
+        shortest=min(RADIUS / waves, longest / 2),
+        seed=draw.integers(1000),
         amplitudes=("fixed", "gaussian")[draw.integers(2)],
     )
 
 
 def _plane(draw, solid):
     """Rough planes, and a third with waves, from light to nearly full contact."""
-    waves = int(draw.integers(2, 17))
+    waves = draw.integers(2, 17)
     rough: SelfAffine | Wave = SelfAffine(
-        hurst=float(draw.uniform(0, 1)),
+        hurst=draw.uniform(0, 1),
         rms_height=1e-2,
         longest=1.0,
         shortest=1 / waves,
-        seed=int(draw.integers(1000)),
+        seed=draw.integers(1000),
     )
     slope = rough.rms_slope(rough.q_max(1.0))
     if draw.random() < 0.3:
         rough, waves, slope = (Wave, CrossedWaves)[draw.integers(2)](amplitude=1e-2, wavelength=1.0), 1, 0.03
-    pressure = float(solid.indentation_modulus * slope * 10 ** draw.uniform(-2, 0.5) / 2)
+    pressure = solid.indentation_modulus * slope * 10 ** draw.uniform(-2, 0.5) / 2
     return Scene(Plane(), solid, Slide(speed=_speed(draw, solid, 1 / waves / SPOTS), pressure=pressure), rough)
 
 
-def _solid(draw) -> Elastomer:
+def _solid(draw):
     """One of every type; modes lie up to seven decades apart."""
 
     def powers(low, high, count):
-        return tuple(float(value) for value in 10 ** draw.uniform(low, high, count))
+        return 10 ** draw.uniform(low, high, count)
 
     match draw.choice(["kelvin", "standard", "prony", "chain", "fractional"]):
         case "kelvin":
@@ -120,17 +119,16 @@ def _solid(draw) -> Elastomer:
             return StandardLinearSolid(MODULUS, MODULUS * ratio, 1 / ratio)
         case "prony":
             count = draw.integers(2, 5)
-            moduli = tuple(MODULUS * value for value in powers(-1, 2, count))
-            return Prony(MODULUS, moduli, powers(-6, 1, count))
+            return Prony(MODULUS, MODULUS * powers(-1, 2, count), powers(-6, 1, count))
         case "chain":
             count = draw.integers(2, 4)
             compliances, at_once = powers(-1, 0.5, count), 0.0 if draw.random() < 0.3 else powers(-3, 0, 1)[0]
             unit = (at_once + sum(compliances)) * MODULUS
-            return KelvinChain(at_once / unit, tuple(value / unit for value in compliances), powers(-6, 1, count))
+            return KelvinChain(at_once / unit, compliances / unit, powers(-6, 1, count))
     return Fractional(
         modulus=MODULUS,
         relaxation_time=1.0,
-        exponent=float(draw.uniform(0.2, 0.8)),
+        exponent=draw.uniform(0.2, 0.8),
         lowest_frequency=powers(-4, -1, 1)[0],
         highest_frequency=powers(1, 4, 1)[0],
     )
@@ -138,4 +136,4 @@ def _solid(draw) -> Elastomer:
 
 def _speed(draw, solid, length):
     """Speed at which one of the modes, any, is remembered over a length [m] times a random power of ten."""
-    return float(length * 10 ** draw.uniform(*MEMORIES) / draw.choice(solid.retardation()[2]))
+    return length * 10 ** draw.uniform(*MEMORIES) / draw.choice(solid.retardation()[2])

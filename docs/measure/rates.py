@@ -5,7 +5,6 @@ python docs/measure/rates.py
 Friction is drawn with an answer that is known. It takes minutes on one core; every draw follows from SEED.
 """
 
-from collections.abc import Iterator
 from math import sqrt
 from pathlib import Path
 
@@ -14,7 +13,7 @@ import pandas
 from tables import fill, stored, table
 
 from compare.statistics import eq23
-from compare.statistics.collapse import Collapse, collapse
+from compare.statistics.collapse import collapse
 from compare.statistics.frictioncurves import SimulatedCurves
 from compare.statistics.intervals import student
 from compare.statistics.jackknife import mean_ratio
@@ -42,7 +41,7 @@ DRAWN, SAMPLED, VARIATIONS = 20_000, (3, 10, 50), (0.2, 0.5, 1.0)
 REPEATS, SURFACES = 200, 10
 
 
-def drawn(rng: np.random.Generator, exact: np.ndarray) -> SimulatedCurves:
+def drawn(rng, exact):
     """Friction whose mean over all surfaces is exp(exact) (speeds, loads); relative scatter is lognormal."""
     shared = SCATTER * np.tensordot(FIELDS, rng.normal(size=(len(FIELDS), SURFACES)), axes=(0, 0))
     own = OWN * rng.normal(size=shared.shape)
@@ -51,23 +50,23 @@ def drawn(rng: np.random.Generator, exact: np.ndarray) -> SimulatedCurves:
     return SimulatedCurves(SPEEDS, load, np.exp(exact[..., None] + shared + own - variance[..., None] / 2) * load)
 
 
-def knee(x: np.ndarray) -> np.ndarray:
+def knee(x):
     """ln of Eq. 19 for a sphere, over ln F shifted as at the middle speed."""
     return np.log(interpolation(MIDDLE * np.exp(-x * 2 / 3)))
 
 
-def friction(vertical: float = 0.0, shape: float = 0.0) -> np.ndarray:
+def friction(vertical=0.0, shape=0.0):
     """ln mu (speeds, loads) shifted by POWER of the speed, raised by another, bent by shape times ln v."""
     bent = np.outer(ALONG, ACROSS**2 - np.mean(ACROSS**2))
     return knee(ACROSS + POWER * ALONG[:, None]) + vertical * ALONG[:, None] + shape * bent
 
 
-def generator(*cell: float) -> np.random.Generator:
+def generator(*cell):
     """Random numbers of one cell of a table."""
     return np.random.default_rng([SEED, *(round(1000 * number) for number in cell)])
 
 
-def mean_of_draws(variation: float, count: int) -> dict[str, float]:
+def mean_of_draws(variation, count):
     """Share of the intervals of a mean of lognormal draws, ours and Student's, that hold it."""
     draws, width = generator(3, False, variation, count).normal(size=(DRAWN, count)), sqrt(np.log1p(variation**2))
     found = mean_ratio(np.exp(width * draws - width**2 / 2))
@@ -93,7 +92,7 @@ CLAIMS = {
 KINDS = "holds", "undecided", "fails"
 
 
-def asked(found: Collapse, theory: float) -> dict[str, tuple[float, str]]:
+def asked(found, theory):
     """Number and verdict by claim, as the studies ask for them."""
     named = {each.claim.id: each for each in eq23.findings(found, None, "1D", theory * np.log(SPEEDS), theory)}
     answers = {name: (named[of.id].value, named[of.id].verdict) for name, of in CLAIMS.items()}
@@ -102,7 +101,7 @@ def asked(found: Collapse, theory: float) -> dict[str, tuple[float, str]]:
     return answers
 
 
-def verdicts() -> Iterator[dict]:
+def verdicts():
     """By law and claim: the number without scatter, and how often the claim was kept, open or rejected."""
     load = np.broadcast_to(LOADS, (len(SPEEDS), len(LOADS)))
     for law, (changes, theory) in LAWS.items():
@@ -119,7 +118,7 @@ def verdicts() -> Iterator[dict]:
             }
 
 
-def parts() -> dict[str, str]:
+def parts():
     """Text between two comments of the page, by the name of the comment."""
     means, judged = pandas.read_csv(MEANS), pandas.read_csv(VERDICTS)
     shares = (
@@ -133,12 +132,12 @@ def parts() -> dict[str, str]:
     }
 
 
-def _shown(row) -> str:
+def _shown(row):
     number = f"{row.truth:.2f}".replace("-", "−") if row.claim == "power of v" else f"{100 * abs(row.truth):.1f} %"
     return f"{number}: " + " / ".join(f"{100 * getattr(row, kind) / REPEATS:g}" for kind in KINDS)
 
 
-def main() -> None:
+def main():
     """Draw, and write the numbers and the parts of the page."""
     stored(MEANS, (mean_of_draws(variation, count) for variation in VARIATIONS for count in SAMPLED))
     stored(VERDICTS, verdicts())

@@ -58,15 +58,9 @@ SLOW_ANSWER = (
     "under {} N (sphere, where p/(E* h') is 0.051 and 0.087), {} times under {} N and {} times under {} N (cone, "
     "0.062 under any load)."
 )
-FAST_ANSWER = (
-    "From low speed to the plateau (v τ q_s = 0.3 to 200, loads over a factor of five) curves shifted as Eq. 23 "
-    "predicts miss one another by {} % (sphere) and {} % (cone) in 1D, by {} % and {} % in 3D; from the knee on "
-    "alone by {} % and {} % in 3D. The plateau in 3D is {} (sphere) and {} (cone) times the one of Eq. 14 under "
-    "the least load, {} and {} times under the greatest."
-)
 
 
-def main() -> None:
+def main():
     """Solve what is not solved yet, and write the numbers, the figures and the parts of the page."""
     slow, whole, fine = reports = [compare.study(name, "standard", progress="lines") for name in STUDIES]
     trees = [compare.load(report.path.parent) for report in reports]
@@ -90,7 +84,7 @@ def _fast(whole, fine, trees):
         yield from (finding(whole, claim, body, "3D") for claim in MASTER)
 
 
-def parts() -> dict[str, str]:
+def parts():
     """Text between two comments of the page, by the name of the comment."""
     slow, fast = pandas.read_csv(SLOW), pandas.read_csv(FAST)
     places = [(body, model) for body in BODIES for model in SOLVERS]
@@ -108,14 +102,12 @@ def parts() -> dict[str, str]:
         for claim, words in MASTER.items()
     )
     return {
-        "slow": slow_answer(slow),
-        "fast": fast_answer(fast),
         "regime": table("|".join(["", *map(", ".join, places)]), regime),
         "master": table("|sphere|cone", master),
     }
 
 
-def _shown(found: DataFrame, claim: str, body: str, model: str = "3D") -> str:
+def _shown(found, claim, body, model="3D"):
     """Value of a finding with its interval: a misfit in percent."""
     row = finding(found, claim, body, model)
     if claim.startswith(("eq23", "law3d")):
@@ -123,21 +115,13 @@ def _shown(found: DataFrame, claim: str, body: str, model: str = "3D") -> str:
     return with_interval(row, 1 if row["value"] > 2 else 3)
 
 
-def slow_answer(found: DataFrame) -> str:
+def slow_answer(found):
     """What slow friction does, in two sentences."""
     numbers = [_shown(found, "eq17.load-exponent", body) for body in BODIES]
     for series in asked.study(STUDIES[0], "standard").series:
         for claim, load in zip(LEVELS, (series.values[0], series.values[-1]), strict=True):
             numbers += [_shown(found, claim, series.name), f"{load:.3g}"]
     return SLOW_ANSWER.format(*numbers)
-
-
-def fast_answer(found: DataFrame) -> str:
-    """Two sentences on the errors of Eq. 23 and of the plateau."""
-    in_1d = [_shown(found, "eq23.predicted", body, "1D").split(" ")[0] for body in BODIES]
-    missed = [_shown(found, f"eq23.predicted{which}", body) for which in ("", BEYOND) for body in BODIES]
-    levels = (_shown(found, claim, body) for claim in PLATEAUS for body in BODIES)
-    return FAST_ANSWER.format(*in_1d, *(each.replace(" %", "") for each in missed), *levels)
 
 
 def _from_the_knee(tree, model, body):

@@ -1,9 +1,6 @@
 """Scores of the trust map on scenes held out: errors, coverage and advice, by region."""
 
-from collections.abc import Iterator, Mapping, Sequence
 from itertools import product
-from math import log
-from typing import Any
 
 import numpy as np
 from pandas import DataFrame, concat
@@ -19,32 +16,36 @@ from compare.trustmap.model import (
     ROUGHNESS,
     SHAPES,
     WIDENED,
-    Condition,
-    Measurements,
-    Model,
-    Predicted,
     parts,
 )
 from compare.trustmap.table import column, measurements
 from compare.trustmap.verdict import SOLVE, USE, advice_on
 
+LEAST = 1e-300  # below every group
+
+
+def between(logarithms, low, high):
+    """Where numbers are above the one and at most the other."""
+    return (logarithms > np.log(low)) & (logarithms <= np.log(high))
+
+
 # Regions of the map, where errors and advice are stated, each a condition on groups.
-SPEEDS: dict[str, Condition] = {
+SPEEDS = {
     "at rest": lambda g: ~g["slides"],
     "slow": lambda g: g["slides"] & FLOWS["slow"](g),
     "fast": lambda g: g["slides"] & FLOWS["fast"](g),
 }
-SOLIDS: dict[str, Condition] = {
-    "Kelvin-like, E_g > 10^4 E_r": lambda g: g["stiffening"] > log(1e4),
-    "E_g 10^2 to 10^4 E_r": lambda g: (g["stiffening"] <= log(1e4)) & (g["stiffening"] > log(1e2)),
-    "E_g up to 10^2 E_r": lambda g: g["stiffening"] <= log(1e2),
+SOLIDS = {
+    "Kelvin-like, E_g > 10^4 E_r": lambda g: between(g["stiffening"], 1e4, np.inf),
+    "E_g 10^2 to 10^4 E_r": lambda g: between(g["stiffening"], 1e2, 1e4),
+    "E_g up to 10^2 E_r": lambda g: between(g["stiffening"], LEAST, 1e2),
 }
-WAVES: dict[str, Condition] = {
-    "less than 2 waves on the radius": lambda g: g["sliding_waves"] < log(2),
-    "2 to 6 waves": lambda g: (g["sliding_waves"] >= log(2)) & (g["sliding_waves"] < log(6)),
-    "more than 6 waves": lambda g: g["sliding_waves"] >= log(6),
+WAVES = {
+    "less than 2 waves on the radius": lambda g: between(g["sliding_waves"], LEAST, 2),
+    "2 to 6 waves": lambda g: between(g["sliding_waves"], 2, 6),
+    "more than 6 waves": lambda g: between(g["sliding_waves"], 6, np.inf),
 }
-SURFACES: dict[str, Condition] = {
+SURFACES = {
     "spectrum": lambda g: (g["side"] == 0) & (g["gaussian"] == 0),
     "as measured": lambda g: (g["side"] > 0) | (g["gaussian"] > 0),
 }
@@ -56,7 +57,7 @@ FEWEST = 5
 ENOUGH, PROMISED = 40, 0.95
 # Of the narrower of two intervals, of 1D and of the law.
 BEST = "best-advice"
-STATED: dict[str, dict[str, Condition]] = {
+STATED = {
     "all": {"all": lambda g: np.isfinite(g["shape"])},
     **REGIONS,
     "prescribed": COVERED["prescribed"],
@@ -64,7 +65,7 @@ STATED: dict[str, dict[str, Condition]] = {
 }
 
 
-def score(measured: Measurements, predicted: Predicted, slides: np.ndarray) -> DataFrame:
+def score(measured, predicted, slides):
     """Ratios predicted and measured, a row for each scene: its groups by name, and
 
     slides : whether it slides
@@ -90,19 +91,19 @@ def score(measured: Measurements, predicted: Predicted, slides: np.ndarray) -> D
     )
 
 
-def used(score: DataFrame) -> DataFrame:
+def used(score):
     """Scenes that are usable and have a ratio: whose errors count."""
     return score[score["usable"] & score["off"].notna()]
 
 
-def best(first: DataFrame, second: DataFrame) -> DataFrame:
+def best(first, second):
     """Score that takes for each scene the narrower of two intervals, and is usable where either is."""
     alike = first["usable"] == second["usable"]
     ours = (alike & (first["error"] <= second["error"])) | (~alike & first["usable"])
     return concat([first[ours], second[~ours]]).sort_index()
 
 
-def scored(held_out: Mapping[str, np.ndarray], models: Mapping[str, Model]) -> dict[str, DataFrame]:
+def scored(held_out, models):
     """Score of each model on the scenes of a table, and of the best advice on friction.
 
     Off the map nothing is known: the advice is to solve.
@@ -117,14 +118,12 @@ def scored(held_out: Mapping[str, np.ndarray], models: Mapping[str, Model]) -> d
     return {**found, BEST: best(found["friction"], found[LAW])}
 
 
-def of_surfaces(scores: Mapping[str, DataFrame], name: str) -> dict[str, DataFrame]:
+def of_surfaces(scores, name):
     """Scores on the scenes with surfaces of one kind, see SURFACES."""
     return {each: score[SURFACES[name](score)] for each, score in scores.items()}
 
 
-def error_rows(
-    scores: Mapping[str, DataFrame], kinds: Mapping[str, Mapping[str, Condition]] = STATED
-) -> Iterator[dict[str, Any]]:
+def error_rows(scores, kinds=STATED):
     """Errors as measured and share within the interval, by region, a kind of region at a time, and ratio.
 
     fails : as in `coverage_rows`
@@ -146,7 +145,7 @@ def _held(used):
     return {"in 95 %": used["held"].mean(), "least": low, "most": high, "fails": fails}
 
 
-def coverage_rows(scores: Mapping[str, DataFrame]) -> Iterator[dict[str, Any]]:
+def coverage_rows(scores):
     """Share of the usable ratios within their interval, by quantity and region, with the interval of the count.
 
     fails : whether a region of enough scenes has significantly fewer than what was promised
@@ -158,14 +157,14 @@ def coverage_rows(scores: Mapping[str, DataFrame]) -> Iterator[dict[str, Any]]:
                 yield row | _held(counted)
 
 
-def advice_rows(scores: Sequence[DataFrame]) -> Iterator[tuple[str, ...]]:
+def advice_rows(scores):
     """A row for each regime, a cell for each score: factor on it, half its interval, and share to solve."""
     for speed, roughness in product(("slow", "fast", "at rest"), ROUGHNESS):
         cells = (_advice(score[SPEEDS[speed](score) & ROUGHNESS[roughness](score)]) for score in scores)
         yield f"{speed}, {roughness}", *cells
 
 
-def _advice(part: DataFrame) -> str:
+def _advice(part):
     """Advice of most scenes; a factor with its range, from the lowest to the highest of nine in ten."""
     if len(part) < FEWEST:
         return ""

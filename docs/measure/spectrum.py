@@ -10,17 +10,15 @@ from pathlib import Path
 
 import numpy as np
 import pandas
-from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 from pandas import DataFrame
 from tables import limit, solved, stored
 
 from bem3d import BEM, refined
 from compare.figures import style
-from compare.solving.task import Outcome, SceneTask, draws_of
+from compare.solving.task import SceneTask, draws_of
 from compare.studies.paper import parameters
 from mdr1d import MDR
-from scene import Result, Scene
 from scene.scales import elastic_contact
 
 PAGE = Path(__file__).parents[1] / "results" / "answers" / "spectrum.md"
@@ -41,16 +39,16 @@ class Refined:
     packages = "bem3d", "scene"
 
     @property
-    def points(self) -> int:
+    def points(self):
         """Points along a side that as fine a grid would have."""
         return self.times * self.solver.points
 
-    def solve(self, scene: Scene) -> Result:
+    def solve(self, scene):
         """Contact on the grid, then refined."""
         return refined(self.solver, self.solver.solve(scene), self.times)
 
 
-def main() -> None:
+def main():
     """Solve what is not solved yet, and write the table and the figure."""
     tasks = {shape: _tasks(shape) for shape in SHAPES}
     # The finest takes 8 GB: one at a time.
@@ -85,7 +83,7 @@ def _row(shape, task, rows):
     return found | {name: mean[f"friction_{name}"] / rows[0].normal_force if three else nan for name in ESTIMATES}
 
 
-def sentences() -> str:
+def sentences():
     """Friction of both bodies in 3D, between its estimates, and in 1D, from what is stored."""
     found, said = pandas.read_csv(PAGE.with_suffix(".csv")), []
     for shape, own in found.groupby("shape", sort=False):
@@ -98,14 +96,14 @@ def sentences() -> str:
     return " ".join(said)
 
 
-def ends(three: DataFrame) -> tuple[float, float]:
+def ends(three):
     """Interval of friction: both estimates on the finest grid, and the limits of those that show one."""
     limits = (limit(three[name].to_numpy()) for name in ESTIMATES)
     known = [*three[list(ESTIMATES)].iloc[-1], *(each for each in limits if np.isfinite(each))]
     return min(known), max(known)
 
 
-def figure(frame: DataFrame, scene: Scene, outcome: Outcome) -> Figure:
+def figure(frame, scene, outcome):
     """Real contact of a scene on the finest pixels, at two magnifications; friction on ever finer grids."""
     x, y, pressure = (outcome.fields[name] for name in ("x", "y", "pressure"))
     pixel, radius = outcome.rows[0].measures["pixel"], elastic_contact(scene).radius

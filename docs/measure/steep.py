@@ -3,7 +3,6 @@
 python docs/measure/steep.py   solves what is not solved yet, and writes results/law/steep.csv
 """
 
-from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from math import pi
 
@@ -11,11 +10,11 @@ from planes import PAGE as PLANES
 from tables import friction, solved, stored
 
 from bem3d import BEM
-from compare.solving.task import Row, SceneTask, draws_of
+from compare.solving.task import SceneTask, draws_of
 from compare.statistics.intervals import student
 from compare.studies.comparison.study_file import STUDIES
 from compare.trustmap.friction_law import FrictionLaw
-from scene import Scene, Slide
+from scene import Slide
 
 PAGE = PLANES.with_name("steep.md")
 SPEEDS = 0.06, 0.3, 1.0, 3.5, 12.0, 35.0, 100.0  # v tau q_s
@@ -26,7 +25,7 @@ POINTS, SURFACES, FINER = 960, 4, 1
 LEFT = 1 / 3
 
 
-def contacts() -> Iterator[tuple[str, float, float, Scene]]:
+def contacts():
     """Body, load [N], v tau q_s, scene: sphere and cone under the least and the greatest load, at each speed."""
     for series in STUDIES["regime"].series("full")[::3]:
         scene, (low, *_, high) = series.scene, series.values
@@ -36,13 +35,13 @@ def contacts() -> Iterator[tuple[str, float, float, Scene]]:
                 yield series.name, load, speed, replace(scene, motion=Slide(speed=speed * unit, load=load))
 
 
-def tasks(scene: Scene) -> list[SceneTask]:
+def tasks(scene):
     """All surfaces; few of them; these on twice the points."""
     kinds = (POINTS, SURFACES, 2.0), (POINTS, FINER, 1.0), (2 * POINTS, FINER, 4.0)
     return [SceneTask(BEM(points=n), draws_of(scene, count), work=work) for n, count, work in kinds]
 
 
-def main() -> None:
+def main():
     """Solve what is not solved yet, and write friction in 3D, on ever finer grids, and by the law."""
     found = list(contacts())
     outcomes = solved(PAGE, [task for *_, scene in found for task in tasks(scene)])
@@ -54,7 +53,7 @@ def main() -> None:
     stored(PAGE.with_suffix(".csv"), rows)
 
 
-def shares(scene: Scene, *rows: Sequence[Row]) -> dict[str, float]:
+def shares(scene, *rows):
     """What the roughness adds, over that in full contact, with the ends of 95 %: the master curve."""
     mean, few, fine = map(friction, rows)
     change = float(fine.value / few.value - 1)

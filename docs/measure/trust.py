@@ -31,11 +31,9 @@ from scoring import (
 from tables import fill, solved, stored, table
 
 from compare.models.law.parts import LawParts
-from compare.solving.task import Outcome
 from compare.trustmap import table as ratios
 from compare.trustmap.groups import DimensionlessGroups, SmoothReference
 from compare.trustmap.model import LAW, RATIOS, Ratio, asked_of
-from scene import Scene
 
 PAGE = Path(__file__).parents[1] / "results" / "trust.md"
 # Standard error that is wanted of a scene, and most surfaces, by table; and where waves are many.
@@ -50,13 +48,13 @@ NAMED = {
 }
 
 
-def contact_at(point: int, path: Path) -> Contact:
+def contact_at(point, path):
     """Task of a point of a table."""
     many = point >= design.WIDE
     return Contact(design.scene(point), *(KNOWN_WIDE if many else KNOWN[path]), GREAT if many else USUAL)
 
 
-def row(point: int, scene: Scene, outcome: Outcome) -> dict[str, float]:
+def row(point, scene, outcome):
     """Point, groups, and the numbers of each ratio of a rough scene."""
     smooth = SmoothReference.of(scene)
     parts = LawParts.of(scene, smooth.contact)
@@ -69,13 +67,13 @@ def row(point: int, scene: Scene, outcome: Outcome) -> dict[str, float]:
     return {"point": point, **asdict(DimensionlessGroups.of(scene, smooth, parts)), **numbers}
 
 
-def written(rows: DataFrame) -> bytes:
+def written(rows):
     """Table as compressed CSV, to five digits, far below the noise of a ratio."""
     text = rows.to_csv(columns=ratios.COLUMNS, index=False, float_format="%.5g", lineterminator="\n")
     return gzip.compress(text.encode(), mtime=0)
 
 
-def ship() -> None:
+def ship():
     """Solve, and write the tables, and models fitted to what these hold, as they are read again."""
     for path in KNOWN:
         contacts = {int(point): contact_at(int(point), path) for point in ratios.read(path)["point"]}
@@ -90,12 +88,12 @@ def ship() -> None:
 
 
 @cache
-def scores() -> dict[str, DataFrame]:
+def scores():
     """Scores of the models that come with the package."""
     return scored(ratios.read(ratios.HELD_OUT), {name: ratios.model(name) for name in RATIOS})
 
 
-def parts() -> dict[str, str]:
+def parts():
     """Text between two comments of the page, by the name of the comment."""
     on_spectra, found = of_surfaces(scores(), "spectrum"), error_rows(scores(), {"surface": SURFACES})
     columns = "use or multiply|median error|nine in ten within|in their interval of 95 %"
@@ -115,7 +113,7 @@ def _errors(row):
     yield f"{held:.1f} ({low:.1f} to {high:.1f}) %"
 
 
-def corrected() -> str:
+def corrected():
     """Sentences of the README on the errors of friction by the best advice."""
     off = np.abs(used(of_surfaces(scores(), "spectrum")[BEST])["off"])
     measured = 100 * np.quantile(off, (0.5, 0.9))
@@ -125,7 +123,7 @@ def corrected() -> str:
     )
 
 
-def main(solve: str = "") -> None:
+def main(solve=""):
     """Write everything; without `solve`, what follows from the tables of the package."""
     if solve:
         ship()

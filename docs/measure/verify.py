@@ -6,13 +6,11 @@ The adapters of the last two are those of howto/verify.md, and need the extra `p
 import importlib
 import re
 import sys
-from collections.abc import Iterator
 from itertools import product
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import pandas
-from pandas import DataFrame
 from tables import stored, table
 
 import compare
@@ -49,7 +47,7 @@ pixels in 3D or five in 1D.
 """
 
 
-def models(folder: Path) -> Iterator:
+def models(folder):
     """The four models; those of others from the page."""
     (code,) = re.findall(
         r"^```python\n(.*?)^```", (DOCS / "howto" / "verify.md").read_text(), re.DOTALL | re.MULTILINE
@@ -60,20 +58,20 @@ def models(folder: Path) -> Iterator:
     yield from (MDR(), BEM(), peers.Tamaas(), peers.ContactMechanics())
 
 
-def hard() -> str:
+def hard():
     """Text on the hard cases, as they are stored."""
     cases = pandas.read_csv(PAGE.with_name("stability.csv"))
     return HARD.format(kept=cases["verdict"].eq("holds").sum(), count=len(cases))
 
 
-def counted(found: DataFrame) -> Iterator[tuple[str, ...]]:
+def counted(found):
     """Rows with the numbers of laws of each group that a code keeps, breaks and refuses."""
     for model, group in product(found["model"].unique(), GROUPS[: GROUPS.index(STORED)]):
         own = found.query("model == @model and where == @group")["verdict"]
         yield model, group, *(str((own == each).sum()) for each in VERDICTS)
 
 
-def main() -> None:
+def main():
     """Write the page."""
     with TemporaryDirectory() as folder:
         reports = {

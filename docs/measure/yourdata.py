@@ -5,7 +5,6 @@
 
 import re
 import shlex
-from collections.abc import Iterator
 from contextlib import chdir
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -22,7 +21,7 @@ NAMED = re.compile(r"# (\w+\.toml)\n")  # first line of a file that a page shows
 HEAD = " | head -"
 
 
-def printed(page: Path) -> Iterator[tuple[str, re.Match]]:
+def printed(page):
     """What each command of a page prints among the files of all, and the block that shows it."""
     command = None
     with TemporaryDirectory() as folder, chdir(folder):
@@ -49,7 +48,7 @@ def _output(command):
     return "".join(lines[: int(most)] if most else lines)
 
 
-def main() -> None:
+def main():
     """Write what the commands print."""
     for page in sorted(FOLDER.glob("*.md")):
         text = page.read_text(encoding="utf-8")

@@ -34,11 +34,11 @@ def figure(tables: Tables) -> Figure:
         axes.remove()
     panels = panels[: len(drawn)]
     for k, (axes, ways) in enumerate(zip(panels, drawn, strict=True)):
-        axes.set(xscale="log", yscale="log", ylabel="relative error [1]" if k % columns == 0 else "")
+        title = f"{style.literal(ways[0].case)}: {ways[0].quantity}"
+        axes.set(xscale="log", yscale="log", title=title, ylabel="relative error [1]" if k % columns == 0 else "")
         if k + columns >= len(drawn):
             axes.set_xlabel("processor time [s]")
             axes.tick_params(labelbottom=True)
-        axes.set_title(f"{style.literal(ways[0].case)}: {ways[0].quantity}")
         _draw(axes, ways)
     style.lettered(panels)
     at = np.concatenate([line.get_xydata() for axes in panels for line in axes.lines])
@@ -81,9 +81,11 @@ def _draw(axes: Axes, ways: Sequence[Way]) -> None:
         look = _look(way.model) | {"color": colour}
         x, y = _at(way, MARKED if way.scatter else MARKED[:1])
         axes.plot(x, y, **look)
-        if way in (*grids[:1], *grids[-1:]):
-            place = {"textcoords": "offset points", "fontsize": style.small(), "color": colour}
-            axes.annotate(way.settings.partition(" ")[0], (x[-1], y[-1]), (3, 3), **place)
+        if way in grids[:: len(grids) - 1 or 1]:
+            axes.annotate(
+                way.settings.partition(" ")[0], (x[0], y[0]), (0, 4), textcoords="offset points", color=colour,
+                fontsize=style.small(), ha="left" if way is grids[0] else "right",
+            )  # fmt: skip
     for model, group in groupby((way for way, _ in curves if not way.scatter), lambda way: way.model):
         at = [_at(way, MARKED[:1]) for way in group]
         axes.plot(*np.concatenate(at, axis=1), **_look(model) | {"marker": ""})
