@@ -71,7 +71,7 @@ class Accuracy:
 class Plans(dict[str, Plan | str | Advice]):
     """Plans by the names of the solvers, or why there is none; by "trust", what cheap answers are worth.
 
-    Printed, seven lines.
+    Printed, seven lines, and one for each interval.
 
     case, scene : what is planned
     cost : what all contacts of `crosscheck run` take; the reason where it solves none
@@ -130,7 +130,7 @@ class Plans(dict[str, Plan | str | Advice]):
         return {name: each for name, each in self.items() if isinstance(each, Plan)}
 
     def _summary(self) -> Iterator[tuple[str, str]]:
-        """Names and texts of doubts and notes, of the seven lines, then the reasons against the scene."""
+        """Names and texts of doubts and notes, of the lines of a plan, then the reasons against the scene."""
         yield from (("doubtful", each) for each in self.doubts)
         yield from (("note", each) for each in notes(self.scene))
         if plans := self._plans:
