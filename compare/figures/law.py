@@ -77,7 +77,7 @@ def waves(tables: Tables) -> Figure:
     drawing = style.canvas("single", 3.0)
     axes, (scale, label) = drawing.subplots(), AXES["shortest"]
     x, look = scale * law["shortest"], style.look("FrictionLaw", marker="")
-    axes.fill_between(x, law["friction_low"], law["friction_high"], color=style.grey(0.75), linewidth=0)
+    axes.fill_between(x, law["friction_low"], law["friction_high"], color=look["color"], alpha=0.3, linewidth=0)
     axes.plot(x, law["friction"], **look)
     axes.axvspan(x.min(), scale * points["shortest"].min(), color=style.grey(0.9), linewidth=0)
     if law["rms_slope"].max() > 1:

@@ -49,7 +49,7 @@ class Unsolved:
 
     @property
     def sentences(self) -> tuple[str, ...]:
-        """Sentences that say how many contacts have no answer, why, and what to do; none where all have one.
+        """A line that says how many contacts have no answer, why, and what to do; none where all have one.
 
         Reasons that differ by their numbers alone count as one, and the first of them is given.
         """
@@ -63,7 +63,8 @@ class Unsolved:
         by_solver = ", ".join(f"{few[name]} of {every[name]} in {DIMENSIONS.get(name, name)}" for name in few)
         own = ", the scene's own among them" if self.own else ""
         whole = f"{len(failed)} of {len(self.contacts)} contacts have no answer{own}"
-        return (f"{whole}: {by_solver}; they are left out.", *(f"{len(each)} of them: {each[0]}" for each in most))
+        why = "; ".join(f"{len(each)} of them: {each[0]}" for each in most)
+        return (f"{whole}: {by_solver}; they are left out. {why}",)
 
     @property
     def notes(self) -> tuple[str, ...]:

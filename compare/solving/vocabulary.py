@@ -58,6 +58,7 @@ surface_high : Upper end of the interval of 95 % of the ratio of the mean in 1D 
     where one surface says nothing. [1]
 
 Of points, and of curves through them.
+shortest : Shortest wave of the roughness that is kept. [m]
 smooth : Coefficient of friction of the smooth body at the same speed and load or depth. [1]
 solver : MDR: the method of dimensionality reduction, 1D. CorrectedMDR: that over the ratio of the trust map. BEM:
     boundary elements, 3D. exact: closed form. Another name: a model that did not come with the package.

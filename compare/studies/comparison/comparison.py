@@ -42,9 +42,9 @@ class Comparison(Study):
     title: str = "One dimension against three"
     about: str = ""
     place: str = ""
+    stated: Mapping[str, Any] = field(default_factory=dict)
     reason: str = Study.reason
     alone: bool = False
-    stated: Mapping[str, Any] = field(default_factory=dict)
 
     @property
     def inputs(self) -> Mapping[str, Any]:

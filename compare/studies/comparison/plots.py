@@ -245,7 +245,7 @@ def _waves(series: Around, points: DataFrame, folder: str) -> Plot | None:
         .filter(like="friction_")
         .assign(
             friction=[each.friction_coefficient for each in found],
-            rms_slope=[slope(Bands.of(each.roughness)) for each in kept],
+            rms_slope=[slope(Bands.of(each.roughness)) for each in kept],  # type: ignore[arg-type]
             shortest=waves,
         )
     )
