@@ -8,6 +8,8 @@ same with arrays of modes: without them this is three times as fast, and most of
 
 from math import exp, expm1, log, nan
 
+import numpy as np
+
 from scene.quantities import METRE, takes
 
 from .element import NOWHERE, compiled, summed
@@ -137,7 +139,7 @@ def flow_kelvin(heights, pixel, memory, depth, displacement=None, touching=None,
     touches = False
     u = 0.0  # of the free surface at the node
     left = 0.0  # displacement at which the surface last left the profile
-    i, nodes = 0, heights.size
+    i, nodes = np.intp(0), heights.size  # a literal would have what it is passed to compiled once more
     while i < nodes - 1:
         if touches:
             begun = i
@@ -194,7 +196,6 @@ def flow_kelvin(heights, pixel, memory, depth, displacement=None, touching=None,
             u = left * exp(-(pixel - end) / memory) if memory > 0.0 else 0.0
             last = i * pixel + end
         i += 1
-    i = heights.size - 1
     if displacement is not None:
         displacement[i] = depth - heights[i] if touches else u
         touching[i] = touches

@@ -140,7 +140,7 @@ def _flow(heights, pixel, solid, depth, displacement, touching, pushed):
     u = 0.0  # of the free surface at the node
     first = last = nan
     touches = False
-    i, nodes = 0, heights.size
+    i, nodes = np.intp(0), heights.size  # a literal would have what it is passed to compiled once more
     while i < nodes - 1:
         begun = i
         if touches:
@@ -222,7 +222,6 @@ def _flow(heights, pixel, solid, depth, displacement, touching, pushed):
                 pushes[j] = solid.compliances[j] * left[j] * exp(-apart / solid.retarded[j])
                 u += pushes[j]
         i += 1
-    i = heights.size - 1
     u = depth - heights[i] if touches else u
     displacement[i], touching[i] = u, touches
     if touches:
@@ -238,7 +237,7 @@ def _flow(heights, pixel, solid, depth, displacement, touching, pushed):
 
 def swept(flow, heights, pixel, memory, depth) -> Contact:
     """Contact by the sums and the fields of a compiled flow with some memory."""
-    heights = np.asarray(heights)
+    heights = np.broadcast_to(heights, np.shape(heights))  # read-only: loops are compiled for one kind
     fields = np.empty(heights.size), np.zeros(heights.size, np.bool_), np.zeros((heights.size - 1, 2))
     return Contact._make((*flow(heights, float(pixel), memory, float(depth), *fields), *fields))
 

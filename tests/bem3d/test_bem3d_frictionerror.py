@@ -45,7 +45,7 @@ def slow_law(scene):
     return scene.motion.speed * TAU * n * (n + 1) * c * a ** (n - 2) / (2 * (2 * n - 1))
 
 
-@pytest.mark.parametrize("points", [48, 64, 128])
+@pytest.mark.parametrize("points", [48, 128])
 def test_friction_of_slow_bodies_is_within_its_error_or_refused(points):
     beyond = []
     for exponent in (1, 1.5, 2, 3, 4, 6, 10, 30, 50, 100):
@@ -53,7 +53,7 @@ def test_friction_of_slow_bodies_is_within_its_error_or_refused(points):
         answer = answered(scene, points)
         if answer is None:
             assert exponent > 30
-            assert points <= 64
+            assert points == 48
             with pytest.raises(SolveError, match=f"friction is uncertain on {points} points a side") as refused:
                 BEM(points=points).solve(scene)
             answer = BEM(points=named(refused.value)).solve(scene)
@@ -65,7 +65,7 @@ def test_friction_of_slow_bodies_is_within_its_error_or_refused(points):
     assert max(beyond) < 1.5
 
 
-@pytest.mark.parametrize("lag", [0.25, 0.5, 1.0])
+@pytest.mark.parametrize("lag", [0.25, 1.0])
 def test_friction_of_a_cone_whose_contact_ends_at_the_tip_is_within_its_error(lag):
     radius = elastic_contact(slid(Cone(angle=0.1), 0.0)).radius
     scene = slid(Cone(angle=0.1), lag * radius / TAU)
@@ -88,8 +88,7 @@ def test_the_error_by_a_sharp_tip_has_its_order_and_there_is_none_where_the_tip_
     assert at_tip(Cone(angle=0.1), grid, disc & (distance > 0.03), 0.5) == 0
 
 
-@pytest.mark.parametrize("solid", [KELVIN, GLASSY])
-@pytest.mark.parametrize("speed", [1e-3, 0.1, 10.0])
+@pytest.mark.parametrize(("solid", "speed"), [(KELVIN, 1e-3), (GLASSY, 0.1), (KELVIN, 10.0)])
 @pytest.mark.parametrize("rough", [None, ROUGH])
 def test_the_error_that_is_stated_falls_with_the_pixel(solid, speed, rough):
     stated = [

@@ -31,9 +31,6 @@ G, TAU, R, THETA = 1e6, 1e-3, 1e-2, 0.1
 KELVIN = Kelvin(modulus=G, relaxation_time=TAU)
 SOLID = StandardLinearSolid(rubbery_modulus=G, glassy_modulus=5 * G, relaxation_time=TAU / 4)
 ROUGH = SelfAffine(hurst=0.6, rms_height=1e-5, longest=5e-3, shortest=2.5e-4, seed=1)
-ROUGH_SCENES = [
-    Scene(indenter, KELVIN, Indent(load=1.0), ROUGH) for indenter in (Sphere(radius=R), Cone(angle=THETA))
-]
 # Sums of some ten thousand numbers.
 ROUNDING = 1e-12
 # Error of first order: a cone on 256 points.
@@ -71,11 +68,12 @@ def test_a_cone_is_curved_by_half_pi_tan_theta_over_a_to_first_order_in_the_pixe
     np.testing.assert_allclose(np.log2(errors[:-1] / errors[1:]), 1.0, atol=0.05)
 
 
-@pytest.mark.parametrize(("scene", "elastomer"), [(ROUGH_SCENES[0], KELVIN), (ROUGH_SCENES[1], SOLID)])
-def test_slow_friction_is_the_curvature_under_the_pressure_at_rest_also_on_a_coarse_grid(scene, elastomer):
+def test_slow_friction_is_the_curvature_under_the_pressure_at_rest_also_on_a_coarse_grid():
+    scene = Scene(Cone(angle=THETA), SOLID, Indent(load=1.0), ROUGH)
+
     def solved(loss, points):
-        slid = slow(replace(scene, elastomer=elastomer), loss)
-        law = slow_friction_by_curvature(slid.motion.speed, mean_lag(elastomer), 1.0, curvature(scene, 256))
+        slid = slow(scene, loss)
+        law = slow_friction_by_curvature(slid.motion.speed, mean_lag(SOLID), 1.0, curvature(scene, 256))
         return law, BEM(points=points).solve(slid)
 
     ratios = [found.friction_force / law for law, found in (solved(loss, 256) for loss in (0.01, 1.0))]

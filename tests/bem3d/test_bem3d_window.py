@@ -178,5 +178,5 @@ def test_a_smooth_contact_between_the_centres_of_pixels_is_an_error_and_not_an_e
 
 def test_applications_of_a_smooth_solve_hardly_grow_with_the_grid():
     """By a fifth at most with each doubling, where plain conjugate gradients take sqrt(2) times as many."""
-    counts = [BEM(points=n).solve(DEEP).operator_applications for n in (64, 128, 256, 512)]
+    counts = [BEM(points=n).solve(DEEP).operator_applications for n in (64, 128, 256)]
     assert all(after <= 1.2 * before for before, after in pairwise(counts)), counts

@@ -157,7 +157,7 @@ def test_a_sweep_reaches_the_interval_resumes_and_agrees_with_fixed_draws(tmp_pa
     xarray.testing.assert_identical(found, again)
     kept = compare.load(tmp_path / "few")["contacts"]["control_variates"].sel(model="BEM")
     assert np.isfinite(kept.sel(surface=kept["stratum"] == kept["stratum"].max())).all()
-    fixed = compare.sweep(**asked, draws=24, output=tmp_path / "many")
+    fixed = compare.sweep(**asked, draws=10, output=tmp_path / "many")
     apart = abs(friction(found, "mean") - friction(fixed, "mean"))
     assert np.all(apart <= half + (friction(fixed, "high") - friction(fixed, "low")) / 2)
 

@@ -61,7 +61,7 @@ def folder(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def found(folder):
+def found(folder, in_this_process):
     return compare.run({"tiny": TINY}, folder, workers=1)
 
 
@@ -105,7 +105,7 @@ def test_a_plan_is_asked_of_a_scene_a_case_or_a_file(tmp_path):
     assert all(str(each) in of_scene.details for each in of_scene.values())
 
 
-def test_a_sweep_is_a_dataset_of_every_draw_with_means_and_intervals(tmp_path, valid):
+def test_a_sweep_is_a_dataset_of_every_draw_with_means_and_intervals(tmp_path, valid, in_this_process):
     scene, output = tmp_path / "scene.toml", tmp_path / "found"
     scene.write_text(SCENE + SMALL)
     answers = compare.sweep(

@@ -247,7 +247,7 @@ def test_a_measure_that_a_model_does_not_give_is_left_out_and_a_solve_without_an
     assert "sphere.force fails" in study.answer(list(found.values()))[1]
 
 
-def test_a_page_has_few_laws_and_its_tables_have_all(tmp_path):
+def test_a_page_has_few_laws_and_its_tables_have_all(tmp_path, in_this_process):
     report = compare.verify(MDR(points=500), tmp_path, workers=1)
     (shown,) = report.page.every(Findings)
     assert len(shown.findings) == SHOWN < len(pandas.read_csv(tmp_path / "findings.csv")) == len(report.findings)
@@ -316,7 +316,7 @@ def test_what_is_new_or_without_an_answer_is_told_and_the_file_changes_only_wher
     assert path.stat().st_mtime_ns == changed
 
 
-def test_the_command_holds_a_scene_of_ones_own_against_a_file_of_ones_own(tmp_path):
+def test_the_command_holds_a_scene_of_ones_own_against_a_file_of_ones_own(tmp_path, in_this_process):
     scene, file = replace(TINY, roughness=None, mdr=MDR(points=512)), tmp_path / "mine.toml"
 
     def failed(**given):

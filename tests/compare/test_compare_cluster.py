@@ -47,6 +47,7 @@ def cluster():
         yield running
 
 
+@pytest.mark.slow
 def test_answers_are_those_of_this_machine_bit_for_bit_and_this_process_stores_them(cluster, tmp_path):
     tasks = [Task(MDR(points=n), (SLIDING,), work=n) for n in (400, 500, 600, 700, 800, 900)]
     heard = Heard()

@@ -271,7 +271,7 @@ def test_the_right_law_is_kept_as_often_as_stated():
 def test_a_curve_has_no_more_coefficients_than_the_scatter_asks_for():
     rng = np.random.default_rng(4)
     assert collapse(measured(rng, friction(cubic), error=0.02)).degree == DEGREE
-    assert collapse(measured(rng, friction(knee), error=1e-5)).degree > DEGREE
+    assert collapse(measured(rng, friction(knee), error=1e-4)).degree > DEGREE
 
 
 def test_wrong_laws_are_rejected():

@@ -122,12 +122,6 @@ def test_a_task_may_fail_in_any_way(tmp_path):
     assert (len(swept.faults), Store(tmp_path).get(tasks[-1]) is not None) == (len(ways), True)
 
 
-def test_what_cannot_be_sent_to_another_process_is_solved_in_this_one(tmp_path):
-    swept = sweep([Odd("cannot be sent")], Store(tmp_path), workers=1)
-    assert swept.faults == {}
-    assert Store(tmp_path).get(Odd("cannot be sent")).rows[0].normal_force == 1.0
-
-
 ONE = {"executor": Here(), "workers": 1}
 
 
@@ -268,11 +262,14 @@ def test_tasks_that_other_code_has_solved_are_said_and_solved_again(tmp_path, mo
     assert heard.said_lines == ["2 stored tasks were solved by other code: they are solved again"]
 
 
-def test_workers_have_one_thread_each_and_the_caller_keeps_its_own(tmp_path, monkeypatch):
+def test_workers_have_one_thread_the_caller_its_own_and_what_cannot_be_sent_is_solved_here(tmp_path, monkeypatch):
     monkeypatch.setenv("OMP_NUM_THREADS", "5")
     monkeypatch.delenv("NUMBA_NUM_THREADS", raising=False)
-    (task,) = loads(1.0)
-    measures = sweep([task], Store(tmp_path), workers=1).outcomes[task].rows[0].measures
+    tasks = [*loads(1.0), Odd("cannot be sent")]
+    swept = sweep(tasks, Store(tmp_path), workers=1)
+    assert swept.faults == {}
+    assert Store(tmp_path).get(tasks[1]).rows[0].normal_force == 1.0
+    measures = swept.outcomes[tasks[0]].rows[0].measures
     assert [measures[name] for name in ONE_THREAD] == [1.0] * len(ONE_THREAD)
     assert measures["process"] != os.getpid()
     assert os.environ["OMP_NUM_THREADS"] == "5"

@@ -49,7 +49,7 @@ IN_AND_BACK = (
     Stage(duration=5e-3, depth=3e-5),
     Stage(duration=2e-2, speed=0.05),
     Stage(duration=1e-2, speed=-0.05),
-    Stage(duration=1e-2, amplitude=5e-6, frequency=50.0),
+    Stage(duration=2e-3, amplitude=5e-6, frequency=50.0),
     Stage(duration=2e-3, depth=0.0),
 )
 LOADED = (Stage(duration=5e-3, load=1.0), Stage(duration=1e-2, speed=0.1), Stage(duration=5e-3, load=0.2))

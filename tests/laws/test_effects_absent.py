@@ -46,9 +46,9 @@ MODULES = {
     "measured file": {"scene/files/heightfile.py"},
     "oscillation": {"scene/motion.py Oscillation.at"},
 }
-# What only effects need, or numbers with units, and costs more to load than all of ours.
-LIBRARIES = {"scipy.interpolate", "SurfaceTopography", "pint"}
-OF_SCENES = {*LIBRARIES, "xarray", "scipy.special", "scipy.optimize", "scipy.fft"}
+# What only effects, numbers with units, figures, results on disk or the judge need, and costs much to load.
+LIBRARIES = {"scipy.interpolate", "SurfaceTopography", "pint", "matplotlib", "xarray", "h5py", "compare"}
+OF_SCENES = {*LIBRARIES, "h5netcdf", "scipy.special", "scipy.optimize", "scipy.fft"}
 # Classes that follow a wake for an indenter that comes back.
 RETURNING = {"bem3d/motion/upstream.py Returning.__init__", "mdr1d/marching.py _Returning.__init__"}
 

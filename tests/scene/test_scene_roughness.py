@@ -65,24 +65,20 @@ def test_a_spectrum_is_cut_where_its_slope_reaches_what_is_stated(rolloff, slope
     assert table.shortest_kept == table.shortest
 
 
-@pytest.mark.parametrize(
-    ("message", "stated"),
-    [
-        (r"at_slope = 1e-05: between .* the rms slopes with waves down to 0.005 m", {"shortest_at_slope": 1e-5}),
-        ("shortest_at_slope = 1e[+]09: between", {"shortest_at_slope": 1e9}),
-        ("shortest_at_slope = 0.1: state rms_height, and neither", {"shortest": 1e-4}),
-        ("shortest_at_slope = '1 um': .*a number without a unit", {"shortest_at_slope": "1 um"}),
-        ("hurst.*Input should be less than or equal to 1", {"hurst": 2}),
-    ],
-)
-def test_a_slope_at_which_no_wave_is_cut_is_refused_with_the_reason(message, stated):
-    with pytest.raises(InvalidInput, match=message):
-        SelfAffine(**{"hurst": 0.5, "rms_height": 1e-5, "longest": 1e-2, "shortest_at_slope": 0.1} | stated)
+# Cut off where its slope is that of 0.1.
+CUT = {"rms_slope": None, "shortest": None, "rms_height": 1e-5, "shortest_at_slope": 0.1}
 
 
 @pytest.mark.parametrize(
     ("message", "stated"),
     [
+        (
+            "at_slope = 1e-05: between .* the rms slopes with waves down to 0.005",
+            CUT | {"shortest_at_slope": 1e-5},
+        ),
+        ("shortest_at_slope = 1e[+]09: between", CUT | {"shortest_at_slope": 1e9}),
+        ("shortest_at_slope = 0.1: state rms_height, and neither", CUT | {"shortest": 1e-4}),
+        ("shortest_at_slope = '1 um': .*a number without a unit", CUT | {"shortest_at_slope": "1 um"}),
         ("rms_slope = 0.1: state shortest", {"shortest": None}),
         ("rms_slope = 0.1: .* no rms_height", {"rms_height": 1e-6}),
         ("rms_slope = -1: .* a number from 0 on", {"rms_slope": -1}),
@@ -95,7 +91,7 @@ def test_a_slope_at_which_no_wave_is_cut_is_refused_with_the_reason(message, sta
         ("longest: missing", {"longest": None}),
     ],
 )
-def test_a_slope_that_states_no_surface_is_refused_with_the_reason(message, stated):
+def test_a_slope_that_states_or_cuts_no_surface_is_refused_with_the_reason(message, stated):
     content = {"hurst": 0.5, "rms_slope": 0.1, "longest": 1e-2, "shortest": 1e-4} | stated
     with pytest.raises(InvalidInput, match=message):
         SelfAffine(**{name: value for name, value in content.items() if value is not None})
