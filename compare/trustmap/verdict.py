@@ -13,7 +13,7 @@ from scene import Doubt, Indent, Profile, Scene, Slide, SolveError, Spectrum, do
 from scene.doubt import beyond_linear, beyond_table
 
 from ..solving.words import capital, interval, off, share
-from .estimate import NONE_KNOWN, Estimates, estimates
+from .estimate import Estimate, estimates
 from .groups import LINE, SPACE, SmoothReference
 from .measured import OffTheMap, Place, as_judged, placed, unmeasured
 from .model import LAW, MOST_SCATTER, NORMAL, RATIOS, asked_of, lost
@@ -118,7 +118,7 @@ class Advice:
     groups: Mapping[str, float]
     doubts: tuple[Doubt, ...] = ()
     notes: tuple[str, ...] = ()
-    estimates: Estimates = NONE_KNOWN
+    estimates: tuple[Estimate, ...] = ()
 
     @property
     def corrections(self) -> dict[str, Correction]:
@@ -151,11 +151,7 @@ class Advice:
 
     def __str__(self) -> str:
         lines = [*(f"doubtful: {each}" for each in self.doubts), *(f"note: {each}" for each in self.notes)]
-        lines += map(str, self.estimates.answers)
-        if isfinite(finer := self.estimates.finer):
-            lines.append(
-                f"waves half as short as the shortest would add {share(finer)} of friction, by the law alone"
-            )
+        lines += map(str, self.estimates)
         lines += [self.choice] if self.choice else []
         lines += [f"{SUBJECTS[name]}: {worth}" for name, worth in self.corrections.items()]
         if self.groups:

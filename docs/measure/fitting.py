@@ -10,11 +10,12 @@ from scipy.optimize import minimize
 from compare.trustmap.model import (
     LEAST_VARIANCE,
     NORMAL,
+    REGIONS,
     Fitted,
     Model,
     learned,
     lost,
-    regions_of,
+    region_of,
     scattered,
     usable,
 )
@@ -61,10 +62,10 @@ def _widened(quantity, everything, taken, scatter):
     alike = np.array_split(counted[np.argsort(own[counted])], max(1, counted.size // ALIKE))
     errors = np.array([np.median(own[few]) for few in alike])
     factors = np.array([max(LEAST_FACTOR, np.quantile(needed[few] / own[few], HELD)) for few in alike])
-    parts = np.ones(len(regions_of(inputs)))
+    parts, here = np.ones(np.prod(REGIONS)), region_of(inputs)[counted]
     found = Fitted(everything.scales, taken, scatter.scales, errors, factors, parts)
     needed = needed / found.widened(own, inputs)
-    regions = [needed[counted[here[counted]]] for here in regions_of(inputs)]
+    regions = [needed[counted[here == region]] for region in range(parts.size)]
     widest = [max(1.0, np.quantile(few, HELD_IN_PART)) if few.size >= FEWEST else 1.0 for few in regions]
     return replace(found, parts=np.array(widest))
 
