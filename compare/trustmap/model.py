@@ -156,12 +156,8 @@ class Model:
         error = self.fitted.widened(np.sqrt(variance), groups) * unit
         if self.quantity == "depth":
             error = np.where(lost(groups), np.maximum(error, LEAST_LOST), error)
-        return Predicted(estimate(self.quantity, groups) + rest * unit, error, self.scatter_at(groups))
-
-    def scatter_at(self, groups: np.ndarray) -> np.ndarray:
-        """Relative scatter of single surfaces (M,) at groups (M, D)."""
-        logarithm, spread = self.scatter.predicted(groups)
-        return np.exp(logarithm + spread / 2)
+        scatter, spread = self.scatter.predicted(groups)
+        return Predicted(estimate(self.quantity, groups) + rest * unit, error, np.exp(scatter + spread / 2))
 
 
 def lost(groups: np.ndarray) -> np.ndarray:

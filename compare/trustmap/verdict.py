@@ -67,14 +67,9 @@ class Correction:
     reason: str
 
     @property
-    def factor(self) -> float:
-        """Factor that the answer is multiplied by: 1 / ratio."""
-        return 1 / self.ratio
-
-    @property
     def times(self) -> str:
-        """Factor with its interval of 95 % in words."""
-        return interval(self.factor, 1 / self.high, 1 / self.low, 3)
+        """Factor that the answer is multiplied by, 1 / ratio, with its interval of 95 % in words."""
+        return interval(1 / self.ratio, 1 / self.high, 1 / self.low, 3)
 
     @property
     def half(self) -> float:
@@ -162,11 +157,9 @@ class Advice:
         """A row for each quantity and model."""
         from pandas import DataFrame
 
-        return DataFrame(self._rows, columns=HEADINGS)
-
-    @property
-    def _rows(self):
-        return [("friction" if name == LAW else name, *astuple(worth)) for name, worth in self.corrections.items()]
+        named = self.corrections.items()
+        rows = [("friction" if name == LAW else name, *astuple(worth)) for name, worth in named]
+        return DataFrame(rows, columns=HEADINGS)
 
 
 def trust(scene: Scene) -> Advice:

@@ -50,7 +50,12 @@ def fit(quantity, measured):
     everything = fitted(*learned(quantity, measured.taken(enough), scatter))
     taken = most_informative(everything, MOST_TAKEN)
     widened = _widened(quantity, everything, taken, scatter)
-    return Model(quantity, everything.taken(taken), scatter, replace(widened, taken=enough[taken]))
+    return Model(quantity, through(everything, taken), scatter, replace(widened, taken=enough[taken]))
+
+
+def through(process, chosen):
+    """Process of the same scales through some of the points."""
+    return Process(process.inputs[chosen], process.values[chosen], process.variances[chosen], process.scales)
 
 
 def _widened(quantity, everything, taken, scatter):
@@ -72,7 +77,7 @@ def _widened(quantity, everything, taken, scatter):
 
 def _left_out(everything, taken):
     """Errors (N,) of each value predicted from all others that are taken, and their standard errors, noiseless."""
-    process = everything.taken(taken)
+    process = through(everything, taken)
     error, variance = np.empty(everything.values.size), np.empty(everything.values.size)
     error[taken], variance[taken] = left_out(process)
     variance[taken] -= process.variances
