@@ -64,7 +64,7 @@ def waves(full: FullContact) -> dict[str, float]:
 
 
 @cache
-def rows_of(path: Path) -> list[dict[str, str]]:
+def rows_of(path: Path) -> list[dict[str, Any]]:
     """Rows of a table that comes with the package, texts by column."""
     with path.open(encoding="utf-8", newline="") as file:
         return [*csv.DictReader(file)]

@@ -3,7 +3,7 @@
 from dataclasses import replace
 from math import nan, sqrt
 from time import process_time
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, cast
 
 import numpy as np
 from pydantic import Field
@@ -156,7 +156,7 @@ class Persson:
         plane, rough = isinstance(scene.indenter, Plane), scene.roughness is not None and not scene.roughness.flat
         with numeric_guard():
             if plane:
-                pressure, cell = scene.motion.pressure, cell_area(scene.roughness)
+                pressure, cell = cast(float, scene.motion.pressure), cell_area(scene.roughness)
                 smooth, area, mean = SmoothContact.of_plane(pressure, cell), cell, pressure
             else:
                 smooth = SmoothContact.of(scene)
