@@ -1,6 +1,6 @@
 """Colours of many curves in one panel, one for each speed, load or depth, and the legend that says which."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -26,12 +26,6 @@ def few(values: Any, most: int) -> np.ndarray:
     """At most `most` of the distinct values, evenly chosen from the least to the greatest."""
     values = np.unique(values)
     return values[np.unique(np.linspace(0, len(values) - 1, min(most, len(values))).round().astype(int))]
-
-
-def looks(values: np.ndarray, unit: str) -> Callable[[float], dict[str, Any]]:
-    """Look of the curve of each of some positive values, as a function: colour, marker, line and label."""
-    scale, forms = between(values), dict(zip(values.tolist(), style.forms(), strict=False))
-    return lambda value: forms[value] | {"color": SPEED(scale(value)), "label": f"{value:.3g} {unit}"}
 
 
 def key(shades: Colormap, values: Any, unit: str) -> list[Line2D]:

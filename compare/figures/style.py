@@ -10,7 +10,6 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
 from io import BytesIO
-from itertools import cycle
 from os import PathLike
 from pathlib import Path
 from string import ascii_letters
@@ -233,18 +232,14 @@ def literal(text: str) -> str:
     return printable(text).replace("$", r"\$")
 
 
-def fill(text: str, inches: float, points: float) -> str:
-    """The text in lines of about that length, broken between words."""
-    return textwrap.fill(text, max(1, int(72 * inches / (WIDE * points))))
-
-
 def lettered(panels: Iterable[Axes]) -> None:
     """A letter before the title of each panel. Titles are broken where the panel ends."""
     for letter, axes in zip(ascii_letters, panels, strict=False):
         place: Any = axes.get_subplotspec()
         share = len(place.colspan) / place.get_gridspec().ncols
         inches = share * axes.figure.bbox.width / axes.figure.dpi - AXIS_WIDTH * rcParams["font.size"] / 72
-        axes.set_title(fill(f"({letter}) {axes.get_title('left')}", inches, rcParams["font.size"]))
+        letters = max(1, int(72 * inches / (WIDE * rcParams["font.size"])))
+        axes.set_title(textwrap.fill(f"({letter}) {axes.get_title('left')}", letters))
 
 
 def legend(drawing: Figure, panels: Iterable[Axes], most: int, *more: Any) -> None:
@@ -294,13 +289,6 @@ def decades(*panels: Axes) -> None:
         axis.set_tick_params(which="minor", label1On=False)  # or empty labels are measured, which takes longest
         if low >= 1e-4 and high <= 1e4:  # also where a figure is saved in another style
             axis.set_major_formatter(lambda value, _: f"{value:g}")
-
-
-def forms() -> Iterator[dict[str, Any]]:
-    """Marker and line style of successive curves, without end."""
-    return (
-        {"marker": marker, "linestyle": line} for marker, line in zip(cycle(SERIES_MARKERS), cycle(SERIES_LINES))
-    )
 
 
 def shades(solver: str, count: int) -> np.ndarray:

@@ -39,7 +39,8 @@ def figure(tables: Tables) -> Figure:
     left, middle, right = drawing.subplots(1, 3)
     middle.sharey(left)
     warmth = few(shifts["temperature"], TEMPERATURES)
-    by_warmth = shades.looks(warmth, "K")
+    forms = dict(zip(warmth, zip(style.SERIES_MARKERS, style.SERIES_LINES, strict=True), strict=False))
+    scale = shades.between(warmth)
     points = points[points["temperature"].isin(warmth)]
     counts = points.groupby("load")["temperature"].nunique()
     loads = few(counts.index[counts == counts.max()], LOADS)
@@ -47,7 +48,8 @@ def figure(tables: Tables) -> Figure:
     points = points[points["load"].isin(loads)]
 
     def look(temperature, *_):
-        return by_warmth(temperature) | {"label": f"{temperature:.4g} K"}
+        (marker, line), label = forms[temperature], f"{temperature:.4g} K"
+        return {"marker": marker, "linestyle": line, "color": shades.SPEED(scale(temperature)), "label": label}
 
     for axes, own, across in (
         (left, points[points["load"] == middling], "speed"),

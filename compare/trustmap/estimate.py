@@ -1,16 +1,13 @@
 """Friction, depth and force of a scene by the cheapest model that knows them, each with an interval."""
 
 from dataclasses import dataclass, replace
-from math import nan
 
-from scene import Indent, Plane, Scene, SelfAffine, Slide, SolveError
+from scene import Indent, Plane, Scene, Slide, SolveError
 from scene.doubt import least_friction
 from scene.protocol import numeric_guard
 
 from ..models.law.bands import Bands
-from ..models.law.extended import without
 from ..models.law.nominal import mean_gap
-from ..models.law.parts import LawParts
 from ..models.law.smooth import SPACE, SmoothContact
 from ..solving.words import interval
 from .friction_law import DEPTH, FrictionLaw, known_errors
@@ -46,33 +43,17 @@ class Estimate:
         return f"{self.quantity}{least} {number} {unit}".rstrip() + f", by {self.way}"
 
 
-@dataclass(frozen=True)
-class Estimates:
-    """Answers to a scene, and how much its cut-off decides.
-
-    answers : friction first
-    finer : relative change of friction, by the law alone, where the shortest wave is half as long; NaN where there
-        is no spectrum to continue
-    """
-
-    answers: tuple[Estimate, ...] = ()
-    finer: float = nan
-
-
-NONE_KNOWN = Estimates()
-
-
-def estimates(scene: Scene) -> Estimates:
-    """Answers to a scene that slides steadily or rests; none where no cheap model simulates it."""
+def estimates(scene: Scene) -> tuple[Estimate, ...]:
+    """Answers to a scene that slides steadily or rests, friction first; none where no cheap model simulates it."""
     if not isinstance(scene.motion, Indent | Slide):
-        return NONE_KNOWN
+        return ()
     try:
         with numeric_guard():
             if FrictionLaw().refusals(scene):
-                return NONE_KNOWN
+                return ()
             return _of_rough(scene) if scene.roughness and not scene.roughness.flat else _of_smooth(scene)
     except (SolveError, ArithmeticError):
-        return NONE_KNOWN
+        return ()
 
 
 def _of_smooth(scene):
@@ -80,7 +61,7 @@ def _of_smooth(scene):
     found = {_pressed(scene): ("load" if _pressed(scene) == "force" else "depth")}
     found |= {"friction": "friction_coefficient"} if fine.friction_coefficient else {}
     ends = {name: (getattr(fine, of), abs(getattr(fine, of) - getattr(coarse, of))) for name, of in found.items()}
-    return Estimates(tuple(_estimate(name, *ends[name], SMOOTH) for name in sorted(ends, reverse=True)))
+    return tuple(_estimate(name, *ends[name], SMOOTH) for name in sorted(ends, reverse=True))
 
 
 def _of_rough(scene):
@@ -94,7 +75,7 @@ def _of_rough(scene):
         answers.append(Estimate("friction", "", value, *ends, way, least_friction(scene)))
     if not isinstance(scene.indenter, Plane):
         answers.append(_depth_or_force(scene, x))
-    return Estimates(tuple(answers), _of_finer(scene) if value else nan)
+    return tuple(answers)
 
 
 def _depth_or_force(scene, x):
@@ -109,15 +90,6 @@ def _depth_or_force(scene, x):
         for each in (depth + gap - half, depth + gap, depth + gap + half)
     )
     return Estimate(name, "N", value, low, high, GAP)
-
-
-def _of_finer(scene):
-    """Relative change of friction by waves down to half the shortest, in the same spectrum."""
-    rough = scene.roughness
-    if not isinstance(rough, SelfAffine):
-        return nan
-    own, other = (LawParts.of(each).friction_coefficient for each in (scene, without(scene, rough.shortest / 2)))
-    return other / own - 1
 
 
 def _pressed(scene):

@@ -1,8 +1,6 @@
 """`FrictionLaw`: friction of a rough body in three dimensions, from its spectrum and the trust map."""
 
-import csv
 from dataclasses import replace
-from functools import cache
 from math import exp, log, nan, pi
 from pathlib import Path
 from time import process_time
@@ -17,7 +15,7 @@ from scene.quantities import CLOSED
 from scene.signatures import readable
 from scene.terms import terms_of
 
-from ..models.law.parts import MOST, LawParts
+from ..models.law.parts import MOST, LawParts, rows_of
 from ..models.law.persson import OF_LAW
 from ..models.law.smooth import SPACE, SmoothContact
 from .measured import OffTheMap, Place, as_judged
@@ -156,15 +154,10 @@ class Tested:
         return f"{self.contacts} contacts with p/p_rms of {self.least:g} to {self.most:g} were that far off"
 
 
-@cache
-def _tested():
-    with TESTED.open(encoding="utf-8", newline="") as file:
-        return tuple(Tested(**row) for row in csv.DictReader(file))
-
-
 def known_errors(scene: Scene, x: float, quantity: str = "friction") -> Tested:
     """Errors of tested contacts of this kind of body; x : p/p_rms, above MOST of which all waves touch."""
     body, x = "plane" if isinstance(scene.indenter, Plane) else "body", min(x, MOST)
     none = Tested(quantity, body, x, x, 0, UNTESTED[quantity])
-    found = (each for each in _tested() if (each.quantity, each.body) == (quantity, body))
+    every = (Tested(**row) for row in rows_of(TESTED))
+    found = (each for each in every if (each.quantity, each.body) == (quantity, body))
     return next((each for each in found if each.least <= x < each.most), none)

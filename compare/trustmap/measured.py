@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import asdict, astuple, dataclass, replace
 from functools import cache, cached_property
-from math import exp, inf
+from math import exp
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from scene.surfaces.isotropic import Isotropic
 
 from ..models.law.parts import LawParts
 from . import table
-from .groups import MOST_STIFFENING, DimensionlessGroups, SmoothReference
+from .groups import DimensionlessGroups, SmoothReference
 from .model import NAMES
 
 # Tolerated extrapolation, as a fraction of the measured range.
@@ -76,7 +76,8 @@ class Place:
     @property
     def named(self) -> dict[str, float]:
         """Groups as numbers, by name."""
-        return numbers(asdict(self.groups)) | {"stiffening": self.stiffening}
+        plain = {name: value if name in PLAIN else exp(value) for name, value in asdict(self.groups).items()}
+        return plain | {"stiffening": self.stiffening}
 
     @cached_property
     def values(self) -> np.ndarray:
@@ -153,13 +154,6 @@ def beyond_measured(place: np.ndarray) -> dict[str, str]:
         if not start <= value <= end:
             found[name] = f"{SYMBOLS.get(name, name)} = {value:.3g}, where {start:.3g} to {end:.3g} was measured"
     return found
-
-
-def numbers(groups: Mapping[str, float]) -> dict[str, float]:
-    """Groups as plain numbers, where most are logarithms; stiffening beyond the scale is infinite."""
-    found = {name: value if name in PLAIN else exp(value) for name, value in groups.items()}
-    endless = found["stiffening"] > MOST_STIFFENING * (1 - SLACK)
-    return found | ({"stiffening": inf} if endless else {})
 
 
 def placed(groups: Mapping[str, float]) -> str:

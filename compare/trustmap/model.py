@@ -1,8 +1,7 @@
 """Model of a quantity: its ratio of 1D over 3D from groups, learned from scenes that both have solved."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, fields
-from itertools import product
 from math import log
 from typing import NamedTuple, TypeAlias
 
@@ -20,24 +19,6 @@ LAW = "law"
 RATIOS = (*QUANTITIES, LAW)
 
 
-@dataclass(frozen=True)
-class Ratio:
-    """Ratio of the mean over profiles in 1D and the mean over surfaces in 3D.
-
-    logarithm : of the ratio; nan where one of the means is not above zero
-    line_error : relative standard error of the mean in 1D
-    scatter : relative standard deviation of a single surface in 3D; nan with fewer than two
-    surfaces : in 3D that would know their mean as well, if all of them were on all points
-    grid : relative change of the mean in 3D from half the points to all
-    """
-
-    logarithm: float
-    line_error: float
-    scatter: float
-    surfaces: float
-    grid: float
-
-
 def asked_of(scene: Scene) -> tuple[str, ...]:
     """Ratios that a scene has: of friction if it slides, of depth under a load, of force at a depth."""
     free = "depth" if scene.motion.pressed_by == "load" else "force"
@@ -46,39 +27,26 @@ def asked_of(scene: Scene) -> tuple[str, ...]:
 
 # Height over depth from which a depth is lost in a roughness that touches in part.
 LOST = 0.3
-Columns = Mapping[str, np.ndarray]
-Condition = Callable[[Columns], np.ndarray]
-
-SHAPES: dict[str, Condition] = {
-    "cone": lambda g: g["shape"] == 1,
-    "n from 1 to 2": lambda g: (g["shape"] < 1) & (g["shape"] > 0.5),
-    "sphere": lambda g: g["shape"] == 0.5,
-    "blunt, n > 2": lambda g: g["shape"] < 0.5,
-}
-# Slow and fast: G''(v/a) against a tenth of G_0; rest is as slow as can be.
-FLOWS: dict[str, Condition] = {
-    "slow": lambda g: g["lost_contact"] < log(0.1),
-    "fast": lambda g: g["lost_contact"] >= log(0.1),
-}
-# Flat: the smooth contact presses harder than the waves resist.
-ROUGHNESS: dict[str, Condition] = {
-    "pressed flat": lambda g: g["sliding_pressure"] >= 0,
-    "touching in part": lambda g: (g["sliding_pressure"] < 0) & (g["sliding_height"] < log(LOST)),
-    "as high as the body is deep": lambda g: (g["sliding_pressure"] < 0) & (g["sliding_height"] >= log(LOST)),
-}
-PRESCRIBED: dict[str, Condition] = {
-    "load": lambda g: g["prescribed"] == 0,
-    "depth": lambda g: g["prescribed"] == 1,
-}
-WIDENED = {"speed": FLOWS, "roughness": ROUGHNESS, "prescribed": PRESCRIBED, "body": SHAPES}
+# Numbers of the regions of each kind in which intervals widen, see `regions_of`.
+REGIONS = 2, 3, 2, 4
 
 
-def parts(
-    kinds: Mapping[str, Mapping[str, Condition]], groups: Columns
-) -> Iterator[tuple[tuple[str, ...], np.ndarray]]:
-    """Names of each combination of regions, one of each kind, and the mask of its scenes."""
-    for named in product(*(regions.items() for regions in kinds.values())):
-        yield tuple(name for name, _ in named), np.all([condition(groups) for _, condition in named], axis=0)
+def regions_of(groups: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """Regions (M,) that scenes are in, a number for each kind, from their groups by name.
+
+    speed : 0 slow, 1 fast, by G''(v/a) against a tenth of G_0; rest is as slow as can be
+    roughness : 0 pressed flat, where the smooth contact presses harder than the waves resist; 1 touching in part;
+        2 touching in part and as high as the body is deep
+    prescribed : 0 load, 1 depth
+    body : 0 cone, 1 n from 1 to 2, 2 sphere, 3 blunt, n > 2
+    """
+    shape, high = groups["shape"], groups["sliding_height"] >= log(LOST)
+    return {
+        "speed": (groups["lost_contact"] >= log(0.1)).astype(int),
+        "roughness": np.where(groups["sliding_pressure"] >= 0, 0, 1 + high),
+        "prescribed": (groups["prescribed"] == 1).astype(int),
+        "body": (shape < 1).astype(int) + (shape <= 0.5) + (shape < 0.5),
+    }
 
 
 NAMES = tuple(each.name for each in fields(DimensionlessGroups))
@@ -108,20 +76,17 @@ class Predicted(NamedTuple):
     error: np.ndarray
     scatter: np.ndarray
 
-    @property
-    def surface_known(self) -> np.ndarray:
-        """Scenes (M,) for which a single surface says something: its values are above zero."""
-        return self.scatter < MOST_SCATTER
-
 
 @dataclass(frozen=True)
 class Measurements:
-    """Ratios of a quantity as measured on scenes.
+    """Ratios of a quantity, mean over profiles in 1D over mean over surfaces in 3D, as measured on scenes.
 
     groups : of each scene (N, D), in the order of NAMES
-    logarithm : of the ratio (N,); nan where it has none
-    line_error, scatter, grid : relative (N,), see `ratio.Ratio`
-    surfaces : (N,)
+    logarithm : of the ratio (N,); nan where one of the means is not above zero
+    line_error : relative standard error of the mean in 1D (N,)
+    scatter : relative standard deviation of a single surface in 3D (N,); nan with fewer than two
+    surfaces : in 3D that would know their mean as well, if all of them were on all points (N,)
+    grid : relative change of the mean in 3D from half the points to all (N,)
     """
 
     groups: np.ndarray
@@ -149,7 +114,7 @@ class Fitted:
     taken : numbers of the scenes that the process goes through, among all that were measured
     scatter : scales of the logarithm of the scatter of single surfaces
     errors, widening : standard errors of the process (K,), and factors on them under which 95 % hold
-    parts : further factors (P,), at least 1, one for each of `regions.WIDENED`
+    parts : further factors (P,), at least 1, one for each combination of REGIONS
     """
 
     process: Scales
@@ -162,10 +127,7 @@ class Fitted:
     def widened(self, error: np.ndarray, groups: np.ndarray) -> np.ndarray:
         """Standard errors of the process (M,) at groups (M, D), as wide as those left out ask for."""
         error = error * np.interp(np.log(error), np.log(self.errors), self.widening)
-        return error * np.prod(
-            [np.where(here, factor, 1.0) for here, factor in zip(regions_of(groups), self.parts, strict=True)],
-            axis=0,
-        )
+        return error * self.parts[region_of(groups)]
 
 
 @dataclass(frozen=True, eq=False)
@@ -194,12 +156,8 @@ class Model:
         error = self.fitted.widened(np.sqrt(variance), groups) * unit
         if self.quantity == "depth":
             error = np.where(lost(groups), np.maximum(error, LEAST_LOST), error)
-        return Predicted(estimate(self.quantity, groups) + rest * unit, error, self.scatter_at(groups))
-
-    def scatter_at(self, groups: np.ndarray) -> np.ndarray:
-        """Relative scatter of single surfaces (M,) at groups (M, D)."""
-        logarithm, spread = self.scatter.predicted(groups)
-        return np.exp(logarithm + spread / 2)
+        scatter, spread = self.scatter.predicted(groups)
+        return Predicted(estimate(self.quantity, groups) + rest * unit, error, np.exp(scatter + spread / 2))
 
 
 def lost(groups: np.ndarray) -> np.ndarray:
@@ -240,6 +198,6 @@ def learned(quantity, measured, scatter) -> Points:
     return measured.groups, beyond / unit, variance / unit**2
 
 
-def regions_of(groups):
-    """Mask of scenes (M,) of each of the regions in which intervals widen."""
-    return [here for _, here in parts(WIDENED, dict(zip(NAMES, groups.T, strict=True)))]
+def region_of(groups: np.ndarray) -> np.ndarray:
+    """Number (M,) of the combination of regions that scenes of groups (M, D) are in."""
+    return np.ravel_multi_index([*regions_of(dict(zip(NAMES, groups.T, strict=True))).values()], REGIONS)

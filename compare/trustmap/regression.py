@@ -46,10 +46,6 @@ class Process:
     variances: np.ndarray
     scales: Scales
 
-    def taken(self, chosen: np.ndarray) -> "Process":
-        """Process of the same scales through some of the points."""
-        return Process(self.inputs[chosen], self.values[chosen], self.variances[chosen], self.scales)
-
     def mean(self, inputs: np.ndarray) -> np.ndarray:
         """Means (M,) at new inputs (M, D)."""
         return self._common(inputs) @ self.weights + self.values.mean()
@@ -58,18 +54,16 @@ class Process:
         """Means (M,) and variances (M,) at new inputs (M, D), without the noise of a measurement."""
         left = solve_triangular(self.factor, self._common(inputs).T, lower=True, check_finite=False)
         scales = self.scales
-        own = scales.amplitude**2 + scales.slope**2 * np.sum(self._standard(inputs) ** 2, axis=1) + 1
+        own = scales.amplitude**2 + scales.slope**2 * np.sum(scales.standard(inputs) ** 2, axis=1) + 1
         return self.mean(inputs), own - np.sum(left**2, axis=0) + scales.noise**2
 
-    def _standard(self, inputs):
-        return self.scales.standard(inputs)
-
     def _common(self, inputs):
-        return covariance(self._standard(inputs), self._standard(self.inputs), self.scales)
+        scales = self.scales
+        return covariance(scales.standard(inputs), scales.standard(self.inputs), scales)
 
     @cached_property
     def factor(self):
-        standard = self._standard(self.inputs)
+        standard = self.scales.standard(self.inputs)
         matrix = covariance(standard, standard, self.scales)
         matrix[np.diag_indices(self.values.size)] += self.variances + self.scales.noise**2
         # Transposed, it is the same in the order of LAPACK, which then copies nothing.

@@ -11,20 +11,17 @@ from pathlib import Path
 
 import numpy as np
 
-from .model import NAMES, RATIOS, Fitted, Measurements, Model, Ratio
+from .model import NAMES, Fitted, Measurements, Model
 from .regression import Scales
 
 HERE = Path(__file__).parent
 LEARNED, HELD_OUT = HERE / "learned.csv.gz", HERE / "held-out.csv.gz"
-NUMBERS = tuple(each.name for each in fields(Ratio))
+NUMBERS = tuple(each.name for each in fields(Measurements))[1:]
 
 
 def column(quantity: str, number: str) -> str:
     """Name of the column of a number of a ratio."""
     return f"{quantity}_{number}"
-
-
-COLUMNS = ("point", *NAMES, *(column(quantity, number) for quantity in RATIOS for number in NUMBERS))
 
 
 @cache

@@ -13,7 +13,7 @@ from scene import Doubt, Indent, Profile, Scene, Slide, SolveError, Spectrum, do
 from scene.doubt import beyond_linear, beyond_table
 
 from ..solving.words import capital, interval, off, share
-from .estimate import NONE_KNOWN, Estimates, estimates
+from .estimate import Estimate, estimates
 from .groups import LINE, SPACE, SmoothReference
 from .measured import OffTheMap, Place, as_judged, placed, unmeasured
 from .model import LAW, MOST_SCATTER, NORMAL, RATIOS, asked_of, lost
@@ -67,14 +67,9 @@ class Correction:
     reason: str
 
     @property
-    def factor(self) -> float:
-        """Factor that the answer is multiplied by: 1 / ratio."""
-        return 1 / self.ratio
-
-    @property
     def times(self) -> str:
-        """Factor with its interval of 95 % in words."""
-        return interval(self.factor, 1 / self.high, 1 / self.low, 3)
+        """Factor that the answer is multiplied by, 1 / ratio, with its interval of 95 % in words."""
+        return interval(1 / self.ratio, 1 / self.high, 1 / self.low, 3)
 
     @property
     def half(self) -> float:
@@ -118,7 +113,7 @@ class Advice:
     groups: Mapping[str, float]
     doubts: tuple[Doubt, ...] = ()
     notes: tuple[str, ...] = ()
-    estimates: Estimates = NONE_KNOWN
+    estimates: tuple[Estimate, ...] = ()
 
     @property
     def corrections(self) -> dict[str, Correction]:
@@ -151,11 +146,7 @@ class Advice:
 
     def __str__(self) -> str:
         lines = [*(f"doubtful: {each}" for each in self.doubts), *(f"note: {each}" for each in self.notes)]
-        lines += map(str, self.estimates.answers)
-        if isfinite(finer := self.estimates.finer):
-            lines.append(
-                f"waves half as short as the shortest would add {share(finer)} of friction, by the law alone"
-            )
+        lines += map(str, self.estimates)
         lines += [self.choice] if self.choice else []
         lines += [f"{SUBJECTS[name]}: {worth}" for name, worth in self.corrections.items()]
         if self.groups:
@@ -166,11 +157,9 @@ class Advice:
         """A row for each quantity and model."""
         from pandas import DataFrame
 
-        return DataFrame(self._rows, columns=HEADINGS)
-
-    @property
-    def _rows(self):
-        return [("friction" if name == LAW else name, *astuple(worth)) for name, worth in self.corrections.items()]
+        named = self.corrections.items()
+        rows = [("friction" if name == LAW else name, *astuple(worth)) for name, worth in named]
+        return DataFrame(rows, columns=HEADINGS)
 
 
 def trust(scene: Scene) -> Advice:

@@ -1,7 +1,7 @@
 """One scene solved in 1D and 3D on as many surfaces as its scatter asks for, as a task, and the ratio of both."""
 
 from dataclasses import asdict, dataclass, replace
-from math import ceil, hypot, inf, log, nan, sqrt
+from math import ceil, hypot, inf, log, nan, pi, sqrt
 from typing import NamedTuple
 
 import numpy as np
@@ -10,7 +10,7 @@ from bem3d import BEM
 from compare.models.law.bands import Bands
 from compare.solving.task import SCENES, Outcome, SceneTask, Task, draws_of
 from compare.statistics.jackknife import off_the_ratio
-from compare.trustmap.model import LAW, Ratio
+from compare.trustmap.model import LAW
 from mdr1d import MDR
 from scene import Scene, SelfAffine
 
@@ -20,6 +20,7 @@ LEAST_POINTS = 128
 DEARER = 4.0  # a surface on all points than on half of them
 # Half the points stand in for all where they change a surface by less than this, relative.
 ALIKE = 0.2
+STEEP = 0.95  # share of the mean square slope of a map that a grid has to resolve
 
 
 @dataclass(frozen=True)
@@ -39,6 +40,23 @@ class Grids:
 
 # Many waves ask for great grids, and scatter little.
 USUAL, GREAT = Grids(), Grids((512, 640, 768, 960, 1280, 1536, 1920, 2560, 3072), 8.0, 2, 4)
+
+
+class Ratio(NamedTuple):
+    """Ratio of the mean over profiles in 1D and the mean over surfaces in 3D.
+
+    logarithm : of the ratio; nan where one of the means is not above zero
+    line_error : relative standard error of the mean in 1D
+    scatter : relative standard deviation of a single surface in 3D; nan with fewer than two
+    surfaces : in 3D that would know their mean as well, if all of them were on all points
+    grid : relative change of the mean in 3D from half the points to all
+    """
+
+    logarithm: float
+    line_error: float
+    scatter: float
+    surfaces: float
+    grid: float
 
 
 @dataclass(frozen=True)
@@ -167,7 +185,9 @@ def finest_wave(rough):
     """Shortest wave that a grid has to resolve [m]: of a map the one up to which nearly all of its slope is."""
     if isinstance(rough, SelfAffine) and rough.shortest is not None:
         return rough.shortest
-    return Bands.of(rough).finest
+    bands = Bands.of(rough)
+    slopes = np.cumsum(bands.power * np.square(bands.q))
+    return 2 * pi / float(bands.q[np.searchsorted(slopes, STEEP * slopes[-1])])
 
 
 def ratio_of(outcome, quantity, law=nan):

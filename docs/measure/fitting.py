@@ -10,11 +10,12 @@ from scipy.optimize import minimize
 from compare.trustmap.model import (
     LEAST_VARIANCE,
     NORMAL,
+    REGIONS,
     Fitted,
     Model,
     learned,
     lost,
-    regions_of,
+    region_of,
     scattered,
     usable,
 )
@@ -49,7 +50,12 @@ def fit(quantity, measured):
     everything = fitted(*learned(quantity, measured.taken(enough), scatter))
     taken = most_informative(everything, MOST_TAKEN)
     widened = _widened(quantity, everything, taken, scatter)
-    return Model(quantity, everything.taken(taken), scatter, replace(widened, taken=enough[taken]))
+    return Model(quantity, through(everything, taken), scatter, replace(widened, taken=enough[taken]))
+
+
+def through(process, chosen):
+    """Process of the same scales through some of the points."""
+    return Process(process.inputs[chosen], process.values[chosen], process.variances[chosen], process.scales)
 
 
 def _widened(quantity, everything, taken, scatter):
@@ -61,17 +67,17 @@ def _widened(quantity, everything, taken, scatter):
     alike = np.array_split(counted[np.argsort(own[counted])], max(1, counted.size // ALIKE))
     errors = np.array([np.median(own[few]) for few in alike])
     factors = np.array([max(LEAST_FACTOR, np.quantile(needed[few] / own[few], HELD)) for few in alike])
-    parts = np.ones(len(regions_of(inputs)))
+    parts, here = np.ones(np.prod(REGIONS)), region_of(inputs)[counted]
     found = Fitted(everything.scales, taken, scatter.scales, errors, factors, parts)
     needed = needed / found.widened(own, inputs)
-    regions = [needed[counted[here[counted]]] for here in regions_of(inputs)]
+    regions = [needed[counted[here == region]] for region in range(parts.size)]
     widest = [max(1.0, np.quantile(few, HELD_IN_PART)) if few.size >= FEWEST else 1.0 for few in regions]
     return replace(found, parts=np.array(widest))
 
 
 def _left_out(everything, taken):
     """Errors (N,) of each value predicted from all others that are taken, and their standard errors, noiseless."""
-    process = everything.taken(taken)
+    process = through(everything, taken)
     error, variance = np.empty(everything.values.size), np.empty(everything.values.size)
     error[taken], variance[taken] = left_out(process)
     variance[taken] -= process.variances

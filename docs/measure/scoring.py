@@ -9,14 +9,11 @@ from tables import of_count
 
 from compare.trustmap.measured import beyond_measured, limits
 from compare.trustmap.model import (
-    FLOWS,
     LAW,
+    MOST_SCATTER,
     NAMES,
     NORMAL,
-    ROUGHNESS,
-    SHAPES,
-    WIDENED,
-    parts,
+    regions_of,
 )
 from compare.trustmap.table import column, measurements
 from compare.trustmap.verdict import SOLVE, USE, advice_on
@@ -29,6 +26,21 @@ def between(logarithms, low, high):
     return (logarithms > np.log(low)) & (logarithms <= np.log(high))
 
 
+def named(kind, *names):
+    """Conditions on groups, by the names of the regions of a kind in which intervals widen."""
+    return {name: lambda g, k=k: regions_of(g)[kind] == k for k, name in enumerate(names)}
+
+
+def parts(kinds, groups):
+    """Names of each combination of regions, one of each kind, and the mask of its scenes."""
+    for combined in product(*(regions.items() for regions in kinds.values())):
+        yield tuple(name for name, _ in combined), np.all([within(groups) for _, within in combined], axis=0)
+
+
+SHAPES = named("body", "cone", "n from 1 to 2", "sphere", "blunt, n > 2")
+FLOWS = named("speed", "slow", "fast")
+ROUGHNESS = named("roughness", "pressed flat", "touching in part", "as high as the body is deep")
+PRESCRIBED = named("prescribed", "load", "depth")
 # Regions of the map, where errors and advice are stated, each a condition on groups.
 SPEEDS = {
     "at rest": lambda g: ~g["slides"],
@@ -50,7 +62,8 @@ SURFACES = {
     "as measured": lambda g: (g["side"] > 0) | (g["gaussian"] > 0),
 }
 REGIONS = {"body": SHAPES, "speed": SPEEDS, "roughness": ROUGHNESS, "solid": SOLIDS, "waves": WAVES}
-COVERED = WIDENED | {"speed": SPEEDS}  # what coverage is stated by
+# What coverage is stated by.
+COVERED = {"speed": SPEEDS, "roughness": ROUGHNESS, "prescribed": PRESCRIBED, "body": SHAPES}
 # Scenes of a regime below which its advice is left out.
 FEWEST = 5
 # Scenes of a region from which on it fails if its coverage is below what was promised, with 95 % of confidence.
@@ -87,7 +100,7 @@ def score(measured, predicted, slides):
         usable=advice != SOLVE,
         off=np.expm1(apart),
         held=np.abs(apart) < NORMAL * np.sqrt(error**2 + measured.variance(predicted.scatter)),
-        surface_held=np.where(predicted.surface_known, inside, np.nan),
+        surface_held=np.where(predicted.scatter < MOST_SCATTER, inside, np.nan),
     )
 
 

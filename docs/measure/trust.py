@@ -15,7 +15,7 @@ from pathlib import Path
 
 import design
 import numpy as np
-from contact import GREAT, USUAL, Contact, ratio_of
+from contact import GREAT, USUAL, Contact, Ratio, ratio_of
 from fitting import as_json, fit
 from pandas import DataFrame
 from scoring import (
@@ -33,7 +33,7 @@ from tables import fill, solved, stored, table
 from compare.models.law.parts import LawParts
 from compare.trustmap import table as ratios
 from compare.trustmap.groups import DimensionlessGroups, SmoothReference
-from compare.trustmap.model import LAW, RATIOS, Ratio, asked_of
+from compare.trustmap.model import LAW, RATIOS, asked_of
 
 PAGE = Path(__file__).parents[1] / "results" / "trust.md"
 # Standard error that is wanted of a scene, and most surfaces, by table; and where waves are many.
@@ -69,7 +69,7 @@ def row(point, scene, outcome):
 
 def written(rows):
     """Table as compressed CSV, to five digits, far below the noise of a ratio."""
-    text = rows.to_csv(columns=ratios.COLUMNS, index=False, float_format="%.5g", lineterminator="\n")
+    text = rows.to_csv(index=False, float_format="%.5g", lineterminator="\n")
     return gzip.compress(text.encode(), mtime=0)
 
 

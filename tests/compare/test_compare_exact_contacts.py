@@ -95,7 +95,7 @@ def test_a_held_contact_relaxes_as_the_modulus_and_a_held_load_creeps_as_the_com
     n, kc = shape.exponent, shape.mdr_coefficient
     b = 2 * n / (n + 1) * kc ** (-1 / n)
     later = np.array([1e-3, 0.1, 2.0, 100.0])
-    force = indentation.loading_force(shape, CHAIN, [0, 1e-9, 100], [0, 0.1, 0.1], later)
+    force, _ = indentation.force_of_depth(shape, CHAIN, [0, 1e-9, 100], [0, 0.1, 0.1], later)
     modulus = 2 / 0.6 * CHAIN.relaxation_modulus(later)
     assert force == pytest.approx(b * modulus * 0.1 ** ((n + 1) / n), rel=1e-6)
     depth = indentation.loading_depth(shape, CHAIN, [0, 1e-9, 100], [0, 7.0, 7.0], later)
@@ -112,7 +112,6 @@ SPHERE = Sphere(radius=1.0)
         (line_contact.sliding, (1.0, 2.0, 1.0, 1.0, 1.0, 1.0), "glassy_modulus"),
         (waves.wave_mean_gap, (1.1,), "0 to 1"),
         (full_contact.friction, (np.zeros((8, 8)), (1.0, 0.0), RUBBER, 1.0), "sides"),
-        (indentation.loading_force, (SPHERE, SOLID, *UP_AND_DOWN, 1.0), "force_of_depth"),
         (indentation.force_of_depth, (SPHERE, SOLID, [0, 1, 2, 3], [0, 2, 1, 2], 1.0), "one top"),
         (indentation.loading_depth, (SPHERE, SOLID, [0, 1, 1.01], [0, 1, 0], [0.9, 1.0, 1.01]), "depth falls"),
         (foundation.sliding_forces, (PowerLaw(coefficient=1.0, exponent=3.0), RUBBER, 1.0, 1.0), "closed form"),
@@ -125,6 +124,6 @@ def test_what_has_no_closed_form_is_named(form, given, named):
 
 def test_dashpot_of_a_kelvin_body_adds_its_rate():
     """F = B E* (d^m + tau d(d^m)/dt) while the contact grows."""
-    force = indentation.loading_force(Sphere(radius=1.0), RUBBER, [0, 2.0], [0, 0.2], [0.5, 2.0])
+    force, _ = indentation.force_of_depth(Sphere(radius=1.0), RUBBER, [0, 2.0], [0, 0.2], [0.5, 2.0])
     d = np.array([0.05, 0.2])
     assert force == pytest.approx(4 / 3 * (d**1.5 + 0.3 * 1.5 * np.sqrt(d) * 0.1), rel=1e-12)

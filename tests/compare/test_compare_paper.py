@@ -7,6 +7,7 @@ import pytest
 
 from compare.solving.curve import of_model
 from compare.solving.task import Outcome, Row
+from compare.statistics.finding import Finding
 from compare.statistics.intervals import Estimated
 from compare.studies.paper import law, parameter_studies, parameters
 from compare.studies.paper.parameter_studies import contacts, dataset, slow_friction, tasks
@@ -168,7 +169,7 @@ def test_without_what_the_smooth_body_has_friction_shifts_as_the_loss_does(monke
 
 def test_an_interval_of_profiles_decides_a_claim_and_none_leaves_it_open():
     for value, error, verdict in ((1.5, 0.01, "holds"), (1.3, 0.01, "fails"), (1.5, np.nan, "undecided")):
-        found = law.exact(law.ALPHA, Estimated(value, error, 19), 20)
+        found = Finding.of(law.ALPHA, Estimated(value, error, 19), draws=20)
         assert (found.verdict, found.grid) == (verdict, 0.0)
 
 

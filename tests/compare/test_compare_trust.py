@@ -24,7 +24,7 @@ from compare.solving.task import Outcome, Row
 from compare.trustmap import table, verdict
 from compare.trustmap.friction_law import FrictionLaw
 from compare.trustmap.groups import FullContact, SmoothReference
-from compare.trustmap.model import LAW, NAMES, NORMAL, RATIOS, ROUGHNESS, Measurements, Predicted, asked_of, lost
+from compare.trustmap.model import LAW, NAMES, NORMAL, RATIOS, Measurements, Predicted, asked_of, lost
 from compare.trustmap.regression import Process, Scales
 from compare.trustmap.verdict import trust
 from mdr1d import MDR
@@ -318,7 +318,8 @@ def test_the_points_that_tell_most_know_the_rest_better_than_any_others():
     others = np.setdiff1d(np.arange(300), chosen)
 
     def spread(points):
-        return whole.taken(points).predicted(whole.inputs[others])[1].mean()
+        some = Process(whole.inputs[points], whole.values[points], whole.variances[points], whole.scales)
+        return some.predicted(whole.inputs[others])[1].mean()
 
     assert np.unique(chosen).size == 40
     drawn = [np.random.default_rng(seed).permutation(300)[:40] for seed in range(5)]
@@ -465,13 +466,13 @@ def test_no_region_holds_fewer_ratios_than_promised(scores):
 
 def test_an_interval_that_held_too_few_says_how_many_it_held(scores):
     score = scores["force"]
-    used = scoring.used(score[ROUGHNESS[HIGH](score)])
+    used = scoring.used(score[scoring.ROUGHNESS[HIGH](score)])
     rows, measured = table.measurements(table.read(table.HELD_OUT), "force")
     measured, predicted = measured.taken(used.index), table.model("force").predicted(measured.groups[used.index])
     wider = scoring.score(measured, predicted._replace(error=1.5 * predicted.error), used["slides"].to_numpy())
     assert f"held {used['held'].sum()} of {len(used)} scenes" in verdict.NARROW
     assert f"again {wider['held'].sum()}:" in verdict.NARROW
-    high, flat = (rows[ROUGHNESS[name](score) & score["usable"]][0] for name in (HIGH, "pressed flat"))
+    high, flat = (rows[scoring.ROUGHNESS[name](score) & score["usable"]][0] for name in (HIGH, "pressed flat"))
     points = table.read(table.HELD_OUT)["point"]
     assert trust(design.scene(int(points[high]))).force.reason.endswith(verdict.NARROW)
     assert verdict.NARROW not in trust(design.scene(int(points[flat]))).force.reason

@@ -15,18 +15,6 @@ MANY = 40.0  # relaxation times after which a mode has forgotten: exp(-40)
 BEND = 4  # depth ~ v^4 along a quadrature: d^m starts smoothly in v
 
 
-def loading_force(shape, elastomer, times, depths, at):
-    """F [N] at some times [s] of a history of depths [m] that never falls: B int_0^t E*(t - s) d(d^m).
-
-    shape : a Sphere, Cone or PowerLaw; elastomer : any solid of a scene
-    Raises ValueError where depths fall or `at` lies outside the history.
-    """
-    times, depths = _history(times, depths, "depth")
-    if np.any(np.diff(depths) < 0):
-        raise ValueError("depths fall: the contact shrinks, see force_of_depth")
-    return np.array([_force(shape, elastomer, times, depths, t, t) for t in _within(times, at)])
-
-
 def loading_depth(shape, elastomer, times, forces, at):
     """Depth d [m] at some times [s] of a history of forces [N]: d^m = (1/B) int_0^t J(t - s) dF.
 
@@ -44,8 +32,11 @@ def loading_depth(shape, elastomer, times, forces, at):
 def force_of_depth(shape, elastomer, times, depths, at):
     """F [N] and contact radius a [m] at some times [s] of depths [m] that rise to one top and fall from it.
 
-    On the way down int_{t_1}^t E*(t - s) d'(s) ds = 0 gives t_1, and a(t) = a(t_1), F = B int_0^{t_1} E*(t - s)
-    d(d^m). Both are zero once nothing is left in touch. Raises ValueError where depths rise again.
+    On the way up F = B int_0^t E*(t - s) d(d^m). On the way down int_{t_1}^t E*(t - s) d'(s) ds = 0 gives t_1, and
+    a(t) = a(t_1), F = B int_0^{t_1} E*(t - s) d(d^m). Both are zero once nothing is left in touch.
+
+    shape : a Sphere, Cone or PowerLaw; elastomer : any solid of a scene
+    Raises ValueError where depths rise again or `at` lies outside the history.
     """
     times, depths = _history(times, depths, "depth")
     top = int(np.argmax(depths))

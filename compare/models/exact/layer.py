@@ -96,29 +96,6 @@ def long_waves(layer: Layer, modulus, poisson_ratio) -> float:
     return layer.thickness / modulus * (1 - 2 * poisson_ratio) / (1 - poisson_ratio) ** 2
 
 
-def on_springs(shape: Axisymmetric, layer: Layer, modulus, poisson_ratio, depth) -> Contact:
-    """The limit of a thin layer that yields to an even pressure: every point by itself, p = (d - z)/`long_waves`.
-
-    d = c a^n, F = pi n/(n+2) a^2 d / long_waves, dF/dd = pi a^2 / long_waves.
-    """
-    softness, n = long_waves(layer, modulus, poisson_ratio), shape.exponent
-    radius = (depth / shape.coefficient) ** (1 / n)
-    area = pi * radius**2
-    return Contact(radius, depth, n / (n + 2) * area * depth / softness, area / softness)
-
-
-def on_film(shape: Axisymmetric, layer: Layer, modulus, depth) -> Contact:
-    """The limit of a thin bonded layer at nu = 1/2: squeezed out sideways, d - z = -(4 h^3/(3 E*)) div grad p.
-
-    p and its slope vanish at the edge: 2 c a^n = (n+2) d, F = K c a^(n+4) pi n / [4 (n+2) (n+4)] with
-    K = 3 E*/(4 h^3). Of a sphere a = 2 sqrt(R d), p ~ (a^2 - r^2)^2 and F = 2 pi G R^2 (d/h)^3.
-    """
-    n, c = shape.exponent, shape.coefficient
-    radius = ((n + 2) / 2 * depth / c) ** (1 / n)
-    load = 3 * modulus / (4 * layer.thickness**3) * c * radius ** (n + 4) * pi * n / (4 * (n + 2) * (n + 4))
-    return Contact(radius, depth, load, (n + 4) / n * load / depth)
-
-
 def _where(shape, layer, modulus, poisson_ratio, **wanted):
     """Radius that has a depth or a load: both grow with it."""
     ((name, value),) = wanted.items()

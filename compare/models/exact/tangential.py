@@ -38,11 +38,6 @@ def force(displacement, exponent=2.0):
     return 1 - (1 - checked_fraction(displacement)) ** ((exponent + 1) / exponent)
 
 
-def displacement(force, exponent=2.0):
-    """u/u_max by F_x/(mu F_N): the inverse of `force`."""
-    return 1 - (1 - checked_fraction(force)) ** (exponent / (exponent + 1))
-
-
 def no_slip_stiffness(modulus, poisson_ratio, radius):
     """dF_x/du = 8 G a / (2 - nu) [N/m] of a disc that sticks everywhere: exact at any nu.
 

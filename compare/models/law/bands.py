@@ -20,7 +20,6 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(_DIRECTIONS)
 _COSINE, _SHARES = np.cos(pi / 4 * (1 + _NODES)), _WEIGHTS / 2
 FASTER = 4.0  # times the speed of waves: spots of contact are smaller than waves, and are passed that much faster
 ROUNDING = 1e-16  # of the share of a wave that a disc leaves
-STEEP = 0.95  # share of the mean square slope of a map that a grid has to resolve
 
 
 def directed(rough: Isotropic | Topography | Profile) -> float:
@@ -89,12 +88,6 @@ class Bands:
         height, square = (np.histogram(q, edges, weights=each)[0] for each in (power, power * np.square(q)))
         some = height > 0
         return cls(np.sqrt(square[some] / height[some]), height[some], waves.unit)
-
-    @property
-    def finest(self) -> float:
-        """Wave that a grid has to resolve [m]: the shortest, or the one up to which nearly all slopes are."""
-        slopes = np.cumsum(self.power * np.square(self.q))
-        return 2 * pi / float(self.q[np.searchsorted(slopes, STEEP * slopes[-1])])
 
     def beneath(self, radius: float) -> "Bands":
         """Bands without the mean and the tilt of each wave over a disc of a radius [m].

@@ -1,8 +1,6 @@
 """`ExtendedBEM`: friction of surfaces finer than a grid, by BEM on coarse waves and the law for the finer ones."""
 
-import csv
 from dataclasses import replace
-from functools import cache
 from math import exp, inf, pi, sqrt
 from pathlib import Path
 from time import process_time
@@ -20,7 +18,7 @@ from scene.signatures import readable
 from scene.terms import terms_of
 
 from .bands import Bands
-from .parts import LawParts
+from .parts import LawParts, rows_of
 from .persson import OF_LAW
 
 FINE, ENOUGH = 8.0, 6.5  # points to the shortest wave that is kept: as planned, and at least
@@ -151,12 +149,6 @@ def _with_law(scene, kept, found) -> dict[str, float]:
 UNCERTAINTY = Path(__file__).with_name("extended.csv")
 
 
-@cache
-def _uncertainty():
-    with UNCERTAINTY.open(encoding="utf-8", newline="") as file:
-        return {row["times"]: float(row["value"]) for row in csv.DictReader(file)}
-
-
 def uncertainty(added: float, waves: float, x: float) -> float:
     """Half an interval of 95 % of the logarithm of friction, fitted to contacts that were solved with every wave.
 
@@ -164,7 +156,7 @@ def uncertainty(added: float, waves: float, x: float) -> float:
     x : p/p_rms with all waves
     """
     numbers = {"one": 1.0, **scales(added, waves, x)}
-    return exp(sum(value * numbers[times] for times, value in _uncertainty().items()))
+    return exp(sum(float(row["value"]) * numbers[row["times"]] for row in rows_of(UNCERTAINTY)))
 
 
 def scales(added: Any, waves: Any, x: Any) -> dict[str, Any]:

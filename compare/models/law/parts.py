@@ -64,10 +64,15 @@ def waves(full: FullContact) -> dict[str, float]:
 
 
 @cache
+def rows_of(path: Path) -> list[dict[str, Any]]:
+    """Rows of a table that comes with the package, texts by column."""
+    with path.open(encoding="utf-8", newline="") as file:
+        return [*csv.DictReader(file)]
+
+
 def coefficients() -> Mapping[tuple[str, str], float]:
     """Coefficients by what they add to, and what they are multiplied by."""
-    with FITTED.open(encoding="utf-8", newline="") as file:
-        return {(row["to"], row["times"]): float(row["value"]) for row in csv.DictReader(file)}
+    return {(row["to"], row["times"]): float(row["value"]) for row in rows_of(FITTED)}
 
 
 PASSES = 2  # of the window, which is as wide as the contact, which depends on what the window leaves

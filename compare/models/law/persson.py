@@ -3,7 +3,7 @@
 from dataclasses import replace
 from math import nan, sqrt
 from time import process_time
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, cast
 
 import numpy as np
 from pydantic import Field
@@ -153,48 +153,38 @@ class Persson:
         """Friction and area of contact. Raises Refused, and SolveError where the smooth contact has no answer."""
         start = process_time()
         refuse(self, scene)
+        plane, rough = isinstance(scene.indenter, Plane), scene.roughness is not None and not scene.roughness.flat
         with numeric_guard():
-            return (
-                self._of_plane(scene, start) if isinstance(scene.indenter, Plane) else self._of_body(scene, start)
-            )
-
-    def _of_plane(self, scene, start):
-        rough, pressure = scene.roughness, scene.motion.pressure
-        area = cell_area(rough)
-        friction, share, ratio = self._roughness(scene, np.array([pressure]), pressure)
-        found = float(friction[0]) * area, float(share[0]) * area
-        measures = _measures(area, 0.0, *found, ratio) | {"mean_pressure": pressure}
-        return self._result(scene, start, pressure * area, nan, measures)
-
-    def _of_body(self, scene, start):
-        smooth = SmoothContact.of(scene)
-        own, convergence = (
-            smooth.friction_coefficient * smooth.load,
-            {
-                "residual": smooth.residual,
-                "operator_applications": smooth.operator_applications,
-            },
-        )
-        if scene.roughness is None or scene.roughness.flat:
-            measures = _measures(smooth.area, own, 0.0, smooth.area)
-            return self._result(scene, start, smooth.load, smooth.depth, measures, **convergence)
-        friction, share, ratio = self._roughness(scene, smooth.pressure, smooth.mean_pressure)
-        found = float(friction.sum()) * smooth.pixel_area, float(share.sum()) * smooth.pixel_area
-        measures = _measures(smooth.area, own, *found, ratio)
-        return self._result(scene, start, smooth.load, nan, measures, **convergence)
-
-    def _result(self, scene, start, load, depth, measures, **convergence):
-        points = {} if isinstance(scene.indenter, Plane) else {"points": SPACE.points}
+            if plane:
+                pressure, cell = cast(float, scene.motion.pressure), cell_area(scene.roughness)
+                smooth, area, mean = SmoothContact.of_plane(pressure, cell), cell, pressure
+            else:
+                smooth = SmoothContact.of(scene)
+                area, mean = smooth.area, smooth.mean_pressure
+            touching, of_roughness, ratio = area, 0.0, {}
+            if rough:
+                friction, share, x = self._roughness(scene, smooth.pressure, mean)
+                touching, of_roughness = (float(each.sum()) * smooth.pixel_area for each in (share, friction))
+                ratio = {"pressure_ratio": x}
+        of_shape = smooth.friction_coefficient * smooth.load
         return Result(
             scene=scene,
             solver=self.name,
-            settings={"gamma": self.gamma} | points,
-            normal_force=load,
-            depth=depth,
-            friction_force=measures["friction_of_shape"] + measures["friction_of_roughness"],
+            settings={"gamma": self.gamma} | ({} if plane else {"points": SPACE.points}),
+            normal_force=smooth.load,
+            depth=nan if rough else smooth.depth,
+            friction_force=of_shape + of_roughness,
+            residual=smooth.residual,
+            operator_applications=smooth.operator_applications,
             seconds=process_time() - start,
-            measures=measures,
-            **convergence,
+            measures={
+                "contact_area": touching,
+                "contact_fraction": touching / area,
+                "friction_of_shape": of_shape,
+                "friction_of_roughness": of_roughness,
+                **ratio,
+                **({"mean_pressure": mean} if plane else {}),
+            },
         )
 
     def _roughness(self, scene, pressure, mean):
@@ -212,13 +202,3 @@ class Persson:
 def touching_share(ratio: np.ndarray) -> np.ndarray:
     """Share of the area in contact, erf(x / sqrt(2)), x = pressure over the rms of the waves in full contact."""
     return erf(ratio / sqrt(2))
-
-
-def _measures(area, own, friction, touching, ratio=None):
-    found = {
-        "contact_area": touching,
-        "contact_fraction": touching / area,
-        "friction_of_shape": own,
-        "friction_of_roughness": friction,
-    }
-    return found if ratio is None else found | {"pressure_ratio": ratio}

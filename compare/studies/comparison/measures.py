@@ -18,7 +18,7 @@ from scene import Program, Scene
 from scene.scales import MUCH_LESS_HEIGHT, elastic_contact
 
 from ...models import exact
-from ...models.exact.indentation import loading_force
+from ...models.exact.indentation import force_of_depth
 from ...models.table import DEPTH, FRICTION, PROFILES, Model
 from ...solving.curve import Curve
 from ...statistics.jackknife import draws_of, friction, mean, off_the_ratio
@@ -266,7 +266,8 @@ def loading(scene: Scene, rates: Sequence[float], reached: np.ndarray) -> np.nda
     for (row, column), depth in np.ndenumerate(reached):
         if depth > 0:
             times, depths = (0.0, float(depth) / rates[row]), (0.0, float(depth))
-            forces[row, column] = loading_force(scene.indenter, scene.elastomer, times, depths, times[1:])[0]
+            force, _ = force_of_depth(scene.indenter, scene.elastomer, times, depths, times[1:])
+            forces[row, column] = force[0]
     return forces
 
 

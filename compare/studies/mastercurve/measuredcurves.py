@@ -108,7 +108,7 @@ def _parabola(y, x, z):
 
     def terms(x, z):
         x, z = x - middle[0], z - middle[1]
-        return np.stack([np.ones_like(x * z), x + 0 * z, z + 0 * x, x * x + 0 * z, x * z, z * z + 0 * x], axis=-1)
+        return np.stack([np.ones_like(x), x, z, x * x, x * z, z * z], axis=-1)
 
     found = np.linalg.lstsq(terms(x, z), y, rcond=5e-3)[0]
     return lambda x, z: np.sum(terms(x, z) * found, axis=-1)

@@ -16,7 +16,7 @@ from ...statistics.finding import Claim, Finding
 from ...statistics.intervals import Estimated
 from ...statistics.jackknife import Replicates, left_out, mean_ratio
 from . import parameters
-from .parameter_studies import SlowFriction, with_ends
+from .parameter_studies import SlowFriction
 
 VARIABLES = np.geomspace(1e-2, 1e2, 25)
 # Exponents among which the best is sought.
@@ -74,7 +74,7 @@ def law(shape: str, solved: xarray.Dataset) -> Law:
     found = mean_ratio(samples)
     alpha, alphas = best(xi, found.value), np.array([best(xi, without) for without in left_out(samples).T])
     holds = parameters.holds(parameters.regime(parameters.base(shape), slope))
-    columns = {"shape": shape, "xi": xi, **with_ends("normalised_friction", found), "holds": holds}
+    columns = {"shape": shape, "xi": xi, **found.columns("normalised_friction"), "holds": holds}
     return Law(
         shape=shape,
         points=DataFrame(columns),
@@ -153,18 +153,13 @@ def of_low_speed(slow: SlowFriction) -> Iterator[Finding]:
         (SLOPE_KEPT, "slow", slow.with_macro_slope),
     ):
         slope, count = slow.power(slow.points[condition].to_numpy(), over)
-        yield exact(claim, slope, slow.samples.shape[1], regime=f"{count} points")
+        yield Finding.of(claim, slope, draws=slow.samples.shape[1], regime=f"{count} points")
 
 
 def of_law(one: Law, other: Law) -> Iterator[Finding]:
     """Eq. 19 and Eq. 14, of each shape and between both."""
     for law in (one, other):
-        yield exact(ALPHA, law.alpha, law.profiles, law.shape)
-        yield exact(PLATEAU, law.plateau, law.profiles, law.shape)
-    between = f"{one.shape} minus {other.shape}"
-    yield exact(SAME_ALPHA, one.less(other), min(one.profiles, other.profiles), between)
-
-
-def exact(claim: Claim, measured: Estimated, draws: int, where: str = "", regime: str = "") -> Finding:
-    """Finding of a number whose only error is the error of the average over profiles."""
-    return Finding.of(claim, measured, where=where, draws=draws, regime=regime)
+        yield Finding.of(ALPHA, law.alpha, where=law.shape, draws=law.profiles)
+        yield Finding.of(PLATEAU, law.plateau, where=law.shape, draws=law.profiles)
+    between, draws = f"{one.shape} minus {other.shape}", min(one.profiles, other.profiles)
+    yield Finding.of(SAME_ALPHA, one.less(other), where=between, draws=draws)

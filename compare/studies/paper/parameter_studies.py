@@ -116,12 +116,6 @@ def dataset(asked: Sequence[Profiles], outcomes: Mapping[Task, Outcome]) -> xarr
     return xarray.Dataset(numbers, {**coordinates, "surface": seeds}, {"solver": "MDR"})
 
 
-def with_ends(name: str, found: Estimated) -> dict[str, Any]:
-    """A number, or a column of them, and both ends of its interval of 95 %, by name."""
-    low, high = found.interval()
-    return {name: found.value, f"{name}_low": low, f"{name}_high": high}
-
-
 @dataclass(frozen=True)
 class SlowFriction:
     """Fig. 3 in the coordinates of Eqs. 17 and 18.
@@ -168,4 +162,4 @@ def slow_friction(values: int, solved: xarray.Dataset) -> SlowFriction:
         rows.append(
             row | {"xi": xi, **vars(regime), "holds": xi <= SLOW and parameters.holds(regime), "slow": slow}
         )
-    return SlowFriction(DataFrame(rows).assign(**with_ends("normalised_friction", mean_ratio(samples))), samples)
+    return SlowFriction(DataFrame(rows).assign(**mean_ratio(samples).columns("normalised_friction")), samples)

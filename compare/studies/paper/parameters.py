@@ -62,9 +62,9 @@ STUDIES = {
 }
 
 
-def base(shape: str, speed: float = LOW_SPEED, load: float = LOAD) -> Scene:
+def base(shape: str, speed: float = LOW_SPEED) -> Scene:
     """The set of Fig. 4 at a speed."""
-    return Scene(SHAPES[shape], SOLID, Slide(speed=speed, load=load), ROUGH)
+    return Scene(SHAPES[shape], SOLID, Slide(speed=speed, load=LOAD), ROUGH)
 
 
 def varied(study: str, value: float, hurst: float) -> tuple[Scene, int]:

@@ -117,9 +117,7 @@ class Paper(Study):
         slow = parameter_studies.slow_friction(self.values, _dataset(answers, SLOW))
         cone, sphere = (law.law(shape, _dataset(answers, f"law-{shape}")) for shape in parameters.SHAPES)
         found = [*law.of_low_speed(slow), *law.of_law(cone, sphere)]
-        fits = DataFrame(
-            [{"shape": each.shape, **parameter_studies.with_ends("alpha", each.alpha)} for each in (cone, sphere)]
-        )
+        fits = DataFrame([{"shape": each.shape, **each.alpha.columns("alpha")} for each in (cone, sphere)])
         plots = [
             figures.plot_contacts(sections(answers)),
             figures.plot_studies(slow.points),

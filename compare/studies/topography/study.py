@@ -143,16 +143,14 @@ class Map(Study):
 
     @property
     def setting(self) -> Sequence[Block]:
-        return [Text("\n\n".join(self.lines()))]
-
-    def lines(self) -> list[str]:
         """Size of the map, what was done to it, and the band of the law."""
         found, map_ = self.description, self.description.topography
         (rows, columns), (x, y), (px, py) = map_.heights.shape, map_.size, map_.pixel
-        return [
+        lines = [
             f"size: {columns} x {rows} pixels of {px:.4g} x {py:.4g} m, {x:.4g} x {y:.4g} m",
             f'level: "{map_.level}" taken off; repeat: "{map_.repeat}"; peaks: "{map_.peaks}"',
             *([f"waves shorter than {map_.shortest_kept:.4g} m are left out"] if map_.shortest_kept else []),
             *map_.notes,
             *([f"self-affine band: {found.band}"] if found.band else []),
         ]
+        return [Text("\n\n".join(lines))]
