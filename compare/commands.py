@@ -20,7 +20,7 @@ from __future__ import annotations
 import sys
 import warnings
 from collections.abc import Sequence
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Unpack, cast
 
@@ -92,7 +92,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from .library.ready import Listing
-    from .solving.terminal import Shown
     from .studies.comparison.comparison import Comparison
     from .studies.comparison.sweep import SweepSeries
     from .studies.plan import Plans
@@ -111,30 +110,22 @@ def solve(
     executor: Executor | None = None,
     report: WithReport = True,
     yes: Yes = False,
-    progress: bool | str | Shown | None = False,
+    progress: bool | str | None = False,
 ) -> Report:
     """Do a study, one of your own too: solve what the folder has not, judge, and write the page.
 
     study : an object of a class derived from `compare.Study`
     executor : object with `submit`, as those of concurrent.futures; it gets as many contacts at once as `workers`
-    progress : whether the terminal shows how far it is
+    progress : whether the terminal shows how far it is; "lines" for a line for each contact and each figure
     """
+    from .solving.terminal import Shown
     from .studies import pipeline
 
     _warn(study.doubts)
-    with _shown(progress) as shown:
+    with Shown(lines=progress == "lines") if progress else nullcontext() as shown:
         found = pipeline.run(study, output, workers, scheduler, executor, report, yes, shown)
     _warn([" ".join(found.unsolved.sentences)] if found.unsolved.failed else [])
     return found
-
-
-def _shown(progress: bool | str | Shown | None) -> AbstractContextManager[Shown | None]:
-    """Progress display of a run; None where nothing is shown. The caller ends a display that it gives."""
-    if not progress:
-        return nullcontext()
-    from .solving.terminal import Shown
-
-    return nullcontext(progress) if isinstance(progress, Shown) else Shown(lines=progress == "lines")
 
 
 def _warn(messages: Sequence[str | Warning]) -> None:

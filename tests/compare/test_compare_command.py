@@ -132,7 +132,7 @@ MISTAKES = {
     "run quick-start --output mine.toml": "crosscheck: --output mine.toml: mine.toml: is a file, and no folder",
     "study colapse": "NAME = colapse: allowed are collapse, ",
     "study collapse --size big": "'--size': Value error, 'big' is not one of 'quick', 'standard', 'full'",
-    "run quick-start --workers few": "'--workers': 'few' is not a number",
+    "run quick-start --workers few": "'--workers': 'few' is not a valid integer",
     "run quick-start --workers 0": "workers = 0: a whole number from 1 to ",
     "study mine.toml": "mine.toml: ",
     "workprecision paper-spere": "did you mean paper-sphere?",
