@@ -265,8 +265,16 @@ def mastercurve(
     """Shift measured friction curves onto one, if they allow it. The curves are friction against load."""
     from .studies.mastercurve.study import Mastercurve
 
-    stated = {"separator": separator, "decimal": decimal, "encoding": encoding, "skip": skip, "rows": rows}
-    form = table_form(columns=columns, units=units, where=where, **stated)
+    form = table_form(
+        columns=columns,
+        units=units,
+        where=where,
+        separator=separator,
+        decimal=decimal,
+        encoding=encoding,
+        skip=skip,
+        rows=rows,
+    )
     study = Mastercurve.of(table, tolerance, c1, c2, reference, **form)
     return solve(study, output, **options)
 
@@ -297,11 +305,30 @@ def topography(
     """Describe a measured surface: slopes, spectra, exponent H."""
     from .studies.topography.study import Map
 
-    asked = {"unit": unit, "channel": channel, "crop": crop, "missing": missing}
-    done = {"level": level, "shortest_kept": shortest_kept, "repeat": repeat, "peaks": peaks}
-    stated = {"separator": separator, "decimal": decimal, "encoding": encoding, "skip": skip, "rows": rows}
-    form = table_form(columns=columns, units=units, where=where, **stated)
-    return solve(Map.of(file, pixel=pixel, **asked, **done, **form), output, **options)
+    form = table_form(
+        columns=columns,
+        units=units,
+        where=where,
+        separator=separator,
+        decimal=decimal,
+        encoding=encoding,
+        skip=skip,
+        rows=rows,
+    )
+    study = Map.of(
+        file,
+        pixel=pixel,
+        unit=unit,
+        channel=channel,
+        crop=crop,
+        missing=missing,
+        level=level,
+        shortest_kept=shortest_kept,
+        repeat=repeat,
+        peaks=peaks,
+        **form,
+    )
+    return solve(study, output, **options)
 
 
 @documented
@@ -332,9 +359,18 @@ def sweep(
     """
     from .statistics import griderror
 
-    asked = {"scene": scene, "speed": speed, "load": load, "depth": depth, "draws": draws}
-    compared = {"models": models, "reference": reference, "interval": interval}
-    report = swept(output, **asked, **compared, **options)
+    report = swept(
+        output,
+        scene=scene,
+        speed=speed,
+        load=load,
+        depth=depth,
+        draws=draws,
+        models=models,
+        reference=reference,
+        interval=interval,
+        **options,
+    )
     _warn(griderror.warnings_of(report.answers))
     return cast("SweepSeries", cast("Comparison", report.study).series[0]).dataset(report.answers)
 

@@ -199,10 +199,10 @@ def test_friction_that_obeys_the_law_has_its_powers_of_the_slope_near_the_limits
 
 def test_a_series_pressed_by_depth_stays_so_and_is_solved_at_rest_too():
     sunk = replace(SERIES, scene=replace(SERIES.scene, motion=Slide(speed=1.0, depth=1e-4)))
-    assert sunk.at(2e-4, 0.5).motion == Slide(speed=0.5, depth=2e-4)
-    assert sunk.at(2e-4).motion == Indent(depth=2e-4)
+    assert sunk.curves["rough"].at(2e-4, 0.5).motion == Slide(speed=0.5, depth=2e-4)
+    assert sunk.curves["rough"].at(2e-4).motion == Indent(depth=2e-4)
     pressed = replace(sunk, scene=replace(sunk.scene, motion=Program(stages=(Stage(duration=1.0, depth=1e-4),))))
-    assert pressed.at(2e-4, 0.1).motion == Program(stages=(Stage(duration=2e-3, depth=2e-4),))
+    assert pressed.curves["rough"].at(2e-4, 0.1).motion == Program(stages=(Stage(duration=2e-3, depth=2e-4),))
     assert not pressed.slides
     assert {each.speeds for each in sunk.curves.values()} == {(0.0, *SERIES.speeds)}
     with pytest.raises(InvalidInput, match="has none"):
