@@ -5,11 +5,14 @@ functions get these texts by `solving.suggest.documented`.
 """
 
 from collections.abc import Mapping
+from glob import glob
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, TypedDict
 
 from typer import Argument, Option
+
+from .library import ready as library
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -33,6 +36,21 @@ else:
     File = Path
     SceneLike = ModelLike = Measurements = Surface = Amount = StyleLike = str
     Values = Amounts = Sides = SeveralModels = SeveralScenes = Named = list[str]
+
+
+def scenes() -> list[str]:
+    """Ready scenes, and files of this folder that may be scenes: a shell completes them."""
+    return [*(name for name, each in library.ready().items() if each.kind == "scene"), *sorted(glob("*.toml"))]
+
+
+def studies() -> list[str]:
+    """Studies, and files of this folder that may be studies: a shell completes them."""
+    return [*library.studies(), "all", *sorted(glob("*.toml"))]
+
+
+def copies() -> list[str]:
+    """Ready scenes and studies: a shell completes them."""
+    return [*library.ready()]
 
 
 def table_form(**options: Any) -> dict[str, Any]:
@@ -83,14 +101,15 @@ class Options(TypedDict, total=False):
 # Scenes and models.
 SceneFile = Annotated[
     SceneLike,
-    Argument(help="File of a scene (TOML), or name of a ready scene."),
+    Argument(help="File of a scene (TOML), or name of a ready scene.", autocompletion=scenes),
     "From Python also a Scene or a Case.",
 ]
 SceneFiles = Annotated[
     SeveralScenes | None,
     Argument(
         help="File of a scene (TOML), or name of a ready scene, or several, which the page then has side by side;"
-        " if absent, the paper's sphere and cone."
+        " if absent, the paper's sphere and cone.",
+        autocompletion=scenes,
     ),
     "From Python also a Scene or a Case, or several by name.",
 ]
@@ -153,7 +172,8 @@ Draws = Annotated[int | None, Option(help="Rough surfaces, and as many profiles;
 StudyName = Annotated[
     File | None,
     Argument(
-        help="Name of a study, or file of your own study (TOML); if absent, a table of the studies is printed."
+        help="Name of a study, or file of your own study (TOML); if absent, a table of the studies is printed.",
+        autocompletion=studies,
     ),
 ]
 Baseline = Annotated[
@@ -267,7 +287,7 @@ Peaks = Annotated[
 Folder = Annotated[File, Argument(help="Folder that a command has written, or its results.nc for export.")]
 ReadyName = Annotated[
     str,
-    Argument(help="Ready scene or study, see crosscheck scenes."),
+    Argument(help="Ready scene or study, see crosscheck scenes.", autocompletion=copies),
 ]
 NewFile = Annotated[
     File | None,
