@@ -1,6 +1,7 @@
 """Studies: what claims come to on answers that obey a law, on answers with gaps, and on those of solvers."""
 
 from dataclasses import replace
+from functools import reduce
 
 import numpy as np
 import pytest
@@ -173,6 +174,17 @@ def test_a_family_on_one_law_is_one_curve_and_one_of_two_laws_is_not():
     assert not list(together.together((first, first)))
     third = cut(answers, surfaces=3).judge()
     assert together.families((third, first, second)) == {"every sphere": [first, second]}
+
+
+def test_a_family_whose_points_are_too_few_for_one_curve_is_undecided():
+    asked_for = obeying(eq_19, FEW), other(obeying(eq_19, FEW, seed=2), "second", hurst=0.7)
+    left = [reduce(spoiled, range(1, len(FEW.speeds)), spoiled(each, np.s_[0, 1:])) for each in asked_for]
+    one, both = together.together([each.judge() for each in left])
+    assert (one.verdict, both.verdict, both.why) == (
+        "holds",
+        "undecided",
+        "too few points or surfaces have an answer",
+    )
 
 
 def test_friction_that_obeys_the_law_has_its_powers_of_the_slope_near_the_limits_too():
