@@ -10,7 +10,7 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, TypedDict
 
-from typer import Argument, Option
+from typer import Argument, BadParameter, Option
 
 from .library import ready as library
 
@@ -53,6 +53,14 @@ def copies() -> list[str]:
     return [*library.ready()]
 
 
+def number(given: str | float) -> float:
+    """Number of a text on the command line, or of a default; one without a point stays whole."""
+    try:
+        return int(given) if str(given).isdecimal() else float(given)
+    except ValueError:
+        raise BadParameter(f"{given!r} is not a number.") from None
+
+
 def table_form(**options: Any) -> dict[str, Any]:
     """Options on the form of a table, lists of texts as mu=3 as a mapping. Raises InvalidInput."""
     from scene.files.reading import InvalidInput
@@ -71,7 +79,9 @@ def table_form(**options: Any) -> dict[str, Any]:
 
 # All commands that solve.
 Output = Annotated[File, Option(help="Folder for the page, the figures and the solved contacts.")]
-Workers = Annotated[int | None, Option(help="Number of processes; if absent, one for each processor.")]
+Workers = Annotated[
+    int | None, Option(help="Number of processes; if absent, one for each processor.", parser=number)
+]
 Scheduler = Annotated[
     str | None,
     Option(
@@ -166,7 +176,7 @@ LoadsOrDepths = Annotated[
     Option(help='Likewise, as "0.1N..10N" or "10um..100um"; those of the scene if load and depth are absent.'),
     "From Python also numbers [N], [m].",
 ]
-Draws = Annotated[int | None, Option(help="Rough surfaces, and as many profiles; 8 if absent.")]
+Draws = Annotated[int | None, Option(help="Rough surfaces, and as many profiles; 8 if absent.", parser=number)]
 
 # Studies and stored values.
 StudyName = Annotated[
@@ -202,12 +212,14 @@ Tolerance = Annotated[
     float,
     Option(
         help="Loads that differ by less, relative, are one load, and so are speeds; their lines are repeats.",
+        parser=number,
     ),
 ]
 ShiftC1 = Annotated[
     float | None,
     Option(
         help="Constant of WLF, by which temperatures are shifted along the speed; if absent, shifts are found.",
+        parser=number,
     ),
 ]
 ShiftC2 = Annotated[Amount | None, Option(help='Constant of WLF, as "101.6 K".')]
@@ -236,8 +248,8 @@ TableSeparator = Annotated[
 ]
 TableDecimal = Annotated[str | None, Option(help='Decimal mark of a table, "." or ",".')]
 TableEncoding = Annotated[str | None, Option(help="Encoding of a table, as cp1252.")]
-LinesAbove = Annotated[int | None, Option(help="Lines above the heading or the numbers.")]
-LinesBelow = Annotated[int | None, Option(help="Rows that are read below them.")]
+LinesAbove = Annotated[int | None, Option(help="Lines above the heading or the numbers.", parser=number)]
+LinesBelow = Annotated[int | None, Option(help="Rows that are read below them.", parser=number)]
 HeightMap = Annotated[
     Surface,
     Argument(
