@@ -264,10 +264,8 @@ STEPS = [
 ]
 
 
-@pytest.fixture(scope="module")
-def walked(tmp_path_factory):
+def modules(folder, *steps):
     """Names of the modules that are there after each step of a fresh process, of a Python without docstrings."""
-    steps, folder = [step for step, *_ in STEPS], tmp_path_factory.mktemp("here")
     (folder / "scene.toml").write_text(SCENE)
     ended = subprocess.run(
         [sys.executable, "-c", PROGRAM, json.dumps(steps)],
@@ -277,10 +275,22 @@ def walked(tmp_path_factory):
         env=os.environ | {"PYTHONWARNINGS": "error", "PYTHONOPTIMIZE": "2"},
     )
     assert ended.returncode == 0, ended.stderr
-    return {step: set(json.loads(line)) for step, line in zip(steps, ended.stdout.splitlines(), strict=True)}
+    return [set(json.loads(line)) for line in ended.stdout.splitlines()]
+
+
+@pytest.fixture(scope="module")
+def walked(tmp_path_factory):
+    steps = [step for step, *_ in STEPS]
+    return dict(zip(steps, modules(tmp_path_factory.mktemp("here"), *steps), strict=True))
 
 
 @pytest.mark.parametrize(("step", "there", "unneeded"), STEPS, ids=[step for step, *_ in STEPS])
 def test_nothing_is_imported_before_it_is_needed(walked, step, there, unneeded):
     assert there in walked[step]  # the reader of modules sees what is there
     assert not walked[step] & unneeded
+
+
+def test_a_scene_imports_no_units_no_suggestions_and_no_results_on_disk(tmp_path):
+    (found,) = modules(tmp_path, "import scene, bem3d, mdr1d")
+    assert "scene" in found
+    assert not found & {"pint", "matplotlib", "compare", *ON_DISK}
