@@ -20,7 +20,7 @@ from __future__ import annotations
 import sys
 import warnings
 from collections.abc import Sequence
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Unpack, cast
 
@@ -92,7 +92,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from .library.ready import Listing
-    from .solving.terminal import Shown
     from .studies.comparison.comparison import Comparison
     from .studies.comparison.sweep import SweepSeries
     from .studies.plan import Plans
@@ -111,30 +110,22 @@ def solve(
     executor: Executor | None = None,
     report: WithReport = True,
     yes: Yes = False,
-    progress: bool | str | Shown | None = False,
+    progress: bool | str | None = False,
 ) -> Report:
     """Do a study, one of your own too: solve what the folder has not, judge, and write the page.
 
     study : an object of a class derived from `compare.Study`
     executor : object with `submit`, as those of concurrent.futures; it gets as many contacts at once as `workers`
-    progress : whether the terminal shows how far it is
+    progress : whether the terminal shows how far it is; "lines" for a line for each contact and each figure
     """
+    from .solving.terminal import Shown
     from .studies import pipeline
 
     _warn(study.doubts)
-    with _shown(progress) as shown:
+    with Shown(lines=progress == "lines") if progress else nullcontext() as shown:
         found = pipeline.run(study, output, workers, scheduler, executor, report, yes, shown)
     _warn([" ".join(found.unsolved.sentences)] if found.unsolved.failed else [])
     return found
-
-
-def _shown(progress: bool | str | Shown | None) -> AbstractContextManager[Shown | None]:
-    """Progress display of a run; None where nothing is shown. The caller ends a display that it gives."""
-    if not progress:
-        return nullcontext()
-    from .solving.terminal import Shown
-
-    return nullcontext(progress) if isinstance(progress, Shown) else Shown(lines=progress == "lines")
 
 
 def _warn(messages: Sequence[str | Warning]) -> None:
@@ -274,8 +265,16 @@ def mastercurve(
     """Shift measured friction curves onto one, if they allow it. The curves are friction against load."""
     from .studies.mastercurve.study import Mastercurve
 
-    stated = {"separator": separator, "decimal": decimal, "encoding": encoding, "skip": skip, "rows": rows}
-    form = table_form(columns=columns, units=units, where=where, **stated)
+    form = table_form(
+        columns=columns,
+        units=units,
+        where=where,
+        separator=separator,
+        decimal=decimal,
+        encoding=encoding,
+        skip=skip,
+        rows=rows,
+    )
     study = Mastercurve.of(table, tolerance, c1, c2, reference, **form)
     return solve(study, output, **options)
 
@@ -306,11 +305,30 @@ def topography(
     """Describe a measured surface: slopes, spectra, exponent H."""
     from .studies.topography.study import Map
 
-    asked = {"unit": unit, "channel": channel, "crop": crop, "missing": missing}
-    done = {"level": level, "shortest_kept": shortest_kept, "repeat": repeat, "peaks": peaks}
-    stated = {"separator": separator, "decimal": decimal, "encoding": encoding, "skip": skip, "rows": rows}
-    form = table_form(columns=columns, units=units, where=where, **stated)
-    return solve(Map.of(file, pixel=pixel, **asked, **done, **form), output, **options)
+    form = table_form(
+        columns=columns,
+        units=units,
+        where=where,
+        separator=separator,
+        decimal=decimal,
+        encoding=encoding,
+        skip=skip,
+        rows=rows,
+    )
+    study = Map.of(
+        file,
+        pixel=pixel,
+        unit=unit,
+        channel=channel,
+        crop=crop,
+        missing=missing,
+        level=level,
+        shortest_kept=shortest_kept,
+        repeat=repeat,
+        peaks=peaks,
+        **form,
+    )
+    return solve(study, output, **options)
 
 
 @documented
@@ -341,9 +359,18 @@ def sweep(
     """
     from .statistics import griderror
 
-    asked = {"scene": scene, "speed": speed, "load": load, "depth": depth, "draws": draws}
-    compared = {"models": models, "reference": reference, "interval": interval}
-    report = swept(output, **asked, **compared, **options)
+    report = swept(
+        output,
+        scene=scene,
+        speed=speed,
+        load=load,
+        depth=depth,
+        draws=draws,
+        models=models,
+        reference=reference,
+        interval=interval,
+        **options,
+    )
     _warn(griderror.warnings_of(report.answers))
     return cast("SweepSeries", cast("Comparison", report.study).series[0]).dataset(report.answers)
 

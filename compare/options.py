@@ -20,7 +20,6 @@ if TYPE_CHECKING:
 
     from .library.lookup import SceneLike
     from .models.table import ModelLike
-    from .solving.terminal import Shown
     from .studies.comparison.sweep import Values
     from .studies.mastercurve.measurements import Measurements
     from .studies.topography.study import Surface
@@ -106,7 +105,7 @@ class Options(TypedDict, total=False):
     executor: "Executor | None"
     report: WithReport
     yes: Yes
-    progress: "bool | str | Shown | None"
+    progress: bool | str | None
 
 
 # Scenes and models.

@@ -9,7 +9,7 @@ import signal
 import sys
 import warnings
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import AbstractContextManager, contextmanager, nullcontext
+from contextlib import contextmanager
 from inspect import Parameter, Signature, signature
 from io import TextIOWrapper
 from pathlib import Path
@@ -127,13 +127,9 @@ def _add(
             # What Python is warned of stands at the top of what is printed.
             warnings.filterwarnings("ignore", category=UserWarning, module=re.escape(__name__))
             warnings.showwarning = lambda message, *_: say(f"crosscheck: {message}", error=True)
-            shown: AbstractContextManager[Any] = nullcontext()
             if solves and not (quiet or json):
-                from ..solving.terminal import Shown  # slow, and only what solves needs it
-
-                shown = given["progress"] = Shown(lines=verbose)
-            with shown:
-                found = (reported or function)(**given)
+                given["progress"] = "lines" if verbose else True
+            found = (reported or function)(**given)
         _tell(found, text, quiet, verbose, json)
 
     called.__signature__ = Signature([*parameters.values()])  # type: ignore[attr-defined]

@@ -16,8 +16,9 @@ from pandas import DataFrame, concat
 
 from ..solving.words import interval, number
 from ..statistics import eq23
-from ..statistics.collapse import ENDS, Alignment, Collapse
+from ..statistics.collapse import Alignment, Collapse
 from ..statistics.finding import FAILS, Claim, Finding
+from ..statistics.intervals import ENDS
 from . import shades, style
 from .curves import curves, intervals
 from .plot import Plot, Tables

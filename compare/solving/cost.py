@@ -7,7 +7,7 @@ on this machine, as half a second of solving shows once; the user's cache keeps 
 import os
 from collections.abc import Iterable
 from contextlib import suppress
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from statistics import median
@@ -16,7 +16,6 @@ from bem3d import BEM
 from bem3d.problem import row_width
 from mdr1d import MDR
 from scene import Kelvin, Program, Refused, Scene, Shear, Slide, SolveError, Solver, Sphere
-from scene.plan import size
 
 from .task import Task
 from .words import HOUR, duration
@@ -27,7 +26,6 @@ CALIBRATED = 6.3e5  # work of this contact, solved again and again: less than on
 COMMAND = 4e8  # work of a command besides its solves: to load, to judge, to draw and to write
 SLOWEST = 1e-4  # seconds a unit of work takes at most: a kept number above is none
 FEEDBACK = {"MDR": 25, "BEM": 8}  # solves until temperature and heat agree, with all that each of them checks
-STORED = 1000.0  # bytes a contact takes on disk, its place in the file of results included
 DAY = 24 * HOUR
 MOST_DRAWS = 10_000  # rough surfaces or profiles that are averaged
 MOST_VALUES = 1000  # speeds, loads or depths in a curve
@@ -98,12 +96,10 @@ class Cost:
 
     contacts : number of scenes that are solved
     work : of all of them, in units of `Task.work`
-    kept : bytes of the fields that are kept for pictures
     """
 
     contacts: int = 0
     work: float = 0.0
-    kept: int = 0
 
     @classmethod
     def of(cls, tasks: Iterable[Task]) -> "Cost":
@@ -112,21 +108,16 @@ class Cost:
         return cls(sum(task.count for task in every), sum(task.work for task in every))
 
     def __add__(self, other: "Cost") -> "Cost":
-        return Cost(*(getattr(self, each.name) + getattr(other, each.name) for each in fields(self)))
+        return Cost(self.contacts + other.contacts, self.work + other.work)
 
     @property
     def seconds(self) -> float:
         """Processor time of the command [s], a forecast."""
         return (COMMAND + self.work) * seconds_per_work()
 
-    @property
-    def disk(self) -> float:
-        """Bytes on disk."""
-        return STORED * self.contacts + self.kept
-
     def __str__(self) -> str:
         contacts = f"{self.contacts:,} contact{'' if self.contacts == 1 else 's'}"
-        return f"{contacts} at most, about {duration(self.seconds)} of processor time, {size(self.disk)} on disk"
+        return f"{contacts} at most, about {duration(self.seconds)} of processor time"
 
     def refuse(self, workers: int, yes: bool) -> None:
         """Raise Refused for what no memory holds, and without a yes for more than a day or for many contacts."""

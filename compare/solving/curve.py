@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from bem3d import BEM
 from mdr1d import MDR
 from scene import Indent, Program, Refused, Scene, Shear, Slide, Solver, Stage
 from scene.motion import PRESSES, UNITS
@@ -142,11 +141,7 @@ class Curve:
             for name, levels in self.levels.items()
             for solver, seeds in zip(levels.values(), self._seeds(name), strict=True)
         ]
-        fine = (levels[FINE] for levels in self.levels.values()) if self.keeps_fields else ()
-        # Heights, pressure and gap, in the store and in the file of results.
-        kept = sum(48 * each.points**2 for each in fine if isinstance(each, BEM))
-        every = (Cost(count * len(self.points), count * work) for count, work in counts)
-        return sum(every, Cost(kept=kept))
+        return sum((Cost(count * len(self.points), count * work) for count, work in counts), Cost())
 
     def _work(self, solver):
         """Work of a surface at all speeds and values."""
@@ -345,7 +340,7 @@ def _numbers(row: Row) -> dict[str, Any]:
 
 def on_two_levels(*solvers: Solver) -> dict[str, dict[str, Solver]]:
     """Settings of solvers on their own grid and on one of half the points, if they have points."""
-    halves = ((each, halved(each)) for each in solvers)
+    halves = ((each, scaled(each, 0.5)) for each in solvers)
     return {each.name: {FINE: each} | ({COARSE: half} if half else {}) for each, half in halves}
 
 
@@ -360,7 +355,7 @@ def on_levels(solver: Solver, scenes: Iterable[Scene], most: int = len(LEVELS)) 
     with numeric_guard():
         # Half the points tell the error of the grid, however few they are.
         while len(found) < most and (len(found) == 1 or found[-1].points >= 2 * LEAST.get(solver.name, 1)):
-            coarser = halved(found[-1])
+            coarser = scaled(found[-1], 0.5)
             if coarser is None or why_not(coarser, first) or any(lacking(coarser, each) for each in others):
                 break
             found.append(coarser)
@@ -373,13 +368,13 @@ def levels(models: Models, curves: Sequence[Curve], most: int = len(LEVELS)) -> 
     return {each.name: on_levels(each.solver, corners, most) for each in models}
 
 
-def halved(solver: Solver) -> Any:
-    """The solver with half the points and half the steps in time; None without points, or if it takes no fewer."""
+def scaled(solver: Solver, times: float) -> Any:
+    """The solver with a multiple of its points and steps; None without points, or if it takes no such number."""
     if not hasattr(solver, "points"):
         return None
-    steps = {"steps": max(1, solver.steps // 2)} if hasattr(solver, "steps") else {}
+    steps = {"steps": max(1, int(times * solver.steps))} if hasattr(solver, "steps") else {}
     try:
-        return replace(solver, points=solver.points // 2, **steps)
+        return replace(solver, points=int(times * solver.points), **steps)
     except ValueError:
         return None
 

@@ -139,11 +139,11 @@ class Processes(Workers):
     """Processes of this machine: a ProcessPoolExecutor, made anew where one of its processes dies.
 
     count : of processes, one thread each
-    fresh : whether every task has a process of its own, which is then the only one
+    fresh : whether every task has a process of its own, which is then the only one: `count` is 1
     """
 
     def __init__(self, count: int, fresh: bool = False):
-        super().__init__(None, 1 if fresh else count)
+        super().__init__(None, count)
         self.fresh, self.failed_starts = fresh, 0
         self.context = multiprocessing.get_context("spawn")
 

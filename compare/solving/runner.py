@@ -124,15 +124,15 @@ def sweep(
 
 
 def _workers(missing, count, fresh, scheduler, executor, processes, progress) -> AbstractContextManager[Workers]:
-    if executor is not None and not fresh:
+    if fresh:
+        return Processes(1, fresh)
+    if executor is not None:
         return Workers(executor, counted(count))
-    if scheduler is None and not fresh and processes is not None:
-        return nullcontext(processes)
-    if scheduler is None or fresh:
-        return Processes(min(counted(count), len(missing)), fresh)
-    from .cluster import Cluster
+    if scheduler is not None:
+        from .cluster import Cluster
 
-    return Cluster(scheduler, progress.message)
+        return Cluster(scheduler, progress.message)
+    return Processes(min(counted(count), len(missing))) if processes is None else nullcontext(processes)
 
 
 def _solve(missing, store, workers, progress, interrupts) -> tuple[dict[Task, Outcome], dict[Task, str]]:

@@ -30,14 +30,14 @@ HOLDS, FAILS, UNDECIDED, REPORTED = VERDICTS
 DRAWS = {"MDR": "profiles", "BEM": "surfaces", "1D": "profiles", "1D corrected": "profiles", "3D": "surfaces"}
 
 
-def shown(value: Any, digits: int = DIGITS) -> str:
-    """Any value as text: yes or no, integers whole, other numbers to some digits, a dash for what is not known."""
+def shown(value: Any) -> str:
+    """Any value as text: yes or no, integers whole, other numbers to four digits, a dash for what is not known."""
     if type(value).__name__ in ("bool", "bool_"):
         return "yes" if value else "no"
     if isinstance(value, Integral):
         return _signed(str(int(value)))
     if isinstance(value, Real):
-        return number(float(value), digits)
+        return number(float(value))
     return UNKNOWN if value is None else str(value)
 
 
@@ -56,12 +56,13 @@ def interval(value: float, low: float, high: float, digits: int = DIGITS) -> str
     The number alone where there is no interval, or where it is too narrow for these digits.
     """
     half = (high - low) / 2
-    if not _wide(value, half):
+    if not ROUNDING * abs(value) < half < inf:  # not known, or an error of rounding
         return number(value, digits)
     largest = max(map(abs, (value, low, high)))
     power = _power(largest)
-    decimals = min(_decimals(half, power), MOST_DIGITS - 1 - floor(log10(largest / 10.0**power)))
-    middle, below, above = _scaled(power, decimals, value, low, high)
+    decimals = max(0, 1 - floor(log10(half / 10.0**power)))
+    decimals = min(decimals, MOST_DIGITS - 1 - floor(log10(largest / 10.0**power)))
+    middle, below, above = (_signed(f"{each / 10.0**power:.{decimals}f}") for each in (value, low, high))
     return number(value, MOST_DIGITS) if below == above else f"{middle} ({below} to {above}){_times(power)}"
 
 
@@ -73,22 +74,9 @@ def counted(findings: Sequence["Finding"]) -> str:
     return ", ".join(f"{name} {counts[name]}" for name in VERDICTS if counts[name])
 
 
-def _wide(value, error):
-    """Whether a number is known and its error is more than one of rounding."""
-    return isfinite(value) and ROUNDING * abs(value) < error < inf
-
-
-def _scaled(power, decimals, *values):
-    return [_signed(f"{each / 10.0**power:.{decimals}f}") for each in values]
-
-
 def _power(value):
     """Power of ten that is written behind a number; 0 behind one of ordinary size."""
     return 0 if value == 0 or LEAST_PLAIN <= abs(value) < MOST_PLAIN else floor(log10(abs(value)))
-
-
-def _decimals(error, power):
-    return max(0, 1 - floor(log10(error / 10.0**power)))
 
 
 def _times(power):

@@ -15,7 +15,6 @@ from scipy.linalg import orth
 
 from .commoncurve import Common, Fit, exponent_bias, near
 from .frictioncurves import Curve, FrictionCurves
-from .intervals import ENDS as ENDS
 from .intervals import Estimated, RmsMisfit
 
 # Stiff enough not to follow the scatter, and close enough to Eq. 19 over three decades of xi for 1 % in mu. Where

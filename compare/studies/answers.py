@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from math import nan
 from pathlib import Path
-from typing import Any, TypeAlias, cast
+from typing import Any, TypeAlias
 
 from pydantic import Field, create_model
 
@@ -102,22 +102,21 @@ def answer(found: Any) -> Answer:
     """What `--json` prints of what a command returns."""
     match found:
         case Report():
-            tables = {each.name: _rows(each.frame) for each in found.page.every(Table) if not each.long}
-            page = found.page
-            tables |= {each.name: _rows(each.frame) for each in page.opening}
-            sentences = tuple(page.answer)
-            return Reported(_said(found.path), tuple(page.first), sentences, _rows(found.findings), tables)
+            page, path = found.page, str(found.path) if found.path else None
+            short = (each for each in (*page.every(Table), *page.opening) if not each.long)
+            tables = {each.name: _rows(each.frame) for each in short}
+            return Reported(path, tuple(page.first), tuple(page.answer), _rows(found.findings), tables)
         case Plans():
             cost = found.cost if isinstance(found.cost, Cost) else None
             return Planned(
                 solvers={name: each for name, each in found.items() if not isinstance(each, Advice)},
-                trust=cast(Advice, found["trust"]),
+                trust=found.advice,
                 contacts=cost.contacts if cost else None,
                 seconds=cost.seconds if cost else None,
                 times=found.times,
                 accuracies=found.accuracies,
                 reason="" if cost else str(found.cost),
-                doubts=tuple(found.doubts),
+                doubts=found.doubts,
                 notes=tuple(notes(found.scene)),
                 interval=found.interval,
             )
@@ -133,10 +132,6 @@ def answer(found: Any) -> Answer:
 def written(found: Any) -> str:
     """JSON of what a command returns; a number that is not known or not finite is null."""
     return json_of(answer(found))
-
-
-def _said(found):
-    return None if found is None else str(found)
 
 
 def _rows(frame):

@@ -4,6 +4,7 @@ import errno
 import os
 from concurrent.futures import Executor
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from scene import SolveError
@@ -52,14 +53,15 @@ def run(
     with lock((output, below), progress.message):
         if cost.contacts:
             progress.message(str(cost))
-        done = _answered(study, output, workers, scheduler, executor, yes, progress)
+        solve = partial(runner.sweep, workers=workers, scheduler=scheduler, executor=executor)
+        done = _answered(study, output, count, yes, progress, solve)
         path = _write(done, below, report, progress)
         return replace(done, path=path)
 
 
-def _answered(study, output, workers, scheduler, executor, yes, progress) -> Report:
+def _answered(study, output, count, yes, progress, solve) -> Report:
     """Solve a study and return its report; nothing is written to its page yet."""
-    swept, count = SweepResult({}, 0, 0, 0.0), counted(workers)
+    swept = SweepResult({}, 0, 0, 0.0)
     more: Study | None = study.first
     try:
         with Processes(count) as processes:
@@ -67,7 +69,7 @@ def _answered(study, output, workers, scheduler, executor, yes, progress) -> Rep
                 more.cost().refuse(count, yes)
                 if swept.outcomes:
                     progress.message(f"{more.reason}: {more.cost()}")
-                found = _solve(more, swept, output, workers, scheduler, executor, processes, progress)
+                found = _solve(more, swept, output, progress, partial(solve, processes=processes))
                 study, swept = more, swept.joined(found)
                 answers = study.answers(swept.outcomes)
                 judged = study.judge(answers)
@@ -108,15 +110,13 @@ def _write(done, folder, report, progress) -> Path | None:
     return written[-1] if report else None
 
 
-def _solve(study, had, output, workers, scheduler, executor, processes, progress) -> SweepResult:
+def _solve(study, had, output, progress, solve) -> SweepResult:
     """Solve what neither a sweep had nor the folder has. Timed tasks are solved here, whatever the executor."""
     swept = SweepResult({}, 0, 0, 0.0)
     for batch in study.batches():
         if tasks := [task for task in batch.tasks if task not in had.outcomes]:
             with progress.solving() as on_solved:
-                store = Store(output / SOLVED)
-                others = scheduler, executor, processes
-                found = runner.sweep(tasks, store, workers, on_solved, batch.timed, *others)
+                found = solve(tasks, Store(output / SOLVED), progress=on_solved, fresh=batch.timed)
             swept = swept.joined(found)
     return swept
 

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from math import ceil, isfinite, isinf, nan, sqrt
 from textwrap import fill
-from typing import cast
 
 from bem3d import BEM
 from bem3d.plan import likely_grid
@@ -74,23 +73,18 @@ class Plans(dict[str, Plan | str | Advice]):
     Printed, seven lines, and one for each interval.
 
     case, scene : what is planned
+    advice : what cheap answers are worth
     cost : what all contacts of `crosscheck run` take; the reason where it solves none
     refused : whether that refuses the numbers of a scene of a kind that it compares
     doubts : about the scene, and notes on what was read for it, as sentences
     interval : of the case, which takes more surfaces than those of a first look; None if it has none
     """
 
-    def __init__(
-        self,
-        plans: Mapping[str, Plan | str | Advice],
-        case: Case,
-        cost: Cost | str,
-        refused: bool = False,
-        doubts: Sequence[str] = (),
-    ) -> None:
-        super().__init__(plans)
+    def __init__(self, case: Case) -> None:
+        super().__init__({each.name: planned(each, case.scene) for each in (case.mdr, case.bem)})
         self.case, self.scene, self.interval = case, case.scene, case.interval
-        self.cost, self.refused, self.doubts = cost, refused, tuple(doubts)
+        self.cost, self.refused, self.doubts = _cost(case)
+        self["trust"] = self.advice = trust(case.scene)
 
     @property
     def feasible(self) -> bool:
@@ -106,13 +100,10 @@ class Plans(dict[str, Plan | str | Advice]):
     @property
     def accuracies(self) -> tuple[Accuracy, ...]:
         """What intervals of this contact take in 3D; none of a smooth body and where its scatter is not known."""
-        corrections = cast(Advice, self["trust"]).corrections.values()
-        scatter = max((each.scatter for each in corrections), default=nan)
+        scatter = max((each.scatter for each in self.advice.corrections.values()), default=nan)
         if not (isinstance(self.cost, Cost) and hasattr(self.scene.roughness, "seed") and isfinite(scatter)):
             return ()
-        solver: BEM | ExtendedBEM = self.case.bem
-        if "BEM" not in self._plans:
-            solver = extended_of(self.case)
+        solver = self.case.bem if "BEM" in self._plans else extended_of(self.case)
         return tuple(Accuracy.of(each, solver, self.scene, scatter) for each in INTERVALS)
 
     @property
@@ -133,34 +124,30 @@ class Plans(dict[str, Plan | str | Advice]):
         """Names and texts of doubts and notes, of the lines of a plan, then the reasons against the scene."""
         yield from (("doubtful", each) for each in self.doubts)
         yield from (("note", each) for each in notes(self.scene))
-        if plans := self._plans:
-            contacts, time = "1, from Python: crosscheck run does not compare this scene, see below", ""
-            if self.refused:
-                contacts = "none by crosscheck run, which refuses this scene"
-            elif isinstance(self.cost, Cost):
-                contacts = f"at most {self.cost.contacts:,}, solved by crosscheck run"
-                if self.interval is not None:
-                    contacts += f", and as many more as intervals of {share(self.interval)} take (run --interval)"
-                time = f"about {duration(self.cost.seconds)} on one processor; "
-            yield "contacts", contacts
-            yield (
-                "time",
-                f"{time}this contact {_by_dimension(seconds, self.times)}",
-            )
+        plans, times = self._plans, list[str]()
+        if isinstance(self.cost, Cost):
+            contacts = f"at most {self.cost.contacts:,}, solved by crosscheck run"
+            if self.interval is not None:
+                contacts += f", and as many more as intervals of {share(self.interval)} take (run --interval)"
+            yield "contacts", contacts if plans else f"{contacts} with {' and '.join(FINER)}"
+            times.append(f"about {duration(self.cost.seconds)} on one processor")
+        elif self.refused and plans:
+            yield "contacts", "none by crosscheck run, which refuses this scene"
+        elif plans:
+            yield "contacts", "1, from Python: crosscheck run does not compare this scene, see below"
+        if plans:
+            times.append(f"this contact {_by_dimension(seconds, self.times)}")
+        if times:
+            yield "time", "; ".join(times)
+        if plans:
             memory = _by_dimension(size, {name: each.memory for name, each in plans.items()})
             yield "memory", f"{memory}, at most, in each process"
             yield "simulated", ", ".join(type(part).__name__ for part in self.scene.parts.values())
             left = dict.fromkeys(name for plan in plans.values() for name in plan.left_out)
             yield "left out", ", ".join(left) or "nothing"
-        elif isinstance(self.cost, Cost):
-            yield (
-                "contacts",
-                f"at most {self.cost.contacts:,}, solved by crosscheck run with {' and '.join(FINER)}",
-            )
-            yield "time", f"about {duration(self.cost.seconds)} on one processor"
         yield from (("interval", str(each)) for each in self.accuracies)
-        if choice := cast(Advice, self["trust"]).choice:
-            yield "advice", choice
+        if self.advice.choice:
+            yield "advice", self.advice.choice
         yield "modulus", _stiffness(self.scene)
         # What refuses all contacts refuses this one too, with values that work for all of them.
         refusal = self.cost if isinstance(self.cost, str) else ""
@@ -197,13 +184,7 @@ def plans(asked: SceneLike) -> Plans:
 
     Raises InvalidInput.
     """
-    case = case_of(asked)
-    made: dict[str, Plan | str | Advice] = {
-        solver.name: planned(solver, case.scene) for solver in (case.mdr, case.bem)
-    }
-    cost, refused, doubts = _cost(case)
-    made["trust"] = trust(case.scene)
-    return Plans(made, case, cost, refused, doubts)
+    return Plans(case_of(asked))
 
 
 def planned(solver: MDR | BEM, scene: Scene) -> Plan | str:

@@ -69,7 +69,7 @@ def asked():
             quick = law.id in FEW or law.id in MORE
         marks = () if quick else pytest.mark.slow
         for number, model in enumerate(models):
-            yield pytest.param(Examination(law.id, model), marks=marks, id=f"{law.id}-{model.name}-{number}")
+            yield pytest.param(Examination.of(law, model), marks=marks, id=f"{law.id}-{model.name}-{number}")
 
 
 @pytest.mark.parametrize("task", list(asked()))
@@ -215,7 +215,7 @@ def test_a_wrong_answer_breaks_the_hard_case(monkeypatch, wrong, names):
         honest = solver.solve
         monkeypatch.setattr(solver, "solve", lambda self, scene, of=honest: RESULTS[wrong](of(self, scene)))
     for name in names:
-        (row,) = Examination(name, table()[name].solvers[0](QUICK)).solve().rows
+        (row,) = Examination.of(table()[name], table()[name].solvers[0](QUICK)).solve().rows
         assert not row.measures["misfit"] <= row.measures["bound"]
 
 

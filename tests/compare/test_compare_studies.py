@@ -1,6 +1,7 @@
 """Studies: what claims come to on answers that obey a law, on answers with gaps, and on those of solvers."""
 
 from dataclasses import replace
+from functools import reduce
 
 import numpy as np
 import pytest
@@ -175,6 +176,17 @@ def test_a_family_on_one_law_is_one_curve_and_one_of_two_laws_is_not():
     assert together.families((third, first, second)) == {"every sphere": [first, second]}
 
 
+def test_a_family_whose_points_are_too_few_for_one_curve_is_undecided():
+    asked_for = obeying(eq_19, FEW), other(obeying(eq_19, FEW, seed=2), "second", hurst=0.7)
+    left = [reduce(spoiled, range(1, len(FEW.speeds)), spoiled(each, np.s_[0, 1:])) for each in asked_for]
+    one, both = together.together([each.judge() for each in left])
+    assert (one.verdict, both.verdict, both.why) == (
+        "holds",
+        "undecided",
+        "too few points or surfaces have an answer",
+    )
+
+
 def test_friction_that_obeys_the_law_has_its_powers_of_the_slope_near_the_limits_too():
     # at the fastest speed xi is 3 at least, and Eq. 19 is up to 11 % below its plateau
     members = []
@@ -199,10 +211,10 @@ def test_friction_that_obeys_the_law_has_its_powers_of_the_slope_near_the_limits
 
 def test_a_series_pressed_by_depth_stays_so_and_is_solved_at_rest_too():
     sunk = replace(SERIES, scene=replace(SERIES.scene, motion=Slide(speed=1.0, depth=1e-4)))
-    assert sunk.at(2e-4, 0.5).motion == Slide(speed=0.5, depth=2e-4)
-    assert sunk.at(2e-4).motion == Indent(depth=2e-4)
+    assert sunk.curves["rough"].at(2e-4, 0.5).motion == Slide(speed=0.5, depth=2e-4)
+    assert sunk.curves["rough"].at(2e-4).motion == Indent(depth=2e-4)
     pressed = replace(sunk, scene=replace(sunk.scene, motion=Program(stages=(Stage(duration=1.0, depth=1e-4),))))
-    assert pressed.at(2e-4, 0.1).motion == Program(stages=(Stage(duration=2e-3, depth=2e-4),))
+    assert pressed.curves["rough"].at(2e-4, 0.1).motion == Program(stages=(Stage(duration=2e-3, depth=2e-4),))
     assert not pressed.slides
     assert {each.speeds for each in sunk.curves.values()} == {(0.0, *SERIES.speeds)}
     with pytest.raises(InvalidInput, match="has none"):

@@ -70,8 +70,8 @@ class Accuracy(Comparison):
             for model in judged:
                 both, pair = (model.name, series.models.reference), series.models.pair_label(model.name)
                 id = WORDS[mean] if len(judged) == 1 else f"{WORDS[mean]}.{model.name}"
-                over: dict[str, Any] = {"dimension": pair, "measure": ratio_of(mean, *both)}
-                claim = Claim(id, f"{WORDS[mean]} {pair}", 1.0, allowed, **over)
+                measure = ratio_of(mean, *both)
+                claim = Claim(id, f"{WORDS[mean]} {pair}", 1.0, allowed, dimension=pair, measure=measure)
                 for each in series.compared(known, claim, CONTACTS, both, {(0, 0): ""}):
                     finding = series.with_remedy(each)
                     found.append(
@@ -111,8 +111,14 @@ class OwnScene(Stored, Accuracy):
         if baseline is None:
             raise InvalidInput("baseline = None: the numbers of a scene of your own need a file, name one")
         path = Path(baseline)
-        file: dict[str, Any] = {"path": path, "values": read_values(path, begin=update), "update": update}
-        return replace(cls.of(scene, {}, **asked), name=named(scene), tolerance=tolerance, **file)
+        return replace(
+            cls.of(scene, {}, **asked),
+            name=named(scene),
+            tolerance=tolerance,
+            path=path,
+            values=read_values(path, begin=update),
+            update=update,
+        )
 
     def judge(self, answers: xarray.DataTree) -> Judgement:
         """A finding a ratio, held against its stored value."""

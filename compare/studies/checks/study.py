@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
 from math import nan
+from operator import attrgetter
 from pathlib import Path
 from textwrap import shorten
 from time import process_time
@@ -13,7 +14,7 @@ from typing import Any, Self
 import xarray
 from pandas import DataFrame
 
-from scene import Refused, Scene, SolveError
+from scene import Refused, SolveError
 from scene.printable import printable
 from scene.protocol import why_not
 
@@ -43,15 +44,19 @@ def table() -> Mapping[str, Law]:
 
 
 @dataclass(frozen=True)
-class Examination(Task):
+class Examination(SceneTask):
     """A task, see `solving.task.Task`: a model that answers the scenes of a law of the table.
 
     Its outcome has one row: `misfit` and `bound` in its measures, or the reason why there is none, which begins
     with REFUSED where the law does not ask this of the model.
     """
 
-    law_id: str
-    solver: Any
+    law_id: str = ""
+
+    @classmethod
+    def of(cls, law: Law, solver: Any) -> Self:
+        """Task of a law and a model."""
+        return cls(solver, law.scenes, work=WORK * len(law.scenes), law_id=law.id)
 
     @property
     def law(self) -> Law:
@@ -59,41 +64,27 @@ class Examination(Task):
         return table()[self.law_id]
 
     @property
-    def scenes(self) -> tuple[Scene, ...]:
-        """Scenes of the law."""
-        return self.law.scenes
-
-    @property
-    def _asked(self) -> SceneTask:
-        return SceneTask(self.solver, self.scenes)
-
-    @property
     def label(self) -> str:
         """Model and name of the law."""
         return f"{self.solver.name}: {self.law_id}"
 
     @property
-    def work(self) -> float:
-        """Rough cost."""
-        return WORK * len(self.scenes)
+    def count(self) -> int:
+        """One row."""
+        return 1
 
     @property
-    def portable(self) -> bool:
-        """Whether another process can import the class of the model."""
-        return self._asked.portable
-
-    @property
-    def question(self) -> Mapping[str, Any]:
+    def question(self) -> dict:
         """The law, and its scenes and the model."""
-        return {"law": self.law_id} | self._asked.question
+        return {"law": self.law_id} | super().question
 
     @property
     def packages(self) -> tuple[str, ...]:
         """Packages of the scenes, of laws, of both solvers, and those that the model names."""
         ours = "mdr1d", "bem3d", "compare.studies.checks", "compare.models.exact"
-        return tuple(dict.fromkeys((*self._asked.packages, *ours)))
+        return tuple(dict.fromkeys((*super().packages, *ours)))
 
-    def solve(self) -> Outcome:
+    def solve(self, *_: Any) -> Outcome:
         """Solve every scene, and hold the answers against the law."""
         start = process_time()
         try:
@@ -143,7 +134,7 @@ class Checks(Study):
         """Scorecard of a model, by name or as an object: laws of its dimension."""
         found = model_of(model)
         tasks = tuple(
-            Examination(law.id, found.solver)
+            Examination.of(law, found.solver)
             for law in table().values()
             if found.dimension in law.kinds and law.group != STORED and not law.solvers
         )
@@ -155,7 +146,7 @@ class Checks(Study):
         """Hard cases by both solvers, at a size: "quick", "standard" or "full"."""
         known("size", size, SIZES)
         laws = table().values()
-        tasks = tuple(Examination(law.id, build(SIZES[size])) for law in laws for build in law.solvers)
+        tasks = tuple(Examination.of(law, build(SIZES[size])) for law in laws for build in law.solvers)
         return cls(tasks, "stability", "Hard cases", {"size": size})
 
     @property
@@ -215,8 +206,8 @@ class Regress(Stored, Checks):
         """Study of the numbers in a file, by default the package's; with `update` the file need not exist yet."""
         path = stored.SHIPPED if baseline is None else Path(baseline)
         values = stored.read_values(path, begin=update)
-        ids = sorted(law.id for law in table().values() if law.group == STORED)
-        tasks, given = tuple(Examination(id, stored.SPACE) for id in ids), {"baseline": printable(path.name)}
+        laws = sorted((law for law in table().values() if law.group == STORED), key=attrgetter("id"))
+        tasks, given = tuple(Examination.of(law, stored.SPACE) for law in laws), {"baseline": printable(path.name)}
         return cls(tasks, "regress", "Has the accuracy moved?", given, path=path, values=values, update=update)
 
     def _finding(self, row):

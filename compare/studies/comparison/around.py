@@ -7,7 +7,7 @@ against friction in its interface, has one curve: over time, or over the displac
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 import xarray
@@ -286,8 +286,9 @@ class Around(Series):
             if model.has_grid:
                 found = answers.compared(OWN, (model.name,), ratio_of(first, model.name)).at((0, 0))
                 change = float(np.divide(found.grid, abs(found.value)))
-                details: dict[str, Any] = {"drawn": found.drawn, "dimension": model.label}
-                yield Finding(CLAIMS["grid.change"], change, where=self.name, **details)
+                yield Finding(
+                    CLAIMS["grid.change"], change, where=self.name, dimension=model.label, drawn=found.drawn
+                )
 
 
 def _curves(case, models):

@@ -144,7 +144,7 @@ def law_findings_of(
     model, labels = points[0].model, points[0].series.models.labels
     fine, coarse = (drawn_of(points, model, level) for level in (FINE, COARSE))
     regime = f"{claimed.size} points, x {claimed.min():.2g} to {claimed.max():.2g}"
-    place: dict[str, Any] = {"where": where, "curve": curve, "regime": "; ".join(filter(None, (regime, groups)))}
+    regime = "; ".join(filter(None, (regime, groups)))
     for found, coordinates in FINDINGS.items():
 
         def off(sample, coordinates=coordinates):
@@ -152,7 +152,7 @@ def law_findings_of(
 
         for quantile, level in QUANTILES.items():
             claim = replace(CLAIMS[f"law3d.{found}{quantile}"], dimension=labels[model])
-            yield _finding(claim, level, off, fine, coarse, **place)
+            yield _finding(claim, level, off, fine, coarse, where=where, curve=curve, regime=regime)
 
 
 def drawn_of(members: Sequence[Any], model: str, level: str) -> DrawSet:

@@ -121,22 +121,19 @@ class Comparison(Study):
         several = [by_family[each.curve].with_remedy(each) if each.curve else each for each in together(members)]
         findings = [*(found for each in every for found in each.findings), *several]
         wide = (why for each in every if each.series.sampled for why in each.series.unreached(each.answers))
-        return Compared(
-            findings, [*open_claims(findings), *wide], None, (), (), every, several, self.about, answers
-        )
+        setting = pages.setting(self.about, every)
+        return Compared(findings, [*open_claims(findings), *wide], None, setting, (), every, several, answers)
 
 
 @dataclass(frozen=True)
 class Compared(Judgement):
     """What a comparison comes to; its tables and figures are made with the page, and not for each round.
 
-    every : each series as judged; several : findings on several of them
-    about : of the comparison; tree : its answers
+    every : each series as judged; several : findings on several of them; tree : their answers
     """
 
     every: Sequence[Judged] = ()
     several: Sequence[Finding] = ()
-    about: str = ""
     tree: xarray.DataTree = field(default_factory=xarray.DataTree)
 
     def page(self, title: str, answers: xarray.DataTree) -> Page:
@@ -145,8 +142,7 @@ class Compared(Judgement):
         claims = claims_table(self.findings, scenes)
         opening += [claims] if len(claims.frame) else []
         blocks = list(pages.blocks(self.every, self.several, self.tree))
-        setting = pages.setting(self.about, self.every)
-        return Judgement(self.findings, self.answer, blocks, setting, opening).page(title, answers)
+        return Judgement(self.findings, self.answer, blocks, self.setting, opening).page(title, answers)
 
 
 def opening_of(judged: Judged) -> Sequence[Table]:

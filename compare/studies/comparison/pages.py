@@ -17,6 +17,7 @@ from ...report.page import Block, Findings, Section, Table, Text
 from ...solving import words
 from ...solving.task import conditions
 from ...statistics.finding import BOTH, REPORTED, UNDECIDED, Finding
+from ...statistics.means import ENDS
 from ...statistics.multilevel import WORDS
 from ...trustmap.verdict import Correction
 from . import plots
@@ -25,7 +26,6 @@ from .claims import SHORT
 from .rough import RoughSeries
 from .series import Judged, Series
 
-ENDS = "_mean", "_low", "_high"
 UNITS = {"depth_reached": "m", "normal_force": "N"}
 MOST_NOTES = 4  # reasons of undecided claims that stand below a table
 
@@ -76,7 +76,7 @@ def _advised(cheap: Correction, solved: Finding | None) -> str:
     return str(cheap).partition(". ")[0] + ("; map and means disagree" if apart else "")
 
 
-def claims_table(findings: Iterable[Finding], scenes: Iterable[str], name: str = "claims") -> Table:
+def claims_table(findings: Iterable[Finding], scenes: Iterable[str]) -> Table:
     """A line a claim and scene: what it is tested against, what each model gives, and the verdict.
 
     scenes : by the beginning of the place of a finding
@@ -94,7 +94,7 @@ def claims_table(findings: Iterable[Finding], scenes: Iterable[str], name: str =
     if lines:
         table["verdict"] = table.pop("verdict")  # behind all models
         table = table if table["scene"].nunique() > 1 else table.drop(columns="scene")
-    return Table(name, table)
+    return Table("claims", table)
 
 
 def _line(short: str, scene: str, own: DataFrame) -> dict[str, str]:

@@ -103,10 +103,6 @@ class RoughSeries(Series):
         found = self.with_strata({ROUGH: rough, SMOOTH: smooth}, least=counts)
         return found | ({ROUGH: with_theory(found[ROUGH], THEORIES)} if self.slides else {})
 
-    def at(self, value: float, speed: float = 0.0) -> Scene:
-        """The rough scene under one load or depth, at rest or at a speed."""
-        return self.curves[ROUGH].at(value, speed)
-
     def judge(self, answers: Answers) -> Judged:
         found = super().judge(answers)
         if not self.slides:

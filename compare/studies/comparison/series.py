@@ -263,9 +263,9 @@ class Series(ABC):
     ) -> Iterator[Finding]:
         """Findings of a claim at places of a curve; the claim measures one or more models at all of them."""
         found = answers.compared(curve, tuple(models), claim.measure, size)
-        common: dict[str, Any] = {"drawn": found.drawn, "curve": self.place(curve)}
         for at, words in places.items():
-            yield Finding.of(claim, found.at(at), where=", ".join(filter(None, (self.label, words))), **common)
+            where = ", ".join(filter(None, (self.label, words)))
+            yield Finding.of(claim, found.at(at), where=where, drawn=found.drawn, curve=self.place(curve))
 
     def _shifted(self, answers: Answers, model: Model, own: Laws | None) -> tuple[Collapse | None, list[Finding]]:
         """Findings on curves of friction that are shifted onto one, and the collapse, where points are enough."""

@@ -234,12 +234,22 @@ class _Complete(_Asked):
             motion = Slide(speed=speeds[0], **press)
         elif self.rates:
             motion = Program(stages=(Stage(duration=1.0, **press),))
-        others: dict[str, Any] = {each: getattr(self, each) for each in STATED}
-        others |= {"asked": shared.models, "reference": shared.reference}
-        return Series(own.name, own.title or own.name, replace(scene, motion=motion), speeds, values, **others)
+        return Series(
+            own.name,
+            own.title or own.name,
+            replace(scene, motion=motion),
+            speeds,
+            values,
+            surfaces=self.surfaces,
+            profiles=self.profiles,
+            bem=self.bem,
+            mdr=self.mdr,
+            asked=shared.models,
+            reference=shared.reference,
+            interval=self.interval,
+        )
 
 
-STATED = "surfaces", "profiles", "bem", "mdr", "interval"
 FIELDS = [field.name for field in fields(_Complete)]
 # What holds at a size where a file states nothing else: speeds or rates, loads or depths, surfaces, profiles, and
 # points of a side in three dimensions.

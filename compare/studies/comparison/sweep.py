@@ -27,6 +27,7 @@ from ...solving.cost import MOST_DRAWS, MOST_VALUES
 from ...solving.curve import Curve, on_two_levels, refuse
 from ...solving.vocabulary import attributes
 from ...statistics import intervals
+from ...statistics.means import ENDS
 from ...statistics.multilevel import MEANS, WORDS, wanted
 from .around import MU, OWN_RATIOS, models_of, over
 from .measures import Here, Place, Row, Where
@@ -77,7 +78,6 @@ def _numbers(unit: Unit, given: Any) -> Iterator[float]:
 
 FEW = 8  # draws where nothing is asked
 CONTACTS = "contacts"
-ENDS = "_mean", "_low", "_high"
 
 
 def contacts(name: str) -> Where:

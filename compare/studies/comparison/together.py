@@ -83,7 +83,7 @@ def _missed(members, model, level):
     try:
         return collapse(reduced(members, model, level)).unshifted.misfit
     except ValueError:
-        return RmsMisfit.unknown()
+        return RmsMisfit()
 
 
 def _slope_exponents(members, model):

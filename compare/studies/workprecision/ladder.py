@@ -14,7 +14,7 @@ from scene.protocol import why_not
 
 from ...models.table import Model
 from ...solving.cost import work_of
-from ...solving.curve import LEAST, LEVELS, Curve, halved
+from ...solving.curve import LEAST, LEVELS, Curve, scaled
 from ...solving.task import Outcome, Row, SceneTask, Task, reason_of, row
 from ...statistics.means import pressed
 from ..comparison.series import pilot
@@ -106,9 +106,9 @@ class Ladder:
     def of(cls, model: Model, scene: Scene, refers: bool = False) -> "Ladder":
         """Settings of a model. refers : whether far finer grids, or what has none, are the reference"""
         grids, least = [model.solver], LEAST.get(model.name, 1)
-        while len(grids) < STEPS and (half := halved(grids[-1])) is not None and half.points >= least:
+        while len(grids) < STEPS and (half := scaled(grids[-1], 0.5)) is not None and half.points >= least:
             grids.append(half)
-        finer = [_refined(model.solver, times) for times in FINER] if refers and model.has_grid else []
+        finer = [scaled(model.solver, times) for times in FINER] if refers and model.has_grid else []
         finer = [each for each in finer if work_of(each, scene) < LONGEST]
         reasons = [(each, "; ".join(why_not(each, scene))) for each in (*finer, *grids)]
         able = tuple(each for each, reason in reasons if not reason)
@@ -144,8 +144,3 @@ def grid_of(ladders: Sequence[Ladder]) -> Curve:
         levels={each.model.name: dict(zip(NAMES, each.solvers, strict=False)) for each in ladders if each.solvers},
         draws=draws,
     )
-
-
-def _refined(solver, times):
-    steps = {"steps": times * solver.steps} if hasattr(solver, "steps") else {}
-    return replace(solver, points=times * solver.points, **steps)
