@@ -148,9 +148,21 @@ UNITS = {
     (Curve, "values"): "N",
 }
 # What solvers make and hand over, and what holds no numbers itself.
-MADE = set(
-    "Heights Doubt Plan Regime Result Contact Grid Modes Profile Surface WarmStart Report SceneTask".split()
-)
+MADE = {
+    "Heights",
+    "Doubt",
+    "Plan",
+    "Regime",
+    "Result",
+    "Contact",
+    "Grid",
+    "Modes",
+    "Profile",
+    "Surface",
+    "WarmStart",
+    "Report",
+    "SceneTask",
+}
 WITHOUT = {"Scene", "Case", "Program", "Plane"}
 # Tested below, with the fields that they need in addition.
 APART = {
@@ -228,12 +240,55 @@ FORMULAS = {
     "loss_modulus": (lambda omega: 1e3 * omega**0.5, None),
     "spectrum": (lambda q: q**-2.0, None),
 }
-NOT_NUMBERS = set(
-    "models reference form base scene settings layout problem grid warm_start outcomes figures figure roughness "
-    "spectrum elastomer path solver result findings answers plots output options folder name size baseline update "
-    "quantities table file unit scheduler executor report yes level repeat peaks kind journal style to progress "
-    "dataset study".split()
-)
+NOT_NUMBERS = {
+    "models",
+    "reference",
+    "form",
+    "base",
+    "scene",
+    "settings",
+    "layout",
+    "problem",
+    "grid",
+    "warm_start",
+    "outcomes",
+    "figures",
+    "figure",
+    "roughness",
+    "spectrum",
+    "elastomer",
+    "path",
+    "solver",
+    "result",
+    "findings",
+    "answers",
+    "plots",
+    "output",
+    "options",
+    "folder",
+    "name",
+    "size",
+    "baseline",
+    "update",
+    "quantities",
+    "table",
+    "file",
+    "unit",
+    "scheduler",
+    "executor",
+    "report",
+    "yes",
+    "level",
+    "repeat",
+    "peaks",
+    "kind",
+    "journal",
+    "style",
+    "to",
+    "progress",
+    "dataset",
+    "study",
+}
 
 
 def arguments_of(function, label, examples, **stated):
