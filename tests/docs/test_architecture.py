@@ -26,7 +26,7 @@ DOORS = {  # files outside which a library is not imported, in whichever folder 
 # What a study may use of the judge: what a user's own study may, and the studies that it builds on.
 STUDIES, FOR_STUDIES = (
     "studies",
-    {"solving", "statistics", "figures", "report", "models", "trustmap", "library", "studies"},
+    {"solving", "statistics", "figures", "report", "models", "trustmap", "library"},
 )
 MOST_ROOMS = 11
 JUDGE = [path for path in FILES if path.relative_to(ROOT).parts[0] == "compare"]
@@ -63,26 +63,22 @@ def test_no_files_of_a_package_use_one_another_in_a_circle(package):
     assert not circle({module(path): set(map(module, used(path) - {doors})) for path in files if path != doors})
 
 
-def test_no_room_of_the_judge_uses_one_above_it():
+@pytest.fixture(scope="module")
+def rooms():
+    """Rooms of the judge that each of them uses besides itself."""
     graph = defaultdict(set)
     for path in JUDGE:
         graph[room(path)] |= {room(other) for other in used(path) if other in JUDGE} - {room(path)}
-    assert not circle(graph)
+    return graph
 
 
-def test_nothing_but_the_commands_uses_a_study():
-    users = {
-        room(path)
-        for path in JUDGE
-        for other in used(path)
-        if other in JUDGE and room(other) == STUDIES and room(path) != STUDIES
-    }
-    assert users <= {"commands", "__init__", "checks"}
+def test_no_room_of_the_judge_uses_one_above_it(rooms):
+    assert not circle(rooms)
 
 
-def test_a_study_uses_what_a_study_of_a_user_may():
-    used_by = {room(other) for path in JUDGE if room(path) == STUDIES for other in used(path) if other in JUDGE}
-    assert used_by <= FOR_STUDIES
+def test_nothing_but_the_commands_uses_a_study_and_a_study_what_one_of_a_user_may(rooms):
+    assert {name for name, uses in rooms.items() if STUDIES in uses} <= {"commands", "__init__", "checks"}
+    assert rooms[STUDIES] <= FOR_STUDIES
 
 
 def test_the_judge_has_few_rooms():

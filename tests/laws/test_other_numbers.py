@@ -243,23 +243,51 @@ FORMULAS = {
 NOT_NUMBERS = {
     "models",
     "reference",
-    *(
-        "form",
-        "base",
-        "scene",
-        "settings",
-        "layout",
-        "problem",
-        "grid",
-        "warm_start",
-        "outcomes",
-        "figures",
-        "figure",
-    ),
-    *("roughness", "spectrum", "elastomer", "path", "solver", "result", "findings", "answers", "plots"),
-    *("output", "options", "folder", "name", "size", "baseline", "update", "quantities", "table", "file", "unit"),
-    *("scheduler", "executor", "report", "yes"),
-    *("level", "repeat", "peaks", "kind", "journal", "style", "to", "progress", "dataset", "study"),
+    "form",
+    "base",
+    "scene",
+    "settings",
+    "layout",
+    "problem",
+    "grid",
+    "warm_start",
+    "outcomes",
+    "figures",
+    "figure",
+    "roughness",
+    "spectrum",
+    "elastomer",
+    "path",
+    "solver",
+    "result",
+    "findings",
+    "answers",
+    "plots",
+    "output",
+    "options",
+    "folder",
+    "name",
+    "size",
+    "baseline",
+    "update",
+    "quantities",
+    "table",
+    "file",
+    "unit",
+    "scheduler",
+    "executor",
+    "report",
+    "yes",
+    "level",
+    "repeat",
+    "peaks",
+    "kind",
+    "journal",
+    "style",
+    "to",
+    "progress",
+    "dataset",
+    "study",
 }
 
 
@@ -299,6 +327,10 @@ def drawn(given):
 
 LINE = {"heights": tuple(50.0 * np.linspace(-1e-3, 1e-3, 6) ** 2), "pixel": 4e-4, "depth": 2e-5}
 MODES = mdr1d.modes_of(StandardLinearSolid(1e6, 2e6, 1e-3))
+
+
+def laid_out(points=100, extent=1e-2):
+    return mdr1d.lay_out(SLIDING, points, extent).pixel
 
 
 def swept(**given):
@@ -344,7 +376,6 @@ def refined(given):
     return bem3d.refined(*coarse(), times=given).measures["pixel"]
 
 
-# Functions that are called as they are: each with its numbers.
 def pressed(**given):
     """Greatest pressure on a wave that is pressed flat."""
     wave = 1e-6 * np.cos(np.pi * np.arange(16) / 8) * np.ones((16, 1))
@@ -352,44 +383,30 @@ def pressed(**given):
     return bem3d.press(wave, **stated).fields["pressure"].max()
 
 
+def called(label, function, **numbers):
+    """Places of a function that is called with one of its numbers; each is a value and its unit."""
+    return [
+        Place(f"{label}({name})", lambda given, name=name: function(**{name: given}), value, *unit)
+        for name, (value, *unit) in numbers.items()
+    ]
+
+
+SWEPT = {"heights": ((1e-5, 0.0, 1e-5), "m"), "pixel": (4e-4, "m"), "depth": (2e-5, "m")}
 CALLED = [
-    *(
-        Place(f"mdr1d.sweep({name})", lambda given, name=name: swept(**{name: given}), value, "m")
-        for name, value in {"heights": (1e-5, 0.0, 1e-5), "pixel": 4e-4, "memory": 1e-4, "depth": 2e-5}.items()
-    ),
-    *(
-        Place(f"mdr1d.sweep_modes({name})", lambda given, name=name: swept_in_modes(**{name: given}), value, unit)
-        for name, value, unit in (
-            ("heights", (1e-5, 0.0, 1e-5), "m"),
-            ("pixel", 4e-4, "m"),
-            ("speed", 0.1, "m/s"),
-            ("depth", 2e-5, "m"),
-        )
-    ),
+    *called("mdr1d.sweep", swept, **SWEPT, memory=(1e-4, "m")),
+    *called("mdr1d.sweep_modes", swept_in_modes, **SWEPT, speed=(0.1, "m/s")),
     Place("mdr1d.draw(nodes)", drawn, 64),
     Place("mdr1d.amplitudes(bandwidth)", lambda given: mdr1d.amplitudes(ROUGH, given), 10.0),
-    Place("mdr1d.lay_out(points)", lambda given: mdr1d.lay_out(SLIDING, given, 1e-2).pixel, 100),
-    Place("mdr1d.lay_out(extent)", lambda given: mdr1d.lay_out(SLIDING, 100, given).pixel, 1e-2, "m"),
+    *called("mdr1d.lay_out", laid_out, points=(100,), extent=(1e-2, "m")),
     Place("bem3d.refined(times)", refined, 2),
-    *(
-        Place(f"bem3d.for_accuracy({name})", lambda given, name=name: by_accuracy(**{name: given}), 0.1)
-        for name in ("friction", "depth")
-    ),
-    *(
-        Place(f"bem3d.press({name})", lambda given, name=name: pressed(**{name: given}), value, unit)
-        for name, value, unit in (("pixel", 1e-6, "m"), ("modulus", 1e6, "Pa"), ("pressure", 1e5, "Pa"))
-    ),
-    Place("compare.sweep(speed)", lambda given: asked(speed=given), (0.1, 0.3), "m/s"),
-    Place("compare.sweep(load)", lambda given: asked(load=given), (0.1, 0.3), "N"),
-    Place("compare.sweep(depth)", lambda given: asked(depth=given), (1e-5, 2e-5), "m"),
+    *called("bem3d.for_accuracy", by_accuracy, friction=(0.1,), depth=(0.1,)),
+    *called("bem3d.press", pressed, pixel=(1e-6, "m"), modulus=(1e6, "Pa"), pressure=(1e5, "Pa")),
+    *called("compare.sweep", asked, speed=((0.1, 0.3), "m/s"), load=((0.1, 0.3), "N"), draws=(2,)),
+    *called("compare.sweep", asked, depth=((1e-5, 2e-5), "m")),
     Place("compare.export(width)", lambda given: columns("default", given)[0], 0.1, "m"),
-    Place("compare.sweep(draws)", lambda given: asked(draws=given), 2),
     Place("compare.sweep(interval)", lambda given: SweepSeries.of(SLIDING, (0.1,), interval=given).interval, 0.1),
     Place("compare.mastercurve(tolerance)", lambda given: Mastercurve.of(FRICTION, given).tolerance, 0.1),
-    *(
-        Place(f"compare.mastercurve({name})", lambda given, name=name: shifted(**{name: given}), value, unit)
-        for name, value, unit in (("c1", 8.0, None), ("c2", 100.0, "K"), ("reference", 300.0, "K"))
-    ),
+    *called("compare.mastercurve", shifted, c1=(8.0,), c2=(100.0, "K"), reference=(300.0, "K")),
 ]
 PLACES = [
     *(place for thing in OBJECTS for place in fields_of(thing)),

@@ -150,7 +150,12 @@ CASES = {
     ),
     **{
         f"an extent of {extent:g} m": (resting(), [replace(each, extent=extent) for each in BOTH], words)
-        for extent, words in ((1e-5, "extent"), (1e4, "take"), (5e-324, "units"), (1e300, "units"))
+        for words, extents in {
+            "extent": (1e-5, 1e-150, 1e150),
+            "take": (1e4,),
+            "units": (5e-324, 1e-310, 1e300, 1.7e308),
+        }.items()
+        for extent in extents
     },
     "a program beyond the window": (
         program(stage(TIME, depth=DEPTH)),
@@ -252,7 +257,6 @@ def test_a_contact_without_an_answer_is_refused_by_an_error_that_names_what_to_c
         (partial(BEM, points=15), "points | 15 | 16"),
         (partial(MDR, points=7), "points | 7 | 8"),
         (partial(MDR, pixels=100), "pixels"),
-        (partial(MDR, shape="given"), "shape | 'mapped' or 'as-given'"),
         (partial(BEM, tolerance=1e-13), "tolerance | 1e-13 | 0.000000000001"),
         (partial(BEM, precision="single", tolerance=1e-6), "tolerance | single"),
     ],

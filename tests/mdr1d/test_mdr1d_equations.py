@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from mdr1d import draw, modes_of, sweep_modes
+from mdr1d import draw, estimates, modes_of, sweep_modes
 from mdr1d import equations as eq
 from scene import (
     Elastic,
@@ -281,6 +281,12 @@ def test_further_arguments_out_of_range_are_named():
         (lambda: eq.spectral_force(abs, abs, (2.0, 1.0), 1.0, 1.0), r"band = \(2, 1\) must rise"),
         (lambda: eq.wave_force(abs, [1.0], [-1.0], 1.0, 1.0), "amplitudes = -1 must be finite and not negative"),
         (lambda: eq.power_law_loss(1.0, 1.0, 1.0, 1.5), "beta = 1.5 must be from 0 to 1"),
+        (lambda: estimates.flash_heating(0.5, -1.0, 1e-7, 1.0, 1.0), "glassy_modulus = -1 must be positive"),
+        (lambda: estimates.largest_displacement(0.5, 1.0, 0.6), "poisson_ratio = 0.6 must be from -1 to 0.5"),
+        (lambda: estimates.partial_slip_force(-1.0, 0.5, 1.0, 1.0, 2), "displacement = -1 must be finite and not"),
+        (lambda: estimates.layer_force(1.0, np.nan, 1.0, 2), "thickness = nan must be positive"),
+        (lambda: estimates.stiffness_exponent(0.2, "half-space"), "n = 0.2 must be from 1 to 100"),
+        (lambda: estimates.stiffness_exponent(2, "layer"), "base = 'layer' must be one of half-space, compr"),
     ):
         with pytest.raises(ValueError, match=message):
             call()

@@ -94,22 +94,3 @@ def test_the_exponents_of_stiffness_are_those_of_the_force(base, n):
         growth = np.diff(np.log(forces))[0] / log(10)
     # k ~ F/d; equal grids make the quadrature scale too.
     assert estimates.stiffness_exponent(n, base) == pytest.approx(1 - 1 / growth, rel=1e-10)
-
-
-@pytest.mark.parametrize(
-    ("call", "message"),
-    [
-        (lambda: estimates.flash_heating(0.5, -1.0, 1e-7, 1.0, 1.0), "glassy_modulus = -1 must be positive"),
-        (lambda: estimates.largest_displacement(0.5, 1.0, 0.6), "poisson_ratio = 0.6 must be from -1 to 0.5"),
-        (lambda: estimates.partial_slip_force(-1.0, 0.5, 1.0, 1.0, 2), "displacement = -1 must be finite and not"),
-        (lambda: estimates.layer_force(1.0, np.nan, 1.0, 2), "thickness = nan must be positive"),
-        (lambda: estimates.stiffness_exponent(0.2, "half-space"), "n = 0.2 must be from 1 to 100"),
-        (
-            lambda: estimates.stiffness_exponent(2, "layer"),
-            "base = 'layer' must be one of half-space, compressible",
-        ),
-    ],
-)
-def test_arguments_out_of_range_are_named(call, message):
-    with pytest.raises(ValueError, match=message):
-        call()

@@ -1,7 +1,5 @@
 """Programs in one dimension: forces of Lee and Radok, jumps that meet the glass, steps in time, and errors."""
 
-from time import process_time
-
 import numpy as np
 import pytest
 from solids import BALL, CHAIN, CYCLES, KELVIN, ROUGH, ROUNDING, SERIES, SOLID, SOLIDS
@@ -44,9 +42,6 @@ def test_a_prescribed_depth_has_no_error_in_time(solid):
 
 def test_a_sudden_step_meets_the_glass():
     result = solved(program((1e-9, {"depth": 0.1})))
-    started = process_time()  # once its loops are compiled
-    again = solved(program((1e-9, {"depth": 0.1}))).seconds
-    assert 0 < again <= process_time() - started
     glass = solved(Indent(depth=0.1), Elastic(1.25))
     assert result.normal_force == pytest.approx(glass.normal_force, rel=1e-6)
     assert result.measures["stiffness"] == pytest.approx(glass.measures["stiffness"], rel=1 / 1000)

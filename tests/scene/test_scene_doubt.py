@@ -1,6 +1,5 @@
 """Doubts about a scene: each number beyond its limit, none within, and no scene that breaks the list."""
 
-import time
 from dataclasses import replace
 from itertools import product
 
@@ -333,14 +332,11 @@ BODIES = (Sphere, Cone, Cylinder)
 
 @pytest.mark.parametrize("body", BODIES)
 def test_no_scene_breaks_the_list(body):
-    started, count = time.perf_counter(), 0
     for size, modulus, pressed, speed in product(EXTREMES, EXTREMES, EXTREMES, (0.0, 1e-300, 1e300)):
         indenter = Cone(min(size, 1.57)) if body is Cone else body(size)
         motion = {"line_load": pressed} if body is Cylinder else {"depth": pressed}
         scene = Scene(indenter, Kelvin(modulus, 1 / size), Slide(speed=speed, **motion))
-        count += all(map(str, doubts(scene)))
-    assert count == 375
-    assert time.perf_counter() - started < 20e-3 * count
+        assert all(map(str, doubts(scene)))
 
 
 def test_scenes_without_a_smooth_contact_are_no_trouble():

@@ -126,25 +126,6 @@ def test_what_is_no_toml_or_no_file_is_said(tmp_path):
         read(tmp_path / "nowhere.toml", Scene)
 
 
-def test_rows_of_numbers_are_not_repeated_to_whoever_wrote_them(tmp_path):
-    heights = "[" + ", ".join(["[1.0, 2.0, 3.0]"] * 50) + "]"
-    text = f"[roughness]\ntype = 'topography'\npixel = 1.0\nheights = {heights}\n"
-    with pytest.raises(InvalidInput) as raised:
-        scene_from(tmp_path, SCENE + text)
-    assert str(raised.value).endswith(
-        "roughness.heights: an array of shape (50, 3): a map has at least 4 rows and columns"
-    )
-
-
-def test_what_does_not_fit_together_is_named_by_its_fields_alone(tmp_path):
-    text = SCENE.replace('"sphere"\nradius = 1e-2', '"plane"').replace("load", "pressure")
-    with pytest.raises(InvalidInput) as raised:
-        scene_from(tmp_path, text)
-    assert str(raised.value).endswith(
-        "scene.toml: indenter = Plane without roughness touches everywhere: give roughness"
-    )
-
-
 # Names and types that are unknown
 
 
@@ -181,12 +162,32 @@ def test_an_unknown_name_is_one_mistake_with_the_nearest_known_one(tmp_path, old
         assert found.startswith(begins)
 
 
-def test_everything_that_is_missing_is_listed(tmp_path):
-    assert lines_of(tmp_path, '[indenter]\ntype = "cone"\n[motion]\n') == [
-        "motion.type: missing, one of 'indent', 'program', 'shear', 'slide'",
-        'indenter.angle: missing, an angle, such as "30 deg" or 0.523599 (in rad)',
-        "elastomer: missing, a table",
-    ]
+@pytest.mark.parametrize(
+    ("text", "lines"),
+    [
+        (
+            '[indenter]\ntype = "cone"\n[motion]\n',
+            [
+                "motion.type: missing, one of 'indent', 'program', 'shear', 'slide'",
+                'indenter.angle: missing, an angle, such as "30 deg" or 0.523599 (in rad)',
+                "elastomer: missing, a table",
+            ],
+        ),
+        (
+            SCENE.replace('"sphere"\nradius = 1e-2', '"plane"').replace("load", "pressure"),
+            ["indenter = Plane without roughness touches everywhere: give roughness"],
+        ),
+        # rows of numbers are not repeated
+        (
+            SCENE + f"[roughness]\ntype = 'topography'\npixel = 1.0\nheights = {50 * [[1.0, 2.0, 3.0]]}\n",
+            ["roughness.heights: an array of shape (50, 3): a map has at least 4 rows and columns"],
+        ),
+        ("a = " + "[" * 5000 + "]" * 5000, ["tables and lists stand in one another too deep"]),
+    ],
+    ids=["missing", "not together", "rows of numbers", "nested"],
+)
+def test_mistakes_are_listed_by_their_fields_alone(tmp_path, text, lines):
+    assert lines_of(tmp_path, text) == lines
 
 
 LENGTH = 'a length, such as "5 mm" or 0.005 (in m)'
@@ -268,10 +269,13 @@ def test_a_path_is_relative_to_the_file_in_which_it_stands(tmp_path, monkeypatch
     monkeypatch.chdir(folder)
     for path in ("scene.toml", folder / "scene.toml", "../absolute.toml"):
         assert read(path, Scene) == near
-    with pytest.raises(
-        InvalidInput, match=r"held\.txt: no such file in .*scenes/\.\., the folder of the file that names it"
+    (folder / "held.txt").unlink()
+    for named, place in (
+        ("../scene.toml", r"scenes/\.\., the folder of the file that names it"),
+        ("scene.toml", "scenes, the working directory"),
     ):
-        made(parsed(stated.format("'held.txt'"), "../scene.toml"), Scene, "../scene.toml")
+        with pytest.raises(InvalidInput, match=rf"held\.txt: no such file in .*{place}"):
+            made(parsed(stated.format("'held.txt'"), named), Scene, named)
 
 
 # Whatever stands where
@@ -281,12 +285,6 @@ def test_a_path_is_relative_to_the_file_in_which_it_stands(tmp_path, monkeypatch
 def test_a_name_that_is_called_as_the_type_of_its_table_is_a_name(tmp_path, kind):
     lines = lines_of(tmp_path, SCENE.replace('type = "sphere"', f'type = "{kind}"\n{kind} = 1'))
     assert f"indenter.{kind} = 1: unknown here" in lines[0]
-
-
-def test_what_is_nested_too_deep_is_said(tmp_path):
-    assert lines_of(tmp_path, "a = " + "[" * 5000 + "]" * 5000) == [
-        "tables and lists stand in one another too deep"
-    ]
 
 
 @pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])

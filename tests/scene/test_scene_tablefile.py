@@ -80,7 +80,6 @@ STATED = {
         "line 5: '' has not the 3 cells.*state .* rows to end",
     ),
     "a short row": ([HEADED, *ROWS, "3;4"], {"rows": 3}, "line 5: '3;4' has not the 3 cells"),
-    "a quotation mark": ([HEADED, *ROWS, '3;"4;5'], {"rows": 3}, "line 5: .* has not the 3 cells"),
     "units": (
         ["# moduli in kPa", "f;G';G''", *ROWS],
         {"units": {"frequency": "Hz", "storage": "MPa", "loss": "kPa"}},

@@ -14,7 +14,7 @@ import scene.surfaces.topography
 from compare.library.case import Case
 from compare.solving.task import SCENES
 from scene import Elastic, Indent, Measured, Plane, Scene, SelfAffine, Sphere, Topography
-from scene.files.reading import InvalidInput, read
+from scene.files.reading import InvalidInput
 
 ROUNDING = 1e-13  # of heights of order one, summed over some ten waves
 SPLINE = 1e-12  # a paraboloid is a bicubic spline: what is left is rounding
@@ -252,43 +252,3 @@ def test_slopes_and_heights_are_the_same_at_the_least_and_the_greatest_lengths(l
     one, far = (rough(each * np.eye(5), pixel=each) for each in (1.0, length))
     assert far.waves.rms_slope == pytest.approx(one.waves.rms_slope, rel=1e-12)
     assert far.rms_height == pytest.approx(length * one.rms_height, rel=1e-12)
-
-
-FILE = """
-[indenter]
-type = "sphere"
-radius = 1e-2
-[elastomer]
-type = "elastic"
-modulus = 1e6
-[motion]
-type = "indent"
-load = 1.0
-[roughness]
-type = "topography"
-file = "surface.npy"
-pixel = [1e-6, 2e-6]
-unit = "um"
-seed = 3
-"""
-
-
-def test_a_scene_file_names_the_map_by_its_path(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    np.save("surface.npy", noise((5, 6)))
-
-    def scene(old="", new=""):
-        (tmp_path / "scene.toml").write_text(FILE.replace(old, new))
-        return read("scene.toml", Scene)
-
-    found = scene()
-    assert found.roughness == Topography(heights=1e-6 * noise((5, 6)), pixel=(1e-6, 2e-6), seed=3)
-    refused("roughness: surface.npy does not state its unit", scene, old="unit", new="# unit")
-    np.save("surface.npy", np.where(np.eye(5) > 0, -np.inf, 1.0))
-    refused(r"^scene.toml: roughness: file = 'surface.npy': .*\[0\] = -inf: 5 of 25[^\n]*$", scene)
-    refused(
-        "roughness.zzz = 1: unknown here",
-        scene,
-        old=FILE[FILE.index("file") :],
-        new="heights = [[1.0]]\nzzz = 1",
-    )
