@@ -48,9 +48,8 @@ def test_a_thin_layer_is_a_bed_of_springs_or_a_film(shape, base, poisson_ratio):
             limit = reference.on_film(shape, stated, MODULUS, found.depth)
         else:
             limit = reference.on_springs(shape, stated, MODULUS, poisson_ratio, found.depth)
-        left.append(
-            [found.radius / limit.radius - 1, found.load / limit.load - 1, found.stiffness / limit.stiffness - 1]
-        )
+        parts = ("radius", "load", "stiffness")
+        left.append([getattr(found, name) / getattr(limit, name) - 1 for name in parts])
     left = np.abs(left)
     assert np.all(left[-1] < 0.04)
     assert np.all(left[1:] < 0.6 * left[:-1] + 10 * ROUNDING)
