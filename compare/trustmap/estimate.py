@@ -1,13 +1,16 @@
 """Friction, depth and force of a scene by the cheapest model that knows them, each with an interval."""
 
 from dataclasses import dataclass, replace
+from math import nan
 
-from scene import Indent, Plane, Scene, Slide, SolveError
+from scene import Indent, Plane, Scene, SelfAffine, Slide, SolveError
 from scene.doubt import least_friction
 from scene.protocol import numeric_guard
 
 from ..models.law.bands import Bands
+from ..models.law.extended import without
 from ..models.law.nominal import mean_gap
+from ..models.law.parts import LawParts
 from ..models.law.smooth import SPACE, SmoothContact
 from ..solving.words import interval
 from .friction_law import DEPTH, FrictionLaw, known_errors
@@ -90,6 +93,15 @@ def _depth_or_force(scene, x):
         for each in (depth + gap - half, depth + gap, depth + gap + half)
     )
     return Estimate(name, "N", value, low, high, GAP)
+
+
+def of_finer(scene: Scene) -> float:
+    """Relative change of friction by waves down to half the shortest, by the law alone; NaN without a spectrum."""
+    rough = scene.roughness
+    if not isinstance(rough, SelfAffine):
+        return nan
+    own, other = (LawParts.of(each).friction_coefficient for each in (scene, without(scene, rough.shortest / 2)))
+    return other / own - 1
 
 
 def _pressed(scene):

@@ -13,7 +13,7 @@ from scene import Doubt, Indent, Profile, Scene, Slide, SolveError, Spectrum, do
 from scene.doubt import beyond_linear, beyond_table
 
 from ..solving.words import capital, interval, off, share
-from .estimate import Estimate, estimates
+from .estimate import Estimate, estimates, of_finer
 from .groups import LINE, SPACE, SmoothReference
 from .measured import OffTheMap, Place, as_judged, placed, unmeasured
 from .model import LAW, MOST_SCATTER, NORMAL, RATIOS, asked_of, lost
@@ -104,6 +104,7 @@ class Advice:
     doubts : about the scene
     notes : on what was read for it
     estimates : friction, depth or force themselves
+    finer : relative change of friction, by the law alone, where the shortest wave is half as long; NaN without one
     """
 
     friction: Correction | None
@@ -114,6 +115,7 @@ class Advice:
     doubts: tuple[Doubt, ...] = ()
     notes: tuple[str, ...] = ()
     estimates: tuple[Estimate, ...] = ()
+    finer: float = nan
 
     @property
     def corrections(self) -> dict[str, Correction]:
@@ -147,6 +149,9 @@ class Advice:
     def __str__(self) -> str:
         lines = [*(f"doubtful: {each}" for each in self.doubts), *(f"note: {each}" for each in self.notes)]
         lines += map(str, self.estimates)
+        if isfinite(self.finer):
+            more = share(self.finer)
+            lines.append(f"waves half as short as the shortest would add {more} of friction, by the law alone")
         lines += [self.choice] if self.choice else []
         lines += [f"{SUBJECTS[name]}: {worth}" for name, worth in self.corrections.items()]
         if self.groups:
@@ -168,9 +173,10 @@ def trust(scene: Scene) -> Advice:
     A measured line is judged as the surface that is fitted to it. Beyond every linear theory of contact there is
     no advice: 3D is as linear as 1D.
     """
-    found = replace(
-        _advised(as_judged(scene)), doubts=doubts(scene), notes=notes(scene), estimates=estimates(scene)
-    )
+    known = estimates(scene)
+    finer = of_finer(scene) if any(each.quantity == "friction" for each in known) else nan
+    found = _advised(as_judged(scene))
+    found = replace(found, doubts=doubts(scene), notes=notes(scene), estimates=known, finer=finer)
     if isinstance(scene.roughness, Profile | Spectrum):
         why = FITTED if isinstance(scene.roughness, Profile) else SHAPED
         noted = {name: replace(each, reason=f"{each.reason} {why}") for name, each in found.corrections.items()}

@@ -197,11 +197,9 @@ def test_two_answers_without_friction_are_alike_and_one_is_not():
         (SMOOTH, {}, "an error has to be wanted, of depth or friction"),
         (SMOOTH, {"load": 0.01}, "load = 0.01: of this scene errors are promised of depth or friction"),
         (SMOOTH, {"friction": 0.0}, "friction = 0.0: a relative error between 0 and 1"),
-        (SMOOTH, {"friction": float("nan")}, "friction = nan"),
         (SMOOTH, {"friction": "1 %"}, "friction = '1 %': a relative error between 0 and 1"),
         (SMOOTH, {"friction": True}, "friction = True"),
         (SMOOTH, {"friction": 0.01, "points": 64}, "points = 64: it is chosen by the wanted errors"),
-        (SMOOTH, {"friction": 0.01, "tolerance": 1e-9}, "tolerance = 1e-09: it is chosen by the wanted errors"),
         (SMOOTH, {"friction": 1e-4, "precision": "single"}, "in single precision at least 0.0003"),
         (
             replace(SMOOTH, motion=Shear(load=1.0, force=0.1), interface=Coulomb(0.3)),

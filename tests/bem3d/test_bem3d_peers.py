@@ -12,10 +12,8 @@ import pytest
 from bem3d import BEM
 from bem3d.grid import Grid
 from bem3d.motion.marching import march
-from bem3d.motion.steady import Flow
 from bem3d.problem import Problem
 from bem3d.response.engine import Engine
-from bem3d.response.halfspace import Cell, HalfSpace
 from scene import Elastic, Indent, Plane, Program, Prony, Scene, SelfAffine, Sphere, Stage
 
 # A warning of the peers, not of ours: without mpi4py, NuMPI warns on import that it stands in for it.
@@ -177,19 +175,6 @@ def test_a_viscoelastic_cell_goes_the_way_of_tamaas(transients):
 SPHERE = Sphere(1.0)
 DEPTH, SIDE = 0.02, 0.6
 ROUGH = SelfAffine(hurst=0.8, rms_height=4e-4, longest=1.0, rolloff=0.25, shortest=0.0625, seed=1)
-
-
-@pytest.mark.parametrize("points", [64, 81])
-def test_the_kernels_are_those_of_contact_mechanics(contact_mechanics, points):
-    # lengths in pixels, E* = 1; their free kernel has logarithms of ratios near one, which cost it 1e-12
-    pressure, grid = np.random.default_rng(points).random((points, points)), Grid(points, float(points))
-    flow = Flow.of(ELASTIC, speed=0.0)
-    free = contact_mechanics.FreeFFTElasticHalfSpace(grid.shape, 1.0, grid.shape)
-    cell = contact_mechanics.PeriodicFFTElasticHalfSpace(grid.shape, 1.0, grid.shape, stiffness_q0=0.0)
-    for medium, theirs in ((HalfSpace(flow, Engine()), free), (Cell(flow, Engine()), cell)):
-        displacement = medium.operator(grid)(pressure)
-        expected = -theirs.evaluate_disp(pressure)  # of forces that pull
-        np.testing.assert_allclose(displacement, expected, rtol=0, atol=1e-11 * np.abs(expected).max())
 
 
 @pytest.mark.parametrize("points", [64, 150])

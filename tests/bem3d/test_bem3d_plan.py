@@ -25,12 +25,10 @@ from scene import (
     Plane,
     Program,
     Prony,
-    Refused,
     Scene,
     SelfAffine,
     Shear,
     Slide,
-    SolveError,
     Stage,
     Topography,
     Wave,
@@ -42,7 +40,6 @@ ROUGH = SelfAffine(hurst=0.8, rms_height=5e-6, longest=2e-3, shortest=0.25e-3, s
 CELL = SelfAffine(hurst=0.8, rms_height=2e-6, longest=1e-3, shortest=1.25e-4, seed=1)
 MANY = Prony(1e6, (1e6,) * 40, tuple(1e-4 * 1.3**k for k in range(40)))
 FAR = Program(stages=tuple(Stage(duration=1e-2, load=LOAD, speed=way) for way in (1.0, -1.0)))
-TOO_FAR = Program(stages=(Stage(duration=1.0, load=LOAD), Stage(duration=1e6, speed=1.0)))
 PRESSED = Program(stages=(Stage(duration=1e-3, load=LOAD),))
 SCENES = {
     "rest": Scene(SPHERE, KELVIN, Indent(load=LOAD)),
@@ -259,22 +256,6 @@ def test_what_an_estimated_window_could_not_carry_is_said():
     assert "too thin" in str(asked.plan(thin))
     assert not asked.plan(SCENES["layer"]).doubts
     assert "as on a half-space" in str(asked.plan(SCENES["layer"]))
-
-
-@pytest.mark.parametrize(
-    ("scene", "error", "text"),
-    [
-        (replace(SCENES["plane"], roughness=replace(CELL, shortest=2e-6)), Refused, "less than two pixels"),
-        (
-            replace(SCENES["program"], motion=TOO_FAR),
-            SolveError,
-            r"more than 1000000.* for its path: slide a shorter",
-        ),
-    ],
-)
-def test_what_cannot_be_solved_has_no_plan(scene, error, text):
-    with pytest.raises(error, match=text):
-        BEM(points=64).plan(scene)
 
 
 def test_a_printed_plan_says_all_of_it():

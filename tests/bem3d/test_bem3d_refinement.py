@@ -141,10 +141,9 @@ REFUSED = {
 }
 
 
-@pytest.mark.parametrize(
-    ("name", "field"), [("plane", "indenter"), ("cylinder", "indenter"), ("program", "motion")]
-)
-def test_what_has_no_spots_of_its_own_is_refused_by_name(name, field):
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_has_no_spots_of_its_own_is_refused_by_name(name):
+    field = "motion" if name == "program" else "indenter"
     part = type(getattr(REFUSED[name], field)).__name__
     solver = BEM(points=64, steps=5)
     with pytest.raises(Refused, match=f"{field} = {part}: .* take more points"):

@@ -201,8 +201,3 @@ def test_every_measure_has_a_unit_and_a_meaning():
             entry = vocabulary.entry(name)
             assert entry.unit == ("1" if name.endswith("_ratio") else units[name.partition("_")[0]])
             assert ("Of a single surface" in entry.text) == ("surface" in name)
-
-
-def test_a_stored_answer_depends_on_the_code_of_both_solvers_and_of_the_map():
-    assert {"scene", "mdr1d", "bem3d", "compare.trustmap"} <= set(SceneTask(FEW, (ROUGH,)).packages)
-    assert SceneTask(MDR(), (ROUGH,)).packages == ("scene", "mdr1d")

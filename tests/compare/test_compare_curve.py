@@ -26,7 +26,7 @@ from compare.solving.words import basis
 from compare.statistics.finding import Claim
 from compare.statistics.jackknife import DrawSet, mean, measured
 from mdr1d import MDR
-from scene import Indent, Layer, Refused
+from scene import Refused
 from scene.quantities import MOST_WHOLE
 
 ROUGH = Curve(
@@ -125,19 +125,6 @@ def test_curves_that_cross_share_their_contacts():
     assert {each for each in kept if each.keeps_fields} <= set(tasks_of(both))  # alone, not on a path
 
 
-def test_depths_are_prescribed_where_the_scene_prescribes_one():
-    rest = replace(ROUGH, scene=replace(SLIDING, motion=Indent(depth=1e-5)), speeds=(0.0,), values=(1e-5, 2e-5))
-    found = rest.dataset({task: Outcome((Row(1.0, 1e-5, 0.0),) * task.count) for task in rest.tasks()})
-    assert "depth" in found.dims
-    assert {"depth_reached", "normal_force"} <= set(found.data_vars)
-
-
-def test_what_a_solver_lacks_is_refused_before_anything_is_solved():
-    layered = replace(SMOOTH.scene, layer=Layer(thickness=1e-3))
-    with pytest.raises(Refused, match="MDR"):
-        refuse([replace(SMOOTH, scene=layered)])
-
-
 @pytest.mark.parametrize("points", [32, 64, 96])
 def test_the_values_that_a_refusal_names_are_enough_for_the_coarser_grid_too(points):
     def refused(points=points, shortest=SLIDING.roughness.longest / 200):
@@ -157,15 +144,6 @@ PARTS = "rough/MDR", "rough/BEM", "smooth/MDR"
 
 def sample(answers, level="fine"):
     return DrawSet({name: of(answers, *name.split("/")).sel(level=level) for name in PARTS})
-
-
-def test_draws_of_each_model_are_left_out_by_themselves(answers):
-    whole = sample(answers)
-    assert whole.drawn == {"MDR": 4, "BEM": 2}
-    assert [each.solver for each in whole.groups] == ["MDR"] * 4 + ["BEM"] * 2
-    less = whole.without(whole.groups[-1])
-    assert less["rough/BEM"].surface.values.tolist() == [5]
-    assert all(less[name] is whole[name] for name in ("rough/MDR", "smooth/MDR"))
 
 
 def test_a_claim_is_measured_with_scatter_and_with_the_change_on_halving(answers):

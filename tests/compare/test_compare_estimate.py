@@ -1,6 +1,7 @@
 """Answers of `trust` themselves: their intervals hold what BEM finds, and the way they were found is said."""
 
 from dataclasses import replace
+from math import isnan
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ from bem3d import BEM
 from compare import FrictionLaw
 from compare.library.case import Case
 from compare.models.law.extended import without
+from compare.models.law.parts import LawParts
 from compare.studies.comparison.around import Around
 from compare.trustmap.verdict import trust
 from scene import Indent, Kelvin, Layer, Prony, Scene, SelfAffine, Slide, Sphere, Table, Tabulated
@@ -72,23 +74,27 @@ def test_a_spectrum_that_goes_on_to_waves_half_as_short_is_cut_back_to_itself():
     finer = without(SCENE, ROUGH.shortest / 2).roughness
     cut = without(replace(SCENE, roughness=finer), ROUGH.shortest).roughness
     assert finer.shortest == ROUGH.shortest / 2
-    assert finer.rms_height > cut.rms_height
+    more, own = (LawParts.of(replace(SCENE, roughness=each)).friction_coefficient for each in (finer, ROUGH))
+    assert trust(SCENE).finer == more / own - 1 > 0
+    assert isnan(trust(replace(SCENE, roughness=None)).finer)
     assert cut.rms_height == pytest.approx(ROUGH.rms_height, rel=1e-12)
 
 
 def test_waves_that_the_grid_cannot_hold_are_left_to_the_law():
     case = Case(indenter=SCENE.indenter, elastomer=SOLID, motion=SCENE.motion, roughness=ROUGH)
-    assert {each.name for each in Around("own", case).models} == {"MDR", "BEM"}
+
+    def models(*given, **changed):
+        return set(Around("own", replace(case, **changed), *given).models.labels)
+
+    both = {"MDR", "BEM"}
+    assert models() == both
     fine = Around("fine", replace(case, roughness=FINE))
-    assert {each.name for each in fine.models} == {"FrictionLaw", "ExtendedBEM"}
-    assert fine.models.reference == "ExtendedBEM"
+    assert set(fine.models.labels) == {"FrictionLaw", fine.models.reference} == {"FrictionLaw", "ExtendedBEM"}
     assert any("left to the law" in each for each in fine.remarks)
-    assert fine.models["ExtendedBEM"].solver.points == 256
-    more = Around("more", replace(case, roughness=FINE, bem=BEM(points=512))).models
-    assert more["ExtendedBEM"].solver.points == 512
-    narrow = Around("narrow", replace(case, roughness=FINE, bem=BEM(extent=1e-5)))
-    assert {each.name for each in narrow.models} == {"MDR", "BEM"}  # which says that the grid is too narrow
-    assert {each.name for each in Around("asked", case, ("mdr", "law")).models} == {"MDR", "FrictionLaw"}
+    more = Around("more", replace(case, roughness=FINE, bem=BEM(points=512)))
+    assert [each.models["ExtendedBEM"].solver.points for each in (fine, more)] == [256, 512]
+    assert models(roughness=FINE, bem=BEM(extent=1e-5)) == both  # which says that the grid is too narrow
+    assert models(("mdr", "law")) == {"MDR", "FrictionLaw"}
 
 
 def test_beyond_a_table_of_moduli_friction_is_at_least_that_of_the_waves_it_covers():

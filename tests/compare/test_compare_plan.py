@@ -8,12 +8,14 @@ import pytest
 from planned import held_by
 from processes import ask
 from small_cases import SCENE, SMALL
+from solids import gel
 
 import compare
+from compare.library.lookup import case_of
 from compare.studies.answers import answer
 from compare.studies.comparison import asked
 from compare.studies.plan import plans
-from scene import Doubtful
+from scene import Doubtful, Scene, Slide, Sphere
 
 PLANE = """
 [indenter]
@@ -160,40 +162,21 @@ def test_doubts_stand_first_in_a_plan_and_in_what_trust_says_and_are_warnings_in
         assert {each.filename for each in warned} == {__file__}
 
 
-GEL = """
-[indenter]
-type = "sphere"
-radius = "10 mm"
-[elastomer]
-type = "tabulated"
-frequency_unit = "rad/s"
-kind = "shear"
-table = {{frequency = {frequency}, storage = {storage}, loss = {loss}}}
-[motion]
-type = "slide"
-speed = {speed}
-load = "1 N"
-"""
-
-
-def test_every_command_doubts_the_same_of_a_table_and_run_and_plan_their_curves_too(written):
-    omega = np.geomspace(1.0, 100.0, 13)
-    modulus = 1e6 * (1j * omega) ** 0.2
-    numbers = {"frequency": omega.tolist(), "storage": modulus.real.tolist(), "loss": modulus.imag.tolist()}
-    slow, within = (GEL.format(speed=speed, **numbers) for speed in (1e-6, 0.05))
-    path = written(slow)
-    sentences = asked.run(path).doubts
+def test_every_command_doubts_the_same_of_a_table_and_run_and_plan_their_curves_too():
+    slow, within = (
+        case_of(Scene(Sphere(10e-3), gel(1.0), Slide(speed=speed, load=1.0))) for speed in (1e-6, 0.05)
+    )
+    sentences = asked.run({"a case": slow}).doubts
     assert sentences[0].startswith("frequencies of the contact below those of the table = 3.1")
     assert sentences[1].startswith("width of the interval of the modulus at rest")
-    assert sentences == plans(path).doubts
-    assert sentences[:2] == asked.sweep(path).doubts == tuple(map(str, plans(path)["trust"].doubts))
-    assert asked.sweep(path, speed=1e-2).doubts == ()
+    assert sentences == plans(slow).doubts
+    assert sentences[:2] == asked.sweep(slow).doubts == tuple(map(str, plans(slow)["trust"].doubts))
+    assert asked.sweep(slow, speed=1e-2).doubts == ()
     # The scene is within the table, its curves are not, and indent.
-    path = written(within)
-    assert plans(path)["trust"].doubts == ()
-    curves = asked.run(path).doubts
+    assert plans(within)["trust"].doubts == ()
+    curves = asked.run({"a case": within}).doubts
     assert {each.split(" = ")[0] for each in curves} == {
         "frequencies of the contact above those of the table",
         "width of the interval of the modulus at rest over that modulus",
     }
-    assert curves == plans(path).doubts
+    assert curves == plans(within).doubts
