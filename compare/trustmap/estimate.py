@@ -98,7 +98,7 @@ def _depth_or_force(scene, x):
 def of_finer(scene: Scene) -> float:
     """Relative change of friction by waves down to half the shortest, by the law alone; NaN without a spectrum."""
     rough = scene.roughness
-    if not isinstance(rough, SelfAffine):
+    if not isinstance(rough, SelfAffine) or rough.shortest is None:
         return nan
     own, other = (LawParts.of(each).friction_coefficient for each in (scene, without(scene, rough.shortest / 2)))
     return other / own - 1
