@@ -3,6 +3,7 @@
 import json
 import shutil
 import sys
+from dataclasses import asdict
 from pathlib import Path
 
 from compare.report import csvfiles, manifest
@@ -29,7 +30,7 @@ def collect(folders):
         (HERE / name).mkdir()
         for file in files:
             csvfiles.read(file).to_csv(HERE / name / file.name, index=False, na_rep="nan", float_format="%.5g")
-        entries[f"{name}/plot"] = plot.model_dump() | {"name": f"{name}/plot"}
+        entries[f"{name}/plot"] = asdict(plot) | {"name": f"{name}/plot"}
     content = {"format": FORMAT, "command": "run", "inputs": {}, "solved": ""}
     content["plots"] = list(entries.values())
     path.write_text(json.dumps(content, indent=1, ensure_ascii=False) + "\n")
