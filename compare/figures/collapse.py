@@ -184,7 +184,7 @@ def _shifts(axes: Axes, fit, shifts: DataFrame, look: Look) -> None:
         intervals(axes, shifts["speed"], shifts, "log_lift", 1 / LOG10, **lifts)
         entries.append(style.entry(f"along friction{_power(fit, 'friction_exponent')}", **lifts))
     if shifts["expected"].notna().all():
-        power = f" power of v: {number(fit.expected, FIGURES)}" if np.isfinite(fit.expected) else ""
+        power = f" power {number(fit.expected, FIGURES)}" if np.isfinite(fit.expected) else ""
         expected = style.line(0, 0.8, linestyle="--", label=f"expected{power}")
         entries += axes.plot(shifts["speed"], shifts["expected"] / LOG10, **expected)
     low, high = axes.get_ylim()
@@ -194,4 +194,4 @@ def _shifts(axes: Axes, fit, shifts: DataFrame, look: Look) -> None:
 
 def _power(fit, name: str) -> str:
     """The power of the speed that shifts follow, on a line of its own; empty where it is not known."""
-    return f"\npower of v: {_number(fit, name)}".replace(" (", "\n(") if np.isfinite(getattr(fit, name)) else ""
+    return f"\npower {_number(fit, name)}".replace(" (", "\n(") if np.isfinite(getattr(fit, name)) else ""

@@ -58,7 +58,7 @@ def test_every_misfit_and_exponent_in_the_figure_of_shifts_is_that_of_a_finding(
     assert plot.tables[figure.NAME + figure.FITS]["shifted_as"].tolist() == [how]
     with style.applied():
         texts = [each.get_text() for each in plot.figure().findobj(Text)]
-    stated = [each for each in texts if "%" in each.replace("[%]", "") or "power of v" in each]
+    stated = [each for each in texts if "%" in each.replace("[%]", "") or "power " in each]
     shown = numbers(" ".join([*stated, plot.alternative]))
     assert shown - {"95"} <= numbers(" ".join([f"{expected:g}", *(worded(each, 3) for each in found)]))
     assert len(shown) > 2
