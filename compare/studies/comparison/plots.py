@@ -9,7 +9,7 @@ import xarray
 from matplotlib.figure import Figure
 from pandas import DataFrame, concat
 
-from scene import SelfAffine, SolveError
+from scene import Refused, SelfAffine, SolveError
 from scene.files.reading import InvalidInput
 from scene.printable import brief
 
@@ -238,7 +238,7 @@ def _waves(series: Around, points: DataFrame, folder: str) -> Plot | None:
         waves = np.geomspace(finest, coarsest_wave(rough), CUTS)
         kept = [without(series.scene, each) for each in waves]
         found = [LAW.solve(each) for each in kept]
-    except (SolveError, ArithmeticError):
+    except (Refused, SolveError, ArithmeticError):  # a map may be directed without its finest waves
         return None
     curve = (
         DataFrame([each.measures for each in found])
