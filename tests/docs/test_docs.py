@@ -117,9 +117,6 @@ def test_the_examples_in_python_print_what_they_say(capsys, tmp_path, monkeypatc
     exec(first, names)
     assert names["choice"].confirmed
     assert names["answer"].friction_coefficient == pytest.approx(0.0378, rel=0.01)
-    (again,) = PYTHON.findall(text_of("results", "accuracy.md"))
-    exec(again, names)
-    assert names["choice"].confirmed
     exec(others, {})
     capsys.readouterr()
     exec(second, {})
