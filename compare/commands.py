@@ -265,16 +265,8 @@ def mastercurve(
     """Shift measured friction curves onto one, if they allow it. The curves are friction against load."""
     from .studies.mastercurve.study import Mastercurve
 
-    form = table_form(
-        columns=columns,
-        units=units,
-        where=where,
-        separator=separator,
-        decimal=decimal,
-        encoding=encoding,
-        skip=skip,
-        rows=rows,
-    )
+    stated = {"separator": separator, "decimal": decimal, "encoding": encoding, "skip": skip, "rows": rows}
+    form = table_form(columns=columns, units=units, where=where, **stated)
     study = Mastercurve.of(table, tolerance, c1, c2, reference, **form)
     return solve(study, output, **options)
 
@@ -305,16 +297,8 @@ def topography(
     """Describe a measured surface: slopes, spectra, exponent H."""
     from .studies.topography.study import Map
 
-    form = table_form(
-        columns=columns,
-        units=units,
-        where=where,
-        separator=separator,
-        decimal=decimal,
-        encoding=encoding,
-        skip=skip,
-        rows=rows,
-    )
+    stated = {"separator": separator, "decimal": decimal, "encoding": encoding, "skip": skip, "rows": rows}
+    form = table_form(columns=columns, units=units, where=where, **stated)
     study = Map.of(
         file,
         pixel=pixel,

@@ -85,5 +85,6 @@ def waves(tables: Tables) -> Figure:
         axes.axvline(steep, **style.line(0.3, 0.8, label="rms slope 1"))
     curves(axes, points, "shortest", "friction_coefficient")
     axes.set(xscale="log", yscale="log", xlabel=label, ylabel="friction coefficient [1]")
-    style.finish(drawing, 2)
+    style.decades(axes)
+    style.legend(drawing, [axes], 2)
     return drawing

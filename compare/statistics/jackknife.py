@@ -19,6 +19,7 @@ from .intervals import Estimated, RmsMisfit, skewness
 Source: TypeAlias = tuple[str, int]  # solver and stratum of some surfaces, whose scatter is one
 # Statistics are found this often at most for each stratum: above that, surfaces are left out in groups.
 MOST_GROUPS = 20
+UNCHANGED = 1e-20  # of the largest squared change: rounding
 
 
 class Group(NamedTuple):
@@ -104,19 +105,21 @@ class Replicates:
 def welch(squares: np.ndarray, strata: Sequence[Hashable] | None = None) -> tuple[dict, float | np.ndarray]:
     """Share of each stratum in a sum of squares (groups, ...), and its degrees of freedom.
 
-    Each stratum has one less than groups (Welch 1947); where nothing scatters all of them together. There are no
-    shares where all are one stratum, and any number of degrees of freedom where there are no groups.
+    Each stratum has one less than the groups of it that change anything (Welch 1947): a surface without an answer
+    changes nothing. Where nothing scatters, all groups of all strata count. There are no shares where all are one
+    stratum, and any number of degrees of freedom where there are no groups.
     """
-    if strata is None or not len(squares):
-        return {}, len(squares) - 1 if len(squares) else inf
-    kinds = list(dict.fromkeys(strata))
-    own = np.eye(len(kinds))[:, list(map(kinds.index, strata))]
-    dofs = own.sum(axis=1) - 1
+    if not len(squares):
+        return {}, inf
+    kinds = list(dict.fromkeys(strata or [None]))
+    own = np.eye(len(kinds))[:, list(map(kinds.index, strata or [None] * len(squares)))]
+    dofs = np.tensordot(own, squares > UNCHANGED * squares.max(axis=0), 1) - 1
     with np.errstate(invalid="ignore", divide="ignore"):
         sums = np.tensordot(own, squares, 1)
         shares = sums / sums.sum(axis=0)
-        found = 1 / np.sum(np.where(shares.T > 0, np.square(shares.T) / dofs, 0.0), axis=-1).T
-    return dict(zip(kinds, shares, strict=True)), np.where(np.isfinite(found), found, dofs.sum())[()]
+        found = 1 / np.sum(np.where(shares > 0, np.square(shares) / dofs, 0.0), axis=0)
+    every = own.sum() - len(kinds)
+    return dict(zip(kinds, shares, strict=True)) if strata else {}, np.where(np.isfinite(found), found, every)[()]
 
 
 def groups(strata: np.ndarray, solver: str = "") -> list[Group]:
@@ -177,10 +180,9 @@ def mean_ratio(
     Surfaces with a NaN are left out where they have it. Errors are NaN with fewer than two surfaces; where none is
     left so is the ratio.
     """
-    value, deviations, count = off_the_ratio(above, below)
+    value, deviations, _ = off_the_ratio(above, below)
     deviations = np.moveaxis(deviations, -1, 0)
-    found = Replicates(value, deviations, strata=None if strata is None else strata.tolist()).estimated
-    return found if strata is not None else replace(found, dof=np.maximum(count - 1, 0))
+    return Replicates(value, deviations, strata=None if strata is None else strata.tolist()).estimated
 
 
 def off_the_ratio(

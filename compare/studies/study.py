@@ -110,7 +110,7 @@ class Study:
 
     @property
     def rest(self) -> "Study | None":
-        """All of it, behind its first part; None of a study that is whole."""
+        """The whole study, which is solved after its first part; None where this is the whole."""
         return None
 
     def batches(self) -> Sequence[Batch]:

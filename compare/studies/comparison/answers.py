@@ -110,13 +110,13 @@ class Answers:
     def compared(self, curve: str, models: tuple[str, ...], measure: Any, size: bool = False) -> Estimated:
         """Numbers of a curve, a measure of samples, with scatter and error of the grid.
 
-        The latter is not known where the surface of a model with a grid is another one on half its points. It
-        counts the interval that the reference states of its own friction; that of another model is judged.
+        The latter is not known where the surface of a model with a grid is another one on half its points. Of a
+        model over the reference it counts the interval that the reference states of its own friction.
         """
         fine, reference = self.sample(FINE, curve, *models), self.models.reference
         coarse = self.sample(COARSE, curve, *models) if self.halved(curve, *models) else None
         found = compared(measure, fine, coarse, size)
-        upper = means.at_upper_end(fine[reference]) if reference in models else None
+        upper = means.at_upper_end(fine[reference]) if reference in models[1:] else None
         if upper is None:
             return found
         return replace(found, grid=found.grid + abs(measure({**fine, reference: upper}) - found.value))

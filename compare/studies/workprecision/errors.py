@@ -16,6 +16,7 @@ from ...solving.control_variates import VARIATES, controlled
 from ...solving.curve import FAILED, FINER
 from ...statistics.intervals import Estimated, student
 from ...statistics.jackknife import mean_ratio, off_the_ratio
+from ...statistics.means import at_upper_end
 from ...statistics.multilevel import MEANS
 from ..comparison.series import pilot
 from .ladder import Ladder
@@ -135,9 +136,8 @@ def reference(ladder: Ladder, dataset: xarray.Dataset, quantity: str, scale: flo
     points, label = dataset["points"].values, ladder.model.label
     changes = [abs(float(each.value)) for each in biases[top + 1 :]]
     left = changes[0] if changes else 0.0 if not points.any() else nan
-    if quantity == "friction" and "friction_high" in dataset:  # of waves that no grid solves
-        ends = dataset["friction_high"] - dataset["friction_low"]
-        left += float(ends.isel(level=top).mean()) / 2
+    if (upper := at_upper_end(dataset)) is not None:
+        left += abs(float(np.nanmean(values(upper, quantity)[top] - found[top])))
     return Reference(
         value,
         left=left,

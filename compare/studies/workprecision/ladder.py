@@ -109,7 +109,7 @@ class Ladder:
         while len(grids) < STEPS and (half := scaled(grids[-1], 0.5)) is not None and half.points >= least:
             grids.append(half)
         finer = [scaled(model.solver, times) for times in FINER] if refers and model.has_grid else []
-        finer = [each for each in finer if work_of(each, scene) < LONGEST]
+        finer = [each for each in finer if each and work_of(each, scene) < LONGEST]
         reasons = [(each, "; ".join(why_not(each, scene))) for each in (*finer, *grids)]
         able = tuple(each for each, reason in reasons if not reason)
         refused = tuple(pair for pair in reasons[len(finer) :] if pair[1])
