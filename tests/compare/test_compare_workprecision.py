@@ -277,11 +277,11 @@ def test_errors_at_rest_are_those_of_the_closed_form():
 
 def test_a_scene_that_nothing_can_be_measured_against_is_refused():
     waves = SelfAffine(hurst=0.5, rms_height=1e-9, longest=1e-2, shortest=1e-6, seed=1)
-    made = replace(SMOOTH, roughness=waves, layer=Layer(thickness=1e-2))
+    made = replace(SMOOTH, roughness=waves)
     with pytest.raises(Refused, match="made: 3D, which others are measured against, refuses it"):
-        WorkPrecision.of({"made": made})
-    first, *_ = WorkPrecision.of({"made": replace(SMOOTH, roughness=waves)}).ladders["made"]
-    assert first.model.name == "ExtendedBEM"
+        WorkPrecision.of({"made": replace(made, layer=Layer(thickness=1e-2))})
+    study = WorkPrecision.of({"made": made})
+    assert study.ladders["made"][0].model.name == "ExtendedBEM"
 
 
 def test_nothing_solved_is_a_page_without_a_figure():
