@@ -19,7 +19,6 @@ from .intervals import Estimated, RmsMisfit, skewness
 Source: TypeAlias = tuple[str, int]  # solver and stratum of some surfaces, whose scatter is one
 # Statistics are found this often at most for each stratum: above that, surfaces are left out in groups.
 MOST_GROUPS = 20
-UNCHANGED = 1e-20  # of the largest squared change: rounding
 
 
 class Group(NamedTuple):
@@ -102,24 +101,27 @@ class Replicates:
         )
 
 
-def welch(squares: np.ndarray, strata: Sequence[Hashable] | None = None) -> tuple[dict, float | np.ndarray]:
+def welch(
+    squares: np.ndarray, strata: Sequence[Hashable] | None = None, known: np.ndarray | bool = True
+) -> tuple[dict, float | np.ndarray]:
     """Share of each stratum in a sum of squares (groups, ...), and its degrees of freedom.
 
-    Each stratum has one less than the groups of it that change anything (Welch 1947): a surface without an answer
-    changes nothing. Where nothing scatters, all groups of all strata count. There are no shares where all are one
-    stratum, and any number of degrees of freedom where there are no groups.
+    Each stratum has one less than its known groups, all by default (Welch 1947); where nothing scatters all of
+    them together. There are no shares where all are one stratum, and any number of degrees of freedom where there
+    are no groups.
     """
     if not len(squares):
         return {}, inf
-    kinds = list(dict.fromkeys(strata or [None]))
-    own = np.eye(len(kinds))[:, list(map(kinds.index, strata or [None] * len(squares)))]
-    dofs = np.tensordot(own, squares > UNCHANGED * squares.max(axis=0), 1) - 1
+    strata = strata or [None] * len(squares)
+    kinds = list(dict.fromkeys(strata))
+    own = np.eye(len(kinds))[:, list(map(kinds.index, strata))]
+    dofs = np.tensordot(own, np.broadcast_to(known, squares.shape), 1) - 1
     with np.errstate(invalid="ignore", divide="ignore"):
         sums = np.tensordot(own, squares, 1)
         shares = sums / sums.sum(axis=0)
         found = 1 / np.sum(np.where(shares > 0, np.square(shares) / dofs, 0.0), axis=0)
-    every = own.sum() - len(kinds)
-    return dict(zip(kinds, shares, strict=True)) if strata else {}, np.where(np.isfinite(found), found, every)[()]
+    parts = {} if kinds == [None] else dict(zip(kinds, shares, strict=True))
+    return parts, np.where(np.isfinite(found), found, np.maximum(dofs, 0).sum(axis=0))[()]
 
 
 def groups(strata: np.ndarray, solver: str = "") -> list[Group]:
@@ -181,8 +183,10 @@ def mean_ratio(
     left so is the ratio.
     """
     value, deviations, _ = off_the_ratio(above, below)
-    deviations = np.moveaxis(deviations, -1, 0)
-    return Replicates(value, deviations, strata=None if strata is None else strata.tolist()).estimated
+    known = np.broadcast_to(np.isfinite(above) & np.isfinite(below), deviations.shape)
+    deviations, known = (np.moveaxis(each, -1, 0) for each in (deviations, known))
+    parts, dof = welch(np.square(deviations), None if strata is None else strata.tolist(), known)
+    return replace(Replicates(value, deviations).estimated, dof=dof, parts=parts)
 
 
 def off_the_ratio(

@@ -90,7 +90,7 @@ def laws(curve: Curve, answers: xarray.Dataset) -> Laws | None:
     def rates(values):
         return np.diff(np.log(values)) / np.diff(np.log(speeds))
 
-    load, _, _ = off_the_ratio(draws_of(moving, "normal_force"))
+    load = off_the_ratio(draws_of(moving, "normal_force"))[0]
     if curve.prescribed == "load":
         load = np.where(np.isfinite(load), load, curve.values)
     of_rough = modulus, loss, highest

@@ -47,7 +47,7 @@ def reduced(members: Sequence[Judged], model: str, level: str = FINE) -> Simulat
     for each in members:
         answers, laws = sliding(each.answers(ROUGH, model, level)), each.laws[model]
         force, drag = (draws_of(answers, name) for name in ("normal_force", "friction_force"))
-        load, _, _ = off_the_ratio(force)
+        load = off_the_ratio(force)[0]
         unit = (1 / laws.xi_under(load) / load)[..., None]
         rows.append(np.array([force * unit, drag * unit / laws.plateau]).reshape(2, -1, force.shape[-1]))
     # Series with fewer points end with unknown ones.
