@@ -24,7 +24,7 @@ from .persson import OF_LAW
 FINE, ENOUGH = 8.0, 6.5  # points to the shortest wave that is kept: as planned, and at least
 COARSE = 64  # points of the contact that shows how wide the window is
 # Beyond which what enters the interval changes no more: share of friction added, waves in the contact, x.
-LEAST_ADDED, FEW_WAVES, LEAST_WAVES, LIGHTEST = 0.02, 20.0, 0.1, 1e-4
+LEAST_ADDED, FEW_WAVES, LEAST_WAVES, LIGHT = 0.02, 20.0, 0.1, 0.1
 MOST_POINTS = 4096  # a side of the finest grid that a wanted accuracy leads to
 ROUNDS = 4  # of the cut, which follows from the window, which follows from the contact
 
@@ -164,7 +164,7 @@ def scales(added: Any, waves: Any, x: Any) -> dict[str, Any]:
     return {
         "added": np.log(np.abs(added) + LEAST_ADDED),
         "few": np.log1p(FEW_WAVES / np.maximum(waves, LEAST_WAVES)),
-        "light": np.log1p(1 / np.maximum(x, LIGHTEST)),
+        "light": np.log1p(1 / np.maximum(x, LIGHT)),
     }
 
 
