@@ -275,6 +275,10 @@ class Around(Series):
         """Whether it is judged over time, or over what it is drawn by."""
         return isinstance(self.case.motion, Program | Shear)
 
+    def more(self, answers: Answers, findings: Sequence[Finding]) -> dict[str, Counts]:
+        """Those that its own contact asks for: an open claim on the curves says how many would decide it."""
+        return super().more(answers, [each for each in findings if each.curve == self.place(OWN)])
+
     def judge(self, answers: Answers) -> Judged:
         found = super().judge(answers)
         return replace(found, findings=[*found.findings, *(() if self.history else self._grid(answers))])
