@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import asdict, astuple, dataclass, replace
-from functools import cache, cached_property
+from functools import cache, cached_property, lru_cache
 from math import exp
 
 import numpy as np
@@ -61,6 +61,7 @@ class Place:
     stiffening: float
 
     @classmethod
+    @lru_cache(maxsize=8)
     def of(cls, scene: Scene) -> "Place":
         """Place of a rough scene; take `as_judged` of a measured line first. Raises OffTheMap."""
         if reasons := unmeasured(scene):

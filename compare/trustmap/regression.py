@@ -6,6 +6,8 @@ from functools import cached_property
 import numpy as np
 from scipy.linalg import cho_solve, cholesky, solve_triangular
 
+BLOCK = 256  # rows of a covariance that are found together: they stay in a cache
+
 
 @dataclass(frozen=True)
 class Scales:
@@ -64,9 +66,12 @@ class Process:
     @cached_property
     def factor(self):
         standard = self.scales.standard(self.inputs)
-        matrix = covariance(standard, standard, self.scales)
-        matrix[np.diag_indices(self.values.size)] += self.variances + self.scales.noise**2
-        # Transposed, it is the same in the order of LAPACK, which then copies nothing.
+        matrix = np.empty((self.values.size, self.values.size))
+        for start in range(0, len(matrix), BLOCK):
+            rows = slice(start, start + BLOCK)
+            matrix[rows, start:] = covariance(standard[rows], standard[start:], self.scales)
+        matrix[np.diag_indices_from(matrix)] += self.variances + self.scales.noise**2
+        # Transposed, it is in the order of LAPACK, which then copies nothing and reads its lower triangle alone.
         return cholesky(matrix.T, lower=True, overwrite_a=True, check_finite=False)
 
     @cached_property

@@ -18,7 +18,6 @@ from typing import Any
 from unicodedata import normalize
 
 import numpy as np
-import pandas as pd
 
 from ..numeric_input import bare, in_unit, is_unit
 from ..printable import brief, shown
@@ -109,6 +108,8 @@ def _of_python(table):
     every = getattr(table, "variables", getattr(table, "columns", table))  # of xarray, pandas, a mapping
     names = [name for name in every if getattr(table[name], "ndim", 1)]  # of xarray one number may be a coordinate
     held = [bare(table[name]) for name in names]
+    import pandas as pd  # slow, and few scenes need it
+
     frame = pd.DataFrame({k: np.asarray(values) for k, (values, _) in enumerate(held)})
     if not frame.size:
         raise ValueError(f"{type(table).__name__}: there is no row in it")

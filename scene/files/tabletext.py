@@ -5,14 +5,17 @@ import re
 from dataclasses import dataclass
 from math import inf, nan
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
 
 from ..numeric_input import is_unit
 from ..printable import brief, shown
 from . import files
 from .stated import TableFormat
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 SEPARATORS = {"tab": "\t", "semicolon": ";", "comma": ",", "blanks": " "}
 PURE = "", "-", "1"  # units of pure numbers
@@ -29,7 +32,7 @@ class Cells:
     """
 
     name: str
-    frame: pd.DataFrame
+    frame: "pd.DataFrame"
     headings: list[str]
     units: list[str]
     first: bool = True
@@ -128,6 +131,8 @@ def _frame(name, lines, places, separator, stated):
                 f"{shown(lines[start])}: state skip for lines above the heading, rows to end before this "
                 "one, or separator"
             )
+    import pandas as pd
+
     frame = pd.DataFrame(rows, pd.RangeIndex(body + 1, body + len(rows) + 1, name="line"), dtype=object)
     numbers = [each for row in rows for each in row if _NUMBER.fullmatch(each.replace(",", ".", 1))]
     commas, points = ([each for each in numbers if mark in each] for mark in ",.")
