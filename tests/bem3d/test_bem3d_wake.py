@@ -87,7 +87,6 @@ def test_the_surface_at_the_end_of_a_program_is_where_the_gap_leaves_it():
         Slide(speed=1e-3, load=0.3),
         Program(stages=(Stage(duration=2 * TAU, depth=5e-5), Stage(duration=2 * TAU, speed=0.2))),
     ],
-    ids=lambda motion: motion.type,
 )
 def test_the_surface_is_known_however_high_the_indenter_is_at_the_corners(motion):
     # r^100 is 1e27 depths high there: compared with it, depth and displacement are less than rounding

@@ -38,7 +38,7 @@ SOLVED = {
     "BEM, heated": (BEM(points=48), replace(TOGETHER, heating=Heating(conductivity=0.5, feedback="average"))),
     "MDR, heated": (MDR(points=1000), replace(TOGETHER, heating=Heating(conductivity=0.5, feedback="average"))),
 }
-solvers = pytest.mark.parametrize("solver", [BEM(points=48), MDR(points=1000)], ids=lambda solver: solver.name)
+solvers = pytest.mark.parametrize("solver", [BEM(points=48), MDR(points=1000)])
 ROUNDING = 1e-9  # of the answers: iterations stop at the same places, and add rounding up
 
 

@@ -116,7 +116,7 @@ def lawful(answer):
     )
 
 
-@pytest.mark.parametrize("solver", SOLVERS, ids=lambda solver: solver.name)
+@pytest.mark.parametrize("solver", SOLVERS)
 def test_ordinary_numbers_have_an_answer(solver):
     """Where none is due for the kind of the scene: one dimension has no planes and no cylinders."""
     for scene in (scene for scenes in SCENES.values() for scene in scenes):
@@ -178,7 +178,7 @@ def stretched(draw):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("solver", SOLVERS, ids=lambda solver: solver.name)
+@pytest.mark.parametrize("solver", SOLVERS)
 def test_scenes_of_every_part_with_numbers_beyond_reason_are_answered_within_the_laws_or_declined(solver):
     """Half a thousand, as FUZZ_SEED has them, see `damage`. A hang is a failure too."""
 
@@ -202,7 +202,7 @@ def test_stages_take_no_impossible_values(name):
             assert re.match(rf"Stage: {name}\b", str(caught.value)), value
 
 
-@pytest.mark.parametrize("solver", SOLVERS, ids=lambda solver: solver.name)
+@pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("value", [*NEVER, 0], ids=repr)
 def test_settings_that_can_be_no_value_are_named(solver, value):
     for field in fields(solver):

@@ -106,9 +106,9 @@ def test_a_line_with_regular_grooves_does_not_follow_the_law():
 def test_the_fit_scales_with_heights_and_lengths(factor):
     law, other = PROFILE.law, Profile(heights=factor * HEIGHTS, spacing=SPACING / 3).law
     assert other.hurst.value == law.hurst.value
-    assert other.rms_height.value == pytest.approx(factor * law.rms_height.value, rel=1e-9)
-    assert other.rms_slope.value == pytest.approx(3 * factor * law.rms_slope.value, rel=1e-9)
-    assert other.rolloff.high == pytest.approx(law.rolloff.high / 3, rel=1e-9)
+    assert (other.rms_height.value, other.rms_slope.value, other.rolloff.high) == pytest.approx(
+        (factor * law.rms_height.value, 3 * factor * law.rms_slope.value, law.rolloff.high / 3), rel=1e-9
+    )
 
 
 def test_the_surface_is_that_of_the_law_up_to_the_length_of_the_line():

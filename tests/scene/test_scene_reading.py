@@ -226,7 +226,7 @@ def test_a_call_names_its_mistakes_as_a_file_does(make, lines):
     assert "pydantic" not in str(raised.getrepr())
 
 
-@pytest.mark.parametrize("solver", [MDR(), BEM()], ids=lambda each: each.name)
+@pytest.mark.parametrize("solver", [MDR(), BEM()])
 @pytest.mark.parametrize("given", [HILLS, "quick-start", Sphere, None], ids=["array", "text", "class", "None"])
 def test_a_solver_names_what_is_no_scene(solver, given):
     for ask in (solver.solve, solver.plan):

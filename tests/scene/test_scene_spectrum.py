@@ -20,7 +20,7 @@ ROUGH = Spectrum(q=Q, C2D=BENT, convention="persson", seed=3)
 WRONG = {"q": [1e3, 1e4, 1e5], "C2D": [1e-18, 1e-20, 1e-24], "convention": "persson"}
 
 
-def integral(rough, power, low, high):
+def integral(rough, power, low=Q[0], high=Q[-1]):
     """int q^power C_2D dq by scipy, from point to point."""
     ends = [low, *(each for each in sorted(rough.q) if low < each < high), high]
     density = lambda q: float(rough.density_2d(q, rough.q_max(0.0)))  # noqa: E731
@@ -30,8 +30,9 @@ def integral(rough, power, low, high):
 def test_height_and_slope_are_the_moments_of_the_stated_density():
     top = ROUGH.q_max(0.0)
     np.testing.assert_allclose(ROUGH.density_2d(np.array(ROUGH.q), top), BENT, rtol=ROUNDING)
-    assert ROUGH.rms_height == pytest.approx(sqrt(2 * pi * integral(ROUGH, 1, Q[0], Q[-1])), rel=QUAD)
-    assert ROUGH.rms_slope(top) == pytest.approx(sqrt(2 * pi * integral(ROUGH, 3, Q[0], Q[-1])), rel=QUAD)
+    assert (ROUGH.rms_height, ROUGH.rms_slope(top)) == pytest.approx(
+        (sqrt(2 * pi * integral(ROUGH, 1)), sqrt(2 * pi * integral(ROUGH, 3))), rel=QUAD
+    )
 
 
 def test_between_the_points_the_density_is_a_power_law_and_beyond_them_zero():
@@ -64,7 +65,7 @@ def test_a_surface_has_the_line_scans_from_which_it_was_found():
 
 
 def test_conventions_sides_and_frequencies_are_those_of_the_definitions():
-    by_hand = sqrt(integral(ROUGH, 1, Q[0], Q[-1]) / (2 * pi))
+    by_hand = sqrt(integral(ROUGH, 1) / (2 * pi))
     jacobs = replace(ROUGH, convention="jacobs")
     assert jacobs.rms_height == pytest.approx(by_hand, rel=QUAD)
     falling = np.array(Q) ** -2.6
@@ -195,18 +196,21 @@ type = "spectrum"
 table = "psd.csv"
 """
 ROWS = "\n1;2e-5\n10;2,0e-9\n"
+BY_MICROMETRES = {"q": (1e6, 1e7), "C2D": (2e-29, 2e-33)}
 
 
 @pytest.mark.parametrize(
     ("heading", "stated", "expected"),
     [
-        ("q [rad/um];C2D [um^4]", "", {"q": (1e6, 1e7), "C2D": (2e-29, 2e-33)}),
-        ("wavevector (1/um);C_iso (um^4)", "", {"q": (1e6, 1e7), "C2D": (2e-29, 2e-33)}),
+        ("q [rad/um];C2D [um^4]", "", BY_MICROMETRES),
+        ("wavevector (1/um);C_iso (um^4)", "", BY_MICROMETRES),
         ("q;C2D", "", {"q": (1.0, 10.0), "C2D": (2e-5, 2e-9)}),
-        ("q;C2D", 'units = {q = "rad/um", C2D = "m^4"}', {"q": (1e6, 1e7), "C2D": (2e-5, 2e-9)}),
         ("Frequency [1/mm];C1D [um^3]", 'sides = "one"', {"q": (2e3 * pi, 2e4 * pi), "C1D": (2e-23, 2e-27)}),
-        ("k [1/um];PSD [um^4]", 'columns = {q = "k", C2D = "PSD"}', {"q": (1e6, 1e7), "C2D": (2e-29, 2e-33)}),
-        ("a title\nq [rad/um];C2D [um^4]", "skip = 1", {"q": (1e6, 1e7), "C2D": (2e-29, 2e-33)}),
+        (
+            "a title\nk;PSD [um^4]",
+            'skip = 1\ncolumns = {q = "k", C2D = "PSD"}\nunits = {q = "rad/um"}',
+            BY_MICROMETRES,
+        ),
     ],
 )
 def test_a_table_is_read_by_its_names_and_units(heading, stated, expected, tmp_path):

@@ -56,7 +56,6 @@ def agree(columns, expected=READ):
         ['"f [Hz]";"G\' [MPa]";"G"" [kPa]"', *(f'"{row[0]}";{row[2:]}' for row in ROWS)],
         ["f [Hz];G' [MPa];point;remark;G'' [kPa]", "1;2;1;a;3", "2;3;2;a;4", "3;4;4;a;5"],
     ],
-    ids=range(9),
 )
 def test_the_documented_form_is_read(tmp_path, lines):
     agree(read(written(tmp_path, "\r\n".join([*lines, ""]))))

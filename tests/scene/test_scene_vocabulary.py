@@ -108,7 +108,7 @@ def test_every_field_lies_along_its_axes():
 
 
 @pytest.mark.parametrize("name", SCENES)
-@pytest.mark.parametrize("solver", [*SOLVERS, *THEORIES], ids=lambda solver: solver.name)
+@pytest.mark.parametrize("solver", [*SOLVERS, *THEORIES])
 def test_a_unit_is_that_by_which_a_number_follows_the_units_of_the_scene(name, solver):
     if solver.refusals(SCENES[name]):
         pytest.skip(f"{solver.name} does not simulate it")
