@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from changing_motion import program
 
 from bem3d import BEM, for_accuracy
 from bem3d.accuracy import FIRST, LOOSEST, MOST, SHARE, Choice, Unconfirmed, apart, changes, error
@@ -23,7 +24,6 @@ from scene import (
     Measured,
     Plane,
     PowerLaw,
-    Program,
     Prony,
     Scene,
     SelfAffine,
@@ -31,7 +31,6 @@ from scene import (
     Slide,
     SolveError,
     Sphere,
-    Stage,
 )
 from scene.scales import elastic_contact
 
@@ -47,7 +46,7 @@ HEATED = replace(
     heating=Heating(conductivity=1.0, feedback="average"),
 )
 BALL = -np.add.outer(*[((np.arange(32) - 15.5) * 1e-4) ** 2 / 20e-3] * 2)
-PROGRAM = Program(stages=(Stage(duration=1.0, load=1.0),))
+PROGRAM = program({"duration": 1.0, "load": 1.0})
 CROSSED = CrossedWaves(amplitude=1e-6, wavelength=1e-3)
 ROUGH = SelfAffine(hurst=0.4, rms_height=1e-5, longest=5e-3, shortest=4e-4, seed=7)
 

@@ -4,9 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from changing_motion import program
 
 from bem3d import BEM, heights, press
-from scene import Cylinder, Elastic, Indent, Plane, Program, Scene, SelfAffine, SolveError, Sphere, Stage
+from scene import Cylinder, Elastic, Indent, Plane, Scene, SelfAffine, SolveError, Sphere
 
 ROUGH = SelfAffine(hurst=0.8, rms_height=1e-6, longest=1e-3, shortest=1.25e-4, seed=3)
 ELASTIC = Elastic(1e6)
@@ -15,7 +16,7 @@ SCENES = {
     "body": BODY,
     "plane": Scene(Plane(), ELASTIC, Indent(pressure=1e4), ROUGH),
     "line": Scene(Cylinder(1e-2), ELASTIC, Indent(line_load=100.0)),
-    "program": replace(BODY, motion=Program(stages=(Stage(duration=1.0, depth=1e-4),))),
+    "program": replace(BODY, motion=program({"duration": 1.0, "depth": 1e-4})),
 }
 
 

@@ -5,6 +5,7 @@ from decimal import Decimal, localcontext
 
 import numpy as np
 import pytest
+from changing_motion import program
 from scipy.integrate import quad
 
 from bem3d import BEM
@@ -24,12 +25,10 @@ from scene import (
     Indent,
     Layer,
     Plane,
-    Program,
     Scene,
     Slide,
     SolveError,
     Sphere,
-    Stage,
     StandardLinearSolid,
     Wave,
 )
@@ -213,7 +212,7 @@ WAVE = Wave(amplitude=1e-6, wavelength=1e-3)
     [
         Scene(SPHERE, STANDARD, Slide(speed=0.1, load=1.0)),
         Scene(Plane(), STANDARD, Slide(speed=0.1, pressure=2e4), WAVE),
-        Scene(SPHERE, STANDARD, Program(stages=(Stage(duration=1e-3, load=1.0), Stage(duration=1e-2, speed=0.1)))),
+        Scene(SPHERE, STANDARD, program({"duration": 1e-3, "load": 1.0}, {"duration": 1e-2, "speed": 0.1})),
     ],
     ids=["sphere", "plane", "program"],
 )

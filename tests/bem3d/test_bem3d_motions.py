@@ -3,7 +3,7 @@
 import changing_motion as motions
 import numpy as np
 import pytest
-from changing_motion import mirrored, program
+from changing_motion import DEPTH, TAU, A, G, R, mirrored, program
 
 from bem3d import BEM
 from bem3d.grid import Grid
@@ -25,8 +25,7 @@ from scene import (
     Wave,
 )
 
-R, G, A, TAU = 1e-2, 1e6, 1e-3, 1e-3  # sphere, contact radius A at rest at DEPTH
-DEPTH, SPEED = A**2 / R, A / TAU / 2
+SPEED = A / TAU / 2
 SOLID, KELVIN = StandardLinearSolid(G, 5 * G, TAU), Kelvin(G, TAU)
 QUICK = StandardLinearSolid(G, 3 * G, TAU / 3)  # creeps in TAU
 SPHERE = Sphere(R)

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from changing_motion import program
 from planned import FACTOR, KELVIN, LOAD, PRONY, SPHERE, STAGES, STANDARD, all_of_a_scene, held_by
 
 from bem3d import BEM
@@ -23,13 +24,11 @@ from scene import (
     Layer,
     Measured,
     Plane,
-    Program,
     Prony,
     Scene,
     SelfAffine,
     Shear,
     Slide,
-    Stage,
     Topography,
     Wave,
 )
@@ -39,8 +38,8 @@ EXTENT = 3e-3
 ROUGH = SelfAffine(hurst=0.8, rms_height=5e-6, longest=2e-3, shortest=0.25e-3, seed=1)
 CELL = SelfAffine(hurst=0.8, rms_height=2e-6, longest=1e-3, shortest=1.25e-4, seed=1)
 MANY = Prony(1e6, (1e6,) * 40, tuple(1e-4 * 1.3**k for k in range(40)))
-FAR = Program(stages=tuple(Stage(duration=1e-2, load=LOAD, speed=way) for way in (1.0, -1.0)))
-PRESSED = Program(stages=(Stage(duration=1e-3, load=LOAD),))
+FAR = program(*({"duration": 1e-2, "load": LOAD, "speed": way} for way in (1.0, -1.0)))
+PRESSED = program({"duration": 1e-3, "load": LOAD})
 SCENES = {
     "rest": Scene(SPHERE, KELVIN, Indent(load=LOAD)),
     "elastic": Scene(SPHERE, Elastic(1e6), Slide(speed=1.0, load=LOAD)),
@@ -55,9 +54,7 @@ SCENES = {
     "line-slide": Scene(Cylinder(10e-3), KELVIN, Slide(speed=0.1, line_load=500.0)),
     "program": Scene(SPHERE, STANDARD, STAGES),
     "pressed": Scene(SPHERE, STANDARD, PRESSED),
-    "plane-program": Scene(
-        Plane(), STANDARD, Program(stages=(Stage(duration=1e-3, pressure=1e4, speed=0.1),)), CELL
-    ),
+    "plane-program": Scene(Plane(), STANDARD, program({"duration": 1e-3, "pressure": 1e4, "speed": 0.1}), CELL),
 }
 HEIGHTS = RoughSurface.of(ROUGH, ROUGH.q_max(1.0)).heights(*np.tile(np.arange(16) * ROUGH.longest / 16, (2, 1)))
 BOWL = np.add.outer(*[((np.arange(32) - 15.5) * 1e-4) ** 2 / 20e-3] * 2)

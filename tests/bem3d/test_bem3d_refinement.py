@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from changing_motion import program
 
 from bem3d import BEM, refined
 from bem3d.terms import TERMS
@@ -22,7 +23,6 @@ from scene import (
     Plane,
     PowerLaw,
     Profile,
-    Program,
     Prony,
     Refused,
     Scene,
@@ -31,7 +31,6 @@ from scene import (
     Slide,
     SolveError,
     Sphere,
-    Stage,
     StandardLinearSolid,
     Topography,
 )
@@ -137,7 +136,7 @@ def test_pixels_a_quarter_as_wide_are_reached_in_two_steps():
 REFUSED = {
     "plane": replace(SCENE, indenter=Plane(), motion=Indent(pressure=1e4), roughness=replace(ROUGH, longest=1e-3)),
     "cylinder": replace(SMOOTH, indenter=Cylinder(1e-2), motion=Slide(speed=0.1, line_load=1.0)),
-    "program": replace(SMOOTH, motion=Program(stages=(Stage(duration=1e-3, load=0.01),))),
+    "program": replace(SMOOTH, motion=program({"duration": 1e-3, "load": 0.01})),
 }
 
 

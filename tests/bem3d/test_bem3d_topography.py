@@ -5,6 +5,7 @@ from math import pi
 
 import numpy as np
 import pytest
+from changing_motion import program
 from maps import sampled
 
 from bem3d import BEM
@@ -17,7 +18,6 @@ from scene import (
     Layer,
     Measured,
     Plane,
-    Program,
     Refused,
     Scene,
     SelfAffine,
@@ -25,7 +25,6 @@ from scene import (
     Slide,
     SolveError,
     Sphere,
-    Stage,
     StandardLinearSolid,
     Topography,
 )
@@ -54,7 +53,7 @@ def same(one, other, rel):
         ({"indenter": Plane(), "motion": Indent(gap=1e-6)}, 1e-9),
         ({"motion": Indent(load=0.1)}, 1e-9),
         ({"motion": Slide(speed=0.1, depth=1e-5)}, 1e-9),
-        ({"motion": Program(stages=(Stage(duration=1e-3, load=0.1), Stage(duration=1e-3, speed=0.2)))}, 1e-9),
+        ({"motion": program({"duration": 1e-3, "load": 0.1}, {"duration": 1e-3, "speed": 0.2})}, 1e-9),
         ({"layer": Layer(thickness=1e-3)}, 1e-8),
         ({"temperature": Arrhenius(temperature=310.0, reference=300.0, activation_energy=1e5)}, 1e-8),
         ({"motion": Shear(load=0.1, displacement=1e-6), "interface": Coulomb(coefficient=0.3)}, 1e-8),
@@ -173,7 +172,7 @@ def test_a_contact_at_the_rim_of_a_map_is_an_error():
     body = ball(64, 1e-3)
     deep = elastic_contact(Scene(BALL, SOLID, Indent(depth=3e-5)))
     assert deep.radius > 0.5e-3
-    for motion in (Indent(load=deep.load), Program(stages=(Stage(duration=1.0, load=deep.load),))):
+    for motion in (Indent(load=deep.load), program({"duration": 1.0, "load": deep.load})):
         with pytest.raises(SolveError, match=r"rim of the map, 0\.001 x 0\.001 m"):
             BEM(points=96, steps=4).solve(Scene(body, SOLID, motion))
     # and a stated extent does not help

@@ -2,14 +2,12 @@
 
 import numpy as np
 import pytest
-from changing_motion import harmonic, mirrored, program, slid, stiffness
+from changing_motion import DEPTH, TAU, A, G, R, harmonic, mirrored, program, slid, stiffness
 
 from bem3d import BEM
 from mdr1d import MDR
 from scene import Elastic, Kelvin, Prony, Scene, Sphere, StandardLinearSolid
 
-R, G, A, TAU = 1e-2, 1e6, 1e-3, 1e-3
-DEPTH = A**2 / R
 SOLID = StandardLinearSolid(G, 5 * G, TAU)
 LINE, SPACE = MDR(points=1000), BEM(points=48, steps=60)
 

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from changing_motion import program
 from planned import FACTOR, KELVIN, LOAD, PRONY, SPHERE, STAGES, STANDARD, all_of_a_scene, held_by
 
 from bem3d.surface import RoughSurface
@@ -20,14 +21,13 @@ from scene import (
     SelfAffine,
     Shear,
     Slide,
-    Stage,
     Topography,
 )
 
 MANY = Prony(1e6, (1e6,) * 16, tuple(1e-5 * 2.0**k for k in range(16)))
 ROUGH = SelfAffine(hurst=0.2, rms_height=5e-6, longest=10e-3, shortest=0.5e-3, seed=1)
-DEPTHS = Program(stages=(Stage(duration=1e-3, depth=1e-4), Stage(duration=1e-3, speed=0.2)))
-BACK = Program(stages=tuple(Stage(duration=1e-2, depth=1e-4, speed=way) for way in (1.0, -1.0)))
+DEPTHS = program({"duration": 1e-3, "depth": 1e-4}, {"duration": 1e-3, "speed": 0.2})
+BACK = program(*({"duration": 1e-2, "depth": 1e-4, "speed": way} for way in (1.0, -1.0)))
 MAXWELL = Prony(1e6, (1e6,) * 40, tuple(1e-5 * 1.3**k for k in range(40)))
 SCENES = {
     "rest": Scene(SPHERE, KELVIN, Indent(load=LOAD)),

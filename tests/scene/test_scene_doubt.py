@@ -5,6 +5,7 @@ from itertools import product
 
 import numpy as np
 import pytest
+from changing_motion import program
 from solids import gel
 
 from compare.library.lookup import case_of
@@ -341,7 +342,7 @@ def test_no_scene_breaks_the_list(body):
 def test_scenes_without_a_smooth_contact_are_no_trouble():
     bowl = np.add.outer(*[((np.arange(8) - 3.5) * 1e-4) ** 2] * 2)
     flat = replace(ROUGH, rms_height=0.0)
-    stages = Program(stages=(Stage(duration=1.0, load=1.0), Stage(duration=1.0, speed=-0.1)))
+    stages = program({"duration": 1.0, "load": 1.0}, {"duration": 1.0, "speed": -0.1})
     for changed in (
         {"indenter": Measured(heights=bowl, pixel=1e-4), "roughness": None},
         {"indenter": Plane(), "motion": Indent(gap=1e-6)},

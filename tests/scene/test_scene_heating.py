@@ -5,6 +5,7 @@ from math import exp, inf, isnan, nan
 
 import numpy as np
 import pytest
+from changing_motion import program
 from scipy.optimize import bisect
 
 from scene import (
@@ -16,14 +17,12 @@ from scene import (
     Kelvin,
     Layer,
     Plane,
-    Program,
     Result,
     Scene,
     SelfAffine,
     Slide,
     SolveError,
     Sphere,
-    Stage,
     StandardLinearSolid,
 )
 from scene.effects.terms import Heated, settled
@@ -200,7 +199,7 @@ def test_heat_beyond_where_the_law_of_the_shift_ends_is_an_error():
 
 
 def test_scenes_without_an_estimate_are_refused_by_name():
-    program = Program(stages=(Stage(duration=1.0, load=1.0), Stage(duration=1.0, speed=0.1)))
+    motion = program({"duration": 1.0, "load": 1.0}, {"duration": 1.0, "speed": 0.1})
     for changes, feedback, message in (
         (
             {"indenter": Cylinder(radius=1.0), "motion": Slide(speed=1.0, line_load=1.0)},
@@ -213,7 +212,7 @@ def test_scenes_without_an_estimate_are_refused_by_name():
             "which a Plane is not",
         ),
         ({"layer": Layer(thickness=1e-2)}, None, "leave layer or heating out"),
-        ({"motion": program}, None, "not of a Program"),
+        ({"motion": motion}, None, "not of a Program"),
         ({"elastomer": Kelvin(1e6, 1e-3), "roughness": ROUGH}, "flash", "a Kelvin has no glassy modulus"),
     ):
         heating = Heating(conductivity=1.0, feedback=feedback)

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from changing_motion import program
 from strategies import rescaled
 
 import compare
@@ -28,7 +29,6 @@ from scene import (
     Shear,
     Slide,
     Sphere,
-    Stage,
     StandardLinearSolid,
 )
 from scene.files.reading import read
@@ -55,7 +55,7 @@ SCENES = {
     "program": Scene(
         BODY,
         StandardLinearSolid(rubbery_modulus=1e6, glassy_modulus=5e6, relaxation_time=1e-2),
-        Program(stages=(Stage(duration=0.01, load=1.0), Stage(duration=0.01, load=1.0, speed=0.05))),
+        program({"duration": 0.01, "load": 1.0}, {"duration": 0.01, "load": 1.0, "speed": 0.05}),
     ),
 }
 # Powers of length, modulus of elasticity and time.
