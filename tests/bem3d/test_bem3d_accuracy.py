@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from changing_motion import program
+from sliding import KELVIN
 
 from bem3d import BEM, for_accuracy
 from bem3d.accuracy import FIRST, LOOSEST, MOST, SHARE, Choice, Unconfirmed, apart, changes, error
@@ -36,7 +37,6 @@ from scene.scales import elastic_contact
 
 R, TAU, LOAD = 10e-3, 1e-3, 1.0
 BLUNT = PowerLaw(coefficient=1e-4 / 1e-3**30, exponent=30)
-KELVIN = Kelvin(modulus=1e6, relaxation_time=TAU)
 SMOOTH = Scene(Sphere(radius=R), KELVIN, Slide(speed=0.5, load=LOAD))
 WAVES = SelfAffine(hurst=0.8, rms_height=2e-6, longest=1e-3, shortest=1e-4, seed=1)
 PLANE = Scene(Plane(), KELVIN, Slide(speed=0.1, pressure=2e4), WAVES)

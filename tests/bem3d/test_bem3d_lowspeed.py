@@ -6,6 +6,7 @@ from math import nan, pi, tan
 
 import numpy as np
 import pytest
+from sliding import KELVIN
 
 from bem3d import BEM
 from bem3d.friction.estimates import Friction
@@ -16,7 +17,6 @@ from scene import (
     CrossedWaves,
     Cylinder,
     Indent,
-    Kelvin,
     KelvinChain,
     Plane,
     Scene,
@@ -28,7 +28,6 @@ from scene import (
 from scene.scales import elastic_contact
 
 G, TAU, R, THETA = 1e6, 1e-3, 1e-2, 0.1
-KELVIN = Kelvin(modulus=G, relaxation_time=TAU)
 SOLID = StandardLinearSolid(rubbery_modulus=G, glassy_modulus=5 * G, relaxation_time=TAU / 4)
 ROUGH = SelfAffine(hurst=0.6, rms_height=1e-5, longest=5e-3, shortest=2.5e-4, seed=1)
 # Sums of some ten thousand numbers.

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from changing_motion import program
+from maps import noise
 
 from bem3d import BEM, refined
 from bem3d.terms import TERMS
@@ -52,7 +53,7 @@ BOWL = Measured(heights=np.hypot(SIDE, SIDE[:, None]) ** 2 / 2e-2, pixel=1.2e-3 
 LINE = Profile(
     heights=2e-8 * np.random.default_rng(1).normal(size=500).cumsum(), spacing=2e-5, shortest_kept=1e-4, seed=1
 )
-BUMPS = np.random.default_rng(1).normal(scale=1e-7, size=(8, 8))
+BUMPS = 1e-7 * noise((8, 8), 1)
 ANSWERED = {
     "smooth": SMOOTH,
     "cone": replace(SMOOTH, indenter=Cone(0.05), motion=Slide(speed=0.05, load=0.002)),

@@ -6,7 +6,8 @@ from math import pi
 import numpy as np
 import pytest
 from changing_motion import program
-from maps import sampled
+from maps import noise, sampled
+from planned import STANDARD as SOLID
 
 from bem3d import BEM
 from bem3d.grid import Grid
@@ -25,14 +26,12 @@ from scene import (
     Slide,
     SolveError,
     Sphere,
-    StandardLinearSolid,
     Topography,
 )
 from scene.scales import elastic_contact
 
 L = 1e-3
 ROUGH = SelfAffine(hurst=0.8, rms_height=2e-6, longest=L, shortest=L / 8, seed=1)
-SOLID = StandardLinearSolid(1e6, 1e7, 1e-3)
 ROUNDING = 1e-12  # of heights that differ by rounding, through a solve of the same steps
 BALL = Sphere(1e-2)
 PRESSED = Scene(Plane(), SOLID, Slide(speed=0.1, pressure=2e4), ROUGH)
@@ -91,7 +90,7 @@ def test_the_surface_of_a_map_is_the_map_and_a_seed_moves_it_by_whole_pixels():
 
 
 def test_rectangles_are_roughness_but_no_cell():
-    heights = 1e-6 * np.random.default_rng(0).normal(size=(12, 18))
+    heights = 1e-6 * noise((12, 18))
     map_ = Topography(heights=heights, pixel=1e-4, repeat="periodic", shortest_kept=4e-4)
     answer = BEM(points=64).solve(replace(SLIDING, roughness=map_, motion=Indent(load=0.1)))
     assert answer.normal_force == pytest.approx(0.1)

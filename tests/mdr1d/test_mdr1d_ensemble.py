@@ -5,13 +5,13 @@ from math import radians
 
 import numpy as np
 import pytest
+from sliding import KELVIN as SOLID
 
 from mdr1d import MDR
 from mdr1d.ensemble import solve_profiles
 from scene import (
     Cone,
     Indent,
-    Kelvin,
     PowerLaw,
     Scene,
     SelfAffine,
@@ -22,7 +22,6 @@ from scene import (
 )
 
 ROUGH = SelfAffine(hurst=0.4, rms_height=5e-5, longest=1e-2)
-SOLID = Kelvin(modulus=1e6, relaxation_time=1e-3)
 CONE = Scene(Cone(angle=radians(10)), SOLID, Slide(speed=1e-2, load=10.0), ROUGH)
 SPHERE = replace(CONE, indenter=Sphere(radius=1e-2))
 POINTS = 1000

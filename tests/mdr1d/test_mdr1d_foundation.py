@@ -1,17 +1,17 @@
 """The sweep along a profile: its sums on any nodes, contact within one interval, and the depth under a load."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.optimize import brentq
+from sliding import ORDINARY
 
 from mdr1d import lay_out, map_profile, sweep
-from scene import Kelvin, Scene, SelfAffine, Slide, Sphere
+from scene import SelfAffine
 
-MODULUS = 1e6
 ROUGH = SelfAffine(hurst=0.6, rms_height=1e-5, longest=5e-4, shortest=5e-5, seed=4)
-SCENE = Scene(
-    Sphere(radius=1e-2), Kelvin(modulus=MODULUS, relaxation_time=1e-3), Slide(speed=0.1, load=1.0), ROUGH
-)
+SCENE = replace(ORDINARY, roughness=ROUGH)
 ROUNDING = 1e-11
 
 

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from planned import STANDARD
 from solids import scattered
 
 from mdr1d import MDR
@@ -15,7 +16,6 @@ from scene import (
     Scene,
     Slide,
     Sphere,
-    StandardLinearSolid,
     Tabulated,
 )
 from scene.scales import elastic_contact
@@ -23,7 +23,6 @@ from scene.scales import elastic_contact
 EXPONENTS = (0.05, 0.1, 0.2, 0.3)
 OMEGA = np.geomspace(1.0, 100.0, 13)
 TIMES = np.geomspace(1e-2, 1e2, 30)
-STANDARD = StandardLinearSolid(1e6, 1e7, 1e-3)
 BROAD = Prony(1e6, (1e6, 3e6, 1e7, 3e7, 1e8), (1e3, 10.0, 0.1, 1e-3, 1e-5))
 every_exponent = pytest.mark.parametrize("exponent", EXPONENTS)
 DRAWS, MISSED = 30, 3  # of tables with noise, and how many of their intervals of 95 % may miss the modulus

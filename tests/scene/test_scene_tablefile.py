@@ -18,6 +18,7 @@ KNOWN = FREQUENCY, STORAGE, LOSS, TEMPERATURE, Column("tan_delta", ())
 ROUNDING = 4e-16  # of a single product
 HEADED = "f [Hz];G' [MPa];G'' [kPa]"
 ROWS = "1;2;3", "2;3;4", "3;4;5"
+LINES = [HEADED, *ROWS]
 READ = {"frequency": [1, 2, 3], "storage": [2e6, 3e6, 4e6], "loss": [3e3, 4e3, 5e3]}
 
 
@@ -40,7 +41,7 @@ def agree(columns, expected=READ):
 @pytest.mark.parametrize(
     "lines",
     [
-        [HEADED, *ROWS],
+        LINES,
         [HEADED.replace(";", " , "), *(row.replace(";", ",") for row in ROWS)],
         ["f (Hz);G' (MPa);G'' (kPa)", *ROWS],
         ["f;G';G''", "[Hz];[MPa];(kPa)", *ROWS],
@@ -149,11 +150,11 @@ def test_what_differs_is_refused_with_its_place_and_read_once_it_is_stated(tmp_p
         (["f [Hz];G' [MPa];G'' [kPx]", *ROWS], {}, "in 'kPx', and is a pressure"),
         (["f [s];G' [MPa];G'' [kPa]", *ROWS], {}, "in 's', and is a frequency or an angular frequency"),
         (["f [Hz];G' [MPa]", "kHz;MPa", "1;2"], {}, r"no column storage .*, but 'f \[Hz\]'"),
-        ([HEADED, *ROWS], {"units": {"storage": "Pa"}}, "in 'MPa', and units states 'Pa': they must agree"),
-        ([HEADED, *ROWS], {"columns": {"stoarge": "G'"}}, "'stoarge' is none of the columns: frequency, storage"),
-        ([HEADED, *ROWS], {"columns": {"storage": "E'"}}, '0 columns are called "E\'"'),
-        ([HEADED, *ROWS], {"where": {"f [Hz]": 7}}, "no row has {'f \\[Hz\\]': 7}"),
-        ([HEADED, *ROWS], {"encoding": "latin-9000"}, "line 1: unknown encoding: latin-9000: state encoding"),
+        (LINES, {"units": {"storage": "Pa"}}, "in 'MPa', and units states 'Pa': they must agree"),
+        (LINES, {"columns": {"stoarge": "G'"}}, "'stoarge' is none of the columns: frequency, storage"),
+        (LINES, {"columns": {"storage": "E'"}}, '0 columns are called "E\'"'),
+        (LINES, {"where": {"f [Hz]": 7}}, "no row has {'f \\[Hz\\]': 7}"),
+        (LINES, {"encoding": "latin-9000"}, "line 1: unknown encoding: latin-9000: state encoding"),
         ([HEADED + ";tan_delta [%]", *(row + ";1" for row in ROWS)], {}, "in '%', and is a number without a unit"),
         (["T;G'", "20;1"], {}, "column 'T' has no unit in the heading: state units = {T = 'K'}"),
         ([HEADED, "1;2;", *ROWS], {}, "line 2, column \"G'' .kPa.\": '' is no number"),
@@ -203,7 +204,8 @@ def test_tables_of_python_are_read_by_the_same_names_with_their_units():
     agree(read(frame))
     agree(read({"f": hertz, "G'": units.Quantity(np.array([2, 3, 4]), "MPa"), "G''": kilo}))
     agree(read(xarray.Dataset(labelled | {"G''": ("row", plain["loss"], {"units": "Pa"})})))
-    agree(read(pandas.concat([frame, frame.assign(remark="b")]), where={"remark": "b"}))
+    both = pandas.concat([frame, frame.assign(remark="b")])
+    agree(read(both, where={"remark": "b"}))
     for wrong, message in (
         (3.0, "3.0: a path, a DataFrame"),
         ({}, "there is no row"),
@@ -211,7 +213,7 @@ def test_tables_of_python_are_read_by_the_same_names_with_their_units():
         ({"G'": [None, 1.0]}, "row 1, column .*None. is no number"),
         ({"G'": [1.0], "f": [1.0, 2.0]}, "same length"),
         ({"G'": [1.0, np.nan]}, 'row 2, column "G\'": nan is no number'),
-        (pandas.concat([frame, frame.assign(remark="b")]), "column 'remark' has several values"),
+        (both, "column 'remark' has several values"),
     ):
         with pytest.raises(ValueError, match=message):
             read(wrong)

@@ -4,6 +4,7 @@ from dataclasses import dataclass, fields, replace
 
 import pytest
 from pydantic.dataclasses import dataclass as validated
+from sliding import ORDINARY as PLAIN
 
 from bem3d import BEM
 from compare.models.exact import Exact
@@ -27,7 +28,6 @@ from scene import (
 from scene.indenter import Axisymmetric
 from scene.terms import Term, Unsupported, terms_of, unsupported, wrap_solve
 
-PLAIN = Scene(Sphere(radius=10e-3), Kelvin(1e6, 1e-3), Slide(speed=0.1, load=1.0))
 WARM = WLF(temperature=310.0, reference=300.0, c1=10.0, c2=50.0)
 
 
