@@ -3,6 +3,8 @@
 import tracemalloc
 from dataclasses import replace
 
+import numpy as np
+
 from scene import (
     Coulomb,
     Elastic,
@@ -35,6 +37,7 @@ SCENES |= {
     "interface": replace(SCENES["slide"], interface=STICKS),
     "shear": replace(SCENES["rest"], motion=DRAWN, interface=STICKS),
 }
+BOWL = np.add.outer(*[((np.arange(32) - 15.5) * 1e-4) ** 2 / 20e-3] * 2)
 FACTOR = 1.5  # the formulas count arrays; copies within an expression come and go
 EFFECTS = {"roughness", "layer", "temperature", "heating", "interface"}
 

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from changing_motion import program
+from planned import BOWL
 from sliding import KELVIN
 
 from bem3d import BEM, for_accuracy
@@ -45,7 +46,6 @@ HEATED = replace(
     temperature=WLF(temperature=301, reference=300, c1=10, c2=100),
     heating=Heating(conductivity=1.0, feedback="average"),
 )
-BALL = -np.add.outer(*[((np.arange(32) - 15.5) * 1e-4) ** 2 / 20e-3] * 2)
 PROGRAM = program({"duration": 1.0, "load": 1.0})
 CROSSED = CrossedWaves(amplitude=1e-6, wavelength=1e-3)
 ROUGH = SelfAffine(hurst=0.4, rms_height=1e-5, longest=5e-3, shortest=4e-4, seed=7)
@@ -215,7 +215,7 @@ def test_two_answers_without_friction_are_alike_and_one_is_not():
         ),
         (replace(SMOOTH, motion=PROGRAM), {"depth": 0.01}, "motion = Program"),
         (replace(SMOOTH, layer=Layer(thickness=1e-3)), {"friction": 0.1}, "layer = Layer"),
-        (replace(SMOOTH, indenter=Measured(heights=BALL, pixel=1e-4)), {"depth": 0.1}, "indenter = Measured"),
+        (replace(SMOOTH, indenter=Measured(heights=-BOWL, pixel=1e-4)), {"depth": 0.1}, "indenter = Measured"),
         (HEATED, {"friction": 0.1}, r"heating\.feedback = 'average'"),
     ],
 )

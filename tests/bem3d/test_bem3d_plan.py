@@ -7,7 +7,7 @@ import numpy as np
 import planned as shared
 import pytest
 from changing_motion import program
-from planned import DRAWN, FACTOR, KELVIN, LOAD, SPHERE, STANDARD, STICKS, all_of_a_scene, held_by
+from planned import BOWL, DRAWN, FACTOR, KELVIN, LOAD, SPHERE, STANDARD, STICKS, all_of_a_scene, held_by
 
 from bem3d import BEM
 from bem3d.plan import EFFECTS
@@ -52,7 +52,6 @@ SCENES = shared.SCENES | {
     "plane-program": Scene(Plane(), STANDARD, program({"duration": 1e-3, "pressure": 1e4, "speed": 0.1}), CELL),
 }
 HEIGHTS = RoughSurface.of(ROUGH, ROUGH.q_max(1.0)).heights(*np.tile(np.arange(16) * ROUGH.longest / 16, (2, 1)))
-BOWL = np.add.outer(*[((np.arange(32) - 15.5) * 1e-4) ** 2 / 20e-3] * 2)
 LAYER = Layer(thickness=1e-3)
 SCENES |= {
     "layer": replace(SCENES["slide"], layer=LAYER),

@@ -15,6 +15,7 @@ import pytest
 import xarray
 from maps import noise
 from sliding import ORDINARY as SLIDING
+from solids import OF_EACH_TYPE
 
 import bem3d
 import compare
@@ -35,18 +36,13 @@ from scene import (
     Coulomb,
     CrossedWaves,
     Cylinder,
-    Elastic,
-    Fractional,
     Heating,
     Indent,
     InvalidInput,
-    Kelvin,
-    KelvinChain,
     Layer,
     Measured,
     Plane,
     PowerLaw,
-    Prony,
     SelfAffine,
     Shear,
     ShiftFactors,
@@ -101,12 +97,7 @@ OBJECTS = [
     Cylinder(1e-2),
     Plane(),
     Coulomb(0.3),
-    Elastic(1e6, 0.4),
-    Kelvin(1e6, 1e-3),
-    StandardLinearSolid(1e6, 1e7, 1e-3),
-    Prony(1e6, (1e6, 2e6), (1e-3, 1e-2)),
-    KelvinChain(1e-8, (1e-6, 2e-6), (1e-3, 1e-2)),
-    Fractional(modulus=1e6, relaxation_time=1e-3, exponent=0.5, lowest_frequency=1.0, highest_frequency=1e3),
+    *(solid for solid in OF_EACH_TYPE.values() if not isinstance(solid, Tabulated)),
     Tabulated(table=TABLE, frequency_unit="Hz", kind="shear", equilibrium_modulus=9e5, tolerance=0.5),
     TABLE,
     Table(time=FREQUENCY, modulus=STORAGE[::-1], temperature=WARM),

@@ -147,14 +147,17 @@ def tables(*temperatures, omega=OMEGA[10:40]):
     return {"omega": each, "T [K]": warm, "G'": moduli.real, "G''": moduli.imag}, factors
 
 
+STATED, FACTORS = tables(290.0, 300.0, 320.0)
+LIFT = STATED["T [K]"] / 300
+LIFTED = {name: STATED[name] * LIFT for name in ("G'", "G''")}
+
+
 @pytest.mark.parametrize("heading", ["aT", "a_T", "Shift factor", "log10 a_T"])
 @pytest.mark.parametrize("vertical", [False, True])
 def test_columns_of_shift_factors_shift_the_rows_to_where_they_are_one(heading, vertical):
-    stated, factors = tables(290.0, 300.0, 320.0)
-    stated |= {heading: np.log10(factors) if heading[0] == "l" else factors}
-    lift = stated["T [K]"] / 300
+    stated = STATED | {heading: np.log10(FACTORS) if heading[0] == "l" else FACTORS}
     if vertical:
-        stated |= {"b_T": lift} | {name: stated[name] * lift for name in ("G'", "G''")}
+        stated |= LIFTED | {"b_T": LIFT}
     table = Tabulated(table=stated)
     assert deviation(table, omega=OMEGA[8:42]) < FITTED
     scene = Scene(Sphere(1e-2), table, Indent(load=1.0), temperature=replace(LAW, temperature=310.0))
@@ -169,9 +172,7 @@ def test_a_table_of_shift_factors_is_the_law_of_the_scene_and_vertical_ones_chan
         "b_T": kelvin / 300,
     }
     law = ShiftFactors(temperature=290.0, reference=300.0, table=factors)
-    stated, _ = tables(290.0, 300.0, 320.0)
-    lifted = stated | {name: stated[name] * stated["T [K]"] / 300 for name in ("G'", "G''")}
-    scene = Scene(Sphere(1e-2), Tabulated(table=lifted), Indent(load=1.0), temperature=law)
+    scene = Scene(Sphere(1e-2), Tabulated(table=STATED | LIFTED), Indent(load=1.0), temperature=law)
     expected = 29 / 30 * SOLID.complex_modulus(OMEGA[12:36] * replace(LAW, temperature=290.0).shift)
     np.testing.assert_allclose(scene.solid.complex_modulus(OMEGA[12:36]), expected, rtol=FITTED)
     adapter = TypeAdapter(Scene)
@@ -206,8 +207,7 @@ def test_a_table_of_modes_is_a_prony_series(tmp_path):
 
 
 def test_reduced_frequencies_need_no_shift():
-    stated, factors = tables(290.0, 300.0, 320.0)
-    reduced = stated | {"reduced frequency [rad/s]": stated["omega"] * factors}
+    reduced = STATED | {"reduced frequency [rad/s]": STATED["omega"] * FACTORS}
     del reduced["omega"]
     units = {"storage": "Pa", "loss": "Pa"}
     assert deviation(Tabulated(table=reduced, units=units), omega=OMEGA[8:42]) < FITTED
@@ -227,7 +227,7 @@ def test_one_temperature_is_that_of_the_table_and_the_law_has_to_begin_there():
 
 
 def test_a_law_that_ends_among_the_rows_is_refused_and_without_one_there_is_no_modulus():
-    table = Tabulated(table=tables(290.0, 300.0, 320.0)[0])
+    table = Tabulated(table=STATED)
     with pytest.raises(InvalidInput, match=r"a row at temperature = 290 K: the law ends at"):
         Scene(Sphere(1e-2), table, Indent(load=1.0), temperature=replace(LAW, c2=5.0))
     with pytest.raises(ValueError, match="several temperatures"):
@@ -235,9 +235,7 @@ def test_a_law_that_ends_among_the_rows_is_refused_and_without_one_there_is_no_m
 
 
 def test_tables_of_every_kind_are_stored_and_read_back():
-    several = Scene(
-        Sphere(1e-2), Tabulated(table=tables(290.0, 300.0, 320.0)[0]), Indent(load=1.0), temperature=LAW
-    )
+    several = Scene(Sphere(1e-2), Tabulated(table=STATED), Indent(load=1.0), temperature=LAW)
     relaxed = Table(time=TIME, modulus=SOLID.relaxation_modulus(TIME))
     crept = Table(time=TIME, compliance=SOLID.creep_compliance(TIME))
     for stored in (several, Tabulated(table=relaxed, kind="shear"), Tabulated(table=crept, kind="shear")):
@@ -358,6 +356,5 @@ def test_few_frequencies_at_many_temperatures_are_enough():
 
 
 def test_shift_factors_the_other_way_round_are_refused():
-    stated, factors = tables(290.0, 300.0, 320.0)
     with pytest.raises(InvalidInput, match="a_T grows with the temperature"):
-        Tabulated(table=stated | {"aT": 1 / factors})
+        Tabulated(table=STATED | {"aT": 1 / FACTORS})

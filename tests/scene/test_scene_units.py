@@ -121,9 +121,6 @@ def test_a_frequency_is_no_angular_frequency():
 @pytest.mark.parametrize("unit", UNITS, ids=lambda unit: unit.kind)
 def test_each_kind_of_number_shows_an_example_that_it_takes(unit):
     assert unit.value(unit.example) == pytest.approx(unit.number, rel=1e-5)  # six digits are shown
-    for wrong in (None, True, [1.0], "wide", 1j):
-        with pytest.raises(ValueError, match="Input should be"):
-            unit.value(wrong)
 
 
 @pytest.mark.parametrize("given", [b"1", bytearray(b"1"), memoryview(b"1"), {1.0: 2.0}], ids=type)
