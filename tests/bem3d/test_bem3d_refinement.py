@@ -50,9 +50,7 @@ COLD = WLF(temperature=300, reference=298, c1=8.86, c2=101.6)
 WARM = replace(SMOOTH, elastomer=GLASSY, roughness=replace(ROUGH, rms_height=1e-7), temperature=COLD)
 SIDE = np.linspace(-1, 1, 64) * 0.6e-3
 BOWL = Measured(heights=np.hypot(SIDE, SIDE[:, None]) ** 2 / 2e-2, pixel=1.2e-3 / 63, peaks="down")
-LINE = Profile(
-    heights=2e-8 * np.random.default_rng(1).normal(size=500).cumsum(), spacing=2e-5, shortest_kept=1e-4, seed=1
-)
+LINE = Profile(heights=2e-8 * noise(500, 1).cumsum(), spacing=2e-5, shortest_kept=1e-4, seed=1)
 BUMPS = 1e-7 * noise((8, 8), 1)
 ANSWERED = {
     "smooth": SMOOTH,

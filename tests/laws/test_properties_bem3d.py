@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from maps import noise
 from strategies import (
     decades,
     elastic,
@@ -58,8 +59,7 @@ def waves(seed):
     """A random surface (POINTS, POINTS) that repeats, of rms slope about 1 and waves of 4 pixels and more."""
     k = np.hypot(*np.meshgrid(*2 * [np.fft.fftfreq(POINTS, 1 / POINTS)], indexing="ij"))
     amplitude = np.where((k > 0) & (k <= POINTS / 4), 1 / np.maximum(k, 1) ** 1.8, 0.0)
-    noise = np.fft.fft2(np.random.default_rng(seed).standard_normal((POINTS, POINTS)))
-    heights = np.fft.ifft2(amplitude * noise).real
+    heights = np.fft.ifft2(amplitude * np.fft.fft2(noise((POINTS, POINTS), seed))).real
     return heights / np.std(np.diff(heights, axis=1))
 
 
@@ -111,8 +111,7 @@ def test_a_pressure_never_gains_energy_from_the_flow(pressed):
 
     It is the sum of the loss compliance over the spectrum: >= 0, but for rounding of the sum of its terms.
     """
-    anything = np.random.default_rng(0).standard_normal(pressed.heights.shape)
-    for p in (pressed.solved().pressure, anything):
+    for p in (pressed.solved().pressure, noise(pressed.heights.shape)):
         (loss, _), (scale, _) = (pressed.medium.lost(pressed.grid, of) for of in (p, np.abs(p)))
         assert loss >= -ROUNDING * scale
 
@@ -122,8 +121,7 @@ def test_a_pressure_never_gains_energy_from_the_flow(pressed):
 def test_of_a_flow_and_its_reverse_each_is_the_adjoint_of_the_other(pressed):
     """Reciprocity, to rounding: <q, A p> in a flow equals <p, A q> in the reverse flow."""
     operator = pressed.medium.operator(pressed.grid)
-    rng = np.random.default_rng(1)
-    p, q = rng.standard_normal((2, *pressed.heights.shape))
+    p, q = noise((2, *pressed.heights.shape), 1)
     there = operator(np.ascontiguousarray(q[:, ::-1]))[:, ::-1]
     scale = np.linalg.norm(q) * np.linalg.norm(operator(p))
     assert np.sum(q * operator(p)) == pytest.approx(np.sum(p * there), abs=ROUNDING * scale)

@@ -7,6 +7,7 @@ from math import ceil, pi, sqrt
 
 import numpy as np
 import pytest
+from maps import noise
 from scipy.integrate import quad
 
 from mdr1d import draw, estimates, modes_of, sweep_modes
@@ -125,7 +126,7 @@ def test_interpolation_is_xi_at_first_and_one_in_the_end():
 def test_the_plateau_of_exponential_slopes_is_the_root_of_two_and_of_gaussian_ones_the_root_of_half_pi():
     share = (np.arange(10**6) + 0.5) / 10**6
     exponential = -np.log(share)
-    gaussian = np.random.default_rng(0).standard_normal(10**6)
+    gaussian = noise(10**6)
     # The tail beyond 1e-6, and 1e6 samples.
     for slopes, ratio in ((exponential, sqrt(2)), (gaussian, sqrt(pi / 2))):
         rms = sqrt(np.mean(slopes**2))

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from maps import noise, refused
 from pydantic import TypeAdapter
 from strategies import decades, examples
 
@@ -200,10 +201,14 @@ def test_a_table_of_modes_is_a_prony_series(tmp_path):
         ({}, "line 2: '3' is no heading"),
         ({"moduli": (1e6,), "skip": 4, **stated}, "line 8: '' has not the 3 cells"),
     ):
-        with pytest.raises(InvalidInput, match=message):
-            Prony(equilibrium_modulus=1e6, table=path, **more)
-    with pytest.raises(InvalidInput, match="moduli is stated, and a column"):
-        Prony(equilibrium_modulus=1e6, moduli=(1e6,), table={"tau": (1.0,), "G": (1e6,)})
+        refused(message, Prony, equilibrium_modulus=1e6, table=path, **more)
+    refused(
+        "moduli is stated, and a column",
+        Prony,
+        equilibrium_modulus=1e6,
+        moduli=(1e6,),
+        table={"tau": (1.0,), "G": (1e6,)},
+    )
 
 
 def test_reduced_frequencies_need_no_shift():
@@ -211,8 +216,7 @@ def test_reduced_frequencies_need_no_shift():
     del reduced["omega"]
     units = {"storage": "Pa", "loss": "Pa"}
     assert deviation(Tabulated(table=reduced, units=units), omega=OMEGA[8:42]) < FITTED
-    with pytest.raises(InvalidInput, match="b_T with reduced frequencies"):
-        Tabulated(table=reduced | {"b_T": np.ones(90)}, units=units)
+    refused("b_T with reduced frequencies", Tabulated, table=reduced | {"b_T": np.ones(90)}, units=units)
 
 
 def test_one_temperature_is_that_of_the_table_and_the_law_has_to_begin_there():
@@ -266,8 +270,7 @@ def test_a_table_that_says_too_little_or_contradicts_is_refused(tmp_path, headin
     numbers = (np.geomspace(1, 10, 5), np.geomspace(100, 200, 5), np.full(5, 300.0))
     path = tmp_path / "rubber.csv"
     path.write_text("\n".join([heading, *(",".join(map(str, row)) for row in zip(*numbers, strict=True))]))
-    with pytest.raises(InvalidInput, match=message):
-        Tabulated(table=path, **stated)
+    refused(message, Tabulated, table=path, **stated)
 
 
 LAW_OF_SOLID = SOLID.complex_modulus(OMEGA)
@@ -276,17 +279,23 @@ IN_SHEAR = {"omega [rad/s]": OMEGA, "G' [Pa]": LAW_OF_SOLID.real, "G'' [Pa]": LA
 
 def test_two_columns_of_the_frequency_have_to_agree():
     assert Tabulated(table=IN_SHEAR | {"f [Hz]": OMEGA / (2 * np.pi)}) == Tabulated(table=IN_SHEAR)
-    with pytest.raises(InvalidInput, match="'omega' is in rad/s, and frequency_unit = 'Hz' is stated"):
-        Tabulated(table=IN_SHEAR | {"f [Hz]": OMEGA / (2 * np.pi)}, frequency_unit="Hz")
-    with pytest.raises(InvalidInput, match=r"row 1: omega = .* contradicts frequency: 1 Hz is 2 pi rad/s"):
-        Tabulated(table=IN_SHEAR | {"f [Hz]": OMEGA})
+    refused(
+        "'omega' is in rad/s, and frequency_unit = 'Hz' is stated",
+        Tabulated,
+        table=IN_SHEAR | {"f [Hz]": OMEGA / (2 * np.pi)},
+        frequency_unit="Hz",
+    )
+    refused(
+        r"row 1: omega = .* contradicts frequency: 1 Hz is 2 pi rad/s",
+        Tabulated,
+        table=IN_SHEAR | {"f [Hz]": OMEGA},
+    )
 
 
 def test_a_tangent_that_contradicts_the_moduli_beside_it_is_refused():
     table = IN_SHEAR | {"tan delta": LAW_OF_SOLID.imag / LAW_OF_SOLID.real}
     assert deviation(Tabulated(table=table)) < FITTED
-    with pytest.raises(InvalidInput, match=r"1e\+03 times off tan delta"):
-        Tabulated(table=table | {"G'' [Pa]": 1e3 * LAW_OF_SOLID.imag})
+    refused(r"1e\+03 times off tan delta", Tabulated, table=table | {"G'' [Pa]": 1e3 * LAW_OF_SOLID.imag})
 
 
 LIQUID_TIME = np.geomspace(1e-4, 1e-1, 30)
@@ -300,22 +309,20 @@ LIQUIDS = {
 }
 
 
-@pytest.mark.parametrize("noise", [0.0, 0.03])
+@pytest.mark.parametrize("scatter", [0.0, 0.03])
 @pytest.mark.parametrize("form", LIQUIDS)
-def test_a_liquid_is_refused_in_each_form(form, noise):
+def test_a_liquid_is_refused_in_each_form(form, scatter):
     for seed in range(5):
-        rng = np.random.default_rng(seed)
-        first, *others = LIQUIDS[form].items()
-        scattered = {name: values * np.exp(noise * rng.standard_normal(30)) for name, values in others}
-        with pytest.raises(InvalidInput, match="leaves the modulus at rest open"):
-            Tabulated(table=dict([first]) | scattered, tolerance=0.3)
+        first, (name, values) = LIQUIDS[form].items()
+        scattered = {name: values * np.exp(scatter * noise(30, seed))}
+        refused("leaves the modulus at rest open", Tabulated, table=dict([first]) | scattered, tolerance=0.3)
 
 
 @pytest.mark.parametrize("name", ["G(t)", "J(t)"])
 def test_a_solid_stays_one_under_noise(name):
     law = SOLID.relaxation_modulus if name == "G(t)" else SOLID.creep_compliance
     for seed in range(5):
-        scatter = np.exp(0.03 * np.random.default_rng(seed).standard_normal(60))
+        scatter = np.exp(0.03 * noise(60, seed))
         found = Tabulated(table={"t": TIME, name: law(TIME) * scatter})
         assert abs(found.static_modulus - 1e6) < 4 * found.equilibrium_error < 0.5e6
 
@@ -333,8 +340,7 @@ def test_a_solid_stays_one_under_noise(name):
     ],
 )
 def test_a_wrong_table_over_time_is_refused_with_its_place(change, message):
-    with pytest.raises(InvalidInput, match=message):
-        Table(**({"time": (1.0, 2.0, 3.0, 4.0), "modulus": (4.0, 3.0, 2.0, 1.0)} | change))
+    refused(message, Table, **{"time": (1.0, 2.0, 3.0, 4.0), "modulus": (4.0, 3.0, 2.0, 1.0)} | change)
 
 
 def test_every_name_is_that_of_one_column():
@@ -356,5 +362,4 @@ def test_few_frequencies_at_many_temperatures_are_enough():
 
 
 def test_shift_factors_the_other_way_round_are_refused():
-    with pytest.raises(InvalidInput, match="a_T grows with the temperature"):
-        Tabulated(table=STATED | {"aT": 1 / FACTORS})
+    refused("a_T grows with the temperature", Tabulated, table=STATED | {"aT": 1 / FACTORS})

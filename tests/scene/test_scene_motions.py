@@ -5,6 +5,7 @@ import pytest
 from changing_motion import program
 from hypothesis import given
 from hypothesis import strategies as st
+from maps import refused
 
 from scene import InvalidInput, Stage
 from scene.motion import Oscillation
@@ -111,5 +112,4 @@ def test_an_oscillation_may_touch_zero_but_not_pass_it():
     ],
 )
 def test_half_an_oscillation_and_numbers_that_are_none_are_named(given, message):
-    with pytest.raises(InvalidInput, match=message):
-        Stage(**{"duration": 1.0, "load": 1.0} | given)
+    refused(message, Stage, **{"duration": 1.0, "load": 1.0} | given)

@@ -4,7 +4,7 @@ from dataclasses import replace
 from difflib import get_close_matches
 
 import pytest
-from maps import noise
+from maps import noise, refused
 from pydantic import TypeAdapter
 from sliding import ORDINARY
 
@@ -345,8 +345,7 @@ ROUGH = SelfAffine(hurst=0.7, rms_height=3e-5, longest=1e-2, shortest=1e-4, seed
     ],
 )
 def test_a_wrong_value_is_refused_with_its_field_and_what_is_allowed(make, message):
-    with pytest.raises(InvalidInput, match=message):
-        make()
+    refused(message, make)
 
 
 # Messages about any content

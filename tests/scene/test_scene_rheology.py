@@ -5,9 +5,10 @@ from decimal import Decimal, localcontext
 
 import numpy as np
 import pytest
+from maps import refused
 from solids import OF_EACH_TYPE
 
-from scene import Elastic, Fractional, InvalidInput, Kelvin, KelvinChain, Prony, StandardLinearSolid
+from scene import Elastic, Fractional, Kelvin, KelvinChain, Prony, StandardLinearSolid
 from scene.solids.modes import Relaxation, Retardation
 
 ROUNDING = 1e-13  # some tens of roundings; sums of terms with the same sign
@@ -243,8 +244,7 @@ def test_a_solid_stated_by_young_s_modulus_is_that_of_its_shear_modulus(solid, r
     ],
 )
 def test_a_wrong_young_s_modulus_is_refused_by_its_name(stated, message):
-    with pytest.raises(InvalidInput, match=message):
-        Elastic(**stated)
+    refused(message, Elastic, **stated)
 
 
 SHARES, TAU = (0.2, 0.3, 0.25), (0.1, 1.0, 10.0)
@@ -283,5 +283,4 @@ def test_normalised_terms_are_the_plain_series(modulus, time):
     ],
 )
 def test_normalised_terms_that_are_no_solid_are_refused(stated, message):
-    with pytest.raises(InvalidInput, match=message):
-        Prony(**stated)
+    refused(message, Prony, **stated)
