@@ -78,7 +78,6 @@ def test_the_window_of_an_indenter_that_goes_backwards_is_the_mirror_image():
         pytest.param(Cylinder(R), None, {"line_load": 100.0}, A, marks=pytest.mark.slow),
         (Plane(), CrossedWaves(amplitude=1e-6, wavelength=1e-4), {"pressure": 1e5}, 1e-4),
     ],
-    ids=["sphere", "cylinder", "plane"],
 )
 def test_after_a_reversal_friction_comes_to_minus_that_of_steady_sliding(indenter, roughness, value, length):
     speed = length / TAU

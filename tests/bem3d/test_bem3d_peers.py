@@ -179,7 +179,7 @@ ROUGH = SelfAffine(hurst=0.8, rms_height=4e-4, longest=1.0, rolloff=0.25, shorte
 
 
 @pytest.mark.parametrize("points", [64, 150])
-@pytest.mark.parametrize("rough", [None, ROUGH], ids=["smooth", "rough"])
+@pytest.mark.parametrize("rough", [None, ROUGH])
 def test_a_sphere_on_a_free_surface_agrees_with_contact_mechanics(contact_mechanics, rough, points):
     result, heights = ours(SPHERE, Indent(depth=DEPTH), rough, points=points, extent=SIDE)
     substrate = contact_mechanics.FreeFFTElasticHalfSpace(heights.shape, 1.0, (SIDE, SIDE))

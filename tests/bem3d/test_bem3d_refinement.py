@@ -11,7 +11,6 @@ from bem3d import BEM, refined
 from bem3d.terms import TERMS
 from scene import (
     WLF,
-    Arrhenius,
     Cone,
     Coulomb,
     CrossedWaves,
@@ -77,7 +76,6 @@ ANSWERED = {
     "at rest": replace(SCENE, motion=Indent(load=0.002)),
     "layer": replace(SMOOTH, layer=Layer(thickness=3e-4)),
     "cold": replace(SCENE, temperature=COLD),
-    "arrhenius": replace(SCENE, temperature=Arrhenius(temperature=310, reference=298, activation_energy=5e4)),
     "heating": replace(WARM, heating=Heating(conductivity=0.2)),
     "heating that acts back": replace(WARM, heating=Heating(conductivity=1e-3, feedback="flash")),
     "coulomb": replace(SCENE, interface=Coulomb(coefficient=0.3)),
@@ -98,7 +96,7 @@ COUNTS = ("applications", "rounds", "transform_pairs", "seconds", "residual")  #
 
 
 # Slow cases of an effect that a quick case covers too.
-LONG = {"heating that acts back", "arrhenius", "shear, uncoupled", "measured line"}
+LONG = {"heating that acts back", "shear, uncoupled", "measured line"}
 
 
 @pytest.mark.parametrize(

@@ -148,7 +148,6 @@ def test_what_is_foreseen_is_what_a_solve_would_fail_by():
 @pytest.mark.parametrize(
     ("solver", "message"),
     [(BEM(points=64), "edge of extent"), (MDR(points=500), "the contact leaves the grid")],
-    ids=["BEM", "MDR"],
 )
 def test_an_extent_that_a_contact_leaves_is_foreseen_with_one_that_holds_it(solver, message):
     near = replace(solver, extent=2e-3)

@@ -11,6 +11,7 @@ import pytest
 from damage import TRIES, bounded, fuzz, unshowable
 from effects import effects
 from hypothesis import strategies as st
+from maps import refused
 from planned import STANDARD as SOLID
 from solids import OF_EACH_TYPE
 from strategies import bodies, decades, planes
@@ -150,9 +151,7 @@ def test_what_can_be_no_value_is_named_with_its_field(thing, name):
 
 
 @pytest.mark.parametrize(("scene", "part", "name"), FIELDS)
-@pytest.mark.parametrize(
-    "solver", [SOLVERS[0], pytest.param(SOLVERS[1], marks=pytest.mark.slow)], ids=["MDR", "BEM"]
-)
+@pytest.mark.parametrize("solver", [SOLVERS[0], pytest.param(SOLVERS[1], marks=pytest.mark.slow)])
 def test_extreme_numbers_are_solved_within_the_laws_or_declined_with_a_reason(scene, part, name, solver):
     """Zero, denormal, tiny and huge numbers in every field of a scene."""
     for value in EXTREME:
@@ -210,8 +209,7 @@ def test_scenes_of_every_part_with_numbers_beyond_reason_are_answered_within_the
     ("part", "name"), [(BALL.indenter, "radius"), (BALL.motion, "load"), (SOLVERS[0], "extent")]
 )
 def test_a_whole_number_beyond_the_range_of_numbers_is_named(part, name):
-    with pytest.raises(InvalidInput, match=rf"{name}.*within the range of floating-point numbers"):
-        replace(part, **{name: 10**400})
+    refused(rf"{name}.*within the range of floating-point numbers", replace, part, **{name: 10**400})
 
 
 @pytest.mark.parametrize(
@@ -232,5 +230,4 @@ def test_profiles_solved_together_name_bad_points_and_seeds(points, seeds, messa
 
 @pytest.mark.parametrize("name", ["longest", "shortest", "rolloff"])
 def test_a_wavelength_without_a_wave_number_is_named(name):
-    with pytest.raises(InvalidInput, match=f"{name}.*wavelengths are at least 1e-300 m"):
-        replace(ROUGH, **{name: 1e-310})
+    refused(f"{name}.*wavelengths are at least 1e-300 m", replace, ROUGH, **{name: 1e-310})

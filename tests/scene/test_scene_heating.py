@@ -6,6 +6,7 @@ from math import exp, inf, isnan, nan
 import numpy as np
 import pytest
 from changing_motion import program
+from maps import refused
 from scipy.optimize import bisect
 
 from scene import (
@@ -13,7 +14,6 @@ from scene import (
     Cylinder,
     Heating,
     Indent,
-    InvalidInput,
     Kelvin,
     Layer,
     Plane,
@@ -227,5 +227,4 @@ def test_scenes_without_an_estimate_are_refused_by_name():
 
 def test_feedback_without_a_temperature_is_refused():
     message = "heating.feedback = 'flash' shifts the times of the elastomer: give temperature"
-    with pytest.raises(InvalidInput, match=message):
-        replace(SCENE, temperature=None, heating=Heating(conductivity=1.0, feedback="flash"))
+    refused(message, replace, SCENE, temperature=None, heating=Heating(conductivity=1.0, feedback="flash"))

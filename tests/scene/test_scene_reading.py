@@ -99,8 +99,7 @@ def test_a_mistake_is_named_with_its_place_value_and_what_is_allowed(tmp_path, o
     """Of a part, and of a stage of a program."""
     text = WHOLE if old in WHOLE else INDENTER + ELASTOMER + PROGRAM
     assert old in text
-    with pytest.raises(InvalidInput, match=message):
-        scene_from(tmp_path, text.replace(old, new))
+    refused(message, scene_from, tmp_path, text.replace(old, new))
 
 
 def test_a_program_of_stages_can_be_read(tmp_path):
@@ -112,13 +111,10 @@ def test_a_program_of_stages_can_be_read(tmp_path):
 
 
 def test_what_is_no_toml_or_no_file_is_said(tmp_path):
-    with pytest.raises(InvalidInput, match=r"not valid TOML: .*line 1"):
-        scene_from(tmp_path, "radius 3")
+    refused(r"not valid TOML: .*line 1", scene_from, tmp_path, "radius 3")
     (tmp_path / "scene.toml").write_bytes(b"\xff\xfe")
-    with pytest.raises(InvalidInput, match="is no text in UTF-8: byte 1 is 0xff"):
-        read(tmp_path / "scene.toml", Scene)
-    with pytest.raises(InvalidInput, match=r"nowhere\.toml: no such file"):
-        read(tmp_path / "nowhere.toml", Scene)
+    refused("is no text in UTF-8: byte 1 is 0xff", read, tmp_path / "scene.toml", Scene)
+    refused(r"nowhere\.toml: no such file", read, tmp_path / "nowhere.toml", Scene)
 
 
 # Names and types that are unknown
@@ -224,8 +220,7 @@ def test_a_call_names_its_mistakes_as_a_file_does(make, lines):
 @pytest.mark.parametrize("given", [HILLS, "quick-start", Sphere, None], ids=["array", "text", "class", "None"])
 def test_a_solver_names_what_is_no_scene(solver, given):
     for ask in (solver.solve, solver.plan):
-        with pytest.raises(InvalidInput, match=r"^scene = .*: a Scene is needed$"):
-            ask(given)
+        refused(r"^scene = .*: a Scene is needed$", ask, given)
 
 
 # Files that a file names
@@ -268,8 +263,13 @@ def test_a_path_is_relative_to_the_file_in_which_it_stands(tmp_path, monkeypatch
         ("../scene.toml", r"scenes/\.\., the folder of the file that names it"),
         ("scene.toml", "scenes, the working directory"),
     ):
-        with pytest.raises(InvalidInput, match=rf"held\.txt: no such file in .*{place}"):
-            made(parsed(stated.format("'held.txt'"), named), Scene, named)
+        refused(
+            rf"held\.txt: no such file in .*{place}",
+            made,
+            parsed(stated.format("'held.txt'"), named),
+            Scene,
+            named,
+        )
 
 
 # Whatever stands where

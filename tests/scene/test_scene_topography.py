@@ -14,7 +14,6 @@ import scene.surfaces.topography
 from compare.library.case import Case
 from compare.solving.task import SCENES
 from scene import Elastic, Indent, Measured, Plane, Scene, SelfAffine, Sphere, Topography
-from scene.files.reading import InvalidInput
 
 ROUNDING = 1e-13  # of heights of order one, summed over some ten waves
 SPLINE = 1e-12  # a paraboloid is a bicubic spline: what is left is rounding
@@ -92,8 +91,7 @@ def test_whether_there_are_heights_is_asked_without_a_wave(monkeypatch):
         assert map_.flat == flat
         case = Case(indenter=Sphere(1e-2), elastomer=Elastic(1e6), motion=Indent(load=1.0), roughness=map_)
         assert (case.roughness is None) == flat
-    with pytest.raises(InvalidInput, match="without roughness touches everywhere"):
-        Scene(Plane(), Elastic(1e6), Indent(pressure=1e4), map_)
+    refused("without roughness touches everywhere", Scene, Plane(), Elastic(1e6), Indent(pressure=1e4), map_)
 
 
 @pytest.mark.parametrize("repeat", ["mirror", "periodic"])
@@ -182,10 +180,15 @@ def test_a_body_whose_map_is_a_plane_has_no_lowest_point():
 
 def test_a_body_has_its_own_roughness():
     body = Measured(heights=noise((5, 5)), pixel=1e-3)
-    with pytest.raises(InvalidInput, match="leave roughness out"):
-        Scene(body, Elastic(1e6), Indent(load=1.0), SelfAffine(hurst=0.5, rms_height=1e-6, longest=1e-2))
-    with pytest.raises(InvalidInput, match="does not press a Measured"):
-        Scene(body, Elastic(1e6), Indent(pressure=1e4))
+    refused(
+        "leave roughness out",
+        Scene,
+        body,
+        Elastic(1e6),
+        Indent(load=1.0),
+        SelfAffine(hurst=0.5, rms_height=1e-6, longest=1e-2),
+    )
+    refused("does not press a Measured", Scene, body, Elastic(1e6), Indent(pressure=1e4))
 
 
 def test_between_the_pixels_a_measured_paraboloid_is_a_paraboloid():
