@@ -32,9 +32,9 @@ def says(error):
     return " ".join(str(error.value).split())
 
 
-def refused(message, part=Topography, *given, **stated):
-    """A part of a scene, or a file of it, is refused, in words that can be printed and read."""
-    with pytest.raises(InvalidInput, match=message) as error:
+def refused(message, part=Topography, *given, error=InvalidInput, **stated):
+    """A part of a scene, a file of it, or its solve is refused, in words that can be printed and read."""
+    with pytest.raises(error, match=message) as raised:
         part(*given, **stated)
-    assert says(error).isprintable()
-    assert len(says(error)) < 1000
+    assert says(raised).isprintable()
+    assert len(says(raised)) < 1000

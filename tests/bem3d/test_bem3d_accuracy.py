@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from changing_motion import program
+from maps import refused
 from planned import BOWL
 from sliding import KELVIN
 
@@ -220,5 +221,4 @@ def test_two_answers_without_friction_are_alike_and_one_is_not():
     ],
 )
 def test_what_cannot_be_promised_is_said(scene, wanted, message):
-    with pytest.raises(ValueError, match=message):
-        for_accuracy(scene, **wanted)
+    refused(message, for_accuracy, scene, error=ValueError, **wanted)

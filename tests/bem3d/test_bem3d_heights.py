@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from changing_motion import program
+from maps import refused
 
 from bem3d import BEM, heights, press
 from scene import Cylinder, Elastic, Indent, Plane, Scene, SelfAffine, SolveError, Sphere
@@ -34,8 +35,7 @@ def test_heights_are_those_of_a_result(name):
 
 
 def test_a_grid_that_cannot_carry_the_waves_is_refused():
-    with pytest.raises(SolveError, match="less than two pixels"):
-        heights(BODY, 64, extent=1.0)
+    refused("less than two pixels", heights, BODY, 64, error=SolveError, extent=1.0)
 
 
 # Heights in, fields out.

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from changing_motion import program
-from maps import noise
+from maps import noise, refused
 
 from bem3d import BEM, refined
 from bem3d.terms import TERMS
@@ -142,8 +142,7 @@ def test_what_has_no_spots_of_its_own_is_refused_by_name(name):
     field = "motion" if name == "program" else "indenter"
     part = type(getattr(REFUSED[name], field)).__name__
     solver = BEM(points=64, steps=5)
-    with pytest.raises(Refused, match=f"{field} = {part}: .* take more points"):
-        refined(solver, solver.solve(REFUSED[name]))
+    refused(f"{field} = {part}: .* take more points", refined, solver, solver.solve(REFUSED[name]), error=Refused)
 
 
 def test_every_part_that_the_solver_has_a_term_for_is_refined_or_refused():
@@ -154,15 +153,12 @@ def test_every_part_that_the_solver_has_a_term_for_is_refined_or_refused():
 def test_what_cannot_be_refined_is_an_error():
     answer, solver = COARSE.solve(SCENE), BEM(points=256)
     smooth = replace(SCENE, roughness=None, motion=Slide(speed=0.1, load=0.1))
-    with pytest.raises(SolveError, match="fit in a matrix"):
-        refined(solver, solver.solve(smooth))
+    refused("fit in a matrix", refined, solver, solver.solve(smooth), error=SolveError)
     shallow = dict(answer.fields) | {"gap": answer.fields["gap"] + np.float64(1.0)}
-    with pytest.raises(SolveError, match="nothing is left in contact"):
-        refined(COARSE, replace(answer, fields=shallow))
+    refused("nothing is left in contact", refined, COARSE, replace(answer, fields=shallow), error=SolveError)
     with pytest.raises(SolveError, match="the answer to another one"):
         refined(COARSE, replace(answer, scene=replace(SCENE, motion=Slide(speed=0.3, load=0.002))))
     with pytest.raises(Refused, match=r"result\.fields: no pressure and gap on a grid"):
         refined(COARSE, refined(COARSE, answer))
     for times, message in ((0, "a power of two"), (3, "a power of two"), (2.0, "a whole number")):
-        with pytest.raises(ValueError, match=message):
-            refined(COARSE, answer, times)
+        refused(message, refined, COARSE, answer, times, error=ValueError)

@@ -6,7 +6,7 @@ from math import pi
 import numpy as np
 import pytest
 from changing_motion import program
-from maps import noise, sampled
+from maps import noise, refused, sampled
 from planned import STANDARD as SOLID
 
 from bem3d import BEM
@@ -98,8 +98,7 @@ def test_rectangles_are_roughness_but_no_cell():
 def test_a_grid_too_coarse_for_a_map_is_refused():
     map_ = sampled(ROUGH, 100)
     would = r"points = 100 would do.*roughness.shortest_kept = 2.1e-05 would leave out"
-    with pytest.raises(Refused, match=would):
-        BEM(points=96).solve(replace(PRESSED, roughness=map_))
+    refused(would, BEM(points=96).solve, replace(PRESSED, roughness=map_), error=Refused)
     with pytest.raises(SolveError, match=r"indenter.shortest = 4e-05 m is less than two pixels"):
         BEM(points=32).solve(Scene(ball(200, 4e-3), SOLID, Indent(load=0.3)))
     # as fine as the map is fine enough, whatever the rounding of the period

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
+from maps import refused
 from sliding import ORDINARY as SCENE
 
 import scene.surfaces.topography
@@ -41,8 +42,7 @@ def test_plan_and_solve_refuse_with_both_figures_what_the_machine_has_not(monkey
 
 def test_what_no_machine_holds_has_no_plan_either():
     for ask in (BEM().plan, BEM().solve):
-        with pytest.raises(Refused, match=r"it needs 2.*e\+05 GB of memory"):
-            ask(replace(SCENE, roughness=BROAD))
+        refused(r"it needs 2.*e\+05 GB of memory", ask, replace(SCENE, roughness=BROAD), error=Refused)
 
 
 @pytest.mark.parametrize("solver", [BEM(points=32), MDR(), MDR(spectrum="line-scan")], ids=str)

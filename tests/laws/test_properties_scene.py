@@ -224,8 +224,7 @@ def test_a_whole_number_beyond_the_range_of_numbers_is_named(part, name):
 )
 def test_profiles_solved_together_name_bad_points_and_seeds(points, seeds, message):
     scene = replace(BALL, elastomer=Kelvin(1e6, 1e-3))
-    with pytest.raises(ValueError, match=message):
-        solve_profiles([scene], points, seeds)
+    refused(message, solve_profiles, [scene], points, seeds, error=ValueError)
 
 
 @pytest.mark.parametrize("name", ["longest", "shortest", "rolloff"])

@@ -5,6 +5,7 @@ from math import radians
 
 import numpy as np
 import pytest
+from maps import refused
 from sliding import KELVIN as SOLID
 
 from mdr1d import MDR
@@ -120,5 +121,4 @@ def test_roughness_that_is_not_resolved_is_refused(points, shortest, least):
     ],
 )
 def test_other_scenes_are_refused_by_name(scene):
-    with pytest.raises(ValueError, match="take MDR for any other scene"):
-        solve_profiles([scene], [POINTS], seeds=(1,))
+    refused("take MDR for any other scene", solve_profiles, [scene], [POINTS], error=ValueError, seeds=(1,))

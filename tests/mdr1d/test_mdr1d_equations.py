@@ -7,7 +7,7 @@ from math import ceil, pi, sqrt
 
 import numpy as np
 import pytest
-from maps import noise
+from maps import noise, refused
 from scipy.integrate import quad
 
 from mdr1d import draw, estimates, modes_of, sweep_modes
@@ -262,8 +262,7 @@ def test_arguments_out_of_range_are_named(function):
     for name in signature(function).parameters:
         if name in POINT:
             for wrong in (np.nan, np.array([1.0, -2.0])):
-                with pytest.raises(ValueError, match=f"{name} = "):
-                    at(function, **{name: wrong})
+                refused(f"{name} = ", at, function, error=ValueError, **{name: wrong})
 
 
 def test_further_arguments_out_of_range_are_named():
@@ -282,5 +281,4 @@ def test_further_arguments_out_of_range_are_named():
         (lambda: estimates.stiffness_exponent(0.2, "half-space"), "n = 0.2 must be from 1 to 100"),
         (lambda: estimates.stiffness_exponent(2, "layer"), "base = 'layer' must be one of half-space, compr"),
     ):
-        with pytest.raises(ValueError, match=message):
-            call()
+        refused(message, call, error=ValueError)

@@ -5,6 +5,7 @@ import pandas
 import pint
 import pytest
 import xarray
+from maps import refused
 
 from scene.files.stated import TableFormat
 from scene.files.tablefile import Column, read_columns
@@ -139,8 +140,7 @@ STATED = {
 @pytest.mark.parametrize(("lines", "stated", "refusal"), STATED.values(), ids=STATED)
 def test_what_differs_is_refused_with_its_place_and_read_once_it_is_stated(tmp_path, lines, stated, refusal):
     path = written(tmp_path, "\n".join(lines), stated.get("encoding", "utf-8"))
-    with pytest.raises(ValueError, match=refusal):
-        read(path)
+    refused(refusal, read, path, error=ValueError)
     agree(read(path, **stated))
 
 
@@ -169,8 +169,7 @@ def test_what_differs_is_refused_with_its_place_and_read_once_it_is_stated(tmp_p
     ],
 )
 def test_what_is_no_table_is_refused_with_what_stands_there(tmp_path, lines, stated, refusal):
-    with pytest.raises(ValueError, match=refusal):
-        read(written(tmp_path, "\n".join(lines)), **stated)
+    refused(refusal, read, written(tmp_path, "\n".join(lines)), error=ValueError, **stated)
 
 
 @pytest.mark.parametrize(
@@ -178,8 +177,7 @@ def test_what_is_no_table_is_refused_with_what_stands_there(tmp_path, lines, sta
     [{"skip": -1}, {"rows": "3"}, {"separator": "|"}, {"decimal": "'"}, {"columns": {"z": 0}}, {"sep": ";"}],
 )
 def test_what_is_stated_is_checked(stated):
-    with pytest.raises(ValueError, match=next(iter(stated))):
-        TableFormat(**stated)
+    refused(next(iter(stated)), TableFormat, error=ValueError, **stated)
 
 
 def test_a_single_letter_has_its_case_and_a_frequency_per_second_stays_open(tmp_path):
@@ -215,8 +213,7 @@ def test_tables_of_python_are_read_by_the_same_names_with_their_units():
         ({"G'": [1.0, np.nan]}, 'row 2, column "G\'": nan is no number'),
         (both, "column 'remark' has several values"),
     ):
-        with pytest.raises(ValueError, match=message):
-            read(wrong)
+        refused(message, read, wrong, error=ValueError)
 
 
 # Tables as somebody may write them: names and units of the fields, and columns besides.

@@ -185,8 +185,7 @@ WIDE = "f,G',G''\n" + "\n".join(f"{k},2,3" for k in range(1, MOST_ROWS + 2))
 def test_a_mistake_in_a_file_is_named_with_its_line(tmp_path, text, message):
     path = tmp_path / "rubber.csv"
     path.write_text(text)
-    with pytest.raises(ValueError, match=message):
-        read_table(path)
+    refused(message, read_table, path, error=ValueError)
     refused(rf"table.*{message}|table.*frequencies", fitted, measured=path)
 
 
