@@ -9,6 +9,10 @@ import numpy as np
 from compare.models.exact.full_contact import complex_stiffness
 from scene import Program, Stage
 
+# A sphere, the radius A of its contact at rest at DEPTH, a shear modulus and a time.
+R, G, A, TAU = 1e-2, 1e6, 1e-3, 1e-3
+DEPTH = A**2 / R
+
 
 def program(*stages):
     return Program(stages=tuple(Stage(**stage) for stage in stages))

@@ -8,6 +8,12 @@ import pytest
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 
+def pytest_make_parametrize_id(val):
+    """What has a name or a type, as solvers and parts of a scene have, is shown by it."""
+    name = getattr(val, "name", getattr(val, "type", None))
+    return name if isinstance(name, str) else None
+
+
 @pytest.fixture(scope="module")
 def in_this_process():
     """Solves of a module in this process, where what it tests is no worker: to start one takes seconds."""

@@ -20,14 +20,21 @@ def sampled(rough, points=128, piece=None, **other):
     return Topography(heights=heights, **(stated | other))
 
 
+def squares_of_gaussians(squares):
+    """Squares of moduli of complex Gaussian numbers are exponential: their mean and their distribution."""
+    count, expected = len(squares), 1 - np.exp(-np.sort(squares))
+    assert squares.mean() == pytest.approx(1.0, abs=4 / np.sqrt(count))  # standard errors
+    assert np.abs(np.arange(count) / count - expected).max() < 1.95 / np.sqrt(count)  # but once in a thousand
+
+
 def says(error):
     """The message of a raised error, on one line."""
     return " ".join(str(error.value).split())
 
 
-def refused(message, part=Topography, **stated):
-    """A part of a scene is refused, in words that can be printed and read."""
-    with pytest.raises(InvalidInput, match=message) as error:
-        part(**stated)
-    assert says(error).isprintable()
-    assert len(says(error)) < 1000
+def refused(message, part=Topography, *given, error=InvalidInput, **stated):
+    """A part of a scene, a file of it, or its solve is refused, in words that can be printed and read."""
+    with pytest.raises(error, match=message) as raised:
+        part(*given, **stated)
+    assert says(raised).isprintable()
+    assert len(says(raised)) < 1000

@@ -35,7 +35,7 @@ def pressed(roughness, motion, elastomer=SOFT):
     return Scene(Plane(), elastomer, motion, roughness)
 
 
-@pytest.mark.parametrize(("roughness", "pressure"), [(ROUGH, 2e2), (ROUGH, 1e5), (CROSSED, 2e4)], ids=str)
+@pytest.mark.parametrize(("roughness", "pressure"), [(ROUGH, 2e2), (ROUGH, 1e5), (CROSSED, 2e4)])
 def test_the_gap_of_a_pressure_asks_for_that_pressure(roughness, pressure):
     solver = BEM(points=128, tolerance=1e-7)
     by_pressure = solver.solve(pressed(roughness, Indent(pressure=pressure)))
@@ -48,7 +48,7 @@ def test_the_gap_of_a_pressure_asks_for_that_pressure(roughness, pressure):
 
 
 @pytest.mark.parametrize("speed", [1e-2, 1e4])
-@pytest.mark.parametrize("elastomer", SOLIDS, ids=lambda solid: solid.type)
+@pytest.mark.parametrize("elastomer", SOLIDS)
 def test_a_rough_plane_in_full_contact_is_the_sum_of_its_waves(elastomer, speed):
     points = 64
     surface, sides = RoughSurface.of(ROUGH, ROUGH.q_max(0.0)), (ROUGH.longest, ROUGH.longest)

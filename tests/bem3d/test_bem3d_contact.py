@@ -4,6 +4,7 @@ from functools import partial
 
 import numpy as np
 import pytest
+from maps import noise
 
 from bem3d.contact import activeset as contact
 from compare.studies.checks.conditions import collocation, influence, retarded
@@ -60,10 +61,6 @@ def solved(matrix, heights, start=None, **given):
     return found
 
 
-def rough(n, seed):
-    return np.random.default_rng(seed).standard_normal((n, n))
-
-
 def from_the_middle(n):
     """Square of the distance from the middle of a square of n points a side."""
     y, x = np.mgrid[:n, :n] - (n - 1) / 2
@@ -85,7 +82,7 @@ CASES = {
     **{
         f"rough and fast, {memory:g} pixels, seed {seed}": (
             Matrix(24, 24, memory),
-            from_the_middle(24) / 120 + 0.3 * rough(24, seed),
+            from_the_middle(24) / 120 + 0.3 * noise((24, 24), seed),
             {"depth": 0.5},
         )
         for memory in (1.0, 100.0, 1e4)
@@ -94,7 +91,7 @@ CASES = {
     **{
         f"{ny} x {nx}, memory {memory:g}": (
             Matrix(ny, nx, memory),
-            np.random.default_rng(ny).standard_normal((ny, nx)),
+            noise((ny, nx), ny),
             {"load": 3.0},
         )
         for ny, nx in ((3, 40), (40, 3), (7, 13), (1, 60))
@@ -111,7 +108,7 @@ def test_conditions_of_contact_hold_by_a_plain_product(name):
 
 @pytest.mark.parametrize("memory", [0.0, 8.0])
 def test_the_pressure_is_the_same_from_any_start(memory):
-    heights, matrix = rough(16, seed=7), Matrix(16, 16, memory)
+    heights, matrix = noise((16, 16), 7), Matrix(16, 16, memory)
     known = solved(matrix, heights, load=5.0).pressure
     starts = {
         "the highest point": heights == heights.max(),
@@ -150,7 +147,7 @@ def test_what_does_not_settle_is_refused_with_the_violation_that_was_left(
     operator, tolerance, symmetric, monkeypatch
 ):
     monkeypatch.setattr(contact, "ROUNDS", 40)
-    heights = rough(8, seed=2)
+    heights = noise((8, 8), 2)
     start, asked = np.maximum(1.0 - heights, 0.0), partial(operator, Matrix(8, 8))
     with pytest.raises(contact.NotConverged, match="violation") as caught:
         contact.solve(asked, heights, start, tolerance, depth=1.0, symmetric=symmetric)

@@ -31,14 +31,20 @@ def drawn():
     return contact, rng.standard_normal((ROWS, POINTS))
 
 
+def sinking(pressure, foundation):
+    """How deep a pressure sinks the foundation."""
+    plane = pressure.copy()
+    kernels.foundation_displacement(plane, foundation)
+    return plane
+
+
 @pytest.mark.parametrize("wraps", [False, True])
 @pytest.mark.parametrize("flow", CASES)
 def test_a_foundation_that_is_pushed_back_had_that_pressure(flow, wraps):
     foundation, (contact, pressure) = Foundation.of(flow, GRID, wraps), drawn()
     pressure *= contact
-    plane = pressure.copy()
-    kernels.foundation_displacement(plane, foundation)
-    sunk = plane.copy()
+    sunk = sinking(pressure, foundation)
+    plane = sunk.copy()
     kernels.foundation_pressure(plane, contact, foundation)
     # A memory of many pixels leaves that few digits to the pressure on one.
     assert plane == pytest.approx(pressure, abs=1e-12 / foundation.at_once)
@@ -49,8 +55,7 @@ def test_a_foundation_that_is_pushed_back_had_that_pressure(flow, wraps):
 
 def test_a_step_of_pressure_sinks_as_the_solid_creeps():
     flow = Flow.of(SOLIDS["standard"], 5.0)
-    foundation, plane = Foundation.of(flow, GRID), np.ones((1, POINTS))
-    kernels.foundation_displacement(plane, foundation)
+    plane = sinking(np.ones((1, POINTS)), Foundation.of(flow, GRID))
     (share,), (length,) = flow.shares, flow.lengths
     passed = np.arange(1, POINTS + 1)
     np.testing.assert_allclose(plane[0], flow.instantaneous + share * (1 - np.exp(-passed / length)), rtol=1e-12)
@@ -59,23 +64,20 @@ def test_a_step_of_pressure_sinks_as_the_solid_creeps():
 
 def test_a_row_that_repeats_under_equal_pressure_is_relaxed():
     for flow in FLOWS["series"].values():
-        plane = np.full((2, POINTS), 3.0)
-        kernels.foundation_displacement(plane, Foundation.of(flow, GRID, wraps=True))
+        plane = sinking(np.full((2, POINTS), 3.0), Foundation.of(flow, GRID, wraps=True))
         np.testing.assert_allclose(plane, 3.0, rtol=1e-9)
 
 
 def test_what_would_pull_is_let_go_and_what_follows_presses_the_less():
     foundation = Foundation.of(Flow.of(SOLIDS["kelvin"], 10.0), GRID)
     pressure = np.array([[-1.0, 3.0, 2.0, 0.0, 1.0]])
-    plane, contact = pressure.copy(), pressure != 0
-    kernels.foundation_displacement(plane, foundation)
-    before = plane.copy()
-    kernels.foundation_pressure(plane, contact, foundation, least=0.0)
+    before = sinking(pressure, foundation)
+    plane = before.copy()
+    kernels.foundation_pressure(plane, pressure != 0, foundation, least=0.0)
     assert (plane >= 0).all()
     assert plane[0, 0] == 0.0
     assert 1.9 < plane[0, 1] < 3.0
-    after = plane.copy()
-    kernels.foundation_displacement(after, foundation)
+    after = sinking(plane, foundation)
     np.testing.assert_allclose(after[0, 1:], before[0, 1:], rtol=1e-12)  # all that still presses is as deep
     np.testing.assert_allclose(plane[0, 2:], pressure[0, 2:], rtol=1e-9)
 

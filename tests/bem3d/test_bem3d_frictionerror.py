@@ -2,17 +2,17 @@
 
 import numpy as np
 import pytest
+from sliding import KELVIN
 
 from bem3d import BEM
 from bem3d.friction import bound as frictionerror
 from bem3d.friction.bound import UNCERTAIN, Signs, at_tip, bound
 from bem3d.friction.estimates import Friction
 from bem3d.grid import Grid
-from scene import Cone, Kelvin, PowerLaw, Scene, SelfAffine, Slide, SolveError, Sphere, StandardLinearSolid
+from scene import Cone, PowerLaw, Scene, SelfAffine, Slide, SolveError, Sphere, StandardLinearSolid
 from scene.scales import elastic_contact
 
 TAU = 1e-3
-KELVIN = Kelvin(modulus=1e6, relaxation_time=TAU)
 GLASSY = StandardLinearSolid(rubbery_modulus=1e6, glassy_modulus=1e8, relaxation_time=1e-5)
 ROUGH = SelfAffine(hurst=0.7, rms_height=1e-5, longest=4e-3, shortest=6e-4, seed=3)
 

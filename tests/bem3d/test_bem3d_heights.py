@@ -4,9 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from changing_motion import program
+from maps import refused
 
 from bem3d import BEM, heights, press
-from scene import Cylinder, Elastic, Indent, Plane, Program, Scene, SelfAffine, SolveError, Sphere, Stage
+from scene import Cylinder, Elastic, Indent, Plane, Scene, SelfAffine, SolveError, Sphere
 
 ROUGH = SelfAffine(hurst=0.8, rms_height=1e-6, longest=1e-3, shortest=1.25e-4, seed=3)
 ELASTIC = Elastic(1e6)
@@ -15,7 +17,7 @@ SCENES = {
     "body": BODY,
     "plane": Scene(Plane(), ELASTIC, Indent(pressure=1e4), ROUGH),
     "line": Scene(Cylinder(1e-2), ELASTIC, Indent(line_load=100.0)),
-    "program": replace(BODY, motion=Program(stages=(Stage(duration=1.0, depth=1e-4),))),
+    "program": replace(BODY, motion=program({"duration": 1.0, "depth": 1e-4})),
 }
 
 
@@ -33,8 +35,7 @@ def test_heights_are_those_of_a_result(name):
 
 
 def test_a_grid_that_cannot_carry_the_waves_is_refused():
-    with pytest.raises(SolveError, match="less than two pixels"):
-        heights(BODY, 64, extent=1.0)
+    refused("less than two pixels", heights, BODY, 64, error=SolveError, extent=1.0)
 
 
 # Heights in, fields out.

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from sliding import KELVIN, ORDINARY
 
 from bem3d import BEM, surface
 from bem3d.grid import KEPT, SIZES, Grid, cached_on_small_grids
@@ -11,11 +12,10 @@ from bem3d.motion.steady import Flow
 from bem3d.response import influence
 from bem3d.response.engine import Engine
 from bem3d.response.halfspace import HalfSpace
-from scene import Cone, Elastic, Indent, Kelvin, Plane, Scene, SelfAffine, Slide, Sphere
+from scene import Cone, Elastic, Indent, Plane, Scene, SelfAffine, Slide, Sphere
 
 ROUGH = SelfAffine(hurst=0.2, rms_height=5e-5, longest=1e-2, shortest=5e-4, seed=1)
-KELVIN = Kelvin(modulus=1e6, relaxation_time=1e-3)
-SLIDING = Scene(Sphere(1e-2), KELVIN, Slide(speed=0.1, load=1.0), ROUGH)
+SLIDING = replace(ORDINARY, roughness=ROUGH)
 OTHERS = [
     replace(SLIDING, motion=Slide(speed=1.0, load=1.0)),
     replace(SLIDING, motion=Slide(speed=0.1, load=3.0)),

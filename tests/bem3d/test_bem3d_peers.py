@@ -8,13 +8,14 @@ numbers where n, the points a side, is odd: it is compared at even n only.
 
 import numpy as np
 import pytest
+from changing_motion import program
 
 from bem3d import BEM
 from bem3d.grid import Grid
 from bem3d.motion.marching import march
 from bem3d.problem import Problem
 from bem3d.response.engine import Engine
-from scene import Elastic, Indent, Plane, Program, Prony, Scene, SelfAffine, Sphere, Stage
+from scene import Elastic, Indent, Plane, Prony, Scene, SelfAffine, Sphere
 
 # A warning of the peers, not of ours: without mpi4py, NuMPI warns on import that it stands in for it.
 pytestmark = pytest.mark.filterwarnings("ignore:Could not import mpi4py:ImportWarning")
@@ -137,7 +138,7 @@ def test_a_rough_cell_agrees_with_both_peers_up_to_full_contact(tamaas, contact_
 
 # Pressed for a second and held for another: 64 of our steps, of second order; 128 and 256 of theirs, of first
 # order, extrapolated: the difference falls with the square of our step until it reaches the error of theirs, 1e-4.
-PROGRAM = Program(stages=(Stage(duration=1.0, pressure=0.1), Stage(duration=1.0)))
+PROGRAM = program({"duration": 1.0, "pressure": 0.1}, {"duration": 1.0})
 IN_TIME = 3e-4
 
 
@@ -178,7 +179,7 @@ ROUGH = SelfAffine(hurst=0.8, rms_height=4e-4, longest=1.0, rolloff=0.25, shorte
 
 
 @pytest.mark.parametrize("points", [64, 150])
-@pytest.mark.parametrize("rough", [None, ROUGH], ids=["smooth", "rough"])
+@pytest.mark.parametrize("rough", [None, ROUGH])
 def test_a_sphere_on_a_free_surface_agrees_with_contact_mechanics(contact_mechanics, rough, points):
     result, heights = ours(SPHERE, Indent(depth=DEPTH), rough, points=points, extent=SIDE)
     substrate = contact_mechanics.FreeFFTElasticHalfSpace(heights.shape, 1.0, (SIDE, SIDE))

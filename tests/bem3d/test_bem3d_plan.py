@@ -4,8 +4,10 @@ from collections import Counter
 from dataclasses import replace
 
 import numpy as np
+import planned as shared
 import pytest
-from planned import FACTOR, KELVIN, LOAD, PRONY, SPHERE, STAGES, STANDARD, all_of_a_scene, held_by
+from changing_motion import program
+from planned import BOWL, DRAWN, FACTOR, KELVIN, LOAD, SPHERE, STANDARD, STICKS, all_of_a_scene, held_by
 
 from bem3d import BEM
 from bem3d.plan import EFFECTS
@@ -15,7 +17,6 @@ from bem3d.response.layerwaves import PIECES, Taken, taking
 from bem3d.response.memory import _kept
 from bem3d.surface import RoughSurface
 from scene import (
-    Coulomb,
     CrossedWaves,
     Cylinder,
     Elastic,
@@ -23,13 +24,11 @@ from scene import (
     Layer,
     Measured,
     Plane,
-    Program,
     Prony,
     Scene,
     SelfAffine,
     Shear,
     Slide,
-    Stage,
     Topography,
     Wave,
 )
@@ -39,13 +38,9 @@ EXTENT = 3e-3
 ROUGH = SelfAffine(hurst=0.8, rms_height=5e-6, longest=2e-3, shortest=0.25e-3, seed=1)
 CELL = SelfAffine(hurst=0.8, rms_height=2e-6, longest=1e-3, shortest=1.25e-4, seed=1)
 MANY = Prony(1e6, (1e6,) * 40, tuple(1e-4 * 1.3**k for k in range(40)))
-FAR = Program(stages=tuple(Stage(duration=1e-2, load=LOAD, speed=way) for way in (1.0, -1.0)))
-PRESSED = Program(stages=(Stage(duration=1e-3, load=LOAD),))
-SCENES = {
-    "rest": Scene(SPHERE, KELVIN, Indent(load=LOAD)),
-    "elastic": Scene(SPHERE, Elastic(1e6), Slide(speed=1.0, load=LOAD)),
-    "slide": Scene(SPHERE, KELVIN, Slide(speed=1.0, load=LOAD)),
-    "modes": Scene(SPHERE, PRONY, Slide(speed=1.0, load=LOAD)),
+FAR = program(*({"duration": 1e-2, "load": LOAD, "speed": way} for way in (1.0, -1.0)))
+PRESSED = program({"duration": 1e-3, "load": LOAD})
+SCENES = shared.SCENES | {
     "rough": Scene(SPHERE, STANDARD, Slide(speed=0.1, load=LOAD), ROUGH),
     "plane": Scene(Plane(), KELVIN, Indent(pressure=1e4), CELL),
     "plane-slide": Scene(Plane(), STANDARD, Slide(speed=0.1, pressure=1e4), CELL),
@@ -53,23 +48,17 @@ SCENES = {
     "wave": Scene(Plane(), KELVIN, Slide(speed=0.1, pressure=1e4), Wave(amplitude=1e-6, wavelength=1e-3)),
     "line": Scene(Cylinder(10e-3), KELVIN, Indent(line_load=500.0)),
     "line-slide": Scene(Cylinder(10e-3), KELVIN, Slide(speed=0.1, line_load=500.0)),
-    "program": Scene(SPHERE, STANDARD, STAGES),
     "pressed": Scene(SPHERE, STANDARD, PRESSED),
-    "plane-program": Scene(
-        Plane(), STANDARD, Program(stages=(Stage(duration=1e-3, pressure=1e4, speed=0.1),)), CELL
-    ),
+    "plane-program": Scene(Plane(), STANDARD, program({"duration": 1e-3, "pressure": 1e4, "speed": 0.1}), CELL),
 }
 HEIGHTS = RoughSurface.of(ROUGH, ROUGH.q_max(1.0)).heights(*np.tile(np.arange(16) * ROUGH.longest / 16, (2, 1)))
-BOWL = np.add.outer(*[((np.arange(32) - 15.5) * 1e-4) ** 2 / 20e-3] * 2)
-DRAWN, LAYER, STICKS = Shear(load=LOAD, displacement=1e-5), Layer(thickness=1e-3), Coulomb(0.3)
+LAYER = Layer(thickness=1e-3)
 SCENES |= {
     "layer": replace(SCENES["slide"], layer=LAYER),
     "layer-rest": replace(SCENES["rest"], layer=LAYER),
     "layer-plane": replace(SCENES["plane"], layer=LAYER),
     "layer-line": replace(SCENES["line-slide"], layer=LAYER),
     "layer-program": replace(SCENES["pressed"], layer=LAYER),
-    "interface": replace(SCENES["slide"], interface=STICKS),
-    "shear": replace(SCENES["rest"], motion=DRAWN, interface=STICKS),
     "shear-uncoupled": Scene(SPHERE, Elastic(1e6, poisson_ratio=0.0), DRAWN, interface=STICKS),
     "shear-plane": replace(SCENES["plane"], motion=Shear(pressure=1e5, displacement=1e-7), interface=STICKS),
     "shear-line": replace(

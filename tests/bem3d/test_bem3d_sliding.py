@@ -45,8 +45,9 @@ def sphere_at(ratio, **other):
 @pytest.mark.parametrize(("ratio", "force", "friction"), [(0.1, 1.0036, 0.0936), (10.0, 4.522, 0.652)])
 def test_kelvin_sphere_reaches_the_reference_values(ratio, force, friction):
     result = across(36).solve(sphere_at(ratio))
-    assert result.normal_force / HERTZ == pytest.approx(force, rel=PUBLISHED)
-    assert result.friction_coefficient * R / A == pytest.approx(friction, rel=PUBLISHED)
+    assert (result.normal_force / HERTZ, result.friction_coefficient * R / A) == pytest.approx(
+        (force, friction), rel=PUBLISHED
+    )
 
 
 def test_lengths_of_a_flow_and_how_far_estimates_of_friction_count_in_it():
@@ -80,13 +81,12 @@ def test_a_finer_tolerance_changes_the_answer_by_no_more_than_the_looser_one_sta
     loose = BEM(points=64, extent=5e-3).solve(scene)
     tight = BEM(points=64, extent=5e-3, tolerance=1e-9).solve(scene)
     assert tight.residual <= 1e-9
-    assert loose.friction_coefficient == pytest.approx(tight.friction_coefficient, rel=1e-4)
-    assert loose.depth == pytest.approx(tight.depth, rel=1e-4)
+    assert (loose.friction_coefficient, loose.depth) == pytest.approx(
+        (tight.friction_coefficient, tight.depth), rel=1e-4
+    )
 
 
-@pytest.mark.parametrize(
-    "solid", [Kelvin(1e6, 1e-3), Prony(1e6, (3e6, 1e7), (1e-3, 1e-2))], ids=["kelvin", "prony"]
-)
+@pytest.mark.parametrize("solid", [Kelvin(1e6, 1e-3), Prony(1e6, (3e6, 1e7), (1e-3, 1e-2))])
 def test_what_a_pressure_loses_is_its_work_on_the_slope_of_its_displacement(solid):
     """By the product with its kernel; on a surface that repeats by closed forms of waves in full contact."""
     flow, grid = Flow.of(solid, 2.0), Grid(16, 16e-3)

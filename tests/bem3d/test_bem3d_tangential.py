@@ -29,6 +29,7 @@ from scene.scales import elastic_contact
 CELL = SelfAffine(hurst=0.8, rms_height=2e-6, longest=1e-3, shortest=1.25e-4, seed=1)
 WAVES = CrossedWaves(amplitude=1e-6, wavelength=1e-3)
 TIGHT = 1e-9  # tolerance of solves that are compared with one another
+FORCE = 0.6 * MU * LOAD
 EXTENT = 3.6e-3  # of contacts of a radius of 1.4 mm
 
 
@@ -66,7 +67,7 @@ def test_what_sticks_everywhere_is_mindlins_disc_at_any_poisson_ratio(nu):
 @pytest.mark.parametrize(
     ("asked", "share"),
     [
-        (body(nu=0.0, roughness=ROUGH, force=0.6 * MU * LOAD), 0.6),
+        (body(nu=0.0, roughness=ROUGH, force=FORCE), 0.6),
         (plane(CELL, nu=0.0, pressure=1e4, force=0.95 * MU * 1e-2), 0.95),
         (Scene(Cylinder(10e-3), Elastic(G), Shear(line_load=100.0, force=20 * MU), interface=Coulomb(MU)), 0.2),
     ],
@@ -86,7 +87,7 @@ def test_uncoupled_tractions_are_two_pressures_of_the_rough_body_itself(asked, s
 
 @pytest.mark.parametrize("nu", [-0.8, 0.5])
 def test_the_conditions_of_stick_and_slip_hold(nu):
-    scene = body(nu=nu, roughness=ROUGH, force=0.6 * MU * LOAD)
+    scene = body(nu=nu, roughness=ROUGH, force=FORCE)
     answer = BEM(points=40).solve(scene)
     fields, modulus, pixel = answer.fields, scene.solid.indentation_modulus, answer.measures["pixel"]
     traction, slip = (np.stack([fields[f"{name}_{axis}"] for axis in "xy"]) for name in ("traction", "slip"))
@@ -106,7 +107,7 @@ def test_the_conditions_of_stick_and_slip_hold(nu):
     assert (slip * traction).sum(axis=0)[rest].min() >= -tolerance * size.max()
     assert 0 < answer.measures["stick_area"] < answer.measures["contact_area"]
     assert traction[0].sum() * pixel**2 == pytest.approx(answer.friction_force, rel=1e-12)
-    assert answer.friction_force == pytest.approx(0.6 * MU * LOAD, rel=answer.settings["tolerance"])
+    assert answer.friction_force == pytest.approx(FORCE, rel=answer.settings["tolerance"])
 
 
 def test_two_components_tend_to_one_as_the_coupling_vanishes():
@@ -199,7 +200,7 @@ def test_tractions_that_fit_one_another_but_not_the_force_are_no_answer():
     assert found.displacement == pytest.approx(1.0, rel=1e-9)
 
 
-@pytest.mark.parametrize(("drawn", "most"), [({"force": 0.6 * MU * LOAD}, 120), ({"displacement": 3e-5}, 80)])
+@pytest.mark.parametrize(("drawn", "most"), [({"force": FORCE}, 120), ({"displacement": 3e-5}, 80)])
 def test_tractions_take_a_few_times_the_products_of_the_pressure(drawn, most):
     answer = BEM(points=128).solve(body(roughness=ROUGH, **drawn))
     tangential = answer.measures["tangential_applications"]

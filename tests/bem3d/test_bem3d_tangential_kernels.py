@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from maps import noise
 
 from bem3d.grid import Grid
 from bem3d.response import cerruti, influence
@@ -27,13 +28,9 @@ def test_both_directions_together_are_loves_kernel():
     np.testing.assert_allclose(along + along.T, influence.elastic(160, 160)[:, 160:], atol=PEAK)
 
 
-def tractions(points):
-    return np.random.default_rng(0).standard_normal((2, points, points))
-
-
 @pytest.mark.parametrize("points", [8, 9])
 def test_a_free_product_is_the_sum_over_pairs_of_pixels(points):
-    (along, across), c, given = cerruti.kernels(points), NU / (1 - NU), tractions(points)
+    (along, across), c, given = cerruti.kernels(points), NU / (1 - NU), noise((2, points, points))
     expected = np.zeros_like(given)
     for j, i, row, column in np.ndindex(points, points, points, points):
         dy, dx = abs(row - j), abs(column - i)
@@ -60,7 +57,7 @@ def test_a_wave_of_traction_displaces_along_its_crests_more_than_across(points):
 
 
 def test_on_odd_grids_the_approximate_inverse_of_a_cell_is_exact():
-    grid, given = Grid(15, 1.0), tractions(15)
+    grid, given = Grid(15, 1.0), noise((2, 15, 15))
     given -= given.mean(axis=(1, 2), keepdims=True)
     image = cerruti.preconditioner(grid, NU, Engine())(cerruti.periodic(grid, NU, Engine())(given))
     np.testing.assert_allclose(image, given, atol=ROUNDING * 10)

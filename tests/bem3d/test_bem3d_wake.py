@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from changing_motion import program
 from drawn_scenes import KELVIN, LOAD, ROUGH, STANDARD, TAU, A, R
 from drawn_scenes import SCENES as DRAWN
 
@@ -16,7 +17,6 @@ from scene import (
     Slide,
     SolveError,
     Sphere,
-    Stage,
 )
 
 SCENES = {
@@ -70,8 +70,8 @@ def test_single_precision_has_its_surface_too():
 
 
 def test_the_surface_at_the_end_of_a_program_is_where_the_gap_leaves_it():
-    program = Program(stages=(Stage(duration=TAU, depth=1e-4), Stage(duration=TAU, speed=0.3)))
-    scene = Scene(Sphere(R), STANDARD, program, ROUGH)
+    motion = program({"duration": TAU, "depth": 1e-4}, {"duration": TAU, "speed": 0.3})
+    scene = Scene(Sphere(R), STANDARD, motion, ROUGH)
     solver, result = solved(scene, points=48, steps=40, frames=1)
     around = surroundings(solver, scene, result.fields, **BEYOND)
     # x is where the gap was measured: half a pixel off, slopes of 0.2 would show
@@ -85,9 +85,8 @@ def test_the_surface_at_the_end_of_a_program_is_where_the_gap_leaves_it():
     [
         Indent(depth=5e-5),
         Slide(speed=1e-3, load=0.3),
-        Program(stages=(Stage(duration=2 * TAU, depth=5e-5), Stage(duration=2 * TAU, speed=0.2))),
+        program({"duration": 2 * TAU, "depth": 5e-5}, {"duration": 2 * TAU, "speed": 0.2}),
     ],
-    ids=lambda motion: motion.type,
 )
 def test_the_surface_is_known_however_high_the_indenter_is_at_the_corners(motion):
     # r^100 is 1e27 depths high there: compared with it, depth and displacement are less than rounding

@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from sliding import KELVIN as SOLID
 
 from bem3d import BEM, WarmStart
-from scene import Cylinder, EmptyContact, Indent, Kelvin, Plane, Scene, SelfAffine, Slide, Sphere
+from scene import Cylinder, EmptyContact, Indent, Plane, Scene, SelfAffine, Slide, Sphere
 
-SOLID = Kelvin(modulus=1e6, relaxation_time=1e-3)
 ROUGH = SelfAffine(hurst=0.5, rms_height=1e-5, longest=2e-3, shortest=4e-4, seed=3)
 SLIDING = Scene(Sphere(radius=1e-2), SOLID, Slide(speed=0.05, load=0.5), ROUGH)
 CELL = Scene(Plane(), SOLID, Indent(pressure=2e4), replace(ROUGH, shortest=2e-4))

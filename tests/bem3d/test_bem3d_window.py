@@ -6,6 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from maps import refused
 
 from bem3d import BEM
 from bem3d.grid import Box, Grid
@@ -82,7 +83,7 @@ def test_nine_pixels_in_contact_are_enough_and_eight_are_not():
 PIXELS = 3e-3
 
 
-@pytest.mark.parametrize(("indenter", "exponent"), [(Sphere(1e-2), 2), (Cone(0.2), 1)], ids=str)
+@pytest.mark.parametrize(("indenter", "exponent"), [(Sphere(1e-2), 2), (Cone(0.2), 1)])
 def test_a_kelvin_solid_slid_ever_faster_keeps_the_law_of_a_fluid(indenter, exponent):
     """Where v tau >> a there is no length but a: F_N ~ v tau E* c a^n, so that mu ~ c a^(n-1) ~ v^(1/n - 1).
 
@@ -135,8 +136,7 @@ def test_what_is_foreseen_is_what_a_solve_would_fail_by():
         if reasons := solver.foreseen(scene):
             foreseen += 1
             assert "less than two pixels" in reasons[0]
-            with pytest.raises(SolveError, match=re.escape(reasons[0])):
-                solver.solve(scene)
+            refused(re.escape(reasons[0]), solver.solve, scene, error=SolveError)
         else:
             try:
                 solver.solve(scene)
@@ -148,14 +148,12 @@ def test_what_is_foreseen_is_what_a_solve_would_fail_by():
 @pytest.mark.parametrize(
     ("solver", "message"),
     [(BEM(points=64), "edge of extent"), (MDR(points=500), "the contact leaves the grid")],
-    ids=["BEM", "MDR"],
 )
 def test_an_extent_that_a_contact_leaves_is_foreseen_with_one_that_holds_it(solver, message):
     near = replace(solver, extent=2e-3)
     for scene in (SMOOTH, replace(SMOOTH, roughness=replace(ROUGH, rms_height=2e-5))):
         (reason,) = near.foreseen(scene)
-        with pytest.raises(SolveError, match=message):
-            near.solve(scene)
+        refused(message, near.solve, scene, error=SolveError)
         extent, points = re.search(r"extent = ([\d.e-]+) holds it, with points = (\d+)", reason).groups()
         wider = replace(solver, points=int(points), extent=float(extent))
         assert wider.foreseen(scene) == []

@@ -8,14 +8,15 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import pytest
+from planned import STANDARD as SOLID
 
 from bem3d import BEM
 from mdr1d import MDR
-from scene import Indent, Program, Scene, SelfAffine, Slide, Sphere, Stage, StandardLinearSolid
+from scene import Indent, Program, Scene, SelfAffine, Slide, Sphere, Stage
 
 ROOT = Path(__file__).parents[2]
 SOLVERS = {"BEM": BEM(points=32, extent=3e-3, steps=4), "MDR": MDR(points=200, steps=4)}
-SOLID = StandardLinearSolid(rubbery_modulus=1e6, glassy_modulus=10e6, relaxation_time=1e-3)
+every_solver = pytest.mark.parametrize("solver", SOLVERS.values())
 ROUGH = SelfAffine(hurst=0.8, rms_height=2e-6, longest=2e-3, shortest=0.4e-3, seed=1)
 FORWARD = Stage(duration=1e-3, speed=0.1)
 PLAIN = {
@@ -92,7 +93,7 @@ def watched():
                 called.functions.add(f"{file} {code.co_qualname}")
 
 
-@pytest.mark.parametrize("solver", SOLVERS.values(), ids=SOLVERS)
+@every_solver
 @pytest.mark.parametrize("name", PLAIN)
 def test_of_effects_that_are_absent_not_a_function_is_called(solver, name):
     with watched() as called:
@@ -134,7 +135,7 @@ def test_of_effects_that_are_absent_no_library_is_loaded():
     ]
 
 
-@pytest.mark.parametrize("solver", SOLVERS.values(), ids=SOLVERS)
+@every_solver
 def test_what_is_steady_is_not_marched_and_what_rests_does_not_flow(solver):
     with watched() as called:
         solver.solve(PLAIN["rest"])
@@ -151,7 +152,7 @@ def test_what_is_steady_is_not_marched_and_what_rests_does_not_flow(solver):
     assert called.functions & flowing
 
 
-@pytest.mark.parametrize("solver", SOLVERS.values(), ids=SOLVERS)
+@every_solver
 def test_a_program_that_does_not_turn_back_keeps_nothing_of_what_it_leaves_behind(solver):
     forward = PLAIN["program"]
     back = replace(FORWARD, speed=-0.1)

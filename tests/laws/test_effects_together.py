@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from planned import STANDARD
 
 from bem3d import BEM
 from mdr1d import MDR
@@ -19,7 +20,6 @@ from scene import (
     SelfAffine,
     Slide,
     Sphere,
-    StandardLinearSolid,
     Topography,
 )
 
@@ -28,7 +28,7 @@ ROUGH = SelfAffine(hurst=0.8, rms_height=2e-6, longest=2e-3, shortest=0.4e-3, se
 LOAD, STICKS = 0.5, 0.3
 PLAIN = Scene(
     Sphere(radius=10e-3),
-    StandardLinearSolid(rubbery_modulus=1e6, glassy_modulus=10e6, relaxation_time=1e-3),
+    STANDARD,
     Slide(speed=0.3, load=LOAD),
 )
 TOGETHER = replace(PLAIN, roughness=ROUGH, temperature=WARM, interface=Coulomb(STICKS))
@@ -38,7 +38,7 @@ SOLVED = {
     "BEM, heated": (BEM(points=48), replace(TOGETHER, heating=Heating(conductivity=0.5, feedback="average"))),
     "MDR, heated": (MDR(points=1000), replace(TOGETHER, heating=Heating(conductivity=0.5, feedback="average"))),
 }
-solvers = pytest.mark.parametrize("solver", [BEM(points=48), MDR(points=1000)], ids=lambda solver: solver.name)
+solvers = pytest.mark.parametrize("solver", [BEM(points=48), MDR(points=1000)])
 ROUNDING = 1e-9  # of the answers: iterations stop at the same places, and add rounding up
 
 

@@ -4,13 +4,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from changing_motion import program
 from drawn_scenes import DIP, KELVIN, LIFT, LOAD, ROUGH, TAU, R
 
 from bem3d import BEM
 from mdr1d import MDR
-from scene import Program, Scene, Sphere, Stage
+from scene import Scene, Sphere
 
-RUN = Program(stages=(Stage(duration=2 * TAU, load=LOAD), Stage(duration=4 * TAU, speed=0.2)))
+RUN = program({"duration": 2 * TAU, "load": LOAD}, {"duration": 4 * TAU, "speed": 0.2})
 LINE, SPACE = MDR(points=200, steps=20), BEM(points=32, steps=20)
 RUNNING = Scene(Sphere(R), KELVIN, RUN, ROUGH)
 

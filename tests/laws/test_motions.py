@@ -2,14 +2,12 @@
 
 import numpy as np
 import pytest
-from changing_motion import harmonic, mirrored, program, slid, stiffness
+from changing_motion import DEPTH, TAU, A, G, R, harmonic, mirrored, program, slid, stiffness
 
 from bem3d import BEM
 from mdr1d import MDR
 from scene import Elastic, Kelvin, Prony, Scene, Sphere, StandardLinearSolid
 
-R, G, A, TAU = 1e-2, 1e6, 1e-3, 1e-3
-DEPTH = A**2 / R
 SOLID = StandardLinearSolid(G, 5 * G, TAU)
 LINE, SPACE = MDR(points=1000), BEM(points=48, steps=60)
 
@@ -23,7 +21,6 @@ def solved(solver, solid, *stages):
 @pytest.mark.parametrize(
     ("solid", "mean", "most"),
     [(SOLID, 5e-4, 2e-3), pytest.param(Kelvin(G, TAU), 5e-3, 0.2, marks=pytest.mark.slow)],
-    ids=str,
 )
 def test_however_large_an_oscillation_of_the_depth_one_dimension_has_the_force_of_three(solid, mean, most):
     # nothing slides: one dimension is exact, through separation too; a third of the depth, lifted fast
@@ -51,7 +48,6 @@ MIRRORED = {"MDR": 1e-11, "BEM": 1e-9}
 @pytest.mark.parametrize(
     ("name", "solid", "by"),
     [("MDR", ELASTIC, "load"), ("MDR", SERIES, "depth"), ("MDR", KELVIN, "load"), ("BEM", SOLID, "load")],
-    ids=str,
 )
 def test_in_a_mirror_friction_and_path_change_their_sign_and_nothing_else(name, solid, by):
     value = {"load": 0.5, "depth": DEPTH}[by]
@@ -98,7 +94,6 @@ LATE = {"MDR": 5e-3, "BEM": 3e-3}
             for each in (("MDR", SOLID, 5.0), ("BEM", SOLID, 5.0), ("BEM", KELVIN, 1.0), ("BEM", KELVIN, 0.2))
         ),
     ],
-    ids=str,
 )
 def test_a_small_oscillation_meets_the_complex_stiffness_of_a_contact_that_keeps_its_radius(name, solid, omega):
     # the radius of 18 pixels is known to half a percent, 205 in one dimension

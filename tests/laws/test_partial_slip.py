@@ -23,7 +23,7 @@ STICKS = Coulomb(MU)
 SIZE = {"MDR": "length", "BEM": "area"}
 TOUCHES = {"MDR": "contact", "BEM": "pressure"}
 ADDED = {"MDR": ("tangential_line_force", "slip"), "BEM": ("traction_x", "slip_x")}
-solvers = pytest.mark.parametrize("solver", [MDR(), BEM(points=48)], ids=lambda solver: solver.name)
+solvers = pytest.mark.parametrize("solver", [MDR(), BEM(points=48)])
 
 
 @pytest.fixture

@@ -70,16 +70,20 @@ def above(surface, depth):
 
 crossed = CrossedWaves(**WAVES)
 cylinder = Cylinder(0.01)
+PRESSED = program(stage(TIME, depth=DEPTH))
+FLAT = Scene(Plane(), SOLID, Indent(pressure=1e4), ROUGH)
 STICKS = Coulomb(coefficient=0.4)
 sought = "motion.depth | {:g} | lowest point"
 # What is asked, of whom, and the words of the error.
 CASES = {
-    "few pixels": (resting(motion=Indent(depth=DEPTH * (4.8 / 1000) ** 2)), WIDE[:1], "needed | take more points"),
-    "few pixels in 3D": (
-        resting(motion=Indent(depth=DEPTH * (4.8 / 48) ** 2)),
-        WIDE[1:],
-        "needed | take more points",
-    ),
+    **{
+        f"few pixels of {each.name}": (
+            resting(motion=Indent(depth=DEPTH * (4.8 / each.points) ** 2)),
+            [each],
+            "needed | take more points",
+        )
+        for each in WIDE
+    },
     "a gap of nearly nothing": (
         pressed(crossed, gap=1e-14),
         [SQUARE],
@@ -158,12 +162,12 @@ CASES = {
         for extent in extents
     },
     "a program beyond the window": (
-        program(stage(TIME, depth=DEPTH)),
+        PRESSED,
         [replace(each, extent=RADIUS) for each in BOTH],
         f"{RADIUS:g} m | take a larger extent",
     ),
     "a program on few pixels": (
-        program(stage(TIME, depth=DEPTH)),
+        PRESSED,
         [replace(SPACE, extent=0.1)],
         "take more points",
     ),
@@ -221,7 +225,7 @@ CASES = {
         [LINE],
         "MDR cannot | Measured",
     ),
-    "a plane in 1D": (Scene(Plane(), SOLID, Indent(pressure=1e4), ROUGH), [LINE], "Plane | no body of revolution"),
+    "a plane in 1D": (FLAT, [LINE], "Plane | no body of revolution"),
     "a cylinder in 1D": (
         Scene(cylinder, SOLID, Indent(line_load=1e3)),
         [LINE],
@@ -234,7 +238,7 @@ CASES = {
         [SPACE],
         "rough Cylinder | Sphere or a Plane",
     ),
-    "a plane on an extent": (Scene(Plane(), SOLID, Indent(pressure=1e4), ROUGH), [SPACE], "extent | period"),
+    "a plane on an extent": (FLAT, [SPACE], "extent | period"),
 }
 
 

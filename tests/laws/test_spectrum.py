@@ -74,7 +74,7 @@ def test_the_trust_map_judges_a_table_as_its_law_and_says_what_was_measured():
 FINE = replace(ROUGH, shortest=2e-6)
 
 
-@pytest.mark.parametrize("solver", [MDR(points=500), BEM(points=64)], ids=["MDR", "BEM"])
+@pytest.mark.parametrize("solver", [MDR(points=500), BEM(points=64)])
 def test_a_grid_too_coarse_is_refused_and_what_the_message_states_is_solved(solver):
     q = np.geomspace(FINE.q_min, FINE.q_max(0.0), 30)
     scene = replace(

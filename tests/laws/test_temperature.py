@@ -24,7 +24,7 @@ from scene import (
 )
 
 SOLVERS = (MDR(points=400), BEM(points=32))
-names = pytest.mark.parametrize("solver", SOLVERS, ids=lambda solver: solver.name)
+names = pytest.mark.parametrize("solver", SOLVERS)
 # Modes found anew from shifted times, and what iterations make of such a difference.
 SUPERPOSED = {"MDR": 1e-10, "BEM": 1e-8}
 
@@ -57,7 +57,7 @@ def same(found, wanted, rtol):
 
 
 @names
-@pytest.mark.parametrize(("name", "law"), [*((name, LAW) for name in SOLIDS), ("rough", COLD)], ids=str)
+@pytest.mark.parametrize(("name", "law"), [*((name, LAW) for name in SOLIDS), ("rough", COLD)])
 def test_a_warmer_contact_is_one_at_the_reference_that_slides_more_slowly(solver, name, law):
     plain = replace(PLAIN, roughness=ROUGH) if name == "rough" else replace(PLAIN, elastomer=SOLIDS[name])
     slow = replace(plain, motion=replace(PLAIN.motion, speed=0.1 * law.shift))

@@ -4,18 +4,18 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from sliding import KELVIN
+from sliding import ORDINARY as SPHERE
 
 from mdr1d import MDR
-from scene import Cone, Kelvin, PowerLaw, Prony, Scene, SelfAffine, Slide, Sphere, StandardLinearSolid
+from scene import Cone, PowerLaw, Prony, Scene, SelfAffine, Slide, Sphere, StandardLinearSolid
 
-KELVIN = Kelvin(modulus=1e6, relaxation_time=1e-3)
 SOLIDS = (
     KELVIN,
     StandardLinearSolid(rubbery_modulus=1e6, glassy_modulus=1e7, relaxation_time=1e-4),
     Prony(equilibrium_modulus=1e6, moduli=(5e6, 2e7), relaxation_times=(1.0, 1e-5)),
 )
 ROUGH = SelfAffine(hurst=0.7, rms_height=1e-5, longest=4e-3, shortest=4e-4, seed=3)
-SPHERE = Scene(Sphere(radius=1e-2), KELVIN, Slide(speed=0.1, load=1.0))
 
 
 @pytest.mark.parametrize("pressed", ["load", "depth"])

@@ -32,8 +32,7 @@ def test_the_paper_heats_at_one_newton_what_it_says_of_a_hundred():
         (100.0, 25e-3, 1.16e-3, 1.74),
     ):
         found = equations.indentation_depth(load, STATIC, 1 / radius, 2)
-        assert found == pytest.approx(depth, rel=STATED)
-        assert heated(found) == pytest.approx(rise, rel=STATED)
+        assert (found, heated(found)) == pytest.approx((depth, rise), rel=STATED)
     flash = estimates.flash_heating(FRICTION, GLASSY, 1e-7, SPEED, CONDUCTIVITY)
     assert flash == pytest.approx(0.075, rel=ROUNDING)
 

@@ -3,40 +3,32 @@
 from dataclasses import replace
 
 import numpy as np
+import planned
 import pytest
-from planned import FACTOR, KELVIN, LOAD, PRONY, SPHERE, STAGES, STANDARD, all_of_a_scene, held_by
+from changing_motion import program
+from planned import FACTOR, KELVIN, LOAD, PRONY, SPHERE, STANDARD, all_of_a_scene, held_by
 
 from bem3d.surface import RoughSurface
 from mdr1d import MDR
 from scene import (
     WLF,
-    Coulomb,
-    Elastic,
     Heating,
-    Indent,
     Program,
     Prony,
     Scene,
     SelfAffine,
-    Shear,
     Slide,
-    Stage,
     Topography,
 )
 
 MANY = Prony(1e6, (1e6,) * 16, tuple(1e-5 * 2.0**k for k in range(16)))
 ROUGH = SelfAffine(hurst=0.2, rms_height=5e-6, longest=10e-3, shortest=0.5e-3, seed=1)
-DEPTHS = Program(stages=(Stage(duration=1e-3, depth=1e-4), Stage(duration=1e-3, speed=0.2)))
-BACK = Program(stages=tuple(Stage(duration=1e-2, depth=1e-4, speed=way) for way in (1.0, -1.0)))
+DEPTHS = program({"duration": 1e-3, "depth": 1e-4}, {"duration": 1e-3, "speed": 0.2})
+BACK = program(*({"duration": 1e-2, "depth": 1e-4, "speed": way} for way in (1.0, -1.0)))
 MAXWELL = Prony(1e6, (1e6,) * 40, tuple(1e-5 * 1.3**k for k in range(40)))
-SCENES = {
-    "rest": Scene(SPHERE, KELVIN, Indent(load=LOAD)),
+SCENES = planned.SCENES | {
     "depth": Scene(SPHERE, KELVIN, Slide(speed=0.1, depth=1e-4)),
-    "elastic": Scene(SPHERE, Elastic(1e6), Slide(speed=1.0, load=LOAD)),
-    "slide": Scene(SPHERE, KELVIN, Slide(speed=0.1, load=LOAD)),
-    "modes": Scene(SPHERE, PRONY, Slide(speed=0.1, load=LOAD)),
     "rough": Scene(SPHERE, STANDARD, Slide(speed=0.1, load=LOAD), ROUGH),
-    "program": Scene(SPHERE, STANDARD, STAGES),
     "depths": Scene(SPHERE, PRONY, DEPTHS),
     "many": Scene(SPHERE, MANY, DEPTHS),
     "far-and-back": Scene(SPHERE, MAXWELL, BACK),
@@ -47,8 +39,6 @@ MAP = Topography(heights=HEIGHTS, pixel=ROUGH.longest / 64, repeat="periodic")
 SCENES |= {
     "temperature": replace(SCENES["slide"], temperature=WARM),
     "heating": replace(SCENES["slide"], heating=Heating(conductivity=50.0)),
-    "interface": replace(SCENES["slide"], interface=Coulomb(0.3)),
-    "shear": replace(SCENES["rest"], motion=Shear(load=LOAD, displacement=1e-5), interface=Coulomb(0.3)),
     "topography": replace(SCENES["rough"], roughness=MAP),
 }
 

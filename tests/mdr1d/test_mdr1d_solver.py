@@ -4,10 +4,11 @@ import re
 from dataclasses import replace
 
 import pytest
+from changing_motion import program
 from sliding import PAPER, ROUGH, SMOOTH
 
 from mdr1d import MDR
-from scene import Indent, Program, Scene, SolveError, Sphere, Stage
+from scene import Indent, Scene, SolveError, Sphere
 
 
 def test_smooth_and_resolved_scenes_say_so():
@@ -44,6 +45,6 @@ def test_a_grid_beyond_memory_is_refused():
 def test_a_spot_on_either_side_of_the_grid_counts(seed):
     # A spot beyond the grid reaches down on one side alone: behind it with the one seed, ahead with the other.
     rough = replace(PAPER.roughness, seed=seed)
-    for motion in (Indent(depth=1e-6), Program(stages=(Stage(duration=1.0, depth=1e-6),))):
+    for motion in (Indent(depth=1e-6), program({"duration": 1.0, "depth": 1e-6})):
         with pytest.raises(SolveError, match="leaves the grid"):
             MDR(points=100, extent=1e-3).solve(Scene(Sphere(radius=0.1), PAPER.elastomer, motion, rough))

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from planned import STANDARD
 from solids import scattered
 
 from mdr1d import MDR
@@ -15,7 +16,6 @@ from scene import (
     Scene,
     Slide,
     Sphere,
-    StandardLinearSolid,
     Tabulated,
 )
 from scene.scales import elastic_contact
@@ -23,8 +23,8 @@ from scene.scales import elastic_contact
 EXPONENTS = (0.05, 0.1, 0.2, 0.3)
 OMEGA = np.geomspace(1.0, 100.0, 13)
 TIMES = np.geomspace(1e-2, 1e2, 30)
-STANDARD = StandardLinearSolid(1e6, 1e7, 1e-3)
 BROAD = Prony(1e6, (1e6, 3e6, 1e7, 3e7, 1e8), (1e3, 10.0, 0.1, 1e-3, 1e-5))
+every_exponent = pytest.mark.parametrize("exponent", EXPONENTS)
 DRAWS, MISSED = 30, 3  # of tables with noise, and how many of their intervals of 95 % may miss the modulus
 NARROW = 0.1  # share of the modulus at rest up to which it is known
 STEEP = 5e-3  # misfit where slow modes bring a power law to rest
@@ -48,8 +48,8 @@ def table(solid, omega=OMEGA, noise=0.0, seed=0, **stated):
 
 
 def over_time(solid, name, **stated):
-    modulus = solid.relaxation_modulus(TIMES) if name == "G(t)" else solid.creep_compliance(TIMES)
-    return Tabulated(table={"t [s]": TIMES, name: modulus}, **stated)
+    law = {"G(t)": solid.relaxation_modulus, "J(t)": solid.creep_compliance}[name]
+    return Tabulated(table={"t [s]": TIMES, name: law(TIMES)}, **stated)
 
 
 def width(solid):
@@ -58,7 +58,7 @@ def width(solid):
 
 
 @pytest.mark.parametrize("noise", [0.0, 0.01, 0.03])
-@pytest.mark.parametrize("exponent", EXPONENTS)
+@every_exponent
 def test_the_modulus_at_rest_of_a_gel_is_open_down_to_nothing(exponent, noise):
     found, refused = [], []
     for seed in range(DRAWS if noise else 1):
@@ -110,7 +110,7 @@ def test_over_time_as_over_the_frequency(name):
     assert slower.equilibrium_interval[0] < 1e6 < slower.equilibrium_interval[1]
 
 
-@pytest.mark.parametrize("exponent", EXPONENTS)
+@every_exponent
 def test_a_modulus_at_rest_that_is_stated_is_taken_however_slowly_it_is_reached(exponent):
     """Modes have times beyond the table: those that end within half a decade of it would contradict its loss."""
     for found in (
@@ -123,7 +123,7 @@ def test_a_modulus_at_rest_that_is_stated_is_taken_however_slowly_it_is_reached(
         assert found.rms_error < STEEP
 
 
-@pytest.mark.parametrize("exponent", EXPONENTS)
+@every_exponent
 def test_a_power_law_goes_on_beyond_both_ends(exponent):
     """A gel's exponent is known to 1e-3 or so, three decades on that is a few per cent."""
     law, beyond = gel(exponent), np.geomspace(1e-3, 1e5, 41)
@@ -154,7 +154,7 @@ def slid(solid, decades, **pressed):
 
 
 @pytest.mark.parametrize("pressed", [{"load": 1.0}, {"depth": 1e-4}], ids=["load", "depth"])
-@pytest.mark.parametrize("exponent", EXPONENTS)
+@every_exponent
 def test_friction_beyond_a_table_is_at_least_what_is_found(exponent, pressed):
     """A mode slower than all, or faster than all, adds more to G'' than to G', whatever the frequency."""
     for decades in (-4.0, -2.0, -1.5, 1.5, 2.0, 4.0):
@@ -165,7 +165,7 @@ def test_friction_beyond_a_table_is_at_least_what_is_found(exponent, pressed):
             assert found < 0.5 * expected
 
 
-@pytest.mark.parametrize("exponent", EXPONENTS)
+@every_exponent
 def test_friction_and_depth_follow_where_the_law_goes_on(exponent):
     for decades in (-4.0, -1.5, 0.0, 1.5, 4.0):
         found = slid(table(gel(exponent), extrapolate=True), decades)

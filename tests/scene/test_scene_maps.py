@@ -544,5 +544,9 @@ def test_a_scene_file_states_what_is_done_to_a_map(tmp_path):
     found = read(written(tmp_path, FILE + more, "scene.toml"), Scene).roughness
     assert found.heights.shape == (10, 20)
     assert len(found.notes) == 2
-    with pytest.raises(InvalidInput, match=r"missing = 'full': 'refuse' or 'fill'"):
-        read(written(tmp_path, FILE + more.replace('"fill"', '"full"'), "scene.toml"), Scene)
+    refused(
+        r"missing = 'full': 'refuse' or 'fill'",
+        read,
+        written(tmp_path, FILE + more.replace('"fill"', '"full"'), "scene.toml"),
+        Scene,
+    )

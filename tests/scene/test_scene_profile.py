@@ -7,7 +7,7 @@ from math import pi
 import numpy as np
 import pytest
 import xarray
-from maps import refused
+from maps import noise, refused
 
 import mdr1d
 from bem3d import BEM
@@ -77,7 +77,7 @@ def test_intervals_hold_at_the_rate_that_is_told(hurst, rolloff):
 
 
 def test_waves_beyond_the_cut_off_have_the_slope_of_a_tapered_periodogram():
-    heights = HEIGHTS + 3e-8 * np.random.default_rng(0).standard_normal(len(HEIGHTS))
+    heights = HEIGHTS + 3e-8 * noise(len(HEIGHTS))
     law, at = linescan.fit(heights, SPACING), np.arange(len(heights))
     level = heights - np.polyval(np.polyfit(at, heights, 1), at)
     waves = np.arange(len(heights) // 2 + 1)
@@ -106,9 +106,9 @@ def test_a_line_with_regular_grooves_does_not_follow_the_law():
 def test_the_fit_scales_with_heights_and_lengths(factor):
     law, other = PROFILE.law, Profile(heights=factor * HEIGHTS, spacing=SPACING / 3).law
     assert other.hurst.value == law.hurst.value
-    assert other.rms_height.value == pytest.approx(factor * law.rms_height.value, rel=1e-9)
-    assert other.rms_slope.value == pytest.approx(3 * factor * law.rms_slope.value, rel=1e-9)
-    assert other.rolloff.high == pytest.approx(law.rolloff.high / 3, rel=1e-9)
+    assert (other.rms_height.value, other.rms_slope.value, other.rolloff.high) == pytest.approx(
+        (factor * law.rms_height.value, 3 * factor * law.rms_slope.value, law.rolloff.high / 3), rel=1e-9
+    )
 
 
 def test_the_surface_is_that_of_the_law_up_to_the_length_of_the_line():
@@ -178,7 +178,7 @@ def test_trust_judges_the_fitted_surface_and_says_so():
 
 
 def test_a_line_with_more_waves_than_fit_is_refused_with_what_to_state():
-    heights = np.cumsum(np.random.default_rng(1).standard_normal(3 * MOST_WAVES))
+    heights = np.cumsum(noise(3 * MOST_WAVES, 1))
     scene = replace(SLIDING, roughness=Profile(heights=1e-9 * heights, spacing=SPACING))
     with pytest.raises(Refused, match="shortest_kept = ") as refused:
         BEM(points=64).solve(scene)

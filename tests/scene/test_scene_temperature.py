@@ -5,9 +5,10 @@ from math import log, log10
 
 import numpy as np
 import pytest
+from maps import refused
 from solids import OF_EACH_TYPE
 
-from scene import WLF, Arrhenius, Indent, InvalidInput, Kelvin, KelvinChain, Prony, Scene, Sphere
+from scene import WLF, Arrhenius, Indent, Kelvin, KelvinChain, Prony, Scene, Sphere
 from scene.effects.temperature import GAS_CONSTANT, UNIVERSAL, Shifted
 from scene.solids.modes import Relaxation
 from scene.solids.viscoelastic import Linear
@@ -26,8 +27,9 @@ def universal(above):
 
 def test_the_universal_law_falls_by_nine_decades_over_fifty_kelvin():
     # by hand: -17.44 * 50 / 101.6
-    assert log10(universal(50.0).shift) == pytest.approx(-8.58267716535433, rel=ROUNDING)
-    assert log10(universal(100.0).shift) == pytest.approx(-17.44 * 100 / 151.6, rel=ROUNDING)
+    assert (log10(universal(50.0).shift), log10(universal(100.0).shift)) == pytest.approx(
+        (-8.58267716535433, -17.44 * 100 / 151.6), rel=ROUNDING
+    )
 
 
 def test_a_law_of_williams_landel_and_ferry_is_the_same_from_another_reference():
@@ -79,9 +81,9 @@ def test_all_times_are_longer_by_the_factor_and_no_modulus_is_another(name, fact
         assert found_rest == pytest.approx(rest, rel=CONVERTED)
         np.testing.assert_allclose(found_amounts, amounts, rtol=CONVERTED)
         np.testing.assert_allclose(found_times, times * factor, rtol=CONVERTED)
-    assert shifted.viscosity == pytest.approx(solid.viscosity * factor, rel=CONVERTED)
-    assert shifted.glassy_modulus == pytest.approx(solid.glassy_modulus, rel=CONVERTED)
-    assert shifted.indentation_modulus == pytest.approx(solid.indentation_modulus, rel=CONVERTED)
+    assert (shifted.viscosity, shifted.glassy_modulus, shifted.indentation_modulus) == pytest.approx(
+        (solid.viscosity * factor, solid.glassy_modulus, solid.indentation_modulus), rel=CONVERTED
+    )
     assert shifted.poisson_ratio == solid.poisson_ratio
 
 
@@ -122,8 +124,7 @@ def test_temperatures_where_a_law_ends_are_named():
         (lambda: replace(arrhenius(300.0), activation_energy=1e300, temperature=301.0), "beyond the range"),
         (lambda: replace(universal(1.0), c2=-51.6), "greater than 0"),
     ):
-        with pytest.raises(InvalidInput, match=message):
-            ask()
+        refused(message, ask)
     # so close to either end, and still a number
     assert 0 < universal(-48.0).shift < float("inf")
     assert 0 < arrhenius(1e300).shift < 1e-15

@@ -6,10 +6,10 @@ from math import pi
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from maps import refused
 
 from scene import (
     Fractional,
-    InvalidInput,
     Stage,
 )
 from scene import quantities as q
@@ -112,22 +112,16 @@ def test_a_temperature_is_no_difference():
 def test_a_frequency_is_no_angular_frequency():
     law = {"modulus": 1.0, "relaxation_time": 1.0, "exponent": 0.5, "lowest_frequency": 1.0}
     assert Fractional(**law, highest_frequency="1e3 rad/s").highest_frequency == 1e3
-    with pytest.raises(InvalidInput, match="1 Hz is 2 pi rad/s"):
-        Fractional(**law, highest_frequency="1e3 Hz")
-    with pytest.raises(InvalidInput, match="a frequency"):
-        Stage(duration=1, load=1, amplitude=0.1, frequency="10 rad/s")
+    refused("1 Hz is 2 pi rad/s", Fractional, **law, highest_frequency="1e3 Hz")
+    refused("a frequency", Stage, duration=1, load=1, amplitude=0.1, frequency="10 rad/s")
 
 
 @pytest.mark.parametrize("unit", UNITS, ids=lambda unit: unit.kind)
 def test_each_kind_of_number_shows_an_example_that_it_takes(unit):
     assert unit.value(unit.example) == pytest.approx(unit.number, rel=1e-5)  # six digits are shown
-    for wrong in (None, True, [1.0], "wide", 1j):
-        with pytest.raises(ValueError, match="Input should be"):
-            unit.value(wrong)
 
 
 @pytest.mark.parametrize("given", [b"1", bytearray(b"1"), memoryview(b"1"), {1.0: 2.0}], ids=type)
 def test_bytes_and_mappings_are_no_numbers(given):
     for read in (q.METRE.value, q.METRE.values, q.METRE.row):
-        with pytest.raises(ValueError, match=r"bytes are no numbers|mapping|real numbers|a length"):
-            read(given)
+        refused(r"bytes are no numbers|mapping|real numbers|a length", read, given, error=ValueError)
