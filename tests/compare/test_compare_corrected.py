@@ -34,7 +34,7 @@ ROUGH = Scene(
     SelfAffine(hurst=0.5, rms_height=1e-5, longest=4e-3, shortest=4e-4, seed=3),
 )
 AT_DEPTH = replace(ROUGH, motion=Slide(speed=0.1, depth=1.5e-4))
-SMOOTH = replace(ROUGH, roughness=None)
+by_load_and_depth = pytest.mark.parametrize("scene", [ROUGH, AT_DEPTH], ids=["load", "depth"])
 FEW = CorrectedMDR(MDR(points=1000), profiles=8)
 # Sums in another order.
 ROUNDING = 1e-12
@@ -69,7 +69,7 @@ def profiles_of(scene, solver=FEW):
     return [solver.mdr.solve(each) for each in draws_of(scene, solver.profiles)]
 
 
-@pytest.mark.parametrize("scene", [ROUGH, AT_DEPTH], ids=["load", "depth"])
+@by_load_and_depth
 def test_what_is_prescribed_stays_and_all_else_is_its_mean_over_the_ratio(scene):
     found, drawn, corrections = FEW.solve(scene), profiles_of(scene), trust(scene).of_model("MDR")
     given, free, name = (
@@ -122,7 +122,7 @@ def test_where_one_surface_says_nothing_its_interval_has_no_ends_and_the_mean_s_
     assert ends["friction_low"] < ends["friction_high"]
 
 
-@pytest.mark.parametrize("scene", [ROUGH, AT_DEPTH], ids=["load", "depth"])
+@by_load_and_depth
 def test_the_part_of_the_profiles_in_an_interval_is_what_means_of_them_scatter_by(scene, monkeypatch):
     """60 means of eight, the ratio exact; allowed: three deviations of an rms of 60 numbers, 3/sqrt(2 * 59)."""
     exact = replace(WORTH, low=WORTH.ratio, high=WORTH.ratio)
@@ -191,7 +191,7 @@ def test_costs_are_those_of_every_profile():
     assert first.operator_applications == sum(each.operator_applications for each in drawn)
     assert first.residual == max(each.residual for each in drawn)
     assert first.settings["profiles"] == FEW.profiles
-    assert FEW.solve(SMOOTH).settings["profiles"] == 1
+    assert FEW.solve(replace(ROUGH, roughness=None)).settings["profiles"] == 1
 
 
 def test_every_measure_has_a_unit_and_a_meaning():

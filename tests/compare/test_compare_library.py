@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from damage import places
+from small_cases import seldom
 
 from compare import run
 from compare.library.case import Case
@@ -47,9 +48,7 @@ COMPARED = sorted(set(SCENES) - ONE_SOLVER - {"paper-sphere", "paper-cone"})
 
 
 # One that is smooth and slides stands for the others.
-@pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=[] if name == "standard-solid" else pytest.mark.slow) for name in COMPARED]
-)
+@pytest.mark.parametrize("name", seldom(COMPARED, ("standard-solid",)))
 def test_every_scene_that_can_be_compared_is(name, tmp_path):
     report = run(written(name, tmp_path), tmp_path / "out", workers=1, report=False)
     assert not report.faults

@@ -133,14 +133,16 @@ def test_the_first_run_writes_a_file_beside_the_test_and_later_ones_hold_against
     project(asked.format(1.6), options=["--mdr-regen"]).assert_outcomes(passed=1)
 
 
-PLAIN = "-p", "no:cacheprovider"
-
-
 def test_what_is_solved_is_kept_in_the_cache_or_for_the_session(project, pytester, monkeypatch):
     asked = 'check("seal.toml", models=pair(), friction=0.05, depth=0.05)'
     solved = pytester.path / "solved.txt"
     # workers of xdist have a store each
-    for worker, options, count in (("gw0", (), 4), ("gw1", (), 8), ("gw1", (), 8), ("gw1", PLAIN, 12)):
+    for worker, options, count in (
+        ("gw0", (), 4),
+        ("gw1", (), 8),
+        ("gw1", (), 8),
+        ("gw1", ("-p", "no:cacheprovider"), 12),
+    ):
         monkeypatch.setenv("PYTEST_XDIST_WORKER", worker)
         project(asked, asked, options=options).assert_outcomes(passed=2)
         assert len(solved.read_text().split()) == count  # two models, each on two grids
