@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pandas
 import pytest
+from imports import ROOT
 from small_cases import TINY
 
 import compare
@@ -91,7 +92,7 @@ def test_laws_have_names_of_their_own_groups_and_sources():
 
 
 def test_the_stored_scorecard_has_each_law_in_the_words_of_today():
-    found = pandas.read_csv(Path(__file__).parents[2] / "docs" / "results" / "verify.csv")
+    found = pandas.read_csv(ROOT / "docs" / "results" / "verify.csv")
     known = {(f"verify.{law.id}", law.sentence, law.group) for law in table().values()}
     assert {*zip(found["claim"], found["sentence"], found["where"], strict=True)} <= known
 

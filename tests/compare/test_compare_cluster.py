@@ -10,11 +10,11 @@ import threading
 import time
 from contextlib import ExitStack
 from functools import partial
-from pathlib import Path
 from socketserver import BaseRequestHandler, ThreadingTCPServer
 from types import SimpleNamespace
 
 import pytest
+from imports import ROOT
 from processes import finish, start, stored_so_far, wait_for
 from small_cases import SLIDING
 from stand_in_solver import Heard, Stand, exactly, forces, loads, marks
@@ -33,7 +33,6 @@ distributed = pytest.importorskip("distributed", reason="the extra `cluster` is 
 
 DASK = [sys.executable, "-m", "dask"]
 
-ROOT = Path(__file__).parents[2]
 HERE = {"PYTHONPATH": os.pathsep.join([str(ROOT / "tests"), str(ROOT)])}
 
 

@@ -4,8 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from drawn_scenes import KELVIN
-from drawn_scenes import ROUGH as PAPER
+from drawn_scenes import PAPER
 
 from bem3d import BEM
 from compare.solving import control_variates as module
@@ -20,15 +19,14 @@ from scene import (
     Plane,
     Profile,
     Program,
-    Scene,
     Slide,
     Sphere,
     Stage,
     Wave,
 )
 
-ROUGH = replace(PAPER, shortest=1e-3)
-SCENE = Scene(Sphere(radius=1e-2), KELVIN, Slide(speed=0.1, load=1.0), ROUGH)
+ROUGH = replace(PAPER.roughness, shortest=1e-3)
+SCENE = replace(PAPER, roughness=ROUGH)
 SURFACES, LINES = BEM(points=32), MDR(points=512)
 SEEDS = range(2000)
 MOST = 4.0  # standard errors of a mean over these seeds
@@ -68,9 +66,9 @@ def test_a_spectrum_a_tenth_off_shows(solver, monkeypatch):
 )
 def test_little_of_the_scatter_of_friction_and_depth_is_left(solver, indenter, speed, most):
     """Variance of 64 surfaces of the paper; of a thousand it is about half as much as allowed."""
-    scene = Scene(indenter, KELVIN, Slide(speed=speed, load=1.0), PAPER)
+    scene = replace(PAPER, indenter=indenter, motion=Slide(speed=speed, load=1.0))
     rows = SceneTask(solver, draws_of(scene, 64)).solve().rows
-    (variates,) = control_variates(solver, [scene], range(PAPER.seed, PAPER.seed + 64))
+    (variates,) = control_variates(solver, [scene], range(ROUGH.seed, ROUGH.seed + 64))
     for values in np.transpose([(row.friction_force, row.depth) for row in rows]):
         assert controlled(values, variates).var() <= most * values.var()
 

@@ -8,7 +8,7 @@ from functools import cache
 import numpy as np
 import pytest
 from drawn_again import from_files
-from drawn_scenes import KELVIN, LOAD, ROUGH, SCENES, STANDARD, TAU, A, R
+from drawn_scenes import KELVIN, LOAD, PAPER, ROUGH, SCENES, STANDARD, TAU, A, R
 from small_cases import seldom
 
 import compare
@@ -44,8 +44,8 @@ MICRONS = replace(FAST, roughness=SelfAffine(hurst=0.2, rms_height=1e-6, longest
 LINE, SPACE = MDR(points=500, steps=20), BEM(points=48, steps=20)
 BACK = Program(stages=(Stage(duration=TAU, depth=1e-4, speed=0.5), Stage(duration=TAU, speed=-0.5)))
 CONTACTS = {name: SCENES[name] for name in ("rest", "line", "full", "plane")} | {
-    "rough": Scene(Sphere(R), KELVIN, Slide(speed=0.1, load=LOAD), ROUGH),
-    "layer": Scene(Sphere(R), KELVIN, Slide(speed=0.1, load=LOAD), layer=Layer(thickness=2e-3)),
+    "rough": PAPER,
+    "layer": replace(PAPER, roughness=None, layer=Layer(thickness=2e-3)),
     "back": Scene(Sphere(R), STANDARD, BACK, ROUGH),
     "tiny": Scene(Sphere(1e-9), KELVIN, Indent(depth=1e-12)),
 }

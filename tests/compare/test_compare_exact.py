@@ -5,6 +5,7 @@ from math import pi
 
 import numpy as np
 import pytest
+from drawn_scenes import KELVIN as RUBBER
 
 from compare.models import exact
 from compare.models.exact import Exact, tangential
@@ -15,7 +16,6 @@ from scene import (
     Elastic,
     Fractional,
     Indent,
-    Kelvin,
     PowerLaw,
     Refused,
     Scene,
@@ -24,7 +24,6 @@ from scene import (
     Sphere,
 )
 
-RUBBER = Kelvin(modulus=1e6, relaxation_time=1e-3)
 ELASTIC = Elastic(modulus=1e6)
 REST = Scene(Sphere(radius=1e-2), RUBBER, Indent(load=1.0))
 

@@ -3,11 +3,13 @@
 from dataclasses import replace
 from itertools import islice, pairwise
 from math import exp, hypot, isnan, log, pi
-from pathlib import Path
 
 import numpy as np
 import pandas
 import pytest
+from drawn_scenes import KELVIN as SOLID
+from drawn_scenes import PAPER
+from imports import ROOT
 from law import BLUNT, FAST, scenes
 from planes import HELD_OUT, off
 from scipy.stats import binom
@@ -25,20 +27,16 @@ from scene import (
     Cylinder,
     Elastic,
     Indent,
-    Kelvin,
     Plane,
     Refused,
-    Scene,
     SelfAffine,
     Slide,
-    Sphere,
     StandardLinearSolid,
 )
 
-SOLID = Kelvin(modulus=1e6, relaxation_time=1e-3)
 ROUGH = SelfAffine(hurst=0.5, rms_height=4e-6, longest=3e-3, shortest=2.5e-4, seed=1)
-RESULTS = Path(__file__).parents[2] / "docs" / "results" / "law"
-SCENE = Scene(Sphere(radius=10e-3), SOLID, Slide(speed=0.1, load=1.0), ROUGH)
+RESULTS = ROOT / "docs" / "results" / "law"
+SCENE = replace(PAPER, roughness=ROUGH)
 EXPONENTS = 1.0, 2.0, 4.0
 RADIUS, LOAD = 1e-3, 0.5
 

@@ -4,9 +4,9 @@ import re
 import subprocess
 import sys
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 import pytest
+from imports import ROOT
 from processes import ask
 from small_cases import SLIDING
 
@@ -23,7 +23,7 @@ from scene.scales import elastic_contact
 
 pytestmark = pytest.mark.usefixtures("in_this_process")
 
-PAGE = Path(__file__).parents[2] / "docs" / "howto" / "models.md"
+PAGE = ROOT / "docs" / "howto" / "models.md"
 SCENE = replace(SLIDING, roughness=None)
 SMOOTH = replace(case_of(SCENE), bem=BEM(points=32), mdr=MDR(points=400))
 ROUGH = replace(

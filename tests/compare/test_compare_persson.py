@@ -5,6 +5,8 @@ from math import isnan, pi
 
 import numpy as np
 import pytest
+from drawn_scenes import KELVIN as SOLID
+from drawn_scenes import PAPER
 from invented_answers import SERIES
 from scipy.integrate import cumulative_trapezoid
 from scipy.special import erf
@@ -21,7 +23,6 @@ from compare.studies.comparison.rough import ROUGH
 from scene import (
     Cylinder,
     Indent,
-    Kelvin,
     Layer,
     Plane,
     Program,
@@ -29,16 +30,14 @@ from scene import (
     Scene,
     SelfAffine,
     Slide,
-    Sphere,
     Stage,
     Wave,
 )
 
 pytestmark = pytest.mark.usefixtures("in_this_process")
 
-SOLID = Kelvin(modulus=1e6, relaxation_time=1e-3)
 SURFACE = SelfAffine(hurst=0.8, rms_height=2e-6, longest=8e-3, shortest=1e-3, seed=3)
-BODY = Scene(Sphere(radius=1e-2), SOLID, Slide(speed=0.1, load=1.0), SURFACE)
+BODY = replace(PAPER, roughness=SURFACE)
 # Bands are nodes of a quadrature, and a band touches as its middle does: against the same integral on 4000 waves.
 QUADRATURE = 1e-3
 

@@ -2,9 +2,9 @@
 
 import re
 import tomllib
-from pathlib import Path
 
 import pytest
+from imports import ROOT
 from small_cases import SLIDING
 
 from bem3d import BEM
@@ -13,7 +13,6 @@ from mdr1d import MDR
 from scene.files.reading import InvalidInput
 
 pytest_plugins = ["pytester"]
-ROOT = Path(__file__).parents[2]
 SCENE = """
 [indenter]
 type = "sphere"

@@ -13,7 +13,7 @@ import pytest
 import scoring
 import trust as campaign
 from contact import Contact, ratio_of
-from drawn_scenes import KELVIN, ROUGH, STANDARD
+from drawn_scenes import KELVIN, PAPER, ROUGH, STANDARD
 from maps import sampled
 from pandas import DataFrame
 from solids import gel
@@ -49,7 +49,6 @@ from scene import (
 )
 from scene.scales import elastic_contact
 
-PAPER = Scene(Sphere(radius=1e-2), KELVIN, Slide(speed=0.1, load=1.0), ROUGH)
 # The answer of a coarse grid, 64 points a side, is off by some tenths of a percent.
 GRID = 5e-3
 

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import xarray
 from drawn_again import from_files
+from drawn_scenes import KELVIN
 
 from bem3d import BEM
 from compare.library.case import Case
@@ -21,11 +22,12 @@ from compare.studies.workprecision.ladder import COARSEST, Ladder, TimedSolve
 from compare.studies.workprecision.study import LEVELS, WorkPrecision
 from compare.trustmap.corrected import CorrectedMDR
 from mdr1d import MDR
-from scene import Indent, Kelvin, Layer, Refused, SelfAffine, Slide, Sphere
+from scene import Indent, Layer, Refused, SelfAffine, Slide, Sphere
 from scene.scales import elastic_contact
 
-SOLID = Kelvin(modulus=1e6, relaxation_time=1e-3)
-SMOOTH = Case(indenter=Sphere(radius=1e-2), elastomer=SOLID, motion=Slide(speed=0.1, load=1.0), bem=BEM(points=64))
+SMOOTH = Case(
+    indenter=Sphere(radius=1e-2), elastomer=KELVIN, motion=Slide(speed=0.1, load=1.0), bem=BEM(points=64)
+)
 ROUGH = replace(SMOOTH, roughness=SelfAffine(hurst=0.2, rms_height=1e-5, longest=1e-2, shortest=1e-3, seed=1))
 TRUE, SCATTER, FLOOR = 0.1, 0.2, 0.5  # friction that is made, its scatter between surfaces, error of 1D
 BIAS = (0.0, 0.0025, 0.01, 0.04)  # relative, of the made grids from fine to coarse, the first two of the reference
