@@ -1,6 +1,7 @@
 """What many tests share."""
 
 import os
+import signal
 
 import pytest
 
@@ -25,3 +26,12 @@ def in_this_process():
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(runner, "_workers", lambda *_: Workers(Here(), 1))
         yield
+
+
+@pytest.fixture
+def heeded():
+    """Signals raise, also where the tests run in the background of a shell, which ignores interrupts there."""
+    before = {each: signal.signal(each, signal.default_int_handler) for each in (signal.SIGINT, signal.SIGTERM)}
+    yield
+    for each in before.items():
+        signal.signal(*each)

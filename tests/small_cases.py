@@ -2,12 +2,20 @@
 
 from dataclasses import replace
 
+import pytest
+
 from bem3d import BEM
 from compare.library.case import Variations
 from compare.library.lookup import case_of
 from compare.solving.curve import Curve, on_two_levels
 from mdr1d import MDR
 from scene import Kelvin, Scene, SelfAffine, Slide, Sphere
+
+
+def seldom(names, often):
+    """Names to parametrise a test by, of which those that are not asked often are slow."""
+    return [pytest.param(each, marks=() if each in often else pytest.mark.slow) for each in names]
+
 
 SLIDING = Scene(
     indenter=Sphere(radius=1e-2),

@@ -82,7 +82,7 @@ def test_a_run_shows_itself_in_a_notebook(found):
 
 def test_figures_are_drawn_when_they_are_taken_out_and_show_themselves(found):
     figures = found.figures
-    name = next(iter(figures))
+    name, *_ = figures
     drawing = figures[name]
     assert isinstance(drawing, Figure)
     assert drawing._repr_png_().startswith(b"\x89PNG")
@@ -97,7 +97,7 @@ def test_a_folder_says_what_wrote_it_and_may_be_moved(folder, found):
     assert str(folder) not in text
 
 
-def test_a_plan_is_asked_of_a_scene_a_case_or_a_file(tmp_path):
+def test_a_plan_is_asked_of_a_scene_a_case_or_a_file():
     of_scene = compare.plan(SLIDING)
     assert of_scene.feasible
     assert {*of_scene} == {"MDR", "BEM", "trust"}
@@ -116,7 +116,6 @@ def test_a_sweep_is_a_dataset_of_every_draw_with_means_and_intervals(tmp_path, v
     assert set(answers.status.values.ravel()) == {"solved"}
     bem = answers.sel(model="BEM", level="fine")
     assert answers.friction_coefficient_mean.sel(model="BEM").values == pytest.approx(friction(bem))
-    assert bem.normal_force.values == pytest.approx(np.broadcast_to([[0.5], [1.0]], (2, 2, 2)), rel=1e-6)
     assert (answers.friction_coefficient_low <= answers.friction_coefficient_mean).all()
     assert compare.friction_plot(answers)._repr_png_().startswith(b"\x89PNG")
     again = compare.sweep(scene, speed="0 m/s, 10cm/s", load="0.5N..1N:2", draws=2, output=output, report=False)

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pandas
 import pytest
+from imports import ROOT
 from small_cases import TINY
 
 import compare
@@ -91,7 +92,7 @@ def test_laws_have_names_of_their_own_groups_and_sources():
 
 
 def test_the_stored_scorecard_has_each_law_in_the_words_of_today():
-    found = pandas.read_csv(Path(__file__).parents[2] / "docs" / "results" / "verify.csv")
+    found = pandas.read_csv(ROOT / "docs" / "results" / "verify.csv")
     known = {(f"verify.{law.id}", law.sentence, law.group) for law in table().values()}
     assert {*zip(found["claim"], found["sentence"], found["where"], strict=True)} <= known
 
@@ -104,26 +105,25 @@ def lost(result):
     raise SolveError("it went astray")
 
 
+def scaled(number, by):
+    """A result with a number of it times a factor."""
+    return lambda it: replace(it, **{number: by * getattr(it, number)})
+
+
 # What is wrong with a model, by what it makes of a result, or of a scene before.
 RESULTS = {
-    "friction of the wrong sign": lambda it: replace(it, friction_force=-it.friction_force),
-    "a force that is two percent too high": lambda it: replace(it, normal_force=1.02 * it.normal_force),
-    "friction in 1D": lambda it: replace(it, friction_force=2 * it.friction_force),
-    "another answer at every call": lambda it: replace(
-        it, normal_force=it.normal_force * (1 + 1e-12 * DRAW.random())
-    ),
+    "friction of the wrong sign": scaled("friction_force", -1),
+    "a force that is two percent too high": scaled("normal_force", 1.02),
+    "friction in 1D": scaled("friction_force", 2),
+    "another answer at every call": lambda it: scaled("normal_force", 1 + 1e-12 * DRAW.random())(it),
     "a pascal too much over a square centimetre": lambda it: replace(it, normal_force=it.normal_force + 1e-4),
-    "an error that no finer grid takes away": lambda it: replace(it, normal_force=1.005 * it.normal_force),
+    "an error that no finer grid takes away": scaled("normal_force", 1.005),
     "no measures": lambda it: replace(it, measures={}),
     "no answer": lost,
-    "a depth that is too small": lambda it: replace(it, depth=0.99 * it.depth),
+    "a depth that is too small": scaled("depth", 0.99),
     # by rounding, and differently in each scene
-    "rounding by the scene": lambda it: replace(
-        it, normal_force=it.normal_force * (1 + 1e-12 * np.log(it.normal_force))
-    ),
-    "force by the words of the scene": lambda it: replace(
-        it, normal_force=it.normal_force * (1 + 1e-3 * len(repr(it.scene)))
-    ),
+    "rounding by the scene": lambda it: scaled("normal_force", 1 + 1e-12 * np.log(it.normal_force))(it),
+    "force by the words of the scene": lambda it: scaled("normal_force", 1 + 1e-3 * len(repr(it.scene)))(it),
 }
 SCENES = {
     "roughness is not looked at": {"roughness": None},
@@ -136,7 +136,7 @@ INCOMPRESSIBLE = "Poisson's ratio is not looked at"
 class Broken:
     """A model that answers as another one but for one thing, without refusals of its own."""
 
-    wrong: str = ""
+    wrong: str
     points: int = 64
     name = "broken"
 
@@ -217,12 +217,6 @@ def test_a_wrong_answer_breaks_the_hard_case(monkeypatch, wrong, names):
     for name in names:
         (row,) = Examination.of(table()[name], table()[name].solvers[0](QUICK)).solve().rows
         assert not row.measures["misfit"] <= row.measures["bound"]
-
-
-def test_what_is_right_holds_all_of_them_without_refusals_too():
-    study, found = judged(Broken())
-    assert failed(found) == set()
-    assert not study.failed(found.values())
 
 
 def test_a_model_of_a_few_lines_holds_its_laws_and_leaves_out_what_it_refuses():

@@ -8,12 +8,13 @@ import subprocess
 import sys
 import threading
 import time
+from contextlib import ExitStack
 from functools import partial
-from pathlib import Path
 from socketserver import BaseRequestHandler, ThreadingTCPServer
 from types import SimpleNamespace
 
 import pytest
+from imports import ROOT
 from processes import finish, start, stored_so_far, wait_for
 from small_cases import SLIDING
 from stand_in_solver import Heard, Stand, exactly, forces, loads, marks
@@ -32,7 +33,6 @@ distributed = pytest.importorskip("distributed", reason="the extra `cluster` is 
 
 DASK = [sys.executable, "-m", "dask"]
 
-ROOT = Path(__file__).parents[2]
 HERE = {"PYTHONPATH": os.pathsep.join([str(ROOT / "tests"), str(ROOT)])}
 
 
@@ -72,19 +72,16 @@ def test_a_task_that_kills_every_worker_fails_and_the_rest_is_solved(cluster, tm
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("heeded")
 def test_an_interrupt_waits_for_what_is_handed_out_and_no_more_is(cluster, tmp_path):
     class Impatient(Heard):
         def finished(self, task, outcome):
             super().finished(task, outcome)
             signal.raise_signal(signal.SIGINT)
 
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
     tasks = loads(*range(1, 41), solver=Stand(marks=str(tmp_path), seconds=0.3))
-    try:
-        with pytest.raises(KeyboardInterrupt):
-            sweep(tasks, Store(tmp_path / "solved"), scheduler=cluster.scheduler_address, progress=Impatient())
-    finally:
-        signal.signal(signal.SIGINT, before)
+    with pytest.raises(KeyboardInterrupt):
+        sweep(tasks, Store(tmp_path / "solved"), scheduler=cluster.scheduler_address, progress=Impatient())
     time.sleep(0.5)
     with distributed.Client(cluster, set_as_default=False) as client:
         assert client.run_on_scheduler(lambda dask_scheduler: len(dask_scheduler.tasks)) == 0
@@ -148,48 +145,47 @@ def scheduler(tmp_path):
     process.wait()
 
 
-def join(address, folder, **environment):
-    """A worker in a process of its own, one thread and no nanny."""
-    return subprocess.Popen(
-        [*DASK, "worker", address, "--no-nanny", "--nthreads=1", "--no-dashboard", f"--local-directory={folder}"],
-        stderr=subprocess.DEVNULL,
-        cwd=folder,
-        env=os.environ | HERE | environment,
-    )
+@pytest.fixture
+def join(scheduler, tmp_path):
+    """Starts a worker in a process of its own, one thread and no nanny, that ends with the test."""
+    asked = "worker", scheduler.address, "--no-nanny", "--nthreads=1", "--no-dashboard"
+    with ExitStack() as stack:
+
+        def joined(**environment):
+            worker = subprocess.Popen(
+                [*DASK, *asked, f"--local-directory={tmp_path}"],
+                stderr=subprocess.DEVNULL,
+                cwd=tmp_path,
+                env=os.environ | HERE | environment,
+            )
+            stack.enter_context(worker)
+            stack.callback(worker.kill)
+
+        yield joined
 
 
 @pytest.mark.slow
-def test_without_workers_it_says_so_and_waits(scheduler, tmp_path):
-    joined = []
-
+def test_without_workers_it_says_so_and_waits(scheduler, join, tmp_path):
     class Inviting(Heard):
         def message(self, line):
             super().message(line)
-            joined.append(join(scheduler.address, tmp_path))
+            join()
 
     tasks, heard = loads(1.0), Inviting()
-    try:
-        swept = sweep(tasks, Store(tmp_path / "solved"), scheduler=scheduler.address, progress=heard)
-    finally:
-        for worker in joined:
-            worker.kill()
-            worker.wait()
+    swept = sweep(tasks, Store(tmp_path / "solved"), scheduler=scheduler.address, progress=heard)
     assert forces(swept, tasks) == [1.0]
     assert heard.said_lines == [f"no worker at {scheduler.address}: waiting for one, with this package installed"]
 
 
 @pytest.mark.slow
-def test_a_command_that_loses_its_scheduler_says_so_in_a_line_and_goes_on_from_there(scheduler, tmp_path):
-    worker, solved = join(scheduler.address, tmp_path, **ONE_THREAD), tmp_path / "solved"
-    try:
-        process, tasks = command(tmp_path, scheduler.address)
-        wait_for(lambda: stored_so_far(solved) >= 2)
-        scheduler.kill()
-        lost = f"crosscheck: the scheduler at {scheduler.address} is lost. Solved contacts are kept.\n"
-        assert finish(process) == (1, "", lost)
-    finally:
-        worker.kill()
-        worker.wait()
+def test_a_command_that_loses_its_scheduler_says_so_in_a_line_and_goes_on_from_there(scheduler, join, tmp_path):
+    solved = tmp_path / "solved"
+    join(**ONE_THREAD)
+    process, tasks = command(tmp_path, scheduler.address)
+    wait_for(lambda: stored_so_far(solved) >= 2)
+    scheduler.kill()
+    lost = f"crosscheck: the scheduler at {scheduler.address} is lost. Solved contacts are kept.\n"
+    assert finish(process) == (1, "", lost)
     kept = len(Store(solved))
     again = sweep(tasks[-kept - 2 :], Store(solved), workers=1)
     assert (again.solved, again.reused) == (2, kept)
@@ -249,14 +245,12 @@ def test_what_is_no_address_is_refused(address, tmp_path):
         sweep(loads(1.0), Store(tmp_path), scheduler=address)
 
 
+@pytest.mark.usefixtures("heeded")
 def test_an_interrupt_ends_the_wait_for_a_silent_scheduler_at_once(silent, tmp_path):
-    before, start = signal.signal(signal.SIGTERM, signal.default_int_handler), time.monotonic()
+    start = time.monotonic()
     threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGTERM)).start()
-    try:
-        with pytest.raises(KeyboardInterrupt):
-            sweep(loads(1.0), Store(tmp_path), scheduler=silent)
-    finally:
-        signal.signal(signal.SIGTERM, before)
+    with pytest.raises(KeyboardInterrupt):
+        sweep(loads(1.0), Store(tmp_path), scheduler=silent)
     assert time.monotonic() - start < cluster_module.ANSWERS / 2
 
 

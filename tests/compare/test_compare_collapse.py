@@ -50,14 +50,15 @@ def simulated(rng, exact, surfaces, scatter=0.05, own=0.005, loads=0.0):
 
     own : scatter of each point by itself; loads : scatter of ln load, one factor a surface
     """
-    u, w = (np.linspace(-1, 1, count) for count in exact.shape)
-    smooth = np.array(
-        [np.ones_like(np.outer(u, w)), np.outer(u, 0 * w + 1), np.outer(0 * u + 1, w), np.outer(u, w)]
-    )
+    u, w = np.meshgrid(*(np.linspace(-1, 1, count) for count in exact.shape), indexing="ij")
+    smooth = np.array([u**0, u, w, u * w])
     factor = 1 + scatter * np.tensordot(smooth, rng.normal(size=(4, surfaces)), axes=(0, 0)) / sqrt(16 / 9)
     factor = factor + own * rng.normal(size=factor.shape)
     load = np.broadcast_to(LOADS[:, None] * np.exp(loads * rng.normal(size=surfaces)), factor.shape)
     return SimulatedCurves(SPEEDS, load, np.exp(exact)[..., None] * factor * load)
+
+
+SCATTERED = simulated(np.random.default_rng(2), friction(knee), 6, loads=0.1)
 
 
 def smooth(exact):
@@ -169,9 +170,8 @@ def test_curves_that_share_no_stretch_can_fail_but_not_hold():
 
 
 def test_units_and_the_order_of_speeds_and_surfaces_change_nothing():
-    given = simulated(np.random.default_rng(2), friction(knee), 6, loads=0.1)
-    forces = given.load, given.friction_force
-    known = numbers(collapse(given))
+    forces = SCATTERED.load, SCATTERED.friction_force
+    known = numbers(collapse(SCATTERED))
     for other in (
         SimulatedCurves(3 * SPEEDS, 5 * forces[0], 35 * forces[1]),
         SimulatedCurves(SPEEDS[::-1], *(each[::-1, :, ::-1] for each in forces)),
@@ -181,14 +181,13 @@ def test_units_and_the_order_of_speeds_and_surfaces_change_nothing():
 
 
 def test_a_dataset_gives_the_same_curves_whatever_the_order_of_its_dimensions():
-    given = simulated(np.random.default_rng(2), friction(knee), 6, loads=0.1)
     dims = ("speed", "load", "surface")
     dataset = xarray.Dataset(
-        {"normal_force": (dims, given.load), "friction_force": (dims, given.friction_force)},
+        {"normal_force": (dims, SCATTERED.load), "friction_force": (dims, SCATTERED.friction_force)},
         {"speed": SPEEDS, "load": LOADS},
     )
     found = SimulatedCurves.of(dataset.transpose("surface", "load", "speed"))
-    np.testing.assert_array_equal(found.friction_force, given.friction_force)
+    np.testing.assert_array_equal(found.friction_force, SCATTERED.friction_force)
     flat = SimulatedCurves.of(dataset.isel(surface=0, drop=True))
     assert (flat.load.ndim, flat.surfaces, flat.groups) == (2, 1, [])
 

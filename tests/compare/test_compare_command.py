@@ -45,7 +45,8 @@ def folder(tmp_path):
 @pytest.mark.slow
 def test_an_interrupted_run_resumes_and_ends_in_a_report(folder):
     process = start(folder, "run", "tiny.toml", "--workers", "1")
-    solved = folder / "crosscheck-report" / "solved"
+    report = folder / "crosscheck-report"
+    solved = report / "solved"
     wait_for(lambda: stored_so_far(solved) >= 3)
     # As from a keyboard: every process of the run gets it.
     os.killpg(process.pid, signal.SIGINT)
@@ -59,11 +60,10 @@ def test_an_interrupted_run_resumes_and_ends_in_a_report(folder):
     assert (status, "tasks solved" in shown) == (0, False)
     assert kept >= 3
     assert f", {kept} reused" in page
-    assert str(folder / "crosscheck-report" / "report.html") in shown
-    assert {path.suffix for path in (folder / "crosscheck-report" / "tiny").iterdir()} == {".png", ".csv"}
+    assert str(report / "report.html") in shown
+    assert {path.suffix for path in (report / "tiny").iterdir()} == {".png", ".csv"}
 
-    status, output, complained = finish(start(folder, "run", "tiny.toml", "--no-report", "-q"))
-    assert (status, output, complained) == (0, "", "")
+    assert finish(start(folder, "run", "tiny.toml", "--no-report", "-q")) == (0, "", "")
 
 
 @pytest.mark.slow
@@ -242,10 +242,12 @@ for step in json.loads(sys.argv[1]):
     exec(step)
     print(json.dumps(sorted(sys.modules)))
 """
-ON_DISK = {"xarray", "h5netcdf", "h5py"}
-DRAWING = {"matplotlib", "jinja2"}
-SOLVING = {"numba", "scipy", "ducc0", "pyfftw", "bem3d", "mdr1d"}
-HEAVY = {"numpy", "pydantic", "pandas", "pint", "distributed", "dask", "scene", *ON_DISK, *DRAWING, *SOLVING}
+HEAVY = {
+    *("numpy", "pydantic", "pandas", "pint", "distributed", "dask", "scene"),
+    *("xarray", "h5netcdf", "h5py"),  # on disk
+    *("matplotlib", "jinja2"),  # drawing
+    *("numba", "scipy", "ducc0", "pyfftw", "bem3d", "mdr1d"),  # solving
+}
 LISTED = HEAVY - {"pydantic"}
 # The contacts of a run are in the same module as their judges, which need pandas, xarray and scipy.
 PLANNED = {"pint", "distributed", "h5netcdf", "h5py", "matplotlib", "scipy.integrate", "scipy.interpolate"}
@@ -280,7 +282,7 @@ def walked(tmp_path_factory):
     return {step: set(json.loads(line)) for step, line in zip(steps, ended.stdout.splitlines(), strict=True)}
 
 
-@pytest.mark.parametrize(("step", "there", "unneeded"), STEPS, ids=[step for step, *_ in STEPS])
+@pytest.mark.parametrize(("step", "there", "unneeded"), STEPS)
 def test_nothing_is_imported_before_it_is_needed(walked, step, there, unneeded):
     assert there in walked[step]  # the reader of modules sees what is there
     assert not walked[step] & unneeded

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from drawn_scenes import PAPER
 
 from bem3d import BEM
 from compare.solving import control_variates as module
@@ -15,21 +16,17 @@ from scene import (
     Cone,
     CrossedWaves,
     Indent,
-    Kelvin,
     Plane,
     Profile,
     Program,
-    Scene,
-    SelfAffine,
     Slide,
     Sphere,
     Stage,
     Wave,
 )
 
-KELVIN = Kelvin(1e6, 1e-3)
-ROUGH = SelfAffine(hurst=0.2, rms_height=5e-5, longest=1e-2, shortest=1e-3, seed=1)
-SCENE = Scene(Sphere(radius=1e-2), KELVIN, Slide(speed=0.1, load=1.0), ROUGH)
+ROUGH = replace(PAPER.roughness, shortest=1e-3)
+SCENE = replace(PAPER, roughness=ROUGH)
 SURFACES, LINES = BEM(points=32), MDR(points=512)
 SEEDS = range(2000)
 MOST = 4.0  # standard errors of a mean over these seeds
@@ -43,13 +40,9 @@ def off_zero(variates):
 @pytest.mark.parametrize("amplitudes", ["fixed", "gaussian"])
 @pytest.mark.parametrize("solver", [SURFACES, LINES, MDR(points=512, spectrum="line-scan")])
 def test_variates_have_a_mean_of_zero(solver, amplitudes):
-    rough = replace(ROUGH, amplitudes=amplitudes)
-    scenes = [
-        replace(SCENE, roughness=rough),
-        replace(SCENE, roughness=rough, indenter=Cone(angle=0.17), motion=Slide(speed=1.0, load=1.0)),
-        replace(SCENE, roughness=rough, motion=Indent(depth=1e-4)),
-    ]
-    found = control_variates(solver, scenes, SEEDS)
+    scene = replace(SCENE, roughness=replace(ROUGH, amplitudes=amplitudes))
+    cone = replace(scene, indenter=Cone(angle=0.17), motion=Slide(speed=1.0, load=1.0))
+    found = control_variates(solver, [scene, cone, replace(scene, motion=Indent(depth=1e-4))], SEEDS)
     assert found.shape == (3, len(SEEDS), 8)
     assert np.max(off_zero(found)) <= MOST
 
@@ -73,13 +66,11 @@ def test_a_spectrum_a_tenth_off_shows(solver, monkeypatch):
 )
 def test_little_of_the_scatter_of_friction_and_depth_is_left(solver, indenter, speed, most):
     """Variance of 64 surfaces of the paper; of a thousand it is about half as much as allowed."""
-    scene = replace(SCENE, indenter=indenter, motion=Slide(speed=speed, load=1.0))
-    scene = replace(scene, roughness=replace(ROUGH, shortest=5e-4))
+    scene = replace(PAPER, indenter=indenter, motion=Slide(speed=speed, load=1.0))
     rows = SceneTask(solver, draws_of(scene, 64)).solve().rows
-    (variates,) = control_variates(solver, [scene], [scene.roughness.seed + k for k in range(64)])
-    for name, least in (("friction_force", most), ("depth", most)):
-        values = np.array([getattr(row, name) for row in rows])
-        assert controlled(values, variates).var() <= least * values.var()
+    (variates,) = control_variates(solver, [scene], range(ROUGH.seed, ROUGH.seed + 64))
+    for values in np.transpose([(row.friction_force, row.depth) for row in rows]):
+        assert controlled(values, variates).var() <= most * values.var()
 
 
 def test_variates_of_a_surface_do_not_depend_on_those_beside_it():

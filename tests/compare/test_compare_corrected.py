@@ -5,6 +5,7 @@ from math import isnan, log, nan
 
 import numpy as np
 import pytest
+from drawn_scenes import PAPER
 
 from compare import CorrectedMDR
 from compare.solving import vocabulary
@@ -17,24 +18,17 @@ from scene import (
     Elastic,
     EmptyContact,
     Indent,
-    Kelvin,
     Plane,
     Refused,
-    Scene,
     SelfAffine,
     Slide,
     SolveError,
-    Sphere,
 )
 
-ROUGH = Scene(
-    Sphere(radius=10e-3),
-    Kelvin(modulus=1e6, relaxation_time=1e-3),
-    Slide(speed=0.1, load=1.0),
-    SelfAffine(hurst=0.5, rms_height=1e-5, longest=4e-3, shortest=4e-4, seed=3),
-)
+WAVES = SelfAffine(hurst=0.5, rms_height=1e-5, longest=4e-3, shortest=4e-4, seed=3)
+ROUGH = replace(PAPER, roughness=WAVES)
 AT_DEPTH = replace(ROUGH, motion=Slide(speed=0.1, depth=1.5e-4))
-SMOOTH = replace(ROUGH, roughness=None)
+by_load_and_depth = pytest.mark.parametrize("scene", [ROUGH, AT_DEPTH], ids=["load", "depth"])
 FEW = CorrectedMDR(MDR(points=1000), profiles=8)
 # Sums in another order.
 ROUNDING = 1e-12
@@ -69,7 +63,7 @@ def profiles_of(scene, solver=FEW):
     return [solver.mdr.solve(each) for each in draws_of(scene, solver.profiles)]
 
 
-@pytest.mark.parametrize("scene", [ROUGH, AT_DEPTH], ids=["load", "depth"])
+@by_load_and_depth
 def test_what_is_prescribed_stays_and_all_else_is_its_mean_over_the_ratio(scene):
     found, drawn, corrections = FEW.solve(scene), profiles_of(scene), trust(scene).of_model("MDR")
     given, free, name = (
@@ -122,7 +116,7 @@ def test_where_one_surface_says_nothing_its_interval_has_no_ends_and_the_mean_s_
     assert ends["friction_low"] < ends["friction_high"]
 
 
-@pytest.mark.parametrize("scene", [ROUGH, AT_DEPTH], ids=["load", "depth"])
+@by_load_and_depth
 def test_the_part_of_the_profiles_in_an_interval_is_what_means_of_them_scatter_by(scene, monkeypatch):
     """60 means of eight, the ratio exact; allowed: three deviations of an rms of 60 numbers, 3/sqrt(2 * 59)."""
     exact = replace(WORTH, low=WORTH.ratio, high=WORTH.ratio)
@@ -135,7 +129,7 @@ def test_the_part_of_the_profiles_in_an_interval_is_what_means_of_them_scatter_b
 
 
 def test_a_profile_that_touches_nothing_counts_as_a_force_of_zero(worth):
-    barely = replace(ROUGH, motion=Indent(depth=1e-6), roughness=replace(ROUGH.roughness, rms_height=2e-6))
+    barely = replace(ROUGH, motion=Indent(depth=1e-6), roughness=replace(WAVES, rms_height=2e-6))
     rows = SceneTask(FEW.mdr, draws_of(barely, FEW.profiles)).solve().rows
     forces = [row.normal_force for row in rows]
     assert 0 < sum(force == 0 for force in forces) < len(forces)
@@ -146,7 +140,7 @@ def test_a_profile_that_touches_nothing_counts_as_a_force_of_zero(worth):
 
 
 def test_off_the_map_there_is_no_answer_but_the_reason():
-    steep = replace(ROUGH, roughness=replace(ROUGH.roughness, shortest=2e-6))
+    steep = replace(ROUGH, roughness=replace(WAVES, shortest=2e-6))
     with pytest.raises(SolveError, match=r"Off the map: .*a/λ_c"):
         CorrectedMDR().solve(steep)
 
@@ -155,8 +149,8 @@ def test_off_the_map_there_is_no_answer_but_the_reason():
     "scene",
     [
         replace(ROUGH, indenter=Plane(), motion=Slide(speed=0.1, pressure=1e3)),
-        replace(ROUGH, roughness=replace(ROUGH.roughness, shortest=None)),
-        replace(ROUGH, roughness=replace(ROUGH.roughness, shortest=1e-7)),
+        replace(ROUGH, roughness=replace(WAVES, shortest=None)),
+        replace(ROUGH, roughness=replace(WAVES, shortest=1e-7)),
     ],
     ids=["never measured", "no cut-off", "not resolved"],
 )
@@ -173,7 +167,7 @@ def test_a_mean_without_every_profile_is_an_error(worth):
 
 
 def test_a_mean_depth_below_zero_is_not_known_and_friction_is(worth):
-    high = replace(ROUGH, motion=Slide(speed=0.1, load=1e-3), roughness=replace(ROUGH.roughness, rms_height=1e-4))
+    high = replace(ROUGH, motion=Slide(speed=0.1, load=1e-3), roughness=replace(WAVES, rms_height=1e-4))
     found = FEW.solve(high)
     drawn = profiles_of(high)
     assert sum(each.depth for each in drawn) < 0
@@ -191,7 +185,7 @@ def test_costs_are_those_of_every_profile():
     assert first.operator_applications == sum(each.operator_applications for each in drawn)
     assert first.residual == max(each.residual for each in drawn)
     assert first.settings["profiles"] == FEW.profiles
-    assert FEW.solve(SMOOTH).settings["profiles"] == 1
+    assert FEW.solve(replace(ROUGH, roughness=None)).settings["profiles"] == 1
 
 
 def test_every_measure_has_a_unit_and_a_meaning():

@@ -20,7 +20,13 @@ from scene import Indent
 
 MODELS = ("mdr", "bem", *THEORIES, "corrected", "exact")
 SCENE = replace(SLIDING, motion=Indent(load=1.0), roughness=None)
-PACKAGES = sorted({name for model in MODELS for name in SceneTask(model_of(model).solver, (SCENE,)).packages})
+
+
+def packages_of(model):
+    return SceneTask(model_of(model).solver, (SCENE,)).packages
+
+
+PACKAGES = sorted({name for model in MODELS for name in packages_of(model)})
 # Code that carries questions and answers and computes none: how tasks are run, and types of settings.
 CARRYING = ("compare.solving", "compare.library")
 # Prints the data of ours that each model is the first to open while it solves.
@@ -101,8 +107,7 @@ def test_every_file_that_a_model_opens_is_in_the_digest_of_its_packages():
     ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True, cwd=ROOT)
     seen = set()
     for model, *opened in map(json.loads, ended.stdout.splitlines()):
-        packages = SceneTask(model_of(model).solver, (SCENE,)).packages
-        files = {path for package in packages for path in shipped(folder(package)).values()}
+        files = {path for package in packages_of(model) for path in shipped(folder(package)).values()}
         assert {*map(Path, opened)} <= files, model
         seen |= {Path(each).name for each in opened}
     assert {"friction_error.csv", "share.csv", "fitted.json"} <= seen
@@ -110,13 +115,12 @@ def test_every_file_that_a_model_opens_is_in_the_digest_of_its_packages():
 
 @pytest.mark.parametrize("model", MODELS)
 def test_every_module_that_a_model_imports_is_in_its_packages(model):
-    solver = model_of(model).solver
-    left, seen = [Path(find_spec(type(solver).__module__).origin)], set()
+    left, seen = [Path(find_spec(type(model_of(model).solver).__module__).origin)], set()
     while left:
         if (path := left.pop()) not in seen and not module(path).startswith(CARRYING):
             seen.add(path)
             left += used(path)
-    within = tuple(f"{package}." for package in SceneTask(solver, (SCENE,)).packages)
+    within = tuple(f"{package}." for package in packages_of(model))
     assert [path for path in sorted(seen) if not f"{module(path)}.".startswith(within)] == []
 
 
@@ -157,6 +161,5 @@ def test_a_model_that_derives_from_another_depends_on_the_packages_of_both(tmp_p
     source += "class Space(BEM): pass\nclass Line(CorrectedMDR): pass\n"
     (tmp_path / "derived.py").write_text(source)
     monkeypatch.syspath_prepend(tmp_path)
-    space, line = (SceneTask(model_of(f"derived:{name}").solver, (SCENE,)) for name in ("Space", "Line"))
-    assert space.packages == ("scene", "derived", "bem3d")
-    assert {*SceneTask(model_of("corrected").solver, (SCENE,)).packages, "derived"} == {*line.packages}
+    assert packages_of("derived:Space") == ("scene", "derived", "bem3d")
+    assert {*packages_of("corrected"), "derived"} == {*packages_of("derived:Line")}

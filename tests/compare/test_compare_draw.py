@@ -8,7 +8,8 @@ from functools import cache
 import numpy as np
 import pytest
 from drawn_again import from_files
-from drawn_scenes import KELVIN, LOAD, ROUGH, SCENES, STANDARD, TAU, A, R
+from drawn_scenes import KELVIN, LOAD, PAPER, ROUGH, SCENES, STANDARD, TAU, A, R
+from small_cases import seldom
 
 import compare
 from bem3d import BEM
@@ -43,13 +44,12 @@ MICRONS = replace(FAST, roughness=SelfAffine(hurst=0.2, rms_height=1e-6, longest
 LINE, SPACE = MDR(points=500, steps=20), BEM(points=48, steps=20)
 BACK = Program(stages=(Stage(duration=TAU, depth=1e-4, speed=0.5), Stage(duration=TAU, speed=-0.5)))
 CONTACTS = {name: SCENES[name] for name in ("rest", "line", "full", "plane")} | {
-    "rough": Scene(Sphere(R), KELVIN, Slide(speed=0.1, load=LOAD), ROUGH),
-    "layer": Scene(Sphere(R), KELVIN, Slide(speed=0.1, load=LOAD), layer=Layer(thickness=2e-3)),
+    "rough": PAPER,
+    "layer": replace(PAPER, roughness=None, layer=Layer(thickness=2e-3)),
     "back": Scene(Sphere(R), STANDARD, BACK, ROUGH),
     "tiny": Scene(Sphere(1e-9), KELVIN, Indent(depth=1e-12)),
 }
 PANELS = {"rough": 4, "layer": 2, "line": 2, "full": 2, "back": 3}  # without an empty one
-OFTEN = {"rough", "line", "full"}
 
 
 @pytest.fixture(scope="module")
@@ -75,9 +75,7 @@ def table(report, name):
     return next(report.page.every(Plot)).tables[name]
 
 
-@pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=() if name in OFTEN else pytest.mark.slow) for name in CONTACTS]
-)
+@pytest.mark.parametrize("name", seldom(CONTACTS, ("rough", "line", "full")))
 def test_every_contact_has_a_picture_with_units_and_no_empty_panel(name):
     plot = contact.plot(CONTACTS[name], seen(name))
     drawing = from_files(plot)
@@ -137,9 +135,7 @@ def test_both_line_forces_sum_up_to_the_load(drawn, name):
     assert lines["line_force_3d"].sum() * width == pytest.approx(LOAD, rel=1e-4)  # the tolerance of the solve
 
 
-@pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=() if name == "dip" else pytest.mark.slow) for name in ("dip", "lift")]
-)
+@pytest.mark.parametrize("name", seldom(("dip", "lift"), ("dip",)))
 def test_a_program_is_drawn_in_time_by_force_and_depth_of_both(name, tmp_path):
     case = replace(case_of(SCENES[name]), bem=BEM(points=64, steps=20), mdr=MDR(points=200, steps=20))
     report = compare.draw(case, output=tmp_path)

@@ -78,18 +78,15 @@ def test_full_contact_of_waves_is_that_of_their_heights(solid):
     assert full_contact.crossed_closure(*parameters) == sqrt(2) * full_contact.wave_closure(*parameters)
 
 
-UP_AND_DOWN = ([0.0, 2.0, 4.0], [0.0, 0.2, 0.0])
-
-
-SHAPES = [
-    Sphere(radius=0.3),
-    Cone(angle=0.4),
-    PowerLaw(coefficient=2.0, exponent=1.5),
-    PowerLaw(coefficient=9, exponent=30),
-]
-
-
-@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize(
+    "shape",
+    [
+        Sphere(radius=0.3),
+        Cone(angle=0.4),
+        PowerLaw(coefficient=2.0, exponent=1.5),
+        PowerLaw(coefficient=9, exponent=30),
+    ],
+)
 def test_a_held_contact_relaxes_as_the_modulus_and_a_held_load_creeps_as_the_compliance(shape):
     """After a step of a millionth of the shortest time."""
     n, kc = shape.exponent, shape.mdr_coefficient

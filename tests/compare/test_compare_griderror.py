@@ -37,8 +37,9 @@ def test_without_friction_nothing_is_said():
 
 
 BODY = PowerLaw(coefficient=1e-4 / 1e-3**50, exponent=50)
-SCENE = Scene(BODY, Kelvin(1e6, 1e-3), Slide(speed=0.3, load=1.0))
-BLUNT = replace(case_of(SCENE), bem=BEM(points=64), mdr=MDR(points=500))
+BLUNT = replace(
+    case_of(Scene(BODY, Kelvin(1e6, 1e-3), Slide(speed=0.3, load=1.0))), bem=BEM(points=64), mdr=MDR(points=500)
+)
 
 
 @pytest.mark.usefixtures("in_this_process")

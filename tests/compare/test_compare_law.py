@@ -3,11 +3,13 @@
 from dataclasses import replace
 from itertools import islice, pairwise
 from math import exp, hypot, isnan, log, pi
-from pathlib import Path
 
 import numpy as np
 import pandas
 import pytest
+from drawn_scenes import KELVIN as SOLID
+from drawn_scenes import PAPER
+from imports import ROOT
 from law import BLUNT, FAST, scenes
 from planes import HELD_OUT, off
 from scipy.stats import binom
@@ -25,32 +27,32 @@ from scene import (
     Cylinder,
     Elastic,
     Indent,
-    Kelvin,
     Plane,
     Refused,
-    Scene,
     SelfAffine,
     Slide,
-    Sphere,
     StandardLinearSolid,
 )
 
-SOLID = Kelvin(modulus=1e6, relaxation_time=1e-3)
 ROUGH = SelfAffine(hurst=0.5, rms_height=4e-6, longest=3e-3, shortest=2.5e-4, seed=1)
-HIGH = replace(ROUGH, rms_height=1.0)
-ROOT = Path(__file__).parents[2]
-SCENE = Scene(Sphere(radius=10e-3), SOLID, Slide(speed=0.1, load=1.0), ROUGH)
+RESULTS = ROOT / "docs" / "results" / "law"
+SCENE = replace(PAPER, roughness=ROUGH)
 EXPONENTS = 1.0, 2.0, 4.0
 RADIUS, LOAD = 1e-3, 0.5
 
 
-def full_contact(scene=SCENE):
+def full_contact(**changed):
+    scene = replace(SCENE, **changed)
     return FullContact.of(Bands.of(scene.roughness), scene.solid, scene.motion.speed)
+
+
+def solved(scene=SCENE, **changed):
+    return FrictionLaw().solve(replace(scene, **changed))
 
 
 @pytest.mark.parametrize("solid", [SOLID, StandardLinearSolid(1e6, 1e8, 1e-3), Elastic(1e6)])
 def test_light_pressure_has_a_share_in_proportion_and_full_contact_all(solid):
-    share = Share.of(full_contact(replace(SCENE, elastomer=solid)))
+    share = Share.of(full_contact(elastomer=solid))
     x = np.array([1e-8, 1e-4, LEAST / 2])
     assert share(x) / x == pytest.approx(share(x[0]) / x[0] * np.ones(3), rel=LEAST * 2)
     assert 0.3 < share(x[0]) / x[0] < 3.0
@@ -64,9 +66,9 @@ def test_faster_flow_has_the_friction_of_a_loss_that_grows_or_falls_with_the_fre
     # Loss in proportion to the frequency under a constant stiffness, and over it far above the transition.
     glass = StandardLinearSolid(1e6, 1e7, 1e-3)
     for solid, speed, power in ((SOLID, 1e-6, 1), (glass, 1e-6, 1), (glass, 1e5, -1), (SOLID, 1e4, 0)):
-        found = full_contact(replace(SCENE, elastomer=solid, motion=Slide(speed=speed, load=1.0)))
+        found = full_contact(elastomer=solid, motion=Slide(speed=speed, load=1.0))
         assert found.faster == pytest.approx(power * log(FASTER), abs=0.01)
-    assert full_contact(replace(SCENE, elastomer=Elastic(1e6))).faster == pytest.approx(log(FASTER))
+    assert full_contact(elastomer=Elastic(1e6)).faster == pytest.approx(log(FASTER))
 
 
 def test_a_long_wave_carries_the_contact_and_a_short_one_is_left():
@@ -106,23 +108,24 @@ def test_a_layer_of_any_height_and_pressure_has_an_answer_under_the_load(n):
 
 
 def test_roughness_that_vanishes_leaves_the_smooth_body():
-    smooth = FrictionLaw().solve(replace(SCENE, roughness=None))
+    smooth = solved(roughness=None)
     assert smooth.friction_coefficient == BEM(points=64).solve(replace(SCENE, roughness=None)).friction_coefficient
     for height in (1e-10, 1e-200):
-        tiny = FrictionLaw().solve(replace(SCENE, roughness=replace(ROUGH, rms_height=height))).measures
+        tiny = solved(roughness=replace(ROUGH, rms_height=height)).measures
         assert tiny["bare_friction"] == pytest.approx(smooth.friction_coefficient, rel=5e-3)
         assert tiny["friction_low"] < smooth.friction_coefficient < tiny["friction_high"]
-    far = FrictionLaw().solve(replace(SCENE, roughness=replace(ROUGH, longest=1e12, shortest=1e11)))
+    far = solved(roughness=replace(ROUGH, longest=1e12, shortest=1e11))
     assert far.friction_coefficient == pytest.approx(smooth.friction_coefficient, rel=1e-9)
-    assert FrictionLaw().solve(replace(SCENE, elastomer=Elastic(1e6))).friction_coefficient == 0.0
-    assert FrictionLaw().solve(replace(SCENE, motion=Indent(load=1.0))).friction_coefficient == 0.0
+    assert solved(elastomer=Elastic(1e6)).friction_coefficient == 0.0
+    assert solved(motion=Indent(load=1.0)).friction_coefficient == 0.0
 
 
 @pytest.mark.parametrize(
-    "scene", [replace(SCENE, motion=Slide(speed=0.1, load=1e-12)), replace(SCENE, roughness=HIGH)]
+    "changed", [{"motion": Slide(speed=0.1, load=1e-12)}, {"roughness": replace(ROUGH, rms_height=1.0)}]
 )
-def test_off_the_map_the_answer_is_the_bare_law_with_the_interval_of_tested_contacts(scene):
-    answer = FrictionLaw().solve(scene)
+def test_off_the_map_the_answer_is_the_bare_law_with_the_interval_of_tested_contacts(changed):
+    scene = replace(SCENE, **changed)
+    answer = solved(scene)
     assert answer.measures["outside"] == 1.0
     assert isnan(answer.measures["law_ratio"])
     friction = answer.friction_coefficient
@@ -134,15 +137,15 @@ def test_off_the_map_the_answer_is_the_bare_law_with_the_interval_of_tested_cont
 
 def test_friction_of_a_plane_is_the_share_of_full_contact_that_its_pressure_leaves():
     scene = replace(SCENE, indenter=Plane(), motion=Slide(speed=0.1, pressure=1e9))
-    found, persson = FrictionLaw().solve(scene), Persson().solve(scene)
+    found, persson = solved(scene), Persson().solve(scene)
     assert found.friction_coefficient == pytest.approx(persson.friction_coefficient, rel=1e-9)  # in full contact
     assert found.measures["full_contact_friction"] == pytest.approx(found.friction_force, rel=1e-9)
-    light = FrictionLaw().solve(replace(scene, motion=Slide(speed=0.1, pressure=1e3)))
+    light = solved(scene, motion=Slide(speed=0.1, pressure=1e3))
     assert light.measures["pressure_ratio"] == pytest.approx(1e-6 * found.measures["pressure_ratio"])
 
 
 def test_the_formula_and_the_layer_are_those_of_the_planes_that_were_solved():
-    planes = pandas.read_csv(ROOT / "docs" / "results" / "law" / "planes.csv")
+    planes = pandas.read_csv(RESULTS / "planes.csv")
     held = planes[(planes["plane"] % HELD_OUT == 0) & (planes["x"] > 0.1)].assign(one=1.0)
     assert np.median(np.abs(np.expm1(off(held, [*coefficients().values()])))) < 0.04
     slow = planes[planes["lossy"] < 0.1]
@@ -154,35 +157,35 @@ def test_the_formula_and_the_layer_are_those_of_the_planes_that_were_solved():
 
 @pytest.mark.parametrize("factor", [1e-6, 1e6])
 def test_no_unit_of_length_load_or_time_matters(factor):
-    expected = FrictionLaw().solve(SCENE).friction_coefficient
+    expected = solved().friction_coefficient
     for scene in (rescaled(SCENE, modulus=factor), rescaled(SCENE, time=factor)):
-        assert FrictionLaw().solve(scene).friction_coefficient == pytest.approx(expected, rel=1e-6)
+        assert solved(scene).friction_coefficient == pytest.approx(expected, rel=1e-6)
 
 
 @pytest.mark.parametrize(
-    ("scene", "message"),
+    ("changed", "message"),
     [
-        (replace(SCENE, indenter=Plane(), motion=Slide(speed=0.1, gap=1e-6)), "no claim on the gap"),
-        (replace(SCENE, indenter=Cylinder(1e-2), motion=Slide(speed=0.1, line_load=10.0)), "body of revolution"),
-        (replace(SCENE, roughness=CrossedWaves(amplitude=1e-6, wavelength=1e-3)), "SelfAffine"),
-        (replace(SCENE, roughness=replace(ROUGH, shortest=None)), "state shortest"),
+        ({"indenter": Plane(), "motion": Slide(speed=0.1, gap=1e-6)}, "no claim on the gap"),
+        ({"indenter": Cylinder(1e-2), "motion": Slide(speed=0.1, line_load=10.0)}, "body of revolution"),
+        ({"roughness": CrossedWaves(amplitude=1e-6, wavelength=1e-3)}, "SelfAffine"),
+        ({"roughness": replace(ROUGH, shortest=None)}, "state shortest"),
     ],
 )
-def test_what_the_law_has_no_answer_to_is_refused_with_a_reason(scene, message):
+def test_what_the_law_has_no_answer_to_is_refused_with_a_reason(changed, message):
     with pytest.raises(Refused, match=message):
-        FrictionLaw().solve(scene)
+        solved(**changed)
 
 
 @pytest.mark.parametrize("region", [FAST, BLUNT])
 def test_the_interval_holds_where_the_bare_law_is_far_off(region):
     """Of the scenes of docs/results/law, solved in 3D, and used by neither law nor map; 12 of each region."""
-    known = pandas.read_csv(ROOT / "docs" / "results" / "law" / "scenes-regions.csv").set_index("scene")
+    known = pandas.read_csv(RESULTS / "scenes-regions.csv").set_index("scene")
     known = known[known["friction"] > 0]
     chosen = (each for each in scenes("regions") if each.region == region and each.number in known.index)
     bare, held = [], []
     for each in islice(chosen, 12):
         friction, error = known.loc[each.number, ["friction", "error"]]
-        answer = FrictionLaw().solve(each.scene)
+        answer = solved(each.scene)
         middle, high = (
             log(number / friction) for number in (answer.friction_coefficient, answer.measures["friction_high"])
         )

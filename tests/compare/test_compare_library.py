@@ -1,11 +1,12 @@
 """The files to begin with: each is read, planned, copied, valid by its schema, and solved where it is compared."""
 
 import tomllib
-from pathlib import Path
 
 import numpy as np
 import pytest
 from damage import places
+from imports import ROOT
+from small_cases import seldom
 
 from compare import run
 from compare.library.case import Case
@@ -47,9 +48,7 @@ COMPARED = sorted(set(SCENES) - ONE_SOLVER - {"paper-sphere", "paper-cone"})
 
 
 # One that is smooth and slides stands for the others.
-@pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=[] if name == "standard-solid" else pytest.mark.slow) for name in COMPARED]
-)
+@pytest.mark.parametrize("name", seldom(COMPARED, ("standard-solid",)))
 def test_every_scene_that_can_be_compared_is(name, tmp_path):
     report = run(written(name, tmp_path), tmp_path / "out", workers=1, report=False)
     assert not report.faults
@@ -141,7 +140,7 @@ def test_a_list_is_as_long_for_the_schema_as_for_the_reader(validators):
 
 def blocks_of(page):
     """What stands in TOML on a page of the docs, from its blocks."""
-    text = (Path(__file__).parents[2] / "docs" / page).read_text(encoding="utf-8")
+    text = (ROOT / "docs" / page).read_text(encoding="utf-8")
     return [part.partition("```")[0] for part in text.split("```toml\n")[1:]]
 
 

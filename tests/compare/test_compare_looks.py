@@ -26,6 +26,7 @@ from matplotlib.text import Text
 from matplotlib.transforms import Bbox
 from page_samples import MEANS
 from pandas import DataFrame, concat
+from small_cases import seldom
 
 from compare.figures import curves, force_depth, friction, shades, style
 from compare.figures.plot import FORMS, Plot, picture
@@ -58,9 +59,7 @@ LIGHTER = 10.0
 # Figures held against every law in each run: an image and a legend, curves with bands and bars; else on demand.
 OFTEN = {"contact-figure", "force_depth-figure"}
 
-every_figure = pytest.mark.parametrize(
-    "name", [pytest.param(each, marks=() if each in OFTEN else pytest.mark.slow) for each in ENTRIES]
-)
+every_figure = pytest.mark.parametrize("name", seldom(ENTRIES, OFTEN))
 
 
 @cache

@@ -4,9 +4,9 @@ import re
 import subprocess
 import sys
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 import pytest
+from imports import ROOT
 from processes import ask
 from small_cases import SLIDING
 
@@ -23,7 +23,7 @@ from scene.scales import elastic_contact
 
 pytestmark = pytest.mark.usefixtures("in_this_process")
 
-PAGE = Path(__file__).parents[2] / "docs" / "howto" / "models.md"
+PAGE = ROOT / "docs" / "howto" / "models.md"
 SCENE = replace(SLIDING, roughness=None)
 SMOOTH = replace(case_of(SCENE), bem=BEM(points=32), mdr=MDR(points=400))
 ROUGH = replace(
@@ -35,36 +35,27 @@ ROUGH = replace(
 
 @dataclass(frozen=True)
 class Stiff:
-    """The smooth body at rest, its force times a factor."""
+    """The smooth body at rest, its force times a factor, with a measure of a name."""
 
     factor: float = 1.0
+    measure: str = "rms_slope"
     name = "Stiff"
 
     def solve(self, scene: Scene) -> Result:
-        contact = elastic_contact(scene)
-        return Result(scene, self.name, {}, self.factor * contact.load, contact.depth, 0.01 * contact.load)
+        contact, measures = elastic_contact(scene), {self.measure: 1.0}
+        force = self.factor * contact.load
+        return Result(scene, self.name, {}, force, contact.depth, 0.01 * contact.load, measures=measures)
 
 
 def called(name, label="a model"):
     return dataclass(frozen=True)(type("Called", (Stiff,), {"name": name, "label": label}))()
 
 
-@dataclass(frozen=True)
-class Measuring(Stiff):
-    """One that measures something of a name."""
-
-    measure: str = ""
-    name = "Measuring"
-
-    def solve(self, scene: Scene) -> Result:
-        return replace(super().solve(scene), measures={self.measure: 1.0})
-
-
 @pytest.mark.parametrize("measure", ["speed", "status", "depth_reached", "seconds"])
 def test_a_measure_that_has_the_name_of_something_else_is_no_answer(measure):
-    (row,) = SceneTask(Measuring(measure=measure), (SCENE,)).solve().rows
+    (row,) = SceneTask(Stiff(measure=measure), (SCENE,)).solve().rows
     assert repr(measure) in row.reason
-    (row,) = SceneTask(Measuring(measure="rms_slope"), (SCENE,)).solve().rows
+    (row,) = SceneTask(Stiff(), (SCENE,)).solve().rows
     assert (row.reason, row.measures) == (None, {"rms_slope": 1.0})
 
 
@@ -201,9 +192,10 @@ def test_the_class_of_a_script_is_solved_in_its_process(tmp_path):
     assert "is the same in smooth limit and 3D" in finished.stdout
 
 
-OWN = """
+STRANGER = {
+    "study": """
 title = "Three models"
-models = ["mdr", "bem"]
+models = ["mdr", "bem", "stranger:Model"]
 speeds = [0.01, 0.1]
 loads = [0.5, 1.0, 2.0]
 surfaces = 2
@@ -215,17 +207,13 @@ bem = {points = 64}
 mdr = {points = 500}
 [[series]]
 name = "sphere"
-"""
-
-
-STRANGER = {
-    "scene": "models = ['mdr', 'bem', 'stranger:Model']\n"
-    + """
+""",
+    "scene": """
+models = ["mdr", "bem", "stranger:Model"]
 indenter = {type = "sphere", radius = "10 mm"}
 elastomer = {type = "kelvin", modulus = "1 MPa", relaxation_time = "1 ms"}
 motion = {type = "slide", speed = "0.1 m/s", load = "1 N"}
 """,
-    "study": OWN.replace('models = ["mdr", "bem"]', "models = ['mdr', 'bem', 'stranger:Model']"),
 }
 
 

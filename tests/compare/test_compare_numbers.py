@@ -19,11 +19,9 @@ from compare.statistics.collapse import collapse
 from compare.statistics.frictioncurves import SimulatedCurves
 from compare.studies.comparison.together import together
 
-NUMBER = re.compile(r"[\u2212-]?\d+(?:\.\d+)?")
-
 
 def numbers(text):
-    return set(NUMBER.findall(text.replace("-", "\u2212")))
+    return set(re.findall(r"[\u2212-]?\d+(?:\.\d+)?", text.replace("-", "\u2212")))
 
 
 @pytest.mark.parametrize(("scatter", "grid"), [(0.02, 0.0), (0.02, 0.05), (0.3, 0.0)])

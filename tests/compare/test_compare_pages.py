@@ -32,7 +32,6 @@ from scene.files.reading import InvalidInput
 draw_again = partial(export, format="png,pdf,svg")
 STUDY = SimpleNamespace(command="run", inputs={"loads": np.array([1.0, nan])})
 UNITS = {"m", "s", "N", "Pa", "K", "J", "byte", "Hz", "kg", "W", "rad"}
-SWEPT = SimpleNamespace(solved=1, reused=2, seconds=3.0)
 
 
 @pytest.fixture(scope="module")
@@ -45,8 +44,14 @@ def folder(tmp_path_factory):
     values = {"friction_force": ("seed", [0.1, 1 / 3]), "status": ("seed", ["solved", "not asked"])}
     dataset = xarray.Dataset(values, {"seed": [0, 1]})
     (path / netcdf.NAME).write_bytes(netcdf.packed(xarray.DataTree.from_dict({"/sphere/MDR": dataset})))
-    manifest.stamp(path, STUDY, page(), SWEPT, "solved", files)
+    manifest.stamp(path, STUDY, page(), SimpleNamespace(solved=1, reused=2, seconds=3.0), "solved", files)
     return path
+
+
+@pytest.fixture
+def copied(folder, tmp_path):
+    """A folder that a command left, to be damaged."""
+    return Path(shutil.copytree(folder, tmp_path / "left"))
 
 
 # Numbers.
@@ -102,18 +107,18 @@ def test_two_tables_of_one_name_are_refused_unless_they_are_one():
 
 
 class Links(HTMLParser):
-    """Anchors, links, images and words of a page."""
+    """Attributes and words of a page."""
 
     def __init__(self, text):
         super().__init__()
-        self.ids, self.links, self.images, self.words = [], [], [], []
+        self.attributes, self.words = [], []
         self.feed(text)
 
     def handle_starttag(self, tag, attributes):
-        found = dict(attributes)
-        self.ids += [found["id"]] if "id" in found else []
-        self.links += [found["href"]] if "href" in found else []
-        self.images += [found] if tag == "img" else []
+        self.attributes += attributes
+
+    def every(self, name):
+        return [value for own, value in self.attributes if own == name]
 
     def handle_data(self, data):
         self.words.append(data)
@@ -121,14 +126,15 @@ class Links(HTMLParser):
 
 def test_the_page_needs_nothing_else_and_every_link_leads_somewhere(folder):
     found = Links((folder / "report.html").read_text())
-    assert len(found.ids) == len(set(found.ids))
-    for link in found.links:
+    anchors = found.every("id")
+    assert len(anchors) == len(set(anchors))
+    for link in found.every("href"):
         assert link[0] == "#"  # no link to another file, so that the page may be moved alone
-        assert link[1:] in found.ids
+        assert link[1:] in anchors
     for name in re.findall(r"<code>([^<]+\.(?:csv|png))</code>", (folder / "report.html").read_text()):
         assert (folder / name).is_file()
-    assert [image["src"][:22] for image in found.images] == ["data:image/png;base64,"]
-    assert found.images[0]["alt"].startswith("Friction of all models")
+    assert [source[:22] for source in found.every("src")] == ["data:image/png;base64,"]
+    assert found.every("alt")[0].startswith("Friction of all models")
 
 
 def test_the_page_opens_with_its_answer_then_the_figure_then_tables(folder):
@@ -168,8 +174,7 @@ def test_in_a_notebook_a_page_is_the_same_text(monkeypatch):
 
 def test_a_notebook_gets_answer_findings_and_tables_without_links_that_lead_nowhere():
     found = Links(render.fragment(page()))
-    assert not found.images
-    assert not found.links
+    assert not found.every("src") + found.every("href")
     assert "Depths at rest agree" in "".join(found.words)
 
 
@@ -188,8 +193,8 @@ def test_the_texts_of_a_stranger_are_no_marks_of_html_and_control_no_terminal(tm
         assert not re.search(
             r"<(script|svg|iframe|object|link|base|b|details open|meta http-equiv=refresh)\b", text
         )
-        assert all(image["src"].startswith("data:image/png;base64,") for image in found.images)
-        assert all(each[0] == "#" for each in found.links)
+        assert all(source.startswith("data:image/png;base64,") for source in found.every("src"))
+        assert all(each[0] == "#" for each in found.every("href"))
         assert all(map(str.isprintable, text.split("\n")))
     (policy,) = re.findall('<meta http-equiv="Content-Security-Policy" content="(.*)">', whole)
     assert policy.startswith("default-src 'none'; ")
@@ -231,32 +236,33 @@ FORGED = [
 
 
 @pytest.mark.parametrize(("change", "message"), FORGED, ids=range(len(FORGED)))
-def test_a_forged_figure_is_refused_by_name(folder, tmp_path, change, message):
-    content = json.loads((folder / "manifest.json").read_text())
+def test_a_forged_figure_is_refused_by_name(copied, tmp_path, change, message):
+    path = copied / "manifest.json"
+    content = json.loads(path.read_text())
     content["plots"][0] |= change
-    (tmp_path / "manifest.json").write_text(json.dumps(content))
-    (tmp_path / "sphere").mkdir()
-    (tmp_path / "sphere/friction-speed.csv").write_bytes((folder / "sphere/friction-speed.csv").read_bytes())
+    path.write_text(json.dumps(content))
     with pytest.raises(InvalidInput, match=re.escape(message)):
-        draw_again(tmp_path, output=tmp_path / "out")
+        draw_again(copied, output=tmp_path / "out")
     assert not (tmp_path / "out").exists()
 
 
-def test_a_folder_of_another_version_says_so_in_one_line(folder, tmp_path):
-    content = json.loads((folder / "manifest.json").read_text())
+def test_a_folder_of_another_version_says_so_in_one_line(copied):
+    path = copied / "manifest.json"
     # also where the rest cannot be understood
-    for changed in (content, {"plots": "elsewhere"}):
-        (tmp_path / "manifest.json").write_text(json.dumps(changed | {"format": 1}))
+    for changed in (json.loads(path.read_text()), {"plots": "elsewhere"}):
+        path.write_text(json.dumps(changed | {"format": 1}))
         for ask in (draw_again, export):
             with pytest.raises(InvalidInput, match=r"manifest\.json: was written by another version"):
-                ask(tmp_path)
+                ask(copied)
 
 
-KEYS = ["plots", "command", "inputs", "solved", "name"]
 JSON = st.recursive(
     st.none() | st.booleans() | st.floats(allow_nan=False) | st.text(max_size=3),
-    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.sampled_from(KEYS), inner),
-)  # fmt: skip
+    lambda inner: (
+        st.lists(inner, max_size=3)
+        | st.dictionaries(st.sampled_from(["plots", "command", "inputs", "solved", "name"]), inner)
+    ),
+)
 
 
 @examples(30)
@@ -277,22 +283,10 @@ def test_a_damaged_manifest_is_named_whatever_is_in_it(tmp_path_factory, content
         (b"a\n1\n", "cannot be drawn"),
     ],
 )
-def test_a_damaged_table_is_named(folder, tmp_path, damage, message):
-    (tmp_path / "manifest.json").write_bytes((folder / "manifest.json").read_bytes())
-    (tmp_path / "sphere").mkdir()
-    (tmp_path / "sphere/friction-speed.csv").write_bytes(damage)
+def test_a_damaged_table_is_named(copied, damage, message):
+    (copied / "sphere/friction-speed.csv").write_bytes(damage)
     with pytest.raises(InvalidInput, match=message):
-        draw_again(tmp_path)
-
-
-@pytest.fixture
-def copied(folder, tmp_path):
-    """A folder that a command left, to be damaged."""
-    return Path(shutil.copytree(folder, tmp_path / "left"))
-
-
-def pipe(path):
-    os.mkfifo(path)
+        draw_again(copied)
 
 
 def circle(path):
@@ -313,7 +307,7 @@ READ = {
 
 
 @pytest.mark.skipif(os.name != "posix", reason="pipes and links")
-@pytest.mark.parametrize("placed", [pipe, circle, elsewhere])
+@pytest.mark.parametrize("placed", [getattr(os, "mkfifo", os.mkdir), circle, elsewhere])
 @pytest.mark.parametrize("name", READ)
 def test_what_stands_in_the_place_of_a_file_is_named_and_not_read(copied, name, placed):
     (copied / name).unlink()

@@ -5,6 +5,8 @@ from math import isnan, pi
 
 import numpy as np
 import pytest
+from drawn_scenes import KELVIN as SOLID
+from drawn_scenes import PAPER
 from invented_answers import SERIES
 from scipy.integrate import cumulative_trapezoid
 from scipy.special import erf
@@ -21,7 +23,6 @@ from compare.studies.comparison.rough import ROUGH
 from scene import (
     Cylinder,
     Indent,
-    Kelvin,
     Layer,
     Plane,
     Program,
@@ -29,18 +30,20 @@ from scene import (
     Scene,
     SelfAffine,
     Slide,
-    Sphere,
     Stage,
     Wave,
 )
 
 pytestmark = pytest.mark.usefixtures("in_this_process")
 
-SOLID = Kelvin(modulus=1e6, relaxation_time=1e-3)
 SURFACE = SelfAffine(hurst=0.8, rms_height=2e-6, longest=8e-3, shortest=1e-3, seed=3)
-BODY = Scene(Sphere(radius=1e-2), SOLID, Slide(speed=0.1, load=1.0), SURFACE)
+BODY = replace(PAPER, roughness=SURFACE)
 # Bands are nodes of a quadrature, and a band touches as its middle does: against the same integral on 4000 waves.
 QUADRATURE = 1e-3
+
+
+def solved(**changed):
+    return Persson().solve(replace(BODY, **changed))
 
 
 def full_contact(speed, surface=SURFACE):
@@ -87,7 +90,7 @@ def test_a_smooth_body_has_the_answer_of_three_dimensions():
 
 
 def test_at_rest_nothing_rubs_and_the_depth_of_a_rough_body_is_not_told():
-    found = Persson().solve(replace(BODY, motion=Indent(load=1.0)))
+    found = solved(motion=Indent(load=1.0))
     assert found.friction_force == 0
     assert isnan(found.depth)
     assert 0 < found.measures["contact_fraction"] < 1
@@ -96,7 +99,7 @@ def test_at_rest_nothing_rubs_and_the_depth_of_a_rough_body_is_not_told():
 def test_under_light_pressure_a_body_rubs_like_a_plane():
     """Where contact is proportional to the pressure it does not matter how that is spread."""
     surface = replace(SURFACE, rms_height=2e-2)
-    found = Persson().solve(replace(BODY, roughness=surface))
+    found = solved(roughness=surface)
     flat = Persson().solve(plane(1e-4, BODY.motion.speed, surface))
     assert found.measures["pressure_ratio"] < 0.01
     roughness = found.measures["friction_of_roughness"] / found.normal_force
@@ -105,7 +108,7 @@ def test_under_light_pressure_a_body_rubs_like_a_plane():
 
 def test_in_full_contact_all_of_the_smooth_contact_rubs():
     surface = replace(SURFACE, rms_height=1e-10)
-    measures = Persson().solve(replace(BODY, roughness=surface)).measures
+    measures = solved(roughness=surface).measures
     full = full_contact(BODY.motion.speed, surface).friction.sum()
     assert measures["friction_of_roughness"] == pytest.approx(full * measures["contact_area"], rel=1e-6)
 
@@ -123,7 +126,7 @@ def test_in_full_contact_all_of_the_smooth_contact_rubs():
 )
 def test_what_the_theory_is_not_of_is_refused_by_name(changed, message):
     with pytest.raises(Refused, match=message):
-        Persson().solve(replace(BODY, **changed))
+        solved(**changed)
 
 
 def test_where_nobody_asks_for_it_the_theory_is_drawn_and_not_judged(tmp_path):

@@ -2,9 +2,9 @@
 
 import re
 import tomllib
-from pathlib import Path
 
 import pytest
+from imports import ROOT
 from small_cases import SLIDING
 
 from bem3d import BEM
@@ -13,7 +13,6 @@ from mdr1d import MDR
 from scene.files.reading import InvalidInput
 
 pytest_plugins = ["pytester"]
-ROOT = Path(__file__).parents[2]
 SCENE = """
 [indenter]
 type = "sphere"
@@ -133,14 +132,16 @@ def test_the_first_run_writes_a_file_beside_the_test_and_later_ones_hold_against
     project(asked.format(1.6), options=["--mdr-regen"]).assert_outcomes(passed=1)
 
 
-PLAIN = "-p", "no:cacheprovider"
-
-
 def test_what_is_solved_is_kept_in_the_cache_or_for_the_session(project, pytester, monkeypatch):
     asked = 'check("seal.toml", models=pair(), friction=0.05, depth=0.05)'
     solved = pytester.path / "solved.txt"
     # workers of xdist have a store each
-    for worker, options, count in (("gw0", (), 4), ("gw1", (), 8), ("gw1", (), 8), ("gw1", PLAIN, 12)):
+    for worker, options, count in (
+        ("gw0", (), 4),
+        ("gw1", (), 8),
+        ("gw1", (), 8),
+        ("gw1", ("-p", "no:cacheprovider"), 12),
+    ):
         monkeypatch.setenv("PYTEST_XDIST_WORKER", worker)
         project(asked, asked, options=options).assert_outcomes(passed=2)
         assert len(solved.read_text().split()) == count  # two models, each on two grids

@@ -36,7 +36,6 @@ from scene import (
     Indent,
     Program,
     Prony,
-    Refused,
     Shear,
     Slide,
     Stage,
@@ -137,10 +136,19 @@ def invented(task, halved=0.0, scatter=0.0, broken=(), random=None):
     return Outcome(tuple(rows))
 
 
-def judged(case=CASE, **how):
+def solved(case=CASE, **how):
+    """A run of a case, its answers and what is judged of them."""
     run = asked.run({"a case": case})
     answers = run.answers(invented_of(run, **how))
-    return run, answers, finding.table(run.judge(answers).findings).set_index(["claim", "where"])
+    return run, answers, run.judge(answers)
+
+
+def table_of(judged):
+    return finding.table(judged.findings).set_index(["claim", "where"])
+
+
+def judged(*case, **how):
+    return table_of(solved(*case, **how)[2])
 
 
 @pytest.mark.parametrize("interval", [None, 0.05], ids=["fixed draws", "draws in strata"])
@@ -153,7 +161,7 @@ def test_every_number_lies_in_its_interval(interval):
 
 
 def test_known_answers_are_found():
-    _, _, found = judged()
+    found = judged()
     own = found.loc["friction.ratio.own", "a case"]
     assert own[["value", "low", "high", "surfaces", "verdict"]].tolist() == [pytest.approx(2)] * 3 + [2, "fails"]
     assert found.loc["friction.ratio.smooth-slow", "a case"][["verdict", "surfaces"]].tolist() == ["holds", 0]
@@ -170,13 +178,12 @@ def test_known_answers_are_found():
 
 
 def test_the_error_of_the_grid_widens_every_interval_and_scatter_as_much_as_it_should():
-    _, _, found = judged(halved=0.02)
+    found = judged(halved=0.02)
     own = found.loc["friction.ratio.own", "a case"]
     assert own["grid"] == pytest.approx(2 * (1 - 1 / 1.02))
     assert own["high"] - own["value"] == pytest.approx(own["grid"])
     assert found.loc["grid.change", "a case"].set_index("model")["value"].tolist() == pytest.approx([0, 0.02])
-    _, _, wide = judged(scatter=0.1)
-    low, high = wide.loc["friction.ratio.own", "a case"][["low", "high"]]
+    low, high = judged(scatter=0.1).loc["friction.ratio.own", "a case"][["low", "high"]]
     # Two surfaces, 10 % each way: 12.7 standard errors of 10 % of the ratio.
     assert high - low == pytest.approx(2 * 12.706 * 2 * 0.1, rel=0.02)
 
@@ -189,17 +196,16 @@ def test_the_error_of_the_grid_widens_every_interval_and_scatter_as_much_as_it_s
     ],
 )
 def test_without_an_error_nothing_is_decided(case, reason):
-    _, _, found = judged(case)
+    found = judged(case)
     own = found.loc["friction.ratio.own", "a case"]
     assert own["verdict"] == "undecided"
     assert reason in own["reason"]
 
 
 def test_a_surface_that_failed_is_left_out_and_listed():
-    run, answers, found = judged(broken={1}, case=replace(CASE, study=replace(CASE.study, surfaces=3)))
-    assert found.loc["friction.ratio.own", "a case"]["value"] == pytest.approx(2)
-    (series,) = run.series
-    own = series.answers(answers)
+    run, answers, found = solved(replace(CASE, study=replace(CASE.study, surfaces=3)), broken={1})
+    assert table_of(found).loc["friction.ratio.own", "a case"]["value"] == pytest.approx(2)
+    own = run.series[0].answers(answers)
     failed = own.failures
     assert set(failed["reason"]) == {"no answer"}
     assert set(failed["surface"]) == {CASE.roughness.seed + 1}
@@ -211,9 +217,8 @@ def test_a_surface_that_failed_is_left_out_and_listed():
 @pytest.mark.parametrize("surfaces", [2, 3])
 def test_points_have_means_and_intervals_of_the_two_surfaces_that_are_solved(surfaces):
     case = replace(CASE, study=replace(CASE.study, surfaces=surfaces))
-    run, answers, _ = judged(scatter=0.1, broken={2}, case=case)
-    (series,) = run.series
-    points = series.answers(answers).points
+    run, answers, _ = solved(case, scatter=0.1, broken={2})
+    points = run.series[0].answers(answers).points
     one = points.query("curve == 'own' and model == 'BEM'").iloc[0]
     mu = one["friction_coefficient_mean"]
     assert mu == pytest.approx(0.1 * 0.1**-0.1)
@@ -224,10 +229,9 @@ def test_points_have_means_and_intervals_of_the_two_surfaces_that_are_solved(sur
 @pytest.mark.parametrize("motion", [CASE.motion, pytest.param(DEEP.motion, marks=pytest.mark.slow)])
 def test_one_value_of_everything_is_drawn_without_a_warning(motion):
     one = Variations(speeds=(0.1,), pressing=(1.0,), load_speeds=(0.1,), depths=(1.0,), surfaces=1, profiles=1)
-    run = asked.run({"one": replace(CASE, motion=motion, study=one)})
-    answers = run.answers(invented_of(run))
+    _, _, found = solved(replace(CASE, motion=motion, study=one))
     with style.applied():
-        for plot in run.judge(answers).plots:
+        for plot in found.plots:
             plot.figure().draw_without_rendering()
 
 
@@ -243,9 +247,8 @@ def test_several_files_are_named_by_themselves_and_two_of_one_name_refused(tmp_p
 
 def opening_of(case, **how):
     """The table of a case as texts, and the advice on its rows."""
-    run = asked.run({"a case": case})
-    answers = run.answers(invented_of(run, **how))
-    table, claims = run.judge(answers).page("", answers).opening
+    _, answers, found = solved(case, **how)
+    table, claims = found.page("", answers).opening
     return table, claims, table.frame.set_index("")
 
 
@@ -305,17 +308,18 @@ def test_a_shear_is_compared_over_the_displacement():
 
 
 @pytest.mark.parametrize(
-    ("case", "interval"),
+    ("stated", "roughness", "interval"),
     [
-        (replace(CASE, study=Variations()), 0.05),
-        (replace(CASE, study=Variations(surfaces=2)), None),
-        (replace(CASE, study=Variations(profiles=2)), None),
-        (replace(CASE, study=Variations(interval="2%")), 0.02),
-        (replace(CASE, study=Variations(), roughness=None), None),
+        ({}, ROUGH, 0.05),
+        ({"surfaces": 2}, ROUGH, None),
+        ({"profiles": 2}, ROUGH, None),
+        ({"interval": "2%"}, ROUGH, 0.02),
+        ({}, None, None),
     ],
     ids=["nothing stated", "surfaces", "profiles", "interval", "smooth"],
 )
-def test_an_interval_is_wanted_where_numbers_of_surfaces_are_not_stated(case, interval):
+def test_an_interval_is_wanted_where_numbers_of_surfaces_are_not_stated(stated, roughness, interval):
+    case = replace(CASE, study=Variations(**stated), roughness=roughness)
     assert Around("a case", case).interval == interval
 
 
@@ -334,9 +338,7 @@ def test_the_scene_as_it_stands_is_solved_and_answered_before_the_curves_around_
 
 
 def test_friction_by_the_law_is_drawn_against_the_shortest_wave_where_it_slides():
-    run = asked.run({"a case": CASE})
-    answers = run.answers(invented_of(run))
-    drawn = {each.name: each for each in run.judge(answers).plots}["a-case/friction-waves"]
+    drawn = {each.name: each for each in solved()[2].plots}["a-case/friction-waves"]
     law, points = drawn.tables.values()
     assert (np.diff(law["rms_slope"]) < 0).all()  # from fine waves to coarse ones
     assert (law["friction_low"] <= law["friction"]).all()
@@ -345,23 +347,14 @@ def test_friction_by_the_law_is_drawn_against_the_shortest_wave_where_it_slides(
     own = compare.FrictionLaw().solve(CASE.scene).friction_coefficient
     between = np.interp(CASE.roughness.shortest, law["shortest"], law["friction"])
     assert between == pytest.approx(own, rel=0.1)
-    rest = asked.run({"a case": replace(CASE, motion=Indent(load=1.0))})
-    judged = rest.judge(rest.answers(invented_of(rest)))
-    assert not [each.name for each in judged.plots if "waves" in each.name]
+    _, _, rest = solved(replace(CASE, motion=Indent(load=1.0)))
+    assert not [each.name for each in rest.plots if "waves" in each.name]
 
 
-def test_what_cannot_be_compared_is_refused_before_anything_is_solved(tmp_path):
-    with pytest.raises(Refused, match=r"MDR cannot solve this scene.*indenter"):
-        asked.run("rough-plane")
-    with pytest.raises(InvalidInput, match="did you mean quick-start"):
-        asked.run("quick-strat")
+SHARED = ("A", "a"), ("é", "e\u0301"), ("日本", "東京"), ("a b", "a-b")
 
 
-SHARED = [("A", "a"), ("é", "e\u0301"), ("日本", "東京"), ("a b", "a-b")]
-TAKEN = [SOLVED, FIGURES, "tables"]
-
-
-@pytest.mark.parametrize("names", [*SHARED, *((name,) for name in TAKEN)], ids=lambda names: str(names)[:20])
+@pytest.mark.parametrize("names", [*SHARED, (SOLVED,), (FIGURES,), ("tables",)], ids=lambda names: str(names)[:20])
 def test_names_that_have_no_folder_of_their_own_are_refused_before_anything_is_solved(tmp_path, names):
     with pytest.raises(InvalidInput) as caught:
         compare.run(dict.fromkeys(names, CASE), output=tmp_path / "out")

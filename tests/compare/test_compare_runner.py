@@ -7,6 +7,7 @@ import signal
 import sys
 from concurrent.futures import BrokenExecutor, Future, ThreadPoolExecutor
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -29,11 +30,12 @@ from scene.files.reading import InvalidInput
 
 
 @pytest.fixture
-def here(monkeypatch):
+def here(monkeypatch, tmp_path):
+    """Sweeps in this process, with a store in the folder of the test."""
     monkeypatch.setattr(runner, "_workers", lambda *_: Workers(Here(), 1))
+    return partial(sweep, store=Store(tmp_path), workers=1)
 
 
-@pytest.mark.usefixtures("here")
 @pytest.mark.parametrize(
     ("tasks", "counts"),
     [
@@ -44,19 +46,20 @@ def here(monkeypatch):
     ],
     ids=["all of it", "part of it", "another solver", "twice in the list"],
 )
-def test_what_the_store_has_is_not_solved_again(tmp_path, tasks, counts):
-    sweep(loads(1.0, 2.0), Store(tmp_path), workers=1)
-    swept = sweep(tasks, Store(tmp_path), workers=1)
+def test_what_the_store_has_is_not_solved_again(here, tasks, counts):
+    here(loads(1.0, 2.0))
+    swept = here(tasks)
     assert (swept.solved, swept.reused) == counts
     assert forces(swept, tasks) == [task.work for task in tasks]
 
 
-@pytest.mark.usefixtures("here")
-def test_a_fault_is_a_row_with_its_reason_the_rest_go_on_and_a_later_run_solves_it_again(tmp_path, monkeypatch):
+def test_a_fault_is_a_row_with_its_reason_the_rest_go_on_and_a_later_run_solves_it_again(
+    here, tmp_path, monkeypatch
+):
     """A solve that fails is a row with its reason too, which is stored as an answer."""
     tasks = loads(2000.0, 200.0, 5.0, 1.0)
     heard = Heard()
-    swept = sweep(tasks, Store(tmp_path), workers=1, progress=heard)
+    swept = here(tasks, progress=heard)
     broken, failed = (swept.outcomes[task].rows[0] for task in tasks[:2])
     assert broken.reason == "ZeroDivisionError: a fault in the solver"
     assert failed.reason == "200 N is too much; press less"
@@ -69,10 +72,10 @@ def test_a_fault_is_a_row_with_its_reason_the_rest_go_on_and_a_later_run_solves_
     assert tasks[0].label in text
     assert "Traceback" in text
     assert text.endswith("\nZeroDivisionError: a fault in the solver\n")
-    again = sweep(tasks, Store(tmp_path), workers=1)
+    again = here(tasks)
     assert (again.solved, again.reused, list(again.faults)) == (1, 3, tasks[:1])
     monkeypatch.setattr(Task, "solve", lambda self: Outcome((Row(1.0),)))  # the fault is mended
-    mended = sweep(tasks, Store(tmp_path), workers=1)
+    mended = here(tasks)
     assert (mended.solved, mended.faults, note.exists()) == (1, {}, False)
 
 
@@ -105,8 +108,7 @@ class Odd(solving.Task):
         return Outcome(() if self.way == "not whole" else (Row(1.0),))
 
 
-@pytest.mark.usefixtures("here")
-def test_a_task_may_fail_in_any_way(tmp_path):
+def test_a_task_may_fail_in_any_way(here, tmp_path):
     ways = {
         "memory": "MemoryError",
         "leaves": "SystemExit: 3",
@@ -114,15 +116,12 @@ def test_a_task_may_fail_in_any_way(tmp_path):
         "not whole": "ValueError: its answer is not whole: 0 rows, fields []",
     }
     tasks = [Odd(way) for way in (*ways, "none")]
-    swept = sweep(tasks, Store(tmp_path), workers=1)
+    swept = here(tasks)
     for task, reason in zip(tasks, ways.values(), strict=False):
         assert reason in swept.faults[task]
         assert swept.outcomes[task].rows[0].reason == swept.faults[task]
     assert swept.outcomes[tasks[-1]].rows[0].reason is None
     assert (len(swept.faults), Store(tmp_path).get(tasks[-1]) is not None) == (len(ways), True)
-
-
-ONE = {"executor": Here(), "workers": 1}
 
 
 def test_any_executor_gives_the_same_digits_whatever_its_size(tmp_path):
@@ -131,7 +130,11 @@ def test_any_executor_gives_the_same_digits_whatever_its_size(tmp_path):
     tasks = [Task(MDR(points=n), (scene,)) for n in (400, 500, 600, 700)]
     numbers = set()
     with ThreadPoolExecutor(3) as threads:
-        for name, options in {"processes": {"workers": 2}, "threads": {"executor": threads}, "one": ONE}.items():
+        for name, options in {
+            "processes": {"workers": 2},
+            "threads": {"executor": threads},
+            "one": {"executor": Here(), "workers": 1},
+        }.items():
             outcomes = sweep(tasks, Store(tmp_path / name), **options).outcomes
             numbers.add(str([exactly(outcomes[task]) for task in tasks]))
     assert len(numbers) == 1
@@ -252,13 +255,12 @@ def test_a_folder_is_held_until_the_run_that_has_it_ends_or_is_killed(tmp_path):
     assert forces(swept, tasks) == [task.work for task in tasks]
 
 
-@pytest.mark.usefixtures("here")
-def test_tasks_that_other_code_has_solved_are_said_and_solved_again(tmp_path, monkeypatch):
-    monkeypatch.setattr("compare.solving.digest._code_digest", lambda _: "0" * 32)
-    sweep(loads(1.0, 2.0), Store(tmp_path), workers=1)
-    monkeypatch.undo()
+def test_tasks_that_other_code_has_solved_are_said_and_solved_again(here, monkeypatch):
+    with monkeypatch.context() as patch:
+        patch.setattr("compare.solving.digest._code_digest", lambda _: "0" * 32)
+        here(loads(1.0, 2.0))
     heard = Heard()
-    assert sweep(loads(1.0, 2.0, 3.0), Store(tmp_path), workers=1, progress=heard).solved == 3
+    assert here(loads(1.0, 2.0, 3.0), progress=heard).solved == 3
     assert heard.said_lines == ["2 stored tasks were solved by other code: they are solved again"]
 
 
@@ -276,20 +278,11 @@ def test_workers_have_one_thread_the_caller_its_own_and_what_cannot_be_sent_is_s
     assert "NUMBA_NUM_THREADS" not in os.environ
 
 
-@pytest.mark.usefixtures("here")
-def test_the_longest_task_goes_first_and_every_step_is_told(tmp_path):
+def test_the_longest_task_goes_first_and_every_step_is_told(here):
     heard = Heard()
-    sweep(loads(1.0, 3.0, 2.0), Store(tmp_path), workers=1, progress=heard)
+    here(loads(1.0, 3.0, 2.0), progress=heard)
     steps = [(step, work) for work in (3.0, 2.0, 1.0) for step in ("started", "finished")]
     assert heard.heard == [("planned", [3.0, 2.0, 1.0], 0), *steps]
-
-
-@pytest.fixture
-def heeded():
-    """SIGINT raises, also where the tests run in the background of a shell, which ignores it there."""
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
-    yield
-    signal.signal(signal.SIGINT, before)
 
 
 @pytest.mark.usefixtures("heeded")

@@ -45,6 +45,14 @@ def drawn(count):
     return replace(TASK, scenes=(SLIDING,) * count)
 
 
+FIELD = {"x": np.arange(3.0)}
+
+
+def keep(store, fields=FIELD):
+    """Store a row with fields."""
+    store.put(PICTURE, Outcome((ROW,), fields))
+
+
 def bits(outcome):
     """All of an outcome, bit for bit."""
     fields = {name: np.asarray(each) for name, each in outcome.fields.items()}
@@ -86,19 +94,19 @@ def test_fields_come_back_and_are_missed_where_they_are_wanted(tmp_path):
     store.put(TASK, Outcome((ROW,)))
     assert store.get(TASK) is not None
     assert store.get(PICTURE) is None
-    store.put(PICTURE, Outcome((ROW,), {"x": np.arange(3.0)}))
+    keep(store)
     assert np.array_equal(store.get(PICTURE).fields["x"], np.arange(3.0))
     assert store.get(TASK).fields == {}
-    store.put(PICTURE, Outcome((ROW,)))
+    keep(store, {})
     assert store.get(PICTURE).fields == {}
 
 
 def test_what_no_file_can_hold_is_refused_and_leaves_nothing(tmp_path):
     store = Store(tmp_path)
     with pytest.raises(TypeError, match="x is of type complex128"):
-        store.put(PICTURE, Outcome((ROW,), {"x": np.ones(3, complex)}))
+        keep(store, {"x": np.ones(3, complex)})
     with pytest.raises(ValueError, match=r"the fields take 8e\+09 bytes, and at most"):
-        store.put(PICTURE, Outcome((ROW,), {"x": np.broadcast_to(1.0, 10**9)}))
+        keep(store, {"x": np.broadcast_to(1.0, 10**9)})
     assert list(tmp_path.iterdir()) == []
 
 
@@ -154,7 +162,7 @@ FORGED = {
 @pytest.mark.parametrize(("column", "value"), [(name, each) for name, every in FORGED.items() for each in every])
 def test_an_answer_that_holds_something_else_counts_as_absent(tmp_path, column, value):
     store = Store(tmp_path)
-    store.put(PICTURE, Outcome((ROW,), {"x": np.arange(3.0)}))
+    keep(store)
     with closing(sqlite3.connect(store.path)) as connection, connection:
         connection.execute(f"UPDATE answers SET {column} = ?", (value,))
     assert store.get(PICTURE) is None
@@ -291,11 +299,8 @@ def test_a_full_disk_is_an_error_that_names_the_file_and_what_is_stored_stays(tm
     stored = [*Store(tmp_path).stored(tasks)]
     assert stored == tasks[: len(stored)] != []
     with pytest.raises(OSError, match="disk I/O error"):
-        store.put(PICTURE, Outcome((ROW,), {"x": np.arange(30000.0)}))
+        keep(store, {"x": np.arange(30000.0)})
     assert [*Store(tmp_path).stored(tasks)] == stored
-
-
-FORKS = pytest.mark.filterwarnings("ignore:This process:DeprecationWarning")
 
 
 def writer(folder, times):
@@ -313,7 +318,7 @@ def _write(folder, times):
                 store.put(PICTURE, Outcome((replace(ROW, depth=float(k)),), {"x": np.full(20000, float(k))}))
 
 
-@FORKS
+@pytest.mark.filterwarnings("ignore:This process:DeprecationWarning")
 def test_a_writer_killed_at_any_moment_leaves_whole_answers_and_nothing_else(tmp_path):
     last, halves = -1.0, 0
     for moment in np.random.default_rng(5).uniform(0.0, 0.3, 8):

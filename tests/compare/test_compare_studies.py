@@ -6,6 +6,7 @@ from functools import reduce
 import numpy as np
 import pytest
 from invented_answers import FEW, SERIES, SLOPE, changed, cut, eq_19, obeying, other, spoiled
+from small_cases import seldom
 
 from compare.library.ready import studies
 from compare.solving import curve
@@ -21,7 +22,6 @@ from scene.files.reading import InvalidInput
 
 # Friction that grows as a length is none that is the same over every part of an area.
 DRAG = "eq17.friction-per-contact"
-HALF = "fewer than half of the surfaces"
 
 
 def of(judged, name, dimension=None):
@@ -122,7 +122,7 @@ def test_a_point_without_answer_leaves_undecided_what_needs_it(whole, judged, pl
     three = of(found, "", "3D")
     lost = [each for each in three if each.verdict == "undecided"]
     assert "eq19.law" in {each.claim.id for each in lost}
-    assert all(HALF in each.reason for each in lost)
+    assert all("fewer than half of the surfaces" in each.reason for each in lost)
     # the shifts leave the point out
     assert {each.verdict for each in three if each.claim.id.startswith("eq23")} == {"holds"}
 
@@ -231,13 +231,10 @@ def test_pressing_in_is_compared_at_the_depth_that_was_reached():
     assert np.array_equal(unknown[1], whole[1])
 
 
-MANY_TASKS = ("solids", "hurst", "parameters", "regime")
+MANY_TASKS = {"solids", "hurst", "parameters", "regime"}
 
 
-@pytest.mark.parametrize(
-    "name",
-    [pytest.param(name, marks=pytest.mark.slow if name in MANY_TASKS else ()) for name in studies()],
-)
+@pytest.mark.parametrize("name", seldom(studies(), studies().keys() - MANY_TASKS))
 def test_every_study_can_be_solved_by_both_and_solves_nothing_twice(name):
     study = asked.study(name, "quick")
     assert (study.title, study.about) == (studies()[name].title, studies()[name].about)

@@ -2,9 +2,10 @@
 
 import re
 import sys
-from pathlib import Path
 
-FOLDER = Path(__file__).parents[2] / "docs" / "tutorials"
+from imports import ROOT
+
+FOLDER = ROOT / "docs" / "tutorials"
 CELL = re.compile(r"^```\{code-cell\}.*?\n(?::tags:.*?\n\n)?(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 

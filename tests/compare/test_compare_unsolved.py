@@ -12,7 +12,7 @@ from scene import Indent, Kelvin, Scene, Sphere
 
 pytestmark = pytest.mark.usefixtures("in_this_process")
 
-SOLVED, EMPTY = Row(1.0, 1.0, 0.0), Row(0.0, 1.0, 0.0)
+SOLVED = Row(1.0, 1.0, 0.0)
 WHY = "the contact covers {} of 32 points: take more points"
 
 
@@ -36,7 +36,7 @@ def test_a_tenth_without_an_answer_makes_a_command_fail(failures, serious):
 
 
 def test_an_empty_contact_is_no_failure():
-    found = Unsolved.of(*contacts([EMPTY] * 5))
+    found = Unsolved.of(*contacts([Row(0.0, 1.0, 0.0)] * 5))
     assert (found.failed, found.sentences, found.notes, found.serious) == ([], (), (), False)
 
 

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import xarray
 from drawn_again import from_files
+from drawn_scenes import KELVIN
 
 from bem3d import BEM
 from compare.library.case import Case
@@ -21,20 +22,18 @@ from compare.studies.workprecision.ladder import COARSEST, Ladder, TimedSolve
 from compare.studies.workprecision.study import LEVELS, WorkPrecision
 from compare.trustmap.corrected import CorrectedMDR
 from mdr1d import MDR
-from scene import Indent, Kelvin, Layer, Refused, SelfAffine, Slide, Sphere
+from scene import Indent, Layer, Refused, SelfAffine, Slide, Sphere
 from scene.scales import elastic_contact
 
-SOLID = Kelvin(modulus=1e6, relaxation_time=1e-3)
-SMOOTH = Case(indenter=Sphere(radius=1e-2), elastomer=SOLID, motion=Slide(speed=0.1, load=1.0), bem=BEM(points=64))
+SMOOTH = Case(
+    indenter=Sphere(radius=1e-2), elastomer=KELVIN, motion=Slide(speed=0.1, load=1.0), bem=BEM(points=64)
+)
 ROUGH = replace(SMOOTH, roughness=SelfAffine(hurst=0.2, rms_height=1e-5, longest=1e-2, shortest=1e-3, seed=1))
 TRUE, SCATTER, FLOOR = 0.1, 0.2, 0.5  # friction that is made, its scatter between surfaces, error of 1D
 BIAS = (0.0, 0.0025, 0.01, 0.04)  # relative, of the made grids from fine to coarse, the first two of the reference
 SECONDS = (nan, nan, 0.2, 0.05)
 COUNTS = (*pilot(4)[:-1], COARSEST)
-BEM_LADDER, MDR_LADDER = (
-    Ladder.of(Model.of(BEM(points=128)), ROUGH.scene, True),
-    Ladder.of(Model.of(MDR()), ROUGH.scene),
-)
+BEM_LADDER = Ladder.of(Model.of(BEM(points=128)), ROUGH.scene, True)
 
 
 @pytest.fixture(autouse=True)
@@ -84,11 +83,16 @@ def smooth(values):
     """Ways of 3D on one smooth body, with errors made to order on grids from fine to coarse."""
     own = dataset(np.array(values)[:, None], SECONDS[: len(values)], (512, 256, 128, 64))
     of = truth(own)
-    return of, list(errors.ways("made", "friction", BEM_LADDER, own, of, of.biases))
+    return of, list(ways_of(own, of))
+
+
+def ways_of(own, of):
+    return errors.ways("made", "friction", BEM_LADDER, own, of, of.biases)
 
 
 def of_line(line, of):
-    return next(errors.ways("made", "friction", MDR_LADDER, line, of, errors.against(line, "friction", of)))
+    own = Ladder.of(Model.of(MDR()), ROUGH.scene)
+    return next(errors.ways("made", "friction", own, line, of, errors.against(line, "friction", of)))
 
 
 def way(bias=0.0, reach=0.0, processor=0.1, setup=0.0):
@@ -183,7 +187,7 @@ def test_truth_and_floor_are_within_their_intervals_as_often_as_they_say():
 def test_the_bias_of_a_grid_is_found_far_below_the_scatter():
     """Only the grid differs: allowed is a tenth of what eight surfaces scatter by, a fifth with its interval."""
     of = truth(surfaces())
-    found = list(errors.ways("made", "friction", BEM_LADDER, surfaces(), of, of.biases))
+    found = list(ways_of(surfaces(), of))
     for each, expected in zip(found, BIAS[2:], strict=True):
         assert each.bias == pytest.approx(expected * TRUE / of.scale, abs=0.1 * SCATTER / sqrt(8))
         assert abs(each.bias) < each.most < abs(each.bias) + 0.2 * SCATTER / sqrt(8)
@@ -212,7 +216,7 @@ def test_corrected_by_the_true_ratio_1d_keeps_no_error_and_by_a_wrong_one_it_doe
 
 def test_no_other_surfaces_on_the_grids_give_a_smaller_error_in_the_same_time():
     of = truth(surfaces())
-    finest = next(errors.ways("made", "friction", BEM_LADDER, surfaces(), of, of.biases))
+    finest = next(ways_of(surfaces(), of))
     found = errors.sampled(finest, "friction", BEM_LADDER, surfaces(), of)
     values, strata = errors.values(surfaces(), "friction"), surfaces()["stratum"].values
     own = [np.std((values[2] - values[3])[strata == 2], ddof=1), np.std(values[3, strata == 3], ddof=1)]
@@ -227,13 +231,14 @@ def judged(case, **models):
     study = WorkPrecision.of({"made": case}, **models)
     outcomes = {task: task.solve() for batch in study.batches() for task in batch.tasks}
     found = study.judge(study.answers(outcomes))
-    return study, found, {table.name: table.frame for table in found.page("", xarray.DataTree()).every(Table)}
+    tables = {table.name: table.frame for table in found.page("", xarray.DataTree()).every(Table)}
+    return study, found, found.plots[0].tables | tables
 
 
 def test_a_page_has_errors_and_times_of_what_solves_and_the_reasons_of_what_does_not():
     """A thin layer, which 1D refuses, with a model that is off the map."""
     study, found, tables = judged(replace(SMOOTH, layer=Layer(thickness=1e-3), bem=BEM(points=32)))
-    ways = found.plots[0].tables["workprecision-ways"]
+    ways = tables["workprecision-ways"]
     solved = ways[ways["bias"].notna()]
     assert set(solved["model"]) == {"BEM"}
     fine, coarse = (BEM(points=n).solve(study.cases["made"].scene).friction_coefficient for n in (128, 32))
@@ -259,7 +264,7 @@ def test_a_rough_scene_has_means_over_surfaces_and_the_curve_of_intervals(monkey
     models = list(tables["workprecision-times"]["model"])
     assert [each for each in models if models.count(each) == 2] == models
     assert set(models) == {"1D", "1D corrected", "3D", "3D, interval"}
-    ways = found.plots[0].tables["workprecision-ways"]
+    ways = tables["workprecision-ways"]
     assert (ways.loc[ways["settings"] == INTERVAL, "scatter"] > 0).all()
     setup = 0.3 - CorrectedMDR().profiles * 1e-3
     assert ways.loc[ways["model"] == "CorrectedMDR", "setup"].tolist() == pytest.approx([setup, setup])
@@ -268,8 +273,8 @@ def test_a_rough_scene_has_means_over_surfaces_and_the_curve_of_intervals(monkey
 
 def test_errors_at_rest_are_those_of_the_closed_form():
     case = replace(SMOOTH, motion=Indent(load=1.0))
-    _, found, _ = judged(case, models=["mdr", "bem"])
-    ways = found.plots[0].tables["workprecision-ways"].set_index("settings")
+    _, _, tables = judged(case, models=["mdr", "bem"])
+    ways = tables["workprecision-ways"].set_index("settings")
     for solver in (BEM(points=32), MDR(points=625)):
         error = solver.solve(case.scene).depth / elastic_contact(case.scene).depth - 1
         assert ways.loc[f"{solver.points} points", "bias"] == pytest.approx(error, abs=1e-12)

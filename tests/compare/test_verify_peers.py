@@ -3,14 +3,14 @@
 import importlib
 import re
 import sys
-from pathlib import Path
 
 import pytest
+from imports import ROOT
 from test_compare_checks import failed, judged
 
 from compare.statistics.finding import HOLDS, REPORTED
 
-PAGE = Path(__file__).parents[2] / "docs" / "howto" / "verify.md"
+PAGE = ROOT / "docs" / "howto" / "verify.md"
 # Of the peers, not of ours: without mpi4py, NuMPI warns on import that it stands in for it.
 pytestmark = pytest.mark.filterwarnings("ignore:Could not import mpi4py:ImportWarning")
 
