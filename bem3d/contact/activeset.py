@@ -85,8 +85,8 @@ def solve(
         level = mean if depth is None else depth
         inside, outside = sums.gaps(displacement, heights, level, contact, gap)
         aim = tolerance * max(level - lowest, highest - lowest, least)
+        violation = max(inside, outside) / aim * tolerance
         if inside <= aim and outside <= aim:
-            violation = max(inside, outside) / aim * tolerance
             return Contact(pressure, displacement, gap, level, lowest, violation, rounds)
         if inside <= max(aim, ADDED * outside):
             contact |= gap < -aim
@@ -105,7 +105,6 @@ def solve(
         if not pressure.any():  # a poor start, solved too roughly: begin again with what overlaps, and closer
             pressure, accuracy = np.maximum(level - heights, 0.0), accuracy / 4
         _balance(pressure, load)
-    violation = max(inside, outside) / aim * tolerance
     raise NotConverged(f"after {most} sets of contact the violation is {violation:.2e}, wanted {tolerance:.2e}")
 
 
@@ -135,7 +134,7 @@ def _levels(displacement, heights, where):
 
 
 def _balance(pressure, load):
-    if load is not None:
+    if load is not None and pressure.any():
         pressure *= load / pressure.sum()
 
 

@@ -102,7 +102,7 @@ def _lines(path, stated, most_bytes):
         raise ValueError(f"{name}: there is no row in it")
     unquoted = re.sub('"[^"]*"', "", lines[start]).replace(stated.decimal or " ", " ")
     own = next((each for each in "\t;," if each in unquoted), " ")
-    return name, lines, start, SEPARATORS.get(stated.separator, stated.separator) or own
+    return name, lines, start, SEPARATORS.get(stated.separator) or own
 
 
 def _split(line, separator):
