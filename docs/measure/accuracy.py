@@ -6,23 +6,22 @@ python docs/measure/accuracy.py
 """
 
 from math import pi, radians, sqrt, tan
-from pathlib import Path
 
 import numpy as np
 import pandas
-from tables import fill, order, stored, table
+from tables import RESULTS, fill, order, stored, table
 
 from bem3d import BEM
 from compare.figures import style
 from mdr1d import MDR
 from scene import Cone, Elastic, Indent, Scene, Slide, Sphere, StandardLinearSolid
 
-PAGE = Path(__file__).parents[1] / "results" / "accuracy.md"
+PAGE = RESULTS / "accuracy.md"
 G, R, THETA, TAU, DEPTH = 1e6, 10e-3, radians(10), 1e-3, 1e-4
 RADIUS = sqrt(R * DEPTH)
 HERTZ = 4 / 3 * 4 * G * sqrt(R) * DEPTH**1.5
 POINTS = (16, 23, 32, 45, 64, 91, 128, 181, 256)
-REST, SLIDING = (PAGE.with_suffix("") / f"{name}.csv" for name in ("rest", "sliding"))
+REST, SLIDING = RESULTS / "accuracy/rest.csv", RESULTS / "accuracy/sliding.csv"
 # Sphere on a standard linear solid under a load: v tau_c [m], depth [m] and mu R [m] of two other codes.
 PUBLISHED = {1e-4: (99.824e-6, 45.249e-6), 1e-3: (91.508e-6, 157.664e-6), 1e-2: (70.553e-6, 41.906e-6)}
 
@@ -73,10 +72,9 @@ def _at_rest(found):
 
 
 def _sliding(found):
-    for row, published in zip(found.itertuples(), PUBLISHED.values(), strict=True):
-        pairs = zip((row.depth, row.moment), published, strict=True)
-        own = f"{1e3 * row.memory:g}", f"{1e3 * row.depth:.6f}", f"{1e3 * row.moment:.6f}"
-        yield *own, *(f"{value / other - 1:+.3%}" for value, other in pairs)
+    for memory, *own in found.to_numpy():
+        off = (f"{value / other - 1:+.3%}" for value, other in zip(own, PUBLISHED[memory], strict=True))
+        yield f"{1e3 * memory:g}", *(f"{1e3 * value:.6f}" for value in own), *off
 
 
 def figure(rest):
@@ -97,8 +95,8 @@ def figure(rest):
 
 def main():
     """Measure, and write the numbers, the figure and the parts of the page."""
-    for path, measure in ((REST, at_rest), (SLIDING, sliding)):
-        stored(path, measure())
+    stored(REST, at_rest())
+    stored(SLIDING, sliding())
     with style.applied():
         figure(pandas.read_csv(REST)).savefig(PAGE.with_suffix(".png"), dpi=200)
     fill(PAGE, parts())

@@ -9,7 +9,6 @@ import re
 import sys
 from contextlib import redirect_stdout
 from io import StringIO
-from pathlib import Path
 
 import accuracy
 import benchmark
@@ -22,17 +21,14 @@ import rates
 import regime
 import spectrum
 import trust
-from tables import fill, finding, stored, table
+from tables import RESULTS, fill, finding, stored, table
 
 import compare
 from compare.solving.words import interval, number
 from compare.studies.comparison.study_file import STUDIES
 
-PAGE = Path(__file__).parents[1] / "results" / "answers.md"
-DOCS, README = PAGE.parent, PAGE.parents[2] / "README.md"
-PAPER = DOCS.parent / "joss" / "paper.md"
-STANDARD = DOCS / "study" / "standard"
-RUN = DOCS / "answers" / "run.csv"
+PAGE, RUN, STANDARD = (RESULTS / name for name in ("answers.md", "answers/run.csv", "study/standard"))
+README, PAPER = RESULTS.parents[1] / "README.md", RESULTS.parent / "joss/paper.md"
 EXAMPLE = "scene, "  # first words of the table
 ALONE = "1D", "3D"
 BODIES, SCENES = ("sphere", "cone"), ("paper-sphere", "paper-cone")
@@ -56,22 +52,12 @@ IN_REGIME = {
     "eq23.predicted": "regime of the paper: misfit, shifted as Eq. 22 predicts",
 }
 MISFITS, FORCES = "eq23", "force.ratio.rough"
-FILLED = (
-    accuracy,
-    benchmark,
-    effects,
-    equations,
-    law,
-    promises,
-    rates,
-    regime,
-    trust,
-)  # scripts with parts of pages
+FILLED = accuracy, benchmark, effects, equations, law, promises, rates, regime, trust  # with parts of pages
 
 
 def parts():
     """Text between two comments, by the page and the name of the comment."""
-    run, slow, fast = (pandas.read_csv(each) for each in (RUN, regime.SLOW, regime.FAST))
+    run, slow, fast = map(pandas.read_csv, (RUN, regime.SLOW, regime.FAST))
     answer, example = _answer(run, fast), RUN.with_name("example.txt").read_text(encoding="utf-8")
     found = {
         (PAGE, "run"): table("|rough sphere|rough cone", _of_run(run)),
@@ -103,10 +89,8 @@ def _of_study(in_regime):
 def _answer(run, fast):
     """Three points: on the smooth body at rest, on friction by 1D and its correction, and on the law in 3D."""
     smooth = run[run["claim"] == "force.ratio.smooth"]["value"].abs().max()
-    slow, rough = (
-        finding(run, f"friction.ratio.{name}", SCENES[0], "1D/3D")["value"] for name in ("smooth-slow", "own")
-    )
-    missed = {name: 100 * finding(fast, "eq23.predicted", "sphere", name)["value"] for name in ALONE}
+    slow, rough = (finding(run, claim, SCENES[0], model)["value"] for claim, model in [*OF_RUN][:2])
+    one, three = (100 * finding(fast, "eq23.predicted", "sphere", name)["value"] for name in ALONE)
     half, most, count = law.errors_of("law")
     return "\n".join(
         [
@@ -114,7 +98,7 @@ def _answer(run, fast):
             f"- **Friction: correct 1D.** 1D has {slow:.2f} times the friction of a slow, smooth sphere in 3D, "
             f"and {rough:.2f} times the friction of the paper's rough one. {trust.corrected()}",
             "- **Master curve of the paper: 1D alone.** Shifted as the paper prescribes, the curves agree to "
-            f"{missed['1D']:.1f} % in 1D but only to {missed['3D']:.0f} % in 3D. In 3D, friction is the friction "
+            f"{one:.1f} % in 1D but only to {three:.0f} % in 3D. In 3D, friction is the friction "
             "of the smooth body plus a share of what the roughness would add in full contact. This "
             f"[law](docs/results/law.md), corrected by the trust map, is within {half:.1f} % of 3D for half of "
             f"{count} unseen contacts, and within {most:.1f} % for nine in ten.",

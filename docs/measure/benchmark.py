@@ -11,17 +11,15 @@ import re
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 import numpy as np
 import pandas
-from tables import fill, stored, table
+from tables import RESULTS, fill, stored, table
 
 from bem3d import BEM, heights
 from scene import Elastic, Indent, Plane, Scene, SelfAffine
 
-PAGE = Path(__file__).parents[1] / "results" / "workprecision.md"
-MEASURED = PAGE.with_suffix("") / "benchmark.csv"
+PAGE, MEASURED = RESULTS / "workprecision.md", RESULTS / "workprecision/benchmark.csv"
 GRIDS = 1024, 2048  # points a side
 ELASTIC = Elastic(0.25)  # E* = 4G = 1
 SLOPE, PRESSURE = 0.1, 0.0035

@@ -17,7 +17,7 @@ import numpy as np
 import pandas
 from pandas import DataFrame
 from pydantic import TypeAdapter
-from tables import fill, solved, stored, table
+from tables import RESULTS, fill, solved, stored, table
 
 import bem3d.plan
 import mdr1d.plan
@@ -29,8 +29,7 @@ from mdr1d import MDR
 from scene import Scene
 from scene.plan import two_digits
 
-PAGE = Path(__file__).parents[1] / "results" / "workprecision.md"
-MEASURED = PAGE.with_suffix("") / "effects.csv"
+PAGE, MEASURED = RESULTS / "workprecision.md", RESULTS / "workprecision/effects.csv"
 SOLVERS = {"3D": BEM(points=256, steps=40), "1D": MDR(points=5000, steps=40)}
 WRITTEN = Path(__file__).with_suffix(".toml")
 TABLES = {"3D": bem3d.plan.EFFECTS, "1D": mdr1d.plan.EFFECTS}

@@ -5,12 +5,11 @@ python docs/measure/equations.py   takes some minutes
 
 from dataclasses import replace
 from math import ceil, pi, radians, sin
-from pathlib import Path
 
 import numpy as np
 import pandas
 from pandas import DataFrame
-from tables import fill, stored, table
+from tables import RESULTS, fill, stored, table
 
 from compare.statistics.jackknife import mean_ratio
 from mdr1d import MDR
@@ -18,8 +17,7 @@ from mdr1d import equations as eq
 from scene import Cone, Fractional, Indent, Kelvin, Scene, SelfAffine, Slide, Sphere
 from scene.scales import elastic_contact
 
-PAGE = Path(__file__).parents[1] / "results" / "paper.md"
-MEASURED = PAGE.with_suffix("") / "equations.csv"
+PAGE, MEASURED = RESULTS / "paper.md", RESULTS / "paper/equations.csv"
 G, TAU, PROFILES = 1e6, 1e-3, 20
 KELVIN = Kelvin(G, TAU)
 # Bodies with their loads, on the roughness of Fig. 4, which its grid cuts off, and on one of the slope 0.1.

@@ -13,7 +13,7 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 from PIL import Image
-from tables import friction, solved, stored
+from tables import RESULTS, friction, solved, stored
 
 import compare
 from bem3d import BEM
@@ -26,8 +26,7 @@ from compare.studies.comparison.study_file import STUDIES
 from mdr1d import MDR, equations
 from scene import Kelvin, Scene, Slide, Sphere
 
-PAGE = Path(__file__).parents[1] / "results" / "hero.png"
-NUMBERS, STEEP_CONTACTS = PAGE.with_suffix(".csv"), PAGE.parent / "law" / "steep.csv"
+PAGE, NUMBERS, STEEP_CONTACTS = (RESULTS / name for name in ("hero.png", "hero.csv", "law/steep.csv"))
 STEEP = STUDIES["regime"].series("full")[0]
 SCENE = replace(STEEP.scene, roughness=replace(STEEP.scene.roughness, seed=0))
 LEAST, *_, MOST = STEEP.values

@@ -7,14 +7,13 @@ python docs/measure/law.py solve   solves these scenes first, as far as they are
 import sys
 from dataclasses import dataclass, replace
 from math import inf
-from pathlib import Path
 
 import design
 import numpy as np
 import pandas
 from design import drawn_points, scene_at, within
 from pandas import DataFrame
-from tables import fill, friction, of_count, solved, stored, table
+from tables import RESULTS, fill, friction, of_count, solved, stored, table
 
 from bem3d import BEM
 from compare import FrictionLaw, Persson
@@ -25,8 +24,7 @@ from mdr1d import MDR
 from scene import Scene, Slide
 from scene.scales import elastic_contact
 
-PAGE = Path(__file__).parents[1] / "results" / "law.md"
-ERRORS, SCENES = (PAGE.with_suffix("") / name for name in ("errors.csv", "scenes"))
+PAGE, ERRORS, SCENES = (RESULTS / name for name in ("law.md", "law/errors.csv", "law/scenes"))
 # Number of scenes and seed of each set: drawn evenly, and two in three of them where the bare law is far off.
 SETS = {"fresh": (640, 36_200), "regions": (240, 53_100)}
 FAST, BLUNT, EVENLY = REGIONS = "spheres on a fast Kelvin solid", "blunt bodies", "drawn evenly"

@@ -9,7 +9,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import nan, pi
-from pathlib import Path
 
 import numpy as np
 import pandas
@@ -17,7 +16,7 @@ from design import RADIUS, SPEED, between, solid_at
 from pandas import DataFrame
 from scipy.optimize import least_squares
 from scipy.stats import qmc
-from tables import friction, solved, stored
+from tables import RESULTS, friction, solved, stored
 
 from bem3d import BEM
 from bem3d.heights import heights
@@ -27,7 +26,7 @@ from compare.models.law.parts import FITTED, Share, coefficients, waves
 from compare.solving.task import SceneTask, draws_of
 from scene import Plane, Scene, SelfAffine, Slide
 
-PAGE = Path(__file__).parents[1] / "results" / "law" / "planes.md"
+TABLE = RESULTS / "law/planes.csv"
 PLANES, SEED, SURFACE_SEEDS = 250, 36_001, 1000
 HELD_OUT = 5  # every fifth plane is held out
 BREADTHS = 4.0, 32.0  # longest over shortest wave
@@ -126,7 +125,7 @@ def rows(found, outcomes):
 
 def planes():
     """Planes with their share on ever finer grids: what those with a finer one differ by is alike for all."""
-    found = pandas.read_csv(PAGE.with_suffix(".csv")).assign(one=1.0)
+    found = pandas.read_csv(TABLE).assign(one=1.0)
     columns = np.stack([found["one"], found["lossy"], np.log(found["x"])], axis=1)
     seen = found["friction_finer"].notna().to_numpy()
     change = columns @ np.linalg.lstsq(columns[seen], found["friction_finer"][seen], rcond=None)[0]
@@ -169,15 +168,14 @@ def fit():
     low, high = np.quantile(drawn, [0.025, 0.975], axis=0)
     numbers = DataFrame({"value": best, "low": low, "high": high}).map("{:.4g}".format)
     stored(FITTED, DataFrame([*coefficients()], columns=["to", "times"]).join(numbers))
-    stored(PAGE.with_name("share.csv"), misfits(found[held], best))
+    stored(RESULTS / "law/share.csv", misfits(found[held], best))
 
 
 def main(only=""):
     """Solve what is not solved yet, write what was found, and fit."""
     if not only:
         found = list(contacts())
-        outcomes = solved(PAGE, [task for each in found for task in each.tasks])
-        stored(PAGE.with_suffix(".csv"), rows(found, outcomes))
+        stored(TABLE, rows(found, solved(TABLE, [task for each in found for task in each.tasks])))
     fit()
 
 

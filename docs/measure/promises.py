@@ -10,14 +10,13 @@ python docs/measure/promises.py [learn|fit|costs]
 
 import sys
 from dataclasses import replace
-from pathlib import Path
 
 import friction_errors as errors
 import pandas
 import promised
 from pandas import DataFrame
 from random_contacts import drawn
-from tables import fill, of_count, solved, stored, table
+from tables import RESULTS, fill, of_count, solved, stored, table
 
 from bem3d import BEM
 from bem3d.costs import MEASURED, band, body
@@ -26,8 +25,7 @@ from compare.solving.cost import work_of
 from compare.solving.task import SceneTask
 from scene import Indent
 
-PAGE = Path(__file__).parents[1] / "results" / "accuracy.md"
-FOLDER = PAGE.with_suffix("")
+PAGE, FOLDER = RESULTS / "accuracy.md", RESULTS / "accuracy"
 SOLVED, STATED, KEPT, TABLE = (FOLDER / name for name in ("promises", "errors.csv", "kept.csv", "learned.csv.gz"))
 LEARNED = *range(300), *range(9000, 9180), *range(11000, 11180)  # seeds of contacts that bounds are fitted to
 HELD_OUT = range(13000, 13180)  # and of those that they are tested on

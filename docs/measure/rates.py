@@ -6,11 +6,10 @@ Friction is drawn with an answer that is known. It takes minutes on one core; ev
 """
 
 from math import sqrt
-from pathlib import Path
 
 import numpy as np
 import pandas
-from tables import fill, stored, table
+from tables import RESULTS, fill, stored, table
 
 from compare.statistics import eq23
 from compare.statistics.collapse import collapse
@@ -19,8 +18,8 @@ from compare.statistics.intervals import student
 from compare.statistics.jackknife import mean_ratio
 from mdr1d.equations import interpolation
 
-PAGE = Path(__file__).parents[1] / "results" / "accuracy.md"
-MEANS, VERDICTS = (PAGE.with_suffix("") / f"rates-{name}.csv" for name in ("means", "verdicts"))
+PAGE = RESULTS / "accuracy.md"
+MEANS, VERDICTS = (RESULTS / f"accuracy/rates-{name}.csv" for name in ("means", "verdicts"))
 SEED = 2014
 # As in the studies [m/s], [N].
 SPEED_RANGE, LOAD_RANGE = (7.5e-3, 2.0), (0.2, 20.0)

@@ -8,12 +8,11 @@ and a half hours on two cores.
 
 import shutil
 from math import hypot
-from pathlib import Path
 
 import numpy as np
 import pandas
 from pandas import DataFrame
-from tables import fill, finding, stored, table, with_interval
+from tables import RESULTS, fill, finding, stored, table, with_interval
 
 import compare
 from compare.solving.curve import COARSE, FINE, of_model
@@ -25,8 +24,7 @@ from compare.statistics.jackknife import mean_ratio
 from compare.studies.comparison import asked, study_file
 from compare.studies.comparison.claims import ENDS
 
-PAGE = Path(__file__).parents[1] / "results" / "law.md"
-SLOW, FAST = (PAGE.with_suffix("") / f"{name}.csv" for name in ("slow", "fast"))
+PAGE, SLOW, FAST = (RESULTS / name for name in ("law.md", "law/slow.csv", "law/fast.csv"))
 STUDIES = "steep-and-slow", "steep-all-speeds", "steep-on-fine-grids"
 SOLVERS = {"1D": "MDR", "3D": "BEM"}
 PLAIN = "eq23.collapse", "eq23.predicted", "eq23.vertical-alone"

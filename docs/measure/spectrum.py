@@ -6,13 +6,12 @@ memory.
 
 from dataclasses import dataclass, replace
 from math import nan
-from pathlib import Path
 
 import numpy as np
 import pandas
 from matplotlib.patches import Circle
 from pandas import DataFrame
-from tables import limit, solved, stored
+from tables import RESULTS, limit, solved, stored
 
 from bem3d import BEM, refined
 from compare.figures import style
@@ -21,7 +20,7 @@ from compare.studies.paper import parameters
 from mdr1d import MDR
 from scene.scales import elastic_contact
 
-PAGE = Path(__file__).parents[1] / "results" / "answers" / "spectrum.md"
+TABLE = RESULTS / "answers/spectrum.csv"
 ONE, PROFILES = 11000, 20  # points of the line, and profiles
 GRID, TIMES = 4096, (2, 4)  # points a side, all solved; factors by which points that touch are refined
 SHAPES = "sphere", "cone"
@@ -52,14 +51,14 @@ def main():
     """Solve what is not solved yet, and write the table and the figure."""
     tasks = {shape: _tasks(shape) for shape in SHAPES}
     # The finest takes 8 GB: one at a time.
-    outcomes = solved(PAGE, [task for each in tasks.values() for task in each], workers=1)
+    outcomes = solved(TABLE, [task for each in tasks.values() for task in each], workers=1)
     rows = [_row(shape, task, outcomes[task].rows) for shape, each in tasks.items() for task in each]
     frame = DataFrame(rows)
-    stored(PAGE.with_suffix(".csv"), frame)
+    stored(TABLE, frame)
     finest = tasks["sphere"][-2]
     with style.applied():
         drawing = figure(frame, finest.scenes[0], outcomes[finest])
-        drawing.savefig(PAGE.with_suffix(".png"), dpi=200)
+        drawing.savefig(TABLE.with_suffix(".png"), dpi=200)
 
 
 def _tasks(shape):
@@ -85,7 +84,7 @@ def _row(shape, task, rows):
 
 def sentences():
     """Friction of both bodies in 3D, between its estimates, and in 1D, from what is stored."""
-    found, said = pandas.read_csv(PAGE.with_suffix(".csv")), []
+    found, said = pandas.read_csv(TABLE), []
     for shape, own in found.groupby("shape", sort=False):
         three, (one,) = own[own["dimension"] == "3D"], own[own["dimension"] == "1D"]["friction"]
         (low, high), slope = ends(three), three["rms_slope"].iloc[0]

@@ -6,8 +6,7 @@ python docs/measure/steep.py   solves what is not solved yet, and writes results
 from dataclasses import replace
 from math import pi
 
-from planes import PAGE as PLANES
-from tables import friction, solved, stored
+from tables import RESULTS, friction, solved, stored
 
 from bem3d import BEM
 from compare.solving.task import SceneTask, draws_of
@@ -16,7 +15,7 @@ from compare.studies.comparison.study_file import STUDIES
 from compare.trustmap.friction_law import FrictionLaw
 from scene import Slide
 
-PAGE = PLANES.with_name("steep.md")
+TABLE = RESULTS / "law/steep.csv"
 SPEEDS = 0.06, 0.3, 1.0, 3.5, 12.0, 35.0, 100.0  # v tau q_s
 # Points a side, 9 pixels to the shortest wave and more; surfaces, and those on twice the points too.
 POINTS, SURFACES, FINER = 960, 4, 1
@@ -44,13 +43,13 @@ def tasks(scene):
 def main():
     """Solve what is not solved yet, and write friction in 3D, on ever finer grids, and by the law."""
     found = list(contacts())
-    outcomes = solved(PAGE, [task for *_, scene in found for task in tasks(scene)])
+    outcomes = solved(TABLE, [task for *_, scene in found for task in tasks(scene)])
     rows = (
         {"body": body, "load": load, "speed": speed}
         | shares(scene, *(outcomes[task].rows for task in tasks(scene)))
         for body, load, speed, scene in found
     )
-    stored(PAGE.with_suffix(".csv"), rows)
+    stored(TABLE, rows)
 
 
 def shares(scene, *rows):

@@ -1,7 +1,7 @@
 """What the measured pages share: solving what is not solved yet, with a bar, and the tables of a page."""
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +15,8 @@ from compare.solving.task import Outcome, Row, Task
 from compare.solving.terminal import Shown
 from compare.statistics.intervals import Estimated
 from compare.statistics.jackknife import mean_ratio
+
+RESULTS = Path(__file__).parents[1] / "results"
 
 
 def table(header: str, rows: Iterable[Iterable[str]]) -> str:
@@ -30,8 +32,7 @@ def stored(path: Path, rows: DataFrame | Iterable[dict]) -> None:
 
 def finding(found: DataFrame, claim: str, where: str, model: str) -> Series:
     """The row on a claim in a place, of one model."""
-    ((_, row),) = found[(found[["claim", "where", "model"]] == [claim, where, model]).all(axis=1)].iterrows()
-    return row
+    return found.query("claim == @claim and where == @where and model == @model").squeeze()
 
 
 def with_interval(row: Series | Mapping, digits: int = 3, percent: bool = False) -> str:
@@ -53,11 +54,10 @@ def limit(values) -> float:
     return values[-1] + second / (ratio - 1) if ratio > 1 else np.nan
 
 
-def of_count(held: int, tried: int) -> tuple[float, float]:
+def of_count(held: int, tried: int) -> np.ndarray:
     """Interval of 95 % of a share, from how many of those tried it held for (Clopper and Pearson)."""
-    low = betaincinv(held, tried - held + 1, 0.025) if held else 0.0
-    high = betaincinv(held + 1, tried - held, 0.975) if held < tried else 1.0
-    return float(low), float(high)
+    ends = betaincinv([held, held + 1], [tried - held + 1, tried - held], [0.025, 0.975])
+    return np.where(np.isnan(ends), [0, 1], ends)
 
 
 def fill(page: Path, parts: Mapping[str, str]) -> None:
@@ -69,10 +69,9 @@ def fill(page: Path, parts: Mapping[str, str]) -> None:
     page.write_text(text, encoding="utf-8")
 
 
-def friction(rows: Sequence[Row]) -> Estimated:
+def friction(rows: Iterable[Row]) -> Estimated:
     """Mean friction force over mean normal force of those with an answer."""
-    forces = [(each.friction_force, each.normal_force) for each in rows if each.reason is None]
-    return mean_ratio(*np.reshape(forces, (-1, 2)).T)
+    return mean_ratio(*np.transpose([(each.friction_force, each.normal_force) for each in rows]))
 
 
 def solved(
