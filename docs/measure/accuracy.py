@@ -9,7 +9,7 @@ from math import pi, radians, sqrt, tan
 
 import numpy as np
 import pandas
-from tables import RESULTS, fill, order, stored, table
+from tables import RESULTS, cells, fill, order, stored, table
 
 from bem3d import BEM
 from compare.figures import style
@@ -57,10 +57,12 @@ def sliding():
 def parts():
     """Text between two comments of the page, by the name of the comment."""
     memory = "v τ_c, mm|depth, mm|μR, mm|against other codes: depth|μR"
+    shown = "{memory:g}|{depth:.6f}|{moment:.6f}|{depth_off:+.3%}|{moment_off:+.3%}"
     rest, slid = map(pandas.read_csv, (REST, SLIDING))
+    off = slid[["depth", "moment"]] / np.array([*PUBLISHED.values()]) - 1
     return {
         "rest": table("shape|solver|16 points|64 points|256 points|observed order", _at_rest(rest)),
-        "sliding": table(memory, _sliding(slid)),
+        "sliding": table(memory, cells(shown, (1e3 * slid).join(off, rsuffix="_off"))),
     }
 
 
@@ -69,12 +71,6 @@ def _at_rest(found):
         shown = own.set_index("points")["error"][[16, 64, 256]].map("{:.1e}".format)
         errors = own["error"]
         yield shape, solver, *shown, f"{order(own['points'], errors):.1f}" if errors.min() > 1e-13 else "exact"
-
-
-def _sliding(found):
-    for memory, *own in found.to_numpy():
-        off = (f"{value / other - 1:+.3%}" for value, other in zip(own, PUBLISHED[memory], strict=True))
-        yield f"{1e3 * memory:g}", *(f"{1e3 * value:.6f}" for value in own), *off
 
 
 def figure(rest):

@@ -14,7 +14,7 @@ import time
 
 import numpy as np
 import pandas
-from tables import RESULTS, fill, stored, table
+from tables import RESULTS, cells, fill, stored, table
 
 from bem3d import BEM, heights
 from scene import Elastic, Indent, Plane, Scene, SelfAffine
@@ -113,12 +113,8 @@ def alone(name, n):
 def parts():
     """Text between two comments of the page, by the name of the comment."""
     found = pandas.read_csv(MEASURED)
-    own = found[found["code"] == "this"].set_index("points")["seconds"]
-    times = found["seconds"] / found["points"].map(own)
-    shown = (
-        (f"{row.points}²", row.code, f"{row.iterations}", f"{row.error:.1e}", f"{row.seconds:.3g}", f"{over:.1f}")
-        for row, over in zip(found.itertuples(), times, strict=True)
-    )
+    found["over"] = found["seconds"] / found.groupby("points")["seconds"].transform("first")
+    shown = cells("{points}²|{code}|{iterations}|{error:.1e}|{seconds:.3g}|{over:.1f}", found)
     return {"benchmark": table("points|code|iterations|error|processor time [s]|over this", shown)}
 
 

@@ -23,6 +23,7 @@ import bem3d.plan
 import mdr1d.plan
 from bem3d import BEM
 from bem3d.surface import RoughSurface
+from compare.solving.cost import work_of
 from compare.solving.task import Row
 from compare.studies.workprecision.ladder import TimedSolve
 from mdr1d import MDR
@@ -76,16 +77,11 @@ def effects():
 def tasks():
     """A solve for each dimensionality and title, except for effects that the solver refuses."""
     return {
-        (name, effect.title): TimedSolve(solver, (effect.scene,), work=_work(solver, effect))
+        (name, effect.title): TimedSolve(solver, (effect.scene,), work=work_of(solver, effect.scene))
         for name, solver in SOLVERS.items()
         for effect in effects()
         if not solver.refusals(effect.scene)
     }
-
-
-def _work(solver, effect):
-    steps = 20.0 * solver.steps if effect.scene.motion.type == "program" else 300.0
-    return steps * (solver.points if solver.name == "MDR" else solver.points**2)
 
 
 def table_of(outcomes):

@@ -13,7 +13,7 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 from PIL import Image
-from tables import RESULTS, friction, solved, stored
+from tables import RESULTS, friction, solved, stored, task
 
 import compare
 from bem3d import BEM
@@ -21,7 +21,6 @@ from compare.figures import contact, style
 from compare.figures.curves import intervals
 from compare.figures.shades import SPEED, between
 from compare.report.csvfiles import read
-from compare.solving.task import SceneTask, draws_of
 from compare.studies.comparison.study_file import STUDIES
 from mdr1d import MDR, equations
 from scene import Kelvin, Scene, Slide, Sphere
@@ -134,19 +133,15 @@ def shifted(load, speed):
 def measured():
     """Mean friction over mean load of some rough surfaces, with its interval, at each speed and load by model."""
     tasks = {
-        (solver, speed, load): SceneTask(
-            solver, draws_of(replace(SCENE, motion=Slide(speed=speed, load=load)), draws)
-        )
+        (solver, speed, load): task(solver, replace(SCENE, motion=Slide(speed=speed, load=load)), draws)
         for solver, draws in DRAWS.items()
         for load in LOADS.tolist()
         for speed in SPEEDS
     }
     outcomes = solved(PAGE, tasks.values())
-    for (solver, speed, load), task in tasks.items():
-        found = friction(outcomes[task].rows)
-        low, high = found.interval()
-        row = {"solver": solver.name, "speed": speed, "load": load, "friction": found.value}
-        yield row | {"friction_low": low, "friction_high": high}
+    for (solver, speed, load), asked in tasks.items():
+        row = {"solver": solver.name, "speed": speed, "load": load}
+        yield row | friction(outcomes[asked].rows).columns("friction")
 
 
 if __name__ == "__main__":

@@ -16,14 +16,14 @@ from design import RADIUS, SPEED, between, solid_at
 from pandas import DataFrame
 from scipy.optimize import least_squares
 from scipy.stats import qmc
-from tables import RESULTS, friction, solved, stored
+from tables import RESULTS, friction, solved, stored, task
 
 from bem3d import BEM
 from bem3d.heights import heights
 from compare.models.exact import full_contact
 from compare.models.law.bands import Bands, FullContact
 from compare.models.law.parts import FITTED, Share, coefficients, waves
-from compare.solving.task import SceneTask, draws_of
+from compare.solving.task import SceneTask
 from scene import Plane, Scene, SelfAffine, Slide
 
 TABLE = RESULTS / "law/planes.csv"
@@ -68,21 +68,17 @@ def tasks(scene, count, checked):
     rough = scene.roughness
     for points, draws in ((COARSE, count), *[(COARSE, CHECKED), (FINE, CHECKED)] * checked):
         side = 2 * round(points * rough.longest / rough.shortest / 2)
-        yield SceneTask(BEM(points=side), draws_of(scene, draws), work=float(draws * side**2))
+        yield task(BEM(points=side), scene, draws)
 
 
 def contacts():
     """All planes under all pressures, of a Sobol sequence."""
-    few, many = (
-        qmc.Sobol(DIMENSIONS, seed=seed).random(DRAWN)[:count].tolist()
-        for seed, count in ((SEED, PLANES), (WIDE_SEED, WIDE))
-    )
-    for number, place in enumerate([*few, *many]):
+    few, many = (qmc.Sobol(DIMENSIONS, seed=seed).random(DRAWN).tolist() for seed in (SEED, WIDE_SEED))
+    for number, place in enumerate([*few[:PLANES], *many[:WIDE]]):
         wide = number >= PLANES
         hurst, breadth, rolled, rolloff, kind, *others, speed, at, shift = place
         ratio = WIDE_BREADTH if wide else between(BREADTHS, breadth)
-        shortest = RADIUS / ratio
-        rolloffs = WIDE_ROLLOFFS if wide else (1.05, ratio)
+        shortest, rolloffs = RADIUS / ratio, WIDE_ROLLOFFS if wide else (1.05, ratio)
         rough = SelfAffine(
             hurst=hurst,
             rms_height=1e-7,
@@ -115,10 +111,10 @@ def rows(found, outcomes):
         yield {
             "plane": each.number,
             "x": motion.pressure / each.pressure,
-            "share": float(mean.value) * motion.pressure / each.friction,
-            "error": float(mean.error / mean.value),
-            "gap": float(np.nanmean([row.measures.get("mean_gap", nan) for row in coarse])) / rough.rms_height,
-            "friction_finer": float(fine / few - 1),
+            "share": mean.value * motion.pressure / each.friction,
+            "error": mean.error / mean.value,
+            "gap": np.nanmean([row.measures.get("mean_gap", nan) for row in coarse]) / rough.rms_height,
+            "friction_finer": fine / few - 1,
             **{name: value for name, value in each.waves.items() if name != "one"},
         }
 
@@ -127,8 +123,8 @@ def planes():
     """Planes with their share on ever finer grids: what those with a finer one differ by is alike for all."""
     found = pandas.read_csv(TABLE).assign(one=1.0)
     columns = np.stack([found["one"], found["lossy"], np.log(found["x"])], axis=1)
-    seen = found["friction_finer"].notna().to_numpy()
-    change = columns @ np.linalg.lstsq(columns[seen], found["friction_finer"][seen], rcond=None)[0]
+    finer = found["friction_finer"]
+    change = columns @ np.linalg.lstsq(columns[finer.notna()], finer.dropna(), rcond=None)[0]
     # Halving the pixel once more changes half as much again, and so on.
     return found.assign(share=found["share"] * (1 + 2 * change))
 
@@ -147,12 +143,12 @@ def off(found, values):
 
 def misfits(found, values):
     """Misfit of planes held out by their pressure: median, nine in ten, and the standard error of the planes."""
-    misfit = np.abs(off(found, values))
+    found = found.assign(misfit=np.abs(off(found, values)))
     for low, high in pairwise(PLACES):
-        own = found["x"].between(low, high).to_numpy()
-        median, most = np.quantile(misfit[own], (0.5, 0.9))
-        row = {"from": low, "to": high, "planes": own.sum(), "median": median, "nine in ten": most}
-        yield row | {"error": found["error"][own].median()}
+        own = found[found["x"].between(low, high)]
+        median, most = np.quantile(own["misfit"], (0.5, 0.9))
+        row = {"from": low, "to": high, "planes": len(own), "median": median, "nine in ten": most}
+        yield row | {"error": own["error"].median()}
 
 
 def fit():

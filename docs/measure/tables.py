@@ -8,10 +8,11 @@ import numpy as np
 from pandas import DataFrame, Series
 from scipy.special import betaincinv
 
+from compare.solving.cost import work_of
 from compare.solving.folders import lock
 from compare.solving.runner import sweep
 from compare.solving.store import Store
-from compare.solving.task import Outcome, Row, Task
+from compare.solving.task import Outcome, Row, SceneTask, Task, draws_of
 from compare.solving.terminal import Shown
 from compare.statistics.intervals import Estimated
 from compare.statistics.jackknife import mean_ratio
@@ -25,6 +26,11 @@ def table(header: str, rows: Iterable[Iterable[str]]) -> str:
     return "\n".join(f"| {' | '.join(row)} |" for row in (names, ["---"] * len(names), *rows))
 
 
+def cells(form: str, rows: DataFrame | Iterable[dict]) -> Iterable[list[str]]:
+    """Cells of rows of a table: a format with names of columns in braces, separated by |."""
+    return (form.format_map(row).split("|") for row in DataFrame(rows).to_dict("records"))
+
+
 def stored(path: Path, rows: DataFrame | Iterable[dict]) -> None:
     """Write a table, or its rows, with every digit."""
     DataFrame(rows).to_csv(path, index=False, na_rep="nan")
@@ -33,13 +39,6 @@ def stored(path: Path, rows: DataFrame | Iterable[dict]) -> None:
 def finding(found: DataFrame, claim: str, where: str, model: str) -> Series:
     """The row on a claim in a place, of one model."""
     return found.query("claim == @claim and where == @where and model == @model").squeeze()
-
-
-def with_interval(row: Series | Mapping, digits: int = 3, percent: bool = False) -> str:
-    """Value of a finding with its interval."""
-    scale, unit = (100, " %") if percent else (1, "")
-    value, low, high = (f"{scale * row[name]:.{digits}f}".replace("-", "−") for name in ("value", "low", "high"))
-    return f"{value}{unit} ({low} to {high})"
 
 
 def order(points, errors) -> float:
@@ -72,6 +71,11 @@ def fill(page: Path, parts: Mapping[str, str]) -> None:
 def friction(rows: Iterable[Row]) -> Estimated:
     """Mean friction force over mean normal force of those with an answer."""
     return mean_ratio(*np.transpose([(each.friction_force, each.normal_force) for each in rows]))
+
+
+def task(solver, scene, draws: int = 1) -> SceneTask:
+    """Scene on the first of its surfaces or profiles."""
+    return SceneTask(solver, draws_of(scene, draws), work=draws * work_of(solver, scene))
 
 
 def solved(

@@ -17,7 +17,7 @@ from contact import GREAT, USUAL, Contact, Ratio, ratio_of
 from fitting import as_json, fit
 from pandas import DataFrame
 from scoring import BEST, advice_rows, coverage_rows, error_rows, of_surfaces, scored, used
-from tables import RESULTS, fill, solved, stored, table
+from tables import RESULTS, cells, fill, solved, stored, table
 
 from compare.models.law.parts import LawParts
 from compare.trustmap import table as ratios
@@ -35,6 +35,11 @@ NAMED = {
     LAW: "friction by the 3D law",
     BEST: "friction by the best advice",
 }
+# Errors on all held-out scenes that are usable, of a ratio and kind of surface.
+ERRORS = (
+    "{ratio}, {region}|{scenes}|{usable:.0f} %|{median:.2g} %|{nine in ten:.2g} %"
+    "|{in 95 %:.1f} ({least:.1f} to {most:.1f}) %"
+)
 
 
 def contact_at(point, path):
@@ -87,16 +92,14 @@ def parts():
         "advice": table(
             "|".join(["", *(NAMED[name] for name in RATIOS)]), advice_rows([on_spectra[name] for name in RATIOS])
         ),
-        "errors": table(columns, map(_errors, found)),
+        "errors": table(columns, cells(ERRORS, map(_errors, found))),
     }
 
 
 def _errors(row):
-    """Cells of a ratio and kind of surface: errors on all held-out scenes that are usable."""
-    ratio, _, region, scenes, *shares, _ = row.values()
-    usable, median, most, held, least, greatest = (100 * share for share in shares)
-    own = f"{NAMED[ratio]}, {region}", f"{scenes}", f"{usable:.0f} %", f"{median:.2g} %", f"{most:.2g} %"
-    return *own, f"{held:.1f} ({least:.1f} to {greatest:.1f}) %"
+    """Row of a ratio and kind of surface, in percent."""
+    shares = "usable", "median", "nine in ten", "in 95 %", "least", "most"
+    return row | {"ratio": NAMED[row["ratio"]]} | {name: 100 * row[name] for name in shares}
 
 
 def corrected():
