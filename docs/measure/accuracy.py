@@ -5,6 +5,7 @@ python docs/measure/accuracy.py
 `crosscheck verify` holds more closed forms: histories, sliding in one dimension, waves pressed flat, full contact.
 """
 
+from itertools import product
 from math import pi, radians, sqrt, tan
 
 import numpy as np
@@ -38,12 +39,10 @@ def at_rest():
         "sphere (Hertz)": (Sphere(R), HERTZ, RADIUS),
         "cone (Sneddon)": (Cone(THETA), 2 / pi * 4 * G * DEPTH**2 / tan(THETA), 2 / pi * DEPTH / tan(THETA)),
     }
-    for name, (indenter, force, a) in forms.items():
-        for solver in (MDR, BEM):
-            scene = Scene(indenter, Elastic(G), Indent(depth=DEPTH))
-            for n in POINTS:
-                error = abs(around(solver, a, n).solve(scene).normal_force / force - 1)
-                yield {"shape": name, "solver": solver.__name__, "points": n, "error": error}
+    for (name, (indenter, force, a)), solver, n in product(forms.items(), (MDR, BEM), POINTS):
+        found = around(solver, a, n).solve(Scene(indenter, Elastic(G), Indent(depth=DEPTH)))
+        error = abs(found.normal_force / force - 1)
+        yield {"shape": name, "solver": solver.__name__, "points": n, "error": error}
 
 
 def sliding():

@@ -5,7 +5,6 @@ python docs/measure/answers.py again     does `crosscheck run` and the example o
 python docs/measure/answers.py studies   does the six studies at size standard first, and stores their findings
 """
 
-import re
 import sys
 from contextlib import redirect_stdout
 from io import StringIO
@@ -21,7 +20,7 @@ import rates
 import regime
 import spectrum
 import trust
-from tables import RESULTS, fill, finding, stored, table
+from tables import RESULTS, example, fill, finding, stored, table
 
 import compare
 from compare.solving.words import interval, number
@@ -58,13 +57,13 @@ FILLED = accuracy, benchmark, effects, equations, law, promises, rates, regime, 
 def parts():
     """Text between two comments, by the page and the name of the comment."""
     run, slow, fast = map(pandas.read_csv, (RUN, regime.SLOW, regime.FAST))
-    answer, example = _answer(run, fast), RUN.with_name("example.txt").read_text(encoding="utf-8")
+    answer, printed = _answer(run, fast), RUN.with_name("example.txt").read_text(encoding="utf-8")
     found = {
         (PAGE, "run"): table("|rough sphere|rough cone", _of_run(run)),
         (PAGE, "study"): table("|sphere, 1D|cone, 1D|sphere, 3D|cone, 3D", _of_study(pandas.concat([slow, fast]))),
         (PAGE, "spectrum"): spectrum.sentences(),
         (README, "answer"): answer,
-        (README, "prints"): f"```text\n{example.strip()}\n```",
+        (README, "prints"): f"```text\n{printed.strip()}\n```",
         (PAPER, "answer"): answer.replace("(docs/", "(../"),
         (PAPER, "slow"): regime.slow_answer(slow),
     }
@@ -91,7 +90,7 @@ def _answer(run, fast):
     smooth = run[run["claim"] == "force.ratio.smooth"]["value"].abs().max()
     slow, rough = (finding(run, claim, SCENES[0], model)["value"] for claim, model in [*OF_RUN][:2])
     one, three = (100 * finding(fast, "eq23.predicted", "sphere", name)["value"] for name in ALONE)
-    half, most, count = law.errors_of("law")
+    half, most, count = law.unseen()
     return "\n".join(
         [
             f"- **Smooth body at rest: trust 1D.** Force and depth agree with 3D to {number(smooth, 1)}.",
@@ -117,9 +116,8 @@ def _cell(row):
 def run_again():
     """Store the findings of the main job, and the first table that the example of README.md prints."""
     stored(RUN, compare.run(progress="lines").findings)
-    (example,) = re.findall(r"^```python\n(.*?)^```", README.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
     with redirect_stdout(StringIO()) as printed:
-        exec(example, {"__name__": "__main__"})
+        exec(example(README), {"__name__": "__main__"})
     shown = next(part for part in printed.getvalue().split("\n\n") if part.startswith(EXAMPLE))
     RUN.with_name("example.txt").write_text(f"{shown}\n", encoding="utf-8")
 

@@ -155,11 +155,8 @@ class Contact(Task):
     def _spreads(self, fine, coarse):
         """Standard deviation of a surface on half the points, and of what all points change, relative."""
         every, some = self._values(fine), self._values(coarse)
-        middle = abs(np.nanmean(some))
-        if not middle:
-            return inf, inf
-        apart = every - some[: every.size]
-        return float(np.nanstd(some, ddof=1) / middle), float(np.nanstd(apart, ddof=1) / middle)
+        middle = abs(np.nanmean(some)) or nan
+        return (np.nanstd(each, ddof=1) / middle for each in (some, every - some[: every.size]))
 
 
 def _solved(solver, scenes):

@@ -162,8 +162,8 @@ def learn(every, outcomes):
         signs = {sign.removeprefix(SIGN): value for sign, value in answer.measures.items()}
         if signs and isfinite(error):
             body, speed = "rough" if signs["wave"] else "smooth", "slow" if signs["slowness"] > 1 / 2 else "fast"
-            row = {"scene": each.name, "kind": f"{body}, {speed}"}
-            row |= {"error": f"{error:.4g}", "residual": f"{answer.residual:.2g}"}
+            row = {"scene": each.name, "kind": f"{body}, {speed}", "error": f"{error:.4g}"}
+            row["residual"] = f"{answer.residual:.2g}"
             yield row | {sign: f"{value:.4g}" for sign, value in signs.items() if sign != "one"}
 
 

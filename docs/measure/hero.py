@@ -72,7 +72,7 @@ def figure(plot, numbers, steep):
     above.text(1.5, 2e-2, "dashed: Eq. 17", fontsize=style.small(), ha="right")
     for speed, chosen in numbers[numbers["solver"] == "BEM"].groupby("speed"):
         end = chosen.iloc[-1]
-        text = f"{1e3 * speed:g} mm/s" if speed == SPEEDS[-1] else f"{1e3 * speed:g}"
+        text = f"{1e3 * speed:g}{' mm/s' * (speed == SPEEDS[-1])}"
         note(below, text, (shifted(end["load"], speed), end["friction"]), (5, 1))
     master_curve(last, steep)
     return drawing

@@ -24,7 +24,7 @@ TABLE = RESULTS / "answers/spectrum.csv"
 ONE, PROFILES = 11000, 20  # points of the line, and profiles
 GRID, TIMES = 4096, (2, 4)  # points a side, all solved; factors by which points that touch are refined
 SHAPES = "sphere", "cone"
-ESTIMATES = "by_traction", "by_loss"
+ESTIMATES = ["by_traction", "by_loss"]
 SIDES = 3.6e-3, 0.012e-3  # of the maps of the figure [m]
 
 
@@ -52,8 +52,7 @@ def main():
     tasks = {shape: _tasks(shape) for shape in SHAPES}
     # The finest takes 8 GB: one at a time.
     outcomes = solved(TABLE, [task for each in tasks.values() for task in each], workers=1)
-    rows = [_row(shape, task, outcomes[task].rows) for shape, each in tasks.items() for task in each]
-    frame = DataFrame(rows)
+    frame = DataFrame(_row(shape, task, outcomes[task].rows) for shape, each in tasks.items() for task in each)
     stored(TABLE, frame)
     finest = tasks["sphere"][-2]
     with style.applied():
@@ -75,11 +74,16 @@ def _tasks(shape):
 def _row(shape, task, rows):
     """Means over surfaces or profiles."""
     mean = DataFrame([row.measures | {"friction": row.friction_coefficient} for row in rows]).mean()
-    three = not isinstance(task.solver, MDR)
-    found = {"shape": shape, "dimension": "3D" if three else "1D", "points": task.solver.points}
-    found |= {"pixels_a_wave": mean.get("points_per_shortest_wave", nan), "friction": mean["friction"]}
-    found |= {"rms_slope": mean.get("rms_slope", nan)}
-    return found | {name: mean[f"friction_{name}"] / rows[0].normal_force if three else nan for name in ESTIMATES}
+    three = task.solver.name == "BEM"
+    return {
+        "shape": shape,
+        "dimension": "3D" if three else "1D",
+        "points": task.solver.points,
+        "pixels_a_wave": mean.get("points_per_shortest_wave", nan),
+        "friction": mean["friction"],
+        "rms_slope": mean.get("rms_slope", nan),
+        **{name: mean[f"friction_{name}"] / rows[0].normal_force if three else nan for name in ESTIMATES},
+    }
 
 
 def sentences():
@@ -97,9 +101,8 @@ def sentences():
 
 def ends(three):
     """Interval of friction: both estimates on the finest grid, and the limits of those that show one."""
-    limits = (limit(three[name].to_numpy()) for name in ESTIMATES)
-    known = [*three[list(ESTIMATES)].iloc[-1], *(each for each in limits if np.isfinite(each))]
-    return min(known), max(known)
+    known = [*three[ESTIMATES].iloc[-1], *map(limit, three[ESTIMATES].to_numpy().T)]
+    return np.nanmin(known), np.nanmax(known)
 
 
 def figure(frame, scene, outcome):

@@ -59,6 +59,12 @@ def of_count(held: int, tried: int) -> np.ndarray:
     return np.where(np.isnan(ends), [0, 1], ends)
 
 
+def example(page: Path) -> str:
+    """The example in Python of a page that has one."""
+    (code,) = re.findall(r"^```python\n(.*?)^```", page.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
+    return code
+
+
 def fill(page: Path, parts: Mapping[str, str]) -> None:
     """Write texts between two comments of a page, by the name of the first comment."""
     text = page.read_text(encoding="utf-8")
