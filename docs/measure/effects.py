@@ -90,19 +90,25 @@ def table_of(outcomes):
     for name, effect in product(SOLVERS, effects()):
         task, refused = asked.get((name, effect.title)), "; ".join(SOLVERS[name].refusals(effect.scene))
         row = outcomes[task].rows[0] if task else Row(reason=f"refused: {refused}")
-        found = {"dimension": name, "effect": effect.title, "over": effect.over or ""}
-        found |= {"seconds": row.measures.get("processor", nan), "times": nan}
-        found |= {"operator_applications": row.operator_applications}
-        rows.append(found | {"time_steps": row.measures.get("time_steps", nan), "reason": row.reason or ""})
+        found = {
+            "dimension": name,
+            "effect": effect.title,
+            "over": effect.over or "",
+            "seconds": row.measures.get("processor", nan),
+            "times": nan,
+            APPLICATIONS: row.operator_applications,
+            "time_steps": row.measures.get("time_steps", nan),
+            "reason": row.reason or "",
+        }
+        rows.append(found)
     found = DataFrame(rows)
     return found.assign(times=_times(found, "seconds"))
 
 
 def _times(found, cost):
     """A cost over the one of the contact that an effect is added to, of a plain contact itself."""
-    over = found["over"].where(found["over"] != "", found["effect"])
-    by_effect = found.set_index(["dimension", "effect"])[cost]
-    return found[cost] / by_effect[zip(found["dimension"], over, strict=True)].to_numpy()
+    plain = found.assign(effect=found["over"].where(found["over"] != "", found["effect"]))[["dimension", "effect"]]
+    return found[cost] / plain.merge(found, "left")[cost]
 
 
 def priced(name, found):

@@ -140,9 +140,8 @@ class WithSigns:
     def solve(self, scene):
         """Answer and signs, where it has friction."""
         solver = BEM(points=self.points)
-        result = solver.solve(scene)
-        problem, settings = Problem(scene, solver.engine), result.settings
-        grid = Grid(self.points, settings["extent"], settings["centre"], width=problem.width)
+        result, problem = solver.solve(scene), Problem(scene, solver.engine)
+        grid = Grid(self.points, *map(result.settings.get, ("extent", "centre")), width=problem.width)
         _, seen = frictionerror.estimated(problem, grid, result.fields["pressure"], problem.lost)
         signs = {} if seen is None else seen.numbers
         return replace(result, measures={f"{SIGN}{name}": value for name, value in signs.items()})
@@ -177,8 +176,8 @@ def refitted(table):
     table = table.assign(one=1.0, fold=pandas.factorize(table["scene"])[0] % FOLDS)
     for kind in KINDS_OF_ERROR:
         own = table[table["kind"] == kind]
-        signs, fold, error = (own[name].to_numpy() for name in (names, "fold", "error"))
-        left = frictionerror.OF_TOLERANCE * own["residual"].to_numpy()
+        signs, fold, error, residual = (own[name].to_numpy() for name in (names, "fold", "error", "residual"))
+        left = frictionerror.OF_TOLERANCE * residual
         values, short = np.log(np.maximum(error - left, LEAST)), np.empty(len(own))
         for k in range(FOLDS):
             out = fold == k

@@ -82,8 +82,8 @@ def master_curve(axes, steep):
     """What roughness adds in 3D, over that in full contact, against the pressure; line, the law."""
     scale = between(steep["speed"])
     grey = style.line(0.6, 2.5, linestyle="-")
-    for (body, own), form in zip(steep.groupby("body", sort=False), style.forms(), strict=False):
-        mark = {"linestyle": "none", "marker": form["marker"]}
+    for (body, own), marker in zip(steep.groupby("body", sort=False), style.SERIES_MARKERS, strict=False):
+        mark = {"linestyle": "none", "marker": marker}
         for speed, chosen in own.groupby("speed"):
             axes.loglog(chosen["x"], chosen["averaged_share"], **grey, zorder=1)
             intervals(axes, chosen["x"], chosen, "measured_share", color=SPEED(scale(speed)), **mark)
@@ -100,10 +100,10 @@ def master_curve(axes, steep):
 def against_load(axes, numbers, solver):
     """Friction at each speed against the load that Eq. 23 shifts to the lowest one; dashed, Eq. 17."""
     axes.set(xscale="log", yscale="log", xlim=(6e-3, 2.2), ylim=(5e-5, 6e-2))
-    for speed, colour, form in zip(SPEEDS, style.shades(solver, len(SPEEDS)), style.forms(), strict=False):
+    shades = style.shades(solver, len(SPEEDS))
+    for speed, colour, marker in zip(SPEEDS, shades, style.SERIES_MARKERS, strict=False):
         chosen = numbers[numbers["speed"] == speed]
-        look = {"color": colour, "marker": form["marker"]}
-        intervals(axes, shifted(chosen["load"], speed), chosen, "friction", **look)
+        intervals(axes, shifted(chosen["load"], speed), chosen, "friction", color=colour, marker=marker)
     loads = shifted(np.array([LEAST, MOST]), np.array([SPEEDS[-1], SPEEDS[0]]))
     slope, solid = SCENE.roughness.rms_slope(2 * np.pi / SCENE.roughness.shortest), SCENE.elastomer
     law = equations.low_speed_friction(

@@ -140,14 +140,14 @@ def figure(frame, scene, outcome):
 
 def _friction(axes, frame):
     """Both estimates over the pixels, the answer with its interval at right, and one dimension."""
-    for (shape, own), form in zip(frame.groupby("shape", sort=False), style.forms(), strict=False):
+    for (shape, own), marker in zip(frame.groupby("shape", sort=False), style.SERIES_MARKERS, strict=False):
         three, (one,) = own[own["dimension"] == "3D"], own[own["dimension"] == "1D"].itertuples()
-        look = {"color": style.colour("BEM"), "marker": form["marker"]}
-        for name, line, inside in zip(ESTIMATES, ("-", "--"), (look["color"], style.paper()), strict=True):
-            look |= {"label": f"3D, {name.replace('_', ' ')}", "markerfacecolor": inside}
-            axes.plot(three["pixels_a_wave"], three[name], line, **look)
+        colour = style.colour("BEM")
+        for name, line, inside in zip(ESTIMATES, ("-", "--"), (colour, style.paper()), strict=True):
+            look = {"color": colour, "marker": marker, "markerfacecolor": inside}
+            axes.plot(three["pixels_a_wave"], three[name], line, label=f"3D, {name.replace('_', ' ')}", **look)
         low, high = ends(three)
-        answer = {"color": style.ink(), "marker": form["marker"], "linestyle": "none", "label": "3D, answer"}
+        answer = {"color": style.ink(), "marker": marker, "linestyle": "none", "label": "3D, answer"}
         axes.errorbar(30, (low + high) / 2, (high - low) / 2, **answer)
         axes.axhline(one.friction, **style.line(0, 0.7, color=style.colour("MDR"), linestyle=":"), label="1D")
         axes.text(60, one.friction + 0.15, shape, fontsize=style.small(), ha="right", color=style.colour("MDR"))
