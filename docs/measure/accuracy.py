@@ -61,7 +61,7 @@ def parts():
     off = slid[["depth", "moment"]] / np.array([*PUBLISHED.values()]) - 1
     return {
         "rest": table("shape|solver|16 points|64 points|256 points|observed order", _at_rest(rest)),
-        "sliding": table(memory, cells(shown, (1e3 * slid).join(off, rsuffix="_off"))),
+        "sliding": table(memory, cells(shown, (1e3 * slid).join(off.add_suffix("_off")))),
     }
 
 
