@@ -94,9 +94,7 @@ def asked(found, theory):
     """Number and verdict by claim, as the studies ask for them."""
     named = {each.claim.id: each for each in eq23.findings(found, None, "1D", theory * np.log(SPEEDS), theory)}
     shifted = {eq23.VERTICAL: named.get(eq23.NOT_SHIFTED.id)}
-    return {
-        name: (named[of.id].value, (shifted.get(of) or named[of.id]).verdict) for name, of in CLAIMS.items()
-    }
+    return {name: (named[of.id].value, (shifted.get(of) or named[of.id]).verdict) for name, of in CLAIMS.items()}
 
 
 def verdicts():
