@@ -90,9 +90,8 @@ def contacts():
         kind = 0.8 * kind + 0.2 * (kind > 0.9)
         solid = solid_at(kind, *others, 0.88 * speed, shortest / (2 * pi))
         scene = Scene(Plane(), solid, Slide(speed=SPEED, pressure=1.0), rough)
-        drawn, sides = heights(scene, 2 * round(4 * ratio)).height, (RADIUS, RADIUS)
-        lost = full_contact.friction(drawn, sides, solid, SPEED)
-        pressure = float(full_contact.pressure(drawn, sides, solid, SPEED).std())
+        full = heights(scene, 2 * round(4 * ratio)).height, (RADIUS, RADIUS), solid, SPEED
+        lost, pressure = full_contact.friction(*full), float(full_contact.pressure(*full).std())
         numbers = waves(FullContact.of(Bands.of(rough), solid, SPEED))
         for index, (ends, counts) in enumerate(RANGES):
             x = between(ends, (at + shift * index) % 1)
