@@ -5,24 +5,24 @@ python docs/measure/accuracy.py
 `crosscheck verify` holds more closed forms: histories, sliding in one dimension, waves pressed flat, full contact.
 """
 
+from itertools import product
 from math import pi, radians, sqrt, tan
-from pathlib import Path
 
 import numpy as np
 import pandas
-from tables import fill, order, stored, table
+from tables import RESULTS, cells, fill, order, stored, table
 
 from bem3d import BEM
 from compare.figures import style
 from mdr1d import MDR
 from scene import Cone, Elastic, Indent, Scene, Slide, Sphere, StandardLinearSolid
 
-PAGE = Path(__file__).parents[1] / "results" / "accuracy.md"
+PAGE = RESULTS / "accuracy.md"
 G, R, THETA, TAU, DEPTH = 1e6, 10e-3, radians(10), 1e-3, 1e-4
 RADIUS = sqrt(R * DEPTH)
 HERTZ = 4 / 3 * 4 * G * sqrt(R) * DEPTH**1.5
 POINTS = (16, 23, 32, 45, 64, 91, 128, 181, 256)
-REST, SLIDING = (PAGE.with_suffix("") / f"{name}.csv" for name in ("rest", "sliding"))
+REST, SLIDING = RESULTS / "accuracy/rest.csv", RESULTS / "accuracy/sliding.csv"
 # Sphere on a standard linear solid under a load: v tau_c [m], depth [m] and mu R [m] of two other codes.
 PUBLISHED = {1e-4: (99.824e-6, 45.249e-6), 1e-3: (91.508e-6, 157.664e-6), 1e-2: (70.553e-6, 41.906e-6)}
 
@@ -39,12 +39,10 @@ def at_rest():
         "sphere (Hertz)": (Sphere(R), HERTZ, RADIUS),
         "cone (Sneddon)": (Cone(THETA), 2 / pi * 4 * G * DEPTH**2 / tan(THETA), 2 / pi * DEPTH / tan(THETA)),
     }
-    for name, (indenter, force, a) in forms.items():
-        for solver in (MDR, BEM):
-            scene = Scene(indenter, Elastic(G), Indent(depth=DEPTH))
-            for n in POINTS:
-                error = abs(around(solver, a, n).solve(scene).normal_force / force - 1)
-                yield {"shape": name, "solver": solver.__name__, "points": n, "error": error}
+    for (name, (indenter, force, a)), solver, n in product(forms.items(), (MDR, BEM), POINTS):
+        found = around(solver, a, n).solve(Scene(indenter, Elastic(G), Indent(depth=DEPTH)))
+        error = abs(found.normal_force / force - 1)
+        yield {"shape": name, "solver": solver.__name__, "points": n, "error": error}
 
 
 def sliding():
@@ -58,10 +56,12 @@ def sliding():
 def parts():
     """Text between two comments of the page, by the name of the comment."""
     memory = "v τ_c, mm|depth, mm|μR, mm|against other codes: depth|μR"
+    shown = "{memory:g}|{depth:.6f}|{moment:.6f}|{depth_off:+.3%}|{moment_off:+.3%}"
     rest, slid = map(pandas.read_csv, (REST, SLIDING))
+    off = slid[["depth", "moment"]] / np.array([*PUBLISHED.values()]) - 1
     return {
         "rest": table("shape|solver|16 points|64 points|256 points|observed order", _at_rest(rest)),
-        "sliding": table(memory, _sliding(slid)),
+        "sliding": table(memory, cells(shown, (1e3 * slid).join(off.add_suffix("_off")))),
     }
 
 
@@ -70,13 +70,6 @@ def _at_rest(found):
         shown = own.set_index("points")["error"][[16, 64, 256]].map("{:.1e}".format)
         errors = own["error"]
         yield shape, solver, *shown, f"{order(own['points'], errors):.1f}" if errors.min() > 1e-13 else "exact"
-
-
-def _sliding(found):
-    for row, published in zip(found.itertuples(), PUBLISHED.values(), strict=True):
-        pairs = zip((row.depth, row.moment), published, strict=True)
-        own = f"{1e3 * row.memory:g}", f"{1e3 * row.depth:.6f}", f"{1e3 * row.moment:.6f}"
-        yield *own, *(f"{value / other - 1:+.3%}" for value, other in pairs)
 
 
 def figure(rest):
@@ -97,8 +90,8 @@ def figure(rest):
 
 def main():
     """Measure, and write the numbers, the figure and the parts of the page."""
-    for path, measure in ((REST, at_rest), (SLIDING, sliding)):
-        stored(path, measure())
+    stored(REST, at_rest())
+    stored(SLIDING, sliding())
     with style.applied():
         figure(pandas.read_csv(REST)).savefig(PAGE.with_suffix(".png"), dpi=200)
     fill(PAGE, parts())

@@ -5,11 +5,9 @@ python docs/measure/answers.py again     does `crosscheck run` and the example o
 python docs/measure/answers.py studies   does the six studies at size standard first, and stores their findings
 """
 
-import re
 import sys
 from contextlib import redirect_stdout
 from io import StringIO
-from pathlib import Path
 
 import accuracy
 import benchmark
@@ -22,17 +20,14 @@ import rates
 import regime
 import spectrum
 import trust
-from tables import fill, finding, stored, table
+from tables import RESULTS, example, fill, finding, stored, table
 
 import compare
 from compare.solving.words import interval, number
 from compare.studies.comparison.study_file import STUDIES
 
-PAGE = Path(__file__).parents[1] / "results" / "answers.md"
-DOCS, README = PAGE.parent, PAGE.parents[2] / "README.md"
-PAPER = DOCS.parent / "joss" / "paper.md"
-STANDARD = DOCS / "study" / "standard"
-RUN = DOCS / "answers" / "run.csv"
+PAGE, RUN, STANDARD = (RESULTS / name for name in ("answers.md", "answers/run.csv", "study/standard"))
+README, PAPER = RESULTS.parents[1] / "README.md", RESULTS.parent / "joss/paper.md"
 EXAMPLE = "scene, "  # first words of the table
 ALONE = "1D", "3D"
 BODIES, SCENES = ("sphere", "cone"), ("paper-sphere", "paper-cone")
@@ -56,29 +51,19 @@ IN_REGIME = {
     "eq23.predicted": "regime of the paper: misfit, shifted as Eq. 22 predicts",
 }
 MISFITS, FORCES = "eq23", "force.ratio.rough"
-FILLED = (
-    accuracy,
-    benchmark,
-    effects,
-    equations,
-    law,
-    promises,
-    rates,
-    regime,
-    trust,
-)  # scripts with parts of pages
+FILLED = accuracy, benchmark, effects, equations, law, promises, rates, regime, trust  # with parts of pages
 
 
 def parts():
     """Text between two comments, by the page and the name of the comment."""
-    run, slow, fast = (pandas.read_csv(each) for each in (RUN, regime.SLOW, regime.FAST))
-    answer, example = _answer(run, fast), RUN.with_name("example.txt").read_text(encoding="utf-8")
+    run, slow, fast = map(pandas.read_csv, (RUN, regime.SLOW, regime.FAST))
+    answer, printed = _answer(run, fast), RUN.with_name("example.txt").read_text(encoding="utf-8")
     found = {
         (PAGE, "run"): table("|rough sphere|rough cone", _of_run(run)),
         (PAGE, "study"): table("|sphere, 1D|cone, 1D|sphere, 3D|cone, 3D", _of_study(pandas.concat([slow, fast]))),
         (PAGE, "spectrum"): spectrum.sentences(),
         (README, "answer"): answer,
-        (README, "prints"): f"```text\n{example.strip()}\n```",
+        (README, "prints"): f"```text\n{printed.strip()}\n```",
         (PAPER, "answer"): answer.replace("(docs/", "(../"),
         (PAPER, "slow"): regime.slow_answer(slow),
     }
@@ -103,18 +88,16 @@ def _of_study(in_regime):
 def _answer(run, fast):
     """Three points: on the smooth body at rest, on friction by 1D and its correction, and on the law in 3D."""
     smooth = run[run["claim"] == "force.ratio.smooth"]["value"].abs().max()
-    slow, rough = (
-        finding(run, f"friction.ratio.{name}", SCENES[0], "1D/3D")["value"] for name in ("smooth-slow", "own")
-    )
-    missed = {name: 100 * finding(fast, "eq23.predicted", "sphere", name)["value"] for name in ALONE}
-    half, most, count = law.errors_of("law")
+    slow, rough = (finding(run, claim, SCENES[0], model)["value"] for claim, model in [*OF_RUN][:2])
+    one, three = (100 * finding(fast, "eq23.predicted", "sphere", name)["value"] for name in ALONE)
+    half, most, count = law.unseen()
     return "\n".join(
         [
             f"- **Smooth body at rest: trust 1D.** Force and depth agree with 3D to {number(smooth, 1)}.",
             f"- **Friction: correct 1D.** 1D has {slow:.2f} times the friction of a slow, smooth sphere in 3D, "
             f"and {rough:.2f} times the friction of the paper's rough one. {trust.corrected()}",
             "- **Master curve of the paper: 1D alone.** Shifted as the paper prescribes, the curves agree to "
-            f"{missed['1D']:.1f} % in 1D but only to {missed['3D']:.0f} % in 3D. In 3D, friction is the friction "
+            f"{one:.1f} % in 1D but only to {three:.0f} % in 3D. In 3D, friction is the friction "
             "of the smooth body plus a share of what the roughness would add in full contact. This "
             f"[law](docs/results/law.md), corrected by the trust map, is within {half:.1f} % of 3D for half of "
             f"{count} unseen contacts, and within {most:.1f} % for nine in ten.",
@@ -133,9 +116,8 @@ def _cell(row):
 def run_again():
     """Store the findings of the main job, and the first table that the example of README.md prints."""
     stored(RUN, compare.run(progress="lines").findings)
-    (example,) = re.findall(r"^```python\n(.*?)^```", README.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
     with redirect_stdout(StringIO()) as printed:
-        exec(example, {"__name__": "__main__"})
+        exec(example(README), {"__name__": "__main__"})
     shown = next(part for part in printed.getvalue().split("\n\n") if part.startswith(EXAMPLE))
     RUN.with_name("example.txt").write_text(f"{shown}\n", encoding="utf-8")
 

@@ -11,17 +11,15 @@ import re
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 import numpy as np
 import pandas
-from tables import fill, stored, table
+from tables import RESULTS, cells, fill, stored, table
 
 from bem3d import BEM, heights
 from scene import Elastic, Indent, Plane, Scene, SelfAffine
 
-PAGE = Path(__file__).parents[1] / "results" / "workprecision.md"
-MEASURED = PAGE.with_suffix("") / "benchmark.csv"
+PAGE, MEASURED = RESULTS / "workprecision.md", RESULTS / "workprecision/benchmark.csv"
 GRIDS = 1024, 2048  # points a side
 ELASTIC = Elastic(0.25)  # E* = 4G = 1
 SLOPE, PRESSURE = 0.1, 0.0035
@@ -115,12 +113,8 @@ def alone(name, n):
 def parts():
     """Text between two comments of the page, by the name of the comment."""
     found = pandas.read_csv(MEASURED)
-    own = found[found["code"] == "this"].set_index("points")["seconds"]
-    times = found["seconds"] / found["points"].map(own)
-    shown = (
-        (f"{row.points}²", row.code, f"{row.iterations}", f"{row.error:.1e}", f"{row.seconds:.3g}", f"{over:.1f}")
-        for row, over in zip(found.itertuples(), times, strict=True)
-    )
+    found["over"] = found["seconds"] / found.groupby("points")["seconds"].transform("first")
+    shown = cells("{points}²|{code}|{iterations}|{error:.1e}|{seconds:.3g}|{over:.1f}", found)
     return {"benchmark": table("points|code|iterations|error|processor time [s]|over this", shown)}
 
 

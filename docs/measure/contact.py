@@ -1,5 +1,6 @@
 """One scene solved in 1D and 3D on as many surfaces as its scatter asks for, as a task, and the ratio of both."""
 
+from collections import namedtuple
 from dataclasses import asdict, dataclass, replace
 from math import ceil, hypot, inf, log, nan, pi, sqrt
 from typing import NamedTuple
@@ -11,6 +12,7 @@ from compare.models.law.bands import Bands
 from compare.solving.task import SCENES, Outcome, SceneTask, Task, draws_of
 from compare.statistics.jackknife import off_the_ratio
 from compare.trustmap.model import LAW
+from compare.trustmap.table import NUMBERS
 from mdr1d import MDR
 from scene import Scene, SelfAffine
 
@@ -42,21 +44,14 @@ class Grids:
 USUAL, GREAT = Grids(), Grids((512, 640, 768, 960, 1280, 1536, 1920, 2560, 3072), 8.0, 2, 4)
 
 
-class Ratio(NamedTuple):
-    """Ratio of the mean over profiles in 1D and the mean over surfaces in 3D.
+# Ratio of the mean over profiles in 1D and the mean over surfaces in 3D, see `trustmap.model.Measurements`.
+Ratio = namedtuple("Ratio", NUMBERS)
 
-    logarithm : of the ratio; nan where one of the means is not above zero
-    line_error : relative standard error of the mean in 1D
-    scatter : relative standard deviation of a single surface in 3D; nan with fewer than two
-    surfaces : in 3D that would know their mean as well, if all of them were on all points
-    grid : relative change of the mean in 3D from half the points to all
-    """
 
-    logarithm: float
-    line_error: float
-    scatter: float
-    surfaces: float
-    grid: float
+def resolving(first, shortest, points, pixels):
+    """The least of some points, a side, with pixels to the shortest wave in the window of a first solve."""
+    needed = pixels * first.settings.get("extent", inf) / shortest
+    return next((each for each in points if each >= needed), points[-1])
 
 
 @dataclass(frozen=True)
@@ -99,20 +94,16 @@ class Contact(Task):
     def solve(self):
         """Solve until the means are known, or the surfaces are spent."""
         line, scenes = MDR(points=LINE_POINTS), draws_of(self.scene, MOST_PROFILES)
-        first = SceneTask(BEM(points=LEAST_POINTS), (self.scene,)).solve().rows[0]
+        (first,), rough = _solved(BEM(points=LEAST_POINTS), (self.scene,)), self.scene.roughness
+        finest = inf if rough is None else finest_wave(rough)
         profiles = _labelled(FINE, line, self._until_known(line, scenes, PROFILES))
-        return Outcome((*profiles, *self._surfaces(self._fine(first))))
+        return Outcome(
+            (*profiles, *self._surfaces(resolving(first, finest, self.grids.points, self.grids.pixels)))
+        )
 
     def fits(self, outcome):
         """Whether the stored outcome has any rows."""
         return bool(outcome.rows)
-
-    def _fine(self, first):
-        """Points that resolve the shortest wave in the window of a first solve."""
-        rough = self.scene.roughness
-        extent, points = first.settings.get("extent", inf), self.grids.points
-        needed = 0 if rough is None else self.grids.pixels * extent / finest_wave(rough)
-        return next((each for each in points if each >= needed), points[-1])
 
     def _until_known(self, solver, scenes, block, rows=()):
         """Rows of scenes, a block after the other, until their mean has the standard error that is wanted."""
@@ -158,18 +149,14 @@ class Contact(Task):
     def _known(self, rows):
         values = self._values(rows)
         values = values[np.isfinite(values)]
-        if values.size < self.grids.few:
-            return False
-        return np.std(values, ddof=1) / sqrt(values.size) < self.wanted * abs(values.mean())
+        enough = values.size >= self.grids.few
+        return enough and np.std(values, ddof=1) / sqrt(values.size) < self.wanted * abs(values.mean())
 
     def _spreads(self, fine, coarse):
         """Standard deviation of a surface on half the points, and of what all points change, relative."""
         every, some = self._values(fine), self._values(coarse)
-        middle = abs(np.nanmean(some))
-        if not middle:
-            return inf, inf
-        apart = every - some[: every.size]
-        return float(np.nanstd(some, ddof=1) / middle), float(np.nanstd(apart, ddof=1) / middle)
+        middle = abs(np.nanmean(some)) or nan
+        return (np.nanstd(each, ddof=1) / middle for each in (some, every - some[: every.size]))
 
 
 def _solved(solver, scenes):
@@ -228,9 +215,8 @@ def _space(outcome, quantity):
 
 
 def _rows(outcome, solver, grid):
-    return [
-        row for row in outcome.rows if (row.settings.get("solver"), row.settings.get("grid")) == (solver, grid)
-    ]
+    asked = {"solver": solver, "grid": grid}
+    return [row for row in outcome.rows if asked.items() <= row.settings.items()]
 
 
 def _mean(rows, quantity):

@@ -43,9 +43,11 @@ SPEEDS = 1e-3, 1e3
 LONG, BLUNT, EVENLY, BLUNT_AGAIN, BLUNT_AT_LAST, EVENLY_AGAIN = 4096, 6144, 10_000, 12_000, 14_000, 20_000
 MEASURED, MEASURED_AGAIN, WIDE = 30_000, 40_000, 50_000
 LONG_PERIODS = 8.0, 25.0
-# Exponents and heights of blunt bodies, and the longest waves of all.
-WIDELY, NARROWLY = ((2.5, 12.0), (0.05, 0.4)), ((3.0, 12.0), (0.08, 0.3))
 ALL_PERIODS = PERIODS[0], LONG_PERIODS[1]
+# Exponents and heights of sets of blunt bodies, and the longest waves of those that do not have all.
+NARROWLY = (3.0, 12.0), (0.08, 0.3)
+BLUNTED = {BLUNT: ((2.5, 12.0), (0.05, 0.4)), BLUNT_AGAIN: NARROWLY, BLUNT_AT_LAST: NARROWLY}
+WAVED = {0: PERIODS, LONG: LONG_PERIODS, EVENLY: PERIODS}
 # Place of a point along each axis of the cube, each from 0 to 1.
 Point = namedtuple(
     "Point",
@@ -113,23 +115,19 @@ def drawn_points(seed, numbers=DIMENSIONS):
 
 def scene(number):
     """Scene of the number of a point."""
-    seed = SEEDS * number
-    if number < EVENLY:
-        point = Point(*even_points()[number].tolist())
-        if number >= BLUNT:
-            return scene_at(blunt(point, *WIDELY), seed, ALL_PERIODS)
-        return scene_at(point, seed, PERIODS if number < LONG else LONG_PERIODS)
-    start = max(first for first in DRAWN if first <= number)
-    more = len(Numbers._fields) if start in (MEASURED, MEASURED_AGAIN) else 0
-    place = drawn_points(DRAWN[start], DIMENSIONS + more)[number - start].tolist()
+    seed, start = SEEDS * number, max(first for first in (0, LONG, BLUNT, *DRAWN) if first <= number)
+    more = len(Numbers._fields) * (start in (MEASURED, MEASURED_AGAIN))
+    first = start if start in DRAWN else 0
+    drawn = drawn_points(DRAWN[start], DIMENSIONS + more) if first else even_points()
+    place = drawn[number - first].tolist()
     point = Point(*place[:DIMENSIONS])
     if more:
         return _measured(point, Numbers(*place[DIMENSIONS:]), seed)
     if start == WIDE:
         return _wide(point, seed)
-    if start in (BLUNT_AGAIN, BLUNT_AT_LAST):
-        return scene_at(blunt(point, *NARROWLY), seed, ALL_PERIODS)
-    return scene_at(point, seed, PERIODS if start == EVENLY else ALL_PERIODS)
+    if start in BLUNTED:
+        point = blunt(point, *BLUNTED[start])
+    return scene_at(point, seed, WAVED.get(start, ALL_PERIODS))
 
 
 def _measured(point, numbers, seed):
@@ -137,10 +135,8 @@ def _measured(point, numbers, seed):
     wave, height = RADIUS / between(WAVES, point.waves), between(HEIGHTS, point.height)
     if numbers.kind >= GAUSSIAN:
         return scene_on(_map(numbers, DEPTH * height, wave, seed), point, wave)
-    spectrum = numbers.first, numbers.side, numbers.place, numbers.second
-    return scene_on(
-        replace(_rough(height, wave, ALL_PERIODS, seed, *spectrum), amplitudes="gaussian"), point, wave
-    )
+    rough = _rough(height, wave, ALL_PERIODS, seed, numbers.first, numbers.side, numbers.place, numbers.second)
+    return scene_on(replace(rough, amplitudes="gaussian"), point, wave)
 
 
 def _wide(point, seed):

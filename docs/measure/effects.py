@@ -17,20 +17,20 @@ import numpy as np
 import pandas
 from pandas import DataFrame
 from pydantic import TypeAdapter
-from tables import fill, solved, stored, table
+from tables import RESULTS, fill, solved, stored, table
 
 import bem3d.plan
 import mdr1d.plan
 from bem3d import BEM
 from bem3d.surface import RoughSurface
+from compare.solving.cost import work_of
 from compare.solving.task import Row
 from compare.studies.workprecision.ladder import TimedSolve
 from mdr1d import MDR
 from scene import Scene
 from scene.plan import two_digits
 
-PAGE = Path(__file__).parents[1] / "results" / "workprecision.md"
-MEASURED = PAGE.with_suffix("") / "effects.csv"
+PAGE, MEASURED = RESULTS / "workprecision.md", RESULTS / "workprecision/effects.csv"
 SOLVERS = {"3D": BEM(points=256, steps=40), "1D": MDR(points=5000, steps=40)}
 WRITTEN = Path(__file__).with_suffix(".toml")
 TABLES = {"3D": bem3d.plan.EFFECTS, "1D": mdr1d.plan.EFFECTS}
@@ -77,16 +77,11 @@ def effects():
 def tasks():
     """A solve for each dimensionality and title, except for effects that the solver refuses."""
     return {
-        (name, effect.title): TimedSolve(solver, (effect.scene,), work=_work(solver, effect))
+        (name, effect.title): TimedSolve(solver, (effect.scene,), work=work_of(solver, effect.scene))
         for name, solver in SOLVERS.items()
         for effect in effects()
         if not solver.refusals(effect.scene)
     }
-
-
-def _work(solver, effect):
-    steps = 20.0 * solver.steps if effect.scene.motion.type == "program" else 300.0
-    return steps * (solver.points if solver.name == "MDR" else solver.points**2)
 
 
 def table_of(outcomes):
@@ -95,19 +90,25 @@ def table_of(outcomes):
     for name, effect in product(SOLVERS, effects()):
         task, refused = asked.get((name, effect.title)), "; ".join(SOLVERS[name].refusals(effect.scene))
         row = outcomes[task].rows[0] if task else Row(reason=f"refused: {refused}")
-        found = {"dimension": name, "effect": effect.title, "over": effect.over or ""}
-        found |= {"seconds": row.measures.get("processor", nan), "times": nan}
-        found |= {"operator_applications": row.operator_applications}
-        rows.append(found | {"time_steps": row.measures.get("time_steps", nan), "reason": row.reason or ""})
+        found = {
+            "dimension": name,
+            "effect": effect.title,
+            "over": effect.over or "",
+            "seconds": row.measures.get("processor", nan),
+            "times": nan,
+            APPLICATIONS: row.operator_applications,
+            "time_steps": row.measures.get("time_steps", nan),
+            "reason": row.reason or "",
+        }
+        rows.append(found)
     found = DataFrame(rows)
     return found.assign(times=_times(found, "seconds"))
 
 
 def _times(found, cost):
     """A cost over the one of the contact that an effect is added to, of a plain contact itself."""
-    over = found["over"].where(found["over"] != "", found["effect"])
-    by_effect = found.set_index(["dimension", "effect"])[cost]
-    return found[cost] / by_effect[zip(found["dimension"], over, strict=True)].to_numpy()
+    plain = found.assign(effect=found["over"].where(found["over"] != "", found["effect"]))[["dimension", "effect"]]
+    return found[cost] / plain.merge(found, "left")[cost]
 
 
 def priced(name, found):

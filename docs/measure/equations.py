@@ -5,21 +5,20 @@ python docs/measure/equations.py   takes some minutes
 
 from dataclasses import replace
 from math import ceil, pi, radians, sin
-from pathlib import Path
 
 import numpy as np
 import pandas
 from pandas import DataFrame
-from tables import fill, stored, table
+from tables import RESULTS, cells, fill, stored, table
 
+from compare.solving.task import draws_of
 from compare.statistics.jackknife import mean_ratio
 from mdr1d import MDR
 from mdr1d import equations as eq
 from scene import Cone, Fractional, Indent, Kelvin, Scene, SelfAffine, Slide, Sphere
 from scene.scales import elastic_contact
 
-PAGE = Path(__file__).parents[1] / "results" / "paper.md"
-MEASURED = PAGE.with_suffix("") / "equations.csv"
+PAGE, MEASURED = RESULTS / "paper.md", RESULTS / "paper/equations.csv"
 G, TAU, PROFILES = 1e6, 1e-3, 20
 KELVIN = Kelvin(G, TAU)
 # Bodies with their loads, on the roughness of Fig. 4, which its grid cuts off, and on one of the slope 0.1.
@@ -38,11 +37,11 @@ def solved(contact, solid, rough, speed=0.0, profiles=PROFILES):
     # A peak of the profile stands 5 rms heights high at most.
     periods = ceil(2 * smooth.radius * (1 + 5 * rough.rms_height / smooth.depth) / rough.longest)
     solver = MDR(points=points * periods, extent=rough.longest * periods)
-    drawn = (replace(scene, roughness=replace(rough, seed=seed)) for seed in range(profiles))
-    found = (
-        (each.depth, each.friction_coefficient, each.measures["rms_slope"]) for each in map(solver.solve, drawn)
+    found = map(solver.solve, draws_of(scene, profiles))
+    return DataFrame(
+        {"depth": each.depth, "friction": each.friction_coefficient, "slope": each.measures["rms_slope"]}
+        for each in found
     )
-    return DataFrame(found, columns=["depth", "friction", "slope"])
 
 
 def steep(rough, slope):
@@ -97,17 +96,15 @@ def power_laws():
     # Eq. 21 is in proportion to the loss: xi = 1 where it is the plateau.
     unit = eq.one_frequency_friction(load, G, lambda _: G, q_max, SPEED, 0.1, *shape(body))
     share = float(eq.plateau(0.1) / unit)
+    band = {"lowest_frequency": SPEED, "highest_frequency": 300 * q_max * SPEED}
     for beta in (1.0, 0.2):
         time = (share / sin(pi * beta / 2)) ** (1 / beta) / (q_max * SPEED)
-        solid = Kelvin(G, time)
-        modulus = solid.complex_modulus
-        if beta < 1:
-            band = {"lowest_frequency": SPEED, "highest_frequency": 300 * q_max * SPEED}
-            solid = Fractional(modulus=G, relaxation_time=time, exponent=beta, **band)
-            modulus = solid.law
-        found = solved(SHALLOW, solid, rough, SPEED)
-        loss = (load, G, lambda omega, of=modulus: of(omega).imag, q_max, SPEED)
-        expected = eq.general_friction(*loss, found["slope"], *shape(body))
+        power = Fractional(modulus=G, relaxation_time=time, exponent=beta, **band) if beta < 1 else None
+        found = solved(SHALLOW, power or Kelvin(G, time), rough, SPEED)
+        law = power.law if power else Kelvin(G, time).complex_modulus
+        expected = eq.general_friction(
+            load, G, lambda omega, law=law: law(omega).imag, q_max, SPEED, found["slope"], *shape(body)
+        )
         yield "22", f"loss ω^{beta:g}, ξ = 1", expected, found["friction"]
 
 
@@ -121,8 +118,7 @@ def rows():
 
 def parts():
     """Text between two comments of the page, by the name of the comment."""
-    found = pandas.read_csv(MEASURED)
-    shown = ((row.equation, row.contact, f"{row.over:.3g} ± {row.error:.1g}") for row in found.itertuples())
+    shown = cells("{equation}|{contact}|{over:.3g} ± {error:.1g}", pandas.read_csv(MEASURED))
     return {"equations": table("Eq.|contact|formula over simulation", shown)}
 
 

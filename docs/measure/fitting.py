@@ -78,13 +78,10 @@ def _widened(quantity, everything, taken, scatter):
 def _left_out(everything, taken):
     """Errors (N,) of each value predicted from all others that are taken, and their standard errors, noiseless."""
     process = through(everything, taken)
-    error, variance = np.empty(everything.values.size), np.empty(everything.values.size)
+    found, variance = process.predicted(everything.inputs)
+    error = everything.values - found
     error[taken], variance[taken] = left_out(process)
     variance[taken] -= process.variances
-    others = np.setdiff1d(np.arange(error.size), taken)
-    if others.size:
-        found, variance[others] = process.predicted(everything.inputs[others])
-        error[others] = everything.values[others] - found
     return error, np.sqrt(np.maximum(variance, LEAST_VARIANCE))
 
 
@@ -94,15 +91,14 @@ def fitted(inputs, values, variances):
     if values.size > _MOST_FITTED:
         drawn = np.random.default_rng(0).permutation(values.size)[:_MOST_FITTED]
         inputs, values, variances = (each[drawn] for each in everything)
-    spread = np.where(inputs.std(axis=0) > _VARIES, inputs.std(axis=0), 0.0)
-    units = Scales(inputs.mean(axis=0), spread, np.ones(count), 1.0, 1.0, 1.0)
+    spread = inputs.std(axis=0)
+    units = Scales(inputs.mean(axis=0), spread * (spread > _VARIES), np.ones(count), 1.0, 1.0, 1.0)
     start = np.log([_START] * count + [np.std(values), 0.1 * np.std(values), 10 * _LEAST])
     bounds = [(np.log(_SHORTEST), np.log(_LONGEST))] * count + [(np.log(_LEAST), np.log(_LONGEST))] * 3
     given = units.standard(inputs), values - values.mean(), variances
     found = minimize(_unlikeliness, start, given, "L-BFGS-B", jac=True, bounds=bounds)
     *lengths, amplitude, slope, noise = np.exp(found.x).tolist()
-    scales = replace(units, lengths=np.array(lengths), amplitude=amplitude, slope=slope, noise=noise)
-    return Process(*everything, scales)
+    return Process(*everything, Scales(units.middle, units.spread, np.array(lengths), amplitude, slope, noise))
 
 
 def most_informative(process, most):

@@ -9,14 +9,13 @@ from pandas import DataFrame
 from random_contacts import KINDS, RADIUS, drawn
 from scipy.optimize import linprog
 from scipy.sparse import csr_matrix, hstack, identity
-from tables import of_count
+from tables import of_count, task
 
 from bem3d import BEM
 from bem3d.costs import band
 from bem3d.friction import bound as frictionerror
 from bem3d.grid import Grid
 from bem3d.problem import Problem
-from compare.solving.cost import work_of
 from compare.solving.task import SceneTask
 from mdr1d import MDR
 
@@ -72,9 +71,9 @@ def judged(seeds):
     for kind, seed, scene in contacts(seeds):
         finer = reference(scene)
         points = 2 * int(np.random.default_rng([seed, 7]).integers(*POINTS) // 2)
-        for task in (_task(BEM(points=points), scene), finer[0]):
-            if not task.solver.refusals(scene):
-                yield Judged(kind, task, finer)
+        for each in (task(BEM(points=points), scene), finer[0]):
+            if not each.solver.refusals(scene):
+                yield Judged(kind, each, finer)
 
 
 def judged_lines(seeds):
@@ -85,18 +84,14 @@ def judged_lines(seeds):
         rough, points = scene.roughness, int(10 ** draw.uniform(1.5, 4))
         if rough is not None:
             points = int(10 ** draw.uniform(*np.log10(WAVES)) * EXTENT / rough.shortest)
-        if rough is not None and draw.random() < 0.2:
-            points = int(10 ** draw.uniform(1.5, 3.5))
-            period = int(np.ceil(rough.longest * points / EXTENT * (1 - 1e-12)))
-            scene, same = (
-                replace(scene, roughness=replace(rough, shortest=each))
-                for each in (None, 2 * rough.longest / period)
-            )
-        task, *finer = (
-            _task(MDR(points=times * points, extent=EXTENT), same if times > 1 else scene)
-            for times in (1, *FINER_LINES)
-        )
-        yield Judged(kind, task, tuple(finer))
+            if draw.random() < 0.2:
+                points = int(10 ** draw.uniform(1.5, 3.5))
+                shortest = 2 * rough.longest / int(np.ceil(rough.longest * points / EXTENT * (1 - 1e-12)))
+                scene, same = (
+                    replace(scene, roughness=replace(rough, shortest=each)) for each in (None, shortest)
+                )
+        finer = tuple(task(MDR(points=times * points, extent=EXTENT), same) for times in FINER_LINES)
+        yield Judged(kind, task(MDR(points=points, extent=EXTENT), scene), finer)
 
 
 def rows(every, outcomes):
@@ -105,10 +100,11 @@ def rows(every, outcomes):
     for each in every:
         answer, error = _known(each, outcomes)
         if isfinite(error):
-            solid, speed = type(each.task.scenes[0].elastomer).__name__, band(each.finer[0].scenes[0])
-            row = {"model": each.task.solver.name, "body": each.name, "solid": solid, "speed": speed}
-            bound = answer.measures.get("friction_error", nan)
-            found.append(row | {"error": float(f"{error:.4g}"), "bound": float(f"{bound:.4g}")})
+            (scene,), solver = each.finer[0].scenes, each.task.solver
+            numbers = {"error": error, "bound": answer.measures.get("friction_error", nan)}
+            row = {"model": solver.name, "body": each.name, "solid": type(scene.elastomer).__name__}
+            row |= {"speed": band(scene)} | {name: float(f"{value:.4g}") for name, value in numbers.items()}
+            found.append(row)
     return found
 
 
@@ -128,9 +124,9 @@ def regions(found):
     for (model, region), own in regions.groupby(["model", "region"], sort=False):
         if region == "all" or len(own) >= FEWEST:
             held = int((own["error"] <= own["bound"]).sum())
-            lower, upper = of_count(held, len(own))
             row = {"model": model, "region": region, "answers": len(own), "held": held}
-            yield row | {"lower": lower, "upper": upper, "medians": own[["error", "bound"]].median().tolist()}
+            row |= zip(("lower", "upper"), of_count(held, len(own)), strict=True)
+            yield row | own[["error", "bound"]].median().to_dict()
 
 
 @dataclass(frozen=True)
@@ -144,9 +140,8 @@ class WithSigns:
     def solve(self, scene):
         """Answer and signs, where it has friction."""
         solver = BEM(points=self.points)
-        result = solver.solve(scene)
-        problem, settings = Problem(scene, solver.engine), result.settings
-        grid = Grid(self.points, settings["extent"], settings["centre"], width=problem.width)
+        result, problem = solver.solve(scene), Problem(scene, solver.engine)
+        grid = Grid(self.points, *map(result.settings.get, ("extent", "centre")), width=problem.width)
         _, seen = frictionerror.estimated(problem, grid, result.fields["pressure"], problem.lost)
         signs = {} if seen is None else seen.numbers
         return replace(result, measures={f"{SIGN}{name}": value for name, value in signs.items()})
@@ -156,7 +151,7 @@ def to_learn(seeds):
     """Scenes by name, each on several grids, with the finer ones that are the truth."""
     for kind, seed, scene in contacts(seeds):
         for points in LEARNED_POINTS:
-            yield Judged(f"{kind}{seed}", _task(WithSigns(points), scene), reference(scene))
+            yield Judged(f"{kind}{seed}", task(WithSigns(points), scene), reference(scene))
 
 
 def learn(every, outcomes):
@@ -166,8 +161,8 @@ def learn(every, outcomes):
         signs = {sign.removeprefix(SIGN): value for sign, value in answer.measures.items()}
         if signs and isfinite(error):
             body, speed = "rough" if signs["wave"] else "smooth", "slow" if signs["slowness"] > 1 / 2 else "fast"
-            row = {"scene": each.name, "kind": f"{body}, {speed}"}
-            row |= {"error": f"{error:.4g}", "residual": f"{answer.residual:.2g}"}
+            row = {"scene": each.name, "kind": f"{body}, {speed}", "error": f"{error:.4g}"}
+            row["residual"] = f"{answer.residual:.2g}"
             yield row | {sign: f"{value:.4g}" for sign, value in signs.items() if sign != "one"}
 
 
@@ -181,8 +176,8 @@ def refitted(table):
     table = table.assign(one=1.0, fold=pandas.factorize(table["scene"])[0] % FOLDS)
     for kind in KINDS_OF_ERROR:
         own = table[table["kind"] == kind]
-        signs, fold, error = (own[name].to_numpy() for name in (names, "fold", "error"))
-        left = frictionerror.OF_TOLERANCE * own["residual"].to_numpy()
+        signs, fold, error, residual = (own[name].to_numpy() for name in (names, "fold", "error", "residual"))
+        left = frictionerror.OF_TOLERANCE * residual
         values, short = np.log(np.maximum(error - left, LEAST)), np.empty(len(own))
         for k in range(FOLDS):
             out = fold == k
@@ -204,13 +199,9 @@ def _quantile(table, values):
     return solution[:names] - solution[names : 2 * names]
 
 
-def _task(solver, scene):
-    return SceneTask(solver, (scene,), work=work_of(solver, scene))
-
-
 def reference(scene):
     """Tasks from which the truth of a scene in three dimensions is taken."""
-    return tuple(_task(BEM(points=points), scene) for points in REFERENCE)
+    return tuple(task(BEM(points=points), scene) for points in REFERENCE)
 
 
 def settled(values, unit=None):

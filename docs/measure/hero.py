@@ -13,7 +13,7 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 from PIL import Image
-from tables import friction, solved, stored
+from tables import RESULTS, friction, solved, stored, task
 
 import compare
 from bem3d import BEM
@@ -21,13 +21,11 @@ from compare.figures import contact, style
 from compare.figures.curves import intervals
 from compare.figures.shades import SPEED, between
 from compare.report.csvfiles import read
-from compare.solving.task import SceneTask, draws_of
 from compare.studies.comparison.study_file import STUDIES
 from mdr1d import MDR, equations
 from scene import Kelvin, Scene, Slide, Sphere
 
-PAGE = Path(__file__).parents[1] / "results" / "hero.png"
-NUMBERS, STEEP_CONTACTS = PAGE.with_suffix(".csv"), PAGE.parent / "law" / "steep.csv"
+PAGE, NUMBERS, STEEP_CONTACTS = (RESULTS / name for name in ("hero.png", "hero.csv", "law/steep.csv"))
 STEEP = STUDIES["regime"].series("full")[0]
 SCENE = replace(STEEP.scene, roughness=replace(STEEP.scene.roughness, seed=0))
 LEAST, *_, MOST = STEEP.values
@@ -74,7 +72,7 @@ def figure(plot, numbers, steep):
     above.text(1.5, 2e-2, "dashed: Eq. 17", fontsize=style.small(), ha="right")
     for speed, chosen in numbers[numbers["solver"] == "BEM"].groupby("speed"):
         end = chosen.iloc[-1]
-        text = f"{1e3 * speed:g} mm/s" if speed == SPEEDS[-1] else f"{1e3 * speed:g}"
+        text = f"{1e3 * speed:g}{' mm/s' * (speed == SPEEDS[-1])}"
         note(below, text, (shifted(end["load"], speed), end["friction"]), (5, 1))
     master_curve(last, steep)
     return drawing
@@ -84,8 +82,8 @@ def master_curve(axes, steep):
     """What roughness adds in 3D, over that in full contact, against the pressure; line, the law."""
     scale = between(steep["speed"])
     grey = style.line(0.6, 2.5, linestyle="-")
-    for (body, own), form in zip(steep.groupby("body", sort=False), style.forms(), strict=False):
-        mark = {"linestyle": "none", "marker": form["marker"]}
+    for (body, own), marker in zip(steep.groupby("body", sort=False), style.SERIES_MARKERS, strict=False):
+        mark = {"linestyle": "none", "marker": marker}
         for speed, chosen in own.groupby("speed"):
             axes.loglog(chosen["x"], chosen["averaged_share"], **grey, zorder=1)
             intervals(axes, chosen["x"], chosen, "measured_share", color=SPEED(scale(speed)), **mark)
@@ -102,10 +100,10 @@ def master_curve(axes, steep):
 def against_load(axes, numbers, solver):
     """Friction at each speed against the load that Eq. 23 shifts to the lowest one; dashed, Eq. 17."""
     axes.set(xscale="log", yscale="log", xlim=(6e-3, 2.2), ylim=(5e-5, 6e-2))
-    for speed, colour, form in zip(SPEEDS, style.shades(solver, len(SPEEDS)), style.forms(), strict=False):
+    shades = style.shades(solver, len(SPEEDS))
+    for speed, colour, marker in zip(SPEEDS, shades, style.SERIES_MARKERS, strict=False):
         chosen = numbers[numbers["speed"] == speed]
-        look = {"color": colour, "marker": form["marker"]}
-        intervals(axes, shifted(chosen["load"], speed), chosen, "friction", **look)
+        intervals(axes, shifted(chosen["load"], speed), chosen, "friction", color=colour, marker=marker)
     loads = shifted(np.array([LEAST, MOST]), np.array([SPEEDS[-1], SPEEDS[0]]))
     slope, solid = SCENE.roughness.rms_slope(2 * np.pi / SCENE.roughness.shortest), SCENE.elastomer
     law = equations.low_speed_friction(
@@ -135,19 +133,15 @@ def shifted(load, speed):
 def measured():
     """Mean friction over mean load of some rough surfaces, with its interval, at each speed and load by model."""
     tasks = {
-        (solver, speed, load): SceneTask(
-            solver, draws_of(replace(SCENE, motion=Slide(speed=speed, load=load)), draws)
-        )
+        (solver, speed, load): task(solver, replace(SCENE, motion=Slide(speed=speed, load=load)), draws)
         for solver, draws in DRAWS.items()
         for load in LOADS.tolist()
         for speed in SPEEDS
     }
     outcomes = solved(PAGE, tasks.values())
-    for (solver, speed, load), task in tasks.items():
-        found = friction(outcomes[task].rows)
-        low, high = found.interval()
-        row = {"solver": solver.name, "speed": speed, "load": load, "friction": found.value}
-        yield row | {"friction_low": low, "friction_high": high}
+    for (solver, speed, load), asked in tasks.items():
+        row = {"solver": solver.name, "speed": speed, "load": load}
+        yield row | friction(outcomes[asked].rows).columns("friction")
 
 
 if __name__ == "__main__":

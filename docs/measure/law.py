@@ -5,36 +5,36 @@ python docs/measure/law.py solve   solves these scenes first, as far as they are
 """
 
 import sys
-from dataclasses import dataclass, replace
-from math import inf
-from pathlib import Path
+from collections import namedtuple
+from dataclasses import replace
+from itertools import chain
 
 import design
 import numpy as np
 import pandas
+from contact import resolving
 from design import drawn_points, scene_at, within
 from pandas import DataFrame
-from tables import fill, friction, of_count, solved, stored, table
+from tables import RESULTS, fill, friction, of_count, solved, stored, table, task
 
 from bem3d import BEM
 from compare import FrictionLaw, Persson
 from compare.models.law.parts import LawParts
-from compare.solving.task import SceneTask, draws_of
 from compare.trustmap.model import NORMAL
 from mdr1d import MDR
-from scene import Scene, Slide
+from scene import Slide
 from scene.scales import elastic_contact
 
-PAGE = Path(__file__).parents[1] / "results" / "law.md"
-ERRORS, SCENES = (PAGE.with_suffix("") / name for name in ("errors.csv", "scenes"))
-# Number of scenes and seed of each set: drawn evenly, and two in three of them where the bare law is far off.
-SETS = {"fresh": (640, 36_200), "regions": (240, 53_100)}
+PAGE, ERRORS, SCENES = (RESULTS / name for name in ("law.md", "law/errors.csv", "law/scenes"))
+# Points and seed of each set: drawn evenly, and two in three of them where the bare law is far off. 640 and 240 of
+# them slide on roughness.
+SETS = {"fresh": (801, 36_200), "regions": (254, 53_100)}
 FAST, BLUNT, EVENLY = REGIONS = "spheres on a fast Kelvin solid", "blunt bodies", "drawn evenly"
 # The first of these: v tau over the shortest wave, and h0/d; the second: n, and p/p_rms.
 PASSED, HEIGHT, POWERS, PRESSURES = (15.0, 300.0), (0.04, 0.3), (6.0, 12.0), (0.9, 4.0)
 PASSES = 4  # of the height that a pressure asks for: the contact depends on it little
 # The least number of surfaces: four times as many on the coarsest grid.
-SURFACES, PROFILES, SURFACE_SEEDS = 16, 40, 1000
+SURFACES, PROFILES = 16, 40
 POINTS, PIXELS = (128, 192, 256, 384, 512, 640), 12  # a side; to the shortest wave
 
 
@@ -51,46 +51,27 @@ ROWS = {
 MODELS = {"bare": "bare law", "law": "3D law", "persson": "Persson", "line": "MDR"}
 
 
-@dataclass(frozen=True)
-class RandomScene:
-    """A scene that slides on roughness, its region, and its tasks."""
+# A scene that slides on roughness, and its region.
+RandomScene = namedtuple("RandomScene", "number region scene")
 
-    number: int
-    region: str
-    scene: Scene
 
-    @property
-    def first(self):
-        """Its first surface, for the side of its window."""
-        return SceneTask(BEM(points=POINTS[0]), (self.scene,))
-
-    @property
-    def line(self):
-        """Its profiles."""
-        return SceneTask(MDR(points=4000), draws_of(self.scene, PROFILES), work=1e-2)
-
-    def space(self, first):
-        """Its surfaces, on points that resolve the shortest wave in the window of the first."""
-        needed = PIXELS * first.rows[0].settings.get("extent", inf) / self.scene.roughness.shortest
-        points = next((points for points in POINTS if points >= needed), POINTS[-1])
-        surfaces = max(SURFACES, round(4 * SURFACES * (POINTS[0] / points) ** 2))
-        return SceneTask(BEM(points=points), draws_of(self.scene, surfaces), work=float(surfaces * points**2))
+def surfaces(scene, first):
+    """Surfaces of a scene, on points that resolve the shortest wave in the window of the first."""
+    points = resolving(first.rows[0], scene.roughness.shortest, POINTS, PIXELS)
+    return task(BEM(points=points), scene, max(SURFACES, round(4 * SURFACES * (POINTS[0] / points) ** 2)))
 
 
 def scenes(name):
     """Scenes of a set, one after the other."""
     count, seed = SETS[name]
-    found = 0
-    for number, drawn in enumerate(drawn_points(seed).tolist()):
+    regions, periods = ([EVENLY], design.PERIODS) if name == "fresh" else (REGIONS, design.ALL_PERIODS)
+    for number, drawn in enumerate(drawn_points(seed)[:count].tolist()):
         point = design.Point(*drawn)
-        region, periods = EVENLY, design.PERIODS
-        if name == "regions":
-            region, periods = REGIONS[number % len(REGIONS)], design.ALL_PERIODS
-        scene = scene_at(place(region, point), SURFACE_SEEDS * number, periods)
+        region = regions[number % len(regions)]
+        scene = scene_at(place(region, point), design.SEEDS * number, periods)
         if region == BLUNT:
             scene = pressed(scene, design.between(PRESSURES, point.height))
-        if scene.roughness is not None and isinstance(scene.motion, Slide) and found < count:
-            found += 1
+        if scene.roughness is not None and isinstance(scene.motion, Slide):
             yield RandomScene(number, region, scene)
 
 
@@ -115,20 +96,19 @@ def pressed(scene, ratio):
     return scene
 
 
-def row(scene, space, line):
+def row(number, space, line):
     """Friction in 3D with its standard error, relative, and in 1D."""
-    surfaces, profiles = friction(space.rows), friction(line.rows)
-    error = surfaces.error / abs(surfaces.value)
-    found = {"friction": surfaces.value, "error": error, "line": profiles.value}
-    return {"scene": scene.number} | {name: float(value) for name, value in found.items()}
+    mean = friction(space.rows)
+    found = {"scene": number, "friction": mean.value, "error": mean.error / abs(mean.value)}
+    return found | {"line": friction(line.rows).value}
 
 
 def errors():
     """ln(model / 3D) of each scene, where it lies, and whether the interval of the law holds it."""
     rows = []
     for name in SETS:
-        known = pandas.read_csv(SCENES.with_name(f"scenes-{name}.csv")).set_index("scene")
-        known = known[np.isfinite(known["friction"]) & (known["friction"] > 0)]
+        known = pandas.read_csv(SCENES.with_name(f"scenes-{name}.csv"), index_col="scene")
+        known = known[known["friction"] > 0]
         rows += [_errors(each, known.loc[each.number]) for each in scenes(name) if each.number in known.index]
     return DataFrame(rows)
 
@@ -166,10 +146,9 @@ def rows(found):
 
 def _covered(own):
     """Half of the interval, and how many it holds; nothing where there are no intervals."""
-    half, held, count = 100 * np.expm1(own["half"].median()), int(own["held"].sum()), len(own)
-    low, high = of_count(held, count)
-    share = f"{100 * held / count:.0f} % ({100 * low:.0f} to {100 * high:.0f})"
-    return ("", "") if np.isnan(half) else (f"{half:.2g} %", share)
+    half, held = np.expm1(own["half"].median()), own["held"]
+    share, low, high = 100 * held.mean(), *(100 * of_count(int(held.sum()), len(held)))
+    return ("", "") if np.isnan(half) else (f"{100 * half:.2g} %", f"{share:.0f} % ({low:.0f} to {high:.0f})")
 
 
 def _cell(logs):
@@ -178,11 +157,10 @@ def _cell(logs):
     return f"{' / '.join(shown)} % ({len(off)})" if len(off) else ""
 
 
-def errors_of(model):
-    """Errors of a model that half and nine in ten of the unseen scenes stay below [%], and number of scenes."""
-    found = pandas.read_csv(ERRORS)
-    off = 100 * np.abs(np.expm1(found.query(ROWS["all"])[model]))
-    return off.median(), off.quantile(0.9), len(off)
+def unseen():
+    """Errors of the law that half and nine in ten of the unseen scenes stay below [%], and number of scenes."""
+    off = 100 * np.abs(np.expm1(pandas.read_csv(ERRORS).query(ROWS["all"])["law"]))
+    return *off.quantile([0.5, 0.9]), len(off)
 
 
 def parts():
@@ -194,11 +172,15 @@ def parts():
 def solve():
     """Solve the scenes that are not solved yet, and write what was found."""
     for name in SETS:
-        found = list(scenes(name))
-        first = solved(SCENES, [each.first for each in found])
-        spaces = {each: each.space(first[each.first]) for each in found}
-        outcomes = solved(SCENES, [task for each in found for task in (spaces[each], each.line)])
-        rows = (row(each, outcomes[spaces[each]], outcomes[each.line]) for each in found)
+        found = {each.number: each.scene for each in scenes(name)}
+        first = {number: task(BEM(points=POINTS[0]), scene) for number, scene in found.items()}
+        windows = solved(SCENES, first.values())
+        both = {
+            number: (surfaces(scene, windows[first[number]]), task(MDR(points=4000), scene, PROFILES))
+            for number, scene in found.items()
+        }
+        outcomes = solved(SCENES, chain(*both.values()))
+        rows = (row(number, *map(outcomes.get, tasks)) for number, tasks in both.items())
         stored(SCENES.with_name(f"scenes-{name}.csv"), rows)
 
 

@@ -9,7 +9,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import nan, pi
-from pathlib import Path
 
 import numpy as np
 import pandas
@@ -17,17 +16,17 @@ from design import RADIUS, SPEED, between, solid_at
 from pandas import DataFrame
 from scipy.optimize import least_squares
 from scipy.stats import qmc
-from tables import friction, solved, stored
+from tables import RESULTS, friction, solved, stored, task
 
 from bem3d import BEM
 from bem3d.heights import heights
 from compare.models.exact import full_contact
 from compare.models.law.bands import Bands, FullContact
 from compare.models.law.parts import FITTED, Share, coefficients, waves
-from compare.solving.task import SceneTask, draws_of
+from compare.solving.task import SceneTask
 from scene import Plane, Scene, SelfAffine, Slide
 
-PAGE = Path(__file__).parents[1] / "results" / "law" / "planes.md"
+TABLE = RESULTS / "law/planes.csv"
 PLANES, SEED, SURFACE_SEEDS = 250, 36_001, 1000
 HELD_OUT = 5  # every fifth plane is held out
 BREADTHS = 4.0, 32.0  # longest over shortest wave
@@ -69,21 +68,17 @@ def tasks(scene, count, checked):
     rough = scene.roughness
     for points, draws in ((COARSE, count), *[(COARSE, CHECKED), (FINE, CHECKED)] * checked):
         side = 2 * round(points * rough.longest / rough.shortest / 2)
-        yield SceneTask(BEM(points=side), draws_of(scene, draws), work=float(draws * side**2))
+        yield task(BEM(points=side), scene, draws)
 
 
 def contacts():
     """All planes under all pressures, of a Sobol sequence."""
-    few, many = (
-        qmc.Sobol(DIMENSIONS, seed=seed).random(DRAWN)[:count].tolist()
-        for seed, count in ((SEED, PLANES), (WIDE_SEED, WIDE))
-    )
-    for number, place in enumerate([*few, *many]):
+    few, many = (qmc.Sobol(DIMENSIONS, seed=seed).random(DRAWN).tolist() for seed in (SEED, WIDE_SEED))
+    for number, place in enumerate([*few[:PLANES], *many[:WIDE]]):
         wide = number >= PLANES
         hurst, breadth, rolled, rolloff, kind, *others, speed, at, shift = place
         ratio = WIDE_BREADTH if wide else between(BREADTHS, breadth)
-        shortest = RADIUS / ratio
-        rolloffs = WIDE_ROLLOFFS if wide else (1.05, ratio)
+        shortest, rolloffs = RADIUS / ratio, WIDE_ROLLOFFS if wide else (1.05, ratio)
         rough = SelfAffine(
             hurst=hurst,
             rms_height=1e-7,
@@ -95,9 +90,8 @@ def contacts():
         kind = 0.8 * kind + 0.2 * (kind > 0.9)
         solid = solid_at(kind, *others, 0.88 * speed, shortest / (2 * pi))
         scene = Scene(Plane(), solid, Slide(speed=SPEED, pressure=1.0), rough)
-        drawn, sides = heights(scene, 2 * round(4 * ratio)).height, (RADIUS, RADIUS)
-        lost = full_contact.friction(drawn, sides, solid, SPEED)
-        pressure = float(full_contact.pressure(drawn, sides, solid, SPEED).std())
+        full = heights(scene, 2 * round(4 * ratio)).height, (RADIUS, RADIUS), solid, SPEED
+        lost, pressure = full_contact.friction(*full), float(full_contact.pressure(*full).std())
         numbers = waves(FullContact.of(Bands.of(rough), solid, SPEED))
         for index, (ends, counts) in enumerate(RANGES):
             x = between(ends, (at + shift * index) % 1)
@@ -116,20 +110,20 @@ def rows(found, outcomes):
         yield {
             "plane": each.number,
             "x": motion.pressure / each.pressure,
-            "share": float(mean.value) * motion.pressure / each.friction,
-            "error": float(mean.error / mean.value),
-            "gap": float(np.nanmean([row.measures.get("mean_gap", nan) for row in coarse])) / rough.rms_height,
-            "friction_finer": float(fine / few - 1),
+            "share": mean.value * motion.pressure / each.friction,
+            "error": mean.error / mean.value,
+            "gap": np.nanmean([row.measures.get("mean_gap", nan) for row in coarse]) / rough.rms_height,
+            "friction_finer": fine / few - 1,
             **{name: value for name, value in each.waves.items() if name != "one"},
         }
 
 
 def planes():
     """Planes with their share on ever finer grids: what those with a finer one differ by is alike for all."""
-    found = pandas.read_csv(PAGE.with_suffix(".csv")).assign(one=1.0)
+    found = pandas.read_csv(TABLE).assign(one=1.0)
     columns = np.stack([found["one"], found["lossy"], np.log(found["x"])], axis=1)
-    seen = found["friction_finer"].notna().to_numpy()
-    change = columns @ np.linalg.lstsq(columns[seen], found["friction_finer"][seen], rcond=None)[0]
+    finer = found["friction_finer"]
+    change = columns @ np.linalg.lstsq(columns[finer.notna()], finer.dropna(), rcond=None)[0]
     # Halving the pixel once more changes half as much again, and so on.
     return found.assign(share=found["share"] * (1 + 2 * change))
 
@@ -148,12 +142,12 @@ def off(found, values):
 
 def misfits(found, values):
     """Misfit of planes held out by their pressure: median, nine in ten, and the standard error of the planes."""
-    misfit = np.abs(off(found, values))
+    found = found.assign(misfit=np.abs(off(found, values)))
     for low, high in pairwise(PLACES):
-        own = found["x"].between(low, high).to_numpy()
-        median, most = np.quantile(misfit[own], (0.5, 0.9))
-        row = {"from": low, "to": high, "planes": own.sum(), "median": median, "nine in ten": most}
-        yield row | {"error": found["error"][own].median()}
+        own = found[found["x"].between(low, high)]
+        median, most = np.quantile(own["misfit"], (0.5, 0.9))
+        row = {"from": low, "to": high, "planes": len(own), "median": median, "nine in ten": most}
+        yield row | {"error": own["error"].median()}
 
 
 def fit():
@@ -169,15 +163,14 @@ def fit():
     low, high = np.quantile(drawn, [0.025, 0.975], axis=0)
     numbers = DataFrame({"value": best, "low": low, "high": high}).map("{:.4g}".format)
     stored(FITTED, DataFrame([*coefficients()], columns=["to", "times"]).join(numbers))
-    stored(PAGE.with_name("share.csv"), misfits(found[held], best))
+    stored(RESULTS / "law/share.csv", misfits(found[held], best))
 
 
 def main(only=""):
     """Solve what is not solved yet, write what was found, and fit."""
     if not only:
         found = list(contacts())
-        outcomes = solved(PAGE, [task for each in found for task in each.tasks])
-        stored(PAGE.with_suffix(".csv"), rows(found, outcomes))
+        stored(TABLE, rows(found, solved(TABLE, [task for each in found for task in each.tasks])))
     fit()
 
 

@@ -6,9 +6,9 @@ from math import isfinite, nan
 
 from friction_errors import Judged, reference
 from random_contacts import drawn
+from tables import task
 
 from bem3d import Unconfirmed, for_accuracy
-from compare.solving.task import SceneTask
 from scene import SolveError
 from scene.scales import elastic_contact
 
@@ -27,6 +27,7 @@ class Promised:
     wanted: float
     name = "BEM"
     packages = ("scene", "bem3d", __name__)
+    work = 1e8
 
     def solve(self, scene):
         """Answer with the settings found."""
@@ -47,7 +48,7 @@ def asked():
             scene = drawn(kind, seed)
             for quantity in ("friction", "depth" if scene.motion.depth is None else "load"):
                 for wanted in WANTED:
-                    yield Judged(kind, SceneTask(Promised(quantity, wanted), (scene,), work=1e8), reference(scene))
+                    yield Judged(kind, task(Promised(quantity, wanted), scene), reference(scene))
 
 
 def rows(every, outcomes):

@@ -10,24 +10,20 @@ python docs/measure/promises.py [learn|fit|costs]
 
 import sys
 from dataclasses import replace
-from pathlib import Path
 
 import friction_errors as errors
 import pandas
 import promised
 from pandas import DataFrame
 from random_contacts import drawn
-from tables import fill, of_count, solved, stored, table
+from tables import RESULTS, cells, fill, of_count, solved, stored, table, task
 
 from bem3d import BEM
 from bem3d.costs import MEASURED, band, body
 from bem3d.friction.bound import FITTED
-from compare.solving.cost import work_of
-from compare.solving.task import SceneTask
 from scene import Indent
 
-PAGE = Path(__file__).parents[1] / "results" / "accuracy.md"
-FOLDER = PAGE.with_suffix("")
+PAGE, FOLDER = RESULTS / "accuracy.md", RESULTS / "accuracy"
 SOLVED, STATED, KEPT, TABLE = (FOLDER / name for name in ("promises", "errors.csv", "kept.csv", "learned.csv.gz"))
 LEARNED = *range(300), *range(9000, 9180), *range(11000, 11180)  # seeds of contacts that bounds are fitted to
 HELD_OUT = range(13000, 13180)  # and of those that they are tested on
@@ -70,7 +66,7 @@ def judge():
 
 
 def _solved(judged):
-    return solved(SOLVED, (task for each in judged for task in each.tasks))
+    return solved(SOLVED, (one for each in judged for one in each.tasks))
 
 
 def priced():
@@ -83,16 +79,16 @@ def priced():
                 for points in grids:
                     solver = BEM(points=points, tolerance=TIGHT)  # plans bring its costs to other tolerances
                     if not solver.refusals(each):
-                        yield SceneTask(solver, (each,), work=work_of(solver, each))
+                        yield task(solver, each)
 
 
 def costs(tasks, outcomes):
     """Median applications by body, band and points, of FEWEST solves at least."""
     names = ["body", "band", "points"]
     spent = [
-        (body(scene), band(scene), task.solver.points, outcomes[task].rows[0].operator_applications)
-        for task in tasks
-        for scene in task.scenes
+        (body(scene), band(scene), each.solver.points, outcomes[each].rows[0].operator_applications)
+        for each in tasks
+        for scene in each.scenes
     ]
     groups = DataFrame(spent, columns=[*names, "value"]).dropna().groupby(names, sort=False)["value"]
     found = groups.agg(value="median", answers="size").reset_index()
@@ -105,27 +101,23 @@ def parts():
     regions = list(errors.regions(pandas.read_csv(STATED)))
     low = [f"{each['model']}, {each['region']}" for each in regions if each["upper"] < errors.SHARE]
     worst = f"Significantly below 95 %: {'; '.join(low)}." if low else "No region is significantly below 95 %."
-    rows = (_of_region(each) for each in regions if each["region"] == "all")
+    rows = (each | {"share": each["held"] / each["answers"]} for each in regions if each["region"] == "all")
+    form = "{model}|{answers}|{share:.1%}|{lower:.1%} to {upper:.1%}|{error:.2g}|{bound:.2g}"
     header = "solver|answers|within the bound|interval of 95 %|median error|median bound"
     return {
-        "stated": f"{table(header, rows)}\n\n{worst}",
+        "stated": f"{table(header, cells(form, rows))}\n\n{worst}",
         "kept": _kept(pandas.read_csv(KEPT)[["asked", "confirmed", "checked", "broken"]].sum()),
     }
 
 
-def _of_region(each):
-    share, interval = f"{each['held'] / each['answers']:.1%}", f"{each['lower']:.1%} to {each['upper']:.1%}"
-    medians = (f"{median:.2g}" for median in each["medians"])
-    return each["model"], str(each["answers"]), share, interval, *medians
-
-
 def _kept(counts):
     """Counts of all promises in words, with intervals."""
-    left, broken = int(counts["asked"] - counts["confirmed"]), int(counts["broken"])
+    asked, confirmed, checked, broken = counts.tolist()
+    left = asked - confirmed
     return (
-        f"Of {counts['asked']} settings that were asked for, {left} ({_share(left, counts['asked'])}) were not "
-        f"confirmed. Of {counts['checked']} confirmed ones that could be checked, {broken} "
-        f"({_share(broken, counts['checked'])}) missed the wanted accuracy."
+        f"Of {asked} settings that were asked for, {left} ({_share(left, asked)}) were not "
+        f"confirmed. Of {checked} confirmed ones that could be checked, {broken} "
+        f"({_share(broken, checked)}) missed the wanted accuracy."
     )
 
 

@@ -6,11 +6,10 @@ Friction is drawn with an answer that is known. It takes minutes on one core; ev
 """
 
 from math import sqrt
-from pathlib import Path
 
 import numpy as np
 import pandas
-from tables import fill, stored, table
+from tables import RESULTS, fill, stored, table
 
 from compare.statistics import eq23
 from compare.statistics.collapse import collapse
@@ -19,8 +18,8 @@ from compare.statistics.intervals import student
 from compare.statistics.jackknife import mean_ratio
 from mdr1d.equations import interpolation
 
-PAGE = Path(__file__).parents[1] / "results" / "accuracy.md"
-MEANS, VERDICTS = (PAGE.with_suffix("") / f"rates-{name}.csv" for name in ("means", "verdicts"))
+PAGE = RESULTS / "accuracy.md"
+MEANS, VERDICTS = (RESULTS / f"accuracy/rates-{name}.csv" for name in ("means", "verdicts"))
 SEED = 2014
 # As in the studies [m/s], [N].
 SPEED_RANGE, LOAD_RANGE = (7.5e-3, 2.0), (0.2, 20.0)
@@ -71,9 +70,8 @@ def mean_of_draws(variation, count):
     draws, width = generator(3, False, variation, count).normal(size=(DRAWN, count)), sqrt(np.log1p(variation**2))
     found = mean_ratio(np.exp(width * draws - width**2 / 2))
     (low, high), half = found.interval(), found.error * student(0.95, found.dof)
-    held = {"ours": (low <= 1) & (high >= 1), "student": np.abs(found.value - 1) <= half}
-    shares = {name: float(each.mean()) for name, each in held.items()}
-    return {"scatter": variation, "draws": count} | shares
+    held = {"ours": np.mean((low <= 1) & (high >= 1)), "student": np.mean(np.abs(found.value - 1) <= half)}
+    return {"scatter": variation, "draws": count} | held
 
 
 # What is drawn, and the power of p(v) in the theory that is asked about.
@@ -95,10 +93,8 @@ KINDS = "holds", "undecided", "fails"
 def asked(found, theory):
     """Number and verdict by claim, as the studies ask for them."""
     named = {each.claim.id: each for each in eq23.findings(found, None, "1D", theory * np.log(SPEEDS), theory)}
-    answers = {name: (named[of.id].value, named[of.id].verdict) for name, of in CLAIMS.items()}
-    if (shifted := named.get(eq23.NOT_SHIFTED.id)) is not None:
-        answers["no vertical shift"] = answers["no vertical shift"][0], shifted.verdict
-    return answers
+    shifted = {eq23.VERTICAL: named.get(eq23.NOT_SHIFTED.id)}
+    return {name: (named[of.id].value, (shifted.get(of) or named[of.id]).verdict) for name, of in CLAIMS.items()}
 
 
 def verdicts():
@@ -108,14 +104,10 @@ def verdicts():
         exact, rng = friction(**changes), generator(3, list(LAWS).index(law), SURFACES, SCATTER)
         found = [asked(collapse(drawn(rng, exact)), theory) for _ in range(REPEATS)]
         truth = asked(collapse(SimulatedCurves(SPEEDS, load, np.exp(exact) * load)), theory)
-        for claim in CLAIMS:
+        for claim, (number, _) in truth.items():
             kinds = [each[claim][1] for each in found]
-            yield {
-                "law": law,
-                "claim": claim,
-                "truth": truth[claim][0],
-                **{kind: kinds.count(kind) for kind in KINDS},
-            }
+            row = {"law": law, "claim": claim, "truth": number}
+            yield row | {kind: kinds.count(kind) for kind in KINDS}
 
 
 def parts():

@@ -7,13 +7,13 @@ and a half hours on two cores.
 """
 
 import shutil
+from itertools import product
 from math import hypot
-from pathlib import Path
 
 import numpy as np
 import pandas
 from pandas import DataFrame
-from tables import fill, finding, stored, table, with_interval
+from tables import RESULTS, fill, finding, stored, table
 
 import compare
 from compare.solving.curve import COARSE, FINE, of_model
@@ -25,8 +25,7 @@ from compare.statistics.jackknife import mean_ratio
 from compare.studies.comparison import asked, study_file
 from compare.studies.comparison.claims import ENDS
 
-PAGE = Path(__file__).parents[1] / "results" / "law.md"
-SLOW, FAST = (PAGE.with_suffix("") / f"{name}.csv" for name in ("slow", "fast"))
+PAGE, SLOW, FAST = (RESULTS / name for name in ("law.md", "law/slow.csv", "law/fast.csv"))
 STUDIES = "steep-and-slow", "steep-all-speeds", "steep-on-fine-grids"
 SOLVERS = {"1D": "MDR", "3D": "BEM"}
 PLAIN = "eq23.collapse", "eq23.predicted", "eq23.vertical-alone"
@@ -42,12 +41,13 @@ OF_SLOW = {
     LEVELS[1]: "slow: the same, greatest load",
 }
 KNEE, BEYOND = 2.5, ", from the knee on"  # speeds alone whose v tau q_s is so much or more
-SHIFTED = {
+OF_FAST = {
     "eq23.predicted": "misfit, shifted by p(v) of Eq. 22",
     "eq23.vertical-alone": "misfit, shifted along friction alone",
     f"eq23.predicted{BEYOND}": "from the knee on: misfit, shifted by p(v)",
+    PLATEAUS[0]: "plateau over Eq. 14, least load",
+    PLATEAUS[1]: "the same, greatest load",
 }
-OF_PLATEAU = {PLATEAUS[0]: "plateau over Eq. 14, least load", PLATEAUS[1]: "the same, greatest load"}
 MASTER = {
     "law3d.collapse": "off S(x), median; tested against 0 ± 5 %",
     "law3d.collapse-most": "off S(x), nine in ten within; tested against 15 %",
@@ -62,10 +62,10 @@ SLOW_ANSWER = (
 
 def main():
     """Solve what is not solved yet, and write the numbers, the figures and the parts of the page."""
-    slow, whole, fine = reports = [compare.study(name, "standard", progress="lines") for name in STUDIES]
-    trees = [compare.load(report.path.parent) for report in reports]
+    slow, whole, fine = (compare.study(name, "standard", progress="lines") for name in STUDIES)
+    trees = [compare.load(report.path.parent) for report in (whole, fine)]
     stored(SLOW, slow.findings[slow.findings["claim"].isin(OF_SLOW)].drop(columns=["meaning"]))
-    rows = _fast(whole.findings, fine.findings, trees[1:])
+    rows = _fast(whole.findings, fine.findings, trees)
     stored(FAST, DataFrame(map(dict, rows), columns=COLUMNS))
     shutil.copy(slow.path.parent / "sphere" / "behind.png", PAGE.with_name("law-partial.png"))
     shutil.copy(whole.path.parent / "sphere" / "law.png", PAGE.with_name("law-sphere.png"))
@@ -86,18 +86,13 @@ def _fast(whole, fine, trees):
 
 def parts():
     """Text between two comments of the page, by the name of the comment."""
-    slow, fast = pandas.read_csv(SLOW), pandas.read_csv(FAST)
-    places = [(body, model) for body in BODIES for model in SOLVERS]
-    every = ((slow, OF_SLOW), (fast, SHIFTED), (fast, OF_PLATEAU))
-    regime = (
-        (words, *(_shown(found, claim, *place) for place in places))
-        for found, claims in every
-        for claim, words in claims.items()
-    )
+    found = pandas.concat(map(pandas.read_csv, (SLOW, FAST)))
+    places, claims = [*product(BODIES, SOLVERS)], OF_SLOW | OF_FAST
+    regime = ((words, *(_shown(found, claim, *place) for place in places)) for claim, words in claims.items())
     master = (
         (
             words,
-            *(f"{finding(fast, claim, body, '3D')['verdict']}: {_shown(fast, claim, body)}" for body in BODIES),
+            *(f"{finding(found, claim, body, '3D')['verdict']}: {_shown(found, claim, body)}" for body in BODIES),
         )
         for claim, words in MASTER.items()
     )
@@ -110,9 +105,10 @@ def parts():
 def _shown(found, claim, body, model="3D"):
     """Value of a finding with its interval: a misfit in percent."""
     row = finding(found, claim, body, model)
-    if claim.startswith(("eq23", "law3d")):
-        return with_interval(row, 1, percent=True)
-    return with_interval(row, 1 if row["value"] > 2 else 3)
+    scale, unit = (100, " %") if claim.startswith(("eq23", "law3d")) else (1, "")
+    digits = 1 if unit or row["value"] > 2 else 3
+    value, low, high = (f"{scale * row[name]:.{digits}f}".replace("-", "−") for name in ("value", "low", "high"))
+    return f"{value}{unit} ({low} to {high})"
 
 
 def slow_answer(found):

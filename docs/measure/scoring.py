@@ -3,104 +3,74 @@
 from itertools import product
 
 import numpy as np
-from pandas import DataFrame, concat
+from pandas import Categorical, DataFrame, concat
 from scipy.special import ndtr
 from tables import of_count
 
 from compare.trustmap.measured import beyond_measured, limits
-from compare.trustmap.model import (
-    LAW,
-    MOST_SCATTER,
-    NAMES,
-    NORMAL,
-    regions_of,
-)
+from compare.trustmap.model import LAW, MOST_SCATTER, NAMES, NORMAL, regions_of
 from compare.trustmap.table import column, measurements
 from compare.trustmap.verdict import SOLVE, USE, advice_on
 
-LEAST = 1e-300  # below every group
-
-
-def between(logarithms, low, high):
-    """Where numbers are above the one and at most the other."""
-    return (logarithms > np.log(low)) & (logarithms <= np.log(high))
-
-
-def named(kind, *names):
-    """Conditions on groups, by the names of the regions of a kind in which intervals widen."""
-    return {name: lambda g, k=k: regions_of(g)[kind] == k for k, name in enumerate(names)}
-
-
-def parts(kinds, groups):
-    """Names of each combination of regions, one of each kind, and the mask of its scenes."""
-    for combined in product(*(regions.items() for regions in kinds.values())):
-        yield tuple(name for name, _ in combined), np.all([within(groups) for _, within in combined], axis=0)
-
-
-SHAPES = named("body", "cone", "n from 1 to 2", "sphere", "blunt, n > 2")
-FLOWS = named("speed", "slow", "fast")
-ROUGHNESS = named("roughness", "pressed flat", "touching in part", "as high as the body is deep")
-PRESCRIBED = named("prescribed", "load", "depth")
-# Regions of the map, where errors and advice are stated, each a condition on groups.
-SPEEDS = {
-    "at rest": lambda g: ~g["slides"],
-    "slow": lambda g: g["slides"] & FLOWS["slow"](g),
-    "fast": lambda g: g["slides"] & FLOWS["fast"](g),
+# Regions of each kind in which errors and advice are stated, in the order of their numbers.
+REGIONS = {
+    "all": ["all"],
+    "speed": ["at rest", "slow", "fast"],
+    "roughness": ["pressed flat", "touching in part", "as high as the body is deep"],
+    "prescribed": ["load", "depth"],
+    "body": ["cone", "n from 1 to 2", "sphere", "blunt, n > 2"],
+    "solid": ["E_g up to 10^2 E_r", "E_g 10^2 to 10^4 E_r", "Kelvin-like, E_g > 10^4 E_r"],
+    "waves": ["less than 2 waves on the radius", "2 to 6 waves", "more than 6 waves"],
+    "surface": ["spectrum", "as measured"],
 }
-SOLIDS = {
-    "Kelvin-like, E_g > 10^4 E_r": lambda g: between(g["stiffening"], 1e4, np.inf),
-    "E_g 10^2 to 10^4 E_r": lambda g: between(g["stiffening"], 1e2, 1e4),
-    "E_g up to 10^2 E_r": lambda g: between(g["stiffening"], LEAST, 1e2),
-}
-WAVES = {
-    "less than 2 waves on the radius": lambda g: between(g["sliding_waves"], LEAST, 2),
-    "2 to 6 waves": lambda g: between(g["sliding_waves"], 2, 6),
-    "more than 6 waves": lambda g: between(g["sliding_waves"], 6, np.inf),
-}
-SURFACES = {
-    "spectrum": lambda g: (g["side"] == 0) & (g["gaussian"] == 0),
-    "as measured": lambda g: (g["side"] > 0) | (g["gaussian"] > 0),
-}
-REGIONS = {"body": SHAPES, "speed": SPEEDS, "roughness": ROUGHNESS, "solid": SOLIDS, "waves": WAVES}
-# What coverage is stated by.
-COVERED = {"speed": SPEEDS, "roughness": ROUGHNESS, "prescribed": PRESCRIBED, "body": SHAPES}
+COVERED = ["speed", "roughness", "prescribed", "body"]  # what coverage is stated by
 # Scenes of a regime below which its advice is left out.
 FEWEST = 5
 # Scenes of a region from which on it fails if its coverage is below what was promised, with 95 % of confidence.
 ENOUGH, PROMISED = 40, 0.95
 # Of the narrower of two intervals, of 1D and of the law.
 BEST = "best-advice"
-STATED = {
-    "all": {"all": lambda g: np.isfinite(g["shape"])},
-    **REGIONS,
-    "prescribed": COVERED["prescribed"],
-    "surface": SURFACES,
-}
+
+
+def placed(groups, slides):
+    """Region of each scene, a column for each kind."""
+    numbers = regions_of(groups)
+    numbers |= {
+        "all": 0 * slides,
+        "speed": slides * (1 + numbers["speed"]),
+        "solid": np.digitize(groups["stiffening"], np.log([1e2, 1e4]), right=True),
+        "waves": np.digitize(groups["sliding_waves"], np.log([2, 6]), right=True),
+        "surface": (groups["side"] > 0) | (groups["gaussian"] > 0),
+    }
+    return {kind: Categorical.from_codes(np.array(numbers[kind], int), names) for kind, names in REGIONS.items()}
 
 
 def score(measured, predicted, slides):
-    """Ratios predicted and measured, a row for each scene: its groups by name, and
+    """Ratios predicted and measured, a row for each scene: its region of each kind, and
 
-    slides : whether it slides
     ratio, error : predicted, with the standard error of its logarithm
     advice : on it; usable : whether that is "use" or "multiply"
     off : relative error of corrected 1D, the scatter of the truth in it; NaN where a mean is not above zero
     held : whether the ratio is within the interval of 95 %, widened by the noise of the truth
     surface_held : share of single surfaces, as they were measured, within the interval of one, where it has one
+
+    slides : whether each of them does
     """
     apart, ratio, error = measured.logarithm - predicted.logarithm, np.exp(predicted.logarithm), predicted.error
     advice = np.array([advice_on(*each) for each in zip(ratio, error, strict=True)])
     width, scatter = NORMAL * np.hypot(error, predicted.scatter), np.maximum(np.nan_to_num(measured.scatter), 1e-9)
     inside = ndtr((width - apart) / scatter) - ndtr((-width - apart) / scatter)
-    return DataFrame(measured.groups, columns=NAMES).assign(
-        slides=slides,
-        ratio=ratio,
-        error=error,
-        advice=advice,
-        usable=advice != SOLVE,
-        off=np.expm1(apart),
-        held=np.abs(apart) < NORMAL * np.sqrt(error**2 + measured.variance(predicted.scatter)),
-        surface_held=np.where(predicted.scatter < MOST_SCATTER, inside, np.nan),
+    return DataFrame(
+        {
+            **placed(DataFrame(measured.groups, columns=NAMES), slides),
+            "ratio": ratio,
+            "error": error,
+            "advice": advice,
+            "usable": advice != SOLVE,
+            "off": np.expm1(apart),
+            "held": np.abs(apart) < NORMAL * np.sqrt(error**2 + measured.variance(predicted.scatter)),
+            "surface_held": np.where(predicted.scatter < MOST_SCATTER, inside, np.nan),
+        }
     )
 
 
@@ -132,18 +102,18 @@ def scored(held_out, models):
 
 
 def of_surfaces(scores, name):
-    """Scores on the scenes with surfaces of one kind, see SURFACES."""
-    return {each: score[SURFACES[name](score)] for each, score in scores.items()}
+    """Scores on the scenes with surfaces of one kind."""
+    return {each: score[score["surface"] == name] for each, score in scores.items()}
 
 
-def error_rows(scores, kinds=STATED):
+def error_rows(scores, kinds=REGIONS):
     """Errors as measured and share within the interval, by region, a kind of region at a time, and ratio.
 
     fails : as in `coverage_rows`
     """
-    for kind, regions in kinds.items():
-        for (region, condition), (name, score) in product(regions.items(), scores.items()):
-            here = score[condition(score) & score["off"].notna()]
+    for kind in kinds:
+        for region, (name, score) in product(REGIONS[kind], scores.items()):
+            here = score[(score[kind] == region) & score["off"].notna()]
             if len(counted := used(here)):
                 half, most = np.quantile(np.abs(counted["off"]), (0.5, 0.9))
                 row = {"ratio": name, "by": kind, "region": region, "scenes": len(here)}
@@ -164,29 +134,28 @@ def coverage_rows(scores):
     fails : whether a region of enough scenes has significantly fewer than what was promised
     """
     for name, score in scores.items():
-        for named, here in parts(COVERED, score):
-            if len(counted := used(score[here])):
-                row = dict(zip(COVERED, named, strict=True)) | {"quantity": name, "scenes": len(counted)}
-                yield row | _held(counted)
+        for region, own in used(score).groupby(COVERED, observed=True):
+            row = dict(zip(COVERED, region, strict=True)) | {"quantity": name, "scenes": len(own)}
+            yield row | _held(own)
 
 
 def advice_rows(scores):
     """A row for each regime, a cell for each score: factor on it, half its interval, and share to solve."""
-    for speed, roughness in product(("slow", "fast", "at rest"), ROUGHNESS):
-        cells = (_advice(score[SPEEDS[speed](score) & ROUGHNESS[roughness](score)]) for score in scores)
-        yield f"{speed}, {roughness}", *cells
+    for speed, region in product(("slow", "fast", "at rest"), REGIONS["roughness"]):
+        cells = (_advice(score[(score["speed"] == speed) & (score["roughness"] == region)]) for score in scores)
+        yield f"{speed}, {region}", *cells
 
 
 def _advice(part):
     """Advice of most scenes; a factor with its range, from the lowest to the highest of nine in ten."""
     if len(part) < FEWEST:
         return ""
-    used, left = ((part["advice"] == kind).mean() for kind in (USE, SOLVE))
+    known = part[part["usable"]]
+    left = 1 - len(known) / len(part)
     solve = f"solve {100 * left:.0f} %"
     if left > 0.5:
         return solve
-    known = part[part["usable"]]
     low, middle, high = np.quantile(1 / known["ratio"], (0.05, 0.5, 0.95))
-    kind = "use" if used > 0.5 else f"× {middle:.2f} ({low:.2f} to {high:.2f})"
+    kind = "use" if part["advice"].eq(USE).mean() > 0.5 else f"× {middle:.2f} ({low:.2f} to {high:.2f})"
     half = 100 * np.median(np.expm1(NORMAL * known["error"]))
     return f"{kind}, ±{half:.2g} %" + (f"; {solve}" if left > 0.005 else "")

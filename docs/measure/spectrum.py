@@ -6,13 +6,12 @@ memory.
 
 from dataclasses import dataclass, replace
 from math import nan
-from pathlib import Path
 
 import numpy as np
 import pandas
 from matplotlib.patches import Circle
 from pandas import DataFrame
-from tables import limit, solved, stored
+from tables import RESULTS, limit, solved, stored
 
 from bem3d import BEM, refined
 from compare.figures import style
@@ -21,11 +20,11 @@ from compare.studies.paper import parameters
 from mdr1d import MDR
 from scene.scales import elastic_contact
 
-PAGE = Path(__file__).parents[1] / "results" / "answers" / "spectrum.md"
+TABLE = RESULTS / "answers/spectrum.csv"
 ONE, PROFILES = 11000, 20  # points of the line, and profiles
 GRID, TIMES = 4096, (2, 4)  # points a side, all solved; factors by which points that touch are refined
 SHAPES = "sphere", "cone"
-ESTIMATES = "by_traction", "by_loss"
+ESTIMATES = ["by_traction", "by_loss"]
 SIDES = 3.6e-3, 0.012e-3  # of the maps of the figure [m]
 
 
@@ -52,14 +51,13 @@ def main():
     """Solve what is not solved yet, and write the table and the figure."""
     tasks = {shape: _tasks(shape) for shape in SHAPES}
     # The finest takes 8 GB: one at a time.
-    outcomes = solved(PAGE, [task for each in tasks.values() for task in each], workers=1)
-    rows = [_row(shape, task, outcomes[task].rows) for shape, each in tasks.items() for task in each]
-    frame = DataFrame(rows)
-    stored(PAGE.with_suffix(".csv"), frame)
+    outcomes = solved(TABLE, [task for each in tasks.values() for task in each], workers=1)
+    frame = DataFrame(_row(shape, task, outcomes[task].rows) for shape, each in tasks.items() for task in each)
+    stored(TABLE, frame)
     finest = tasks["sphere"][-2]
     with style.applied():
         drawing = figure(frame, finest.scenes[0], outcomes[finest])
-        drawing.savefig(PAGE.with_suffix(".png"), dpi=200)
+        drawing.savefig(TABLE.with_suffix(".png"), dpi=200)
 
 
 def _tasks(shape):
@@ -76,16 +74,21 @@ def _tasks(shape):
 def _row(shape, task, rows):
     """Means over surfaces or profiles."""
     mean = DataFrame([row.measures | {"friction": row.friction_coefficient} for row in rows]).mean()
-    three = not isinstance(task.solver, MDR)
-    found = {"shape": shape, "dimension": "3D" if three else "1D", "points": task.solver.points}
-    found |= {"pixels_a_wave": mean.get("points_per_shortest_wave", nan), "friction": mean["friction"]}
-    found |= {"rms_slope": mean.get("rms_slope", nan)}
-    return found | {name: mean[f"friction_{name}"] / rows[0].normal_force if three else nan for name in ESTIMATES}
+    three = task.solver.name == "BEM"
+    return {
+        "shape": shape,
+        "dimension": "3D" if three else "1D",
+        "points": task.solver.points,
+        "pixels_a_wave": mean.get("points_per_shortest_wave", nan),
+        "friction": mean["friction"],
+        "rms_slope": mean.get("rms_slope", nan),
+        **{name: mean[f"friction_{name}"] / rows[0].normal_force if three else nan for name in ESTIMATES},
+    }
 
 
 def sentences():
     """Friction of both bodies in 3D, between its estimates, and in 1D, from what is stored."""
-    found, said = pandas.read_csv(PAGE.with_suffix(".csv")), []
+    found, said = pandas.read_csv(TABLE), []
     for shape, own in found.groupby("shape", sort=False):
         three, (one,) = own[own["dimension"] == "3D"], own[own["dimension"] == "1D"]["friction"]
         (low, high), slope = ends(three), three["rms_slope"].iloc[0]
@@ -98,9 +101,8 @@ def sentences():
 
 def ends(three):
     """Interval of friction: both estimates on the finest grid, and the limits of those that show one."""
-    limits = (limit(three[name].to_numpy()) for name in ESTIMATES)
-    known = [*three[list(ESTIMATES)].iloc[-1], *(each for each in limits if np.isfinite(each))]
-    return min(known), max(known)
+    known = [*three[ESTIMATES].iloc[-1], *map(limit, three[ESTIMATES].to_numpy().T)]
+    return np.nanmin(known), np.nanmax(known)
 
 
 def figure(frame, scene, outcome):
@@ -138,14 +140,14 @@ def figure(frame, scene, outcome):
 
 def _friction(axes, frame):
     """Both estimates over the pixels, the answer with its interval at right, and one dimension."""
-    for (shape, own), form in zip(frame.groupby("shape", sort=False), style.forms(), strict=False):
+    for (shape, own), marker in zip(frame.groupby("shape", sort=False), style.SERIES_MARKERS, strict=False):
         three, (one,) = own[own["dimension"] == "3D"], own[own["dimension"] == "1D"].itertuples()
-        look = {"color": style.colour("BEM"), "marker": form["marker"]}
-        for name, line, inside in zip(ESTIMATES, ("-", "--"), (look["color"], style.paper()), strict=True):
-            look |= {"label": f"3D, {name.replace('_', ' ')}", "markerfacecolor": inside}
-            axes.plot(three["pixels_a_wave"], three[name], line, **look)
+        colour = style.colour("BEM")
+        for name, line, inside in zip(ESTIMATES, ("-", "--"), (colour, style.paper()), strict=True):
+            look = {"color": colour, "marker": marker, "markerfacecolor": inside}
+            axes.plot(three["pixels_a_wave"], three[name], line, label=f"3D, {name.replace('_', ' ')}", **look)
         low, high = ends(three)
-        answer = {"color": style.ink(), "marker": form["marker"], "linestyle": "none", "label": "3D, answer"}
+        answer = {"color": style.ink(), "marker": marker, "linestyle": "none", "label": "3D, answer"}
         axes.errorbar(30, (low + high) / 2, (high - low) / 2, **answer)
         axes.axhline(one.friction, **style.line(0, 0.7, color=style.colour("MDR"), linestyle=":"), label="1D")
         axes.text(60, one.friction + 0.15, shape, fontsize=style.small(), ha="right", color=style.colour("MDR"))

@@ -6,17 +6,15 @@ python docs/measure/steep.py   solves what is not solved yet, and writes results
 from dataclasses import replace
 from math import pi
 
-from planes import PAGE as PLANES
-from tables import friction, solved, stored
+from tables import RESULTS, friction, solved, stored, task
 
 from bem3d import BEM
-from compare.solving.task import SceneTask, draws_of
 from compare.statistics.intervals import student
 from compare.studies.comparison.study_file import STUDIES
 from compare.trustmap.friction_law import FrictionLaw
 from scene import Slide
 
-PAGE = PLANES.with_name("steep.md")
+TABLE = RESULTS / "law/steep.csv"
 SPEEDS = 0.06, 0.3, 1.0, 3.5, 12.0, 35.0, 100.0  # v tau q_s
 # Points a side, 9 pixels to the shortest wave and more; surfaces, and those on twice the points too.
 POINTS, SURFACES, FINER = 960, 4, 1
@@ -37,32 +35,32 @@ def contacts():
 
 def tasks(scene):
     """All surfaces; few of them; these on twice the points."""
-    kinds = (POINTS, SURFACES, 2.0), (POINTS, FINER, 1.0), (2 * POINTS, FINER, 4.0)
-    return [SceneTask(BEM(points=n), draws_of(scene, count), work=work) for n, count, work in kinds]
+    kinds = (POINTS, SURFACES), (POINTS, FINER), (2 * POINTS, FINER)
+    return [task(BEM(points=points), scene, count) for points, count in kinds]
 
 
 def main():
     """Solve what is not solved yet, and write friction in 3D, on ever finer grids, and by the law."""
     found = list(contacts())
-    outcomes = solved(PAGE, [task for *_, scene in found for task in tasks(scene)])
+    outcomes = solved(TABLE, [each for *_, scene in found for each in tasks(scene)])
     rows = (
         {"body": body, "load": load, "speed": speed}
-        | shares(scene, *(outcomes[task].rows for task in tasks(scene)))
+        | shares(scene, *(outcomes[each].rows for each in tasks(scene)))
         for body, load, speed, scene in found
     )
-    stored(PAGE.with_suffix(".csv"), rows)
+    stored(TABLE, rows)
 
 
 def shares(scene, *rows):
     """What the roughness adds, over that in full contact, with the ends of 95 %: the master curve."""
     mean, few, fine = map(friction, rows)
-    change = float(fine.value / few.value - 1)
-    mu = float(mean.value) * (1 + (1 + LEFT) * change)
+    change = fine.value / few.value - 1
+    mu = mean.value * (1 + (1 + LEFT) * change)
     law = FrictionLaw().solve(scene)
     full, force = law.measures["full_contact_friction"], mu * law.normal_force
     added = force - law.measures["friction_of_shape"]
     # The scatter of surfaces, and as much as the grid was taken to leave.
-    half = force * (student(0.95, SURFACES - 1) * float(mean.error / mean.value) + LEFT * abs(change))
+    half = force * (student(0.95, SURFACES - 1) * (mean.error / mean.value) + LEFT * abs(change))
     return {
         "friction": mu,
         "x": law.measures["pressure_ratio"],

@@ -1,26 +1,34 @@
 """What the measured pages share: solving what is not solved yet, with a bar, and the tables of a page."""
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 import numpy as np
 from pandas import DataFrame, Series
 from scipy.special import betaincinv
 
+from compare.solving.cost import work_of
 from compare.solving.folders import lock
 from compare.solving.runner import sweep
 from compare.solving.store import Store
-from compare.solving.task import Outcome, Row, Task
+from compare.solving.task import Outcome, Row, SceneTask, Task, draws_of
 from compare.solving.terminal import Shown
 from compare.statistics.intervals import Estimated
 from compare.statistics.jackknife import mean_ratio
+
+RESULTS = Path(__file__).parents[1] / "results"
 
 
 def table(header: str, rows: Iterable[Iterable[str]]) -> str:
     """A Markdown table; columns are named in the header, separated by |."""
     names = header.split("|")
     return "\n".join(f"| {' | '.join(row)} |" for row in (names, ["---"] * len(names), *rows))
+
+
+def cells(form: str, rows: DataFrame | Iterable[dict]) -> Iterable[list[str]]:
+    """Cells of rows of a table: a format with names of columns in braces, separated by |."""
+    return (form.format_map(row).split("|") for row in DataFrame(rows).to_dict("records"))
 
 
 def stored(path: Path, rows: DataFrame | Iterable[dict]) -> None:
@@ -30,15 +38,7 @@ def stored(path: Path, rows: DataFrame | Iterable[dict]) -> None:
 
 def finding(found: DataFrame, claim: str, where: str, model: str) -> Series:
     """The row on a claim in a place, of one model."""
-    ((_, row),) = found[(found[["claim", "where", "model"]] == [claim, where, model]).all(axis=1)].iterrows()
-    return row
-
-
-def with_interval(row: Series | Mapping, digits: int = 3, percent: bool = False) -> str:
-    """Value of a finding with its interval."""
-    scale, unit = (100, " %") if percent else (1, "")
-    value, low, high = (f"{scale * row[name]:.{digits}f}".replace("-", "−") for name in ("value", "low", "high"))
-    return f"{value}{unit} ({low} to {high})"
+    return found.query("claim == @claim and where == @where and model == @model").squeeze()
 
 
 def order(points, errors) -> float:
@@ -53,11 +53,16 @@ def limit(values) -> float:
     return values[-1] + second / (ratio - 1) if ratio > 1 else np.nan
 
 
-def of_count(held: int, tried: int) -> tuple[float, float]:
+def of_count(held: int, tried: int) -> np.ndarray:
     """Interval of 95 % of a share, from how many of those tried it held for (Clopper and Pearson)."""
-    low = betaincinv(held, tried - held + 1, 0.025) if held else 0.0
-    high = betaincinv(held + 1, tried - held, 0.975) if held < tried else 1.0
-    return float(low), float(high)
+    ends = betaincinv([held, held + 1], [tried - held + 1, tried - held], [0.025, 0.975])
+    return np.where(np.isnan(ends), [0, 1], ends)
+
+
+def example(page: Path) -> str:
+    """The example in Python of a page that has one."""
+    (code,) = re.findall(r"^```python\n(.*?)^```", page.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
+    return code
 
 
 def fill(page: Path, parts: Mapping[str, str]) -> None:
@@ -69,10 +74,14 @@ def fill(page: Path, parts: Mapping[str, str]) -> None:
     page.write_text(text, encoding="utf-8")
 
 
-def friction(rows: Sequence[Row]) -> Estimated:
+def friction(rows: Iterable[Row]) -> Estimated:
     """Mean friction force over mean normal force of those with an answer."""
-    forces = [(each.friction_force, each.normal_force) for each in rows if each.reason is None]
-    return mean_ratio(*np.reshape(forces, (-1, 2)).T)
+    return mean_ratio(*np.transpose([(each.friction_force, each.normal_force) for each in rows]))
+
+
+def task(solver, scene, draws: int = 1) -> SceneTask:
+    """Scene on the first of its surfaces or profiles."""
+    return SceneTask(solver, draws_of(scene, draws), work=draws * work_of(solver, scene))
 
 
 def solved(

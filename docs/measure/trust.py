@@ -9,33 +9,22 @@ import gzip
 import sys
 from dataclasses import asdict
 from functools import cache
-from itertools import product
 from math import nan
-from pathlib import Path
 
 import design
 import numpy as np
 from contact import GREAT, USUAL, Contact, Ratio, ratio_of
 from fitting import as_json, fit
 from pandas import DataFrame
-from scoring import (
-    BEST,
-    SURFACES,
-    advice_rows,
-    coverage_rows,
-    error_rows,
-    of_surfaces,
-    scored,
-    used,
-)
-from tables import fill, solved, stored, table
+from scoring import BEST, advice_rows, coverage_rows, error_rows, of_surfaces, scored, used
+from tables import RESULTS, cells, fill, solved, stored, table
 
 from compare.models.law.parts import LawParts
 from compare.trustmap import table as ratios
 from compare.trustmap.groups import DimensionlessGroups, SmoothReference
 from compare.trustmap.model import LAW, RATIOS, asked_of
 
-PAGE = Path(__file__).parents[1] / "results" / "trust.md"
+PAGE = RESULTS / "trust.md"
 # Standard error that is wanted of a scene, and most surfaces, by table; and where waves are many.
 KNOWN, KNOWN_WIDE = {ratios.LEARNED: (0.015, 64), ratios.HELD_OUT: (0.01, 600)}, (0.01, 300)
 # Of what the errors are, in words.
@@ -46,6 +35,11 @@ NAMED = {
     LAW: "friction by the 3D law",
     BEST: "friction by the best advice",
 }
+# Errors on all held-out scenes that are usable, of a ratio and kind of surface.
+ERRORS = (
+    "{ratio}, {region}|{scenes}|{usable:.0f} %|{median:.2g} %|{nine in ten:.2g} %"
+    "|{in 95 %:.1f} ({least:.1f} to {most:.1f}) %"
+)
 
 
 def contact_at(point, path):
@@ -56,27 +50,24 @@ def contact_at(point, path):
 
 def row(point, scene, outcome):
     """Point, groups, and the numbers of each ratio of a rough scene."""
-    smooth = SmoothReference.of(scene)
-    parts = LawParts.of(scene, smooth.contact)
-    found = {name: ratio_of(outcome, name, parts.friction_coefficient) for name in asked_of(scene)}
-    none = Ratio(nan, nan, nan, 0, nan)
-    numbers = {
-        ratios.column(name, number): getattr(found.get(name, none), number)
-        for name, number in product(RATIOS, ratios.NUMBERS)
-    }
-    return {"point": point, **asdict(DimensionlessGroups.of(scene, smooth, parts)), **numbers}
+    smooth, asked = SmoothReference.of(scene), asked_of(scene)
+    parts, none = LawParts.of(scene, smooth.contact), Ratio(nan, nan, nan, 0, nan)
+    found = {"point": point, **asdict(DimensionlessGroups.of(scene, smooth, parts))}
+    for name in RATIOS:
+        ratio = ratio_of(outcome, name, parts.friction_coefficient) if name in asked else none
+        found |= {ratios.column(name, number): value for number, value in ratio._asdict().items()}
+    return found
 
 
 def written(rows):
     """Table as compressed CSV, to five digits, far below the noise of a ratio."""
-    text = rows.to_csv(index=False, float_format="%.5g", lineterminator="\n")
-    return gzip.compress(text.encode(), mtime=0)
+    return gzip.compress(rows.to_csv(index=False, float_format="%.5g", lineterminator="\n").encode(), mtime=0)
 
 
 def ship():
     """Solve, and write the tables, and models fitted to what these hold, as they are read again."""
     for path in KNOWN:
-        contacts = {int(point): contact_at(int(point), path) for point in ratios.read(path)["point"]}
+        contacts = {point: contact_at(point, path) for point in ratios.read(path)["point"].astype(int).tolist()}
         outcomes = solved(PAGE, contacts.values())
         rows = DataFrame(row(point, each.scene, outcomes[each]) for point, each in contacts.items())
         path.write_bytes(written(rows))
@@ -95,31 +86,29 @@ def scores():
 
 def parts():
     """Text between two comments of the page, by the name of the comment."""
-    on_spectra, found = of_surfaces(scores(), "spectrum"), error_rows(scores(), {"surface": SURFACES})
-    columns = "use or multiply|median error|nine in ten within|in their interval of 95 %"
+    on_spectra, found = of_surfaces(scores(), "spectrum"), error_rows(scores(), ["surface"])
+    columns = "|held-out scenes|use or multiply|median error|nine in ten within|in their interval of 95 %"
     return {
         "advice": table(
             "|".join(["", *(NAMED[name] for name in RATIOS)]), advice_rows([on_spectra[name] for name in RATIOS])
         ),
-        "errors": table(f"|held-out scenes|{columns}", map(_errors, found)),
+        "errors": table(columns, cells(ERRORS, map(_errors, found))),
     }
 
 
 def _errors(row):
-    """Cells of a ratio and kind of surface: errors on all held-out scenes that are usable."""
-    held, low, high = (100 * row[name] for name in ("in 95 %", "least", "most"))
-    yield from (f"{NAMED[row['ratio']]}, {row['region']}", f"{row['scenes']}", f"{100 * row['usable']:.0f} %")
-    yield from (f"{100 * row[name]:.2g} %" for name in ("median", "nine in ten"))
-    yield f"{held:.1f} ({low:.1f} to {high:.1f}) %"
+    """Row of a ratio and kind of surface, in percent."""
+    shares = "usable", "median", "nine in ten", "in 95 %", "least", "most"
+    return row | {"ratio": NAMED[row["ratio"]]} | {name: 100 * row[name] for name in shares}
 
 
 def corrected():
     """Sentences of the README on the errors of friction by the best advice."""
     off = np.abs(used(of_surfaces(scores(), "spectrum")[BEST])["off"])
-    measured = 100 * np.quantile(off, (0.5, 0.9))
+    half, most = 100 * np.quantile(off, (0.5, 0.9))
     return (
-        f"Multiplied as `crosscheck trust` says, it is within {measured[0]:.1f} % of 3D for half of "
-        f"{len(off)} unseen rough contacts, and within {measured[1]:.1f} % for nine in ten."
+        f"Multiplied as `crosscheck trust` says, it is within {half:.1f} % of 3D for half of "
+        f"{len(off)} unseen rough contacts, and within {most:.1f} % for nine in ten."
     )
 
 
@@ -127,7 +116,7 @@ def main(solve=""):
     """Write everything; without `solve`, what follows from the tables of the package."""
     if solve:
         ship()
-    stored(PAGE.with_suffix("") / "coverage.csv", coverage_rows(scores()))
+    stored(RESULTS / "trust/coverage.csv", coverage_rows(scores()))
     fill(PAGE, parts())
 
 

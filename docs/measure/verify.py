@@ -4,22 +4,20 @@ The adapters of the last two are those of howto/verify.md, and need the extra `p
 """
 
 import importlib
-import re
 import sys
 from itertools import product
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import pandas
-from tables import stored, table
+from tables import RESULTS, example, stored, table
 
 import compare
 from bem3d import BEM
 from compare.studies.checks.law import GROUPS, STORED
 from mdr1d import MDR
 
-DOCS = Path(__file__).parents[1]
-PAGE = DOCS / "results" / "verify.md"
+PAGE = RESULTS / "verify.md"
 VERDICTS = "holds", "fails", "reported"
 HEAD = """# Scorecards
 
@@ -49,10 +47,7 @@ pixels in 3D or five in 1D.
 
 def models(folder):
     """The four models; those of others from the page."""
-    (code,) = re.findall(
-        r"^```python\n(.*?)^```", (DOCS / "howto" / "verify.md").read_text(), re.DOTALL | re.MULTILINE
-    )
-    (folder / "peers.py").write_text(code, encoding="utf-8")
+    (folder / "peers.py").write_text(example(RESULTS.parent / "howto/verify.md"), encoding="utf-8")
     sys.path.insert(0, str(folder))
     peers = importlib.import_module("peers")
     yield from (MDR(), BEM(), peers.Tamaas(), peers.ContactMechanics())

@@ -461,13 +461,15 @@ def test_no_region_holds_fewer_ratios_than_promised(scores):
 
 def test_an_interval_that_held_too_few_says_how_many_it_held(scores):
     score = scores["force"]
-    used = scoring.used(score[scoring.ROUGHNESS[HIGH](score)])
+    used = scoring.used(score[score["roughness"] == HIGH])
     rows, measured = table.measurements(table.read(table.HELD_OUT), "force")
     measured, predicted = measured.taken(used.index), table.model("force").predicted(measured.groups[used.index])
-    wider = scoring.score(measured, predicted._replace(error=1.5 * predicted.error), used["slides"].to_numpy())
+    wider = scoring.score(
+        measured, predicted._replace(error=1.5 * predicted.error), used["speed"].to_numpy() != "at rest"
+    )
     assert f"held {used['held'].sum()} of {len(used)} scenes" in verdict.NARROW
     assert f"again {wider['held'].sum()}:" in verdict.NARROW
-    high, flat = (rows[scoring.ROUGHNESS[name](score) & score["usable"]][0] for name in (HIGH, "pressed flat"))
+    high, flat = (rows[(score["roughness"] == name) & score["usable"]][0] for name in (HIGH, "pressed flat"))
     points = table.read(table.HELD_OUT)["point"]
     assert trust(design.scene(int(points[high]))).force.reason.endswith(verdict.NARROW)
     assert verdict.NARROW not in trust(design.scene(int(points[flat]))).force.reason
