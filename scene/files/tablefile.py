@@ -108,13 +108,13 @@ def _of_python(table):
     every = getattr(table, "variables", getattr(table, "columns", table))  # of xarray, pandas, a mapping
     names = [name for name in every if getattr(table[name], "ndim", 1)]  # of xarray one number may be a coordinate
     held = [bare(table[name]) for name in names]
-    import pandas as pd  # slow, and few scenes need it
+    from pandas import DataFrame, RangeIndex  # slow, and few scenes need it
 
-    frame = pd.DataFrame({k: np.asarray(values) for k, (values, _) in enumerate(held)})
+    frame = DataFrame({k: np.asarray(values) for k, (values, _) in enumerate(held)})
     if not frame.size:
         raise ValueError(f"{type(table).__name__}: there is no row in it")
     frame = frame.apply(lambda each: each.astype(float) if each.dtype.kind in "fiu" else each.map(str))
-    frame.index = pd.RangeIndex(1, len(frame) + 1, name="row")
+    frame.index = RangeIndex(1, len(frame) + 1, name="row")
     return Cells(type(table).__name__, frame, [*map(str, names)], [unit or "" for _, unit in held])
 
 

@@ -15,7 +15,7 @@ from . import files
 from .stated import TableFormat
 
 if TYPE_CHECKING:
-    import pandas as pd
+    from pandas import DataFrame
 
 SEPARATORS = {"tab": "\t", "semicolon": ";", "comma": ",", "blanks": " "}
 PURE = "", "-", "1"  # units of pure numbers
@@ -32,7 +32,7 @@ class Cells:
     """
 
     name: str
-    frame: "pd.DataFrame"
+    frame: "DataFrame"
     headings: list[str]
     units: list[str]
     first: bool = True
@@ -102,7 +102,7 @@ def _lines(path, stated, most_bytes):
         raise ValueError(f"{name}: there is no row in it")
     unquoted = re.sub('"[^"]*"', "", lines[start]).replace(stated.decimal or " ", " ")
     own = next((each for each in "\t;," if each in unquoted), " ")
-    return name, lines, start, SEPARATORS.get(stated.separator) or own
+    return name, lines, start, SEPARATORS.get(stated.separator, stated.separator) or own
 
 
 def _split(line, separator):
@@ -131,9 +131,9 @@ def _frame(name, lines, places, separator, stated):
                 f"{shown(lines[start])}: state skip for lines above the heading, rows to end before this "
                 "one, or separator"
             )
-    import pandas as pd
+    from pandas import DataFrame, RangeIndex
 
-    frame = pd.DataFrame(rows, pd.RangeIndex(body + 1, body + len(rows) + 1, name="line"), dtype=object)
+    frame = DataFrame(rows, RangeIndex(body + 1, body + len(rows) + 1, name="line"), dtype=object)
     numbers = [each for row in rows for each in row if _NUMBER.fullmatch(each.replace(",", ".", 1))]
     commas, points = ([each for each in numbers if mark in each] for mark in ",.")
     unclear = start == body and len(points) < len(numbers) and all(map(_THOUSANDS.fullmatch, points))
