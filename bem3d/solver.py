@@ -14,7 +14,7 @@ from scene import Cylinder, Doubt, Plane, Program, Result, Scene, SolveError, do
 from scene.plan import Plan
 from scene.protocol import numeric_guard, refuse, shortage
 from scene.quantities import CLOSED, Length, Positive, Whole
-from scene.terms import Table, terms_of, wrap_solve
+from scene.terms import Table, refused_parts, terms_of, wrap_solve
 
 from . import window
 from .friction import bound
@@ -134,7 +134,7 @@ class BEM:
 
     def refusals(self, scene: Scene) -> list[str]:
         """Reasons why the scene cannot be solved."""
-        reasons = [reason for term in terms_of(self.terms, scene) for reason in term.refusals(scene)]
+        reasons = refused_parts(self.terms, scene)
         if isinstance(scene.indenter, Cylinder) and scene.roughness is not None:
             reasons.append("a rough Cylinder is no line contact: leave roughness out, or take a Sphere or a Plane")
         if isinstance(scene.indenter, Plane):

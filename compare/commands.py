@@ -265,8 +265,10 @@ def mastercurve(
     """Shift measured friction curves onto one, if they allow it. The curves are friction against load."""
     from .studies.mastercurve.study import Mastercurve
 
-    stated = {"separator": separator, "decimal": decimal, "encoding": encoding, "skip": skip, "rows": rows}
-    form = table_form(columns=columns, units=units, where=where, **stated)
+    form = table_form(
+        columns=columns, units=units, where=where,
+        separator=separator, decimal=decimal, encoding=encoding, skip=skip, rows=rows,
+    )  # fmt: skip
     study = Mastercurve.of(table, tolerance, c1, c2, reference, **form)
     return solve(study, output, **options)
 
@@ -297,8 +299,10 @@ def topography(
     """Describe a measured surface: slopes, spectra, exponent H."""
     from .studies.topography.study import Map
 
-    stated = {"separator": separator, "decimal": decimal, "encoding": encoding, "skip": skip, "rows": rows}
-    form = table_form(columns=columns, units=units, where=where, **stated)
+    form = table_form(
+        columns=columns, units=units, where=where,
+        separator=separator, decimal=decimal, encoding=encoding, skip=skip, rows=rows,
+    )  # fmt: skip
     study = Map.of(
         file,
         pixel=pixel,

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from concurrent.futures import Executor
 
-    from .library.lookup import SceneLike
+    from .library.lookup import SceneLike, SeveralScenes
     from .models.table import ModelLike
     from .studies.comparison.sweep import Values
     from .studies.mastercurve.measurements import Measurements
@@ -29,7 +29,6 @@ if TYPE_CHECKING:
     Amounts = Sequence[str | float]
     Sides = str | float | Sequence[str | float]
     SeveralModels = Sequence[ModelLike]
-    SeveralScenes = SceneLike | Sequence[str | Path] | Mapping[str, SceneLike]
     StyleLike = str | PathLike | Mapping[str, Any]
     Named = Mapping[str, Any] | Sequence[str]
 else:

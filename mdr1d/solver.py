@@ -15,7 +15,7 @@ from scene.plan import Plan
 from scene.protocol import numeric_guard, refuse, shortage
 from scene.quantities import CLOSED, Length, Whole
 from scene.surfaces.roughness import Roughness
-from scene.terms import Table, terms_of, wrap_solve
+from scene.terms import Table, refused_parts, terms_of, wrap_solve
 
 from .accuracy import friction_error
 from .history import at_greatest, marched
@@ -106,7 +106,7 @@ class MDR:
 
     def refusals(self, scene: Scene) -> list[str]:
         """Reasons why the scene cannot be solved, one sentence each; empty when it can."""
-        reasons = [reason for term in terms_of(self.terms, scene) for reason in term.refusals(scene)]
+        reasons = refused_parts(self.terms, scene)
         if not reasons and scene.roughness is not None:
             rough, band = scene.roughness, band_of(scene.roughness, self.spectrum)
             reasons += _too_broad(band) or _unresolved(rough, band, self._laid_out(scene), self.points)

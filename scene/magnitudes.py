@@ -68,7 +68,7 @@ class Magnitudes:
             return nan
         if isinstance(rough, Topography):
             return rough.waves.rms_slope
-        q_max = rough.q_max(1.0 if self.pixel is None else self.pixel)
+        q_max = rough.q_max(self.pixel or 1.0)
         if isinstance(rough, Isotropic | Profile):
             return rough.rms_slope(q_max)
         return rough.rms_height * q_max * (sqrt(2) if isinstance(rough, CrossedWaves) else 1.0)
@@ -182,7 +182,7 @@ class Magnitudes:
             if isinstance(indenter, Measured):
                 found.append(self.speed * 2 * pi / indenter.shortest)
             elif rough is not None and not rough.flat and (rough.shortest is not None or self.pixel is not None):
-                found.append(self.speed * rough.q_max(1.0 if self.pixel is None else self.pixel))
+                found.append(self.speed * rough.q_max(self.pixel or 1.0))
         if isinstance(motion, Program):
             found += [1 / motion.duration, *(1 / stage.duration for stage in motion.stages)]
             found += [

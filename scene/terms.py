@@ -69,6 +69,11 @@ def terms_of(table: Table, scene: Scene) -> list[Any]:
     return [_line(table, type(part))(field, part) for field, part in scene.parts.items()]
 
 
+def refused_parts(table: Table, scene: Scene) -> list[str]:
+    """Reasons why parts of a scene cannot be solved, one sentence each."""
+    return [reason for term in terms_of(table, scene) for reason in term.refusals(scene)]
+
+
 def _line(table, kind):
     return next((table[each] for each in kind.__mro__ if each in table), UNKNOWN)
 

@@ -25,7 +25,7 @@ from scene.scene import fit_together
 from scene.signatures import readable
 from scene.solids.rheology import Elastomer
 from scene.surfaces.roughness import Roughness
-from scene.terms import terms_of
+from scene.terms import refused_parts
 
 from ..solving.cost import MOST_DRAWS, MOST_VALUES
 
@@ -46,10 +46,10 @@ def _share(given: Any) -> float:
     return found
 
 
-def share_of(name: str, given: Any) -> float:
-    """Share of an argument of that name. Raises InvalidInput."""
+def share_of(name: str, given: Any) -> float | None:
+    """Share of an argument of that name; None where none is given. Raises InvalidInput."""
     try:
-        return _share(given)
+        return None if given is None else _share(given)
     except ValueError as error:
         raise InvalidInput(f"{name} = {brief(repr(given))}: {error}") from None
 
@@ -205,7 +205,7 @@ class Case:
         """Raise NotCompared, with the reasons, if a solver lacks a part of the scene."""
         for solver in (self.mdr, self.bem):
             with numeric_guard():
-                reasons = [why for term in terms_of(solver.terms, self.scene) for why in term.refusals(self.scene)]
+                reasons = refused_parts(solver.terms, self.scene)
             if reasons:
                 raise NotCompared(f"{solver.name} cannot solve this scene: {'; '.join(reasons)}")
 

@@ -20,11 +20,10 @@ from .ready import FOLDERS, ready
 PAPER = "paper-sphere", "paper-cone"
 # A scene as a file, as the name of a ready one, or as an object.
 SceneLike: TypeAlias = str | Path | Case | Scene
+SeveralScenes: TypeAlias = SceneLike | Sequence[str | Path] | Mapping[str, SceneLike]
 
 
-def named_cases(
-    asked: SceneLike | Sequence[str | Path] | Mapping[str, SceneLike] | None = None,
-) -> dict[str, Case]:
+def named_cases(asked: SeveralScenes | None = None) -> dict[str, Case]:
     """Cases by name: one, several by their names or those of their files, or the paper's sphere and cone of none.
 
     Raises InvalidInput, and Refused of a case that cannot be compared.

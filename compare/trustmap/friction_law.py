@@ -13,7 +13,7 @@ from scene import Plane, Result, Scene
 from scene.protocol import numeric_guard, refuse
 from scene.quantities import CLOSED
 from scene.signatures import readable
-from scene.terms import terms_of
+from scene.terms import refused_parts
 
 from ..models.law.parts import MOST, LawParts, rows_of
 from ..models.law.persson import OF_LAW
@@ -54,7 +54,7 @@ class FrictionLaw:
 
     def refusals(self, scene: Scene) -> list[str]:
         """Reasons why the law does not answer the scene, one sentence each."""
-        reasons = [reason for term in terms_of(OF_LAW, scene) for reason in term.refusals(scene)]
+        reasons = refused_parts(OF_LAW, scene)
         return reasons or _smooth(scene, SPACE.refusals)
 
     def foreseen(self, scene: Scene) -> list[str]:

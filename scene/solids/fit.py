@@ -88,6 +88,10 @@ class Oscillation(Measured):
         return np.vstack([parts.real, parts.imag])
 
 
+def _around(time, further):
+    return time[0] / _MARGIN, time[-1] * _MARGIN * further
+
+
 class Stress(Measured):
     """Relaxation moduli (N,) [Pa] at times (N,) [s], ascending."""
 
@@ -99,7 +103,7 @@ class Stress(Measured):
         modulus, decades = self.measured[-1], np.log10(self.time[-1] / self.time[early])
         fall = max((self.measured[early] - modulus) / decades, NEGLIGIBLE * modulus)
         further = 1.0 if rest is None else max(1.0, (modulus - rest) / fall)
-        return self.time[0] / _MARGIN, self.time[-1] * _MARGIN * further
+        return _around(self.time, further)
 
     def of(self, modes):
         return modes.modulus(self.time)
@@ -117,7 +121,7 @@ class Creep(Measured):
     def ends(self, rest):
         # A compliance that is known and not reached yet grows at most as the time.
         further = 1.0 if rest is None else max(1.0, 1 / (rest * self.measured[-1]))
-        return self.time[0] / _MARGIN, self.time[-1] * _MARGIN * further
+        return _around(self.time, further)
 
     def of(self, modes):
         return modes.compliance(self.time)

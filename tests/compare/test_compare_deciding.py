@@ -111,7 +111,7 @@ CASE = replace(
 
 
 @pytest.mark.usefixtures("in_this_process")
-def test_a_run_stops_where_its_interval_is_narrow_and_hard_surfaces_are_solved_on_the_next_finer_grid(tmp_path, monkeypatch):
+def test_a_run_stops_where_its_interval_is_narrow_with_hard_surfaces_on_the_next_finer_grid(tmp_path, monkeypatch):
     solve = BEM.solve
 
     def failing(self, scene, *warm_start):

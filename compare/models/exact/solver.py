@@ -14,7 +14,7 @@ from scene.protocol import refuse
 from scene.quantities import CLOSED
 from scene.scales import elastic_contact
 from scene.solids.viscoelastic import Linear
-from scene.terms import Term, terms_of
+from scene.terms import Term, refused_parts
 
 
 class Unmoved(Term):
@@ -47,7 +47,7 @@ class Exact:
 
     def refusals(self, scene: Scene) -> list[str]:
         """Reasons why there is no closed form for the scene, one sentence each."""
-        reasons = [reason for term in terms_of(TERMS, scene) for reason in term.refusals(scene)]
+        reasons = refused_parts(TERMS, scene)
         if not reasons and scene.motion.speed > 0 and not isinstance(scene.elastomer, Elastic):
             reasons.append(
                 f"sliding at speed = {scene.motion.speed:g} m/s on a viscoelastic solid has no closed form"

@@ -15,7 +15,7 @@ from scene import Plane, Profile, Result, Scene, SelfAffine, Slide, SolveError, 
 from scene.protocol import numeric_guard, refuse, why_not
 from scene.quantities import CLOSED, Positive, Whole
 from scene.signatures import readable
-from scene.terms import terms_of
+from scene.terms import refused_parts
 
 from .bands import Bands
 from .parts import LawParts, rows_of
@@ -69,7 +69,7 @@ class ExtendedBEM:
 
     def refusals(self, scene: Scene) -> list[str]:
         """Reasons why the scene cannot be solved, one sentence each."""
-        reasons = [reason for term in terms_of(OF_LAW, scene) for reason in term.refusals(scene)]
+        reasons = refused_parts(OF_LAW, scene)
         return reasons or BEM(points=self.points).refusals(without_fine_waves(scene))
 
     def solve(self, scene: Scene) -> Result:

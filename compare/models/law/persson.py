@@ -19,7 +19,7 @@ from scene.quantities import CLOSED, Finite
 from scene.signatures import readable
 from scene.solids.viscoelastic import Linear
 from scene.surfaces.isotropic import Isotropic
-from scene.terms import Term, terms_of, unsupported
+from scene.terms import Term, refused_parts, unsupported
 
 from . import bands
 from .bands import Bands, FullContact, cell_area
@@ -140,7 +140,7 @@ class Persson:
 
     def refusals(self, scene: Scene) -> list[str]:
         """Reasons why the theory does not answer the scene, one sentence each."""
-        reasons = [reason for term in terms_of(TERMS, scene) for reason in term.refusals(scene)]
+        reasons = refused_parts(TERMS, scene)
         if reasons or isinstance(scene.indenter, Plane):
             return reasons
         return SPACE.refusals(replace(scene, roughness=None))

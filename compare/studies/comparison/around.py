@@ -30,7 +30,7 @@ from ...trustmap.verdict import Advice, trust
 from .answers import Answers, with_theory
 from .claims import CLAIMS
 from .measures import Here, Place, Row, Where, at
-from .series import Counts, Judged, Series, ratio_of
+from .series import Counts, Judged, Series, Wanted, ratio_of
 
 OWN, SPEED, LOAD = "own", "friction-speed", "friction-load"
 ROUGH_DEPTH, SMOOTH_DEPTH, SMOOTH_SPEED = "force-depth-rough", "force-depth-smooth", "smooth-speed"
@@ -266,7 +266,7 @@ class Around(Series):
         return [*friction, "normal_force" if self.case.motion.pressed_by == "depth" else "depth_reached"]
 
     @property
-    def wanted(self) -> Iterator[tuple[str, str, tuple[float, ...]]]:
+    def wanted(self) -> Wanted:
         if not self.curves[OWN].over_time:
             yield from ((OWN, name, self.curves[OWN].speeds) for name in self.own_means)
 

@@ -1,6 +1,6 @@
 """Comparisons as the commands ask for them: `crosscheck run`, `sweep` and `study`."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from os.path import lexists
 from pathlib import Path
@@ -10,7 +10,7 @@ from scene.files.reading import InvalidInput, text_of
 from scene.printable import printable
 
 from ...library.case import NotCompared, share_of
-from ...library.lookup import SceneLike, located, named_cases
+from ...library.lookup import SceneLike, SeveralScenes, located, named_cases
 from ...library.ready import ready, studies
 from ...models.table import ModelLike, listed
 from ...solving.curve import refuse
@@ -32,7 +32,7 @@ ABOUT = (
 
 
 def run(
-    scene: SceneLike | Sequence[str | Path] | Mapping[str, SceneLike] | None = None,
+    scene: SeveralScenes | None = None,
     models: Sequence[ModelLike] | None = None,
     reference: str | None = None,
     interval: float | str | None = None,
@@ -43,7 +43,7 @@ def run(
     """
     if isinstance(scene, Sequence) and not isinstance(scene, str) and len(scene) == 1:
         scene = scene[0]
-    wanted = None if interval is None else share_of("interval", interval)
+    wanted = share_of("interval", interval)
     try:
         cases, chosen = named_cases(scene), listed(models)
         folders(cases, "case")
@@ -85,7 +85,7 @@ def study(
     Raises InvalidInput, Refused.
     """
     known("size", size, SIZES)
-    chosen, wanted = listed(models), None if interval is None else share_of("interval", interval)
+    chosen, wanted = listed(models), share_of("interval", interval)
     source, title, about = None, "The laws of the paper in one and in three dimensions", ABOUT
     if name == ALL:
         asked = {f"{own}/": each for own, each in STUDIES.items()}

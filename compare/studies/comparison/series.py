@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import ceil, inf, nan
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeAlias
 
 import numpy as np
 import xarray
@@ -28,6 +28,7 @@ from .laws import Laws, laws
 from .measures import Here, Row
 
 Counts = Mapping[str, tuple[int, ...]]  # numbers of surfaces on each level, by model
+Wanted: TypeAlias = Iterator[tuple[str, str, tuple[float, ...]]]  # curve, name and speeds of means
 Places = Mapping[tuple[int, int], str]  # places of speed and value on a curve, in words
 # Surfaces of a pilot on the coarsest level, of each difference of levels, and of the difference between the finest
 # levels where there are several, which scatters least and costs most.
@@ -85,7 +86,7 @@ class Series(ABC):
         """Curves by name. Raises InvalidInput, Refused."""
 
     @property
-    def wanted(self) -> Iterator[tuple[str, str, tuple[float, ...]]]:
+    def wanted(self) -> Wanted:
         """Curve, name and speeds of each mean that an interval is wanted of, whatever is claimed."""
         yield from ()
 

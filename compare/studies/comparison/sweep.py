@@ -31,7 +31,7 @@ from ...statistics.means import ENDS
 from ...statistics.multilevel import MEANS, WORDS, wanted
 from .around import MU, OWN_RATIOS, models_of, over
 from .measures import Here, Place, Row, Where
-from .series import Counts, Judged, Series
+from .series import Counts, Judged, Series, Wanted
 
 # Speeds, loads or depths as they are given: numbers in SI, or texts, see `values_of`.
 Values: TypeAlias = Sequence[str | float] | str | float
@@ -151,7 +151,7 @@ class SweepSeries(Series):
         drawn = whole("draws", FEW if draws is None else draws, MOST_DRAWS)
         pressed: dict[str, Any] = {name: values[0]}
         motion = Slide(speed=max(speeds), **pressed) if max(speeds) else Indent(**pressed)
-        half = None if interval is None else share_of("interval", interval)
+        half = share_of("interval", interval)
         compared = models_of(case, models, reference)
         asked = cls(replace(case, motion=motion), speeds, values, drawn, compared, half)
         refuse(asked.curves.values())
@@ -186,7 +186,7 @@ class SweepSeries(Series):
         return self.with_strata({CONTACTS: fixed})
 
     @property
-    def wanted(self) -> Iterator[tuple[str, str, tuple[float, ...]]]:
+    def wanted(self) -> Wanted:
         for name, speeds in wanted(self.prescribed, self.speeds, self.case.slides):
             yield CONTACTS, name, speeds
 

@@ -18,7 +18,7 @@ from scene.scales import elastic_contact
 
 from ...figures.plot import Plot
 from ...library.case import Case, doubted
-from ...library.lookup import SceneLike, case_of, named_cases
+from ...library.lookup import SeveralScenes, case_of, named_cases
 from ...models.exact import Exact
 from ...models.law.persson import Persson
 from ...models.table import Model, ModelLike, listed, named
@@ -66,7 +66,7 @@ class WorkPrecision(Study):
     @classmethod
     def of(
         cls,
-        scene: SceneLike | Sequence[str | Path] | Mapping[str, SceneLike] | None = None,
+        scene: SeveralScenes | None = None,
         models: Sequence[ModelLike] | None = None,
     ) -> "WorkPrecision":
         """Study of a scene, of several files or by name, or of the paper's two.
